@@ -1,0 +1,49 @@
+# SPDX-License-Identifier: Apache-2.0
+# Compiler flags under which the same source gives the same bits everywhere.
+# in: compiler, PILEUS_WERROR, PILEUS_SANITIZE -> out: targets pileus_flags (all), pileus_strict
+# docs: README.md; tools/check_objects proves the result on the object files
+
+# Refuse flags that let the compiler change results.
+set(given_flags "${CMAKE_CXX_FLAGS} ${CMAKE_CXX_FLAGS_RELEASE} ${CMAKE_CXX_FLAGS_DEBUG}")
+string(APPEND given_flags " ${CMAKE_CXX_FLAGS_RELWITHDEBINFO} ${CMAKE_CXX_FLAGS_MINSIZEREL}")
+set(unsafe "fast-math|unsafe-math-optimizations|associative-math|reciprocal-math|finite-math-only")
+if(given_flags MATCHES "(^| )(-f(${unsafe})|-Ofast)( |$)")
+    message(FATAL_ERROR
+        "CMAKE_CXX_FLAGS: ${CMAKE_MATCH_2} changes results, allowed: any flag but fast-math ones")
+endif()
+if(NOT CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+    message(FATAL_ERROR "compiler: needs vector extensions, ${CMAKE_CXX_COMPILER_ID}, "
+        "allowed: GCC 12 or newer, Clang 14 or newer")
+endif()
+
+# Let the release build optimise as the house measures it.
+set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
+
+# Turn on for every file: warnings, and arithmetic exactly as written.
+add_library(pileus_flags INTERFACE)
+target_include_directories(pileus_flags INTERFACE "${PROJECT_SOURCE_DIR}")
+target_compile_options(pileus_flags INTERFACE
+    -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi
+    -ffp-contract=off -fno-math-errno -fno-trapping-math)
+
+# Sanitizers confuse GCC's flow analysis, so their build reports warnings without stopping.
+if(PILEUS_SANITIZE)
+    target_compile_options(pileus_flags INTERFACE
+        -fsanitize=${PILEUS_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer)
+    target_link_options(pileus_flags INTERFACE -fsanitize=${PILEUS_SANITIZE})
+elseif(PILEUS_WERROR)
+    target_compile_options(pileus_flags INTERFACE -Werror)
+endif()
+
+# Keep 32-bit x86 off the x87 registers, whose extra bits depend on spilling.
+set(PILEUS_X86 OFF)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64|i[3-6]86)$")
+    set(PILEUS_X86 ON)
+    if(CMAKE_SIZEOF_VOID_P EQUAL 4)
+        target_compile_options(pileus_flags INTERFACE -msse2 -mfpmath=sse)
+    endif()
+endif()
+
+# The library itself neither throws nor asks for types at run time.
+add_library(pileus_strict INTERFACE)
+target_compile_options(pileus_strict INTERFACE -fno-exceptions -fno-rtti)

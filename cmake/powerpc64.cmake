@@ -1,0 +1,13 @@
+# SPDX-License-Identifier: Apache-2.0
+# Toolchain: 64-bit PowerPC, big-endian; programs run through qemu.
+# in: Debian's g++-powerpc64-linux-gnu and qemu-user -> out: a cross build on any host
+# Used by preset powerpc64, to show that other machines give the same bits.
+set(CMAKE_SYSTEM_NAME Linux)
+set(CMAKE_SYSTEM_PROCESSOR ppc64)
+set(CMAKE_CXX_COMPILER powerpc64-linux-gnu-g++)
+set(CMAKE_FIND_ROOT_PATH /usr/powerpc64-linux-gnu)
+set(CMAKE_FIND_ROOT_PATH_MODE_PROGRAM NEVER)
+set(CMAKE_FIND_ROOT_PATH_MODE_LIBRARY ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
+set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
+set(CMAKE_CROSSCOMPILING_EMULATOR qemu-ppc64;-L;/usr/powerpc64-linux-gnu)

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Compiled once per instruction set with PILEUS_ISA (a name) and PILEUS_WIDTH (lanes).
+// in: the kernel templates -> out: one exported table, everything else internal.
+// ARCHITECTURE "Kernels: written once"; tools/check_objects proves that nothing else leaks.
+#include "kernels_cpu/kernels.h"
+
+#include "kernels_cpu/blend.h"
+#include "kernels_cpu/march.h"
+#include "kernels_cpu/self_test.h"
+#include "kernels_cpu/trace.h"
+
+#ifndef PILEUS_WIDTH
+#error "PILEUS_WIDTH is set by the build, one object per instruction set"
+#endif
+#ifdef __FAST_MATH__
+#error "fast-math changes results; pileus needs IEEE arithmetic"
+#endif
+
+namespace pileus {
+namespace {
+
+static_assert(__FLT_EVAL_METHOD__ == 0, "floats must be computed as floats");
+
+void trace_kernel(const TraceParams& k, const TraceBuffers& b, std::uint32_t begin,
+                  std::uint32_t end) {
+    trace<PILEUS_WIDTH>(k, b, begin, end);
+}
+void shadow_kernel(const ShadowParams& k, const ShadowBuffers& b, std::uint32_t begin,
+                   std::uint32_t end) {
+    shadow_rows<PILEUS_WIDTH>(k, b, begin, end);
+}
+void march_kernel(const MarchParams& k, const MarchBuffers& b, std::uint32_t begin,
+                  std::uint32_t end) {
+    march_rows<PILEUS_WIDTH>(k, b, begin, end);
+}
+void background_kernel(const BackgroundParams& k, const BackgroundBuffers& b, std::uint32_t begin,
+                       std::uint32_t end) {
+    background_rows<PILEUS_WIDTH>(k, b, begin, end);
+}
+void blend_kernel(const BlendParams& k, const BlendBuffers& b, std::uint32_t begin,
+                  std::uint32_t end) {
+    blend_tile<PILEUS_WIDTH>(k, b, begin, end);
+}
+std::uint64_t self_test_kernel() { return self_test_digest<PILEUS_WIDTH>(); }
+
+}  // namespace
+
+#define PILEUS_QUOTE(name) #name
+#define PILEUS_NAME(name) PILEUS_QUOTE(name)
+#define PILEUS_JOIN(a, b) a##b
+#define PILEUS_TABLE(isa) PILEUS_JOIN(kernel_table_, isa)
+
+extern const KernelTable PILEUS_TABLE(PILEUS_ISA);
+const KernelTable PILEUS_TABLE(PILEUS_ISA) = {
+    PILEUS_NAME(PILEUS_ISA), PILEUS_WIDTH, trace_kernel, shadow_kernel,
+    march_kernel,            background_kernel, blend_kernel, self_test_kernel,
+};
+
+}  // namespace pileus

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of kernels: one per instruction set, all giving the same bits.
+// in: a name or nothing -> out: functions over index ranges; threads live in the caller.
+// ARCHITECTURE "Kernels: written once".
+#pragma once
+#include "kernels_cpu/blend_params.h"
+#include "kernels_cpu/march_params.h"
+#include "kernels_cpu/trace_params.h"
+
+namespace pileus {
+
+struct KernelTable {
+    const char* name;
+    int width;
+    void (*trace)(const TraceParams&, const TraceBuffers&, std::uint32_t begin, std::uint32_t end);
+    void (*shadow_rows)(const ShadowParams&, const ShadowBuffers&, std::uint32_t, std::uint32_t);
+    void (*march_rows)(const MarchParams&, const MarchBuffers&, std::uint32_t, std::uint32_t);
+    void (*background_rows)(const BackgroundParams&, const BackgroundBuffers&, std::uint32_t,
+                            std::uint32_t);
+    void (*blend_tile)(const BlendParams&, const BlendBuffers&, std::uint32_t, std::uint32_t);
+    /// FNV-1a 64 of every math kernel on 64 fixed inputs; the same on every machine.
+    std::uint64_t (*self_test)();
+};
+
+/// The widest table this machine runs; `name` (or null) forces one. Null: no such table here.
+const KernelTable* kernel_table(const char* name);
+
+/// Table number i of those compiled in and runnable here, narrowest first; null past the end.
+const KernelTable* kernel_table_at(int i);
+
+/// What self_test must give.
+std::uint64_t expected_self_test();
+
+}  // namespace pileus

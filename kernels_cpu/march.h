@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+// Marching: sunlight's optical depth per node, the picture per pixel, ground and sky behind it.
+// in: density, majorants, lit node grids -> out: planes of pixels or nodes.
+// METHODS 3.4 and 4 (closed form per step: S (1 - e^-sigma dt) / sigma).
+// Samples sit on a lattice along each ray; skipping empty blocks leaves out zeros only.
+#pragma once
+#include "kernels_cpu/march_params.h"
+#include "kernels_cpu/medium.h"
+
+namespace pileus {
+inline namespace PILEUS_ISA {
+
+template <class T>
+PILEUS_FN Vec<T> along(const Ray<T>& r, T t) {
+    return {r.origin.x + r.direction.x * t, r.origin.y + r.direction.y * t,
+            r.origin.z + r.direction.z * t};
+}
+
+/// Bound on the density around `p` (voxels), and metres from there to the end of its block.
+template <class T>
+struct Block {
+    T bound, rest;
+};
+template <class T>
+PILEUS_FN Block<T> block_ahead(const MediumView& m, const Vec<T>& p, const Vec<T>& d) {
+    using II = I_of<T>;
+    const auto index = [&](T v, int axis) {
+        return min_(max_(to_int(v * (1.0f / m.block)), II{}), all<II>(m.blocks[axis] - 1));
+    };
+    const II x = index(p.x, 0), y = index(p.y, 1), z = index(p.z, 2);
+    const auto rest = [&](II i, T v, T direction, float cell) {
+        const auto forward = direction >= 0.0f;
+        const T face = to_float(select(forward, i + 1, i)) * m.block;
+        const T safe = max_(abs_(direction), all<T>(1e-18f));
+        return select(forward, face - v, v - face) * cell / safe;
+    };
+    const T t = min_(min_(rest(x, p.x, d.x, m.cell[0]), rest(y, p.y, d.y, m.cell[1])),
+                     rest(z, p.z, d.z, m.cell[2]));
+    return {gather(m.majorant, (z * m.blocks[1] + y) * m.blocks[0] + x), max_(t, T{})};
+}
+
+/// Visits the middles of steps that start at enter + n step; the last one ends at `leave`.
+/// `sample(dense, t, width, voxel position)` may return lanes that are finished.
+template <class T, class Sample>
+PILEUS_FN void march_ray(const MediumView& m, const Ray<T>& ray, T enter, T leave, Sample sample) {
+    T n{};
+    auto alive = enter < leave;
+    // Bounded: every turn of the loop advances every living lane by a step.
+    while (any(alive)) {
+        const T start = enter + n * m.step;
+        const T width = max_(min_(all<T>(m.step), leave - start), T{});
+        const T t = start + 0.5f * width;
+        const Vec<T> q = along(ray, t);
+        const Vec<T> p{q.x * (1.0f / m.cell[0]), q.y * (1.0f / m.cell[1]),
+                       q.z * (1.0f / m.cell[2])};
+        const Block<T> block = block_ahead(m, p, ray.direction);
+        const auto dense = alive & (block.bound > 0.0f);
+        const auto ended = sample(dense, t, width, p);
+        // Jump to the last step whose middle lies in an empty block; it adds nothing either.
+        const T skipped = to_float(to_int(min_(block.rest * (1.0f / m.step), all<T>(1e6f))));
+        n = select(dense, n + 1.0f, n + max_(skipped, all<T>(1.0f)));
+        alive = alive & lnot(dense & ended) & (enter + n * m.step < leave);
+    }
+}
+
+/// Optical depth from `origin` along `direction` to the end of the box.
+template <class T>
+PILEUS_FN T optical_depth(const MediumView& m, const Ray<T>& ray, M_of<T> wanted) {
+    const Segment<T> box = clip_to_box(ray.origin, ray.direction, m.extent);
+    const T leave = select(wanted, box.leave, box.enter);
+    T sum{};
+    march_ray(m, ray, box.enter, leave, [&](M_of<T> dense, T, T width, const Vec<T>& p) {
+        if (any(dense))
+            sum = select(dense, sum + width * interpolate(m.density, corners(p, m.size)), sum);
+        return sum * m.sigma > 60.0f;  // e^-60 is nothing
+    });
+    return sum * m.sigma;
+}
+
+/// Rows of nodes [begin, end), a row along x.
+template <int W>
+PILEUS_FN void shadow_rows(const ShadowParams& k, const ShadowBuffers& b, std::uint32_t begin,
+                           std::uint32_t end) {
+    using T = F<W>;
+    const std::int32_t nx = k.nodes.size[0], ny = k.nodes.size[1];
+    const Vec<T> d{all<T>(k.to_sun[0]), all<T>(k.to_sun[1]), all<T>(k.to_sun[2])};
+    for (std::uint32_t row = begin; row < end; ++row) {
+        const float y = (float(std::int32_t(row) % ny) + 0.5f) / k.nodes.per_metre[1];
+        const float z = (float(std::int32_t(row) / ny) + 0.5f) / k.nodes.per_metre[2];
+        for (std::int32_t x = 0; x < nx; x += W) {
+            const I<W> i = iota<I<W>>() + x;
+            const T px = (to_float(i) + 0.5f) / k.nodes.per_metre[0];
+            const Ray<T> ray{{px, all<T>(y), all<T>(z)}, d};
+            const T tau = optical_depth(k.medium, ray, i < nx);
+            for (int l = 0; l < W && x + l < nx; ++l)
+                b.optical_depth[std::int64_t(row) * nx + x + l] = lane(tau, l);
+        }
+    }
+}
+
+template <class T>
+PILEUS_FN Vec<T> node_position(const NodeGrid& g, const Vec<T>& metres) {
+    return {metres.x * g.per_metre[0], metres.y * g.per_metre[1], metres.z * g.per_metre[2]};
+}
+
+/// W pixels of one row, from pixel x on.
+template <int W>
+PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::int32_t x,
+                            std::int32_t y) {
+    using T = F<W>;
+    constexpr int kMost = 3 * 17;
+    const I<W> column = iota<I<W>>() + x;
+    const M<W> real = column < k.camera.width;
+    const std::int64_t first = std::int64_t(y) * k.camera.width + x;
+    const std::int64_t pixels = std::int64_t(k.camera.width) * k.camera.height;
+    const int lanes = k.camera.width - x < W ? k.camera.width - x : W;
+
+    const Ray<T> ray = camera_ray(k.camera, to_float(column), all<T>(float(y)));
+    const Segment<T> box = clip_to_box(ray.origin, ray.direction, k.medium.extent);
+    T leave = box.leave;
+    if (b.opaque_depth != nullptr) {
+        T depth{};
+        for (int l = 0; l < lanes; ++l) set_lane(depth, l, b.opaque_depth[first + l]);
+        leave = min_(leave, depth);
+    }
+    leave = select(real, leave, box.enter);
+
+    const Vec<T> sun{all<T>(k.sun_travel[0]), all<T>(k.sun_travel[1]), all<T>(k.sun_travel[2])};
+    const Vec<T> to_camera{T{} - ray.direction.x, T{} - ray.direction.y, T{} - ray.direction.z};
+    const T phase = phase_density(k.phase, one_minus_cosine(sun, to_camera));
+    const bool sunlit = k.sun_source[0] > 0.0f || k.sun_source[1] > 0.0f || k.sun_source[2] > 0.0f;
+    const std::int64_t nodes =
+        std::int64_t(k.source.size[0]) * k.source.size[1] * k.source.size[2];
+
+    T transmittance = all<T>(1.0f), half = all<T>(__builtin_inff());
+    T colour[kMost];
+    for (int c = 0; c < k.channels; ++c) colour[c] = T{};
+    march_ray(k.medium, ray, box.enter, leave, [&](M<W> dense, T t, T width, const Vec<T>& p) {
+        if (!any(dense)) return transmittance < k.cut;
+        const T density = interpolate(k.medium.density, corners(p, k.medium.size));
+        const T optical = select(dense, density * k.medium.sigma * width, T{});
+        if (!any(optical > 0.0f)) return transmittance < k.cut;
+        const T alpha = one_minus_exp(optical);
+        const T weight = transmittance * alpha;
+        const Vec<T> metres = along(ray, t);
+        T direct{};
+        if (sunlit) {
+            const T tau = interpolate(
+                b.optical_depth, corners(node_position(k.shadow, metres), k.shadow.size));
+            direct = phase * exp_(T{} - tau);
+        }
+        const Corners<T> c = corners(node_position(k.source, metres), k.source.size);
+        for (int i = 0; i < k.channels; ++i) {
+            T source = interpolate(b.source + i * nodes, c);
+            source = source + (direct * k.sun_source[i % 3] + k.constant[i % 3]);
+            colour[i] = colour[i] + weight * source;
+        }
+        const T left = transmittance * (1.0f - alpha);
+        const auto crosses = (transmittance > 0.5f) & (left <= 0.5f);
+        if (any(crosses)) {
+            const T share = log_(transmittance * 2.0f) / max_(optical, all<T>(1e-30f));
+            half = select(crosses, t + (share - 0.5f) * width, half);
+        }
+        transmittance = left;
+        return transmittance < k.cut;
+    });
+    for (int l = 0; l < lanes; ++l) {
+        b.transmittance[first + l] = lane(transmittance, l);
+        b.half_depth[first + l] = lane(half, l);
+        for (int c = 0; c < k.channels; ++c)
+            b.colour[c * pixels + first + l] = lane(colour[c], l);
+    }
+}
+
+template <int W>
+PILEUS_FN void march_rows(const MarchParams& k, const MarchBuffers& b, std::uint32_t begin,
+                          std::uint32_t end) {
+    for (std::uint32_t y = begin; y < end; ++y)
+        for (std::int32_t x = 0; x < k.camera.width; x += W)
+            march_pixels<W>(k, b, x, std::int32_t(y));
+}
+
+/// What lies behind the media: sky, or a Lambertian ground with the clouds' shadow of the sun.
+template <int W>
+PILEUS_FN void background_rows(const BackgroundParams& k, const BackgroundBuffers& b,
+                               std::uint32_t begin, std::uint32_t end) {
+    using T = F<W>;
+    const std::int64_t pixels = std::int64_t(k.camera.width) * k.camera.height;
+    const Vec<T> to_sun{all<T>(k.to_sun[0]), all<T>(k.to_sun[1]), all<T>(k.to_sun[2])};
+    const bool sunlit = k.ground_sun[0] > 0.0f || k.ground_sun[1] > 0.0f || k.ground_sun[2] > 0.0f;
+    for (std::uint32_t y = begin; y < end; ++y) {
+        for (std::int32_t x = 0; x < k.camera.width; x += W) {
+            const I<W> column = iota<I<W>>() + x;
+            const Ray<T> ray = camera_ray(k.camera, to_float(column), all<T>(float(y)));
+            T depth = all<T>(__builtin_inff()), sunlight{};
+            M<W> ground = column < 0;
+            if (k.ground != 0) {
+                const T height = ray.origin.z - k.ground_z;
+                ground = (ray.direction.z < 0.0f) & (height >= 0.0f) & (column < k.camera.width);
+                depth = select(ground, height / max_(T{} - ray.direction.z, all<T>(1e-18f)), depth);
+                if (sunlit && any(ground)) {
+                    const Ray<T> up{along(ray, select(ground, depth, T{})), to_sun};
+                    sunlight = exp_(T{} - optical_depth(k.medium, up, ground));
+                }
+            }
+            for (int l = 0; l < W && x + l < k.camera.width; ++l) {
+                const std::int64_t pixel = std::int64_t(y) * k.camera.width + x + l;
+                const bool hit = (bits_of(ground) >> l) & 1u;
+                b.opaque_depth[pixel] = lane(depth, l);
+                for (int c = 0; c < 3; ++c)
+                    b.colour[c * pixels + pixel] =
+                        hit ? k.ground_diffuse[c] + k.ground_sun[c] * lane(sunlight, l) : k.sky[c];
+            }
+        }
+    }
+}
+
+}  // namespace PILEUS_ISA
+}  // namespace pileus

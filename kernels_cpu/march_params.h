@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the marching kernels need: plain structs and pointers.
+// in: the plan and the lit grids -> out: the layout of a launch.
+// METHODS 3, repairs 3 and 4.
+#pragma once
+#include "kernels_cpu/camera.h"
+#include "kernels_cpu/phase.h"
+
+namespace pileus {
+
+/// The density grid and its majorants as the marching kernels see it.
+struct MediumView {
+    std::int32_t size[3];    ///< voxels
+    float cell[3];           ///< voxel edges, m
+    float extent[3];         ///< box edges, m
+    std::int32_t blocks[3];  ///< majorant blocks, used to skip empty space
+    float block;             ///< block edge, voxels
+    float sigma;             ///< extinction at density 1, 1/m
+    float step;              ///< m
+    const float* density;
+    const float* majorant;
+};
+
+/// A grid of nodes at (i + 1/2) * spacing over the same box.
+struct NodeGrid {
+    std::int32_t size[3];
+    float per_metre[3];  ///< nodes per metre along each axis
+};
+
+struct ShadowParams {
+    MediumView medium;
+    NodeGrid nodes;
+    float to_sun[3];
+};
+struct ShadowBuffers {
+    float* optical_depth;  ///< nodes
+};
+
+struct MarchParams {
+    MediumView medium;
+    CameraParams camera;
+    PhaseParams phase;
+    float sun_travel[3];
+    float sun_source[3];    ///< irradiance times albedo per channel; zero: no direct sunlight
+    float constant[3];      ///< source everywhere in the medium: sky by the furnace identity
+    NodeGrid shadow, source;
+    std::int32_t channels;  ///< planes of `source` and of `colour`: 3, or 3*(1+batches)
+    float cut;              ///< stop below this transmittance
+};
+struct MarchBuffers {
+    const float* optical_depth;  ///< shadow nodes; unused without direct sunlight
+    const float* source;         ///< [channel][node], scattered light towards the camera
+    const float* opaque_depth;   ///< [pixel], m along the ray; null: nothing opaque
+    float* transmittance;        ///< [pixel]
+    float* half_depth;           ///< [pixel], m; infinity where transmittance stays above 1/2
+    float* colour;               ///< [channel][pixel], premultiplied
+};
+
+struct BackgroundParams {
+    MediumView medium;
+    CameraParams camera;
+    float sky[3];          ///< radiance
+    std::int32_t ground;   ///< 0: none
+    float ground_z;        ///< m, box-local
+    float ground_diffuse[3];  ///< radiance under the sky alone
+    float ground_sun[3];      ///< radiance added by the unshadowed sun
+    float to_sun[3];
+};
+struct BackgroundBuffers {
+    float* colour;        ///< [3][pixel]
+    float* opaque_depth;  ///< [pixel], m; infinity for the sky
+};
+
+}  // namespace pileus

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: Apache-2.0
+// Photons through a heterogeneous medium: delta tracking on a grid of majorants.
+// in: a range of photons of one light -> out: deposits in collectors and an exact energy ledger.
+// Woodcock tracking with stochastic trilinear look-up (SPEED.md), METHODS 3 "Track" and "Store".
+// Each lane carries one photon and takes the next when it dies; random numbers belong to
+// (photon, event), so neither lanes nor threads can change a result.
+#pragma once
+#include "kernels_cpu/deposit.h"
+
+namespace pileus {
+inline namespace PILEUS_ISA {
+
+template <int W, int NC>
+PILEUS_FN void count_fate(const Photon<W, NC>& s, std::int64_t (&plain)[3],
+                          std::int64_t (&shadow)[3], std::uint32_t lanes) {
+    const std::uint32_t dark = bits_of(s.shadow);
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const int i = __builtin_ctz(lanes);
+        std::int64_t(&bin)[3] = (dark >> i) & 1u ? shadow : plain;
+        for (int c = 0; c < NC; ++c)
+            bin[c] += NC == 1 ? kPhotonQuanta : quantise(lane(s.weight[c], i), 0x1p20f);
+    }
+}
+
+/// Tally the lanes of `m` under the fate `name` of the light or of the ground's shadow.
+#define PILEUS_FATE(s, tally, name, m) \
+    count_fate(s, (tally).light.name, (tally).shadow.name, bits_of(m))
+
+/// Ground: absorb or reflect the lanes of `m` that arrive at (ground_x, ground_y).
+template <int W, int NC>
+PILEUS_FN void bounce(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally, M<W> m) {
+    using T = F<W>;
+    s.event = select(m, s.event + 1u, s.event);
+    s.order = select(m, s.order + 1, s.order);
+    const U<W> number = s.index + k.first_photon, at = s.event * 4u;
+    const Words<U<W>> first = threefry(k.key.k0, k.key.k1, number, at + 2u);
+    const Lambert<T> up = lambert(threefry(k.key.k0, k.key.k1, number, at + 3u));
+    const auto kept = m & (uniform(first.a) < k.ground_albedo);
+    const auto lost = m & lnot(kept);
+    if (any(lost)) {
+        PILEUS_FATE(s, tally, ground, lost);
+        s.alive = s.alive & lnot(lost);
+    }
+    if (!any(kept)) return;
+
+    // Follow the reflected ray to the box: the farthest entry must lie before the nearest exit.
+    const Vec<T> d{up.a, up.b, max_(up.normal, all<T>(1e-6f))};
+    const Vec<T> inverse{safe_inverse(d.x), safe_inverse(d.y), safe_inverse(d.z)};
+    const float ex = float(k.size[0]) * k.cell[0], ey = float(k.size[1]) * k.cell[1],
+                ez = float(k.size[2]) * k.cell[2];
+    const T ax = (T{} - s.ground_x) * inverse.x, bx = (ex - s.ground_x) * inverse.x;
+    const T ay = (T{} - s.ground_y) * inverse.y, by = (ey - s.ground_y) * inverse.y;
+    const T enter_z = (0.0f - k.ground_z) * inverse.z, leave_z = (ez - k.ground_z) * inverse.z;
+    const T enter = max_(max_(min_(ax, bx), min_(ay, by)), enter_z);
+    const T leave = min_(min_(max_(ax, bx), max_(ay, by)), leave_z);
+    const auto hit = kept & (enter < leave);
+    const auto gone = kept & lnot(hit);
+    if (any(gone)) {
+        PILEUS_FATE(s, tally, sky, gone);
+        s.alive = s.alive & lnot(gone);
+    }
+    if (!any(hit)) return;
+    const auto inside = [](T metres, float cell, std::int32_t n) {
+        return min_(max_(metres * (1.0f / cell), T{}), all<T>(float(n)));
+    };
+    set_direction(s, k, hit, d);
+    set_position(s, k, hit,
+                 Vec<T>{inside(s.ground_x + d.x * enter, k.cell[0], k.size[0]),
+                        inside(s.ground_y + d.y * enter, k.cell[1], k.size[1]),
+                        inside(k.ground_z + d.z * enter, k.cell[2], k.size[2])});
+    s.tau = select(hit, free_flight(first.b, first.a), s.tau);
+}
+
+/// Lanes of `m` have left the box: tally them, or send them to the ground.
+template <int W, int NC>
+PILEUS_FN void leave_box(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally, M<W> m,
+                         M<W> by_z) {
+    using T = F<W>;
+    auto down = m & lnot(m);
+    if (k.ground != 0) {
+        // Unscattered light is part of the unshadowed ground's radiance already.
+        down = m & (s.d.z < 0.0f) & (s.order > 0);
+        const T t = (s.p.z * k.cell[2] - k.ground_z) * (T{} - safe_inverse(s.d.z));
+        s.ground_x = select(down, s.p.x * k.cell[0] + s.d.x * t, s.ground_x);
+        s.ground_y = select(down, s.p.y * k.cell[1] + s.d.y * t, s.ground_y);
+    }
+    const auto out = m & lnot(down);
+    if (any(out)) {
+        const auto top = out & by_z & (s.inverse.z > 0.0f), bottom = out & by_z & lnot(top);
+        const auto sides = out & lnot(by_z);
+        PILEUS_FATE(s, tally, top, top);
+        PILEUS_FATE(s, tally, bottom, bottom);
+        PILEUS_FATE(s, tally, sides, sides);
+        PILEUS_FATE(s, tally, direct_bottom, bottom & (s.order == 0));
+        s.alive = s.alive & lnot(out);
+    }
+    if (any(down)) bounce(s, k, tally, down);
+}
+
+/// Real collisions in the lanes of `m`: absorb by roulette, otherwise turn.
+template <int W, int NC>
+PILEUS_FN void scatter(Photon<W, NC>& s, const TraceParams& k, const TraceBuffers& b, M<W> m,
+                       U<W> spare) {
+    using T = F<W>;
+    TraceTally& tally = *b.tally;
+    tally.scatterings += count_bits(bits_of(m));
+    if (k.ground != 0) {
+        // Straight down-going light that the ground will miss: remember where.
+        const auto owing = m & (s.order == 0) & (s.d.z < 0.0f) & lnot(s.shadow);
+        const T t = (s.p.z * k.cell[2] - k.ground_z) * (T{} - safe_inverse(s.d.z));
+        s.ground_x = select(owing, s.p.x * k.cell[0] + s.d.x * t, s.ground_x);
+        s.ground_y = select(owing, s.p.y * k.cell[1] + s.d.y * t, s.ground_y);
+        s.owes = s.owes | owing;
+    }
+    const auto absorbed = m & (uniform(spare) >= k.albedo_max);
+    if (any(absorbed)) {
+        PILEUS_FATE(s, tally, absorbed, absorbed);
+        s.alive = s.alive & lnot(absorbed);
+        m = m & lnot(absorbed);
+        if (!any(m)) return;
+    }
+    s.order = select(m, s.order + 1, s.order);
+    if constexpr (NC > 1) {
+        for (std::uint32_t lanes = bits_of(m); lanes != 0; lanes &= lanes - 1) {
+            const int i = __builtin_ctz(lanes);
+            const bool dark = (bits_of(s.shadow) >> i) & 1u;
+            Fates& fates = dark ? tally.shadow : tally.light;
+            for (int c = 0; c < NC; ++c) {
+                const float before = lane(s.weight[c], i);
+                const float after = before * (k.albedo[c] / k.albedo_max);
+                fates.absorbed[c] += quantise(before, 0x1p20f) - quantise(after, 0x1p20f);
+                set_lane(s.weight[c], i, after);
+            }
+        }
+    }
+    const Words<U<W>> w = threefry(k.key.k0, k.key.k1, s.index + k.first_photon, s.event * 4u + 2u);
+    const Turn<T> turn = phase_sample(k.phase, uniform_open(w.a));
+    const SinCos<T> phi = sincos_turns(uniform(w.b));
+    set_direction(s, k, m, turned(s.d, 1.0f - turn.one_minus_cos, turn.sine, phi.cosine, phi.sine));
+    if (k.mode == kDepositOutgoing) deposit(k, b, s, m, s.d, all<T>(1.0f));
+}
+
+/// Tentative collisions in the lanes of `m`, inside blocks of majorant `bound`.
+template <int W, int NC>
+PILEUS_FN void collide(Photon<W, NC>& s, const TraceParams& k, const TraceBuffers& b, M<W> m,
+                       F<W> bound) {
+    using T = F<W>;
+    b.tally->tentative += count_bits(bits_of(m));
+    s.event = select(m, s.event + 1u, s.event);
+    const U<W> number = s.index + k.first_photon;
+    const Words<U<W>> flight = threefry(k.key.k0, k.key.k1, number, s.event * 4u);
+    const Words<U<W>> corner = threefry(k.key.k0, k.key.k1, number, s.event * 4u + 1u);
+
+    // One of the eight voxels around, drawn with its trilinear weight (to 11 bits).
+    const auto draw = [](T p, U<W> bits, std::int32_t n) {
+        const T jitter = to_float(reinterpret<I<W>>(bits)) * 0x1p-11f + (0x1p-12f - 0.5f);
+        return min_(max_(floor_int(p + jitter), I<W>{}), all<I<W>>(n - 1));
+    };
+    const I<W> x = draw(s.p.x, corner.a & 0x7ffu, k.size[0]);
+    const I<W> y = draw(s.p.y, (corner.a >> 11) & 0x7ffu, k.size[1]);
+    const I<W> z = draw(s.p.z, (corner.a >> 21), k.size[2]);
+    const T density = gather(b.density, select(m, (z * k.size[1] + y) * k.size[0] + x, I<W>{}));
+    const auto over = m & (density > bound);
+    if (any(over)) b.tally->majorant_violations += count_bits(bits_of(over));
+
+    const auto medium = m & (density > 0.0f);
+    if (k.mode != kDepositNone && k.mode != kDepositOutgoing && any(medium))
+        deposit(k, b, s, medium, s.d, density / bound);
+    s.tau = select(m, free_flight(flight.a, corner.b), s.tau);
+    const auto real = medium & (uniform(flight.b) * bound < density);
+    if (any(real)) scatter(s, k, b, real, corner.b);
+
+    const auto tired = m & s.alive & (s.event >= k.max_events);
+    if (any(tired)) {
+        PILEUS_FATE(s, *b.tally, terminated, tired);
+        s.alive = s.alive & lnot(tired);
+    }
+}
+
+/// Move every living lane to its next collision or block border.
+template <int W, int NC>
+PILEUS_FN void step(Photon<W, NC>& s, const TraceParams& k, const TraceBuffers& b) {
+    using T = F<W>;
+    const I<W> block = (s.block_z * k.blocks[1] + s.block_y) * k.blocks[0] + s.block_x;
+    const T bound = gather(b.majorant, select(s.alive, block, I<W>{}));
+    const T sigma_t = bound * k.sigma;
+
+    const auto plane = [&](I<W> i, T inverse, std::int32_t n) {
+        const I<W> ahead = select(inverse > 0.0f, i + 1, i);
+        return min_(to_float(ahead) * k.block, all<T>(float(n)));
+    };
+    const T fx = plane(s.block_x, s.inverse.x, k.size[0]),
+            fy = plane(s.block_y, s.inverse.y, k.size[1]),
+            fz = plane(s.block_z, s.inverse.z, k.size[2]);
+    const T tx = max_((fx - s.p.x) * s.inverse.x, T{}), ty = max_((fy - s.p.y) * s.inverse.y, T{}),
+            tz = max_((fz - s.p.z) * s.inverse.z, T{});
+    const T border = min_(min_(tx, ty), tz);
+    const T flight = s.tau / sigma_t;
+    const auto hits = s.alive & (flight < border);
+    const auto hops = s.alive & lnot(hits);
+    const T t = select(hits, flight, border);
+
+    s.path = s.path + select(s.alive, t, T{});
+    s.p.x = select(s.alive, s.p.x + s.d.x * t * (1.0f / k.cell[0]), s.p.x);
+    s.p.y = select(s.alive, s.p.y + s.d.y * t * (1.0f / k.cell[1]), s.p.y);
+    s.p.z = select(s.alive, s.p.z + s.d.z * t * (1.0f / k.cell[2]), s.p.z);
+
+    if (any(hops)) {
+        b.tally->crossings += count_bits(bits_of(hops));
+        s.tau = select(hops, max_(s.tau - sigma_t * border, T{}), s.tau);
+        // Put the lane exactly on the plane it crosses, so that it enters the next block once.
+        const auto by_x = hops & (tx <= border), by_y = hops & lnot(by_x) & (ty <= border);
+        const auto by_z = hops & lnot(by_x | by_y);
+        const auto turn = [](I<W> i, M<W> m, T inverse) {
+            return select(m, select(inverse > 0.0f, i + 1, i - 1), i);
+        };
+        s.p.x = select(by_x, fx, s.p.x);
+        s.p.y = select(by_y, fy, s.p.y);
+        s.p.z = select(by_z, fz, s.p.z);
+        s.block_x = turn(s.block_x, by_x, s.inverse.x);
+        s.block_y = turn(s.block_y, by_y, s.inverse.y);
+        s.block_z = turn(s.block_z, by_z, s.inverse.z);
+        const auto outside = [](I<W> i, std::int32_t n) { return (i < 0) | (i >= n); };
+        const auto out = hops & (outside(s.block_x, k.blocks[0]) | outside(s.block_y, k.blocks[1]) |
+                                 outside(s.block_z, k.blocks[2]));
+        if (any(out)) leave_box(s, k, *b.tally, out, by_z);
+    }
+    if (any(hits)) collide(s, k, b, hits, bound);
+}
+
+/// Photons that died may owe the ground's missing light: send it up as a negative photon.
+template <int W, int NC>
+PILEUS_FN void settle(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally, M<W> died) {
+    for (std::uint32_t lanes = bits_of(died); lanes != 0; lanes &= lanes - 1)
+        tally.path += quantise(lane(s.path, __builtin_ctz(lanes)), k.path_scale);
+    if (k.ground == 0) return;
+    const auto owing = died & s.owes;
+    if (!any(owing)) return;
+    s.owes = s.owes & lnot(owing);
+    s.shadow = s.shadow | owing;
+    s.alive = s.alive | owing;
+    s.path = select(owing, F<W>{}, s.path);
+    for (int c = 0; c < NC; ++c) s.weight[c] = select(owing, all<F<W>>(1.0f), s.weight[c]);
+    PILEUS_FATE(s, tally, emitted, owing);
+    bounce(s, k, tally, owing);
+}
+
+/// Trace photons [begin, end) of the launch.
+template <int W, int NC>
+PILEUS_FN void trace_photons(const TraceParams& k, const TraceBuffers& b, std::uint32_t begin,
+                             std::uint32_t end) {
+    Photon<W, NC> s{};
+    std::uint32_t next = begin;
+    s.p = {all<F<W>>(0.5f), all<F<W>>(0.5f), all<F<W>>(0.5f)};
+    s.d.z = s.inverse.x = s.inverse.y = s.inverse.z = all<F<W>>(1.0f);
+    const U<W> numbers = reinterpret<U<W>>(iota<I<W>>());
+    constexpr std::uint32_t kFull = W == 32 ? ~0u : (1u << W) - 1u;
+    for (;;) {
+        const std::uint32_t living = bits_of(s.alive);
+        const std::uint32_t idle = ~living & kFull;
+        // Refill when a quarter is idle: results belong to photons, so the moment is free.
+        if (next < end && (living == 0 || count_bits(idle) * 4 >= W)) {
+            auto fresh = s.alive & lnot(s.alive);
+            for (std::uint32_t lanes = idle; lanes != 0 && next < end; lanes &= lanes - 1) {
+                const int i = __builtin_ctz(lanes);
+                set_lane(s.index, i, next++);
+                fresh = fresh | (numbers == std::uint32_t(i));
+            }
+            start_photons(s, k, fresh);
+            b.tally->photons += count_bits(bits_of(fresh));
+            PILEUS_FATE(s, *b.tally, emitted, fresh);
+        } else if (living == 0) {
+            return;
+        }
+        const auto before = s.alive;
+        step(s, k, b);
+        const auto died = before & lnot(s.alive);
+        if (any(died)) settle(s, k, *b.tally, died);
+    }
+}
+#undef PILEUS_FATE
+
+template <int W>
+PILEUS_FN void trace(const TraceParams& k, const TraceBuffers& b, std::uint32_t begin,
+                     std::uint32_t end) {
+    if (k.channels == 1)
+        trace_photons<W, 1>(k, b, begin, end);
+    else
+        trace_photons<W, 3>(k, b, begin, end);
+}
+
+}  // namespace PILEUS_ISA
+}  // namespace pileus

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// Files as the machine gives them: read all of one, or replace one in a single step.
+// in: paths and bytes -> out: bytes and the machine's error number; texts are made in src/base.
+// docs/architecture.md, floor 0.
+#pragma once
+#include <cstddef>
+#include <cstdint>
+
+namespace pileus {
+
+enum class FileFault {
+    kNone,
+    kMissing,     ///< no such file
+    kDirectory,   ///< a folder where a file is needed
+    kNotRegular,  ///< a device or a pipe where a file of known length is needed
+    kShort,       ///< the file ended before its stated length
+    kSystem       ///< anything else; `error` says what
+};
+
+/// `error` is errno's value at the fault, 0 where there is none.
+struct [[nodiscard]] FileResult {
+    FileFault fault = FileFault::kNone;
+    int error = 0;
+    explicit operator bool() const { return fault == FileFault::kNone; }
+};
+
+/// A regular file opened for reading from its start; closed with its owner.
+class InputFile {
+public:
+    InputFile() = default;
+    InputFile(const InputFile&) = delete;
+    InputFile& operator=(const InputFile&) = delete;
+    ~InputFile();
+
+    FileResult open(const char* path);
+    /// Length in bytes when it was opened.
+    std::uint64_t size() const { return size_; }
+    /// Reads exactly `bytes`; kShort when the file ends before.
+    FileResult read(void* to, std::size_t bytes);
+
+private:
+    int descriptor_ = -1;
+    std::uint64_t size_ = 0;
+};
+
+/// Writes `bytes` to a new name in the same folder, then renames it to `path`, so that `path` holds
+/// either what it held before or all of the new bytes. Makes missing parent folders. A device or a
+/// pipe is written to directly; a symbolic link keeps pointing where it does. On a fault the new
+/// name is removed.
+FileResult replace_file(const char* path, const void* data, std::size_t bytes);
+
+}  // namespace pileus

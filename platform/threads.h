@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs pieces of work on several threads (OpenMP, or one after the other without it).
+// in: a count and a function of (piece, thread) -> out: every piece ran once.
+#pragma once
+#include <cstdint>
+#include <type_traits>
+
+namespace pileus {
+
+using WorkFunction = void (*)(void* context, std::int64_t piece, int thread);
+
+/// Threads that `parallel_pieces` uses when asked for 0.
+int hardware_threads();
+
+/// Calls work(context, piece, thread) for piece in [0, pieces); thread in [0, threads).
+void parallel_pieces(int threads, std::int64_t pieces, void* context, WorkFunction work);
+
+/// The same for a lambda `void(std::int64_t piece, int thread)`.
+template <class Function>
+void parallel_for(int threads, std::int64_t pieces, Function&& function) {
+    parallel_pieces(threads, pieces, &function, [](void* context, std::int64_t piece, int thread) {
+        (*static_cast<std::remove_reference_t<Function>*>(context))(piece, thread);
+    });
+}
+
+}  // namespace pileus

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// One call from a checked scene to pictures: what programs and tests use.
+// in: Scene, options -> out: an Image per frame and a Report.
+// ARCHITECTURE "One way through".
+#pragma once
+#include <functional>
+
+#include "src/base/report.h"
+#include "src/io/image.h"
+#include "src/scene/scene.h"
+
+namespace pileus {
+
+constexpr const char* kVersion = "0.1.0";
+
+struct RenderOptions {
+    int threads = 0;                  ///< 0: all there are
+    std::string isa;                  ///< empty: the widest this machine runs
+    std::int64_t budget_photons = -1; ///< >= 0: instead of the scene's number
+    double budget_seconds = 0;        ///< > 0: stop tracing after this wall time; whole generations
+    int first_frame = 0, last_frame = 0;  ///< of the animation, inclusive
+    /// Called now and then with a stage's name and the share done of it, 0..1.
+    std::function<void(const char* stage, double share)> progress;
+};
+
+/// Called once per frame, in order. The report holds all that is known so far. Returning an
+/// error stops the rendering.
+using FrameSink = std::function<Status(int frame, Image& image, Report& report)>;
+
+/// Renders frames [first_frame, last_frame] (a still scene has frame 0 only).
+/// Errors: kBadInput (scene, files, isa), kLimit (memory), kIo.
+Status render(const Scene& scene, const RenderOptions& options, const FrameSink& sink);
+
+/// What `render` would do: fills the report's plan (needed, left out, bounds on bytes) only.
+Status plan_scene(const Scene& scene, const RenderOptions& options, Report& report);
+
+}  // namespace pileus

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// Owned array whose allocation can fail with a Status instead of an exception.
+// in: a count -> out: zeroed, 64-byte aligned memory, freed with its owner.
+#pragma once
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <type_traits>
+#include <utility>
+
+#include "src/base/span.h"
+#include "src/base/status.h"
+
+namespace pileus {
+
+/// a*b, or false when the product does not fit.
+inline bool checked_multiply(std::uint64_t a, std::uint64_t b, std::uint64_t& product) {
+    return !__builtin_mul_overflow(a, b, &product);
+}
+
+template <class T>
+class Buffer {
+    static_assert(std::is_trivially_copyable<T>::value, "a Buffer holds plain data");
+
+public:
+    Buffer() = default;
+    Buffer(const Buffer&) = delete;
+    Buffer& operator=(const Buffer&) = delete;
+    Buffer(Buffer&& other) noexcept { swap(other); }
+    Buffer& operator=(Buffer&& other) noexcept {
+        swap(other);
+        return *this;
+    }
+    ~Buffer() { std::free(data_); }
+
+    /// Replaces the contents by `count` zeroed elements. `what` names the array in the error line.
+    Status resize(std::uint64_t count, const char* what) {
+        std::free(data_);
+        data_ = nullptr;
+        size_ = 0;
+        std::uint64_t bytes = 0;
+        if (!checked_multiply(count, sizeof(T), bytes) || bytes > kMaxBytes)
+            return Status::limit(std::string(what) + ": more memory than can be addressed");
+        if (count == 0) return Status::ok();
+        const std::uint64_t rounded = (bytes + 63) / 64 * 64;
+        data_ = static_cast<T*>(std::aligned_alloc(64, static_cast<std::size_t>(rounded)));
+        if (data_ == nullptr)
+            return Status::limit(std::string(what) + ": out of memory, " + std::to_string(bytes) +
+                                 " bytes asked for");
+        std::memset(static_cast<void*>(data_), 0, static_cast<std::size_t>(rounded));
+        size_ = static_cast<std::size_t>(count);
+        return Status::ok();
+    }
+
+    T* data() { return data_; }
+    const T* data() const { return data_; }
+    std::size_t size() const { return size_; }
+    bool empty() const { return size_ == 0; }
+    std::uint64_t bytes() const { return size_ * sizeof(T); }
+    T& operator[](std::size_t i) {
+        assert(i < size_);
+        return data_[i];
+    }
+    const T& operator[](std::size_t i) const {
+        assert(i < size_);
+        return data_[i];
+    }
+    Span<T> span() { return {data_, size_}; }
+    Span<const T> span() const { return {data_, size_}; }
+    void swap(Buffer& other) noexcept {
+        std::swap(data_, other.data_);
+        std::swap(size_, other.size_);
+    }
+
+private:
+    static constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 46;
+    T* data_ = nullptr;
+    std::size_t size_ = 0;
+};
+
+}  // namespace pileus

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole files in and out, with one clear line per fault.
+// in: paths and bytes -> out: see file.h.
+// docs/scene.md lists the form of the lines.
+#include "src/base/file.h"
+
+#include <system_error>
+
+namespace pileus {
+
+namespace {
+
+std::string describe(FileResult result) {
+    switch (result.fault) {
+        case FileFault::kMissing:
+            return "no such file";
+        case FileFault::kDirectory:
+            return "is a folder, allowed: a file";
+        case FileFault::kNotRegular:
+            return "is not a regular file, allowed: a file of known length";
+        case FileFault::kShort:
+            return "ended before its stated length";
+        default:
+            return std::generic_category().message(result.error);
+    }
+}
+
+bool has_zero_byte(const std::string& path) { return path.find('\0') != std::string::npos; }
+
+}  // namespace
+
+Status open_file(const std::string& path, InputFile& file) {
+    if (path.empty()) return Status::bad_input("file name: empty, allowed: the path of a file");
+    if (has_zero_byte(path)) return Status::bad_input("file name: holds a zero byte");
+    const FileResult result = file.open(path.c_str());
+    if (!result) return Status::bad_input(path + ": cannot read: " + describe(result));
+    return Status::ok();
+}
+
+Status read_fault(const std::string& path, FileResult result) {
+    return Status::io(path + ": reading failed half way: " + describe(result));
+}
+
+Status read_whole_file(const std::string& path, std::uint64_t limit_bytes, Buffer<char>& bytes) {
+    InputFile file;
+    PILEUS_TRY(open_file(path, file));
+    if (file.size() > limit_bytes)
+        return Status::limit(path + ": file too large, " + std::to_string(file.size()) +
+                             " bytes, allowed: at most " + std::to_string(limit_bytes));
+    PILEUS_TRY(bytes.resize(file.size(), path.c_str()));
+    const FileResult result = file.read(bytes.data(), bytes.size());
+    return result ? Status::ok() : read_fault(path, result);
+}
+
+Status write_file(const std::string& path, Span<const char> bytes) {
+    if (path.empty()) return Status::io("file name: empty, allowed: the path of a file");
+    if (has_zero_byte(path)) return Status::io("file name: holds a zero byte");
+    const FileResult result = replace_file(path.c_str(), bytes.data, bytes.size);
+    if (!result) return Status::io(path + ": cannot write: " + describe(result));
+    return Status::ok();
+}
+
+std::string file_extension(const std::string& path) {
+    const std::size_t slash = path.rfind('/');
+    const std::size_t begin = slash == std::string::npos ? 0 : slash + 1;
+    const std::size_t point = path.rfind('.');
+    if (point == std::string::npos || point <= begin) return "";
+    std::string extension = path.substr(point);
+    for (char& c : extension)
+        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+    return extension;
+}
+
+}  // namespace pileus

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whole files in and out, with one clear line per fault.
+// in: a path -> out: its bytes; in: bytes -> out: a file that is complete or not there.
+// docs/scene.md lists the form of the lines.
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "platform/file.h"
+#include "src/base/buffer.h"
+#include "src/base/span.h"
+#include "src/base/status.h"
+
+namespace pileus {
+
+/// Opens a regular file. Missing, a folder, a device or not permitted: kBadInput.
+Status open_file(const std::string& path, InputFile& file);
+
+/// The line for a fault met while reading: kIo.
+Status read_fault(const std::string& path, FileResult result);
+
+/// Reads all of a file. Faults of open_file; longer than `limit_bytes` or than memory: kLimit;
+/// a failure half way: kIo.
+Status read_whole_file(const std::string& path, std::uint64_t limit_bytes, Buffer<char>& bytes);
+
+/// Replaces or makes `path` in one step, missing parent folders included; any fault: kIo, and no
+/// new or partial file is left.
+Status write_file(const std::string& path, Span<const char> bytes);
+
+/// What follows the last point of the file's name, in lower case (ASCII), the point included;
+/// empty where there is none.
+std::string file_extension(const std::string& path);
+
+}  // namespace pileus

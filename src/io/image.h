@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// A picture as planes of floats, and what writers need to know about it.
+// in: composited layers -> out: one plane per channel, rows from the top.
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "src/base/buffer.h"
+
+namespace pileus {
+
+struct Channel {
+    std::string name;      ///< R G B A Z cloud.R ... error.R ...
+    Buffer<float> pixels;  ///< width*height, rows from the top
+};
+
+struct Image {
+    int width = 0, height = 0;
+    std::vector<Channel> channels;
+    std::array<float, 16> world_to_camera{};  ///< row-major, OpenEXR's row-vector convention
+    std::array<float, 16> world_to_ndc{};
+    std::string scene_text;  ///< the scene's own text, stored in the file
+    std::string pixel_hash;  ///< 16 hex digits
+
+    const Channel* find(const char* name) const {
+        for (const Channel& c : channels)
+            if (c.name == name) return &c;
+        return nullptr;
+    }
+};
+
+}  // namespace pileus

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// 8-bit PNG in memory; the only file that touches libpng.
+// in: sRGB bytes, rows from the top -> out: the bytes of a PNG file with an sRGB chunk.
+// PNG specification 11.3.3.5 (sRGB); docs/formats.md
+#include "src/io/image_file.h"
+
+#ifdef PILEUS_WITH_PNG
+#include <png.h>
+
+#include <csetjmp>
+#endif
+
+namespace pileus {
+
+#ifdef PILEUS_WITH_PNG
+namespace {
+
+/// Where libpng's bytes and its first complaint go. Lives in the caller of the frame that jumps.
+struct Sink {
+    Buffer<char>* bytes = nullptr;
+    std::size_t used = 0;
+    bool out_of_memory = false;
+    char message[160] = {0};
+};
+
+[[noreturn]] void on_error(png_structp png, png_const_charp text) {
+    Sink* sink = static_cast<Sink*>(png_get_error_ptr(png));
+    std::strncpy(sink->message, text, sizeof sink->message - 1);
+    png_longjmp(png, 1);
+}
+
+void on_warning(png_structp, png_const_charp) {}
+
+/// Doubles the buffer when it is full.
+bool append(Sink& sink, const void* data, std::size_t length) {
+    const std::size_t needed = sink.used + length;
+    if (needed > sink.bytes->size()) {
+        Buffer<char> larger;
+        if (!larger.resize(needed * 2, "PNG file")) return false;
+        if (sink.used > 0) std::memcpy(larger.data(), sink.bytes->data(), sink.used);
+        sink.bytes->swap(larger);
+    }
+    std::memcpy(sink.bytes->data() + sink.used, data, length);
+    sink.used = needed;
+    return true;
+}
+
+void on_write(png_structp png, png_bytep data, png_size_t length) {
+    Sink* sink = static_cast<Sink*>(png_get_io_ptr(png));
+    if (append(*sink, data, length)) return;
+    sink->out_of_memory = true;
+    png_error(png, "out of memory");
+}
+
+void on_flush(png_structp) {}
+
+/// The frame that libpng may jump back to: it owns nothing and changes nothing of its own.
+bool write_all(png_structp png, png_infop info, Sink* sink, std::uint32_t width,
+               std::uint32_t height, const std::uint8_t* rgb) {
+    if (setjmp(png_jmpbuf(png)) != 0) return false;
+    png_set_write_fn(png, sink, on_write, on_flush);
+    png_set_compression_level(png, 6);
+    png_set_IHDR(png, info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+    png_write_info(png, info);
+    for (std::size_t y = 0; y < height; ++y) png_write_row(png, rgb + y * width * 3);
+    png_write_end(png, info);
+    return true;
+}
+
+}  // namespace
+
+Status encode_png(int width, int height, Span<const std::uint8_t> rgb, Buffer<char>& bytes) {
+    PILEUS_TRY(check_image_size("PNG file", width, height));
+    if (rgb.size != std::size_t(width) * std::size_t(height) * 3)
+        return Status::bad_input("PNG file: pixels: wrong number of bytes, " +
+                                 std::to_string(rgb.size));
+    Buffer<char> growing;
+    Sink sink;
+    sink.bytes = &growing;
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, on_error, on_warning);
+    png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
+    const bool made = info != nullptr && write_all(png, info, &sink, std::uint32_t(width),
+                                                   std::uint32_t(height), rgb.data);
+    if (png != nullptr) png_destroy_write_struct(&png, &info);
+    if (!made && (info == nullptr || sink.out_of_memory))
+        return Status::limit("PNG file: out of memory");
+    if (!made) return Status::io(std::string("PNG file: encoding failed: ") + sink.message);
+
+    // Hand over exactly the bytes that were written.
+    PILEUS_TRY(bytes.resize(sink.used, "PNG file"));
+    std::memcpy(bytes.data(), growing.data(), sink.used);
+    return Status::ok();
+}
+#else
+Status encode_png(int, int, Span<const std::uint8_t>, Buffer<char>&) {
+    return Status::bad_input("PNG file: left out of this build, configure with -DPILEUS_PNG=ON");
+}
+#endif
+
+}  // namespace pileus

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Chooses a reader for a density grid, and turns grids into the project's axes.
+// in: a medium's settings and a path -> out: a Volume, z up.
+// docs/formats.md
+#include "src/io/volume_file.h"
+
+#include "src/base/file.h"
+
+namespace pileus {
+
+Status check_volume_size(const std::string& where, const std::array<std::int64_t, 3>& size) {
+    static const char* const names[3] = {"nx", "ny", "nz"};
+    std::uint64_t cells = 1;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        if (size[axis] < 1 || size[axis] > kMaxVolumeSide)
+            return Status::bad_input(where + ": " + names[axis] + ": out of range, " +
+                                     std::to_string(size[axis]) + ", allowed: 1 to " +
+                                     std::to_string(kMaxVolumeSide));
+        cells *= std::uint64_t(size[axis]);
+    }
+    if (cells > kMaxVolumeCells)
+        return Status::limit(where + ": size: too many voxels, " + std::to_string(cells) +
+                             ", allowed: at most " + std::to_string(kMaxVolumeCells));
+    return Status::ok();
+}
+
+std::string voxel_name(const std::array<int, 3>& size, std::uint64_t index) {
+    const std::uint64_t nx = std::uint64_t(size[0]), ny = std::uint64_t(size[1]);
+    return "voxel " + std::to_string(index % nx) + ' ' + std::to_string(index / nx % ny) + ' ' +
+           std::to_string(index / nx / ny) + " (index " + std::to_string(index) + ')';
+}
+
+Status permute_y_up(Volume& volume) {
+    const std::size_t nx = std::size_t(volume.size[0]), ny = std::size_t(volume.size[1]),
+                      nz = std::size_t(volume.size[2]);
+    Buffer<float> turned;
+    PILEUS_TRY(turned.resize(std::uint64_t(nx) * ny * nz, "density grid, turned"));
+
+    // Copy whole rows along x: file row (y, z) becomes row (nz-1-z, y).
+    for (std::size_t z = 0; z < nz; ++z)
+        for (std::size_t y = 0; y < ny; ++y) {
+            const float* from = volume.density.data() + (z * ny + y) * nx;
+            float* to = turned.data() + (y * nz + (nz - 1 - z)) * nx;
+            std::memcpy(to, from, nx * sizeof(float));
+        }
+    volume.density.swap(turned);
+    volume.size = {volume.size[0], volume.size[2], volume.size[1]};
+
+    // Mirroring an axis exchanges its lower and upper face.
+    const auto box = volume.bounds_m;
+    volume.bounds_m = {{{box[0][0], -box[1][2], box[0][1]}, {box[1][0], -box[0][2], box[1][1]}}};
+    return Status::ok();
+}
+
+Status read_volume(const MediumSettings& medium, const std::string& path, Volume& volume) {
+    std::string format = medium.format;
+    if (format.empty()) {
+        const std::string extension = file_extension(path);
+        if (!extension.empty()) format = extension.substr(1);
+    }
+    if (format == "pbrt") {
+        PILEUS_TRY(read_pbrt_volume(path, volume));
+    } else if (format == "raw") {
+        PILEUS_TRY(
+            read_raw_volume(path, medium.raw_type, medium.raw_size, medium.raw_big_endian, volume));
+    } else {
+        return Status::bad_input(path + ": format: unknown, \"" + format +
+                                 "\", allowed: \"pbrt\" or \"raw\"");
+    }
+    if (medium.y_up) PILEUS_TRY(permute_y_up(volume));
+    if (medium.has_bounds) {
+        volume.bounds_m = medium.bounds_m;
+        volume.knows_bounds = true;
+    }
+    return Status::ok();
+}
+
+}  // namespace pileus

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Readers of density grids.
+// in: a file of grey values -> out: a Volume whose every value is finite and >= 0.
+// docs/formats.md
+#pragma once
+#include <array>
+#include <string>
+
+#include "src/base/status.h"
+#include "src/io/volume.h"
+#include "src/scene/scene.h"
+
+namespace pileus {
+
+constexpr int kMaxVolumeSide = 4096;
+constexpr std::uint64_t kMaxVolumeCells = std::uint64_t{1} << 31;
+
+/// Reads `path` (already resolved) as medium.format says, or by extension (.pbrt, .raw), turns it
+/// z up if medium.y_up, and lets medium.bounds_m win over the file's own box where given.
+/// Bad settings or contents: kBadInput; more cells or memory than allowed: kLimit; failed half
+/// way: kIo. `volume` is unspecified after a fault.
+Status read_volume(const MediumSettings& medium, const std::string& path, Volume& volume);
+
+/// The text form `Volume "volumegrid" "integer nx" N ... "float density" [...]`. Axes stay in file
+/// order. `point p0` and `point p1` are the outer faces of the box; both or neither must be given.
+Status read_pbrt_volume(const std::string& path, Volume& volume);
+
+/// Bare numbers, x fastest; whole numbers are scaled so that the largest becomes 1. The file's
+/// length must be exactly that of size[0]*size[1]*size[2] values.
+Status read_raw_volume(const std::string& path, RawType type, const std::array<int, 3>& size,
+                       bool big_endian, Volume& volume);
+
+/// Turns a grid whose y axis points up by +90 degrees about x: (x, y, z) -> (x, -z, y), values and
+/// box alike, so that z points up and handedness is kept. Out of memory: kLimit.
+Status permute_y_up(Volume& volume);
+
+/// Checks three side lengths and their product: kBadInput for a side, kLimit for the product.
+/// `where` opens the line.
+Status check_volume_size(const std::string& where, const std::array<std::int64_t, 3>& size);
+
+/// "voxel 3 4 5 (index 1234)".
+std::string voxel_name(const std::array<int, 3>& size, std::uint64_t index);
+
+}  // namespace pileus

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// See collectors.h. Preparation, photons and the plan; collectors_show.cpp makes the picture.
+#include "src/methods/collectors.h"
+
+namespace pileus {
+namespace {
+
+constexpr std::uint64_t kMostBatches = 16;
+
+/// Batches for the standard error: the largest divisor of the generations up to 16, so that all
+/// hold equally many; if that is under 8, as many as fit with slightly unequal shares.
+std::uint64_t batch_count(std::uint64_t generations) {
+    std::uint64_t best = 1;
+    for (std::uint64_t n = 1; n <= kMostBatches && n <= generations; ++n)
+        if (generations % n == 0) best = n;
+    const std::uint64_t most = generations < kMostBatches ? generations : kMostBatches;
+    return best >= 8 ? best : most;
+}
+
+bool wants_error(const Scene& scene) { return scene.output.layer_error; }
+
+std::uint64_t slot_count(const CollectorsRun& run) {
+    if (run.scene->animation.present && run.scene->animation.frames > 1) return run.generations;
+    return wants_error(*run.scene) ? batch_count(run.generations) : 1;
+}
+
+/// Decides what a collision stores, and proves that the sums hold it.
+Status plan_deposit(const Scene& scene, CollectorsRun& run) {
+    const CollectorSettings& c = scene.collectors;
+    DepositPlan& d = run.deposit;
+    d.bands = c.lobe_closure ? 2 : c.bands;
+    d.mode = c.paper ? kDepositOutgoing : kDepositIncident;
+    if (run.camera_cells > 0) d.mode = kDepositCamera;
+    const bool split = (c.first_order_split || run.camera_cells > 0) && run.lighting.sunlit;
+    d.first_order = !split ? 0 : (c.billboards && run.camera_cells == 0 ? 1 : 2);
+    d.coefficients = d.mode == kDepositCamera ? 1 : d.bands * d.bands + (d.first_order == 1 ? 1 : 0);
+    if (!split) run.plan.leave_out("first-order split", run.lighting.sunlit ? "switched off" : "no sun");
+
+    double largest = 1;  // first-order coefficients; |y| stays below 1.1 for 8 bands
+    if (d.bands > 6) largest = 1.1;
+    if (d.mode == kDepositCamera && double(phase_peak(run.medium.phase)) > largest)
+        largest = double(phase_peak(run.medium.phase));
+    double photons = 0;
+    for (const Light& l : run.lighting.lights) photons += double(l.photons);
+    d.places = fixed_point_places(photons * double(run.generations) * double(run.max_events), largest);
+    if (d.places < 0)
+        return Status::limit(scene.file + ": collectors.photons: " +
+                             std::to_string(scene.collectors.photons) +
+                             " photons could overflow the 64-bit sums; take fewer");
+    return Status::ok();
+}
+
+TraceInput trace_input(const Context& context, const CollectorsRun& run) {
+    TraceInput in;
+    in.medium = &run.medium;
+    in.lighting = &run.lighting;
+    in.majorants = run.prepared.majorants.span();
+    in.block = run.prepared.block;
+    in.collector_of_voxel = run.prepared.collector_of_voxel.span();
+    in.collectors = run.prepared.collectors.size();
+    in.deposit = run.deposit;
+    in.seed = std::uint64_t(run.scene->seed);
+    in.threads = context.threads;
+    in.kernels = context.kernels;
+    in.max_events = run.max_events;
+    return in;
+}
+
+Status allocate_photons(const Context& context, CollectorsRun& run) {
+    const TraceInput in = trace_input(context, run);
+    PILEUS_TRY(prepare_trace(in, run.scratch));
+    run.photons.tallies.assign(run.lighting.lights.size(), TraceTally{});
+    run.photons.slots.resize(std::size_t(slot_count(run)));
+    const std::uint64_t numbers = slot_stride(in) * run.lighting.lights.size();
+    for (PhotonSlot& slot : run.photons.slots) PILEUS_TRY(slot.sums.resize(numbers, "photon map"));
+    Plan& plan = run.plan;
+    plan.take("photon map", numbers * 8 * run.photons.slots.size());
+    plan.take("photon sums per thread", run.scratch.sums.bytes());
+    return Status::ok();
+}
+
+void note_plan(const Scene& scene, CollectorsRun& run) {
+    Plan& plan = run.plan;
+    plan.need("samples");
+    plan.need("tree");
+    plan.need("collectors");
+    plan.need("majorants");
+    for (const Light& l : run.lighting.lights) plan.need(("photons from the " + l.name).c_str());
+    plan.need(scene.collectors.billboards ? "billboards" : "marched display");
+    if (run.medium.channels == 1)
+        plan.leave_out("coefficients per colour channel", "achromatic medium: one set per light");
+    if (run.medium.albedo_max == 1) plan.leave_out("absorption", "albedo 1");
+    if (!scene.output.layer_error) plan.leave_out("batches", "no error layer");
+    if (!scene.collectors.billboards) plan.leave_out("billboards", "display = \"march\"");
+    if (scene.media.size() <= 1) plan.leave_out("mixing of media", "one medium");
+    plan.take("density", run.medium.volume.density.bytes());
+    plan.take("leaves", run.prepared.leaves.bytes());
+    plan.take("collectors", run.prepared.collectors.bytes());
+    plan.take("collector of voxel", run.prepared.collector_of_voxel.bytes());
+    plan.take("majorants",
+              run.prepared.majorants.bytes() + run.prepared.skip_majorants.bytes());
+}
+
+/// A scene without media still has a sky and a ground to show.
+Status empty_medium(const Scene& scene, Medium& medium) {
+    medium.low_m = scene.camera.target_m;
+    for (std::size_t a = 0; a < 3; ++a) {
+        medium.extent_m[a] = 1;
+        medium.volume.size[a] = medium.grid.size[a] = 1;
+        medium.grid.cell_m[a] = 1;
+    }
+    medium.phase = {kPhaseHg, 0, 0, 1};
+    return medium.volume.density.resize(1, "density");
+}
+
+}  // namespace
+
+Status collectors_prepare(const Scene& scene, std::int64_t photons, const Context& context,
+                          CollectorsRun& run) {
+    run.scene = &scene;
+    if (scene.media.size() > 1)
+        return Status::bad_input(scene.file + ": medium: " + std::to_string(scene.media.size()) +
+                                 " media, allowed: 1 in this version of method collectors");
+    {
+        const StageClock clock(context, "density");
+        PILEUS_TRY(scene.media.empty() ? empty_medium(scene, run.medium)
+                                       : load_medium(scene, scene.media[0], context.threads,
+                                                     run.medium));
+    }
+    run.generations = std::uint64_t(scene.collectors.generations);
+    if (photons >= 0 && std::uint64_t(photons) < run.generations)
+        run.generations = photons > 0 ? std::uint64_t(photons) : 1;
+    run.sun_elevation_deg = scene.sun.elevation_deg;
+    run.lighting = plan_lighting(scene, run.medium, run.sun_elevation_deg, run.plan);
+    share_photons(std::uint64_t(photons) / run.generations, run.lighting.lights);
+    PILEUS_TRY(plan_deposit(scene, run));
+    PILEUS_TRY(run.camera_cells > 0
+                   ? prepare_cells(run.medium, run.camera_cells, context, run.prepared)
+                   : prepare_collectors(run.medium, scene.collectors, scene.seed, context,
+                                        run.prepared));
+    PILEUS_TRY(prepare_majorants(run.medium, scene.collectors.local_tracking, context,
+                                 run.prepared));
+    note_plan(scene, run);
+    return allocate_photons(context, run);
+}
+
+Status collectors_set_sun(double elevation_deg, const Context&, CollectorsRun& run) {
+    if (elevation_deg == run.sun_elevation_deg) return Status::ok();
+    Plan ignored;
+    const std::vector<Light> before = run.lighting.lights;
+    Lighting next = plan_lighting(*run.scene, run.medium, elevation_deg, ignored);
+    // The set of lights is the ring's layout: a light that has set keeps its place, unlit.
+    std::vector<Light> lights = before;
+    for (Light& l : lights) {
+        const std::uint64_t photons = l.photons;
+        bool found = false;
+        for (const Light& n : next.lights)
+            if (n.stream == l.stream) l = n, found = true;
+        l.photons = photons;
+        if (!found) l.colour = {0, 0, 0};
+    }
+    next.lights = lights;
+    run.lighting = next;
+    run.sun_elevation_deg = elevation_deg;
+    run.shadow_ready = false;
+    return Status::ok();
+}
+
+Status collectors_shoot(const Context& context, CollectorsRun& run) {
+    const TraceInput in = trace_input(context, run);
+    PhotonSlot& slot = run.photons.slots[std::size_t(run.next_generation % run.photons.slots.size())];
+    // In an animation each generation has a slot of its own: the oldest gives way, exactly.
+    const bool ring = run.photons.slots.size() == run.generations && run.generations > 1 &&
+                      run.scene->animation.present;
+    if (ring && slot.generations > 0) {
+        std::memset(slot.sums.data(), 0, std::size_t(slot.sums.bytes()));
+        slot.generations = 0;
+    }
+    slot.flux_per_photon_m2.clear();
+    for (const Light& l : run.lighting.lights) {
+        slot.flux_per_photon_m2.push_back(l.photons > 0 ? l.power_m2 / double(l.photons) : 0);
+        if (l.beam) slot.sun_travel = l.travel;
+    }
+    PILEUS_TRY(trace_generation(in, run.next_generation, run.scratch, slot, run.photons.tallies));
+    ++run.next_generation;
+    return Status::ok();
+}
+
+}  // namespace pileus

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Method `collectors`: photons into virtual photon collectors, shown as billboards or marched.
+// in: a scene and its medium -> out: images, one per call of `show`.
+// Elek 2011 with the repairs of METHODS 3; docs/collectors.md.
+#pragma once
+#include "src/plan/plan.h"
+#include "src/stages/prepare.h"
+#include "src/stages/reconstruct.h"
+#include "src/stages/view.h"
+
+namespace pileus {
+
+/// Everything one run holds; made by `prepare`, lit by `shoot`, read by `show`.
+struct CollectorsRun {
+    const Scene* scene = nullptr;
+    Medium medium;
+    Plan plan;
+    Lighting lighting;
+    double sun_elevation_deg = 0;
+    Prepared prepared;
+    DepositPlan deposit;
+    Photons photons;
+    TraceScratch scratch;
+    std::uint64_t next_generation = 0, generations = 1;
+    std::uint32_t max_events = 1u << 20;
+    NodeGrid shadow_nodes{};
+    Buffer<float> shadow;        ///< optical depth to the sun per node
+    bool shadow_ready = false;
+    int camera_cells = 0;        ///< > 0: the camera-directed estimate on cells of so many voxels
+};
+
+/// Loads the medium, chooses what is needed, prepares the tree and allocates the sums.
+Status collectors_prepare(const Scene& scene, std::int64_t photons, const Context& context,
+                          CollectorsRun& run);
+
+/// Moves the sun; generations already shot keep the sun they were shot under.
+Status collectors_set_sun(double elevation_deg, const Context& context, CollectorsRun& run);
+
+/// Shoots one generation into its slot of the ring, replacing the oldest where it is full.
+Status collectors_shoot(const Context& context, CollectorsRun& run);
+
+/// Reconstructs and composites one picture.
+Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& run, Image& image);
+
+/// Fills the report's energy, counters and digests from the run.
+void collectors_report(const CollectorsRun& run, Report& report);
+
+}  // namespace pileus

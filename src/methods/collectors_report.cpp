@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a collectors run tells: energy, counters, digests per stage.
+// in: CollectorsRun -> out: Report.
+// INTERFACES "Report".
+#include "src/base/digest.h"
+#include "src/methods/collectors.h"
+
+namespace pileus {
+namespace {
+
+/// Binomial standard error of a share of n photons (fates are exclusive outcomes of each).
+double share_error(double share, double n) {
+    return n > 1 && share > 0 && share < 1 ? __builtin_sqrt(share * (1 - share) / (n - 1)) : 0;
+}
+
+EnergyRow energy_row(const std::string& light, const Fates& f) {
+    EnergyRow row;
+    row.light = light;
+    row.balance_quanta = f.emitted[0] - f.top[0] - f.bottom[0] - f.sides[0] - f.absorbed[0] -
+                         f.ground[0] - f.sky[0] - f.terminated[0];
+    const double unit = double(f.emitted[0]);
+    if (unit <= 0) return row;
+    const double photons = unit / double(kPhotonQuanta);
+    row.emitted = 1;
+    row.top = double(f.top[0]) / unit;
+    row.bottom = double(f.bottom[0]) / unit;
+    row.sides = double(f.sides[0]) / unit;
+    row.absorbed = double(f.absorbed[0]) / unit;
+    row.ground = double(f.ground[0]) / unit;
+    row.sky = double(f.sky[0]) / unit;
+    row.terminated = double(f.terminated[0]) / unit;
+    row.direct_bottom = double(f.direct_bottom[0]) / unit;
+    row.top_error = share_error(row.top, photons);
+    row.bottom_error = share_error(row.bottom, photons);
+    row.sides_error = share_error(row.sides, photons);
+    row.absorbed_error = share_error(row.absorbed, photons);
+    return row;
+}
+
+std::string leaf_digest(const CollectorsRun& run) {
+    Digest d;
+    for (const Leaf& leaf : run.prepared.leaves.span())
+        for (int a = 0; a < 3; ++a) {
+            d.u32(std::uint32_t(leaf.lo[a]));
+            d.u32(std::uint32_t(leaf.hi[a]));
+        }
+    return d.hex();
+}
+
+std::string collector_digest(const CollectorsRun& run) {
+    Digest d;
+    for (const Collector& c : run.prepared.collectors.span()) {
+        for (float x : c.centre) d.f32(x);
+        d.f32(c.billboard_radius);
+        d.f32(c.extinction);
+    }
+    return d.hex();
+}
+
+std::string photon_digest(const CollectorsRun& run) {
+    Digest d;
+    for (const PhotonSlot& slot : run.photons.slots) d.integers(slot.sums.span());
+    return d.hex();
+}
+
+std::string density_digest(const CollectorsRun& run) {
+    Digest d;
+    d.floats(run.medium.volume.density.span());
+    return d.hex();
+}
+
+}  // namespace
+
+void collectors_report(const CollectorsRun& run, Report& report) {
+    report.needed = run.plan.needed;
+    report.left_out.clear();
+    for (const LeftOut& l : run.plan.left_out) report.left_out.push_back({l.what, l.why});
+    report.bytes.clear();
+    for (const PlanItem& item : run.plan.items) report.bytes.push_back({item.name, item.bytes});
+    report.total_bytes = run.plan.total_bytes();
+
+    report.samples = run.prepared.samples;
+    report.leaves = run.prepared.leaves.size();
+    report.collectors = run.prepared.collectors.size();
+    report.generations = run.next_generation;
+    report.energy.clear();
+    TraceTally all{};
+    for (std::size_t l = 0; l < run.photons.tallies.size(); ++l) {
+        const TraceTally& t = run.photons.tallies[l];
+        add_tally(t, all);
+        report.energy.push_back(energy_row(run.lighting.lights[l].name, t.light));
+        if (t.shadow.emitted[0] > 0)
+            report.energy.push_back(
+                energy_row(run.lighting.lights[l].name + ": kept from the ground", t.shadow));
+    }
+    report.photons = std::uint64_t(all.photons);
+    report.scatterings = std::uint64_t(all.scatterings);
+    report.tentative = std::uint64_t(all.tentative);
+    report.crossings = std::uint64_t(all.crossings);
+    double diagonal = 0;
+    for (double e : run.medium.extent_m) diagonal += e * e;
+    if (all.photons > 0)
+        report.mean_path_m =
+            double(all.path) / 1048576.0 * __builtin_sqrt(diagonal) / double(all.photons);
+    report.counters.emplace_back("majorant_violations", std::uint64_t(all.majorant_violations));
+    report.counters.emplace_back("saturated", 0);  // fixed_point_places proves it
+    report.counters.emplace_back("samples_given_up", run.prepared.rejected);
+    report.digests.insert(report.digests.begin(), {{"density", density_digest(run)},
+                                                   {"leaves", leaf_digest(run)},
+                                                   {"collectors", collector_digest(run)},
+                                                   {"photons", photon_digest(run)}});
+}
+
+}  // namespace pileus

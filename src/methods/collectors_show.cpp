@@ -1,0 +1,201 @@
+// SPDX-License-Identifier: Apache-2.0
+// The picture of a lit collectors run: reconstruct, display, layers; and what the report tells.
+// in: CollectorsRun after shooting, a camera -> out: Image.
+// METHODS 3, each image frame, steps 4 and 5; repairs 3 and 4.
+#include "src/base/digest.h"
+#include "src/methods/collectors.h"
+#include "src/stages/composite_billboards.h"
+#include "src/stages/layers.h"
+#include "src/stages/source_grid.h"
+
+namespace pileus {
+namespace {
+
+constexpr float kCut = 1e-4f;            // transmittance that no eye misses
+constexpr float kSplatFactor = 1.2f;     // METHODS 3, repair 4
+constexpr double kShadowVoxels = 2;      // spacing of the shadow nodes
+constexpr std::uint64_t kNodeBudget = 1u << 19;  // nodes of the source grid, about
+
+MediumView view_of(const CollectorsRun& run) {
+    const Medium& m = run.medium;
+    MediumView v{};
+    float smallest = m.grid.cell_m[0];
+    for (int a = 0; a < 3; ++a) {
+        v.size[a] = m.grid.size[a];
+        v.cell[a] = m.grid.cell_m[a];
+        v.extent[a] = float(m.extent_m[a]);
+        v.blocks[a] = (m.grid.size[a] + run.prepared.skip_block - 1) / run.prepared.skip_block;
+        smallest = v.cell[a] < smallest ? v.cell[a] : smallest;
+    }
+    v.block = float(run.prepared.skip_block);
+    v.sigma = m.sigma;
+    v.step = smallest;
+    v.density = m.volume.density.data();
+    v.majorant = run.prepared.skip_majorants.data();
+    return v;
+}
+
+Status make_background(const Context& context, const CollectorsRun& run,
+                       const CameraParams& camera, Planes& planes) {
+    const StageClock clock(context, "background");
+    BackgroundParams k{};
+    k.medium = view_of(run);
+    k.camera = camera;
+    k.ground = run.lighting.ground ? 1 : 0;
+    k.ground_z = float(run.lighting.ground_z);
+    for (std::size_t c = 0; c < 3; ++c) {
+        k.sky[c] = float(run.lighting.sky[c]);
+        k.ground_diffuse[c] = float(run.lighting.ground_diffuse[c]);
+        k.ground_sun[c] = float(run.lighting.ground_sun[c]);
+        k.to_sun[c] = run.lighting.to_sun[c];
+    }
+    const BackgroundBuffers b{planes.background.data(), planes.opaque_depth.data()};
+    run_rows(context, context.kernels->background_rows, k, b, std::uint32_t(camera.height));
+    return Status::ok();
+}
+
+/// Optical depth towards the sun, once per position of the sun.
+Status make_shadow(const Context& context, CollectorsRun& run) {
+    if (run.shadow_ready || !run.lighting.sunlit || run.deposit.first_order != 2)
+        return Status::ok();
+    const StageClock clock(context, "shadow");
+    float coarse = 0;
+    for (float cell : run.medium.grid.cell_m) coarse = cell > coarse ? cell : coarse;
+    run.shadow_nodes = make_node_grid(run.medium.grid, run.medium.extent_m,
+                                      kShadowVoxels * double(coarse));
+    PILEUS_TRY(run.shadow.resize(node_count(run.shadow_nodes), "shadow"));
+    ShadowParams k{};
+    k.medium = view_of(run);
+    k.nodes = run.shadow_nodes;
+    for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = run.lighting.to_sun[a];
+    run_rows(context, context.kernels->shadow_rows, k, ShadowBuffers{run.shadow.data()},
+             std::uint32_t(k.nodes.size[1] * k.nodes.size[2]));
+    run.shadow_ready = true;
+    return Status::ok();
+}
+
+/// Spacing of the source nodes: what the budget allows, at least the cells of a cell estimate.
+double source_spacing(const CollectorsRun& run) {
+    const auto& e = run.medium.extent_m;
+    double smallest = double(run.medium.grid.cell_m[0]);
+    for (float cell : run.medium.grid.cell_m)
+        smallest = double(cell) < smallest ? double(cell) : smallest;
+    if (run.camera_cells > 0) return smallest * run.camera_cells;
+    double spacing = 2 * smallest;
+    while (e[0] * e[1] * e[2] > spacing * spacing * spacing * double(kNodeBudget)) spacing *= 1.25;
+    return spacing;
+}
+
+Status show_marched(const Context& context, CollectorsRun& run, const CameraParams& camera,
+                    const CollectorColours& colours, int channels, Planes& planes) {
+    PILEUS_TRY(make_shadow(context, run));
+    const NodeGrid nodes =
+        make_node_grid(run.medium.grid, run.medium.extent_m, source_spacing(run));
+    Buffer<float> source;
+    {
+        const StageClock clock(context, "splat");
+        PILEUS_TRY(splat_colours(run.prepared.collectors.span(), colours.colour.span(), channels,
+                                 nodes, kSplatFactor, context.threads, source));
+    }
+    const StageClock clock(context, "march");
+    MarchParams k{};
+    k.medium = view_of(run);
+    k.camera = camera;
+    k.phase = run.medium.phase;
+    for (std::size_t c = 0; c < 3; ++c) {
+        k.sun_travel[c] = -run.lighting.to_sun[c];
+        if (run.deposit.first_order == 2)
+            k.sun_source[c] = float(run.lighting.sun_irradiance[c] * double(run.medium.albedo[c]));
+        k.constant[c] = float(run.lighting.constant[c]);
+    }
+    k.shadow = run.shadow_nodes;
+    k.source = nodes;
+    k.channels = channels;
+    k.cut = kCut;
+    MarchBuffers b{};
+    b.optical_depth = run.shadow.data();
+    b.source = source.data();
+    b.opaque_depth = run.lighting.ground ? planes.opaque_depth.data() : nullptr;
+    b.transmittance = planes.transmittance.data();
+    b.half_depth = planes.half_depth.data();
+    b.colour = planes.colour.data();
+    run_rows(context, context.kernels->march_rows, k, b, std::uint32_t(camera.height));
+    return Status::ok();
+}
+
+Status show_billboards(const Context& context, CollectorsRun& run, const CameraParams& camera,
+                       const CollectorColours& colours, int channels, Planes& planes) {
+    const StageClock clock(context, "blend");
+    const std::size_t n = run.prepared.collectors.size();
+    Buffer<float> spheres;
+    PILEUS_TRY(spheres.resize(5 * n, "billboards"));
+    for (std::size_t i = 0; i < n; ++i) {
+        const Collector& c = run.prepared.collectors[i];
+        for (std::size_t a = 0; a < 3; ++a) spheres[a * n + i] = c.centre[a];
+        spheres[3 * n + i] = c.billboard_radius;
+        spheres[4 * n + i] = c.extinction * run.medium.sigma;
+    }
+    BillboardScene scene;
+    scene.x = spheres.data();
+    scene.y = scene.x + n;
+    scene.z = scene.y + n;
+    scene.radius = scene.z + n;
+    scene.extinction = scene.radius + n;
+    scene.colour = colours.colour.data();
+    scene.count = std::uint32_t(n);
+    scene.channels = channels;
+    scene.opaque_depth = run.lighting.ground ? planes.opaque_depth.data() : nullptr;
+    BillboardImage out;
+    PILEUS_TRY(composite_billboards(scene, camera, context.threads, context.kernels->blend_tile,
+                                    out));
+    planes.transmittance.swap(out.transmittance);
+    planes.half_depth.swap(out.half_depth);
+    planes.colour.swap(out.colour);
+    return Status::ok();
+}
+
+}  // namespace
+
+Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& run,
+                       Image& image) {
+    const Scene& scene = *run.scene;
+    const CameraParams camera = make_camera(scene.camera, orbit_deg, run.medium.low_m);
+    const bool marched = !scene.collectors.billboards || run.camera_cells > 0;
+    const std::size_t slots = run.photons.slots.size();
+    ReconstructInput in;
+    in.medium = &run.medium;
+    in.lighting = &run.lighting;
+    in.photons = &run.photons;
+    in.collectors = run.prepared.collectors.span();
+    in.camera = camera;
+    in.deposit = run.deposit;
+    in.closure = run.camera_cells > 0 ? Closure::kCamera
+                 : scene.collectors.lobe_closure ? Closure::kLobe : Closure::kSh;
+    in.window = scene.collectors.window;
+    in.batches = scene.output.layer_error && slots >= 2 && slots <= 16;
+    in.constant = !marched;
+    in.threads = context.threads;
+    CollectorColours colours;
+    {
+        const StageClock clock(context, "reconstruct");
+        PILEUS_TRY(reconstruct(in, colours));
+    }
+    const int channels = in.batches ? int(3 * (1 + slots)) : 3;
+    Planes planes;
+    PILEUS_TRY(allocate_planes(camera.width, camera.height, channels, planes));
+    PILEUS_TRY(make_background(context, run, camera, planes));
+    PILEUS_TRY(marched ? show_marched(context, run, camera, colours, channels, planes)
+                       : show_billboards(context, run, camera, colours, channels, planes));
+    Report& report = *context.report;
+    report.counters.clear();
+    PILEUS_TRY(make_layers(planes, camera.width, camera.height, channels, scene.output, image,
+                           report));
+    report.counters.emplace_back("clamped_negative", colours.clamped_negative);
+    set_image_camera(camera, run.medium.low_m, image);
+    Digest digest;
+    digest.floats(colours.colour.span());
+    report.digests.emplace_back("colours", digest.hex());
+    return Status::ok();
+}
+
+}  // namespace pileus

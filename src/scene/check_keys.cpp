@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// Walks a scene's tree beside the key table.
+// in: tree -> out: set fields of the Scene; faults for unknown, missing, ill-typed and wild keys.
+// Levenshtein 1966 for the distance between names.
+#include "src/scene/check_keys.h"
+
+#include <algorithm>
+
+namespace pileus {
+namespace {
+
+constexpr std::size_t kMaxMedia = 64;
+constexpr std::size_t kLongestName = 40;
+
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+    std::vector<std::size_t> row(b.size() + 1);
+    for (std::size_t j = 0; j <= b.size(); ++j) row[j] = j;
+    for (std::size_t i = 1; i <= a.size(); ++i) {
+        std::size_t diagonal = row[0];
+        row[0] = i;
+        for (std::size_t j = 1; j <= b.size(); ++j) {
+            const std::size_t above = row[j];
+            const std::size_t change = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
+            row[j] = std::min({above + 1, row[j - 1] + 1, change});
+            diagonal = above;
+        }
+    }
+    return row[b.size()];
+}
+
+std::string joined(const std::string& path, const std::string& key) {
+    return path.empty() ? key : path + "." + key;
+}
+
+/// A key as it appears in a path: plain names as they are, others quoted and made printable.
+std::string shown_key(const std::string& key) {
+    for (char ch : key) {
+        const bool plain = (ch >= 'a' && ch <= 'z') || (ch >= 'A' && ch <= 'Z') ||
+                           (ch >= '0' && ch <= '9') || ch == '_' || ch == '-';
+        if (!plain) return quote_text(key);
+    }
+    return key.empty() || key.size() > kLongestName ? quote_text(key) : key;
+}
+
+class Walker {
+public:
+    explicit Walker(SceneCheck& check) : check_(check), rows_(all_scene_keys()) {}
+
+    /// `path` names the table in messages, `pattern` in the key table ("medium.N" for an index).
+    void table(const Node& node, const std::string& path, const std::string& pattern,
+               MediumSettings& medium) {
+        for (const Node& child : node.children) {
+            if (check_.faults.full()) return;
+            member(child, joined(path, shown_key(child.key)), joined(pattern, child.key), medium);
+        }
+        missing(node, path, pattern);
+    }
+
+private:
+    void member(const Node& child, const std::string& path, const std::string& pattern,
+                MediumSettings& medium) {
+        const KeyRow* row = row_of(pattern);
+        if (row != nullptr) {
+            const bool valid = check_value(*row, child, path, check_.faults);
+            check_.found[path] = {&child, valid};
+            if (!valid) return;
+            if (row->kind == KeyKind::kDensity && child.is_table())
+                table(child, path, pattern, medium);
+            if (row->set != nullptr) row->set(child, {check_.scene, medium});
+        } else if (pattern == "medium") {
+            media(child);
+        } else if (is_section(pattern)) {
+            check_.found[path] = {&child, child.is_table()};
+            if (child.is_table()) return table(child, path, pattern, medium);
+            check_.faults.add(child.at, path,
+                              "wrong type, " + value_text(child) + ", allowed: a table");
+        } else {
+            unknown(child, path, pattern);
+        }
+    }
+
+    void media(const Node& node) {
+        bool good = node.is_array() && node.children.size() <= kMaxMedia;
+        if (node.is_array())
+            for (const Node& child : node.children) good = good && child.is_table();
+        if (!good) {
+            check_.faults.add(node.at, "medium",
+                              "wrong type or too many, " + value_text(node) +
+                                  ", allowed: up to 64 tables, each headed [[medium]]");
+            return;
+        }
+        check_.scene.media.resize(node.children.size());
+        for (std::size_t i = 0; i < node.children.size(); ++i)
+            table(node.children[i], "medium." + std::to_string(i), "medium.N",
+                  check_.scene.media[i]);
+    }
+
+    const KeyRow* row_of(const std::string& pattern) const {
+        for (const KeyRow* row : rows_)
+            if (pattern == row->path) return row;
+        return nullptr;
+    }
+
+    bool is_section(const std::string& pattern) const {
+        const std::string start = pattern + ".";
+        for (const KeyRow* row : rows_)
+            if (std::string_view(row->path).substr(0, start.size()) == start) return true;
+        return false;
+    }
+
+    /// Names that may stand in the table that `pattern` names.
+    std::vector<std::string> names_in(const std::string& pattern) const {
+        const std::string start = pattern.empty() ? "" : pattern + ".";
+        std::vector<std::string> names;
+        for (const KeyRow* row : rows_) {
+            const std::string_view path = row->path;
+            if (path.substr(0, start.size()) != start) continue;
+            const std::string name(
+                path.substr(start.size(), path.find('.', start.size()) - start.size()));
+            if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+        }
+        return names;
+    }
+
+    void unknown(const Node& child, const std::string& path, const std::string& pattern) {
+        const std::string parent =
+            pattern.substr(0, pattern.size() - std::min(pattern.size(), child.key.size() + 1));
+        const std::vector<std::string> names = names_in(parent);
+        std::string text = "unknown key, " + quote_text(child.key) + ", allowed: ";
+        for (std::size_t i = 0; i < names.size(); ++i) text += (i > 0 ? ", " : "") + names[i];
+        const std::string near = nearest_name(child.key, names);
+        const std::string elsewhere = near.empty() ? other_table(child.key) : near;
+        if (!elsewhere.empty()) text += "; did you mean " + elsewhere + "?";
+        check_.faults.add(child.key_at, path, text);
+    }
+
+    /// The full path of a key of this name in another table; empty if there is none.
+    std::string other_table(const std::string& key) const {
+        for (const KeyRow* row : rows_) {
+            const std::string path = row->path;
+            const std::size_t dot = path.rfind('.');
+            if (dot != std::string::npos && path.substr(dot + 1) == key) return path;
+        }
+        return "";
+    }
+
+    void missing(const Node& node, const std::string& path, const std::string& pattern) {
+        const std::string start = pattern.empty() ? "" : pattern + ".";
+        for (const KeyRow* row : rows_) {
+            const std::string_view full = row->path;
+            if (std::string_view(row->fallback) != kRequired) continue;
+            if (full.substr(0, start.size()) != start) continue;
+            const std::string name(full.substr(start.size()));
+            if (name.find('.') != std::string::npos || node.find(name) != nullptr) continue;
+            check_.faults.add(node.at, joined(path, name),
+                              "missing, nothing, allowed: " + allowed_text(*row));
+        }
+    }
+
+    SceneCheck& check_;
+    std::vector<const KeyRow*> rows_;
+};
+
+}  // namespace
+
+const Node* SceneCheck::key(const std::string& path) const {
+    const auto it = found.find(path);
+    return it == found.end() ? nullptr : it->second.node;
+}
+
+const Node* SceneCheck::valid_key(const std::string& path) const {
+    const auto it = found.find(path);
+    return it == found.end() || !it->second.valid ? nullptr : it->second.node;
+}
+
+std::string nearest_name(std::string_view name, const std::vector<std::string>& names) {
+    if (name.size() > kLongestName) return "";
+    std::size_t best = std::max<std::size_t>(2, name.size() / 3) + 1;
+    std::string nearest;
+    for (const std::string& candidate : names) {
+        const std::size_t distance = edit_distance(name, candidate);
+        // A name that would have to be rewritten altogether is no suggestion.
+        if (distance < best && distance < name.size()) {
+            best = distance;
+            nearest = candidate;
+        }
+    }
+    return nearest;
+}
+
+void check_keys(SceneCheck& check) {
+    Walker walker(check);
+    MediumSettings nowhere;
+    walker.table(check.root, "", "", nowhere);
+    // A scene needs a camera: an absent table lacks the same keys as an empty one.
+    if (check.root.find("camera") == nullptr) walker.table(Node(), "camera", "camera", nowhere);
+}
+
+}  // namespace pileus

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+// Laws between the keys of one medium.
+// in: keys that passed their own checks -> out: density kind, file and format; faults.
+// docs/scene.md, section Media.
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "src/scene/check_keys.h"
+
+namespace pileus {
+namespace {
+
+// A procedural cloud keeps its outermost layer of cells empty.
+constexpr int kLeastCells = 3;
+constexpr const char* kDensities =
+    "procedural:cumulus, uniform:box, uniform:sphere, uniform:ellipsoid, the path of a file";
+
+bool starts_with(const std::string& text, std::string_view start) {
+    return std::string_view(text).substr(0, start.size()) == start;
+}
+
+bool ends_with(const std::string& text, std::string_view end) {
+    return text.size() >= end.size() &&
+           std::string_view(text).substr(text.size() - end.size()) == end;
+}
+
+class MediumCheck {
+public:
+    MediumCheck(SceneCheck& check, std::size_t index)
+        : check_(check),
+          medium_(check.scene.media[index]),
+          path_("medium." + std::to_string(index) + ".") {}
+
+    void run() {
+        const Node* density = check_.valid_key(path_ + "density");
+        if (density != nullptr && set_density(*density)) {
+            if (medium_.density == DensityKind::kFile) {
+                file_keys(*density);
+            } else {
+                shape_keys(*density);
+            }
+        }
+        phase();
+        bounds();
+    }
+
+private:
+    void fault(const Node& node, const std::string& key, const std::string& text) {
+        check_.faults.add(node.at, path_ + key, text);
+    }
+
+    bool set_density(const Node& node) {
+        if (node.is_table()) {
+            const Node* file = check_.valid_key(path_ + "density.file");
+            medium_.density = DensityKind::kFile;
+            return file != nullptr && set_file(*file, "density.file");
+        }
+        if (node.text == "procedural:cumulus") {
+            medium_.density = DensityKind::kCumulus;
+        } else if (node.text == "uniform:box") {
+            medium_.density = DensityKind::kUniformBox;
+        } else if (node.text == "uniform:sphere") {
+            medium_.density = DensityKind::kUniformSphere;
+        } else if (node.text == "uniform:ellipsoid") {
+            medium_.density = DensityKind::kUniformEllipsoid;
+        } else if (starts_with(node.text, "procedural:") || starts_with(node.text, "uniform:")) {
+            fault(node, "density",
+                  "unknown value, " + value_text(node) + ", allowed: " + kDensities);
+            return false;
+        } else {
+            medium_.density = DensityKind::kFile;
+            return set_file(node, "density");
+        }
+        return true;
+    }
+
+    /// Takes a path over, with the folder of the real data in place of its variable.
+    bool set_file(const Node& node, const char* key) {
+        static constexpr std::string_view kVariable = "${PILEUS_DATA_DIR}";
+        medium_.file = node.text;
+        if (node.text.empty()) {
+            fault(node, key, std::string("empty, \"\", allowed: ") + kDensities);
+            return false;
+        }
+        if (starts_with(node.text, kVariable)) {
+            const char* folder = std::getenv("PILEUS_DATA_DIR");
+            if (folder == nullptr || folder[0] == '\0') {
+                fault(node, key,
+                      "environment variable PILEUS_DATA_DIR is not set, " + value_text(node) +
+                          ", allowed: set it to the folder that holds the data");
+                return false;
+            }
+            // The variable counts from the working directory, not from the scene's folder.
+            std::error_code error;
+            const std::filesystem::path whole = std::filesystem::absolute(folder, error);
+            medium_.file =
+                (error ? std::string(folder) : whole.string()) + node.text.substr(kVariable.size());
+        }
+        if (medium_.file.find("${") != std::string::npos) {
+            fault(node, key,
+                  "unknown variable, " + value_text(node) +
+                      ", allowed: ${PILEUS_DATA_DIR} at the front");
+            return false;
+        }
+        return true;
+    }
+
+    /// Keys of a file: its format must be known, and raw numbers need a type, a size and a place.
+    void file_keys(const Node& density) {
+        if (check_.key(path_ + "format") == nullptr) format_by_name(density);
+        for (const char* key : {"resolution", "shape_seed"})
+            if (const Node* node = check_.key(path_ + key))
+                fault(*node, key, "not for a file, " + value_text(*node) + ", allowed: left out");
+        if (medium_.format == "raw") {
+            for (const char* key : {"density.type", "density.size"})
+                if (check_.key(path_ + key) == nullptr)
+                    fault(density, key,
+                          "missing, nothing, allowed: density = { file = \"...\", "
+                          "type = \"float32\", size = [nx, ny, nz] }");
+            need_bounds(density);
+        } else {
+            for (const char* key : {"density.type", "density.size", "density.endian"})
+                if (const Node* node = check_.key(path_ + key))
+                    fault(*node, key,
+                          "for raw files only, " + value_text(*node) + ", allowed: left out");
+        }
+    }
+
+    void format_by_name(const Node& density) {
+        const bool raw_keys = check_.key(path_ + "density.type") != nullptr ||
+                              check_.key(path_ + "density.size") != nullptr;
+        if (raw_keys || ends_with(medium_.file, ".raw")) {
+            medium_.format = "raw";
+            return;
+        }
+        if (ends_with(medium_.file, ".pbrt")) {
+            medium_.format = "pbrt";
+            return;
+        }
+        bool later = false;
+        for (const char* end : {".vdb", ".nc", ".vol", ".les"})
+            later = later || ends_with(medium_.file, end);
+        fault(density, "density",
+              std::string(later ? "not in this version, " : "unknown kind of file, ") +
+                  quote_text(medium_.file) +
+                  ", allowed: .pbrt, .raw, or the key format = \"pbrt\"");
+    }
+
+    void shape_keys(const Node& density) {
+        if (const Node* node = check_.key(path_ + "format"))
+            fault(*node, "format", "for files only, " + value_text(*node) + ", allowed: left out");
+        if (const Node* node = check_.valid_key(path_ + "y_up"))
+            if (node->flag)
+                fault(*node, "y_up", "for files only, true, allowed: false or left out");
+        if (const Node* node = check_.key(path_ + "shape_seed"))
+            if (medium_.density != DensityKind::kCumulus)
+                fault(*node, "shape_seed",
+                      "for procedural:cumulus only, " + value_text(*node) + ", allowed: left out");
+        if (const Node* node = check_.valid_key(path_ + "resolution"))
+            if (medium_.density == DensityKind::kCumulus && least(medium_.resolution) < kLeastCells)
+                fault(*node, "resolution",
+                      "too coarse for procedural:cumulus, " + value_text(*node) +
+                          ", allowed: at least 3 along each axis");
+        need_bounds(density);
+    }
+
+    static int least(const std::array<int, 3>& cells) {
+        return std::min({cells[0], cells[1], cells[2]});
+    }
+
+    void need_bounds(const Node& density) {
+        if (check_.key(path_ + "bounds_m") == nullptr)
+            fault(density, "bounds_m",
+                  "missing, nothing, allowed: [[x, y, z], [x, y, z]], the "
+                  "lowest and highest corner in metres");
+    }
+
+    /// Each phase function has its own parameters: all of them, and no others.
+    void phase() {
+        const Node* type = check_.valid_key(path_ + "phase.type");
+        if (type == nullptr) return;
+        const bool one = medium_.phase.kind == PhaseKind::kHenyeyGreenstein;
+        const bool two = medium_.phase.kind == PhaseKind::kTwoLobe;
+        phase_key(*type, "phase.g", one);
+        for (const char* key : {"phase.g1", "phase.g2", "phase.weight"}) phase_key(*type, key, two);
+    }
+
+    void phase_key(const Node& type, const char* key, bool wanted) {
+        const Node* node = check_.key(path_ + key);
+        if (wanted && node == nullptr)
+            fault(type, key,
+                  "missing, nothing, allowed: a number, required by " + value_text(type));
+        if (!wanted && node != nullptr)
+            fault(*node, key,
+                  "conflicts with phase.type " + value_text(type) + ", " + value_text(*node) +
+                      ", allowed: left out");
+    }
+
+    void bounds() {
+        const Node* node = check_.valid_key(path_ + "bounds_m");
+        const Ground& ground = check_.scene.ground;
+        if (node == nullptr || !ground.present) return;
+        if (medium_.bounds_m[0][2] < ground.altitude_m)
+            fault(*node, "bounds_m",
+                  "below the ground, lowest z " + number_text(medium_.bounds_m[0][2]) +
+                      ", allowed: at least ground.altitude_m " + number_text(ground.altitude_m));
+    }
+
+    SceneCheck& check_;
+    MediumSettings& medium_;
+    std::string path_;
+};
+
+}  // namespace
+
+void check_medium(SceneCheck& check, std::size_t index) { MediumCheck(check, index).run(); }
+
+}  // namespace pileus

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// Laws between the keys of a scene that no single key can break.
+// in: keys that passed their own checks -> out: what is present, dependent defaults; faults.
+// docs/scene.md.
+#include <cmath>
+
+#include "src/scene/check_keys.h"
+
+namespace pileus {
+namespace {
+
+// Sine of the smallest angle between up and the view: below it the picture's axes lose precision.
+constexpr double kLeastSine = 1e-6;
+
+void conflict(SceneCheck& check, const char* key, const char* with) {
+    if (const Node* node = check.key(key))
+        check.faults.add(node->key_at, key,
+                         std::string("conflicts with ") + with + ", " + value_text(*node) +
+                             ", allowed: left out");
+}
+
+double length(const Double3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
+
+void check_camera(SceneCheck& check) {
+    const Camera& camera = check.scene.camera;
+    const Node* projection = check.key("camera.projection");
+    if (projection == nullptr || check.valid_key("camera.projection") != nullptr) {
+        if (camera.orthographic)
+            conflict(check, "camera.fov_deg", "projection \"orthographic\"");
+        else
+            conflict(check, "camera.height_m", "projection \"perspective\"");
+    }
+    const Node* target = check.valid_key("camera.target_m");
+    const Node* position = check.valid_key("camera.position_m");
+    const Node* up_node = check.key("camera.up");
+    const bool up_valid = up_node == nullptr || check.valid_key("camera.up") != nullptr;
+    if (up_valid && length(camera.up) == 0) {
+        check.faults.add(
+            up_node->at, "camera.up",
+            "no direction, " + value_text(*up_node) + ", allowed: any but the zero vector");
+        return;
+    }
+    if (target == nullptr || position == nullptr) return;
+    const Double3 &p = camera.position_m, &q = camera.target_m, &up = camera.up;
+    const Double3 view{q[0] - p[0], q[1] - p[1], q[2] - p[2]};
+    if (length(view) == 0) {
+        check.faults.add(
+            target->at, "camera.target_m",
+            "same as position_m, " + value_text(*target) + ", allowed: any other point");
+        return;
+    }
+    const Double3 cross{view[1] * up[2] - view[2] * up[1], view[2] * up[0] - view[0] * up[2],
+                        view[0] * up[1] - view[1] * up[0]};
+    if (up_valid && length(cross) <= kLeastSine * length(view) * length(up)) {
+        const Node& blamed = up_node != nullptr ? *up_node : *target;
+        check.faults.add(blamed.at, "camera.up",
+                         "parallel to the view, " +
+                             (up_node != nullptr ? value_text(*up_node) : "[0, 0, 1]") +
+                             ", allowed: any direction across target_m - position_m");
+    }
+}
+
+void check_ground(SceneCheck& check) {
+    const Node* position = check.valid_key("camera.position_m");
+    const Scene& scene = check.scene;
+    if (!scene.ground.present || position == nullptr) return;
+    if (scene.camera.position_m[2] < scene.ground.altitude_m)
+        check.faults.add(position->at, "camera.position_m",
+                         "below the ground, z " + number_text(scene.camera.position_m[2]) +
+                             ", allowed: at least ground.altitude_m " +
+                             number_text(scene.ground.altitude_m));
+}
+
+void check_output(SceneCheck& check) {
+    const Node* files = check.valid_key("output.files");
+    if (files == nullptr) return;
+    for (const Node& file : files->children) {
+        const std::string& name = file.text;
+        const std::size_t dot = name.rfind('.');
+        const std::string end = dot == std::string::npos ? "" : name.substr(dot);
+        if (end != ".exr" && end != ".png" && end != ".pfm")
+            check.faults.add(
+                file.at, "output.files",
+                "unknown kind of picture, " + quote_text(name) + ", allowed: .exr, .png, .pfm");
+    }
+}
+
+void check_animation(SceneCheck& check) {
+    if (check.scene.sun.present) return;
+    conflict(check, "animation.sun_elevation_deg", "a scene without a sun");
+}
+
+/// The first document's variant asks for its own display, sampler and split unless told otherwise.
+void fill_paper_defaults(SceneCheck& check) {
+    CollectorSettings& settings = check.scene.collectors;
+    if (!settings.paper) return;
+    if (check.key("collectors.display") == nullptr) settings.billboards = true;
+    if (check.key("collectors.sampler") == nullptr) settings.rejection_sampler = true;
+    if (check.key("collectors.first_order_split") == nullptr) settings.first_order_split = false;
+}
+
+}  // namespace
+
+void check_scene(SceneCheck& check) {
+    Scene& scene = check.scene;
+    scene.sun.present = check.key("sun") != nullptr;
+    scene.sky.present = check.key("sky") != nullptr;
+    scene.ground.present = check.key("ground") != nullptr;
+    scene.animation.present = check.key("animation") != nullptr;
+    check_camera(check);
+    check_ground(check);
+    check_output(check);
+    check_animation(check);
+    fill_paper_defaults(check);
+    for (std::size_t i = 0; i < scene.media.size(); ++i) check_medium(check, i);
+}
+
+}  // namespace pileus

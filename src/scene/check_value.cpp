@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// Checks the type, size and range of one value.
+// in: a row of the key table and a node -> out: true, or a fault that says what is allowed.
+// docs/scene.md, section Messages.
+#include "src/scene/check_keys.h"
+
+namespace pileus {
+namespace {
+
+constexpr std::size_t kMaxTexts = 16;
+
+struct ValueCheck {
+    const KeyRow& row;
+    const std::string& path;
+    FaultList& faults;
+
+    bool fault(const Node& node, const char* what) const {
+        faults.add(node.at, path,
+                   std::string(what) + ", " + value_text(node) + ", allowed: " + allowed_text(row));
+        return false;
+    }
+
+    bool number(const Node& node) const {
+        if (!node.is_number()) return fault(node, "wrong type");
+        const double value = number_of(node);
+        // Refuse NaN and the infinities apart from the range: no comparison holds for NaN.
+        if (!(value - value == 0)) return fault(node, "not finite");
+        const KeyRange& r = row.range;
+        const bool low = r.low_open ? value > r.low : value >= r.low;
+        const bool high = r.high_open ? value < r.high : value <= r.high;
+        return (low && high) || fault(node, "out of range");
+    }
+
+    bool integer(const Node& node) const {
+        if (!number(node)) return false;
+        if (node.kind == NodeKind::kInteger) return true;
+        // Accept 5e6 for a count: a whole number that a double holds exactly.
+        const bool exact = node.number > -0x1p53 && node.number < 0x1p53;
+        if (exact && node.number == static_cast<double>(static_cast<std::int64_t>(node.number)))
+            return true;
+        return fault(node, "not a whole number");
+    }
+
+    template <class Element>
+    bool list(const Node& node, std::size_t count, Element element) const {
+        if (!node.is_array()) return fault(node, "wrong type");
+        if (node.children.size() != count) return fault(node, "wrong length");
+        bool good = true;
+        for (const Node& child : node.children) good = element(child) && good;
+        return good;
+    }
+
+    bool numbers(const Node& node, std::size_t count) const {
+        return list(node, count, [this](const Node& n) { return number(n); });
+    }
+    bool integers(const Node& node, std::size_t count) const {
+        return list(node, count, [this](const Node& n) { return integer(n); });
+    }
+
+    bool bounds(const Node& node) const {
+        if (!list(node, 2, [this](const Node& corner) { return numbers(corner, 3); })) return false;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const Node &low = node.children[0].children[i], &high = node.children[1].children[i];
+            if (!(number_of(low) < number_of(high))) return fault(node, "inverted or empty");
+        }
+        return true;
+    }
+
+    bool text(const Node& node) const {
+        if (!node.is_text()) return fault(node, "wrong type");
+        // A null byte would cut a file name short without a word.
+        if (node.text.find('\0') != std::string::npos) return fault(node, "null byte in text");
+        if (row.choices == nullptr) return true;
+        for (std::string_view choice : split_list(row.choices))
+            if (node.text == choice) return true;
+        if (row.later != nullptr)
+            for (std::string_view later : split_list(row.later))
+                if (node.text == later) return fault(node, "not in this version");
+        return fault(node, "unknown value");
+    }
+
+    bool texts(const Node& node) const {
+        if (!node.is_array()) return fault(node, "wrong type");
+        if (node.children.size() > kMaxTexts) return fault(node, "too many");
+        bool good = true;
+        for (std::size_t i = 0; i < node.children.size(); ++i) {
+            const Node& child = node.children[i];
+            bool once = true;
+            for (std::size_t j = 0; j < i; ++j) once = once && node.children[j].text != child.text;
+            good = text(child) && (once || fault(child, "given twice")) && good;
+        }
+        return good;
+    }
+};
+
+}  // namespace
+
+bool check_value(const KeyRow& row, const Node& node, const std::string& path, FaultList& faults) {
+    const ValueCheck check{row, path, faults};
+    switch (row.kind) {
+        case KeyKind::kBool:
+            return node.kind == NodeKind::kBool || check.fault(node, "wrong type");
+        case KeyKind::kInteger:
+            return check.integer(node);
+        case KeyKind::kInteger2:
+            return check.integers(node, 2);
+        case KeyKind::kInteger3:
+            return check.integers(node, 3);
+        case KeyKind::kNumber:
+            return check.number(node);
+        case KeyKind::kNumber2:
+            return check.numbers(node, 2);
+        case KeyKind::kNumber3:
+            return check.numbers(node, 3);
+        case KeyKind::kColor:
+            return node.is_array() ? check.numbers(node, 3) : check.number(node);
+        case KeyKind::kBounds:
+            return check.bounds(node);
+        case KeyKind::kText:
+            return check.text(node);
+        case KeyKind::kTexts:
+            return check.texts(node);
+        case KeyKind::kDensity:
+            return node.is_table() || node.is_text() || check.fault(node, "wrong type");
+        case KeyKind::kTable:
+            return node.is_table() || check.fault(node, "wrong type");
+        case KeyKind::kLater:
+            break;
+    }
+    faults.add(node.key_at, path,
+               "not in this version, " + value_text(node) + ", allowed: nothing");
+    return false;
+}
+
+}  // namespace pileus

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// The way of a scene: bytes, tree, overrides, keys, laws.
+// in: a file or text -> out: a checked Scene, or all of its faults.
+// docs/scene.md.
+#include "src/scene/read_scene.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+
+#include "src/scene/check_keys.h"
+#include "src/scene/overrides.h"
+
+namespace pileus {
+namespace {
+
+struct CloseFile {
+    void operator()(std::FILE* file) const { std::fclose(file); }
+};
+
+Status too_long(const std::string& name) {
+    return Status::limit(name + ": scene text too long, allowed: at most " +
+                         std::to_string(kMaxSceneBytes) + " bytes");
+}
+
+Status read_text(const std::string& path, std::string& text) {
+    const std::string allowed = ", allowed: a readable TOML file";
+    std::error_code error;
+    if (std::filesystem::is_directory(path, error))
+        return Status::bad_input(path + ": is a folder" + allowed);
+    std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
+    if (file == nullptr) {
+        const bool there = std::filesystem::exists(path, error);
+        return Status::bad_input(path + (there ? ": cannot be opened" : ": no such file") +
+                                 allowed);
+    }
+    char block[16384];
+    for (;;) {
+        const std::size_t got = std::fread(block, 1, sizeof block, file.get());
+        text.append(block, got);
+        if (text.size() > kMaxSceneBytes) return too_long(path);
+        if (got < sizeof block) break;
+    }
+    if (std::ferror(file.get())) return Status::io(path + ": reading failed half way");
+    return Status::ok();
+}
+
+}  // namespace
+
+std::string scene_path(const std::string& directory, const std::string& file) {
+    if (directory.empty() || (!file.empty() && file[0] == '/')) return file;
+    return directory.back() == '/' ? directory + file : directory + "/" + file;
+}
+
+Status read_scene_text(const std::string& text, const std::string& name,
+                       const std::string& directory, const std::vector<std::string>& overrides,
+                       Scene& out) {
+    if (text.size() > kMaxSceneBytes) return too_long(name);
+    Node root;
+    FaultList faults(name, overrides);
+    SyntaxFault syntax;
+    if (!parse_toml(text, root, syntax)) {
+        Place place;
+        place.line = syntax.line;
+        place.column = syntax.column;
+        faults.add(place, "", "not TOML, " + syntax.what);
+        return faults.status();
+    }
+    apply_overrides(overrides, root, faults);
+    Scene scene;
+    SceneCheck check{scene, root, faults, {}};
+    check_keys(check);
+    check_scene(check);
+    PILEUS_TRY(faults.status());
+    scene.text = text;
+    scene.file = name;
+    scene.directory = directory;
+    out = std::move(scene);
+    return Status::ok();
+}
+
+Status read_scene_file(const std::string& path, const std::vector<std::string>& overrides,
+                       Scene& out) {
+    std::string text;
+    PILEUS_TRY(read_text(path, text));
+    return read_scene_text(text, path, std::filesystem::path(path).parent_path().string(),
+                           overrides, out);
+}
+
+}  // namespace pileus

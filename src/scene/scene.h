@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+// The scene as a user wrote it, after checking: plain values in the units of the keys.
+// in: TOML (docs/scene.md) -> out: this struct, read only afterwards.
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace pileus {
+
+using Double3 = std::array<double, 3>;
+using Float3 = std::array<float, 3>;
+
+struct Camera {
+    Double3 position_m{0, -3000, 600}, target_m{0, 0, 900}, up{0, 0, 1};
+    bool orthographic = false;
+    double fov_deg = 40;      ///< vertical, perspective only; in (0, 180)
+    double height_m = 2000;   ///< orthographic only; > 0
+    std::array<int, 2> resolution{960, 540};
+};
+
+struct Sun {
+    bool present = false;
+    double azimuth_deg = 0;    ///< from +y (north) towards +x (east)
+    double elevation_deg = 45; ///< [-90, 90]
+    Float3 irradiance{1, 1, 1};
+};
+
+struct Sky {
+    bool present = false;
+    Float3 radiance{0, 0, 0};
+};
+
+struct Ground {
+    bool present = false;
+    double altitude_m = 0, albedo = 0.2;
+};
+
+enum class DensityKind { kCumulus, kUniformBox, kUniformSphere, kUniformEllipsoid, kFile };
+enum class PhaseKind { kIsotropic, kRayleigh, kHenyeyGreenstein, kTwoLobe };
+
+struct PhaseSettings {
+    PhaseKind kind = PhaseKind::kIsotropic;
+    double g = 0;                       ///< HG; [-1, 1]
+    double g1 = 0, g2 = 0, weight = 1;  ///< two-lobe: weight*HG(g1) + (1-weight)*HG(g2)
+};
+
+enum class RawType { kUint8, kUint16, kFloat32 };
+
+struct MediumSettings {
+    DensityKind density = DensityKind::kCumulus;
+    std::string file;    ///< as written, relative to the scene file
+    std::string format;  ///< "pbrt", "raw"; empty: by extension
+    RawType raw_type = RawType::kFloat32;
+    std::array<int, 3> raw_size{0, 0, 0};
+    bool raw_big_endian = false;
+    bool has_bounds = false;
+    std::array<Double3, 2> bounds_m{};
+    std::array<int, 3> resolution{0, 0, 0};  ///< procedural and uniform shapes; 0: a default
+    std::int64_t shape_seed = 0;             ///< another cumulus for each; key `shape_seed`
+    double extinction_per_m = 0;             ///< at density 1
+    Float3 albedo{1, 1, 1};
+    PhaseSettings phase;
+    bool y_up = false;
+};
+
+struct CollectorSettings {
+    std::int64_t photons = 5'000'000;  ///< over the whole ring
+    int generations = 50;
+    int bands = 4;                     ///< 1..8
+    int samples = 20'000;
+    bool local_tracking = true;
+    bool lobe_closure = false;         ///< closure = "lobe"
+    bool paper = false;                ///< variant = "paper"
+    bool billboards = false;           ///< display = "billboards"
+    bool rejection_sampler = false;    ///< sampler = "rejection" (paper) or "stratified"
+    bool variance_field = false;       ///< placement = "variance" or "gradient"
+    int variance_radius = 2;           ///< voxels, 1..8
+    double density_range = 0.1;        ///< stop splitting below this range of density; [0, 1]
+    double influence_radius = 0.05;    ///< of a sample, as a share of the box's diagonal; (0, 1]
+    double radius_factor = 1.35;       ///< billboard radius over r; best only; [1, 3]
+    bool first_order_split = true;
+    bool window = false;               ///< sinc window against ringing
+};
+
+struct OutputSettings {
+    std::vector<std::string> files;    ///< relative to the working directory
+    std::string report;
+    bool layer_depth = false, layer_error = false, layer_cloud = false;
+};
+
+struct Animation {
+    bool present = false;
+    int frames = 1;
+    std::array<double, 2> camera_orbit_deg{0, 0}, sun_elevation_deg{0, 0};
+    bool moves_camera = false, moves_sun = false;
+};
+
+struct Scene {
+    std::int64_t seed = 0;
+    Camera camera;
+    Sun sun;
+    Sky sky;
+    Ground ground;
+    std::vector<MediumSettings> media;
+    std::string method = "collectors";
+    CollectorSettings collectors;
+    std::int64_t path_samples_per_pixel = 64;
+    OutputSettings output;
+    Animation animation;
+    std::string text;       ///< the file's own text
+    std::string file;       ///< name for messages
+    std::string directory;  ///< paths in the scene are relative to it
+};
+
+}  // namespace pileus

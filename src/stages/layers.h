@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// From composited planes to the layers of an image file.
+// in: media's light, transmittance, depths, background -> out: R G B A, cloud.*, Z, error.*.
+// INTERFACES "Images".
+#pragma once
+#include "src/base/buffer.h"
+#include "src/base/report.h"
+#include "src/io/image.h"
+#include "src/scene/scene.h"
+
+namespace pileus {
+
+/// Planes of one picture, rows from the top. `colour` is [3 * (1 + batches)][pixel].
+struct Planes {
+    Buffer<float> transmittance, half_depth, colour;
+    Buffer<float> background;    ///< [3][pixel]
+    Buffer<float> opaque_depth;  ///< [pixel]; infinity for the sky
+};
+
+Status allocate_planes(int width, int height, int channels, Planes& planes);
+
+/// Fills the image's channels and the report's error figures; counts pixels that are not finite.
+Status make_layers(const Planes& planes, int width, int height, int channels,
+                   const OutputSettings& output, Image& image, Report& report);
+
+}  // namespace pileus

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// See lights.h.
+#include "src/stages/lights.h"
+
+#include "src/base/angles.h"
+
+namespace pileus {
+namespace {
+
+constexpr double kPiD = 3.14159265358979323846;
+
+double luminance_of(const std::array<double, 3>& c) {
+    return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
+}
+double magnitude(double v) { return v < 0 ? -v : v; }
+
+/// Area of one face across `axis`.
+double face_area(const Medium& m, int axis) {
+    return m.extent_m[(axis + 1) % 3] * m.extent_m[(axis + 2) % 3];
+}
+
+/// Turns the flux through each face into shares and their sum.
+void set_faces(const double (&flux)[6], Light& light) {
+    double total = 0, sum = 0;
+    for (double f : flux) total += f;
+    light.power_m2 = total;
+    for (std::size_t f = 0; f < 6; ++f) {
+        sum += flux[f];
+        light.face_cdf[f] = total > 0 ? float(sum / total) : 1.0f;
+    }
+    light.face_cdf[5] = 1.0f;
+}
+
+bool any_positive(const std::array<double, 3>& c) { return c[0] > 0 || c[1] > 0 || c[2] > 0; }
+
+}  // namespace
+
+Light diffuse_light(const Medium& medium, int hemisphere) {
+    Light light;
+    light.hemisphere = hemisphere;
+    double flux[6];
+    for (int f = 0; f < 6; ++f) {
+        // Half of what a side face receives comes from each hemisphere; the top face is reached
+        // only by light that travels down, the bottom only by light that travels up.
+        double share = hemisphere == 0 ? 1.0 : 0.5;
+        if (f == 4 && hemisphere != 0) share = hemisphere > 0 ? 1.0 : 0.0;
+        if (f == 5 && hemisphere != 0) share = hemisphere < 0 ? 1.0 : 0.0;
+        flux[f] = kPiD * share * face_area(medium, f / 2);
+    }
+    set_faces(flux, light);
+    return light;
+}
+
+Light beam_light(const Medium& medium, const std::array<double, 3>& travel) {
+    Light light;
+    light.beam = true;
+    double flux[6] = {};
+    for (std::size_t a = 0; a < 3; ++a) {
+        const double area = magnitude(travel[a]) * face_area(medium, int(a));
+        flux[2 * a + (travel[a] > 0 ? 0 : 1)] = area;
+        light.travel[a] = float(travel[a]);
+    }
+    set_faces(flux, light);
+    return light;
+}
+
+void share_photons(std::uint64_t per_generation, std::vector<Light>& lights) {
+    double total = 0;
+    for (const Light& l : lights) total += magnitude(luminance_of(l.colour)) * l.power_m2;
+    for (Light& l : lights) {
+        const double power = magnitude(luminance_of(l.colour)) * l.power_m2;
+        const double share = total > 0 ? power / total : 1.0 / double(lights.size());
+        l.photons = std::uint64_t(double(per_generation) * share + 0.5);
+        if (l.photons == 0 && per_generation > 0) l.photons = 1;
+    }
+}
+
+Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elevation_deg,
+                       Plan& plan) {
+    Lighting out;
+    const bool dark = medium.sigma <= 0 || medium.density_max <= 0;
+    const bool white = medium.albedo[0] == 1 && medium.albedo[1] == 1 && medium.albedo[2] == 1;
+    const SineCosine el = sincos_deg(sun_elevation_deg), az = sincos_deg(scene.sun.azimuth_deg);
+    const std::array<double, 3> to_sun{az.sine * el.cosine, az.cosine * el.cosine, el.sine};
+    for (std::size_t c = 0; c < 3; ++c) {
+        out.to_sun[c] = float(to_sun[c]);
+        if (scene.sky.present) out.sky[c] = double(scene.sky.radiance[c]);
+        if (scene.sun.present) out.sun_irradiance[c] = double(scene.sun.irradiance[c]);
+    }
+    out.ground = scene.ground.present;
+    out.sunlit = any_positive(out.sun_irradiance);
+    if (out.sunlit && out.ground && to_sun[2] <= 0) {
+        out.sunlit = false;
+        plan.leave_out("sun", "below the ground's horizon");
+    }
+    if (!out.sunlit) out.sun_irradiance = {};
+    if (out.ground) {
+        out.ground_z = scene.ground.altitude_m - medium.low_m[2];
+        out.ground_albedo = scene.ground.albedo;
+        for (std::size_t c = 0; c < 3; ++c) {
+            out.ground_diffuse[c] = out.ground_albedo * out.sky[c];
+            out.ground_sun[c] = out.ground_albedo / kPiD * out.sun_irradiance[c] * to_sun[2];
+        }
+    } else {
+        plan.leave_out("ground bounce", "no ground");
+    }
+    if (dark) {
+        plan.leave_out("photons", "no medium to scatter them");
+        return out;
+    }
+
+    if (out.sunlit) {
+        Light sun = beam_light(medium, {-to_sun[0], -to_sun[1], -to_sun[2]});
+        sun.name = "sun";
+        sun.colour = out.sun_irradiance;
+        sun.stream = 1;
+        out.lights.push_back(sun);
+    } else if (!scene.sun.present || scene.ground.present == false) {
+        plan.leave_out("sun photons", "no sunlight");
+    }
+
+    // A white medium in a uniform field shows that field everywhere, whatever its shape: take the
+    // sky's radiance out as a constant, and light the cloud from below by what the ground's
+    // radiance differs from it.
+    const bool lit_sky = any_positive(out.sky);
+    std::array<double, 3> below{};
+    for (std::size_t c = 0; c < 3; ++c) below[c] = out.ground_diffuse[c] + out.ground_sun[c];
+    if (white && lit_sky) {
+        out.constant = out.sky;
+        plan.leave_out("sky photons", "constant sky and albedo 1: the furnace identity");
+        for (std::size_t c = 0; c < 3; ++c) below[c] -= out.sky[c];
+    } else if (lit_sky) {
+        Light sky = diffuse_light(medium, out.ground ? -1 : 0);
+        sky.name = "sky";
+        sky.colour = out.sky;
+        sky.stream = 2;
+        out.lights.push_back(sky);
+    } else {
+        plan.leave_out("sky photons", "no sky");
+    }
+    if (out.ground && (below[0] != 0 || below[1] != 0 || below[2] != 0)) {
+        Light ground = diffuse_light(medium, 1);
+        ground.name = "ground";
+        ground.colour = below;
+        ground.stream = 3;
+        out.lights.push_back(ground);
+    }
+    return out;
+}
+
+}  // namespace pileus

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which lights a scene needs photons from, and how many each.
+// in: sun, sky, ground, medium -> out: a list of lights with power, and what is left out and why.
+// METHODS 3 "Shoot"; docs/collectors.md derives the ground and the furnace identity.
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "src/plan/plan.h"
+#include "src/stages/medium.h"
+
+namespace pileus {
+
+/// A light that shoots photons. Its radiance (diffuse) or irradiance on a plane facing it (beam)
+/// is `colour`; `power_m2` is its flux into the box per unit of that.
+struct Light {
+    std::string name;
+    bool beam = false;
+    int hemisphere = 0;  ///< diffuse: 0 all directions, -1 travelling down, +1 travelling up
+    std::array<float, 3> travel{0, 0, -1};
+    std::array<double, 3> colour{};
+    double power_m2 = 0;
+    std::array<float, 6> face_cdf{};
+    std::uint64_t photons = 0;  ///< per generation
+    std::uint32_t stream = 0;   ///< of random numbers; one per kind of light
+};
+
+/// Everything about illumination that is not in the medium.
+struct Lighting {
+    std::vector<Light> lights;
+    std::array<double, 3> constant{};   ///< source everywhere in the medium (furnace identity)
+    bool sunlit = false;
+    std::array<float, 3> to_sun{0, 0, 1};
+    std::array<double, 3> sun_irradiance{};
+    std::array<double, 3> sky{};
+    bool ground = false;
+    double ground_z = 0;                ///< m, box-local
+    double ground_albedo = 0;
+    std::array<double, 3> ground_diffuse{}, ground_sun{};  ///< radiance of the unshadowed ground
+};
+
+/// Works out the lights and notes in `plan` what was left out.
+Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elevation_deg,
+                       Plan& plan);
+
+/// Shares `per_generation` photons among the lights by power; every light with power gets one.
+void share_photons(std::uint64_t per_generation, std::vector<Light>& lights);
+
+/// A diffuse light on the box's faces: all directions, or one hemisphere of travel.
+Light diffuse_light(const Medium& medium, int hemisphere);
+
+/// A beam travelling along `travel` over the box's silhouette.
+Light beam_light(const Medium& medium, const std::array<double, 3>& travel);
+
+}  // namespace pileus

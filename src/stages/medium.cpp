@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// See medium.h.
+#include "src/stages/medium.h"
+
+#include "src/io/volume_file.h"
+#include "src/scene/read_scene.h"
+#include "src/volume/cumulus.h"
+#include "src/volume/shapes.h"
+
+namespace pileus {
+namespace {
+
+PhaseParams phase_params(const PhaseSettings& phase) {
+    switch (phase.kind) {
+        case PhaseKind::kRayleigh: return {kPhaseRayleigh, 0, 0, 1};
+        case PhaseKind::kTwoLobe:
+            return {kPhaseTwoLobe, float(phase.g1), float(phase.g2), float(phase.weight)};
+        case PhaseKind::kHenyeyGreenstein: return {kPhaseHg, float(phase.g), 0, 1};
+        case PhaseKind::kIsotropic: break;
+    }
+    return {kPhaseHg, 0, 0, 1};
+}
+
+Status load_density(const Scene& scene, const MediumSettings& settings, int threads,
+                    Volume& volume) {
+    if (settings.density == DensityKind::kFile) {
+        const std::string path = scene_path(scene.directory, settings.file);
+        PILEUS_TRY(read_volume(settings, path, volume));
+        if (settings.y_up) PILEUS_TRY(permute_y_up(volume));
+        return Status::ok();
+    }
+    if (settings.density != DensityKind::kCumulus)
+        return make_shape(settings.density, settings.resolution, volume);
+    CumulusSettings cumulus;
+    if (settings.resolution[0] > 0) cumulus.resolution = settings.resolution;
+    cumulus.seed = settings.shape_seed;
+    for (std::size_t a = 0; a < 3; ++a)
+        cumulus.extent_m[a] = settings.bounds_m[1][a] - settings.bounds_m[0][a];
+    return make_cumulus(cumulus, threads, volume);
+}
+
+}  // namespace
+
+Status load_medium(const Scene& scene, const MediumSettings& settings, int threads, Medium& out) {
+    PILEUS_TRY(load_density(scene, settings, threads, out.volume));
+    if (!settings.has_bounds && !out.volume.knows_bounds)
+        return Status::bad_input(scene.file + ": medium.0.bounds_m: left out, and the file \"" +
+                                 settings.file + "\" does not know its place");
+    const auto& bounds = settings.has_bounds ? settings.bounds_m : out.volume.bounds_m;
+    out.low_m = bounds[0];
+    for (std::size_t a = 0; a < 3; ++a) {
+        out.extent_m[a] = bounds[1][a] - bounds[0][a];
+        out.grid.size[a] = out.volume.size[a];
+        out.grid.cell_m[a] = float(out.extent_m[a] / out.volume.size[a]);
+    }
+    for (float density : out.volume.density.span())
+        if (density > out.density_max) out.density_max = density;
+    out.sigma = float(settings.extinction_per_m);
+    out.albedo = settings.albedo;
+    out.albedo_max = 0;
+    for (float albedo : settings.albedo)
+        if (albedo > out.albedo_max) out.albedo_max = albedo;
+    const bool grey = settings.albedo[0] == settings.albedo[1] &&
+                      settings.albedo[1] == settings.albedo[2];
+    out.channels = grey ? 1 : 3;
+    out.phase = phase_params(settings.phase);
+    return Status::ok();
+}
+
+}  // namespace pileus

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// See prepare.h.
+#include "src/stages/prepare.h"
+
+#include "src/stages/prepare_collectors.h"
+#include "src/stages/prepare_field.h"
+#include "src/stages/prepare_leaves.h"
+#include "src/stages/prepare_majorant.h"
+#include "src/stages/prepare_tree.h"
+
+namespace pileus {
+namespace {
+
+Status draw_samples(const Medium& medium, const CollectorSettings& settings, std::int64_t seed,
+                    int threads, SampleSet& set) {
+    const Span<const float> density = medium.volume.density.span();
+    Buffer<float> field;
+    FieldStats stats;
+    PILEUS_TRY(field.resize(density.size, "gradient field"));
+    PILEUS_TRY(settings.variance_field
+                   ? local_variance(density, medium.grid, settings.variance_radius, threads,
+                                    field.span(), stats)
+                   : gradient_magnitude(density, medium.grid, threads, field.span(), stats));
+    SampleOptions options;
+    options.count = std::uint32_t(settings.samples);
+    options.seed = std::uint64_t(seed);
+    options.stream = 8;
+    return settings.rejection_sampler
+               ? sample_rejection(field.span(), stats, density, medium.grid, options, threads, set)
+               : sample_stratified(field.span(), stats, density, medium.grid, options, threads,
+                                   set);
+}
+
+/// Leaf numbers become collector numbers, voxel by voxel.
+void name_collectors(Span<const Leaf> leaves, int threads, const Grid& grid,
+                     Span<std::int32_t> of_voxel) {
+    const std::size_t slice = std::size_t(grid.size[0]) * std::size_t(grid.size[1]);
+    parallel_for(threads, grid.size[2], [&](std::int64_t z, int) {
+        for (std::size_t i = std::size_t(z) * slice; i < (std::size_t(z) + 1) * slice; ++i)
+            of_voxel[i] = leaves[std::size_t(of_voxel[i])].collector;
+    });
+}
+
+Status finish_leaves(const Medium& medium, const CollectorOptions& options,
+                     Span<const Sample> samples, const Context& context, Prepared& out) {
+    const std::size_t voxels = voxel_count(medium.grid);
+    const Span<const float> density = medium.volume.density.span();
+    Buffer<double> masses;
+    PILEUS_TRY(masses.resize(voxels, "voxel masses"));
+    voxel_masses(density, medium.grid, context.threads, masses.span());
+    measure_leaves(density, masses.span(), medium.grid, context.threads, out.leaves.span());
+    PILEUS_TRY(out.collector_of_voxel.resize(voxels, "leaf grid"));
+    fill_leaf_grid(out.leaves.span(), medium.grid, context.threads, out.collector_of_voxel.span());
+    PILEUS_TRY(place_collectors(options, masses.span(), medium.grid, samples,
+                                out.collector_of_voxel.span(), context.threads, out.leaves.span(),
+                                out.collectors));
+    name_collectors(out.leaves.span(), context.threads, medium.grid,
+                    out.collector_of_voxel.span());
+    return Status::ok();
+}
+
+}  // namespace
+
+Status prepare_collectors(const Medium& medium, const CollectorSettings& settings,
+                          std::int64_t seed, const Context& context, Prepared& out) {
+    SampleSet set;
+    {
+        const StageClock clock(context, "samples");
+        PILEUS_TRY(draw_samples(medium, settings, seed, context.threads, set));
+        out.samples = set.samples.size();
+        out.rejected = set.given_up;
+    }
+    const StageClock clock(context, "tree");
+    double diagonal = 0;
+    for (double e : medium.extent_m) diagonal += e * e;
+    TreeOptions tree;
+    tree.density_range = float(settings.density_range) * medium.density_max;
+    tree.influence_m = float(settings.influence_radius * __builtin_sqrt(diagonal));
+    if (!settings.paper) leaf_limit(medium.grid, kLeafShare, tree.max_leaf_voxels);
+    PILEUS_TRY(build_tree(set.samples.span(), medium.volume.density.span(), medium.grid, tree,
+                          context.threads, out.leaves));
+    return finish_leaves(medium, {settings.paper, float(settings.radius_factor)},
+                         set.samples.span(), context, out);
+}
+
+Status prepare_majorants(const Medium& medium, bool local, const Context& context, Prepared& out) {
+    const StageClock clock(context, "majorants");
+    const Span<const float> density = medium.volume.density.span();
+    int largest = 1;
+    for (int n : medium.grid.size) largest = n > largest ? n : largest;
+    out.block = largest;
+    if (local) {
+        BlockChoice choice;
+        PILEUS_TRY(choose_block(density, medium.grid, double(medium.sigma), TrackingCosts{},
+                                context.threads, choice));
+        out.block = choice.block;
+    }
+    PILEUS_TRY(majorant_grid(density, medium.grid, out.block, context.threads, out.majorants));
+    return majorant_grid(density, medium.grid, out.skip_block, context.threads,
+                         out.skip_majorants);
+}
+
+Status prepare_cells(const Medium& medium, int edge, const Context& context, Prepared& out) {
+    const StageClock clock(context, "tree");
+    const Grid& g = medium.grid;
+    int n[3];
+    for (int a = 0; a < 3; ++a) n[a] = (g.size[a] + edge - 1) / edge;
+    PILEUS_TRY(out.leaves.resize(std::uint64_t(n[0]) * std::uint64_t(n[1]) * std::uint64_t(n[2]),
+                                 "cells"));
+    std::size_t at = 0;
+    for (int z = 0; z < n[2]; ++z)
+        for (int y = 0; y < n[1]; ++y)
+            for (int x = 0; x < n[0]; ++x) {
+                Leaf& leaf = out.leaves[at++];
+                const int cell[3] = {x, y, z};
+                for (int a = 0; a < 3; ++a) {
+                    leaf.lo[a] = cell[a] * edge;
+                    const int hi = leaf.lo[a] + edge;
+                    leaf.hi[a] = hi < g.size[a] ? hi : g.size[a];
+                }
+            }
+    return finish_leaves(medium, {false, 1.35f}, {}, context, out);
+}
+
+}  // namespace pileus

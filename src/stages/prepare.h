@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// The preparation as one step: samples, tree, leaves, collectors, majorants.
+// in: a medium and the collectors' settings -> out: everything that photons need, read only.
+// METHODS 3 "Prepare"; each part is described in its own prepare_*.h.
+#pragma once
+#include "src/stages/context.h"
+#include "src/stages/medium.h"
+#include "src/stages/prepare_samples.h"
+
+namespace pileus {
+
+struct Prepared {
+    Buffer<Leaf> leaves;
+    Buffer<Collector> collectors;
+    Buffer<std::int32_t> collector_of_voxel;  ///< -1 where a leaf holds no medium
+    Buffer<float> majorants;                  ///< per tracking block
+    int block = 1;                            ///< edge of a tracking block, voxels
+    Buffer<float> skip_majorants;             ///< per block of the marching kernels
+    int skip_block = 4;
+    std::uint64_t samples = 0, rejected = 0;
+};
+
+/// kLimit: out of memory.
+Status prepare_collectors(const Medium& medium, const CollectorSettings& settings,
+                          std::int64_t seed, const Context& context, Prepared& out);
+
+/// The tracking blocks and skipping blocks alone.
+Status prepare_majorants(const Medium& medium, bool local, const Context& context, Prepared& out);
+
+/// Regular cells of `edge` voxels instead of leaves: one collector per cell that holds medium.
+/// Used by the camera-directed estimate that `variant` is measured against.
+Status prepare_cells(const Medium& medium, int edge, const Context& context, Prepared& out);
+
+}  // namespace pileus

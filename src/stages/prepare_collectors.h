@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// One sphere per leaf that holds medium, with the leaf's optical cross-section.
+// in: measured leaves, masses, samples -> out: collectors, and their index in each leaf.
+// Elek 2011, section 5.5; METHODS 3, prepare 5 and repair 1.
+#pragma once
+#include "src/base/buffer.h"
+#include "src/base/status.h"
+#include "src/stages/prepared.h"
+
+namespace pileus {
+
+struct CollectorOptions {
+    bool paper = false;           ///< centroid of the samples, whole leaf, R = 2r
+    float radius_factor = 1.35f;  ///< R/r of the other variant; [1, 3]
+};
+
+/// Cube root of a positive normal number, relative error below 4e-16; 0 for 0.
+double cube_root(double x);
+
+/// Places a collector in every leaf of positive mass, in the order of the leaves, and sets
+/// Leaf::collector. `paper`: centre = centroid of the leaf's samples (the leaf's centre where it
+/// has none), r from the leaf's edges, R = 2r. Otherwise: the leaf is cropped to its voxels of
+/// positive mass, centre = centroid of their masses, R = radius_factor * r. In both
+/// extinction * 4/3 pi R^3 = mass. kLimit: out of memory.
+Status place_collectors(const CollectorOptions& options, Span<const double> masses,
+                        const Grid& grid, Span<const Sample> samples,
+                        Span<const std::int32_t> leaf_of_voxel, int threads, Span<Leaf> leaves,
+                        Buffer<Collector>& collectors);
+
+}  // namespace pileus

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// See prepare_field.h.
+// in: densities at voxel centres -> out: density at a point, mass of each voxel.
+// The mean of a clamped linear interpolant over one voxel is [1 6 1]/8 on each axis.
+#include "src/stages/prepare_field.h"
+
+#include "platform/threads.h"
+
+namespace pileus {
+namespace {
+
+struct Corner {
+    int low, high;
+    float t;
+};
+
+/// Finds the two voxel centres around a voxel coordinate, clamped to the rim.
+Corner corner(float x, int size) {
+    const float c = x - 0.5f;
+    if (!(c > 0.0f)) return {0, 0, 0.0f};
+    if (c >= float(size - 1)) return {size - 1, size - 1, 0.0f};
+    const int low = int(c);
+    return {low, low + 1, c - float(low)};
+}
+
+float mix(float a, float b, float t) { return a + (b - a) * t; }
+
+/// Sums the 3x3 rows around (j, k) with weights 1 6 1, then 1 6 1 along x, in place.
+void mass_row(const float* density, const Grid& grid, int j, int k, double scale, double* out) {
+    const int nx = grid.size[0], ny = grid.size[1], nz = grid.size[2];
+    const int js[3] = {j > 0 ? j - 1 : 0, j, j + 1 < ny ? j + 1 : j};
+    const int ks[3] = {k > 0 ? k - 1 : 0, k, k + 1 < nz ? k + 1 : k};
+    const float* row[3][3];
+    for (int c = 0; c < 3; ++c)
+        for (int b = 0; b < 3; ++b) row[c][b] = density + voxel_index(grid, 0, js[b], ks[c]);
+    for (int i = 0; i < nx; ++i) {
+        double layer[3];
+        for (int c = 0; c < 3; ++c)
+            layer[c] = double(row[c][0][i]) + 6.0 * double(row[c][1][i]) + double(row[c][2][i]);
+        out[i] = layer[0] + 6.0 * layer[1] + layer[2];
+    }
+    // Keep the unfiltered left neighbour while the row is overwritten.
+    double left = out[0];
+    for (int i = 0; i < nx; ++i) {
+        const double here = out[i];
+        const double right = i + 1 < nx ? out[i + 1] : here;
+        out[i] = (left + 6.0 * here + right) * scale;
+        left = here;
+    }
+}
+
+}  // namespace
+
+float density_at(Span<const float> density, const Grid& grid, const float x[3]) {
+    const Corner a = corner(x[0], grid.size[0]);
+    const Corner b = corner(x[1], grid.size[1]);
+    const Corner c = corner(x[2], grid.size[2]);
+    const auto along_x = [&](int j, int k) {
+        return mix(density[voxel_index(grid, a.low, j, k)],
+                   density[voxel_index(grid, a.high, j, k)], a.t);
+    };
+    const float low = mix(along_x(b.low, c.low), along_x(b.high, c.low), b.t);
+    const float high = mix(along_x(b.low, c.high), along_x(b.high, c.high), b.t);
+    return mix(low, high, c.t);
+}
+
+void voxel_masses(Span<const float> density, const Grid& grid, int threads, Span<double> masses) {
+    assert(density.size == voxel_count(grid) && masses.size == density.size);
+    const double scale =
+        double(grid.cell_m[0]) * double(grid.cell_m[1]) * double(grid.cell_m[2]) / 512.0;
+    parallel_for(threads, grid.size[2], [&](std::int64_t k, int) {
+        for (int j = 0; j < grid.size[1]; ++j)
+            mass_row(density.data, grid, j, int(k), scale,
+                     masses.data + voxel_index(grid, 0, j, int(k)));
+    });
+}
+
+}  // namespace pileus

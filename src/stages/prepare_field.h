@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// The trilinear field and its exact integrals, the one meaning of "density" in the preparation.
+// in: densities at voxel centres -> out: density at a point, mass of each voxel.
+// docs: METHODS 1; linear between centres, clamped inside the box, zero outside.
+#pragma once
+#include "src/base/span.h"
+#include "src/stages/prepared.h"
+
+namespace pileus {
+
+/// Trilinear density at a point inside the box, given in voxel coordinates [0, size].
+float density_at(Span<const float> density, const Grid& grid, const float x[3]);
+
+/// Integral of the trilinear density over each voxel, m^3, into `masses` (one per voxel).
+/// Exact but for double rounding; the same for any number of threads.
+void voxel_masses(Span<const float> density, const Grid& grid, int threads, Span<double> masses);
+
+}  // namespace pileus

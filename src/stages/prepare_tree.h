@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// kD-tree over the samples: boxes of similar density, fine where the density changes.
+// in: samples, densities -> out: leaves as boxes of whole voxels that tile the grid.
+// Elek 2011, section 5.3 and figure 5.4; METHODS 3, prepare 3.
+#pragma once
+#include "src/base/buffer.h"
+#include "src/base/status.h"
+#include "src/stages/prepared.h"
+
+namespace pileus {
+
+struct TreeOptions {
+    float density_range = 0.1f;          ///< a node whose samples differ by less is not split
+    float influence_m = 0;               ///< radius of influence of a sample; 0: no finalisation
+    int max_leaf_voxels[3] = {0, 0, 0};  ///< halve leaves with medium that are longer; 0: off
+};
+
+/// Longest leaf allowed on each axis so that no leaf spans more than `share` of the box's diagonal
+/// (METHODS 3 resolves the light inside uniform regions this way). At least one voxel.
+void leaf_limit(const Grid& grid, double share, int max_leaf_voxels[3]);
+
+/// Recommended share of the diagonal for `leaf_limit`. Halving alone then makes at most 16^3 leaves
+/// of a filled cube, a fifth of the default number of samples, and halves the mean edge of the
+/// leaves of a uniform ball.
+constexpr double kLeafShare = 1.0 / 24;
+
+/// Builds the leaves, lo and hi only, in the order of a walk that takes the lower half first.
+/// O(n log n) in the samples. `density_range` is in units of density: the caller multiplies the
+/// user's share by the largest density. kLimit: out of memory or more than 2^31-1 leaves.
+Status build_tree(Span<const Sample> samples, Span<const float> density, const Grid& grid,
+                  const TreeOptions& options, int threads, Buffer<Leaf>& leaves);
+
+}  // namespace pileus

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// See reconstruct.h.
+#include "src/stages/reconstruct.h"
+
+#include "kernels_cpu/deposit.h"
+#include "platform/threads.h"
+#include "src/base/angles.h"
+
+namespace pileus {
+namespace {
+
+constexpr int kMostNumbers = kMaxBands * kMaxBands + 1;
+using Direction = Vec<float>;
+
+/// What multiplies band l: the phase function's moment (for incident light) and the window.
+struct BandFactors {
+    float factor[kMaxBands];
+};
+BandFactors band_factors(const ReconstructInput& in) {
+    BandFactors f{};
+    for (int l = 0; l < in.deposit.bands; ++l) {
+        f.factor[l] = in.deposit.mode == kDepositOutgoing ? 1.0f : phase_moment(in.medium->phase, l);
+        if (in.window && l > 0) {
+            const double x = double(l) / in.deposit.bands;
+            f.factor[l] *= float(sincos_deg(180.0 * x).sine / (3.14159265358979323846 * x));
+        }
+    }
+    return f;
+}
+
+/// Power per steradian and unit light scattered towards `to`, from all bands.
+double sh_power(const ReconstructInput& in, const BandFactors& bands, const double* sums,
+                const Direction& to) {
+    float y[kMaxBands * kMaxBands];
+    sh_values(in.deposit.bands, to, y);
+    double power = 0;
+    for (int l = 0, i = 0; l < in.deposit.bands; ++l) {
+        double band = 0;
+        for (int m = -l; m <= l; ++m, ++i) band += sums[i] * double(y[i]);
+        power += band * double(bands.factor[l]);
+    }
+    return power;
+}
+
+/// The same from flux and mean direction alone: one HG lobe (METHODS 3, closure `lobe`).
+double lobe_power(const ReconstructInput& in, const double* sums, const Direction& to) {
+    const double flux = sums[0] * 3.5449077018110320546;  // sqrt(4 pi)
+    if (!(flux > 0) || in.deposit.bands < 2) return flux * 0.079577471545947667884;
+    // y_1m is sqrt(3/4pi) times y, z, x.
+    const double scale = 2.0466534158929769770 / flux;
+    const double x = sums[3] * scale, y = sums[1] * scale, z = sums[2] * scale;
+    const double length = __builtin_sqrt(x * x + y * y + z * z);
+    const float mean = length < 0.999 ? float(length) : 0.999f;
+    const float g = in.deposit.mode == kDepositOutgoing
+                        ? mean
+                        : mean * phase_moment(in.medium->phase, 1);
+    const double safe = length > 1e-9 ? 1.0 / length : 0.0;
+    const float cosine = float((x * double(to.x) + y * double(to.y) + z * double(to.z)) * safe);
+    return flux * double(hg_density(g, 1.0f - cosine));
+}
+
+/// Light of one light in one slot, scattered towards `to`, per unit of its colour.
+double slot_power(const ReconstructInput& in, const BandFactors& bands, const PhotonSlot& slot,
+                  std::size_t light, std::uint64_t set, const Direction& to) {
+    if (slot.generations == 0) return 0;
+    const int n = in.deposit.coefficients;
+    const std::uint64_t stride = in.collectors.size * std::uint64_t(in.medium->channels * n);
+    const std::int64_t* from = slot.sums.data() + light * stride + set * std::uint64_t(n);
+    const double norm = slot.flux_per_photon_m2[light] /
+                        double(std::uint64_t{1} << in.deposit.places) / double(slot.generations);
+    double sums[kMostNumbers];
+    for (int i = 0; i < n; ++i) sums[i] = double(from[i]) * norm;
+    if (in.closure == Closure::kCamera) return sums[0];
+
+    double power = in.closure == Closure::kLobe ? lobe_power(in, sums, to)
+                                                : sh_power(in, bands, sums, to);
+    if (in.deposit.first_order == 1 && in.lighting->lights[light].beam) {
+        const Direction sun{slot.sun_travel[0], slot.sun_travel[1], slot.sun_travel[2]};
+        power += sums[in.deposit.bands * in.deposit.bands] *
+                 double(phase_density(in.medium->phase, one_minus_cosine(sun, to)));
+    }
+    return power;
+}
+
+Direction towards_camera(const ReconstructInput& in, const Collector& c) {
+    if (in.camera.orthographic != 0)
+        return {-in.camera.forward[0], -in.camera.forward[1], -in.camera.forward[2]};
+    const Direction d{in.camera.origin[0] - c.centre[0], in.camera.origin[1] - c.centre[1],
+                      in.camera.origin[2] - c.centre[2]};
+    // From inside the collector there is no such direction: any will do.
+    if (!(dot(d, d) > 1e-12f)) return {0, 0, 1};
+    return normalized(d);
+}
+
+struct Row {
+    double rgb[3];
+};
+
+/// Colour of collector i from slots [first, last), averaged.
+Row collector_colour(const ReconstructInput& in, const BandFactors& bands, std::size_t i,
+                     std::size_t first, std::size_t last) {
+    const Collector& c = in.collectors[i];
+    const Direction to = towards_camera(in, c);
+    const Medium& m = *in.medium;
+    const double depth_m2 = c.mass * double(m.sigma);
+    Row row{};
+    double generations = 0;
+    for (std::size_t s = first; s < last; ++s)
+        generations += double(in.photons->slots[s].generations);
+    for (std::size_t s = first; s < last; ++s) {
+        const PhotonSlot& slot = in.photons->slots[s];
+        const double share = generations > 0 ? double(slot.generations) / generations : 0;
+        for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {
+            const auto& colour = in.lighting->lights[l].colour;
+            double power = 0;
+            for (std::size_t ch = 0; ch < 3; ++ch) {
+                if (ch == 0 || m.channels == 3) {
+                    const std::uint64_t set = std::uint64_t(i) * std::uint64_t(m.channels) + ch;
+                    power = slot_power(in, bands, slot, l, set, to) * share;
+                    if (in.deposit.mode != kDepositOutgoing) power *= double(m.albedo[ch]);
+                }
+                row.rgb[ch] += power * colour[ch] / depth_m2;
+            }
+        }
+    }
+    return row;
+}
+
+}  // namespace
+
+Status reconstruct(const ReconstructInput& in, CollectorColours& out) {
+    const std::size_t slots = in.photons->slots.size(), count = in.collectors.size;
+    const std::size_t sets = in.batches ? 1 + slots : 1;
+    if (out.colour.size() != 3 * sets * count)
+        PILEUS_TRY(out.colour.resize(3 * sets * count, "collector colours"));
+    const BandFactors bands = band_factors(in);
+    constexpr std::size_t kPiece = 256;
+    const std::size_t pieces = (count + kPiece - 1) / kPiece;
+    Buffer<std::uint64_t> negative;
+    PILEUS_TRY(negative.resize(pieces, "counters"));
+    parallel_for(in.threads, std::int64_t(pieces), [&](std::int64_t piece, int) {
+        const std::size_t begin = std::size_t(piece) * kPiece;
+        const std::size_t end = begin + kPiece < count ? begin + kPiece : count;
+        for (std::size_t i = begin; i < end; ++i) {
+            for (std::size_t set = 0; set < sets; ++set) {
+                const Row row = collector_colour(in, bands, i, set == 0 ? 0 : set - 1,
+                                                 set == 0 ? slots : set);
+                for (std::size_t ch = 0; ch < 3; ++ch) {
+                    // The constant part belongs to the radiance that must not be negative.
+                    const double constant = in.lighting->constant[ch];
+                    double v = row.rgb[ch] + constant;
+                    if (set == 0 && v < 0) {
+                        v = 0;
+                        ++negative[std::size_t(piece)];
+                    }
+                    if (!in.constant) v -= constant;
+                    out.colour[(set * 3 + ch) * count + i] = float(v);
+                }
+            }
+        }
+    });
+    out.clamped_negative = 0;
+    for (std::uint64_t n : negative.span()) out.clamped_negative += n;
+    return Status::ok();
+}
+
+}  // namespace pileus

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// From sums of photons to the radiance that each collector shows the observer.
+// in: slots of integer sums, collectors, the camera -> out: colours, [channel][collector].
+// METHODS 3, each image frame, step 4; repairs 2 and 3.
+#pragma once
+#include "src/stages/trace.h"
+
+namespace pileus {
+
+enum class Closure { kSh, kLobe, kCamera };
+
+struct ReconstructInput {
+    const Medium* medium = nullptr;
+    const Lighting* lighting = nullptr;
+    const Photons* photons = nullptr;
+    Span<const Collector> collectors;
+    CameraParams camera{};
+    DepositPlan deposit;
+    Closure closure = Closure::kSh;
+    bool window = false;     ///< sinc window on the bands
+    bool batches = false;    ///< also one RGB per slot, for the standard error
+    bool constant = false;   ///< add the lighting's constant source (billboards)
+    int threads = 1;
+};
+
+struct CollectorColours {
+    Buffer<float> colour;  ///< [3 * (1 + slots)][collector]; radiance of an optically thick leaf
+    std::uint64_t clamped_negative = 0;
+};
+
+/// Every colour is finite and >= 0; negative ones are clamped and counted (batches are not
+/// clamped: their spread is what matters). kLimit: out of memory.
+Status reconstruct(const ReconstructInput& in, CollectorColours& out);
+
+}  // namespace pileus

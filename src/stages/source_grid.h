@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Collector colours spread onto a coarse grid, for the marched display.
+// in: collectors and their colours -> out: [channel][node], smooth, defined wherever medium is.
+// METHODS 3, repair 4: each collector covers a ball, weights normalised.
+#pragma once
+#include "kernels_cpu/march_params.h"
+#include "src/base/buffer.h"
+#include "src/base/status.h"
+#include "src/stages/prepared.h"
+
+namespace pileus {
+
+/// Nodes at (i + 1/2) * spacing; per axis the spacing is at least `spacing_m` and at least a voxel.
+NodeGrid make_node_grid(const Grid& grid, const double (&extent_m)[3], double spacing_m);
+
+inline std::uint64_t node_count(const NodeGrid& g) {
+    return std::uint64_t(g.size[0]) * std::uint64_t(g.size[1]) * std::uint64_t(g.size[2]);
+}
+
+/// Weighted mean per node over the collectors whose ball (radius_factor times the collector's
+/// radius, at least 1.2 node spacings) holds it; weight = optical mass times (1 - d^2/R^2)^2.
+/// Nodes that no ball holds take the mean of their neighbours, ring by ring.
+Status splat_colours(Span<const Collector> collectors, Span<const float> colour, int channels,
+                     const NodeGrid& nodes, float radius_factor, int threads,
+                     Buffer<float>& source);
+
+}  // namespace pileus

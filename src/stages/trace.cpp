@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// See trace.h.
+#include "src/stages/trace.h"
+
+#include "platform/threads.h"
+
+namespace pileus {
+namespace {
+
+constexpr std::uint64_t kChunk = 4096;  // photons per piece of work
+constexpr std::uint64_t kMostPhotons = std::uint64_t{1} << 31;  // per launch
+
+TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_t generation) {
+    const Medium& m = *in.medium;
+    TraceParams k{};
+    double diagonal = 0;
+    for (int a = 0; a < 3; ++a) {
+        k.size[a] = m.grid.size[a];
+        k.cell[a] = m.grid.cell_m[a];
+        k.blocks[a] = (m.grid.size[a] + in.block - 1) / in.block;
+        k.albedo[a] = m.albedo[std::size_t(a)];
+        k.direction[a] = light.travel[std::size_t(a)];
+        k.camera[a] = in.deposit.camera[a];
+        diagonal += m.extent_m[a] * m.extent_m[a];
+    }
+    k.block = float(in.block);
+    k.sigma = m.sigma;
+    k.albedo_max = m.albedo_max;
+    k.channels = m.channels;
+    k.phase = m.phase;
+    k.light = light.beam ? kLightBeam : kLightDiffuse;
+    k.hemisphere = light.hemisphere;
+    for (std::size_t f = 0; f < 6; ++f) k.face_cdf[f] = light.face_cdf[f];
+    k.ground = in.lighting->ground ? 1 : 0;
+    k.ground_z = float(in.lighting->ground_z);
+    k.ground_albedo = float(in.lighting->ground_albedo);
+    k.mode = in.collectors == 0 ? kDepositNone : in.deposit.mode;
+    k.bands = in.deposit.bands;
+    k.first_order = in.deposit.first_order;
+    k.coefficients = in.deposit.coefficients;
+    k.scale = float(std::uint64_t{1} << in.deposit.places);
+    // Paths of up to 2000 diagonals fit the ledger's 32 bits.
+    k.path_scale = float(1048576.0 / __builtin_sqrt(diagonal));
+    k.orthographic = in.deposit.orthographic ? 1 : 0;
+    k.max_events = in.max_events;
+    const Key shift = make_key(in.seed, light.stream + 16u, std::uint32_t(generation));
+    k.shift[0] = shift.k0;
+    k.shift[1] = shift.k1;
+    return k;
+}
+
+/// `count` photons of one light that share the high half of their index.
+struct Launch {
+    const TraceInput* in;
+    TraceScratch* scratch;
+    TraceParams params;
+    std::uint64_t count;
+};
+
+void run_piece(const Launch& launch, std::uint64_t piece, int thread) {
+    const TraceInput& in = *launch.in;
+    const std::uint64_t begin = piece * kChunk;
+    const std::uint64_t end = begin + kChunk < launch.count ? begin + kChunk : launch.count;
+    std::int64_t* sums = launch.scratch->sums.data();
+    TraceBuffers b{in.medium->volume.density.data(), in.majorants.data,
+                   in.collector_of_voxel.data,
+                   sums == nullptr ? nullptr : sums + std::uint64_t(thread) * launch.scratch->stride,
+                   &launch.scratch->tallies[std::size_t(thread) * 2]};
+    in.kernels->trace(launch.params, b, std::uint32_t(begin), std::uint32_t(end));
+}
+
+void run_launch(const Launch& launch, int threads) {
+    const std::uint64_t pieces = (launch.count + kChunk - 1) / kChunk;
+    parallel_for(threads, std::int64_t(pieces), [&](std::int64_t piece, int thread) {
+        run_piece(launch, std::uint64_t(piece), thread);
+    });
+}
+
+void add_fates(const Fates& from, Fates& to) {
+    const auto* source = reinterpret_cast<const std::int64_t*>(&from);
+    auto* target = reinterpret_cast<std::int64_t*>(&to);
+    for (std::size_t i = 0; i < sizeof(Fates) / sizeof(std::int64_t); ++i) target[i] += source[i];
+}
+
+}  // namespace
+
+void add_tally(const TraceTally& from, TraceTally& to) {
+    add_fates(from.light, to.light);
+    add_fates(from.shadow, to.shadow);
+    to.photons += from.photons;
+    to.scatterings += from.scatterings;
+    to.tentative += from.tentative;
+    to.crossings += from.crossings;
+    to.path += from.path;
+    to.majorant_violations += from.majorant_violations;
+}
+
+std::uint64_t slot_stride(const TraceInput& in) {
+    return in.collectors * std::uint64_t(in.medium->channels) *
+           std::uint64_t(in.deposit.coefficients);
+}
+
+Status prepare_trace(const TraceInput& in, TraceScratch& scratch) {
+    // Neighbouring threads keep 128 bytes apart (SPEED: unpadded counters cost half the speed).
+    scratch.stride = (slot_stride(in) + 31) / 16 * 16;
+    PILEUS_TRY(scratch.sums.resize(scratch.stride * std::uint64_t(in.threads), "photon sums"));
+    return scratch.tallies.resize(std::uint64_t(in.threads) * 2, "photon tallies");
+}
+
+Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScratch& scratch,
+                        PhotonSlot& slot, std::vector<TraceTally>& tallies) {
+    const std::uint64_t stride = slot_stride(in);
+    for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {
+        const Light& light = in.lighting->lights[l];
+        Launch launch{&in, &scratch, launch_params(in, light, generation), 0};
+        // Split where the photon index passes a multiple of 2^32: its high half is in the key.
+        std::uint64_t index = generation * light.photons, left = light.photons;
+        while (left > 0) {
+            const std::uint64_t room = (std::uint64_t{1} << 32) - (index & 0xffffffffu);
+            launch.count = left < room ? left : room;
+            if (launch.count > kMostPhotons) launch.count = kMostPhotons;
+            launch.params.first_photon = std::uint32_t(index);
+            launch.params.key = make_key(in.seed, light.stream, std::uint32_t(index >> 32));
+            run_launch(launch, in.threads);
+            index += launch.count;
+            left -= launch.count;
+            launch.params.shift[0] += std::uint32_t(launch.count) * kR2[0];
+            launch.params.shift[1] += std::uint32_t(launch.count) * kR2[1];
+        }
+        for (int t = 0; t < in.threads; ++t) {
+            std::int64_t* own = scratch.sums.data() + std::uint64_t(t) * scratch.stride;
+            std::int64_t* total = slot.sums.data() + l * stride;
+            for (std::uint64_t i = 0; i < stride; ++i) {
+                total[i] += own[i];
+                own[i] = 0;
+            }
+            add_tally(scratch.tallies[std::size_t(t) * 2], tallies[l]);
+            scratch.tallies[std::size_t(t) * 2] = TraceTally{};
+        }
+    }
+    ++slot.generations;
+    return Status::ok();
+}
+
+}  // namespace pileus

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// Launches photons: chunks over threads, private integer sums, reduced exactly.
+// in: medium, lights, a map from voxels to collectors -> out: one slot of sums per batch, ledgers.
+// METHODS 3; the result is a function of (seed, light, photon index) alone.
+#pragma once
+#include <vector>
+
+#include "kernels_cpu/kernels.h"
+#include "src/base/buffer.h"
+#include "src/stages/lights.h"
+
+namespace pileus {
+
+/// What is stored of a collision and how.
+struct DepositPlan {
+    std::int32_t mode = kDepositIncident;
+    int bands = 4;
+    int first_order = 0;   ///< see TraceParams
+    int coefficients = 16; ///< per collector and channel
+    int places = 16;       ///< binary places of the sums
+    float camera[3] = {0, 0, 0};
+    bool orthographic = false;
+};
+
+struct TraceInput {
+    const Medium* medium = nullptr;
+    const Lighting* lighting = nullptr;
+    Span<const float> majorants;
+    int block = 1;
+    Span<const std::int32_t> collector_of_voxel;
+    std::uint64_t collectors = 0;
+    DepositPlan deposit;
+    std::uint64_t seed = 0;
+    int threads = 1;
+    const KernelTable* kernels = nullptr;
+    std::uint32_t max_events = 1u << 20;
+};
+
+/// Sums of all lights of one batch: [light][collector][channel][coefficient].
+struct PhotonSlot {
+    Buffer<std::int64_t> sums;
+    std::uint64_t generations = 0;           ///< that were added
+    std::vector<double> flux_per_photon_m2;  ///< per light, for unit radiance or irradiance
+    std::array<float, 3> sun_travel{0, 0, -1};
+};
+
+struct Photons {
+    std::vector<PhotonSlot> slots;
+    std::vector<TraceTally> tallies;  ///< per light
+};
+
+/// Numbers per light in a slot.
+std::uint64_t slot_stride(const TraceInput& in);
+
+/// Scratch of the tracer: per-thread sums and tallies, allocated once.
+struct TraceScratch {
+    Buffer<std::int64_t> sums;
+    Buffer<TraceTally> tallies;
+    std::uint64_t stride = 0;  ///< numbers per thread, padded to a cache line pair
+};
+Status prepare_trace(const TraceInput& in, TraceScratch& scratch);
+
+/// Shoots one generation of every light into `slot` and adds to the tallies. Generation numbers
+/// may grow without bound; each has photons of its own.
+Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScratch& scratch,
+                        PhotonSlot& slot, std::vector<TraceTally>& tallies);
+
+/// Adds `from` to `to`, field by field.
+void add_tally(const TraceTally& from, TraceTally& to);
+
+}  // namespace pileus

@@ -1,0 +1,336 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every fault a scene can have is reported once, at its place, with what is allowed.
+// in: small scene texts with one fault each -> out: the expected line of the message.
+// docs/scene.md, section Messages.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+
+#include "src/scene/read_scene.h"
+
+namespace {
+
+using pileus::Code;
+using pileus::Scene;
+using pileus::Status;
+
+const std::string kCamera = "[camera]\nposition_m = [0, -9, 5]\ntarget_m = [0, 0, 5]\n";
+const std::string kMedium =
+    "[[medium]]\ndensity = \"uniform:box\"\nbounds_m = [[0, 0, 0], [1, 1, 1]]\n"
+    "extinction_per_m = 1\n";
+const std::string kFile = "[[medium]]\nextinction_per_m = 1\n";
+
+Status read(const std::string& text, const std::vector<std::string>& overrides = {}) {
+    Scene scene;
+    return pileus::read_scene_text(text, "s.toml", "", overrides, scene);
+}
+
+struct Row {
+    std::string text;  // the fault stands behind sound lines
+    const char* line;  // the whole message, or its beginning up to "..."
+};
+
+void check(const Row& row) {
+    CAPTURE(row.text);
+    const Status status = read(row.text);
+    CHECK(status.code == Code::kBadInput);
+    const std::string expected = row.line;
+    const std::size_t dots = expected.find("...");
+    if (dots == std::string::npos) {
+        CHECK(status.message == expected);
+    } else {
+        CHECK(status.message.substr(0, dots) == expected.substr(0, dots));
+        CHECK(std::count(status.message.begin(), status.message.end(), '\n') == 0);
+    }
+}
+
+TEST_CASE("a fault of the text itself") {
+    check({"seed = 1\nseed = 2\n", "s.toml:2:6: not TOML, Error while parsing key-value pair: "
+                                   "cannot redefine existing integer 'seed'"});
+    check({"seed = \n", "s.toml:1:8: not TOML, ..."});
+    check({"a = \"\xff\"\n", "s.toml:1:6: not TOML, ..."});
+    check({"a = 99999999999999999999\n", "s.toml:1:25: not TOML, ..."});
+    check({"a = 1e999\n", "s.toml:1:10: not TOML, ..."});
+    check({"[camera]\n[camera]\n", "s.toml:2:8: not TOML, ..."});
+}
+
+TEST_CASE("unknown, missing and ill-typed keys") {
+    const Row rows[] = {
+        {"sed = 1\n" + kCamera, "s.toml:1:1: sed: unknown key, \"sed\", allowed: seed, camera, "
+                                "sun, sky, ground, medium, method, collectors, path, raymarch, "
+                                "optical-depth, photon-grid, particles, output, animation; did "
+                                "you mean seed?"},
+        {kCamera + "fov_dg = 1\n", "s.toml:4:1: camera.fov_dg: unknown key, \"fov_dg\", allowed: "
+                                   "position_m, target_m, up, projection, fov_deg, height_m, "
+                                   "resolution, depth; did you mean fov_deg?"},
+        {kCamera + "photons = 1\n", "s.toml:4:1: camera.photons: unknown key, \"photons\", "
+                                    "allowed: position_m, target_m, up, projection, fov_deg, "
+                                    "height_m, resolution, depth; did you mean "
+                                    "collectors.photons?"},
+        {kCamera + "[sun]\n\"a\\nb\" = 1\n",
+         "s.toml:5:1: sun.\"a\\x0ab\": unknown key, \"a\\x0ab\", allowed: azimuth_deg, "
+         "elevation_deg, irradiance"},
+        {"[camera]\nposition_m = [0, -9, 5]\n",
+         "s.toml:1:1: camera.target_m: missing, nothing, allowed: 3 numbers in [-1e+09, 1e+09]"},
+        {kCamera + "[[medium]]\ndensity = \"uniform:box\"\nbounds_m = [[0, 0, 0], [1, 1, 1]]\n",
+         "s.toml:4:1: medium.0.extinction_per_m: missing, nothing, allowed: number in [0, 1e+12]"},
+        {kCamera + kMedium + "phase = { g = 0.5 }\n",
+         "s.toml:8:9: medium.0.phase.type: missing, nothing, allowed: isotropic, rayleigh, "
+         "henyey-greenstein, two-lobe"},
+        {"camera = 3\n", "s.toml:1:10: camera: wrong type, 3, allowed: a table"},
+        {kCamera + "[medium]\ndensity = \"uniform:box\"\n",
+         "s.toml:4:1: medium: wrong type or too many, a table, allowed: up to 64 tables, each "
+         "headed [[medium]]"},
+        {"seed = \"x\"\n" + kCamera,
+         "s.toml:1:8: seed: wrong type, \"x\", allowed: whole number in [0, 9223372036854775807]"},
+        {"seed = 1.5\n" + kCamera, "s.toml:1:8: seed: not a whole number, 1.5, ..."},
+        {"seed = 2024-01-01\n" + kCamera, "s.toml:1:8: seed: wrong type, a date, ..."},
+        {"seed = true\n" + kCamera, "s.toml:1:8: seed: wrong type, true, ..."},
+        {kCamera + "up = 1\n", "s.toml:4:6: camera.up: wrong type, 1, ..."},
+        {kCamera + "up = [0, 1]\n", "s.toml:4:6: camera.up: wrong length, [0, 1], ..."},
+        {kCamera + "up = [0, 0, \"z\"]\n", "s.toml:4:13: camera.up: wrong type, \"z\", ..."},
+        {kCamera + kMedium + "y_up = 1\n",
+         "s.toml:8:8: medium.0.y_up: wrong type, 1, allowed: true, false"},
+        {kCamera + kMedium + "phase = \"isotropic\"\n",
+         "s.toml:8:9: medium.0.phase: wrong type, \"isotropic\", allowed: a table"},
+        {kCamera + "[output]\nfiles = \"a.png\"\n",
+         "s.toml:5:9: output.files: wrong type, \"a.png\", allowed: list of up to 16 texts"},
+        {kCamera + "[raymarch]\nx = 1\n[particles]\ny = 2\n[sky]\nradiance = {}\n",
+         "s.toml:9:12: sky.radiance: wrong type, a table, allowed: number or [r, g, b] in "
+         "[0, 1e+12]"},
+        {"raymarch = 1\n" + kCamera, "s.toml:1:12: raymarch: wrong type, 1, allowed: table"},
+    };
+    for (const Row& row : rows) check(row);
+}
+
+TEST_CASE("values out of range") {
+    const Row rows[] = {
+        {"seed = -1\n" + kCamera, "s.toml:1:8: seed: out of range, -1, ..."},
+        {kCamera + "fov_deg = 0\n",
+         "s.toml:4:11: camera.fov_deg: out of range, 0, allowed: number in (0, 180)"},
+        {kCamera + "fov_deg = 180\n", "s.toml:4:11: camera.fov_deg: out of range, 180, ..."},
+        {kCamera + "fov_deg = nan\n", "s.toml:4:11: camera.fov_deg: not finite, nan, ..."},
+        {kCamera + "up = [0, inf, 1]\n", "s.toml:4:10: camera.up: not finite, inf, ..."},
+        {kCamera + "resolution = [0, 10]\n",
+         "s.toml:4:15: camera.resolution: out of range, 0, allowed: 2 whole numbers in [1, 16384]"},
+        {kCamera + "resolution = [10, 16385]\n",
+         "s.toml:4:19: camera.resolution: out of range, 16385, ..."},
+        {kCamera + "[sun]\nirradiance = [1, -1, 1]\n",
+         "s.toml:5:18: sun.irradiance: out of range, -1, allowed: number or [r, g, b] in "
+         "[0, 1e+12]"},
+        {kCamera + "[sun]\nelevation_deg = 91\n", "s.toml:5:17: sun.elevation_deg: out of ..."},
+        {kCamera + "[sky]\nradiance = -0.5\n", "s.toml:5:12: sky.radiance: out of range, -0.5,..."},
+        {kCamera + "[ground]\nalbedo = 1.01\n",
+         "s.toml:5:10: ground.albedo: out of range, 1.01, allowed: number in [0, 1]"},
+        {kCamera + kMedium + "albedo = [1, 1, 1.5]\n",
+         "s.toml:8:17: medium.0.albedo: out of range, 1.5, ..."},
+        {kCamera + kMedium + "phase = { type = \"henyey-greenstein\", g = 1.001 }\n",
+         "s.toml:8:43: medium.0.phase.g: out of range, 1.001, allowed: number in [-1, 1]"},
+        {kCamera + kMedium + "resolution = [1, 1, 4097]\n",
+         "s.toml:8:21: medium.0.resolution: out of range, 4097, ..."},
+        {kCamera + "[collectors]\nphotons = 1099511627777\n",
+         "s.toml:5:11: collectors.photons: out of range, 1099511627777, allowed: whole number in "
+         "[0, 1099511627776]"},
+        {kCamera + "[collectors]\ngenerations = 1001\n", "s.toml:5:15: collectors.generations:..."},
+        {kCamera + "[collectors]\nbands = 9\n",
+         "s.toml:5:9: collectors.bands: out of range, 9, allowed: whole number in [1, 8]"},
+        {kCamera + "[collectors]\ninfluence_radius = 0\n",
+         "s.toml:5:20: collectors.influence_radius: out of range, 0, allowed: number in (0, 1]"},
+        {kCamera + "[collectors]\ndisplay = \"marsh\"\n",
+         "s.toml:5:11: collectors.display: unknown value, \"marsh\", allowed: march, billboards"},
+        {kCamera + "[path]\nsamples_per_pixel = 0\n", "s.toml:5:21: path.samples_per_pixel: ..."},
+        {kCamera + "[animation]\nframes = 0\n", "s.toml:5:10: animation.frames: out of range, ..."},
+        {kCamera + "[[medium]]\ndensity = \"uniform:box\"\nextinction_per_m = 2e12\n"
+                   "bounds_m = [[0, 0, 0], [1, 1, 1]]\n",
+         "s.toml:6:20: medium.0.extinction_per_m: out of range, 2000000000000,..."},
+    };
+    for (const Row& row : rows) check(row);
+}
+
+TEST_CASE("keys that do not go together") {
+    const std::string ortho = kCamera + "projection = \"orthographic\"\n";
+    const Row rows[] = {
+        {ortho + "fov_deg = 30\n", "s.toml:5:1: camera.fov_deg: conflicts with projection "
+                                   "\"orthographic\", 30, allowed: left out"},
+        {kCamera + "height_m = 30\n", "s.toml:4:1: camera.height_m: conflicts with projection "
+                                      "\"perspective\", 30, allowed: left out"},
+        {"[camera]\nposition_m = [1, 2, 3]\ntarget_m = [1, 2, 3]\n",
+         "s.toml:3:12: camera.target_m: same as position_m, [1, 2, 3], allowed: any other point"},
+        {kCamera + "up = [0, -2, 0]\n",
+         "s.toml:4:6: camera.up: parallel to the view, [0, -2, 0], allowed: any direction across "
+         "target_m - position_m"},
+        {"[camera]\nposition_m = [0, 0, 0]\ntarget_m = [0, 0, 9]\n",
+         "s.toml:3:12: camera.up: parallel to the view, [0, 0, 1], ..."},
+        {kCamera + "up = [0, 0, 0]\n", "s.toml:4:6: camera.up: no direction, [0, 0, 0], ..."},
+        {kCamera + "[ground]\naltitude_m = 5.5\n",
+         "s.toml:2:14: camera.position_m: below the ground, z 5, allowed: at least "
+         "ground.altitude_m 5.5"},
+        {kCamera + "[ground]\naltitude_m = 0.5\n" + kMedium,
+         "s.toml:8:12: medium.0.bounds_m: below the ground, lowest z 0, allowed: at least "
+         "ground.altitude_m 0.5"},
+        {kCamera + kMedium + "phase = { type = \"isotropic\", g = 0.5 }\n",
+         "s.toml:8:35: medium.0.phase.g: conflicts with phase.type \"isotropic\", 0.5, allowed: "
+         "left out"},
+        {kCamera + kMedium + "phase = { type = \"henyey-greenstein\" }\n",
+         "s.toml:8:18: medium.0.phase.g: missing, nothing, allowed: a number, required by "
+         "\"henyey-greenstein\""},
+        {kCamera + kMedium + "phase = { type = \"two-lobe\", g1 = 0.5, g2 = -0.1 }\n",
+         "s.toml:8:18: medium.0.phase.weight: missing, ..."},
+        {kCamera + "[animation]\nsun_elevation_deg = [1, 2]\n",
+         "s.toml:5:1: animation.sun_elevation_deg: conflicts with a scene without a sun, [1, 2], "
+         "allowed: left out"},
+        {kCamera + "[output]\nfiles = [\"a.png\", \"b.jpg\"]\n",
+         "s.toml:5:19: output.files: unknown kind of picture, \"b.jpg\", allowed: .exr, .png, "
+         ".pfm"},
+        {kCamera + "[output]\nfiles = [\"a.png\", \"a.png\"]\n",
+         "s.toml:5:19: output.files: given twice, \"a.png\", allowed: list of up to 16 texts"},
+        {kCamera + "[output]\nlayers = [\"depht\"]\n",
+         "s.toml:5:11: output.layers: unknown value, \"depht\", allowed: list of radiance, alpha, "
+         "depth, error, cloud"},
+    };
+    for (const Row& row : rows) check(row);
+}
+
+TEST_CASE("densities and their files") {
+    const std::string box = "bounds_m = [[0, 0, 0], [1, 1, 1]]\n";
+    const std::string raw = "density = { file = \"a.raw\", type = \"uint8\", size = [1, 2, 3] }\n";
+    const Row rows[] = {
+        {kCamera + kFile + "density = \"uniform:cone\"\n" + box,
+         "s.toml:6:11: medium.0.density: unknown value, \"uniform:cone\", allowed: "
+         "procedural:cumulus, uniform:box, uniform:sphere, uniform:ellipsoid, the path of a file"},
+        {kCamera + kFile + "density = 3\n", "s.toml:6:11: medium.0.density: wrong type, 3, ..."},
+        {kCamera + kFile + "density = \"\"\n", "s.toml:6:11: medium.0.density: empty, \"\", ..."},
+        {kCamera + kFile + "density = \"procedural:cumulus\"\n",
+         "s.toml:6:11: medium.0.bounds_m: missing, nothing, allowed: [[x, y, z], [x, y, z]], ..."},
+        {kCamera + kFile + "density = \"uniform:box\"\nbounds_m = [[0, 0, 2], [1, 1, 1]]\n",
+         "s.toml:7:12: medium.0.bounds_m: inverted or empty, [[0, 0, 2], [1, 1, 1]], allowed: "
+         "[[x, y, z], [x, y, z]] in [-1e+09, 1e+09], first below second"},
+        {kCamera + kFile + "density = \"uniform:box\"\nbounds_m = [[0, 0], [1, 1, 1]]\n",
+         "s.toml:7:13: medium.0.bounds_m: wrong length, [0, 0], ..."},
+        {kCamera + kFile + "density = \"procedural:cumulus\"\nresolution = [9, 2, 9]\n" + box,
+         "s.toml:7:14: medium.0.resolution: too coarse for procedural:cumulus, [9, 2, 9], ..."},
+        {kCamera + kMedium + "shape_seed = 1\n",
+         "s.toml:8:14: medium.0.shape_seed: for procedural:cumulus only, 1, allowed: left out"},
+        {kCamera + kMedium + "format = \"pbrt\"\n",
+         "s.toml:8:10: medium.0.format: for files only, \"pbrt\", allowed: left out"},
+        {kCamera + kMedium + "y_up = true\n", "s.toml:8:8: medium.0.y_up: for files only, true..."},
+        {kCamera + kFile + "density = \"a.pbrt\"\nresolution = [1, 1, 1]\n",
+         "s.toml:7:14: medium.0.resolution: not for a file, [1, 1, 1], allowed: left out"},
+        {kCamera + kFile + "density = \"a.txt\"\n",
+         "s.toml:6:11: medium.0.density: unknown kind of file, \"a.txt\", allowed: .pbrt, .raw, or "
+         "the key format = \"pbrt\""},
+        {kCamera + kFile + "density = \"a.vdb\"\n",
+         "s.toml:6:11: medium.0.density: not in this version, \"a.vdb\", ..."},
+        {kCamera + kFile + "density = { file = \"a.raw\", type = \"int\", size = [1, 1, 1] }\n" + box,
+         "s.toml:6:36: medium.0.density.type: unknown value, \"int\", allowed: uint8, uint16, "
+         "float32"},
+        {kCamera + kFile + "density = { file = \"a.raw\", type = \"uint8\" }\n" + box,
+         "s.toml:6:11: medium.0.density.size: missing, ..."},
+        {kCamera + kFile + "density = { type = \"uint8\", size = [1, 1, 1] }\n" + box,
+         "s.toml:6:11: medium.0.density.file: missing, ..."},
+        {kCamera + kFile + raw, "s.toml:6:11: medium.0.bounds_m: missing, ..."},
+        {kCamera + kFile + "format = \"pbrt\"\ndensity = { file = \"a\", endian = \"big\" }\n",
+         "s.toml:7:35: medium.0.density.endian: for raw files only, \"big\", ..."},
+        {kCamera + kFile + "density = \"a/${HOME}/b.pbrt\"\n",
+         "s.toml:6:11: medium.0.density: unknown variable, \"a/${HOME}/b.pbrt\", allowed: "
+         "${PILEUS_DATA_DIR} at the front"},
+        {kCamera + kFile + "density = \"a\\u0000.pbrt\"\n",
+         "s.toml:6:11: medium.0.density: null byte in text, \"a\\x00.pbrt\", ..."},
+    };
+    for (const Row& row : rows) check(row);
+}
+
+TEST_CASE("parts of the format that this version cannot use") {
+    const Row rows[] = {
+        {kCamera + "[method]\nname = \"path\"\n",
+         "s.toml:5:8: method.name: not in this version, \"path\", allowed: collectors"},
+        {kCamera + "[method]\nname = \"radiosity\"\n",
+         "s.toml:5:8: method.name: unknown value, \"radiosity\", allowed: collectors"},
+        {kCamera + "depth = \"z.exr\"\n",
+         "s.toml:4:1: camera.depth: not in this version, \"z.exr\", allowed: nothing"},
+        {kCamera + "[sky]\nmap = \"sky.exr\"\n", "s.toml:5:1: sky.map: not in this version, ..."},
+        {kCamera + "[sky]\nmodel = \"atmosphere\"\n", "s.toml:5:1: sky.model: not in this ..."},
+        {kCamera + kMedium + "boundary = \"periodic\"\n",
+         "s.toml:8:12: medium.0.boundary: not in this version, \"periodic\", allowed: open"},
+        {kCamera + kMedium + "phase = { type = \"cloud\" }\n",
+         "s.toml:8:18: medium.0.phase.type: not in this version, \"cloud\", ..."},
+        {kCamera + kMedium + "extinction_scale = 1.0\n",
+         "s.toml:8:1: medium.0.extinction_scale: not in this version, 1, allowed: nothing"},
+        {kCamera + kFile + "density = \"a.x\"\nformat = \"openvdb\"\n",
+         "s.toml:7:10: medium.0.format: not in this version, \"openvdb\", allowed: pbrt, raw"},
+    };
+    for (const Row& row : rows) check(row);
+}
+
+TEST_CASE("all faults are listed, in the order of the text, overrides last") {
+    const std::string text =
+        "[sun]\nirradiance = [-1, -2, 0]\n[camera]\nposition_m = 1\nfov = 3\n[ground]\nalbedo = 2\n";
+    const Status status = read(text, {"collectors.bands=0", "seed=x"});
+    CHECK(status.code == Code::kBadInput);
+    const char* const starts[] = {
+        "s.toml:2:15: sun.irradiance: ",       "s.toml:2:19: sun.irradiance: ",
+        "s.toml:3:1: camera.target_m: ",       "s.toml:4:14: camera.position_m: ",
+        "s.toml:5:1: camera.fov: ",            "s.toml:7:10: ground.albedo: ",
+        "--set collectors.bands=0: collectors.bands: out of range, 0, ",
+        "--set seed=x: seed: wrong type, \"x\", ",
+    };
+    std::string rest = status.message + "\n";
+    for (const char* start : starts) {
+        CHECK(rest.substr(0, std::string(start).size()) == start);
+        rest.erase(0, rest.find('\n') + 1);
+    }
+    CHECK(rest.empty());
+}
+
+TEST_CASE("faults of overrides name the option") {
+    struct {
+        const char* option;
+        const char* line;
+    } const rows[] = {
+        {"seed", "--set seed: not an override, \"seed\", allowed: key.path=value"},
+        {"=1", "--set =1: not an override, \"=1\", allowed: key.path=value"},
+        {"a..b=1", "--set a..b=1: not an override, \"a..b=1\", allowed: key.path=value"},
+        {"camera.fov_deg=[1", "--set camera.fov_deg=[1: not a value, \"[1\", allowed: a TOML "
+                              "value, or a text without quotes"},
+        {"medium.2.albedo=0.5", "--set medium.2.albedo=0.5: medium.2: no such element, 2, "
+                                "allowed: 0 to 1"},
+        {"medium.x.albedo=0.5", "--set medium.x.albedo=0.5: medium.x: no such element, x, "
+                                "allowed: 0 to 1"},
+        {"camera.up.3=1", "--set camera.up.3=1: camera.up.3: no such element, 3, allowed: 0 to 2"},
+        {"medium.0.density.size=[1,1,1]",
+         "--set medium.0.density.size=[1,1,1]: medium.0.density: holds a single value, "
+         "\"uniform:box\", allowed: a table or list"},
+        {"camera.fov_deg=1\nseed = 3", "--set camera.fov_deg=1\\x0aseed = 3: not a value, "
+                                       "\"1\\x0aseed = 3\", allowed: a TOML value, or a text "
+                                       "without quotes"},
+        {"method.name=path", "--set method.name=path: method.name: not in this version, \"path\", "
+                             "allowed: collectors"},
+    };
+    const std::string text = kCamera + "up = [0, 0, 1]\n" + kMedium;
+    for (const auto& row : rows) {
+        CAPTURE(row.option);
+        const Status status = read(text, {row.option});
+        CHECK(status.code == Code::kBadInput);
+        CHECK(status.message == row.line);
+    }
+}
+
+TEST_CASE("an unset data folder is a fault of the key that asks for it") {
+    const char* before = std::getenv("PILEUS_DATA_DIR");
+    const std::string saved = before == nullptr ? "" : before;
+    unsetenv("PILEUS_DATA_DIR");
+    const std::string text = kCamera + kFile + "density = \"${PILEUS_DATA_DIR}/a.pbrt\"\n";
+    check({text, "s.toml:6:11: medium.0.density: environment variable PILEUS_DATA_DIR is not set, "
+                 "\"${PILEUS_DATA_DIR}/a.pbrt\", allowed: set it to the folder that holds the "
+                 "data"});
+    setenv("PILEUS_DATA_DIR", "/data", 1);
+    Scene scene;
+    CHECK(bool(pileus::read_scene_text(text, "s.toml", "d", {}, scene)));
+    CHECK(scene.media.at(0).file == "/data/a.pbrt");
+    if (before == nullptr) unsetenv("PILEUS_DATA_DIR");
+    else setenv("PILEUS_DATA_DIR", saved.c_str(), 1);
+}
+
+}  // namespace

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Calls one test at every lane width, and moves numbers between arrays and lanes.
+// in: a function template over W -> out: it runs for W = 1, 4, 8, 16.
+// kernels_cpu/lanes.h
+#pragma once
+#include <cstring>
+
+#include "kernels_cpu/lanes.h"
+
+#define PILEUS_EACH_WIDTH(function) function<1>(), function<4>(), function<8>(), function<16>()
+
+namespace pileus {
+
+inline float float_of(std::uint32_t bits) {
+    float f;
+    std::memcpy(&f, &bits, 4);
+    return f;
+}
+inline std::uint32_t bits_of_float(float f) {
+    std::uint32_t bits;
+    std::memcpy(&bits, &f, 4);
+    return bits;
+}
+
+/// W lanes from `values[0..W)`.
+template <class T, class S>
+T from_array(const S* values) {
+    T v{};
+    for (int i = 0; i < width_of<T>; ++i) set_lane(v, i, values[i]);
+    return v;
+}
+
+}  // namespace pileus
