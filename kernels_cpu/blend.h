@@ -41,11 +41,12 @@ PILEUS_FN Attenuated<T> attenuate(T before, T depth) {
     return {(before - halved) - change, halved + change};
 }
 
-/// The planes of one tile in scratch memory; `columns` holds each column's image plane coordinate.
+/// The planes of one tile in scratch memory. Single rows: `columns` holds each column's image
+/// plane coordinate, `depths` one sphere's optical depths.
 struct BlendTile {
     std::int32_t x, y, width, height, stride;
     std::size_t plane;
-    float *transmittance, *half, *inverse2, *opaque, *columns, *colour;
+    float *transmittance, *half, *inverse2, *opaque, *columns, *depths, *colour;
 };
 
 /// What one row of one sphere has in common: the cross product of centre and ray is
@@ -72,6 +73,7 @@ PILEUS_FN BlendTile blend_tile_at(const BlendParams& p, const BlendBuffers& b, s
     t.opaque = t.inverse2 + t.plane;
     t.colour = t.opaque + t.plane;
     t.columns = t.colour + t.plane * std::size_t(p.channels);
+    t.depths = t.columns + t.stride;
     return t;
 }
 
@@ -115,64 +117,94 @@ PILEUS_FN BlendRow blend_row(const BlendParams& p, const BlendSphere& s, float s
     return {a * a, s.z, s.x, s.y, s.x * sy, s.x, s.y * sy + s.z};
 }
 
-/// One sphere over W neighbouring pixels. `clip`: cut the chord at the camera and at the solid.
+/// Where W rays meet a sphere: the way from its centre's place on the ray to the near end.
 template <class T>
-PILEUS_FN void blend_pixels(const BlendParams& p, const BlendTile& t, const BlendSphere& s,
-                            const BlendRow& r, const float* colour, bool clip, bool solid,
-                            std::size_t at, std::int32_t x,
-                            std::int32_t channels) {
+struct BlendChord {
+    T low, chord;
+};
+
+/// `clip`: cut the chord at the camera and at the solid. Zero where the pixel takes no light.
+template <class T>
+PILEUS_FN BlendChord<T> blend_chord(const BlendParams& p, const BlendTile& t, const BlendSphere& s,
+                                    const BlendRow& r, T before, bool clip, bool solid,
+                                    std::size_t at, std::int32_t x) {
     // Take the distance of ray and centre from the cross product: no difference of squares.
     const T sx = blend_load<T>(t.columns + x);
     const T inverse2 = blend_load<T>(t.inverse2 + at);
-    const T before = blend_load<T>(t.transmittance + at);
     const T u = r.bs * sx - r.bo, v = r.co - r.cs * sx;
     const T h2 = s.radius_squared - (r.a2 + u * u + v * v) * inverse2;
     const auto touched = (h2 > 0.0f) & (before >= p.cut);
-    if (!any(touched)) return;
+    if (!any(touched)) return {T{}, T{}};
 
     // Measure the chord from the centre's place along the ray, so that 2h stays exact.
     const T h = sqrt_(select(touched, h2, T{}));
-    T low = T{} - h, chord = h + h;
-    if (clip) {
-        const T centre = (r.ts * sx + r.to) * sqrt_(inverse2);
-        low = max_(low, T{} - centre);
-        const T high = solid ? min_(h, blend_load<T>(t.opaque + at) - centre) : h;
-        chord = max_(high - low, T{});
-    }
-    const Attenuated<T> a = attenuate(before, s.extinction * chord);
+    if (!clip) return {T{} - h, h + h};
+    const T centre = (r.ts * sx + r.to) * sqrt_(inverse2);
+    const T low = max_(T{} - h, T{} - centre);
+    const T high = solid ? min_(h, blend_load<T>(t.opaque + at) - centre) : h;
+    return {low, max_(high - low, T{})};
+}
+
+/// Takes the light of one sphere of optical depth `depth` into W pixels.
+/// Returns the lanes whose transmittance falls to one half.
+template <class T>
+PILEUS_FN auto blend_take(const BlendTile& t, const float* colour, std::int32_t channels,
+                          std::size_t at, T depth, T before) {
+    const Attenuated<T> a = attenuate(before, depth);
     blend_store(t.transmittance + at, a.after);
     for (std::int32_t k = 0; k < channels; ++k) {
         float* c = t.colour + t.plane * std::size_t(k) + at;
         blend_store(c, blend_load<T>(c) + a.taken * colour[k]);
     }
-    const auto halved = (before > 0.5f) & (a.after <= 0.5f);
-    if (any(halved)) {
-        // Solve before * exp(-extinction s) = 1/2 inside this sphere.
-        const T near = (r.ts * sx + r.to) * sqrt_(inverse2) + low;
-        const T along = log_(max_(before + before, all<T>(1.0f))) / s.extinction;
-        const T depth = near + min_(along, chord);
-        blend_store(t.half + at, select(halved, depth, blend_load<T>(t.half + at)));
-    }
+    return (before > 0.5f) & (a.after <= 0.5f);
+}
+
+/// Sets the depth where before e^(-extinction s) = 1/2 inside this sphere, in the `halved` lanes.
+template <class T, class Mask>
+PILEUS_FN void blend_half(const BlendTile& t, const BlendSphere& s, const BlendRow& r,
+                          const BlendChord<T>& c, T before, Mask halved, std::size_t at,
+                          std::int32_t x) {
+    const T sx = blend_load<T>(t.columns + x);
+    const T centre = (r.ts * sx + r.to) * sqrt_(blend_load<T>(t.inverse2 + at));
+    const T along = log_(max_(before + before, all<T>(1.0f))) / s.extinction;
+    const T depth = (centre + c.low) + min_(along, c.chord);
+    blend_store(t.half + at, select(halved, depth, blend_load<T>(t.half + at)));
 }
 
 /// One sphere over the part of its rectangle that lies in the tile.
 template <class T>
 PILEUS_FN void blend_sphere(const BlendParams& p, const BlendBuffers& b, const BlendTile& t,
                             const BlendSphere& s) {
+    constexpr int w = width_of<T>;
     float colour[kMaxBlendChannels];
     for (std::int32_t k = 0; k < p.channels; ++k)
         colour[k] = b.sphere_colour[std::size_t(k) * p.colour_stride + s.index];
-    const std::int32_t channels = p.channels;
     const bool solid = b.opaque_depth != nullptr, clip = solid || s.clip != 0;
-    const std::int32_t x0 = s.x0 > t.x ? s.x0 - t.x : 0, y0 = s.y0 > t.y ? s.y0 - t.y : 0;
+    const std::int32_t x0 = s.x0 > t.x ? (s.x0 - t.x) / w * w : 0;
     const std::int32_t x1 = s.x1 - t.x < t.width ? s.x1 - t.x : t.width;
+    const std::int32_t y0 = s.y0 > t.y ? s.y0 - t.y : 0;
     const std::int32_t y1 = s.y1 - t.y < t.height ? s.y1 - t.y : t.height;
     for (std::int32_t y = y0; y < y1; ++y) {
         const BlendRow row = blend_row(p, s, blend_row_coordinate(p, t.y + y));
         const std::size_t start = std::size_t(y) * std::size_t(t.stride);
-        for (std::int32_t x = x0 / width_of<T> * width_of<T>; x < x1; x += width_of<T>)
-            blend_pixels<T>(p, t, s, row, colour, clip, solid, start + std::size_t(x), x,
-                            channels);
+
+        // Find all depths of the row first: two short chains of arithmetic overlap better than one.
+        for (std::int32_t x = x0; x < x1; x += w) {
+            const std::size_t at = start + std::size_t(x);
+            const T before = blend_load<T>(t.transmittance + at);
+            const BlendChord<T> c = blend_chord<T>(p, t, s, row, before, clip, solid, at, x);
+            blend_store(t.depths + x, s.extinction * c.chord);
+        }
+        for (std::int32_t x = x0; x < x1; x += w) {
+            const T depth = blend_load<T>(t.depths + x);
+            if (!any(depth > 0.0f)) continue;
+            const std::size_t at = start + std::size_t(x);
+            const T before = blend_load<T>(t.transmittance + at);
+            const auto halved = blend_take<T>(t, colour, p.channels, at, depth, before);
+            if (!any(halved)) continue;
+            const BlendChord<T> c = blend_chord<T>(p, t, s, row, before, clip, solid, at, x);
+            blend_half<T>(t, s, row, c, before, halved, at, x);
+        }
     }
 }
 
@@ -190,8 +222,7 @@ PILEUS_FN void blend_write(const BlendParams& p, const BlendBuffers& b, const Bl
     const std::size_t image = std::size_t(p.width) * std::size_t(p.height);
     for (std::int32_t y = 0; y < t.height; ++y) {
         const std::size_t from = std::size_t(y) * std::size_t(t.stride);
-        const std::size_t to =
-            std::size_t(t.y + y) * std::size_t(p.width) + std::size_t(t.x);
+        const std::size_t to = std::size_t(t.y + y) * std::size_t(p.width) + std::size_t(t.x);
         __builtin_memcpy(b.transmittance + to, t.transmittance + from, bytes);
         __builtin_memcpy(b.half_depth + to, t.half + from, bytes);
         for (std::size_t k = 0; k < std::size_t(p.channels); ++k)

@@ -57,10 +57,10 @@ inline std::int32_t blend_row_stride(std::int32_t tile_width) {
     return (tile_width + kBlendAlign - 1) / kBlendAlign * kBlendAlign;
 }
 
-/// Floats of scratch that one thread needs: all planes and one row of columns.
+/// Floats of scratch that one thread needs: all planes and two single rows.
 inline std::uint64_t blend_scratch_floats(const BlendParams& p) {
     const std::uint64_t row = std::uint64_t(blend_row_stride(p.tile_width));
-    return row * (std::uint64_t(p.tile_height) * std::uint64_t(kBlendPlanes + p.channels) + 1);
+    return row * (std::uint64_t(p.tile_height) * std::uint64_t(kBlendPlanes + p.channels) + 2);
 }
 
 }  // namespace pileus

@@ -2,9 +2,8 @@
 // Compiled once per instruction set with PILEUS_ISA (a name) and PILEUS_WIDTH (lanes).
 // in: the kernel templates -> out: one exported table, everything else internal.
 // ARCHITECTURE "Kernels: written once"; tools/check_objects proves that nothing else leaks.
-#include "kernels_cpu/kernels.h"
-
 #include "kernels_cpu/blend.h"
+#include "kernels_cpu/kernels.h"
 #include "kernels_cpu/march.h"
 #include "kernels_cpu/self_test.h"
 #include "kernels_cpu/trace.h"
@@ -52,8 +51,8 @@ std::uint64_t self_test_kernel() { return self_test_digest<PILEUS_WIDTH>(); }
 
 extern const KernelTable PILEUS_TABLE(PILEUS_ISA);
 const KernelTable PILEUS_TABLE(PILEUS_ISA) = {
-    PILEUS_NAME(PILEUS_ISA), PILEUS_WIDTH, trace_kernel, shadow_kernel,
-    march_kernel,            background_kernel, blend_kernel, self_test_kernel,
+    PILEUS_NAME(PILEUS_ISA), PILEUS_WIDTH, trace_kernel,     shadow_kernel, march_kernel,
+    background_kernel,       blend_kernel, self_test_kernel,
 };
 
 }  // namespace pileus

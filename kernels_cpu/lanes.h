@@ -26,13 +26,13 @@ struct LaneTypes<1> {
     using M = bool;
 };
 
-#define PILEUS_LANE_TYPES(W)                                      \
-    template <>                                                   \
-    struct LaneTypes<W> {                                         \
-        typedef float F __attribute__((vector_size(4 * W)));      \
-        typedef std::int32_t I __attribute__((vector_size(4 * W))); \
+#define PILEUS_LANE_TYPES(W)                                         \
+    template <>                                                      \
+    struct LaneTypes<W> {                                            \
+        typedef float F __attribute__((vector_size(4 * W)));         \
+        typedef std::int32_t I __attribute__((vector_size(4 * W)));  \
         typedef std::uint32_t U __attribute__((vector_size(4 * W))); \
-        using M = I;                                              \
+        using M = I;                                                 \
     };
 PILEUS_LANE_TYPES(4)
 PILEUS_LANE_TYPES(8)

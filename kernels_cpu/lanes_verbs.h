@@ -39,8 +39,7 @@ PILEUS_FN std::uint32_t bits_of(Mask m) {
         return m ? 1u : 0u;
     } else {
 #if defined(__AVX512F__)
-        if constexpr (sizeof(Mask) == 64)
-            return _mm512_test_epi32_mask((__m512i)m, (__m512i)m);
+        if constexpr (sizeof(Mask) == 64) return _mm512_test_epi32_mask((__m512i)m, (__m512i)m);
 #endif
 #if defined(__AVX__)
         if constexpr (sizeof(Mask) == 32) return std::uint32_t(_mm256_movemask_ps((__m256)m));
@@ -54,7 +53,8 @@ PILEUS_FN std::uint32_t bits_of(Mask m) {
     }
 }
 
-/// Number of set bits among the 16 lowest; the builtin calls a library where there is no instruction.
+/// Number of set bits among the 16 lowest; the builtin calls a library where there is no
+/// instruction.
 PILEUS_FN std::int32_t count_bits(std::uint32_t v) {
     v = v - ((v >> 1) & 0x5555u);
     v = (v & 0x3333u) + ((v >> 2) & 0x3333u);

@@ -129,8 +129,7 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
     const Vec<T> to_camera{T{} - ray.direction.x, T{} - ray.direction.y, T{} - ray.direction.z};
     const T phase = phase_density(k.phase, one_minus_cosine(sun, to_camera));
     const bool sunlit = k.sun_source[0] > 0.0f || k.sun_source[1] > 0.0f || k.sun_source[2] > 0.0f;
-    const std::int64_t nodes =
-        std::int64_t(k.source.size[0]) * k.source.size[1] * k.source.size[2];
+    const std::int64_t nodes = std::int64_t(k.source.size[0]) * k.source.size[1] * k.source.size[2];
 
     T transmittance = all<T>(1.0f), half = all<T>(__builtin_inff());
     T colour[kMost];
@@ -145,8 +144,8 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
         const Vec<T> metres = along(ray, t);
         T direct{};
         if (sunlit) {
-            const T tau = interpolate(
-                b.optical_depth, corners(node_position(k.shadow, metres), k.shadow.size));
+            const T tau = interpolate(b.optical_depth,
+                                      corners(node_position(k.shadow, metres), k.shadow.size));
             direct = phase * exp_(T{} - tau);
         }
         const Corners<T> c = corners(node_position(k.source, metres), k.source.size);
@@ -167,8 +166,7 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
     for (int l = 0; l < lanes; ++l) {
         b.transmittance[first + l] = lane(transmittance, l);
         b.half_depth[first + l] = lane(half, l);
-        for (int c = 0; c < k.channels; ++c)
-            b.colour[c * pixels + first + l] = lane(colour[c], l);
+        for (int c = 0; c < k.channels; ++c) b.colour[c * pixels + first + l] = lane(colour[c], l);
     }
 }
 

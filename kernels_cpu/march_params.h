@@ -41,8 +41,8 @@ struct MarchParams {
     CameraParams camera;
     PhaseParams phase;
     float sun_travel[3];
-    float sun_source[3];    ///< irradiance times albedo per channel; zero: no direct sunlight
-    float constant[3];      ///< source everywhere in the medium: sky by the furnace identity
+    float sun_source[3];  ///< irradiance times albedo per channel; zero: no direct sunlight
+    float constant[3];    ///< source everywhere in the medium: sky by the furnace identity
     NodeGrid shadow, source;
     std::int32_t channels;  ///< planes of `source` and of `colour`: 3, or 3*(1+batches)
     float cut;              ///< stop below this transmittance
@@ -59,9 +59,9 @@ struct MarchBuffers {
 struct BackgroundParams {
     MediumView medium;
     CameraParams camera;
-    float sky[3];          ///< radiance
-    std::int32_t ground;   ///< 0: none
-    float ground_z;        ///< m, box-local
+    float sky[3];             ///< radiance
+    std::int32_t ground;      ///< 0: none
+    float ground_z;           ///< m, box-local
     float ground_diffuse[3];  ///< radiance under the sky alone
     float ground_sun[3];      ///< radiance added by the unshadowed sun
     float to_sun[3];

@@ -18,7 +18,8 @@ PILEUS_FN T log_(T x) {
     // Split x = m 2^e with m in [sqrt(1/2), sqrt(2)).
     const auto bits = reinterpret<I_of<T>>(x);
     const auto e = (bits - 0x3f3504f3) >> 23;
-    const T m = reinterpret<T>(bits - (e << 23));
+    const auto e_bits = reinterpret<I_of<T>>(reinterpret<U_of<T>>(e) << 23);
+    const T m = reinterpret<T>(bits - e_bits);
     const T ef = to_float(e);
     const T f = m - 1.0f;
     const T f2 = f * f;

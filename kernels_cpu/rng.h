@@ -29,10 +29,10 @@ template <class UU>
 PILEUS_FN Words<UU> threefry(std::uint32_t k0, std::uint32_t k1, UU c0, UU c1) {
     const std::uint32_t k2 = 0x1BD11BDAu ^ k0 ^ k1;
     UU x = c0 + k0, y = c1 + k1;
-#define PILEUS_FOUR(r0, r1, r2, r3)                 \
-    x = x + y, y = rotate_left<r0>(y), y = y ^ x;   \
-    x = x + y, y = rotate_left<r1>(y), y = y ^ x;   \
-    x = x + y, y = rotate_left<r2>(y), y = y ^ x;   \
+#define PILEUS_FOUR(r0, r1, r2, r3)               \
+    x = x + y, y = rotate_left<r0>(y), y = y ^ x; \
+    x = x + y, y = rotate_left<r1>(y), y = y ^ x; \
+    x = x + y, y = rotate_left<r2>(y), y = y ^ x; \
     x = x + y, y = rotate_left<r3>(y), y = y ^ x
     PILEUS_FOUR(13, 15, 26, 6);
     x = x + k1, y = y + (k2 + 1u);

@@ -39,8 +39,7 @@ PILEUS_FN std::uint64_t self_test_digest() {
         hash_lanes(hashes, first, rayleigh_sample(u).sine);
         hash_lanes(hashes, first, hg_density(all<T>(-0.6f), turn.one_minus_cos));
         const Vec<T> axis = normalized(Vec<T>{u, v, u * v - 0.3f});
-        const Vec<T> d =
-            turned(axis, 1.0f - turn.one_minus_cos, turn.sine, phi.cosine, phi.sine);
+        const Vec<T> d = turned(axis, 1.0f - turn.one_minus_cos, turn.sine, phi.cosine, phi.sine);
         T y[64];
         sh_eval<8>(d.x, d.y, d.z, y);
         for (const T& value : y) hash_lanes(hashes, first, value);

@@ -19,7 +19,7 @@ inline namespace PILEUS_ISA {
 
 /// Sunlight of irradiance 1 on white paper is radiance 1/pi: this gain places it at code 224, a
 /// sunlit cloud of 0.5 at 236 and a blue sky of 0.05 0.07 0.11 in the middle tones.
-constexpr float kDaylightGain = 2.5f;
+constexpr float kDaylightGain = 3.5f;
 
 /// Number of bins of the brightness histogram: 128 per octave of the positive floats.
 constexpr std::uint32_t kToneBins = 1u << 15;

@@ -108,8 +108,8 @@ PILEUS_FN void scatter(Photon<W, NC>& s, const TraceParams& k, const TraceBuffer
         // Straight down-going light that the ground will miss: remember where.
         const auto owing = m & (s.order == 0) & (s.d.z < 0.0f) & lnot(s.shadow);
         const T t = (s.p.z * k.cell[2] - k.ground_z) * (T{} - safe_inverse(s.d.z));
-        s.ground_x = select(owing, s.p.x * k.cell[0] + s.d.x * t, s.ground_x);
-        s.ground_y = select(owing, s.p.y * k.cell[1] + s.d.y * t, s.ground_y);
+        s.owed_x = select(owing, s.p.x * k.cell[0] + s.d.x * t, s.owed_x);
+        s.owed_y = select(owing, s.p.y * k.cell[1] + s.d.y * t, s.owed_y);
         s.owes = s.owes | owing;
     }
     const auto absorbed = m & (uniform(spare) >= k.albedo_max);
@@ -151,15 +151,9 @@ PILEUS_FN void collide(Photon<W, NC>& s, const TraceParams& k, const TraceBuffer
     const Words<U<W>> flight = threefry(k.key.k0, k.key.k1, number, s.event * 4u);
     const Words<U<W>> corner = threefry(k.key.k0, k.key.k1, number, s.event * 4u + 1u);
 
-    // One of the eight voxels around, drawn with its trilinear weight (to 11 bits).
-    const auto draw = [](T p, U<W> bits, std::int32_t n) {
-        const T jitter = to_float(reinterpret<I<W>>(bits)) * 0x1p-11f + (0x1p-12f - 0.5f);
-        return min_(max_(floor_int(p + jitter), I<W>{}), all<I<W>>(n - 1));
-    };
-    const I<W> x = draw(s.p.x, corner.a & 0x7ffu, k.size[0]);
-    const I<W> y = draw(s.p.y, (corner.a >> 11) & 0x7ffu, k.size[1]);
-    const I<W> z = draw(s.p.z, (corner.a >> 21), k.size[2]);
-    const T density = gather(b.density, select(m, (z * k.size[1] + y) * k.size[0] + x, I<W>{}));
+    // One look-up stands for eight: acceptance is linear in density.
+    const I<W> voxel = corner_voxel(s.p, corner.a, k);
+    const T density = gather(b.density, select(m, voxel, I<W>{}));
     const auto over = m & (density > bound);
     if (any(over)) b.tally->majorant_violations += count_bits(bits_of(over));
 
@@ -180,52 +174,14 @@ PILEUS_FN void collide(Photon<W, NC>& s, const TraceParams& k, const TraceBuffer
 /// Move every living lane to its next collision or block border.
 template <int W, int NC>
 PILEUS_FN void step(Photon<W, NC>& s, const TraceParams& k, const TraceBuffers& b) {
-    using T = F<W>;
-    const I<W> block = (s.block_z * k.blocks[1] + s.block_y) * k.blocks[0] + s.block_x;
-    const T bound = gather(b.majorant, select(s.alive, block, I<W>{}));
-    const T sigma_t = bound * k.sigma;
-
-    const auto plane = [&](I<W> i, T inverse, std::int32_t n) {
-        const I<W> ahead = select(inverse > 0.0f, i + 1, i);
-        return min_(to_float(ahead) * k.block, all<T>(float(n)));
-    };
-    const T fx = plane(s.block_x, s.inverse.x, k.size[0]),
-            fy = plane(s.block_y, s.inverse.y, k.size[1]),
-            fz = plane(s.block_z, s.inverse.z, k.size[2]);
-    const T tx = max_((fx - s.p.x) * s.inverse.x, T{}), ty = max_((fy - s.p.y) * s.inverse.y, T{}),
-            tz = max_((fz - s.p.z) * s.inverse.z, T{});
-    const T border = min_(min_(tx, ty), tz);
-    const T flight = s.tau / sigma_t;
-    const auto hits = s.alive & (flight < border);
-    const auto hops = s.alive & lnot(hits);
-    const T t = select(hits, flight, border);
-
-    s.path = s.path + select(s.alive, t, T{});
-    s.p.x = select(s.alive, s.p.x + s.d.x * t * (1.0f / k.cell[0]), s.p.x);
-    s.p.y = select(s.alive, s.p.y + s.d.y * t * (1.0f / k.cell[1]), s.p.y);
-    s.p.z = select(s.alive, s.p.z + s.d.z * t * (1.0f / k.cell[2]), s.p.z);
-
-    if (any(hops)) {
-        b.tally->crossings += count_bits(bits_of(hops));
-        s.tau = select(hops, max_(s.tau - sigma_t * border, T{}), s.tau);
-        // Put the lane exactly on the plane it crosses, so that it enters the next block once.
-        const auto by_x = hops & (tx <= border), by_y = hops & lnot(by_x) & (ty <= border);
-        const auto by_z = hops & lnot(by_x | by_y);
-        const auto turn = [](I<W> i, M<W> m, T inverse) {
-            return select(m, select(inverse > 0.0f, i + 1, i - 1), i);
-        };
-        s.p.x = select(by_x, fx, s.p.x);
-        s.p.y = select(by_y, fy, s.p.y);
-        s.p.z = select(by_z, fz, s.p.z);
-        s.block_x = turn(s.block_x, by_x, s.inverse.x);
-        s.block_y = turn(s.block_y, by_y, s.inverse.y);
-        s.block_z = turn(s.block_z, by_z, s.inverse.z);
-        const auto outside = [](I<W> i, std::int32_t n) { return (i < 0) | (i >= n); };
-        const auto out = hops & (outside(s.block_x, k.blocks[0]) | outside(s.block_y, k.blocks[1]) |
-                                 outside(s.block_z, k.blocks[2]));
-        if (any(out)) leave_box(s, k, *b.tally, out, by_z);
+    const Stride<W> m = stride(s, k, b.majorant, s.alive);
+    s.path = s.path + select(s.alive, m.metres, F<W>{});
+    if (any(m.hops)) {
+        b.tally->crossings += count_bits(bits_of(m.hops));
+        const Crossing<W> c = cross(s, k, m);
+        if (any(c.out)) leave_box(s, k, *b.tally, c.out, c.by_z);
     }
-    if (any(hits)) collide(s, k, b, hits, bound);
+    if (any(m.hits)) collide(s, k, b, m.hits, m.bound);
 }
 
 /// Photons that died may owe the ground's missing light: send it up as a negative photon.
@@ -240,6 +196,9 @@ PILEUS_FN void settle(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally,
     s.shadow = s.shadow | owing;
     s.alive = s.alive | owing;
     s.path = select(owing, F<W>{}, s.path);
+    // The photon's own bounces moved ground_x and ground_y: start where the straight ray ends.
+    s.ground_x = select(owing, s.owed_x, s.ground_x);
+    s.ground_y = select(owing, s.owed_y, s.ground_y);
     for (int c = 0; c < NC; ++c) s.weight[c] = select(owing, all<F<W>>(1.0f), s.weight[c]);
     PILEUS_FATE(s, tally, emitted, owing);
     bounce(s, k, tally, owing);

@@ -28,27 +28,27 @@ struct TraceParams {
     std::int32_t channels;   ///< 1 (achromatic medium) or 3
     PhaseParams phase;
 
-    std::int32_t light;       ///< LightKind
-    float direction[3];       ///< of travel, unit; beam only
-    std::int32_t hemisphere;  ///< diffuse: 0 all, -1 travelling down only, +1 up only
-    float face_cdf[6];        ///< flux share of faces -x +x -y +y -z +z, cumulative; last = 1
-    Key key;                  ///< made from (seed, stream of the light, photon index high half)
+    std::int32_t light;          ///< LightKind
+    float direction[3];          ///< of travel, unit; beam only
+    std::int32_t hemisphere;     ///< diffuse: 0 all, -1 travelling down only, +1 up only
+    float face_cdf[6];           ///< flux share of faces -x +x -y +y -z +z, cumulative; last = 1
+    Key key;                     ///< made from (seed, stream of the light, photon index high half)
     std::uint32_t first_photon;  ///< low half of the index of the launch's photon 0
     std::uint32_t shift[2];      ///< of this generation's low-discrepancy points
 
-    std::int32_t ground;   ///< 0: none
-    float ground_z;        ///< m, box-local, <= 0
+    std::int32_t ground;  ///< 0: none
+    float ground_z;       ///< m, box-local, <= 0
     float ground_albedo;
 
-    std::int32_t mode;          ///< DepositMode
-    std::int32_t bands;         ///< 1..8
-    std::int32_t first_order;   ///< beam light not yet scattered: 0 like all, 1 own slot, 2 left out
+    std::int32_t mode;         ///< DepositMode
+    std::int32_t bands;        ///< 1..8
+    std::int32_t first_order;  ///< beam light not yet scattered: 0 like all, 1 own slot, 2 left out
     std::int32_t coefficients;  ///< numbers per collector and channel
     float scale;                ///< quanta per unit deposit, a power of two
     float path_scale;           ///< quanta per metre of path
     float camera[3];            ///< position, or unit direction towards it when orthographic
     std::int32_t orthographic;
-    std::uint32_t max_events;   ///< tentative collisions and bounces before termination
+    std::uint32_t max_events;  ///< tentative collisions and bounces before termination
 };
 
 /// Steps of the R2 sequence in units of 2^-32 (Roberts 2018): photon i starts at i * kR2 + shift.

@@ -3,75 +3,22 @@
 // in: photon numbers -> out: position (voxels) and direction of travel.
 // METHODS 3 "Shoot"; points from the R2 sequence (Roberts 2018), shifted at random.
 #pragma once
-#include "kernels_cpu/math.h"
 #include "kernels_cpu/trace_params.h"
-#include "kernels_cpu/vec.h"
+#include "kernels_cpu/walk.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
 
 /// Everything a lane knows of its photon.
 template <int W, int NC>
-struct Photon {
-    Vec<F<W>> p, d, inverse;        // voxels; unit; metres per voxel plane along each axis
-    F<W> weight[NC], tau, path;     // share left per channel; optical depth to go; metres
+struct Photon : Walker<W> {
+    F<W> weight[NC], path;  // share left per channel; metres
     U<W> index, event;
-    I<W> block_x, block_y, block_z;
-    I<W> order;                     // scatterings so far, bounces included
-    M<W> alive, shadow, owes;       // owes: the ground below misses this photon's light
-    F<W> ground_x, ground_y;        // where, metres
+    I<W> order;                // scatterings so far, bounces included
+    M<W> alive, shadow, owes;  // owes: the ground below misses this photon's light
+    F<W> owed_x, owed_y;       // where on the ground, metres
+    F<W> ground_x, ground_y;   // where on the ground the next bounce starts, metres
 };
-
-/// Metres along `d` per metre of axis; a direction with no extent never reaches a plane.
-template <class T>
-PILEUS_FN T safe_inverse(T d) {
-    return 1.0f / copysign_(max_(abs_(d), all<T>(1e-18f)), d);
-}
-
-template <int W, int NC>
-PILEUS_FN void set_direction(Photon<W, NC>& s, const TraceParams& k, M<W> m, Vec<F<W>> d) {
-    s.d.x = select(m, d.x, s.d.x);
-    s.d.y = select(m, d.y, s.d.y);
-    s.d.z = select(m, d.z, s.d.z);
-    s.inverse.x = select(m, k.cell[0] * safe_inverse(d.x), s.inverse.x);
-    s.inverse.y = select(m, k.cell[1] * safe_inverse(d.y), s.inverse.y);
-    s.inverse.z = select(m, k.cell[2] * safe_inverse(d.z), s.inverse.z);
-}
-
-/// Block of a position that lies on or in the box.
-template <class T>
-PILEUS_FN auto block_of(T p, const TraceParams& k, int axis) {
-    const auto i = to_int(p * (1.0f / k.block));
-    const auto last = all<I_of<T>>(k.blocks[axis] - 1);
-    return min_(max_(i, I_of<T>{}), last);
-}
-
-template <int W, int NC>
-PILEUS_FN void set_position(Photon<W, NC>& s, const TraceParams& k, M<W> m, Vec<F<W>> p) {
-    s.p.x = select(m, p.x, s.p.x);
-    s.p.y = select(m, p.y, s.p.y);
-    s.p.z = select(m, p.z, s.p.z);
-    s.block_x = select(m, block_of(p.x, k, 0), s.block_x);
-    s.block_y = select(m, block_of(p.y, k, 1), s.block_y);
-    s.block_z = select(m, block_of(p.z, k, 2), s.block_z);
-}
-
-/// Exponential free flight, exact in its tail: the 2^-24 share of draws beyond 16.6 optical
-/// depths is continued with 40 more bits, up to 44 (RELIABILITY S52).
-template <class UU>
-PILEUS_FN auto free_flight(UU word, UU more) {
-    using T = F_of<UU>;
-    const UU k = word >> 8;
-    const auto tail = k == 0u;
-    const T u = select(tail, all<T>(1.0f), to_float(reinterpret<I_of<UU>>(k)) * 0x1p-24f);
-    T tau = T{} - log_(u);
-    if (any(tail)) {
-        const T fine = to_float(reinterpret<I_of<UU>>(more >> 8)) * 0x1p-24f;
-        const T v = (to_float(reinterpret<I_of<UU>>(word & 255u)) + fine) * 0x1p-8f + 0x1p-40f;
-        tau = select(tail, 16.6355323f - log_(v), tau);
-    }
-    return tau;
-}
 
 /// Cosine-weighted direction: height over the plane and the two components in it.
 template <class T>
@@ -122,8 +69,7 @@ PILEUS_FN void start_photons(Photon<W, NC>& s, const TraceParams& k, M<W> m) {
         d = {select(on_x, n, l.a), select(on_y, n, select(on_x, l.a, l.b)),
              select(on_x, l.b, select(on_y, l.b, n))};
         // A side face sees half of a hemisphere of sky: mirror the other half into it.
-        if (k.hemisphere != 0)
-            d.z = copysign_(d.z, all<T>(float(k.hemisphere)));
+        if (k.hemisphere != 0) d.z = copysign_(d.z, all<T>(float(k.hemisphere)));
     }
     set_position(s, k, m, p);
     set_direction(s, k, m, d);

@@ -125,4 +125,27 @@ FileResult replace_file(const char* path, const void* data, std::size_t bytes) {
     return result;
 }
 
+FileResult check_replaceable(const char* path) {
+    struct stat facts;
+    if (::stat(path, &facts) == 0) {
+        if (S_ISDIR(facts.st_mode)) return {FileFault::kDirectory, EISDIR};
+        if (!S_ISREG(facts.st_mode))
+            return ::access(path, W_OK) == 0 ? FileResult{} : system_fault();
+    }
+
+    // Climb to a folder that is there; what lies below it would be made.
+    std::string folder = path;
+    for (;;) {
+        const std::size_t slash = folder.rfind('/');
+        if (slash == std::string::npos)
+            folder = ".";
+        else
+            folder.resize(slash > 0 ? slash : 1);
+        if (::stat(folder.c_str(), &facts) == 0) break;
+        if (errno != ENOENT || folder == "." || folder == "/") return system_fault();
+    }
+    if (!S_ISDIR(facts.st_mode)) return {FileFault::kSystem, ENOTDIR};
+    return ::access(folder.c_str(), W_OK | X_OK) == 0 ? FileResult{} : system_fault();
+}
+
 }  // namespace pileus

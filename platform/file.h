@@ -49,4 +49,8 @@ private:
 /// name is removed.
 FileResult replace_file(const char* path, const void* data, std::size_t bytes);
 
+/// Whether replace_file could begin: the nearest folder that is there can be written into, and
+/// `path` is no folder. Changes nothing.
+FileResult check_replaceable(const char* path);
+
 }  // namespace pileus

@@ -11,6 +11,13 @@
 
 namespace pileus {
 
+/// Exhaustive loops visit each `kThin`-th block where the machine is usually an emulated one.
+#if defined(__x86_64__)
+constexpr std::uint32_t kThin = 1;
+#else
+constexpr std::uint32_t kThin = 16;
+#endif
+
 inline float float_of(std::uint32_t bits) {
     float f;
     std::memcpy(&f, &bits, 4);

@@ -36,6 +36,10 @@ Status make_context(const RenderOptions& options, Context& context, Report& repo
     return Status::ok();
 }
 
+std::int64_t photons_of(const Scene& scene, const RenderOptions& options) {
+    return options.budget_photons >= 0 ? options.budget_photons : scene.collectors.photons;
+}
+
 struct Frames {
     int first, last, total;
 };
@@ -127,9 +131,7 @@ Status render(const Scene& scene, const RenderOptions& options, const FrameSink&
     report.seed = scene.seed;
 
     CollectorsRun run;
-    const std::int64_t photons =
-        options.budget_photons >= 0 ? options.budget_photons : scene.collectors.photons;
-    PILEUS_TRY(collectors_prepare(scene, photons, context, run));
+    PILEUS_TRY(collectors_prepare(scene, photons_of(scene, options), context, run));
     for (int frame = frames.first; frame <= frames.last; ++frame) {
         PILEUS_TRY(light_frame(scene, options, context, run, frame, frame == frames.first));
         Image image;
@@ -153,7 +155,7 @@ Status plan_scene(const Scene& scene, const RenderOptions& options, Report& repo
     report.method = scene.method;
     report.seed = scene.seed;
     CollectorsRun run;
-    PILEUS_TRY(collectors_prepare(scene, scene.collectors.photons, context, run));
+    PILEUS_TRY(collectors_prepare(scene, photons_of(scene, options), context, run));
     collectors_report(run, report);
     return Status::ok();
 }

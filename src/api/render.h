@@ -14,10 +14,10 @@ namespace pileus {
 constexpr const char* kVersion = "0.1.0";
 
 struct RenderOptions {
-    int threads = 0;                  ///< 0: all there are
-    std::string isa;                  ///< empty: the widest this machine runs
-    std::int64_t budget_photons = -1; ///< >= 0: instead of the scene's number
-    double budget_seconds = 0;        ///< > 0: stop tracing after this wall time; whole generations
+    int threads = 0;                   ///< 0: all there are
+    std::string isa;                   ///< empty: the widest this machine runs
+    std::int64_t budget_photons = -1;  ///< >= 0: instead of the scene's number
+    double budget_seconds = 0;  ///< > 0: stop tracing after this wall time; whole generations
     int first_frame = 0, last_frame = 0;  ///< of the animation, inclusive
     /// Called now and then with a stage's name and the share done of it, 0..1.
     std::function<void(const char* stage, double share)> progress;

@@ -20,10 +20,14 @@ inline SineCosine sincos_deg(double degrees) {
     for (int n = 18; n >= 0; n -= 2) cosine = 1.0 - x * x / ((n + 1) * (n + 2)) * cosine;
     sine *= x;
     switch (static_cast<int>(((q % 4) + 4) % 4)) {
-        case 0: return {sine, cosine};
-        case 1: return {cosine, -sine};
-        case 2: return {-sine, -cosine};
-        default: return {-cosine, sine};
+        case 0:
+            return {sine, cosine};
+        case 1:
+            return {cosine, -sine};
+        case 2:
+            return {-sine, -cosine};
+        default:
+            return {-cosine, sine};
     }
 }
 

@@ -52,6 +52,14 @@ Status read_whole_file(const std::string& path, std::uint64_t limit_bytes, Buffe
     return result ? Status::ok() : read_fault(path, result);
 }
 
+Status can_write_file(const std::string& path) {
+    if (path.empty()) return Status::io("file name: empty, allowed: the path of a file");
+    if (has_zero_byte(path)) return Status::io("file name: holds a zero byte");
+    const FileResult result = check_replaceable(path.c_str());
+    if (!result) return Status::io(path + ": cannot write: " + describe(result));
+    return Status::ok();
+}
+
 Status write_file(const std::string& path, Span<const char> bytes) {
     if (path.empty()) return Status::io("file name: empty, allowed: the path of a file");
     if (has_zero_byte(path)) return Status::io("file name: holds a zero byte");

@@ -27,6 +27,9 @@ Status read_whole_file(const std::string& path, std::uint64_t limit_bytes, Buffe
 /// new or partial file is left.
 Status write_file(const std::string& path, Span<const char> bytes);
 
+/// Tells before the work is done whether write_file could begin; its fault if not.
+Status can_write_file(const std::string& path);
+
 /// What follows the last point of the file's name, in lower case (ASCII), the point included;
 /// empty where there is none.
 std::string file_extension(const std::string& path);

@@ -27,8 +27,8 @@ struct [[nodiscard]] Status {
 }  // namespace pileus
 
 /// Return early when a step failed.
-#define PILEUS_TRY(expression)                              \
-    do {                                                    \
-        ::pileus::Status pileus_status_ = (expression);     \
-        if (!pileus_status_) return pileus_status_;         \
+#define PILEUS_TRY(expression)                          \
+    do {                                                \
+        ::pileus::Status pileus_status_ = (expression); \
+        if (!pileus_status_) return pileus_status_;     \
     } while (0)

@@ -129,7 +129,7 @@ void read_attributes(const Imf::Header& header, Image& image) {
 
 /// Refuses what a small file can claim but not hold: real compression stays below 2048 to one.
 Status check_header(const std::string& name, const Imf::Header& header, std::uint64_t file_bytes) {
-    const Imath::Box2i window = header.dataWindow();
+    const Imath::Box2i& window = header.dataWindow();
     const std::int64_t width = std::int64_t(window.max.x) - window.min.x + 1;
     const std::int64_t height = std::int64_t(window.max.y) - window.min.y + 1;
     PILEUS_TRY(check_image_size(name, width, height));
@@ -156,7 +156,7 @@ Status read_stream(const std::string& name, Span<const char> bytes, Image& image
     Imf::InputFile file(stream, 0);
     const Imf::Header& header = file.header();
     PILEUS_TRY(check_header(name, header, bytes.size));
-    const Imath::Box2i window = header.dataWindow();
+    const Imath::Box2i& window = header.dataWindow();
     image.width = window.max.x - window.min.x + 1;
     image.height = window.max.y - window.min.y + 1;
     const std::uint64_t pixels = std::uint64_t(image.width) * std::uint64_t(image.height);

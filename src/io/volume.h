@@ -10,9 +10,9 @@
 namespace pileus {
 
 struct Volume {
-    std::array<int, 3> size{0, 0, 0};  ///< cells along x, y, z; each 1..4096
-    Buffer<float> density;             ///< index (z*ny + y)*nx + x; finite, >= 0
-    bool knows_bounds = false;         ///< the file says where its box lies
+    std::array<int, 3> size{0, 0, 0};                 ///< cells along x, y, z; each 1..4096
+    Buffer<float> density;                            ///< index (z*ny + y)*nx + x; finite, >= 0
+    bool knows_bounds = false;                        ///< the file says where its box lies
     std::array<std::array<double, 3>, 2> bounds_m{};  ///< outer faces of the box, metres
 };
 

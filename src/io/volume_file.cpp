@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Chooses a reader for a density grid, and turns grids into the project's axes.
-// in: a medium's settings and a path -> out: a Volume, z up.
+// in: a medium's settings and a path -> out: a Volume in file order; the turn to z up apart.
 // docs/formats.md
 #include "src/io/volume_file.h"
 
@@ -58,21 +58,12 @@ Status read_volume(const MediumSettings& medium, const std::string& path, Volume
         const std::string extension = file_extension(path);
         if (!extension.empty()) format = extension.substr(1);
     }
-    if (format == "pbrt") {
-        PILEUS_TRY(read_pbrt_volume(path, volume));
-    } else if (format == "raw") {
-        PILEUS_TRY(
-            read_raw_volume(path, medium.raw_type, medium.raw_size, medium.raw_big_endian, volume));
-    } else {
-        return Status::bad_input(path + ": format: unknown, \"" + format +
-                                 "\", allowed: \"pbrt\" or \"raw\"");
-    }
-    if (medium.y_up) PILEUS_TRY(permute_y_up(volume));
-    if (medium.has_bounds) {
-        volume.bounds_m = medium.bounds_m;
-        volume.knows_bounds = true;
-    }
-    return Status::ok();
+    if (format == "pbrt") return read_pbrt_volume(path, volume);
+    if (format == "raw")
+        return read_raw_volume(path, medium.raw_type, medium.raw_size, medium.raw_big_endian,
+                               volume);
+    return Status::bad_input(path + ": format: unknown, \"" + format +
+                             "\", allowed: \"pbrt\" or \"raw\"");
 }
 
 }  // namespace pileus

@@ -15,10 +15,10 @@ namespace pileus {
 constexpr int kMaxVolumeSide = 4096;
 constexpr std::uint64_t kMaxVolumeCells = std::uint64_t{1} << 31;
 
-/// Reads `path` (already resolved) as medium.format says, or by extension (.pbrt, .raw), turns it
-/// z up if medium.y_up, and lets medium.bounds_m win over the file's own box where given.
-/// Bad settings or contents: kBadInput; more cells or memory than allowed: kLimit; failed half
-/// way: kIo. `volume` is unspecified after a fault.
+/// Reads `path` (already resolved) as medium.format says, or by extension (.pbrt, .raw). Axes and
+/// box stay as in the file: the caller turns a y-up grid with permute_y_up and lets a box given in
+/// the scene win. Bad settings or contents: kBadInput; more cells or memory than allowed: kLimit;
+/// failed half way: kIo. `volume` is unspecified after a fault.
 Status read_volume(const MediumSettings& medium, const std::string& path, Volume& volume);
 
 /// The text form `Volume "volumegrid" "integer nx" N ... "float density" [...]`. Axes stay in file

@@ -33,8 +33,10 @@ Status plan_deposit(const Scene& scene, CollectorsRun& run) {
     if (run.camera_cells > 0) d.mode = kDepositCamera;
     const bool split = (c.first_order_split || run.camera_cells > 0) && run.lighting.sunlit;
     d.first_order = !split ? 0 : (c.billboards && run.camera_cells == 0 ? 1 : 2);
-    d.coefficients = d.mode == kDepositCamera ? 1 : d.bands * d.bands + (d.first_order == 1 ? 1 : 0);
-    if (!split) run.plan.leave_out("first-order split", run.lighting.sunlit ? "switched off" : "no sun");
+    d.coefficients =
+        d.mode == kDepositCamera ? 1 : d.bands * d.bands + (d.first_order == 1 ? 1 : 0);
+    if (!split)
+        run.plan.leave_out("first-order split", run.lighting.sunlit ? "switched off" : "no sun");
 
     double largest = 1;  // first-order coefficients; |y| stays below 1.1 for 8 bands
     if (d.bands > 6) largest = 1.1;
@@ -42,10 +44,11 @@ Status plan_deposit(const Scene& scene, CollectorsRun& run) {
         largest = double(phase_peak(run.medium.phase));
     double photons = 0;
     for (const Light& l : run.lighting.lights) photons += double(l.photons);
-    d.places = fixed_point_places(photons * double(run.generations) * double(run.max_events), largest);
+    d.places =
+        fixed_point_places(photons * double(run.generations) * double(run.max_events), largest);
     if (d.places < 0)
-        return Status::limit(scene.file + ": collectors.photons: " +
-                             std::to_string(scene.collectors.photons) +
+        return Status::limit(scene.file +
+                             ": collectors.photons: " + std::to_string(scene.collectors.photons) +
                              " photons could overflow the 64-bit sums; take fewer");
     return Status::ok();
 }
@@ -97,8 +100,7 @@ void note_plan(const Scene& scene, CollectorsRun& run) {
     plan.take("leaves", run.prepared.leaves.bytes());
     plan.take("collectors", run.prepared.collectors.bytes());
     plan.take("collector of voxel", run.prepared.collector_of_voxel.bytes());
-    plan.take("majorants",
-              run.prepared.majorants.bytes() + run.prepared.skip_majorants.bytes());
+    plan.take("majorants", run.prepared.majorants.bytes() + run.prepared.skip_majorants.bytes());
 }
 
 /// A scene without media still has a sky and a ground to show.
@@ -118,14 +120,30 @@ Status empty_medium(const Scene& scene, Medium& medium) {
 Status collectors_prepare(const Scene& scene, std::int64_t photons, const Context& context,
                           CollectorsRun& run) {
     run.scene = &scene;
+    if (scene.collectors.camera_closure) {
+        if (scene.animation.present && scene.animation.moves_camera)
+            return Status::bad_input(scene.file +
+                                     ": collectors.closure: \"camera\" needs a fixed "
+                                     "camera, but animation.camera_orbit_deg moves it");
+        run.camera_cells = scene.collectors.cell_voxels;
+        const CameraParams camera = make_camera(scene.camera, 0, Double3{});
+        run.deposit.orthographic = scene.camera.orthographic;
+        run.deposit.camera[0] = -camera.forward[0];
+        run.deposit.camera[1] = -camera.forward[1];
+        run.deposit.camera[2] = -camera.forward[2];
+    }
     if (scene.media.size() > 1)
         return Status::bad_input(scene.file + ": medium: " + std::to_string(scene.media.size()) +
                                  " media, allowed: 1 in this version of method collectors");
     {
         const StageClock clock(context, "density");
-        PILEUS_TRY(scene.media.empty() ? empty_medium(scene, run.medium)
-                                       : load_medium(scene, scene.media[0], context.threads,
-                                                     run.medium));
+        PILEUS_TRY(scene.media.empty()
+                       ? empty_medium(scene, run.medium)
+                       : load_medium(scene, scene.media[0], context.threads, run.medium));
+    }
+    if (run.camera_cells > 0 && !scene.camera.orthographic) {
+        const CameraParams camera = make_camera(scene.camera, 0, run.medium.low_m);
+        for (int a = 0; a < 3; ++a) run.deposit.camera[a] = camera.origin[a];
     }
     run.generations = std::uint64_t(scene.collectors.generations);
     if (photons >= 0 && std::uint64_t(photons) < run.generations)
@@ -134,12 +152,12 @@ Status collectors_prepare(const Scene& scene, std::int64_t photons, const Contex
     run.lighting = plan_lighting(scene, run.medium, run.sun_elevation_deg, run.plan);
     share_photons(std::uint64_t(photons) / run.generations, run.lighting.lights);
     PILEUS_TRY(plan_deposit(scene, run));
-    PILEUS_TRY(run.camera_cells > 0
-                   ? prepare_cells(run.medium, run.camera_cells, context, run.prepared)
-                   : prepare_collectors(run.medium, scene.collectors, scene.seed, context,
-                                        run.prepared));
-    PILEUS_TRY(prepare_majorants(run.medium, scene.collectors.local_tracking, context,
-                                 run.prepared));
+    PILEUS_TRY(
+        run.camera_cells > 0
+            ? prepare_cells(run.medium, run.camera_cells, context, run.prepared)
+            : prepare_collectors(run.medium, scene.collectors, scene.seed, context, run.prepared));
+    PILEUS_TRY(
+        prepare_majorants(run.medium, scene.collectors.local_tracking, context, run.prepared));
     note_plan(scene, run);
     return allocate_photons(context, run);
 }
@@ -168,7 +186,8 @@ Status collectors_set_sun(double elevation_deg, const Context&, CollectorsRun& r
 
 Status collectors_shoot(const Context& context, CollectorsRun& run) {
     const TraceInput in = trace_input(context, run);
-    PhotonSlot& slot = run.photons.slots[std::size_t(run.next_generation % run.photons.slots.size())];
+    PhotonSlot& slot =
+        run.photons.slots[std::size_t(run.next_generation % run.photons.slots.size())];
     // In an animation each generation has a slot of its own: the oldest gives way, exactly.
     const bool ring = run.photons.slots.size() == run.generations && run.generations > 1 &&
                       run.scene->animation.present;

@@ -24,9 +24,9 @@ struct CollectorsRun {
     std::uint64_t next_generation = 0, generations = 1;
     std::uint32_t max_events = 1u << 20;
     NodeGrid shadow_nodes{};
-    Buffer<float> shadow;        ///< optical depth to the sun per node
+    Buffer<float> shadow;  ///< optical depth to the sun per node
     bool shadow_ready = false;
-    int camera_cells = 0;        ///< > 0: the camera-directed estimate on cells of so many voxels
+    int camera_cells = 0;  ///< > 0: the camera-directed estimate on cells of so many voxels
 };
 
 /// Loads the medium, chooses what is needed, prepares the tree and allocates the sums.

@@ -11,9 +11,10 @@
 namespace pileus {
 namespace {
 
-constexpr float kCut = 1e-4f;            // transmittance that no eye misses
-constexpr float kSplatFactor = 1.2f;     // METHODS 3, repair 4
-constexpr double kShadowVoxels = 2;      // spacing of the shadow nodes
+constexpr float kCut = 1e-4f;         // transmittance that no eye misses
+constexpr float kSplatFactor = 1.2f;  // METHODS 3, repair 4
+constexpr double kPriorScatterings = 8;
+constexpr double kShadowVoxels = 2;              // spacing of the shadow nodes
 constexpr std::uint64_t kNodeBudget = 1u << 19;  // nodes of the source grid, about
 
 MediumView view_of(const CollectorsRun& run) {
@@ -35,8 +36,8 @@ MediumView view_of(const CollectorsRun& run) {
     return v;
 }
 
-Status make_background(const Context& context, const CollectorsRun& run,
-                       const CameraParams& camera, Planes& planes) {
+Status make_background(const Context& context, const CollectorsRun& run, const CameraParams& camera,
+                       Planes& planes) {
     const StageClock clock(context, "background");
     BackgroundParams k{};
     k.medium = view_of(run);
@@ -61,8 +62,8 @@ Status make_shadow(const Context& context, CollectorsRun& run) {
     const StageClock clock(context, "shadow");
     float coarse = 0;
     for (float cell : run.medium.grid.cell_m) coarse = cell > coarse ? cell : coarse;
-    run.shadow_nodes = make_node_grid(run.medium.grid, run.medium.extent_m,
-                                      kShadowVoxels * double(coarse));
+    run.shadow_nodes =
+        make_node_grid(run.medium.grid, run.medium.extent_m, kShadowVoxels * double(coarse));
     PILEUS_TRY(run.shadow.resize(node_count(run.shadow_nodes), "shadow"));
     ShadowParams k{};
     k.medium = view_of(run);
@@ -86,6 +87,17 @@ double source_spacing(const CollectorsRun& run) {
     return spacing;
 }
 
+/// The prior weighs as much as the medium that eight scatterings happen in on average.
+SplatOptions splat_options(const CollectorsRun& run) {
+    double mass = 0, scatterings = 0;
+    for (const Collector& c : run.prepared.collectors.span()) mass += c.mass;
+    for (const TraceTally& t : run.photons.tallies) scatterings += double(t.scatterings);
+    SplatOptions options;
+    options.radius_factor = kSplatFactor;
+    options.prior_mass = scatterings > 0 ? float(kPriorScatterings * mass / scatterings) : 0.0f;
+    return options;
+}
+
 Status show_marched(const Context& context, CollectorsRun& run, const CameraParams& camera,
                     const CollectorColours& colours, int channels, Planes& planes) {
     PILEUS_TRY(make_shadow(context, run));
@@ -95,7 +107,7 @@ Status show_marched(const Context& context, CollectorsRun& run, const CameraPara
     {
         const StageClock clock(context, "splat");
         PILEUS_TRY(splat_colours(run.prepared.collectors.span(), colours.colour.span(), channels,
-                                 nodes, kSplatFactor, context.threads, source));
+                                 nodes, splat_options(run), context.threads, source));
     }
     const StageClock clock(context, "march");
     MarchParams k{};
@@ -146,8 +158,8 @@ Status show_billboards(const Context& context, CollectorsRun& run, const CameraP
     scene.channels = channels;
     scene.opaque_depth = run.lighting.ground ? planes.opaque_depth.data() : nullptr;
     BillboardImage out;
-    PILEUS_TRY(composite_billboards(scene, camera, context.threads, context.kernels->blend_tile,
-                                    out));
+    PILEUS_TRY(
+        composite_billboards(scene, camera, context.threads, context.kernels->blend_tile, out));
     planes.transmittance.swap(out.transmittance);
     planes.half_depth.swap(out.half_depth);
     planes.colour.swap(out.colour);
@@ -156,8 +168,7 @@ Status show_billboards(const Context& context, CollectorsRun& run, const CameraP
 
 }  // namespace
 
-Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& run,
-                       Image& image) {
+Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& run, Image& image) {
     const Scene& scene = *run.scene;
     const CameraParams camera = make_camera(scene.camera, orbit_deg, run.medium.low_m);
     const bool marched = !scene.collectors.billboards || run.camera_cells > 0;
@@ -169,8 +180,9 @@ Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& 
     in.collectors = run.prepared.collectors.span();
     in.camera = camera;
     in.deposit = run.deposit;
-    in.closure = run.camera_cells > 0 ? Closure::kCamera
-                 : scene.collectors.lobe_closure ? Closure::kLobe : Closure::kSh;
+    in.closure = run.camera_cells > 0            ? Closure::kCamera
+                 : scene.collectors.lobe_closure ? Closure::kLobe
+                                                 : Closure::kSh;
     in.window = scene.collectors.window;
     in.batches = scene.output.layer_error && slots >= 2 && slots <= 16;
     in.constant = !marched;
@@ -188,8 +200,8 @@ Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& 
                        : show_billboards(context, run, camera, colours, channels, planes));
     Report& report = *context.report;
     report.counters.clear();
-    PILEUS_TRY(make_layers(planes, camera.width, camera.height, channels, scene.output, image,
-                           report));
+    PILEUS_TRY(
+        make_layers(planes, camera.width, camera.height, channels, scene.output, image, report));
     report.counters.emplace_back("clamped_negative", colours.clamped_negative);
     set_image_camera(camera, run.medium.low_m, image);
     Digest digest;

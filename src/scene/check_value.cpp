@@ -121,7 +121,7 @@ bool check_value(const KeyRow& row, const Node& node, const std::string& path, F
         case KeyKind::kTexts:
             return check.texts(node);
         case KeyKind::kDensity:
-            return node.is_table() || node.is_text() || check.fault(node, "wrong type");
+            return node.is_table() || check.text(node);
         case KeyKind::kTable:
             return node.is_table() || check.fault(node, "wrong type");
         case KeyKind::kLater:

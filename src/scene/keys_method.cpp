@@ -10,124 +10,142 @@ namespace {
 constexpr KeyRange kShare{0, 1, false, false};
 constexpr double kManyPhotons = 0x1p40;
 
-const KeyRow kRows[] = {
-    choice_key(KeyKind::kText, "method.name", "\"collectors\"", kAvailableMethods, kKnownMethods,
-               "how the light is computed; each method has a table of its own name, and the tables "
-               "of other methods are left alone",
-               [](const Node& n, KeyTarget t) { t.scene.method = n.text; }),
+const KeyRow kRows[] =
+    {
+        choice_key(
+            KeyKind::kText, "method.name", "\"collectors\"", kAvailableMethods, kKnownMethods,
+            "how the light is computed; each method has a table of its own name, and the tables "
+            "of other methods are left alone",
+            [](const Node& n, KeyTarget t) { t.scene.method = n.text; }),
 
-    range_key(KeyKind::kInteger, "collectors.photons", "", "5_000_000",
-              {0, kManyPhotons, false, false}, "over the whole ring of generations",
-              [](const Node& n, KeyTarget t) { t.scene.collectors.photons = integer_of(n); }),
-    range_key(KeyKind::kInteger, "collectors.generations", "", "50", {1, 1000, false, false},
-              "length of the ring; one generation shoots photons / generations",
-              [](const Node& n, KeyTarget t) {
-                  t.scene.collectors.generations = static_cast<int>(integer_of(n));
-              }),
-    range_key(KeyKind::kInteger, "collectors.bands", "", "4", {1, 8, false, false},
-              "bands of spherical harmonics that a collector keeps",
-              [](const Node& n, KeyTarget t) {
-                  t.scene.collectors.bands = static_cast<int>(integer_of(n));
-              }),
-    range_key(KeyKind::kInteger, "collectors.samples", "", "20_000", {1, 10000000, false, false},
-              "points from which the collectors are grown",
-              [](const Node& n, KeyTarget t) {
-                  t.scene.collectors.samples = static_cast<int>(integer_of(n));
-              }),
-    choice_key(
-        KeyKind::kText, "collectors.tracking", "\"local\"", "local|global", nullptr,
-        "majorant of the free flights: one per block of cells, or one for all",
-        [](const Node& n, KeyTarget t) { t.scene.collectors.local_tracking = n.text == "local"; }),
-    choice_key(
-        KeyKind::kText, "collectors.closure", "\"sh\"", "sh|lobe", nullptr,
-        "how a collector's light is read: all bands, or one lobe from flux and mean "
-        "direction",
-        [](const Node& n, KeyTarget t) { t.scene.collectors.lobe_closure = n.text == "lobe"; }),
-    choice_key(KeyKind::kText, "collectors.variant", "\"best\"", "best|paper", nullptr,
-               "`paper`: the method as first published; then display, sampler and "
-               "first_order_split have the defaults \"billboards\", \"rejection\" and false",
-               [](const Node& n, KeyTarget t) { t.scene.collectors.paper = n.text == "paper"; }),
-    choice_key(
-        KeyKind::kText, "collectors.display", "\"march\"", "march|billboards", nullptr,
-        "how the lit collectors become a picture",
-        [](const Node& n, KeyTarget t) { t.scene.collectors.billboards = n.text == "billboards"; }),
-    choice_key(KeyKind::kText, "collectors.sampler", "\"stratified\"", "stratified|rejection",
-               nullptr, "how the sample points are drawn",
-               [](const Node& n, KeyTarget t) {
-                   t.scene.collectors.rejection_sampler = n.text == "rejection";
-               }),
-    choice_key(KeyKind::kText, "collectors.placement", "\"gradient\"", "gradient|variance", nullptr,
-               "what the density of sample points follows",
-               [](const Node& n, KeyTarget t) {
-                   t.scene.collectors.variance_field = n.text == "variance";
-               }),
-    range_key(KeyKind::kInteger, "collectors.variance_radius", "cells", "2", {1, 8, false, false},
-              "half width of the neighbourhood whose variance is taken",
-              [](const Node& n, KeyTarget t) {
-                  t.scene.collectors.variance_radius = static_cast<int>(integer_of(n));
-              }),
-    range_key(KeyKind::kNumber, "collectors.density_range", "", "0.1", kShare,
-              "a node whose densities differ by less is split no further",
-              [](const Node& n, KeyTarget t) { t.scene.collectors.density_range = number_of(n); }),
-    range_key(
-        KeyKind::kNumber, "collectors.influence_radius", "diagonals", "0.05", {0, 1, true, false},
-        "radius of influence of a sample, as a share of the box's "
-        "diagonal",
-        [](const Node& n, KeyTarget t) { t.scene.collectors.influence_radius = number_of(n); }),
-    range_key(KeyKind::kNumber, "collectors.radius_factor", "", "1.35", {1, 3, false, false},
-              "radius of a billboard over its collector's; variant `best` only",
-              [](const Node& n, KeyTarget t) { t.scene.collectors.radius_factor = number_of(n); }),
-    plain_key(KeyKind::kBool, "collectors.first_order_split", "true",
-              "true: light straight from the sun is kept apart, with its exact direction",
-              [](const Node& n, KeyTarget t) { t.scene.collectors.first_order_split = n.flag; }),
-    plain_key(KeyKind::kBool, "collectors.window", "false",
-              "true: damps the higher bands against ringing",
-              [](const Node& n, KeyTarget t) { t.scene.collectors.window = n.flag; }),
+        range_key(KeyKind::kInteger, "collectors.photons", "", "5_000_000",
+                  {0, kManyPhotons, false, false}, "over the whole ring of generations",
+                  [](const Node& n, KeyTarget t) { t.scene.collectors.photons = integer_of(n); }),
+        range_key(KeyKind::kInteger, "collectors.generations", "", "50", {1, 1000, false, false},
+                  "length of the ring; one generation shoots photons / generations",
+                  [](const Node& n, KeyTarget t) {
+                      t.scene.collectors.generations = static_cast<int>(integer_of(n));
+                  }),
+        range_key(KeyKind::kInteger, "collectors.bands", "", "4", {1, 8, false, false},
+                  "bands of spherical harmonics that a collector keeps",
+                  [](const Node& n, KeyTarget t) {
+                      t.scene.collectors.bands = static_cast<int>(integer_of(n));
+                  }),
+        range_key(KeyKind::kInteger, "collectors.samples", "", "20_000",
+                  {1, 10000000, false, false}, "points from which the collectors are grown",
+                  [](const Node& n, KeyTarget t) {
+                      t.scene.collectors.samples = static_cast<int>(integer_of(n));
+                  }),
+        choice_key(KeyKind::kText, "collectors.tracking", "\"local\"", "local|global", nullptr,
+                   "majorant of the free flights: one per block of cells, or one for all",
+                   [](const Node& n, KeyTarget t) {
+                       t.scene.collectors.local_tracking = n.text == "local";
+                   }),
+        choice_key(
+            KeyKind::kText, "collectors.closure", "\"sh\"", "sh|lobe|camera", nullptr,
+            "how the light is read: all bands, one lobe from flux and mean direction, or cells lit "
+            "towards a fixed camera",
+            [](const Node& n, KeyTarget t) {
+                t.scene.collectors.lobe_closure = n.text == "lobe";
+                t.scene.collectors.camera_closure = n.text == "camera";
+            }),
+        range_key(KeyKind::kInteger, "collectors.cell_voxels", "cells", "2", {1, 64, false, false},
+                  "edge of a cell of closure `camera`, in cells of the density",
+                  [](const Node& n, KeyTarget t) {
+                      t.scene.collectors.cell_voxels = static_cast<int>(integer_of(n));
+                  }),
+        choice_key(
+            KeyKind::kText, "collectors.variant", "\"best\"", "best|paper", nullptr,
+            "`paper`: the method as first published; then display, sampler and "
+            "first_order_split have the defaults \"billboards\", \"rejection\" and false",
+            [](const Node& n, KeyTarget t) { t.scene.collectors.paper = n.text == "paper"; }),
+        choice_key(KeyKind::kText, "collectors.display", "\"march\"", "march|billboards", nullptr,
+                   "how the lit collectors become a picture",
+                   [](const Node& n, KeyTarget t) {
+                       t.scene.collectors.billboards = n.text == "billboards";
+                   }),
+        choice_key(KeyKind::kText, "collectors.sampler", "\"stratified\"", "stratified|rejection",
+                   nullptr, "how the sample points are drawn",
+                   [](const Node& n, KeyTarget t) {
+                       t.scene.collectors.rejection_sampler = n.text == "rejection";
+                   }),
+        choice_key(KeyKind::kText, "collectors.placement", "\"gradient\"", "gradient|variance",
+                   nullptr, "what the density of sample points follows",
+                   [](const Node& n, KeyTarget t) {
+                       t.scene.collectors.variance_field = n.text == "variance";
+                   }),
+        range_key(KeyKind::kInteger, "collectors.variance_radius", "cells", "2",
+                  {1, 8, false, false}, "half width of the neighbourhood whose variance is taken",
+                  [](const Node& n, KeyTarget t) {
+                      t.scene.collectors.variance_radius = static_cast<int>(integer_of(n));
+                  }),
+        range_key(
+            KeyKind::kNumber, "collectors.density_range", "", "0.1", kShare,
+            "a node whose densities differ by less is split no further",
+            [](const Node& n, KeyTarget t) { t.scene.collectors.density_range = number_of(n); }),
+        range_key(
+            KeyKind::kNumber, "collectors.influence_radius", "diagonals", "0.05",
+            {0, 1, true, false},
+            "radius of influence of a sample, as a share of the box's "
+            "diagonal",
+            [](const Node& n, KeyTarget t) { t.scene.collectors.influence_radius = number_of(n); }),
+        range_key(
+            KeyKind::kNumber, "collectors.radius_factor", "", "1.35", {1, 3, false, false},
+            "radius of a billboard over its collector's; variant `best` only",
+            [](const Node& n, KeyTarget t) { t.scene.collectors.radius_factor = number_of(n); }),
+        plain_key(
+            KeyKind::kBool, "collectors.first_order_split", "true",
+            "true: light straight from the sun is kept apart, with its exact direction",
+            [](const Node& n, KeyTarget t) { t.scene.collectors.first_order_split = n.flag; }),
+        plain_key(KeyKind::kBool, "collectors.window", "false",
+                  "true: damps the higher bands against ringing",
+                  [](const Node& n, KeyTarget t) { t.scene.collectors.window = n.flag; }),
 
-    range_key(KeyKind::kInteger, "path.samples_per_pixel", "", "64", {1, 0x1p32, false, false},
-              "paths for each pixel",
-              [](const Node& n, KeyTarget t) { t.scene.path_samples_per_pixel = integer_of(n); }),
-    plain_key(KeyKind::kTable, "raymarch", "", "settings of a later method", nullptr),
-    plain_key(KeyKind::kTable, "optical-depth", "", "settings of a later method", nullptr),
-    plain_key(KeyKind::kTable, "photon-grid", "", "settings of a later method", nullptr),
-    plain_key(KeyKind::kTable, "particles", "", "settings of a later method", nullptr),
+        range_key(
+            KeyKind::kInteger, "path.samples_per_pixel", "", "64", {1, 0x1p32, false, false},
+            "paths for each pixel",
+            [](const Node& n, KeyTarget t) { t.scene.path_samples_per_pixel = integer_of(n); }),
+        plain_key(KeyKind::kTable, "raymarch", "", "settings of a later method", nullptr),
+        plain_key(KeyKind::kTable, "optical-depth", "", "settings of a later method", nullptr),
+        plain_key(KeyKind::kTable, "photon-grid", "", "settings of a later method", nullptr),
+        plain_key(KeyKind::kTable, "particles", "", "settings of a later method", nullptr),
 
-    plain_key(KeyKind::kTexts, "output.files", "[]",
-              "pictures to write, relative to the working directory; names end in .exr, .png or "
-              ".pfm",
-              [](const Node& n, KeyTarget t) {
-                  for (const Node& file : n.children) t.scene.output.files.push_back(file.text);
-              }),
-    plain_key(KeyKind::kText, "output.report", "\"\"",
-              "JSON report to write, relative to the working directory; empty: none",
-              [](const Node& n, KeyTarget t) { t.scene.output.report = n.text; }),
-    choice_key(KeyKind::kTexts, "output.layers", "[\"radiance\", \"alpha\"]",
-               "radiance|alpha|depth|error|cloud", nullptr,
-               "layers of the picture; radiance and alpha are always there",
-               [](const Node& n, KeyTarget t) {
-                   t.scene.output.layer_depth = texts_hold(n, "depth");
-                   t.scene.output.layer_error = texts_hold(n, "error");
-                   t.scene.output.layer_cloud = texts_hold(n, "cloud");
-               }),
+        plain_key(KeyKind::kTexts, "output.files", "[]",
+                  "pictures to write, relative to the scene's folder; names end in .exr, .png or "
+                  ".pfm",
+                  [](const Node& n, KeyTarget t) {
+                      for (const Node& file : n.children) t.scene.output.files.push_back(file.text);
+                  }),
+        plain_key(KeyKind::kText, "output.report", "\"\"",
+                  "JSON report to write, relative to the scene's folder; empty: none",
+                  [](const Node& n, KeyTarget t) { t.scene.output.report = n.text; }),
+        choice_key(KeyKind::kTexts, "output.layers", "[\"radiance\", \"alpha\"]",
+                   "radiance|alpha|depth|error|cloud", nullptr,
+                   "layers of the picture; radiance and alpha are always there",
+                   [](const Node& n, KeyTarget t) {
+                       t.scene.output.layer_depth = texts_hold(n, "depth");
+                       t.scene.output.layer_error = texts_hold(n, "error");
+                       t.scene.output.layer_cloud = texts_hold(n, "cloud");
+                   }),
 
-    range_key(KeyKind::kInteger, "animation.frames", "", "1", {1, 1000000, false, false},
-              "number of pictures",
-              [](const Node& n, KeyTarget t) {
-                  t.scene.animation.frames = static_cast<int>(integer_of(n));
-              }),
-    range_key(KeyKind::kNumber2, "animation.camera_orbit_deg", "deg", "",
-              {-36000, 36000, false, false},
-              "first and last angle by which the camera has turned about its target",
-              [](const Node& n, KeyTarget t) {
-                  t.scene.animation.camera_orbit_deg = number2_of(n);
-                  t.scene.animation.moves_camera = true;
-              }),
-    range_key(KeyKind::kNumber2, "animation.sun_elevation_deg", "deg", "", {-90, 90, false, false},
-              "first and last elevation of the sun; needs a sun",
-              [](const Node& n, KeyTarget t) {
-                  t.scene.animation.sun_elevation_deg = number2_of(n);
-                  t.scene.animation.moves_sun = true;
-              }),
+        range_key(KeyKind::kInteger, "animation.frames", "", "1", {1, 1000000, false, false},
+                  "number of pictures",
+                  [](const Node& n, KeyTarget t) {
+                      t.scene.animation.frames = static_cast<int>(integer_of(n));
+                  }),
+        range_key(KeyKind::kNumber2, "animation.camera_orbit_deg", "deg", "",
+                  {-36000, 36000, false, false},
+                  "first and last angle by which the camera has turned about its target",
+                  [](const Node& n, KeyTarget t) {
+                      t.scene.animation.camera_orbit_deg = number2_of(n);
+                      t.scene.animation.moves_camera = true;
+                  }),
+        range_key(KeyKind::kNumber2, "animation.sun_elevation_deg", "deg",
+                  "", {-90, 90, false, false}, "first and last elevation of the sun; needs a sun",
+                  [](const Node& n, KeyTarget t) {
+                      t.scene.animation.sun_elevation_deg = number2_of(n);
+                      t.scene.animation.moves_sun = true;
+                  }),
 };
 
 }  // namespace

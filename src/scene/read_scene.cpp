@@ -72,7 +72,9 @@ Status read_scene_text(const std::string& text, const std::string& name,
     check_keys(check);
     check_scene(check);
     PILEUS_TRY(faults.status());
+    // What was set from outside belongs to the scene: the text must make the picture again.
     scene.text = text;
+    for (const std::string& setting : overrides) scene.text += "\n# --set " + setting;
     scene.file = name;
     scene.directory = directory;
     out = std::move(scene);

@@ -15,15 +15,15 @@ using Float3 = std::array<float, 3>;
 struct Camera {
     Double3 position_m{0, -3000, 600}, target_m{0, 0, 900}, up{0, 0, 1};
     bool orthographic = false;
-    double fov_deg = 40;      ///< vertical, perspective only; in (0, 180)
-    double height_m = 2000;   ///< orthographic only; > 0
+    double fov_deg = 40;     ///< vertical, perspective only; in (0, 180)
+    double height_m = 2000;  ///< orthographic only; > 0
     std::array<int, 2> resolution{960, 540};
 };
 
 struct Sun {
     bool present = false;
-    double azimuth_deg = 0;    ///< from +y (north) towards +x (east)
-    double elevation_deg = 45; ///< [-90, 90]
+    double azimuth_deg = 0;     ///< from +y (north) towards +x (east)
+    double elevation_deg = 45;  ///< [-90, 90]
     Float3 irradiance{1, 1, 1};
 };
 
@@ -68,24 +68,26 @@ struct MediumSettings {
 struct CollectorSettings {
     std::int64_t photons = 5'000'000;  ///< over the whole ring
     int generations = 50;
-    int bands = 4;                     ///< 1..8
+    int bands = 4;  ///< 1..8
     int samples = 20'000;
     bool local_tracking = true;
-    bool lobe_closure = false;         ///< closure = "lobe"
-    bool paper = false;                ///< variant = "paper"
-    bool billboards = false;           ///< display = "billboards"
-    bool rejection_sampler = false;    ///< sampler = "rejection" (paper) or "stratified"
-    bool variance_field = false;       ///< placement = "variance" or "gradient"
-    int variance_radius = 2;           ///< voxels, 1..8
-    double density_range = 0.1;        ///< stop splitting below this range of density; [0, 1]
-    double influence_radius = 0.05;    ///< of a sample, as a share of the box's diagonal; (0, 1]
-    double radius_factor = 1.35;       ///< billboard radius over r; best only; [1, 3]
+    bool lobe_closure = false;       ///< closure = "lobe"
+    bool camera_closure = false;     ///< closure = "camera": cells lit towards a fixed camera
+    int cell_voxels = 2;             ///< edge of such a cell, voxels; 1..64
+    bool paper = false;              ///< variant = "paper"
+    bool billboards = false;         ///< display = "billboards"
+    bool rejection_sampler = false;  ///< sampler = "rejection" (paper) or "stratified"
+    bool variance_field = false;     ///< placement = "variance" or "gradient"
+    int variance_radius = 2;         ///< voxels, 1..8
+    double density_range = 0.1;      ///< stop splitting below this range of density; [0, 1]
+    double influence_radius = 0.05;  ///< of a sample, as a share of the box's diagonal; (0, 1]
+    double radius_factor = 1.35;     ///< billboard radius over r; best only; [1, 3]
     bool first_order_split = true;
-    bool window = false;               ///< sinc window against ringing
+    bool window = false;  ///< sinc window against ringing
 };
 
 struct OutputSettings {
-    std::vector<std::string> files;    ///< relative to the working directory
+    std::vector<std::string> files;  ///< relative to the scene's folder
     std::string report;
     bool layer_depth = false, layer_error = false, layer_cloud = false;
 };

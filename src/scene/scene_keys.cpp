@@ -9,8 +9,9 @@ namespace {
 
 std::string bound_text(double value) {
     if (value >= 0x1p63) return "9223372036854775807";
-    const bool whole = value > -1e7 && value < 0x1p53 && value == double(std::int64_t(value));
-    return whole && value != 1e12 ? std::to_string(std::int64_t(value)) : number_text(value);
+    // Write counts in full; the shortest form of a large power of ten is the readable one.
+    const bool count = value >= -1e7 && value <= 1e7 && value == double(std::int64_t(value));
+    return count ? std::to_string(std::int64_t(value)) : number_text(value);
 }
 
 std::string range_text(const KeyRange& range) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refuses scene text whose nesting would exhaust the stack of a recursive parser.
-// in: untrusted text -> out: fine, or the place where the nesting becomes too deep.
-// TOML 1.0, sections Keys, String and Table; limits in docs/scene.md.
+// Refuses scene text that a TOML parser may stumble over: deep nesting, stray characters.
+// in: untrusted text -> out: fine, or the place of the first such fault.
+// TOML 1.0, sections Spec, Keys, String and Table; limits in docs/scene.md.
 #include "src/scene/toml_tree.h"
 
 namespace pileus {
@@ -31,6 +31,8 @@ void skip_comment(Cursor& c) {
     while (!c.done() && c.now() != '\n') c.step();
 }
 
+bool is_ascii(char ch) { return static_cast<unsigned char>(ch) < 0x80; }
+
 /// Passes over one string of any of TOML's four forms; an unclosed one ends where a parser gives
 /// up.
 void skip_string(Cursor& c) {
@@ -56,36 +58,58 @@ void skip_string(Cursor& c) {
     }
 }
 
+class Guard {
+public:
+    explicit Guard(std::string_view text) {
+        c_.text = text;
+        // A byte order mark may open the text.
+        if (text.substr(0, 3) == "\xEF\xBB\xBF") c_.at = c_.line_start = 3;
+    }
+
+    /// The first fault of the text, or null. Its place is then at().
+    const char* run() {
+        while (!c_.done()) {
+            const char ch = c_.now();
+            if (ch == '#') {
+                skip_comment(c_);
+            } else if (ch == '"' || ch == '\'') {
+                skip_string(c_);
+            } else {
+                if (const char* fault = plain(ch)) return fault;
+                c_.step();
+            }
+        }
+        return nullptr;
+    }
+
+    const Cursor& at() const { return c_; }
+
+private:
+    const char* plain(char ch) {
+        if (!is_ascii(ch)) return "character outside ASCII, allowed: in texts and comments only";
+        if (ch == '[' || ch == '{') ++brackets_;
+        if ((ch == ']' || ch == '}') && brackets_ > 0) --brackets_;
+        if (ch == '.') ++dots_;
+        if (ch == '[' || ch == '{' || ch == '=' || ch == ',' || ch == '\n') dots_ = 0;
+        if (brackets_ > kMaxBrackets) return "nested too deeply, allowed: 32 brackets";
+        if (dots_ > kMaxDots) return "key with too many parts, allowed: 32 dots";
+        return nullptr;
+    }
+
+    Cursor c_;
+    int brackets_ = 0, dots_ = 0;
+};
+
 }  // namespace
 
-bool nesting_is_bounded(std::string_view text, SyntaxFault& fault) {
-    Cursor c;
-    c.text = text;
-    int brackets = 0, dots = 0;
-    while (!c.done()) {
-        const char ch = c.now();
-        if (ch == '#') {
-            skip_comment(c);
-            continue;
-        }
-        if (ch == '"' || ch == '\'') {
-            skip_string(c);
-            continue;
-        }
-        if (ch == '[' || ch == '{') ++brackets;
-        if ((ch == ']' || ch == '}') && brackets > 0) --brackets;
-        if (ch == '.') ++dots;
-        if (ch == '[' || ch == '{' || ch == '=' || ch == ',' || ch == '\n') dots = 0;
-        if (brackets > kMaxBrackets || dots > kMaxDots) {
-            fault.line = c.line;
-            fault.column = static_cast<int>(c.at - c.line_start) + 1;
-            fault.what = brackets > kMaxBrackets ? "nested too deeply, allowed: 32 brackets"
-                                                 : "key with too many parts, allowed: 32 dots";
-            return false;
-        }
-        c.step();
-    }
-    return true;
+bool is_parsable(std::string_view text, SyntaxFault& fault) {
+    Guard guard(text);
+    const char* what = guard.run();
+    if (what == nullptr) return true;
+    fault.line = guard.at().line;
+    fault.column = static_cast<int>(guard.at().at - guard.at().line_start) + 1;
+    fault.what = what;
+    return false;
 }
 
 }  // namespace pileus

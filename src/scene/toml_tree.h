@@ -59,7 +59,8 @@ struct SyntaxFault {
 /// deeper than 32 brackets or 32 dots of one key is refused before parsing.
 bool parse_toml(std::string_view text, Node& root, SyntaxFault& fault);
 
-/// Looks for nesting beyond the limits without recursion; false and `fault` when found.
-bool nesting_is_bounded(std::string_view text, SyntaxFault& fault);
+/// Looks, without recursion, for what the parser cannot take: nesting beyond the limits, and
+/// characters outside ASCII where TOML has none. False and `fault` when found.
+bool is_parsable(std::string_view text, SyntaxFault& fault);
 
 }  // namespace pileus

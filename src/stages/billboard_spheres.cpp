@@ -85,8 +85,7 @@ void sort_items(Buffer<SortItem>& items, Buffer<SortItem>& other) {
         std::uint32_t start[257] = {};
         for (const SortItem& item : items.span()) ++start[((item.key >> shift) & 255u) + 1];
         for (int k = 0; k < 256; ++k) start[k + 1] += start[k];
-        for (const SortItem& item : items.span())
-            other[start[(item.key >> shift) & 255u]++] = item;
+        for (const SortItem& item : items.span()) other[start[(item.key >> shift) & 255u]++] = item;
         items.swap(other);
     }
 }

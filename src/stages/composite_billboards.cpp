@@ -48,9 +48,12 @@ Status check_input(const BillboardScene& s, const CameraParams& c, const Billboa
     if (!(c.half_width > 0.0f && c.half_height > 0.0f && std::isfinite(c.half_width) &&
           std::isfinite(c.half_height)))
         return Status::bad_input("camera: extent of the image plane: allowed: above 0, finite");
-    for (int k = 0; k < 3; ++k)
+    for (int k = 0; k < 3; ++k) {
         if (!(std::fabs(c.origin[k]) <= kLargestLength))
             return Status::bad_input("camera: position: allowed: -1e15 to 1e15 metres");
+        if (!std::isfinite(c.right[k] + c.up[k] + c.forward[k]))
+            return Status::bad_input("camera: direction: allowed: finite, unit length");
+    }
     if (t.width < 1 || t.height < 0 || t.width > kMaxSide || t.height > kMaxSide)
         return Status::bad_input("billboards: tile: " + std::to_string(t.width) + " x " +
                                  std::to_string(t.height) + ", allowed: 1 to 1048576 each");
@@ -121,11 +124,10 @@ Status composite_billboards(const BillboardScene& scene, const CameraParams& cam
         (blend_scratch_floats(params) + kBlendAlign - 1) / kBlendAlign * kBlendAlign;
     PILEUS_TRY(scratch.resize(share * std::uint64_t(threads), "planes of the tiles"));
     PILEUS_TRY(prepare_image(params, out));
-    const BlendBuffers buffers{lists.spheres.data(),      scene.colour,
-                               lists.tile_begin.data(),   lists.tile_spheres.data(),
-                               scene.opaque_depth,        out.transmittance.data(),
-                               out.half_depth.data(),     out.colour.data(),
-                               nullptr};
+    const BlendBuffers buffers{
+        lists.spheres.data(),      scene.colour,       lists.tile_begin.data(),
+        lists.tile_spheres.data(), scene.opaque_depth, out.transmittance.data(),
+        out.half_depth.data(),     out.colour.data(),  nullptr};
     parallel_for(threads, static_cast<std::int64_t>(tiles), [&](std::int64_t piece, int thread) {
         BlendBuffers own = buffers;
         own.scratch = scratch.data() + share * std::uint64_t(thread);

@@ -77,8 +77,7 @@ Status make_layers(const Planes& planes, int width, int height, int channels,
         PILEUS_TRY(add_channel(image, kColour[c], plane));
         for (std::size_t i = 0; i < pixels; ++i) {
             const std::size_t at = std::size_t(c) * pixels + i;
-            plane->pixels[i] =
-                planes.colour[at] + planes.transmittance[i] * planes.background[at];
+            plane->pixels[i] = planes.colour[at] + planes.transmittance[i] * planes.background[at];
             if (!finite(plane->pixels[i])) ++broken;
         }
     }

@@ -9,10 +9,12 @@ namespace {
 
 constexpr double kPiD = 3.14159265358979323846;
 
-double luminance_of(const std::array<double, 3>& c) {
-    return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
-}
 double magnitude(double v) { return v < 0 ? -v : v; }
+
+/// Size of a colour whose channels may differ in sign: what its noise grows with.
+double strength(const std::array<double, 3>& c) {
+    return magnitude(c[0]) + magnitude(c[1]) + magnitude(c[2]);
+}
 
 /// Area of one face across `axis`.
 double face_area(const Medium& m, int axis) {
@@ -66,9 +68,9 @@ Light beam_light(const Medium& medium, const std::array<double, 3>& travel) {
 
 void share_photons(std::uint64_t per_generation, std::vector<Light>& lights) {
     double total = 0;
-    for (const Light& l : lights) total += magnitude(luminance_of(l.colour)) * l.power_m2;
+    for (const Light& l : lights) total += strength(l.colour) * l.power_m2;
     for (Light& l : lights) {
-        const double power = magnitude(luminance_of(l.colour)) * l.power_m2;
+        const double power = strength(l.colour) * l.power_m2;
         const double share = total > 0 ? power / total : 1.0 / double(lights.size());
         l.photons = std::uint64_t(double(per_generation) * share + 0.5);
         if (l.photons == 0 && per_generation > 0) l.photons = 1;

@@ -29,13 +29,13 @@ struct Light {
 /// Everything about illumination that is not in the medium.
 struct Lighting {
     std::vector<Light> lights;
-    std::array<double, 3> constant{};   ///< source everywhere in the medium (furnace identity)
+    std::array<double, 3> constant{};  ///< source everywhere in the medium (furnace identity)
     bool sunlit = false;
     std::array<float, 3> to_sun{0, 0, 1};
     std::array<double, 3> sun_irradiance{};
     std::array<double, 3> sky{};
     bool ground = false;
-    double ground_z = 0;                ///< m, box-local
+    double ground_z = 0;  ///< m, box-local
     double ground_albedo = 0;
     std::array<double, 3> ground_diffuse{}, ground_sun{};  ///< radiance of the unshadowed ground
 };

@@ -12,11 +12,14 @@ namespace {
 
 PhaseParams phase_params(const PhaseSettings& phase) {
     switch (phase.kind) {
-        case PhaseKind::kRayleigh: return {kPhaseRayleigh, 0, 0, 1};
+        case PhaseKind::kRayleigh:
+            return {kPhaseRayleigh, 0, 0, 1};
         case PhaseKind::kTwoLobe:
             return {kPhaseTwoLobe, float(phase.g1), float(phase.g2), float(phase.weight)};
-        case PhaseKind::kHenyeyGreenstein: return {kPhaseHg, float(phase.g), 0, 1};
-        case PhaseKind::kIsotropic: break;
+        case PhaseKind::kHenyeyGreenstein:
+            return {kPhaseHg, float(phase.g), 0, 1};
+        case PhaseKind::kIsotropic:
+            break;
     }
     return {kPhaseHg, 0, 0, 1};
 }
@@ -60,8 +63,8 @@ Status load_medium(const Scene& scene, const MediumSettings& settings, int threa
     out.albedo_max = 0;
     for (float albedo : settings.albedo)
         if (albedo > out.albedo_max) out.albedo_max = albedo;
-    const bool grey = settings.albedo[0] == settings.albedo[1] &&
-                      settings.albedo[1] == settings.albedo[2];
+    const bool grey =
+        settings.albedo[0] == settings.albedo[1] && settings.albedo[1] == settings.albedo[2];
     out.channels = grey ? 1 : 3;
     out.phase = phase_params(settings.phase);
     return Status::ok();

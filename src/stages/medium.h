@@ -13,12 +13,12 @@ namespace pileus {
 struct Medium {
     Volume volume;
     Grid grid;
-    Double3 low_m{};       ///< low corner of the box in the world; the origin of box-local metres
-    double extent_m[3];    ///< box edges
-    float sigma = 0;       ///< extinction at density 1, 1/m
+    Double3 low_m{};     ///< low corner of the box in the world; the origin of box-local metres
+    double extent_m[3];  ///< box edges
+    float sigma = 0;     ///< extinction at density 1, 1/m
     Float3 albedo{1, 1, 1};
     float albedo_max = 1;
-    int channels = 1;      ///< 1: achromatic
+    int channels = 1;  ///< 1: achromatic
     PhaseParams phase{};
     float density_max = 0;
 };

@@ -54,8 +54,7 @@ Status finish_leaves(const Medium& medium, const CollectorOptions& options,
     PILEUS_TRY(place_collectors(options, masses.span(), medium.grid, samples,
                                 out.collector_of_voxel.span(), context.threads, out.leaves.span(),
                                 out.collectors));
-    name_collectors(out.leaves.span(), context.threads, medium.grid,
-                    out.collector_of_voxel.span());
+    name_collectors(out.leaves.span(), context.threads, medium.grid, out.collector_of_voxel.span());
     return Status::ok();
 }
 
@@ -96,8 +95,7 @@ Status prepare_majorants(const Medium& medium, bool local, const Context& contex
         out.block = choice.block;
     }
     PILEUS_TRY(majorant_grid(density, medium.grid, out.block, context.threads, out.majorants));
-    return majorant_grid(density, medium.grid, out.skip_block, context.threads,
-                         out.skip_majorants);
+    return majorant_grid(density, medium.grid, out.skip_block, context.threads, out.skip_majorants);
 }
 
 Status prepare_cells(const Medium& medium, int edge, const Context& context, Prepared& out) {

@@ -19,7 +19,8 @@ struct BandFactors {
 BandFactors band_factors(const ReconstructInput& in) {
     BandFactors f{};
     for (int l = 0; l < in.deposit.bands; ++l) {
-        f.factor[l] = in.deposit.mode == kDepositOutgoing ? 1.0f : phase_moment(in.medium->phase, l);
+        f.factor[l] =
+            in.deposit.mode == kDepositOutgoing ? 1.0f : phase_moment(in.medium->phase, l);
         if (in.window && l > 0) {
             const double x = double(l) / in.deposit.bands;
             f.factor[l] *= float(sincos_deg(180.0 * x).sine / (3.14159265358979323846 * x));
@@ -51,9 +52,8 @@ double lobe_power(const ReconstructInput& in, const double* sums, const Directio
     const double x = sums[3] * scale, y = sums[1] * scale, z = sums[2] * scale;
     const double length = __builtin_sqrt(x * x + y * y + z * z);
     const float mean = length < 0.999 ? float(length) : 0.999f;
-    const float g = in.deposit.mode == kDepositOutgoing
-                        ? mean
-                        : mean * phase_moment(in.medium->phase, 1);
+    const float g =
+        in.deposit.mode == kDepositOutgoing ? mean : mean * phase_moment(in.medium->phase, 1);
     const double safe = length > 1e-9 ? 1.0 / length : 0.0;
     const float cosine = float((x * double(to.x) + y * double(to.y) + z * double(to.z)) * safe);
     return flux * double(hg_density(g, 1.0f - cosine));
@@ -72,8 +72,8 @@ double slot_power(const ReconstructInput& in, const BandFactors& bands, const Ph
     for (int i = 0; i < n; ++i) sums[i] = double(from[i]) * norm;
     if (in.closure == Closure::kCamera) return sums[0];
 
-    double power = in.closure == Closure::kLobe ? lobe_power(in, sums, to)
-                                                : sh_power(in, bands, sums, to);
+    double power =
+        in.closure == Closure::kLobe ? lobe_power(in, sums, to) : sh_power(in, bands, sums, to);
     if (in.deposit.first_order == 1 && in.lighting->lights[light].beam) {
         const Direction sun{slot.sun_travel[0], slot.sun_travel[1], slot.sun_travel[2]};
         power += sums[in.deposit.bands * in.deposit.bands] *
@@ -143,8 +143,8 @@ Status reconstruct(const ReconstructInput& in, CollectorColours& out) {
         const std::size_t end = begin + kPiece < count ? begin + kPiece : count;
         for (std::size_t i = begin; i < end; ++i) {
             for (std::size_t set = 0; set < sets; ++set) {
-                const Row row = collector_colour(in, bands, i, set == 0 ? 0 : set - 1,
-                                                 set == 0 ? slots : set);
+                const Row row =
+                    collector_colour(in, bands, i, set == 0 ? 0 : set - 1, set == 0 ? slots : set);
                 for (std::size_t ch = 0; ch < 3; ++ch) {
                     // The constant part belongs to the radiance that must not be negative.
                     const double constant = in.lighting->constant[ch];

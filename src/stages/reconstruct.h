@@ -17,9 +17,9 @@ struct ReconstructInput {
     CameraParams camera{};
     DepositPlan deposit;
     Closure closure = Closure::kSh;
-    bool window = false;     ///< sinc window on the bands
-    bool batches = false;    ///< also one RGB per slot, for the standard error
-    bool constant = false;   ///< add the lighting's constant source (billboards)
+    bool window = false;    ///< sinc window on the bands
+    bool batches = false;   ///< also one RGB per slot, for the standard error
+    bool constant = false;  ///< add the lighting's constant source (billboards)
     int threads = 1;
 };
 

@@ -2,12 +2,13 @@
 // See source_grid.h.
 #include "src/stages/source_grid.h"
 
+#include <vector>
+
+#include "kernels_cpu/medium.h"
 #include "platform/threads.h"
 
 namespace pileus {
 namespace {
-
-constexpr int kFillRings = 4;
 
 struct Range {
     int first, last;  ///< nodes, last excluded
@@ -23,11 +24,10 @@ Range nodes_within(float centre, float radius, float per_metre, int size) {
 /// Adds every ball's share to the nodes of one slice, in the order of the collectors.
 void splat_slice(Span<const Collector> collectors, Span<const float> colour, int channels,
                  const NodeGrid& g, float factor, int z, Span<float> source, float* weights) {
-    const float least = 1.2f / (g.per_metre[0] < g.per_metre[1]
-                                    ? (g.per_metre[0] < g.per_metre[2] ? g.per_metre[0]
-                                                                       : g.per_metre[2])
-                                    : (g.per_metre[1] < g.per_metre[2] ? g.per_metre[1]
-                                                                       : g.per_metre[2]));
+    const float least =
+        1.2f / (g.per_metre[0] < g.per_metre[1]
+                    ? (g.per_metre[0] < g.per_metre[2] ? g.per_metre[0] : g.per_metre[2])
+                    : (g.per_metre[1] < g.per_metre[2] ? g.per_metre[1] : g.per_metre[2]));
     const std::size_t nodes = std::size_t(node_count(g)), count = collectors.size;
     const float pz = (float(z) + 0.5f) / g.per_metre[2];
     for (std::size_t c = 0; c < count; ++c) {
@@ -55,37 +55,80 @@ void splat_slice(Span<const Collector> collectors, Span<const float> colour, int
     }
 }
 
-struct Neighbour {
-    std::size_t node;
-    bool inside;
+/// One level of the pyramid: sums over 2^level nodes along each axis.
+struct Level {
+    int size[3];
+    std::size_t weights, source;  ///< offsets of its [node] and [channel][node] arrays
+    std::size_t nodes() const {
+        return std::size_t(size[0]) * std::size_t(size[1]) * std::size_t(size[2]);
+    }
 };
 
-/// Gives empty nodes next to filled ones the mean of these. Reads the marks of the ring before.
-void fill_slice(const NodeGrid& g, int z, int channels, Span<const std::uint8_t> before,
-                Span<std::uint8_t> after, Span<float> source) {
-    const std::size_t nx = std::size_t(g.size[0]), ny = std::size_t(g.size[1]);
-    const std::size_t nodes = std::size_t(node_count(g));
-    for (std::size_t y = 0; y < ny; ++y)
-        for (std::size_t x = 0; x < nx; ++x) {
-            const std::size_t node = (std::size_t(z) * ny + y) * nx + x;
-            if (before[node] != 0) continue;
-            const Neighbour around[6] = {
-                {node - 1, x > 0},          {node + 1, x + 1 < nx},
-                {node - nx, y > 0},         {node + nx, y + 1 < ny},
-                {node - nx * ny, z > 0},    {node + nx * ny, z + 1 < g.size[2]},
-            };
-            int found = 0;
-            for (const Neighbour& n : around)
-                if (n.inside && before[n.node] != 0) ++found;
-            if (found == 0) continue;
-            for (int i = 0; i < channels; ++i) {
-                const std::size_t plane = std::size_t(i) * nodes;
-                float sum = 0;
-                for (const Neighbour& n : around)
-                    if (n.inside && before[n.node] != 0) sum += source[plane + n.node];
-                source[plane + node] = sum / float(found);
+struct Pyramid {
+    std::vector<Level> levels;
+    Buffer<float> weights, source;
+    int channels;
+};
+
+Status make_pyramid(const NodeGrid& g, int channels, Pyramid& p) {
+    p.channels = channels;
+    Level level{{g.size[0], g.size[1], g.size[2]}, 0, 0};
+    std::size_t nodes = 0;
+    for (;;) {
+        level.weights = nodes;
+        level.source = nodes * std::size_t(channels);
+        nodes += level.nodes();
+        p.levels.push_back(level);
+        if (level.nodes() == 1) break;
+        for (int& n : level.size) n = (n + 1) / 2;
+    }
+    PILEUS_TRY(p.weights.resize(nodes, "source weights"));
+    return p.source.resize(nodes * std::uint64_t(channels), "source grid");
+}
+
+/// Adds the eight children of each node of `up` in slice z.
+void sum_slice(const Level& fine, const Level& up, int channels, int z, Pyramid& p) {
+    const auto add = [&](const float* from, float* to) {
+        for (int dz = 2 * z; dz < 2 * z + 2 && dz < fine.size[2]; ++dz)
+            for (int y = 0; y < fine.size[1]; ++y)
+                for (int x = 0; x < fine.size[0]; ++x)
+                    to[(std::size_t(z) * std::size_t(up.size[1]) + std::size_t(y / 2)) *
+                           std::size_t(up.size[0]) +
+                       std::size_t(x / 2)] +=
+                        from[(std::size_t(dz) * std::size_t(fine.size[1]) + std::size_t(y)) *
+                                 std::size_t(fine.size[0]) +
+                             std::size_t(x)];
+    };
+    add(p.weights.data() + fine.weights, p.weights.data() + up.weights);
+    for (int c = 0; c < channels; ++c)
+        add(p.source.data() + fine.source + std::size_t(c) * fine.nodes(),
+            p.source.data() + up.source + std::size_t(c) * up.nodes());
+}
+
+/// Turns sums into means that lean on the coarser level's where they hold less than `prior`.
+void settle_slice(const Level& fine, const Level* up, float prior, int z, Pyramid& p) {
+    const float* weights = p.weights.data() + fine.weights;
+    for (int y = 0; y < fine.size[1]; ++y)
+        for (int x = 0; x < fine.size[0]; ++x) {
+            const std::size_t node = (std::size_t(z) * std::size_t(fine.size[1]) + std::size_t(y)) *
+                                         std::size_t(fine.size[0]) +
+                                     std::size_t(x);
+            const float w = weights[node];
+            Corners<float> around{};
+            if (up != nullptr) {
+                const Vec<float> at{(float(x) + 0.5f) * 0.5f, (float(y) + 0.5f) * 0.5f,
+                                    (float(z) + 0.5f) * 0.5f};
+                around = corners(at, up->size);
             }
-            after[node] = 1;
+            for (int c = 0; c < p.channels; ++c) {
+                float& v = p.source[fine.source + std::size_t(c) * fine.nodes() + node];
+                if (up == nullptr) {
+                    v = w > 0 ? v / w : 0.0f;
+                    continue;
+                }
+                const float* coarse = p.source.data() + up->source + std::size_t(c) * up->nodes();
+                v = (v + prior * interpolate(coarse, around)) / (w + prior);
+            }
         }
 }
 
@@ -104,32 +147,27 @@ NodeGrid make_node_grid(const Grid& grid, const double (&extent_m)[3], double sp
 }
 
 Status splat_colours(Span<const Collector> collectors, Span<const float> colour, int channels,
-                     const NodeGrid& nodes, float radius_factor, int threads,
+                     const NodeGrid& nodes, const SplatOptions& options, int threads,
                      Buffer<float>& source) {
-    const std::uint64_t count = node_count(nodes);
-    PILEUS_TRY(source.resize(count * std::uint64_t(channels), "source grid"));
-    Buffer<float> weights;
-    Buffer<std::uint8_t> filled, next;
-    PILEUS_TRY(weights.resize(count, "source weights"));
-    PILEUS_TRY(filled.resize(count, "source marks"));
-    PILEUS_TRY(next.resize(count, "source marks"));
+    Pyramid p;
+    PILEUS_TRY(make_pyramid(nodes, channels, p));
     const std::size_t slice = std::size_t(nodes.size[0]) * std::size_t(nodes.size[1]);
     parallel_for(threads, nodes.size[2], [&](std::int64_t z, int) {
-        float* own = weights.data() + std::size_t(z) * slice;
-        splat_slice(collectors, colour, channels, nodes, radius_factor, int(z), source.span(), own);
-        for (std::size_t i = 0; i < slice; ++i) {
-            if (!(own[i] > 0)) continue;
-            const std::size_t node = std::size_t(z) * slice + i;
-            filled[node] = next[node] = 1;
-            for (int c = 0; c < channels; ++c) source[std::size_t(c) * count + node] /= own[i];
-        }
+        splat_slice(collectors, colour, channels, nodes, options.radius_factor, int(z),
+                    p.source.span(), p.weights.data() + std::size_t(z) * slice);
     });
-    for (int ring = 0; ring < kFillRings; ++ring) {
-        parallel_for(threads, nodes.size[2], [&](std::int64_t z, int) {
-            fill_slice(nodes, int(z), channels, filled.span(), next.span(), source.span());
+    for (std::size_t l = 1; l < p.levels.size(); ++l)
+        parallel_for(threads, p.levels[l].size[2], [&](std::int64_t z, int) {
+            sum_slice(p.levels[l - 1], p.levels[l], channels, int(z), p);
         });
-        std::memcpy(filled.data(), next.data(), std::size_t(count));
-    }
+    // A prior of nothing would divide zero by zero where no collector reaches.
+    const float prior = options.prior_mass > 1e-30f ? options.prior_mass : 1e-30f;
+    for (std::size_t l = p.levels.size(); l-- > 0;)
+        parallel_for(threads, p.levels[l].size[2], [&](std::int64_t z, int) {
+            const bool top = l + 1 == p.levels.size();
+            settle_slice(p.levels[l], top ? nullptr : &p.levels[l + 1], prior, int(z), p);
+        });
+    source.swap(p.source);
     return Status::ok();
 }
 

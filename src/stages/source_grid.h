@@ -17,11 +17,19 @@ inline std::uint64_t node_count(const NodeGrid& g) {
     return std::uint64_t(g.size[0]) * std::uint64_t(g.size[1]) * std::uint64_t(g.size[2]);
 }
 
+struct SplatOptions {
+    float radius_factor = 1.2f;  ///< ball over the collector's radius
+    float prior_mass = 0;        ///< m^3 of medium, the weight of what lies around; see below
+};
+
 /// Weighted mean per node over the collectors whose ball (radius_factor times the collector's
-/// radius, at least 1.2 node spacings) holds it; weight = optical mass times (1 - d^2/R^2)^2.
-/// Nodes that no ball holds take the mean of their neighbours, ring by ring.
+/// radius, at least 1.2 node spacings) holds it; weight = mass times (1 - d^2/R^2)^2. A node whose
+/// weights hold less than `prior_mass` leans on the mean of its surroundings, on coarser and
+/// coarser levels (push-pull, Gortler et al. 1996): a collector that a handful of photons met
+/// cannot glow on its own, and nodes that no ball holds are defined. `source` gets the finest
+/// level first, [channel][node]; coarser levels follow it. kLimit: out of memory.
 Status splat_colours(Span<const Collector> collectors, Span<const float> colour, int channels,
-                     const NodeGrid& nodes, float radius_factor, int threads,
+                     const NodeGrid& nodes, const SplatOptions& options, int threads,
                      Buffer<float>& source);
 
 }  // namespace pileus

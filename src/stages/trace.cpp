@@ -7,7 +7,7 @@
 namespace pileus {
 namespace {
 
-constexpr std::uint64_t kChunk = 4096;  // photons per piece of work
+constexpr std::uint64_t kChunk = 4096;                          // photons per piece of work
 constexpr std::uint64_t kMostPhotons = std::uint64_t{1} << 31;  // per launch
 
 TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_t generation) {
@@ -62,10 +62,10 @@ void run_piece(const Launch& launch, std::uint64_t piece, int thread) {
     const std::uint64_t begin = piece * kChunk;
     const std::uint64_t end = begin + kChunk < launch.count ? begin + kChunk : launch.count;
     std::int64_t* sums = launch.scratch->sums.data();
-    TraceBuffers b{in.medium->volume.density.data(), in.majorants.data,
-                   in.collector_of_voxel.data,
-                   sums == nullptr ? nullptr : sums + std::uint64_t(thread) * launch.scratch->stride,
-                   &launch.scratch->tallies[std::size_t(thread) * 2]};
+    TraceBuffers b{
+        in.medium->volume.density.data(), in.majorants.data, in.collector_of_voxel.data,
+        sums == nullptr ? nullptr : sums + std::uint64_t(thread) * launch.scratch->stride,
+        &launch.scratch->tallies[std::size_t(thread) * 2]};
     in.kernels->trace(launch.params, b, std::uint32_t(begin), std::uint32_t(end));
 }
 

@@ -15,9 +15,9 @@ namespace pileus {
 struct DepositPlan {
     std::int32_t mode = kDepositIncident;
     int bands = 4;
-    int first_order = 0;   ///< see TraceParams
-    int coefficients = 16; ///< per collector and channel
-    int places = 16;       ///< binary places of the sums
+    int first_order = 0;    ///< see TraceParams
+    int coefficients = 16;  ///< per collector and channel
+    int places = 16;        ///< binary places of the sums
     float camera[3] = {0, 0, 0};
     bool orthographic = false;
 };

@@ -7,7 +7,9 @@
 namespace pileus {
 namespace {
 
-Double3 minus(const Double3& a, const Double3& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Double3 minus(const Double3& a, const Double3& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
 Double3 cross(const Double3& a, const Double3& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }

@@ -185,8 +185,11 @@ TEST_CASE("S6: g -> -g with u -> 1-u swaps 1-cos and 1+cos, density alike") {
 }
 
 TEST_CASE("S2: the mean of 1-cos over every draw is 1-g; never outside [0, 2]") {
+    int counter = 0;
     for (const float g :
          {0.0f, 1e-7f, -1e-7f, 1e-3f, -1e-3f, -0.3f, -0.6f, 0.85f, -0.99f, 0.9999f}) {
+        // One g in five where the machine is emulated: every draw counts in a mean.
+        if (kThin > 1 && counter++ % 5 != 3) continue;
         std::int64_t outside = 0;
         const double mean = mean_over_every_draw<4>(g, outside);
         std::printf("HG g %-10g mean 1-cos %.9f, error %.2g\n", double(g), mean,

@@ -46,13 +46,14 @@ void dump_list(std::ostream& s, const List& list) {
 void dump_medium(std::ostream& s, const MediumSettings& m) {
     s << int(m.density) << ' ' << m.file << ' ' << m.format << ' ' << int(m.raw_type) << ' ';
     dump_list(s, m.raw_size);
-    s << m.raw_big_endian << m.has_bounds << ' ';
+    s << m.raw_big_endian << ' ' << m.has_bounds << ' ';
     for (const Double3& corner : m.bounds_m) dump_list(s, corner);
     dump_list(s, m.resolution);
     s << m.shape_seed << ' ' << m.extinction_per_m << ' ';
     dump_list(s, m.albedo);
     const PhaseSettings& p = m.phase;
-    s << int(p.kind) << ' ' << p.g << ' ' << p.g1 << ' ' << p.g2 << ' ' << p.weight << ' ' << m.y_up;
+    s << int(p.kind) << ' ' << p.g << ' ' << p.g1 << ' ' << p.g2 << ' ' << p.weight << ' ';
+    s << m.y_up << '\n';
 }
 
 /// Every value of a scene but its text and names: two scenes with equal dumps are equal.
@@ -73,14 +74,15 @@ std::string dump(const Scene& scene) {
     s << '\n' << g.present << ' ' << g.altitude_m << ' ' << g.albedo << '\n';
     for (const MediumSettings& medium : scene.media) dump_medium(s, medium);
     const CollectorSettings& k = scene.collectors;
-    s << '\n' << scene.method << ' ' << k.photons << ' ' << k.generations << ' ' << k.bands << ' ';
+    s << scene.method << ' ' << k.photons << ' ' << k.generations << ' ' << k.bands << ' ';
     s << k.samples << ' ' << k.local_tracking << k.lobe_closure << k.paper << k.billboards;
     s << k.rejection_sampler << k.variance_field << ' ' << k.variance_radius << ' ';
     s << k.density_range << ' ' << k.influence_radius << ' ' << k.radius_factor << ' ';
-    s << k.first_order_split << k.window << '\n' << scene.path_samples_per_pixel << '\n';
+    s << k.first_order_split << k.window << k.camera_closure << ' ' << k.cell_voxels << '\n'
+      << scene.path_samples_per_pixel << '\n';
     const OutputSettings& o = scene.output;
     dump_list(s, o.files);
-    s << o.report << o.layer_depth << o.layer_error << o.layer_cloud << '\n';
+    s << o.report << ' ' << o.layer_depth << o.layer_error << o.layer_cloud << '\n';
     const Animation& a = scene.animation;
     s << a.present << ' ' << a.frames << ' ' << a.moves_camera << a.moves_sun << ' ';
     dump_list(s, a.camera_orbit_deg);
@@ -136,6 +138,7 @@ bands = 5
 samples = 11
 tracking = "global"
 closure = "lobe"
+cell_voxels = 4
 variant = "paper"
 display = "march"
 sampler = "stratified"
@@ -168,7 +171,195 @@ TEST_CASE("every key of a full scene reaches its field") {
           "1 120 35 2 3 4 \n"
           "1 0.25 0.25 0.25 \n"
           "1 -10 0.5\n"
-          "0   2 0 0 0 00 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0");
+          "0   2 0 0 0 0 1 0 0 0 1 2 3 3 4 5 8 0.050000000000000003 0.10000000149011612 "
+          "0.20000000298023224 0.30000001192092896 2 -1 0 0 1 0\n"
+          "4 a.dat raw 1 7 8 9 1 1 0 0 0 1 1 1 0 0 0 0 1000000000000 1 1 1 3 0 1 -0.5 0.75 1\n"
+          "4 b.txt pbrt 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 0 0 0 1 0\n"
+          "collectors 2000000 7 5 11 011001 3 0.5 1 2 110 4\n"
+          "5\n"
+          "x.exr y.pfm r.json 111\n"
+          "1 12 11 0 90 35 5 ");
+    CHECK(scene.text == kEveryKey);
+    CHECK(scene.file == "s.toml");
+    CHECK(scene.directory == "dir");
+}
+
+TEST_CASE("the full scene holds every key that sets something") {
+    Node root;
+    SyntaxFault fault;
+    REQUIRE(parse_toml(kEveryKey, root, fault));
+    Scene scene;
+    FaultList faults("s.toml", {});
+    SceneCheck check{scene, root, faults, {}};
+    check_keys(check);
+    std::set<std::string> seen{"camera.fov_deg"};  // excluded by the orthographic view
+    for (const auto& [path, found] : check.found) {
+        std::string pattern = path;
+        if (pattern.compare(0, 7, "medium.") == 0) pattern.replace(7, 1, "N");
+        seen.insert(pattern);
+    }
+    for (const KeyRow* row : all_scene_keys())
+        if (row->set != nullptr) CHECK_MESSAGE(seen.count(row->path) == 1, row->path);
+}
+
+TEST_CASE("the defaults of the key table are those of the structs") {
+    int compared = 0;
+    for (const KeyRow* row : all_scene_keys()) {
+        const std::string fallback = row->fallback;
+        if (row->set == nullptr || fallback.empty() || fallback == kRequired) continue;
+        CAPTURE(row->path);
+        Node root;
+        SyntaxFault fault;
+        REQUIRE(parse_toml("v = " + fallback, root, fault));
+        FaultList faults("table", {});
+        CHECK(check_value(*row, root.children[0], row->path, faults));
+        Scene scene, untouched;
+        MediumSettings medium;
+        row->set(root.children[0], {scene, medium});
+        scene.media.push_back(medium);
+        untouched.media.emplace_back();
+        CHECK(dump(scene) == dump(untouched));
+        ++compared;
+    }
+    CHECK(compared > 30);
+}
+
+TEST_CASE("a small scene has the defaults, and absent tables are absent") {
+    const Scene scene = good(kCamera);
+    Scene expected;
+    expected.camera.position_m = {0, -9, 5};
+    expected.camera.target_m = {0, 0, 5};
+    CHECK(dump(scene) == dump(expected));
+    CHECK_FALSE(scene.sun.present);
+    CHECK_FALSE(scene.ground.present);
+    CHECK(good(kCamera + "[sun]\n[sky]\n[ground]\n[animation]\n").sun.present);
+}
+
+TEST_CASE("the paper's variant changes three defaults, only where the keys are not given") {
+    const CollectorSettings best = good(kCamera).collectors;
+    CHECK_FALSE(best.billboards);
+    CHECK_FALSE(best.rejection_sampler);
+    CHECK(best.first_order_split);
+    const CollectorSettings paper = good(kCamera, {"collectors.variant=paper"}).collectors;
+    CHECK(paper.billboards);
+    CHECK(paper.rejection_sampler);
+    CHECK_FALSE(paper.first_order_split);
+    CHECK(paper.bands == best.bands);
+    const CollectorSettings mixed =
+        good(kCamera + "[collectors]\nvariant = \"paper\"\nfirst_order_split = true\n",
+             {"collectors.display=march"})
+            .collectors;
+    CHECK_FALSE(mixed.billboards);
+    CHECK(mixed.rejection_sampler);
+    CHECK(mixed.first_order_split);
+}
+
+TEST_CASE("overrides change, add and create") {
+    const Scene scene =
+        good(kCamera,
+             {"camera.resolution=[160,90]", "camera.position_m.2 = 6", "sun.elevation_deg=20",
+              "medium.0.density=uniform:sphere", "medium.0.extinction_per_m=0.5",
+              "medium.0.bounds_m=[[0,0,0],[1,1,1]]", "medium.0.albedo=0.9",
+              "medium.0.phase={type=\"henyey-greenstein\", g=0.5}", "medium.0.phase.g=0.75",
+              "medium.1={density=\"a.pbrt\", extinction_per_m=1}", "output.layers=[depth,error]",
+              "output.files=[out/a.png, \"b.exr\"]", "output.report=", "seed=1", "seed=2",
+              "collectors.photons=1_000", "raymarch.step=3"});
+    CHECK(scene.camera.resolution == std::array<int, 2>{160, 90});
+    CHECK(scene.camera.position_m == Double3{0, -9, 6});
+    CHECK(scene.sun.present);
+    CHECK(scene.sun.elevation_deg == 20);
+    REQUIRE(scene.media.size() == 2);
+    CHECK(scene.media[0].density == DensityKind::kUniformSphere);
+    CHECK(scene.media[0].albedo == Float3{0.9f, 0.9f, 0.9f});
+    CHECK(scene.media[0].phase.g == 0.75);
+    CHECK(scene.media[1].file == "a.pbrt");
+    CHECK(scene.output.layer_depth);
+    CHECK(scene.output.layer_error);
+    CHECK_FALSE(scene.output.layer_cloud);
+    CHECK(scene.output.files == std::vector<std::string>{"out/a.png", "b.exr"});
+    CHECK(scene.seed == 2);
+    CHECK(scene.collectors.photons == 1000);
+    CHECK(good(kCamera, {"collectors.closure=camera"}).collectors.camera_closure);
+    // The text stored in pictures makes them again: what was set is added as comments.
+    CHECK(scene.text.substr(0, kCamera.size()) == kCamera);
+    CHECK(scene.text.find("\n# --set collectors.photons=1_000") != std::string::npos);
+    CHECK(good(kCamera, {}).text == kCamera);
+}
+
+TEST_CASE("suggestions stay near the name") {
+    CHECK(nearest_name("azimut_deg", {"azimuth_deg", "elevation_deg"}) == "azimuth_deg");
+    CHECK(nearest_name("colectorz", {"camera", "collectors"}) == "collectors");
+    CHECK(nearest_name("zebra", {"camera", "sun"}).empty());
+    CHECK(nearest_name("a", {"g1"}).empty());
+}
+
+TEST_CASE("paths in a scene start at its folder") {
+    CHECK(scene_path("a/b", "c.raw") == "a/b/c.raw");
+    CHECK(scene_path("a/", "c.raw") == "a/c.raw");
+    CHECK(scene_path("", "c.raw") == "c.raw");
+    CHECK(scene_path("a", "/c.raw") == "/c.raw");
+}
+
+TEST_CASE("files: missing, a folder, too long, and sound") {
+    Scene scene;
+    scene.seed = 99;
+    const Status missing = read_scene_file("no/such.toml", {}, scene);
+    CHECK(missing.code == Code::kBadInput);
+    CHECK(missing.message == "no/such.toml: no such file, allowed: a readable TOML file");
+    CHECK(read_scene_file("/", {}, scene).code == Code::kBadInput);
+    CHECK(read_scene_text(kCamera + "x = 1", "s", "", {}, scene).code == Code::kBadInput);
+    CHECK(scene.seed == 99);
+    const std::string path = "/tmp/pileus_scene_test_" + std::to_string(getpid()) + ".toml";
+    std::ofstream(path) << kCamera << '#' << std::string(kMaxSceneBytes, 'x');
+    CHECK(read_scene_file(path, {}, scene).code == Code::kLimit);
+    std::ofstream(path) << kCamera;
+    CHECK(bool(read_scene_file(path, {"seed=3"}, scene)));
+    std::remove(path.c_str());
+    CHECK(scene.seed == 3);
+    CHECK(scene.file == path);
+    CHECK(scene.directory == "/tmp");
+}
+
+TEST_CASE("the scenes in assets are sound") {
+    Scene cumulus;
+    const Status read = read_scene_file("assets/scenes/cumulus.toml", {}, cumulus);
+    CHECK_MESSAGE(bool(read), read.message);
+    REQUIRE(cumulus.media.size() == 1);
+    CHECK(cumulus.media[0].resolution == std::array<int, 3>{160, 160, 110});
+    CHECK(cumulus.media[0].bounds_m[1] == Double3{800, 800, 1700});
+    CHECK(cumulus.media[0].phase.g == 0.85);
+    CHECK(cumulus.output.files ==
+          std::vector<std::string>{"../../out/cumulus.png", "../../out/cumulus.exr"});
+    const char* before = std::getenv("PILEUS_DATA_DIR");
+    if (before == nullptr) setenv("PILEUS_DATA_DIR", "/data", 1);
+    for (const char* name : {"assets/scenes/smoke_day.toml", "assets/scenes/smoke_evening.toml"}) {
+        Scene scene;
+        const Status status = read_scene_file(name, {}, scene);
+        CHECK_MESSAGE(bool(status), status.message);
+        REQUIRE(scene.media.size() == 1);
+        CHECK(scene.media[0].y_up);
+        CHECK(scene.media[0].format == "pbrt");
+    }
+    if (before == nullptr) unsetenv("PILEUS_DATA_DIR");
+}
+
+TEST_CASE("docs/scene.md holds the key table as it is, and its example is sound") {
+    const std::string text = file_text("docs/scene.md");
+    const std::string begin = "<!-- keys: begin -->\n", end = "<!-- keys: end -->";
+    const std::size_t from = text.find(begin), to = text.find(end);
+    REQUIRE(from != std::string::npos);
+    REQUIRE(to != std::string::npos);
+    CHECK(text.substr(from + begin.size(), to - from - begin.size()) == describe_keys_markdown());
+    std::set<std::string> paths;
+    for (const KeyRow* row : all_scene_keys()) {
+        CHECK_MESSAGE(paths.insert(row->path).second, row->path);
+        const std::string mark = std::string("| `") + row->path + "` |";
+        CHECK_MESSAGE(text.find(mark) != std::string::npos, row->path);
+    }
+    const std::size_t example = text.find("```toml\n");
+    REQUIRE(example != std::string::npos);
+    const std::size_t start = example + 8;
+    good(text.substr(start, text.find("```", start) - start));
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 // The blender of billboards against closed forms, a brute-force double loop, and itself.
 // in: few spheres seen by a small camera -> out: transmittance, colour and half depth.
 // METHODS 3, each image frame, step 5.
+#include "kernels_cpu/blend.h"
+
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -9,7 +11,6 @@
 #include <limits>
 #include <vector>
 
-#include "kernels_cpu/blend.h"
 #include "kernels_cpu/rng.h"
 #include "src/base/digest.h"
 #include "src/stages/composite_billboards.h"
@@ -43,9 +44,15 @@ struct Spheres {
         for (std::size_t i = 0; i < x.size(); ++i)
             for (std::size_t k = 0; k < std::size_t(channels); ++k)
                 planes[k * x.size() + i] = colour[i * std::size_t(channels) + k];
-        const BillboardScene scene{x.data(),          y.data(),      z.data(),
-                                   radius.data(),     extinction.data(), planes.data(),
-                                   std::uint32_t(x.size()), channels,  opaque};
+        const BillboardScene scene{x.data(),
+                                   y.data(),
+                                   z.data(),
+                                   radius.data(),
+                                   extinction.data(),
+                                   planes.data(),
+                                   std::uint32_t(x.size()),
+                                   channels,
+                                   opaque};
         return composite_billboards(scene, camera, threads, kernel, out, tiling);
     }
 };
@@ -312,8 +319,7 @@ TEST_CASE("blend: a sphere in the corner of a wide view lands on its own pixels"
     const double angle = std::asin(0.1), quarter = std::atan(1.0);
     for (int x = 0; x < 401; ++x) {
         const double slope = ((x + 0.5) * 2 / 401 - 1) * double(camera.half_width);
-        const bool inside =
-            slope > std::tan(quarter - angle) && slope < std::tan(quarter + angle);
+        const bool inside = slope > std::tan(quarter - angle) && slope < std::tan(quarter + angle);
         CHECK(out.transmittance[std::size_t(100 * 401 + x)] == (inside ? 0.0f : 1.0f));
     }
 }
@@ -327,8 +333,8 @@ TEST_CASE("blend: the same bits at every width, tile size and number of threads"
             std::vector<float> opaque(131 * 77);
             for (std::uint32_t i = 0; i < opaque.size(); ++i)
                 opaque[i] = i % 3 == 0 ? kInfinity : number(i, 9, 1, 150);
-            for (const float* solid : {static_cast<const float*>(nullptr),
-                                       static_cast<const float*>(opaque.data())}) {
+            for (const float* solid :
+                 {static_cast<const float*>(nullptr), static_cast<const float*>(opaque.data())}) {
                 BillboardImage out;
                 REQUIRE(bool(s.render(camera, out, solid, blend<1>, 1, {131, 77})));
                 const std::uint64_t expected = digest(out);
@@ -357,5 +363,18 @@ TEST_CASE("blend: numbers out of range are named") {
     CHECK(message([](Spheres& s) { s.x[0] = kInfinity; }).find("billboard 0: x") == 0);
     CHECK(message([](Spheres& s) { s.extinction[1] = -0.5f; }).find("billboard 1: ext") == 0);
     CHECK(message([](Spheres& s) { s.colour[1] = kInfinity; }).find("billboard 1: col") == 0);
-    CHECK(message([](Spheres& s) { s.channels = 52; }).find("billboards: channels: 52") == 0);
+
+    // A camera without a direction, as a zero-length vector gives when normalised.
+    CameraParams nowhere = look_north(4, 4);
+    nowhere.forward[1] = std::numeric_limits<float>::quiet_NaN();
+    const Status lost = Spheres().render(nowhere, out);
+    CHECK(lost.code == Code::kBadInput);
+    CHECK(lost.message.find("camera: direction") == 0);
+
+    // One channel more than the kernel holds.
+    Spheres wide(kMaxBlendChannels + 1);
+    wide.add(0, 100, 0, 10, 0.05f, 1);
+    const Status status = wide.render(look_north(4, 4), out);
+    CHECK(status.code == Code::kBadInput);
+    CHECK(status.message.find("billboards: channels: 52") == 0);
 }

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+// Steps along rays from block to block of a majorant grid, shared by all trackers.
+// in: positions, directions, optical depths to go -> out: the next tentative collision or border.
+// METHODS 2, "local majorants"; the walk stands on each plane it crosses, so none is met twice.
+#pragma once
+#include "kernels_cpu/math.h"
+#include "kernels_cpu/rng.h"
+#include "kernels_cpu/vec.h"
+
+namespace pileus {
+inline namespace PILEUS_ISA {
+
+/// A point under way in the grid. Every `Grid` below has the members size, cell, blocks, block and
+/// sigma of TraceParams and TrackGrid.
+template <int W>
+struct Walker {
+    Vec<F<W>> p, d, inverse;  // voxels; unit; metres per voxel plane along each axis
+    F<W> tau;                 // optical depth to go
+    I<W> block_x, block_y, block_z;
+};
+
+/// Metres along `d` per metre of axis; a direction with no extent never reaches a plane.
+template <class T>
+PILEUS_FN T safe_inverse(T d) {
+    return 1.0f / copysign_(max_(abs_(d), all<T>(1e-18f)), d);
+}
+
+template <int W, class Grid>
+PILEUS_FN void set_direction(Walker<W>& s, const Grid& k, M<W> m, Vec<F<W>> d) {
+    s.d.x = select(m, d.x, s.d.x);
+    s.d.y = select(m, d.y, s.d.y);
+    s.d.z = select(m, d.z, s.d.z);
+    s.inverse.x = select(m, k.cell[0] * safe_inverse(d.x), s.inverse.x);
+    s.inverse.y = select(m, k.cell[1] * safe_inverse(d.y), s.inverse.y);
+    s.inverse.z = select(m, k.cell[2] * safe_inverse(d.z), s.inverse.z);
+}
+
+/// Block of a position that lies on or in the box.
+template <class T, class Grid>
+PILEUS_FN auto block_of(T p, const Grid& k, int axis) {
+    const auto i = to_int(p * (1.0f / k.block));
+    const auto last = all<I_of<T>>(k.blocks[axis] - 1);
+    return min_(max_(i, I_of<T>{}), last);
+}
+
+template <int W, class Grid>
+PILEUS_FN void set_position(Walker<W>& s, const Grid& k, M<W> m, Vec<F<W>> p) {
+    s.p.x = select(m, p.x, s.p.x);
+    s.p.y = select(m, p.y, s.p.y);
+    s.p.z = select(m, p.z, s.p.z);
+    s.block_x = select(m, block_of(p.x, k, 0), s.block_x);
+    s.block_y = select(m, block_of(p.y, k, 1), s.block_y);
+    s.block_z = select(m, block_of(p.z, k, 2), s.block_z);
+}
+
+/// Exponential free flight, exact in its tail: the 2^-24 share of draws beyond 16.6 optical
+/// depths is continued with 40 more bits, up to 44 (RELIABILITY S52).
+template <class UU>
+PILEUS_FN auto free_flight(UU word, UU more) {
+    using T = F_of<UU>;
+    const UU k = word >> 8;
+    const auto tail = k == 0u;
+    const T u = select(tail, all<T>(1.0f), to_float(reinterpret<I_of<UU>>(k)) * 0x1p-24f);
+    T tau = T{} - log_(u);
+    if (any(tail)) {
+        const T fine = to_float(reinterpret<I_of<UU>>(more >> 8)) * 0x1p-24f;
+        const T v = (to_float(reinterpret<I_of<UU>>(word & 255u)) + fine) * 0x1p-8f + 0x1p-40f;
+        tau = select(tail, 16.6355323f - log_(v), tau);
+    }
+    return tau;
+}
+
+/// Index of one of the eight voxels around `p`, drawn with its trilinear weight: to 11 bits in x
+/// and y, 10 in z, rounded without a systematic error; the bits of one word serve once.
+template <class T, class UU, class Grid>
+PILEUS_FN auto corner_voxel(const Vec<T>& p, UU bits, const Grid& k) {
+    using II = I_of<T>;
+    const auto draw = [](T at, UU word, float step, std::int32_t n) {
+        const T jitter = to_float(reinterpret<II>(word)) * step + (0.5f * step - 0.5f);
+        return min_(max_(floor_int(at + jitter), II{}), all<II>(n - 1));
+    };
+    const II x = draw(p.x, bits & 0x7ffu, 0x1p-11f, k.size[0]);
+    const II y = draw(p.y, (bits >> 11) & 0x7ffu, 0x1p-11f, k.size[1]);
+    const II z = draw(p.z, (bits >> 22), 0x1p-10f, k.size[2]);
+    return (z * k.size[1] + y) * k.size[0] + x;
+}
+
+/// What one stride met: a tentative collision (hits) or the border of the block (hops).
+template <int W>
+struct Stride {
+    M<W> hits, hops;
+    F<W> bound, metres;    // the block's majorant; length of the stride
+    F<W> sigma_t, border;  // 1/m; metres to the nearest plane
+    F<W> tx, ty;           // metres to the planes ahead
+    Vec<F<W>> plane;       // where they lie, voxels
+};
+
+/// Move the lanes of `active` to their next tentative collision or to the border of their block.
+template <int W, class Grid>
+PILEUS_FN Stride<W> stride(Walker<W>& s, const Grid& k, const float* majorant, M<W> active) {
+    using T = F<W>;
+    Stride<W> m;
+    const I<W> block = (s.block_z * k.blocks[1] + s.block_y) * k.blocks[0] + s.block_x;
+    m.bound = gather(majorant, select(active, block, I<W>{}));
+    m.sigma_t = m.bound * k.sigma;
+
+    const auto plane = [&](I<W> i, T inverse, std::int32_t n) {
+        const I<W> ahead = select(inverse > 0.0f, i + 1, i);
+        return min_(to_float(ahead) * k.block, all<T>(float(n)));
+    };
+    m.plane = {plane(s.block_x, s.inverse.x, k.size[0]), plane(s.block_y, s.inverse.y, k.size[1]),
+               plane(s.block_z, s.inverse.z, k.size[2])};
+    m.tx = max_((m.plane.x - s.p.x) * s.inverse.x, T{});
+    m.ty = max_((m.plane.y - s.p.y) * s.inverse.y, T{});
+    const T tz = max_((m.plane.z - s.p.z) * s.inverse.z, T{});
+    m.border = min_(min_(m.tx, m.ty), tz);
+    const T flight = s.tau / m.sigma_t;
+    m.hits = active & (flight < m.border);
+    m.hops = active & lnot(m.hits);
+    m.metres = select(m.hits, flight, m.border);
+
+    s.p.x = select(active, s.p.x + s.d.x * m.metres * (1.0f / k.cell[0]), s.p.x);
+    s.p.y = select(active, s.p.y + s.d.y * m.metres * (1.0f / k.cell[1]), s.p.y);
+    s.p.z = select(active, s.p.z + s.d.z * m.metres * (1.0f / k.cell[2]), s.p.z);
+    return m;
+}
+
+/// Which lanes left the box, and which crossed a plane across z.
+template <int W>
+struct Crossing {
+    M<W> out, by_z;
+};
+
+/// Put the lanes that hop into the next block, exactly on the plane they cross.
+template <int W, class Grid>
+PILEUS_FN Crossing<W> cross(Walker<W>& s, const Grid& k, const Stride<W>& m) {
+    using T = F<W>;
+    s.tau = select(m.hops, max_(s.tau - m.sigma_t * m.border, T{}), s.tau);
+    const M<W> by_x = m.hops & (m.tx <= m.border);
+    const M<W> by_y = m.hops & lnot(by_x) & (m.ty <= m.border);
+    const M<W> by_z = m.hops & lnot(by_x | by_y);
+    const auto turn = [](I<W> i, M<W> by, T inverse) {
+        return select(by, select(inverse > 0.0f, i + 1, i - 1), i);
+    };
+    s.p.x = select(by_x, m.plane.x, s.p.x);
+    s.p.y = select(by_y, m.plane.y, s.p.y);
+    s.p.z = select(by_z, m.plane.z, s.p.z);
+    s.block_x = turn(s.block_x, by_x, s.inverse.x);
+    s.block_y = turn(s.block_y, by_y, s.inverse.y);
+    s.block_z = turn(s.block_z, by_z, s.inverse.z);
+    const auto outside = [](I<W> i, std::int32_t n) { return (i < 0) | (i >= n); };
+    const M<W> out = m.hops & (outside(s.block_x, k.blocks[0]) | outside(s.block_y, k.blocks[1]) |
+                               outside(s.block_z, k.blocks[2]));
+    return {out, by_z};
+}
+
+}  // namespace PILEUS_ISA
+}  // namespace pileus

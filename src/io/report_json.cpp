@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// Puts the fields of a Report under the names that outsiders may read.
+// in: a Report -> out: JSON text, keys in a fixed order.
+// RFC 8259; docs/report.md explains each key.
+#define JSON_NOEXCEPTION 1
+#include "src/io/report_json.h"
+
+#include <nlohmann/json.hpp>
+
+#include "src/base/file.h"
+
+namespace pileus {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::string text_of(const Json& json) {
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
+}
+
+Json plan_of(const Report& report) {
+    Json left_out = Json::array(), bytes = Json::object();
+    for (const ReportLeftOut& part : report.left_out)
+        left_out.push_back({{"what", part.what}, {"why", part.why}});
+
+    // Two arrays of one name share its line.
+    for (const ReportBytes& item : report.bytes) {
+        const std::uint64_t before = bytes.value(item.item, std::uint64_t{0});
+        bytes[item.item] = before + item.bytes;
+    }
+    return {{"needed", report.needed},
+            {"left_out", left_out},
+            {"bytes", bytes},
+            {"total_bytes", report.total_bytes}};
+}
+
+Json time_of(const Report& report) {
+    Json stages = Json::object();
+    for (const StageTime& stage : report.stages) {
+        const Json before = stages.value(stage.name, Json{{"wall_s", 0.0}, {"cpu_s", 0.0}});
+        stages[stage.name] = {{"wall_s", before["wall_s"].get<double>() + stage.wall_s},
+                              {"cpu_s", before["cpu_s"].get<double>() + stage.cpu_s}};
+    }
+    return {{"total_s", report.total_s},
+            {"cpu_s", report.cpu_s},
+            {"tracing_wall_s", report.tracing_wall_s},
+            {"tracing_cpu_s", report.tracing_cpu_s},
+            {"stages", stages}};
+}
+
+Json energy_of(const Report& report) {
+    Json rows = Json::array();
+    for (const EnergyRow& row : report.energy)
+        rows.push_back({{"light", row.light},
+                        {"emitted", row.emitted},
+                        {"top", row.top},
+                        {"bottom", row.bottom},
+                        {"sides", row.sides},
+                        {"absorbed", row.absorbed},
+                        {"ground", row.ground},
+                        {"sky", row.sky},
+                        {"terminated", row.terminated},
+                        {"direct_bottom", row.direct_bottom},
+                        {"standard_error",
+                         {{"top", row.top_error},
+                          {"bottom", row.bottom_error},
+                          {"sides", row.sides_error},
+                          {"absorbed", row.absorbed_error}}},
+                        {"balance_quanta", row.balance_quanta}});
+    return rows;
+}
+
+/// Events per CPU second of tracing; null where no tracing was timed.
+Json rate_of(std::uint64_t events, double cpu_s) {
+    if (!(cpu_s > 0)) return nullptr;
+    return double(events) / cpu_s;
+}
+
+Json error_of(const Report& report) {
+    if (!report.has_error) return {{"mean_relative", nullptr}, {"rmse_estimate", nullptr}};
+    return {{"mean_relative", report.mean_relative}, {"rmse_estimate", report.rmse_estimate}};
+}
+
+/// A later entry of one name replaces an earlier one.
+template <class Pairs>
+Json object_of(const Pairs& pairs) {
+    Json object = Json::object();
+    for (const auto& pair : pairs) object[pair.first] = pair.second;
+    return object;
+}
+
+void add_head(const Report& report, Json& json) {
+    json["version"] = report.version;
+    json["scene"] = report.scene;
+    json["method"] = report.method;
+    json["isa"] = report.isa;
+    json["threads"] = report.threads;
+    json["seed"] = report.seed;
+}
+
+}  // namespace
+
+std::string report_json(const Report& report) {
+    Json json;
+    add_head(report, json);
+    json["hash"] = report.hash;
+    json["plan"] = plan_of(report);
+    json["memory"] = {{"peak_bytes", report.peak_bytes}};
+    json["time"] = time_of(report);
+
+    json["photons"] = report.photons;
+    json["generations"] = report.generations;
+    json["scatterings"] = report.scatterings;
+    json["tentative"] = report.tentative;
+    json["crossings"] = report.crossings;
+    json["scatterings_per_second"] = rate_of(report.scatterings, report.tracing_cpu_s);
+    json["photons_per_second"] = rate_of(report.photons, report.tracing_cpu_s);
+    json["mean_path_m"] = report.mean_path_m;
+    json["samples"] = report.samples;
+    json["leaves"] = report.leaves;
+    json["collectors"] = report.collectors;
+
+    json["energy"] = energy_of(report);
+    json["error"] = error_of(report);
+    json["counters"] = object_of(report.counters);
+    json["digests"] = object_of(report.digests);
+    return text_of(json);
+}
+
+std::string plan_json(const Report& report) {
+    Json json;
+    add_head(report, json);
+    json["plan"] = plan_of(report);
+    return text_of(json);
+}
+
+Status write_report(const Report& report, const std::string& path) {
+    const std::string text = report_json(report);
+    return write_file(path, {text.data(), text.size()});
+}
+
+}  // namespace pileus

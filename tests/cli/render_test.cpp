@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the program writes: pictures, hashes, reports, frames; and what it says about files.
+// in: PILEUS_PROGRAM -> out: pass or fail.
+// docs/program.md; docs/report.md
+#include "src/api/render.h"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <nlohmann/json.hpp>
+
+#include "src/io/image_file.h"
+#include "src/io/report_json.h"
+#include "tests/cli/run_program.h"
+
+using namespace pileus;
+using nlohmann::json;
+using test::holds;
+using test::line_count;
+using test::Outcome;
+using test::ProgramFolder;
+
+namespace {
+
+using Names = std::vector<std::string>;
+
+std::string first_word(const std::string& text) { return text.substr(0, text.find(' ')); }
+
+const char* const kReportKeys[] = {
+    "/version",
+    "/scene",
+    "/method",
+    "/isa",
+    "/threads",
+    "/seed",
+    "/hash",
+    "/plan/needed",
+    "/plan/left_out",
+    "/plan/bytes",
+    "/plan/total_bytes",
+    "/memory/peak_bytes",
+    "/time/total_s",
+    "/time/cpu_s",
+    "/time/stages",
+    "/photons",
+    "/scatterings",
+    "/tentative",
+    "/scatterings_per_second",
+    "/photons_per_second",
+    "/energy",
+    "/error/mean_relative",
+    "/error/rmse_estimate",
+    "/counters/clamped_negative",
+    "/counters/nan",
+    "/counters/saturated",
+    "/counters/majorant_violations",
+    "/digests",
+};
+const char* const kEnergyKeys[] = {
+    "light",  "emitted", "top",        "bottom",        "sides",          "absorbed",
+    "ground", "sky",     "terminated", "direct_bottom", "standard_error", "balance_quanta"};
+
+Image grey_image() {
+    Image image;
+    image.width = 3;
+    image.height = 2;
+    const char* const names[] = {"R", "G", "B"};
+    for (int c = 0; c < 3; ++c) {
+        image.channels.emplace_back();
+        image.channels.back().name = names[c];
+        REQUIRE(image.channels.back().pixels.resize(6, "plane"));
+        for (std::size_t i = 0; i < 6; ++i)
+            image.channels.back().pixels[i] = 0.1f * float(c + 1) + float(i);
+    }
+    return image;
+}
+
+}  // namespace
+
+TEST_CASE("render: the picture's hash is the same on stdout, in the report and from the file") {
+    const ProgramFolder folder;
+    const bool exr = bool(can_write_image("a.exr"));
+    const std::string files = exr ? "-o x/a.exr x/b.pfm" : "-o x/b.pfm";
+    const Outcome outcome = folder.run("render s.toml " + files + " --report x/r.json");
+    REQUIRE_MESSAGE(outcome.exit_status == 0, outcome.errors);
+    CHECK(outcome.errors == "");
+    CHECK(folder.left() ==
+          (exr ? Names{"x", "x/a.exr", "x/b.pfm", "x/r.json"} : Names{"x", "x/b.pfm", "x/r.json"}));
+    const std::string hash = first_word(outcome.output);
+    CHECK(hash.size() == 16);
+    CHECK(json::parse(folder.files().get("x/r.json"))["hash"] == hash);
+    if (exr) CHECK(folder.run("hash x/a.exr").output == hash + "\n");
+}
+
+TEST_CASE("render: the report has every key, and fractions of energy that add up") {
+    const ProgramFolder folder;
+    REQUIRE(folder.run("render s.toml --report r.json --threads 1").exit_status == 0);
+    const json report = json::parse(folder.files().get("r.json"));
+    for (const char* key : kReportKeys)
+        CHECK_MESSAGE(report.contains(json::json_pointer(key)), key);
+    CHECK(report["version"] == kVersion);
+    CHECK(report["scene"] == "s.toml");
+    CHECK(report["seed"] == 7);
+    CHECK(report["threads"] == 1);
+    CHECK(report["photons"] == 1000);
+    REQUIRE(report["energy"].size() == 1);
+    const json& row = report["energy"][0];
+    for (const char* key : kEnergyKeys) CHECK_MESSAGE(row.contains(key), key);
+    CHECK(row["balance_quanta"] == 0);
+    double sum = 0;
+    for (const char* fate : {"top", "bottom", "sides", "absorbed", "ground", "sky", "terminated"})
+        sum += row[fate].get<double>();
+    CHECK(sum == doctest::Approx(1).epsilon(1e-12));  // seven roundings of 2^-53 each
+    std::uint64_t total = 0;
+    for (const auto& item : report["plan"]["bytes"]) total += item.get<std::uint64_t>();
+    CHECK(report["plan"]["total_bytes"] == total);
+    for (const auto& stage : report["time"]["stages"]) {
+        CHECK(stage["wall_s"].get<double>() >= 0);
+        CHECK(stage["cpu_s"].get<double>() >= 0);
+    }
+    CHECK(report["time"]["stages"].contains("photons"));
+}
+
+TEST_CASE("render: options change what they name and nothing else") {
+    const ProgramFolder folder;
+    const auto hash = [&](const std::string& options) {
+        const Outcome outcome = folder.run("render s.toml -o a.pfm " + options);
+        REQUIRE_MESSAGE(outcome.exit_status == 0, outcome.errors);
+        return first_word(outcome.output);
+    };
+    const std::string plain = hash("");
+    CHECK(hash("--threads 1 --isa scalar --exposure 2 --quiet") == plain);
+    CHECK(hash("--threads 3 --budget photons=1000 --budget seconds=3600") == plain);
+    CHECK(hash("--seed 8") != plain);
+    CHECK(hash("--seed 8") == hash("--set seed=8"));
+    CHECK(hash("--budget photons=2000") == hash("--set collectors.photons=2000"));
+    CHECK(hash("--budget photons=2000") != plain);
+}
+
+TEST_CASE("render: -o replaces the scene's files, and may stand before the scene") {
+    const ProgramFolder folder;
+    const std::string output = "[output]\nfiles = [\"own.pfm\"]\nreport = \"own.json\"\n";
+    folder.files().put("o.toml", test::small_scene() + output);
+    REQUIRE(folder.run("render o.toml").exit_status == 0);
+    CHECK(folder.left() == Names{"o.toml", "own.json", "own.pfm"});
+    REQUIRE(folder.run("render -o a.pfm b.ppm o.toml --report r.json").exit_status == 0);
+    CHECK(folder.left() == Names{"a.pfm", "b.ppm", "o.toml", "own.json", "own.pfm", "r.json"});
+}
+
+TEST_CASE("render: frames are numbered, also one by one, and repeat the whole's pictures") {
+    const ProgramFolder folder;
+    folder.files().put("f.toml", test::small_scene() + std::string("[animation]\nframes = 3\n"
+                                                                   "camera_orbit_deg = [0, 90]\n"));
+    const Outcome all = folder.run("render f.toml -o a.pfm --report r.json --quiet");
+    REQUIRE_MESSAGE(all.exit_status == 0, all.errors);
+    CHECK(line_count(all.output) == 6);
+    CHECK(folder.left() == Names{"a.0000.pfm", "a.0001.pfm", "a.0002.pfm", "f.toml", "r.0000.json",
+                                 "r.0001.json", "r.0002.json"});
+    const Outcome last = folder.run("render f.toml -o b.pfm --frames 2-2 --quiet");
+    REQUIRE_MESSAGE(last.exit_status == 0, last.errors);
+    CHECK(folder.files().get("b.0002.pfm") == folder.files().get("a.0002.pfm"));
+    CHECK(folder.files().get("a.0000.pfm") != folder.files().get("a.0002.pfm"));
+}
+
+TEST_CASE("render: quiet says only which files it wrote") {
+    const ProgramFolder folder;
+    const Outcome loud = folder.run("render s.toml -o a.pfm");
+    const Outcome quiet = folder.run("render s.toml -o a.pfm --quiet");
+    CHECK(holds(loud.output, "total "));
+    CHECK(quiet.output == loud.output.substr(0, loud.output.find('\n') + 1));
+    CHECK(quiet.errors == "");
+}
+
+TEST_CASE("hash: EXR and PFM of one picture without A agree") {
+    const ProgramFolder folder;
+    const Image image = grey_image();
+    REQUIRE(write_image(image, folder.files().path("p.pfm"), {}));
+    const std::string line = pixel_hash(image) + "\n";
+    CHECK(folder.run("hash p.pfm").output == line);
+    if (!can_write_image("p.exr")) {
+        MESSAGE("skipped: EXR is left out of this build");
+        return;
+    }
+    REQUIRE(write_image(image, folder.files().path("p.exr"), {}));
+    CHECK(folder.run("hash p.exr").output == line);
+}
+
+TEST_CASE("info: the program, a scene, a picture and a grid") {
+    const ProgramFolder folder;
+    const Outcome program = folder.run("info");
+    CHECK(program.exit_status == 0);
+    for (const char* part : {"version ", "compiler ", "scalar (1 lane", "chosen)", "threads "})
+        CHECK_MESSAGE(holds(program.output, part), program.output);
+
+    CHECK(holds(folder.run("info s.toml").output, "16 x 9, perspective"));
+    REQUIRE(write_image(grey_image(), folder.files().path("p.pfm"), {}));
+    const Outcome picture = folder.run("info p.pfm");
+    CHECK(holds(picture.output, "3 x 2"));
+    CHECK_MESSAGE(holds(picture.output, "0.1 to 5.1, mean 2.6"), picture.output);
+
+    folder.files().put("g.raw", std::string("\x00\x80\x00\xff", 4));
+    const Outcome grid = folder.run("info g.raw --size 2 2 1 --type uint8");
+    CHECK_MESSAGE(grid.exit_status == 0, grid.errors);
+    CHECK_MESSAGE(holds(grid.output, "2 of 4 cells"), grid.output);
+    const Outcome wrong = folder.run("info g.raw --size 2 2 2 --type uint8");
+    CHECK(wrong.exit_status == 2);
+}
+
+TEST_CASE("plan: lines for people, JSON with the report's keys, and no file") {
+    const ProgramFolder folder;
+    const Outcome lines = folder.run("plan s.toml");
+    CHECK(lines.exit_status == 0);
+    for (const char* part : {"needed\n", "left out\n", "memory\n", "total "})
+        CHECK_MESSAGE(holds(lines.output, part), lines.output);
+    const Outcome plan = folder.run("plan s.toml --json --set method.name=collectors");
+    REQUIRE(plan.exit_status == 0);
+    const json parsed = json::parse(plan.output);
+    for (const char* key : {"needed", "left_out", "bytes", "total_bytes"})
+        CHECK_MESSAGE(parsed["plan"].contains(key), key);
+    CHECK(parsed["plan"]["total_bytes"].get<std::uint64_t>() > 0);
+    CHECK(folder.left().empty());
+}
+
+TEST_CASE("report: what is no number becomes null, what is no text does no harm") {
+    Report report;
+    report.total_s = std::numeric_limits<double>::infinity();
+    report.has_error = true;
+    report.mean_relative = std::numeric_limits<double>::quiet_NaN();
+    report.rmse_estimate = 0.25;
+    report.scene = "a\"\xff\n";
+    report.stages = {{"photons", 1, 2}, {"photons", 3, 4}};
+    report.bytes = {{"grid", 5}, {"grid", 6}};
+    report.counters = {{"nan", 1}, {"nan", 2}};
+    report.photons = 10;
+    report.tracing_cpu_s = 2.5;
+    const json parsed = json::parse(report_json(report));
+    CHECK(parsed["time"]["total_s"].is_null());
+    CHECK(parsed["error"]["mean_relative"].is_null());
+    CHECK(parsed["error"]["rmse_estimate"] == 0.25);
+    CHECK(parsed["scene"] == "a\"\xef\xbf\xbd\n");
+    CHECK(parsed["time"]["stages"]["photons"]["wall_s"] == 4.0);
+    CHECK(parsed["time"]["stages"]["photons"]["cpu_s"] == 6.0);
+    CHECK(parsed["plan"]["bytes"]["grid"] == 11);
+    CHECK(parsed["counters"]["nan"] == 2);
+    CHECK(parsed["photons_per_second"] == 4.0);
+
+    report.has_error = false;
+    report.tracing_cpu_s = 0;
+    const json none = json::parse(report_json(report));
+    CHECK(none["error"]["rmse_estimate"].is_null());
+    CHECK(none["photons_per_second"].is_null());
+}

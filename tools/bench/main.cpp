@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program pileus_bench: what scenes it reads and how it checks the work of its cases.
+// in: Google Benchmark's own flags -> out: its table; exit 1 when a case fails.
+// docs: README.md in this folder.
+#include <cstdio>
+
+#include "platform/fp_mode.h"
+#include "src/api/render.h"
+#include "src/base/digest.h"
+#include "src/scene/read_scene.h"
+#include "tools/bench/bench.h"
+
+namespace bench {
+namespace {
+
+using namespace pileus;
+
+/// Ten optical depths of cloud droplets over 100 m, wide enough to keep its light.
+constexpr const char* kSlab = R"(
+seed = 7
+[camera]
+position_m = [0, -3000, 600]
+target_m = [0, 0, 50]
+[sun]
+elevation_deg = 60
+[[medium]]
+density = "uniform:box"
+bounds_m = [[-5000, -5000, 0], [5000, 5000, 100]]
+extinction_per_m = 0.1
+phase = { type = "henyey-greenstein", g = 0.85 }
+)";
+
+}  // namespace
+
+bool Bench::passed(benchmark::State& state, const Status& status) {
+    if (status) return true;
+    state.SkipWithError(status.message.c_str());
+    failed_ = true;
+    return false;
+}
+
+bool Bench::read(benchmark::State& state, const std::string& name, const Overrides& overrides,
+                 Scene& scene) {
+    if (name == "slab") return passed(state, read_scene_text(kSlab, "slab", ".", overrides, scene));
+    return passed(state, read_scene_file(PILEUS_SCENES "/" + name + ".toml", overrides, scene));
+}
+
+ReadyScene* Bench::prepared(benchmark::State& state, const std::string& name,
+                            const Overrides& overrides) {
+    std::string key = name;
+    for (const std::string& o : overrides) key += " " + o;
+    std::unique_ptr<ReadyScene>& slot = prepared_[key];
+    if (slot != nullptr) return slot.get();
+    auto made = std::make_unique<ReadyScene>();
+    made->context.kernels = kernel_table(nullptr);
+    made->context.threads = hardware_threads();
+    made->context.report = &made->report;
+    if (!read(state, name, overrides, made->scene)) return nullptr;
+    if (!passed(state, collectors_prepare(made->scene, made->scene.collectors.photons,
+                                          made->context, made->run)))
+        return nullptr;
+    slot = std::move(made);
+    return slot.get();
+}
+
+void Bench::check(benchmark::State& state, const std::string& work, std::uint64_t digest) {
+    const auto [at, first] = digests_.emplace(work, digest);
+    const bool same = first || at->second == digest;
+    (void)passed(state,
+                 same ? Status::ok()
+                      : Status{Code::kCheckFailed, "other work than the first run of " + work});
+}
+
+void forget_photons(CollectorsRun& run) {
+    run.next_generation = 0;
+    for (PhotonSlot& slot : run.photons.slots) {
+        for (std::int64_t& v : slot.sums.span()) v = 0;
+        slot.generations = 0;
+    }
+    for (TraceTally& t : run.photons.tallies) t = TraceTally{};
+}
+
+double stage_cpu(const Report& report, const char* stage) {
+    double sum = 0;
+    for (const StageTime& s : report.stages)
+        if (s.name == stage) sum += s.cpu_s;
+    return sum;
+}
+
+std::uint64_t photon_digest(const CollectorsRun& run) {
+    Digest digest;
+    for (const PhotonSlot& slot : run.photons.slots) digest.integers(slot.sums.span());
+    for (const TraceTally& t : run.photons.tallies) {
+        for (const Fates* f : {&t.light, &t.shadow})
+            for (std::size_t c = 0; c < 3; ++c)
+                for (std::int64_t quanta : {f->emitted[c], f->top[c], f->bottom[c], f->sides[c],
+                                            f->absorbed[c], f->ground[c], f->sky[c]})
+                    digest.u64(std::uint64_t(quanta));
+        for (std::int64_t n : {t.photons, t.scatterings, t.tentative, t.crossings, t.path})
+            digest.u64(std::uint64_t(n));
+    }
+    return digest.value();
+}
+
+Context with(const Context& context, const KernelTable* kernels, int threads) {
+    Context other = context;
+    other.kernels = kernels;
+    other.threads = threads;
+    return other;
+}
+
+}  // namespace bench
+
+int main(int argc, char** argv) {
+    const pileus::FpModeGuard guard;
+    benchmark::Initialize(&argc, argv);
+    if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
+    benchmark::AddCustomContext("pileus", pileus::kVersion);
+    bench::Bench bench;
+    bench::register_trace_cases(bench);
+    bench::register_frame_cases(bench);
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
+    return bench.failed() ? 1 : 0;
+}

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+// Photon tracing: one generation per iteration, by scene, tracking, instruction set and threads.
+// in: prepared scenes -> out: ns of CPU per scattering, rates, and the ratio to the floor.
+// docs: README.md in this folder; rates are per CPU second, which is per core.
+#include <algorithm>
+
+#include "platform/clock.h"
+#include "tools/bench/bench.h"
+#include "tools/bench/floor.h"
+
+namespace bench {
+namespace {
+
+using namespace pileus;
+
+struct TraceCase {
+    std::string name, scene;
+    Overrides overrides;
+};
+
+TraceTally total_of(const CollectorsRun& run) {
+    TraceTally total{};
+    for (const TraceTally& t : run.photons.tallies) add_tally(t, total);
+    return total;
+}
+
+FloorWork floor_work(const CollectorsRun& run) {
+    const TraceTally t = total_of(run);
+    FloorWork work{};
+    work.tentative = std::uint32_t(t.tentative);
+    work.scatterings = std::uint32_t(t.scatterings);
+    work.crossings = std::uint32_t(t.crossings);
+    work.voxels = std::uint32_t(run.medium.volume.density.size());
+    work.blocks = std::uint32_t(run.prepared.majorants.size());
+    work.density = run.medium.volume.density.data();
+    work.majorant = run.prepared.majorants.data();
+    work.collector = run.prepared.collector_of_voxel.data();
+    return work;
+}
+
+constexpr auto kRate = benchmark::Counter::kIsRate;
+const auto kTimeEach = benchmark::Counter::kIsRate | benchmark::Counter::kInvert;
+
+void count(benchmark::State& state, const TraceTally& t, double floor_ratio) {
+    const double n = double(state.iterations());
+    state.counters["photons/s"] = benchmark::Counter(n * double(t.photons), kRate);
+    state.counters["scatterings/s"] = benchmark::Counter(n * double(t.scatterings), kRate);
+    state.counters["tentative/s"] = benchmark::Counter(n * double(t.tentative), kRate);
+    state.counters["s/scattering"] = benchmark::Counter(n * double(t.scatterings), kTimeEach);
+    state.counters["tentative/scattering"] = double(t.tentative) / double(t.scatterings);
+    state.counters["crossings/scattering"] = double(t.crossings) / double(t.scatterings);
+    state.counters["times_floor"] = floor_ratio;
+}
+
+/// Fastest of five, CPU seconds.
+double floor_seconds(Bench& bench, benchmark::State& state, const TraceCase& which,
+                     FloorKernel floor, const FloorWork& work) {
+    double best = 1e30;
+    for (int i = 0; i < 5; ++i) {
+        const double start = cpu_seconds();
+        bench.check(state, "floor of " + which.name, floor(work));
+        best = std::min(best, cpu_seconds() - start);
+    }
+    return best;
+}
+
+void run_trace(benchmark::State& state, Bench& bench, const TraceCase& which,
+               const KernelTable* kernels, int threads) {
+    ReadyScene* p = bench.prepared(state, which.scene, which.overrides);
+    if (p == nullptr) return;
+    const Context context = with(p->context, kernels, threads);
+    double fastest = 1e30;
+    for (auto _ : state) {
+        state.PauseTiming();
+        forget_photons(p->run);
+        state.ResumeTiming();
+        const double start = cpu_seconds();
+        const Status status = collectors_shoot(context, p->run);
+        fastest = std::min(fastest, cpu_seconds() - start);
+        state.PauseTiming();
+        if (!bench.passed(state, status)) return;
+        bench.check(state, which.name, photon_digest(p->run));
+        state.ResumeTiming();
+    }
+    // Both sides of the ratio are the fastest of several, one after the other.
+    const FloorKernel floor = floor_kernel(kernels->name);
+    double ratio = 0;
+    if (floor != nullptr)
+        ratio = fastest / floor_seconds(bench, state, which, floor, floor_work(p->run));
+    count(state, total_of(p->run), ratio);
+}
+
+void run_floor(benchmark::State& state, Bench& bench, const TraceCase& which,
+               const KernelTable* kernels) {
+    ReadyScene* p = bench.prepared(state, which.scene, which.overrides);
+    const FloorKernel floor = floor_kernel(kernels->name);
+    if (p == nullptr || floor == nullptr) return;
+    forget_photons(p->run);
+    if (!bench.passed(state, collectors_shoot(p->context, p->run))) return;
+    const FloorWork work = floor_work(p->run);
+    for (auto _ : state) bench.check(state, "floor of " + which.name, floor(work));
+    count(state, total_of(p->run), 1);
+}
+
+}  // namespace
+
+void register_trace_cases(Bench& bench) {
+    // A fiftieth of the photons per iteration, as one generation of the default ring.
+    const std::string few = "collectors.generations=50";
+    const TraceCase cases[] = {
+        {"trace/slab", "slab", {few, "collectors.photons=1000000"}},
+        {"trace/cumulus/local", "cumulus", {few, "collectors.tracking=local"}},
+        {"trace/cumulus/global", "cumulus", {few, "collectors.tracking=global"}},
+    };
+    for (const TraceCase& which : cases)
+        for_each_machine([&](const std::string& suffix, const KernelTable* kernels, int threads) {
+            benchmark::RegisterBenchmark((which.name + suffix).c_str(),
+                                         [&bench, which, kernels, threads](benchmark::State& s) {
+                                             run_trace(s, bench, which, kernels, threads);
+                                         })
+                ->MeasureProcessCPUTime()
+                ->Unit(benchmark::kMillisecond);
+            if (threads > 1) return;
+            benchmark::RegisterBenchmark(("floor/" + which.name + suffix).c_str(),
+                                         [&bench, which, kernels](benchmark::State& s) {
+                                             run_floor(s, bench, which, kernels);
+                                         })
+                ->MeasureProcessCPUTime()
+                ->Unit(benchmark::kMillisecond);
+        });
+}
+
+}  // namespace bench

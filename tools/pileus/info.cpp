@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// pileus info: what this program is and runs on, or what a file holds.
+// in: nothing, or a scene, picture or density grid -> out: lines "name  value".
+// docs/program.md
+#include "tools/pileus/info.h"
+
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "kernels_cpu/kernels.h"
+#include "platform/threads.h"
+#include "src/api/render.h"
+#include "src/base/file.h"
+#include "src/io/image_file.h"
+#include "src/scene/toml_tree.h"
+#include "tools/pileus/command.h"
+#include "tools/pileus/option_text.h"
+
+namespace pileus {
+
+std::string info_line(const char* name, const std::string& value) {
+    return fmt::format("{:<14} {}\n", name, value);
+}
+
+namespace {
+
+struct InfoArguments {
+    std::string file;
+    std::vector<std::string> size;
+    std::string type = "float32";
+    bool big_endian = false;
+};
+
+std::string compiler_text() {
+#ifdef __clang__
+    return std::string("Clang ") + __clang_version__;
+#else
+    return std::string("GCC ") + __VERSION__;
+#endif
+}
+
+std::string isa_text() {
+    const KernelTable* chosen = kernel_table(nullptr);
+    std::string text;
+    for (int i = 0; const KernelTable* table = kernel_table_at(i); ++i)
+        text += fmt::format("{}{} ({} {}{})", i > 0 ? ", " : "", table->name, table->width,
+                            table->width > 1 ? "lanes" : "lane", table == chosen ? ", chosen" : "");
+    return text;
+}
+
+/// The formats that depend on a library tell whether it was built in.
+std::string library_text() {
+    const std::string exr = can_write_image("x.exr") ? "OpenEXR yes" : "OpenEXR no";
+    return exr + (can_write_image("x.png") ? ", PNG yes" : ", PNG no");
+}
+
+std::string program_lines() {
+    return info_line("version", kVersion) + info_line("compiler", compiler_text()) +
+           info_line("isa", isa_text()) + info_line("threads", fmt::to_string(hardware_threads())) +
+           info_line("libraries", library_text());
+}
+
+Status read_raw_facts(const InfoArguments& arguments, MediumSettings& medium) {
+    if (arguments.size.size() != 3)
+        return Status::bad_input(arguments.file +
+                                 ": --size: missing, allowed: --size NX NY NZ for a raw grid");
+    for (std::size_t a = 0; a < 3; ++a) {
+        std::int64_t side = 0;
+        PILEUS_TRY(read_integer("--size", arguments.size[a], 1, kMaxVolumeSide, side));
+        medium.raw_size[a] = int(side);
+    }
+    medium.raw_big_endian = arguments.big_endian;
+    if (arguments.type == "float32")
+        medium.raw_type = RawType::kFloat32;
+    else if (arguments.type == "uint16")
+        medium.raw_type = RawType::kUint16;
+    else if (arguments.type == "uint8")
+        medium.raw_type = RawType::kUint8;
+    else
+        return Status::bad_input("--type: unknown, " + quote_text(arguments.type) +
+                                 ", allowed: float32, uint16, uint8");
+    return Status::ok();
+}
+
+Status run_info(const InfoArguments& arguments) {
+    if (arguments.file.empty()) return print(program_lines());
+    const std::string extension = file_extension(arguments.file);
+    std::string lines;
+    MediumSettings medium;
+    if (extension == ".toml") {
+        PILEUS_TRY(scene_lines(arguments.file, lines));
+    } else if (extension == ".exr" || extension == ".pfm") {
+        PILEUS_TRY(image_lines(arguments.file, lines));
+    } else if (extension == ".pbrt" || extension == ".raw") {
+        if (extension == ".raw") PILEUS_TRY(read_raw_facts(arguments, medium));
+        PILEUS_TRY(volume_lines(arguments.file, medium, lines));
+    } else {
+        return Status::bad_input(arguments.file + ": extension: unknown, \"" + extension +
+                                 "\", allowed: .toml .exr .pfm .pbrt .raw");
+    }
+    return print(lines);
+}
+
+}  // namespace
+
+void add_info(CLI::App& app, Chosen& chosen) {
+    CLI::App* command = app.add_subcommand("info", "Describe this program, or a file");
+    const auto arguments = std::make_shared<InfoArguments>();
+    command->add_option("file", arguments->file, "A .toml .exr .pfm .pbrt or .raw file")
+        ->type_name("FILE");
+    command->add_option("--size", arguments->size, "Cells of a .raw grid along x, y and z")
+        ->expected(3)
+        ->type_name("N");
+    command->add_option("--type", arguments->type, "Of a .raw grid: float32, uint16 or uint8")
+        ->type_name("TYPE");
+    command->add_flag("--big-endian", arguments->big_endian, "Byte order of a .raw grid");
+    command->callback(
+        [arguments, &chosen] { chosen = [arguments] { return run_info(*arguments); }; });
+}
+
+}  // namespace pileus

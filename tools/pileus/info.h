@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+// Descriptions of files for `pileus info`, one function per kind of file.
+// in: a path -> out: lines "name  value", or the reader's fault.
+// docs/program.md
+#pragma once
+#include <string>
+
+#include "src/base/status.h"
+#include "src/io/volume_file.h"
+
+namespace pileus {
+
+/// "name           value\n".
+std::string info_line(const char* name, const std::string& value);
+
+Status scene_lines(const std::string& path, std::string& lines);
+Status image_lines(const std::string& path, std::string& lines);
+/// `medium` holds the facts that a raw grid does not state itself.
+Status volume_lines(const std::string& path, const MediumSettings& medium, std::string& lines);
+
+}  // namespace pileus

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+// What scenes, pictures and density grids hold, in a few lines each.
+// in: a path -> out: see info.h.
+// docs/program.md
+#include <fmt/format.h>
+
+#include "src/io/image_file.h"
+#include "src/scene/read_scene.h"
+#include "tools/pileus/info.h"
+
+namespace pileus {
+
+namespace {
+
+/// Over the finite values; the others are counted apart.
+struct Range {
+    double least = 0, most = 0, sum = 0;
+    std::uint64_t finite = 0, zero = 0, other = 0;
+};
+
+Range range_of(Span<const float> values) {
+    Range range;
+    for (const float v : values) {
+        if (!(v - v == 0.0f)) {
+            ++range.other;
+            continue;
+        }
+        if (range.finite == 0 || v < range.least) range.least = v;
+        if (range.finite == 0 || v > range.most) range.most = v;
+        range.sum += v;
+        range.zero += v == 0.0f ? 1 : 0;
+        ++range.finite;
+    }
+    return range;
+}
+
+std::string range_text(const Range& range) {
+    if (range.finite == 0) return fmt::format("no finite value, {} not finite", range.other);
+    std::string text = fmt::format("{:.6g} to {:.6g}, mean {:.6g}", range.least, range.most,
+                                   range.sum / double(range.finite));
+    if (range.other > 0) text += fmt::format(", {} not finite", range.other);
+    return text;
+}
+
+const char* density_name(const MediumSettings& medium) {
+    switch (medium.density) {
+        case DensityKind::kCumulus:
+            return "procedural:cumulus";
+        case DensityKind::kUniformBox:
+            return "uniform:box";
+        case DensityKind::kUniformSphere:
+            return "uniform:sphere";
+        case DensityKind::kUniformEllipsoid:
+            return "uniform:ellipsoid";
+        default:
+            return medium.file.c_str();
+    }
+}
+
+std::string list_text(const std::vector<std::string>& texts) {
+    std::string list;
+    for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + text;
+    return list.empty() ? "none" : list;
+}
+
+}  // namespace
+
+Status scene_lines(const std::string& path, std::string& lines) {
+    Scene scene;
+    PILEUS_TRY(read_scene_file(path, {}, scene));
+    const Camera& camera = scene.camera;
+    lines += info_line("scene", path);
+    lines += info_line("method", scene.method);
+    lines += info_line("seed", fmt::to_string(scene.seed));
+    lines +=
+        info_line("picture", fmt::format("{} x {}, {}", camera.resolution[0], camera.resolution[1],
+                                         camera.orthographic ? "orthographic" : "perspective"));
+    std::vector<std::string> lights;
+    if (scene.sun.present) lights.push_back("sun");
+    if (scene.sky.present) lights.push_back("sky");
+    lines += info_line("lights", list_text(lights));
+    if (scene.ground.present)
+        lines += info_line("ground", fmt::format("albedo {:g}", scene.ground.albedo));
+    for (const MediumSettings& medium : scene.media)
+        lines +=
+            info_line("medium", fmt::format("{}, extinction {:g} per m, albedo {:g} {:g} {:g}",
+                                            density_name(medium), medium.extinction_per_m,
+                                            medium.albedo[0], medium.albedo[1], medium.albedo[2]));
+    if (scene.method == "collectors")
+        lines += info_line("photons", fmt::to_string(scene.collectors.photons));
+    lines +=
+        info_line("frames", fmt::to_string(scene.animation.present ? scene.animation.frames : 1));
+    lines += info_line("files", list_text(scene.output.files));
+    return Status::ok();
+}
+
+Status image_lines(const std::string& path, std::string& lines) {
+    Image image;
+    PILEUS_TRY(read_image(path, image));
+    lines += info_line("picture", path);
+    lines += info_line("size", fmt::format("{} x {}", image.width, image.height));
+    lines += info_line("hash", pixel_hash(image));
+    for (const Channel& channel : image.channels)
+        lines += info_line("channel", fmt::format("{:<8} {}", channel.name,
+                                                  range_text(range_of(channel.pixels.span()))));
+    return Status::ok();
+}
+
+Status volume_lines(const std::string& path, const MediumSettings& medium, std::string& lines) {
+    Volume volume;
+    PILEUS_TRY(read_volume(medium, path, volume));
+    const Range range = range_of(volume.density.span());
+    lines += info_line("grid", path);
+    lines += info_line("size",
+                       fmt::format("{} x {} x {}", volume.size[0], volume.size[1], volume.size[2]));
+    if (volume.knows_bounds) {
+        const auto& b = volume.bounds_m;
+        lines += info_line("box", fmt::format("{:g} {:g} {:g} to {:g} {:g} {:g} m", b[0][0],
+                                              b[0][1], b[0][2], b[1][0], b[1][1], b[1][2]));
+    }
+    lines += info_line("density", range_text(range));
+    lines += info_line("empty", fmt::format("{} of {} cells", range.zero, volume.density.size()));
+    return Status::ok();
+}
+
+}  // namespace pileus

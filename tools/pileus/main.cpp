@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program: finds the subcommand, runs it, turns its Status into lines and an exit status.
+// in: the command line -> out: results on stdout, faults on stderr, exit 0 to 4.
+// docs/program.md
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "src/api/render.h"
+#include "src/scene/toml_tree.h"
+#include "tools/pileus/command.h"
+
+namespace pileus {
+
+Status print(const std::string& text) {
+    const bool written = std::fwrite(text.data(), 1, text.size(), stdout) == text.size();
+    if (!written || std::fflush(stdout) != 0) return Status::io("standard output: cannot write");
+    return Status::ok();
+}
+
+namespace {
+
+constexpr const char* kCommands = "render, plan, hash, info";
+
+/// Says nothing for Code::kOk without a message.
+int finish(const Status& status) {
+    if (!status.message.empty()) std::fprintf(stderr, "%s\n", status.message.c_str());
+    return int(status.code);
+}
+
+std::string one_line(std::string text) {
+    for (char& c : text)
+        if (c == '\n' || c == '\r') c = ' ';
+    return text;
+}
+
+/// Names the subcommand of a wrong command line, so that the hint leads to the right help.
+Status usage_fault(const CLI::App& app, const CLI::ParseError& error) {
+    std::string name = "pileus";
+    for (const CLI::App* sub : app.get_subcommands()) name += ' ' + sub->get_name();
+    return Status::bad_input(name + ": " + one_line(error.what()) + ", allowed: see " + name +
+                             " --help");
+}
+
+/// Refuses words that are no subcommand before the options behind them are looked at.
+Status check_command(int count, char** words) {
+    if (count < 2)
+        return Status::bad_input(std::string("pileus: no subcommand, allowed: ") + kCommands +
+                                 "; see pileus --help");
+    const std::string word = words[1];
+    for (const char* option : {"-h", "--help", "--version"})
+        if (word == option) return Status::ok();
+    if (!word.empty() && word[0] == '-')
+        return Status::bad_input("pileus: unknown option before the subcommand, " +
+                                 quote_text(word) + ", allowed: --help, --version");
+    for (const char* later : {"study", "compare", "convert", "view"})
+        if (word == later)
+            return Status::bad_input("pileus " + word +
+                                     ": not in this version, allowed: " + kCommands);
+    for (const char* known : {"render", "plan", "hash", "info"})
+        if (word == known) return Status::ok();
+    return Status::bad_input("pileus: unknown subcommand, " + quote_text(word) +
+                             ", allowed: " + kCommands);
+}
+
+int run(int count, char** words) {
+    CLI::App app("Renders clouds, the same bits on every machine.", "pileus");
+    Chosen chosen;
+    app.set_version_flag("--version", std::string("pileus ") + kVersion);
+    app.require_subcommand(1);
+    add_render(app, chosen);
+    add_plan(app, chosen);
+    add_hash(app, chosen);
+    add_info(app, chosen);
+
+    const Status known = check_command(count, words);
+    if (!known) return finish(known);
+    try {
+        app.parse(count, words);
+    } catch (const CLI::ParseError& error) {
+        if (error.get_exit_code() == 0) return app.exit(error);  // --help and --version
+        return finish(usage_fault(app, error));
+    }
+    return finish(chosen());
+}
+
+}  // namespace
+}  // namespace pileus
+
+int main(int count, char** words) {
+    // Only memory can run out by way of an exception; whatever else escapes is as final.
+    try {
+        return pileus::run(count, words);
+    } catch (const std::bad_alloc&) {
+        std::fputs("pileus: out of memory\n", stderr);
+    } catch (const std::exception& error) {
+        std::fprintf(stderr, "pileus: cannot go on: %s\n", error.what());
+    } catch (...) {
+        std::fputs("pileus: cannot go on\n", stderr);
+    }
+    return int(pileus::Code::kLimit);
+}

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// pileus render: a scene to pictures and a report, frame after frame.
+// in: a scene and options -> out: files; on stdout a line for each with its pixel hash.
+// docs/program.md
+#include <fmt/format.h>
+
+#include <memory>
+#include <set>
+
+#include "platform/clock.h"
+#include "src/base/file.h"
+#include "src/scene/read_scene.h"
+#include "tools/pileus/command.h"
+#include "tools/pileus/option_text.h"
+#include "tools/pileus/output_set.h"
+#include "tools/pileus/progress.h"
+#include "tools/pileus/scene_options.h"
+
+namespace pileus {
+
+namespace {
+
+constexpr double kMostStops = 64;
+
+struct RenderArguments {
+    SceneArguments scene;
+    std::vector<std::string> files;
+    std::optional<std::string> report, frames, exposure, show;
+    bool quiet = false;
+};
+
+/// Everything a frame needs to be written.
+struct Outputs {
+    std::vector<std::string> files;
+    std::string report;
+    ToneSettings tone;
+    bool numbered = false;  ///< the scene has several frames, so names carry the frame's number
+};
+
+/// "out/name.png" of frame 7 becomes "out/name.0007.png".
+std::string frame_path(const std::string& path, int frame, bool numbered) {
+    if (!numbered) return path;
+    const std::size_t stem = path.size() - file_extension(path).size();
+    return path.substr(0, stem) + fmt::format(".{:04}", frame) + path.substr(stem);
+}
+
+Status read_tone(const RenderArguments& arguments, ToneSettings& tone) {
+    if (!arguments.exposure) return Status::ok();
+    tone.automatic = *arguments.exposure == "auto";
+    if (tone.automatic) return Status::ok();
+    double stops = 0;
+    Status status = read_number("--exposure", *arguments.exposure, -kMostStops, kMostStops, stops);
+    if (!status) status.message += ", or auto";
+    tone.stops = float(stops);
+    return status;
+}
+
+/// Finds what would make writing fail before the work is done.
+Status check_outputs(const Outputs& outputs, int frame) {
+    Status faults;
+    std::set<std::string> paths;
+    std::vector<std::string> all = outputs.files;
+    if (!outputs.report.empty()) all.push_back(outputs.report);
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        if (!paths.insert(all[i]).second)
+            add_fault(Status::bad_input(all[i] + ": output: named twice, allowed: once"), faults);
+        const Status format = i < outputs.files.size() ? can_write_image(all[i]) : Status::ok();
+        add_fault(format, faults);
+        if (format) add_fault(can_write_file(frame_path(all[i], frame, outputs.numbered)), faults);
+    }
+    return faults;
+}
+
+/// -o takes all words up to the next option; a scene among them is no picture.
+void take_scene(RenderArguments& arguments) {
+    if (!arguments.scene.scene.empty()) return;
+    for (std::size_t i = 0; i < arguments.files.size(); ++i) {
+        if (file_extension(arguments.files[i]) != ".toml") continue;
+        arguments.scene.scene = arguments.files[i];
+        arguments.files.erase(arguments.files.begin() + std::ptrdiff_t(i));
+        return;
+    }
+}
+
+/// Options win over the scene; faults of all options come before those of the files.
+Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOptions& options,
+                      Outputs& outputs) {
+    Status faults;
+    if (arguments.show)
+        add_fault(Status::bad_input("--show: not in this version, allowed: leave it out"), faults);
+    add_fault(read_tone(arguments, outputs.tone), faults);
+    add_fault(read_scene_options(arguments.scene, scene, options), faults);
+    PILEUS_TRY(faults);
+
+    const int frames = scene.animation.present ? scene.animation.frames : 1;
+    options.last_frame = frames - 1;
+    if (arguments.frames)
+        PILEUS_TRY(read_frames(*arguments.frames, frames, options.first_frame, options.last_frame));
+    outputs.numbered = frames > 1;
+    // Names on the command line start at the working directory, those in a scene at its folder.
+    outputs.files = arguments.files;
+    if (outputs.files.empty())
+        for (const std::string& file : scene.output.files)
+            outputs.files.push_back(scene_path(scene.directory, file));
+    if (arguments.report)
+        outputs.report = *arguments.report;
+    else if (!scene.output.report.empty())
+        outputs.report = scene_path(scene.directory, scene.output.report);
+    if (outputs.files.empty() && outputs.report.empty())
+        return Status::bad_input(scene.file +
+                                 ": output.files: no output, allowed: -o FILE, --report FILE or "
+                                 "output.files in the scene");
+    return check_outputs(outputs, options.first_frame);
+}
+
+Status write_frame(const Outputs& outputs, int frame, const Image& image, const Report& report) {
+    OutputSet set;
+    std::string lines;
+    for (const std::string& file : outputs.files) {
+        const std::string path = frame_path(file, frame, outputs.numbered);
+        PILEUS_TRY(set.add_image(image, path, outputs.tone));
+        lines += fmt::format("{} {}\n", image.pixel_hash, path);
+    }
+    if (!outputs.report.empty()) {
+        const std::string path = frame_path(outputs.report, frame, outputs.numbered);
+        PILEUS_TRY(set.add_report(report, path));
+        lines += fmt::format("{:16} {}\n", "report", path);
+    }
+    PILEUS_TRY(set.commit());
+    PILEUS_TRY(print(lines));
+    set.keep();
+    return Status::ok();
+}
+
+Status run_render(RenderArguments& arguments) {
+    const double start = wall_seconds();
+    Scene scene;
+    RenderOptions options;
+    Outputs outputs;
+    take_scene(arguments);
+    PILEUS_TRY(read_arguments(arguments, scene, options, outputs));
+
+    Progress progress(!arguments.quiet && stderr_is_terminal());
+    options.progress = [&progress](const char* stage, double share) {
+        progress.tell(stage, share);
+    };
+    const Status status =
+        render(scene, options, [&](int frame, Image& image, Report& report) -> Status {
+            progress.clear();
+            if (image.pixel_hash.empty()) image.pixel_hash = pixel_hash(image);
+            if (report.hash.empty()) report.hash = image.pixel_hash;
+            return write_frame(outputs, frame, image, report);
+        });
+    progress.clear();
+    PILEUS_TRY(status);
+    if (arguments.quiet) return Status::ok();
+    return print(fmt::format("{:16} {:.3f} s\n", "total", wall_seconds() - start));
+}
+
+}  // namespace
+
+void add_render(CLI::App& app, Chosen& chosen) {
+    CLI::App* command = app.add_subcommand("render", "Render a scene to pictures and a report");
+    const auto arguments = std::make_shared<RenderArguments>();
+    add_scene_options(*command, arguments->scene);
+    command
+        ->add_option("-o,--output", arguments->files,
+                     ".exr .png .pfm or .ppm, instead of the scene's output.files")
+        ->type_name("FILE");
+    command->add_option("--report", arguments->report, "JSON report to write")->type_name("FILE");
+    command
+        ->add_option("--frames", arguments->frames, "Frames of an animation, from 0; left out: all")
+        ->type_name("A-B");
+    command
+        ->add_option("--exposure", arguments->exposure,
+                     "Brightness of .png and .ppm in stops, or auto; left out: 0")
+        ->type_name("STOPS|auto");
+    command->add_option("--show", arguments->show, "Not in this version")->group("");
+    command->add_flag("-q,--quiet", arguments->quiet, "No progress and no total");
+    command->callback(
+        [arguments, &chosen] { chosen = [arguments] { return run_render(*arguments); }; });
+}
+
+}  // namespace pileus

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads and checks the options that `render` and `plan` share.
+// in: texts from the command line -> out: see scene_options.h.
+// docs/program.md
+#include "tools/pileus/scene_options.h"
+
+#include <cstdint>
+#include <limits>
+
+#include "kernels_cpu/kernels.h"
+#include "src/scene/read_scene.h"
+#include "src/scene/toml_tree.h"
+#include "tools/pileus/option_text.h"
+
+namespace pileus {
+
+namespace {
+
+constexpr std::int64_t kMostThreads = 1024;
+constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+constexpr double kMostSeconds = 1e9;
+
+Status check_isa(const std::string& name) {
+    if (kernel_table(name.c_str()) != nullptr) return Status::ok();
+    std::string names;
+    for (int i = 0; const KernelTable* table = kernel_table_at(i); ++i)
+        names += std::string(i > 0 ? ", " : "") + table->name;
+    return Status::bad_input("--isa: no such instruction set here, " + quote_text(name) +
+                             ", allowed: " + names);
+}
+
+Status read_budget(const std::string& text, RenderOptions& options) {
+    const std::size_t equals = text.find('=');
+    const std::string kind = text.substr(0, equals);
+    const std::string amount = equals == std::string::npos ? "" : text.substr(equals + 1);
+    if (kind == "photons")
+        return read_integer("--budget photons", amount, 0, kMost, options.budget_photons);
+    if (kind == "seconds")
+        return read_number("--budget seconds", amount, 1e-3, kMostSeconds, options.budget_seconds);
+    const bool later = kind == "samples" || kind == "error";
+    return Status::bad_input(std::string("--budget: ") +
+                             (later ? "not in this version, " : "unknown kind, ") +
+                             quote_text(text) + ", allowed: photons=N, seconds=S");
+}
+
+}  // namespace
+
+void add_scene_options(CLI::App& command, SceneArguments& arguments) {
+    command.add_option("scene", arguments.scene, "The scene file")->type_name("SCENE.toml");
+    command
+        .add_option("--set", arguments.sets,
+                    "Put a value into the scene, e.g. medium.0.albedo=0.9; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("KEY=VALUE");
+    command.add_option("--threads", arguments.threads, "Threads; left out: all there are")
+        ->type_name("N");
+    command.add_option("--seed", arguments.seed, "Another seed than the scene's")->type_name("N");
+    command.add_option("--isa", arguments.isa, "Instruction set; left out: the widest")
+        ->type_name("NAME");
+    command
+        .add_option("--budget", arguments.budgets,
+                    "photons=N instead of the scene's number; seconds=S ends tracing early, after "
+                    "whole generations; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("KIND=N");
+}
+
+Status read_scene_options(const SceneArguments& arguments, Scene& scene, RenderOptions& options) {
+    Status faults;
+    if (arguments.threads) {
+        std::int64_t threads = 0;
+        add_fault(read_integer("--threads", *arguments.threads, 1, kMostThreads, threads), faults);
+        options.threads = int(threads);
+    }
+    if (arguments.isa) add_fault(check_isa(*arguments.isa), faults);
+    options.isa = arguments.isa.value_or("");
+    for (const std::string& budget : arguments.budgets)
+        add_fault(read_budget(budget, options), faults);
+    std::int64_t seed = 0;
+    if (arguments.seed) add_fault(read_integer("--seed", *arguments.seed, 0, kMost, seed), faults);
+    add_fault(arguments.scene.empty()
+                  ? Status::bad_input("SCENE.toml: missing, allowed: the path of a scene")
+                  : read_scene_file(arguments.scene, arguments.sets, scene),
+              faults);
+    PILEUS_TRY(faults);
+    if (arguments.seed) scene.seed = seed;
+    return Status::ok();
+}
+
+}  // namespace pileus

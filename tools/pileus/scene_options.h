@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// The options that choose a scene and how it is computed; `render` and `plan` share them.
+// in: texts from the command line -> out: a checked Scene and RenderOptions.
+// docs/program.md
+#pragma once
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/api/render.h"
+
+namespace pileus {
+
+/// As typed.
+struct SceneArguments {
+    std::string scene;
+    std::optional<std::string> threads, seed, isa;
+    std::vector<std::string> sets, budgets;
+};
+
+/// Adds SCENE --set --threads --seed --isa --budget to a subcommand.
+void add_scene_options(CLI::App& command, SceneArguments& arguments);
+
+/// Checks all options, reads the scene and applies overrides and seed. Faults: one line each,
+/// those of the options first; kBadInput, or what reading the scene gave.
+Status read_scene_options(const SceneArguments& arguments, Scene& scene, RenderOptions& options);
+
+}  // namespace pileus
