@@ -178,6 +178,19 @@ PILEUS_FN void march_rows(const MarchParams& k, const MarchBuffers& b, std::uint
             march_pixels<W>(k, b, x, std::int32_t(y));
 }
 
+/// Light that the cloud scatters onto the ground at `at`; nothing is known beyond the map.
+template <class T>
+PILEUS_FN void scattered_on_ground(const BackgroundParams& k, const BackgroundBuffers& b,
+                                   const Vec<T>& at, T* radiance) {
+    const Vec<T> p{(at.x - k.map_origin[0]) * k.map.per_metre[0],
+                   (at.y - k.map_origin[1]) * k.map.per_metre[1], all<T>(0.5f)};
+    const auto known = (p.x >= 0.0f) & (p.x <= float(k.map.size[0])) & (p.y >= 0.0f) &
+                       (p.y <= float(k.map.size[1]));
+    const Corners<T> c = corners(p, k.map.size);
+    const std::int32_t cells = k.map.size[0] * k.map.size[1];
+    for (int i = 0; i < 3; ++i) radiance[i] = select(known, interpolate(b.map + i * cells, c), T{});
+}
+
 /// What lies behind the media: sky, or a Lambertian ground with the clouds' shadow of the sun.
 template <int W>
 PILEUS_FN void background_rows(const BackgroundParams& k, const BackgroundBuffers& b,
@@ -201,13 +214,18 @@ PILEUS_FN void background_rows(const BackgroundParams& k, const BackgroundBuffer
                     sunlight = exp_(T{} - optical_depth(k.medium, up, ground));
                 }
             }
+            T scattered[3] = {};
+            if (k.map.size[0] > 0 && any(ground))
+                scattered_on_ground(k, b, along(ray, select(ground, depth, T{})), scattered);
             for (int l = 0; l < W && x + l < k.camera.width; ++l) {
                 const std::int64_t pixel = std::int64_t(y) * k.camera.width + x + l;
                 const bool hit = (bits_of(ground) >> l) & 1u;
                 b.opaque_depth[pixel] = lane(depth, l);
                 for (int c = 0; c < 3; ++c)
-                    b.colour[c * pixels + pixel] =
-                        hit ? k.ground_diffuse[c] + k.ground_sun[c] * lane(sunlight, l) : k.sky[c];
+                    b.colour[c * pixels + pixel] = hit ? k.ground_diffuse[c] +
+                                                             k.ground_sun[c] * lane(sunlight, l) +
+                                                             lane(scattered[c], l)
+                                                       : k.sky[c];
             }
         }
     }

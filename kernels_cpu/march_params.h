@@ -64,9 +64,12 @@ struct BackgroundParams {
     float ground_z;           ///< m, box-local
     float ground_diffuse[3];  ///< radiance under the sky alone
     float ground_sun[3];      ///< radiance added by the unshadowed sun
+    NodeGrid map;             ///< of light scattered onto the ground; size 0: none
+    float map_origin[2];      ///< m, box-local
     float to_sun[3];
 };
 struct BackgroundBuffers {
+    const float* map;     ///< [3][cell], radiance
     float* colour;        ///< [3][pixel]
     float* opaque_depth;  ///< [pixel], m; infinity for the sky
 };

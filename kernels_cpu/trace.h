@@ -26,6 +26,25 @@ PILEUS_FN void count_fate(const Photon<W, NC>& s, std::int64_t (&plain)[3],
 #define PILEUS_FATE(s, tally, name, m) \
     count_fate(s, (tally).light.name, (tally).shadow.name, bits_of(m))
 
+/// Add what the lanes of `m` bring to (ground_x, ground_y) to the map of the ground's light.
+template <int W, int NC>
+PILEUS_FN void light_ground(const Photon<W, NC>& s, const TraceParams& k, const TraceBuffers& b,
+                            M<W> m) {
+    const auto x = floor_int((s.ground_x - k.ground_origin[0]) * k.ground_cells_per_metre[0]);
+    const auto y = floor_int((s.ground_y - k.ground_origin[1]) * k.ground_cells_per_metre[1]);
+    const auto known = m & (x >= 0) & (x < k.ground_cells[0]) & (y >= 0) & (y < k.ground_cells[1]);
+    const std::uint32_t dark = bits_of(s.shadow);
+    for (std::uint32_t lanes = bits_of(known); lanes != 0; lanes &= lanes - 1) {
+        const int i = __builtin_ctz(lanes);
+        std::int64_t* cell =
+            b.ground + (std::int64_t(lane(y, i)) * k.ground_cells[0] + lane(x, i)) * NC;
+        for (int c = 0; c < NC; ++c) {
+            const std::int32_t quanta = quantise(lane(s.weight[c], i), 0x1p20f);
+            cell[c] += (dark >> i) & 1u ? -quanta : quanta;
+        }
+    }
+}
+
 /// Ground: absorb or reflect the lanes of `m` that arrive at (ground_x, ground_y).
 template <int W, int NC>
 PILEUS_FN void bounce(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally, M<W> m) {
@@ -73,9 +92,10 @@ PILEUS_FN void bounce(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally,
 
 /// Lanes of `m` have left the box: tally them, or send them to the ground.
 template <int W, int NC>
-PILEUS_FN void leave_box(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally, M<W> m,
+PILEUS_FN void leave_box(Photon<W, NC>& s, const TraceParams& k, const TraceBuffers& b, M<W> m,
                          M<W> by_z) {
     using T = F<W>;
+    TraceTally& tally = *b.tally;
     auto down = m & lnot(m);
     if (k.ground != 0) {
         // Unscattered light is part of the unshadowed ground's radiance already.
@@ -94,7 +114,10 @@ PILEUS_FN void leave_box(Photon<W, NC>& s, const TraceParams& k, TraceTally& tal
         PILEUS_FATE(s, tally, direct_bottom, bottom & (s.order == 0));
         s.alive = s.alive & lnot(out);
     }
-    if (any(down)) bounce(s, k, tally, down);
+    if (any(down)) {
+        if (k.ground_cells[0] > 0) light_ground(s, k, b, down);
+        bounce(s, k, tally, down);
+    }
 }
 
 /// Real collisions in the lanes of `m`: absorb by roulette, otherwise turn.
@@ -179,14 +202,15 @@ PILEUS_FN void step(Photon<W, NC>& s, const TraceParams& k, const TraceBuffers& 
     if (any(m.hops)) {
         b.tally->crossings += count_bits(bits_of(m.hops));
         const Crossing<W> c = cross(s, k, m);
-        if (any(c.out)) leave_box(s, k, *b.tally, c.out, c.by_z);
+        if (any(c.out)) leave_box(s, k, b, c.out, c.by_z);
     }
     if (any(m.hits)) collide(s, k, b, m.hits, m.bound);
 }
 
 /// Photons that died may owe the ground's missing light: send it up as a negative photon.
 template <int W, int NC>
-PILEUS_FN void settle(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally, M<W> died) {
+PILEUS_FN void settle(Photon<W, NC>& s, const TraceParams& k, const TraceBuffers& b, M<W> died) {
+    TraceTally& tally = *b.tally;
     for (std::uint32_t lanes = bits_of(died); lanes != 0; lanes &= lanes - 1)
         tally.path += quantise(lane(s.path, __builtin_ctz(lanes)), k.path_scale);
     if (k.ground == 0) return;
@@ -201,6 +225,8 @@ PILEUS_FN void settle(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally,
     s.ground_y = select(owing, s.owed_y, s.ground_y);
     for (int c = 0; c < NC; ++c) s.weight[c] = select(owing, all<F<W>>(1.0f), s.weight[c]);
     PILEUS_FATE(s, tally, emitted, owing);
+    // The sun's own shadow on the ground is drawn sharply by the display.
+    if (k.ground_cells[0] > 0 && k.light != kLightBeam) light_ground(s, k, b, owing);
     bounce(s, k, tally, owing);
 }
 
@@ -234,7 +260,7 @@ PILEUS_FN void trace_photons(const TraceParams& k, const TraceBuffers& b, std::u
         const auto before = s.alive;
         step(s, k, b);
         const auto died = before & lnot(s.alive);
-        if (any(died)) settle(s, k, *b.tally, died);
+        if (any(died)) settle(s, k, b, died);
     }
 }
 #undef PILEUS_FATE

@@ -39,6 +39,9 @@ struct TraceParams {
     std::int32_t ground;  ///< 0: none
     float ground_z;       ///< m, box-local, <= 0
     float ground_albedo;
+    std::int32_t ground_cells[2];  ///< of the map of light that arrives there; 0: no map
+    float ground_origin[2];        ///< m, box-local
+    float ground_cells_per_metre[2];
 
     std::int32_t mode;         ///< DepositMode
     std::int32_t bands;        ///< 1..8
@@ -75,6 +78,7 @@ struct TraceBuffers {
     const float* majorant;          ///< blocks, bound on the density over the trilinear footprint
     const std::int32_t* collector;  ///< per voxel, -1 where none
     std::int64_t* sums;             ///< collectors * channels * coefficients, this thread's own
+    std::int64_t* ground;           ///< ground cells * channels, in kPhotonQuanta, its own too
     TraceTally* tally;              ///< this thread's own
 };
 

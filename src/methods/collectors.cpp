@@ -66,6 +66,7 @@ TraceInput trace_input(const Context& context, const CollectorsRun& run) {
     in.threads = context.threads;
     in.kernels = context.kernels;
     in.max_events = run.max_events;
+    in.ground = run.ground_map;
     return in;
 }
 
@@ -151,6 +152,7 @@ Status collectors_prepare(const Scene& scene, std::int64_t photons, const Contex
     run.sun_elevation_deg = scene.sun.elevation_deg;
     run.lighting = plan_lighting(scene, run.medium, run.sun_elevation_deg, run.plan);
     share_photons(std::uint64_t(photons) / run.generations, run.lighting.lights);
+    run.ground_map = make_ground_map(run.medium, run.lighting);
     PILEUS_TRY(plan_deposit(scene, run));
     PILEUS_TRY(
         run.camera_cells > 0

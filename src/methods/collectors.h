@@ -19,6 +19,7 @@ struct CollectorsRun {
     double sun_elevation_deg = 0;
     Prepared prepared;
     DepositPlan deposit;
+    GroundMap ground_map;
     Photons photons;
     TraceScratch scratch;
     std::uint64_t next_generation = 0, generations = 1;

@@ -36,9 +36,12 @@ MediumView view_of(const CollectorsRun& run) {
     return v;
 }
 
-Status make_background(const Context& context, const CollectorsRun& run, const CameraParams& camera,
-                       Planes& planes) {
+Status make_background(const Context& context, const CollectorsRun& run,
+                       const ReconstructInput& lit, Planes& planes) {
     const StageClock clock(context, "background");
+    const CameraParams& camera = lit.camera;
+    Buffer<float> map;
+    PILEUS_TRY(reconstruct_ground(lit, run.ground_map, map));
     BackgroundParams k{};
     k.medium = view_of(run);
     k.camera = camera;
@@ -50,7 +53,13 @@ Status make_background(const Context& context, const CollectorsRun& run, const C
         k.ground_sun[c] = float(run.lighting.ground_sun[c]);
         k.to_sun[c] = run.lighting.to_sun[c];
     }
-    const BackgroundBuffers b{planes.background.data(), planes.opaque_depth.data()};
+    k.map.size[0] = k.map.size[1] = run.ground_map.cells;
+    k.map.size[2] = 1;
+    for (int a = 0; a < 2; ++a) {
+        k.map.per_metre[a] = run.ground_map.per_metre[a];
+        k.map_origin[a] = run.ground_map.origin[a];
+    }
+    const BackgroundBuffers b{map.data(), planes.background.data(), planes.opaque_depth.data()};
     run_rows(context, context.kernels->background_rows, k, b, std::uint32_t(camera.height));
     return Status::ok();
 }
@@ -195,7 +204,7 @@ Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& 
     const int channels = in.batches ? int(3 * (1 + slots)) : 3;
     Planes planes;
     PILEUS_TRY(allocate_planes(camera.width, camera.height, channels, planes));
-    PILEUS_TRY(make_background(context, run, camera, planes));
+    PILEUS_TRY(make_background(context, run, in, planes));
     PILEUS_TRY(marched ? show_marched(context, run, camera, colours, channels, planes)
                        : show_billboards(context, run, camera, colours, channels, planes));
     Report& report = *context.report;

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "platform/fp_mode.h"
 #include "src/scene/check_keys.h"
 #include "src/scene/overrides.h"
 
@@ -56,6 +57,8 @@ Status read_scene_text(const std::string& text, const std::string& name,
                        const std::string& directory, const std::vector<std::string>& overrides,
                        Scene& out) {
     if (text.size() > kMaxSceneBytes) return too_long(name);
+    // Read numbers in the rounding mode of the standard, whatever the caller's is.
+    const FpModeGuard guard;
     Node root;
     FaultList faults(name, overrides);
     SyntaxFault syntax;

@@ -64,7 +64,7 @@ double slot_power(const ReconstructInput& in, const BandFactors& bands, const Ph
                   std::size_t light, std::uint64_t set, const Direction& to) {
     if (slot.generations == 0) return 0;
     const int n = in.deposit.coefficients;
-    const std::uint64_t stride = in.collectors.size * std::uint64_t(in.medium->channels * n);
+    const std::uint64_t stride = slot.sums.size() / in.lighting->lights.size();
     const std::int64_t* from = slot.sums.data() + light * stride + set * std::uint64_t(n);
     const double norm = slot.flux_per_photon_m2[light] /
                         double(std::uint64_t{1} << in.deposit.places) / double(slot.generations);
@@ -161,6 +161,37 @@ Status reconstruct(const ReconstructInput& in, CollectorColours& out) {
     });
     out.clamped_negative = 0;
     for (std::uint64_t n : negative.span()) out.clamped_negative += n;
+    return Status::ok();
+}
+
+Status reconstruct_ground(const ReconstructInput& in, const GroundMap& map,
+                          Buffer<float>& radiance) {
+    const std::size_t cells = std::size_t(map.cells) * std::size_t(map.cells);
+    PILEUS_TRY(radiance.resize(3 * cells, "ground light"));
+    if (cells == 0) return Status::ok();
+    double generations = 0;
+    for (const PhotonSlot& slot : in.photons->slots) generations += double(slot.generations);
+    if (!(generations > 0)) return Status::ok();
+    // Irradiance = flux per cell area; a Lambertian ground sends albedo / pi of it back.
+    const double unit = in.lighting->ground_albedo / 3.14159265358979323846 *
+                        double(map.per_metre[0]) * double(map.per_metre[1]) /
+                        (generations * double(kPhotonQuanta));
+    const std::size_t channels = std::size_t(in.medium->channels);
+    for (std::size_t i = 0; i < cells; ++i) {
+        double rgb[3] = {};
+        for (const PhotonSlot& slot : in.photons->slots) {
+            if (slot.generations == 0) continue;
+            const std::size_t stride = slot.sums.size() / in.lighting->lights.size();
+            for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {
+                const std::int64_t* cell =
+                    slot.sums.data() + (l + 1) * stride - (cells - i) * channels;
+                for (std::size_t c = 0; c < 3; ++c)
+                    rgb[c] += double(cell[channels == 3 ? c : 0]) * slot.flux_per_photon_m2[l] *
+                              in.lighting->lights[l].colour[c];
+            }
+        }
+        for (std::size_t c = 0; c < 3; ++c) radiance[c * cells + i] = float(rgb[c] * unit);
+    }
     return Status::ok();
 }
 

@@ -32,4 +32,9 @@ struct CollectorColours {
 /// clamped: their spread is what matters). kLimit: out of memory.
 Status reconstruct(const ReconstructInput& in, CollectorColours& out);
 
+/// Radiance that the cells of the ground send back of the light scattered onto them (or kept from
+/// them, then negative): [3][cells * cells]. kLimit: out of memory.
+Status reconstruct_ground(const ReconstructInput& in, const GroundMap& map,
+                          Buffer<float>& radiance);
+
 }  // namespace pileus

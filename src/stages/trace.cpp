@@ -10,6 +10,11 @@ namespace {
 constexpr std::uint64_t kChunk = 4096;                          // photons per piece of work
 constexpr std::uint64_t kMostPhotons = std::uint64_t{1} << 31;  // per launch
 
+std::uint64_t collector_numbers(const TraceInput& in) {
+    return in.collectors * std::uint64_t(in.medium->channels) *
+           std::uint64_t(in.deposit.coefficients);
+}
+
 TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_t generation) {
     const Medium& m = *in.medium;
     TraceParams k{};
@@ -34,6 +39,11 @@ TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_
     k.ground = in.lighting->ground ? 1 : 0;
     k.ground_z = float(in.lighting->ground_z);
     k.ground_albedo = float(in.lighting->ground_albedo);
+    for (int a = 0; a < 2; ++a) {
+        k.ground_cells[a] = in.ground.cells;
+        k.ground_origin[a] = in.ground.origin[a];
+        k.ground_cells_per_metre[a] = in.ground.per_metre[a];
+    }
     k.mode = in.collectors == 0 ? kDepositNone : in.deposit.mode;
     k.bands = in.deposit.bands;
     k.first_order = in.deposit.first_order;
@@ -62,10 +72,11 @@ void run_piece(const Launch& launch, std::uint64_t piece, int thread) {
     const std::uint64_t begin = piece * kChunk;
     const std::uint64_t end = begin + kChunk < launch.count ? begin + kChunk : launch.count;
     std::int64_t* sums = launch.scratch->sums.data();
-    TraceBuffers b{
-        in.medium->volume.density.data(), in.majorants.data, in.collector_of_voxel.data,
-        sums == nullptr ? nullptr : sums + std::uint64_t(thread) * launch.scratch->stride,
-        &launch.scratch->tallies[std::size_t(thread) * 2]};
+    if (sums != nullptr) sums += std::uint64_t(thread) * launch.scratch->stride;
+    const TraceBuffers b{
+        in.medium->volume.density.data(), in.majorants.data,
+        in.collector_of_voxel.data,       sums,
+        sums + collector_numbers(in),     &launch.scratch->tallies[std::size_t(thread) * 2]};
     in.kernels->trace(launch.params, b, std::uint32_t(begin), std::uint32_t(end));
 }
 
@@ -95,9 +106,22 @@ void add_tally(const TraceTally& from, TraceTally& to) {
     to.majorant_violations += from.majorant_violations;
 }
 
+GroundMap make_ground_map(const Medium& medium, const Lighting& lighting) {
+    constexpr int kCells = 40;
+    GroundMap map;
+    if (!lighting.ground || lighting.lights.empty()) return map;
+    map.cells = kCells;
+    const double reach = medium.extent_m[2] - lighting.ground_z;
+    for (int a = 0; a < 2; ++a) {
+        map.origin[a] = float(-reach);
+        map.per_metre[a] = float(kCells / (medium.extent_m[a] + 2 * reach));
+    }
+    return map;
+}
+
 std::uint64_t slot_stride(const TraceInput& in) {
-    return in.collectors * std::uint64_t(in.medium->channels) *
-           std::uint64_t(in.deposit.coefficients);
+    return collector_numbers(in) + std::uint64_t(in.ground.cells) * std::uint64_t(in.ground.cells) *
+                                       std::uint64_t(in.medium->channels);
 }
 
 Status prepare_trace(const TraceInput& in, TraceScratch& scratch) {

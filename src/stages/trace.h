@@ -22,6 +22,16 @@ struct DepositPlan {
     bool orthographic = false;
 };
 
+/// Square cells over the ground around the box in which arriving light is counted.
+struct GroundMap {
+    int cells = 0;         ///< along x and along y; 0: no map
+    float origin[2]{};     ///< m, box-local
+    float per_metre[2]{};  ///< cells per metre
+};
+
+/// A map that reaches out of the box by its height above the ground, or none without a ground.
+GroundMap make_ground_map(const Medium& medium, const Lighting& lighting);
+
 struct TraceInput {
     const Medium* medium = nullptr;
     const Lighting* lighting = nullptr;
@@ -34,9 +44,11 @@ struct TraceInput {
     int threads = 1;
     const KernelTable* kernels = nullptr;
     std::uint32_t max_events = 1u << 20;
+    GroundMap ground{};
 };
 
-/// Sums of all lights of one batch: [light][collector][channel][coefficient].
+/// Sums of all lights of one batch: [light], each [collector][channel][coefficient] and then
+/// [ground cell][channel] in kPhotonQuanta.
 struct PhotonSlot {
     Buffer<std::int64_t> sums;
     std::uint64_t generations = 0;           ///< that were added
