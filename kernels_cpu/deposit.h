@@ -35,17 +35,23 @@ PILEUS_FN void add_lanes(const TraceParams& k, const TraceBuffers& b, std::uint3
     }
 }
 
-/// Deposit `share` (0..1) of each lane in `m`, travelling along `d`, into its voxel's collector.
+/// The voxel that holds a position in or on the box.
+template <class T, class Grid>
+PILEUS_FN auto voxel_of(const Vec<T>& p, const Grid& k) {
+    using II = I_of<T>;
+    const auto clamped = [](T at, std::int32_t n) {
+        return min_(max_(to_int(at), II{}), all<II>(n - 1));
+    };
+    return (clamped(p.z, k.size[2]) * k.size[1] + clamped(p.y, k.size[1])) * k.size[0] +
+           clamped(p.x, k.size[0]);
+}
+
+/// Deposit `share` (0..1) of each lane in `m`, travelling along s.d, into its voxel's collector.
 template <int W, int NC>
 PILEUS_FN void deposit(const TraceParams& k, const TraceBuffers& b, const Photon<W, NC>& s, M<W> m,
-                       const Vec<F<W>>& d, F<W> share) {
+                       I<W> voxel, F<W> share) {
     using T = F<W>;
-    const auto clamped = [](T p, std::int32_t n) {
-        return min_(max_(to_int(p), I<W>{}), all<I<W>>(n - 1));
-    };
-    const I<W> voxel =
-        (clamped(s.p.z, k.size[2]) * k.size[1] + clamped(s.p.y, k.size[1])) * k.size[0] +
-        clamped(s.p.x, k.size[0]);
+    const Vec<T>& d = s.d;
     const I<W> collector = gather(b.collector, select(m, voxel, I<W>{}));
     m = m & (collector >= 0);
     if (!any(m)) return;
