@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Blends billboards (spheres of constant extinction and colour) front to back, tile by tile.
 // in: sorted spheres and a list per tile -> out: transmittance, premultiplied colour, half depth.
-// METHODS 3, each image frame, step 5: alpha = 1 - exp(-extinction chord); the same bits for every
-// width of lanes and size of tiles, because every pixel sees every sphere that touches it in order.
+// docs/methods.md 3, each image frame, step 5: alpha = 1 - exp(-extinction chord). The same bits
+// for every width and size of tiles: every pixel sees every sphere that touches it in order.
 #pragma once
 #include "kernels_cpu/blend_params.h"
 #include "kernels_cpu/math.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the blender of billboards reads and writes: plain structs, the layout a GPU launch takes.
 // in: spheres in camera coordinates, front to back, and a list per tile -> out: image planes.
-// METHODS 3, each image frame, step 5; memory stays with the caller.
+// docs/methods.md 3, each image frame, step 5; memory stays with the caller.
 #pragma once
 #include <cstdint>
 

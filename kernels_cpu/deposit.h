@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Adds what a collision tells about the light into integer sums.
 // in: direction, share and collector per lane -> out: sums[collector][channel][coefficient].
-// METHODS 3, repairs 2 and 3: sum_i w rho/rho_T y_i(incident) estimates the incident light.
+// docs/methods.md 3, repairs 2 and 3: sum_i w rho/rho_T y_i(incident) estimates the incident light.
 #pragma once
 #include "kernels_cpu/fixed.h"
 #include "kernels_cpu/sh.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Floats to whole quanta, so that sums do not depend on their order.
 // in: value and 2^s -> out: round(value * 2^s), half away from zero, as int32.
-// METHODS 2 (accumulation); the plan proves that the 64-bit sums cannot overflow.
+// docs/methods.md 2 (accumulation); the plan proves that the 64-bit sums cannot overflow.
 #pragma once
 #include "kernels_cpu/lanes.h"
 

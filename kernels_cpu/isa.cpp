@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Compiled once per instruction set with PILEUS_ISA (a name) and PILEUS_WIDTH (lanes).
 // in: the kernel templates -> out: one exported table, everything else internal.
-// ARCHITECTURE "Kernels: written once"; tools/check_objects proves that nothing else leaks.
+// docs/architecture.md, "Kernels: written once"; tools/check_objects proves that nothing leaks.
 #include "kernels_cpu/blend.h"
 #include "kernels_cpu/kernels.h"
 #include "kernels_cpu/march.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of kernels: one per instruction set, all giving the same bits.
 // in: a name or nothing -> out: functions over index ranges; threads live in the caller.
-// ARCHITECTURE "Kernels: written once".
+// docs/architecture.md, "Kernels: written once".
 #pragma once
 #include "kernels_cpu/blend_params.h"
 #include "kernels_cpu/march_params.h"

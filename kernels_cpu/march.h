@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Marching: sunlight's optical depth per node, the picture per pixel, ground and sky behind it.
 // in: density, majorants, lit node grids -> out: planes of pixels or nodes.
-// METHODS 3.4 and 4 (closed form per step: S (1 - e^-sigma dt) / sigma).
+// docs/methods.md 3, repair 4, and 4 (closed form per step: S (1 - e^-sigma dt) / sigma).
 // Samples sit on a lattice along each ray; skipping empty blocks leaves out zeros only.
 #pragma once
 #include "kernels_cpu/march_params.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the marching kernels need: plain structs and pointers.
 // in: the plan and the lit grids -> out: the layout of a launch.
-// METHODS 3, repairs 3 and 4.
+// docs/methods.md 3, repairs 3 and 4.
 #pragma once
 #include "kernels_cpu/camera.h"
 #include "kernels_cpu/phase.h"

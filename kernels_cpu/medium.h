@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Grids read between their points, and rays clipped to the box.
 // in: positions in voxels or metres, box-local -> out: density, grid values, path segments.
-// METHODS 1: trilinear between voxel centres, clamped inside the box.
+// docs/methods.md 1: trilinear between voxel centres, clamped inside the box.
 #pragma once
 #include "kernels_cpu/math.h"
 #include "kernels_cpu/vec.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Phase functions: sample, evaluate, and their Legendre moments.
 // in: one uniform in (0,1) or 1-cos(theta) -> out: 1-cos and sin of the turn, or density in 1/sr.
-// METHODS 2: Henyey-Greenstein without cancellation; carries 1-cos(theta), never cos(theta).
+// docs/methods.md 2: Henyey-Greenstein without cancellation; carries 1-cos(theta), not cos(theta).
 #pragma once
 #include "kernels_cpu/math.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Unbiased transmittance along rays by ratio tracking on the grid of majorants.
 // in: rays, one sequence of random numbers each -> out: estimates whose mean is exp(-tau).
-// METHODS 2 "Ratio tracking" (Novak et al. 2014), with the one-voxel look-up of trace.h.
+// docs/methods.md 2 "Ratio tracking" (Novak et al. 2014), with the one-voxel look-up of trace.h.
 #pragma once
 #include "kernels_cpu/track_grid.h"
 #include "kernels_cpu/walk.h"

@@ -54,7 +54,7 @@ PILEUS_FN auto uniform(UU word) {
     return to_float(reinterpret<I_of<UU>>(word >> 8)) * 0x1p-24f;
 }
 
-/// Uniform in (0, 1): the top 23 bits plus a half, exact; never 0 and never 1 (RELIABILITY S51).
+/// Uniform in (0, 1): the top 23 bits plus a half, exact; never 0, never 1 (docs/testing.md S51).
 template <class UU>
 PILEUS_FN auto uniform_open(UU word) {
     return to_float(reinterpret<I_of<UU>>((word >> 9) * 2u + 1u)) * 0x1p-24f;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Real spherical harmonics y_i, i = l(l+1)+m, up to 8 bands, from Cartesian recurrences.
 // in: a unit direction -> out: bands^2 values; m < 0 are the sine terms.
-// Orthonormal over the sphere, no Condon-Shortley sign (METHODS 2); |y_lm| <= sqrt((2l+1)/4pi).
+// docs/methods.md 2: orthonormal, no Condon-Shortley sign; |y_lm| <= sqrt((2l+1)/4pi).
 #pragma once
 #include "kernels_cpu/lanes.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Photons through a heterogeneous medium: delta tracking on a grid of majorants.
 // in: a range of photons of one light -> out: deposits in collectors and an exact energy ledger.
-// Woodcock tracking with stochastic trilinear look-up (SPEED.md), METHODS 3 "Track" and "Store".
+// docs/methods.md 2 (delta tracking, stochastic look-up) and 3, "Track" and "Store".
 // Each lane carries one photon and takes the next when it dies; random numbers belong to
 // (photon, event), so neither lanes nor threads can change a result.
 #pragma once
@@ -170,10 +170,10 @@ constexpr int kGroups = 3;
 template <int W, int NC>
 struct Group {
     Photon<W, NC> s;
-    M<W> before, hits;     // alive at the start of the turn; arrived at a collision
-    F<W> bound;            // majorant there
-    I<W> corner, voxel;    // the look-up's voxel; the one that holds the photon
-    U<W> spare;            // random bits left over from choosing the corner
+    M<W> before, hits;   // alive at the start of the turn; arrived at a collision
+    F<W> bound;          // majorant there
+    I<W> corner, voxel;  // the look-up's voxel; the one that holds the photon
+    U<W> spare;          // random bits left over from choosing the corner
 };
 
 /// Ask for the memory that the lanes of `m` will read, so that it comes while others compute.
@@ -204,8 +204,7 @@ PILEUS_FN void advance(Group<W, NC>& g, const TraceParams& k, const TraceBuffers
     if (!any(m.hits)) return;
     b.tally->tentative += count_bits(bits_of(m.hits));
     s.event = select(m.hits, s.event + 1u, s.event);
-    const Words<U<W>> w =
-        threefry(k.key.k0, k.key.k1, s.index + k.first_photon, s.event * 4u + 1u);
+    const Words<U<W>> w = threefry(k.key.k0, k.key.k1, s.index + k.first_photon, s.event * 4u + 1u);
     // One look-up stands for eight: acceptance is linear in density.
     g.corner = select(m.hits, corner_voxel(s.p, w.a, k), I<W>{});
     g.voxel = select(m.hits, voxel_of(s.p, k), I<W>{});
@@ -218,8 +217,7 @@ template <int W, int NC>
 PILEUS_FN void collide(Group<W, NC>& g, const TraceParams& k, const TraceBuffers& b) {
     using T = F<W>;
     Photon<W, NC>& s = g.s;
-    const Words<U<W>> flight =
-        threefry(k.key.k0, k.key.k1, s.index + k.first_photon, s.event * 4u);
+    const Words<U<W>> flight = threefry(k.key.k0, k.key.k1, s.index + k.first_photon, s.event * 4u);
     const T density = gather(b.density, g.corner);
     const auto over = g.hits & (density > g.bound);
     if (any(over)) b.tally->majorant_violations += count_bits(bits_of(over));
@@ -231,8 +229,7 @@ PILEUS_FN void collide(Group<W, NC>& g, const TraceParams& k, const TraceBuffers
     const auto real = medium & (uniform(flight.b) * g.bound < density);
     if (any(real)) {
         scatter(s, k, b, real, g.spare);
-        if (k.mode == kDepositOutgoing)
-            deposit(k, b, s, real & s.alive, g.voxel, all<T>(1.0f));
+        if (k.mode == kDepositOutgoing) deposit(k, b, s, real & s.alive, g.voxel, all<T>(1.0f));
     }
 
     const auto tired = g.hits & s.alive & (s.event >= k.max_events);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What one launch of the photon tracer needs: plain structs of fixed-width numbers and pointers.
 // in: the plan and the prepared arrays -> out: the layout that a CPU or GPU launch takes.
-// METHODS 3. Lengths in metres, box-local; positions inside the kernel in voxels.
+// docs/methods.md 3. Lengths in metres, box-local; positions inside the kernel in voxels.
 #pragma once
 #include "kernels_cpu/phase.h"
 #include "kernels_cpu/rng.h"
@@ -69,7 +69,7 @@ struct Fates {
 /// Sums of integers, so that threads and chunks can be added in any order.
 struct TraceTally {
     Fates light;   ///< of the photons shot
-    Fates shadow;  ///< of the ground's missing light (METHODS 3.1), counted positive
+    Fates shadow;  ///< of the ground's missing light (docs/methods.md 3, step 1), counted positive
     std::int64_t photons, scatterings, tentative, crossings, path, majorant_violations;
 };
 

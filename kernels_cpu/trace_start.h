@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where a photon begins: on the box's silhouette for a beam, on its faces for diffuse light.
 // in: photon numbers -> out: position (voxels) and direction of travel.
-// METHODS 3 "Shoot"; points from the R2 sequence (Roberts 2018), shifted at random.
+// docs/methods.md 3 "Shoot"; points from the R2 sequence (Roberts 2018), shifted at random.
 #pragma once
 #include "kernels_cpu/trace_params.h"
 #include "kernels_cpu/walk.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a tracker needs of the medium: its grid, its bounds and how long it may go on.
 // in: the prepared arrays -> out: the layout that a CPU or GPU launch takes.
-// METHODS 2. Lengths in metres, box-local; positions inside the kernel in voxels.
+// docs/methods.md 2. Lengths in metres, box-local; positions inside the kernel in voxels.
 #pragma once
 #include <cstdint>
 

@@ -25,7 +25,7 @@ PILEUS_FN Vec<T> normalized(const Vec<T>& v) {
 }
 
 /// The unit vector at angle theta from `axis`, azimuth phi; renormalised, so that a million
-/// successive turns stay within a few ulp of unit length (RELIABILITY S11).
+/// successive turns stay within a few ulp of unit length (docs/testing.md S11).
 template <class T>
 PILEUS_FN Vec<T> turned(const Vec<T>& axis, T cosine, T sine, T cos_phi, T sin_phi) {
     const T one = all<T>(1.0f);

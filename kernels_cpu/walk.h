@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Steps along rays from block to block of a majorant grid, shared by all trackers.
 // in: positions, directions, optical depths to go -> out: the next tentative collision or border.
-// METHODS 2, "local majorants"; the walk stands on each plane it crosses, so none is met twice.
+// docs/methods.md 2, delta tracking; the walk stands on each plane it crosses: none is met twice.
 #pragma once
 #include "kernels_cpu/math.h"
 #include "kernels_cpu/rng.h"
@@ -54,7 +54,7 @@ PILEUS_FN void set_position(Walker<W>& s, const Grid& k, M<W> m, Vec<F<W>> p) {
 }
 
 /// Exponential free flight, exact in its tail: the 2^-24 share of draws beyond 16.6 optical
-/// depths is continued with 40 more bits, up to 44 (RELIABILITY S52).
+/// depths is continued with 40 more bits, up to 44 (docs/testing.md S52).
 template <class UU>
 PILEUS_FN auto free_flight(UU word, UU more) {
     using T = F_of<UU>;

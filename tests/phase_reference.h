@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Phase functions in long double: densities, shares of the sphere, samples; slow and plain.
 // in: 1 - cos(theta) or a share u counted from the forward direction -> out: reference values.
-// RELIABILITY 4.0; Henyey, Greenstein 1941. Negative g is the mirror image of positive g.
+// docs/methods.md 2; Henyey, Greenstein 1941. Negative g is the mirror image of positive g.
 #pragma once
 #include <cmath>
 
@@ -39,7 +39,7 @@ inline Real hg_share(Real g, const Angle& a) {
     return (1 + g) * a.minus / (q * (q + (1 - g)));
 }
 
-/// The angle that a share u of the light does not exceed: METHODS 2, |g| < 1.
+/// The angle that a share u of the light does not exceed: docs/methods.md 2, |g| < 1.
 inline Angle hg_angle(Real g, Real u) {
     if (g < 0) return mirrored(hg_angle(-g, 1 - u));
     const Real v = 1 - u, d = (1 - g) + 2 * g * v;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shoots photons through media made by hand, and judges the means they give.
 // in: densities, lights, numbers of photons -> out: ledgers, means with standard errors, verdicts.
-// METHODS 3. Two-stage rule: beyond 4.5 standard errors 16 times the photons and a fresh seed
-// decide; beyond 5.7 the test fails. A bias of 7.6 standard errors is found in 99.9 % of cases.
+// docs/testing.md, "Two-stage rule": beyond 4.5 standard errors 16 times the photons and a fresh
+// seed decide; beyond 5.7 the test fails. A bias of 7.6 standard errors is found in 99.9 %.
 #pragma once
 #include <doctest/doctest.h>
 

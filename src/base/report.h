@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a run tells about itself: plan, times, energy, errors, counters, digests.
 // in: the stages as they finish -> out: plain values; src/io/report_json.h writes them.
-// INTERFACES "Report"; docs/report.md explains each key.
+// docs/report.md explains each key.
 #pragma once
 #include <array>
 #include <cstdint>

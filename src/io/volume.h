@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A regular grid of relative densities as the readers and the procedural makers hand it over.
-// in: a file or parameters -> out: nx*ny*nz floats, x fastest, z up, cell-centred (METHODS 1).
+// in: a file or parameters -> out: nx*ny*nz floats, x fastest, z up, cell-centred.
+// docs/methods.md 1, docs/formats.md.
 #pragma once
 #include <array>
 #include <cstdint>

@@ -196,6 +196,7 @@ Status collectors_shoot(const Context& context, CollectorsRun& run) {
     if (ring && slot.generations > 0) {
         std::memset(slot.sums.data(), 0, std::size_t(slot.sums.bytes()));
         slot.generations = 0;
+        slot.scatterings = 0;
     }
     slot.flux_per_photon_m2.clear();
     for (const Light& l : run.lighting.lights) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Method `collectors`: photons into virtual photon collectors, shown as billboards or marched.
 // in: a scene and its medium -> out: images, one per call of `show`.
-// Elek 2011 with the repairs of METHODS 3; docs/collectors.md.
+// Elek 2011 with the repairs of docs/methods.md 3; docs/collectors.md.
 #pragma once
 #include "src/plan/plan.h"
 #include "src/stages/prepare.h"

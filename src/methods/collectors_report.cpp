@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a collectors run tells: energy, counters, digests per stage.
 // in: CollectorsRun -> out: Report.
-// INTERFACES "Report".
+// docs/report.md.
 #include "src/base/digest.h"
 #include "src/methods/collectors.h"
 

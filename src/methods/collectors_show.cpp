@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The picture of a lit collectors run: reconstruct, display, layers; and what the report tells.
 // in: CollectorsRun after shooting, a camera -> out: Image.
-// METHODS 3, each image frame, steps 4 and 5; repairs 3 and 4.
+// docs/methods.md 3, each image frame, steps 4 and 5; repairs 3 and 4.
 #include "src/base/digest.h"
 #include "src/methods/collectors.h"
 #include "src/stages/composite_billboards.h"
@@ -12,7 +12,7 @@ namespace pileus {
 namespace {
 
 constexpr float kCut = 1e-4f;         // transmittance that no eye misses
-constexpr float kSplatFactor = 1.2f;  // METHODS 3, repair 4
+constexpr float kSplatFactor = 1.2f;  // docs/methods.md 3, repair 4
 constexpr double kPriorScatterings = 8;
 constexpr double kShadowVoxels = 2;              // spacing of the shadow nodes
 constexpr std::uint64_t kNodeBudget = 1u << 19;  // nodes of the source grid, about
@@ -100,7 +100,8 @@ double source_spacing(const CollectorsRun& run) {
 SplatOptions splat_options(const CollectorsRun& run) {
     double mass = 0, scatterings = 0;
     for (const Collector& c : run.prepared.collectors.span()) mass += c.mass;
-    for (const TraceTally& t : run.photons.tallies) scatterings += double(t.scatterings);
+    // Those of the ring alone: a frame must not know how many frames came before it.
+    for (const PhotonSlot& slot : run.photons.slots) scatterings += double(slot.scatterings);
     SplatOptions options;
     options.radius_factor = kSplatFactor;
     options.prior_mass = scatterings > 0 ? float(kPriorScatterings * mass / scatterings) : 0.0f;
@@ -193,7 +194,8 @@ Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& 
                  : scene.collectors.lobe_closure ? Closure::kLobe
                                                  : Closure::kSh;
     in.window = scene.collectors.window;
-    in.batches = scene.output.layer_error && slots >= 2 && slots <= 16;
+    // An animation's ring may hold more generations than the blender has planes for.
+    if (scene.output.layer_error && slots >= 2) in.batches = int(slots < 16 ? slots : 16);
     in.constant = !marched;
     in.threads = context.threads;
     CollectorColours colours;
@@ -201,7 +203,7 @@ Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& 
         const StageClock clock(context, "reconstruct");
         PILEUS_TRY(reconstruct(in, colours));
     }
-    const int channels = in.batches ? int(3 * (1 + slots)) : 3;
+    const int channels = 3 * (1 + in.batches);
     Planes planes;
     PILEUS_TRY(allocate_planes(camera.width, camera.height, channels, planes));
     PILEUS_TRY(make_background(context, run, in, planes));

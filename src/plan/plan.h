@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What will run, what is left out and why, how much memory each array takes.
 // in: a checked scene -> out: lists for people and for the report; the proof of the sums' bounds.
-// ARCHITECTURE "Memory and errors"; METHODS 2 "Accumulation".
+// docs/architecture.md, "Memory and errors"; docs/methods.md 2 "Accumulation".
 #pragma once
 #include <cstdint>
 #include <string>

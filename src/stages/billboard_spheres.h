@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Spheres as the camera sees them: order, rectangle on the screen, list for each tile.
 // in: checked spheres in the box's metres -> out: BlendSphere front to back, lists of places.
-// METHODS 3, each image frame, step 5.
+// docs/methods.md 3, each image frame, step 5.
 #pragma once
 #include "src/stages/composite_billboards.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // See composite_billboards.h.
 // in: spheres and a camera -> out: image planes; checks, sorts, bins, then one kernel per tile.
-// METHODS 3, each image frame, step 5.
+// docs/methods.md 3, each image frame, step 5.
 #include "src/stages/composite_billboards.h"
 
 #include <cmath>

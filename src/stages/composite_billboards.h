@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Shows spheres of constant extinction and colour as billboards, sorted and blended front to back.
 // in: spheres in the box's metres, a camera, depths of solids -> out: planes of the media's light.
-// METHODS 3, each image frame, step 5; kernels_cpu/blend.h does the pixels.
+// docs/methods.md 3, each image frame, step 5; kernels_cpu/blend.h does the pixels.
 #pragma once
 #include <cstdint>
 

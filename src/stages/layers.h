@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // From composited planes to the layers of an image file.
 // in: media's light, transmittance, depths, background -> out: R G B A, cloud.*, Z, error.*.
-// INTERFACES "Images".
+// docs/formats.md, "Pictures out".
 #pragma once
 #include "src/base/buffer.h"
 #include "src/base/report.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which lights a scene needs photons from, and how many each.
 // in: sun, sky, ground, medium -> out: a list of lights with power, and what is left out and why.
-// METHODS 3 "Shoot"; docs/collectors.md derives the ground and the furnace identity.
+// docs/methods.md 3 "Shoot"; docs/collectors.md derives the ground and the furnace identity.
 #pragma once
 #include <array>
 #include <string>

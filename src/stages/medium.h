@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A medium ready to be prepared: its grid, where it lies, and its optical properties.
 // in: the scene's words about one medium -> out: plain numbers in kernel units.
-// METHODS 1.
+// docs/methods.md 1.
 #pragma once
 #include "kernels_cpu/phase.h"
 #include "src/io/volume.h"

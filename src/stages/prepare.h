@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The preparation as one step: samples, tree, leaves, collectors, majorants.
 // in: a medium and the collectors' settings -> out: everything that photons need, read only.
-// METHODS 3 "Prepare"; each part is described in its own prepare_*.h.
+// docs/methods.md 3 "Prepare"; each part is described in its own prepare_*.h.
 #pragma once
 #include "src/stages/context.h"
 #include "src/stages/medium.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One sphere per leaf that holds medium, with the leaf's optical cross-section.
 // in: measured leaves, masses, samples -> out: collectors, and their index in each leaf.
-// Elek 2011, section 5.5; METHODS 3, prepare 5 and repair 1.
+// Elek 2011, section 5.5; docs/methods.md 3, prepare 5 and repair 1.
 #pragma once
 #include "src/base/buffer.h"
 #include "src/base/status.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The trilinear field and its exact integrals, the one meaning of "density" in the preparation.
 // in: densities at voxel centres -> out: density at a point, mass of each voxel.
-// docs: METHODS 1; linear between centres, clamped inside the box, zero outside.
+// docs/methods.md 1; linear between centres, clamped inside the box, zero outside.
 #pragma once
 #include "src/base/span.h"
 #include "src/stages/prepared.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Maximum and sum of a weight per voxel, added in an order that no thread count changes.
 // in: densities and weights -> out: FieldStats.
-// docs: ARCHITECTURE, determinism.
+// docs/architecture.md, determinism.
 #pragma once
 #include "src/stages/prepare_gradient.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finishes the boxes that the kD-tree ends with and collects them.
 // in: a box and the bounds of its samples -> out: one or more leaves that tile the box.
-// Elek 2011, figure 5.4: cut away what no sample covers; METHODS 3: resolve uniform interiors.
+// Elek 2011, figure 5.4: cut away what no sample covers; docs/methods.md 3, prepare 3.
 #pragma once
 #include "src/stages/prepare_tree.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What each leaf holds, and in which leaf each voxel lies.
 // in: leaves as boxes, densities, masses -> out: the leaves' numbers, a leaf index per voxel.
-// Elek 2011, section 5.4; METHODS 3, prepare 3-4.
+// Elek 2011, section 5.4; docs/methods.md 3, prepare 3-4.
 #pragma once
 #include "src/base/span.h"
 #include "src/stages/prepared.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A coarse grid of largest densities, so that free flights take long steps through thin air.
 // in: densities -> out: the largest density per block of voxels, and the best size of a block.
-// METHODS 1 (majorant over the trilinear footprint); SPEED.
+// docs/methods.md 1 (majorant over the trilinear footprint); tools/bench/README.md.
 #pragma once
 #include "src/base/buffer.h"
 #include "src/base/status.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws points where the density changes.
 // in: a weight per voxel -> out: points distributed as that weight, with the density there.
-// Elek 2011, section 5.2 (rejection); METHODS 3, prepare 2 (stratified inverse distribution).
+// Elek 2011, section 5.2 (rejection); docs/methods.md 3, prepare 2 (stratified).
 #pragma once
 #include "src/base/buffer.h"
 #include "src/stages/prepare_gradient.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // kD-tree over the samples: boxes of similar density, fine where the density changes.
 // in: samples, densities -> out: leaves as boxes of whole voxels that tile the grid.
-// Elek 2011, section 5.3 and figure 5.4; METHODS 3, prepare 3.
+// Elek 2011, section 5.3 and figure 5.4; docs/methods.md 3, prepare 3.
 #pragma once
 #include "src/base/buffer.h"
 #include "src/base/status.h"
@@ -16,7 +16,7 @@ struct TreeOptions {
 };
 
 /// Longest leaf allowed on each axis so that no leaf spans more than `share` of the box's diagonal
-/// (METHODS 3 resolves the light inside uniform regions this way). At least one voxel.
+/// (docs/methods.md 3 resolves the light inside uniform regions this way). At least one voxel.
 void leaf_limit(const Grid& grid, double share, int max_leaf_voxels[3]);
 
 /// Recommended share of the diagonal for `leaf_limit`. Halving alone then makes at most 16^3 leaves

@@ -43,7 +43,7 @@ double sh_power(const ReconstructInput& in, const BandFactors& bands, const doub
     return power;
 }
 
-/// The same from flux and mean direction alone: one HG lobe (METHODS 3, closure `lobe`).
+/// The same from flux and mean direction alone: one HG lobe (docs/methods.md 3, closure `lobe`).
 double lobe_power(const ReconstructInput& in, const double* sums, const Direction& to) {
     const double flux = sums[0] * 3.5449077018110320546;  // sqrt(4 pi)
     if (!(flux > 0) || in.deposit.bands < 2) return flux * 0.079577471545947667884;
@@ -130,7 +130,7 @@ Row collector_colour(const ReconstructInput& in, const BandFactors& bands, std::
 
 Status reconstruct(const ReconstructInput& in, CollectorColours& out) {
     const std::size_t slots = in.photons->slots.size(), count = in.collectors.size;
-    const std::size_t sets = in.batches ? 1 + slots : 1;
+    const std::size_t batches = std::size_t(in.batches), sets = 1 + batches;
     if (out.colour.size() != 3 * sets * count)
         PILEUS_TRY(out.colour.resize(3 * sets * count, "collector colours"));
     const BandFactors bands = band_factors(in);
@@ -144,7 +144,8 @@ Status reconstruct(const ReconstructInput& in, CollectorColours& out) {
         for (std::size_t i = begin; i < end; ++i) {
             for (std::size_t set = 0; set < sets; ++set) {
                 const Row row =
-                    collector_colour(in, bands, i, set == 0 ? 0 : set - 1, set == 0 ? slots : set);
+                    collector_colour(in, bands, i, set == 0 ? 0 : (set - 1) * slots / batches,
+                                     set == 0 ? slots : set * slots / batches);
                 for (std::size_t ch = 0; ch < 3; ++ch) {
                     // The constant part belongs to the radiance that must not be negative.
                     const double constant = in.lighting->constant[ch];

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // From sums of photons to the radiance that each collector shows the observer.
 // in: slots of integer sums, collectors, the camera -> out: colours, [channel][collector].
-// METHODS 3, each image frame, step 4; repairs 2 and 3.
+// docs/methods.md 3, each image frame, step 4; repairs 2 and 3.
 #pragma once
 #include "src/stages/trace.h"
 
@@ -18,13 +18,13 @@ struct ReconstructInput {
     DepositPlan deposit;
     Closure closure = Closure::kSh;
     bool window = false;    ///< sinc window on the bands
-    bool batches = false;   ///< also one RGB per slot, for the standard error
+    int batches = 0;        ///< also one RGB for each of so many groups of slots, for the error
     bool constant = false;  ///< add the lighting's constant source (billboards)
     int threads = 1;
 };
 
 struct CollectorColours {
-    Buffer<float> colour;  ///< [3 * (1 + slots)][collector]; radiance of an optically thick leaf
+    Buffer<float> colour;  ///< [3 * (1 + batches)][collector]; radiance of an optically thick leaf
     std::uint64_t clamped_negative = 0;
 };
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Collector colours spread onto a coarse grid, for the marched display.
 // in: collectors and their colours -> out: [channel][node], smooth, defined wherever medium is.
-// METHODS 3, repair 4: each collector covers a ball, weights normalised.
+// docs/methods.md 3, repair 4: each collector covers a ball, weights normalised.
 #pragma once
 #include "kernels_cpu/march_params.h"
 #include "src/base/buffer.h"

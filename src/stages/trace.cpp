@@ -125,7 +125,7 @@ std::uint64_t slot_stride(const TraceInput& in) {
 }
 
 Status prepare_trace(const TraceInput& in, TraceScratch& scratch) {
-    // Neighbouring threads keep 128 bytes apart (SPEED: unpadded counters cost half the speed).
+    // Neighbouring threads keep 128 bytes apart (unpadded counters cost half the speed).
     scratch.stride = (slot_stride(in) + 31) / 16 * 16;
     PILEUS_TRY(scratch.sums.resize(scratch.stride * std::uint64_t(in.threads), "photon sums"));
     return scratch.tallies.resize(std::uint64_t(in.threads) * 2, "photon tallies");
@@ -158,6 +158,7 @@ Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScr
                 total[i] += own[i];
                 own[i] = 0;
             }
+            slot.scatterings += scratch.tallies[std::size_t(t) * 2].scatterings;
             add_tally(scratch.tallies[std::size_t(t) * 2], tallies[l]);
             scratch.tallies[std::size_t(t) * 2] = TraceTally{};
         }

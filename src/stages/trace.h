@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Launches photons: chunks over threads, private integer sums, reduced exactly.
 // in: medium, lights, a map from voxels to collectors -> out: one slot of sums per batch, ledgers.
-// METHODS 3; the result is a function of (seed, light, photon index) alone.
+// docs/methods.md 3; the result is a function of (seed, light, photon index) alone.
 #pragma once
 #include <vector>
 
@@ -52,6 +52,7 @@ struct TraceInput {
 struct PhotonSlot {
     Buffer<std::int64_t> sums;
     std::uint64_t generations = 0;           ///< that were added
+    std::int64_t scatterings = 0;            ///< of these generations
     std::vector<double> flux_per_photon_m2;  ///< per light, for unit radiance or irradiance
     std::array<float, 3> sun_travel{0, 0, -1};
 };

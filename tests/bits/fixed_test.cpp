@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Floats to whole quanta: rounding half away from zero, clamping, and sums without an order.
 // in: kernels_cpu/fixed.h -> out: equality of integers with std::llround in double.
-// METHODS 2 (accumulation), RELIABILITY S59, S61.
+// docs/methods.md 2 (accumulation), docs/testing.md S59, S61.
 #include "kernels_cpu/fixed.h"
 
 #include <doctest/doctest.h>

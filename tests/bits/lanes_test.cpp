@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every verb of the lanes against plain scalar C++, at every width.
 // in: kernels_cpu/lanes.h, lanes_verbs.h -> out: equality of bits, NaN and signed zeros included.
-// ARCHITECTURE, "Kernels: written once".
+// docs/architecture.md, "Kernels: written once".
 #include "kernels_cpu/lanes.h"
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Phase functions: samples, densities and moments against long double references.
 // in: kernels_cpu/phase.h -> out: largest errors, exact cases, quadrature; no statistics.
-// RELIABILITY S1-S4, S6, S7.
+// docs/testing.md S1-S4, S6, S7.
 #include "kernels_cpu/phase.h"
 
 #include <doctest/doctest.h>

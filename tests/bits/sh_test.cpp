@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Real spherical harmonics: orthonormal, bounded, in the stated order and sign.
 // in: kernels_cpu/sh.h -> out: quadrature over the sphere, addition theorem, moments of HG.
-// METHODS 2; RELIABILITY 4, F.
+// docs/methods.md 2.
 #include "kernels_cpu/sh.h"
 
 #include <doctest/doctest.h>

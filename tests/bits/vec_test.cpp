@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The frame around a direction, and a million turns one after another.
 // in: kernels_cpu/vec.h -> out: orthonormality, unit length within 4 ulp, small angles.
-// RELIABILITY S10, S11; Duff et al. 2017.
+// docs/testing.md S10, S11; Duff et al. 2017.
 #include "kernels_cpu/vec.h"
 
 #include <doctest/doctest.h>

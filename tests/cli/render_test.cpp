@@ -149,8 +149,10 @@ TEST_CASE("render: -o replaces the scene's files, and may stand before the scene
 
 TEST_CASE("render: frames are numbered, also one by one, and repeat the whole's pictures") {
     const ProgramFolder folder;
-    folder.files().put("f.toml", test::small_scene() + std::string("[animation]\nframes = 3\n"
-                                                                   "camera_orbit_deg = [0, 90]\n"));
+    folder.files().put("f.toml",
+                       test::small_scene() + std::string("[animation]\nframes = 3\n"
+                                                         "camera_orbit_deg = [0, 90]\n"
+                                                         "sun_elevation_deg = [40, 9]\n"));
     const Outcome all = folder.run("render f.toml -o a.pfm --report r.json --quiet");
     REQUIRE_MESSAGE(all.exit_status == 0, all.errors);
     CHECK(line_count(all.output) == 6);

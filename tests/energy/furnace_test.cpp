@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Furnaces: inside a uniform field of radiance a white cloud cannot be told from its surroundings.
 // in: sky, ground of albedo 1, clouds -> out: pixels and collectors that show the same radiance.
-// METHODS 3 "Shoot" (furnace identity); the ground's rules are tested by forcing its photons.
+// docs/methods.md 3 "Shoot" (furnace identity); the ground's rules by forcing its photons.
 #include "kernels_cpu/vec.h"
 #include "src/stages/prepare.h"
 #include "src/stages/reconstruct.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which lights a ground makes, and what becomes of the light between ground and cloud.
 // in: scenes with a ground -> out: lists of lights, energy per light.
-// METHODS 3 "Shoot"; docs/collectors.md.
+// docs/methods.md 3 "Shoot"; docs/collectors.md.
 #include "tests/render_harness.h"
 #include "tests/trace_harness.h"
 

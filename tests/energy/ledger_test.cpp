@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The energy ledger: what is shot is found again, to the last quantum.
 // in: white, grey and coloured media, lights, ground -> out: exact integer balances.
-// METHODS 3.1; every comparison is between integers.
+// docs/methods.md 3, each image frame, step 1; every comparison is between integers.
 #include "tests/trace_harness.h"
 
 using namespace trace_test;

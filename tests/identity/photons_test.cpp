@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The same bits from every instruction set, number of threads and way of cutting up the work.
 // in: one launch done in many ways -> out: equal ledgers and sums; nothing is stored.
-// ARCHITECTURE "Determinism": results belong to photons, sums are integers.
+// docs/architecture.md, "Determinism": results belong to photons, sums are integers.
 #include "src/stages/prepare.h"
 #include "tests/trace_harness.h"
 

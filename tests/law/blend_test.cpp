@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The blender of billboards against closed forms, a brute-force double loop, and itself.
 // in: few spheres seen by a small camera -> out: transmittance, colour and half depth.
-// METHODS 3, each image frame, step 5.
+// docs/methods.md 3, each image frame, step 5.
 #include "kernels_cpu/blend.h"
 
 #include <doctest/doctest.h>

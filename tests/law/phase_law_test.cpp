@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Phase functions drawn at random: the law of the angle and its mean.
 // in: kernels_cpu/phase.h, rng.h -> out: chi-square against the density, z of the mean cosine.
-// RELIABILITY S1-S3, S8; two-stage rule 5.2.
+// docs/testing.md S1-S3, S8, "Two-stage rule".
 #include <doctest/doctest.h>
 
 #include <algorithm>

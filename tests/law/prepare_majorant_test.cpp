@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The majorant grid against a direct search, and the choice of its block against its formula.
 // in: small density fields -> out: passes or fails.
-// METHODS 1 and 2 (local majorants).
+// docs/methods.md 1 and 2 (local majorants).
 #include "src/stages/prepare_majorant.h"
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Gradient, variance, masses and samplers of the preparation against known answers.
 // in: small density fields -> out: passes or fails.
-// Elek 2011, sections 5.1-5.2; METHODS 3, prepare 1-2.
+// Elek 2011, sections 5.1-5.2; docs/methods.md 3, prepare 1-2.
 #include <doctest/doctest.h>
 
 #include <cstring>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Leaves tile the grid and collectors keep its optical cross-section, on ordinary and odd fields.
 // in: small density fields -> out: passes or fails.
-// Elek 2011, sections 5.3-5.5; METHODS 3, prepare 3-5.
+// Elek 2011, sections 5.3-5.5; docs/methods.md 3, prepare 3-5.
 #include "src/stages/prepare_tree.h"
 
 #include <doctest/doctest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Ratio tracking against optical depths in closed form, and against the photons of the tracer.
 // in: small media, rays, fixed seeds -> out: rows of means with standard errors, passes or fails.
-// METHODS 2 "Ratio tracking"; tests/trace_harness.h (two-stage rule).
+// docs/methods.md 2 "Ratio tracking"; tests/trace_harness.h (two-stage rule).
 #include "kernels_cpu/ratio.h"
 
 #include <limits>

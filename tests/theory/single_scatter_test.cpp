@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Thin clouds in sunlight: radiance is irradiance x albedo x phase function x optical depth.
 // in: boxes and spheres of optical depth 4e-3, both displays -> out: ratios to the closed form.
-// METHODS 3, repair 3: the first order keeps the exact phase function.
+// docs/methods.md 3, repair 3: the first order keeps the exact phase function.
 #include <cmath>
 #include <cstdio>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bias, noise and time of the collectors' variants against a long camera-directed estimate.
 // in: a scene, photons for the reference and for the variants -> out: a Markdown table.
-// METHODS 3; fills the table in docs/collectors.md.
+// docs/methods.md 3; fills the table in docs/collectors.md.
 #include <fmt/format.h>
 
 #include <cstdlib>

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The proof that the fixed-point sums cannot overflow.
+// in: numbers of deposits and their bound -> out: binary places for which the worst case fits.
+// docs/methods.md 2; docs/testing.md S60.
+#include "src/plan/plan.h"
+
+#include <doctest/doctest.h>
+
+using namespace pileus;
+
+namespace {
+
+/// Does the worst case fit with s places: one deposit in 31 bits, all of them in 62?
+bool fits(int s, double deposits, double largest) {
+    const double one = largest * double(std::uint64_t{1} << s) + 0.5;
+    return one < 2147483648.0 && one * deposits < 4611686018427387904.0;  // 2^31, 2^62
+}
+
+}  // namespace
+
+TEST_CASE("plan: the places chosen fit and one more would not (S60)") {
+    for (double largest : {0.28, 1.0, 1.1, 6.5, 3000.0})
+        for (double deposits = 1; deposits < 1e17; deposits *= 7) {
+            const int s = fixed_point_places(deposits, largest);
+            CAPTURE(deposits);
+            CAPTURE(largest);
+            if (s < 0) {
+                CHECK_FALSE(fits(8, deposits, largest * 1.01));
+                continue;
+            }
+            CHECK(fits(s, deposits, largest));
+            // Bounds are a hair under the powers of two, so allow one per cent.
+            if (s < 30) CHECK_FALSE(fits(s + 1, deposits, largest * 1.01));
+        }
+}
+
+TEST_CASE("plan: no photon at all, and more than any sum can hold") {
+    CHECK(fixed_point_places(0, 1) == 30);
+    CHECK(fixed_point_places(1e17, 1) < 0);
+    CHECK(fixed_point_places(1e300, 1) < 0);
+}
