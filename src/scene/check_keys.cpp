@@ -137,7 +137,7 @@ private:
     /// The full path of a key of this name in another table; empty if there is none.
     std::string other_table(const std::string& key) const {
         for (const KeyRow* row : rows_) {
-            const std::string path = row->path;
+            std::string path = row->path;
             const std::size_t dot = path.rfind('.');
             if (dot != std::string::npos && path.substr(dot + 1) == key) return path;
         }
