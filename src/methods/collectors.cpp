@@ -161,7 +161,9 @@ Status collectors_prepare(const Scene& scene, std::int64_t photons, const Contex
     PILEUS_TRY(
         prepare_majorants(run.medium, scene.collectors.local_tracking, context, run.prepared));
     note_plan(scene, run);
-    return allocate_photons(context, run);
+    PILEUS_TRY(allocate_photons(context, run));
+    collectors_plan_display(run);
+    return Status::ok();
 }
 
 Status collectors_set_sun(double elevation_deg, const Context&, CollectorsRun& run) {

@@ -43,6 +43,9 @@ Status collectors_shoot(const Context& context, CollectorsRun& run);
 /// Reconstructs and composites one picture.
 Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& run, Image& image);
 
+/// Adds to the plan what pictures of this run will take; part of `collectors_prepare`.
+void collectors_plan_display(CollectorsRun& run);
+
 /// Fills the report's energy, counters and digests from the run.
 void collectors_report(const CollectorsRun& run, Report& report);
 

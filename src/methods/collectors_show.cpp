@@ -36,6 +36,18 @@ MediumView view_of(const CollectorsRun& run) {
     return v;
 }
 
+bool is_marched(const CollectorsRun& run) {
+    return !run.scene->collectors.billboards || run.camera_cells > 0;
+}
+
+/// Groups of slots that the standard error is made from; an animation's ring may hold more
+/// generations than the blender has planes for.
+int error_batches(const CollectorsRun& run) {
+    const std::size_t slots = run.photons.slots.size();
+    if (!run.scene->output.layer_error || slots < 2) return 0;
+    return int(slots < 16 ? slots : 16);
+}
+
 Status make_background(const Context& context, const CollectorsRun& run,
                        const ReconstructInput& lit, Planes& planes) {
     const StageClock clock(context, "background");
@@ -64,15 +76,18 @@ Status make_background(const Context& context, const CollectorsRun& run,
     return Status::ok();
 }
 
+NodeGrid shadow_grid(const CollectorsRun& run) {
+    float coarse = 0;
+    for (float cell : run.medium.grid.cell_m) coarse = cell > coarse ? cell : coarse;
+    return make_node_grid(run.medium.grid, run.medium.extent_m, kShadowVoxels * double(coarse));
+}
+
 /// Optical depth towards the sun, once per position of the sun.
 Status make_shadow(const Context& context, CollectorsRun& run) {
     if (run.shadow_ready || !run.lighting.sunlit || run.deposit.first_order != 2)
         return Status::ok();
     const StageClock clock(context, "shadow");
-    float coarse = 0;
-    for (float cell : run.medium.grid.cell_m) coarse = cell > coarse ? cell : coarse;
-    run.shadow_nodes =
-        make_node_grid(run.medium.grid, run.medium.extent_m, kShadowVoxels * double(coarse));
+    run.shadow_nodes = shadow_grid(run);
     PILEUS_TRY(run.shadow.resize(node_count(run.shadow_nodes), "shadow"));
     ShadowParams k{};
     k.medium = view_of(run);
@@ -178,11 +193,40 @@ Status show_billboards(const Context& context, CollectorsRun& run, const CameraP
 
 }  // namespace
 
+void collectors_plan_display(CollectorsRun& run) {
+    const OutputSettings& output = run.scene->output;
+    const auto& resolution = run.scene->camera.resolution;
+    const std::uint64_t pixels = std::uint64_t(resolution[0]) * std::uint64_t(resolution[1]);
+    const std::uint64_t channels = 3 * (1 + std::uint64_t(error_batches(run)));
+    const std::uint64_t collectors = run.prepared.collectors.size();
+    const std::uint64_t layers = 4 + (output.layer_cloud ? 3u : 0u) +
+                                 (output.layer_depth ? 1u : 0u) + (channels > 3 ? 3u : 0u);
+    Plan& plan = run.plan;
+    // Transmittance, two depths, three planes of background, and the colours with their batches.
+    plan.take("picture planes", 4 * pixels * (6 + channels));
+    plan.take("image layers", 4 * pixels * layers);
+    plan.take("collector colours", 4 * channels * collectors);
+    if (!is_marched(run)) {
+        plan.take("billboards", collectors * (5 * sizeof(float) + sizeof(BlendSphere)));
+        return;
+    }
+    const auto& extent = run.medium.extent_m;
+    std::uint64_t nodes = 0;
+    NodeGrid level = make_node_grid(run.medium.grid, extent, source_spacing(run));
+    for (;;) {
+        nodes += node_count(level);
+        if (node_count(level) == 1) break;
+        for (std::int32_t& n : level.size) n = (n + 1) / 2;
+    }
+    plan.take("source grid", 4 * nodes * (channels + 1));
+    if (run.lighting.sunlit && run.deposit.first_order == 2)
+        plan.take("shadow", 4 * node_count(shadow_grid(run)));
+}
+
 Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& run, Image& image) {
     const Scene& scene = *run.scene;
     const CameraParams camera = make_camera(scene.camera, orbit_deg, run.medium.low_m);
-    const bool marched = !scene.collectors.billboards || run.camera_cells > 0;
-    const std::size_t slots = run.photons.slots.size();
+    const bool marched = is_marched(run);
     ReconstructInput in;
     in.medium = &run.medium;
     in.lighting = &run.lighting;
@@ -194,8 +238,7 @@ Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& 
                  : scene.collectors.lobe_closure ? Closure::kLobe
                                                  : Closure::kSh;
     in.window = scene.collectors.window;
-    // An animation's ring may hold more generations than the blender has planes for.
-    if (scene.output.layer_error && slots >= 2) in.batches = int(slots < 16 ? slots : 16);
+    in.batches = error_batches(run);
     in.constant = !marched;
     in.threads = context.threads;
     CollectorColours colours;
