@@ -47,12 +47,13 @@ PILEUS_FN auto voxel_of(const Vec<T>& p, const Grid& k) {
 }
 
 /// Deposit `share` (0..1) of each lane in `m`, travelling along s.d, into its voxel's collector.
+/// Every lane's voxel must be readable.
 template <int W, int NC>
 PILEUS_FN void deposit(const TraceParams& k, const TraceBuffers& b, const Photon<W, NC>& s, M<W> m,
                        I<W> voxel, F<W> share) {
     using T = F<W>;
     const Vec<T>& d = s.d;
-    const I<W> collector = gather(b.collector, select(m, voxel, I<W>{}));
+    const I<W> collector = gather(b.collector, voxel);
     m = m & (collector >= 0);
     if (!any(m)) return;
 

@@ -12,7 +12,8 @@ namespace {
 
 constexpr int kMostThreads = 1024;
 
-Status make_context(const RenderOptions& options, Context& context, Report& report) {
+Status make_context(const Scene& scene, const RenderOptions& options, Context& context,
+                    Report& report) {
     context.kernels = kernel_table(options.isa.empty() ? nullptr : options.isa.c_str());
     if (context.kernels == nullptr) {
         std::string names;
@@ -31,6 +32,9 @@ Status make_context(const RenderOptions& options, Context& context, Report& repo
     context.report = &report;
     context.progress = options.progress;
     report.version = kVersion;
+    report.scene = scene.file;
+    report.method = scene.method;
+    report.seed = scene.seed;
     report.isa = context.kernels->name;
     report.threads = context.threads;
     return Status::ok();
@@ -124,11 +128,8 @@ Status render(const Scene& scene, const RenderOptions& options, const FrameSink&
     Report report;
     Context context;
     Frames frames{};
-    PILEUS_TRY(make_context(options, context, report));
+    PILEUS_TRY(make_context(scene, options, context, report));
     PILEUS_TRY(frames_of(scene, options, frames));
-    report.scene = scene.file;
-    report.method = scene.method;
-    report.seed = scene.seed;
 
     CollectorsRun run;
     PILEUS_TRY(collectors_prepare(scene, photons_of(scene, options), context, run));
@@ -150,10 +151,7 @@ Status render(const Scene& scene, const RenderOptions& options, const FrameSink&
 Status plan_scene(const Scene& scene, const RenderOptions& options, Report& report) {
     const FpModeGuard guard;
     Context context;
-    PILEUS_TRY(make_context(options, context, report));
-    report.scene = scene.file;
-    report.method = scene.method;
-    report.seed = scene.seed;
+    PILEUS_TRY(make_context(scene, options, context, report));
     CollectorsRun run;
     PILEUS_TRY(collectors_prepare(scene, photons_of(scene, options), context, run));
     collectors_report(run, report);

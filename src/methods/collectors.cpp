@@ -5,8 +5,6 @@
 namespace pileus {
 namespace {
 
-constexpr std::uint64_t kMostBatches = 16;
-
 /// Batches for the standard error: the largest divisor of the generations up to 16, so that all
 /// hold equally many; if that is under 8, as many as fit with slightly unequal shares.
 std::uint64_t batch_count(std::uint64_t generations) {
@@ -24,6 +22,14 @@ std::uint64_t slot_count(const CollectorsRun& run) {
     return wants_error(*run.scene) ? batch_count(run.generations) : 1;
 }
 
+/// Where deposits of the phase function look: the camera, or back along its parallel rays.
+void aim_deposit(const Scene& scene, CollectorsRun& run) {
+    const CameraParams camera = make_camera(scene.camera, 0, run.medium.low_m);
+    run.deposit.orthographic = scene.camera.orthographic;
+    for (int a = 0; a < 3; ++a)
+        run.deposit.camera[a] = scene.camera.orthographic ? -camera.forward[a] : camera.origin[a];
+}
+
 /// Decides what a collision stores, and proves that the sums hold it.
 Status plan_deposit(const Scene& scene, CollectorsRun& run) {
     const CollectorSettings& c = scene.collectors;
@@ -32,7 +38,7 @@ Status plan_deposit(const Scene& scene, CollectorsRun& run) {
     d.mode = c.paper ? kDepositOutgoing : kDepositIncident;
     if (run.camera_cells > 0) d.mode = kDepositCamera;
     const bool split = (c.first_order_split || run.camera_cells > 0) && run.lighting.sunlit;
-    d.first_order = !split ? 0 : (c.billboards && run.camera_cells == 0 ? 1 : 2);
+    d.first_order = !split ? 0 : (is_marched(run) ? 2 : 1);
     d.coefficients =
         d.mode == kDepositCamera ? 1 : d.bands * d.bands + (d.first_order == 1 ? 1 : 0);
     if (!split)
@@ -90,7 +96,7 @@ void note_plan(const Scene& scene, CollectorsRun& run) {
     plan.need("collectors");
     plan.need("majorants");
     for (const Light& l : run.lighting.lights) plan.need(("photons from the " + l.name).c_str());
-    plan.need(scene.collectors.billboards ? "billboards" : "marched display");
+    plan.need(is_marched(run) ? "marched display" : "billboards");
     if (run.medium.channels == 1)
         plan.leave_out("coefficients per colour channel", "achromatic medium: one set per light");
     if (run.medium.albedo_max == 1) plan.leave_out("absorption", "albedo 1");
@@ -127,11 +133,6 @@ Status collectors_prepare(const Scene& scene, std::int64_t photons, const Contex
                                      ": collectors.closure: \"camera\" needs a fixed "
                                      "camera, but animation.camera_orbit_deg moves it");
         run.camera_cells = scene.collectors.cell_voxels;
-        const CameraParams camera = make_camera(scene.camera, 0, Double3{});
-        run.deposit.orthographic = scene.camera.orthographic;
-        run.deposit.camera[0] = -camera.forward[0];
-        run.deposit.camera[1] = -camera.forward[1];
-        run.deposit.camera[2] = -camera.forward[2];
     }
     if (scene.media.size() > 1)
         return Status::bad_input(scene.file + ": medium: " + std::to_string(scene.media.size()) +
@@ -142,10 +143,7 @@ Status collectors_prepare(const Scene& scene, std::int64_t photons, const Contex
                        ? empty_medium(scene, run.medium)
                        : load_medium(scene, scene.media[0], context.threads, run.medium));
     }
-    if (run.camera_cells > 0 && !scene.camera.orthographic) {
-        const CameraParams camera = make_camera(scene.camera, 0, run.medium.low_m);
-        for (int a = 0; a < 3; ++a) run.deposit.camera[a] = camera.origin[a];
-    }
+    aim_deposit(scene, run);
     run.generations = std::uint64_t(scene.collectors.generations);
     if (photons >= 0 && std::uint64_t(photons) < run.generations)
         run.generations = photons > 0 ? std::uint64_t(photons) : 1;
@@ -163,6 +161,7 @@ Status collectors_prepare(const Scene& scene, std::int64_t photons, const Contex
     note_plan(scene, run);
     PILEUS_TRY(allocate_photons(context, run));
     collectors_plan_display(run);
+    collectors_digest_prepared(run);
     return Status::ok();
 }
 

@@ -10,6 +10,9 @@
 
 namespace pileus {
 
+/// Most groups of generations that the standard error is made from.
+constexpr std::uint64_t kMostBatches = 16;
+
 /// Everything one run holds; made by `prepare`, lit by `shoot`, read by `show`.
 struct CollectorsRun {
     const Scene* scene = nullptr;
@@ -21,6 +24,7 @@ struct CollectorsRun {
     DepositPlan deposit;
     GroundMap ground_map;
     Photons photons;
+    std::vector<std::pair<std::string, std::string>> digests;  ///< of the prepared stages
     TraceScratch scratch;
     std::uint64_t next_generation = 0, generations = 1;
     std::uint32_t max_events = 1u << 20;
@@ -29,6 +33,11 @@ struct CollectorsRun {
     bool shadow_ready = false;
     int camera_cells = 0;  ///< > 0: the camera-directed estimate on cells of so many voxels
 };
+
+/// The display that a run uses: cells lit towards the camera are always marched.
+inline bool is_marched(const CollectorsRun& run) {
+    return !run.scene->collectors.billboards || run.camera_cells > 0;
+}
 
 /// Loads the medium, chooses what is needed, prepares the tree and allocates the sums.
 Status collectors_prepare(const Scene& scene, std::int64_t photons, const Context& context,
@@ -45,6 +54,9 @@ Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& 
 
 /// Adds to the plan what pictures of this run will take; part of `collectors_prepare`.
 void collectors_plan_display(CollectorsRun& run);
+
+/// Digests what no frame changes; part of `collectors_prepare`.
+void collectors_digest_prepared(CollectorsRun& run);
 
 /// Fills the report's energy, counters and digests from the run.
 void collectors_report(const CollectorsRun& run, Report& report);

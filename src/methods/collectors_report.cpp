@@ -71,6 +71,12 @@ std::string density_digest(const CollectorsRun& run) {
 
 }  // namespace
 
+void collectors_digest_prepared(CollectorsRun& run) {
+    run.digests = {{"density", density_digest(run)},
+                   {"leaves", leaf_digest(run)},
+                   {"collectors", collector_digest(run)}};
+}
+
 void collectors_report(const CollectorsRun& run, Report& report) {
     report.needed = run.plan.needed;
     report.left_out.clear();
@@ -105,10 +111,8 @@ void collectors_report(const CollectorsRun& run, Report& report) {
     report.counters.emplace_back("majorant_violations", std::uint64_t(all.majorant_violations));
     report.counters.emplace_back("saturated", 0);  // fixed_point_places proves it
     report.counters.emplace_back("samples_given_up", run.prepared.rejected);
-    report.digests.insert(report.digests.begin(), {{"density", density_digest(run)},
-                                                   {"leaves", leaf_digest(run)},
-                                                   {"collectors", collector_digest(run)},
-                                                   {"photons", photon_digest(run)}});
+    report.digests.insert(report.digests.begin(), {"photons", photon_digest(run)});
+    report.digests.insert(report.digests.begin(), run.digests.begin(), run.digests.end());
 }
 
 }  // namespace pileus

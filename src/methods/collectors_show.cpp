@@ -6,6 +6,7 @@
 #include "src/methods/collectors.h"
 #include "src/stages/composite_billboards.h"
 #include "src/stages/layers.h"
+#include "src/stages/prepare_majorant.h"
 #include "src/stages/source_grid.h"
 
 namespace pileus {
@@ -17,27 +18,27 @@ constexpr double kPriorScatterings = 8;
 constexpr double kShadowVoxels = 2;              // spacing of the shadow nodes
 constexpr std::uint64_t kNodeBudget = 1u << 19;  // nodes of the source grid, about
 
+float smallest_cell(const Grid& grid) {
+    float smallest = grid.cell_m[0];
+    for (float cell : grid.cell_m) smallest = cell < smallest ? cell : smallest;
+    return smallest;
+}
+
 MediumView view_of(const CollectorsRun& run) {
     const Medium& m = run.medium;
     MediumView v{};
-    float smallest = m.grid.cell_m[0];
     for (int a = 0; a < 3; ++a) {
         v.size[a] = m.grid.size[a];
         v.cell[a] = m.grid.cell_m[a];
         v.extent[a] = float(m.extent_m[a]);
-        v.blocks[a] = (m.grid.size[a] + run.prepared.skip_block - 1) / run.prepared.skip_block;
-        smallest = v.cell[a] < smallest ? v.cell[a] : smallest;
     }
+    block_counts(m.grid, run.prepared.skip_block, v.blocks);
     v.block = float(run.prepared.skip_block);
     v.sigma = m.sigma;
-    v.step = smallest;
+    v.step = smallest_cell(m.grid);
     v.density = m.volume.density.data();
     v.majorant = run.prepared.skip_majorants.data();
     return v;
-}
-
-bool is_marched(const CollectorsRun& run) {
-    return !run.scene->collectors.billboards || run.camera_cells > 0;
 }
 
 /// Groups of slots that the standard error is made from; an animation's ring may hold more
@@ -45,7 +46,7 @@ bool is_marched(const CollectorsRun& run) {
 int error_batches(const CollectorsRun& run) {
     const std::size_t slots = run.photons.slots.size();
     if (!run.scene->output.layer_error || slots < 2) return 0;
-    return int(slots < 16 ? slots : 16);
+    return int(slots < kMostBatches ? slots : kMostBatches);
 }
 
 Status make_background(const Context& context, const CollectorsRun& run,
@@ -102,9 +103,7 @@ Status make_shadow(const Context& context, CollectorsRun& run) {
 /// Spacing of the source nodes: what the budget allows, at least the cells of a cell estimate.
 double source_spacing(const CollectorsRun& run) {
     const auto& e = run.medium.extent_m;
-    double smallest = double(run.medium.grid.cell_m[0]);
-    for (float cell : run.medium.grid.cell_m)
-        smallest = double(cell) < smallest ? double(cell) : smallest;
+    const double smallest = double(smallest_cell(run.medium.grid));
     if (run.camera_cells > 0) return smallest * run.camera_cells;
     double spacing = 2 * smallest;
     while (e[0] * e[1] * e[2] > spacing * spacing * spacing * double(kNodeBudget)) spacing *= 1.25;
@@ -210,14 +209,8 @@ void collectors_plan_display(CollectorsRun& run) {
         plan.take("billboards", collectors * (5 * sizeof(float) + sizeof(BlendSphere)));
         return;
     }
-    const auto& extent = run.medium.extent_m;
-    std::uint64_t nodes = 0;
-    NodeGrid level = make_node_grid(run.medium.grid, extent, source_spacing(run));
-    for (;;) {
-        nodes += node_count(level);
-        if (node_count(level) == 1) break;
-        for (std::int32_t& n : level.size) n = (n + 1) / 2;
-    }
+    const std::uint64_t nodes =
+        source_nodes(make_node_grid(run.medium.grid, run.medium.extent_m, source_spacing(run)));
     plan.take("source grid", 4 * nodes * (channels + 1));
     if (run.lighting.sunlit && run.deposit.first_order == 2)
         plan.take("shadow", 4 * node_count(shadow_grid(run)));

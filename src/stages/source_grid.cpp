@@ -24,10 +24,9 @@ Range nodes_within(float centre, float radius, float per_metre, int size) {
 /// Adds every ball's share to the nodes of one slice, in the order of the collectors.
 void splat_slice(Span<const Collector> collectors, Span<const float> colour, int channels,
                  const NodeGrid& g, float factor, int z, Span<float> source, float* weights) {
-    const float least =
-        1.2f / (g.per_metre[0] < g.per_metre[1]
-                    ? (g.per_metre[0] < g.per_metre[2] ? g.per_metre[0] : g.per_metre[2])
-                    : (g.per_metre[1] < g.per_metre[2] ? g.per_metre[1] : g.per_metre[2]));
+    float coarsest = g.per_metre[0];
+    for (float n : g.per_metre) coarsest = n < coarsest ? n : coarsest;
+    const float least = 1.2f / coarsest;
     const std::size_t nodes = std::size_t(node_count(g)), count = collectors.size;
     const float pz = (float(z) + 0.5f) / g.per_metre[2];
     for (std::size_t c = 0; c < count; ++c) {
@@ -70,18 +69,22 @@ struct Pyramid {
     int channels;
 };
 
-Status make_pyramid(const NodeGrid& g, int channels, Pyramid& p) {
-    p.channels = channels;
+std::vector<Level> pyramid_levels(const NodeGrid& g, int channels) {
+    std::vector<Level> levels;
     Level level{{g.size[0], g.size[1], g.size[2]}, 0, 0};
-    std::size_t nodes = 0;
     for (;;) {
-        level.weights = nodes;
-        level.source = nodes * std::size_t(channels);
-        nodes += level.nodes();
-        p.levels.push_back(level);
-        if (level.nodes() == 1) break;
+        levels.push_back(level);
+        if (level.nodes() == 1) return levels;
+        level.weights += level.nodes();
+        level.source = level.weights * std::size_t(channels);
         for (int& n : level.size) n = (n + 1) / 2;
     }
+}
+
+Status make_pyramid(const NodeGrid& g, int channels, Pyramid& p) {
+    p.channels = channels;
+    p.levels = pyramid_levels(g, channels);
+    const std::uint64_t nodes = source_nodes(g);
     PILEUS_TRY(p.weights.resize(nodes, "source weights"));
     return p.source.resize(nodes * std::uint64_t(channels), "source grid");
 }
@@ -144,6 +147,11 @@ NodeGrid make_node_grid(const Grid& grid, const double (&extent_m)[3], double sp
         g.per_metre[a] = float(n / extent_m[a]);
     }
     return g;
+}
+
+std::uint64_t source_nodes(const NodeGrid& g) {
+    const Level last = pyramid_levels(g, 1).back();
+    return last.weights + last.nodes();
 }
 
 Status splat_colours(Span<const Collector> collectors, Span<const float> colour, int channels,

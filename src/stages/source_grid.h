@@ -17,6 +17,9 @@ inline std::uint64_t node_count(const NodeGrid& g) {
     return std::uint64_t(g.size[0]) * std::uint64_t(g.size[1]) * std::uint64_t(g.size[2]);
 }
 
+/// Nodes of the grid and of all coarser levels that `splat_colours` keeps behind it.
+std::uint64_t source_nodes(const NodeGrid& g);
+
 struct SplatOptions {
     float radius_factor = 1.2f;  ///< ball over the collector's radius
     float prior_mass = 0;        ///< m^3 of medium, the weight of what lies around; see below

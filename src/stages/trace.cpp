@@ -3,6 +3,7 @@
 #include "src/stages/trace.h"
 
 #include "platform/threads.h"
+#include "src/stages/prepare_majorant.h"
 
 namespace pileus {
 namespace {
@@ -22,12 +23,12 @@ TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_
     for (int a = 0; a < 3; ++a) {
         k.size[a] = m.grid.size[a];
         k.cell[a] = m.grid.cell_m[a];
-        k.blocks[a] = (m.grid.size[a] + in.block - 1) / in.block;
         k.albedo[a] = m.albedo[std::size_t(a)];
         k.direction[a] = light.travel[std::size_t(a)];
         k.camera[a] = in.deposit.camera[a];
         diagonal += m.extent_m[a] * m.extent_m[a];
     }
+    block_counts(m.grid, in.block, k.blocks);
     k.block = float(in.block);
     k.sigma = m.sigma;
     k.albedo_max = m.albedo_max;
