@@ -78,7 +78,7 @@ struct TraceBuffers {
     const float* majorant;          ///< blocks, bound on the density over the trilinear footprint
     const std::int32_t* collector;  ///< per voxel, -1 where none
     std::int64_t* sums;             ///< collectors * channels * coefficients, this thread's own
-    std::int64_t* ground;           ///< ground cells * channels, in kPhotonQuanta, its own too
+    std::int64_t* ground;           ///< ground cells * channels, scaled like the sums, its own too
     TraceTally* tally;              ///< this thread's own
 };
 

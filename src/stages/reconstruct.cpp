@@ -176,7 +176,7 @@ Status reconstruct_ground(const ReconstructInput& in, const GroundMap& map,
     // Irradiance = flux per cell area; a Lambertian ground sends albedo / pi of it back.
     const double unit = in.lighting->ground_albedo / 3.14159265358979323846 *
                         double(map.per_metre[0]) * double(map.per_metre[1]) /
-                        (generations * double(kPhotonQuanta));
+                        (generations * double(std::uint64_t{1} << in.deposit.places));
     const std::size_t channels = std::size_t(in.medium->channels);
     for (std::size_t i = 0; i < cells; ++i) {
         double rgb[3] = {};

@@ -48,7 +48,7 @@ struct TraceInput {
 };
 
 /// Sums of all lights of one batch: [light], each [collector][channel][coefficient] and then
-/// [ground cell][channel] in kPhotonQuanta.
+/// [ground cell][channel], both with the same binary places, so that one proof bounds them.
 struct PhotonSlot {
     Buffer<std::int64_t> sums;
     std::uint64_t generations = 0;           ///< that were added

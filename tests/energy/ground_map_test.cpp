@@ -33,8 +33,8 @@ std::vector<double> map_of(const TraceInput& in, std::uint64_t generation, Trace
         const Light& light = in.lighting->lights[l];
         const std::int64_t* from = slot.sums.data() + (l + 1) * slot_stride(in) - cells;
         for (std::size_t i = 0; i < cells; ++i)
-            map[i] +=
-                double(from[i]) / double(kPhotonQuanta) * light.power_m2 / double(light.photons);
+            map[i] += double(from[i]) / double(std::uint64_t{1} << in.deposit.places) *
+                      light.power_m2 / double(light.photons);
     }
     return map;
 }
