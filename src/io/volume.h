@@ -5,6 +5,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <string>
 
 #include "src/base/buffer.h"
 
@@ -15,6 +16,17 @@ struct Volume {
     Buffer<float> density;                            ///< index (z*ny + y)*nx + x; finite, >= 0
     bool knows_bounds = false;                        ///< the file says where its box lies
     std::array<std::array<double, 3>, 2> bounds_m{};  ///< outer faces of the box, metres
+    bool in_extinction = false;  ///< values are extinction in 1/m, not relative densities
+};
+
+/// What a file says about itself before its values are read.
+struct VolumeHead {
+    std::array<int, 3> size{0, 0, 0};  ///< within the limits of check_volume_size
+    bool knows_bounds = false;
+    std::array<std::array<double, 3>, 2> bounds_m{};
+    bool in_extinction = false;
+    std::string kind;    ///< "pbrt text volume", "OpenVDB fog volume"
+    std::string detail;  ///< one line a reader may add: grid names, compression; may be empty
 };
 
 }  // namespace pileus

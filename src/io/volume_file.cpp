@@ -66,4 +66,14 @@ Status read_volume(const MediumSettings& medium, const std::string& path, Volume
                              "\", allowed: \"pbrt\" or \"raw\"");
 }
 
+Status read_volume_head(const MediumSettings& medium, const std::string& path, VolumeHead& head) {
+    Volume volume;
+    PILEUS_TRY(read_volume(medium, path, volume));
+    head.size = volume.size;
+    head.knows_bounds = volume.knows_bounds;
+    head.bounds_m = volume.bounds_m;
+    head.in_extinction = volume.in_extinction;
+    return Status::ok();
+}
+
 }  // namespace pileus

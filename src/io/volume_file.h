@@ -21,6 +21,9 @@ constexpr std::uint64_t kMaxVolumeCells = std::uint64_t{1} << 31;
 /// failed half way: kIo. `volume` is unspecified after a fault.
 Status read_volume(const MediumSettings& medium, const std::string& path, Volume& volume);
 
+/// What read_volume would give, before its values: size, place and kind. Faults as read_volume's.
+Status read_volume_head(const MediumSettings& medium, const std::string& path, VolumeHead& head);
+
 /// The text form `Volume "volumegrid" "integer nx" N ... "float density" [...]`. Axes stay in file
 /// order. `point p0` and `point p1` are the outer faces of the box; both or neither must be given.
 Status read_pbrt_volume(const std::string& path, Volume& volume);

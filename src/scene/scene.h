@@ -52,6 +52,7 @@ struct MediumSettings {
     DensityKind density = DensityKind::kCumulus;
     std::string file;    ///< as written, relative to the scene file
     std::string format;  ///< "pbrt", "raw"; empty: by extension
+    std::string grid;    ///< of a file with several; empty: the first of floats
     RawType raw_type = RawType::kFloat32;
     std::array<int, 3> raw_size{0, 0, 0};
     bool raw_big_endian = false;
@@ -60,6 +61,7 @@ struct MediumSettings {
     std::array<int, 3> resolution{0, 0, 0};  ///< procedural and uniform shapes; 0: a default
     std::int64_t shape_seed = 0;             ///< another cumulus for each; key `shape_seed`
     double extinction_per_m = 0;             ///< at density 1
+    double extinction_scale = 1;             ///< for files that hold extinction; >= 0
     Float3 albedo{1, 1, 1};
     PhaseSettings phase;
     bool y_up = false;
