@@ -12,15 +12,20 @@ namespace pileus {
 namespace {
 
 Status draw_samples(const Medium& medium, const CollectorSettings& settings, std::int64_t seed,
-                    int threads, SampleSet& set) {
+                    const Context& context, SampleSet& set) {
     const Span<const float> density = medium.volume.density.span();
+    const int threads = context.threads;
     Buffer<float> field;
     FieldStats stats;
-    PILEUS_TRY(field.resize(density.size, "gradient field"));
-    PILEUS_TRY(settings.variance_field
-                   ? local_variance(density, medium.grid, settings.variance_radius, threads,
-                                    field.span(), stats)
-                   : gradient_magnitude(density, medium.grid, threads, field.span(), stats));
+    {
+        const StageClock clock(context, "gradient");
+        PILEUS_TRY(field.resize(density.size, "gradient field"));
+        PILEUS_TRY(settings.variance_field
+                       ? local_variance(density, medium.grid, settings.variance_radius, threads,
+                                        field.span(), stats)
+                       : gradient_magnitude(density, medium.grid, threads, field.span(), stats));
+    }
+    const StageClock clock(context, "samples");
     SampleOptions options;
     options.count = std::uint32_t(settings.samples);
     options.seed = std::uint64_t(seed);
@@ -43,6 +48,7 @@ void name_collectors(Span<const Leaf> leaves, int threads, const Grid& grid,
 
 Status finish_leaves(const Medium& medium, const CollectorOptions& options,
                      Span<const Sample> samples, const Context& context, Prepared& out) {
+    const StageClock clock(context, "collectors");
     const std::size_t voxels = voxel_count(medium.grid);
     const Span<const float> density = medium.volume.density.span();
     Buffer<double> masses;
@@ -63,21 +69,20 @@ Status finish_leaves(const Medium& medium, const CollectorOptions& options,
 Status prepare_collectors(const Medium& medium, const CollectorSettings& settings,
                           std::int64_t seed, const Context& context, Prepared& out) {
     SampleSet set;
-    {
-        const StageClock clock(context, "samples");
-        PILEUS_TRY(draw_samples(medium, settings, seed, context.threads, set));
-        out.samples = set.samples.size();
-        out.rejected = set.given_up;
-    }
-    const StageClock clock(context, "tree");
+    PILEUS_TRY(draw_samples(medium, settings, seed, context, set));
+    out.samples = set.samples.size();
+    out.rejected = set.given_up;
     double diagonal = 0;
     for (double e : medium.extent_m) diagonal += e * e;
     TreeOptions tree;
     tree.density_range = float(settings.density_range) * medium.density_max;
     tree.influence_m = float(settings.influence_radius * __builtin_sqrt(diagonal));
     if (!settings.paper) leaf_limit(medium.grid, kLeafShare, tree.max_leaf_voxels);
-    PILEUS_TRY(build_tree(set.samples.span(), medium.volume.density.span(), medium.grid, tree,
-                          context.threads, out.leaves));
+    {
+        const StageClock clock(context, "tree");
+        PILEUS_TRY(build_tree(set.samples.span(), medium.volume.density.span(), medium.grid, tree,
+                              context.threads, out.leaves));
+    }
     return finish_leaves(medium, {settings.paper, float(settings.radius_factor)},
                          set.samples.span(), context, out);
 }
@@ -99,7 +104,6 @@ Status prepare_majorants(const Medium& medium, bool local, const Context& contex
 }
 
 Status prepare_cells(const Medium& medium, int edge, const Context& context, Prepared& out) {
-    const StageClock clock(context, "tree");
     const Grid& g = medium.grid;
     int n[3];
     for (int a = 0; a < 3; ++a) n[a] = (g.size[a] + edge - 1) / edge;
