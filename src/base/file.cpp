@@ -52,6 +52,14 @@ Status read_whole_file(const std::string& path, std::uint64_t limit_bytes, Buffe
     return result ? Status::ok() : read_fault(path, result);
 }
 
+Status read_file_start(const std::string& path, std::uint64_t most_bytes, Buffer<char>& bytes) {
+    InputFile file;
+    PILEUS_TRY(open_file(path, file));
+    PILEUS_TRY(bytes.resize(file.size() < most_bytes ? file.size() : most_bytes, path.c_str()));
+    const FileResult result = file.read(bytes.data(), bytes.size());
+    return result ? Status::ok() : read_fault(path, result);
+}
+
 Status can_write_file(const std::string& path) {
     if (path.empty()) return Status::io("file name: empty, allowed: the path of a file");
     if (has_zero_byte(path)) return Status::io("file name: holds a zero byte");

@@ -23,6 +23,9 @@ Status read_fault(const std::string& path, FileResult result);
 /// a failure half way: kIo.
 Status read_whole_file(const std::string& path, std::uint64_t limit_bytes, Buffer<char>& bytes);
 
+/// Reads the first `most_bytes` of a file, or all of a shorter one. Faults as read_whole_file's.
+Status read_file_start(const std::string& path, std::uint64_t most_bytes, Buffer<char>& bytes);
+
 /// Replaces or makes `path` in one step, missing parent folders included; any fault: kIo, and no
 /// new or partial file is left.
 Status write_file(const std::string& path, Span<const char> bytes);

@@ -2,23 +2,15 @@
 // Reads a density grid in pbrt's text form, trusting nothing in it.
 // in: Volume "volumegrid" and its parameters in any order -> out: a Volume in file order.
 // pbrt-v2 file format: "volumegrid"; docs/formats.md
-#include <charconv>
-
 #include "src/base/file.h"
+#include "src/io/text_scan.h"
 #include "src/io/volume_file.h"
 
 namespace pileus {
 
 namespace {
 
-constexpr std::uint64_t kMaxTextBytes = std::uint64_t{1} << 36;
-
-bool is_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r'); }
-
-/// Bytes [at, end) of the text.
-struct Range {
-    std::size_t at = 0, end = 0;
-};
+using Range = TextRange;
 
 /// What the parameters said; the list of densities is only found, not yet read.
 struct Grid {
@@ -27,65 +19,29 @@ struct Grid {
     std::array<bool, 2> has_point{false, false};
     Range density;
     bool has_density = false;
+
+    bool knows_all_but_density() const {
+        return size[0] > 0 && size[1] > 0 && size[2] > 0 && has_point[0] && has_point[1];
+    }
 };
 
-class Reader {
+class Reader : private TextScan {
 public:
-    Reader(const std::string& file, Span<const char> text) : file_(file), text_(text) {}
+    Reader(const std::string& file, Span<const char> text) : TextScan(file, text) {}
 
-    Status parameters(Grid& grid);
+    /// `head_only`: ends at the densities once size and place are known.
+    Status parameters(bool head_only, Grid& grid);
     Status densities(const Grid& grid, Volume& volume);
 
 private:
-    Status fault(std::size_t at, const std::string& line) const;
-    std::string token(std::size_t at, std::size_t end) const;
-    void skip(Range& range) const;
     Status quoted(Range& range, const char* what, std::string& word) const;
     Status values(Range& range, const std::string& key, Range& list) const;
-    template <class Number>
-    Status number(Range& range, const std::string& key, Number& value) const;
     Status single(Range list, const std::string& key, std::int64_t& value) const;
     Status point(Range list, const std::string& key, std::array<double, 3>& value) const;
     Status parameter(const std::string& key, std::size_t at, Range list, Grid& grid) const;
     Status check(const Grid& grid) const;
     Status wrong_count(const Grid& grid, std::uint64_t count) const;
-
-    const std::string& file_;
-    Span<const char> text_;
 };
-
-/// Opens a line with file:line:column, counted from 1.
-Status Reader::fault(std::size_t at, const std::string& line) const {
-    std::size_t row = 1, column = 1;
-    for (std::size_t i = 0; i < at && i < text_.size; ++i) {
-        ++column;
-        if (text_[i] == '\n') ++row, column = 1;
-    }
-    return Status::bad_input(file_ + ':' + std::to_string(row) + ':' + std::to_string(column) +
-                             ": " + line);
-}
-
-/// The word at a place, short and printable.
-std::string Reader::token(std::size_t at, std::size_t end) const {
-    constexpr std::size_t kLongest = 40;
-    if (at >= end) return "the end of the text";
-    std::string word;
-    for (; at < end && !is_space(text_[at]) && word.size() < kLongest; ++at)
-        word += text_[at] >= ' ' && text_[at] <= '~' ? text_[at] : '?';
-    return word;
-}
-
-/// Passes white space and comments.
-void Reader::skip(Range& range) const {
-    while (range.at < range.end) {
-        if (text_[range.at] == '#')
-            while (range.at < range.end && text_[range.at] != '\n') ++range.at;
-        else if (is_space(text_[range.at]))
-            ++range.at;
-        else
-            return;
-    }
-}
 
 Status Reader::quoted(Range& range, const char* what, std::string& word) const {
     const std::size_t begin = range.at;
@@ -111,7 +67,8 @@ Status Reader::values(Range& range, const std::string& key, Range& list) const {
         if (text_[begin] == '"') {
             PILEUS_TRY(quoted(range, key.c_str(), word));
         } else {
-            while (range.at < range.end && !is_space(text_[range.at]) && text_[range.at] != '"')
+            while (range.at < range.end && !is_text_space(text_[range.at]) &&
+                   text_[range.at] != '"')
                 ++range.at;
         }
         list.end = range.at;
@@ -129,36 +86,6 @@ Status Reader::values(Range& range, const std::string& key, Range& list) const {
         return fault(begin, key + ": list not closed before the end of the text, allowed: [ ... ]");
     list.end = range.at++;
     return Status::ok();
-}
-
-/// Too small for the type counts as zero, too large or not a number at all is a fault.
-template <class Number>
-Status Reader::number(Range& range, const std::string& key, Number& value) const {
-    const char* begin = text_.data + range.at;
-    const char* end = text_.data + range.end;
-    if (begin + 1 < end && *begin == '+' && begin[1] != '-') ++begin;
-    const std::from_chars_result result = std::from_chars(begin, end, value);
-    const bool separated = result.ptr == end || is_space(*result.ptr) || *result.ptr == '#';
-    if (result.ec == std::errc() && separated) {
-        range.at = std::size_t(result.ptr - text_.data);
-        return Status::ok();
-    }
-    const std::string word = token(range.at, range.end);
-    if (result.ec != std::errc::result_out_of_range || !separated)
-        return fault(range.at, key + ": not a number, " + word);
-    if constexpr (std::is_floating_point<Number>::value) {
-        double wide = 0;
-        const bool fits = std::from_chars(begin, end, wide).ec == std::errc();
-        const bool tiny =
-            fits ? wide < 1 && wide > -1
-                 : word.find("e-") != std::string::npos || word.find("E-") != std::string::npos;
-        if (tiny) {
-            value = 0;
-            range.at = std::size_t(result.ptr - text_.data);
-            return Status::ok();
-        }
-    }
-    return fault(range.at, key + ": too large, " + word);
 }
 
 Status Reader::single(Range list, const std::string& key, std::int64_t& value) const {
@@ -218,7 +145,7 @@ Status Reader::parameter(const std::string& key, std::size_t at, Range list, Gri
     return Status::ok();
 }
 
-Status Reader::parameters(Grid& grid) {
+Status Reader::parameters(bool head_only, Grid& grid) {
     Range range{0, text_.size};
     skip(range);
     const std::string directive = token(range.at, range.end);
@@ -235,6 +162,10 @@ Status Reader::parameters(Grid& grid) {
     for (skip(range); range.at < range.end; skip(range)) {
         const std::size_t at = range.at;
         PILEUS_TRY(quoted(range, "parameter", word));
+        if (head_only && word == "float density" && grid.knows_all_but_density()) {
+            grid.has_density = true;
+            break;
+        }
         Range list;
         PILEUS_TRY(values(range, word, list));
         PILEUS_TRY(parameter(word, at, list, grid));
@@ -294,14 +225,37 @@ Status Reader::densities(const Grid& grid, Volume& volume) {
 
 }  // namespace
 
+Status decode_pbrt_volume(const std::string& name, Span<const char> text, Volume& volume) {
+    volume.density = Buffer<float>();
+    volume.in_extinction = false;
+    Reader reader(name, text);
+    Grid grid;
+    PILEUS_TRY(reader.parameters(false, grid));
+    return reader.densities(grid, volume);
+}
+
 Status read_pbrt_volume(const std::string& path, Volume& volume) {
     Buffer<char> text;
     PILEUS_TRY(read_whole_file(path, kMaxTextBytes, text));
-    volume.density = Buffer<float>();
-    Reader reader(path, text.span());
+    return decode_pbrt_volume(path, text.span(), volume);
+}
+
+Status read_pbrt_head(const std::string& path, VolumeHead& head) {
+    // The parameters mostly stand before the densities; where they do not, read on.
+    Buffer<char> text;
+    PILEUS_TRY(read_file_start(path, kTextStartBytes, text));
     Grid grid;
-    PILEUS_TRY(reader.parameters(grid));
-    return reader.densities(grid, volume);
+    if (!Reader(path, text.span()).parameters(true, grid) || !grid.knows_all_but_density()) {
+        PILEUS_TRY(read_whole_file(path, kMaxTextBytes, text));
+        grid = Grid();
+        PILEUS_TRY(Reader(path, text.span()).parameters(false, grid));
+    }
+    head = VolumeHead();
+    for (std::size_t i = 0; i < 3; ++i) head.size[i] = int(grid.size[i]);
+    head.knows_bounds = grid.has_point[0];
+    head.bounds_m = grid.points;
+    head.kind = "pbrt text volume";
+    return Status::ok();
 }
 
 }  // namespace pileus

@@ -5,6 +5,9 @@
 #include "src/io/volume_file.h"
 
 #include "src/base/file.h"
+#include "src/io/les_volume.h"
+#include "src/io/vol_volume.h"
+#include "src/scene/volume_format.h"
 
 namespace pileus {
 
@@ -52,28 +55,41 @@ Status permute_y_up(Volume& volume) {
     return Status::ok();
 }
 
-Status read_volume(const MediumSettings& medium, const std::string& path, Volume& volume) {
-    std::string format = medium.format;
-    if (format.empty()) {
-        const std::string extension = file_extension(path);
-        if (!extension.empty()) format = extension.substr(1);
+namespace {
+
+/// The format's name by the medium's word or else the path's extension; kBadInput if unknown.
+Status find_format(const MediumSettings& medium, const std::string& path, std::string& format) {
+    const VolumeFormat* found =
+        medium.format.empty() ? volume_format_of(path) : volume_format_named(medium.format);
+    if (found != nullptr) {
+        format = found->name;
+        return Status::ok();
     }
-    if (format == "pbrt") return read_pbrt_volume(path, volume);
+    format = medium.format.empty() ? file_extension(path) : medium.format;
+    return Status::bad_input(path + ": format: unknown, \"" + format +
+                             "\", allowed: " + volume_format_names());
+}
+
+}  // namespace
+
+Status read_volume(const MediumSettings& medium, const std::string& path, Volume& volume) {
+    std::string format;
+    PILEUS_TRY(find_format(medium, path, format));
+    if (format == "les") return read_les_volume(path, volume);
+    if (format == "vol") return read_vol_volume(path, volume);
     if (format == "raw")
         return read_raw_volume(path, medium.raw_type, medium.raw_size, medium.raw_big_endian,
                                volume);
-    return Status::bad_input(path + ": format: unknown, \"" + format +
-                             "\", allowed: \"pbrt\" or \"raw\"");
+    return read_pbrt_volume(path, volume);
 }
 
 Status read_volume_head(const MediumSettings& medium, const std::string& path, VolumeHead& head) {
-    Volume volume;
-    PILEUS_TRY(read_volume(medium, path, volume));
-    head.size = volume.size;
-    head.knows_bounds = volume.knows_bounds;
-    head.bounds_m = volume.bounds_m;
-    head.in_extinction = volume.in_extinction;
-    return Status::ok();
+    std::string format;
+    PILEUS_TRY(find_format(medium, path, format));
+    if (format == "les") return read_les_head(path, head);
+    if (format == "vol") return read_vol_head(path, head);
+    if (format == "raw") return read_raw_head(path, medium.raw_type, medium.raw_size, head);
+    return read_pbrt_head(path, head);
 }
 
 }  // namespace pileus

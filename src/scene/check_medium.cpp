@@ -7,6 +7,7 @@
 #include <filesystem>
 
 #include "src/scene/check_keys.h"
+#include "src/scene/volume_format.h"
 
 namespace pileus {
 namespace {
@@ -30,6 +31,7 @@ public:
     MediumCheck(SceneCheck& check, std::size_t index)
         : check_(check),
           medium_(check.scene.media[index]),
+          table_(check.root.find("medium")->children[index]),
           path_("medium." + std::to_string(index) + ".") {}
 
     void run() {
@@ -41,6 +43,7 @@ public:
                 shape_keys(*density);
             }
         }
+        extinction();
         phase();
         bounds();
     }
@@ -130,21 +133,38 @@ private:
     void format_by_name(const Node& density) {
         const bool raw_keys = check_.key(path_ + "density.type") != nullptr ||
                               check_.key(path_ + "density.size") != nullptr;
-        if (raw_keys || ends_with(medium_.file, ".raw")) {
+        if (raw_keys) {
             medium_.format = "raw";
             return;
         }
-        if (ends_with(medium_.file, ".pbrt")) {
-            medium_.format = "pbrt";
+        if (const VolumeFormat* format = volume_format_of(medium_.file)) {
+            medium_.format = format->name;
             return;
         }
         bool later = false;
-        for (const char* end : {".vdb", ".nc", ".vol", ".les"})
-            later = later || ends_with(medium_.file, end);
+        for (const char* end : {".vdb", ".nc"}) later = later || ends_with(medium_.file, end);
         fault(density, "density",
               std::string(later ? "not in this version, " : "unknown kind of file, ") +
-                  quote_text(medium_.file) +
-                  ", allowed: .pbrt, .raw, or the key format = \"pbrt\"");
+                  quote_text(medium_.file) + ", allowed: " + volume_format_extensions() +
+                  ", or the key format = \"pbrt\"");
+    }
+
+    /// A file in physical units takes a factor; everything else takes the extinction at density 1.
+    void extinction() {
+        const VolumeFormat* format = volume_format_named(medium_.format);
+        const bool physical = format != nullptr && format->in_extinction;
+        const Node* per_m = check_.key(path_ + "extinction_per_m");
+        const Node* scale = check_.key(path_ + "extinction_scale");
+        if (physical && per_m != nullptr)
+            fault(*per_m, "extinction_per_m",
+                  "the file holds extinction in 1/m, " + value_text(*per_m) +
+                      ", allowed: left out, or the key extinction_scale");
+        if (!physical && scale != nullptr)
+            fault(*scale, "extinction_scale",
+                  "for files that hold extinction only, " + value_text(*scale) +
+                      ", allowed: left out, and the key extinction_per_m");
+        if (!physical && per_m == nullptr)
+            fault(table_, "extinction_per_m", "missing, nothing, allowed: number in [0, 1e+12]");
     }
 
     void shape_keys(const Node& density) {
@@ -209,6 +229,7 @@ private:
 
     SceneCheck& check_;
     MediumSettings& medium_;
+    const Node& table_;
     std::string path_;
 };
 

@@ -51,7 +51,7 @@ enum class RawType { kUint8, kUint16, kFloat32 };
 struct MediumSettings {
     DensityKind density = DensityKind::kCumulus;
     std::string file;    ///< as written, relative to the scene file
-    std::string format;  ///< "pbrt", "raw"; empty: by extension
+    std::string format;  ///< a name of volume_format.h; empty: by extension
     std::string grid;    ///< of a file with several; empty: the first of floats
     RawType raw_type = RawType::kFloat32;
     std::array<int, 3> raw_size{0, 0, 0};

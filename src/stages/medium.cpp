@@ -42,6 +42,16 @@ Status load_density(const Scene& scene, const MediumSettings& settings, int thre
     return make_cumulus(cumulus, threads, volume);
 }
 
+/// Divides extinctions by the largest, so that densities end at exactly 1 and sigma is the largest
+/// extinction; dark volumes stay as they are.
+void set_peak_to_one(double scale, Medium& medium) {
+    medium.sigma = float(scale * double(medium.density_max));
+    medium.volume.in_extinction = false;
+    if (!(medium.density_max > 0)) return;
+    for (float& value : medium.volume.density.span()) value /= medium.density_max;
+    medium.density_max = 1;
+}
+
 }  // namespace
 
 Status load_medium(const Scene& scene, const MediumSettings& settings, int threads, Medium& out) {
@@ -59,6 +69,7 @@ Status load_medium(const Scene& scene, const MediumSettings& settings, int threa
     for (float density : out.volume.density.span())
         if (density > out.density_max) out.density_max = density;
     out.sigma = float(settings.extinction_per_m);
+    if (out.volume.in_extinction) set_peak_to_one(settings.extinction_scale, out);
     out.albedo = settings.albedo;
     out.albedo_max = 0;
     for (float albedo : settings.albedo)

@@ -23,8 +23,9 @@ struct Medium {
     float density_max = 0;
 };
 
-/// Reads or makes the density and places it. Errors: those of the readers; kBadInput for a file
-/// that does not know its place while `bounds_m` is left out.
+/// Reads or makes the density and places it. A file that holds extinction becomes densities up to 1
+/// (value over largest value) with sigma = extinction_scale times the largest value. Errors: those
+/// of the readers; kBadInput for a file that does not know its place while `bounds_m` is left out.
 Status load_medium(const Scene& scene, const MediumSettings& settings, int threads, Medium& out);
 
 }  // namespace pileus

@@ -225,9 +225,9 @@ TEST_CASE("densities and their files") {
         {kCamera + kMedium + "y_up = true\n", "s.toml:8:8: medium.0.y_up: for files only, true..."},
         {kCamera + kFile + "density = \"a.pbrt\"\nresolution = [1, 1, 1]\n",
          "s.toml:7:14: medium.0.resolution: not for a file, [1, 1, 1], allowed: left out"},
-        {kCamera + kFile + "density = \"a.txt\"\n",
-         "s.toml:6:11: medium.0.density: unknown kind of file, \"a.txt\", allowed: .pbrt, .raw, or "
-         "the key format = \"pbrt\""},
+        {kCamera + kFile + "density = \"a.dat\"\n",
+         "s.toml:6:11: medium.0.density: unknown kind of file, \"a.dat\", allowed: .pbrt, .raw, "
+         ".vol, .txt, .les, or the key format = \"pbrt\""},
         {kCamera + kFile + "density = \"a.vdb\"\n",
          "s.toml:6:11: medium.0.density: not in this version, \"a.vdb\", ..."},
         {kCamera + kFile + "density = { file = \"a.raw\", type = \"int\", size = [1, 1, 1] }\n" +
@@ -250,6 +250,27 @@ TEST_CASE("densities and their files") {
     for (const Row& row : rows) check(row);
 }
 
+TEST_CASE("extinction is the scene's or the file's, never both") {
+    const std::string bare = "[[medium]]\n";
+    const Row rows[] = {
+        {kCamera + bare + "density = \"a.txt\"\nextinction_per_m = 0.1\n",
+         "s.toml:6:20: medium.0.extinction_per_m: the file holds extinction in 1/m, 0.1, allowed: "
+         "left out, or the key extinction_scale"},
+        {kCamera + bare + "density = \"a.b\"\nformat = \"les\"\nextinction_per_m = 0.1\n",
+         "s.toml:7:20: medium.0.extinction_per_m: the file holds extinction in 1/m, ..."},
+        {kCamera + kMedium + "extinction_scale = 1.0\n",
+         "s.toml:8:20: medium.0.extinction_scale: for files that hold extinction only, 1, allowed: "
+         "left out, and the key extinction_per_m"},
+        {kCamera + bare + "density = \"a.vol\"\nextinction_per_m = 1\nextinction_scale = 2\n",
+         "s.toml:7:20: medium.0.extinction_scale: for files that hold extinction only, 2, ..."},
+        {kCamera + bare + "density = \"a.TXT\"\nextinction_scale = -1\n",
+         "s.toml:6:20: medium.0.extinction_scale: out of range, -1, allowed: number in [0, 1e+12]"},
+        {kCamera + bare + "density = \"a.VOL\"\n",
+         "s.toml:4:1: medium.0.extinction_per_m: missing, nothing, allowed: number in [0, 1e+12]"},
+    };
+    for (const Row& row : rows) check(row);
+}
+
 TEST_CASE("parts of the format that this version cannot use") {
     const Row rows[] = {
         {kCamera + "[method]\nname = \"path\"\n",
@@ -264,10 +285,9 @@ TEST_CASE("parts of the format that this version cannot use") {
          "s.toml:8:12: medium.0.boundary: not in this version, \"periodic\", allowed: open"},
         {kCamera + kMedium + "phase = { type = \"cloud\" }\n",
          "s.toml:8:18: medium.0.phase.type: not in this version, \"cloud\", ..."},
-        {kCamera + kMedium + "extinction_scale = 1.0\n",
-         "s.toml:8:1: medium.0.extinction_scale: not in this version, 1, allowed: nothing"},
         {kCamera + kFile + "density = \"a.x\"\nformat = \"openvdb\"\n",
-         "s.toml:7:10: medium.0.format: not in this version, \"openvdb\", allowed: pbrt, raw"},
+         "s.toml:7:10: medium.0.format: not in this version, \"openvdb\", allowed: pbrt, raw, vol, "
+         "les"},
     };
     for (const Row& row : rows) check(row);
 }

@@ -49,7 +49,7 @@ void dump_medium(std::ostream& s, const MediumSettings& m) {
     s << m.raw_big_endian << ' ' << m.has_bounds << ' ';
     for (const Double3& corner : m.bounds_m) dump_list(s, corner);
     dump_list(s, m.resolution);
-    s << m.shape_seed << ' ' << m.extinction_per_m << ' ';
+    s << m.shape_seed << ' ' << m.extinction_per_m << ' ' << m.extinction_scale << ' ';
     dump_list(s, m.albedo);
     const PhaseSettings& p = m.phase;
     s << int(p.kind) << ' ' << p.g << ' ' << p.g1 << ' ' << p.g2 << ' ' << p.weight << ' ';
@@ -129,6 +129,9 @@ density = "b.txt"
 format = "pbrt"
 extinction_per_m = 0
 phase = { type = "rayleigh" }
+[[medium]]
+density = "c.txt"
+extinction_scale = 2.5
 [method]
 name = "collectors"
 [collectors]
@@ -171,10 +174,11 @@ TEST_CASE("every key of a full scene reaches its field") {
           "1 120 35 2 3 4 \n"
           "1 0.25 0.25 0.25 \n"
           "1 -10 0.5\n"
-          "0   2 0 0 0 0 1 0 0 0 1 2 3 3 4 5 8 0.050000000000000003 0.10000000149011612 "
+          "0   2 0 0 0 0 1 0 0 0 1 2 3 3 4 5 8 0.050000000000000003 1 0.10000000149011612 "
           "0.20000000298023224 0.30000001192092896 2 -1 0 0 1 0\n"
-          "4 a.dat raw 1 7 8 9 1 1 0 0 0 1 1 1 0 0 0 0 1000000000000 1 1 1 3 0 1 -0.5 0.75 1\n"
-          "4 b.txt pbrt 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 0 0 0 1 0\n"
+          "4 a.dat raw 1 7 8 9 1 1 0 0 0 1 1 1 0 0 0 0 1000000000000 1 1 1 1 3 0 1 -0.5 0.75 1\n"
+          "4 b.txt pbrt 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 1 0 0 0 1 0\n"
+          "4 c.txt les 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 2.5 1 1 1 0 0 0 0 1 0\n"
           "collectors 2000000 7 5 11 011001 3 0.5 1 2 110 4\n"
           "5\n"
           "x.exr y.pfm r.json 111\n"
@@ -339,6 +343,14 @@ TEST_CASE("the scenes in assets are sound") {
         REQUIRE(scene.media.size() == 1);
         CHECK(scene.media[0].y_up);
         CHECK(scene.media[0].format == "pbrt");
+    }
+    for (const char* name : {"assets/scenes/rico.toml", "assets/scenes/stratocumulus.toml"}) {
+        Scene scene;
+        const Status status = read_scene_file(name, {}, scene);
+        CHECK_MESSAGE(bool(status), status.message);
+        REQUIRE(scene.media.size() == 1);
+        CHECK(scene.media[0].format == "les");
+        CHECK(scene.media[0].extinction_scale == 1);
     }
     if (before == nullptr) unsetenv("PILEUS_DATA_DIR");
 }

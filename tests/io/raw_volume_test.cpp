@@ -144,7 +144,9 @@ TEST_CASE("volume: format by key or extension, axes in file order") {
     const std::string other = folder.put("v.dat", "\x33\x66\x99");
     const Status unknown = read_volume(medium, other, v);
     CHECK(unknown.code == Code::kBadInput);
-    CHECK(holds(unknown.message, "format: unknown, \"dat\", allowed: \"pbrt\" or \"raw\""));
+    CHECK(holds(unknown.message,
+                "format: unknown, \".dat\", allowed: \"pbrt\", \"raw\", \"vol\", "
+                "\"les\""));
     medium.format = "raw";
     CHECK(read_volume(medium, other, v));
     medium.format = "pbrt";

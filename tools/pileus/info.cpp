@@ -14,6 +14,7 @@
 #include "src/base/file.h"
 #include "src/io/image_file.h"
 #include "src/scene/toml_tree.h"
+#include "src/scene/volume_format.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
 
@@ -92,12 +93,12 @@ Status run_info(const InfoArguments& arguments) {
         PILEUS_TRY(scene_lines(arguments.file, lines));
     } else if (extension == ".exr" || extension == ".pfm") {
         PILEUS_TRY(image_lines(arguments.file, lines));
-    } else if (extension == ".pbrt" || extension == ".raw") {
+    } else if (volume_format_of(arguments.file) != nullptr) {
         if (extension == ".raw") PILEUS_TRY(read_raw_facts(arguments, medium));
         PILEUS_TRY(volume_lines(arguments.file, medium, lines));
     } else {
         return Status::bad_input(arguments.file + ": extension: unknown, \"" + extension +
-                                 "\", allowed: .toml .exr .pfm .pbrt .raw");
+                                 "\", allowed: .toml, .exr, .pfm, " + volume_format_extensions());
     }
     return print(lines);
 }
@@ -107,7 +108,7 @@ Status run_info(const InfoArguments& arguments) {
 void add_info(CLI::App& app, Chosen& chosen) {
     CLI::App* command = app.add_subcommand("info", "Describe this program, or a file");
     const auto arguments = std::make_shared<InfoArguments>();
-    command->add_option("file", arguments->file, "A .toml .exr .pfm .pbrt or .raw file")
+    command->add_option("file", arguments->file, "A scene, picture or density grid")
         ->type_name("FILE");
     command->add_option("--size", arguments->size, "Cells of a .raw grid along x, y and z")
         ->expected(3)

@@ -6,6 +6,7 @@
 
 #include "src/io/image_file.h"
 #include "src/scene/read_scene.h"
+#include "src/scene/volume_format.h"
 #include "tools/pileus/info.h"
 
 namespace pileus {
@@ -57,10 +58,32 @@ const char* density_name(const MediumSettings& medium) {
     }
 }
 
+std::string extinction_text(const MediumSettings& medium) {
+    const VolumeFormat* format = volume_format_named(medium.format);
+    if (format != nullptr && format->in_extinction)
+        return fmt::format("{:g} times the file's", medium.extinction_scale);
+    return fmt::format("{:g} per m", medium.extinction_per_m);
+}
+
 std::string list_text(const std::vector<std::string>& texts) {
     std::string list;
     for (const std::string& text : texts) list += (list.empty() ? "" : ", ") + text;
     return list.empty() ? "none" : list;
+}
+
+/// Along z, through each column of cells.
+std::string depth_text(const Volume& volume) {
+    const std::size_t plane = std::size_t(volume.size[0]) * std::size_t(volume.size[1]);
+    const double step = (volume.bounds_m[1][2] - volume.bounds_m[0][2]) / volume.size[2];
+    double most = 0, sum = 0;
+    for (std::size_t column = 0; column < plane; ++column) {
+        double depth = 0;
+        for (std::size_t i = column; i < volume.density.size(); i += plane)
+            depth += step * double(volume.density[i]);
+        if (depth > most) most = depth;
+        sum += depth;
+    }
+    return fmt::format("along z: mean {:.6g}, largest {:.6g}", sum / double(plane), most);
 }
 
 }  // namespace
@@ -83,8 +106,8 @@ Status scene_lines(const std::string& path, std::string& lines) {
         lines += info_line("ground", fmt::format("albedo {:g}", scene.ground.albedo));
     for (const MediumSettings& medium : scene.media)
         lines +=
-            info_line("medium", fmt::format("{}, extinction {:g} per m, albedo {:g} {:g} {:g}",
-                                            density_name(medium), medium.extinction_per_m,
+            info_line("medium", fmt::format("{}, extinction {}, albedo {:g} {:g} {:g}",
+                                            density_name(medium), extinction_text(medium),
                                             medium.albedo[0], medium.albedo[1], medium.albedo[2]));
     if (scene.method == "collectors")
         lines += info_line("photons", fmt::to_string(scene.collectors.photons));
@@ -107,19 +130,34 @@ Status image_lines(const std::string& path, std::string& lines) {
 }
 
 Status volume_lines(const std::string& path, const MediumSettings& medium, std::string& lines) {
+    VolumeHead head;
     Volume volume;
+    PILEUS_TRY(read_volume_head(medium, path, head));
     PILEUS_TRY(read_volume(medium, path, volume));
     const Range range = range_of(volume.density.span());
+    const auto& n = volume.size;
     lines += info_line("grid", path);
-    lines += info_line("size",
-                       fmt::format("{} x {} x {}", volume.size[0], volume.size[1], volume.size[2]));
+    lines += info_line("kind", head.kind + (head.detail.empty() ? "" : "; " + head.detail));
+    lines += info_line("size", fmt::format("{} x {} x {}", n[0], n[1], n[2]));
+    const auto& b = volume.bounds_m;
     if (volume.knows_bounds) {
-        const auto& b = volume.bounds_m;
+        lines +=
+            info_line("cell", fmt::format("{:.6g} x {:.6g} x {:.6g} m", (b[1][0] - b[0][0]) / n[0],
+                                          (b[1][1] - b[0][1]) / n[1], (b[1][2] - b[0][2]) / n[2]));
         lines += info_line("box", fmt::format("{:g} {:g} {:g} to {:g} {:g} {:g} m", b[0][0],
                                               b[0][1], b[0][2], b[1][0], b[1][1], b[1][2]));
+    } else {
+        lines += info_line("box", "not in the file");
     }
-    lines += info_line("density", range_text(range));
+    lines += info_line("values",
+                       volume.in_extinction ? "extinction in 1/m" : "relative density, no unit");
+    lines +=
+        info_line(volume.in_extinction ? "extinction" : "density",
+                  fmt::format("{}, {:.4g} % not zero", range_text(range),
+                              100.0 * double(range.finite - range.zero) / double(range.finite)));
     lines += info_line("empty", fmt::format("{} of {} cells", range.zero, volume.density.size()));
+    if (volume.in_extinction && volume.knows_bounds)
+        lines += info_line("optical depth", depth_text(volume));
     return Status::ok();
 }
 
