@@ -208,6 +208,37 @@ TEST_CASE("info: the program, a scene, a picture and a grid") {
     CHECK(wrong.exit_status == 2);
 }
 
+TEST_CASE("info: grids that know their place and unit") {
+    const ProgramFolder folder;
+    folder.files().put("c.txt", "1,2,2\n.1,.05\n.4,.44\ni,j,k,lwc,reff\n0,0,1,1,15\n");
+    const Outcome les = folder.run("info c.txt");
+    CHECK_MESSAGE(les.exit_status == 0, les.errors);
+    for (const char* part :
+         {"LES text, sparse rows", "1 x 2 x 2", "100 x 50 x 40 m", "0 0 380 to 100 100 460 m",
+          "extinction in 1/m", "0 to 0.1, mean 0.025, 25 % not zero", "3 of 4 cells",
+          "along z: mean 2, largest 4"})
+        CHECK_MESSAGE(holds(les.output, part), part, "\n", les.output);
+
+    folder.files().put("p.pbrt",
+                       "Volume \"volumegrid\" \"integer nx\" 1 \"integer ny\" 1 "
+                       "\"integer nz\" 1 \"float density\" 3");
+    const Outcome pbrt = folder.run("info p.pbrt");
+    for (const char* part : {"pbrt text volume", "not in the file", "relative density"})
+        CHECK_MESSAGE(holds(pbrt.output, part), part, "\n", pbrt.output);
+    CHECK_FALSE(holds(pbrt.output, "optical depth"));
+
+    // Damaged files and texts of another kind: one line, nothing on the standard output.
+    folder.files().put("d.vol", "VOL\x03");
+    folder.files().put("notes.txt", "Dear diary,\n");
+    for (const char* name : {"d.vol", "notes.txt"}) {
+        const Outcome damaged = folder.run(std::string("info ") + name);
+        CHECK(damaged.exit_status == 2);
+        CHECK(damaged.output.empty());
+        CHECK_MESSAGE(std::count(damaged.errors.begin(), damaged.errors.end(), '\n') == 1,
+                      damaged.errors);
+    }
+}
+
 TEST_CASE("plan: lines for people, JSON with the report's keys, and no file") {
     const ProgramFolder folder;
     const Outcome lines = folder.run("plan s.toml");
