@@ -217,6 +217,9 @@ PILEUS_FN void background_rows(const BackgroundParams& k, const BackgroundBuffer
             T scattered[3] = {};
             if (k.map.size[0] > 0 && any(ground))
                 scattered_on_ground(k, b, along(ray, select(ground, depth, T{})), scattered);
+            Vec<T> sky{all<T>(k.sky[0]), all<T>(k.sky[1]), all<T>(k.sky[2])};
+            if (k.sky_map.columns > 0) sky = map_radiance(k.sky_map, ray.direction);
+            const T above[3] = {sky.x, sky.y, sky.z};
             for (int l = 0; l < W && x + l < k.camera.width; ++l) {
                 const std::int64_t pixel = std::int64_t(y) * k.camera.width + x + l;
                 const bool hit = (bits_of(ground) >> l) & 1u;
@@ -225,7 +228,7 @@ PILEUS_FN void background_rows(const BackgroundParams& k, const BackgroundBuffer
                     b.colour[c * pixels + pixel] = hit ? k.ground_diffuse[c] +
                                                              k.ground_sun[c] * lane(sunlight, l) +
                                                              lane(scattered[c], l)
-                                                       : k.sky[c];
+                                                       : lane(above[c], l);
             }
         }
     }

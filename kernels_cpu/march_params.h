@@ -5,6 +5,7 @@
 #pragma once
 #include "kernels_cpu/camera.h"
 #include "kernels_cpu/phase.h"
+#include "kernels_cpu/sky_map.h"
 
 namespace pileus {
 
@@ -59,7 +60,8 @@ struct MarchBuffers {
 struct BackgroundParams {
     MediumView medium;
     CameraParams camera;
-    float sky[3];             ///< radiance
+    float sky[3];  ///< radiance, where there is no map of it
+    SkyMapView sky_map;
     std::int32_t ground;      ///< 0: none
     float ground_z;           ///< m, box-local
     float ground_diffuse[3];  ///< radiance under the sky alone

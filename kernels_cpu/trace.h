@@ -255,7 +255,7 @@ PILEUS_FN void settle(Photon<W, NC>& s, const TraceParams& k, const TraceBuffers
     // The photon's own bounces moved ground_x and ground_y: start where the straight ray ends.
     s.ground_x = select(owing, s.owed_x, s.ground_x);
     s.ground_y = select(owing, s.owed_y, s.ground_y);
-    for (int c = 0; c < NC; ++c) s.weight[c] = select(owing, all<F<W>>(1.0f), s.weight[c]);
+    for (int c = 0; c < NC; ++c) s.weight[c] = select(owing, start_weight(s, k, c), s.weight[c]);
     PILEUS_FATE(s, tally, emitted, owing);
     // The sun's own shadow on the ground is drawn sharply by the display.
     if (k.ground_cells[0] > 0 && k.light != kLightBeam) light_ground(s, k, b, owing);

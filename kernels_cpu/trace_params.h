@@ -5,6 +5,7 @@
 #pragma once
 #include "kernels_cpu/phase.h"
 #include "kernels_cpu/rng.h"
+#include "kernels_cpu/sky_map.h"
 
 namespace pileus {
 
@@ -15,7 +16,7 @@ enum DepositMode : std::int32_t {
     kDepositCamera = 3,    ///< phase function towards the camera, one number per cell
 };
 
-enum LightKind : std::int32_t { kLightBeam = 0, kLightDiffuse = 1 };
+enum LightKind : std::int32_t { kLightBeam = 0, kLightDiffuse = 1, kLightMap = 2 };
 
 struct TraceParams {
     std::int32_t size[3];    ///< voxels
@@ -31,6 +32,7 @@ struct TraceParams {
     std::int32_t light;          ///< LightKind
     float direction[3];          ///< of travel, unit; beam only
     std::int32_t hemisphere;     ///< diffuse: 0 all, -1 travelling down only, +1 up only
+    SkyMapView map;              ///< light of a sky map only
     float face_cdf[6];           ///< flux share of faces -x +x -y +y -z +z, cumulative; last = 1
     Key key;                     ///< made from (seed, stream of the light, photon index high half)
     std::uint32_t first_photon;  ///< low half of the index of the launch's photon 0

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a photon begins: on the box's silhouette for a beam, on its faces for diffuse light.
+// Where a photon begins: on the box's silhouette (beam, sky map) or its faces (diffuse light).
 // in: photon numbers -> out: position (voxels) and direction of travel.
 // docs/methods.md 3 "Shoot"; points from the R2 sequence (Roberts 2018), shifted at random.
 #pragma once
@@ -15,6 +15,7 @@ struct Photon : Walker<W> {
     F<W> weight[NC], path;  // share left per channel; metres
     U<W> index, event;
     I<W> order;                // scatterings so far, bounces included
+    I<W> texel;                // of the sky map that it comes from
     M<W> alive, shadow, owes;  // owes: the ground below misses this photon's light
     F<W> owed_x, owed_y;       // where on the ground, metres
     F<W> ground_x, ground_y;   // where on the ground the next bounce starts, metres
@@ -34,13 +35,19 @@ PILEUS_FN auto lambert(Words<UU> w) {
     return Lambert<T>{sqrt_(1.0f - u), sine * turn.cosine, sine * turn.sine};
 }
 
-/// Begin photons `s.index` (numbered within the launch) in the lanes of `m`.
-template <int W, int NC>
-PILEUS_FN void start_photons(Photon<W, NC>& s, const TraceParams& k, M<W> m) {
+/// Position (voxels) and direction of travel of photons that begin.
+template <class T>
+struct Start {
+    Vec<T> p, d;
+};
+
+/// Beam and diffuse light: a place on the box's faces, then a direction.
+template <int W>
+PILEUS_FN Start<F<W>> start_on_faces(const TraceParams& k, U<W> index) {
     using T = F<W>;
-    const U<W> number = s.index + k.first_photon;
-    T u = uniform(s.index * kR2[0] + k.shift[0]);
-    const T v = uniform(s.index * kR2[1] + k.shift[1]);
+    const U<W> number = index + k.first_photon;
+    T u = uniform(index * kR2[0] + k.shift[0]);
+    const T v = uniform(index * kR2[1] + k.shift[1]);
 
     // Choose a face by its share of the flux and stretch the rest of u over it.
     I<W> face{};
@@ -71,12 +78,64 @@ PILEUS_FN void start_photons(Photon<W, NC>& s, const TraceParams& k, M<W> m) {
         // A side face sees half of a hemisphere of sky: mirror the other half into it.
         if (k.hemisphere != 0) d.z = copysign_(d.z, all<T>(float(k.hemisphere)));
     }
-    set_position(s, k, m, p);
-    set_direction(s, k, m, d);
+    return {p, d};
+}
+
+/// Sky map: a direction, then a place on the silhouette that the box shows to it. The R2 sequence
+/// spreads the directions over the map.
+template <int W>
+PILEUS_FN Start<F<W>> start_from_map(const TraceParams& k, U<W> index, I<W>& texel, M<W> m) {
+    using T = F<W>;
+    const U<W> number = index + k.first_photon;
+    const float edge[3] = {float(k.size[0]) * k.cell[0], float(k.size[1]) * k.cell[1],
+                           float(k.size[2]) * k.cell[2]};
+    const float face[3] = {edge[1] * edge[2], edge[2] * edge[0], edge[0] * edge[1]};
+    const MapDraw<T> draw = draw_from_map<T>(
+        k.map, face, k.key, number, index * kR2[0] + k.shift[0], index * kR2[1] + k.shift[1], m);
+    texel = select(m, draw.texel, texel);
+    const Vec<T> d{T{} - draw.to_sky.x, T{} - draw.to_sky.y, T{} - draw.to_sky.z};
+
+    // Choose one of the three lit faces by its share of the silhouette.
+    const Words<U<W>> w = threefry(k.key.k0, k.key.k1, number, U<W>{});
+    const T ax = abs_(d.x) * face[0], ay = abs_(d.y) * face[1], az = abs_(d.z) * face[2];
+    const T at = uniform(w.a) * (ax + ay + az);
+    const auto on_x = at < ax, on_y = lnot(on_x) & (at < ax + ay);
+    const T below = select(on_x, T{}, select(on_y, ax, ax + ay));
+    const T area = select(on_x, ax, select(on_y, ay, az));
+    const T u = min_((at - below) / max_(area, all<T>(1e-30f)), all<T>(1.0f));
+    const T v = uniform(w.b);
+    const auto entry = [](T along, std::int32_t n) {
+        return select(along < 0.0f, all<T>(float(n)), T{});
+    };
+    const T nx = all<T>(float(k.size[0])), ny = all<T>(float(k.size[1])),
+            nz = all<T>(float(k.size[2]));
+    return {{select(on_x, entry(d.x, k.size[0]), u * nx),
+             select(on_y, entry(d.y, k.size[1]), select(on_x, u * ny, v * ny)),
+             select(on_x | on_y, v * nz, entry(d.z, k.size[2]))},
+            d};
+}
+
+/// What a photon carries in channel `c` when it begins.
+template <int W, int NC>
+PILEUS_FN F<W> start_weight(const Photon<W, NC>& s, const TraceParams& k, int c) {
+    if (NC == 1 || k.light != kLightMap) return all<F<W>>(1.0f);
+    return texel_share(k.map, s.texel, c);
+}
+
+/// Begin photons `s.index` (numbered within the launch) in the lanes of `m`.
+template <int W, int NC>
+PILEUS_FN void start_photons(Photon<W, NC>& s, const TraceParams& k, M<W> m) {
+    using T = F<W>;
+    const T zero{};
+    const U<W> number = s.index + k.first_photon;
+    const Start<T> start = k.light == kLightMap ? start_from_map<W>(k, s.index, s.texel, m)
+                                                : start_on_faces<W>(k, s.index);
+    set_position(s, k, m, start.p);
+    set_direction(s, k, m, start.d);
 
     const Words<U<W>> w = threefry(k.key.k0, k.key.k1, number, all<U<W>>(1u));
     s.tau = select(m, free_flight(w.a, w.b), s.tau);
-    for (int c = 0; c < NC; ++c) s.weight[c] = select(m, all<T>(1.0f), s.weight[c]);
+    for (int c = 0; c < NC; ++c) s.weight[c] = select(m, start_weight(s, k, c), s.weight[c]);
     s.path = select(m, zero, s.path);
     s.event = select(m, U<W>{}, s.event);
     s.order = select(m, I<W>{}, s.order);

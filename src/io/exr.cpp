@@ -128,11 +128,12 @@ void read_attributes(const Imf::Header& header, Image& image) {
 }
 
 /// Refuses what a small file can claim but not hold: real compression stays below 2048 to one.
-Status check_header(const std::string& name, const Imf::Header& header, std::uint64_t file_bytes) {
+Status check_header(const std::string& name, const Imf::Header& header, std::uint64_t file_bytes,
+                    std::uint64_t most_pixels) {
     const Imath::Box2i& window = header.dataWindow();
     const std::int64_t width = std::int64_t(window.max.x) - window.min.x + 1;
     const std::int64_t height = std::int64_t(window.max.y) - window.min.y + 1;
-    PILEUS_TRY(check_image_size(name, width, height));
+    PILEUS_TRY(check_image_size(name, width, height, most_pixels));
     std::size_t channels = 0;
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c, ++channels)
         if (c.channel().xSampling != 1 || c.channel().ySampling != 1)
@@ -151,11 +152,12 @@ Status check_header(const std::string& name, const Imf::Header& header, std::uin
     return Status::ok();
 }
 
-Status read_stream(const std::string& name, Span<const char> bytes, Image& image) {
+Status read_stream(const std::string& name, Span<const char> bytes, Image& image,
+                   std::uint64_t most_pixels) {
     MemoryInput stream(bytes);
     Imf::InputFile file(stream, 0);
     const Imf::Header& header = file.header();
-    PILEUS_TRY(check_header(name, header, bytes.size));
+    PILEUS_TRY(check_header(name, header, bytes.size, most_pixels));
     const Imath::Box2i& window = header.dataWindow();
     image.width = window.max.x - window.min.x + 1;
     image.height = window.max.y - window.min.y + 1;
@@ -202,9 +204,10 @@ Status encode_exr(const Image& image, Buffer<char>& bytes) {
     }
 }
 
-Status decode_exr(const std::string& name, Span<const char> bytes, Image& image) {
+Status decode_exr(const std::string& name, Span<const char> bytes, Image& image,
+                  std::uint64_t most_pixels) {
     try {
-        return read_stream(name, bytes, image);
+        return read_stream(name, bytes, image, most_pixels);
     } catch (const std::bad_alloc&) {
         return Status::limit(name + ": EXR file: out of memory");
     } catch (const std::exception& fault) {
@@ -216,7 +219,7 @@ Status encode_exr(const Image&, Buffer<char>&) {
     return Status::bad_input(
         "EXR file: left out of this build, configure with -DPILEUS_OPENEXR=ON");
 }
-Status decode_exr(const std::string& name, Span<const char>, Image&) {
+Status decode_exr(const std::string& name, Span<const char>, Image&, std::uint64_t) {
     return Status::bad_input(name +
                              ": EXR file: left out of this build, configure with "
                              "-DPILEUS_OPENEXR=ON");

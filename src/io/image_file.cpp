@@ -41,15 +41,16 @@ Status encode(const Image& image, const std::string& extension, const ToneSettin
 
 }  // namespace
 
-Status check_image_size(const std::string& where, std::int64_t width, std::int64_t height) {
+Status check_image_size(const std::string& where, std::int64_t width, std::int64_t height,
+                        std::uint64_t most_pixels) {
     const std::string size = std::to_string(width) + " x " + std::to_string(height);
     if (width < 1 || height < 1)
         return Status::bad_input(where + ": size: out of range, " + size + ", allowed: 1 x 1 up");
     if (width > kMaxImageSide || height > kMaxImageSide ||
-        std::uint64_t(width) * std::uint64_t(height) > kMaxImagePixels)
+        std::uint64_t(width) * std::uint64_t(height) > most_pixels)
         return Status::limit(where + ": size: too large, " + size + ", allowed: sides up to " +
-                             std::to_string(kMaxImageSide) + " and " +
-                             std::to_string(kMaxImagePixels) + " pixels");
+                             std::to_string(kMaxImageSide) + " and " + std::to_string(most_pixels) +
+                             " pixels");
     return Status::ok();
 }
 
@@ -115,7 +116,7 @@ Status write_image(const Image& image, const std::string& path, const ToneSettin
     return write_file(path, bytes.span());
 }
 
-Status read_image(const std::string& path, Image& image) {
+Status read_image(const std::string& path, Image& image, std::uint64_t most_pixels) {
     const std::string extension = file_extension(path);
     if (extension != ".exr" && extension != ".pfm")
         return Status::bad_input(path + ": extension: unknown, \"" + extension +
@@ -124,8 +125,8 @@ Status read_image(const std::string& path, Image& image) {
     image = Image();
     Buffer<char> bytes;
     PILEUS_TRY(read_whole_file(path, kMaxFileBytes, bytes));
-    return extension == ".exr" ? decode_exr(path, bytes.span(), image)
-                               : decode_pfm(path, bytes.span(), image);
+    return extension == ".exr" ? decode_exr(path, bytes.span(), image, most_pixels)
+                               : decode_pfm(path, bytes.span(), image, most_pixels);
 }
 
 std::string pixel_hash(const Image& image) {

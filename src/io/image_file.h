@@ -27,8 +27,10 @@ Status write_image(const Image& image, const std::string& path, const ToneSettin
 Status can_write_image(const std::string& path);
 
 /// Reads .exr (half, float or whole-number channels of any name, first part, its data window) or
-/// .pfm (channels R G B) into floats. Missing or malformed: kBadInput; too large: kLimit.
-Status read_image(const std::string& path, Image& image);
+/// .pfm (channels R G B) into floats. Missing or malformed: kBadInput; more than `most_pixels` or
+/// than memory: kLimit.
+Status read_image(const std::string& path, Image& image,
+                  std::uint64_t most_pixels = kMaxImagePixels);
 
 /// 16 hex digits: FNV-1a 64 over the float32 bits of R G B A of each pixel, rows from the top. A
 /// channel that is not there counts as 0, A as 1.
@@ -44,13 +46,16 @@ Status check_image(const Image& image);
 Status color_channels(const Image& image, const Channel* (&rgb)[3]);
 
 /// Checks the size of a picture about to be read: kBadInput below 1, kLimit above the limits.
-Status check_image_size(const std::string& where, std::int64_t width, std::int64_t height);
+Status check_image_size(const std::string& where, std::int64_t width, std::int64_t height,
+                        std::uint64_t most_pixels = kMaxImagePixels);
 
 // One file per format; each makes or takes the bytes of a whole file.
 Status encode_exr(const Image& image, Buffer<char>& bytes);
-Status decode_exr(const std::string& name, Span<const char> bytes, Image& image);
+Status decode_exr(const std::string& name, Span<const char> bytes, Image& image,
+                  std::uint64_t most_pixels = kMaxImagePixels);
 Status encode_png(int width, int height, Span<const std::uint8_t> rgb, Buffer<char>& bytes);
 Status encode_pfm(const Image& image, Buffer<char>& bytes);
-Status decode_pfm(const std::string& name, Span<const char> bytes, Image& image);
+Status decode_pfm(const std::string& name, Span<const char> bytes, Image& image,
+                  std::uint64_t most_pixels = kMaxImagePixels);
 
 }  // namespace pileus

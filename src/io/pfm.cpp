@@ -50,7 +50,8 @@ struct Head {
     bool big_endian = false;
 };
 
-Status read_head(const std::string& name, Span<const char> bytes, Head& head) {
+Status read_head(const std::string& name, Span<const char> bytes, std::uint64_t most_pixels,
+                 Head& head) {
     Span<const char> kind, width, height, scale;
     std::size_t at = 0;
     const bool whole = next_word(bytes, at, kind) && next_word(bytes, at, width) &&
@@ -63,7 +64,7 @@ Status read_head(const std::string& name, Span<const char> bytes, Head& head) {
         return Status::bad_input(name +
                                  ":1:1: head: not a PFM file, allowed: PF or Pf, width, "
                                  "height, a scale that is not 0");
-    PILEUS_TRY(check_image_size(name, head.width, head.height));
+    PILEUS_TRY(check_image_size(name, head.width, head.height, most_pixels));
     head.planes = kind[1] == 'F' ? 3 : 1;
     head.data_at = at;
     head.big_endian = factor > 0;
@@ -90,9 +91,10 @@ Status encode_pfm(const Image& image, Buffer<char>& bytes) {
     return Status::ok();
 }
 
-Status decode_pfm(const std::string& name, Span<const char> bytes, Image& image) {
+Status decode_pfm(const std::string& name, Span<const char> bytes, Image& image,
+                  std::uint64_t most_pixels) {
     Head head;
-    PILEUS_TRY(read_head(name, bytes, head));
+    PILEUS_TRY(read_head(name, bytes, most_pixels, head));
 
     // Compare lengths before any memory is taken.
     const std::size_t width = std::size_t(head.width), height = std::size_t(head.height);

@@ -122,6 +122,21 @@ Status empty_medium(const Scene& scene, Medium& medium) {
     return medium.volume.density.resize(1, "density");
 }
 
+/// Reads the scene's sky map. A coloured one asks for a set of sums per colour channel, as its
+/// photons differ in colour.
+Status prepare_sky_map(const Scene& scene, const Context& context, CollectorsRun& run) {
+    if (scene.sky.map.empty()) return Status::ok();
+    const StageClock clock(context, "sky map");
+    PILEUS_TRY(load_sky_map(scene, run.sky_map));
+    PILEUS_TRY(aim_sky_map(run.medium.extent_m, run.sky_map));
+    if (run.sky_map.view.planes == 3 && run.medium.channels == 1) {
+        run.medium.channels = 3;
+        run.plan.need("coefficients per colour channel: coloured sky map");
+    }
+    run.plan.take("sky map", run.sky_map.bytes());
+    return Status::ok();
+}
+
 }  // namespace
 
 Status collectors_prepare(const Scene& scene, std::int64_t photons, const Context& context,
@@ -143,12 +158,13 @@ Status collectors_prepare(const Scene& scene, std::int64_t photons, const Contex
                        ? empty_medium(scene, run.medium)
                        : load_medium(scene, scene.media[0], context.threads, run.medium));
     }
+    PILEUS_TRY(prepare_sky_map(scene, context, run));
     aim_deposit(scene, run);
     run.generations = std::uint64_t(scene.collectors.generations);
     if (photons >= 0 && std::uint64_t(photons) < run.generations)
         run.generations = photons > 0 ? std::uint64_t(photons) : 1;
     run.sun_elevation_deg = scene.sun.elevation_deg;
-    run.lighting = plan_lighting(scene, run.medium, run.sun_elevation_deg, run.plan);
+    run.lighting = plan_lighting(scene, run.medium, run.sun_elevation_deg, run.plan, &run.sky_map);
     share_photons(std::uint64_t(photons) / run.generations, run.lighting.lights);
     run.ground_map = make_ground_map(run.medium, run.lighting);
     PILEUS_TRY(plan_deposit(scene, run));
@@ -169,7 +185,7 @@ Status collectors_set_sun(double elevation_deg, const Context&, CollectorsRun& r
     if (elevation_deg == run.sun_elevation_deg) return Status::ok();
     Plan ignored;
     const std::vector<Light> before = run.lighting.lights;
-    Lighting next = plan_lighting(*run.scene, run.medium, elevation_deg, ignored);
+    Lighting next = plan_lighting(*run.scene, run.medium, elevation_deg, ignored, &run.sky_map);
     // The set of lights is the ring's layout: a light that has set keeps its place, unlit.
     std::vector<Light> lights = before;
     for (Light& l : lights) {

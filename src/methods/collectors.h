@@ -17,6 +17,7 @@ constexpr std::uint64_t kMostBatches = 16;
 struct CollectorsRun {
     const Scene* scene = nullptr;
     Medium medium;
+    SkyMap sky_map;
     Plan plan;
     Lighting lighting;
     double sun_elevation_deg = 0;

@@ -15,21 +15,25 @@ double share_error(double share, double n) {
 
 EnergyRow energy_row(const std::string& light, const Fates& f) {
     EnergyRow row;
+    // The first colour channel in which the light shines.
+    std::size_t c = 0;
+    while (c < 2 && f.emitted[c] == 0) ++c;
     row.light = light;
-    row.balance_quanta = f.emitted[0] - f.top[0] - f.bottom[0] - f.sides[0] - f.absorbed[0] -
-                         f.ground[0] - f.sky[0] - f.terminated[0];
-    const double unit = double(f.emitted[0]);
+    row.balance_quanta = f.emitted[c] - f.top[c] - f.bottom[c] - f.sides[c] - f.absorbed[c] -
+                         f.ground[c] - f.sky[c] - f.terminated[c];
+    const double unit = double(f.emitted[c]);
     if (unit <= 0) return row;
+    // A photon that carries a share of its power counts as that share: its variance is less yet.
     const double photons = unit / double(kPhotonQuanta);
     row.emitted = 1;
-    row.top = double(f.top[0]) / unit;
-    row.bottom = double(f.bottom[0]) / unit;
-    row.sides = double(f.sides[0]) / unit;
-    row.absorbed = double(f.absorbed[0]) / unit;
-    row.ground = double(f.ground[0]) / unit;
-    row.sky = double(f.sky[0]) / unit;
-    row.terminated = double(f.terminated[0]) / unit;
-    row.direct_bottom = double(f.direct_bottom[0]) / unit;
+    row.top = double(f.top[c]) / unit;
+    row.bottom = double(f.bottom[c]) / unit;
+    row.sides = double(f.sides[c]) / unit;
+    row.absorbed = double(f.absorbed[c]) / unit;
+    row.ground = double(f.ground[c]) / unit;
+    row.sky = double(f.sky[c]) / unit;
+    row.terminated = double(f.terminated[c]) / unit;
+    row.direct_bottom = double(f.direct_bottom[c]) / unit;
     row.top_error = share_error(row.top, photons);
     row.bottom_error = share_error(row.bottom, photons);
     row.sides_error = share_error(row.sides, photons);

@@ -66,6 +66,7 @@ Status make_background(const Context& context, const CollectorsRun& run,
         k.ground_sun[c] = float(run.lighting.ground_sun[c]);
         k.to_sun[c] = run.lighting.to_sun[c];
     }
+    k.sky_map = run.lighting.map;
     k.map.size[0] = k.map.size[1] = run.ground_map.cells;
     k.map.size[2] = 1;
     for (int a = 0; a < 2; ++a) {

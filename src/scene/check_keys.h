@@ -33,6 +33,10 @@ struct SceneCheck {
 /// Walks the tree: unknown and missing keys, types, ranges; calls the setters of sound values.
 void check_keys(SceneCheck& check);
 
+/// Takes over the path of a file to read, with the folder of the environment variable in place of
+/// `${PILEUS_DATA_DIR}` at its front. Returns false after adding a fault.
+bool check_path(SceneCheck& check, const Node& node, const char* key, std::string& file);
+
 /// Laws between the keys of one medium: density, file, phase, bounds.
 void check_medium(SceneCheck& check, std::size_t index);
 

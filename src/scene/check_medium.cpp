@@ -3,8 +3,6 @@
 // in: keys that passed their own checks -> out: density kind, file and format; faults.
 // docs/scene.md, section Media.
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
 
 #include "src/scene/check_keys.h"
 #include "src/scene/volume_format.h"
@@ -78,35 +76,11 @@ private:
         return true;
     }
 
-    /// Takes a path over, with the folder of the real data in place of its variable.
     bool set_file(const Node& node, const char* key) {
-        static constexpr std::string_view kVariable = "${PILEUS_DATA_DIR}";
-        medium_.file = node.text;
-        if (node.text.empty()) {
-            fault(node, key, std::string("empty, \"\", allowed: ") + kDensities);
-            return false;
-        }
-        if (starts_with(node.text, kVariable)) {
-            const char* folder = std::getenv("PILEUS_DATA_DIR");
-            if (folder == nullptr || folder[0] == '\0') {
-                fault(node, key,
-                      "environment variable PILEUS_DATA_DIR is not set, " + value_text(node) +
-                          ", allowed: set it to the folder that holds the data");
-                return false;
-            }
-            // The variable counts from the working directory, not from the scene's folder.
-            std::error_code error;
-            const std::filesystem::path whole = std::filesystem::absolute(folder, error);
-            medium_.file =
-                (error ? std::string(folder) : whole.string()) + node.text.substr(kVariable.size());
-        }
-        if (medium_.file.find("${") != std::string::npos) {
-            fault(node, key,
-                  "unknown variable, " + value_text(node) +
-                      ", allowed: ${PILEUS_DATA_DIR} at the front");
-            return false;
-        }
-        return true;
+        if (!node.text.empty())
+            return check_path(check_, node, (path_ + key).c_str(), medium_.file);
+        fault(node, key, std::string("empty, \"\", allowed: ") + kDensities);
+        return false;
     }
 
     /// Keys of a file: its format must be known, and raw numbers need a type, a size and a place.

@@ -71,6 +71,26 @@ void check_ground(SceneCheck& check) {
                              number_text(scene.ground.altitude_m));
 }
 
+/// A sky is constant or a map.
+void check_sky(SceneCheck& check) {
+    const Node* map = check.valid_key("sky.map");
+    if (check.key("sky.map") == nullptr) {
+        for (const char* key : {"sky.map_scale", "sky.map_rotation_deg"})
+            conflict(check, key, "a sky without a map");
+        return;
+    }
+    conflict(check, "sky.radiance", "sky.map");
+    if (map == nullptr || !check_path(check, *map, "sky.map", check.scene.sky.map)) return;
+    const std::string& name = map->text;
+    const std::size_t dot = name.rfind('.');
+    std::string end = dot == std::string::npos ? "" : name.substr(dot);
+    for (char& c : end)
+        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+    if (end != ".exr" && end != ".pfm")
+        check.faults.add(map->at, "sky.map",
+                         "unknown kind of picture, " + quote_text(name) + ", allowed: .exr, .pfm");
+}
+
 void check_output(SceneCheck& check) {
     const Node* files = check.valid_key("output.files");
     if (files == nullptr) return;
@@ -109,6 +129,7 @@ void check_scene(SceneCheck& check) {
     scene.animation.present = check.key("animation") != nullptr;
     check_camera(check);
     check_ground(check);
+    check_sky(check);
     check_output(check);
     check_animation(check);
     fill_paper_defaults(check);

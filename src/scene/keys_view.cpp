@@ -56,7 +56,16 @@ const KeyRow kRows[] = {
     range_key(KeyKind::kColor, "sky.radiance", "sun's per sr", "[0, 0, 0]", kLight,
               "of a constant sky: the full sphere, or the upper half where there is a ground",
               [](const Node& n, KeyTarget t) { t.scene.sky.radiance = color_of(n); }),
-    later_key("sky.map", "an image of the sky's radiance"),
+    plain_key(KeyKind::kText, "sky.map", "",
+              "latitude-longitude image of the sky's radiance, .exr or .pfm, in place of radiance; "
+              "relative to the scene file, `${PILEUS_DATA_DIR}` may stand at its front",
+              nullptr),
+    range_key(KeyKind::kNumber, "sky.map_scale", "", "1", kLight, "factor on the map's values",
+              [](const Node& n, KeyTarget t) { t.scene.sky.map_scale = number_of(n); }),
+    range_key(KeyKind::kNumber, "sky.map_rotation_deg", "deg", "0", {-360, 360, false, false},
+              "turns the map about the vertical, from north towards east; at 0 its middle column "
+              "stands in the north (+y)",
+              [](const Node& n, KeyTarget t) { t.scene.sky.map_rotation_deg = number_of(n); }),
     later_key("sky.model", "a computed sky"),
 
     range_key(KeyKind::kNumber, "ground.altitude_m", "m", "0", kMetres,

@@ -29,7 +29,10 @@ struct Sun {
 
 struct Sky {
     bool present = false;
-    Float3 radiance{0, 0, 0};
+    Float3 radiance{0, 0, 0};     ///< constant; unused with a map
+    std::string map;              ///< path of an image, relative to the scene file; empty: none
+    double map_scale = 1;         ///< factor on its values; >= 0
+    double map_rotation_deg = 0;  ///< turns it from north towards east
 };
 
 struct Ground {

@@ -66,6 +66,15 @@ Light beam_light(const Medium& medium, const std::array<double, 3>& travel) {
     return light;
 }
 
+Light map_light(const SkyMap& map) {
+    Light light;
+    light.map = true;
+    light.colour = {1, 1, 1};
+    light.power_m2 = map.power_m2;
+    light.face_cdf.fill(1.0f);
+    return light;
+}
+
 void share_photons(std::uint64_t per_generation, std::vector<Light>& lights) {
     double total = 0;
     for (const Light& l : lights) total += strength(l.colour) * l.power_m2;
@@ -78,15 +87,18 @@ void share_photons(std::uint64_t per_generation, std::vector<Light>& lights) {
 }
 
 Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elevation_deg,
-                       Plan& plan) {
+                       Plan& plan, const SkyMap* map) {
     Lighting out;
+    const bool mapped = map != nullptr && map->present();
+    if (mapped) out.map = map->view;
+    if (scene.sky.present && !mapped) plan.leave_out("sky map", "constant sky");
     const bool dark = medium.sigma <= 0 || medium.density_max <= 0;
     const bool white = medium.albedo[0] == 1 && medium.albedo[1] == 1 && medium.albedo[2] == 1;
     const SineCosine el = sincos_deg(sun_elevation_deg), az = sincos_deg(scene.sun.azimuth_deg);
     const std::array<double, 3> to_sun{az.sine * el.cosine, az.cosine * el.cosine, el.sine};
     for (std::size_t c = 0; c < 3; ++c) {
         out.to_sun[c] = float(to_sun[c]);
-        if (scene.sky.present) out.sky[c] = double(scene.sky.radiance[c]);
+        if (scene.sky.present && !mapped) out.sky[c] = double(scene.sky.radiance[c]);
         if (scene.sun.present) out.sun_irradiance[c] = double(scene.sun.irradiance[c]);
     }
     out.ground = scene.ground.present;
@@ -100,7 +112,8 @@ Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elev
         out.ground_z = scene.ground.altitude_m - medium.low_m[2];
         out.ground_albedo = scene.ground.albedo;
         for (std::size_t c = 0; c < 3; ++c) {
-            out.ground_diffuse[c] = out.ground_albedo * out.sky[c];
+            out.ground_diffuse[c] =
+                out.ground_albedo * (mapped ? map->ground_irradiance[c] / kPiD : out.sky[c]);
             out.ground_sun[c] = out.ground_albedo / kPiD * out.sun_irradiance[c] * to_sun[2];
         }
     } else {
@@ -127,7 +140,12 @@ Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elev
     const bool lit_sky = any_positive(out.sky);
     std::array<double, 3> below{};
     for (std::size_t c = 0; c < 3; ++c) below[c] = out.ground_diffuse[c] + out.ground_sun[c];
-    if (white && lit_sky) {
+    if (mapped && map->power_m2 > 0) {
+        Light sky = map_light(*map);
+        sky.name = "sky";
+        sky.stream = 2;
+        out.lights.push_back(sky);
+    } else if (white && lit_sky) {
         out.constant = out.sky;
         plan.leave_out("sky photons", "constant sky and albedo 1: the furnace identity");
         for (std::size_t c = 0; c < 3; ++c) below[c] -= out.sky[c];

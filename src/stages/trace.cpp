@@ -34,7 +34,8 @@ TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_
     k.albedo_max = m.albedo_max;
     k.channels = m.channels;
     k.phase = m.phase;
-    k.light = light.beam ? kLightBeam : kLightDiffuse;
+    k.light = light.map ? kLightMap : (light.beam ? kLightBeam : kLightDiffuse);
+    k.map = in.lighting->map;
     k.hemisphere = light.hemisphere;
     for (std::size_t f = 0; f < 6; ++f) k.face_cdf[f] = light.face_cdf[f];
     k.ground = in.lighting->ground ? 1 : 0;

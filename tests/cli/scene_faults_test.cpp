@@ -279,7 +279,6 @@ TEST_CASE("parts of the format that this version cannot use") {
          "s.toml:5:8: method.name: unknown value, \"radiosity\", allowed: collectors"},
         {kCamera + "depth = \"z.exr\"\n",
          "s.toml:4:1: camera.depth: not in this version, \"z.exr\", allowed: nothing"},
-        {kCamera + "[sky]\nmap = \"sky.exr\"\n", "s.toml:5:1: sky.map: not in this version, ..."},
         {kCamera + "[sky]\nmodel = \"atmosphere\"\n", "s.toml:5:1: sky.model: not in this ..."},
         {kCamera + kMedium + "boundary = \"periodic\"\n",
          "s.toml:8:12: medium.0.boundary: not in this version, \"periodic\", allowed: open"},
@@ -288,6 +287,28 @@ TEST_CASE("parts of the format that this version cannot use") {
         {kCamera + kFile + "density = \"a.x\"\nformat = \"openvdb\"\n",
          "s.toml:7:10: medium.0.format: not in this version, \"openvdb\", allowed: pbrt, raw, vol, "
          "les"},
+    };
+    for (const Row& row : rows) check(row);
+}
+
+TEST_CASE("a sky is constant or a map") {
+    const std::string sky = kCamera + "[sky]\n";
+    const Row rows[] = {
+        {sky + "radiance = 1\nmap = \"a.exr\"\n",
+         "s.toml:5:1: sky.radiance: conflicts with sky.map, 1, allowed: left out"},
+        {sky + "map_scale = 2\n",
+         "s.toml:5:1: sky.map_scale: conflicts with a sky without a map, 2, allowed: left out"},
+        {sky + "radiance = 1\nmap_rotation_deg = 20\n",
+         "s.toml:6:1: sky.map_rotation_deg: conflicts with a sky without a map, 20, ..."},
+        {sky + "map = \"a.png\"\n",
+         "s.toml:5:7: sky.map: unknown kind of picture, \"a.png\", allowed: .exr, .pfm"},
+        {sky + "map = \"\"\n", "s.toml:5:7: sky.map: unknown kind of picture, \"\", ..."},
+        {sky + "map = \"${HOME}/a.exr\"\n", "s.toml:5:7: sky.map: unknown variable, ..."},
+        {sky + "map = 3\n", "s.toml:5:7: sky.map: wrong type, 3, allowed: text"},
+        {sky + "map = \"a.exr\"\nmap_scale = -1\n",
+         "s.toml:6:13: sky.map_scale: out of range, -1, ..."},
+        {sky + "map = \"a.exr\"\nmap_rotation_deg = 361\n",
+         "s.toml:6:20: sky.map_rotation_deg: out of range, 361, ..."},
     };
     for (const Row& row : rows) check(row);
 }

@@ -70,6 +70,7 @@ std::string dump(const Scene& scene) {
     dump_list(s, scene.sun.irradiance);
     s << '\n' << scene.sky.present << ' ';
     dump_list(s, scene.sky.radiance);
+    s << scene.sky.map << ' ' << scene.sky.map_scale << ' ' << scene.sky.map_rotation_deg;
     const Ground& g = scene.ground;
     s << '\n' << g.present << ' ' << g.altitude_m << ' ' << g.albedo << '\n';
     for (const MediumSettings& medium : scene.media) dump_medium(s, medium);

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Paths of files that a scene reads.
+// in: a text of the scene -> out: a path relative to the scene file, or absolute; faults.
+// docs/scene.md, sections Media and Sky map.
+#include <cstdlib>
+#include <filesystem>
+
+#include "src/scene/check_keys.h"
+
+namespace pileus {
+
+bool check_path(SceneCheck& check, const Node& node, const char* key, std::string& file) {
+    static constexpr std::string_view kVariable = "${PILEUS_DATA_DIR}";
+    file = node.text;
+    if (std::string_view(file).substr(0, kVariable.size()) == kVariable) {
+        const char* folder = std::getenv("PILEUS_DATA_DIR");
+        if (folder == nullptr || folder[0] == '\0') {
+            check.faults.add(node.at, key,
+                             "environment variable PILEUS_DATA_DIR is not set, " +
+                                 value_text(node) +
+                                 ", allowed: set it to the folder that holds the data");
+            return false;
+        }
+        // The variable counts from the working directory, not from the scene's folder.
+        std::error_code error;
+        const std::filesystem::path whole = std::filesystem::absolute(folder, error);
+        file = (error ? std::string(folder) : whole.string()) + node.text.substr(kVariable.size());
+    }
+    if (file.find("${") != std::string::npos) {
+        check.faults.add(
+            node.at, key,
+            "unknown variable, " + value_text(node) + ", allowed: ${PILEUS_DATA_DIR} at the front");
+        return false;
+    }
+    return true;
+}
+
+}  // namespace pileus
