@@ -105,7 +105,9 @@ azimuth_deg = 120
 elevation_deg = 35
 irradiance = [2, 3, 4]
 [sky]
-radiance = 0.25
+map = "a.PFM"
+map_scale = 2
+map_rotation_deg = -20
 [ground]
 altitude_m = -10
 albedo = 0.5
@@ -173,7 +175,7 @@ TEST_CASE("every key of a full scene reaches its field") {
           "9223372036854775807\n"
           "1 -2.5 3 4 5 6 0 1 0 1 40 77 16 9 \n"
           "1 120 35 2 3 4 \n"
-          "1 0.25 0.25 0.25 \n"
+          "1 0 0 0 a.PFM 2 -20\n"
           "1 -10 0.5\n"
           "0   2 0 0 0 0 1 0 0 0 1 2 3 3 4 5 8 0.050000000000000003 1 0.10000000149011612 "
           "0.20000000298023224 0.30000001192092896 2 -1 0 0 1 0\n"
@@ -187,6 +189,9 @@ TEST_CASE("every key of a full scene reaches its field") {
     CHECK(scene.text == kEveryKey);
     CHECK(scene.file == "s.toml");
     CHECK(scene.directory == "dir");
+    const Scene even = good(kCamera + "[sky]\nradiance = 0.25\n");
+    CHECK(even.sky.radiance == Float3{0.25f, 0.25f, 0.25f});
+    CHECK(even.sky.map.empty());
 }
 
 TEST_CASE("the full scene holds every key that sets something") {
@@ -197,7 +202,8 @@ TEST_CASE("the full scene holds every key that sets something") {
     FaultList faults("s.toml", {});
     SceneCheck check{scene, root, faults, {}};
     check_keys(check);
-    std::set<std::string> seen{"camera.fov_deg"};  // excluded by the orthographic view
+    // Excluded by the orthographic view and by the map.
+    std::set<std::string> seen{"camera.fov_deg", "sky.radiance"};
     for (const auto& [path, found] : check.found) {
         std::string pattern = path;
         if (pattern.compare(0, 7, "medium.") == 0) pattern.replace(7, 1, "N");
