@@ -99,7 +99,8 @@ PILEUS_FN Start<F<W>> start_from_map(const TraceParams& k, U<W> index, I<W>& tex
     const Words<U<W>> w = threefry(k.key.k0, k.key.k1, number, U<W>{});
     const T ax = abs_(d.x) * face[0], ay = abs_(d.y) * face[1], az = abs_(d.z) * face[2];
     const T at = uniform(w.a) * (ax + ay + az);
-    const auto on_x = at < ax, on_y = lnot(on_x) & (at < ax + ay);
+    const M<W> on_x = at < ax;
+    const M<W> on_y = lnot(on_x) & (at < ax + ay);
     const T below = select(on_x, T{}, select(on_y, ax, ax + ay));
     const T area = select(on_x, ax, select(on_y, ay, az));
     const T u = min_((at - below) / max_(area, all<T>(1e-30f)), all<T>(1.0f));

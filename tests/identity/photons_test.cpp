@@ -3,6 +3,7 @@
 // in: one launch done in many ways -> out: equal ledgers and sums; nothing is stored.
 // docs/architecture.md, "Determinism": results belong to photons, sums are integers.
 #include "src/stages/prepare.h"
+#include "tests/sky_images.h"
 #include "tests/trace_harness.h"
 
 using namespace trace_test;
@@ -132,6 +133,31 @@ TEST_CASE("identity: any number of threads") {
         rig.lighting.lights[0].stream += 16;
         CHECK(shoot_digest(rig, 50'000, 2) != one);
     }
+}
+
+TEST_CASE("identity: light of a coloured sky map, every instruction set and number of threads") {
+    Rig rig = make_lump(kAlbedos[0]);
+    const SkyMap map =
+        sky_test::sky_map_of(sky_test::rough_sky(12, 7, true), true, rig.medium.extent_m, 33);
+    rig.medium.channels = 3;
+    rig.lighting.map = map.view;
+    rig.lighting.lights.clear();
+    add_light(rig, map_light(map));
+    rig.kernels = kernel_table_at(0);
+    const std::string scalar = shoot_digest(rig, 20'000, 2);
+    for (int i = 1; const KernelTable* table = kernel_table_at(i); ++i) {
+        CAPTURE(table->name);
+        rig.kernels = table;
+        for (int threads : {1, 3}) {
+            rig.threads = threads;
+            CHECK(shoot_digest(rig, 20'000, 2) == scalar);
+        }
+    }
+    // A map turned by a fraction of a texel gives other bits: the digest sees the directions.
+    const SkyMap turned =
+        sky_test::sky_map_of(sky_test::rough_sky(12, 7, true), true, rig.medium.extent_m, 34);
+    rig.lighting.map = turned.view;
+    CHECK(shoot_digest(rig, 20'000, 2) != scalar);
 }
 
 TEST_CASE("identity: one launch, odd pieces, or one photon at a time") {
