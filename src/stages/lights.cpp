@@ -35,6 +35,52 @@ void set_faces(const double (&flux)[6], Light& light) {
 
 bool any_positive(const std::array<double, 3>& c) { return c[0] > 0 || c[1] > 0 || c[2] > 0; }
 
+/// Unit vector towards the sun.
+std::array<double, 3> sun_direction(const Scene& scene, double elevation_deg) {
+    const SineCosine el = sincos_deg(elevation_deg), az = sincos_deg(scene.sun.azimuth_deg);
+    return {az.sine * el.cosine, az.cosine * el.cosine, el.sine};
+}
+
+void plan_sun(const Scene& scene, double elevation_deg, Plan& plan, Lighting& out) {
+    const std::array<double, 3> to_sun = sun_direction(scene, elevation_deg);
+    for (std::size_t c = 0; c < 3; ++c) {
+        out.to_sun[c] = float(to_sun[c]);
+        if (scene.sun.present) out.sun_irradiance[c] = double(scene.sun.irradiance[c]);
+    }
+    out.sunlit = any_positive(out.sun_irradiance);
+    if (out.sunlit && scene.ground.present && to_sun[2] <= 0) {
+        out.sunlit = false;
+        plan.leave_out("sun", "below the ground's horizon");
+    }
+    if (!out.sunlit) out.sun_irradiance = {};
+}
+
+/// Radiance of the unshadowed ground: albedo / pi times what falls on it.
+void plan_ground(const Scene& scene, const Medium& medium, const SkyMap* map, double elevation_deg,
+                 Plan& plan, Lighting& out) {
+    out.ground = scene.ground.present;
+    if (!out.ground) {
+        plan.leave_out("ground bounce", "no ground");
+        return;
+    }
+    const double height = sincos_deg(elevation_deg).sine;
+    out.ground_z = scene.ground.altitude_m - medium.low_m[2];
+    out.ground_albedo = scene.ground.albedo;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double sky = map != nullptr ? map->ground_irradiance[c] / kPiD : out.sky[c];
+        out.ground_diffuse[c] = out.ground_albedo * sky;
+        out.ground_sun[c] = out.ground_albedo / kPiD * out.sun_irradiance[c] * height;
+    }
+}
+
+void add_light(const char* name, std::uint32_t stream, const std::array<double, 3>& colour,
+               Light light, Lighting& out) {
+    light.name = name;
+    light.stream = stream;
+    light.colour = colour;
+    out.lights.push_back(std::move(light));
+}
+
 }  // namespace
 
 Light diffuse_light(const Medium& medium, int hemisphere) {
@@ -90,46 +136,21 @@ Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elev
                        Plan& plan, const SkyMap* map) {
     Lighting out;
     const bool mapped = map != nullptr && map->present();
+    const bool dark = medium.sigma <= 0 || medium.density_max <= 0;
     if (mapped) out.map = map->view;
     if (scene.sky.present && !mapped) plan.leave_out("sky map", "constant sky");
-    const bool dark = medium.sigma <= 0 || medium.density_max <= 0;
-    const bool white = medium.albedo[0] == 1 && medium.albedo[1] == 1 && medium.albedo[2] == 1;
-    const SineCosine el = sincos_deg(sun_elevation_deg), az = sincos_deg(scene.sun.azimuth_deg);
-    const std::array<double, 3> to_sun{az.sine * el.cosine, az.cosine * el.cosine, el.sine};
-    for (std::size_t c = 0; c < 3; ++c) {
-        out.to_sun[c] = float(to_sun[c]);
+    plan_sun(scene, sun_elevation_deg, plan, out);
+    for (std::size_t c = 0; c < 3; ++c)
         if (scene.sky.present && !mapped) out.sky[c] = double(scene.sky.radiance[c]);
-        if (scene.sun.present) out.sun_irradiance[c] = double(scene.sun.irradiance[c]);
-    }
-    out.ground = scene.ground.present;
-    out.sunlit = any_positive(out.sun_irradiance);
-    if (out.sunlit && out.ground && to_sun[2] <= 0) {
-        out.sunlit = false;
-        plan.leave_out("sun", "below the ground's horizon");
-    }
-    if (!out.sunlit) out.sun_irradiance = {};
-    if (out.ground) {
-        out.ground_z = scene.ground.altitude_m - medium.low_m[2];
-        out.ground_albedo = scene.ground.albedo;
-        for (std::size_t c = 0; c < 3; ++c) {
-            out.ground_diffuse[c] =
-                out.ground_albedo * (mapped ? map->ground_irradiance[c] / kPiD : out.sky[c]);
-            out.ground_sun[c] = out.ground_albedo / kPiD * out.sun_irradiance[c] * to_sun[2];
-        }
-    } else {
-        plan.leave_out("ground bounce", "no ground");
-    }
+    plan_ground(scene, medium, mapped ? map : nullptr, sun_elevation_deg, plan, out);
     if (dark) {
         plan.leave_out("photons", "no medium to scatter them");
         return out;
     }
-
     if (out.sunlit) {
+        const std::array<double, 3> to_sun = sun_direction(scene, sun_elevation_deg);
         Light sun = beam_light(medium, {-to_sun[0], -to_sun[1], -to_sun[2]});
-        sun.name = "sun";
-        sun.colour = out.sun_irradiance;
-        sun.stream = 1;
-        out.lights.push_back(sun);
+        add_light("sun", 1, out.sun_irradiance, sun, out);
     } else if (!scene.sun.present || scene.ground.present == false) {
         plan.leave_out("sun photons", "no sunlight");
     }
@@ -137,34 +158,22 @@ Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elev
     // A white medium in a uniform field shows that field everywhere, whatever its shape: take the
     // sky's radiance out as a constant, and light the cloud from below by what the ground's
     // radiance differs from it.
-    const bool lit_sky = any_positive(out.sky);
+    const bool white = medium.albedo[0] == 1 && medium.albedo[1] == 1 && medium.albedo[2] == 1;
     std::array<double, 3> below{};
     for (std::size_t c = 0; c < 3; ++c) below[c] = out.ground_diffuse[c] + out.ground_sun[c];
     if (mapped && map->power_m2 > 0) {
-        Light sky = map_light(*map);
-        sky.name = "sky";
-        sky.stream = 2;
-        out.lights.push_back(sky);
-    } else if (white && lit_sky) {
+        add_light("sky", 2, {1, 1, 1}, map_light(*map), out);
+    } else if (white && any_positive(out.sky)) {
         out.constant = out.sky;
         plan.leave_out("sky photons", "constant sky and albedo 1: the furnace identity");
         for (std::size_t c = 0; c < 3; ++c) below[c] -= out.sky[c];
-    } else if (lit_sky) {
-        Light sky = diffuse_light(medium, out.ground ? -1 : 0);
-        sky.name = "sky";
-        sky.colour = out.sky;
-        sky.stream = 2;
-        out.lights.push_back(sky);
+    } else if (any_positive(out.sky)) {
+        add_light("sky", 2, out.sky, diffuse_light(medium, out.ground ? -1 : 0), out);
     } else {
         plan.leave_out("sky photons", "no sky");
     }
-    if (out.ground && (below[0] != 0 || below[1] != 0 || below[2] != 0)) {
-        Light ground = diffuse_light(medium, 1);
-        ground.name = "ground";
-        ground.colour = below;
-        ground.stream = 3;
-        out.lights.push_back(ground);
-    }
+    if (out.ground && (below[0] != 0 || below[1] != 0 || below[2] != 0))
+        add_light("ground", 3, below, diffuse_light(medium, 1), out);
     return out;
 }
 
