@@ -74,7 +74,7 @@ TEST_CASE("program: a map that cannot be used ends it with status 2 or 3 and lea
         const char* map;
         int status;
         const char* line;
-    } rows[] = {{"none.exr", 2, "none.exr: "},
+    } rows[] = {{"none.pfm", 2, "none.pfm: "},
                 {"low.pfm", 2, "low.pfm: pixel 0 0: R: no radiance, -1, allowed: 0 to 1e30"},
                 {"wide.pfm", 3, "wide.pfm: size: too large, 32768 x 4096, allowed: "}};
     for (const auto& row : rows) {
