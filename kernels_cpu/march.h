@@ -39,16 +39,22 @@ PILEUS_FN Block<T> block_ahead(const MediumView& m, const Vec<T>& p, const Vec<T
     return {gather(m.majorant, (z * m.blocks[1] + y) * m.blocks[0] + x), max_(t, T{})};
 }
 
+/// Shortest step as a share of the ray in the box: grids have at most 4096 cells along an axis, so
+/// that a ray still takes two steps or more in each cell it crosses.
+constexpr float kLeastStep = 0x1p-13f;
+
 /// Visits the middles of steps that start at enter + n step; the last one ends at `leave`.
 /// `sample(dense, t, width, voxel position)` may return lanes that are finished.
 template <class T, class Sample>
 PILEUS_FN void march_ray(const MediumView& m, const Ray<T>& ray, T enter, T leave, Sample sample) {
     T n{};
     auto alive = enter < leave;
+    // A flat voxel sets the step for rays along it, too: bound their number (docs/testing.md S41).
+    const T step = max_(all<T>(m.step), (leave - enter) * kLeastStep), per_metre = 1.0f / step;
     // Bounded: every turn of the loop advances every living lane by a step.
     while (any(alive)) {
-        const T start = enter + n * m.step;
-        const T width = max_(min_(all<T>(m.step), leave - start), T{});
+        const T start = enter + n * step;
+        const T width = max_(min_(step, leave - start), T{});
         const T t = start + 0.5f * width;
         const Vec<T> q = along(ray, t);
         const Vec<T> p{q.x * (1.0f / m.cell[0]), q.y * (1.0f / m.cell[1]),
@@ -57,9 +63,9 @@ PILEUS_FN void march_ray(const MediumView& m, const Ray<T>& ray, T enter, T leav
         const auto dense = alive & (block.bound > 0.0f);
         const auto ended = sample(dense, t, width, p);
         // Jump to the last step whose middle lies in an empty block; it adds nothing either.
-        const T skipped = to_float(to_int(min_(block.rest * (1.0f / m.step), all<T>(1e6f))));
+        const T skipped = to_float(to_int(min_(block.rest * per_metre, all<T>(1e6f))));
         n = select(dense, n + 1.0f, n + max_(skipped, all<T>(1.0f)));
-        alive = alive & lnot(dense & ended) & (enter + n * m.step < leave);
+        alive = alive & lnot(dense & ended) & (enter + n * step < leave);
     }
 }
 
