@@ -56,7 +56,8 @@ template <class T>
 PILEUS_FN Segment<T> clip_to_box(const Vec<T>& o, const Vec<T>& d, const float* extent) {
     T enter{}, leave = all<T>(3.0e38f);
     const auto slab = [&](T origin, T direction, float size) {
-        const T inverse = 1.0f / copysign_(max_(abs_(direction), all<T>(1e-18f)), direction);
+        // Adding zero makes one of both zeros: a ray in a face's plane has one answer.
+        const T inverse = 1.0f / copysign_(max_(abs_(direction), all<T>(1e-18f)), direction + 0.0f);
         const T a = (T{} - origin) * inverse, b = (size - origin) * inverse;
         enter = max_(enter, min_(a, b));
         leave = min_(leave, max_(a, b));
