@@ -30,6 +30,16 @@ void aim_deposit(const Scene& scene, CollectorsRun& run) {
         run.deposit.camera[a] = scene.camera.orthographic ? -camera.forward[a] : camera.origin[a];
 }
 
+/// The sun that the lights are planned for: one that only rises during an animation needs its
+/// place among them from the start.
+double first_elevation(const Scene& scene) {
+    const Animation& a = scene.animation;
+    const double own = scene.sun.elevation_deg;
+    if (!scene.ground.present || own > 0 || !a.present || !a.moves_sun) return own;
+    return a.sun_elevation_deg[0] > a.sun_elevation_deg[1] ? a.sun_elevation_deg[0]
+                                                           : a.sun_elevation_deg[1];
+}
+
 /// Decides what a collision stores, and proves that the sums hold it.
 Status plan_deposit(const Scene& scene, CollectorsRun& run) {
     const CollectorSettings& c = scene.collectors;
@@ -163,9 +173,10 @@ Status collectors_prepare(const Scene& scene, std::int64_t photons, const Contex
     run.generations = std::uint64_t(scene.collectors.generations);
     if (photons >= 0 && std::uint64_t(photons) < run.generations)
         run.generations = photons > 0 ? std::uint64_t(photons) : 1;
-    run.sun_elevation_deg = scene.sun.elevation_deg;
+    run.sun_elevation_deg = first_elevation(scene);
     run.lighting = plan_lighting(scene, run.medium, run.sun_elevation_deg, run.plan, &run.sky_map);
     share_photons(std::uint64_t(photons) / run.generations, run.lighting.lights);
+    for (const Light& l : run.lighting.lights) run.light_photons.push_back(l.photons);
     run.ground_map = make_ground_map(run.medium, run.lighting);
     PILEUS_TRY(plan_deposit(scene, run));
     PILEUS_TRY(
@@ -186,15 +197,16 @@ Status collectors_set_sun(double elevation_deg, const Context&, CollectorsRun& r
     Plan ignored;
     const std::vector<Light> before = run.lighting.lights;
     Lighting next = plan_lighting(*run.scene, run.medium, elevation_deg, ignored, &run.sky_map);
-    // The set of lights is the ring's layout: a light that has set keeps its place, unlit.
+    // The set of lights is the ring's layout: a light that has set keeps its place and shoots no
+    // photons; those of its day stay in the ring until they leave it.
     std::vector<Light> lights = before;
-    for (Light& l : lights) {
-        const std::uint64_t photons = l.photons;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
         bool found = false;
         for (const Light& n : next.lights)
-            if (n.stream == l.stream) l = n, found = true;
-        l.photons = photons;
-        if (!found) l.colour = {0, 0, 0};
+            if (n.stream == lights[i].stream) lights[i] = n, found = true;
+        lights[i].photons = found ? run.light_photons[i] : 0;
+        // A diffuse light's colour is today's for the whole ring; a beam's never changes.
+        if (!found && !lights[i].beam) lights[i].colour = {0, 0, 0};
     }
     next.lights = lights;
     run.lighting = next;
@@ -208,8 +220,7 @@ Status collectors_shoot(const Context& context, CollectorsRun& run) {
     PhotonSlot& slot =
         run.photons.slots[std::size_t(run.next_generation % run.photons.slots.size())];
     // In an animation each generation has a slot of its own: the oldest gives way, exactly.
-    const bool ring = run.photons.slots.size() == run.generations && run.generations > 1 &&
-                      run.scene->animation.present;
+    const bool ring = run.photons.slots.size() == run.generations && run.scene->animation.present;
     if (ring && slot.generations > 0) {
         std::memset(slot.sums.data(), 0, std::size_t(slot.sums.bytes()));
         slot.generations = 0;

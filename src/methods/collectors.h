@@ -20,6 +20,7 @@ struct CollectorsRun {
     SkyMap sky_map;
     Plan plan;
     Lighting lighting;
+    std::vector<std::uint64_t> light_photons;  ///< per light and generation while it is up
     double sun_elevation_deg = 0;
     Prepared prepared;
     DepositPlan deposit;
