@@ -13,7 +13,14 @@ Double3 minus(const Double3& a, const Double3& b) {
 Double3 cross(const Double3& a, const Double3& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
-Double3 unit(const Double3& a) {
+/// A vector whose squares would leave the range of doubles, 2^600 times as long.
+Double3 in_range(const Double3& a) {
+    for (double v : a)
+        if (v > 0x1p-300 || v < -0x1p-300) return a;
+    return {a[0] * 0x1p600, a[1] * 0x1p600, a[2] * 0x1p600};
+}
+Double3 unit(const Double3& v) {
+    const Double3 a = in_range(v);
     const double s = 1.0 / __builtin_sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
     return {a[0] * s, a[1] * s, a[2] * s};
 }
@@ -30,7 +37,7 @@ CameraParams make_camera(const Camera& camera, double orbit_deg, const Double3& 
                            camera.target_m[1] + arm[0] * turn.sine + arm[1] * turn.cosine,
                            camera.position_m[2]};
     const Double3 forward = unit(minus(camera.target_m, position));
-    const Double3 right = unit(cross(forward, camera.up));
+    const Double3 right = unit(cross(forward, in_range(camera.up)));
     const Double3 up = cross(right, forward);
 
     CameraParams out{};
