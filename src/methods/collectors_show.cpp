@@ -248,9 +248,10 @@ Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& 
                        : show_billboards(context, run, camera, colours, channels, planes));
     Report& report = *context.report;
     report.counters.clear();
-    PILEUS_TRY(
-        make_layers(planes, camera.width, camera.height, channels, scene.output, image, report));
-    report.counters.emplace_back("clamped_negative", colours.clamped_negative);
+    std::uint64_t clamped = colours.clamped_negative;
+    PILEUS_TRY(make_layers(planes, camera.width, camera.height, channels, scene.output, image,
+                           report, clamped));
+    report.counters.emplace_back("clamped_negative", clamped);
     set_image_camera(camera, run.medium.low_m, image);
     Digest digest;
     digest.floats(colours.colour.span());

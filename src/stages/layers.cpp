@@ -62,7 +62,8 @@ Status allocate_planes(int width, int height, int channels, Planes& planes) {
 }
 
 Status make_layers(const Planes& planes, int width, int height, int channels,
-                   const OutputSettings& output, Image& image, Report& report) {
+                   const OutputSettings& output, Image& image, Report& report,
+                   std::uint64_t& clamped) {
     image.width = width;
     image.height = height;
     image.channels.clear();
@@ -77,8 +78,10 @@ Status make_layers(const Planes& planes, int width, int height, int channels,
         PILEUS_TRY(add_channel(image, kColour[c], plane));
         for (std::size_t i = 0; i < pixels; ++i) {
             const std::size_t at = std::size_t(c) * pixels + i;
-            plane->pixels[i] = planes.colour[at] + planes.transmittance[i] * planes.background[at];
-            if (!finite(plane->pixels[i])) ++broken;
+            float& v = plane->pixels[i];
+            v = planes.colour[at] + planes.transmittance[i] * planes.background[at];
+            if (!finite(v)) ++broken;
+            if (v < 0) v = 0, ++clamped;
         }
     }
     PILEUS_TRY(add_channel(image, "A", plane));

@@ -20,7 +20,10 @@ struct Planes {
 Status allocate_planes(int width, int height, int channels, Planes& planes);
 
 /// Fills the image's channels and the report's error figures; counts pixels that are not finite.
+/// Radiances below zero, noise of the light that the cloud keeps from the ground, become 0 and are
+/// added to `clamped`.
 Status make_layers(const Planes& planes, int width, int height, int channels,
-                   const OutputSettings& output, Image& image, Report& report);
+                   const OutputSettings& output, Image& image, Report& report,
+                   std::uint64_t& clamped);
 
 }  // namespace pileus
