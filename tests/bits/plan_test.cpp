@@ -6,6 +6,8 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 using namespace pileus;
 
 namespace {
@@ -38,4 +40,17 @@ TEST_CASE("plan: no photon at all, and more than any sum can hold") {
     CHECK(fixed_point_places(0, 1) == 30);
     CHECK(fixed_point_places(1e17, 1) < 0);
     CHECK(fixed_point_places(1e300, 1) < 0);
+}
+
+TEST_CASE("S60: one deposit too many for the places costs a place, or the scene") {
+    for (double largest : {0.28, 1.0, 1.1, 6.5})
+        for (int s = 30; s >= 8; --s) {
+            const double one = largest * double(std::uint64_t{1} << s) + 0.5;
+            if (one >= 2147483520.0) continue;
+            // Around the last number that fits; 64 is more than doubles of this size can blur.
+            const double capacity = std::floor(4.6e18 / one);
+            CAPTURE(s);
+            CHECK(fixed_point_places(capacity - 64, largest) == s);
+            CHECK(fixed_point_places(capacity + 64, largest) == (s > 8 ? s - 1 : -1));
+        }
 }
