@@ -55,7 +55,30 @@ TEST_CASE("volume: claims of 10^12 voxels and of overflowing products are refuse
                 read_raw_volume(folder.put("v.raw", "12345678901"), type, size, false, v);
             CHECK((status.code == Code::kBadInput || status.code == Code::kLimit));
         }
-    // What a file of eleven bytes can fill is nothing beside 64 MiB.
+    for (const char* text : {"10000,10000,10000\n", "4096,4096,128\n1,1\n1\n0,0,0,1\n",
+                             "2147483647 2147483647 2147483647\n", "4294967297,1,1\n1,1\n0\n"}) {
+        Volume v;
+        MediumSettings les;
+        les.format = "les";
+        const Status status = read_volume(les, folder.put("v.txt", text), v);
+        CAPTURE(text);
+        CHECK((status.code == Code::kBadInput || status.code == Code::kLimit));
+    }
+    for (const std::int32_t side : {10000, 4096, 2147483647, -1, 0}) {
+        std::string bytes("VOL\x03\x01\0\0\0", 8);
+        const auto put = [&](std::int32_t n) {
+            for (int i = 0; i < 4; ++i) bytes += char(std::uint32_t(n) >> 8 * i & 255);
+        };
+        put(side), put(side), put(side), put(1);
+        bytes += std::string(24, '\0') + "12345678";
+        Volume v;
+        MediumSettings vol;
+        vol.format = "vol";
+        const Status status = read_volume(vol, folder.put("v.vol", bytes), v);
+        CAPTURE(side);
+        CHECK((status.code == Code::kBadInput || status.code == Code::kLimit));
+    }
+    // What files of fewer than a hundred bytes can fill is nothing beside 64 MiB.
     CHECK(peak_memory_bytes() - before < (64 << 20));
 }
 
