@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Finds foreign libraries: four required sets of headers, five optional libraries.
+# Finds foreign libraries: four required sets of headers, seven optional libraries.
 # in: PILEUS_<LIBRARY> options -> out: target pileus_headers, PILEUS_WITH_<LIBRARY> (0 or 1),
 # PILEUS_LINK_LIBRARIES, PILEUS_LIBRARY_DEFINITIONS. Debian package names: tools/install_packages
 add_library(pileus_headers INTERFACE)
@@ -42,7 +42,7 @@ endif()
 target_compile_definitions(pileus_headers INTERFACE FMT_HEADER_ONLY=1)
 
 # An optional library is used when it is wanted and found.
-foreach(name OPENEXR PNG OPENMP TESTS BENCHMARKS)
+foreach(name OPENEXR PNG ZLIB BLOSC OPENMP TESTS BENCHMARKS)
     set(PILEUS_WITH_${name} 0)
 endforeach()
 if(PILEUS_OPENEXR)
@@ -60,6 +60,26 @@ if(PILEUS_PNG)
     if(TARGET PNG::PNG)
         set(PILEUS_WITH_PNG 1)
         list(APPEND PILEUS_LINK_LIBRARIES PNG::PNG)
+    endif()
+endif()
+if(PILEUS_ZLIB)
+    find_package(ZLIB QUIET)
+    if(TARGET ZLIB::ZLIB)
+        set(PILEUS_WITH_ZLIB 1)
+        list(APPEND PILEUS_LINK_LIBRARIES ZLIB::ZLIB)
+    endif()
+endif()
+if(PILEUS_BLOSC)
+    # Debian's blosc comes without a CMake package.
+    find_path(PILEUS_BLOSC_INCLUDE blosc.h)
+    find_library(PILEUS_BLOSC_LIBRARY blosc)
+    mark_as_advanced(PILEUS_BLOSC_INCLUDE PILEUS_BLOSC_LIBRARY)
+    if(PILEUS_BLOSC_INCLUDE AND PILEUS_BLOSC_LIBRARY)
+        set(PILEUS_WITH_BLOSC 1)
+        add_library(pileus_blosc INTERFACE)
+        target_include_directories(pileus_blosc SYSTEM INTERFACE "${PILEUS_BLOSC_INCLUDE}")
+        target_link_libraries(pileus_blosc INTERFACE "${PILEUS_BLOSC_LIBRARY}")
+        list(APPEND PILEUS_LINK_LIBRARIES pileus_blosc)
     endif()
 endif()
 if(PILEUS_OPENMP)
@@ -83,7 +103,7 @@ if(PILEUS_BENCHMARKS)
 endif()
 
 # Only what is there becomes visible to the source.
-foreach(name OPENEXR PNG)
+foreach(name OPENEXR PNG ZLIB BLOSC)
     if(PILEUS_WITH_${name})
         list(APPEND PILEUS_LIBRARY_DEFINITIONS PILEUS_WITH_${name}=1)
     endif()

@@ -6,6 +6,7 @@
 
 #include "src/base/file.h"
 #include "src/io/les_volume.h"
+#include "src/io/vdb_file.h"
 #include "src/io/vol_volume.h"
 #include "src/scene/volume_format.h"
 
@@ -77,6 +78,7 @@ Status read_volume(const MediumSettings& medium, const std::string& path, Volume
     PILEUS_TRY(find_format(medium, path, format));
     if (format == "les") return read_les_volume(path, volume);
     if (format == "vol") return read_vol_volume(path, volume);
+    if (format == "openvdb") return read_vdb_volume(path, medium.grid, volume);
     if (format == "raw")
         return read_raw_volume(path, medium.raw_type, medium.raw_size, medium.raw_big_endian,
                                volume);
@@ -88,6 +90,7 @@ Status read_volume_head(const MediumSettings& medium, const std::string& path, V
     PILEUS_TRY(find_format(medium, path, format));
     if (format == "les") return read_les_head(path, head);
     if (format == "vol") return read_vol_head(path, head);
+    if (format == "openvdb") return read_vdb_head(path, medium.grid, head);
     if (format == "raw") return read_raw_head(path, medium.raw_type, medium.raw_size, head);
     return read_pbrt_head(path, head);
 }

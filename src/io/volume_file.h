@@ -42,6 +42,15 @@ Status decode_raw_volume(const std::string& name, Span<const char> bytes, RawTyp
 Status read_raw_head(const std::string& path, RawType type, const std::array<int, 3>& size,
                      VolumeHead& head);
 
+/// What write_raw_volume divides by: for whole numbers the largest value, of relative densities
+/// only where that is above 1; otherwise 1.
+double raw_scale(const Volume& volume, RawType type);
+
+/// Writes bare numbers, x fastest. float32 keeps every bit; whole numbers hold density / raw_scale,
+/// rounded to the nearest of 0..255 or 0..65535. Out of memory: kLimit; cannot write: kIo.
+Status write_raw_volume(const std::string& path, RawType type, bool big_endian,
+                        const Volume& volume);
+
 /// Turns a grid whose y axis points up by +90 degrees about x: (x, y, z) -> (x, -z, y), values and
 /// box alike, so that z points up and handedness is kept. Out of memory: kLimit.
 Status permute_y_up(Volume& volume);

@@ -42,6 +42,7 @@ public:
             }
         }
         extinction();
+        grid_name();
         phase();
         bounds();
     }
@@ -104,6 +105,19 @@ private:
         }
     }
 
+    /// A grid has a name in OpenVDB files only, and it is said once.
+    void grid_name() {
+        const Node* beside = check_.valid_key(path_ + "grid");
+        const Node* within = check_.valid_key(path_ + "density.grid");
+        for (const Node* node : {beside, within})
+            if (node != nullptr && medium_.format != "openvdb")
+                fault(*node, node == beside ? "grid" : "density.grid",
+                      "for OpenVDB files only, " + value_text(*node) + ", allowed: left out");
+        if (beside != nullptr && within != nullptr)
+            fault(*within, "density.grid",
+                  "given twice, " + value_text(*within) + ", allowed: grid or density.grid");
+    }
+
     void format_by_name(const Node& density) {
         const bool raw_keys = check_.key(path_ + "density.type") != nullptr ||
                               check_.key(path_ + "density.size") != nullptr;
@@ -115,8 +129,7 @@ private:
             medium_.format = format->name;
             return;
         }
-        bool later = false;
-        for (const char* end : {".vdb", ".nc"}) later = later || ends_with(medium_.file, end);
+        const bool later = ends_with(medium_.file, ".nc");
         fault(density, "density",
               std::string(later ? "not in this version, " : "unknown kind of file, ") +
                   quote_text(medium_.file) + ", allowed: " + volume_format_extensions() +

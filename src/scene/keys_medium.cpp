@@ -29,10 +29,10 @@ void set_cells(const Node& n, std::array<int, 3>& cells) {
 const KeyRow kRows[] = {
     plain_key(KeyKind::kDensity, "medium.N.density", kRequired,
               "`procedural:cumulus`, `uniform:box`, `uniform:sphere`, `uniform:ellipsoid` (filling "
-              "bounds_m), the path of a file, or a table for a raw file",
+              "bounds_m), the path of a file, or a table for a raw or OpenVDB file",
               nullptr),
     plain_key(KeyKind::kText, "medium.N.density.file", kRequired,
-              "path of the raw file, relative to the scene file; `${PILEUS_DATA_DIR}` may stand at "
+              "path of the file, relative to the scene file; `${PILEUS_DATA_DIR}` may stand at "
               "its front",
               nullptr),
     choice_key(KeyKind::kText, "medium.N.density.type", "", "uint8|uint16|float32", nullptr,
@@ -44,9 +44,16 @@ const KeyRow kRows[] = {
     choice_key(KeyKind::kText, "medium.N.density.endian", "\"little\"", "little|big", nullptr,
                "byte order of the raw file",
                [](const Node& n, KeyTarget t) { t.medium.raw_big_endian = n.text == "big"; }),
-    choice_key(KeyKind::kText, "medium.N.format", "", "pbrt|raw|vol|les", "openvdb|netcdf",
+    plain_key(KeyKind::kText, "medium.N.density.grid", "",
+              "the same as `grid` beside it: name of the grid in an OpenVDB file",
+              [](const Node& n, KeyTarget t) { t.medium.grid = n.text; }),
+    choice_key(KeyKind::kText, "medium.N.format", "", "pbrt|raw|vol|les|openvdb", "netcdf",
                "kind of the file; left out: told by the end of its name",
                [](const Node& n, KeyTarget t) { t.medium.format = n.text; }),
+    plain_key(KeyKind::kText, "medium.N.grid", "",
+              "name of the grid in an OpenVDB file; left out: the first of floats that is no level "
+              "set",
+              [](const Node& n, KeyTarget t) { t.medium.grid = n.text; }),
     range_key(KeyKind::kBounds, "medium.N.bounds_m", "m", "", {-1e9, 1e9, false, false},
               "lowest and highest corner of the medium's box; may be left out for files that know "
               "their place, and wins where given",

@@ -12,7 +12,7 @@ namespace {
 // One row for an extension; rows of one name stand together and agree in their unit.
 constexpr VolumeFormat kFormats[] = {
     {"pbrt", ".pbrt", false}, {"raw", ".raw", false}, {"vol", ".vol", false},
-    {"les", ".txt", true},    {"les", ".les", true},
+    {"les", ".txt", true},    {"les", ".les", true},  {"openvdb", ".vdb", false},
 };
 
 }  // namespace

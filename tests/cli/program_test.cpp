@@ -52,12 +52,13 @@ void check_fault(const ProgramFolder& folder, const Fault& fault) {
 TEST_CASE("program: wrong usage is one line and exit 2") {
     const ProgramFolder folder;
     const Fault faults[] = {
-        {"", 2, "no subcommand, allowed: render, plan, hash, info"},
-        {"paint s.toml", 2, "unknown subcommand, \"paint\", allowed: render, plan, hash, info"},
+        {"", 2, "no subcommand, allowed: render, plan, hash, info, convert"},
+        {"paint s.toml", 2,
+         "unknown subcommand, \"paint\", allowed: render, plan, hash, info, convert"},
         {"--loud render s.toml", 2, "unknown option before the subcommand, \"--loud\""},
         {"study s.toml", 2, "pileus study: not in this version"},
         {"compare a.exr b.exr", 2, "pileus compare: not in this version"},
-        {"convert a.exr b.png", 2, "pileus convert: not in this version"},
+        {"convert a.exr b.png", 2, "b.png: extension: unknown, \".png\", allowed: .vdb .raw"},
         {"view s.toml", 2, "pileus view: not in this version"},
         {"render s.toml -o a.pfm --loud", 2, "--loud, allowed: see pileus render --help"},
         {"render s.toml t.toml -o a.pfm", 2, "t.toml, allowed: see pileus render --help"},
@@ -182,7 +183,8 @@ TEST_CASE("program: version and help go to the standard output, exit 0") {
     const Outcome version = folder.run("--version");
     CHECK(version.exit_status == 0);
     CHECK(version.output == std::string("pileus ") + kVersion + "\n");
-    for (const char* arguments : {"-h", "--help", "render -h", "plan -h", "hash -h", "info -h"}) {
+    for (const char* arguments :
+         {"-h", "--help", "render -h", "plan -h", "hash -h", "info -h", "convert -h"}) {
         CAPTURE(arguments);
         const Outcome help = folder.run(arguments);
         CHECK(help.exit_status == 0);

@@ -227,9 +227,13 @@ TEST_CASE("densities and their files") {
          "s.toml:7:14: medium.0.resolution: not for a file, [1, 1, 1], allowed: left out"},
         {kCamera + kFile + "density = \"a.dat\"\n",
          "s.toml:6:11: medium.0.density: unknown kind of file, \"a.dat\", allowed: .pbrt, .raw, "
-         ".vol, .txt, .les, or the key format = \"pbrt\""},
-        {kCamera + kFile + "density = \"a.vdb\"\n",
-         "s.toml:6:11: medium.0.density: not in this version, \"a.vdb\", ..."},
+         ".vol, .txt, .les, .vdb, or the key format = \"pbrt\""},
+        {kCamera + kFile + "density = \"a.nc\"\n",
+         "s.toml:6:11: medium.0.density: not in this version, \"a.nc\", ..."},
+        {kCamera + kFile + "density = \"a.pbrt\"\ngrid = \"d\"\n",
+         "s.toml:7:8: medium.0.grid: for OpenVDB files only, \"d\", allowed: left out"},
+        {kCamera + kFile + "density = { file = \"a.vdb\", grid = \"e\" }\ngrid = \"d\"\n",
+         "s.toml:6:36: medium.0.density.grid: given twice, \"e\", allowed: grid or density.grid"},
         {kCamera + kFile + "density = { file = \"a.raw\", type = \"int\", size = [1, 1, 1] }\n" +
              box,
          "s.toml:6:36: medium.0.density.type: unknown value, \"int\", allowed: uint8, uint16, "
@@ -284,9 +288,9 @@ TEST_CASE("parts of the format that this version cannot use") {
          "s.toml:8:12: medium.0.boundary: not in this version, \"periodic\", allowed: open"},
         {kCamera + kMedium + "phase = { type = \"cloud\" }\n",
          "s.toml:8:18: medium.0.phase.type: not in this version, \"cloud\", ..."},
-        {kCamera + kFile + "density = \"a.x\"\nformat = \"openvdb\"\n",
-         "s.toml:7:10: medium.0.format: not in this version, \"openvdb\", allowed: pbrt, raw, vol, "
-         "les"},
+        {kCamera + kFile + "density = \"a.x\"\nformat = \"netcdf\"\n",
+         "s.toml:7:10: medium.0.format: not in this version, \"netcdf\", allowed: pbrt, raw, vol, "
+         "les, openvdb"},
     };
     for (const Row& row : rows) check(row);
 }

@@ -44,7 +44,8 @@ void dump_list(std::ostream& s, const List& list) {
 }
 
 void dump_medium(std::ostream& s, const MediumSettings& m) {
-    s << int(m.density) << ' ' << m.file << ' ' << m.format << ' ' << int(m.raw_type) << ' ';
+    s << int(m.density) << ' ' << m.file << ' ' << m.format << ' ' << m.grid << ' '
+      << int(m.raw_type) << ' ';
     dump_list(s, m.raw_size);
     s << m.raw_big_endian << ' ' << m.has_bounds << ' ';
     for (const Double3& corner : m.bounds_m) dump_list(s, corner);
@@ -135,6 +136,13 @@ phase = { type = "rayleigh" }
 [[medium]]
 density = "c.txt"
 extinction_scale = 2.5
+[[medium]]
+density = "c.vdb"
+grid = "smoke"
+extinction_per_m = 1
+[[medium]]
+density = { file = "d.vdb", grid = "fog" }
+extinction_per_m = 1
 [method]
 name = "collectors"
 [collectors]
@@ -177,11 +185,13 @@ TEST_CASE("every key of a full scene reaches its field") {
           "1 120 35 2 3 4 \n"
           "1 0 0 0 a.PFM 2 -20\n"
           "1 -10 0.5\n"
-          "0   2 0 0 0 0 1 0 0 0 1 2 3 3 4 5 8 0.050000000000000003 1 0.10000000149011612 "
+          "0    2 0 0 0 0 1 0 0 0 1 2 3 3 4 5 8 0.050000000000000003 1 0.10000000149011612 "
           "0.20000000298023224 0.30000001192092896 2 -1 0 0 1 0\n"
-          "4 a.dat raw 1 7 8 9 1 1 0 0 0 1 1 1 0 0 0 0 1000000000000 1 1 1 1 3 0 1 -0.5 0.75 1\n"
-          "4 b.txt pbrt 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 1 0 0 0 1 0\n"
-          "4 c.txt les 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 2.5 1 1 1 0 0 0 0 1 0\n"
+          "4 a.dat raw  1 7 8 9 1 1 0 0 0 1 1 1 0 0 0 0 1000000000000 1 1 1 1 3 0 1 -0.5 0.75 1\n"
+          "4 b.txt pbrt  2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 1 0 0 0 1 0\n"
+          "4 c.txt les  2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 2.5 1 1 1 0 0 0 0 1 0\n"
+          "4 c.vdb openvdb smoke 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 1 0 0 0 0 1 0\n"
+          "4 d.vdb openvdb fog 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 1 0 0 0 0 1 0\n"
           "collectors 2000000 7 5 11 011001 3 0.5 1 2 110 4\n"
           "5\n"
           "x.exr y.pfm r.json 111\n"

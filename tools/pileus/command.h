@@ -19,6 +19,7 @@ void add_render(CLI::App& app, Chosen& chosen);
 void add_plan(CLI::App& app, Chosen& chosen);
 void add_hash(CLI::App& app, Chosen& chosen);
 void add_info(CLI::App& app, Chosen& chosen);
+void add_convert(CLI::App& app, Chosen& chosen);
 
 /// Writes `text` to the standard output at once; a full disk or a closed pipe: kIo.
 Status print(const std::string& text);

@@ -13,10 +13,10 @@
 #include "src/api/render.h"
 #include "src/base/file.h"
 #include "src/io/image_file.h"
-#include "src/scene/toml_tree.h"
+#include "src/io/vdb_file.h"
 #include "src/scene/volume_format.h"
 #include "tools/pileus/command.h"
-#include "tools/pileus/option_text.h"
+#include "tools/pileus/raw_options.h"
 
 namespace pileus {
 
@@ -27,10 +27,8 @@ std::string info_line(const char* name, const std::string& value) {
 namespace {
 
 struct InfoArguments {
-    std::string file;
-    std::vector<std::string> size;
-    std::string type = "float32";
-    bool big_endian = false;
+    std::string file, grid;
+    RawOptions raw;
 };
 
 std::string compiler_text() {
@@ -53,35 +51,13 @@ std::string isa_text() {
 /// The formats that depend on a library tell whether it was built in.
 std::string library_text() {
     const std::string exr = can_write_image("x.exr") ? "OpenEXR yes" : "OpenEXR no";
-    return exr + (can_write_image("x.png") ? ", PNG yes" : ", PNG no");
+    return exr + (can_write_image("x.png") ? ", PNG yes" : ", PNG no") + ", " + vdb_library_text();
 }
 
 std::string program_lines() {
     return info_line("version", kVersion) + info_line("compiler", compiler_text()) +
            info_line("isa", isa_text()) + info_line("threads", fmt::to_string(hardware_threads())) +
            info_line("libraries", library_text());
-}
-
-Status read_raw_facts(const InfoArguments& arguments, MediumSettings& medium) {
-    if (arguments.size.size() != 3)
-        return Status::bad_input(arguments.file +
-                                 ": --size: missing, allowed: --size NX NY NZ for a raw grid");
-    for (std::size_t a = 0; a < 3; ++a) {
-        std::int64_t side = 0;
-        PILEUS_TRY(read_integer("--size", arguments.size[a], 1, kMaxVolumeSide, side));
-        medium.raw_size[a] = int(side);
-    }
-    medium.raw_big_endian = arguments.big_endian;
-    if (arguments.type == "float32")
-        medium.raw_type = RawType::kFloat32;
-    else if (arguments.type == "uint16")
-        medium.raw_type = RawType::kUint16;
-    else if (arguments.type == "uint8")
-        medium.raw_type = RawType::kUint8;
-    else
-        return Status::bad_input("--type: unknown, " + quote_text(arguments.type) +
-                                 ", allowed: float32, uint16, uint8");
-    return Status::ok();
 }
 
 Status run_info(const InfoArguments& arguments) {
@@ -94,7 +70,8 @@ Status run_info(const InfoArguments& arguments) {
     } else if (extension == ".exr" || extension == ".pfm") {
         PILEUS_TRY(image_lines(arguments.file, lines));
     } else if (volume_format_of(arguments.file) != nullptr) {
-        if (extension == ".raw") PILEUS_TRY(read_raw_facts(arguments, medium));
+        medium.grid = arguments.grid;
+        if (extension == ".raw") PILEUS_TRY(read_raw_facts(arguments.file, arguments.raw, medium));
         PILEUS_TRY(volume_lines(arguments.file, medium, lines));
     } else {
         return Status::bad_input(arguments.file + ": extension: unknown, \"" + extension +
@@ -110,12 +87,9 @@ void add_info(CLI::App& app, Chosen& chosen) {
     const auto arguments = std::make_shared<InfoArguments>();
     command->add_option("file", arguments->file, "A scene, picture or density grid")
         ->type_name("FILE");
-    command->add_option("--size", arguments->size, "Cells of a .raw grid along x, y and z")
-        ->expected(3)
-        ->type_name("N");
-    command->add_option("--type", arguments->type, "Of a .raw grid: float32, uint16 or uint8")
-        ->type_name("TYPE");
-    command->add_flag("--big-endian", arguments->big_endian, "Byte order of a .raw grid");
+    command->add_option("--grid", arguments->grid, "Name of the grid of a .vdb file")
+        ->type_name("NAME");
+    add_raw_options(*command, arguments->raw);
     command->callback(
         [arguments, &chosen] { chosen = [arguments] { return run_info(*arguments); }; });
 }

@@ -13,6 +13,10 @@ namespace pileus {
 /// "name           value\n".
 std::string info_line(const char* name, const std::string& value);
 
+/// Lines "size" and, where the place is known, "box".
+std::string size_lines(const std::array<int, 3>& size, bool knows_bounds,
+                       const std::array<std::array<double, 3>, 2>& bounds_m);
+
 Status scene_lines(const std::string& path, std::string& lines);
 Status image_lines(const std::string& path, std::string& lines);
 /// `medium` holds the facts that a raw grid does not state itself.

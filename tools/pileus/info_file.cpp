@@ -129,26 +129,25 @@ Status image_lines(const std::string& path, std::string& lines) {
     return Status::ok();
 }
 
+std::string size_lines(const std::array<int, 3>& n, bool knows_bounds,
+                       const std::array<std::array<double, 3>, 2>& b) {
+    std::string lines = info_line("size", fmt::format("{} x {} x {}", n[0], n[1], n[2]));
+    if (!knows_bounds) return lines + info_line("box", "not in the file");
+    lines += info_line("cell", fmt::format("{:.6g} x {:.6g} x {:.6g} m", (b[1][0] - b[0][0]) / n[0],
+                                           (b[1][1] - b[0][1]) / n[1], (b[1][2] - b[0][2]) / n[2]));
+    return lines + info_line("box", fmt::format("{:g} {:g} {:g} to {:g} {:g} {:g} m", b[0][0],
+                                                b[0][1], b[0][2], b[1][0], b[1][1], b[1][2]));
+}
+
 Status volume_lines(const std::string& path, const MediumSettings& medium, std::string& lines) {
     VolumeHead head;
     Volume volume;
     PILEUS_TRY(read_volume_head(medium, path, head));
     PILEUS_TRY(read_volume(medium, path, volume));
     const Range range = range_of(volume.density.span());
-    const auto& n = volume.size;
     lines += info_line("grid", path);
     lines += info_line("kind", head.kind + (head.detail.empty() ? "" : "; " + head.detail));
-    lines += info_line("size", fmt::format("{} x {} x {}", n[0], n[1], n[2]));
-    const auto& b = volume.bounds_m;
-    if (volume.knows_bounds) {
-        lines +=
-            info_line("cell", fmt::format("{:.6g} x {:.6g} x {:.6g} m", (b[1][0] - b[0][0]) / n[0],
-                                          (b[1][1] - b[0][1]) / n[1], (b[1][2] - b[0][2]) / n[2]));
-        lines += info_line("box", fmt::format("{:g} {:g} {:g} to {:g} {:g} {:g} m", b[0][0],
-                                              b[0][1], b[0][2], b[1][0], b[1][1], b[1][2]));
-    } else {
-        lines += info_line("box", "not in the file");
-    }
+    lines += size_lines(volume.size, volume.knows_bounds, volume.bounds_m);
     lines += info_line("values",
                        volume.in_extinction ? "extinction in 1/m" : "relative density, no unit");
     lines +=

@@ -20,7 +20,7 @@ Status print(const std::string& text) {
 
 namespace {
 
-constexpr const char* kCommands = "render, plan, hash, info";
+constexpr const char* kCommands = "render, plan, hash, info, convert";
 
 /// Says nothing for Code::kOk without a message.
 int finish(const Status& status) {
@@ -53,11 +53,11 @@ Status check_command(int count, char** words) {
     if (!word.empty() && word[0] == '-')
         return Status::bad_input("pileus: unknown option before the subcommand, " +
                                  quote_text(word) + ", allowed: --help, --version");
-    for (const char* later : {"study", "compare", "convert", "view"})
+    for (const char* later : {"study", "compare", "view"})
         if (word == later)
             return Status::bad_input("pileus " + word +
                                      ": not in this version, allowed: " + kCommands);
-    for (const char* known : {"render", "plan", "hash", "info"})
+    for (const char* known : {"render", "plan", "hash", "info", "convert"})
         if (word == known) return Status::ok();
     return Status::bad_input("pileus: unknown subcommand, " + quote_text(word) +
                              ", allowed: " + kCommands);
@@ -72,6 +72,7 @@ int run(int count, char** words) {
     add_plan(app, chosen);
     add_hash(app, chosen);
     add_info(app, chosen);
+    add_convert(app, chosen);
 
     const Status known = check_command(count, words);
     if (!known) return finish(known);

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// pileus convert: round trips through the program, its lines, its faults.
+// in: a small grid -> out: pass or fail.
+// docs/program.md
+#include "tests/cli/run_program.h"
+
+using pileus::test::holds;
+using pileus::test::Outcome;
+using pileus::test::ProgramFolder;
+
+namespace {
+
+// 4 x 2 x 2 voxels, the first and the last not 0.
+const char* const kGrid =
+    "Volume \"volumegrid\" \"integer nx\" 4 \"integer ny\" 2 \"integer nz\" 2 "
+    "\"point p0\" [0 0 10] \"point p1\" [4 2 14] "
+    "\"float density\" [ 0.5 0 0 0  0 0 0 0  0 0 0 0  0 0 0 2 ]\n";
+
+}  // namespace
+
+TEST_CASE("convert: from one format to the next and back") {
+    const ProgramFolder folder;
+    folder.files().put("a.pbrt", kGrid);
+    const Outcome vdb = folder.run("convert a.pbrt a.vdb");
+    CHECK(vdb.errors == "");
+    CHECK(vdb.exit_status == 0);
+    CHECK(vdb.output ==
+          "grid           a.vdb\n"
+          "size           4 x 2 x 2\n"
+          "cell           1 x 1 x 2 m\n"
+          "box            0 0 10 to 4 2 14 m\n"
+          "density = \"a.vdb\"\n");
+    const Outcome info = folder.run("info a.vdb --grid density");
+    CHECK(info.exit_status == 0);
+    CHECK(holds(info.output, "kind           OpenVDB fog volume; grid \"density\" of"));
+    CHECK(holds(info.output, "; 2 active voxels\n"));
+
+    // Whole numbers say what they were divided by.
+    const Outcome raw = folder.run("convert a.vdb a.raw --type uint8");
+    CHECK(raw.exit_status == 0);
+    CHECK(holds(raw.output,
+                "density = { file = \"a.raw\", type = \"uint8\", size = [4, 2, 2] }\n"
+                "# densities were divided by 2: multiply extinction_per_m by it\n"
+                "bounds_m = [[0, 0, 10], [4, 2, 14]]\n"));
+    CHECK(folder.files().get("a.raw") == std::string("\x40\0\0\0\0\0\0\0\0\0\0\0\0\0\0\xff", 16));
+    const Outcome back = folder.run("convert a.raw b.vdb --size 4 2 2 --type uint8 --y-up");
+    CHECK(back.exit_status == 0);
+    CHECK(holds(back.output, "size           4 x 2 x 2\n"));
+
+    // Extinctions in 1/m stay numbers, and the scene is told to take them as they are.
+    folder.files().put("c.les", "1 1 2\n0.02 0.02 0.1 0.2\n0 0 0 0.5 10\n0 0 1 0 10\n");
+    CHECK(holds(folder.run("convert c.les c.vdb").output, "\nextinction_per_m = 1\n"));
+    CHECK(
+        holds(folder.run("convert c.les c.raw --type uint16").output, "\nextinction_per_m = 0.07"));
+
+    // A scene takes the converted file as it takes the first.
+    const std::string keys = " --set 'medium.0.bounds_m=[[-50,-50,0],[50,50,100]]'";
+    const Outcome first =
+        folder.run("render s.toml -q -o a.pfm --set medium.0.density=a.pbrt" + keys);
+    const Outcome second =
+        folder.run("render s.toml -q -o b.pfm --set medium.0.density=a.vdb" + keys);
+    CHECK(first.exit_status == 0);
+    CHECK(first.output.substr(0, 16) == second.output.substr(0, 16));
+}
+
+TEST_CASE("convert: each fault is one line, and no file is left") {
+    const ProgramFolder folder;
+    folder.files().put("a.pbrt", kGrid);
+    folder.files().put("n.vdb", "not a volume");
+    const std::vector<std::string> before = folder.left();
+    struct Row {
+        const char *arguments, *line;
+        int exit_status;
+    };
+    const Row rows[] = {
+        {"a.pbrt b.pbrt", "b.pbrt: extension: unknown, \".pbrt\", allowed: .vdb .raw", 2},
+        {"a.raw b.raw", "b.raw: both files are raw, allowed: one of them", 2},
+        {"a.raw b.vdb", "a.raw: --size: missing", 2},
+        {"a.pbrt b.raw --size 1 1 1", "--size: for a .raw file that is read", 2},
+        {"a.pbrt b.raw --type int", "--type: unknown, \"int\"", 2},
+        {"none.pbrt b.vdb", "none.pbrt: cannot read: no such file", 2},
+        {"n.vdb b.raw", "n.vdb: byte 8: mark of an OpenVDB file: not there", 2},
+        {"a.pbrt /dev/null/b.vdb", "/dev/null/b.vdb: cannot write", 4},
+        {"a.pbrt", "see pileus convert --help", 2},
+    };
+    for (const Row& row : rows) {
+        CAPTURE(row.arguments);
+        const Outcome outcome = folder.run(std::string("convert ") + row.arguments);
+        CHECK(outcome.exit_status == row.exit_status);
+        CHECK_MESSAGE(holds(outcome.errors, row.line), outcome.errors);
+        CHECK(std::count(outcome.errors.begin(), outcome.errors.end(), '\n') == 1);
+        CHECK(outcome.output == "");
+        CHECK(folder.left() == before);
+    }
+}

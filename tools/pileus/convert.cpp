@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// pileus convert: a density grid from one format to another.
+// in: a grid that a scene could read -> out: a .vdb or .raw file, and the lines to use it.
+// docs/program.md
+#include <fmt/format.h>
+
+#include <memory>
+
+#include "src/base/file.h"
+#include "src/io/vdb_file.h"
+#include "src/scene/toml_tree.h"
+#include "tools/pileus/command.h"
+#include "tools/pileus/info.h"
+#include "tools/pileus/raw_options.h"
+
+namespace pileus {
+
+namespace {
+
+struct ConvertArguments {
+    std::string from, to, grid;
+    RawOptions raw;
+    bool y_up = false;
+};
+
+/// The raw options describe whichever of the two files is raw, so only one may be.
+Status check_files(const ConvertArguments& arguments, bool& from_raw, bool& to_raw) {
+    const std::string extension = file_extension(arguments.to);
+    from_raw = file_extension(arguments.from) == ".raw";
+    to_raw = extension == ".raw";
+    if (!to_raw && extension != ".vdb")
+        return Status::bad_input(arguments.to + ": extension: unknown, " + quote_text(extension) +
+                                 ", allowed: .vdb .raw");
+    if (from_raw && to_raw)
+        return Status::bad_input(arguments.to + ": both files are raw, allowed: one of them");
+    if (to_raw && !arguments.raw.size.empty())
+        return Status::bad_input("--size: for a .raw file that is read, allowed: left out");
+    return Status::ok();
+}
+
+Status write_grid(const ConvertArguments& arguments, bool raw, const Volume& volume) {
+    if (!raw) return write_vdb_volume(arguments.to, volume);
+    RawType type = RawType::kFloat32;
+    PILEUS_TRY(read_raw_type(arguments.raw, type));
+    return write_raw_volume(arguments.to, type, arguments.raw.big_endian, volume);
+}
+
+/// The keys of a scene's medium that reads the new file; a comment where a number changed meaning.
+std::string scene_text(const ConvertArguments& arguments, bool raw, const Volume& volume) {
+    const auto& n = volume.size;
+    std::string text;
+    RawType type = RawType::kFloat32;
+    const bool known = bool(read_raw_type(arguments.raw, type));
+    const double scale = raw && known ? raw_scale(volume, type) : 1.0;
+    if (raw) {
+        text = fmt::format("density = {{ file = {}, type = \"{}\", size = [{}, {}, {}]{} }}\n",
+                           quote_text(arguments.to), arguments.raw.type, n[0], n[1], n[2],
+                           arguments.raw.big_endian ? ", endian = \"big\"" : "");
+        if (scale != 1.0 && !volume.in_extinction)
+            text += fmt::format("# densities were divided by {}: multiply extinction_per_m by it\n",
+                                scale);
+    } else {
+        text = fmt::format("density = {}\n", quote_text(arguments.to));
+    }
+    if (volume.in_extinction) text += fmt::format("extinction_per_m = {}\n", scale);
+    const auto& b = volume.bounds_m;
+    if (raw && volume.knows_bounds)
+        text += fmt::format("bounds_m = [[{}, {}, {}], [{}, {}, {}]]\n", b[0][0], b[0][1], b[0][2],
+                            b[1][0], b[1][1], b[1][2]);
+    return text;
+}
+
+Status run_convert(const ConvertArguments& arguments) {
+    bool from_raw = false, to_raw = false;
+    PILEUS_TRY(check_files(arguments, from_raw, to_raw));
+    MediumSettings medium;
+    medium.grid = arguments.grid;
+    RawType type;
+    PILEUS_TRY(read_raw_type(arguments.raw, type));
+    if (from_raw) PILEUS_TRY(read_raw_facts(arguments.from, arguments.raw, medium));
+    Volume volume;
+    PILEUS_TRY(read_volume(medium, arguments.from, volume));
+    if (arguments.y_up) PILEUS_TRY(permute_y_up(volume));
+    PILEUS_TRY(write_grid(arguments, to_raw, volume));
+
+    std::string lines = info_line("grid", arguments.to);
+    lines += size_lines(volume.size, volume.knows_bounds, volume.bounds_m);
+    return print(lines + scene_text(arguments, to_raw, volume));
+}
+
+}  // namespace
+
+void add_convert(CLI::App& app, Chosen& chosen) {
+    CLI::App* command = app.add_subcommand("convert", "Write a density grid in another format");
+    const auto arguments = std::make_shared<ConvertArguments>();
+    command->add_option("in", arguments->from, "A .pbrt, .vdb or .raw file")
+        ->required()
+        ->type_name("IN");
+    command->add_option("out", arguments->to, "The .vdb or .raw file to write")
+        ->required()
+        ->type_name("OUT");
+    command->add_option("--grid", arguments->grid, "Name of the grid of a .vdb file")
+        ->type_name("NAME");
+    command->add_flag("--y-up", arguments->y_up, "Turn a grid whose y axis points up to z up");
+    add_raw_options(*command, arguments->raw);
+    command->callback(
+        [arguments, &chosen] { chosen = [arguments] { return run_convert(*arguments); }; });
+}
+
+}  // namespace pileus
