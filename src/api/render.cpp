@@ -4,8 +4,10 @@
 
 #include "platform/clock.h"
 #include "platform/fp_mode.h"
+#include "src/api/follow.h"
 #include "src/io/image_file.h"
 #include "src/methods/collectors.h"
+#include "src/methods/collectors_views.h"
 
 namespace pileus {
 namespace {
@@ -98,10 +100,13 @@ Status light_frame(const Scene& scene, const RenderOptions& options, const Conte
     return Status::ok();
 }
 
-void finish_report(const CollectorsRun& run, double wall, double cpu, Report& report) {
-    collectors_report(run, report);
-    report.total_s = wall_seconds() - wall;
-    report.cpu_s = cpu_seconds() - cpu;
+struct Stopwatch {
+    double wall = wall_seconds(), cpu = cpu_seconds();
+};
+
+void finish_report(const Stopwatch& watch, Report& report) {
+    report.total_s = wall_seconds() - watch.wall;
+    report.cpu_s = cpu_seconds() - watch.cpu;
     report.peak_bytes = peak_memory_bytes();
     for (const StageTime& s : report.stages)
         if (s.name == "photons") {
@@ -120,17 +125,25 @@ Status frames_of(const Scene& scene, const RenderOptions& options, Frames& frame
                              std::to_string(frames.total - 1));
 }
 
-}  // namespace
+/// Completes a frame's picture and report, and hands both over.
+Status deliver(const Scene& scene, const Stopwatch& watch, int frame, const FrameSink& sink,
+               Image& image, Report& report) {
+    image.pixel_hash = report.hash;
+    image.scene_text = scene.text;
+    finish_report(watch, report);
+    return sink(frame, image, report);
+}
 
-Status render(const Scene& scene, const RenderOptions& options, const FrameSink& sink) {
-    const FpModeGuard guard;
-    const double wall = wall_seconds(), cpu = cpu_seconds();
-    Report report;
-    Context context;
-    Frames frames{};
-    PILEUS_TRY(make_context(scene, options, context, report));
-    PILEUS_TRY(frames_of(scene, options, frames));
+/// Names the picture by its bits before anything else is written about it.
+void take_hash(const Image& image, Report& report) {
+    report.hash = pixel_hash(image);
+    report.digests.emplace_back("image", report.hash);
+}
 
+Status render_pictures(const Scene& scene, const RenderOptions& options, const Context& context,
+                       const Frames& frames, const FrameSink& sink) {
+    const Stopwatch watch;
+    Report& report = *context.report;
     CollectorsRun run;
     PILEUS_TRY(collectors_prepare(scene, photons_of(scene, options), context, run));
     for (int frame = frames.first; frame <= frames.last; ++frame) {
@@ -138,13 +151,73 @@ Status render(const Scene& scene, const RenderOptions& options, const FrameSink&
         Image image;
         report.digests.clear();
         PILEUS_TRY(collectors_show(orbit_at(scene, frame), context, run, image));
-        report.hash = pixel_hash(image);
-        image.pixel_hash = report.hash;
-        image.scene_text = scene.text;
-        report.digests.emplace_back("image", report.hash);
-        finish_report(run, wall, cpu, report);
-        PILEUS_TRY(sink(frame, image, report));
+        take_hash(image, report);
+        collectors_report(run, report);
+        PILEUS_TRY(deliver(scene, watch, frame, sink, image, report));
     }
+    return Status::ok();
+}
+
+Status render_views(const Scene& scene, const RenderOptions& options, const Context& context,
+                    const Frames& frames, const FrameSink& sink) {
+    const Stopwatch watch;
+    Report& report = *context.report;
+    View view{};
+    PILEUS_TRY(find_view(options.show, view));
+    ViewRun run;
+    PILEUS_TRY(collectors_view_prepare(scene, view, photons_of(scene, options), context, run));
+    for (int frame = frames.first; frame <= frames.last; ++frame) {
+        if (view == View::kIllumination)
+            PILEUS_TRY(
+                light_frame(run.scene, options, context, run.run, frame, frame == frames.first));
+        Image image;
+        report.digests.clear();
+        PILEUS_TRY(collectors_view_show(orbit_at(scene, frame), context, run, image));
+        take_hash(image, report);
+        collectors_view_report(run, report);
+        PILEUS_TRY(deliver(scene, watch, frame, sink, image, report));
+    }
+    return Status::ok();
+}
+
+}  // namespace
+
+Status render(const Scene& scene, const RenderOptions& options, const FrameSink& sink) {
+    const FpModeGuard guard;
+    Report report;
+    Context context;
+    Frames frames{};
+    PILEUS_TRY(make_context(scene, options, context, report));
+    PILEUS_TRY(frames_of(scene, options, frames));
+
+    return options.show.empty() ? render_pictures(scene, options, context, frames, sink)
+                                : render_views(scene, options, context, frames, sink);
+}
+
+Status follow(const Scene& scene, const RenderOptions& options, int light, std::uint32_t number,
+              PhotonWay& way) {
+    const FpModeGuard guard;
+    Report report;
+    Context context;
+    PILEUS_TRY(make_context(scene, options, context, report));
+    ViewRun view;
+    PILEUS_TRY(
+        collectors_view_prepare(scene, View::kPhotons, photons_of(scene, options), context, view));
+    const std::vector<Light>& lights = view.run.lighting.lights;
+    if (light < 0 || std::size_t(light) >= lights.size())
+        return Status::bad_input("--light: no such light, " + std::to_string(light) +
+                                 ", allowed: less than " + std::to_string(lights.size()));
+    const Light& chosen = lights[std::size_t(light)];
+    if (number >= chosen.photons)
+        return Status::bad_input("--photon: not in the first generation of the " + chosen.name +
+                                 ", " + std::to_string(number) + ", allowed: less than " +
+                                 std::to_string(chosen.photons));
+    way.light = chosen.name;
+    follow_photon(collectors_trace_input(context, view.run), chosen, number, kMostWayPoints,
+                  way.points);
+    for (PathPoint& p : way.points)
+        for (std::size_t a = 0; a < 3; ++a)
+            p.at_m[a] = float(double(p.at_m[a]) + view.run.medium.low_m[a]);
     return Status::ok();
 }
 

@@ -18,6 +18,7 @@ struct RenderOptions {
     std::string isa;                   ///< empty: the widest this machine runs
     std::int64_t budget_photons = -1;  ///< >= 0: instead of the scene's number
     double budget_seconds = 0;  ///< > 0: stop tracing after this wall time; whole generations
+    std::string show;  ///< empty: the picture; else a step of the method (docs/how-it-works.md)
     int first_frame = 0, last_frame = 0;  ///< of the animation, inclusive
     /// Called now and then with a stage's name and the share done of it, 0..1.
     std::function<void(const char* stage, double share)> progress;
@@ -28,7 +29,7 @@ struct RenderOptions {
 using FrameSink = std::function<Status(int frame, Image& image, Report& report)>;
 
 /// Renders frames [first_frame, last_frame] (a still scene has frame 0 only).
-/// Errors: kBadInput (scene, files, isa), kLimit (memory), kIo.
+/// Errors: kBadInput (scene, files, isa, show), kLimit (memory), kIo.
 Status render(const Scene& scene, const RenderOptions& options, const FrameSink& sink);
 
 /// What `render` would do: fills the report's plan (needed, left out, bounds on bytes) only.

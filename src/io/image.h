@@ -20,6 +20,9 @@ struct Image {
     std::vector<Channel> channels;
     std::array<float, 16> world_to_camera{};  ///< row-major, OpenEXR's row-vector convention
     std::array<float, 16> world_to_ndc{};
+    /// R G B are linear light of a display, 0..1, not radiance: 8-bit files hold them as they are,
+    /// without exposure and curve.
+    bool display_colours = false;
     std::string scene_text;  ///< the scene's own text, stored in the file
     std::string pixel_hash;  ///< 16 hex digits
 

@@ -149,6 +149,14 @@ Status tone_map_8bit(const Image& image, const ToneSettings& tone, Buffer<std::u
     const float* g = planes[1]->pixels.data();
     const float* b = planes[2]->pixels.data();
 
+    if (image.display_colours) {
+        for (std::size_t i = 0; i < pixels; ++i) {
+            rgb[3 * i] = std::uint8_t(srgb_code(r[i]));
+            rgb[3 * i + 1] = std::uint8_t(srgb_code(g[i]));
+            rgb[3 * i + 2] = std::uint8_t(srgb_code(b[i]));
+        }
+        return Status::ok();
+    }
     // Measure the whole picture first if asked to; stops then count from what was found.
     float gain = exposure_gain(tone.stops);
     if (tone.automatic) {

@@ -69,25 +69,8 @@ Status plan_deposit(const Scene& scene, CollectorsRun& run) {
     return Status::ok();
 }
 
-TraceInput trace_input(const Context& context, const CollectorsRun& run) {
-    TraceInput in;
-    in.medium = &run.medium;
-    in.lighting = &run.lighting;
-    in.majorants = run.prepared.majorants.span();
-    in.block = run.prepared.block;
-    in.collector_of_voxel = run.prepared.collector_of_voxel.span();
-    in.collectors = run.prepared.collectors.size();
-    in.deposit = run.deposit;
-    in.seed = std::uint64_t(run.scene->seed);
-    in.threads = context.threads;
-    in.kernels = context.kernels;
-    in.max_events = run.max_events;
-    in.ground = run.ground_map;
-    return in;
-}
-
 Status allocate_photons(const Context& context, CollectorsRun& run) {
-    const TraceInput in = trace_input(context, run);
+    const TraceInput in = collectors_trace_input(context, run);
     PILEUS_TRY(prepare_trace(in, run.scratch));
     run.photons.tallies.assign(run.lighting.lights.size(), TraceTally{});
     run.photons.slots.resize(std::size_t(slot_count(run)));
@@ -149,8 +132,25 @@ Status prepare_sky_map(const Scene& scene, const Context& context, CollectorsRun
 
 }  // namespace
 
-Status collectors_prepare(const Scene& scene, std::int64_t photons, const Context& context,
-                          CollectorsRun& run) {
+TraceInput collectors_trace_input(const Context& context, const CollectorsRun& run) {
+    TraceInput in;
+    in.medium = &run.medium;
+    in.lighting = &run.lighting;
+    in.majorants = run.prepared.majorants.span();
+    in.block = run.prepared.block;
+    in.collector_of_voxel = run.prepared.collector_of_voxel.span();
+    in.collectors = run.prepared.collectors.size();
+    in.deposit = run.deposit;
+    in.seed = std::uint64_t(run.scene->seed);
+    in.threads = context.threads;
+    in.kernels = context.kernels;
+    in.max_events = run.max_events;
+    in.ground = run.ground_map;
+    return in;
+}
+
+Status collectors_load(const Scene& scene, std::int64_t photons, const Context& context,
+                       CollectorsRun& run) {
     run.scene = &scene;
     if (scene.collectors.camera_closure) {
         if (scene.animation.present && scene.animation.moves_camera)
@@ -178,7 +178,12 @@ Status collectors_prepare(const Scene& scene, std::int64_t photons, const Contex
     share_photons(std::uint64_t(photons) / run.generations, run.lighting.lights);
     for (const Light& l : run.lighting.lights) run.light_photons.push_back(l.photons);
     run.ground_map = make_ground_map(run.medium, run.lighting);
-    PILEUS_TRY(plan_deposit(scene, run));
+    return plan_deposit(scene, run);
+}
+
+Status collectors_prepare(const Scene& scene, std::int64_t photons, const Context& context,
+                          CollectorsRun& run) {
+    PILEUS_TRY(collectors_load(scene, photons, context, run));
     PILEUS_TRY(
         run.camera_cells > 0
             ? prepare_cells(run.medium, run.camera_cells, context, run.prepared)
@@ -216,7 +221,7 @@ Status collectors_set_sun(double elevation_deg, const Context&, CollectorsRun& r
 }
 
 Status collectors_shoot(const Context& context, CollectorsRun& run) {
-    const TraceInput in = trace_input(context, run);
+    const TraceInput in = collectors_trace_input(context, run);
     PhotonSlot& slot =
         run.photons.slots[std::size_t(run.next_generation % run.photons.slots.size())];
     // In an animation each generation has a slot of its own: the oldest gives way, exactly.

@@ -4,6 +4,7 @@
 // Elek 2011 with the repairs of docs/methods.md 3; docs/collectors.md.
 #pragma once
 #include "src/plan/plan.h"
+#include "src/stages/composite_billboards.h"
 #include "src/stages/prepare.h"
 #include "src/stages/reconstruct.h"
 #include "src/stages/view.h"
@@ -41,6 +42,11 @@ inline bool is_marched(const CollectorsRun& run) {
     return !run.scene->collectors.billboards || run.camera_cells > 0;
 }
 
+/// Loads the medium and works out the lights and what a collision stores; the first part of
+/// `collectors_prepare`.
+Status collectors_load(const Scene& scene, std::int64_t photons, const Context& context,
+                       CollectorsRun& run);
+
 /// Loads the medium, chooses what is needed, prepares the tree and allocates the sums.
 Status collectors_prepare(const Scene& scene, std::int64_t photons, const Context& context,
                           CollectorsRun& run);
@@ -53,6 +59,19 @@ Status collectors_shoot(const Context& context, CollectorsRun& run);
 
 /// Reconstructs and composites one picture.
 Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& run, Image& image);
+
+/// What launches of this run's photons read.
+TraceInput collectors_trace_input(const Context& context, const CollectorsRun& run);
+
+/// What the colours of this run's collectors towards a camera are made from.
+ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const Context& context,
+                                              const CollectorsRun& run);
+
+/// Blends the collectors as billboards of these colours, [channel][collector]; `opaque_depth` as in
+/// BillboardScene, or null.
+Status collectors_billboards(const Context& context, const CollectorsRun& run,
+                             const CameraParams& camera, const CollectorColours& colours,
+                             int channels, const float* opaque_depth, BillboardImage& out);
 
 /// Adds to the plan what pictures of this run will take; part of `collectors_prepare`.
 void collectors_plan_display(CollectorsRun& run);

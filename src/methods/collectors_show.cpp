@@ -4,7 +4,6 @@
 // docs/methods.md 3, each image frame, steps 4 and 5; repairs 3 and 4.
 #include "src/base/digest.h"
 #include "src/methods/collectors.h"
-#include "src/stages/composite_billboards.h"
 #include "src/stages/layers.h"
 #include "src/stages/prepare_majorant.h"
 #include "src/stages/source_grid.h"
@@ -160,8 +159,23 @@ Status show_marched(const Context& context, CollectorsRun& run, const CameraPara
     return Status::ok();
 }
 
-Status show_billboards(const Context& context, CollectorsRun& run, const CameraParams& camera,
+Status show_billboards(const Context& context, const CollectorsRun& run, const CameraParams& camera,
                        const CollectorColours& colours, int channels, Planes& planes) {
+    BillboardImage out;
+    PILEUS_TRY(collectors_billboards(context, run, camera, colours, channels,
+                                     run.lighting.ground ? planes.opaque_depth.data() : nullptr,
+                                     out));
+    planes.transmittance.swap(out.transmittance);
+    planes.half_depth.swap(out.half_depth);
+    planes.colour.swap(out.colour);
+    return Status::ok();
+}
+
+}  // namespace
+
+Status collectors_billboards(const Context& context, const CollectorsRun& run,
+                             const CameraParams& camera, const CollectorColours& colours,
+                             int channels, const float* opaque_depth, BillboardImage& out) {
     const StageClock clock(context, "blend");
     const std::size_t n = run.prepared.collectors.size();
     Buffer<float> spheres;
@@ -181,17 +195,9 @@ Status show_billboards(const Context& context, CollectorsRun& run, const CameraP
     scene.colour = colours.colour.data();
     scene.count = std::uint32_t(n);
     scene.channels = channels;
-    scene.opaque_depth = run.lighting.ground ? planes.opaque_depth.data() : nullptr;
-    BillboardImage out;
-    PILEUS_TRY(
-        composite_billboards(scene, camera, context.threads, context.kernels->blend_tile, out));
-    planes.transmittance.swap(out.transmittance);
-    planes.half_depth.swap(out.half_depth);
-    planes.colour.swap(out.colour);
-    return Status::ok();
+    scene.opaque_depth = opaque_depth;
+    return composite_billboards(scene, camera, context.threads, context.kernels->blend_tile, out);
 }
-
-}  // namespace
 
 void collectors_plan_display(CollectorsRun& run) {
     const OutputSettings& output = run.scene->output;
@@ -217,10 +223,8 @@ void collectors_plan_display(CollectorsRun& run) {
         plan.take("shadow", 4 * node_count(shadow_grid(run)));
 }
 
-Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& run, Image& image) {
-    const Scene& scene = *run.scene;
-    const CameraParams camera = make_camera(scene.camera, orbit_deg, run.medium.low_m);
-    const bool marched = is_marched(run);
+ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const Context& context,
+                                              const CollectorsRun& run) {
     ReconstructInput in;
     in.medium = &run.medium;
     in.lighting = &run.lighting;
@@ -228,13 +232,21 @@ Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& 
     in.collectors = run.prepared.collectors.span();
     in.camera = camera;
     in.deposit = run.deposit;
-    in.closure = run.camera_cells > 0            ? Closure::kCamera
-                 : scene.collectors.lobe_closure ? Closure::kLobe
-                                                 : Closure::kSh;
-    in.window = scene.collectors.window;
+    in.closure = run.camera_cells > 0                 ? Closure::kCamera
+                 : run.scene->collectors.lobe_closure ? Closure::kLobe
+                                                      : Closure::kSh;
+    in.window = run.scene->collectors.window;
     in.batches = error_batches(run);
-    in.constant = !marched;
+    in.constant = !is_marched(run);
     in.threads = context.threads;
+    return in;
+}
+
+Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& run, Image& image) {
+    const Scene& scene = *run.scene;
+    const CameraParams camera = make_camera(scene.camera, orbit_deg, run.medium.low_m);
+    const bool marched = is_marched(run);
+    const ReconstructInput in = collectors_reconstruct_input(camera, context, run);
     CollectorColours colours;
     {
         const StageClock clock(context, "reconstruct");

@@ -11,31 +11,6 @@
 namespace pileus {
 namespace {
 
-Status draw_samples(const Medium& medium, const CollectorSettings& settings, std::int64_t seed,
-                    const Context& context, SampleSet& set) {
-    const Span<const float> density = medium.volume.density.span();
-    const int threads = context.threads;
-    Buffer<float> field;
-    FieldStats stats;
-    {
-        const StageClock clock(context, "gradient");
-        PILEUS_TRY(field.resize(density.size, "gradient field"));
-        PILEUS_TRY(settings.variance_field
-                       ? local_variance(density, medium.grid, settings.variance_radius, threads,
-                                        field.span(), stats)
-                       : gradient_magnitude(density, medium.grid, threads, field.span(), stats));
-    }
-    const StageClock clock(context, "samples");
-    SampleOptions options;
-    options.count = std::uint32_t(settings.samples);
-    options.seed = std::uint64_t(seed);
-    options.stream = 8;
-    return settings.rejection_sampler
-               ? sample_rejection(field.span(), stats, density, medium.grid, options, threads, set)
-               : sample_stratified(field.span(), stats, density, medium.grid, options, threads,
-                                   set);
-}
-
 /// Leaf numbers become collector numbers, voxel by voxel.
 void name_collectors(Span<const Leaf> leaves, int threads, const Grid& grid,
                      Span<std::int32_t> of_voxel) {
@@ -66,10 +41,38 @@ Status finish_leaves(const Medium& medium, const CollectorOptions& options,
 
 }  // namespace
 
+Status prepare_sample_field(const Medium& medium, const CollectorSettings& settings,
+                            const Context& context, Buffer<float>& field, FieldStats& stats) {
+    const StageClock clock(context, "gradient");
+    const Span<const float> density = medium.volume.density.span();
+    PILEUS_TRY(field.resize(density.size, "gradient field"));
+    return settings.variance_field
+               ? local_variance(density, medium.grid, settings.variance_radius, context.threads,
+                                field.span(), stats)
+               : gradient_magnitude(density, medium.grid, context.threads, field.span(), stats);
+}
+
+Status prepare_sample_set(const Medium& medium, const CollectorSettings& settings,
+                          std::int64_t seed, const Context& context, SampleSet& set) {
+    const Span<const float> density = medium.volume.density.span();
+    Buffer<float> field;
+    FieldStats stats;
+    PILEUS_TRY(prepare_sample_field(medium, settings, context, field, stats));
+    const StageClock clock(context, "samples");
+    SampleOptions options;
+    options.count = std::uint32_t(settings.samples);
+    options.seed = std::uint64_t(seed);
+    options.stream = 8;
+    return settings.rejection_sampler ? sample_rejection(field.span(), stats, density, medium.grid,
+                                                         options, context.threads, set)
+                                      : sample_stratified(field.span(), stats, density, medium.grid,
+                                                          options, context.threads, set);
+}
+
 Status prepare_collectors(const Medium& medium, const CollectorSettings& settings,
                           std::int64_t seed, const Context& context, Prepared& out) {
     SampleSet set;
-    PILEUS_TRY(draw_samples(medium, settings, seed, context, set));
+    PILEUS_TRY(prepare_sample_set(medium, settings, seed, context, set));
     out.samples = set.samples.size();
     out.rejected = set.given_up;
     double diagonal = 0;

@@ -20,6 +20,15 @@ struct Prepared {
     std::uint64_t samples = 0, rejected = 0;
 };
 
+/// The field that samples are drawn from, one number per voxel: the gradient's magnitude, or the
+/// local variance where the settings ask for it. kLimit: out of memory.
+Status prepare_sample_field(const Medium& medium, const CollectorSettings& settings,
+                            const Context& context, Buffer<float>& field, FieldStats& stats);
+
+/// The samples that `prepare_collectors` builds its tree from. kLimit: out of memory.
+Status prepare_sample_set(const Medium& medium, const CollectorSettings& settings,
+                          std::int64_t seed, const Context& context, SampleSet& set);
+
 /// kLimit: out of memory.
 Status prepare_collectors(const Medium& medium, const CollectorSettings& settings,
                           std::int64_t seed, const Context& context, Prepared& out);

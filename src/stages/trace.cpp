@@ -16,6 +16,42 @@ std::uint64_t collector_numbers(const TraceInput& in) {
            std::uint64_t(in.deposit.coefficients);
 }
 
+/// `count` photons of one light that share the high half of their index.
+struct Launch {
+    const TraceInput* in;
+    TraceScratch* scratch;
+    TraceParams params;
+    std::uint64_t count;
+};
+
+void run_piece(const Launch& launch, std::uint64_t piece, int thread) {
+    const TraceInput& in = *launch.in;
+    const std::uint64_t begin = piece * kChunk;
+    const std::uint64_t end = begin + kChunk < launch.count ? begin + kChunk : launch.count;
+    std::int64_t* sums = launch.scratch->sums.data();
+    if (sums != nullptr) sums += std::uint64_t(thread) * launch.scratch->stride;
+    const TraceBuffers b{
+        in.medium->volume.density.data(), in.majorants.data,
+        in.collector_of_voxel.data,       sums,
+        sums + collector_numbers(in),     &launch.scratch->tallies[std::size_t(thread) * 2]};
+    in.kernels->trace(launch.params, b, std::uint32_t(begin), std::uint32_t(end));
+}
+
+void run_launch(const Launch& launch, int threads) {
+    const std::uint64_t pieces = (launch.count + kChunk - 1) / kChunk;
+    parallel_for(threads, std::int64_t(pieces), [&](std::int64_t piece, int thread) {
+        run_piece(launch, std::uint64_t(piece), thread);
+    });
+}
+
+void add_fates(const Fates& from, Fates& to) {
+    const auto* source = reinterpret_cast<const std::int64_t*>(&from);
+    auto* target = reinterpret_cast<std::int64_t*>(&to);
+    for (std::size_t i = 0; i < sizeof(Fates) / sizeof(std::int64_t); ++i) target[i] += source[i];
+}
+
+}  // namespace
+
 TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_t generation) {
     const Medium& m = *in.medium;
     TraceParams k{};
@@ -60,42 +96,6 @@ TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_
     k.shift[1] = shift.k1;
     return k;
 }
-
-/// `count` photons of one light that share the high half of their index.
-struct Launch {
-    const TraceInput* in;
-    TraceScratch* scratch;
-    TraceParams params;
-    std::uint64_t count;
-};
-
-void run_piece(const Launch& launch, std::uint64_t piece, int thread) {
-    const TraceInput& in = *launch.in;
-    const std::uint64_t begin = piece * kChunk;
-    const std::uint64_t end = begin + kChunk < launch.count ? begin + kChunk : launch.count;
-    std::int64_t* sums = launch.scratch->sums.data();
-    if (sums != nullptr) sums += std::uint64_t(thread) * launch.scratch->stride;
-    const TraceBuffers b{
-        in.medium->volume.density.data(), in.majorants.data,
-        in.collector_of_voxel.data,       sums,
-        sums + collector_numbers(in),     &launch.scratch->tallies[std::size_t(thread) * 2]};
-    in.kernels->trace(launch.params, b, std::uint32_t(begin), std::uint32_t(end));
-}
-
-void run_launch(const Launch& launch, int threads) {
-    const std::uint64_t pieces = (launch.count + kChunk - 1) / kChunk;
-    parallel_for(threads, std::int64_t(pieces), [&](std::int64_t piece, int thread) {
-        run_piece(launch, std::uint64_t(piece), thread);
-    });
-}
-
-void add_fates(const Fates& from, Fates& to) {
-    const auto* source = reinterpret_cast<const std::int64_t*>(&from);
-    auto* target = reinterpret_cast<std::int64_t*>(&to);
-    for (std::size_t i = 0; i < sizeof(Fates) / sizeof(std::int64_t); ++i) target[i] += source[i];
-}
-
-}  // namespace
 
 void add_tally(const TraceTally& from, TraceTally& to) {
     add_fates(from.light, to.light);

@@ -73,6 +73,10 @@ struct TraceScratch {
 };
 Status prepare_trace(const TraceInput& in, TraceScratch& scratch);
 
+/// What a launch of one light's photons of a generation takes; `key`, and the place of the launch
+/// within the generation, are the caller's.
+TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_t generation);
+
 /// Shoots one generation of every light into `slot` and adds to the tallies. Generation numbers
 /// may grow without bound; each has photons of its own.
 Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScratch& scratch,

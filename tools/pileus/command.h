@@ -17,6 +17,7 @@ using Chosen = std::function<Status()>;
 // Each adds one subcommand to `app`; its presence on the command line sets `chosen`.
 void add_render(CLI::App& app, Chosen& chosen);
 void add_plan(CLI::App& app, Chosen& chosen);
+void add_follow(CLI::App& app, Chosen& chosen);
 void add_hash(CLI::App& app, Chosen& chosen);
 void add_info(CLI::App& app, Chosen& chosen);
 void add_convert(CLI::App& app, Chosen& chosen);

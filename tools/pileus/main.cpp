@@ -20,7 +20,7 @@ Status print(const std::string& text) {
 
 namespace {
 
-constexpr const char* kCommands = "render, plan, hash, info, convert";
+constexpr const char* kCommands = "render, plan, follow, hash, info, convert";
 
 /// Says nothing for Code::kOk without a message.
 int finish(const Status& status) {
@@ -57,7 +57,7 @@ Status check_command(int count, char** words) {
         if (word == later)
             return Status::bad_input("pileus " + word +
                                      ": not in this version, allowed: " + kCommands);
-    for (const char* known : {"render", "plan", "hash", "info", "convert"})
+    for (const char* known : {"render", "plan", "follow", "hash", "info", "convert"})
         if (word == known) return Status::ok();
     return Status::bad_input("pileus: unknown subcommand, " + quote_text(word) +
                              ", allowed: " + kCommands);
@@ -70,6 +70,7 @@ int run(int count, char** words) {
     app.require_subcommand(1);
     add_render(app, chosen);
     add_plan(app, chosen);
+    add_follow(app, chosen);
     add_hash(app, chosen);
     add_info(app, chosen);
     add_convert(app, chosen);

@@ -9,6 +9,7 @@
 
 #include "platform/clock.h"
 #include "src/base/file.h"
+#include "src/methods/collectors_views.h"
 #include "src/scene/read_scene.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
@@ -86,8 +87,15 @@ void take_scene(RenderArguments& arguments) {
 Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOptions& options,
                       Outputs& outputs) {
     Status faults;
-    if (arguments.show)
-        add_fault(Status::bad_input("--show: not in this version, allowed: leave it out"), faults);
+    if (arguments.show) {
+        View view{};
+        add_fault(find_view(*arguments.show, view), faults);
+        if (arguments.exposure && !view_is_light(view))
+            add_fault(Status::bad_input("--exposure: a view's colours are no light, allowed: leave "
+                                        "it out, or --show illumination"),
+                      faults);
+        options.show = *arguments.show;
+    }
     add_fault(read_tone(arguments, outputs.tone), faults);
     add_fault(read_scene_options(arguments.scene, scene, options), faults);
     PILEUS_TRY(faults);
@@ -175,7 +183,11 @@ void add_render(CLI::App& app, Chosen& chosen) {
         ->add_option("--exposure", arguments->exposure,
                      "Brightness of .png and .ppm in stops, or auto; left out: 0")
         ->type_name("STOPS|auto");
-    command->add_option("--show", arguments->show, "Not in this version")->group("");
+    command
+        ->add_option("--show", arguments->show,
+                     "A step of the method instead of its picture: gradient, samples, tree, "
+                     "leaf-density, collectors, photons, illumination")
+        ->type_name("VIEW");
     command->add_flag("-q,--quiet", arguments->quiet, "No progress and no total");
     command->callback(
         [arguments, &chosen] { chosen = [arguments] { return run_render(*arguments); }; });
