@@ -52,9 +52,9 @@ void check_fault(const ProgramFolder& folder, const Fault& fault) {
 TEST_CASE("program: wrong usage is one line and exit 2") {
     const ProgramFolder folder;
     const Fault faults[] = {
-        {"", 2, "no subcommand, allowed: render, plan, hash, info, convert"},
+        {"", 2, "no subcommand, allowed: render, plan, follow, hash, info, convert"},
         {"paint s.toml", 2,
-         "unknown subcommand, \"paint\", allowed: render, plan, hash, info, convert"},
+         "unknown subcommand, \"paint\", allowed: render, plan, follow, hash, info, convert"},
         {"--loud render s.toml", 2, "unknown option before the subcommand, \"--loud\""},
         {"study s.toml", 2, "pileus study: not in this version"},
         {"compare a.exr b.exr", 2, "pileus compare: not in this version"},
@@ -90,7 +90,7 @@ TEST_CASE("program: a wrong value names its option and what is allowed, exit 2")
         {"render s.toml -o a.pfm --budget error=1", 2, "--budget: not in this version"},
         {"render s.toml -o a.pfm --budget samples=9", 2, "--budget: not in this version"},
         {"render s.toml -o a.pfm --budget luck=1", 2, "--budget: unknown kind, \"luck=1\""},
-        {"render s.toml -o a.pfm --show depth", 2, "--show: not in this version"},
+        {"render s.toml -o a.pfm --show depth", 2, "--show: no such view, \"depth\""},
         {"render s.toml -o a.pfm --set camera.fov_deg=wide", 2, "camera.fov_deg"},
         {"render s.toml -o a.pfm --set camera.colour=1", 2, "camera.colour"},
     };
