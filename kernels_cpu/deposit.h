@@ -46,11 +46,37 @@ PILEUS_FN auto voxel_of(const Vec<T>& p, const Grid& k) {
            clamped(p.x, k.size[0]);
 }
 
+template <class Grid>
+PILEUS_FN std::int64_t voxels_of(const Grid& k) {
+    return std::int64_t(k.size[0]) * k.size[1] * k.size[2];
+}
+
+/// What one medium, or all at `corner` by their share of the `density` there, scatter towards the
+/// camera, per steradian and channel. One medium's albedo is left to the reconstruction.
+template <int W, int NC>
+PILEUS_FN void towards_camera(const TraceParams& k, const TraceBuffers& b, I<W> corner,
+                              F<W> density, F<W> one_minus_cos, F<W> (&out)[NC]) {
+    using T = F<W>;
+    if (k.media <= 1) {
+        out[0] = phase_density(k.optics[0].phase, one_minus_cos);
+        for (int c = 1; c < NC; ++c) out[c] = out[0];
+        return;
+    }
+    for (int c = 0; c < NC; ++c) out[c] = T{};
+    for_shares(
+        b.parts, voxels_of(k), k.media, density,
+        [&](const float* grid) { return gather(grid, corner); },
+        [&](int i, T part) {
+            const T p = part * phase_density(k.optics[i].phase, one_minus_cos);
+            for (int c = 0; c < NC; ++c) out[c] = out[c] + p * k.optics[i].albedo[c];
+        });
+}
+
 /// Deposit `share` (0..1) of each lane in `m`, travelling along s.d, into its voxel's collector.
-/// Every lane's voxel must be readable.
+/// Every lane's voxel must be readable, and `corner`, where the `density` was looked up.
 template <int W, int NC>
 PILEUS_FN void deposit(const TraceParams& k, const TraceBuffers& b, const Photon<W, NC>& s, M<W> m,
-                       I<W> voxel, F<W> share) {
+                       I<W> voxel, F<W> share, I<W> corner, F<W> density) {
     using T = F<W>;
     const Vec<T>& d = s.d;
     const I<W> collector = gather(b.collector, voxel);
@@ -75,9 +101,10 @@ PILEUS_FN void deposit(const TraceParams& k, const TraceBuffers& b, const Photon
         if (!k.orthographic)
             to = normalized(Vec<T>{to.x - s.p.x * k.cell[0], to.y - s.p.y * k.cell[1],
                                    to.z - s.p.z * k.cell[2]});
-        const T p = phase_density(k.phase, one_minus_cosine(d, to));
+        T p[NC];
+        towards_camera<W, NC>(k, b, corner, density, one_minus_cosine(d, to), p);
         for (int c = 0; c < NC; ++c) {
-            const I<W> q = quantise(value * s.weight[c] * p, k.scale);
+            const I<W> q = quantise(value * s.weight[c] * p[c], k.scale);
             add_lanes<W>(k, b, rest, collector, &q, c, 0, 1);
         }
         return;

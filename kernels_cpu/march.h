@@ -109,6 +109,44 @@ PILEUS_FN Vec<T> node_position(const NodeGrid& g, const Vec<T>& metres) {
     return {metres.x * g.per_metre[0], metres.y * g.per_metre[1], metres.z * g.per_metre[2]};
 }
 
+/// The sun's first order along one ray, per unit of the sunlight that arrives.
+template <class T>
+struct SunAlongRay {
+    T phase[kMostMedia];
+    bool lit;
+};
+template <class T>
+PILEUS_FN SunAlongRay<T> sun_along(const MarchParams& k, const Vec<T>& direction) {
+    SunAlongRay<T> s{};
+    const Vec<T> sun{all<T>(k.sun_travel[0]), all<T>(k.sun_travel[1]), all<T>(k.sun_travel[2])};
+    const T turn =
+        one_minus_cosine(sun, Vec<T>{T{} - direction.x, T{} - direction.y, T{} - direction.z});
+    for (int i = 0; i < kMostMedia && i < k.media; ++i) {
+        s.phase[i] = phase_density(k.phase[i], turn);
+        for (int c = 0; c < 3; ++c) s.lit |= k.sun_source[i][c] > 0.0f;
+    }
+    return s;
+}
+
+/// The same where the sunlight is `light`: by the share of each medium in the `density` there.
+template <class T>
+PILEUS_FN void sun_source_at(const MarchParams& k, const MarchBuffers& b, const SunAlongRay<T>& s,
+                             const Corners<T>& at, T density, T light, T (&source)[3]) {
+    if (k.media <= 1) {
+        const T direct = s.phase[0] * light;
+        for (int c = 0; c < 3; ++c) source[c] = direct * k.sun_source[0][c];
+        return;
+    }
+    const std::int32_t* n = k.medium.size;
+    for_shares(
+        b.parts, std::int64_t(n[0]) * n[1] * n[2], k.media, density,
+        [&](const float* grid) { return interpolate(grid, at); },
+        [&](int i, T share) {
+            const T direct = share * s.phase[i] * light;
+            for (int c = 0; c < 3; ++c) source[c] = source[c] + direct * k.sun_source[i][c];
+        });
+}
+
 /// W pixels of one row, from pixel x on.
 template <int W>
 PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::int32_t x,
@@ -131,10 +169,7 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
     }
     leave = select(real, leave, box.enter);
 
-    const Vec<T> sun{all<T>(k.sun_travel[0]), all<T>(k.sun_travel[1]), all<T>(k.sun_travel[2])};
-    const Vec<T> to_camera{T{} - ray.direction.x, T{} - ray.direction.y, T{} - ray.direction.z};
-    const T phase = phase_density(k.phase, one_minus_cosine(sun, to_camera));
-    const bool sunlit = k.sun_source[0] > 0.0f || k.sun_source[1] > 0.0f || k.sun_source[2] > 0.0f;
+    const SunAlongRay<T> sun = sun_along(k, ray.direction);
     const std::int64_t nodes = std::int64_t(k.source.size[0]) * k.source.size[1] * k.source.size[2];
 
     T transmittance = all<T>(1.0f), half = all<T>(__builtin_inff());
@@ -142,22 +177,23 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
     for (int c = 0; c < k.channels; ++c) colour[c] = T{};
     march_ray(k.medium, ray, box.enter, leave, [&](M<W> dense, T t, T width, const Vec<T>& p) {
         if (!any(dense)) return transmittance < k.cut;
-        const T density = interpolate(k.medium.density, corners(p, k.medium.size));
+        const Corners<T> at = corners(p, k.medium.size);
+        const T density = interpolate(k.medium.density, at);
         const T optical = select(dense, density * k.medium.sigma * width, T{});
         if (!any(optical > 0.0f)) return transmittance < k.cut;
         const T alpha = one_minus_exp(optical);
         const T weight = transmittance * alpha;
         const Vec<T> metres = along(ray, t);
-        T direct{};
-        if (sunlit) {
+        T direct[3] = {};
+        if (sun.lit) {
             const T tau = interpolate(b.optical_depth,
                                       corners(node_position(k.shadow, metres), k.shadow.size));
-            direct = phase * exp_(T{} - tau);
+            sun_source_at(k, b, sun, at, density, exp_(T{} - tau), direct);
         }
         const Corners<T> c = corners(node_position(k.source, metres), k.source.size);
         for (int i = 0; i < k.channels; ++i) {
             T source = interpolate(b.source + i * nodes, c);
-            source = source + (direct * k.sun_source[i % 3] + k.constant[i % 3]);
+            source = source + (direct[i % 3] + k.constant[i % 3]);
             colour[i] = colour[i] + weight * source;
         }
         const T left = transmittance * (1.0f - alpha);

@@ -4,7 +4,7 @@
 // docs/methods.md 3, repairs 3 and 4.
 #pragma once
 #include "kernels_cpu/camera.h"
-#include "kernels_cpu/phase.h"
+#include "kernels_cpu/optics.h"
 #include "kernels_cpu/sky_map.h"
 
 namespace pileus {
@@ -40,10 +40,11 @@ struct ShadowBuffers {
 struct MarchParams {
     MediumView medium;
     CameraParams camera;
-    PhaseParams phase;
+    std::int32_t media;  ///< on the grid, 1..kMostMedia
+    PhaseParams phase[kMostMedia];
     float sun_travel[3];
-    float sun_source[3];  ///< irradiance times albedo per channel; zero: no direct sunlight
-    float constant[3];    ///< source everywhere in the medium: sky by the furnace identity
+    float sun_source[kMostMedia][3];  ///< irradiance times albedo; all zero: no direct sunlight
+    float constant[3];  ///< source everywhere in the media: sky by the furnace identity
     NodeGrid shadow, source;
     std::int32_t channels;  ///< planes of `source` and of `colour`: 3, or 3*(1+batches)
     float cut;              ///< stop below this transmittance
@@ -52,6 +53,7 @@ struct MarchBuffers {
     const float* optical_depth;  ///< shadow nodes; unused without direct sunlight
     const float* source;         ///< [channel][node], scattered light towards the camera
     const float* opaque_depth;   ///< [pixel], m along the ray; null: nothing opaque
+    const float* parts;          ///< [medium - 1][voxel]: densities of media 1, 2 ...
     float* transmittance;        ///< [pixel]
     float* half_depth;           ///< [pixel], m; infinity where transmittance stays above 1/2
     float* colour;               ///< [channel][pixel], premultiplied

@@ -120,10 +120,20 @@ PILEUS_FN void leave_box(Photon<W, NC>& s, const TraceParams& k, const TraceBuff
     }
 }
 
-/// Real collisions in the lanes of `m`: absorb by roulette, otherwise turn.
+/// Medium that each lane collides with at the voxel of its look-up. One corner stands for eight
+/// here too: density times share is what was looked up.
+template <int W, int NC>
+PILEUS_FN I<W> medium_at(const Photon<W, NC>& s, const TraceParams& k, const TraceBuffers& b,
+                         I<W> corner, F<W> density) {
+    if (k.media <= 1) return I<W>{};
+    const Words<U<W>> w = threefry(k.key.k0, k.key.k1, s.index + k.first_photon, s.event * 4u + 3u);
+    return draw_medium(b.parts, voxels_of(k), k.media, corner, density, w.a);
+}
+
+/// Real collisions with the media named, in the lanes of `m`: absorb by roulette, otherwise turn.
 template <int W, int NC>
 PILEUS_FN void scatter(Photon<W, NC>& s, const TraceParams& k, const TraceBuffers& b, M<W> m,
-                       U<W> spare) {
+                       U<W> spare, I<W> medium) {
     using T = F<W>;
     TraceTally& tally = *b.tally;
     tally.scatterings += count_bits(bits_of(m));
@@ -135,7 +145,10 @@ PILEUS_FN void scatter(Photon<W, NC>& s, const TraceParams& k, const TraceBuffer
         s.owed_y = select(owing, s.p.y * k.cell[1] + s.d.y * t, s.owed_y);
         s.owes = s.owes | owing;
     }
-    const auto absorbed = m & (uniform(spare) >= k.albedo_max);
+    T survival = all<T>(k.optics[0].albedo_max);
+    for (int i = 1; i < k.media; ++i)
+        survival = select(medium == i, all<T>(k.optics[i].albedo_max), survival);
+    const auto absorbed = m & (uniform(spare) >= survival);
     if (any(absorbed)) {
         PILEUS_FATE(s, tally, absorbed, absorbed);
         s.alive = s.alive & lnot(absorbed);
@@ -148,16 +161,25 @@ PILEUS_FN void scatter(Photon<W, NC>& s, const TraceParams& k, const TraceBuffer
             const int i = __builtin_ctz(lanes);
             const bool dark = (bits_of(s.shadow) >> i) & 1u;
             Fates& fates = dark ? tally.shadow : tally.light;
+            const Optics& optics = k.optics[lane(medium, i)];
             for (int c = 0; c < NC; ++c) {
                 const float before = lane(s.weight[c], i);
-                const float after = before * (k.albedo[c] / k.albedo_max);
+                const float after = before * (optics.albedo[c] / optics.albedo_max);
                 fates.absorbed[c] += quantise(before, 0x1p20f) - quantise(after, 0x1p20f);
                 set_lane(s.weight[c], i, after);
             }
         }
     }
     const Words<U<W>> w = threefry(k.key.k0, k.key.k1, s.index + k.first_photon, s.event * 4u + 2u);
-    const Turn<T> turn = phase_sample(k.phase, uniform_open(w.a));
+    const T u = uniform_open(w.a);
+    Turn<T> turn = phase_sample(k.optics[0].phase, u);
+    for (int i = 1; i < k.media; ++i) {
+        const auto mine = m & (medium == i);
+        if (!any(mine)) continue;
+        const Turn<T> other = phase_sample(k.optics[i].phase, u);
+        turn.one_minus_cos = select(mine, other.one_minus_cos, turn.one_minus_cos);
+        turn.sine = select(mine, other.sine, turn.sine);
+    }
     const SinCos<T> phi = sincos_turns(uniform(w.b));
     set_direction(s, k, m, turned(s.d, 1.0f - turn.one_minus_cos, turn.sine, phi.cosine, phi.sine));
 }
@@ -224,12 +246,13 @@ PILEUS_FN void collide(Group<W, NC>& g, const TraceParams& k, const TraceBuffers
 
     const auto medium = g.hits & (density > 0.0f);
     if (k.mode != kDepositNone && k.mode != kDepositOutgoing && any(medium))
-        deposit(k, b, s, medium, g.voxel, density / g.bound);
+        deposit(k, b, s, medium, g.voxel, density / g.bound, g.corner, density);
     s.tau = select(g.hits, free_flight(flight.a, g.spare), s.tau);
     const auto real = medium & (uniform(flight.b) * g.bound < density);
     if (any(real)) {
-        scatter(s, k, b, real, g.spare);
-        if (k.mode == kDepositOutgoing) deposit(k, b, s, real & s.alive, g.voxel, all<T>(1.0f));
+        scatter(s, k, b, real, g.spare, medium_at(s, k, b, g.corner, density));
+        if (k.mode == kDepositOutgoing)
+            deposit(k, b, s, real & s.alive, g.voxel, all<T>(1.0f), g.corner, density);
     }
 
     const auto tired = g.hits & s.alive & (s.event >= k.max_events);

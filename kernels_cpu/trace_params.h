@@ -3,7 +3,7 @@
 // in: the plan and the prepared arrays -> out: the layout that a CPU or GPU launch takes.
 // docs/methods.md 3. Lengths in metres, box-local; positions inside the kernel in voxels.
 #pragma once
-#include "kernels_cpu/phase.h"
+#include "kernels_cpu/optics.h"
 #include "kernels_cpu/rng.h"
 #include "kernels_cpu/sky_map.h"
 
@@ -24,10 +24,9 @@ struct TraceParams {
     std::int32_t blocks[3];  ///< majorant blocks
     float block;             ///< block edge, voxels
     float sigma;             ///< extinction at density 1, 1/m
-    float albedo[3];         ///< per channel; only [0] when channels = 1
-    float albedo_max;        ///< survival probability of a collision
-    std::int32_t channels;   ///< 1 (achromatic medium) or 3
-    PhaseParams phase;
+    std::int32_t channels;   ///< 1 (achromatic media) or 3
+    std::int32_t media;      ///< on the grid, 1..kMostMedia
+    Optics optics[kMostMedia];
 
     std::int32_t light;          ///< LightKind
     float direction[3];          ///< of travel, unit; beam only
@@ -82,6 +81,7 @@ struct TraceBuffers {
     std::int64_t* sums;             ///< collectors * channels * coefficients, this thread's own
     std::int64_t* ground;           ///< ground cells * channels, scaled like the sums, its own too
     TraceTally* tally;              ///< this thread's own
+    const float* parts;             ///< [medium - 1][voxel]: densities of media 1, 2 ...
 };
 
 }  // namespace pileus

@@ -60,7 +60,6 @@ inline Rig make_rig(std::array<int, 3> size, std::array<double, 3> extent_m, dou
     for (float& v : m.volume.density.span()) v = 1.0f;
     m.density_max = 1;
     m.sigma = float(sigma);
-    m.phase = {kPhaseHg, 0, 0, 1};
     set_majorants(rig, 0);
     return rig;
 }
@@ -70,15 +69,14 @@ constexpr double kSlabWidth = 1e5;  // in thicknesses; the sides see about 1e-5 
 /// A slab one metre thick of optical depth `tau`.
 inline Rig make_slab(double tau, float albedo, float g) {
     Rig rig = make_rig({1, 1, 1}, {kSlabWidth, kSlabWidth, 1}, tau);
-    rig.medium.albedo = {albedo, albedo, albedo};
-    rig.medium.albedo_max = albedo;
-    rig.medium.phase = {kPhaseHg, g, 0, 1};
+    rig.medium.optics[0] = {{albedo, albedo, albedo}, albedo, {kPhaseHg, g, 0, 1}};
     return rig;
 }
 
 inline void set_albedo(Rig& rig, const Float3& albedo) {
-    rig.medium.albedo = albedo;
-    rig.medium.albedo_max = std::max(albedo[0], std::max(albedo[1], albedo[2]));
+    Optics& optics = rig.medium.optics[0];
+    for (std::size_t c = 0; c < 3; ++c) optics.albedo[c] = albedo[c];
+    optics.albedo_max = std::max(albedo[0], std::max(albedo[1], albedo[2]));
     rig.medium.channels = albedo[0] == albedo[1] && albedo[1] == albedo[2] ? 1 : 3;
 }
 
@@ -206,15 +204,14 @@ inline TraceParams plain_params(const Rig& rig, const Light& light, Key key) {
         k.size[a] = m.grid.size[a];
         k.cell[a] = m.grid.cell_m[a];
         k.blocks[a] = (k.size[a] - 1) / rig.block + 1;
-        k.albedo[a] = m.albedo[std::size_t(a)];
         k.direction[a] = light.travel[std::size_t(a)];
         square += m.extent_m[a] * m.extent_m[a];
     }
     k.block = float(rig.block);
     k.sigma = m.sigma;
-    k.albedo_max = m.albedo_max;
     k.channels = m.channels;
-    k.phase = m.phase;
+    k.media = m.count;
+    for (std::size_t i = 0; i < m.optics.size(); ++i) k.optics[i] = m.optics[i];
     k.light = light.beam ? kLightBeam : kLightDiffuse;
     k.hemisphere = light.hemisphere;
     for (std::size_t f = 0; f < 6; ++f) k.face_cdf[f] = light.face_cdf[f];

@@ -2,6 +2,8 @@
 // See collectors.h. Preparation, photons and the plan; collectors_show.cpp makes the picture.
 #include "src/methods/collectors.h"
 
+#include "src/stages/mix_media.h"
+
 namespace pileus {
 namespace {
 
@@ -56,8 +58,8 @@ Status plan_deposit(const Scene& scene, CollectorsRun& run) {
 
     double largest = 1;  // first-order coefficients; |y| stays below 1.1 for 8 bands
     if (d.bands > 6) largest = 1.1;
-    if (d.mode == kDepositCamera && double(phase_peak(run.medium.phase)) > largest)
-        largest = double(phase_peak(run.medium.phase));
+    if (d.mode == kDepositCamera && double(phase_peak(run.medium)) > largest)
+        largest = double(phase_peak(run.medium));
     double photons = 0;
     for (const Light& l : run.lighting.lights) photons += double(l.photons);
     d.places =
@@ -92,11 +94,12 @@ void note_plan(const Scene& scene, CollectorsRun& run) {
     plan.need(is_marched(run) ? "marched display" : "billboards");
     if (run.medium.channels == 1)
         plan.leave_out("coefficients per colour channel", "achromatic medium: one set per light");
-    if (run.medium.albedo_max == 1) plan.leave_out("absorption", "albedo 1");
+    if (is_white(run.medium)) plan.leave_out("absorption", "albedo 1");
     if (!scene.output.layer_error) plan.leave_out("batches", "no error layer");
     if (!scene.collectors.billboards) plan.leave_out("billboards", "display = \"march\"");
-    if (scene.media.size() <= 1) plan.leave_out("mixing of media", "one medium");
     plan.take("density", run.medium.volume.density.bytes());
+    if (run.medium.count > 1)
+        plan.take("parts of the media", run.medium.parts.bytes() + run.prepared.shares.bytes());
     plan.take("leaves", run.prepared.leaves.bytes());
     plan.take("collectors", run.prepared.collectors.bytes());
     plan.take("collector of voxel", run.prepared.collector_of_voxel.bytes());
@@ -111,7 +114,6 @@ Status empty_medium(const Scene& scene, Medium& medium) {
         medium.volume.size[a] = medium.grid.size[a] = 1;
         medium.grid.cell_m[a] = 1;
     }
-    medium.phase = {kPhaseHg, 0, 0, 1};
     return medium.volume.density.resize(1, "density");
 }
 
@@ -159,14 +161,10 @@ Status collectors_load(const Scene& scene, std::int64_t photons, const Context& 
                                      "camera, but animation.camera_orbit_deg moves it");
         run.camera_cells = scene.collectors.cell_voxels;
     }
-    if (scene.media.size() > 1)
-        return Status::bad_input(scene.file + ": medium: " + std::to_string(scene.media.size()) +
-                                 " media, allowed: 1 in this version of method collectors");
     {
         const StageClock clock(context, "density");
-        PILEUS_TRY(scene.media.empty()
-                       ? empty_medium(scene, run.medium)
-                       : load_medium(scene, scene.media[0], context.threads, run.medium));
+        PILEUS_TRY(scene.media.empty() ? empty_medium(scene, run.medium)
+                                       : load_media(scene, context.threads, run.plan, run.medium));
     }
     PILEUS_TRY(prepare_sky_map(scene, context, run));
     aim_deposit(scene, run);

@@ -70,6 +70,7 @@ std::string photon_digest(const CollectorsRun& run) {
 std::string density_digest(const CollectorsRun& run) {
     Digest d;
     d.floats(run.medium.volume.density.span());
+    if (run.medium.count > 1) d.floats(run.medium.parts.span());
     return d.hex();
 }
 

@@ -137,12 +137,16 @@ Status show_marched(const Context& context, CollectorsRun& run, const CameraPara
     MarchParams k{};
     k.medium = view_of(run);
     k.camera = camera;
-    k.phase = run.medium.phase;
+    k.media = run.medium.count;
     for (std::size_t c = 0; c < 3; ++c) {
         k.sun_travel[c] = -run.lighting.to_sun[c];
-        if (run.deposit.first_order == 2)
-            k.sun_source[c] = float(run.lighting.sun_irradiance[c] * double(run.medium.albedo[c]));
         k.constant[c] = float(run.lighting.constant[c]);
+    }
+    for (int i = 0; i < run.medium.count; ++i) {
+        const Optics& optics = run.medium.optics[std::size_t(i)];
+        k.phase[i] = optics.phase;
+        for (std::size_t c = 0; c < 3 && run.deposit.first_order == 2; ++c)
+            k.sun_source[i][c] = float(run.lighting.sun_irradiance[c] * double(optics.albedo[c]));
     }
     k.shadow = run.shadow_nodes;
     k.source = nodes;
@@ -152,6 +156,7 @@ Status show_marched(const Context& context, CollectorsRun& run, const CameraPara
     b.optical_depth = run.shadow.data();
     b.source = source.data();
     b.opaque_depth = run.lighting.ground ? planes.opaque_depth.data() : nullptr;
+    b.parts = run.medium.parts.data();
     b.transmittance = planes.transmittance.data();
     b.half_depth = planes.half_depth.data();
     b.colour = planes.colour.data();
@@ -230,6 +235,7 @@ ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const 
     in.lighting = &run.lighting;
     in.photons = &run.photons;
     in.collectors = run.prepared.collectors.span();
+    in.shares = run.prepared.shares.span();
     in.camera = camera;
     in.deposit = run.deposit;
     in.closure = run.camera_cells > 0                 ? Closure::kCamera

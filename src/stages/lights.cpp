@@ -158,7 +158,7 @@ Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elev
     // A white medium in a uniform field shows that field everywhere, whatever its shape: take the
     // sky's radiance out as a constant, and light the cloud from below by what the ground's
     // radiance differs from it.
-    const bool white = medium.albedo[0] == 1 && medium.albedo[1] == 1 && medium.albedo[2] == 1;
+    const bool white = is_white(medium);
     std::array<double, 3> below{};
     for (std::size_t c = 0; c < 3; ++c) below[c] = out.ground_diffuse[c] + out.ground_sun[c];
     if (mapped && map->power_m2 > 0) {

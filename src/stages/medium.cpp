@@ -54,11 +54,34 @@ void set_peak_to_one(double scale, Medium& medium) {
 
 }  // namespace
 
+bool is_white(const Medium& medium) {
+    for (int i = 0; i < medium.count; ++i)
+        for (float albedo : medium.optics[std::size_t(i)].albedo)
+            if (albedo != 1) return false;
+    return true;
+}
+
+float phase_peak(const Medium& medium) {
+    float largest = 0;
+    for (int i = 0; i < medium.count; ++i) {
+        const float peak = phase_peak(medium.optics[std::size_t(i)].phase);
+        if (peak > largest) largest = peak;
+    }
+    return largest;
+}
+
+std::string medium_key(const Scene& scene, const MediumSettings& settings) {
+    std::size_t index = 0;
+    while (index < scene.media.size() && &scene.media[index] != &settings) ++index;
+    return "medium." + std::to_string(index);
+}
+
 Status load_medium(const Scene& scene, const MediumSettings& settings, int threads, Medium& out) {
     PILEUS_TRY(load_density(scene, settings, threads, out.volume));
     if (!settings.has_bounds && !out.volume.knows_bounds)
-        return Status::bad_input(scene.file + ": medium.0.bounds_m: left out, and the file \"" +
-                                 settings.file + "\" does not know its place");
+        return Status::bad_input(scene.file + ": " + medium_key(scene, settings) +
+                                 ".bounds_m: left out, and the file \"" + settings.file +
+                                 "\" does not know its place");
     const auto& bounds = settings.has_bounds ? settings.bounds_m : out.volume.bounds_m;
     out.low_m = bounds[0];
     for (std::size_t a = 0; a < 3; ++a) {
@@ -70,14 +93,16 @@ Status load_medium(const Scene& scene, const MediumSettings& settings, int threa
         if (density > out.density_max) out.density_max = density;
     out.sigma = float(settings.extinction_per_m);
     if (out.volume.in_extinction) set_peak_to_one(settings.extinction_scale, out);
-    out.albedo = settings.albedo;
-    out.albedo_max = 0;
-    for (float albedo : settings.albedo)
-        if (albedo > out.albedo_max) out.albedo_max = albedo;
+    Optics& optics = out.optics[0];
+    optics.albedo_max = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        optics.albedo[c] = settings.albedo[c];
+        if (optics.albedo[c] > optics.albedo_max) optics.albedo_max = optics.albedo[c];
+    }
     const bool grey =
         settings.albedo[0] == settings.albedo[1] && settings.albedo[1] == settings.albedo[2];
     out.channels = grey ? 1 : 3;
-    out.phase = phase_params(settings.phase);
+    optics.phase = phase_params(settings.phase);
     return Status::ok();
 }
 

@@ -6,6 +6,7 @@
 #include "src/stages/prepare_field.h"
 #include "src/stages/prepare_leaves.h"
 #include "src/stages/prepare_majorant.h"
+#include "src/stages/prepare_shares.h"
 #include "src/stages/prepare_tree.h"
 
 namespace pileus {
@@ -36,7 +37,9 @@ Status finish_leaves(const Medium& medium, const CollectorOptions& options,
                                 out.collector_of_voxel.span(), context.threads, out.leaves.span(),
                                 out.collectors));
     name_collectors(out.leaves.span(), context.threads, medium.grid, out.collector_of_voxel.span());
-    return Status::ok();
+    if (medium.count == 1) return Status::ok();
+    return measure_shares(medium, out.leaves.span(), out.collectors.span(), context.threads,
+                          masses.span(), out.shares);
 }
 
 }  // namespace

@@ -13,9 +13,10 @@ struct Prepared {
     Buffer<Leaf> leaves;
     Buffer<Collector> collectors;
     Buffer<std::int32_t> collector_of_voxel;  ///< -1 where a leaf holds no medium
-    Buffer<float> majorants;                  ///< per tracking block
-    int block = 1;                            ///< edge of a tracking block, voxels
-    Buffer<float> skip_majorants;             ///< per block of the marching kernels
+    Buffer<float> shares;          ///< [collector][medium] of the extinction; none for one medium
+    Buffer<float> majorants;       ///< per tracking block
+    int block = 1;                 ///< edge of a tracking block, voxels
+    Buffer<float> skip_majorants;  ///< per block of the marching kernels
     int skip_block = 4;
     std::uint64_t samples = 0, rejected = 0;
 };

@@ -12,39 +12,75 @@ namespace {
 constexpr int kMostNumbers = kMaxBands * kMaxBands + 1;
 using Direction = Vec<float>;
 
-/// What multiplies band l: the phase function's moment (for incident light) and the window.
-struct BandFactors {
+/// What the sinc window multiplies each band by.
+struct Window {
     float factor[kMaxBands];
 };
-BandFactors band_factors(const ReconstructInput& in) {
-    BandFactors f{};
+Window band_window(const ReconstructInput& in) {
+    Window w{};
     for (int l = 0; l < in.deposit.bands; ++l) {
-        f.factor[l] =
-            in.deposit.mode == kDepositOutgoing ? 1.0f : phase_moment(in.medium->phase, l);
-        if (in.window && l > 0) {
-            const double x = double(l) / in.deposit.bands;
-            f.factor[l] *= float(sincos_deg(180.0 * x).sine / (3.14159265358979323846 * x));
-        }
+        w.factor[l] = 1;
+        if (!in.window || l == 0) continue;
+        const double x = double(l) / in.deposit.bands;
+        w.factor[l] = float(sincos_deg(180.0 * x).sine / (3.14159265358979323846 * x));
     }
-    return f;
+    return w;
+}
+
+/// All media of one collector as one, in one channel: albedo, and whose phase function how much of
+/// the scattered light follows. One medium has weight 1, to the bit.
+struct Mixture {
+    float albedo = 0;
+    float weight[kMostMedia] = {};
+    const Medium* medium = nullptr;
+
+    float moment(int l) const {
+        float sum = 0;
+        for (int i = 0; i < medium->count; ++i)
+            sum += weight[i] * phase_moment(medium->optics[std::size_t(i)].phase, l);
+        return sum;
+    }
+    float density(float one_minus_cos) const {
+        float sum = 0;
+        for (int i = 0; i < medium->count; ++i)
+            sum += weight[i] * phase_density(medium->optics[std::size_t(i)].phase, one_minus_cos);
+        return sum;
+    }
+};
+
+/// The share of a medium is that of the collector's extinction: the light is taken to be the same
+/// all over the leaf, as its colour is.
+Mixture mixture_of(const ReconstructInput& in, std::size_t collector, std::size_t channel) {
+    Mixture mix;
+    mix.medium = in.medium;
+    const std::size_t count = std::size_t(in.medium->count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const float share = count == 1 ? 1.0f : in.shares[collector * count + i];
+        mix.weight[i] = share * in.medium->optics[i].albedo[channel];
+        mix.albedo += mix.weight[i];
+    }
+    for (std::size_t i = 0; i < count && mix.albedo > 0; ++i) mix.weight[i] /= mix.albedo;
+    return mix;
 }
 
 /// Power per steradian and unit light scattered towards `to`, from all bands.
-double sh_power(const ReconstructInput& in, const BandFactors& bands, const double* sums,
-                const Direction& to) {
+double sh_power(const ReconstructInput& in, const Window& window, const Mixture& mix,
+                const double* sums, const Direction& to) {
     float y[kMaxBands * kMaxBands];
     sh_values(in.deposit.bands, to, y);
     double power = 0;
     for (int l = 0, i = 0; l < in.deposit.bands; ++l) {
         double band = 0;
         for (int m = -l; m <= l; ++m, ++i) band += sums[i] * double(y[i]);
-        power += band * double(bands.factor[l]);
+        const float moment = in.deposit.mode == kDepositOutgoing ? 1.0f : mix.moment(l);
+        power += band * double(moment * window.factor[l]);
     }
     return power;
 }
 
 /// The same from flux and mean direction alone: one HG lobe (docs/methods.md 3, closure `lobe`).
-double lobe_power(const ReconstructInput& in, const double* sums, const Direction& to) {
+double lobe_power(const ReconstructInput& in, const Mixture& mix, const double* sums,
+                  const Direction& to) {
     const double flux = sums[0] * 3.5449077018110320546;  // sqrt(4 pi)
     if (!(flux > 0) || in.deposit.bands < 2) return flux * 0.079577471545947667884;
     // y_1m is sqrt(3/4pi) times y, z, x.
@@ -52,16 +88,16 @@ double lobe_power(const ReconstructInput& in, const double* sums, const Directio
     const double x = sums[3] * scale, y = sums[1] * scale, z = sums[2] * scale;
     const double length = __builtin_sqrt(x * x + y * y + z * z);
     const float mean = length < 0.999 ? float(length) : 0.999f;
-    const float g =
-        in.deposit.mode == kDepositOutgoing ? mean : mean * phase_moment(in.medium->phase, 1);
+    const float g = in.deposit.mode == kDepositOutgoing ? mean : mean * mix.moment(1);
     const double safe = length > 1e-9 ? 1.0 / length : 0.0;
     const float cosine = float((x * double(to.x) + y * double(to.y) + z * double(to.z)) * safe);
     return flux * double(hg_density(g, 1.0f - cosine));
 }
 
 /// Light of one light in one slot, scattered towards `to`, per unit of its colour.
-double slot_power(const ReconstructInput& in, const BandFactors& bands, const PhotonSlot& slot,
-                  std::size_t light, std::uint64_t set, const Direction& to) {
+double slot_power(const ReconstructInput& in, const Window& window, const Mixture& mix,
+                  const PhotonSlot& slot, std::size_t light, std::uint64_t set,
+                  const Direction& to) {
     if (slot.generations == 0) return 0;
     const int n = in.deposit.coefficients;
     const std::uint64_t stride = slot.sums.size() / in.lighting->lights.size();
@@ -72,12 +108,12 @@ double slot_power(const ReconstructInput& in, const BandFactors& bands, const Ph
     for (int i = 0; i < n; ++i) sums[i] = double(from[i]) * norm;
     if (in.closure == Closure::kCamera) return sums[0];
 
-    double power =
-        in.closure == Closure::kLobe ? lobe_power(in, sums, to) : sh_power(in, bands, sums, to);
+    double power = in.closure == Closure::kLobe ? lobe_power(in, mix, sums, to)
+                                                : sh_power(in, window, mix, sums, to);
     if (in.deposit.first_order == 1 && in.lighting->lights[light].beam) {
         const Direction sun{slot.sun_travel[0], slot.sun_travel[1], slot.sun_travel[2]};
         power += sums[in.deposit.bands * in.deposit.bands] *
-                 double(phase_density(in.medium->phase, one_minus_cosine(sun, to)));
+                 double(mix.density(one_minus_cosine(sun, to)));
     }
     return power;
 }
@@ -97,12 +133,17 @@ struct Row {
 };
 
 /// Colour of collector i from slots [first, last), averaged.
-Row collector_colour(const ReconstructInput& in, const BandFactors& bands, std::size_t i,
+Row collector_colour(const ReconstructInput& in, const Window& window, std::size_t i,
                      std::size_t first, std::size_t last) {
     const Collector& c = in.collectors[i];
     const Direction to = towards_camera(in, c);
     const Medium& m = *in.medium;
     const double depth_m2 = c.mass * double(m.sigma);
+    Mixture mix[3];
+    for (std::size_t ch = 0; ch < std::size_t(m.channels); ++ch) mix[ch] = mixture_of(in, i, ch);
+    // The deposits know the albedos at real collisions, and where several media share a voxel.
+    const bool albedo_done =
+        in.deposit.mode == kDepositOutgoing || (in.deposit.mode == kDepositCamera && m.count > 1);
     Row row{};
     double generations = 0;
     for (std::size_t s = first; s < last; ++s)
@@ -116,8 +157,8 @@ Row collector_colour(const ReconstructInput& in, const BandFactors& bands, std::
             for (std::size_t ch = 0; ch < 3; ++ch) {
                 if (ch == 0 || m.channels == 3) {
                     const std::uint64_t set = std::uint64_t(i) * std::uint64_t(m.channels) + ch;
-                    power = slot_power(in, bands, slot, l, set, to) * share;
-                    if (in.deposit.mode != kDepositOutgoing) power *= double(m.albedo[ch]);
+                    power = slot_power(in, window, mix[ch], slot, l, set, to) * share;
+                    if (!albedo_done) power *= double(mix[ch].albedo);
                 }
                 row.rgb[ch] += power * colour[ch] / depth_m2;
             }
@@ -133,7 +174,7 @@ Status reconstruct(const ReconstructInput& in, CollectorColours& out) {
     const std::size_t batches = std::size_t(in.batches), sets = 1 + batches;
     if (out.colour.size() != 3 * sets * count)
         PILEUS_TRY(out.colour.resize(3 * sets * count, "collector colours"));
-    const BandFactors bands = band_factors(in);
+    const Window window = band_window(in);
     constexpr std::size_t kPiece = 256;
     const std::size_t pieces = (count + kPiece - 1) / kPiece;
     Buffer<std::uint64_t> negative;
@@ -144,7 +185,7 @@ Status reconstruct(const ReconstructInput& in, CollectorColours& out) {
         for (std::size_t i = begin; i < end; ++i) {
             for (std::size_t set = 0; set < sets; ++set) {
                 const Row row =
-                    collector_colour(in, bands, i, set == 0 ? 0 : (set - 1) * slots / batches,
+                    collector_colour(in, window, i, set == 0 ? 0 : (set - 1) * slots / batches,
                                      set == 0 ? slots : set * slots / batches);
                 for (std::size_t ch = 0; ch < 3; ++ch) {
                     // The constant part belongs to the radiance that must not be negative.

@@ -14,6 +14,7 @@ struct ReconstructInput {
     const Lighting* lighting = nullptr;
     const Photons* photons = nullptr;
     Span<const Collector> collectors;
+    Span<const float> shares;  ///< see Prepared; not read for one medium
     CameraParams camera{};
     DepositPlan deposit;
     Closure closure = Closure::kSh;

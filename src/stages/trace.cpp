@@ -33,7 +33,8 @@ void run_piece(const Launch& launch, std::uint64_t piece, int thread) {
     const TraceBuffers b{
         in.medium->volume.density.data(), in.majorants.data,
         in.collector_of_voxel.data,       sums,
-        sums + collector_numbers(in),     &launch.scratch->tallies[std::size_t(thread) * 2]};
+        sums + collector_numbers(in),     &launch.scratch->tallies[std::size_t(thread) * 2],
+        in.medium->parts.data()};
     in.kernels->trace(launch.params, b, std::uint32_t(begin), std::uint32_t(end));
 }
 
@@ -59,7 +60,6 @@ TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_
     for (int a = 0; a < 3; ++a) {
         k.size[a] = m.grid.size[a];
         k.cell[a] = m.grid.cell_m[a];
-        k.albedo[a] = m.albedo[std::size_t(a)];
         k.direction[a] = light.travel[std::size_t(a)];
         k.camera[a] = in.deposit.camera[a];
         diagonal += m.extent_m[a] * m.extent_m[a];
@@ -67,9 +67,9 @@ TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_
     block_counts(m.grid, in.block, k.blocks);
     k.block = float(in.block);
     k.sigma = m.sigma;
-    k.albedo_max = m.albedo_max;
     k.channels = m.channels;
-    k.phase = m.phase;
+    k.media = m.count;
+    for (std::size_t i = 0; i < m.optics.size(); ++i) k.optics[i] = m.optics[i];
     k.light = light.map ? kLightMap : (light.beam ? kLightBeam : kLightDiffuse);
     k.map = in.lighting->map;
     k.hemisphere = light.hemisphere;

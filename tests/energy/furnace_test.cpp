@@ -56,7 +56,7 @@ void make_furnace(Furnace& f) {
     CumulusSettings cumulus;
     cumulus.resolution = {32, 32, 24};
     REQUIRE(make_cumulus(cumulus, 1, f.rig.medium.volume));
-    f.rig.medium.phase.g1 = 0.6f;
+    f.rig.medium.optics[0].phase.g1 = 0.6f;
     Context context;
     Report report;
     context.kernels = f.rig.kernels;

@@ -20,7 +20,7 @@ Rig make_cloud(const Float3& albedo, float g) {
                 rig.medium.volume.density[v] = float(std::min(1.0, std::max(0.0, 6.0 - r) / 4));
             }
     set_albedo(rig, albedo);
-    rig.medium.phase.g1 = g;
+    rig.medium.optics[0].phase.g1 = g;
     set_majorants(rig, 2);
     return rig;
 }

@@ -61,7 +61,7 @@ void check_invariance(const std::string& name, Rig& rig, std::uint64_t photons) 
 TEST_CASE("mean path: a cumulus with a contrast of a million") {
     Rig rig = make_cumulus_rig(1e-6f);
     for (float g : {0.0f, 0.85f}) {
-        rig.medium.phase.g1 = g;
+        rig.medium.optics[0].phase.g1 = g;
         set_majorants(rig, 4);
         char name[64];
         std::snprintf(name, sizeof name, "cumulus g %g local", double(g));
@@ -76,7 +76,7 @@ TEST_CASE("mean path: checkerboards, local and global") {
         Rig rig = make_checkerboard(low);
         for (float g : {-0.5f, 0.0f, 0.85f})
             for (int block : {0, 1, 3}) {
-                rig.medium.phase.g1 = g;
+                rig.medium.optics[0].phase.g1 = g;
                 set_majorants(rig, block);
                 char name[80];
                 std::snprintf(name, sizeof name, "checkerboard 1:%g g %g block %d", double(low),
@@ -89,9 +89,9 @@ TEST_CASE("mean path: checkerboards, local and global") {
 TEST_CASE("mean path: other phase functions") {
     Rig rig = make_checkerboard(0.01f);
     set_majorants(rig, 2);
-    rig.medium.phase = {kPhaseRayleigh, 0, 0, 1};
+    rig.medium.optics[0].phase = {kPhaseRayleigh, 0, 0, 1};
     check_invariance("checkerboard Rayleigh", rig, 100'000);
-    rig.medium.phase = {kPhaseTwoLobe, 0.9f, -0.3f, 0.7f};
+    rig.medium.optics[0].phase = {kPhaseTwoLobe, 0.9f, -0.3f, 0.7f};
     check_invariance("checkerboard two lobes", rig, 100'000);
 }
 

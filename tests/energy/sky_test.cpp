@@ -18,7 +18,7 @@ const auto kEven = [](int, int, int) { return 1.0; };
 /// A box of three unequal sides, optically thick a few times, absorbing a little.
 Rig make_box() {
     Rig rig = make_rig({4, 3, 2}, {40, 30, 20}, 0.1);
-    rig.medium.phase.g1 = 0.6f;
+    rig.medium.optics[0].phase.g1 = 0.6f;
     set_albedo(rig, {0.95f, 0.95f, 0.95f});
     return rig;
 }
@@ -146,8 +146,7 @@ TEST_CASE("sky map: one bright texel is a sun of the same direction and irradian
 
 TEST_CASE("sky map: the ledger of coloured light balances in every channel, shadows included") {
     Rig rig = make_box();
-    rig.medium.albedo = {0.9f, 0.95f, 1.0f};
-    rig.medium.albedo_max = 1;
+    set_albedo(rig, {0.9f, 0.95f, 1.0f});
     rig.medium.channels = 3;
     rig.lighting.ground = true;
     rig.lighting.ground_z = -5;

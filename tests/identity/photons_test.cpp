@@ -23,7 +23,7 @@ Rig make_lump(const Float3& albedo) {
             }
     rig.collectors = 8;
     set_albedo(rig, albedo);
-    rig.medium.phase.g1 = 0.7f;
+    rig.medium.optics[0].phase.g1 = 0.7f;
     set_majorants(rig, 2);
     rig.lighting.ground = true;
     rig.lighting.ground_z = -10;
@@ -74,7 +74,8 @@ std::string shoot_pieces(const Rig& rig, const std::vector<std::uint32_t>& ends)
                          rig.collector_of_voxel.data(),
                          sums.data(),
                          nullptr,
-                         tally.data()};
+                         tally.data(),
+                         rig.medium.parts.data()};
     std::uint32_t begin = 0;
     for (std::uint32_t end : ends) {
         rig.kernels->trace(k, b, begin, end);

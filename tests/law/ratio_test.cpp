@@ -196,8 +196,7 @@ TEST_CASE("light that the tracer lets straight through agrees with ratio trackin
     const double expected = (hot + rest) / (kEdge * kEdge);
     for (int block : {0, 4}) {
         Rig rig = make_hot(kDepth, block);
-        rig.medium.albedo = {0, 0, 0};
-        rig.medium.albedo_max = 0;
+        set_albedo(rig, {0, 0, 0});
         add_light(rig, beam_light(rig.medium, {0, 0, -1}));
         const std::string end = ", block " + std::to_string(block);
         check_mean("delta tracking" + end, expected, [&](int multiple, std::uint64_t seed) {

@@ -118,7 +118,7 @@ TEST_CASE("contrast: one bound for all and local bounds give one mean") {
     Rig rig = make_hot_voxel(20, 30);
     rig.lighting.lights.clear();
     add_light(rig, beam_light(rig.medium, {0.6, 0, -0.8}));
-    rig.medium.phase.g1 = 0.7f;
+    rig.medium.optics[0].phase.g1 = 0.7f;
     set_majorants(rig, 0);
     const TraceTally global = shoot(rig, 1'000'000, 501);
     const Mean reference = share_mean(global.light.bottom[0], global);

@@ -89,7 +89,7 @@ TEST_CASE("slab: the reflected share does not depend on how finely it is cut") {
         for (int block : {0, 1, 3}) {
             Rig rig = make_rig(size, {kSlabWidth, kSlabWidth, 1}, 2);
             set_albedo(rig, {0.9f, 0.9f, 0.9f});
-            rig.medium.phase.g1 = 0.75f;
+            rig.medium.optics[0].phase.g1 = 0.75f;
             set_majorants(rig, block);
             add_light(rig, beam_at(rig.medium, 1));
             char name[64];

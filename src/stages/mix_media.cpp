@@ -1,0 +1,238 @@
+// SPDX-License-Identifier: Apache-2.0
+// See mix_media.h.
+// in: media with boxes and voxels of their own -> out: the sum of their extinctions, and its parts.
+// docs/methods.md 2, "Several media".
+#include "src/stages/mix_media.h"
+
+#include "platform/threads.h"
+#include "src/io/volume_file.h"
+#include "src/scene/toml_tree.h"
+#include "src/stages/mix_weights.h"
+
+namespace pileus {
+namespace {
+
+MixBox box_of(const Medium& m) {
+    return {m.low_m, {m.extent_m[0], m.extent_m[1], m.extent_m[2]}, m.volume.size};
+}
+
+/// Cells of `edge` along `extent`; one that is there but for rounding counts.
+int cells_along(double extent, double edge) {
+    const double cells = extent / edge - 1e-6;
+    if (!(cells > 1)) return 1;
+    if (cells >= kMaxVolumeSide) return kMaxVolumeSide;
+    const int whole = int(cells);
+    return double(whole) < cells ? whole + 1 : whole;
+}
+
+CellRow row_of(const MixBox& box, std::size_t axis) {
+    return {box.low_m[axis], box.extent_m[axis] / box.size[axis], box.size[axis]};
+}
+
+/// One medium on its way onto the grid: weights per axis, and the common unit of extinction.
+struct Layer {
+    const Medium* medium;
+    RowWeights axis[3];
+    double scale;
+    float* part;  ///< null for medium 0, which the sum holds
+
+    std::size_t width() const { return std::size_t(medium->volume.size[0]); }
+    std::size_t plane() const { return width() * std::size_t(medium->volume.size[1]); }
+};
+
+Layer make_layer(const Medium& medium, const MixBox& target, float sigma, float* part) {
+    Layer layer{&medium, {}, double(medium.sigma) / double(sigma), part};
+    const MixBox source = box_of(medium);
+    for (std::size_t a = 0; a < 3; ++a)
+        layer.axis[a] = row_weights(row_of(target, a), row_of(source, a));
+    return layer;
+}
+
+/// sum = weighted sum of runs of `stride` numbers that lie `stride` apart.
+template <class T>
+void add_runs(const RowWeights& w, std::size_t cell, const T* source, std::size_t stride,
+              double* sum) {
+    for (std::size_t i = 0; i < stride; ++i) sum[i] = 0;
+    for (std::size_t k = w.first[cell]; k < w.first[cell + 1]; ++k) {
+        const T* from = source + (std::size_t(w.begin[cell]) + k - w.first[cell]) * stride;
+        const double weight = w.weight[k];
+        for (std::size_t i = 0; i < stride; ++i) sum[i] += weight * double(from[i]);
+    }
+}
+
+bool reached(const RowWeights& w, std::size_t cell) { return w.first[cell] < w.first[cell + 1]; }
+
+/// Adds slice z of one medium to the sum, axis after axis; `scratch` holds a plane and a row of it.
+void add_slice(const Layer& layer, const std::array<int, 3>& size, std::size_t z, double* scratch,
+               float* density) {
+    if (!reached(layer.axis[2], z)) return;
+    double* row = scratch + layer.plane();
+    add_runs(layer.axis[2], z, layer.medium->volume.density.data(), layer.plane(), scratch);
+    const std::size_t nx = std::size_t(size[0]), ny = std::size_t(size[1]);
+    for (std::size_t y = 0; y < ny; ++y) {
+        if (!reached(layer.axis[1], y)) continue;
+        add_runs(layer.axis[1], y, scratch, layer.width(), row);
+        for (std::size_t x = 0; x < nx; ++x) {
+            double value = 0;
+            add_runs(layer.axis[0], x, row, 1, &value);
+            const float part = float(value * layer.scale);
+            const std::size_t voxel = (z * ny + y) * nx + x;
+            density[voxel] += part;
+            if (layer.part != nullptr) layer.part[voxel] = part;
+        }
+    }
+}
+
+/// Media 1, 2 ... and then 0: the order in which the kernels add them up again.
+std::vector<Layer> make_layers(const std::vector<Medium>& media, const MixBox& box, Medium& out) {
+    const std::size_t voxels = out.volume.density.size();
+    std::vector<Layer> layers;
+    for (std::size_t i = 1; i < media.size(); ++i)
+        layers.push_back(make_layer(media[i], box, out.sigma, out.parts.data() + (i - 1) * voxels));
+    layers.push_back(make_layer(media[0], box, out.sigma, nullptr));
+    return layers;
+}
+
+Status add_layers(const std::vector<Medium>& media, const MixBox& box, int threads, Medium& out) {
+    const std::vector<Layer> layers = make_layers(media, box, out);
+    std::size_t largest = 0;
+    for (const Layer& layer : layers) {
+        const std::size_t numbers = layer.plane() + layer.width();
+        if (numbers > largest) largest = numbers;
+    }
+    largest = (largest + 31) / 16 * 16;
+    Buffer<double> scratch;
+    PILEUS_TRY(scratch.resize(std::uint64_t(largest) * std::uint64_t(threads), "mixing of media"));
+    parallel_for(threads, box.size[2], [&](std::int64_t z, int thread) {
+        for (const Layer& layer : layers)
+            add_slice(layer, box.size, std::size_t(z),
+                      scratch.data() + std::size_t(thread) * largest, out.volume.density.data());
+    });
+    return Status::ok();
+}
+
+std::string told_voxels(const MixBox& box) {
+    std::string size, edge;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const double metres = box.extent_m[a] / box.size[a];
+        size += (a > 0 ? "x" : "") + std::to_string(box.size[a]);
+        edge += (a > 0 ? " x " : "") + number_text(metres);
+    }
+    return size + " voxels of " + edge + " m";
+}
+
+/// What the plan says of the common grid.
+std::string told_mix(const std::vector<MixBox>& boxes, const std::vector<std::size_t>& names,
+                     const MixGrid& grid) {
+    std::string text = "media laid on one grid: " + told_voxels(grid.box);
+    if (grid.coarsened) text += ", coarsened to keep the limit";
+    const std::vector<bool> resampled = resampled_media(boxes, grid);
+    for (std::size_t i = 0; i < boxes.size(); ++i)
+        if (resampled[i]) text += "; medium " + std::to_string(names[i]) + " resampled";
+    return text;
+}
+
+}  // namespace
+
+MixGrid plan_mix(const std::vector<MixBox>& boxes, std::uint64_t most) {
+    MixGrid grid;
+    grid.box = boxes[0];
+    Double3 edge = {0, 0, 0};
+    for (std::size_t a = 0; a < 3; ++a) {
+        double& low = grid.box.low_m[a];
+        for (const MixBox& b : boxes) {
+            low = b.low_m[a] < low ? b.low_m[a] : low;
+            const double cell = b.extent_m[a] / b.size[a];
+            if (!(edge[a] > 0) || cell < edge[a]) edge[a] = cell;
+        }
+        // Equal boxes must give exactly their extent.
+        double extent = 0;
+        for (const MixBox& b : boxes) {
+            const double reach = (b.low_m[a] - low) + b.extent_m[a];
+            extent = reach > extent ? reach : extent;
+        }
+        grid.box.extent_m[a] = extent;
+    }
+    // Every turn makes the voxels coarser, down to one along each axis.
+    for (double factor = 1;; factor *= 1.01) {
+        std::uint64_t voxels = 1;
+        for (std::size_t a = 0; a < 3; ++a) {
+            grid.box.size[a] = cells_along(grid.box.extent_m[a], edge[a] * factor);
+            voxels *= std::uint64_t(grid.box.size[a]);
+            grid.coarsened |= grid.box.extent_m[a] / grid.box.size[a] > edge[a] * (1 + 1e-6);
+        }
+        if (voxels <= most || voxels == 1) return grid;
+    }
+}
+
+std::vector<bool> resampled_media(const std::vector<MixBox>& boxes, const MixGrid& grid) {
+    std::vector<bool> resampled;
+    for (const MixBox& b : boxes) {
+        bool any = false;
+        for (std::size_t a = 0; a < 3; ++a)
+            any |= row_weights(row_of(grid.box, a), row_of(b, a)).resampled;
+        resampled.push_back(any);
+    }
+    return resampled;
+}
+
+Status mix_media(std::vector<Medium>& media, const MixGrid& grid, int threads, Medium& out) {
+    if (media.size() == 1) {
+        out = std::move(media[0]);
+        return Status::ok();
+    }
+    const MixBox& box = grid.box;
+    out = Medium{};
+    out.low_m = box.low_m;
+    out.volume.size = box.size;
+    for (std::size_t a = 0; a < 3; ++a) {
+        out.extent_m[a] = box.extent_m[a];
+        out.grid.size[a] = box.size[a];
+        out.grid.cell_m[a] = float(box.extent_m[a] / box.size[a]);
+    }
+    out.count = int(media.size());
+    for (std::size_t i = 0; i < media.size(); ++i) {
+        out.optics[i] = media[i].optics[0];
+        if (media[i].channels > out.channels) out.channels = media[i].channels;
+        if (media[i].sigma > out.sigma) out.sigma = media[i].sigma;
+    }
+    const std::size_t voxels = voxel_count(out.grid);
+    PILEUS_TRY(out.volume.density.resize(voxels, "density"));
+    PILEUS_TRY(out.parts.resize((media.size() - 1) * std::uint64_t(voxels), "parts of the media"));
+    // Without any extinction there is nothing to add up.
+    if (out.sigma > 0) PILEUS_TRY(add_layers(media, box, threads, out));
+    for (float density : out.volume.density.span())
+        if (density > out.density_max) out.density_max = density;
+    media.clear();
+    return Status::ok();
+}
+
+Status load_media(const Scene& scene, int threads, Plan& plan, Medium& out) {
+    if (scene.media.size() > std::size_t(kMostMedia))
+        return Status::limit(scene.file + ": medium: " + std::to_string(scene.media.size()) +
+                             " media, allowed: at most " + std::to_string(kMostMedia));
+    std::vector<Medium> media;
+    std::vector<MixBox> boxes;
+    std::vector<std::size_t> names;
+    for (std::size_t i = 0; i < scene.media.size(); ++i) {
+        Medium medium;
+        PILEUS_TRY(load_medium(scene, scene.media[i], threads, medium));
+        const bool dark = !(medium.sigma > 0 && medium.density_max > 0);
+        const bool last = media.empty() && i + 1 == scene.media.size();
+        if (dark && !last) {
+            plan.leave_out(("medium " + std::to_string(i)).c_str(), "no extinction");
+            continue;
+        }
+        boxes.push_back(box_of(medium));
+        names.push_back(i);
+        media.push_back(std::move(medium));
+    }
+    const MixGrid grid = plan_mix(boxes);
+    if (media.size() == 1)
+        plan.leave_out("mixing of media", "one medium");
+    else
+        plan.need(told_mix(boxes, names, grid).c_str());
+    return mix_media(media, grid, threads, out);
+}
+
+}  // namespace pileus
