@@ -13,10 +13,11 @@ namespace pileus {
 struct Medium {
     Volume volume;
     Grid grid;
-    Double3 low_m{};     ///< low corner of the box in the world; the origin of box-local metres
-    double extent_m[3];  ///< box edges
-    float sigma = 0;     ///< extinction at density 1, 1/m
-    int channels = 1;    ///< 1: achromatic
+    Double3 low_m{};      ///< low corner of the box in the world; the origin of box-local metres
+    double extent_m[3];   ///< box edges
+    double detail_m = 0;  ///< length that the preparation's shares are of; 0: the box's diagonal
+    float sigma = 0;      ///< extinction at density 1, 1/m
+    int channels = 1;     ///< 1: achromatic
     float density_max = 0;
     int count = 1;  ///< media on this grid, 1..kMostMedia; `volume` holds their sum
     std::array<Optics, kMostMedia> optics{};

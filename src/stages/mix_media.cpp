@@ -8,6 +8,7 @@
 #include "src/io/volume_file.h"
 #include "src/scene/toml_tree.h"
 #include "src/stages/mix_weights.h"
+#include "src/stages/prepare_collectors.h"
 
 namespace pileus {
 namespace {
@@ -111,6 +112,21 @@ Status add_layers(const std::vector<Medium>& media, const MixBox& box, int threa
     return Status::ok();
 }
 
+/// The smallest diagonal of the media, but not so small that cubes of a 24th of it (the longest
+/// leaves) would be more than 2^17 in the common box.
+double detail_of(const std::vector<Medium>& media, const MixBox& box) {
+    double least = 0, volume = 1;
+    for (const Medium& m : media) {
+        double square = 0;
+        for (double e : m.extent_m) square += e * e;
+        const double diagonal = __builtin_sqrt(square);
+        if (!(least > 0) || diagonal < least) least = diagonal;
+    }
+    for (double e : box.extent_m) volume *= e;
+    const double floor = 24 * cube_root(volume / 131072);
+    return least > floor ? least : floor;
+}
+
 std::string told_voxels(const MixBox& box) {
     std::string size, edge;
     for (std::size_t a = 0; a < 3; ++a) {
@@ -191,6 +207,7 @@ Status mix_media(std::vector<Medium>& media, const MixGrid& grid, int threads, M
         out.grid.cell_m[a] = float(box.extent_m[a] / box.size[a]);
     }
     out.count = int(media.size());
+    out.detail_m = detail_of(media, box);
     for (std::size_t i = 0; i < media.size(); ++i) {
         out.optics[i] = media[i].optics[0];
         if (media[i].channels > out.channels) out.channels = media[i].channels;

@@ -42,6 +42,15 @@ void integrate(double from, double to, int count, int begin, std::vector<double>
     }
 }
 
+/// Marks what is more than a copy. One source cell that fills the target's is a copy: exactly.
+void settle(RowWeights& row) {
+    const bool one = row.weight.size() - row.first.back() == 1;
+    if (one && distance(row.weight.back(), 1) < kSnap)
+        row.weight.back() = 1;
+    else
+        row.resampled = true;
+}
+
 /// Whole cells from the target's first face to the source's, where the two lattices coincide.
 bool coincide(const CellRow& target, const CellRow& source, int& shift) {
     const double stretch = distance(source.cell_m / target.cell_m, 1) * source.count;
@@ -55,12 +64,12 @@ bool coincide(const CellRow& target, const CellRow& source, int& shift) {
 RowWeights row_weights(const CellRow& target, const CellRow& source) {
     RowWeights row;
     int shift = 0;
-    row.resampled = !coincide(target, source, shift);
+    const bool same = coincide(target, source, shift);
     std::vector<double> sum;
     for (int t = 0; t < target.count; ++t) {
         row.first.push_back(row.weight.size());
         row.begin.push_back(0);
-        if (!row.resampled) {
+        if (same) {
             if (t < shift || t >= shift + source.count) continue;
             row.begin.back() = t - shift;
             row.weight.push_back(1);
@@ -77,6 +86,7 @@ RowWeights row_weights(const CellRow& target, const CellRow& source) {
         integrate(from, to, source.count, begin, sum);
         row.begin.back() = begin;
         for (double w : sum) row.weight.push_back(w * source.cell_m / target.cell_m);
+        settle(row);
     }
     row.first.push_back(row.weight.size());
     return row;

@@ -78,12 +78,15 @@ Status prepare_collectors(const Medium& medium, const CollectorSettings& setting
     PILEUS_TRY(prepare_sample_set(medium, settings, seed, context, set));
     out.samples = set.samples.size();
     out.rejected = set.given_up;
-    double diagonal = 0;
-    for (double e : medium.extent_m) diagonal += e * e;
+    double square = 0;
+    for (double e : medium.extent_m) square += e * e;
+    const double diagonal = __builtin_sqrt(square);
+    // A small cloud in wide haze is divided as finely as it would be alone.
+    const double detail = medium.detail_m > 0 ? medium.detail_m / diagonal : 1.0;
     TreeOptions tree;
     tree.density_range = float(settings.density_range) * medium.density_max;
-    tree.influence_m = float(settings.influence_radius * __builtin_sqrt(diagonal));
-    if (!settings.paper) leaf_limit(medium.grid, kLeafShare, tree.max_leaf_voxels);
+    tree.influence_m = float(settings.influence_radius * diagonal * detail);
+    if (!settings.paper) leaf_limit(medium.grid, kLeafShare * detail, tree.max_leaf_voxels);
     {
         const StageClock clock(context, "tree");
         PILEUS_TRY(build_tree(set.samples.span(), medium.volume.density.span(), medium.grid, tree,
