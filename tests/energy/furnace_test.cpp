@@ -4,10 +4,11 @@
 // docs/methods.md 3 "Shoot" (furnace identity); the ground's rules by forcing its photons.
 #include "kernels_cpu/vec.h"
 #include "src/stages/prepare.h"
+#include "src/stages/prepare_shares.h"
 #include "src/stages/reconstruct.h"
 #include "src/volume/cumulus.h"
+#include "tests/media_harness.h"
 #include "tests/render_harness.h"
-#include "tests/trace_harness.h"
 
 using namespace trace_test;
 
@@ -91,6 +92,7 @@ Halves half_means(const Furnace& f, const PhotonSlot& slot, const Vec<float>& fo
     in.lighting = &lighting;
     in.photons = &photons;
     in.collectors = f.prepared.collectors.span();
+    in.shares = f.prepared.shares.span();
     in.camera.orthographic = 1;
     in.camera.forward[0] = forward.x, in.camera.forward[1] = forward.y;
     in.camera.forward[2] = forward.z;
@@ -210,6 +212,35 @@ TEST_CASE("furnace: upper and lower half of the sky add up") {
     add_light(f.rig, diffuse_light(f.rig.medium, -1));
     add_light(f.rig, diffuse_light(f.rig.medium, 1));
     check_furnace("two halves", f, 8'000);
+}
+
+TEST_CASE("furnace: two white media, one above the other with a zone where they mix") {
+    Furnace f;
+    make_furnace(f);
+    split(f.rig, optics_of({1, 1, 1}, {kPhaseTwoLobe, 0.9f, -0.4f, 0.6f}),
+          [](std::size_t v) { return std::min(1.0, std::max(0.0, (double(v / 1024) - 8) / 8)); });
+    Buffer<double> scratch;
+    REQUIRE(scratch.resize(voxel_count(f.rig.medium.grid), "scratch"));
+    REQUIRE(measure_shares(f.rig.medium, f.prepared.leaves.span(), f.prepared.collectors.span(), 1,
+                           scratch.span(), f.prepared.shares));
+    add_light(f.rig, diffuse_light(f.rig.medium, 0));
+    check_furnace("two white media", f, 12'000);
+}
+
+TEST_CASE("furnace: two white media need no photon, one that is not does") {
+    const std::string text = std::string(kText) + "\n[[medium]]\n" + "density = \"uniform:box\"\n" +
+                             "bounds_m = [[-1000, -1000, 500], [1000, 1000, 1800]]\n" +
+                             "extinction_per_m = 0.001\n";
+    for (const char* display : {"march", "billboards"}) {
+        const std::string shown = std::string("collectors.display=\"") + display + "\"";
+        const render_test::Picture p =
+            render_test::render_one(render_test::scene_from(text, {shown}));
+        CHECK(worst_pixel(p) <= 1e-3);
+        CHECK(p.report.photons == 0);
+        const render_test::Picture grey = render_test::render_one(
+            render_test::scene_from(text, {shown, "medium.1.albedo=0.999"}));
+        CHECK(grey.report.photons > 0);
+    }
 }
 
 TEST_CASE("furnace: sky above, white ground below, by photons") {
