@@ -5,7 +5,6 @@
 #pragma once
 #include "kernels_cpu/medium.h"
 #include "kernels_cpu/phase.h"
-#include "kernels_cpu/rng.h"
 
 namespace pileus {
 
@@ -21,13 +20,12 @@ struct Optics {
 
 inline namespace PILEUS_ISA {
 
-/// Medium per lane, drawn with the random `word` by its share of the `density` at `voxel`. `parts`
-/// holds the densities of media 1, 2 ...; what is left of the density belongs to medium 0.
-template <class T, class UU>
-PILEUS_FN auto draw_medium(const float* parts, std::int64_t voxels, int media, I_of<T> voxel,
-                           T density, UU word) {
+/// Medium per lane at `voxel`, where `at` is uniform below the density. `parts` holds the densities
+/// of media 1, 2 ...; what is left of the density belongs to medium 0.
+template <class T>
+PILEUS_FN auto medium_under(const float* parts, std::int64_t voxels, int media, I_of<T> voxel,
+                            T at) {
     using II = I_of<T>;
-    const T at = uniform(word) * density;
     II medium{};
     T sum{};
     // Add in the order in which the density was summed: an absent medium is never drawn.

@@ -120,16 +120,6 @@ PILEUS_FN void leave_box(Photon<W, NC>& s, const TraceParams& k, const TraceBuff
     }
 }
 
-/// Medium that each lane collides with at the voxel of its look-up. One corner stands for eight
-/// here too: density times share is what was looked up.
-template <int W, int NC>
-PILEUS_FN I<W> medium_at(const Photon<W, NC>& s, const TraceParams& k, const TraceBuffers& b,
-                         I<W> corner, F<W> density) {
-    if (k.media <= 1) return I<W>{};
-    const Words<U<W>> w = threefry(k.key.k0, k.key.k1, s.index + k.first_photon, s.event * 4u + 3u);
-    return draw_medium(b.parts, voxels_of(k), k.media, corner, density, w.a);
-}
-
 /// Real collisions with the media named, in the lanes of `m`: absorb by roulette, otherwise turn.
 template <int W, int NC>
 PILEUS_FN void scatter(Photon<W, NC>& s, const TraceParams& k, const TraceBuffers& b, M<W> m,
@@ -201,10 +191,11 @@ struct Group {
 /// Ask for the memory that the lanes of `m` will read, so that it comes while others compute.
 template <int W>
 PILEUS_FN void fetch_ahead(const TraceBuffers& b, std::uint32_t m, I<W> corner, I<W> voxel,
-                           bool collectors) {
+                           const float* parts, bool collectors) {
     for (; m != 0; m &= m - 1) {
         const int i = __builtin_ctz(m);
         __builtin_prefetch(b.density + lane(corner, i));
+        if (parts != nullptr) __builtin_prefetch(parts + lane(corner, i));
         if (collectors) __builtin_prefetch(b.collector + lane(voxel, i));
     }
 }
@@ -231,7 +222,8 @@ PILEUS_FN void advance(Group<W, NC>& g, const TraceParams& k, const TraceBuffers
     g.corner = select(m.hits, corner_voxel(s.p, w.a, k), I<W>{});
     g.voxel = select(m.hits, voxel_of(s.p, k), I<W>{});
     g.spare = w.b;
-    fetch_ahead<W>(b, bits_of(m.hits), g.corner, g.voxel, k.mode != kDepositNone);
+    fetch_ahead<W>(b, bits_of(m.hits), g.corner, g.voxel, k.media > 1 ? b.parts : nullptr,
+                   k.mode != kDepositNone);
 }
 
 /// Tentative collisions in the lanes that have come to one.
@@ -248,9 +240,13 @@ PILEUS_FN void collide(Group<W, NC>& g, const TraceParams& k, const TraceBuffers
     if (k.mode != kDepositNone && k.mode != kDepositOutgoing && any(medium))
         deposit(k, b, s, medium, g.voxel, density / g.bound, g.corner, density);
     s.tau = select(g.hits, free_flight(flight.a, g.spare), s.tau);
-    const auto real = medium & (uniform(flight.b) * g.bound < density);
+    const T level = uniform(flight.b) * g.bound;
+    const auto real = medium & (level < density);
     if (any(real)) {
-        scatter(s, k, b, real, g.spare, medium_at(s, k, b, g.corner, density));
+        // Below the density the level is uniform still: it falls to each medium by its share.
+        const I<W> whose =
+            k.media > 1 ? medium_under(b.parts, voxels_of(k), k.media, g.corner, level) : I<W>{};
+        scatter(s, k, b, real, g.spare, whose);
         if (k.mode == kDepositOutgoing)
             deposit(k, b, s, real & s.alive, g.voxel, all<T>(1.0f), g.corner, density);
     }

@@ -107,10 +107,22 @@ void run_floor(benchmark::State& state, Bench& bench, const TraceCase& which,
 void register_trace_cases(Bench& bench) {
     // A fiftieth of the photons per iteration, as one generation of the default ring.
     const std::string few = "collectors.generations=50";
+    // The same cloud as two media of half the extinction and a lobe each: what mixing costs.
+    const Overrides halves = {few,
+                              "medium.0.extinction_per_m=0.025",
+                              "medium.1.density=procedural:cumulus",
+                              "medium.1.bounds_m=[[-800,-800,600],[800,800,1700]]",
+                              "medium.1.resolution=[160,160,110]",
+                              "medium.1.extinction_per_m=0.025",
+                              "medium.1.phase={type=\"henyey-greenstein\",g=0.5}"};
+    // And as one medium of these two lobes: the same light, without mixing.
+    const Overrides lobes = {few, "medium.0.phase={type=\"two-lobe\",g1=0.85,g2=0.5,weight=0.5}"};
     const TraceCase cases[] = {
         {"trace/slab", "slab", {few, "collectors.photons=1000000"}},
         {"trace/cumulus/local", "cumulus", {few, "collectors.tracking=local"}},
         {"trace/cumulus/global", "cumulus", {few, "collectors.tracking=global"}},
+        {"trace/cumulus/two_media", "cumulus", halves},
+        {"trace/cumulus/two_lobes", "cumulus", lobes},
     };
     for (const TraceCase& which : cases)
         for_each_machine([&](const std::string& suffix, const KernelTable* kernels, int threads) {
