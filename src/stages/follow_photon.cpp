@@ -84,6 +84,7 @@ void follow_photon(const TraceInput& in, const Light& light, std::uint32_t numbe
     TraceBuffers b{};
     b.density = in.medium->volume.density.data();
     b.majorant = in.majorants.data;
+    b.parts = in.medium->parts.data();
     if (k.channels == 1)
         follow<1>(k, b, number, most, path);
     else

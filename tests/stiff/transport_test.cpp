@@ -32,7 +32,7 @@ Rig make_lump(const std::array<int, 3>& size) {
             for (int x = 0; x < size[0]; ++x, ++v)
                 rig.medium.volume.density[v] =
                     float((x + 1) * (y + 2) * (z + 3)) / float((size[0] + 2) * 60);
-    rig.medium.phase.g1 = 0.6f;
+    rig.medium.optics[0].phase.g1 = 0.6f;
     set_albedo(rig, {0.95f, 0.95f, 0.95f});
     set_majorants(rig, 2);
     return rig;
@@ -174,8 +174,7 @@ TEST_CASE("S33: a mirrored or turned field under a mirrored or turned beam is th
             for (int x = 0; x < 5; ++x)
                 turned.medium.volume.density[voxel_index(turned.medium.grid, x, y, z)] =
                     rig.medium.volume.density[voxel_index(rig.medium.grid, y, 4 - x, z)];
-    turned.medium.phase = rig.medium.phase;
-    set_albedo(turned, rig.medium.albedo);
+    turned.medium.optics[0] = rig.medium.optics[0];
     set_majorants(turned, 2);
     add_light(turned, beam_light(turned.medium, {-0.36, 0.48, -0.8}));
     check("turned by 90 degrees", turned);
