@@ -201,7 +201,7 @@ PILEUS_FN void blend_sphere(const BlendParams& p, const BlendBuffers& b, const B
             const std::size_t at = start + std::size_t(x);
             const T before = blend_load<T>(t.transmittance + at);
             const auto halved = blend_take<T>(t, colour, p.channels, at, depth, before);
-            if (!any(halved)) continue;
+            if (b.half_depth == nullptr || !any(halved)) continue;
             const BlendChord<T> c = blend_chord<T>(p, t, s, row, before, clip, solid, at, x);
             blend_half<T>(t, s, row, c, before, halved, at, x);
         }
@@ -224,7 +224,7 @@ PILEUS_FN void blend_write(const BlendParams& p, const BlendBuffers& b, const Bl
         const std::size_t from = std::size_t(y) * std::size_t(t.stride);
         const std::size_t to = std::size_t(t.y + y) * std::size_t(p.width) + std::size_t(t.x);
         __builtin_memcpy(b.transmittance + to, t.transmittance + from, bytes);
-        __builtin_memcpy(b.half_depth + to, t.half + from, bytes);
+        if (b.half_depth != nullptr) __builtin_memcpy(b.half_depth + to, t.half + from, bytes);
         for (std::size_t k = 0; k < std::size_t(p.channels); ++k)
             __builtin_memcpy(b.colour + k * image + to, t.colour + k * t.plane + from, bytes);
     }

@@ -43,8 +43,8 @@ struct BlendBuffers {
     const std::uint32_t* tile_spheres;  // places in `spheres`, ascending
     const float* opaque_depth;          // [height][width] metres along the ray, or null
     float* transmittance;               // [height][width]
-    float* half_depth;                  // [height][width] metres along the ray, or infinity
-    float* colour;                      // [channel][height][width]
+    float* half_depth;  // [height][width] metres along the ray, or infinity; or null
+    float* colour;      // [channel][height][width]
     float* scratch;
 };
 

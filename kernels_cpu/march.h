@@ -197,17 +197,19 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
             colour[i] = colour[i] + weight * source;
         }
         const T left = transmittance * (1.0f - alpha);
-        const auto crosses = (transmittance > 0.5f) & (left <= 0.5f);
-        if (any(crosses)) {
-            const T share = log_(transmittance * 2.0f) / max_(optical, all<T>(1e-30f));
-            half = select(crosses, t + (share - 0.5f) * width, half);
+        if (b.half_depth != nullptr) {
+            const auto crosses = (transmittance > 0.5f) & (left <= 0.5f);
+            if (any(crosses)) {
+                const T share = log_(transmittance * 2.0f) / max_(optical, all<T>(1e-30f));
+                half = select(crosses, t + (share - 0.5f) * width, half);
+            }
         }
         transmittance = left;
         return transmittance < k.cut;
     });
     for (int l = 0; l < lanes; ++l) {
         b.transmittance[first + l] = lane(transmittance, l);
-        b.half_depth[first + l] = lane(half, l);
+        if (b.half_depth != nullptr) b.half_depth[first + l] = lane(half, l);
         for (int c = 0; c < k.channels; ++c) b.colour[c * pixels + first + l] = lane(colour[c], l);
     }
 }
@@ -265,7 +267,7 @@ PILEUS_FN void background_rows(const BackgroundParams& k, const BackgroundBuffer
             for (int l = 0; l < W && x + l < k.camera.width; ++l) {
                 const std::int64_t pixel = std::int64_t(y) * k.camera.width + x + l;
                 const bool hit = (bits_of(ground) >> l) & 1u;
-                b.opaque_depth[pixel] = lane(depth, l);
+                if (b.opaque_depth != nullptr) b.opaque_depth[pixel] = lane(depth, l);
                 for (int c = 0; c < 3; ++c)
                     b.colour[c * pixels + pixel] = hit ? k.ground_diffuse[c] +
                                                              k.ground_sun[c] * lane(sunlight, l) +

@@ -55,7 +55,8 @@ struct MarchBuffers {
     const float* opaque_depth;   ///< [pixel], m along the ray; null: nothing opaque
     const float* parts;          ///< [medium - 1][voxel]: densities of media 1, 2 ...
     float* transmittance;        ///< [pixel]
-    float* half_depth;           ///< [pixel], m; infinity where transmittance stays above 1/2
+    float* half_depth;           ///< [pixel], m; infinity where transmittance stays above 1/2;
+                                 ///< null: not wanted
     float* colour;               ///< [channel][pixel], premultiplied
 };
 
@@ -75,7 +76,7 @@ struct BackgroundParams {
 struct BackgroundBuffers {
     const float* map;     ///< [3][cell], radiance
     float* colour;        ///< [3][pixel]
-    float* opaque_depth;  ///< [pixel], m; infinity for the sky
+    float* opaque_depth;  ///< [pixel], m; infinity for the sky; null: nothing solid
 };
 
 }  // namespace pileus

@@ -49,6 +49,7 @@ PILEUS_FN void light_ground(const Photon<W, NC>& s, const TraceParams& k, const 
 template <int W, int NC>
 PILEUS_FN void bounce(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally, M<W> m) {
     using T = F<W>;
+    tally.bounces += count_bits(bits_of(m));
     s.event = select(m, s.event + 1u, s.event);
     s.order = select(m, s.order + 1, s.order);
     const U<W> number = s.index + k.first_photon, at = s.event * 4u;
@@ -135,15 +136,22 @@ PILEUS_FN void scatter(Photon<W, NC>& s, const TraceParams& k, const TraceBuffer
         s.owed_y = select(owing, s.p.y * k.cell[1] + s.d.y * t, s.owed_y);
         s.owes = s.owes | owing;
     }
-    T survival = all<T>(k.optics[0].albedo_max);
+    // White media absorb nothing: do not ask.
+    float least = k.optics[0].albedo_max;
     for (int i = 1; i < k.media; ++i)
-        survival = select(medium == i, all<T>(k.optics[i].albedo_max), survival);
-    const auto absorbed = m & (uniform(spare) >= survival);
-    if (any(absorbed)) {
-        PILEUS_FATE(s, tally, absorbed, absorbed);
-        s.alive = s.alive & lnot(absorbed);
-        m = m & lnot(absorbed);
-        if (!any(m)) return;
+        least = k.optics[i].albedo_max < least ? k.optics[i].albedo_max : least;
+    if (least < 1.0f) {
+        tally.absorption_tests += count_bits(bits_of(m));
+        T survival = all<T>(k.optics[0].albedo_max);
+        for (int i = 1; i < k.media; ++i)
+            survival = select(medium == i, all<T>(k.optics[i].albedo_max), survival);
+        const auto absorbed = m & (uniform(spare) >= survival);
+        if (any(absorbed)) {
+            PILEUS_FATE(s, tally, absorbed, absorbed);
+            s.alive = s.alive & lnot(absorbed);
+            m = m & lnot(absorbed);
+            if (!any(m)) return;
+        }
     }
     s.order = select(m, s.order + 1, s.order);
     if constexpr (NC > 1) {

@@ -72,6 +72,7 @@ struct TraceTally {
     Fates light;   ///< of the photons shot
     Fates shadow;  ///< of the ground's missing light (docs/methods.md 3, step 1), counted positive
     std::int64_t photons, scatterings, tentative, crossings, path, majorant_violations;
+    std::int64_t absorption_tests, bounces;  ///< 0 where nothing absorbs, or there is no ground
 };
 
 struct TraceBuffers {

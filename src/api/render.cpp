@@ -33,6 +33,8 @@ Status make_context(const Scene& scene, const RenderOptions& options, Context& c
     context.threads = options.threads > 0 ? options.threads : hardware_threads();
     context.report = &report;
     context.progress = options.progress;
+    context.limits = options.limits;
+    context.frames = std::uint64_t(options.last_frame - options.first_frame + 1);
     report.version = kVersion;
     report.scene = scene.file;
     report.method = scene.method;
@@ -146,8 +148,10 @@ Status render_pictures(const Scene& scene, const RenderOptions& options, const C
     Report& report = *context.report;
     CollectorsRun run;
     PILEUS_TRY(collectors_prepare(scene, photons_of(scene, options), context, run));
+    collectors_report_plan(run, context, report);
     for (int frame = frames.first; frame <= frames.last; ++frame) {
         PILEUS_TRY(light_frame(scene, options, context, run, frame, frame == frames.first));
+        if (frame == frames.last) collectors_end_tracing(run);
         Image image;
         report.digests.clear();
         PILEUS_TRY(collectors_show(orbit_at(scene, frame), context, run, image));
@@ -174,7 +178,7 @@ Status render_views(const Scene& scene, const RenderOptions& options, const Cont
         report.digests.clear();
         PILEUS_TRY(collectors_view_show(orbit_at(scene, frame), context, run, image));
         take_hash(image, report);
-        collectors_view_report(run, report);
+        collectors_view_report(run, context, report);
         PILEUS_TRY(deliver(scene, watch, frame, sink, image, report));
     }
     return Status::ok();
@@ -221,13 +225,16 @@ Status follow(const Scene& scene, const RenderOptions& options, int light, std::
     return Status::ok();
 }
 
-Status plan_scene(const Scene& scene, const RenderOptions& options, Report& report) {
+Status plan_scene(const Scene& scene, const RenderOptions& options, bool exact, Report& report) {
     const FpModeGuard guard;
     Context context;
+    Frames frames{};
+    PILEUS_TRY(frames_of(scene, options, frames));
     PILEUS_TRY(make_context(scene, options, context, report));
     CollectorsRun run;
-    PILEUS_TRY(collectors_prepare(scene, photons_of(scene, options), context, run));
-    collectors_report(run, report);
+    PILEUS_TRY(exact ? collectors_prepare(scene, photons_of(scene, options), context, run)
+                     : collectors_outline(scene, photons_of(scene, options), context, run));
+    collectors_report_plan(run, context, report);
     return Status::ok();
 }
 

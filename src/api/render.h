@@ -5,6 +5,7 @@
 #pragma once
 #include <functional>
 
+#include "src/base/limits.h"
 #include "src/base/report.h"
 #include "src/io/image.h"
 #include "src/scene/scene.h"
@@ -20,6 +21,7 @@ struct RenderOptions {
     double budget_seconds = 0;  ///< > 0: stop tracing after this wall time; whole generations
     std::string show;  ///< empty: the picture; else a step of the method (docs/how-it-works.md)
     int first_frame = 0, last_frame = 0;  ///< of the animation, inclusive
+    Limits limits;                        ///< what the scene may ask for; docs/program.md
     /// Called now and then with a stage's name and the share done of it, 0..1.
     std::function<void(const char* stage, double share)> progress;
 };
@@ -32,7 +34,9 @@ using FrameSink = std::function<Status(int frame, Image& image, Report& report)>
 /// Errors: kBadInput (scene, files, isa, show), kLimit (memory), kIo.
 Status render(const Scene& scene, const RenderOptions& options, const FrameSink& sink);
 
-/// What `render` would do: fills the report's plan (needed, left out, bounds on bytes) only.
-Status plan_scene(const Scene& scene, const RenderOptions& options, Report& report);
+/// What `render` would do, in the report's plan: needed, left out, bytes, bounds, bias, work. From
+/// sizes alone, so that bytes are upper bounds, or `exact`, after preparing all but the photons.
+/// Errors: as render's; the limits are checked first.
+Status plan_scene(const Scene& scene, const RenderOptions& options, bool exact, Report& report);
 
 }  // namespace pileus

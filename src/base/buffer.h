@@ -52,6 +52,12 @@ public:
         return Status::ok();
     }
 
+    /// Forgets all elements from `count` on; keeps the memory.
+    void truncate(std::size_t count) {
+        assert(count <= size_);
+        size_ = count;
+    }
+
     T* data() { return data_; }
     const T* data() const { return data_; }
     std::size_t size() const { return size_; }

@@ -30,9 +30,32 @@ struct EnergyRow {
 struct ReportLeftOut {
     std::string what, why;
 };
+/// An array, and the stages between which it lives.
 struct ReportBytes {
     std::string item;
     std::uint64_t bytes = 0;
+    std::string first, last;
+};
+struct ReportStage {
+    std::string stage;
+    std::uint64_t bytes = 0;  ///< of all arrays that live then
+};
+/// Why a sum of integers cannot overflow.
+struct ReportBound {
+    std::string sum;
+    double addends = 0, largest = 0;
+    int places = 0;
+    double worst = 0, allowed = 0;
+};
+struct ReportLimit {
+    std::string name;
+    bool known = true;  ///< false: what is needed shows only once the values are read
+    std::uint64_t needs = 0, allowed = 0;
+};
+struct ReportWork {
+    bool known = false;
+    double photons = 0, scatterings_per_photon = 0, scatterings = 0;
+    std::string law;
 };
 
 struct Report {
@@ -43,7 +66,13 @@ struct Report {
     std::vector<std::string> needed;
     std::vector<ReportLeftOut> left_out;
     std::vector<ReportBytes> bytes;
-    std::uint64_t total_bytes = 0;
+    std::vector<ReportStage> stage_bytes;
+    bool exact = false;             ///< false: bytes are upper bounds
+    std::uint64_t total_bytes = 0;  ///< peak over the stages
+    std::vector<ReportBound> bounds;
+    std::vector<ReportLimit> limits;
+    ReportWork work;
+    std::string bias_of, bias, bias_page;
     std::int64_t peak_bytes = 0;  ///< of the whole process
 
     double total_s = 0, cpu_s = 0;
@@ -59,7 +88,8 @@ struct Report {
     double mean_relative = 0, rmse_estimate = 0;  ///< over pixels with A > 0.02
 
     std::vector<std::pair<std::string, std::uint64_t>> counters;
-    std::vector<std::pair<std::string, std::string>> digests;  ///< stage -> 16 hex digits
+    std::vector<std::pair<std::string, std::uint64_t>> executed;  ///< 0: left out, and truly so
+    std::vector<std::pair<std::string, std::string>> digests;     ///< stage -> 16 hex digits
 };
 
 }  // namespace pileus

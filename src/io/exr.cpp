@@ -41,7 +41,11 @@ public:
     }
     std::uint64_t tellp() override { return at_; }
     void seekp(std::uint64_t position) override { at_ = position; }
-    Span<const char> written() const { return {bytes_.data(), std::size_t(used_)}; }
+    /// Hands over what was written, without a copy.
+    void take(Buffer<char>& bytes) {
+        bytes_.truncate(std::size_t(used_));
+        bytes.swap(bytes_);
+    }
 
 private:
     void grow(std::uint64_t end) {
@@ -193,9 +197,7 @@ Status encode_exr(const Image& image, Buffer<char>& bytes) {
     try {
         MemoryOutput stream;
         write_stream(image, stream);
-        const Span<const char> written = stream.written();
-        PILEUS_TRY(bytes.resize(written.size, "EXR file"));
-        std::memcpy(bytes.data(), written.data, written.size);
+        stream.take(bytes);
         return Status::ok();
     } catch (const std::bad_alloc&) {
         return Status::limit("EXR file: out of memory");

@@ -89,8 +89,8 @@ Status encode_png(int width, int height, Span<const std::uint8_t> rgb, Buffer<ch
     if (!made) return Status::io(std::string("PNG file: encoding failed: ") + sink.message);
 
     // Hand over exactly the bytes that were written.
-    PILEUS_TRY(bytes.resize(sink.used, "PNG file"));
-    std::memcpy(bytes.data(), growing.data(), sink.used);
+    growing.truncate(sink.used);
+    bytes.swap(growing);
     return Status::ok();
 }
 #else

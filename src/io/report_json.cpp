@@ -19,8 +19,49 @@ std::string text_of(const Json& json) {
     return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
+Json arrays_of(const Report& report) {
+    Json rows = Json::array();
+    for (const ReportBytes& item : report.bytes)
+        rows.push_back({{"item", item.item},
+                        {"first", item.first},
+                        {"last", item.last},
+                        {"bytes", item.bytes}});
+    return rows;
+}
+
+Json bounds_of(const Report& report) {
+    Json rows = Json::array();
+    for (const ReportBound& b : report.bounds)
+        rows.push_back({{"sum", b.sum},
+                        {"addends", b.addends},
+                        {"largest", b.largest},
+                        {"places", b.places},
+                        {"worst", b.worst},
+                        {"allowed", b.allowed}});
+    return rows;
+}
+
+/// What is not known before the values are read is null.
+Json known(bool is_known, double number) { return is_known ? Json(number) : Json(nullptr); }
+
+Json work_of(const ReportWork& work) {
+    return {{"photons", work.photons},
+            {"scatterings_per_photon", known(work.known, work.scatterings_per_photon)},
+            {"scatterings", known(work.known, work.scatterings)},
+            {"law", work.law}};
+}
+
+Json limits_of(const Report& report) {
+    Json rows = Json::object();
+    for (const ReportLimit& limit : report.limits)
+        rows[limit.name] = {{"needs", limit.known ? Json(limit.needs) : Json(nullptr)},
+                            {"allowed", limit.allowed}};
+    return rows;
+}
+
 Json plan_of(const Report& report) {
-    Json left_out = Json::array(), bytes = Json::object();
+    Json left_out = Json::array(), bytes = Json::object(), stages = Json::object();
+    for (const ReportStage& stage : report.stage_bytes) stages[stage.stage] = stage.bytes;
     for (const ReportLeftOut& part : report.left_out)
         left_out.push_back({{"what", part.what}, {"why", part.why}});
 
@@ -29,10 +70,18 @@ Json plan_of(const Report& report) {
         const std::uint64_t before = bytes.value(item.item, std::uint64_t{0});
         bytes[item.item] = before + item.bytes;
     }
-    return {{"needed", report.needed},
-            {"left_out", left_out},
-            {"bytes", bytes},
-            {"total_bytes", report.total_bytes}};
+    return {
+        {"needed", report.needed},
+        {"left_out", left_out},
+        {"exact", report.exact},
+        {"bytes", bytes},
+        {"total_bytes", report.total_bytes},
+        {"arrays", arrays_of(report)},
+        {"stages", stages},
+        {"bounds", bounds_of(report)},
+        {"bias", {{"of", report.bias_of}, {"measured", report.bias}, {"page", report.bias_page}}},
+        {"work", work_of(report.work)},
+        {"limits", limits_of(report)}};
 }
 
 Json time_of(const Report& report) {
@@ -124,6 +173,7 @@ std::string report_json(const Report& report) {
     json["energy"] = energy_of(report);
     json["error"] = error_of(report);
     json["counters"] = object_of(report.counters);
+    json["executed"] = object_of(report.executed);
     json["digests"] = object_of(report.digests);
     return text_of(json);
 }

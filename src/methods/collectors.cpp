@@ -2,6 +2,9 @@
 // See collectors.h. Preparation, photons and the plan; collectors_show.cpp makes the picture.
 #include "src/methods/collectors.h"
 
+#include "src/base/file.h"
+#include "src/plan/scene_limits.h"
+#include "src/scene/read_scene.h"
 #include "src/stages/mix_media.h"
 
 namespace pileus {
@@ -18,11 +21,6 @@ std::uint64_t batch_count(std::uint64_t generations) {
 }
 
 bool wants_error(const Scene& scene) { return scene.output.layer_error; }
-
-std::uint64_t slot_count(const CollectorsRun& run) {
-    if (run.scene->animation.present && run.scene->animation.frames > 1) return run.generations;
-    return wants_error(*run.scene) ? batch_count(run.generations) : 1;
-}
 
 /// Where deposits of the phase function look: the camera, or back along its parallel rays.
 void aim_deposit(const Scene& scene, CollectorsRun& run) {
@@ -42,6 +40,20 @@ double first_elevation(const Scene& scene) {
                                                            : a.sun_elevation_deg[1];
 }
 
+/// First-order coefficients are 1; |y| stays below 1.1 for 8 bands; else the phase function's peak.
+double largest_deposit(const CollectorsRun& run) {
+    const double peak = double(phase_peak(run.medium));
+    if (run.deposit.mode == kDepositCamera && peak > 1) return peak;
+    return run.deposit.bands > 6 ? 1.1 : 1;
+}
+
+/// Every photon of the ring may end only with its last event.
+double most_deposits(const CollectorsRun& run) {
+    double photons = 0;
+    for (const Light& l : run.lighting.lights) photons += double(l.photons);
+    return photons * double(run.generations) * double(run.max_events);
+}
+
 /// Decides what a collision stores, and proves that the sums hold it.
 Status plan_deposit(const Scene& scene, CollectorsRun& run) {
     const CollectorSettings& c = scene.collectors;
@@ -56,18 +68,14 @@ Status plan_deposit(const Scene& scene, CollectorsRun& run) {
     if (!split)
         run.plan.leave_out("first-order split", run.lighting.sunlit ? "switched off" : "no sun");
 
-    double largest = 1;  // first-order coefficients; |y| stays below 1.1 for 8 bands
-    if (d.bands > 6) largest = 1.1;
-    if (d.mode == kDepositCamera && double(phase_peak(run.medium)) > largest)
-        largest = double(phase_peak(run.medium));
-    double photons = 0;
-    for (const Light& l : run.lighting.lights) photons += double(l.photons);
-    d.places =
-        fixed_point_places(photons * double(run.generations) * double(run.max_events), largest);
+    const double largest = largest_deposit(run);
+    d.places = fixed_point_places(most_deposits(run), largest);
     if (d.places < 0)
         return Status::limit(scene.file +
                              ": collectors.photons: " + std::to_string(scene.collectors.photons) +
                              " photons could overflow the 64-bit sums; take fewer");
+    run.plan.bounds = {
+        deposit_bound("light in a collector", most_deposits(run), largest, d.places)};
     return Status::ok();
 }
 
@@ -75,12 +83,9 @@ Status allocate_photons(const Context& context, CollectorsRun& run) {
     const TraceInput in = collectors_trace_input(context, run);
     PILEUS_TRY(prepare_trace(in, run.scratch));
     run.photons.tallies.assign(run.lighting.lights.size(), TraceTally{});
-    run.photons.slots.resize(std::size_t(slot_count(run)));
+    run.photons.slots.resize(std::size_t(collectors_slots(run)));
     const std::uint64_t numbers = slot_stride(in) * run.lighting.lights.size();
     for (PhotonSlot& slot : run.photons.slots) PILEUS_TRY(slot.sums.resize(numbers, "photon map"));
-    Plan& plan = run.plan;
-    plan.take("photon map", numbers * 8 * run.photons.slots.size());
-    plan.take("photon sums per thread", run.scratch.sums.bytes());
     return Status::ok();
 }
 
@@ -95,15 +100,12 @@ void note_plan(const Scene& scene, CollectorsRun& run) {
     if (run.medium.channels == 1)
         plan.leave_out("coefficients per colour channel", "achromatic medium: one set per light");
     if (is_white(run.medium)) plan.leave_out("absorption", "albedo 1");
-    if (!scene.output.layer_error) plan.leave_out("batches", "no error layer");
+    if (!run.lighting.ground) plan.leave_out("depth test", "nothing solid: no ground");
+    if (!scene.output.layer_depth) plan.leave_out("depth of the medium", "no depth layer");
+    if (!scene.output.layer_error) plan.leave_out("batches and second moments", "no error layer");
     if (!scene.collectors.billboards) plan.leave_out("billboards", "display = \"march\"");
-    plan.take("density", run.medium.volume.density.bytes());
-    if (run.medium.count > 1)
-        plan.take("parts of the media", run.medium.parts.bytes() + run.prepared.shares.bytes());
-    plan.take("leaves", run.prepared.leaves.bytes());
-    plan.take("collectors", run.prepared.collectors.bytes());
-    plan.take("collector of voxel", run.prepared.collector_of_voxel.bytes());
-    plan.take("majorants", run.prepared.majorants.bytes() + run.prepared.skip_majorants.bytes());
+    for (const std::string& what : run.media_plan.needed) plan.needed.push_back(what);
+    for (const LeftOut& l : run.media_plan.left_out) plan.left_out.push_back(l);
 }
 
 /// A scene without media still has a sky and a ground to show.
@@ -117,19 +119,45 @@ Status empty_medium(const Scene& scene, Medium& medium) {
     return medium.volume.density.resize(1, "density");
 }
 
-/// Reads the scene's sky map. A coloured one asks for a set of sums per colour channel, as its
-/// photons differ in colour.
-Status prepare_sky_map(const Scene& scene, const Context& context, CollectorsRun& run) {
+/// Reads the scene's sky map: lights, and with them the plan, depend on its colours.
+Status read_map(const Scene& scene, const Context& context, CollectorsRun& run) {
     if (scene.sky.map.empty()) return Status::ok();
     const StageClock clock(context, "sky map");
-    PILEUS_TRY(load_sky_map(scene, run.sky_map));
+    InputFile file;
+    const std::string path = scene_path(scene.directory, scene.sky.map);
+    PILEUS_TRY(open_file(path, file));
+    PILEUS_TRY(check_limit(context.limits, LimitId::kFile, file.size(), path));
+    return load_sky_map(scene, run.sky_map);
+}
+
+/// Aims the sky map at the medium's box. A coloured one asks for a set of sums per colour channel,
+/// as its photons differ in colour.
+Status aim_map(CollectorsRun& run) {
+    if (!run.sky_map.present()) return Status::ok();
     PILEUS_TRY(aim_sky_map(run.medium.extent_m, run.sky_map));
     if (run.sky_map.view.planes == 3 && run.medium.channels == 1) {
         run.medium.channels = 3;
         run.plan.need("coefficients per colour channel: coloured sky map");
     }
-    run.plan.take("sky map", run.sky_map.bytes());
     return Status::ok();
+}
+
+/// Lights, photons and what a collision stores, for the medium as it is known now.
+Status choose_light(const Scene& scene, std::int64_t photons, CollectorsRun& run) {
+    run.plan = Plan{};
+    run.plan.bias = collectors_bias(scene.collectors);
+    PILEUS_TRY(aim_map(run));
+    aim_deposit(scene, run);
+    run.generations = std::uint64_t(scene.collectors.generations);
+    if (photons >= 0 && std::uint64_t(photons) < run.generations)
+        run.generations = photons > 0 ? std::uint64_t(photons) : 1;
+    run.sun_elevation_deg = first_elevation(scene);
+    run.lighting = plan_lighting(scene, run.medium, run.sun_elevation_deg, run.plan, &run.sky_map);
+    share_photons(std::uint64_t(photons) / run.generations, run.lighting.lights);
+    run.light_photons.clear();
+    for (const Light& l : run.lighting.lights) run.light_photons.push_back(l.photons);
+    run.ground_map = make_ground_map(run.medium, run.lighting);
+    return plan_deposit(scene, run);
 }
 
 }  // namespace
@@ -151,8 +179,13 @@ TraceInput collectors_trace_input(const Context& context, const CollectorsRun& r
     return in;
 }
 
-Status collectors_load(const Scene& scene, std::int64_t photons, const Context& context,
-                       CollectorsRun& run) {
+std::uint64_t collectors_slots(const CollectorsRun& run) {
+    if (run.scene->animation.present && run.scene->animation.frames > 1) return run.generations;
+    return wants_error(*run.scene) ? batch_count(run.generations) : 1;
+}
+
+Status collectors_outline(const Scene& scene, std::int64_t photons, const Context& context,
+                          CollectorsRun& run) {
     run.scene = &scene;
     if (scene.collectors.camera_closure) {
         if (scene.animation.present && scene.animation.moves_camera)
@@ -161,38 +194,52 @@ Status collectors_load(const Scene& scene, std::int64_t photons, const Context& 
                                      "camera, but animation.camera_orbit_deg moves it");
         run.camera_cells = scene.collectors.cell_voxels;
     }
-    {
+    PILEUS_TRY(check_scene_limits(scene, context.limits));
+    PILEUS_TRY(scene.media.empty()
+                   ? empty_medium(scene, run.medium)
+                   : outline_media(scene, context.limits, std::uint64_t(context.threads),
+                                   run.media_plan, run.medium, run.source));
+    PILEUS_TRY(read_map(scene, context, run));
+    PILEUS_TRY(choose_light(scene, photons, run));
+    note_plan(scene, run);
+    return collectors_measure(context, run);
+}
+
+Status collectors_load(const Scene& scene, std::int64_t photons, const Context& context,
+                       CollectorsRun& run) {
+    PILEUS_TRY(collectors_outline(scene, photons, context, run));
+    if (!scene.media.empty()) {
         const StageClock clock(context, "density");
-        PILEUS_TRY(scene.media.empty() ? empty_medium(scene, run.medium)
-                                       : load_media(scene, context.threads, run.plan, run.medium));
+        run.media_plan = Plan{};
+        PILEUS_TRY(load_media(scene, context.limits, context.threads, run.media_plan, run.medium));
+        run.source.mean_density = mean_density(run.medium);
     }
-    PILEUS_TRY(prepare_sky_map(scene, context, run));
-    aim_deposit(scene, run);
-    run.generations = std::uint64_t(scene.collectors.generations);
-    if (photons >= 0 && std::uint64_t(photons) < run.generations)
-        run.generations = photons > 0 ? std::uint64_t(photons) : 1;
-    run.sun_elevation_deg = first_elevation(scene);
-    run.lighting = plan_lighting(scene, run.medium, run.sun_elevation_deg, run.plan, &run.sky_map);
-    share_photons(std::uint64_t(photons) / run.generations, run.lighting.lights);
-    for (const Light& l : run.lighting.lights) run.light_photons.push_back(l.photons);
-    run.ground_map = make_ground_map(run.medium, run.lighting);
-    return plan_deposit(scene, run);
+    // The values may show that there is no medium, or more of it than sizes tell.
+    return choose_light(scene, photons, run);
 }
 
 Status collectors_prepare(const Scene& scene, std::int64_t photons, const Context& context,
                           CollectorsRun& run) {
     PILEUS_TRY(collectors_load(scene, photons, context, run));
+    note_plan(scene, run);
+    PILEUS_TRY(collectors_measure(context, run));
     PILEUS_TRY(
         run.camera_cells > 0
             ? prepare_cells(run.medium, run.camera_cells, context, run.prepared)
             : prepare_collectors(run.medium, scene.collectors, scene.seed, context, run.prepared));
     PILEUS_TRY(
         prepare_majorants(run.medium, scene.collectors.local_tracking, context, run.prepared));
-    note_plan(scene, run);
+    run.outlined_only = false;
+    PILEUS_TRY(collectors_measure(context, run));
     PILEUS_TRY(allocate_photons(context, run));
-    collectors_plan_display(run);
     collectors_digest_prepared(run);
     return Status::ok();
+}
+
+void collectors_end_tracing(CollectorsRun& run) {
+    run.scratch.sums = Buffer<std::int64_t>();
+    run.prepared.collector_of_voxel = Buffer<std::int32_t>();
+    run.prepared.majorants = Buffer<float>();
 }
 
 Status collectors_set_sun(double elevation_deg, const Context&, CollectorsRun& run) {

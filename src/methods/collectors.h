@@ -19,10 +19,13 @@ struct CollectorsRun {
     const Scene* scene = nullptr;
     Medium medium;
     SkyMap sky_map;
+    MediumSource source;
+    Plan media_plan;  ///< what laying the media on one grid says
     Plan plan;
     Lighting lighting;
     std::vector<std::uint64_t> light_photons;  ///< per light and generation while it is up
     double sun_elevation_deg = 0;
+    bool outlined_only = true;  ///< sizes are known, values are not
     Prepared prepared;
     DepositPlan deposit;
     GroundMap ground_map;
@@ -42,12 +45,23 @@ inline bool is_marched(const CollectorsRun& run) {
     return !run.scene->collectors.billboards || run.camera_cells > 0;
 }
 
-/// Loads the medium and works out the lights and what a collision stores; the first part of
-/// `collectors_prepare`.
+/// Slots of the photon map: the generations of an animation's ring, or batches for the error.
+std::uint64_t collectors_slots(const CollectorsRun& run);
+
+/// Groups of slots that the standard error is made from; 0: no error layer.
+int collectors_batches(const CollectorsRun& run);
+
+/// Chooses what is needed and fills the plan from sizes alone: reads no values, prepares nothing,
+/// takes no memory to speak of. kLimit: the scene or the plan is over a limit.
+Status collectors_outline(const Scene& scene, std::int64_t photons, const Context& context,
+                          CollectorsRun& run);
+
+/// Outlines, loads the media and works out the lights and what a collision stores; the first part
+/// of `collectors_prepare`.
 Status collectors_load(const Scene& scene, std::int64_t photons, const Context& context,
                        CollectorsRun& run);
 
-/// Loads the medium, chooses what is needed, prepares the tree and allocates the sums.
+/// Loads, chooses what is needed, prepares the tree and allocates the sums.
 Status collectors_prepare(const Scene& scene, std::int64_t photons, const Context& context,
                           CollectorsRun& run);
 
@@ -73,8 +87,23 @@ Status collectors_billboards(const Context& context, const CollectorsRun& run,
                              const CameraParams& camera, const CollectorColours& colours,
                              int channels, const float* opaque_depth, BillboardImage& out);
 
-/// Adds to the plan what pictures of this run will take; part of `collectors_prepare`.
-void collectors_plan_display(CollectorsRun& run);
+/// Frees what only tracing needs; part of rendering a still once its photons are shot.
+void collectors_end_tracing(CollectorsRun& run);
+
+struct CollectorsSizes;
+
+/// The sizes of the display's grids; part of `collectors_sizes`.
+void collectors_size_display(const CollectorsRun& run, CollectorsSizes& sizes);
+
+/// What is known of the method's bias in this scene's settings.
+BiasNote collectors_bias(const CollectorSettings& settings);
+
+/// Fills plan.memory, plan.work and plan.bounds, bounds or exact by what the run holds, and checks
+/// them against the limits; part of outlining and preparing.
+Status collectors_measure(const Context& context, CollectorsRun& run);
+
+/// Fills the report's plan.
+void collectors_report_plan(const CollectorsRun& run, const Context& context, Report& report);
 
 /// Digests what no frame changes; part of `collectors_prepare`.
 void collectors_digest_prepared(CollectorsRun& run);

@@ -67,6 +67,12 @@ std::string photon_digest(const CollectorsRun& run) {
     return d.hex();
 }
 
+/// Numbers that the photon map holds for each collector.
+std::uint64_t coefficients_of(const CollectorsRun& run) {
+    return std::uint64_t(run.medium.channels) * std::uint64_t(run.deposit.coefficients) *
+           run.lighting.lights.size() * run.photons.slots.size();
+}
+
 std::string density_digest(const CollectorsRun& run) {
     Digest d;
     d.floats(run.medium.volume.density.span());
@@ -83,13 +89,6 @@ void collectors_digest_prepared(CollectorsRun& run) {
 }
 
 void collectors_report(const CollectorsRun& run, Report& report) {
-    report.needed = run.plan.needed;
-    report.left_out.clear();
-    for (const LeftOut& l : run.plan.left_out) report.left_out.push_back({l.what, l.why});
-    report.bytes.clear();
-    for (const PlanItem& item : run.plan.items) report.bytes.push_back({item.name, item.bytes});
-    report.total_bytes = run.plan.total_bytes();
-
     report.samples = run.prepared.samples;
     report.leaves = run.prepared.leaves.size();
     report.collectors = run.prepared.collectors.size();
@@ -113,6 +112,9 @@ void collectors_report(const CollectorsRun& run, Report& report) {
     if (all.photons > 0)
         report.mean_path_m =
             double(all.path) / 1048576.0 * __builtin_sqrt(diagonal) / double(all.photons);
+    report.executed.emplace_back("absorption_tests", std::uint64_t(all.absorption_tests));
+    report.executed.emplace_back("ground_bounces", std::uint64_t(all.bounces));
+    report.executed.emplace_back("coefficients", coefficients_of(run));
     report.counters.emplace_back("majorant_violations", std::uint64_t(all.majorant_violations));
     report.counters.emplace_back("saturated", 0);  // fixed_point_places proves it
     report.counters.emplace_back("samples_given_up", run.prepared.rejected);

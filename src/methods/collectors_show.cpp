@@ -3,7 +3,7 @@
 // in: CollectorsRun after shooting, a camera -> out: Image.
 // docs/methods.md 3, each image frame, steps 4 and 5; repairs 3 and 4.
 #include "src/base/digest.h"
-#include "src/methods/collectors.h"
+#include "src/methods/collectors_memory.h"
 #include "src/stages/layers.h"
 #include "src/stages/prepare_majorant.h"
 #include "src/stages/source_grid.h"
@@ -38,14 +38,6 @@ MediumView view_of(const CollectorsRun& run) {
     v.density = m.volume.density.data();
     v.majorant = run.prepared.skip_majorants.data();
     return v;
-}
-
-/// Groups of slots that the standard error is made from; an animation's ring may hold more
-/// generations than the blender has planes for.
-int error_batches(const CollectorsRun& run) {
-    const std::size_t slots = run.photons.slots.size();
-    if (!run.scene->output.layer_error || slots < 2) return 0;
-    return int(slots < kMostBatches ? slots : kMostBatches);
 }
 
 Status make_background(const Context& context, const CollectorsRun& run,
@@ -155,7 +147,7 @@ Status show_marched(const Context& context, CollectorsRun& run, const CameraPara
     MarchBuffers b{};
     b.optical_depth = run.shadow.data();
     b.source = source.data();
-    b.opaque_depth = run.lighting.ground ? planes.opaque_depth.data() : nullptr;
+    b.opaque_depth = planes.opaque_depth.data();
     b.parts = run.medium.parts.data();
     b.transmittance = planes.transmittance.data();
     b.half_depth = planes.half_depth.data();
@@ -168,8 +160,7 @@ Status show_billboards(const Context& context, const CollectorsRun& run, const C
                        const CollectorColours& colours, int channels, Planes& planes) {
     BillboardImage out;
     PILEUS_TRY(collectors_billboards(context, run, camera, colours, channels,
-                                     run.lighting.ground ? planes.opaque_depth.data() : nullptr,
-                                     out));
+                                     planes.opaque_depth.data(), out));
     planes.transmittance.swap(out.transmittance);
     planes.half_depth.swap(out.half_depth);
     planes.colour.swap(out.colour);
@@ -201,31 +192,32 @@ Status collectors_billboards(const Context& context, const CollectorsRun& run,
     scene.count = std::uint32_t(n);
     scene.channels = channels;
     scene.opaque_depth = opaque_depth;
+    scene.half_depth = run.scene->output.layer_depth;
     return composite_billboards(scene, camera, context.threads, context.kernels->blend_tile, out);
 }
 
-void collectors_plan_display(CollectorsRun& run) {
+int collectors_batches(const CollectorsRun& run) {
+    const std::uint64_t slots = collectors_slots(run);
+    if (!run.scene->output.layer_error || slots < 2) return 0;
+    // An animation's ring may hold more generations than the blender has planes for.
+    return int(slots < kMostBatches ? slots : kMostBatches);
+}
+
+void collectors_size_display(const CollectorsRun& run, CollectorsSizes& sizes) {
     const OutputSettings& output = run.scene->output;
-    const auto& resolution = run.scene->camera.resolution;
-    const std::uint64_t pixels = std::uint64_t(resolution[0]) * std::uint64_t(resolution[1]);
-    const std::uint64_t channels = 3 * (1 + std::uint64_t(error_batches(run)));
-    const std::uint64_t collectors = run.prepared.collectors.size();
-    const std::uint64_t layers = 4 + (output.layer_cloud ? 3u : 0u) +
-                                 (output.layer_depth ? 1u : 0u) + (channels > 3 ? 3u : 0u);
-    Plan& plan = run.plan;
-    // Transmittance, two depths, three planes of background, and the colours with their batches.
-    plan.take("picture planes", 4 * pixels * (6 + channels));
-    plan.take("image layers", 4 * pixels * layers);
-    plan.take("collector colours", 4 * channels * collectors);
-    if (!is_marched(run)) {
-        plan.take("billboards", collectors * (5 * sizeof(float) + sizeof(BlendSphere)));
-        return;
-    }
-    const std::uint64_t nodes =
+    sizes.width = std::uint64_t(run.scene->camera.resolution[0]);
+    sizes.height = std::uint64_t(run.scene->camera.resolution[1]);
+    sizes.planes = 3 * (1 + std::uint64_t(collectors_batches(run)));
+    sizes.layers = 4 + (output.layer_cloud ? 3u : 0u) + (output.layer_depth ? 1u : 0u) +
+                   (sizes.planes > 3 ? 3u : 0u);
+    sizes.marched = is_marched(run);
+    sizes.ground = run.lighting.ground;
+    sizes.depth = output.layer_depth;
+    if (!sizes.marched) return;
+    sizes.source_nodes =
         source_nodes(make_node_grid(run.medium.grid, run.medium.extent_m, source_spacing(run)));
-    plan.take("source grid", 4 * nodes * (channels + 1));
     if (run.lighting.sunlit && run.deposit.first_order == 2)
-        plan.take("shadow", 4 * node_count(shadow_grid(run)));
+        sizes.shadow_nodes = node_count(shadow_grid(run));
 }
 
 ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const Context& context,
@@ -242,7 +234,7 @@ ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const 
                  : run.scene->collectors.lobe_closure ? Closure::kLobe
                                                       : Closure::kSh;
     in.window = run.scene->collectors.window;
-    in.batches = error_batches(run);
+    in.batches = collectors_batches(run);
     in.constant = !is_marched(run);
     in.threads = context.threads;
     return in;
@@ -260,7 +252,8 @@ Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& 
     }
     const int channels = 3 * (1 + in.batches);
     Planes planes;
-    PILEUS_TRY(allocate_planes(camera.width, camera.height, channels, planes));
+    PILEUS_TRY(allocate_planes(camera.width, camera.height, channels, run.lighting.ground,
+                               scene.output.layer_depth, planes));
     PILEUS_TRY(make_background(context, run, in, planes));
     PILEUS_TRY(marched ? show_marched(context, run, camera, colours, channels, planes)
                        : show_billboards(context, run, camera, colours, channels, planes));
@@ -270,6 +263,10 @@ Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& 
     PILEUS_TRY(make_layers(planes, camera.width, camera.height, channels, scene.output, image,
                            report, clamped));
     report.counters.emplace_back("clamped_negative", clamped);
+    report.executed = {{"depth_tests", planes.opaque_depth.size()},
+                       {"depths_stored", planes.half_depth.size()},
+                       {"batches", std::uint64_t(in.batches)},
+                       {"parts_stored", run.medium.parts.size()}};
     set_image_camera(camera, run.medium.low_m, image);
     Digest digest;
     digest.floats(colours.colour.span());

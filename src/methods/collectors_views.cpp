@@ -36,16 +36,19 @@ void note_plan(ViewRun& out) {
     step("majorants", photons);
     plan.leave_out("photons", why.c_str());
     plan.leave_out("reconstruction", why.c_str());
-    plan.take("density", out.run.medium.volume.density.bytes());
-    if (out.field.size() > 0) plan.take("gradient", out.field.bytes());
-    if (out.samples.samples.size() > 0) plan.take("samples", out.samples.samples.bytes());
+    const auto take = [&](const char* name, std::uint64_t bytes) {
+        plan.memory.add(name, Stage::kDensity, Stage::kWrite, bytes);
+    };
     const Prepared& p = out.run.prepared;
-    if (tree) {
-        plan.take("leaves", p.leaves.bytes());
-        plan.take("collectors", p.collectors.bytes());
-        plan.take("collector of voxel", p.collector_of_voxel.bytes());
-    }
-    if (photons) plan.take("majorants", p.majorants.bytes() + p.skip_majorants.bytes());
+    take("density", out.run.medium.volume.density.bytes());
+    take("parts of the media", out.run.medium.parts.bytes());
+    take("gradient", out.field.bytes());
+    take("samples", out.samples.samples.bytes());
+    take("leaves", p.leaves.bytes());
+    take("collectors", p.collectors.bytes());
+    take("collector of voxel", p.collector_of_voxel.bytes());
+    take("majorants", p.majorants.bytes() + p.skip_majorants.bytes());
+    plan.exact = true;
 }
 
 Status check_closure(const Scene& scene, View view) {
@@ -110,18 +113,13 @@ Status collectors_view_prepare(const Scene& scene, View view, std::int64_t photo
     return Status::ok();
 }
 
-void collectors_view_report(const ViewRun& out, Report& report) {
+void collectors_view_report(const ViewRun& out, const Context& context, Report& report) {
     const CollectorsRun& run = out.run;
+    collectors_report_plan(run, context, report);
     if (out.view == View::kIllumination) {
         collectors_report(run, report);
         return;
     }
-    report.needed = run.plan.needed;
-    report.left_out.clear();
-    for (const LeftOut& l : run.plan.left_out) report.left_out.push_back({l.what, l.why});
-    report.bytes.clear();
-    for (const PlanItem& item : run.plan.items) report.bytes.push_back({item.name, item.bytes});
-    report.total_bytes = run.plan.total_bytes();
     const bool drawn = out.view == View::kSamples;
     report.samples = drawn ? out.samples.samples.size() : run.prepared.samples;
     report.leaves = run.prepared.leaves.size();

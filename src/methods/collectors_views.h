@@ -48,6 +48,6 @@ Status collectors_view_prepare(const Scene& scene, View view, std::int64_t photo
 Status collectors_view_show(double orbit_deg, const Context& context, ViewRun& run, Image& image);
 
 /// Fills the report: which steps ran, what was counted.
-void collectors_view_report(const ViewRun& run, Report& report);
+void collectors_view_report(const ViewRun& run, const Context& context, Report& report);
 
 }  // namespace pileus

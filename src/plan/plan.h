@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What will run, what is left out and why, how much memory each array takes.
+// What will run, what is left out and why, how much memory each array takes and when.
 // in: a checked scene -> out: lists for people and for the report; the proof of the sums' bounds.
 // docs/architecture.md, "Memory and errors"; docs/methods.md 2 "Accumulation".
 #pragma once
@@ -7,33 +7,50 @@
 #include <string>
 #include <vector>
 
+#include "src/plan/memory_table.h"
+#include "src/plan/work.h"
+
 namespace pileus {
 
-struct PlanItem {
-    std::string name;
-    std::uint64_t bytes = 0;
-};
 struct LeftOut {
     std::string what, why;
+};
+
+/// What a picture's sums stay below, whatever the photons do.
+constexpr double kLargestSum = 0x1p62;
+
+/// Why a sum of integers cannot overflow: `addends` of at most `largest`, in quanta of 2^-places.
+struct SumBound {
+    std::string sum;
+    double addends = 0, largest = 0;
+    int places = 0;
+    double worst = 0;  ///< the sum's largest size, in quanta
+    double allowed = kLargestSum;
+};
+
+/// What a method errs by where no noise is left, and where that was measured.
+struct BiasNote {
+    std::string method, size, page;
 };
 
 struct Plan {
     std::vector<std::string> needed;
     std::vector<LeftOut> left_out;
-    std::vector<PlanItem> items;
+    std::vector<SumBound> bounds;
+    BiasNote bias;
+    MemoryTable memory;
+    bool exact = false;  ///< false: `memory` holds upper bounds, made from sizes alone
+    WorkEstimate work;
 
     void need(const char* what) { needed.emplace_back(what); }
     void leave_out(const char* what, const char* why) { left_out.push_back({what, why}); }
-    void take(const char* name, std::uint64_t bytes) { items.push_back({name, bytes}); }
-    std::uint64_t total_bytes() const {
-        std::uint64_t total = 0;
-        for (const PlanItem& item : items) total += item.bytes;
-        return total;
-    }
 };
 
 /// Binary places of the fixed-point sums: the largest s <= 30 for which one deposit fits 31 bits
 /// and `deposits` deposits of at most `largest` fit 62. Negative: no s >= 8 does, so refuse.
 int fixed_point_places(double deposits, double largest);
+
+/// The bound that fixed_point_places proves, written out.
+SumBound deposit_bound(const char* sum, double deposits, double largest, int places);
 
 }  // namespace pileus

@@ -89,10 +89,10 @@ Status fit(Buffer<float>& buffer, std::uint64_t count, const char* what) {
     return buffer.resize(count, what);
 }
 
-Status prepare_image(const BlendParams& p, BillboardImage& out) {
+Status prepare_image(const BlendParams& p, bool half_depth, BillboardImage& out) {
     const std::uint64_t pixels = std::uint64_t(p.width) * std::uint64_t(p.height);
     PILEUS_TRY(fit(out.transmittance, pixels, "transmittance"));
-    PILEUS_TRY(fit(out.half_depth, pixels, "half depth"));
+    PILEUS_TRY(fit(out.half_depth, half_depth ? pixels : 0, "half depth"));
     PILEUS_TRY(fit(out.colour, pixels * std::uint64_t(p.channels), "colour of the media"));
     out.width = p.width;
     out.height = p.height;
@@ -123,7 +123,7 @@ Status composite_billboards(const BillboardScene& scene, const CameraParams& cam
     const std::uint64_t share =
         (blend_scratch_floats(params) + kBlendAlign - 1) / kBlendAlign * kBlendAlign;
     PILEUS_TRY(scratch.resize(share * std::uint64_t(threads), "planes of the tiles"));
-    PILEUS_TRY(prepare_image(params, out));
+    PILEUS_TRY(prepare_image(params, scene.half_depth, out));
     const BlendBuffers buffers{
         lists.spheres.data(),      scene.colour,       lists.tile_begin.data(),
         lists.tile_spheres.data(), scene.opaque_depth, out.transmittance.data(),

@@ -23,6 +23,7 @@ struct BillboardScene {
     std::uint32_t count = 0;
     std::int32_t channels = 3;
     const float* opaque_depth = nullptr;
+    bool half_depth = true;  ///< false: the picture's half_depth is left empty
 };
 
 /// Planes, rows from the top. `transmittance` in [0, 1]; `colour` [channel][row][column] is the

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "kernels_cpu/kernels.h"
+#include "src/base/limits.h"
 #include "src/base/report.h"
 
 namespace pileus {
@@ -13,6 +14,8 @@ struct Context {
     int threads = 1;
     const KernelTable* kernels = nullptr;
     Report* report = nullptr;
+    Limits limits;
+    std::uint64_t frames = 1;  ///< pictures of this run
     std::function<void(const char* stage, double share)> progress;
 
     void tell(const char* stage, double share) const {

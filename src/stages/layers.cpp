@@ -49,14 +49,15 @@ void summarise(const Image& image, const Planes& p, Report& report) {
 
 }  // namespace
 
-Status allocate_planes(int width, int height, int channels, Planes& planes) {
+Status allocate_planes(int width, int height, int channels, bool solid, bool depth,
+                       Planes& planes) {
     const std::uint64_t pixels = std::uint64_t(width) * std::uint64_t(height);
     const auto fit = [](Buffer<float>& b, std::uint64_t n, const char* name) {
         return b.size() == n ? Status::ok() : b.resize(n, name);
     };
     PILEUS_TRY(fit(planes.transmittance, pixels, "transmittance"));
-    PILEUS_TRY(fit(planes.half_depth, pixels, "depth"));
-    PILEUS_TRY(fit(planes.opaque_depth, pixels, "opaque depth"));
+    PILEUS_TRY(fit(planes.half_depth, depth ? pixels : 0, "depth"));
+    PILEUS_TRY(fit(planes.opaque_depth, solid ? pixels : 0, "opaque depth"));
     PILEUS_TRY(fit(planes.background, 3 * pixels, "background"));
     return fit(planes.colour, std::uint64_t(channels) * pixels, "radiance");
 }
@@ -94,10 +95,11 @@ Status make_layers(const Planes& planes, int width, int height, int channels,
         }
     if (output.layer_depth) {
         PILEUS_TRY(add_channel(image, "Z", plane));
+        const bool solid = !planes.opaque_depth.empty();
         for (std::size_t i = 0; i < pixels; ++i)
-            plane->pixels[i] = planes.half_depth[i] < planes.opaque_depth[i]
-                                   ? planes.half_depth[i]
-                                   : planes.opaque_depth[i];
+            plane->pixels[i] = solid && planes.opaque_depth[i] < planes.half_depth[i]
+                                   ? planes.opaque_depth[i]
+                                   : planes.half_depth[i];
     }
     const int batches = channels / 3 - 1;
     if (output.layer_error && batches >= 2) {

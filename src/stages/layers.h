@@ -12,12 +12,14 @@ namespace pileus {
 
 /// Planes of one picture, rows from the top. `colour` is [3 * (1 + batches)][pixel].
 struct Planes {
-    Buffer<float> transmittance, half_depth, colour;
+    Buffer<float> transmittance, colour;
+    Buffer<float> half_depth;    ///< empty where no layer shows it
     Buffer<float> background;    ///< [3][pixel]
-    Buffer<float> opaque_depth;  ///< [pixel]; infinity for the sky
+    Buffer<float> opaque_depth;  ///< [pixel]; infinity for the sky; empty: nothing solid
 };
 
-Status allocate_planes(int width, int height, int channels, Planes& planes);
+/// `solid`: something opaque may end rays; `depth`: the layer of depths is wanted.
+Status allocate_planes(int width, int height, int channels, bool solid, bool depth, Planes& planes);
 
 /// Fills the image's channels and the report's error figures; counts pixels that are not finite.
 /// Radiances below zero, noise of the light that the cloud keeps from the ground, become 0 and are

@@ -2,6 +2,7 @@
 // See medium.h.
 #include "src/stages/medium.h"
 
+#include "src/base/file.h"
 #include "src/io/volume_file.h"
 #include "src/scene/read_scene.h"
 #include "src/volume/cumulus.h"
@@ -52,6 +53,67 @@ void set_peak_to_one(double scale, Medium& medium) {
     medium.density_max = 1;
 }
 
+/// Everything about a medium but its values.
+Status place_medium(const Scene& scene, const MediumSettings& settings, const VolumeHead& head,
+                    Medium& out) {
+    if (!settings.has_bounds && !head.knows_bounds)
+        return Status::bad_input(scene.file + ": " + medium_key(scene, settings) +
+                                 ".bounds_m: left out, and the file \"" + settings.file +
+                                 "\" does not know its place");
+    const auto& bounds = settings.has_bounds ? settings.bounds_m : head.bounds_m;
+    out.low_m = bounds[0];
+    for (std::size_t a = 0; a < 3; ++a) {
+        out.extent_m[a] = bounds[1][a] - bounds[0][a];
+        out.grid.size[a] = head.size[a];
+        out.grid.cell_m[a] = float(out.extent_m[a] / head.size[a]);
+    }
+    // A file's extinction is known only from its values; until then any but none stands for it.
+    out.sigma = float(head.in_extinction ? settings.extinction_scale : settings.extinction_per_m);
+    Optics& optics = out.optics[0];
+    optics.albedo_max = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        optics.albedo[c] = settings.albedo[c];
+        if (optics.albedo[c] > optics.albedo_max) optics.albedo_max = optics.albedo[c];
+    }
+    const bool grey =
+        settings.albedo[0] == settings.albedo[1] && settings.albedo[1] == settings.albedo[2];
+    out.channels = grey ? 1 : 3;
+    optics.phase = phase_params(settings.phase);
+    return Status::ok();
+}
+
+/// Size, place and mean of a density that the program makes.
+void outline_shape(const MediumSettings& settings, VolumeHead& head, MediumSource& source) {
+    source.cumulus = settings.density == DensityKind::kCumulus;
+    const bool given = settings.resolution[0] > 0;
+    head.size = given            ? settings.resolution
+                : source.cumulus ? CumulusSettings().resolution
+                                 : default_shape_size(settings.density);
+    const bool box = settings.density == DensityKind::kUniformBox;
+    source.mean_density = source.cumulus ? kCumulusMean : (box ? 1 : kEllipsoidMean);
+}
+
+/// Checks the file's length, and the size where the scene states it, before the file's own head.
+Status outline_file(const Scene& scene, const MediumSettings& settings, const Limits& limits,
+                    VolumeHead& head, MediumSource& source) {
+    const std::string path = scene_path(scene.directory, settings.file);
+    const bool raw = settings.raw_size[0] > 0;
+    if (raw) PILEUS_TRY(check_voxels(scene.file, settings.raw_size, limits));
+    InputFile file;
+    PILEUS_TRY(open_file(path, file));
+    PILEUS_TRY(check_limit(limits, LimitId::kFile, file.size(), path));
+    // Bare numbers pass through in pieces of 65536; every other form is held whole.
+    constexpr std::uint64_t kPieceBytes = 65536 * sizeof(float);
+    source.reading_bytes = raw ? kPieceBytes : file.size();
+    PILEUS_TRY(read_volume_head(settings, path, head));
+    if (!settings.y_up) return Status::ok();
+    // As permute_y_up has it: (x, y, z) -> (x, -z, y).
+    const auto box = head.bounds_m;
+    head.size = {head.size[0], head.size[2], head.size[1]};
+    head.bounds_m = {{{box[0][0], -box[1][2], box[0][1]}, {box[1][0], -box[0][2], box[1][1]}}};
+    return Status::ok();
+}
+
 }  // namespace
 
 bool is_white(const Medium& medium) {
@@ -76,34 +138,53 @@ std::string medium_key(const Scene& scene, const MediumSettings& settings) {
     return "medium." + std::to_string(index);
 }
 
+Status check_voxels(const std::string& where, const std::array<int, 3>& size,
+                    const Limits& limits) {
+    std::uint64_t voxels = 1;
+    for (const int n : size) {
+        PILEUS_TRY(check_limit(limits, LimitId::kSide, std::uint64_t(n), where));
+        voxels *= std::uint64_t(n);
+    }
+    return check_limit(limits, LimitId::kVoxels, voxels, where);
+}
+
+Status outline_medium(const Scene& scene, const MediumSettings& settings, const Limits& limits,
+                      Medium& out, MediumSource& source) {
+    VolumeHead head;
+    source = MediumSource{};
+    if (settings.density == DensityKind::kFile)
+        PILEUS_TRY(outline_file(scene, settings, limits, head, source));
+    else
+        outline_shape(settings, head, source);
+    PILEUS_TRY(check_voxels(scene.file, head.size, limits));
+    if (settings.y_up)
+        source.turned_voxels =
+            std::uint64_t(head.size[0]) * std::uint64_t(head.size[1]) * std::uint64_t(head.size[2]);
+    out.volume.size = head.size;
+    out.volume.in_extinction = head.in_extinction;
+    out.density_max = 1;
+    return place_medium(scene, settings, head, out);
+}
+
 Status load_medium(const Scene& scene, const MediumSettings& settings, int threads, Medium& out) {
     PILEUS_TRY(load_density(scene, settings, threads, out.volume));
-    if (!settings.has_bounds && !out.volume.knows_bounds)
-        return Status::bad_input(scene.file + ": " + medium_key(scene, settings) +
-                                 ".bounds_m: left out, and the file \"" + settings.file +
-                                 "\" does not know its place");
-    const auto& bounds = settings.has_bounds ? settings.bounds_m : out.volume.bounds_m;
-    out.low_m = bounds[0];
-    for (std::size_t a = 0; a < 3; ++a) {
-        out.extent_m[a] = bounds[1][a] - bounds[0][a];
-        out.grid.size[a] = out.volume.size[a];
-        out.grid.cell_m[a] = float(out.extent_m[a] / out.volume.size[a]);
-    }
+    VolumeHead head;
+    head.size = out.volume.size;
+    head.knows_bounds = out.volume.knows_bounds;
+    head.bounds_m = out.volume.bounds_m;
+    head.in_extinction = out.volume.in_extinction;
+    PILEUS_TRY(place_medium(scene, settings, head, out));
+    out.density_max = 0;
     for (float density : out.volume.density.span())
         if (density > out.density_max) out.density_max = density;
-    out.sigma = float(settings.extinction_per_m);
     if (out.volume.in_extinction) set_peak_to_one(settings.extinction_scale, out);
-    Optics& optics = out.optics[0];
-    optics.albedo_max = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-        optics.albedo[c] = settings.albedo[c];
-        if (optics.albedo[c] > optics.albedo_max) optics.albedo_max = optics.albedo[c];
-    }
-    const bool grey =
-        settings.albedo[0] == settings.albedo[1] && settings.albedo[1] == settings.albedo[2];
-    out.channels = grey ? 1 : 3;
-    optics.phase = phase_params(settings.phase);
     return Status::ok();
+}
+
+double mean_density(const Medium& medium) {
+    double sum = 0;
+    for (const float density : medium.volume.density.span()) sum += double(density);
+    return sum / double(medium.volume.density.size());
 }
 
 }  // namespace pileus

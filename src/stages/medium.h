@@ -4,6 +4,7 @@
 // docs/methods.md 1; mix_media.h lays several on one grid, which then is one of these too.
 #pragma once
 #include "kernels_cpu/optics.h"
+#include "src/base/limits.h"
 #include "src/io/volume.h"
 #include "src/scene/scene.h"
 #include "src/stages/prepared.h"
@@ -32,6 +33,31 @@ float phase_peak(const Medium& medium);
 
 /// "medium.N" of settings that belong to the scene, as its keys are named.
 std::string medium_key(const Scene& scene, const MediumSettings& settings);
+
+/// What is known of a density before its values are there.
+struct MediumSource {
+    std::uint64_t reading_bytes = 0;  ///< of the file that are in memory while it is read
+    std::uint64_t turned_voxels = 0;  ///< of a file whose y axis points up: a grid more for a while
+    std::uint64_t apart_voxels = 0;   ///< of media that are then laid on one grid
+    std::uint64_t mixing_bytes = 0;   ///< scratch of that
+    bool cumulus = false;             ///< made by the program from bubbles
+    double mean_density = -1;         ///< over the box; below 0: known only from the values
+};
+
+/// Mean density of `procedural:cumulus` in its default box, which other boxes come close to.
+constexpr double kCumulusMean = 0.08;
+
+/// kLimit: a side or the product over the limits; `where` opens the line.
+Status check_voxels(const std::string& where, const std::array<int, 3>& size, const Limits& limits);
+
+/// Over the cells of the grid.
+double mean_density(const Medium& medium);
+
+/// Places the medium and learns its size, reading no values: `out` is as load_medium's, but for the
+/// density, and density_max counts as 1. kLimit: a file or grid over the limits, before any memory
+/// is taken; otherwise as load_medium.
+Status outline_medium(const Scene& scene, const MediumSettings& settings, const Limits& limits,
+                      Medium& out, MediumSource& source);
 
 /// Reads or makes the density and places it. A file that holds extinction becomes densities up to 1
 /// (value over largest value) with sigma = extinction_scale times the largest value. Errors: those

@@ -4,9 +4,10 @@
 // docs/methods.md 2, "Several media".
 #include "src/stages/mix_media.h"
 
+#include <charconv>
+
 #include "platform/threads.h"
 #include "src/io/volume_file.h"
-#include "src/scene/toml_tree.h"
 #include "src/stages/mix_weights.h"
 #include "src/stages/prepare_collectors.h"
 
@@ -127,12 +128,38 @@ double detail_of(const std::vector<Medium>& media, const MixBox& box) {
     return least > floor ? least : floor;
 }
 
+/// The common medium but for its values.
+void join_media(const std::vector<Medium>& media, const MixBox& box, Medium& out) {
+    out = Medium{};
+    out.low_m = box.low_m;
+    out.volume.size = box.size;
+    for (std::size_t a = 0; a < 3; ++a) {
+        out.extent_m[a] = box.extent_m[a];
+        out.grid.size[a] = box.size[a];
+        out.grid.cell_m[a] = float(box.extent_m[a] / box.size[a]);
+    }
+    out.count = int(media.size());
+    out.detail_m = detail_of(media, box);
+    for (std::size_t i = 0; i < media.size(); ++i) {
+        out.optics[i] = media[i].optics[0];
+        if (media[i].channels > out.channels) out.channels = media[i].channels;
+        if (media[i].sigma > out.sigma) out.sigma = media[i].sigma;
+    }
+}
+
+/// Four digits are enough to tell.
+std::string short_number(double value) {
+    char text[32];
+    return {text,
+            std::to_chars(text, text + sizeof text, value, std::chars_format::general, 4).ptr};
+}
+
 std::string told_voxels(const MixBox& box) {
     std::string size, edge;
     for (std::size_t a = 0; a < 3; ++a) {
         const double metres = box.extent_m[a] / box.size[a];
         size += (a > 0 ? "x" : "") + std::to_string(box.size[a]);
-        edge += (a > 0 ? " x " : "") + number_text(metres);
+        edge += (a > 0 ? " x " : "") + short_number(metres);
     }
     return size + " voxels of " + edge + " m";
 }
@@ -198,21 +225,7 @@ Status mix_media(std::vector<Medium>& media, const MixGrid& grid, int threads, M
         return Status::ok();
     }
     const MixBox& box = grid.box;
-    out = Medium{};
-    out.low_m = box.low_m;
-    out.volume.size = box.size;
-    for (std::size_t a = 0; a < 3; ++a) {
-        out.extent_m[a] = box.extent_m[a];
-        out.grid.size[a] = box.size[a];
-        out.grid.cell_m[a] = float(box.extent_m[a] / box.size[a]);
-    }
-    out.count = int(media.size());
-    out.detail_m = detail_of(media, box);
-    for (std::size_t i = 0; i < media.size(); ++i) {
-        out.optics[i] = media[i].optics[0];
-        if (media[i].channels > out.channels) out.channels = media[i].channels;
-        if (media[i].sigma > out.sigma) out.sigma = media[i].sigma;
-    }
+    join_media(media, box, out);
     const std::size_t voxels = voxel_count(out.grid);
     PILEUS_TRY(out.volume.density.resize(voxels, "density"));
     PILEUS_TRY(out.parts.resize((media.size() - 1) * std::uint64_t(voxels), "parts of the media"));
@@ -224,32 +237,109 @@ Status mix_media(std::vector<Medium>& media, const MixGrid& grid, int threads, M
     return Status::ok();
 }
 
-Status load_media(const Scene& scene, int threads, Plan& plan, Medium& out) {
-    if (scene.media.size() > std::size_t(kMostMedia))
-        return Status::limit(scene.file + ": medium: " + std::to_string(scene.media.size()) +
-                             " media, allowed: at most " + std::to_string(kMostMedia));
+namespace {
+
+/// The media of a scene that count, one after the other, and which they are.
+struct MediaList {
     std::vector<Medium> media;
     std::vector<MixBox> boxes;
     std::vector<std::size_t> names;
+
+    /// Leaves out what has no extinction, unless it is all there is.
+    void add(Medium medium, std::size_t name, bool last, Plan& plan) {
+        const bool dark = !(medium.sigma > 0 && medium.density_max > 0);
+        if (dark && !(last && media.empty())) {
+            plan.leave_out(("medium " + std::to_string(name)).c_str(), "no extinction");
+            return;
+        }
+        boxes.push_back(box_of(medium));
+        names.push_back(name);
+        media.push_back(std::move(medium));
+    }
+
+    MixGrid plan_grid(const Limits& limits, Plan& plan) const {
+        const std::uint64_t most = limits[LimitId::kVoxels];
+        const MixGrid grid = plan_mix(boxes, most < kMostMixedVoxels ? most : kMostMixedVoxels);
+        if (media.size() == 1)
+            plan.leave_out("mixing of media", "one medium");
+        else
+            plan.need(told_mix(boxes, names, grid).c_str());
+        return grid;
+    }
+};
+
+std::uint64_t cells_of(const MixBox& box) {
+    return std::uint64_t(box.size[0]) * std::uint64_t(box.size[1]) * std::uint64_t(box.size[2]);
+}
+
+/// Scratch of mixing: a plane and a row of each thread, and weights that are fewer than two for
+/// each cell along an axis of either grid.
+std::uint64_t mixing_bytes(const MediaList& list, const MixBox& box, std::uint64_t threads) {
+    std::uint64_t largest = 0, rows = 0;
+    for (const MixBox& b : list.boxes) {
+        const std::uint64_t numbers = std::uint64_t(b.size[0]) * (std::uint64_t(b.size[1]) + 1);
+        largest = numbers > largest ? numbers : largest;
+        for (std::size_t a = 0; a < 3; ++a)
+            rows += std::uint64_t(b.size[a]) + std::uint64_t(box.size[a]);
+    }
+    return 8 * threads * (largest + 31) + 64 * rows;
+}
+
+/// Mean of the common density from the means of its parts; below 0 where one is not known.
+double mixed_mean(const MediaList& list, const std::vector<double>& means, const Medium& out) {
+    double sum = 0, volume = 1;
+    for (double e : out.extent_m) volume *= e;
+    for (std::size_t i = 0; i < list.media.size(); ++i) {
+        if (means[i] < 0 || list.media[i].volume.in_extinction) return -1;
+        double part = means[i] * double(list.media[i].sigma);
+        for (double e : list.media[i].extent_m) part *= e;
+        sum += part;
+    }
+    return out.sigma > 0 ? sum / (volume * double(out.sigma)) : 0;
+}
+
+}  // namespace
+
+Status outline_media(const Scene& scene, const Limits& limits, std::uint64_t threads, Plan& plan,
+                     Medium& out, MediumSource& source) {
+    MediaList list;
+    std::vector<double> means;
+    source = MediumSource{};
+    for (std::size_t i = 0; i < scene.media.size(); ++i) {
+        Medium medium;
+        MediumSource own;
+        PILEUS_TRY(outline_medium(scene, scene.media[i], limits, medium, own));
+        const auto larger = [](std::uint64_t a, std::uint64_t b) { return a > b ? a : b; };
+        source.reading_bytes = larger(source.reading_bytes, own.reading_bytes);
+        source.turned_voxels = larger(source.turned_voxels, own.turned_voxels);
+        source.cumulus = source.cumulus || own.cumulus;
+        const std::size_t before = list.media.size();
+        list.add(std::move(medium), i, i + 1 == scene.media.size(), plan);
+        if (list.media.size() > before) means.push_back(own.mean_density);
+    }
+    const MixGrid grid = list.plan_grid(limits, plan);
+    if (list.media.size() == 1) {
+        source.mean_density = means[0];
+        out = std::move(list.media[0]);
+        return Status::ok();
+    }
+    for (const MixBox& box : list.boxes) source.apart_voxels += cells_of(box);
+    source.mixing_bytes = mixing_bytes(list, grid.box, threads);
+    join_media(list.media, grid.box, out);
+    out.density_max = 1;
+    source.mean_density = mixed_mean(list, means, out);
+    return Status::ok();
+}
+
+Status load_media(const Scene& scene, const Limits& limits, int threads, Plan& plan, Medium& out) {
+    MediaList list;
     for (std::size_t i = 0; i < scene.media.size(); ++i) {
         Medium medium;
         PILEUS_TRY(load_medium(scene, scene.media[i], threads, medium));
-        const bool dark = !(medium.sigma > 0 && medium.density_max > 0);
-        const bool last = media.empty() && i + 1 == scene.media.size();
-        if (dark && !last) {
-            plan.leave_out(("medium " + std::to_string(i)).c_str(), "no extinction");
-            continue;
-        }
-        boxes.push_back(box_of(medium));
-        names.push_back(i);
-        media.push_back(std::move(medium));
+        list.add(std::move(medium), i, i + 1 == scene.media.size(), plan);
     }
-    const MixGrid grid = plan_mix(boxes);
-    if (media.size() == 1)
-        plan.leave_out("mixing of media", "one medium");
-    else
-        plan.need(told_mix(boxes, names, grid).c_str());
-    return mix_media(media, grid, threads, out);
+    const MixGrid grid = list.plan_grid(limits, plan);
+    return mix_media(list.media, grid, threads, out);
 }
 
 }  // namespace pileus

@@ -36,9 +36,13 @@ Status mix_media(std::vector<Medium>& media, const MixGrid& grid, int threads, M
 /// Which media would not keep their voxels on the grid, one flag each.
 std::vector<bool> resampled_media(const std::vector<MixBox>& boxes, const MixGrid& grid);
 
+/// What load_media will give, reading no values; `source` says what it will take meanwhile. Errors:
+/// those of outline_medium.
+Status outline_media(const Scene& scene, const Limits& limits, std::uint64_t threads, Plan& plan,
+                     Medium& out, MediumSource& source);
+
 /// Loads every medium of a scene that has some and lays them on one grid; says in `plan` how.
-/// Media without extinction are left out, unless none has any. Errors: those of load_medium;
-/// kLimit for more than kMostMedia.
-Status load_media(const Scene& scene, int threads, Plan& plan, Medium& out);
+/// Media without extinction are left out, unless none has any. Errors: those of load_medium.
+Status load_media(const Scene& scene, const Limits& limits, int threads, Plan& plan, Medium& out);
 
 }  // namespace pileus

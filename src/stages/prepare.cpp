@@ -31,15 +31,24 @@ Status finish_leaves(const Medium& medium, const CollectorOptions& options,
     PILEUS_TRY(masses.resize(voxels, "voxel masses"));
     voxel_masses(density, medium.grid, context.threads, masses.span());
     measure_leaves(density, masses.span(), medium.grid, context.threads, out.leaves.span());
-    PILEUS_TRY(out.collector_of_voxel.resize(voxels, "leaf grid"));
-    fill_leaf_grid(out.leaves.span(), medium.grid, context.threads, out.collector_of_voxel.span());
+    // The two largest arrays never live at once: only the first document's centroids ask for the
+    // leaf of a voxel, and only the others' for the masses of voxels.
+    const auto fill_grid = [&]() -> Status {
+        masses = Buffer<double>();
+        PILEUS_TRY(out.collector_of_voxel.resize(voxels, "leaf grid"));
+        fill_leaf_grid(out.leaves.span(), medium.grid, context.threads,
+                       out.collector_of_voxel.span());
+        return Status::ok();
+    };
+    if (options.paper) PILEUS_TRY(fill_grid());
     PILEUS_TRY(place_collectors(options, masses.span(), medium.grid, samples,
                                 out.collector_of_voxel.span(), context.threads, out.leaves.span(),
                                 out.collectors));
+    if (!options.paper) PILEUS_TRY(fill_grid());
     name_collectors(out.leaves.span(), context.threads, medium.grid, out.collector_of_voxel.span());
     if (medium.count == 1) return Status::ok();
     return measure_shares(medium, out.leaves.span(), out.collectors.span(), context.threads,
-                          masses.span(), out.shares);
+                          out.shares);
 }
 
 }  // namespace
@@ -87,6 +96,9 @@ Status prepare_collectors(const Medium& medium, const CollectorSettings& setting
     tree.density_range = float(settings.density_range) * medium.density_max;
     tree.influence_m = float(settings.influence_radius * diagonal * detail);
     if (!settings.paper) leaf_limit(medium.grid, kLeafShare * detail, tree.max_leaf_voxels);
+    const std::uint64_t most = context.limits[LimitId::kLeaves];
+    tree.max_leaves = most > 0 ? most : expected_leaves(medium.grid, set.samples.size());
+    if (context.report != nullptr) tree.where = context.report->scene;
     {
         const StageClock clock(context, "tree");
         PILEUS_TRY(build_tree(set.samples.span(), medium.volume.density.span(), medium.grid, tree,

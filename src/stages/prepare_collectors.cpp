@@ -102,7 +102,7 @@ Status place_collectors(const CollectorOptions& options, Span<const double> mass
                         const Grid& grid, Span<const Sample> samples,
                         Span<const std::int32_t> leaf_of_voxel, int threads, Span<Leaf> leaves,
                         Buffer<Collector>& collectors) {
-    assert(masses.size == voxel_count(grid) && leaf_of_voxel.size == masses.size);
+    assert((options.paper ? leaf_of_voxel.size : masses.size) == voxel_count(grid));
     // Number the leaves that take part.
     std::size_t count = 0;
     for (Leaf& leaf : leaves) leaf.collector = leaf.mass > 0 ? std::int32_t(count++) : -1;

@@ -21,7 +21,8 @@ double cube_root(double x);
 /// Leaf::collector. `paper`: centre = centroid of the leaf's samples (the leaf's centre where it
 /// has none), r from the leaf's edges, R = 2r. Otherwise: the leaf is cropped to its voxels of
 /// positive mass, centre = centroid of their masses, R = radius_factor * r. In both
-/// extinction * 4/3 pi R^3 = mass. kLimit: out of memory.
+/// extinction * 4/3 pi R^3 = mass. Only `paper` reads samples and leaf_of_voxel, only the other
+/// reads masses: what is not read may be empty. kLimit: out of memory.
 Status place_collectors(const CollectorOptions& options, Span<const double> masses,
                         const Grid& grid, Span<const Sample> samples,
                         Span<const std::int32_t> leaf_of_voxel, int threads, Span<Leaf> leaves,

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "src/base/limits.h"
+
 namespace pileus {
 namespace {
 
@@ -48,13 +50,26 @@ void leaf_limit(const Grid& grid, double share, int max_leaf_voxels[3]) {
     }
 }
 
+std::uint64_t expected_leaves(const Grid& grid, std::uint64_t samples) {
+    int longest[3];
+    leaf_limit(grid, kLeafShare, longest);
+    std::uint64_t halved = 1;
+    for (int a = 0; a < 3; ++a)
+        for (double edge = grid.size[a]; edge > longest[a]; edge /= 2) halved *= 2;
+    return std::min<std::uint64_t>(4 * samples + 8 * halved, voxel_count(grid));
+}
+
 Status LeafList::append(const VoxelBox& box) {
-    constexpr std::size_t kMostLeaves = 0x7fffffff;
-    if (count_ == kMostLeaves)
-        return Status::limit("collectors: more than 2147483647 leaves; raise density_range");
+    if (count_ >= options_.max_leaves) {
+        Limits limits;
+        limits[LimitId::kLeaves] = options_.max_leaves;
+        return check_limit(limits, LimitId::kLeaves, count_ + 1, options_.where);
+    }
     if (count_ == leaves_.size()) {
         Buffer<Leaf> larger;
-        PILEUS_TRY(larger.resize(std::max<std::size_t>(1024, 2 * count_), "kD-tree: leaves"));
+        const std::size_t wanted = std::max<std::size_t>(1024, 2 * count_);
+        PILEUS_TRY(
+            larger.resize(std::min<std::uint64_t>(wanted, options_.max_leaves), "kD-tree: leaves"));
         std::copy(leaves_.data(), leaves_.data() + count_, larger.data());
         leaves_.swap(larger);
     }

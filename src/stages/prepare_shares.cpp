@@ -23,20 +23,21 @@ double mass_in(const Leaf& leaf, const Grid& grid, Span<const double> masses) {
 }  // namespace
 
 Status measure_shares(const Medium& medium, Span<const Leaf> leaves,
-                      Span<const Collector> collectors, int threads, Span<double> scratch,
-                      Buffer<float>& shares) {
+                      Span<const Collector> collectors, int threads, Buffer<float>& shares) {
     const std::size_t voxels = voxel_count(medium.grid), media = std::size_t(medium.count);
-    assert(scratch.size == voxels && medium.parts.size() == (media - 1) * voxels);
+    assert(medium.parts.size() == (media - 1) * voxels);
+    Buffer<double> masses;
+    PILEUS_TRY(masses.resize(voxels, "voxel masses of a part"));
     PILEUS_TRY(shares.resize(collectors.size * media, "shares of the media"));
     for (std::size_t c = 0; c < collectors.size; ++c) shares[c * media] = 1;
     for (std::size_t i = 1; i < media; ++i) {
         const Span<const float> part{medium.parts.data() + (i - 1) * voxels, voxels};
-        voxel_masses(part, medium.grid, threads, scratch);
+        voxel_masses(part, medium.grid, threads, masses.span());
         parallel_for(threads, std::int64_t(collectors.size), [&](std::int64_t c, int) {
             const Collector& collector = collectors[std::size_t(c)];
             float* own = shares.data() + std::size_t(c) * media;
             const float share =
-                float(mass_in(leaves[std::size_t(collector.leaf)], medium.grid, scratch) /
+                float(mass_in(leaves[std::size_t(collector.leaf)], medium.grid, masses.span()) /
                       collector.mass);
             // What rounding makes of a share must not leave less than nothing for medium 0.
             own[i] = share < own[0] ? share : own[0];

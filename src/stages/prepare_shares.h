@@ -8,10 +8,9 @@
 
 namespace pileus {
 
-/// Fills `shares`: [collector][medium], in [0, 1], adding up to 1 but for rounding. `scratch` holds
-/// one number per voxel and is overwritten. kLimit: out of memory.
+/// Fills `shares`: [collector][medium], in [0, 1], adding up to 1 but for rounding. Takes 8 bytes a
+/// voxel meanwhile. kLimit: out of memory.
 Status measure_shares(const Medium& medium, Span<const Leaf> leaves,
-                      Span<const Collector> collectors, int threads, Span<double> scratch,
-                      Buffer<float>& shares);
+                      Span<const Collector> collectors, int threads, Buffer<float>& shares);
 
 }  // namespace pileus

@@ -106,6 +106,8 @@ void add_tally(const TraceTally& from, TraceTally& to) {
     to.crossings += from.crossings;
     to.path += from.path;
     to.majorant_violations += from.majorant_violations;
+    to.absorption_tests += from.absorption_tests;
+    to.bounces += from.bounces;
 }
 
 GroundMap make_ground_map(const Medium& medium, const Lighting& lighting) {

@@ -57,14 +57,18 @@ void fill_ellipsoid(const std::array<int, 3>& n, Buffer<float>& density) {
 
 }  // namespace
 
+std::array<int, 3> default_shape_size(DensityKind kind) {
+    if (kind == DensityKind::kUniformBox) return {1, 1, 1};
+    return {64, 64, 64};
+}
+
 Status make_shape(DensityKind kind, std::array<int, 3> resolution, Volume& volume) {
     const bool box = kind == DensityKind::kUniformBox;
     if (!box && kind != DensityKind::kUniformSphere && kind != DensityKind::kUniformEllipsoid)
         return Status::bad_input(
             "density: not a uniform shape, allowed uniform:box, "
             "uniform:sphere, uniform:ellipsoid");
-    if (resolution == std::array<int, 3>{0, 0, 0})
-        resolution = box ? std::array<int, 3>{1, 1, 1} : std::array<int, 3>{64, 64, 64};
+    if (resolution == std::array<int, 3>{0, 0, 0}) resolution = default_shape_size(kind);
     for (int n : resolution)
         if (n < 1 || n > 4096)
             return Status::bad_input("resolution: " + std::to_string(n) +

@@ -158,9 +158,10 @@ TEST_CASE("program: a failed rendering leaves an older picture as it was") {
 TEST_CASE("program: too little memory is exit 3 and one line") {
     const ProgramFolder folder;
     // 2^28 pixels need gigabytes; the limit leaves the program itself ample room.
-    const Outcome outcome =
-        folder.run("render s.toml --threads 1 -o a.pfm --set camera.resolution=[16384,16384]",
-                   "ulimit -v 600000 &&");
+    const Outcome outcome = folder.run(
+        "render s.toml --threads 1 -o a.pfm --set camera.resolution=[16384,16384] "
+        "--limit pixels=268435456 --limit memory=1T",
+        "ulimit -v 600000 &&");
     CHECK(outcome.exit_status == 3);
     CHECK_MESSAGE(holds(outcome.errors, "out of memory"), outcome.errors);
     CHECK(line_count(outcome.errors) == 1);

@@ -111,9 +111,13 @@ TEST_CASE("render: the report has every key, and fractions of energy that add up
     for (const char* fate : {"top", "bottom", "sides", "absorbed", "ground", "sky", "terminated"})
         sum += row[fate].get<double>();
     CHECK(sum == doctest::Approx(1).epsilon(1e-12));  // seven roundings of 2^-53 each
-    std::uint64_t total = 0;
-    for (const auto& item : report["plan"]["bytes"]) total += item.get<std::uint64_t>();
-    CHECK(report["plan"]["total_bytes"] == total);
+    std::uint64_t peak = 0, all = 0;
+    for (const auto& stage : report["plan"]["stages"])
+        peak = std::max(peak, stage.get<std::uint64_t>());
+    for (const auto& item : report["plan"]["bytes"]) all += item.get<std::uint64_t>();
+    CHECK(report["plan"]["total_bytes"] == peak);
+    CHECK(peak < all);  // not all live at once
+    CHECK(report["plan"]["exact"] == true);
     for (const auto& stage : report["time"]["stages"]) {
         CHECK(stage["wall_s"].get<double>() >= 0);
         CHECK(stage["cpu_s"].get<double>() >= 0);
@@ -243,13 +247,18 @@ TEST_CASE("plan: lines for people, JSON with the report's keys, and no file") {
     const ProgramFolder folder;
     const Outcome lines = folder.run("plan s.toml");
     CHECK(lines.exit_status == 0);
-    for (const char* part : {"needed\n", "left out\n", "memory\n", "total "})
+    for (const char* part : {"needed\n", "left out\n", "memory (at most)", "total at once",
+                             "bounds", "bias", "work", "limits"})
         CHECK_MESSAGE(holds(lines.output, part), lines.output);
     const Outcome plan = folder.run("plan s.toml --json --set method.name=collectors");
     REQUIRE(plan.exit_status == 0);
     const json parsed = json::parse(plan.output);
-    for (const char* key : {"needed", "left_out", "bytes", "total_bytes"})
+    for (const char* key : {"needed", "left_out", "exact", "bytes", "total_bytes", "arrays",
+                            "stages", "bounds", "bias", "work", "limits"})
         CHECK_MESSAGE(parsed["plan"].contains(key), key);
+    CHECK(parsed["plan"]["exact"] == false);
+    for (const auto& bound : parsed["plan"]["bounds"])
+        CHECK(bound["worst"].get<double>() < bound["allowed"].get<double>());
     CHECK(parsed["plan"]["total_bytes"].get<std::uint64_t>() > 0);
     CHECK(folder.left().empty());
 }
@@ -262,7 +271,7 @@ TEST_CASE("report: what is no number becomes null, what is no text does no harm"
     report.rmse_estimate = 0.25;
     report.scene = "a\"\xff\n";
     report.stages = {{"photons", 1, 2}, {"photons", 3, 4}};
-    report.bytes = {{"grid", 5}, {"grid", 6}};
+    report.bytes = {{"grid", 5, "tree", "tree"}, {"grid", 6, "tree", "write"}};
     report.counters = {{"nan", 1}, {"nan", 2}};
     report.photons = 10;
     report.tracing_cpu_s = 2.5;

@@ -58,6 +58,8 @@ inline void check_sound(const Picture& p) {
 inline RenderOptions one_thread() {
     RenderOptions options;
     options.threads = 1;
+    // Stiff media are thicker than what is let through by default.
+    options.limits[LimitId::kScatterings] = limit_row(LimitId::kScatterings).most;
     return options;
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pileus plan: what a rendering would need, what it leaves out and why, and its memory.
+// pileus plan: what a rendering would need, what it leaves out and why, memory, bounds, cost.
 // in: a scene -> out: lines for people, or JSON with the report's keys.
 // docs/program.md; docs/report.md
 #include <fmt/format.h>
@@ -17,21 +17,63 @@ namespace {
 
 struct PlanArguments {
     SceneArguments scene;
-    bool json = false;
+    bool json = false, exact = false;
 };
 
-std::string plan_lines(const Report& report) {
+std::string part_lines(const Report& report) {
     std::string text = "needed\n";
     for (const std::string& part : report.needed) text += fmt::format("  {}\n", part);
     text += "left out\n";
     for (const ReportLeftOut& part : report.left_out)
         text += fmt::format("  {}: {}\n", part.what, part.why);
-    text += "memory\n";
-    for (const ReportBytes& item : report.bytes)
-        text += fmt::format("  {:<36} {:>18} bytes\n", item.item, item.bytes);
-    text += fmt::format("  {:<36} {:>18} bytes, {}\n", "total", report.total_bytes,
-                        bytes_text(report.total_bytes));
     return text;
+}
+
+std::string memory_lines(const Report& report) {
+    std::string text = fmt::format("memory ({}), and from which stage to which\n",
+                                   report.exact ? "exact" : "at most");
+    for (const ReportBytes& item : report.bytes)
+        text += fmt::format("  {:<28} {:>12}  {} to {}\n", item.item, bytes_text(item.bytes),
+                            item.first, item.last);
+    std::string peak;
+    for (const ReportStage& stage : report.stage_bytes)
+        if (stage.bytes == report.total_bytes && peak.empty()) peak = stage.stage;
+    return text + fmt::format("  {:<28} {:>12}  {} bytes, in stage {}\n", "total at once",
+                              bytes_text(report.total_bytes), report.total_bytes, peak);
+}
+
+std::string bound_lines(const Report& report) {
+    std::string text = "bounds of the sums, in whole numbers of 64 bits\n";
+    for (const ReportBound& b : report.bounds)
+        text += fmt::format("  {:<28} {:.3g} addends x {:.3g} x 2^{} = {:.2g} < {:.2g}\n", b.sum,
+                            b.addends, b.largest, b.places, b.worst, b.allowed);
+    return text;
+}
+
+std::string work_lines(const Report& report) {
+    const ReportWork& work = report.work;
+    std::string text = fmt::format("work, foretold\n  {:<28} {:.4g}\n", "photons", work.photons);
+    if (!work.known)
+        return text +
+               fmt::format("  {:<28} shows once the values are read: --exact\n", "scatterings");
+    return text + fmt::format("  {:<28} about {:.3g} a photon, {:.3g} in all ({})\n", "scatterings",
+                              work.scatterings_per_photon, work.scatterings, work.law);
+}
+
+std::string limit_lines(const Report& report) {
+    std::string text = "limits (--limit NAME=N)\n";
+    for (const ReportLimit& limit : report.limits)
+        text +=
+            fmt::format("  {:<28} {} of {}\n", limit.name,
+                        limit.known ? fmt::to_string(limit.needs) : "not known yet", limit.allowed);
+    return text;
+}
+
+std::string plan_lines(const Report& report) {
+    return part_lines(report) + memory_lines(report) + bound_lines(report) +
+           fmt::format("bias, where no noise is left\n  {:<28} {} ({})\n", report.bias_of,
+                       report.bias, report.bias_page) +
+           work_lines(report) + limit_lines(report);
 }
 
 Status run_plan(const PlanArguments& arguments) {
@@ -39,17 +81,21 @@ Status run_plan(const PlanArguments& arguments) {
     RenderOptions options;
     Report report;
     PILEUS_TRY(read_scene_options(arguments.scene, scene, options));
-    PILEUS_TRY(plan_scene(scene, options, report));
+    options.last_frame = scene.animation.present ? scene.animation.frames - 1 : 0;
+    PILEUS_TRY(plan_scene(scene, options, arguments.exact, report));
     return print(arguments.json ? plan_json(report) : plan_lines(report));
 }
 
 }  // namespace
 
 void add_plan(CLI::App& app, Chosen& chosen) {
-    CLI::App* command = app.add_subcommand("plan", "Say what a rendering needs, without tracing");
+    CLI::App* command =
+        app.add_subcommand("plan", "Say what a rendering needs, from sizes, without its values");
     const auto arguments = std::make_shared<PlanArguments>();
     add_scene_options(*command, arguments->scene);
     command->add_flag("--json", arguments->json, "Print JSON");
+    command->add_flag("--exact", arguments->exact,
+                      "Read the values and prepare everything but the photons: exact bytes");
     command->callback(
         [arguments, &chosen] { chosen = [arguments] { return run_plan(*arguments); }; });
 }

@@ -63,6 +63,13 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
                     "whole generations; may be repeated")
         ->allow_extra_args(false)
         ->type_name("KIND=N");
+    command
+        .add_option("--limit", arguments.limits,
+                    "What the scene may ask for, e.g. memory=16Gi; may be repeated; the names are "
+                    "listed below")
+        ->allow_extra_args(false)
+        ->type_name("NAME=N");
+    command.footer("Limits, by default (and at most):\n" + describe_limits());
 }
 
 Status read_scene_options(const SceneArguments& arguments, Scene& scene, RenderOptions& options) {
@@ -76,6 +83,8 @@ Status read_scene_options(const SceneArguments& arguments, Scene& scene, RenderO
     options.isa = arguments.isa.value_or("");
     for (const std::string& budget : arguments.budgets)
         add_fault(read_budget(budget, options), faults);
+    for (const std::string& limit : arguments.limits)
+        add_fault(set_limit(limit, options.limits), faults);
     std::int64_t seed = 0;
     if (arguments.seed) add_fault(read_integer("--seed", *arguments.seed, 0, kMost, seed), faults);
     add_fault(arguments.scene.empty()

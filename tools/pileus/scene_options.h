@@ -16,10 +16,10 @@ namespace pileus {
 struct SceneArguments {
     std::string scene;
     std::optional<std::string> threads, seed, isa;
-    std::vector<std::string> sets, budgets;
+    std::vector<std::string> sets, budgets, limits;
 };
 
-/// Adds SCENE --set --threads --seed --isa --budget to a subcommand.
+/// Adds SCENE --set --threads --seed --isa --budget --limit to a subcommand.
 void add_scene_options(CLI::App& command, SceneArguments& arguments);
 
 /// Checks all options, reads the scene and applies overrides and seed. Faults: one line each,

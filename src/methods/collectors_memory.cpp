@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// The bytes of each array, written beside the stage that allocates it.
+// in: see collectors_memory.h -> out: rows.
+// docs/report.md, "Memory".
+#include "src/methods/collectors_memory.h"
+
+#include "kernels_cpu/blend_params.h"
+#include "src/stages/prepare_majorant.h"
+#include "src/volume/bubbles.h"
+
+namespace pileus {
+namespace {
+
+using Size = std::uint64_t;
+constexpr Size kFloat = sizeof(float);
+
+Size voxels_of(const CollectorsSizes& s) { return voxel_count(s.grid); }
+
+Size side(const CollectorsSizes& s, int axis) { return Size(s.grid.size[axis]); }
+
+/// Reading or making the density: stages/medium.cpp.
+void add_density(const CollectorsSizes& s, MemoryTable& t) {
+    const Size grid = bytes_of(voxels_of(s), kFloat);
+    t.add("density", Stage::kDensity, Stage::kWrite, grid);
+    t.add("sky map", Stage::kDensity, Stage::kWrite, s.sky_map);
+    t.add("sky map while it is read", Stage::kDensity, Stage::kDensity, s.sky_picture);
+    t.add("file while it is read", Stage::kDensity, Stage::kDensity, s.source.reading_bytes);
+    t.add("density, turned", Stage::kDensity, Stage::kDensity,
+          bytes_of(s.source.turned_voxels, kFloat));
+    if (s.media > 1) {
+        t.add("media apart", Stage::kDensity, Stage::kDensity,
+              bytes_of(s.source.apart_voxels, kFloat));
+        t.add("mixing of media", Stage::kDensity, Stage::kDensity, s.source.mixing_bytes);
+        t.add("parts of the media", Stage::kDensity, Stage::kWrite, bytes_of(s.media - 1, grid));
+    }
+    if (s.source.cumulus)
+        t.add("bubbles of the cumulus", Stage::kDensity, Stage::kDensity,
+              kMaxBubbles * (sizeof(Bubble) + 2 * sizeof(std::uint16_t) * s.threads));
+}
+
+/// stages/prepare.cpp draw_samples and what it calls.
+void add_samples(const CollectorsSizes& s, MemoryTable& t) {
+    if (s.cells) return;
+    const Size slice = side(s, 0) * side(s, 1);
+    t.add("gradient field", Stage::kSamples, Stage::kSamples, bytes_of(voxels_of(s), kFloat));
+    if (s.variance)
+        t.add("sums of the variance", Stage::kSamples, Stage::kSamples,
+              bytes_of(16, voxels_of(s) + (slice + side(s, 0)) * s.threads));
+    t.add(
+        "cumulative sums", Stage::kSamples, Stage::kSamples,
+        8 * (side(s, 1) * side(s, 2) + 1) + kFloat * side(s, 0) + sizeof(FieldStats) * side(s, 2));
+    if (s.rejection)
+        t.add("samples being drawn", Stage::kSamples, Stage::kSamples,
+              s.samples * (sizeof(Sample) + 4));
+    t.add("samples", Stage::kSamples, Stage::kLeafGrid, s.samples * sizeof(Sample));
+}
+
+/// stages/prepare_tree.cpp: three lists sorted by keys of 8 bytes, and a list of leaves that grows
+/// by doubling.
+void add_tree(const CollectorsSizes& s, MemoryTable& t) {
+    const Size leaves = bytes_of(s.leaves, sizeof(Leaf));
+    t.add("leaves", Stage::kTree, Stage::kWrite, leaves);
+    if (s.cells) return;
+    constexpr Size kNode = sizeof(std::int32_t) * 6 + sizeof(std::uint32_t) * 2;
+    t.add("sorted lists of samples", Stage::kTree, Stage::kTree,
+          s.samples * (3 * (4 + 4 + 8) + 4 + 4 + 1));
+    t.add("growing list of leaves", Stage::kTree, Stage::kTree,
+          bytes_of(2 * s.leaves + 1024, sizeof(Leaf)));
+    t.add("stack of the tree", Stage::kTree, Stage::kTree,
+          kNode * (side(s, 0) + side(s, 1) + side(s, 2) + 2));
+}
+
+/// stages/prepare.cpp finish_leaves, stages/prepare_majorant.cpp.
+void add_collectors(const CollectorsSizes& s, MemoryTable& t) {
+    const Size voxels = voxels_of(s);
+    const Stage traced = s.shoots_again ? Stage::kWrite : Stage::kPhotons;
+    t.add("voxel masses", Stage::kCollectors, Stage::kCollectors, bytes_of(voxels, 8));
+    t.add("collector of voxel", Stage::kLeafGrid, traced, bytes_of(voxels, 4));
+    t.add("collectors", Stage::kCollectors, Stage::kWrite,
+          bytes_of(s.collectors, sizeof(Collector)));
+    if (s.media > 1) {
+        t.add("voxel masses of a part", Stage::kLeafGrid, Stage::kLeafGrid, bytes_of(voxels, 8));
+        t.add("shares of the media", Stage::kLeafGrid, Stage::kWrite,
+              bytes_of(s.collectors, s.media, kFloat));
+    }
+    if (s.paper)
+        t.add("centroids of samples", Stage::kLeafGrid, Stage::kLeafGrid,
+              bytes_of(s.leaves, 4 * sizeof(double)));
+    // The search holds the finest blocks and the next, and is over before the choice is made.
+    const int finest = voxels <= kMostSingleVoxels ? 1 : 2;
+    const Size search = block_total(s.grid, finest) + block_total(s.grid, 2 * finest);
+    t.add("search for the block size", Stage::kMajorants, Stage::kMajorants, kFloat * search);
+    t.add("rows of the majorants", Stage::kMajorants, Stage::kMajorants,
+          bytes_of(kFloat * s.threads, side(s, 0) * side(s, 1) + side(s, 0)));
+    t.add("majorants", Stage::kMajorants, traced, kFloat * s.tracking_blocks);
+    t.add("blocks to skip", Stage::kMajorants, Stage::kWrite, kFloat * block_total(s.grid, 4));
+}
+
+/// stages/trace.cpp: sums per light and slot, and each thread's own.
+void add_photons(const CollectorsSizes& s, MemoryTable& t) {
+    const Stage traced = s.shoots_again ? Stage::kWrite : Stage::kPhotons;
+    const Size light =
+        bytes_of(bytes_of(s.collectors, s.channels, s.coefficients) + s.ground_cells * s.channels,
+                 sizeof(std::int64_t));
+    t.add("photon map", Stage::kPhotons, Stage::kWrite, bytes_of(light, s.lights, s.slots));
+    t.add("photon sums per thread", Stage::kPhotons, traced,
+          bytes_of(light + 256 + 2 * sizeof(TraceTally), s.threads));
+}
+
+/// methods/collectors_show.cpp, up to the display.
+void add_light(const CollectorsSizes& s, MemoryTable& t) {
+    const Size pixels = s.width * s.height;
+    t.add("collector colours", Stage::kReconstruct, Stage::kLayers,
+          bytes_of(kFloat * s.planes, s.collectors));
+    // Colours with their batches, transmittance, background; depths where something asks for them.
+    const Size planes = s.planes + 4 + (s.ground ? 1u : 0u) + (s.depth ? 1u : 0u);
+    t.add("picture planes", Stage::kBackground, Stage::kLayers, bytes_of(kFloat * planes, pixels));
+    t.add("ground map", Stage::kBackground, Stage::kBackground, 3 * kFloat * s.ground_cells);
+    t.add("shadow", s.shoots_again ? Stage::kPhotons : Stage::kShadow, Stage::kWrite,
+          kFloat * s.shadow_nodes);
+    if (s.marched) {
+        t.add("source grid", Stage::kSplat, Stage::kDisplay,
+              bytes_of(kFloat * s.planes, s.source_nodes));
+        t.add("source weights", Stage::kSplat, Stage::kSplat, kFloat * s.source_nodes);
+    }
+}
+
+/// stages/composite_billboards.cpp: no tile is smaller than 256 by one row, or than the picture.
+void add_billboards(const CollectorsSizes& s, MemoryTable& t) {
+    if (s.marched) return;
+    const Size wide = s.width < 256 ? s.width : 256;
+    Size high = (Size{1} << 17) / ((Size(kBlendPlanes) + s.planes) * wide);
+    high = high < 1 ? 1 : (high > 32 ? 32 : high);
+    if (high > s.height) high = s.height;
+    const Size tiles = ((s.width + wide - 1) / wide) * ((s.height + high - 1) / high);
+    t.add("billboards", Stage::kDisplay, Stage::kDisplay,
+          bytes_of(s.collectors, 5 * kFloat + 2 * sizeof(BlendSphere) + 16));
+    t.add("billboards of tiles", Stage::kDisplay, Stage::kDisplay,
+          bytes_of(s.collectors, tiles, 4) + 16 * (tiles + 1));
+    const Size row = (wide + 15) / 16 * 16;
+    t.add("planes of tiles", Stage::kDisplay, Stage::kDisplay,
+          bytes_of(kFloat * s.threads, row * (high * (Size(kBlendPlanes) + s.planes) + 2) + 16));
+}
+
+/// stages/layers.cpp and the encoders of io: a growing buffer is three times the file at most, and
+/// no file is larger than its raw values but for its head; rows wait in packs of 16.
+void add_picture(const CollectorsSizes& s, MemoryTable& t) {
+    const Size image = bytes_of(kFloat * s.layers, s.width, s.height);
+    t.add("image layers", Stage::kLayers, Stage::kWrite, image);
+    t.add("file being encoded", Stage::kWrite, Stage::kWrite, bytes_of(3, image + (Size{1} << 20)));
+    t.add("rows being encoded", Stage::kWrite, Stage::kWrite,
+          bytes_of(3 * 16, s.width, kFloat * s.layers));
+}
+
+}  // namespace
+
+Size block_total(const Grid& grid, int edge) {
+    int n[3];
+    block_counts(grid, edge, n);
+    return Size(n[0]) * Size(n[1]) * Size(n[2]);
+}
+
+MemoryTable collectors_memory(const CollectorsSizes& sizes) {
+    MemoryTable table;
+    add_density(sizes, table);
+    add_samples(sizes, table);
+    add_tree(sizes, table);
+    add_collectors(sizes, table);
+    add_photons(sizes, table);
+    add_light(sizes, table);
+    add_billboards(sizes, table);
+    add_picture(sizes, table);
+    return table;
+}
+
+}  // namespace pileus
