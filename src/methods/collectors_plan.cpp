@@ -84,7 +84,7 @@ void size_prepared(const CollectorsRun& run, const Context& context, CollectorsS
     if (s.cells)
         s.leaves = block_total(s.grid, run.camera_cells);
     else
-        s.leaves = most > 0 ? most : expected_leaves(s.grid, s.samples);
+        s.leaves = most > 0 ? most : expected_leaves(s.grid, leaf_share(run.medium), s.samples);
     s.collectors = s.leaves;
     const bool single = voxel_count(s.grid) <= kMostSingleVoxels;
     s.tracking_blocks = settings.local_tracking ? block_total(s.grid, single ? 1 : 2) : 1;

@@ -12,6 +12,12 @@
 namespace pileus {
 namespace {
 
+double diagonal_m(const Medium& medium) {
+    double square = 0;
+    for (double e : medium.extent_m) square += e * e;
+    return __builtin_sqrt(square);
+}
+
 /// Leaf numbers become collector numbers, voxel by voxel.
 void name_collectors(Span<const Leaf> leaves, int threads, const Grid& grid,
                      Span<std::int32_t> of_voxel) {
@@ -81,23 +87,23 @@ Status prepare_sample_set(const Medium& medium, const CollectorSettings& setting
                                                           options, context.threads, set);
 }
 
+double leaf_share(const Medium& medium) {
+    return medium.detail_m > 0 ? kLeafShare * (medium.detail_m / diagonal_m(medium)) : kLeafShare;
+}
+
 Status prepare_collectors(const Medium& medium, const CollectorSettings& settings,
                           std::int64_t seed, const Context& context, Prepared& out) {
     SampleSet set;
     PILEUS_TRY(prepare_sample_set(medium, settings, seed, context, set));
     out.samples = set.samples.size();
     out.rejected = set.given_up;
-    double square = 0;
-    for (double e : medium.extent_m) square += e * e;
-    const double diagonal = __builtin_sqrt(square);
-    // A small cloud in wide haze is divided as finely as it would be alone.
-    const double detail = medium.detail_m > 0 ? medium.detail_m / diagonal : 1.0;
+    const double share = leaf_share(medium), detail = share / kLeafShare;
     TreeOptions tree;
     tree.density_range = float(settings.density_range) * medium.density_max;
-    tree.influence_m = float(settings.influence_radius * diagonal * detail);
-    if (!settings.paper) leaf_limit(medium.grid, kLeafShare * detail, tree.max_leaf_voxels);
+    tree.influence_m = float(settings.influence_radius * detail * diagonal_m(medium));
+    if (!settings.paper) leaf_limit(medium.grid, share, tree.max_leaf_voxels);
     const std::uint64_t most = context.limits[LimitId::kLeaves];
-    tree.max_leaves = most > 0 ? most : expected_leaves(medium.grid, set.samples.size());
+    tree.max_leaves = most > 0 ? most : expected_leaves(medium.grid, share, set.samples.size());
     if (context.report != nullptr) tree.where = context.report->scene;
     {
         const StageClock clock(context, "tree");

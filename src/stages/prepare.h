@@ -30,6 +30,10 @@ Status prepare_sample_field(const Medium& medium, const CollectorSettings& setti
 Status prepare_sample_set(const Medium& medium, const CollectorSettings& settings,
                           std::int64_t seed, const Context& context, SampleSet& set);
 
+/// Longest leaf as a share of the common box's diagonal: a small cloud in wide haze is divided as
+/// finely as it would be alone.
+double leaf_share(const Medium& medium);
+
 /// kLimit: out of memory.
 Status prepare_collectors(const Medium& medium, const CollectorSettings& settings,
                           std::int64_t seed, const Context& context, Prepared& out);

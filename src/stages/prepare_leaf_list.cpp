@@ -50,9 +50,9 @@ void leaf_limit(const Grid& grid, double share, int max_leaf_voxels[3]) {
     }
 }
 
-std::uint64_t expected_leaves(const Grid& grid, std::uint64_t samples) {
+std::uint64_t expected_leaves(const Grid& grid, double share, std::uint64_t samples) {
     int longest[3];
-    leaf_limit(grid, kLeafShare, longest);
+    leaf_limit(grid, share, longest);
     std::uint64_t halved = 1;
     for (int a = 0; a < 3; ++a)
         for (double edge = grid.size[a]; edge > longest[a]; edge /= 2) halved *= 2;

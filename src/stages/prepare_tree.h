@@ -29,9 +29,10 @@ void leaf_limit(const Grid& grid, double share, int max_leaf_voxels[3]);
 constexpr double kLeafShare = 1.0 / 24;
 
 /// Leaves that a tree is expected to have at most, and is held to unless told otherwise: four a
-/// sample, and eight times what halving alone makes of a filled box; never more than voxels. Clouds
-/// have 0.7 to 1.4 a sample, noise in every voxel a third of this bound (docs/report.md).
-std::uint64_t expected_leaves(const Grid& grid, std::uint64_t samples);
+/// sample, and eight times what halving down to `share` makes of a filled box; never more than
+/// voxels. Clouds have 0.7 to 1.4 a sample, noise in every voxel a third of this bound
+/// (docs/report.md).
+std::uint64_t expected_leaves(const Grid& grid, double share, std::uint64_t samples);
 
 /// Builds the leaves, lo and hi only, in the order of a walk that takes the lower half first.
 /// O(n log n) in the samples. `density_range` is in units of density: the caller multiplies the
