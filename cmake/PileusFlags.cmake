@@ -35,6 +35,15 @@ elseif(PILEUS_WERROR)
     target_compile_options(pileus_flags INTERFACE -Werror)
 endif()
 
+# Let libFuzzer see which edges an input reaches; its main program is linked by the targets only.
+if(PILEUS_FUZZ)
+    if(NOT CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+        message(FATAL_ERROR
+            "PILEUS_FUZZ: needs libFuzzer, ${CMAKE_CXX_COMPILER_ID}, allowed: Clang")
+    endif()
+    target_compile_options(pileus_flags INTERFACE -fsanitize=fuzzer-no-link)
+endif()
+
 # Keep 32-bit x86 off the x87 registers, whose extra bits depend on spilling.
 set(PILEUS_X86 OFF)
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64|i[3-6]86)$")

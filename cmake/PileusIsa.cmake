@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # Compiles kernels_cpu/isa.cpp once per instruction set the compiler knows.
-# in: PILEUS_X86 -> out: PILEUS_ISA_OBJECTS, PILEUS_ISA_DEFINITIONS, PILEUS_ISA_NAMES
+# in: PILEUS_X86, PILEUS_KERNELS -> out: PILEUS_ISA_OBJECTS, PILEUS_ISA_DEFINITIONS, PILEUS_ISA_NAMES
 # kernels_cpu/dispatch.cpp reads PILEUS_HAVE_<ISA> and chooses when the program starts.
 include(CheckCXXCompilerFlag)
 set(CMAKE_REQUIRED_QUIET ON)
@@ -10,6 +10,9 @@ set(PILEUS_ISA_NAMES)
 
 # One object: the namespace and the number of lanes come in as definitions.
 function(pileus_add_isa name width)
+    if(PILEUS_KERNELS AND NOT name IN_LIST PILEUS_KERNELS)
+        return()
+    endif()
     string(TOUPPER "${name}" upper)
     foreach(flag IN LISTS ARGN)
         string(MAKE_C_IDENTIFIER "PILEUS_TAKES${flag}" known)

@@ -9,9 +9,9 @@
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdio>
-#include <cstdlib>
 #include <string>
+
+#include "platform/new_file.h"
 
 namespace pileus {
 
@@ -20,50 +20,6 @@ namespace {
 constexpr std::size_t kPiece = std::size_t{1} << 30;  // below every kernel's limit for one call
 
 FileResult system_fault() { return {FileFault::kSystem, errno}; }
-
-FileResult write_all(int descriptor, const char* data, std::size_t bytes) {
-    while (bytes > 0) {
-        const ssize_t written = ::write(descriptor, data, bytes < kPiece ? bytes : kPiece);
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) return system_fault();
-        data += written;
-        bytes -= std::size_t(written);
-    }
-    return {};
-}
-
-/// A failure to make a folder shows when the file in it is opened.
-void make_parent_folders(const std::string& path) {
-    for (std::size_t at = path.find('/', 1); at != std::string::npos; at = path.find('/', at + 1))
-        (void)!::mkdir(path.substr(0, at).c_str(), 0777);
-}
-
-/// Follows links to an existing file, so that the link itself survives the renaming.
-std::string final_path(const char* path) {
-    char* resolved = ::realpath(path, nullptr);
-    std::string text = resolved != nullptr ? resolved : path;
-    std::free(resolved);
-    return text;
-}
-
-int open_temporary(const std::string& target, std::string& name) {
-    constexpr int kAttempts = 100;
-    for (int attempt = 0; attempt < kAttempts; ++attempt) {
-        name = target + '.' + std::to_string(::getpid()) + '-' + std::to_string(attempt) + ".tmp";
-        const int flags = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC;
-        const int descriptor = ::open(name.c_str(), flags, 0666);
-        if (descriptor >= 0 || errno != EEXIST) return descriptor;
-    }
-    return -1;
-}
-
-FileResult write_device(const char* path, const char* data, std::size_t bytes) {
-    const int descriptor = ::open(path, O_WRONLY | O_CLOEXEC);
-    if (descriptor < 0) return system_fault();
-    FileResult result = write_all(descriptor, data, bytes);
-    if (::close(descriptor) != 0 && result) result = system_fault();
-    return result;
-}
 
 }  // namespace
 
@@ -87,41 +43,43 @@ FileResult InputFile::open(const char* path) {
     return {};
 }
 
+FileResult InputFile::open_any(const char* path) {
+    const FileResult result = open(path);
+    if (result.fault != FileFault::kNotRegular) return result;
+    // Wait for the bytes of a pipe, but not for somebody to open its other end.
+    const int flags = ::fcntl(descriptor_, F_GETFL);
+    if (flags < 0 || ::fcntl(descriptor_, F_SETFL, flags & ~O_NONBLOCK) < 0) return system_fault();
+    return {};
+}
+
+FileResult InputFile::read_some(void* to, std::size_t most, std::size_t& got) {
+    ssize_t count = 0;
+    do {
+        count = ::read(descriptor_, to, most < kPiece ? most : kPiece);
+    } while (count < 0 && errno == EINTR);
+    got = count > 0 ? std::size_t(count) : 0;
+    return count >= 0 ? FileResult{} : system_fault();
+}
+
 FileResult InputFile::read(void* to, std::size_t bytes) {
     char* at = static_cast<char*>(to);
     while (bytes > 0) {
-        const ssize_t got = ::read(descriptor_, at, bytes < kPiece ? bytes : kPiece);
-        if (got < 0 && errno == EINTR) continue;
-        if (got < 0) return system_fault();
+        std::size_t got = 0;
+        const FileResult result = read_some(at, bytes, got);
+        if (!result) return result;
         if (got == 0) return {FileFault::kShort, 0};
         at += got;
-        bytes -= std::size_t(got);
+        bytes -= got;
     }
     return {};
 }
 
 FileResult replace_file(const char* path, const void* data, std::size_t bytes) {
-    const char* from = static_cast<const char*>(data);
-    make_parent_folders(path);
-
-    // Never rename over something that is not a plain file: that would destroy a device node.
-    struct stat facts;
-    if (::stat(path, &facts) == 0) {
-        if (S_ISDIR(facts.st_mode)) return {FileFault::kDirectory, EISDIR};
-        if (!S_ISREG(facts.st_mode)) return write_device(path, from, bytes);
-    }
-
-    // Bring the bytes to the disk before the name, so that a power cut leaves no half file.
-    const std::string target = final_path(path);
-    std::string temporary;
-    const int descriptor = open_temporary(target, temporary);
-    if (descriptor < 0) return system_fault();
-    FileResult result = write_all(descriptor, from, bytes);
-    if (result && ::fsync(descriptor) != 0 && errno != EINVAL && errno != ENOTSUP)
-        result = system_fault();
-    if (::close(descriptor) != 0 && result) result = system_fault();
-    if (result && ::rename(temporary.c_str(), target.c_str()) != 0) result = system_fault();
-    if (!result) ::unlink(temporary.c_str());
+    NewFile file;
+    FileResult result = file.begin(path);
+    if (result) result = file.write(data, bytes);
+    if (result) result = file.publish();
+    if (result) file.keep();
     return result;
 }
 

@@ -33,20 +33,22 @@ public:
     ~InputFile();
 
     FileResult open(const char* path);
+    /// The same, but a pipe or a device will do as well; its size() is 0.
+    FileResult open_any(const char* path);
     /// Length in bytes when it was opened.
     std::uint64_t size() const { return size_; }
     /// Reads exactly `bytes`; kShort when the file ends before.
     FileResult read(void* to, std::size_t bytes);
+    /// Reads up to `most` bytes; none only at the end.
+    FileResult read_some(void* to, std::size_t most, std::size_t& got);
 
 private:
     int descriptor_ = -1;
     std::uint64_t size_ = 0;
 };
 
-/// Writes `bytes` to a new name in the same folder, then renames it to `path`, so that `path` holds
-/// either what it held before or all of the new bytes. Makes missing parent folders. A device or a
-/// pipe is written to directly; a symbolic link keeps pointing where it does. On a fault the new
-/// name is removed.
+/// All steps of a NewFile (new_file.h) at once: `path` holds either what it held before or all of
+/// the new bytes.
 FileResult replace_file(const char* path, const void* data, std::size_t bytes);
 
 /// Whether replace_file could begin: the nearest folder that is there can be written into, and

@@ -25,13 +25,34 @@ std::string describe(FileResult result) {
     }
 }
 
-bool has_zero_byte(const std::string& path) { return path.find('\0') != std::string::npos; }
+/// The same fault where it is one of writing.
+Status check_new_name(const std::string& path) {
+    Status status = check_file_name(path);
+    if (!status) status.code = Code::kIo;
+    return status;
+}
 
 }  // namespace
 
-Status open_file(const std::string& path, InputFile& file) {
+Status check_file_name(const std::string& path) {
     if (path.empty()) return Status::bad_input("file name: empty, allowed: the path of a file");
-    if (has_zero_byte(path)) return Status::bad_input("file name: holds a zero byte");
+    for (const char c : path) {
+        const auto code = static_cast<unsigned char>(c);
+        if (code == 0) return Status::bad_input("file name: holds a zero byte");
+        if (code >= 0x20 && code != 0x7F) continue;
+        // Show the name in a form that stays on one line.
+        std::string shown;
+        for (const char d : path)
+            shown += static_cast<unsigned char>(d) < 0x20 || d == 0x7F ? '?' : d;
+        return Status::bad_input("file name: holds a control character (code " +
+                                 std::to_string(code) + "), \"" + shown +
+                                 "\", allowed: printable characters");
+    }
+    return Status::ok();
+}
+
+Status open_file(const std::string& path, InputFile& file) {
+    PILEUS_TRY(check_file_name(path));
     const FileResult result = file.open(path.c_str());
     if (!result) return Status::bad_input(path + ": cannot read: " + describe(result));
     return Status::ok();
@@ -61,16 +82,14 @@ Status read_file_start(const std::string& path, std::uint64_t most_bytes, Buffer
 }
 
 Status can_write_file(const std::string& path) {
-    if (path.empty()) return Status::io("file name: empty, allowed: the path of a file");
-    if (has_zero_byte(path)) return Status::io("file name: holds a zero byte");
+    PILEUS_TRY(check_new_name(path));
     const FileResult result = check_replaceable(path.c_str());
     if (!result) return Status::io(path + ": cannot write: " + describe(result));
     return Status::ok();
 }
 
 Status write_file(const std::string& path, Span<const char> bytes) {
-    if (path.empty()) return Status::io("file name: empty, allowed: the path of a file");
-    if (has_zero_byte(path)) return Status::io("file name: holds a zero byte");
+    PILEUS_TRY(check_new_name(path));
     const FileResult result = replace_file(path.c_str(), bytes.data, bytes.size);
     if (!result) return Status::io(path + ": cannot write: " + describe(result));
     return Status::ok();

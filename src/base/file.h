@@ -13,6 +13,10 @@
 
 namespace pileus {
 
+/// Refuses the name of a file that is empty or holds a control character, a line feed for one:
+/// every message is one line. kBadInput.
+Status check_file_name(const std::string& path);
+
 /// Opens a regular file. Missing, a folder, a device or not permitted: kBadInput.
 Status open_file(const std::string& path, InputFile& file);
 

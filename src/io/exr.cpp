@@ -2,6 +2,7 @@
 // OpenEXR in memory; the only file that touches OpenEXR, whose exceptions end here.
 // in: an Image -> out: the bytes of a 32-bit float scanline ZIP file without clock or host; back.
 // OpenEXR file layout and standard attributes; docs/formats.md
+#include "src/io/exr_guard.h"
 #include "src/io/image_file.h"
 
 #ifdef PILEUS_WITH_OPENEXR
@@ -25,8 +26,6 @@ namespace pileus {
 
 #ifdef PILEUS_WITH_OPENEXR
 namespace {
-
-constexpr std::uint64_t kMaxDecodedBytes = std::uint64_t{1} << 34;
 
 /// Grows a buffer as the library writes and seeks in it.
 class MemoryOutput : public Imf::OStream {
@@ -131,7 +130,16 @@ void read_attributes(const Imf::Header& header, Image& image) {
     if (hash != nullptr) image.pixel_hash = hash->value();
 }
 
-/// Refuses what a small file can claim but not hold: real compression stays below 2048 to one.
+/// The library's messages may run over several lines and quote bytes of the file; ours is one
+/// line that a terminal can show.
+std::string one_line(const char* text) {
+    std::string line = text;
+    for (char& c : line)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
+    return line;
+}
+
+/// Refuses what a small file can claim but not hold.
 Status check_header(const std::string& name, const Imf::Header& header, std::uint64_t file_bytes,
                     std::uint64_t most_pixels) {
     const Imath::Box2i& window = header.dataWindow();
@@ -141,23 +149,23 @@ Status check_header(const std::string& name, const Imf::Header& header, std::uin
     std::size_t channels = 0;
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c, ++channels)
         if (c.channel().xSampling != 1 || c.channel().ySampling != 1)
-            return Status::bad_input(name + ": channel " + c.name() +
+            return Status::bad_input(name + ": channel " + one_line(c.name()) +
                                      ": subsampled, allowed: one value per pixel");
     if (channels < 1 || channels > kMaxChannels)
         return Status::bad_input(name + ": channels: wrong number, " + std::to_string(channels) +
                                  ", allowed: 1 to " + std::to_string(kMaxChannels));
     const std::uint64_t decoded = std::uint64_t(width) * std::uint64_t(height) * channels * 4;
-    const std::uint64_t plausible = (std::uint64_t{1} << 26) + file_bytes * 2048;
-    if (decoded > kMaxDecodedBytes || decoded > plausible)
-        return Status::limit(
-            name + ": size: too large, " + std::to_string(decoded) +
-            " bytes once decoded, allowed: at most " +
-            std::to_string(plausible < kMaxDecodedBytes ? plausible : kMaxDecodedBytes));
+    const std::uint64_t plausible = plausible_exr_bytes(file_bytes);
+    if (decoded > plausible)
+        return Status::limit(name + ": size: too large, " + std::to_string(decoded) +
+                             " bytes once decoded, allowed: at most " + std::to_string(plausible));
     return Status::ok();
 }
 
 Status read_stream(const std::string& name, Span<const char> bytes, Image& image,
                    std::uint64_t most_pixels) {
+    // The library takes memory for all that the head claims, so look at the head first.
+    PILEUS_TRY(check_exr_head(name, bytes, most_pixels));
     MemoryInput stream(bytes);
     Imf::InputFile file(stream, 0);
     const Imf::Header& header = file.header();
@@ -183,14 +191,6 @@ Status read_stream(const std::string& name, Span<const char> bytes, Image& image
     return Status::ok();
 }
 
-/// The library's messages may run over several lines; ours is one.
-std::string one_line(const char* text) {
-    std::string line = text;
-    for (char& c : line)
-        if (c == '\n' || c == '\r') c = ' ';
-    return line;
-}
-
 }  // namespace
 
 Status encode_exr(const Image& image, Buffer<char>& bytes) {
@@ -202,7 +202,8 @@ Status encode_exr(const Image& image, Buffer<char>& bytes) {
     } catch (const std::bad_alloc&) {
         return Status::limit("EXR file: out of memory");
     } catch (const std::exception& fault) {
-        return Status::io("EXR file: encoding failed: " + one_line(fault.what()));
+        // The picture is sound and nothing is written yet: only memory can be what is missing.
+        return Status::limit("EXR file: out of memory, " + one_line(fault.what()));
     }
 }
 

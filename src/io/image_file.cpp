@@ -109,10 +109,15 @@ Status can_write_image(const std::string& path) {
     return Status::ok();
 }
 
-Status write_image(const Image& image, const std::string& path, const ToneSettings& tone) {
+Status encode_image(const Image& image, const std::string& path, const ToneSettings& tone,
+                    Buffer<char>& bytes) {
     PILEUS_TRY(can_write_image(path));
+    return in_file(path, encode(image, file_extension(path), tone, bytes));
+}
+
+Status write_image(const Image& image, const std::string& path, const ToneSettings& tone) {
     Buffer<char> bytes;
-    PILEUS_TRY(in_file(path, encode(image, file_extension(path), tone, bytes)));
+    PILEUS_TRY(encode_image(image, path, tone, bytes));
     return write_file(path, bytes.span());
 }
 

@@ -23,6 +23,10 @@ constexpr std::size_t kMaxChannels = 64;
 /// writing failed: kIo. After any fault no new or partial file is left.
 Status write_image(const Image& image, const std::string& path, const ToneSettings& tone);
 
+/// The bytes that write_image would write to `path`; its faults before the writing.
+Status encode_image(const Image& image, const std::string& path, const ToneSettings& tone,
+                    Buffer<char>& bytes);
+
 /// Whether write_image has a writer for the extension of `path`; the fault it would return.
 Status can_write_image(const std::string& path);
 

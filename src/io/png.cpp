@@ -84,9 +84,10 @@ Status encode_png(int width, int height, Span<const std::uint8_t> rgb, Buffer<ch
     const bool made = info != nullptr && write_all(png, info, &sink, std::uint32_t(width),
                                                    std::uint32_t(height), rgb.data);
     if (png != nullptr) png_destroy_write_struct(&png, &info);
+    // Pixels and sizes are sound and nothing is written yet: only memory can be what is missing.
     if (!made && (info == nullptr || sink.out_of_memory))
         return Status::limit("PNG file: out of memory");
-    if (!made) return Status::io(std::string("PNG file: encoding failed: ") + sink.message);
+    if (!made) return Status::limit(std::string("PNG file: out of memory, ") + sink.message);
 
     // Hand over exactly the bytes that were written.
     growing.truncate(sink.used);

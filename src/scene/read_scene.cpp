@@ -4,20 +4,16 @@
 // docs/scene.md.
 #include "src/scene/read_scene.h"
 
-#include <cstdio>
 #include <filesystem>
-#include <memory>
+#include <system_error>
 
 #include "platform/fp_mode.h"
+#include "src/base/file.h"
 #include "src/scene/check_keys.h"
 #include "src/scene/overrides.h"
 
 namespace pileus {
 namespace {
-
-struct CloseFile {
-    void operator()(std::FILE* file) const { std::fclose(file); }
-};
 
 Status too_long(const std::string& name) {
     return Status::limit(name + ": scene text too long, allowed: at most " +
@@ -26,23 +22,23 @@ Status too_long(const std::string& name) {
 
 Status read_text(const std::string& path, std::string& text) {
     const std::string allowed = ", allowed: a readable TOML file";
-    std::error_code error;
-    if (std::filesystem::is_directory(path, error))
+    PILEUS_TRY(check_file_name(path));
+    InputFile file;
+    const FileResult opened = file.open_any(path.c_str());
+    if (opened.fault == FileFault::kDirectory)
         return Status::bad_input(path + ": is a folder" + allowed);
-    std::unique_ptr<std::FILE, CloseFile> file(std::fopen(path.c_str(), "rb"));
-    if (file == nullptr) {
-        const bool there = std::filesystem::exists(path, error);
-        return Status::bad_input(path + (there ? ": cannot be opened" : ": no such file") +
-                                 allowed);
-    }
+    if (opened.fault == FileFault::kMissing)
+        return Status::bad_input(path + ": no such file" + allowed);
+    if (!opened)
+        return Status::bad_input(path + ": cannot be opened, " +
+                                 std::generic_category().message(opened.error) + allowed);
     char block[16384];
-    for (;;) {
-        const std::size_t got = std::fread(block, 1, sizeof block, file.get());
+    for (std::size_t got = 1; got > 0;) {
+        const FileResult result = file.read_some(block, sizeof block, got);
+        if (!result) return read_fault(path, result);
         text.append(block, got);
         if (text.size() > kMaxSceneBytes) return too_long(path);
-        if (got < sizeof block) break;
     }
-    if (std::ferror(file.get())) return Status::io(path + ": reading failed half way");
     return Status::ok();
 }
 

@@ -2,7 +2,10 @@
 // The program: finds the subcommand, runs it, turns its Status into lines and an exit status.
 // in: the command line -> out: results on stdout, faults on stderr, exit 0 to 4.
 // docs/program.md
+#include <unistd.h>
+
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <new>
 
@@ -63,6 +66,23 @@ Status check_command(int count, char** words) {
                              ", allowed: " + kCommands);
 }
 
+/// Ends the program at once where memory is asked for in vain: no line of ours can be made without
+/// memory either, and a file that is not complete has no name yet (platform/new_file.h).
+[[noreturn]] void on_no_memory() {
+    constexpr char line[] = "pileus: out of memory\n";
+    (void)!::write(STDERR_FILENO, line, sizeof line - 1);
+    ::_exit(int(Code::kLimit));
+}
+
+/// Set once the exit status is ours.
+bool finished = false;
+
+/// A library that ends the program itself, as libgomp does where it gets no memory or threads, has
+/// said why; its status would read as that of a failed check.
+void on_exit() {
+    if (!finished) ::_exit(int(Code::kLimit));
+}
+
 int run(int count, char** words) {
     CLI::App app("Renders clouds, the same bits on every machine.", "pileus");
     Chosen chosen;
@@ -90,15 +110,17 @@ int run(int count, char** words) {
 }  // namespace pileus
 
 int main(int count, char** words) {
-    // Only memory can run out by way of an exception; whatever else escapes is as final.
+    std::set_new_handler(pileus::on_no_memory);
+    (void)std::atexit(pileus::on_exit);
+    int status = int(pileus::Code::kLimit);
+    // Whatever escapes is as final as a lack of memory.
     try {
-        return pileus::run(count, words);
-    } catch (const std::bad_alloc&) {
-        std::fputs("pileus: out of memory\n", stderr);
+        status = pileus::run(count, words);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "pileus: cannot go on: %s\n", error.what());
     } catch (...) {
         std::fputs("pileus: cannot go on\n", stderr);
     }
-    return int(pileus::Code::kLimit);
+    pileus::finished = true;
+    return status;
 }

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// New files through POSIX and Linux calls.
+// in: paths and bytes -> out: see new_file.h.
+// open(2) O_TMPFILE, linkat(2), renameat2(2); docs/architecture.md, floor 0.
+#include "platform/new_file.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+
+namespace pileus {
+
+namespace {
+
+constexpr std::size_t kPiece = std::size_t{1} << 30;  // below every kernel's limit for one call
+constexpr int kAttempts = 100;
+
+FileResult system_fault() { return {FileFault::kSystem, errno}; }
+
+FileResult write_all(int descriptor, const char* data, std::size_t bytes) {
+    while (bytes > 0) {
+        const ssize_t written = ::write(descriptor, data, bytes < kPiece ? bytes : kPiece);
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) return system_fault();
+        data += written;
+        bytes -= std::size_t(written);
+    }
+    return {};
+}
+
+/// A failure to make a folder shows when the file in it is opened.
+void make_parent_folders(const std::string& path) {
+    for (std::size_t at = path.find('/', 1); at != std::string::npos; at = path.find('/', at + 1))
+        (void)!::mkdir(path.substr(0, at).c_str(), 0777);
+}
+
+/// Follows links to an existing file, so that the link itself survives the renaming.
+FileResult follow_links(const char* path, std::string& target) {
+    char* resolved = ::realpath(path, nullptr);
+    if (resolved == nullptr && errno == ENOMEM) return system_fault();
+    target = resolved != nullptr ? resolved : path;
+    std::free(resolved);
+    return {};
+}
+
+/// A file without a name in that folder; -1 where the machine or its file system has none.
+int open_unnamed(const std::string& folder) {
+#ifdef O_TMPFILE
+    // Its name is given through /proc, which may be missing.
+    if (::access("/proc/self/fd", X_OK) != 0) return -1;
+    return ::open(folder.c_str(), O_TMPFILE | O_WRONLY | O_CLOEXEC, 0666);
+#else
+    (void)folder;
+    return -1;
+#endif
+}
+
+bool exchange(const char* a, const char* b) {
+#ifdef RENAME_EXCHANGE
+    return ::renameat2(AT_FDCWD, a, AT_FDCWD, b, RENAME_EXCHANGE) == 0;
+#else
+    (void)a, (void)b;
+    return false;
+#endif
+}
+
+std::string folder_of(const std::string& path) {
+    const std::size_t slash = path.rfind('/');
+    return slash == std::string::npos ? "." : path.substr(0, slash > 0 ? slash : 1);
+}
+
+}  // namespace
+
+NewFile::~NewFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (device_) return;
+    if (published_ && exchanged_) (void)!::rename(hidden_.c_str(), target_.c_str());
+    if (published_ && !exchanged_) ::unlink(target_.c_str());
+    if (!published_ && named_) ::unlink(hidden_.c_str());
+}
+
+/// Changes the last characters of the hidden name in place.
+void NewFile::next_hidden_name(int attempt) {
+    hidden_[hidden_.size() - 6] = char('0' + attempt / 10);
+    hidden_[hidden_.size() - 5] = char('0' + attempt % 10);
+}
+
+FileResult NewFile::begin(const char* path) {
+    make_parent_folders(path);
+    struct stat facts;
+    // Never rename over something that is not a plain file: that would destroy a device node.
+    if (::stat(path, &facts) == 0) {
+        if (S_ISDIR(facts.st_mode)) return {FileFault::kDirectory, EISDIR};
+        device_ = !S_ISREG(facts.st_mode);
+    }
+    if (device_) {
+        descriptor_ = ::open(path, O_WRONLY | O_CLOEXEC);
+        return descriptor_ >= 0 ? FileResult{} : system_fault();
+    }
+    FileResult result = follow_links(path, target_);
+    if (!result) return result;
+    const std::string folder = folder_of(target_);
+    hidden_ = folder + "/.pileus-" + std::to_string(::getpid()) + "-00.tmp";
+    descriptor_ = open_unnamed(folder);
+    return descriptor_ >= 0 ? FileResult{} : open_hidden();
+}
+
+FileResult NewFile::open_hidden() {
+    for (int attempt = 0; attempt < kAttempts; ++attempt) {
+        next_hidden_name(attempt);
+        const int flags = O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC;
+        descriptor_ = ::open(hidden_.c_str(), flags, 0666);
+        named_ = descriptor_ >= 0;
+        if (named_ || errno != EEXIST) break;
+    }
+    return named_ ? FileResult{} : system_fault();
+}
+
+/// Gives a file without a name its hidden one.
+FileResult NewFile::name_hidden() {
+    char from[40];
+    std::snprintf(from, sizeof from, "/proc/self/fd/%d", descriptor_);
+    for (int attempt = 0; attempt < kAttempts && !named_; ++attempt) {
+        next_hidden_name(attempt);
+        const int done = ::linkat(AT_FDCWD, from, AT_FDCWD, hidden_.c_str(), AT_SYMLINK_FOLLOW);
+        named_ = done == 0;
+        if (!named_ && errno != EEXIST) break;
+    }
+    return named_ ? FileResult{} : system_fault();
+}
+
+FileResult NewFile::write(const void* data, std::size_t bytes) {
+    FileResult result = write_all(descriptor_, static_cast<const char*>(data), bytes);
+    // Bring the bytes to the disk before the name, so that a power cut leaves no half file.
+    if (result && !device_ && ::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP)
+        result = system_fault();
+    return result;
+}
+
+FileResult NewFile::publish() {
+    FileResult result;
+    if (!device_ && !named_) result = name_hidden();
+    const int descriptor = descriptor_;
+    descriptor_ = -1;
+    if (::close(descriptor) != 0 && result) result = system_fault();
+    if (!result || device_) return result;
+    exchanged_ = exchange(hidden_.c_str(), target_.c_str());
+    if (!exchanged_ && ::rename(hidden_.c_str(), target_.c_str()) != 0) return system_fault();
+    published_ = true;
+    return {};
+}
+
+void NewFile::keep() {
+    if (exchanged_) ::unlink(hidden_.c_str());
+    published_ = exchanged_ = named_ = false;
+}
+
+}  // namespace pileus
