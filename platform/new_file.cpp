@@ -59,11 +59,13 @@ int open_unnamed(const std::string& folder) {
 #endif
 }
 
+/// Lets two names change places; errno is EINVAL where nobody knows how to.
 bool exchange(const char* a, const char* b) {
 #ifdef RENAME_EXCHANGE
     return ::renameat2(AT_FDCWD, a, AT_FDCWD, b, RENAME_EXCHANGE) == 0;
 #else
     (void)a, (void)b;
+    errno = EINVAL;
     return false;
 #endif
 }
@@ -148,8 +150,12 @@ FileResult NewFile::publish() {
     descriptor_ = -1;
     if (::close(descriptor) != 0 && result) result = system_fault();
     if (!result || device_) return result;
+    // Without an older file, or where names cannot change places, the new one simply takes its
+    // name.
     exchanged_ = exchange(hidden_.c_str(), target_.c_str());
-    if (!exchanged_ && ::rename(hidden_.c_str(), target_.c_str()) != 0) return system_fault();
+    const bool plain = errno == ENOENT || errno == EINVAL || errno == ENOSYS || errno == ENOTSUP;
+    if (!exchanged_ && (!plain || ::rename(hidden_.c_str(), target_.c_str()) != 0))
+        return system_fault();
     published_ = true;
     return {};
 }

@@ -11,9 +11,10 @@
 namespace pileus {
 
 /// The steps are begin, write, publish, keep; a file that was not kept is taken back by its owner,
-/// the older one of its name included. Where the machine knows files without a name (Linux
-/// O_TMPFILE), nothing is left even when the process is killed while it writes; elsewhere the bytes
-/// lie under a hidden name until then. Only `begin` takes memory.
+/// the older one of its name included, if the file system lets two names change places. Where the
+/// machine knows files without a name (Linux O_TMPFILE), nothing is left even when the process is
+/// killed while it writes; elsewhere the bytes lie under a hidden name until then. Only `begin`
+/// takes memory.
 class NewFile {
 public:
     NewFile() = default;

@@ -39,6 +39,7 @@ Status read_text(const std::string& path, std::string& text) {
         text.append(block, got);
         if (text.size() > kMaxSceneBytes) return too_long(path);
     }
+    if (text.size() < file.size()) return read_fault(path, {FileFault::kShort, 0});
     return Status::ok();
 }
 
