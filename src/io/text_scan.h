@@ -30,8 +30,9 @@ public:
     TextScan(const std::string& file, Span<const char> text, char separator = ' ')
         : file_(file), text_(text), separator_(separator) {}
 
-    /// kBadInput, opened with file:line:column of byte `at`, counted from 1.
-    Status fault(std::size_t at, const std::string& line) const;
+    /// kBadInput, opened with file:line:column of byte `at`, counted from 1; `what` is cut to 300
+    /// characters, control characters in it become '?'.
+    Status fault(std::size_t at, const std::string& what) const;
     /// The word at a place, printable and at most 40 characters.
     std::string token(std::size_t at, std::size_t end) const;
     /// Passes white space and comments, which run from '#' to the end of their line.

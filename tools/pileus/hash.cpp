@@ -4,6 +4,7 @@
 // docs/program.md
 #include <memory>
 
+#include "src/base/file.h"
 #include "src/io/image_file.h"
 #include "tools/pileus/command.h"
 
@@ -13,6 +14,7 @@ namespace {
 
 Status run_hash(const std::string& file) {
     Image image;
+    PILEUS_TRY(check_file_name(file));
     PILEUS_TRY(read_image(file, image));
     return print(pixel_hash(image) + '\n');
 }

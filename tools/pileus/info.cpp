@@ -62,6 +62,7 @@ std::string program_lines() {
 
 Status run_info(const InfoArguments& arguments) {
     if (arguments.file.empty()) return print(program_lines());
+    PILEUS_TRY(check_file_name(arguments.file));
     const std::string extension = file_extension(arguments.file);
     std::string lines;
     MediumSettings medium;

@@ -4,6 +4,7 @@
 // docs/program.md
 #include <unistd.h>
 
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -112,6 +113,8 @@ int run(int count, char** words) {
 int main(int count, char** words) {
     std::set_new_handler(pileus::on_no_memory);
     (void)std::atexit(pileus::on_exit);
+    // A reader that went away is a failed write like any other: files of the frame are taken back.
+    (void)std::signal(SIGPIPE, SIG_IGN);
     int status = int(pileus::Code::kLimit);
     // Whatever escapes is as final as a lack of memory.
     try {

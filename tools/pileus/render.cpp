@@ -4,6 +4,7 @@
 // docs/program.md
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <memory>
 #include <set>
 
@@ -57,17 +58,25 @@ Status read_tone(const RenderArguments& arguments, ToneSettings& tone) {
 }
 
 /// Finds what would make writing fail before the work is done.
-Status check_outputs(const Outputs& outputs, int frame) {
+Status check_outputs(const Outputs& outputs, const std::string& scene, int frame) {
     Status faults;
     std::set<std::string> paths;
     std::vector<std::string> all = outputs.files;
     if (!outputs.report.empty()) all.push_back(outputs.report);
     for (std::size_t i = 0; i < all.size(); ++i) {
+        const std::string path = frame_path(all[i], frame, outputs.numbered);
+        const Status name = all[i].empty() ? Status::ok() : check_file_name(all[i]);
+        add_fault(name.code == Code::kOk ? name : Status::io(name.message), faults);
+        if (!name) continue;
+        std::error_code ignored;
+        if (std::filesystem::equivalent(path, scene, ignored))
+            add_fault(Status::bad_input(path + ": output: is the scene itself, allowed: another"),
+                      faults);
         if (!paths.insert(all[i]).second)
             add_fault(Status::bad_input(all[i] + ": output: named twice, allowed: once"), faults);
         const Status format = i < outputs.files.size() ? can_write_image(all[i]) : Status::ok();
         add_fault(format, faults);
-        if (format) add_fault(can_write_file(frame_path(all[i], frame, outputs.numbered)), faults);
+        if (format) add_fault(can_write_file(path), faults);
     }
     return faults;
 }
@@ -118,7 +127,7 @@ Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOpti
         return Status::bad_input(scene.file +
                                  ": output.files: no output, allowed: -o FILE, --report FILE or "
                                  "output.files in the scene");
-    return check_outputs(outputs, options.first_frame);
+    return check_outputs(outputs, arguments.scene.scene, options.first_frame);
 }
 
 Status write_frame(const Outputs& outputs, int frame, const Image& image, const Report& report) {
