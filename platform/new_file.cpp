@@ -32,12 +32,6 @@ FileResult write_all(int descriptor, const char* data, std::size_t bytes) {
     return {};
 }
 
-/// A failure to make a folder shows when the file in it is opened.
-void make_parent_folders(const std::string& path) {
-    for (std::size_t at = path.find('/', 1); at != std::string::npos; at = path.find('/', at + 1))
-        (void)!::mkdir(path.substr(0, at).c_str(), 0777);
-}
-
 /// Follows links to an existing file, so that the link itself survives the renaming.
 FileResult follow_links(const char* path, std::string& target) {
     char* resolved = ::realpath(path, nullptr);
@@ -79,10 +73,24 @@ std::string folder_of(const std::string& path) {
 
 NewFile::~NewFile() {
     if (descriptor_ >= 0) ::close(descriptor_);
-    if (device_) return;
     if (published_ && exchanged_) (void)!::rename(hidden_.c_str(), target_.c_str());
     if (published_ && !exchanged_) ::unlink(target_.c_str());
     if (!published_ && named_) ::unlink(hidden_.c_str());
+
+    // Take back the folders that were made, the innermost first; one in use stays.
+    while (first_made_ > 0 && folders_.size() >= first_made_) {
+        (void)!::rmdir(folders_.c_str());
+        const std::size_t slash = folders_.rfind('/');
+        folders_.resize(slash == std::string::npos ? 0 : slash);
+    }
+}
+
+/// A failure to make a folder shows when the file in it is opened.
+void NewFile::make_folders(const std::string& path) {
+    for (std::size_t at = path.find('/', 1); at != std::string::npos; at = path.find('/', at + 1)) {
+        folders_ = path.substr(0, at);
+        if (::mkdir(folders_.c_str(), 0777) == 0 && first_made_ == 0) first_made_ = at;
+    }
 }
 
 /// Changes the last characters of the hidden name in place.
@@ -92,7 +100,7 @@ void NewFile::next_hidden_name(int attempt) {
 }
 
 FileResult NewFile::begin(const char* path) {
-    make_parent_folders(path);
+    make_folders(path);
     struct stat facts;
     // Never rename over something that is not a plain file: that would destroy a device node.
     if (::stat(path, &facts) == 0) {
@@ -163,6 +171,7 @@ FileResult NewFile::publish() {
 void NewFile::keep() {
     if (exchanged_) ::unlink(hidden_.c_str());
     published_ = exchanged_ = named_ = false;
+    first_made_ = 0;
 }
 
 }  // namespace pileus

@@ -11,10 +11,10 @@
 namespace pileus {
 
 /// The steps are begin, write, publish, keep; a file that was not kept is taken back by its owner,
-/// the older one of its name included, if the file system lets two names change places. Where the
-/// machine knows files without a name (Linux O_TMPFILE), nothing is left even when the process is
-/// killed while it writes; elsewhere the bytes lie under a hidden name until then. Only `begin`
-/// takes memory.
+/// the folders made for it and the older one of its name included, if the file system lets two
+/// names change places. Where the machine knows files without a name (Linux O_TMPFILE), nothing is
+/// left even when the process is killed while it writes; elsewhere the bytes lie under a hidden
+/// name until then. Only `begin` takes memory.
 class NewFile {
 public:
     NewFile() = default;
@@ -33,11 +33,14 @@ public:
     void keep();
 
 private:
+    void make_folders(const std::string& path);
     FileResult open_hidden();
     FileResult name_hidden();
     void next_hidden_name(int attempt);
 
     std::string target_, hidden_;
+    std::string folders_;         ///< the innermost folder of the path as given
+    std::size_t first_made_ = 0;  ///< length of the outermost folder that was made; 0: none
     int descriptor_ = -1;
     bool device_ = false;     ///< written at once, never renamed
     bool named_ = false;      ///< the hidden name is in the folder

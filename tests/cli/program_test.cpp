@@ -140,7 +140,7 @@ TEST_CASE("program: what cannot be written is exit 4, before and after rendering
     CHECK(full.exit_status == 4);
     CHECK_MESSAGE(holds(full.errors, "r.json: cannot write"), full.errors);
     CHECK(line_count(full.errors) == 1);
-    CHECK(folder.left() == std::vector<std::string>{"z"});
+    CHECK(folder.left().empty());
 }
 
 TEST_CASE("program: a failed rendering leaves an older picture as it was") {

@@ -19,6 +19,10 @@ public:
     OutputSet() = default;
     OutputSet(const OutputSet&) = delete;
     OutputSet& operator=(const OutputSet&) = delete;
+    /// Takes back what was not kept, the last file first.
+    ~OutputSet() {
+        while (!files_.empty()) files_.pop_back();
+    }
 
     /// Errors: those of encode_image; a file that cannot be written: kIo.
     Status add_image(const Image& image, const std::string& path, const ToneSettings& tone);
