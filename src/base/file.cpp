@@ -4,6 +4,7 @@
 // docs/scene.md lists the form of the lines.
 #include "src/base/file.h"
 
+#include <cerrno>
 #include <system_error>
 
 namespace pileus {
@@ -62,6 +63,11 @@ Status read_fault(const std::string& path, FileResult result) {
     return Status::io(path + ": reading failed half way: " + describe(result));
 }
 
+Status write_fault(const std::string& path, FileResult result) {
+    const std::string line = path + ": cannot write: " + describe(result);
+    return result.error == ENOMEM ? Status::limit(line) : Status::io(line);
+}
+
 Status read_whole_file(const std::string& path, std::uint64_t limit_bytes, Buffer<char>& bytes) {
     InputFile file;
     PILEUS_TRY(open_file(path, file));
@@ -84,15 +90,13 @@ Status read_file_start(const std::string& path, std::uint64_t most_bytes, Buffer
 Status can_write_file(const std::string& path) {
     PILEUS_TRY(check_new_name(path));
     const FileResult result = check_replaceable(path.c_str());
-    if (!result) return Status::io(path + ": cannot write: " + describe(result));
-    return Status::ok();
+    return result ? Status::ok() : write_fault(path, result);
 }
 
 Status write_file(const std::string& path, Span<const char> bytes) {
     PILEUS_TRY(check_new_name(path));
     const FileResult result = replace_file(path.c_str(), bytes.data, bytes.size);
-    if (!result) return Status::io(path + ": cannot write: " + describe(result));
-    return Status::ok();
+    return result ? Status::ok() : write_fault(path, result);
 }
 
 std::string file_extension(const std::string& path) {

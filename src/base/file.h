@@ -23,6 +23,9 @@ Status open_file(const std::string& path, InputFile& file);
 /// The line for a fault met while reading: kIo.
 Status read_fault(const std::string& path, FileResult result);
 
+/// The line for a fault met while writing: kIo, or kLimit where it is a lack of memory.
+Status write_fault(const std::string& path, FileResult result);
+
 /// Reads all of a file. Faults of open_file; longer than `limit_bytes` or than memory: kLimit;
 /// a failure half way: kIo.
 Status read_whole_file(const std::string& path, std::uint64_t limit_bytes, Buffer<char>& bytes);

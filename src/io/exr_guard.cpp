@@ -19,6 +19,22 @@ constexpr std::uint32_t kMagic = 20000630;
 constexpr std::uint32_t kDeepFlag = 0x800, kPartsFlag = 0x1000;
 constexpr std::size_t kLongestName = 255;
 
+/// Types whose value the library reads by itself, whatever length the file states.
+struct FixedType {
+    const char* name;
+    std::size_t bytes;
+};
+constexpr FixedType kFixedTypes[] = {
+    {"box2i", 16},      {"box2f", 16},    {"chromaticities", 32},
+    {"compression", 1}, {"double", 8},    {"envmap", 1},
+    {"float", 4},       {"int", 4},       {"keycode", 28},
+    {"m33f", 36},       {"m33d", 72},     {"m44f", 64},
+    {"m44d", 128},      {"v2i", 8},       {"v2f", 8},
+    {"v2d", 16},        {"v3i", 12},      {"v3f", 12},
+    {"v3d", 24},        {"lineOrder", 1}, {"rational", 8},
+    {"timecode", 8},    {"tiledesc", 9},  {"deepImageState", 1},
+};
+
 /// What decides how much memory the library takes for one part.
 struct Part {
     std::int64_t width = 1, height = 1, tile_width = 1, tile_height = 1;
@@ -40,9 +56,11 @@ private:
                                  ": " + line);
     }
     Status word(std::string_view& text);
+    Status length_of(std::string_view type, std::size_t length) const;
     Status value(std::string_view key, std::size_t length, Part& part) const;
     Status window(std::size_t length, Part& part) const;
-    std::uint64_t count_channels(std::size_t at, std::size_t end) const;
+    std::uint64_t count_channels(std::size_t& at, std::size_t end) const;
+    bool texts_fit(std::size_t at, std::size_t end) const;
     std::uint32_t u32(std::size_t at) const {
         std::uint32_t bits = 0;
         for (std::size_t i = 4; i-- > 0;) bits = bits << 8 | std::uint8_t(bytes_[at + i]);
@@ -80,11 +98,44 @@ Status Walk::word(std::string_view& text) {
 }
 
 /// Each channel is a name, a zero and 16 bytes; an empty name ends the list.
-std::uint64_t Walk::count_channels(std::size_t at, std::size_t end) const {
+std::uint64_t Walk::count_channels(std::size_t& at, std::size_t end) const {
     std::uint64_t count = 0;
     for (; at < end && bytes_[at] != 0; at += 17, ++count)
         while (at < end && bytes_[at] != 0) ++at;
     return count;
+}
+
+/// A list of texts, each behind its length of 32 bits.
+bool Walk::texts_fit(std::size_t at, std::size_t end) const {
+    while (end - at >= 4) {
+        const std::size_t length = u32(at);
+        at += 4;
+        if (length > end - at) return false;
+        at += length;
+    }
+    return at == end;
+}
+
+/// Where the stated length is not the one that the library will read, it would go on in the middle
+/// of a value and take its bytes for lengths.
+Status Walk::length_of(std::string_view type, std::size_t length) const {
+    bool sound = type != "idmanifest";
+    for (const FixedType& fixed : kFixedTypes)
+        if (type == fixed.name) sound = length == fixed.bytes;
+    if (type == "chlist") {
+        std::size_t at = at_;
+        (void)count_channels(at, at_ + length);
+        sound = length > 0 && at == at_ + length - 1 && bytes_[at] == 0;
+    }
+    if (type == "preview") {
+        std::uint64_t pixels = 0, bytes = 0;
+        sound = length >= 8 && checked_multiply(u32(at_), u32(at_ + 4), pixels) &&
+                checked_multiply(pixels, 4, bytes) && bytes == length - 8;
+    }
+    if (type == "stringvector") sound = texts_fit(at_, at_ + length);
+    if (sound) return Status::ok();
+    return fault("attribute: a type or length that is not read, " + std::to_string(length) +
+                 " bytes, allowed: the length of its type");
 }
 
 Status Walk::window(std::size_t length, Part& part) const {
@@ -101,7 +152,8 @@ Status Walk::value(std::string_view key, std::size_t length, Part& part) const {
         part.tile_width = std::int64_t(u32(at_));
         part.tile_height = std::int64_t(u32(at_ + 4));
     }
-    if (key == "channels") part.channels = count_channels(at_, at_ + length);
+    std::size_t at = at_;
+    if (key == "channels") part.channels = count_channels(at, at_ + length);
     if (key == "type" && std::string_view(bytes_.data + at_, length).substr(0, 4) == "deep")
         return fault("deep data, allowed: one value per pixel");
     if (key == "compression" && length == 1) {
@@ -124,6 +176,7 @@ Status Walk::part(Part& part) {
         if (length > bytes_.size - at_)
             return fault("attribute: longer than the file, " + std::to_string(length) +
                          " bytes, allowed: at most " + std::to_string(bytes_.size - at_));
+        PILEUS_TRY(length_of(type, length));
         PILEUS_TRY(value(key, length, part));
         at_ += length;
     }

@@ -50,7 +50,7 @@ private:
         text_ += "[camera]\n";
         // The box has its foot at height 0 and the camera is never below it.
         line("position_m", "[" + std::string(pick(away)) + ", " + pick(away) + ", " + side + "]");
-        line("target_m", "[0, 0.25, 0.5]");
+        line("target_m", "[0.013, 0.25, 0.5]");
         line("up", below(2) == 0 ? "[0, 0, 1]" : "[0.3, 1, 0.2]");
         line("resolution",
              "[" + std::to_string(1 + below(8)) + ", " + std::to_string(1 + below(8)) + "]");

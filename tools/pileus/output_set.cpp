@@ -4,8 +4,6 @@
 // docs/program.md
 #include "tools/pileus/output_set.h"
 
-#include <system_error>
-
 #include "src/base/file.h"
 #include "src/io/report_json.h"
 
@@ -14,11 +12,7 @@ namespace pileus {
 namespace {
 
 Status fault(const std::string& path, FileResult result) {
-    if (result) return Status::ok();
-    const std::string why = result.fault == FileFault::kDirectory
-                                ? "is a folder, allowed: a file"
-                                : std::generic_category().message(result.error);
-    return Status::io(path + ": cannot write: " + why);
+    return result ? Status::ok() : write_fault(path, result);
 }
 
 }  // namespace
