@@ -41,12 +41,8 @@ Status check_file_name(const std::string& path) {
         const auto code = static_cast<unsigned char>(c);
         if (code == 0) return Status::bad_input("file name: holds a zero byte");
         if (code >= 0x20 && code != 0x7F) continue;
-        // Show the name in a form that stays on one line.
-        std::string shown;
-        for (const char d : path)
-            shown += static_cast<unsigned char>(d) < 0x20 || d == 0x7F ? '?' : d;
         return Status::bad_input("file name: holds a control character (code " +
-                                 std::to_string(code) + "), \"" + shown +
+                                 std::to_string(code) + "), \"" + printable_line(path) +
                                  "\", allowed: printable characters");
     }
     return Status::ok();

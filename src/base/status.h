@@ -24,6 +24,16 @@ struct [[nodiscard]] Status {
     static Status io(std::string text) { return {Code::kIo, std::move(text)}; }
 };
 
+/// `text` as one short line that a terminal can show: cut to 300 bytes, control characters as '?'.
+/// For what a message quotes from a file that nobody vouches for.
+inline std::string printable_line(const std::string& text) {
+    constexpr std::size_t kLongest = 300;
+    std::string line = text.substr(0, kLongest);
+    for (char& c : line)
+        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
+    return line;
+}
+
 }  // namespace pileus
 
 /// Return early when a step failed.

@@ -22,7 +22,8 @@ public:
 
     /// "file: byte 12: line".
     Status fault(const std::string& line) const {
-        return Status::bad_input(*file_ + ": byte " + std::to_string(at_) + ": " + line);
+        return Status::bad_input(*file_ + ": byte " + std::to_string(at_) + ": " +
+                                 printable_line(line));
     }
     /// Passes `count` bytes and hands them out.
     Status take(std::uint64_t count, const char* what, const unsigned char*& from) {

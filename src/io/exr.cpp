@@ -130,15 +130,6 @@ void read_attributes(const Imf::Header& header, Image& image) {
     if (hash != nullptr) image.pixel_hash = hash->value();
 }
 
-/// The library's messages may run over several lines and quote bytes of the file; ours is one
-/// line that a terminal can show.
-std::string one_line(const char* text) {
-    std::string line = text;
-    for (char& c : line)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
-    return line;
-}
-
 /// Refuses what a small file can claim but not hold.
 Status check_header(const std::string& name, const Imf::Header& header, std::uint64_t file_bytes,
                     std::uint64_t most_pixels) {
@@ -149,7 +140,7 @@ Status check_header(const std::string& name, const Imf::Header& header, std::uin
     std::size_t channels = 0;
     for (auto c = header.channels().begin(); c != header.channels().end(); ++c, ++channels)
         if (c.channel().xSampling != 1 || c.channel().ySampling != 1)
-            return Status::bad_input(name + ": channel " + one_line(c.name()) +
+            return Status::bad_input(name + ": channel " + printable_line(c.name()) +
                                      ": subsampled, allowed: one value per pixel");
     if (channels < 1 || channels > kMaxChannels)
         return Status::bad_input(name + ": channels: wrong number, " + std::to_string(channels) +
@@ -203,7 +194,7 @@ Status encode_exr(const Image& image, Buffer<char>& bytes) {
         return Status::limit("EXR file: out of memory");
     } catch (const std::exception& fault) {
         // The picture is sound and nothing is written yet: only memory can be what is missing.
-        return Status::limit("EXR file: out of memory, " + one_line(fault.what()));
+        return Status::limit("EXR file: out of memory, " + printable_line(fault.what()));
     }
 }
 
@@ -214,7 +205,8 @@ Status decode_exr(const std::string& name, Span<const char> bytes, Image& image,
     } catch (const std::bad_alloc&) {
         return Status::limit(name + ": EXR file: out of memory");
     } catch (const std::exception& fault) {
-        return Status::bad_input(name + ": EXR file: not readable, " + one_line(fault.what()));
+        return Status::bad_input(name + ": EXR file: not readable, " +
+                                 printable_line(fault.what()));
     }
 }
 #else

@@ -11,18 +11,13 @@
 namespace pileus {
 
 Status TextScan::fault(std::size_t at, const std::string& what) const {
-    // What a line quotes from the text is made printable, and short.
-    constexpr std::size_t kLongest = 300;
-    std::string line = what.substr(0, kLongest);
-    for (char& c : line)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
     std::size_t row = 1, column = 1;
     for (std::size_t i = 0; i < at && i < text_.size; ++i) {
         ++column;
         if (text_[i] == '\n') ++row, column = 1;
     }
     return Status::bad_input(file_ + ':' + std::to_string(row) + ':' + std::to_string(column) +
-                             ": " + line);
+                             ": " + printable_line(what));
 }
 
 std::string TextScan::token(std::size_t at, std::size_t end) const {

@@ -44,12 +44,15 @@ private:
 
     void camera(double box) {
         const std::string side = pileus::number_text(box);
-        static const char* const away[] = {"-2", "-0.4", "0.1", "-100"};
+        // In sides of the box, so that the view is never nearly parallel to up.
+        static const double away[] = {-2, -0.4, 0.1, -100};
         static const char* const fields[] = {"40", "1e-3", "179.9", "120"};
         line("seed", std::to_string(byte()));
         text_ += "[camera]\n";
         // The box has its foot at height 0 and the camera is never below it.
-        line("position_m", "[" + std::string(pick(away)) + ", " + pick(away) + ", " + side + "]");
+        const std::string x = pileus::number_text(away[below(4)] * box);
+        const std::string y = pileus::number_text(away[below(4)] * box);
+        line("position_m", "[" + x + ", " + y + ", " + side + "]");
         line("target_m", "[0.013, 0.25, 0.5]");
         line("up", below(2) == 0 ? "[0, 0, 1]" : "[0.3, 1, 0.2]");
         line("resolution",
