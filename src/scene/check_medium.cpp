@@ -11,7 +11,6 @@ namespace pileus {
 namespace {
 
 // A procedural cloud keeps its outermost layer of cells empty.
-constexpr std::int64_t kMostCells = std::int64_t{1} << 31;  // of any density grid
 constexpr int kLeastCells = 3;
 constexpr const char* kDensities =
     "procedural:cumulus, uniform:box, uniform:sphere, uniform:ellipsoid, the path of a file";
@@ -166,11 +165,6 @@ private:
                 fault(*node, "shape_seed",
                       "for procedural:cumulus only, " + value_text(*node) + ", allowed: left out");
         if (const Node* node = check_.valid_key(path_ + "resolution"))
-            if (product(medium_.resolution) > kMostCells)
-                fault(*node, "resolution",
-                      "too many voxels, " + std::to_string(product(medium_.resolution)) +
-                          ", allowed: at most " + std::to_string(kMostCells));
-        if (const Node* node = check_.valid_key(path_ + "resolution"))
             if (medium_.density == DensityKind::kCumulus && least(medium_.resolution) < kLeastCells)
                 fault(*node, "resolution",
                       "too coarse for procedural:cumulus, " + value_text(*node) +
@@ -178,9 +172,6 @@ private:
         need_bounds(density);
     }
 
-    static std::int64_t product(const std::array<int, 3>& cells) {
-        return std::int64_t(cells[0]) * cells[1] * cells[2];
-    }
     static int least(const std::array<int, 3>& cells) {
         return std::min({cells[0], cells[1], cells[2]});
     }
