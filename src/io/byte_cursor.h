@@ -50,6 +50,7 @@ public:
     }
 
     Status u8(const char* what, unsigned& value) { return number(what, 1, value); }
+    Status u16(const char* what, std::uint32_t& value) { return number(what, 2, value); }
     Status u32(const char* what, std::uint32_t& value) { return number(what, 4, value); }
     Status u64(const char* what, std::uint64_t& value) { return number(what, 8, value); }
     Status i32(const char* what, std::int32_t& value) {

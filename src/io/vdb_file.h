@@ -12,6 +12,8 @@
 
 namespace pileus {
 
+constexpr std::uint64_t kMaxVdbFileBytes = std::uint64_t{1} << 36;
+
 /// How much a file may ask for. Tiles and far corners fill large boxes from few bytes, so that the
 /// cells of the box are bounded by free_cells + cells_per_byte * (bytes of the file) as well.
 struct VdbLimits {

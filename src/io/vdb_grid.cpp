@@ -106,15 +106,7 @@ Status read_transform(ByteCursor& in, VdbGrid& grid) {
         return in.fault("kind of transform: " + quote_text(map) +
                         ", allowed: scale and translation along the axes");
     }
-    for (std::size_t a = 0; a < 3; ++a) {
-        if (!(grid.scale[a] >= 1e-9 && grid.scale[a] <= 1e9))
-            return in.fault("scale: out of range, " + std::to_string(grid.scale[a]) +
-                            ", allowed: 1e-9 to 1e9, mirrored axes not");
-        if (!(grid.translation[a] >= -1e12 && grid.translation[a] <= 1e12))
-            return in.fault("translation: out of range, " + std::to_string(grid.translation[a]) +
-                            ", allowed: -1e12 to 1e12");
-    }
-    return Status::ok();
+    return check_vdb_transform(in, grid.scale, grid.translation);
 }
 
 const VdbGrid* find_unique(const std::vector<VdbGrid>& grids, const std::string& name) {
@@ -191,13 +183,35 @@ Status read_vdb_grid(ByteCursor& in, VdbGrid& grid) {
     return Status::ok();
 }
 
-std::string vdb_grid_list(const std::vector<VdbGrid>& grids) {
+void append_vdb_grid(std::string& list, std::size_t index, const std::string& name,
+                     const std::string& type) {
     constexpr std::size_t kShown = 16;
+    if (index < kShown) list += (index > 0 ? ", " : "") + quote_text(name) + " (" + type + ")";
+    if (index == kShown) list += ", and others";
+}
+
+std::string vdb_grid_list(const std::vector<VdbGrid>& grids) {
     std::string list;
-    for (std::size_t i = 0; i < grids.size() && i < kShown; ++i)
-        list += (i > 0 ? ", " : "") + quote_text(grids[i].name) + " (" + short_type(grids[i]) + ")";
-    if (grids.size() > kShown) list += ", and others";
+    for (std::size_t i = 0; i < grids.size(); ++i)
+        append_vdb_grid(list, i, grids[i].name, short_type(grids[i]));
     return list.empty() ? "none" : list;
+}
+
+Status check_vdb_transform(const ByteCursor& in, const std::array<double, 3>& scale,
+                           const std::array<double, 3>& translation) {
+    for (std::size_t a = 0; a < 3; ++a) {
+        if (!(scale[a] >= 1e-9 && scale[a] <= 1e9))
+            return in.fault("scale: out of range, " + std::to_string(scale[a]) +
+                            ", allowed: 1e-9 to 1e9, mirrored axes not");
+        if (!(translation[a] >= -1e12 && translation[a] <= 1e12))
+            return in.fault("translation: out of range, " + std::to_string(translation[a]) +
+                            ", allowed: -1e12 to 1e12");
+    }
+    return Status::ok();
+}
+
+const char* vdb_packing_text(unsigned compression) {
+    return compression & kVdbBlosc ? "blosc" : compression & kVdbZip ? "zip" : "not packed";
 }
 
 Status choose_vdb_grid(ByteCursor& in, std::vector<VdbGrid>& grids, const std::string& name,

@@ -44,7 +44,18 @@ Status read_vdb_grid(ByteCursor& in, VdbGrid& grid);
 Status choose_vdb_grid(ByteCursor& in, std::vector<VdbGrid>& grids, const std::string& name,
                        VdbGrid& chosen);
 
-/// "density (float), v (vec3s)".
+/// "\"density\" (float), \"v\" (vec3s)"; or "none".
 std::string vdb_grid_list(const std::vector<VdbGrid>& grids);
+
+/// Adds the entry of grid `index` to such a list; beyond 16 of them only a word.
+void append_vdb_grid(std::string& list, std::size_t index, const std::string& name,
+                     const std::string& type);
+
+/// Refuses a scale or a translation of no use.
+Status check_vdb_transform(const ByteCursor& in, const std::array<double, 3>& scale,
+                           const std::array<double, 3>& translation);
+
+/// "blosc", "zip" or "not packed".
+const char* vdb_packing_text(unsigned compression);
 
 }  // namespace pileus

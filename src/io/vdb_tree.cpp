@@ -10,18 +10,10 @@ namespace pileus {
 
 namespace {
 
-using Place = std::array<std::int64_t, 3>;
+using Place = VdbPlace;
 
-constexpr unsigned kLeafSide = 8, kLeafVoxels = 512, kLeafMask = 64;
+constexpr unsigned kLeafVoxels = 512, kLeafMask = 64;
 constexpr std::int64_t kRootSide = 4096;
-
-/// Says why a value cannot be a density, or nothing.
-Status check_value(const ByteCursor& in, const Place& at, float value) {
-    if (value >= 0.0f && value <= 3.402823466e38f) return Status::ok();
-    return in.fault("voxel " + std::to_string(at[0]) + ' ' + std::to_string(at[1]) + ' ' +
-                    std::to_string(at[2]) + ": " + std::to_string(value) +
-                    ", allowed: a finite number >= 0");
-}
 
 /// Collects the box of all that is active.
 class Measure {
@@ -29,41 +21,15 @@ public:
     explicit Measure(VdbBox& box) : box_(box) {}
 
     Status tile(const ByteCursor& in, const Place& low, std::int64_t side, float value) {
-        PILEUS_TRY(check_value(in, low, value));
-        grow(low, {low[0] + side - 1, low[1] + side - 1, low[2] + side - 1});
-        box_.active += std::uint64_t(side) * std::uint64_t(side) * std::uint64_t(side);
-        return Status::ok();
+        box_.add_tile(low, side);
+        return check_vdb_value(in, low, value);
     }
-
-    /// Bit x*64 + y*8 + z of a leaf's mask: byte x*8 + y, bit z.
     Status leaf(const Place& origin, const unsigned char* mask) {
-        unsigned any_x = 0, any_y = 0, any_z = 0;
-        for (unsigned i = 0; i < kLeafMask; ++i) {
-            if (mask[i] == 0) continue;
-            any_x |= 1u << (i / kLeafSide);
-            any_y |= 1u << (i % kLeafSide);
-            any_z |= mask[i];
-        }
-        box_.active += vdb_mask_count(mask, kLeafVoxels);
-        if (any_x == 0) return Status::ok();
-        Place low = origin, high = origin;
-        const unsigned any[3] = {any_x, any_y, any_z};
-        for (std::size_t a = 0; a < 3; ++a) {
-            low[a] += __builtin_ctz(any[a]);
-            high[a] += 31 - __builtin_clz(any[a]);
-        }
-        grow(low, high);
+        box_.add_leaf(origin, mask);
         return Status::ok();
     }
 
 private:
-    void grow(const Place& low, const Place& high) {
-        const bool first = box_.empty();
-        for (std::size_t a = 0; a < 3; ++a) {
-            if (first || low[a] < box_.low[a]) box_.low[a] = low[a];
-            if (first || high[a] > box_.high[a]) box_.high[a] = high[a];
-        }
-    }
     VdbBox& box_;
 };
 
@@ -74,11 +40,7 @@ public:
         : in_(values), box_(box), unpack_(unpack), volume_(volume) {}
 
     Status tile(const ByteCursor&, const Place& low, std::int64_t side, float value) {
-        for (std::int64_t z = low[2]; z < low[2] + side; ++z)
-            for (std::int64_t y = low[1]; y < low[1] + side; ++y) {
-                float* row = volume_.density.data() + index({low[0], y, z});
-                for (std::int64_t x = 0; x < side; ++x) row[x] = value;
-            }
+        box_.fill_tile(low, side, value, volume_);
         return Status::ok();
     }
 
@@ -91,18 +53,13 @@ public:
         for (unsigned n = 0; n < kLeafVoxels; ++n) {
             if (!vdb_mask_on(mask, n)) continue;
             const Place at{origin[0] + (n >> 6), origin[1] + (n >> 3 & 7), origin[2] + (n & 7)};
-            PILEUS_TRY(check_value(in_, at, unpack_.at(n)));
-            volume_.density[index(at)] = unpack_.at(n);
+            PILEUS_TRY(check_vdb_value(in_, at, unpack_.at(n)));
+            volume_.density[box_.index(at)] = unpack_.at(n);
         }
         return Status::ok();
     }
 
 private:
-    std::size_t index(const Place& at) const {
-        const std::int64_t x = at[0] - box_.low[0], y = at[1] - box_.low[1],
-                           z = at[2] - box_.low[2];
-        return std::size_t((z * volume_.size[1] + y) * volume_.size[0] + x);
-    }
     ByteCursor in_;
     const VdbBox& box_;
     VdbValues& unpack_;

@@ -54,7 +54,9 @@ float narrow(double value) {
     return float(value);
 }
 
-float decode(const unsigned char* from, unsigned bytes) {
+}  // namespace
+
+float vdb_number(const unsigned char* from, unsigned bytes) {
     const std::uint64_t bits = little_endian(from, bytes);
     if (bytes == 2) return half_to_float(std::uint32_t(bits));
     if (bytes == 4) {
@@ -67,8 +69,6 @@ float decode(const unsigned char* from, unsigned bytes) {
     std::memcpy(&value, &bits, 8);
     return narrow(value);
 }
-
-}  // namespace
 
 unsigned vdb_mask_count(const unsigned char* mask, unsigned entries) {
     unsigned count = 0;
@@ -87,7 +87,7 @@ Status VdbValues::prepare(const VdbGrid& grid) {
 Status VdbValues::single(ByteCursor& in, const char* what, float& value) const {
     const unsigned char* from = nullptr;
     PILEUS_TRY(in.take(value_bytes_, what, from));
-    value = decode(from, value_bytes_);
+    value = vdb_number(from, value_bytes_);
     return Status::ok();
 }
 
@@ -112,7 +112,7 @@ Status VdbValues::read(ByteCursor& in, const unsigned char* mask, unsigned entri
 
     for (unsigned entry = 0, next = 0; entry < entries; ++entry) {
         const bool active = vdb_mask_on(mask, entry);
-        values_[entry] = active ? decode(from + next * stored_bytes_, stored_bytes_) : 0.0f;
+        values_[entry] = active ? vdb_number(from + next * stored_bytes_, stored_bytes_) : 0.0f;
         next += active || !active_only ? 1 : 0;
     }
     return Status::ok();
@@ -131,7 +131,8 @@ Status VdbValues::block(ByteCursor& in, std::uint64_t bytes, const unsigned char
     PILEUS_TRY(in.take(bits, "packed values", from));
     // Blosc packs no value at all into a header of its own; there is nothing to unpack.
     if (bytes == 0) return Status::ok();
-    PILEUS_TRY(inflate(in, from, bits, bytes));
+    const bool blosc = (compression_ & kVdbBlosc) != 0;
+    PILEUS_TRY(vdb_inflate(in, blosc, from, bits, unpacked_.data(), bytes));
     from = unpacked_.data();
     return Status::ok();
 }
@@ -148,27 +149,24 @@ constexpr const char* kLibraries = "zlib no, blosc no";
 
 std::string vdb_library_text() { return kLibraries; }
 
-/// Unpacks `count` bytes that must give exactly `bytes`.
-Status VdbValues::inflate(ByteCursor& in, const unsigned char* packed, std::uint64_t count,
-                          std::uint64_t bytes) {
-    const bool blosc = (compression_ & kVdbBlosc) != 0;
+Status vdb_inflate(const ByteCursor& in, bool blosc, const unsigned char* packed,
+                   std::uint64_t count, unsigned char* to, std::uint64_t bytes) {
     bool right = false, there = false;
-    (void)packed, (void)count;
+    (void)packed, (void)count, (void)to;
 #ifdef PILEUS_WITH_BLOSC
     if (blosc) {
         there = true;
         std::size_t stated = 0;
         right = blosc_cbuffer_validate(packed, std::size_t(count), &stated) == 0 &&
                 stated == bytes &&
-                blosc_decompress_ctx(packed, unpacked_.data(), std::size_t(bytes), 1) == int(bytes);
+                blosc_decompress_ctx(packed, to, std::size_t(bytes), 1) == int(bytes);
     }
 #endif
 #ifdef PILEUS_WITH_ZLIB
     if (!blosc) {
         there = true;
-        uLongf written = uLongf(unpacked_.size());
-        right = count <= 0x7fffffffu &&
-                uncompress(unpacked_.data(), &written, packed, uLong(count)) == Z_OK &&
+        uLongf written = uLongf(bytes);
+        right = count <= 0x7fffffffu && uncompress(to, &written, packed, uLong(count)) == Z_OK &&
                 written == bytes;
     }
 #endif

@@ -34,13 +34,18 @@ public:
 
 private:
     Status block(ByteCursor& in, std::uint64_t bytes, const unsigned char*& from);
-    Status inflate(ByteCursor& in, const unsigned char* packed, std::uint64_t count,
-                   std::uint64_t bytes);
 
     unsigned compression_ = 0, stored_bytes_ = 4, value_bytes_ = 4;
     Buffer<unsigned char> unpacked_;
     Buffer<float> values_;
 };
+
+/// A number of 2, 4 or 8 bytes, little-endian, rounded to the nearest float.
+float vdb_number(const unsigned char* from, unsigned bytes);
+
+/// Unpacks `count` bytes, which must give exactly `bytes`; by blosc or else zlib.
+Status vdb_inflate(const ByteCursor& in, bool blosc, const unsigned char* packed,
+                   std::uint64_t count, unsigned char* to, std::uint64_t bytes);
 
 /// zlib of `bytes` from `from`; how many bytes it took, or 0 where that is not fewer, there is no
 /// room, or zlib was left out of the build.

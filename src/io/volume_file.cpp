@@ -6,6 +6,7 @@
 
 #include "src/base/file.h"
 #include "src/io/les_volume.h"
+#include "src/io/nvdb_file.h"
 #include "src/io/vdb_file.h"
 #include "src/io/vol_volume.h"
 #include "src/scene/volume_format.h"
@@ -79,6 +80,7 @@ Status read_volume(const MediumSettings& medium, const std::string& path, Volume
     if (format == "les") return read_les_volume(path, volume);
     if (format == "vol") return read_vol_volume(path, volume);
     if (format == "openvdb") return read_vdb_volume(path, medium.grid, volume);
+    if (format == "nanovdb") return read_nvdb_volume(path, medium.grid, volume);
     if (format == "raw")
         return read_raw_volume(path, medium.raw_type, medium.raw_size, medium.raw_big_endian,
                                volume);
@@ -91,6 +93,7 @@ Status read_volume_head(const MediumSettings& medium, const std::string& path, V
     if (format == "les") return read_les_head(path, head);
     if (format == "vol") return read_vol_head(path, head);
     if (format == "openvdb") return read_vdb_head(path, medium.grid, head);
+    if (format == "nanovdb") return read_nvdb_head(path, medium.grid, head);
     if (format == "raw") return read_raw_head(path, medium.raw_type, medium.raw_size, head);
     return read_pbrt_head(path, head);
 }

@@ -105,14 +105,15 @@ private:
         }
     }
 
-    /// A grid has a name in OpenVDB files only, and it is said once.
+    /// A grid has a name in OpenVDB and NanoVDB files only, and it is said once.
     void grid_name() {
         const Node* beside = check_.valid_key(path_ + "grid");
         const Node* within = check_.valid_key(path_ + "density.grid");
         for (const Node* node : {beside, within})
-            if (node != nullptr && medium_.format != "openvdb")
+            if (node != nullptr && medium_.format != "openvdb" && medium_.format != "nanovdb")
                 fault(*node, node == beside ? "grid" : "density.grid",
-                      "for OpenVDB files only, " + value_text(*node) + ", allowed: left out");
+                      "for OpenVDB and NanoVDB files only, " + value_text(*node) +
+                          ", allowed: left out");
         if (beside != nullptr && within != nullptr)
             fault(*within, "density.grid",
                   "given twice, " + value_text(*within) + ", allowed: grid or density.grid");

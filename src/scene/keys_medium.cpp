@@ -45,15 +45,16 @@ const KeyRow kRows[] = {
                "byte order of the raw file",
                [](const Node& n, KeyTarget t) { t.medium.raw_big_endian = n.text == "big"; }),
     plain_key(KeyKind::kText, "medium.N.density.grid", "",
-              "the same as `grid` beside it: name of the grid in an OpenVDB file",
+              "the same as `grid` beside it: name of the grid in an OpenVDB or NanoVDB file",
               [](const Node& n, KeyTarget t) { t.medium.grid = n.text; }),
-    choice_key(KeyKind::kText, "medium.N.format", "", "pbrt|raw|vol|les|openvdb", "netcdf",
+    choice_key(KeyKind::kText, "medium.N.format", "", "pbrt|raw|vol|les|openvdb|nanovdb", "netcdf",
                "kind of the file; left out: told by the end of its name",
                [](const Node& n, KeyTarget t) { t.medium.format = n.text; }),
-    plain_key(KeyKind::kText, "medium.N.grid", "",
-              "name of the grid in an OpenVDB file; left out: the first of floats that is no level "
-              "set",
-              [](const Node& n, KeyTarget t) { t.medium.grid = n.text; }),
+    plain_key(
+        KeyKind::kText, "medium.N.grid", "",
+        "name of the grid in an OpenVDB or NanoVDB file; left out: the first of floats that is "
+        "no level set",
+        [](const Node& n, KeyTarget t) { t.medium.grid = n.text; }),
     range_key(KeyKind::kBounds, "medium.N.bounds_m", "m", "", {-1e9, 1e9, false, false},
               "lowest and highest corner of the medium's box; may be left out for files that know "
               "their place, and wins where given",

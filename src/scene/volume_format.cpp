@@ -11,8 +11,9 @@ namespace {
 
 // One row for an extension; rows of one name stand together and agree in their unit.
 constexpr VolumeFormat kFormats[] = {
-    {"pbrt", ".pbrt", false}, {"raw", ".raw", false}, {"vol", ".vol", false},
-    {"les", ".txt", true},    {"les", ".les", true},  {"openvdb", ".vdb", false},
+    {"pbrt", ".pbrt", false},    {"raw", ".raw", false}, {"vol", ".vol", false},
+    {"les", ".txt", true},       {"les", ".les", true},  {"openvdb", ".vdb", false},
+    {"nanovdb", ".nvdb", false},
 };
 
 }  // namespace

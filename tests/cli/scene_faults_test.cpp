@@ -227,11 +227,11 @@ TEST_CASE("densities and their files") {
          "s.toml:7:14: medium.0.resolution: not for a file, [1, 1, 1], allowed: left out"},
         {kCamera + kFile + "density = \"a.dat\"\n",
          "s.toml:6:11: medium.0.density: unknown kind of file, \"a.dat\", allowed: .pbrt, .raw, "
-         ".vol, .txt, .les, .vdb, or the key format = \"pbrt\""},
+         ".vol, .txt, .les, .vdb, .nvdb, or the key format = \"pbrt\""},
         {kCamera + kFile + "density = \"a.nc\"\n",
          "s.toml:6:11: medium.0.density: not in this version, \"a.nc\", ..."},
         {kCamera + kFile + "density = \"a.pbrt\"\ngrid = \"d\"\n",
-         "s.toml:7:8: medium.0.grid: for OpenVDB files only, \"d\", allowed: left out"},
+         "s.toml:7:8: medium.0.grid: for OpenVDB and NanoVDB files only, \"d\", allowed: left out"},
         {kCamera + kFile + "density = { file = \"a.vdb\", grid = \"e\" }\ngrid = \"d\"\n",
          "s.toml:6:36: medium.0.density.grid: given twice, \"e\", allowed: grid or density.grid"},
         {kCamera + kFile + "density = { file = \"a.raw\", type = \"int\", size = [1, 1, 1] }\n" +
@@ -290,7 +290,7 @@ TEST_CASE("parts of the format that this version cannot use") {
          "s.toml:8:18: medium.0.phase.type: not in this version, \"cloud\", ..."},
         {kCamera + kFile + "density = \"a.x\"\nformat = \"netcdf\"\n",
          "s.toml:7:10: medium.0.format: not in this version, \"netcdf\", allowed: pbrt, raw, vol, "
-         "les, openvdb"},
+         "les, openvdb, nanovdb"},
     };
     for (const Row& row : rows) check(row);
 }

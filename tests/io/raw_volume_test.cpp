@@ -146,7 +146,7 @@ TEST_CASE("volume: format by key or extension, axes in file order") {
     CHECK(unknown.code == Code::kBadInput);
     CHECK(holds(unknown.message,
                 "format: unknown, \".dat\", allowed: \"pbrt\", \"raw\", \"vol\", "
-                "\"les\", \"openvdb\""));
+                "\"les\", \"openvdb\", \"nanovdb\""));
     medium.format = "raw";
     CHECK(read_volume(medium, other, v));
     medium.format = "pbrt";

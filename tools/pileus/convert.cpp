@@ -93,13 +93,13 @@ Status run_convert(const ConvertArguments& arguments) {
 void add_convert(CLI::App& app, Chosen& chosen) {
     CLI::App* command = app.add_subcommand("convert", "Write a density grid in another format");
     const auto arguments = std::make_shared<ConvertArguments>();
-    command->add_option("in", arguments->from, "A .pbrt, .vdb or .raw file")
+    command->add_option("in", arguments->from, "A .pbrt, .vdb, .nvdb or .raw file")
         ->required()
         ->type_name("IN");
     command->add_option("out", arguments->to, "The .vdb or .raw file to write")
         ->required()
         ->type_name("OUT");
-    command->add_option("--grid", arguments->grid, "Name of the grid of a .vdb file")
+    command->add_option("--grid", arguments->grid, "Name of the grid of a .vdb or .nvdb file")
         ->type_name("NAME");
     command->add_flag("--y-up", arguments->y_up, "Turn a grid whose y axis points up to z up");
     add_raw_options(*command, arguments->raw);

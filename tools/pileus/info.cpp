@@ -88,7 +88,7 @@ void add_info(CLI::App& app, Chosen& chosen) {
     const auto arguments = std::make_shared<InfoArguments>();
     command->add_option("file", arguments->file, "A scene, picture or density grid")
         ->type_name("FILE");
-    command->add_option("--grid", arguments->grid, "Name of the grid of a .vdb file")
+    command->add_option("--grid", arguments->grid, "Name of the grid of a .vdb or .nvdb file")
         ->type_name("NAME");
     add_raw_options(*command, arguments->raw);
     command->callback(
