@@ -59,19 +59,32 @@ void check_kind(const std::string& path, const Grid& grid, int codec) {
     CHECK(holds(head.detail, std::to_string(grid.activeVoxelCount()) + " active voxels"));
 }
 
-/// Values of differing smoothness, so that leaves of variable width take from 1 to 16 bits.
-vdb::FloatGrid::Ptr smooth_grid(Draws& draws) {
+/// Values of differing roughness: the library's 0.01 asks for 1, 2, 4, 8 and 16 bits a voxel.
+vdb::FloatGrid::Ptr uneven_grid(Draws& draws) {
     auto grid = vdb::FloatGrid::create(0);
     auto access = grid->getAccessor();
     for (int x = 0; x < 40; ++x)
         for (int y = 0; y < 16; ++y)
             for (int z = 0; z < 16; ++z) {
-                const float rough = 0.001f * float(1 << x / 8 * 4);
-                access.setValue(vdb::Coord(x, y, z), 1.0f + rough * draws.share());
+                const float rough[] = {0.01f, 0.05f, 0.25f, 4.0f, 60.0f};
+                access.setValue(vdb::Coord(x, y, z), 1.0f + rough[x / 8] * draws.share());
             }
     grid->setName("density");
     grid->setGridClass(vdb::GRID_FOG_VOLUME);
     return grid;
+}
+
+/// Which widths its leaves have, a bit for each.
+unsigned leaf_widths(const vdb::FloatGrid& grid) {
+    const Handle handle =
+        nanovdb::openToNanoVDB<nanovdb::HostBuffer, vdb::FloatTree, nanovdb::FpN>(grid);
+    auto access = handle.grid<nanovdb::FpN>()->getAccessor();
+    unsigned widths = 0;
+    for (auto leaf = grid.tree().cbeginLeaf(); leaf; ++leaf) {
+        const vdb::Coord at = leaf->origin();
+        widths |= access.probeLeaf(nanovdb::Coord(at[0], at[1], at[2]))->data()->bitWidth();
+    }
+    return widths;
 }
 
 }  // namespace
@@ -99,8 +112,9 @@ TEST_CASE("NanoVDB: what the library writes is read voxel by voxel") {
         if (kind == 4) check_kind<nanovdb::Fp16>(path, *grid, codec);
         if (kind == 5) check_kind<nanovdb::FpN>(path, *grid, codec);
     }
-    for (int codec = 0; codec < 3; ++codec)
-        check_kind<nanovdb::FpN>(path, *smooth_grid(draws), codec);
+    const auto uneven = uneven_grid(draws);
+    CHECK(leaf_widths(*uneven) == (1 | 2 | 4 | 8 | 16));
+    for (int codec = 0; codec < 3; ++codec) check_kind<nanovdb::FpN>(path, *uneven, codec);
 }
 
 TEST_CASE("NanoVDB: grids by name, several segments, and what is refused") {
