@@ -20,7 +20,7 @@ constexpr std::uint64_t kMagicFile = 0x324244566f6e614e;  // "NanoVDB2", from 32
 constexpr std::uint32_t kMajor = 32, kOldestMinor = 3, kNewestMinor = 9;
 constexpr std::size_t kMaxGrids = 4096;
 constexpr std::uint32_t kLongestName = 4096, kLevelSet = 1;
-constexpr std::uint64_t kMostPacking = 1032, kChunk = std::uint64_t{1} << 30;
+constexpr std::uint64_t kChunk = std::uint64_t{1} << 30;
 
 /// Numbers of this table are those of the files; the rest has no name here.
 constexpr const char* kTypes[] = {"unknown", "float", "double", "int16",  "int32", "int64", "vec3f",
@@ -107,6 +107,12 @@ Status read_segment(ByteCursor& in, std::vector<NvdbGrid>& grids) {
     return Status::ok();
 }
 
+/// zlib gives 1032 bytes for one at the most; tables of empty nodes come near that, clouds do not.
+std::uint64_t most_unpacked(std::uint64_t packed) {
+    constexpr std::uint64_t kZlib = 1032, kFree = std::uint64_t{1} << 26, kCloud = 64;
+    return std::min(packed * kZlib, kFree + packed * kCloud);
+}
+
 /// A length, and as many bytes that give exactly `bytes`.
 Status unpack_block(ByteCursor& in, bool blosc, unsigned char* to, std::uint64_t bytes) {
     std::uint64_t count = 0;
@@ -160,7 +166,7 @@ Status unpack_nvdb_grid(ByteCursor& in, const NvdbGrid& grid, Buffer<char>& room
                         Span<const char>& bytes) {
     PILEUS_TRY(in.window(grid.at, grid.at + grid.packed, "grid"));
     const unsigned char* from = nullptr;
-    const std::uint64_t most = grid.compression == 0 ? grid.packed : grid.packed * kMostPacking;
+    const std::uint64_t most = grid.compression == 0 ? grid.packed : most_unpacked(grid.packed);
     if (grid.size > most || (grid.compression == 0 && grid.size != grid.packed))
         return in.fault("size of a grid: " + std::to_string(grid.size) + " bytes, allowed: " +
                         (grid.compression == 0 ? "exactly " : "at most ") + std::to_string(most));

@@ -247,6 +247,7 @@ Status decode_nvdb_head(const std::string& name, Span<const char> bytes, const s
     Found found;
     PILEUS_TRY(find_grid(name, bytes, grid, limits, found));
     head = found.head;
+    head.unpacked_bytes = found.room.size();
     head.kind = "NanoVDB fog volume";
     head.detail = "grid " + quote_text(found.grid.name) + " of " + nvdb_grid_list(found.grids) +
                   "; " + vdb_packing_text(found.grid.compression) + "; " +

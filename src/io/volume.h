@@ -25,7 +25,8 @@ struct VolumeHead {
     bool knows_bounds = false;
     std::array<std::array<double, 3>, 2> bounds_m{};
     bool in_extinction = false;
-    std::string kind;    ///< "pbrt text volume", "OpenVDB fog volume"
+    std::uint64_t unpacked_bytes = 0;  ///< held beside the file while it is read
+    std::string kind;                  ///< "pbrt text volume", "OpenVDB fog volume"
     std::string detail;  ///< one line a reader may add: grid names, compression; may be empty
 };
 

@@ -106,6 +106,7 @@ Status outline_file(const Scene& scene, const MediumSettings& settings, const Li
     constexpr std::uint64_t kPieceBytes = 65536 * sizeof(float);
     source.reading_bytes = raw ? kPieceBytes : file.size();
     PILEUS_TRY(read_volume_head(settings, path, head));
+    source.reading_bytes += head.unpacked_bytes;
     if (!settings.y_up) return Status::ok();
     // As permute_y_up has it: (x, y, z) -> (x, -z, y).
     const auto box = head.bounds_m;

@@ -36,7 +36,7 @@ std::string medium_key(const Scene& scene, const MediumSettings& settings);
 
 /// What is known of a density before its values are there.
 struct MediumSource {
-    std::uint64_t reading_bytes = 0;  ///< of the file that are in memory while it is read
+    std::uint64_t reading_bytes = 0;  ///< of the file, packed and not, in memory while it is read
     std::uint64_t turned_voxels = 0;  ///< of a file whose y axis points up: a grid more for a while
     std::uint64_t apart_voxels = 0;   ///< of media that are then laid on one grid
     std::uint64_t mixing_bytes = 0;   ///< scratch of that

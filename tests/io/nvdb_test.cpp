@@ -352,6 +352,10 @@ TEST_CASE("NanoVDB: packed grids and their faults") {
     }
     Volume volume;
     REQUIRE(decode(good, volume));
+    VolumeHead head;
+    REQUIRE(decode_nvdb_head("a.nvdb", {good.data(), good.size()}, "", VdbLimits(), head));
+    CHECK(head.unpacked_bytes == Places(kFloat).end);
+    CHECK(holds(head.detail, "; zip; 1025 active voxels"));
     const auto fault = [&](std::size_t at, std::uint64_t value, unsigned count, const char* line) {
         std::string bytes = good;
         put(bytes, at, value, count);
@@ -371,6 +375,12 @@ TEST_CASE("NanoVDB: packed grids and their faults") {
     std::string longer = good + std::string(3, '\0');
     put(longer, 24, packed + 3, 8);
     CHECK(holds(decode(longer, volume).message, "packed bytes: 3 too many, allowed: none"));
+
+    // Padded so that the bound of 64 MiB and 64 for one is the lower of the two.
+    std::string bomb = good + std::string(70000, '\0');
+    put(bomb, 24, bomb.size() - kListBytes, 8);
+    put(bomb, 16, (std::uint64_t{1} << 26) + 64 * (bomb.size() - kListBytes) + 1, 8);
+    CHECK(holds(decode(bomb, volume).message, "bytes, allowed: at most"));
 
     // Damage behind the packing meets the same checks as without.
     long read = 0;
