@@ -33,6 +33,37 @@ struct Picture {
     }
 };
 
+/// A coloured cumulus of 24 x 24 x 16 voxels over a ground; all its numbers are exact in binary.
+constexpr const char* kSmallCumulus = R"(
+seed = 4
+[camera]
+position_m = [16, -4000, 256]
+target_m = [0, 0, 1024]
+fov_deg = 40
+resolution = [24, 14]
+[sun]
+azimuth_deg = 120
+elevation_deg = 35
+[sky]
+radiance = [0.0625, 0.125, 0.25]
+[ground]
+altitude_m = 0
+albedo = 0.25
+[[medium]]
+density = "procedural:cumulus"
+bounds_m = [[-768, -768, 512], [768, 768, 1536]]
+resolution = [24, 24, 16]
+extinction_per_m = 0.0625
+albedo = [0.9, 0.99, 1.0]
+phase = { type = "henyey-greenstein", g = 0.85 }
+[collectors]
+photons = 12_000
+generations = 4
+samples = 1_000
+[output]
+layers = ["radiance", "alpha", "depth", "error"]
+)";
+
 inline Scene scene_from(const std::string& text, const std::vector<std::string>& overrides = {}) {
     Scene scene;
     const Status status = read_scene_text(text, "test.toml", "", overrides, scene);

@@ -11,6 +11,7 @@
 #include "src/base/span.h"
 #include "src/base/status.h"
 #include "src/io/image.h"
+#include "src/io/vdb_file.h"
 #include "src/io/volume.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
@@ -51,6 +52,26 @@ inline void check_volume(const pileus::Volume& volume) {
         require(v >= 0.0f && v <= 3.402823466e38f, "densities are finite and >= 0");
     for (std::size_t a = 0; a < 3 && volume.knows_bounds; ++a)
         require(volume.bounds_m[0][a] < volume.bounds_m[1][a], "a box has its corners in order");
+}
+
+/// What a reader of sparse grids promises: `decode` and `decode_head` take name, bytes, grid,
+/// limits.
+template <class Decode, class DecodeHead>
+int check_sparse_grid(const char* name, pileus::Span<const char> bytes, Decode decode,
+                      DecodeHead decode_head) {
+    pileus::VdbLimits limits;
+    limits.max_cells = limits.free_cells = std::uint64_t{1} << 16;
+    pileus::Volume volume;
+    pileus::VolumeHead head;
+    const pileus::Status status = decode(name, bytes, "", limits, volume);
+    const pileus::Status seen = decode_head(name, bytes, "", limits, head);
+    if (!status) {
+        check_fault(status, std::string(name) + ":", true);
+        return 0;
+    }
+    check_volume(volume);
+    require(bool(seen) && head.size == volume.size, "a head tells the size of the whole");
+    return 0;
 }
 
 /// What every reader of pictures promises.

@@ -11,36 +11,6 @@ using namespace render_test;
 
 namespace {
 
-const char* const kText = R"(
-seed = 4
-[camera]
-position_m = [16, -4000, 256]
-target_m = [0, 0, 1024]
-fov_deg = 40
-resolution = [24, 14]
-[sun]
-azimuth_deg = 120
-elevation_deg = 35
-[sky]
-radiance = [0.0625, 0.125, 0.25]
-[ground]
-altitude_m = 0
-albedo = 0.25
-[[medium]]
-density = "procedural:cumulus"
-bounds_m = [[-768, -768, 512], [768, 768, 1536]]
-resolution = [24, 24, 16]
-extinction_per_m = 0.0625
-albedo = [0.9, 0.99, 1.0]
-phase = { type = "henyey-greenstein", g = 0.85 }
-[collectors]
-photons = 12_000
-generations = 4
-samples = 1_000
-[output]
-layers = ["radiance", "alpha", "depth", "error"]
-)";
-
 std::vector<std::string> with(const std::string& display, const std::string& variant) {
     return {"collectors.display=\"" + display + "\"", "collectors.variant=\"" + variant + "\""};
 }
@@ -79,7 +49,7 @@ const std::array<const char*, 2> kLooks[] = {
 
 TEST_CASE("scaling: light times 2^k is the picture times 2^k") {
     for (const auto& look : kLooks) {
-        const Scene scene = scene_from(kText, with(look[0], look[1]));
+        const Scene scene = scene_from(kSmallCumulus, with(look[0], look[1]));
         const Picture plain = render_one(scene);
         for (int k : {-20, 3, 20}) {
             CAPTURE(look[0]);
@@ -93,7 +63,7 @@ TEST_CASE("scaling: light times 2^k is the picture times 2^k") {
 
 TEST_CASE("scaling: lengths times 2^k with extinction over 2^k is the same picture") {
     for (const auto& look : kLooks) {
-        const Scene scene = scene_from(kText, with(look[0], look[1]));
+        const Scene scene = scene_from(kSmallCumulus, with(look[0], look[1]));
         const Picture plain = render_one(scene);
         for (int k : {-10, 1, 6}) {
             CAPTURE(look[0]);
@@ -108,7 +78,7 @@ TEST_CASE("scaling: lengths times 2^k with extinction over 2^k is the same pictu
 
 TEST_CASE("scaling: threads and instruction sets give one picture") {
     for (const auto& look : kLooks) {
-        const Scene scene = scene_from(kText, with(look[0], look[1]));
+        const Scene scene = scene_from(kSmallCumulus, with(look[0], look[1]));
         RenderOptions options;
         options.threads = 1;
         const std::string hash = render_one(scene, options).report.hash;

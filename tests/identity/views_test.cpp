@@ -8,34 +8,6 @@ using namespace render_test;
 
 namespace {
 
-const char* const kText = R"(
-seed = 4
-[camera]
-position_m = [0, -3000, 600]
-target_m = [0, 0, 1100]
-fov_deg = 34
-resolution = [70, 40]
-[sun]
-azimuth_deg = 120
-elevation_deg = 35
-[sky]
-radiance = [0.0625, 0.125, 0.25]
-[ground]
-altitude_m = 0
-albedo = 0.25
-[[medium]]
-density = "procedural:cumulus"
-bounds_m = [[-768, -768, 512], [768, 768, 1536]]
-resolution = [24, 24, 16]
-extinction_per_m = 0.0625
-albedo = [0.9, 0.99, 1.0]
-phase = { type = "henyey-greenstein", g = 0.85 }
-[collectors]
-photons = 12_000
-generations = 4
-samples = 1_000
-)";
-
 std::string hash_of(const Scene& scene, const RenderOptions& options) {
     std::string hash;
     const Status status = render(scene, options, [&](int, Image&, Report& report) {
@@ -49,7 +21,9 @@ std::string hash_of(const Scene& scene, const RenderOptions& options) {
 }  // namespace
 
 TEST_CASE("views: threads and instruction sets give one picture") {
-    const Scene scene = scene_from(kText);
+    const Scene scene = scene_from(
+        kSmallCumulus, {"camera.position_m=[0, -3000, 600]", "camera.target_m=[0, 0, 1100]",
+                        "camera.fov_deg=34", "camera.resolution=[70, 40]"});
     std::vector<std::string> hashes;
     for (const char* view : {"density-slice", "gradient-slice", "gradient", "samples", "tree",
                              "leaf-density", "collectors", "photons", "illumination"}) {
