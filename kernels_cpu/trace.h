@@ -30,8 +30,12 @@ PILEUS_FN void count_fate(const Photon<W, NC>& s, std::int64_t (&plain)[3],
 template <int W, int NC>
 PILEUS_FN void light_ground(const Photon<W, NC>& s, const TraceParams& k, const TraceBuffers& b,
                             M<W> m) {
-    const auto x = floor_int((s.ground_x - k.ground_origin[0]) * k.ground_cells_per_metre[0]);
-    const auto y = floor_int((s.ground_y - k.ground_origin[1]) * k.ground_cells_per_metre[1]);
+    // Light that grazes arrives farther away than whole numbers reach: stop it just off the map.
+    const auto cell_at = [&](F<W> at, int a) {
+        const F<W> place = (at - k.ground_origin[a]) * k.ground_cells_per_metre[a];
+        return floor_int(max_(min_(place, all<F<W>>(float(k.ground_cells[a]))), all<F<W>>(-1.0f)));
+    };
+    const auto x = cell_at(s.ground_x, 0), y = cell_at(s.ground_y, 1);
     const auto known = m & (x >= 0) & (x < k.ground_cells[0]) & (y >= 0) & (y < k.ground_cells[1]);
     const std::uint32_t dark = bits_of(s.shadow);
     for (std::uint32_t lanes = bits_of(known); lanes != 0; lanes &= lanes - 1) {

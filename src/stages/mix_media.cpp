@@ -272,8 +272,8 @@ std::uint64_t cells_of(const MixBox& box) {
     return std::uint64_t(box.size[0]) * std::uint64_t(box.size[1]) * std::uint64_t(box.size[2]);
 }
 
-/// Scratch of mixing: a plane and a row of each thread, and weights that are fewer than two for
-/// each cell along an axis of either grid.
+/// Scratch of mixing: a plane and a row of each thread; and along each axis a weight for each cell
+/// of the source and three for each of the target, with their places, less than 64 bytes a cell.
 std::uint64_t mixing_bytes(const MediaList& list, const MixBox& box, std::uint64_t threads) {
     std::uint64_t largest = 0, rows = 0;
     for (const MixBox& b : list.boxes) {
