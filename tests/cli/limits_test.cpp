@@ -107,6 +107,12 @@ TEST_CASE("limits: help and the manual list every one with its default") {
 
 namespace {
 
+#if defined(__SANITIZE_ADDRESS__)
+constexpr bool kSanitized = true;
+#else
+constexpr bool kSanitized = false;
+#endif
+
 /// A file of even noise, which no tree divides well and no compression makes smaller.
 std::string noise(std::size_t count) {
     std::string bytes(count, '\0');
@@ -122,11 +128,6 @@ std::string noise(std::size_t count) {
 
 TEST_CASE("memory: the process stays within the plan's bound, and the bound near the process") {
     // Program, libraries and the stacks of two threads; measured 7 to 10 MiB (docs/report.md).
-#if defined(__SANITIZE_ADDRESS__)
-    constexpr bool kSanitized = true;
-#else
-    constexpr bool kSanitized = false;
-#endif
     constexpr double kProgram = 16 * 1048576.0;
     struct Case {
         const char* options;
