@@ -35,6 +35,12 @@ std::string voxel_name(const std::array<int, 3>& size, std::uint64_t index) {
            std::to_string(index / nx / ny) + " (index " + std::to_string(index) + ')';
 }
 
+void turn_y_up(std::array<int, 3>& size, std::array<std::array<double, 3>, 2>& bounds_m) {
+    const auto box = bounds_m;
+    size = {size[0], size[2], size[1]};
+    bounds_m = {{{box[0][0], -box[1][2], box[0][1]}, {box[1][0], -box[0][2], box[1][1]}}};
+}
+
 Status permute_y_up(Volume& volume) {
     const std::size_t nx = std::size_t(volume.size[0]), ny = std::size_t(volume.size[1]),
                       nz = std::size_t(volume.size[2]);
@@ -49,11 +55,7 @@ Status permute_y_up(Volume& volume) {
             std::memcpy(to, from, nx * sizeof(float));
         }
     volume.density.swap(turned);
-    volume.size = {volume.size[0], volume.size[2], volume.size[1]};
-
-    // Mirroring an axis exchanges its lower and upper face.
-    const auto box = volume.bounds_m;
-    volume.bounds_m = {{{box[0][0], -box[1][2], box[0][1]}, {box[1][0], -box[0][2], box[1][1]}}};
+    turn_y_up(volume.size, volume.bounds_m);
     return Status::ok();
 }
 

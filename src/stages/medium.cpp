@@ -107,11 +107,7 @@ Status outline_file(const Scene& scene, const MediumSettings& settings, const Li
     source.reading_bytes = raw ? kPieceBytes : file.size();
     PILEUS_TRY(read_volume_head(settings, path, head));
     source.reading_bytes += head.unpacked_bytes;
-    if (!settings.y_up) return Status::ok();
-    // As permute_y_up has it: (x, y, z) -> (x, -z, y).
-    const auto box = head.bounds_m;
-    head.size = {head.size[0], head.size[2], head.size[1]};
-    head.bounds_m = {{{box[0][0], -box[1][2], box[0][1]}, {box[1][0], -box[0][2], box[1][1]}}};
+    if (settings.y_up) turn_y_up(head.size, head.bounds_m);
     return Status::ok();
 }
 

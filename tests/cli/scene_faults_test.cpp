@@ -392,10 +392,8 @@ TEST_CASE("an unset data folder is a fault of the key that asks for it") {
     Scene scene;
     CHECK(bool(pileus::read_scene_text(text, "s.toml", "d", {}, scene)));
     CHECK(scene.media.at(0).file == "/data/a.pbrt");
-    if (before == nullptr)
-        unsetenv("PILEUS_DATA_DIR");
-    else
-        setenv("PILEUS_DATA_DIR", saved.c_str(), 1);
+    CHECK((before == nullptr ? unsetenv("PILEUS_DATA_DIR")
+                             : setenv("PILEUS_DATA_DIR", saved.c_str(), 1)) == 0);
 }
 
 }  // namespace
