@@ -164,6 +164,10 @@ Status read_stream(const std::string& name, Span<const char> bytes, Image& image
     const Imath::Box2i& window = header.dataWindow();
     image.width = window.max.x - window.min.x + 1;
     image.height = window.max.y - window.min.y + 1;
+    const Imath::Box2i& shown = header.displayWindow();
+    image.display = {
+        std::int64_t(shown.min.x) - window.min.x, std::int64_t(shown.min.y) - window.min.y,
+        std::int64_t(shown.max.x) - shown.min.x + 1, std::int64_t(shown.max.y) - shown.min.y + 1};
     const std::uint64_t pixels = std::uint64_t(image.width) * std::uint64_t(image.height);
 
     // Every channel becomes a plane of floats whose first value is the window's upper left corner.

@@ -3,6 +3,7 @@
 // in: composited layers -> out: one plane per channel, rows from the top.
 #pragma once
 #include <array>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -15,8 +16,14 @@ struct Channel {
     Buffer<float> pixels;  ///< width*height, rows from the top
 };
 
+/// Where a file wants to be shown, counted from the first pixel; width 0: the pixels themselves.
+struct DisplayWindow {
+    std::int64_t x = 0, y = 0, width = 0, height = 0;
+};
+
 struct Image {
     int width = 0, height = 0;
+    DisplayWindow display;  ///< of a file that was read; writers pass it over
     std::vector<Channel> channels;
     std::array<float, 16> world_to_camera{};  ///< row-major, OpenEXR's row-vector convention
     std::array<float, 16> world_to_ndc{};

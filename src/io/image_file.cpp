@@ -137,6 +137,8 @@ Status read_image(const std::string& path, Image& image, std::uint64_t most_pixe
 std::string pixel_hash(const Image& image) {
     const Channel* channels[4] = {image.find("R"), image.find("G"), image.find("B"),
                                   image.find("A")};
+    for (int c = 0; c < 3; ++c)
+        if (channels[c] == nullptr) channels[c] = image.find("Y");
     const std::size_t pixels = std::size_t(image.width) * std::size_t(image.height);
     Digest digest;
     for (std::size_t i = 0; i < pixels; ++i)

@@ -37,7 +37,7 @@ Status read_image(const std::string& path, Image& image,
                   std::uint64_t most_pixels = kMaxImagePixels);
 
 /// 16 hex digits: FNV-1a 64 over the float32 bits of R G B A of each pixel, rows from the top. A
-/// channel that is not there counts as 0, A as 1.
+/// colour that is not there counts as Y, or 0 without that; A as 1.
 std::string pixel_hash(const Image& image);
 
 /// Tone-mapped sRGB, 3 bytes a pixel, rows from the top. A single channel Y counts as grey.
@@ -58,6 +58,10 @@ Status encode_exr(const Image& image, Buffer<char>& bytes);
 Status decode_exr(const std::string& name, Span<const char> bytes, Image& image,
                   std::uint64_t most_pixels = kMaxImagePixels);
 Status encode_png(int width, int height, Span<const std::uint8_t> rgb, Buffer<char>& bytes);
+/// Any PNG file as display-linear R G B; where it has alpha, premultiplied, and A. 16 bits
+/// become 8.
+Status decode_png(const std::string& name, Span<const char> bytes, Image& image,
+                  std::uint64_t most_pixels = kMaxImagePixels);
 Status encode_pfm(const Image& image, Buffer<char>& bytes);
 Status decode_pfm(const std::string& name, Span<const char> bytes, Image& image,
                   std::uint64_t most_pixels = kMaxImagePixels);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // 8-bit PNG in memory; the only file that touches libpng.
-// in: sRGB bytes, rows from the top -> out: the bytes of a PNG file with an sRGB chunk.
+// in: sRGB bytes, rows from the top -> out: the bytes of a PNG file with an sRGB chunk; and back.
 // PNG specification 11.3.3.5 (sRGB); docs/formats.md
 #include "src/io/image_file.h"
+#include "src/io/srgb.h"
 
 #ifdef PILEUS_WITH_PNG
 #include <png.h>
@@ -69,6 +70,38 @@ bool write_all(png_structp png, png_infop info, Sink* sink, std::uint32_t width,
     return true;
 }
 
+/// libpng's simple interface, which keeps its jumps to itself; frees what a read has left.
+struct Reader {
+    png_image png;
+    Reader() : png() { png.version = PNG_IMAGE_VERSION; }
+    Reader(const Reader&) = delete;
+    Reader& operator=(const Reader&) = delete;
+    ~Reader() { png_image_free(&png); }
+};
+
+Status not_readable(const std::string& name, const png_image& png) {
+    return Status::bad_input(name + ": PNG file: not readable, " + printable_line(png.message));
+}
+
+Status planes_of(const std::string& name, const Buffer<std::uint8_t>& rgba, bool alpha,
+                 Image& image) {
+    float light[256];
+    for (int code = 0; code < 256; ++code) light[code] = float(linear_of_srgb(code / 255.0));
+    const std::size_t pixels = rgba.size() / 4;
+    const char* const names[4] = {"R", "G", "B", "A"};
+    image.channels.resize(alpha ? 4 : 3);
+    for (std::size_t c = 0; c < image.channels.size(); ++c) {
+        image.channels[c].name = names[c];
+        Buffer<float>& plane = image.channels[c].pixels;
+        PILEUS_TRY(plane.resize(pixels, name.c_str()));
+        for (std::size_t i = 0; i < pixels; ++i) {
+            const float share = float(rgba[4 * i + 3]) / 255.0f;
+            plane[i] = c == 3 ? share : light[rgba[4 * i + c]] * share;
+        }
+    }
+    return Status::ok();
+}
+
 }  // namespace
 
 Status encode_png(int width, int height, Span<const std::uint8_t> rgb, Buffer<char>& bytes) {
@@ -94,9 +127,38 @@ Status encode_png(int width, int height, Span<const std::uint8_t> rgb, Buffer<ch
     bytes.swap(growing);
     return Status::ok();
 }
+
+Status decode_png(const std::string& name, Span<const char> bytes, Image& image,
+                  std::uint64_t most_pixels) {
+    Reader reader;
+    if (png_image_begin_read_from_memory(&reader.png, bytes.data, bytes.size) == 0)
+        return not_readable(name, reader.png);
+    const std::uint64_t width = reader.png.width, height = reader.png.height;
+    PILEUS_TRY(check_image_size(name, std::int64_t(width), std::int64_t(height), most_pixels));
+    // Deflate packs at most 1032 to 1; a bit a pixel is the least that a picture takes.
+    const std::uint64_t rows = width * height / 8;
+    if (rows / 1032 > bytes.size)
+        return Status::bad_input(name + ": size: too large, " + std::to_string(width) + " x " +
+                                 std::to_string(height) + ", allowed: what " +
+                                 std::to_string(bytes.size) + " bytes can hold");
+    const bool alpha = (reader.png.format & PNG_FORMAT_FLAG_ALPHA) != 0;
+    reader.png.format = PNG_FORMAT_RGBA;
+    Buffer<std::uint8_t> rgba;
+    PILEUS_TRY(rgba.resize(width * height * 4, name.c_str()));
+    if (png_image_finish_read(&reader.png, nullptr, rgba.data(), 0, nullptr) == 0)
+        return not_readable(name, reader.png);
+    image.width = int(width);
+    image.height = int(height);
+    image.display_colours = true;
+    return planes_of(name, rgba, alpha, image);
+}
 #else
 Status encode_png(int, int, Span<const std::uint8_t>, Buffer<char>&) {
     return Status::bad_input("PNG file: left out of this build, configure with -DPILEUS_PNG=ON");
+}
+Status decode_png(const std::string& name, Span<const char>, Image&, std::uint64_t) {
+    return Status::bad_input(name +
+                             ": PNG file: left out of this build, configure with -DPILEUS_PNG=ON");
 }
 #endif
 

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/io/image_file.h"
+#include "src/study/flip.h"
 #include "src/study/metrics_pair.h"
 
 namespace pileus {
@@ -203,7 +203,15 @@ Status compare_images(const Image& a, const Image& reference, const MetricOption
     add_errors(pair, epsilon, metrics);
     add_bias_error(pair, metrics);
     add_z(pair, metrics);
-    return add_percentiles(pair, epsilon, metrics);
+    PILEUS_TRY(add_percentiles(pair, epsilon, metrics));
+    if (!options.flip) return Status::ok();
+    FlipOptions view;
+    view.hdr = !(a.display_colours && reference.display_colours);
+    view.threads = options.threads;
+    FlipResult result;
+    PILEUS_TRY(flip(a, reference, view, result));
+    metrics.flip_mean = result.mean;
+    return Status::ok();
 }
 
 Status compare_with_halves(const Image& a, const Image& half1, const Image& half2,

@@ -15,6 +15,8 @@ struct MetricOptions {
     /// Only pixels whose alpha in the reference is above this count; negative: all pixels. A
     /// reference without alpha counts with all pixels.
     double alpha_least = 0.02;
+    bool flip = false;  ///< measure flip_mean too, which takes longer than all the rest
+    int threads = 0;    ///< for FLIP alone; 0: as many as the machine has
 };
 
 constexpr double kNotKnown = std::numeric_limits<double>::quiet_NaN();
@@ -43,8 +45,7 @@ struct Metrics {
     double bias = 0;  ///< mean d
     /// Of bias, pixels independent of each other, the three channels of a pixel wholly dependent.
     double bias_standard_error = kNotKnown;
-    double bias_standard_error_most =
-        kNotKnown;  ///< the same where all pixels err together: its upper bound
+    double bias_standard_error_most = kNotKnown;  ///< where all pixels err together: the most
     double bias_z = kNotKnown, bias_z_least = kNotKnown;  ///< bias over each of them
 
     std::uint64_t z_count = 0;    ///< values d/sqrt(se_a^2 + se_r^2) with a standard error above 0
@@ -52,7 +53,7 @@ struct Metrics {
     double z_above_2 = 0, z_above_3 = 0;  ///< shares of |z| above 2 and 3 (normal: 0.0455, 0.0027)
     double z_square_mean = 0;             ///< mean z^2: 1 where the error bars explain all
 
-    double flip_mean = kNotKnown;  ///< HDR-FLIP over all pixels
+    double flip_mean = kNotKnown;  ///< HDR-FLIP (LDR where both are 8-bit), mean over all pixels
 };
 
 /// Compares `a` with `reference`. Both need R G B (or Y); channels error.R/G/B are their standard

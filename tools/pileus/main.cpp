@@ -24,7 +24,7 @@ Status print(const std::string& text) {
 
 namespace {
 
-constexpr const char* kCommands = "render, plan, follow, hash, info, convert";
+constexpr const char* kCommands = "render, plan, follow, compare, hash, info, convert";
 
 /// Says nothing for Code::kOk without a message.
 int finish(const Status& status) {
@@ -57,11 +57,11 @@ Status check_command(int count, char** words) {
     if (!word.empty() && word[0] == '-')
         return Status::bad_input("pileus: unknown option before the subcommand, " +
                                  quote_text(word) + ", allowed: --help, --version");
-    for (const char* later : {"study", "compare", "view"})
+    for (const char* later : {"study", "view"})
         if (word == later)
             return Status::bad_input("pileus " + word +
                                      ": not in this version, allowed: " + kCommands);
-    for (const char* known : {"render", "plan", "follow", "hash", "info", "convert"})
+    for (const char* known : {"render", "plan", "follow", "compare", "hash", "info", "convert"})
         if (word == known) return Status::ok();
     return Status::bad_input("pileus: unknown subcommand, " + quote_text(word) +
                              ", allowed: " + kCommands);
@@ -92,6 +92,7 @@ int run(int count, char** words) {
     add_render(app, chosen);
     add_plan(app, chosen);
     add_follow(app, chosen);
+    add_compare(app, chosen);
     add_hash(app, chosen);
     add_info(app, chosen);
     add_convert(app, chosen);
