@@ -36,8 +36,8 @@ PILEUS_FN void add_lanes(const TraceParams& k, const TraceBuffers& b, std::uint3
 }
 
 /// The voxel that holds a position in or on the box.
-template <class T, class Grid>
-PILEUS_FN auto voxel_of(const Vec<T>& p, const Grid& k) {
+template <class T>
+PILEUS_FN auto voxel_of(const Vec<T>& p, const TrackGrid& k) {
     using II = I_of<T>;
     const auto clamped = [](T at, std::int32_t n) {
         return min_(max_(to_int(at), II{}), all<II>(n - 1));
@@ -46,8 +46,7 @@ PILEUS_FN auto voxel_of(const Vec<T>& p, const Grid& k) {
            clamped(p.x, k.size[0]);
 }
 
-template <class Grid>
-PILEUS_FN std::int64_t voxels_of(const Grid& k) {
+PILEUS_FN std::int64_t voxels_of(const TrackGrid& k) {
     return std::int64_t(k.size[0]) * k.size[1] * k.size[2];
 }
 
@@ -64,7 +63,7 @@ PILEUS_FN void towards_camera(const TraceParams& k, const TraceBuffers& b, I<W> 
     }
     for (int c = 0; c < NC; ++c) out[c] = T{};
     for_shares(
-        b.parts, voxels_of(k), k.media, density,
+        b.parts, voxels_of(k.grid), k.media, density,
         [&](const float* grid) { return gather(grid, corner); },
         [&](int i, T part) {
             const T p = part * phase_density(k.optics[i].phase, one_minus_cos);
@@ -99,8 +98,8 @@ PILEUS_FN void deposit(const TraceParams& k, const TraceBuffers& b, const Photon
     if (k.mode == kDepositCamera) {
         Vec<T> to{all<T>(k.camera[0]), all<T>(k.camera[1]), all<T>(k.camera[2])};
         if (!k.orthographic)
-            to = normalized(Vec<T>{to.x - s.p.x * k.cell[0], to.y - s.p.y * k.cell[1],
-                                   to.z - s.p.z * k.cell[2]});
+            to = normalized(Vec<T>{to.x - s.p.x * k.grid.cell[0], to.y - s.p.y * k.grid.cell[1],
+                                   to.z - s.p.z * k.grid.cell[2]});
         T p[NC];
         towards_camera<W, NC>(k, b, corner, density, one_minus_cosine(d, to), p);
         for (int c = 0; c < NC; ++c) {

@@ -68,15 +68,18 @@ PILEUS_FN void bounce(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally,
     if (!any(kept)) return;
 
     // Follow the reflected ray to the box: the farthest entry must lie before the nearest exit.
-    const Vec<T> d{up.a, up.b, max_(up.normal, all<T>(1e-6f))};
+    const Vec<T> d{up.a, up.b, max_(up.normal, all<T>(k.grid.periodic != 0 ? kLeastSlope : 1e-6f))};
     const Vec<T> inverse{safe_inverse(d.x), safe_inverse(d.y), safe_inverse(d.z)};
-    const float ex = float(k.size[0]) * k.cell[0], ey = float(k.size[1]) * k.cell[1],
-                ez = float(k.size[2]) * k.cell[2];
+    const float ex = float(k.grid.size[0]) * k.grid.cell[0],
+                ey = float(k.grid.size[1]) * k.grid.cell[1],
+                ez = float(k.grid.size[2]) * k.grid.cell[2];
     const T ax = (T{} - s.ground_x) * inverse.x, bx = (ex - s.ground_x) * inverse.x;
     const T ay = (T{} - s.ground_y) * inverse.y, by = (ey - s.ground_y) * inverse.y;
     const T enter_z = (0.0f - k.ground_z) * inverse.z, leave_z = (ez - k.ground_z) * inverse.z;
-    const T enter = max_(max_(min_(ax, bx), min_(ay, by)), enter_z);
-    const T leave = min_(min_(max_(ax, bx), max_(ay, by)), leave_z);
+    // A periodic medium is met by every ray, at its lower face.
+    const bool wraps = k.grid.periodic != 0;
+    const T enter = wraps ? enter_z : max_(max_(min_(ax, bx), min_(ay, by)), enter_z);
+    const T leave = wraps ? leave_z : min_(min_(max_(ax, bx), max_(ay, by)), leave_z);
     const auto hit = kept & (enter < leave);
     const auto gone = kept & lnot(hit);
     if (any(gone)) {
@@ -84,30 +87,39 @@ PILEUS_FN void bounce(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally,
         s.alive = s.alive & lnot(gone);
     }
     if (!any(hit)) return;
-    const auto inside = [](T metres, float cell, std::int32_t n) {
-        return min_(max_(metres * (1.0f / cell), T{}), all<T>(float(n)));
+    const auto inside = [&](T metres, float cell, std::int32_t n) {
+        const T place = wraps ? wrap_place(metres, float(n) * cell) : metres;
+        return min_(max_(place * (1.0f / cell), T{}), all<T>(float(n)));
     };
-    set_direction(s, k, hit, d);
-    set_position(s, k, hit,
-                 Vec<T>{inside(s.ground_x + d.x * enter, k.cell[0], k.size[0]),
-                        inside(s.ground_y + d.y * enter, k.cell[1], k.size[1]),
-                        inside(k.ground_z + d.z * enter, k.cell[2], k.size[2])});
+    set_direction(s, k.grid, hit, d);
+    set_position(s, k.grid, hit,
+                 Vec<T>{inside(s.ground_x + d.x * enter, k.grid.cell[0], k.grid.size[0]),
+                        inside(s.ground_y + d.y * enter, k.grid.cell[1], k.grid.size[1]),
+                        min_(max_((k.ground_z + d.z * enter) * (1.0f / k.grid.cell[2]), T{}),
+                             all<T>(float(k.grid.size[2])))});
     s.tau = select(hit, free_flight(first.b, first.a), s.tau);
+}
+
+/// Where the straight ray of a lane that travels down meets the ground: metres along `axis`.
+template <int W, int NC>
+PILEUS_FN F<W> ground_place(const Photon<W, NC>& s, const TraceParams& k, int axis) {
+    const F<W> t = (s.p.z * k.grid.cell[2] - k.ground_z) * (F<W>{} - safe_inverse(s.d.z));
+    const float cell = k.grid.cell[axis];
+    const F<W> place = axis == 0 ? s.p.x * cell + s.d.x * t : s.p.y * cell + s.d.y * t;
+    return k.grid.periodic != 0 ? wrap_place(place, float(k.grid.size[axis]) * cell) : place;
 }
 
 /// Lanes of `m` have left the box: tally them, or send them to the ground.
 template <int W, int NC>
 PILEUS_FN void leave_box(Photon<W, NC>& s, const TraceParams& k, const TraceBuffers& b, M<W> m,
                          M<W> by_z) {
-    using T = F<W>;
     TraceTally& tally = *b.tally;
     auto down = m & lnot(m);
     if (k.ground != 0) {
         // Unscattered light is part of the unshadowed ground's radiance already.
         down = m & (s.d.z < 0.0f) & (s.order > 0);
-        const T t = (s.p.z * k.cell[2] - k.ground_z) * (T{} - safe_inverse(s.d.z));
-        s.ground_x = select(down, s.p.x * k.cell[0] + s.d.x * t, s.ground_x);
-        s.ground_y = select(down, s.p.y * k.cell[1] + s.d.y * t, s.ground_y);
+        s.ground_x = select(down, ground_place(s, k, 0), s.ground_x);
+        s.ground_y = select(down, ground_place(s, k, 1), s.ground_y);
     }
     const auto out = m & lnot(down);
     if (any(out)) {
@@ -135,9 +147,8 @@ PILEUS_FN void scatter(Photon<W, NC>& s, const TraceParams& k, const TraceBuffer
     if (k.ground != 0) {
         // Straight down-going light that the ground will miss: remember where.
         const auto owing = m & (s.order == 0) & (s.d.z < 0.0f) & lnot(s.shadow);
-        const T t = (s.p.z * k.cell[2] - k.ground_z) * (T{} - safe_inverse(s.d.z));
-        s.owed_x = select(owing, s.p.x * k.cell[0] + s.d.x * t, s.owed_x);
-        s.owed_y = select(owing, s.p.y * k.cell[1] + s.d.y * t, s.owed_y);
+        s.owed_x = select(owing, ground_place(s, k, 0), s.owed_x);
+        s.owed_y = select(owing, ground_place(s, k, 1), s.owed_y);
         s.owes = s.owes | owing;
     }
     // White media absorb nothing: do not ask.
@@ -183,7 +194,8 @@ PILEUS_FN void scatter(Photon<W, NC>& s, const TraceParams& k, const TraceBuffer
         turn.sine = select(mine, other.sine, turn.sine);
     }
     const SinCos<T> phi = sincos_turns(uniform(w.b));
-    set_direction(s, k, m, turned(s.d, 1.0f - turn.one_minus_cos, turn.sine, phi.cosine, phi.sine));
+    set_direction(s, k.grid, m,
+                  turned(s.d, 1.0f - turn.one_minus_cos, turn.sine, phi.cosine, phi.sine));
 }
 
 /// Groups of lanes in flight: one leaves them waiting for memory (1.8 times the time on a cloud of
@@ -202,13 +214,13 @@ struct Group {
 
 /// Ask for the memory that the lanes of `m` will read, so that it comes while others compute.
 template <int W>
-PILEUS_FN void fetch_ahead(const TraceBuffers& b, std::uint32_t m, I<W> corner, I<W> voxel,
-                           const float* parts, bool collectors) {
+PILEUS_FN void fetch_ahead(const float* density, const std::int32_t* collectors, std::uint32_t m,
+                           I<W> corner, I<W> voxel, const float* parts) {
     for (; m != 0; m &= m - 1) {
         const int i = __builtin_ctz(m);
-        __builtin_prefetch(b.density + lane(corner, i));
+        __builtin_prefetch(density + lane(corner, i));
         if (parts != nullptr) __builtin_prefetch(parts + lane(corner, i));
-        if (collectors) __builtin_prefetch(b.collector + lane(voxel, i));
+        if (collectors != nullptr) __builtin_prefetch(collectors + lane(voxel, i));
     }
 }
 
@@ -217,13 +229,13 @@ template <int W, int NC>
 PILEUS_FN void advance(Group<W, NC>& g, const TraceParams& k, const TraceBuffers& b) {
     Photon<W, NC>& s = g.s;
     g.before = s.alive;
-    const Stride<W> m = stride(s, k, b.majorant, s.alive);
+    const Stride<W> m = stride(s, k.grid, k.grid.majorant, s.alive);
     g.hits = m.hits;
     g.bound = m.bound;
     s.path = s.path + select(s.alive, m.metres, F<W>{});
     if (any(m.hops)) {
         b.tally->crossings += count_bits(bits_of(m.hops));
-        const Crossing<W> c = cross(s, k, m);
+        const Crossing<W> c = cross(s, k.grid, m);
         if (any(c.out)) leave_box(s, k, b, c.out, c.by_z);
     }
     if (!any(m.hits)) return;
@@ -231,11 +243,11 @@ PILEUS_FN void advance(Group<W, NC>& g, const TraceParams& k, const TraceBuffers
     s.event = select(m.hits, s.event + 1u, s.event);
     const Words<U<W>> w = threefry(k.key.k0, k.key.k1, s.index + k.first_photon, s.event * 4u + 1u);
     // One look-up stands for eight: acceptance is linear in density.
-    g.corner = select(m.hits, corner_voxel(s.p, w.a, k), I<W>{});
-    g.voxel = select(m.hits, voxel_of(s.p, k), I<W>{});
+    g.corner = select(m.hits, corner_voxel(s.p, w.a, k.grid), I<W>{});
+    g.voxel = select(m.hits, voxel_of(s.p, k.grid), I<W>{});
     g.spare = w.b;
-    fetch_ahead<W>(b, bits_of(m.hits), g.corner, g.voxel, k.media > 1 ? b.parts : nullptr,
-                   k.mode != kDepositNone);
+    fetch_ahead<W>(k.grid.density, k.mode != kDepositNone ? b.collector : nullptr, bits_of(m.hits),
+                   g.corner, g.voxel, k.media > 1 ? b.parts : nullptr);
 }
 
 /// Tentative collisions in the lanes that have come to one.
@@ -244,7 +256,7 @@ PILEUS_FN void collide(Group<W, NC>& g, const TraceParams& k, const TraceBuffers
     using T = F<W>;
     Photon<W, NC>& s = g.s;
     const Words<U<W>> flight = threefry(k.key.k0, k.key.k1, s.index + k.first_photon, s.event * 4u);
-    const T density = gather(b.density, g.corner);
+    const T density = gather(k.grid.density, g.corner);
     const auto over = g.hits & (density > g.bound);
     if (any(over)) b.tally->majorant_violations += count_bits(bits_of(over));
 
@@ -256,14 +268,15 @@ PILEUS_FN void collide(Group<W, NC>& g, const TraceParams& k, const TraceBuffers
     const auto real = medium & (level < density);
     if (any(real)) {
         // Below the density the level is uniform still: it falls to each medium by its share.
-        const I<W> whose =
-            k.media > 1 ? medium_under(b.parts, voxels_of(k), k.media, g.corner, level) : I<W>{};
+        const I<W> whose = k.media > 1
+                               ? medium_under(b.parts, voxels_of(k.grid), k.media, g.corner, level)
+                               : I<W>{};
         scatter(s, k, b, real, g.spare, whose);
         if (k.mode == kDepositOutgoing)
             deposit(k, b, s, real & s.alive, g.voxel, all<T>(1.0f), g.corner, density);
     }
 
-    const auto tired = g.hits & s.alive & (s.event >= k.max_events);
+    const auto tired = g.hits & s.alive & (s.event >= k.grid.max_events);
     if (any(tired)) {
         PILEUS_FATE(s, *b.tally, terminated, tired);
         s.alive = s.alive & lnot(tired);

@@ -6,6 +6,7 @@
 #include "kernels_cpu/optics.h"
 #include "kernels_cpu/rng.h"
 #include "kernels_cpu/sky_map.h"
+#include "kernels_cpu/track_grid.h"
 
 namespace pileus {
 
@@ -19,13 +20,9 @@ enum DepositMode : std::int32_t {
 enum LightKind : std::int32_t { kLightBeam = 0, kLightDiffuse = 1, kLightMap = 2 };
 
 struct TraceParams {
-    std::int32_t size[3];    ///< voxels
-    float cell[3];           ///< voxel edges, m
-    std::int32_t blocks[3];  ///< majorant blocks
-    float block;             ///< block edge, voxels
-    float sigma;             ///< extinction at density 1, 1/m
-    std::int32_t channels;   ///< 1 (achromatic media) or 3
-    std::int32_t media;      ///< on the grid, 1..kMostMedia
+    TrackGrid grid;         ///< its max_events counts tentative collisions and bounces
+    std::int32_t channels;  ///< 1 (achromatic media) or 3
+    std::int32_t media;     ///< on the grid, 1..kMostMedia
     Optics optics[kMostMedia];
 
     std::int32_t light;          ///< LightKind
@@ -52,7 +49,6 @@ struct TraceParams {
     float path_scale;           ///< quanta per metre of path
     float camera[3];            ///< position, or unit direction towards it when orthographic
     std::int32_t orthographic;
-    std::uint32_t max_events;  ///< tentative collisions and bounces before termination
 };
 
 /// Steps of the R2 sequence in units of 2^-32 (Roberts 2018): photon i starts at i * kR2 + shift.
@@ -76,8 +72,6 @@ struct TraceTally {
 };
 
 struct TraceBuffers {
-    const float* density;           ///< voxels, x fastest
-    const float* majorant;          ///< blocks, bound on the density over the trilinear footprint
     const std::int32_t* collector;  ///< per voxel, -1 where none
     std::int64_t* sums;             ///< collectors * channels * coefficients, this thread's own
     std::int64_t* ground;           ///< ground cells * channels, scaled like the sums, its own too

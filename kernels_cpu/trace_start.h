@@ -62,8 +62,8 @@ PILEUS_FN Start<F<W>> start_on_faces(const TraceParams& k, U<W> index) {
 
     const I<W> axis = face >> 1;
     const auto on_x = axis == 0, on_y = axis == 1, high = (face & 1) != 0;
-    const T nx = all<T>(float(k.size[0])), ny = all<T>(float(k.size[1])),
-            nz = all<T>(float(k.size[2]));
+    const T nx = all<T>(float(k.grid.size[0])), ny = all<T>(float(k.grid.size[1])),
+            nz = all<T>(float(k.grid.size[2]));
     const T zero{};
     const Vec<T> p{select(on_x, select(high, nx, zero), u * nx),
                    select(on_y, select(high, ny, zero), select(on_x, u * ny, v * ny)),
@@ -87,9 +87,11 @@ template <int W>
 PILEUS_FN Start<F<W>> start_from_map(const TraceParams& k, U<W> index, I<W>& texel, M<W> m) {
     using T = F<W>;
     const U<W> number = index + k.first_photon;
-    const float edge[3] = {float(k.size[0]) * k.cell[0], float(k.size[1]) * k.cell[1],
-                           float(k.size[2]) * k.cell[2]};
-    const float face[3] = {edge[1] * edge[2], edge[2] * edge[0], edge[0] * edge[1]};
+    const float edge[3] = {float(k.grid.size[0]) * k.grid.cell[0],
+                           float(k.grid.size[1]) * k.grid.cell[1],
+                           float(k.grid.size[2]) * k.grid.cell[2]};
+    const float sides = k.grid.periodic != 0 ? 0.0f : edge[2];
+    const float face[3] = {edge[1] * sides, sides * edge[0], edge[0] * edge[1]};
     const MapDraw<T> draw = draw_from_map<T>(
         k.map, face, k.key, number, index * kR2[0] + k.shift[0], index * kR2[1] + k.shift[1], m);
     texel = select(m, draw.texel, texel);
@@ -108,11 +110,11 @@ PILEUS_FN Start<F<W>> start_from_map(const TraceParams& k, U<W> index, I<W>& tex
     const auto entry = [](T along, std::int32_t n) {
         return select(along < 0.0f, all<T>(float(n)), T{});
     };
-    const T nx = all<T>(float(k.size[0])), ny = all<T>(float(k.size[1])),
-            nz = all<T>(float(k.size[2]));
-    return {{select(on_x, entry(d.x, k.size[0]), u * nx),
-             select(on_y, entry(d.y, k.size[1]), select(on_x, u * ny, v * ny)),
-             select(on_x | on_y, v * nz, entry(d.z, k.size[2]))},
+    const T nx = all<T>(float(k.grid.size[0])), ny = all<T>(float(k.grid.size[1])),
+            nz = all<T>(float(k.grid.size[2]));
+    return {{select(on_x, entry(d.x, k.grid.size[0]), u * nx),
+             select(on_y, entry(d.y, k.grid.size[1]), select(on_x, u * ny, v * ny)),
+             select(on_x | on_y, v * nz, entry(d.z, k.grid.size[2]))},
             d};
 }
 
@@ -131,8 +133,8 @@ PILEUS_FN void start_photons(Photon<W, NC>& s, const TraceParams& k, M<W> m) {
     const U<W> number = s.index + k.first_photon;
     const Start<T> start = k.light == kLightMap ? start_from_map<W>(k, s.index, s.texel, m)
                                                 : start_on_faces<W>(k, s.index);
-    set_position(s, k, m, start.p);
-    set_direction(s, k, m, start.d);
+    set_position(s, k.grid, m, start.p);
+    set_direction(s, k.grid, m, start.d);
 
     const Words<U<W>> w = threefry(k.key.k0, k.key.k1, number, all<U<W>>(1u));
     s.tau = select(m, free_flight(w.a, w.b), s.tau);

@@ -13,6 +13,7 @@ struct TrackGrid {
     std::int32_t blocks[3];    ///< majorant blocks
     float block;               ///< block edge, voxels
     float sigma;               ///< extinction at density 1, 1/m
+    std::int32_t periodic;     ///< 1: the grid repeats without end along x and y
     std::uint32_t max_events;  ///< draws per ray before it is given up
     const float* density;      ///< voxels, x fastest, >= 0
     const float* majorant;     ///< blocks, bound on the density over the trilinear footprint

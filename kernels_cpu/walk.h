@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // Steps along rays from block to block of a majorant grid, shared by all trackers.
 // in: positions, directions, optical depths to go -> out: the next tentative collision or border.
-// docs/methods.md 2, delta tracking; the walk stands on each plane it crosses: none is met twice.
+// docs/methods.md 2, delta tracking and "Periodic media"; the walk stands on each plane it crosses:
+// none is met twice.
 #pragma once
 #include "kernels_cpu/math.h"
 #include "kernels_cpu/rng.h"
+#include "kernels_cpu/track_grid.h"
 #include "kernels_cpu/vec.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
 
-/// A point under way in the grid. Every `Grid` below has the members size, cell, blocks, block and
-/// sigma of TraceParams and TrackGrid.
+/// A point under way in the grid.
 template <int W>
 struct Walker {
     Vec<F<W>> p, d, inverse;  // voxels; unit; metres per voxel plane along each axis
+    F<W> lift;                // what rounding took from p.z, voxels; periodic grids only
     F<W> tau;                 // optical depth to go
     I<W> block_x, block_y, block_z;
 };
@@ -25,8 +27,13 @@ PILEUS_FN T safe_inverse(T d) {
     return 1.0f / copysign_(max_(abs_(d), all<T>(1e-18f)), d);
 }
 
-template <int W, class Grid>
-PILEUS_FN void set_direction(Walker<W>& s, const Grid& k, M<W> m, Vec<F<W>> d) {
+/// Least |d.z| in a periodic grid, 0.0009 degrees: a level ray would fly on for ever through empty
+/// air, so that it is tilted by this much. It leaves a layer within 65536 times its height.
+constexpr float kLeastSlope = 0x1p-16f;
+
+template <int W>
+PILEUS_FN void set_direction(Walker<W>& s, const TrackGrid& k, M<W> m, Vec<F<W>> d) {
+    if (k.periodic != 0) d.z = copysign_(max_(abs_(d.z), all<F<W>>(kLeastSlope)), d.z);
     s.d.x = select(m, d.x, s.d.x);
     s.d.y = select(m, d.y, s.d.y);
     s.d.z = select(m, d.z, s.d.z);
@@ -36,15 +43,16 @@ PILEUS_FN void set_direction(Walker<W>& s, const Grid& k, M<W> m, Vec<F<W>> d) {
 }
 
 /// Block of a position that lies on or in the box.
-template <class T, class Grid>
-PILEUS_FN auto block_of(T p, const Grid& k, int axis) {
+template <class T>
+PILEUS_FN auto block_of(T p, const TrackGrid& k, int axis) {
     const auto i = to_int(p * (1.0f / k.block));
     const auto last = all<I_of<T>>(k.blocks[axis] - 1);
     return min_(max_(i, I_of<T>{}), last);
 }
 
-template <int W, class Grid>
-PILEUS_FN void set_position(Walker<W>& s, const Grid& k, M<W> m, Vec<F<W>> p) {
+template <int W>
+PILEUS_FN void set_position(Walker<W>& s, const TrackGrid& k, M<W> m, Vec<F<W>> p) {
+    s.lift = select(m, F<W>{}, s.lift);
     s.p.x = select(m, p.x, s.p.x);
     s.p.y = select(m, p.y, s.p.y);
     s.p.z = select(m, p.z, s.p.z);
@@ -72,17 +80,30 @@ PILEUS_FN auto free_flight(UU word, UU more) {
 
 /// Index of one of the eight voxels around `p`, drawn with its trilinear weight: to 11 bits in x
 /// and y, 10 in z, rounded without a systematic error; the bits of one word serve once.
-template <class T, class UU, class Grid>
-PILEUS_FN auto corner_voxel(const Vec<T>& p, UU bits, const Grid& k) {
+template <class T, class UU>
+PILEUS_FN auto corner_voxel(const Vec<T>& p, UU bits, const TrackGrid& k) {
     using II = I_of<T>;
-    const auto draw = [](T at, UU word, float step, std::int32_t n) {
+    const auto draw = [](T at, UU word, float step, std::int32_t n, bool wraps) {
         const T jitter = to_float(reinterpret<II>(word)) * step + (0.5f * step - 0.5f);
-        return min_(max_(floor_int(at + jitter), II{}), all<II>(n - 1));
+        const II i = floor_int(at + jitter), last = all<II>(n - 1);
+        // Beyond the first voxel lies the last one of the period before, and the other way round.
+        if (wraps) return select(i < 0, last, select(i > last, II{}, i));
+        return min_(max_(i, II{}), last);
     };
-    const II x = draw(p.x, bits & 0x7ffu, 0x1p-11f, k.size[0]);
-    const II y = draw(p.y, (bits >> 11) & 0x7ffu, 0x1p-11f, k.size[1]);
-    const II z = draw(p.z, (bits >> 22), 0x1p-10f, k.size[2]);
+    const bool wraps = k.periodic != 0;
+    const II x = draw(p.x, bits & 0x7ffu, 0x1p-11f, k.size[0], wraps);
+    const II y = draw(p.y, (bits >> 11) & 0x7ffu, 0x1p-11f, k.size[1], wraps);
+    const II z = draw(p.z, (bits >> 22), 0x1p-10f, k.size[2], false);
     return (z * k.size[1] + y) * k.size[0] + x;
+}
+
+/// Place within one period of `length`. What lies 2^22 periods away or farther has no place that a
+/// float could tell: it counts as one of the ends.
+template <class T>
+PILEUS_FN T wrap_place(T at, float length) {
+    const T most = all<T>(0x1p22f);
+    const T periods = min_(max_(at * (1.0f / length), T{} - most), most);
+    return min_(max_(at - to_float(floor_int(periods)) * length, T{}), all<T>(length));
 }
 
 /// What one stride met: a tentative collision (hits) or the border of the block (hops).
@@ -96,8 +117,8 @@ struct Stride {
 };
 
 /// Move the lanes of `active` to their next tentative collision or to the border of their block.
-template <int W, class Grid>
-PILEUS_FN Stride<W> stride(Walker<W>& s, const Grid& k, const float* majorant, M<W> active) {
+template <int W>
+PILEUS_FN Stride<W> stride(Walker<W>& s, const TrackGrid& k, const float* majorant, M<W> active) {
     using T = F<W>;
     Stride<W> m;
     const I<W> block = (s.block_z * k.blocks[1] + s.block_y) * k.blocks[0] + s.block_x;
@@ -121,7 +142,15 @@ PILEUS_FN Stride<W> stride(Walker<W>& s, const Grid& k, const float* majorant, M
 
     s.p.x = select(active, s.p.x + s.d.x * m.metres * (1.0f / k.cell[0]), s.p.x);
     s.p.y = select(active, s.p.y + s.d.y * m.metres * (1.0f / k.cell[1]), s.p.y);
-    s.p.z = select(active, s.p.z + s.d.z * m.metres * (1.0f / k.cell[2]), s.p.z);
+    const T rise = s.d.z * m.metres * (1.0f / k.cell[2]);
+    if (k.periodic != 0) {
+        // A grazing ray makes many short strides: carry what rounding takes of its climb.
+        const T climb = rise + s.lift, z = s.p.z + climb;
+        s.lift = select(active, climb - (z - s.p.z), s.lift);
+        s.p.z = select(active, z, s.p.z);
+    } else {
+        s.p.z = select(active, s.p.z + rise, s.p.z);
+    }
     return m;
 }
 
@@ -131,9 +160,18 @@ struct Crossing {
     M<W> out, by_z;
 };
 
-/// Put the lanes that hop into the next block, exactly on the plane they cross.
-template <int W, class Grid>
-PILEUS_FN Crossing<W> cross(Walker<W>& s, const Grid& k, const Stride<W>& m) {
+/// Lanes that left the grid along one axis of a periodic one enter it again on the far face.
+template <int W>
+PILEUS_FN void wrap(I<W>& block, F<W>& p, std::int32_t blocks, std::int32_t size) {
+    const M<W> below = block < 0, above = block >= blocks;
+    p = select(below, all<F<W>>(float(size)), select(above, F<W>{}, p));
+    block = select(below, all<I<W>>(blocks - 1), select(above, I<W>{}, block));
+}
+
+/// Put the lanes that hop into the next block, exactly on the plane they cross. A periodic grid is
+/// left through its top and bottom only.
+template <int W>
+PILEUS_FN Crossing<W> cross(Walker<W>& s, const TrackGrid& k, const Stride<W>& m) {
     using T = F<W>;
     s.tau = select(m.hops, max_(s.tau - m.sigma_t * m.border, T{}), s.tau);
     const M<W> by_x = m.hops & (m.tx <= m.border);
@@ -148,6 +186,11 @@ PILEUS_FN Crossing<W> cross(Walker<W>& s, const Grid& k, const Stride<W>& m) {
     s.block_x = turn(s.block_x, by_x, s.inverse.x);
     s.block_y = turn(s.block_y, by_y, s.inverse.y);
     s.block_z = turn(s.block_z, by_z, s.inverse.z);
+    if (k.periodic != 0) {
+        s.lift = select(by_z, T{}, s.lift);
+        wrap<W>(s.block_x, s.p.x, k.blocks[0], k.size[0]);
+        wrap<W>(s.block_y, s.p.y, k.blocks[1], k.size[1]);
+    }
     const auto outside = [](I<W> i, std::int32_t n) { return (i < 0) | (i >= n); };
     const M<W> out = m.hops & (outside(s.block_x, k.blocks[0]) | outside(s.block_y, k.blocks[1]) |
                                outside(s.block_z, k.blocks[2]));

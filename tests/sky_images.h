@@ -43,13 +43,13 @@ inline Image rough_sky(int width, int height, bool coloured) {
 }
 
 inline SkyMap sky_map_of(const Image& image, bool ground, const double (&extent_m)[3],
-                         double rotation_deg = 0, double scale = 1) {
+                         double rotation_deg = 0, double scale = 1, bool periodic = false) {
     SkyMap map;
     Sky sky;
     sky.map_scale = scale;
     sky.map_rotation_deg = rotation_deg;
     REQUIRE(make_sky_map("sky", image, sky, ground, map));
-    REQUIRE(aim_sky_map(extent_m, map));
+    REQUIRE(aim_sky_map(extent_m, periodic, map));
     return map;
 }
 

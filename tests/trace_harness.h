@@ -159,7 +159,7 @@ inline Mean share_mean(std::int64_t fate, const TraceTally& t) {
 inline double mean_path(const Rig& rig, const TraceTally& t) {
     double square = 0;
     for (double e : rig.medium.extent_m) square += e * e;
-    return double(t.path) * std::sqrt(square) / 1048576.0 / double(t.photons);
+    return double(t.path) * std::sqrt(square) / path_units(rig.medium) / double(t.photons);
 }
 /// 4 V / S of the box: the mean path of light that enters it diffusely.
 inline double mean_chord(const Rig& rig) {
@@ -200,15 +200,11 @@ inline TraceParams plain_params(const Rig& rig, const Light& light, Key key) {
     const Medium& m = rig.medium;
     TraceParams k{};
     double square = 0;
+    k.grid = track_grid(m, rig.majorants.span(), rig.block, rig.max_events);
     for (int a = 0; a < 3; ++a) {
-        k.size[a] = m.grid.size[a];
-        k.cell[a] = m.grid.cell_m[a];
-        k.blocks[a] = (k.size[a] - 1) / rig.block + 1;
         k.direction[a] = light.travel[std::size_t(a)];
         square += m.extent_m[a] * m.extent_m[a];
     }
-    k.block = float(rig.block);
-    k.sigma = m.sigma;
     k.channels = m.channels;
     k.media = m.count;
     for (std::size_t i = 0; i < m.optics.size(); ++i) k.optics[i] = m.optics[i];
@@ -217,8 +213,7 @@ inline TraceParams plain_params(const Rig& rig, const Light& light, Key key) {
     for (std::size_t f = 0; f < 6; ++f) k.face_cdf[f] = light.face_cdf[f];
     k.key = key;
     k.mode = kDepositNone;
-    k.path_scale = float(1048576.0 / std::sqrt(square));
-    k.max_events = rig.max_events;
+    k.path_scale = float(path_units(m) / std::sqrt(square));
     return k;
 }
 

@@ -134,7 +134,7 @@ Status read_map(const Scene& scene, const Context& context, CollectorsRun& run) 
 /// as its photons differ in colour.
 Status aim_map(CollectorsRun& run) {
     if (!run.sky_map.present()) return Status::ok();
-    PILEUS_TRY(aim_sky_map(run.medium.extent_m, run.sky_map));
+    PILEUS_TRY(aim_sky_map(run.medium.extent_m, run.medium.grid.periodic, run.sky_map));
     if (run.sky_map.view.planes == 3 && run.medium.channels == 1) {
         run.medium.channels = 3;
         run.plan.need("coefficients per colour channel: coloured sky map");

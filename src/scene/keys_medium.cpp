@@ -98,8 +98,10 @@ const KeyRow kRows[] = {
     later_key("medium.N.phase.file", "a measured phase function"),
     later_key("medium.N.phase.effective_radius_um", "radius of the droplets"),
 
-    choice_key(KeyKind::kText, "medium.N.boundary", "\"open\"", "open", "periodic",
-               "what lies beside the box", nullptr),
+    choice_key(KeyKind::kText, "medium.N.boundary", "\"open\"", "open|periodic", nullptr,
+               "what lies beside the box: nothing, or the same again without end along x and y; "
+               "periodic for all media of a scene, with one box in x and y, or for none",
+               [](const Node& n, KeyTarget t) { t.medium.periodic = n.text == "periodic"; }),
     plain_key(KeyKind::kBool, "medium.N.y_up", "false",
               "true: the file's y axis points up; files only",
               [](const Node& n, KeyTarget t) { t.medium.y_up = n.flag; }),

@@ -67,6 +67,7 @@ struct MediumSettings {
     double extinction_scale = 1;             ///< for files that hold extinction; >= 0
     Float3 albedo{1, 1, 1};
     PhaseSettings phase;
+    bool periodic = false;  ///< boundary = "periodic": repeats without end along x and y
     bool y_up = false;
 };
 

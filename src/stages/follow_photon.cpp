@@ -25,7 +25,7 @@ PathPoint point_of(const Photon<1, NC>& s, const TraceParams& k, PathEvent event
     p.event = event;
     const float at[3] = {s.p.x, s.p.y, s.p.z}, d[3] = {s.d.x, s.d.y, s.d.z};
     for (int a = 0; a < 3; ++a) {
-        p.at_m[a] = at[a] * k.cell[a];
+        p.at_m[a] = at[a] * k.grid.cell[a];
         p.direction[a] = d[a];
     }
     p.path_m = s.path;
@@ -82,8 +82,6 @@ void follow_photon(const TraceInput& in, const Light& light, std::uint32_t numbe
     k.mode = kDepositNone;
     k.ground_cells[0] = k.ground_cells[1] = 0;
     TraceBuffers b{};
-    b.density = in.medium->volume.density.data();
-    b.majorant = in.majorants.data;
     b.parts = in.medium->parts.data();
     if (k.channels == 1)
         follow<1>(k, b, number, most, path);

@@ -16,8 +16,9 @@ double strength(const std::array<double, 3>& c) {
     return magnitude(c[0]) + magnitude(c[1]) + magnitude(c[2]);
 }
 
-/// Area of one face across `axis`.
+/// Area of one face across `axis` through which light enters: none beside a periodic medium.
 double face_area(const Medium& m, int axis) {
+    if (m.grid.periodic && axis < 2) return 0;
     return m.extent_m[(axis + 1) % 3] * m.extent_m[(axis + 2) % 3];
 }
 
@@ -41,7 +42,8 @@ std::array<double, 3> sun_direction(const Scene& scene, double elevation_deg) {
     return {az.sine * el.cosine, az.cosine * el.cosine, el.sine};
 }
 
-void plan_sun(const Scene& scene, double elevation_deg, Plan& plan, Lighting& out) {
+void plan_sun(const Scene& scene, const Medium& medium, double elevation_deg, Plan& plan,
+              Lighting& out) {
     const std::array<double, 3> to_sun = sun_direction(scene, elevation_deg);
     for (std::size_t c = 0; c < 3; ++c) {
         out.to_sun[c] = float(to_sun[c]);
@@ -51,6 +53,10 @@ void plan_sun(const Scene& scene, double elevation_deg, Plan& plan, Lighting& ou
     if (out.sunlit && scene.ground.present && to_sun[2] <= 0) {
         out.sunlit = false;
         plan.leave_out("sun", "below the ground's horizon");
+    }
+    if (out.sunlit && medium.grid.periodic && to_sun[2] == 0) {
+        out.sunlit = false;
+        plan.leave_out("sun", "exactly at the horizon of a periodic medium: it meets no face");
     }
     if (!out.sunlit) out.sun_irradiance = {};
 }
@@ -139,10 +145,11 @@ Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elev
     const bool dark = medium.sigma <= 0 || medium.density_max <= 0;
     if (mapped) out.map = map->view;
     if (scene.sky.present && !mapped) plan.leave_out("sky map", "constant sky");
-    plan_sun(scene, sun_elevation_deg, plan, out);
+    plan_sun(scene, medium, sun_elevation_deg, plan, out);
     for (std::size_t c = 0; c < 3; ++c)
         if (scene.sky.present && !mapped) out.sky[c] = double(scene.sky.radiance[c]);
     plan_ground(scene, medium, mapped ? map : nullptr, sun_elevation_deg, plan, out);
+    if (medium.grid.periodic) plan.leave_out("side faces", "periodic medium: it has none");
     if (dark) {
         plan.leave_out("photons", "no medium to scatter them");
         return out;

@@ -62,6 +62,7 @@ Status place_medium(const Scene& scene, const MediumSettings& settings, const Vo
                                  "\" does not know its place");
     const auto& bounds = settings.has_bounds ? settings.bounds_m : head.bounds_m;
     out.low_m = bounds[0];
+    out.grid.periodic = settings.periodic;
     for (std::size_t a = 0; a < 3; ++a) {
         out.extent_m[a] = bounds[1][a] - bounds[0][a];
         out.grid.size[a] = head.size[a];

@@ -8,6 +8,7 @@
 
 #include "platform/threads.h"
 #include "src/io/volume_file.h"
+#include "src/scene/toml_tree.h"
 #include "src/stages/mix_weights.h"
 #include "src/stages/prepare_collectors.h"
 
@@ -133,6 +134,7 @@ void join_media(const std::vector<Medium>& media, const MixBox& box, Medium& out
     out = Medium{};
     out.low_m = box.low_m;
     out.volume.size = box.size;
+    out.grid.periodic = media[0].grid.periodic;
     for (std::size_t a = 0; a < 3; ++a) {
         out.extent_m[a] = box.extent_m[a];
         out.grid.size[a] = box.size[a];
@@ -268,6 +270,33 @@ struct MediaList {
     }
 };
 
+/// Periodic media share one period and one place of it in x and y; open ones stay among themselves.
+Status check_periods(const Scene& scene, const MediaList& list) {
+    const auto line = [&](std::size_t i, const std::string& rest) {
+        return Status::bad_input(scene.file + ": medium." + std::to_string(list.names[i]) + rest);
+    };
+    for (std::size_t i = 1; i < list.media.size(); ++i) {
+        const std::string first = " medium." + std::to_string(list.names[0]) + " has";
+        const bool periodic = list.media[0].grid.periodic;
+        if (list.media[i].grid.periodic != periodic)
+            return line(i, std::string(".boundary: differs, \"") +
+                               (periodic ? "open" : "periodic") + "\", allowed: what" + first);
+        for (std::size_t a = 0; periodic && a < 2; ++a) {
+            const MixBox &one = list.boxes[0], &other = list.boxes[i];
+            const double most = 1e-9 * one.extent_m[a];
+            if (!(__builtin_fabs(other.low_m[a] - one.low_m[a]) <= most) ||
+                !(__builtin_fabs(other.extent_m[a] - one.extent_m[a]) <= most))
+                return line(i, std::string(".bounds_m: another period along ") + "xy"[a] + ", " +
+                                   number_text(other.low_m[a]) + " to " +
+                                   number_text(other.low_m[a] + other.extent_m[a]) +
+                                   ", allowed: the box that" + first + ", " +
+                                   number_text(one.low_m[a]) + " to " +
+                                   number_text(one.low_m[a] + one.extent_m[a]));
+        }
+    }
+    return Status::ok();
+}
+
 std::uint64_t cells_of(const MixBox& box) {
     return std::uint64_t(box.size[0]) * std::uint64_t(box.size[1]) * std::uint64_t(box.size[2]);
 }
@@ -317,6 +346,7 @@ Status outline_media(const Scene& scene, const Limits& limits, std::uint64_t thr
         list.add(std::move(medium), i, i + 1 == scene.media.size(), plan);
         if (list.media.size() > before) means.push_back(own.mean_density);
     }
+    PILEUS_TRY(check_periods(scene, list));
     const MixGrid grid = list.plan_grid(limits, plan);
     if (list.media.size() == 1) {
         source.mean_density = means[0];

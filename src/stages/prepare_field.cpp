@@ -14,9 +14,11 @@ struct Corner {
     float t;
 };
 
-/// Finds the two voxel centres around a voxel coordinate, clamped to the rim.
-Corner corner(float x, int size) {
+/// Finds the two voxel centres around a voxel coordinate, clamped to the rim or beyond it.
+Corner corner(float x, int size, bool wraps = false) {
     const float c = x - 0.5f;
+    if (wraps && c < 0.0f) return {size - 1, 0, c + 1.0f};
+    if (wraps && c >= float(size - 1)) return {size - 1, 0, c - float(size - 1)};
     if (!(c > 0.0f)) return {0, 0, 0.0f};
     if (c >= float(size - 1)) return {size - 1, size - 1, 0.0f};
     const int low = int(c);
@@ -28,7 +30,9 @@ float mix(float a, float b, float t) { return a + (b - a) * t; }
 /// Sums the 3x3 rows around (j, k) with weights 1 6 1, then 1 6 1 along x, in place.
 void mass_row(const float* density, const Grid& grid, int j, int k, double scale, double* out) {
     const int nx = grid.size[0], ny = grid.size[1], nz = grid.size[2];
-    const int js[3] = {j > 0 ? j - 1 : 0, j, j + 1 < ny ? j + 1 : j};
+    const bool wraps = grid.periodic;
+    const int js[3] = {j > 0 ? j - 1 : (wraps ? ny - 1 : 0), j,
+                       j + 1 < ny ? j + 1 : (wraps ? 0 : j)};
     const int ks[3] = {k > 0 ? k - 1 : 0, k, k + 1 < nz ? k + 1 : k};
     const float* row[3][3];
     for (int c = 0; c < 3; ++c)
@@ -40,10 +44,11 @@ void mass_row(const float* density, const Grid& grid, int j, int k, double scale
         out[i] = layer[0] + 6.0 * layer[1] + layer[2];
     }
     // Keep the unfiltered left neighbour while the row is overwritten.
-    double left = out[0];
+    const double first = out[0];
+    double left = wraps ? out[nx - 1] : first;
     for (int i = 0; i < nx; ++i) {
         const double here = out[i];
-        const double right = i + 1 < nx ? out[i + 1] : here;
+        const double right = i + 1 < nx ? out[i + 1] : (wraps ? first : here);
         out[i] = (left + 6.0 * here + right) * scale;
         left = here;
     }
@@ -52,8 +57,8 @@ void mass_row(const float* density, const Grid& grid, int j, int k, double scale
 }  // namespace
 
 float density_at(Span<const float> density, const Grid& grid, const float x[3]) {
-    const Corner a = corner(x[0], grid.size[0]);
-    const Corner b = corner(x[1], grid.size[1]);
+    const Corner a = corner(x[0], grid.size[0], grid.periodic);
+    const Corner b = corner(x[1], grid.size[1], grid.periodic);
     const Corner c = corner(x[2], grid.size[2]);
     const auto along_x = [&](int j, int k) {
         return mix(density[voxel_index(grid, a.low, j, k)],

@@ -21,6 +21,16 @@ Range footprint(int b, int block, int size) {
     return {std::max(b * block - 1, 0), int(std::min<std::int64_t>(end, size))};
 }
 
+/// The voxel beyond the rim that block b of a periodic grid also touches; -1: none.
+struct Beyond {
+    int low, high;
+};
+Beyond beyond(const Grid& grid, int b, int block, int axis) {
+    if (!grid.periodic || axis == 2) return {-1, -1};
+    const bool last = (std::int64_t(b) + 1) * block >= grid.size[axis];
+    return {b == 0 ? grid.size[axis] - 1 : -1, last ? 0 : -1};
+}
+
 void raise(float* into, const float* from, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) into[i] = from[i] > into[i] ? from[i] : into[i];
 }
@@ -122,12 +132,18 @@ Status majorant_grid(Span<const float> density, const Grid& grid, int block, int
             const Range ys = footprint(by, block, grid.size[1]);
             std::fill(row, row + nx, 0.0f);
             for (int j = ys.begin; j < ys.end; ++j) raise(row, slice + nx * std::size_t(j), nx);
+            const Beyond more = beyond(grid, by, block, 1);
+            for (int j : {more.low, more.high})
+                if (j >= 0) raise(row, slice + nx * std::size_t(j), nx);
             float* out =
                 majorants.data() +
                 (std::size_t(bz) * std::size_t(n[1]) + std::size_t(by)) * std::size_t(n[0]);
             for (int bx = 0; bx < n[0]; ++bx) {
                 const Range xs = footprint(bx, block, grid.size[0]);
                 out[bx] = *std::max_element(row + xs.begin, row + xs.end);
+                const Beyond side = beyond(grid, bx, block, 0);
+                for (int i : {side.low, side.high})
+                    if (i >= 0) out[bx] = std::max(out[bx], row[i]);
             }
         }
     });

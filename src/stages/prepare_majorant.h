@@ -12,7 +12,8 @@ namespace pileus {
 /// Blocks of `block` voxels along each axis that cover the grid; the last may be cut short.
 void block_counts(const Grid& grid, int block, int counts[3]);
 
-/// Largest density of each block and its one-voxel border, x fastest, into `majorants`
+/// Largest density of each block and its one-voxel border, which in a periodic grid goes on at the
+/// far face in x and y; x fastest, into `majorants`
 /// (block_counts of them). kLimit: out of memory.
 Status majorant_grid(Span<const float> density, const Grid& grid, int block, int threads,
                      Buffer<float>& majorants);

@@ -162,7 +162,7 @@ void light_ground(SkyMap& map, const Parts& parts) {
 
 }  // namespace
 
-Status aim_sky_map(const double (&extent_m)[3], SkyMap& map) {
+Status aim_sky_map(const double (&extent_m)[3], bool periodic, SkyMap& map) {
     SkyMapView& v = map.view;
     const std::size_t rows = std::size_t(v.rows), columns = std::size_t(v.columns);
     const std::size_t plane = rows * columns;
@@ -173,8 +173,8 @@ Status aim_sky_map(const double (&extent_m)[3], SkyMap& map) {
     PILEUS_TRY(map.column_cdf.resize(plane, "sky map"));
     PILEUS_TRY(power.resize(columns, "sky map"));
     PILEUS_TRY(of_row.resize(rows, "sky map"));
-    const double face[3] = {extent_m[1] * extent_m[2], extent_m[2] * extent_m[0],
-                            extent_m[0] * extent_m[1]};
+    const double sides = periodic ? 0 : extent_m[2];
+    const double face[3] = {extent_m[1] * sides, sides * extent_m[0], extent_m[0] * extent_m[1]};
     const double turn = kTwoPiD / double(columns);
     for (std::size_t i = 0; i < rows; ++i) {
         const Part& row = parts.rows[i];

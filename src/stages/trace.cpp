@@ -30,11 +30,9 @@ void run_piece(const Launch& launch, std::uint64_t piece, int thread) {
     const std::uint64_t end = begin + kChunk < launch.count ? begin + kChunk : launch.count;
     std::int64_t* sums = launch.scratch->sums.data();
     if (sums != nullptr) sums += std::uint64_t(thread) * launch.scratch->stride;
-    const TraceBuffers b{
-        in.medium->volume.density.data(), in.majorants.data,
-        in.collector_of_voxel.data,       sums,
-        sums + collector_numbers(in),     &launch.scratch->tallies[std::size_t(thread) * 2],
-        in.medium->parts.data()};
+    const TraceBuffers b{in.collector_of_voxel.data, sums, sums + collector_numbers(in),
+                         &launch.scratch->tallies[std::size_t(thread) * 2],
+                         in.medium->parts.data()};
     in.kernels->trace(launch.params, b, std::uint32_t(begin), std::uint32_t(end));
 }
 
@@ -53,20 +51,33 @@ void add_fates(const Fates& from, Fates& to) {
 
 }  // namespace
 
+TrackGrid track_grid(const Medium& medium, Span<const float> majorants, int block,
+                     std::uint32_t max_events) {
+    TrackGrid k{};
+    for (int a = 0; a < 3; ++a) {
+        k.size[a] = medium.grid.size[a];
+        k.cell[a] = medium.grid.cell_m[a];
+    }
+    block_counts(medium.grid, block, k.blocks);
+    k.block = float(block);
+    k.sigma = medium.sigma;
+    k.periodic = medium.grid.periodic ? 1 : 0;
+    k.max_events = max_events;
+    k.density = medium.volume.density.data();
+    k.majorant = majorants.data;
+    return k;
+}
+
 TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_t generation) {
     const Medium& m = *in.medium;
     TraceParams k{};
     double diagonal = 0;
     for (int a = 0; a < 3; ++a) {
-        k.size[a] = m.grid.size[a];
-        k.cell[a] = m.grid.cell_m[a];
         k.direction[a] = light.travel[std::size_t(a)];
         k.camera[a] = in.deposit.camera[a];
         diagonal += m.extent_m[a] * m.extent_m[a];
     }
-    block_counts(m.grid, in.block, k.blocks);
-    k.block = float(in.block);
-    k.sigma = m.sigma;
+    k.grid = track_grid(m, in.majorants, in.block, in.max_events);
     k.channels = m.channels;
     k.media = m.count;
     for (std::size_t i = 0; i < m.optics.size(); ++i) k.optics[i] = m.optics[i];
@@ -87,10 +98,8 @@ TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_
     k.first_order = in.deposit.first_order;
     k.coefficients = in.deposit.coefficients;
     k.scale = float(std::uint64_t{1} << in.deposit.places);
-    // Paths of up to 2000 diagonals fit the ledger's 32 bits.
-    k.path_scale = float(1048576.0 / __builtin_sqrt(diagonal));
+    k.path_scale = float(path_units(m) / __builtin_sqrt(diagonal));
     k.orthographic = in.deposit.orthographic ? 1 : 0;
-    k.max_events = in.max_events;
     const Key shift = make_key(in.seed, light.stream + 16u, std::uint32_t(generation));
     k.shift[0] = shift.k0;
     k.shift[1] = shift.k1;
@@ -115,7 +124,7 @@ GroundMap make_ground_map(const Medium& medium, const Lighting& lighting) {
     GroundMap map;
     if (!lighting.ground || lighting.lights.empty()) return map;
     map.cells = kCells;
-    const double reach = medium.extent_m[2] - lighting.ground_z;
+    const double reach = medium.grid.periodic ? 0 : medium.extent_m[2] - lighting.ground_z;
     for (int a = 0; a < 2; ++a) {
         map.origin[a] = float(-reach);
         map.per_metre[a] = float(kCells / (medium.extent_m[a] + 2 * reach));

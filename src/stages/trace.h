@@ -29,7 +29,8 @@ struct GroundMap {
     float per_metre[2]{};  ///< cells per metre
 };
 
-/// A map that reaches out of the box by its height above the ground, or none without a ground.
+/// A map that reaches out of the box by its height above the ground, or covers one period; none
+/// without a ground.
 GroundMap make_ground_map(const Medium& medium, const Lighting& lighting);
 
 struct TraceInput {
@@ -73,6 +74,10 @@ struct TraceScratch {
 };
 Status prepare_trace(const TraceInput& in, TraceScratch& scratch);
 
+/// What trackers need of a medium. `block` as the majorants were made with.
+TrackGrid track_grid(const Medium& medium, Span<const float> majorants, int block,
+                     std::uint32_t max_events);
+
 /// What a launch of one light's photons of a generation takes; `key`, and the place of the launch
 /// within the generation, are the caller's.
 TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_t generation);
@@ -81,6 +86,10 @@ TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_
 /// may grow without bound; each has photons of its own.
 Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScratch& scratch,
                         PhotonSlot& slot, std::vector<TraceTally>& tallies);
+
+/// Units of the ledger's paths per diagonal of the box: 2000 diagonals fit its 32 bits, and 128 000
+/// where light may graze along a periodic medium.
+inline double path_units(const Medium& medium) { return medium.grid.periodic ? 16384 : 1048576; }
 
 /// Adds `from` to `to`, field by field.
 void add_tally(const TraceTally& from, TraceTally& to);

@@ -284,8 +284,6 @@ TEST_CASE("parts of the format that this version cannot use") {
         {kCamera + "depth = \"z.exr\"\n",
          "s.toml:4:1: camera.depth: not in this version, \"z.exr\", allowed: nothing"},
         {kCamera + "[sky]\nmodel = \"atmosphere\"\n", "s.toml:5:1: sky.model: not in this ..."},
-        {kCamera + kMedium + "boundary = \"periodic\"\n",
-         "s.toml:8:12: medium.0.boundary: not in this version, \"periodic\", allowed: open"},
         {kCamera + kMedium + "phase = { type = \"cloud\" }\n",
          "s.toml:8:18: medium.0.phase.type: not in this version, \"cloud\", ..."},
         {kCamera + kFile + "density = \"a.x\"\nformat = \"netcdf\"\n",

@@ -69,12 +69,7 @@ std::string shoot_pieces(const Rig& rig, const std::vector<std::uint32_t>& ends)
     Buffer<std::int64_t> sums;
     REQUIRE(sums.resize(rig.collectors * 3 * std::uint64_t(k.coefficients), "sums"));
     std::vector<TraceTally> tally(1);
-    const TraceBuffers b{rig.medium.volume.density.data(),
-                         rig.majorants.data(),
-                         rig.collector_of_voxel.data(),
-                         sums.data(),
-                         nullptr,
-                         tally.data(),
+    const TraceBuffers b{rig.collector_of_voxel.data(), sums.data(), nullptr, tally.data(),
                          rig.medium.parts.data()};
     std::uint32_t begin = 0;
     for (std::uint32_t end : ends) {

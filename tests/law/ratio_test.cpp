@@ -22,18 +22,7 @@ constexpr double kDense = 1, kFaint = 1e-6;
 constexpr int kEdge = 15, kHotAt = 7;  // voxels; the hot one, in the middle
 
 TrackGrid grid_of(const Rig& rig) {
-    TrackGrid k{};
-    for (int a = 0; a < 3; ++a) {
-        k.size[a] = rig.medium.grid.size[a];
-        k.cell[a] = rig.medium.grid.cell_m[a];
-        k.blocks[a] = (k.size[a] - 1) / rig.block + 1;
-    }
-    k.block = float(rig.block);
-    k.sigma = rig.medium.sigma;
-    k.max_events = rig.max_events;
-    k.density = rig.medium.volume.density.data();
-    k.majorant = rig.majorants.data();
-    return k;
+    return track_grid(rig.medium, rig.majorants.span(), rig.block, rig.max_events);
 }
 
 /// A ray in voxels; its direction is normalised where it is used.
