@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Compiles kernels_cpu/isa.cpp once per instruction set the compiler knows.
+# Compiles kernels_cpu/isa*.cpp once per instruction set the compiler knows.
 # in: PILEUS_X86, PILEUS_KERNELS -> out: PILEUS_ISA_OBJECTS, PILEUS_ISA_DEFINITIONS, PILEUS_ISA_NAMES
 # kernels_cpu/dispatch.cpp reads PILEUS_HAVE_<ISA> and chooses when the program starts.
 include(CheckCXXCompilerFlag)
@@ -8,7 +8,9 @@ set(PILEUS_ISA_OBJECTS)
 set(PILEUS_ISA_DEFINITIONS)
 set(PILEUS_ISA_NAMES)
 
-# One object: the namespace and the number of lanes come in as definitions.
+file(GLOB PILEUS_ISA_SOURCES CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/kernels_cpu/isa*.cpp")
+
+# One object per source: the namespace and the number of lanes come in as definitions.
 function(pileus_add_isa name width)
     if(PILEUS_KERNELS AND NOT name IN_LIST PILEUS_KERNELS)
         return()
@@ -21,8 +23,8 @@ function(pileus_add_isa name width)
             return()
         endif()
     endforeach()
-    if(EXISTS "${PROJECT_SOURCE_DIR}/kernels_cpu/isa.cpp")
-        add_library(pileus_isa_${name} OBJECT "${PROJECT_SOURCE_DIR}/kernels_cpu/isa.cpp")
+    if(PILEUS_ISA_SOURCES)
+        add_library(pileus_isa_${name} OBJECT ${PILEUS_ISA_SOURCES})
         target_compile_definitions(pileus_isa_${name} PRIVATE
             PILEUS_ISA=${name} PILEUS_WIDTH=${width})
         target_compile_options(pileus_isa_${name} PRIVATE $<$<CONFIG:Release>:-O3> ${ARGN})

@@ -13,6 +13,8 @@ struct CameraParams {
     float origin[3], right[3], up[3], forward[3];
     float half_width, half_height;
     std::int32_t width, height, orthographic;
+    std::int32_t flux =
+        0;  ///< 1: a flat detector (orthographic too), rays over its front half space
 };
 
 inline namespace PILEUS_ISA {

@@ -48,11 +48,22 @@ std::uint64_t self_test_kernel() { return self_test_digest<PILEUS_WIDTH>(); }
 #define PILEUS_NAME(name) PILEUS_QUOTE(name)
 #define PILEUS_JOIN(a, b) a##b
 #define PILEUS_TABLE(isa) PILEUS_JOIN(kernel_table_, isa)
+#define PILEUS_PATH(isa) PILEUS_JOIN(path_kernel_, isa)
+
+/// Of isa_path.cpp, compiled for the same instruction set.
+void PILEUS_PATH(PILEUS_ISA)(const PathParams&, const PathBuffers&, std::uint32_t, std::uint32_t);
 
 extern const KernelTable PILEUS_TABLE(PILEUS_ISA);
 const KernelTable PILEUS_TABLE(PILEUS_ISA) = {
-    PILEUS_NAME(PILEUS_ISA), PILEUS_WIDTH, trace_kernel,     shadow_kernel, march_kernel,
-    background_kernel,       blend_kernel, self_test_kernel,
+    PILEUS_NAME(PILEUS_ISA),
+    PILEUS_WIDTH,
+    trace_kernel,
+    shadow_kernel,
+    march_kernel,
+    background_kernel,
+    blend_kernel,
+    PILEUS_PATH(PILEUS_ISA),
+    self_test_kernel,
 };
 
 }  // namespace pileus

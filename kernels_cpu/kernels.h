@@ -5,6 +5,7 @@
 #pragma once
 #include "kernels_cpu/blend_params.h"
 #include "kernels_cpu/march_params.h"
+#include "kernels_cpu/path_params.h"
 #include "kernels_cpu/trace_params.h"
 
 namespace pileus {
@@ -18,6 +19,9 @@ struct KernelTable {
     void (*background_rows)(const BackgroundParams&, const BackgroundBuffers&, std::uint32_t,
                             std::uint32_t);
     void (*blend_tile)(const BlendParams&, const BlendBuffers&, std::uint32_t, std::uint32_t);
+    /// Samples [begin, end) of the launch; stores each, adds none up.
+    void (*trace_paths)(const PathParams&, const PathBuffers&, std::uint32_t begin,
+                        std::uint32_t end);
     /// FNV-1a 64 of every math kernel on 64 fixed inputs; the same on every machine.
     std::uint64_t (*self_test)();
 };

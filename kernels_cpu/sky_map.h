@@ -114,33 +114,48 @@ PILEUS_FN auto texel_share(const SkyMapView& map, II texel, int channel) {
     return own / max_(max_(max_(r, g), b), all<T>(1e-30f));
 }
 
-/// Radiance seen along `d`, a unit vector: three channels.
+/// Where a direction falls among the centres of texels: rows `upper` and `lower`, columns `west`
+/// and `east`, and the shares of the latter two.
 template <class T>
-PILEUS_FN Vec<T> map_radiance(const SkyMapView& map, const Vec<T>& d) {
+struct MapPlace {
+    I_of<T> upper, lower, west, east;
+    T down, right;
+};
+template <class T>
+PILEUS_FN MapPlace<T> place_on_map(const SkyMapView& map, const Vec<T>& d) {
     using II = I_of<T>;
     const T theta = atan2_turns(sqrt_(d.x * d.x + d.y * d.y), d.z);
     const T p = min_(max_(theta * map.rows_per_turn - 0.5f, T{}), all<T>(float(map.rows - 1)));
     const II upper = to_int(p), lower = min_(upper + 1, all<II>(map.rows - 1));
-    const T down = p - to_float(upper);
     const T turn = atan2_turns(d.x, d.y) - map.turn_of_first;
     const T q = (turn - to_float(floor_int(turn))) * float(map.columns) - 0.5f;
     const II whole = floor_int(q);
-    const T right = q - to_float(whole);
     const II last = all<II>(map.columns - 1);
     const II west = select(whole < 0, last, min_(whole, last));
     const II east = select(west == last, II{}, west + 1);
-    const auto read = [&](int c) {
-        const float* plane = map.radiance + std::int64_t(c) * map.rows * map.columns;
-        const T a = gather(plane, upper * map.columns + west);
-        const T b = gather(plane, upper * map.columns + east);
-        const T e = gather(plane, lower * map.columns + west);
-        const T f = gather(plane, lower * map.columns + east);
-        const T above = a + (b - a) * right, below = e + (f - e) * right;
-        return max_(above + (below - above) * down, T{});
-    };
-    const T first = read(0);
+    return {upper, lower, west, east, p - to_float(upper), q - to_float(whole)};
+}
+
+/// A plane of texels read there, bilinearly; never negative.
+template <class T>
+PILEUS_FN T read_map(const float* plane, const SkyMapView& map, const MapPlace<T>& at) {
+    const T a = gather(plane, at.upper * map.columns + at.west);
+    const T b = gather(plane, at.upper * map.columns + at.east);
+    const T e = gather(plane, at.lower * map.columns + at.west);
+    const T f = gather(plane, at.lower * map.columns + at.east);
+    const T above = a + (b - a) * at.right, below = e + (f - e) * at.right;
+    return max_(above + (below - above) * at.down, T{});
+}
+
+/// Radiance seen along `d`, a unit vector: three channels.
+template <class T>
+PILEUS_FN Vec<T> map_radiance(const SkyMapView& map, const Vec<T>& d) {
+    const MapPlace<T> at = place_on_map(map, d);
+    const std::int64_t plane = std::int64_t(map.rows) * map.columns;
+    const T first = read_map(map.radiance, map, at);
     if (map.planes == 1) return {first, first, first};
-    return {first, read(1), read(2)};
+    return {first, read_map(map.radiance + plane, map, at),
+            read_map(map.radiance + 2 * plane, map, at)};
 }
 
 }  // namespace PILEUS_ISA

@@ -3,6 +3,7 @@
 // in: photon numbers -> out: position (voxels) and direction of travel.
 // docs/methods.md 3 "Shoot"; points from the R2 sequence (Roberts 2018), shifted at random.
 #pragma once
+#include "kernels_cpu/lambert.h"
 #include "kernels_cpu/trace_params.h"
 #include "kernels_cpu/walk.h"
 
@@ -20,20 +21,6 @@ struct Photon : Walker<W> {
     F<W> owed_x, owed_y;       // where on the ground, metres
     F<W> ground_x, ground_y;   // where on the ground the next bounce starts, metres
 };
-
-/// Cosine-weighted direction: height over the plane and the two components in it.
-template <class T>
-struct Lambert {
-    T normal, a, b;
-};
-template <class UU>
-PILEUS_FN auto lambert(Words<UU> w) {
-    using T = F_of<UU>;
-    const T u = uniform(w.a);
-    const SinCos<T> turn = sincos_turns(uniform(w.b));
-    const T sine = sqrt_(u);
-    return Lambert<T>{sqrt_(1.0f - u), sine * turn.cosine, sine * turn.sine};
-}
 
 /// Position (voxels) and direction of travel of photons that begin.
 template <class T>

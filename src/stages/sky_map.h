@@ -48,4 +48,8 @@ Status make_sky_map(const std::string& name, const Image& image, const Sky& sky,
 /// periodic one alone. Out of memory: kLimit.
 Status aim_sky_map(const double (&extent_m)[3], bool periodic, SkyMap& map);
 
+/// Cumulative powers in units of 2^-31 of their sum: no texel, however many, is off by more than
+/// one unit. Returns the sum. Entries behind the last one with power cannot be drawn.
+double fill_cdf(const double* power, int count, std::int32_t* cdf);
+
 }  // namespace pileus

@@ -97,24 +97,6 @@ Part column_part(const SkyMapView& v, int j) {
     return part;
 }
 
-/// Cumulative powers in units of 2^-31 of their sum: no texel, however many, is off by more than
-/// one unit. Returns the sum. Entries behind the last one with power cannot be drawn.
-double fill_cdf(const double* power, int count, std::int32_t* cdf) {
-    double total = 0, sum = 0;
-    int last = 0;
-    for (int i = 0; i < count; ++i) {
-        total += power[i];
-        if (power[i] > 0) last = i;
-    }
-    for (int i = 0; i < count; ++i) {
-        sum += power[i];
-        const double units = total > 0 ? sum / total * 2147483648.0 + 0.5 : 0;
-        const std::uint32_t bound = i >= last ? 0x80000000u : std::uint32_t(units);
-        std::memcpy(cdf + i, &bound, sizeof bound);
-    }
-    return total;
-}
-
 /// Rounded up, so that it also bounds what the kernel computes in single precision.
 float bound_of(double v) { return float(v * (1 + 1e-5) + 1e-6); }
 
@@ -161,6 +143,22 @@ void light_ground(SkyMap& map, const Parts& parts) {
 }
 
 }  // namespace
+
+double fill_cdf(const double* power, int count, std::int32_t* cdf) {
+    double total = 0, sum = 0;
+    int last = 0;
+    for (int i = 0; i < count; ++i) {
+        total += power[i];
+        if (power[i] > 0) last = i;
+    }
+    for (int i = 0; i < count; ++i) {
+        sum += power[i];
+        const double units = total > 0 ? sum / total * 2147483648.0 + 0.5 : 0;
+        const std::uint32_t bound = i >= last ? 0x80000000u : std::uint32_t(units);
+        std::memcpy(cdf + i, &bound, sizeof bound);
+    }
+    return total;
+}
 
 Status aim_sky_map(const double (&extent_m)[3], bool periodic, SkyMap& map) {
     SkyMapView& v = map.view;

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a lane of the path tracer knows, how it collects light, and how a flight begins.
+// in: vertices and directions -> out: walkers in the grid; sums of radiance.
+// docs/path.md: a path and its shadow rays take turns in one lane.
+#pragma once
+#include "kernels_cpu/path_params.h"
+#include "kernels_cpu/walk.h"
+
+namespace pileus {
+inline namespace PILEUS_ISA {
+
+/// What a lane is flying for.
+constexpr std::int32_t kFlightPath = 0;  ///< the path's next vertex
+constexpr std::int32_t kFlightSun = 1;   ///< a shadow ray towards the sun
+constexpr std::int32_t kFlightMap = 2;   ///< a shadow ray towards a point of the sky map
+
+/// Paths of less weight play Russian roulette: survive as twice this, with less than half a chance.
+constexpr float kPathRoulette = 1.0f / 8.0f;
+/// The same for transmittances of shadow rays, which survive as this.
+constexpr float kShadowRoulette = 1.0f / 16.0f;
+
+/// A path per lane. A flight that has ended waits until its lane is served.
+template <int W, int NC>
+struct PathLanes : Walker<W> {
+    F<W> beta[NC];             // light at the camera per light that leaves the last vertex
+    F<W> sum[3 * kPathParts];  // radiance so far
+    U<W> number, event;        // of the path; its next draw
+    U<W> sample;               // of the launch
+    I<W> order, bounces;       // scatterings and reflections so far
+    I<W> flight, medium;       // under way; met at the last collision
+    F<W> seen, carry;          // shadow ray: transmittance so far is their sum
+    F<W> shade;                // what the shadow ray brings per light at its end
+    Vec<F<W>> vertex;          // last one: voxels; metres where it lies outside
+    Vec<F<W>> next, to_map;    // directions: of the path's next flight; drawn from the map
+    F<W> next_density;         // per steradian, of the path's own direction
+    F<W> map_shade;            // of the flight towards the map
+    M<W> alive, outside;       // outside: the vertex need not lie in the box
+    M<W> met, lit, out;        // waiting: collision; shadow ray ended; left the box
+    M<W> cloud;                // the first vertex was in the media
+};
+
+template <int W, int NC>
+PILEUS_FN M<W> waiting(const PathLanes<W, NC>& s) {
+    return s.met | s.lit | s.out;
+}
+
+template <int W, int NC>
+PILEUS_FN void end_paths(PathLanes<W, NC>& s, M<W> m) {
+    const M<W> keep = lnot(m);
+    s.alive = s.alive & keep;
+    s.met = s.met & keep;
+    s.lit = s.lit & keep;
+    s.out = s.out & keep;
+}
+
+/// The next 64 random bits of the lanes of `m`.
+template <int W, int NC>
+PILEUS_FN Words<U<W>> draw(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
+    const Words<U<W>> w = threefry(k.key.k0, k.key.k1, s.number, s.event);
+    s.event = select(m, s.event + 1u, s.event);
+    return w;
+}
+
+/// Add `share` of `light` that the lanes of `m` found at the end of their path.
+template <int W, int NC>
+PILEUS_FN void add_light(PathLanes<W, NC>& s, const PathParams& k, M<W> m, F<W> share,
+                         const Vec<F<W>>& light, M<W> from_sun) {
+    using T = F<W>;
+    const T channel[3] = {light.x, light.y, light.z};
+    const M<W> single = s.cloud & (s.order + s.bounces == 1);
+    for (int c = 0; c < 3; ++c) {
+        const T value = select(m, s.beta[NC == 1 ? 0 : c] * share * channel[c], T{});
+        s.sum[c] = s.sum[c] + value;
+        if (k.parts_wanted == 0) continue;
+        const auto add = [&](PathPart part, M<W> in) {
+            s.sum[3 * part + c] = s.sum[3 * part + c] + select(in, value, T{});
+        };
+        add(kPathSun, from_sun);
+        add(kPathSingle, single);
+        add(kPathCloud, s.cloud);
+    }
+}
+
+/// Where rays from outside enter the box, voxels; `hit` loses the lanes that miss it.
+template <int W>
+PILEUS_FN Vec<F<W>> enter_box(const PathParams& k, const Vec<F<W>>& origin, const Vec<F<W>>& d,
+                              M<W>& hit) {
+    using T = F<W>;
+    const Segment<T> box = clip_to_box(origin, d, k.extent);
+    hit = hit & (box.enter < box.leave);
+    const auto inside = [&](T o, T along, int a) {
+        const T voxels = (o + along * box.enter) * (1.0f / k.grid.cell[a]);
+        return min_(max_(voxels, T{}), all<T>(float(k.grid.size[a])));
+    };
+    return {inside(origin.x, d.x, 0), inside(origin.y, d.y, 1), inside(origin.z, d.z, 2)};
+}
+
+/// Light paths survive by luck: keeps the mean, saves the flights that would bring little.
+template <int W, int NC>
+PILEUS_FN void thin_out(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
+    using T = F<W>;
+    T most = s.beta[0];
+    for (int c = 1; c < NC; ++c) most = max_(most, s.beta[c]);
+    const M<W> low = m & (most < kPathRoulette);
+    if (!any(low)) return;
+    const T chance = most * (0.5f / kPathRoulette);
+    const M<W> survives = low & (uniform(draw(s, k, low).a) < chance);
+    const T gain = 1.0f / max_(chance, all<T>(1e-30f));
+    for (int c = 0; c < NC; ++c) s.beta[c] = select(survives, s.beta[c] * gain, s.beta[c]);
+    end_paths(s, low & lnot(survives));
+}
+
+/// Send the lanes of `m` from their vertex on the flight that each is due.
+template <int W, int NC>
+PILEUS_FN void launch(PathLanes<W, NC>& s, const PathParams& k, PathTally& tally, M<W> m) {
+    using T = F<W>;
+    const M<W> on = m & (s.flight == kFlightPath);
+    if (any(on)) {
+        // After the last scattering only light from behind the media is left to find.
+        if (k.sky_lit == 0 && k.ground == 0) end_paths(s, on & (s.order >= k.max_depth));
+        thin_out(s, k, on & s.alive);
+        m = m & s.alive;
+        if (!any(m)) return;
+    }
+    const M<W> to_sun = s.flight == kFlightSun, path = s.flight == kFlightPath;
+    const auto aim = [&](float sun, T map, T next) {
+        return select(path, next, select(to_sun, all<T>(sun), map));
+    };
+    const Vec<T> d{aim(k.to_sun[0], s.to_map.x, s.next.x), aim(k.to_sun[1], s.to_map.y, s.next.y),
+                   aim(k.to_sun[2], s.to_map.z, s.next.z)};
+    set_direction(s, k.grid, m, d);
+
+    M<W> hit = m;
+    Vec<T> p = s.vertex;
+    if (any(m & s.outside)) {
+        const Vec<T> entry = enter_box<W>(k, s.vertex, d, hit);
+        const M<W> inside = m & lnot(s.outside);
+        hit = hit | inside;
+        p = {select(inside, p.x, entry.x), select(inside, p.y, entry.y),
+             select(inside, p.z, entry.z)};
+    }
+    const T middle = all<T>(0.5f);
+    set_position(s, k.grid, hit,
+                 {select(hit, p.x, middle), select(hit, p.y, middle), select(hit, p.z, middle)});
+    const Words<U<W>> w = draw(s, k, hit);
+    s.tau = select(hit, free_flight(w.a, w.b), s.tau);
+    s.seen = select(m, all<T>(1.0f), s.seen);
+    s.carry = select(m, T{}, s.carry);
+    const M<W> missed = m & lnot(hit);
+    s.out = s.out | (missed & path);
+    s.lit = s.lit | (missed & lnot(path));
+    tally.shadow_rays += count_bits(bits_of(m & lnot(path)));
+}
+
+}  // namespace PILEUS_ISA
+}  // namespace pileus

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ends of flights: scattering, the ground, the sky, and the light that shadow rays bring.
+// in: lanes whose flight has ended -> out: lanes due for the next flight, radiance added.
+// docs/path.md: next-event estimation; sky maps by the balance heuristic (Veach 1997, 9.2).
+#pragma once
+#include "kernels_cpu/lambert.h"
+#include "kernels_cpu/path_lanes.h"
+
+namespace pileus {
+inline namespace PILEUS_ISA {
+
+/// Calls `use(optics, lanes)` for every medium that lanes of `m` have met.
+template <int W, int NC, class Use>
+PILEUS_FN void for_media(const PathLanes<W, NC>& s, const PathParams& k, M<W> m, Use use) {
+    if (k.media <= 1) return use(k.optics[0], m);
+    for (int i = 0; i < k.media; ++i) {
+        const M<W> mine = m & (s.medium == i);
+        if (any(mine)) use(k.optics[i], mine);
+    }
+}
+
+/// Choose the first flight from a new vertex: the sun's, the map's or the path's own.
+template <int W, int NC>
+PILEUS_FN void first_flight(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
+    const std::int32_t after = k.map.columns > 0 ? kFlightMap : kFlightPath;
+    const M<W> sun = m & (s.shade > 0.0f);
+    s.flight = select(m, all<I<W>>(after), s.flight);
+    if (k.sunlit != 0) s.flight = select(sun, all<I<W>>(kFlightSun), s.flight);
+    const M<W> mapped = m & (s.flight == kFlightMap);
+    s.shade = select(mapped, s.map_shade, s.shade);
+}
+
+/// Draw a direction towards the map for the lanes of `m`.
+template <int W, int NC>
+PILEUS_FN void aim_at_map(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
+    const Words<U<W>> texel = draw(s, k, m), place = draw(s, k, m);
+    const Vec<F<W>> d = draw_sky<F<W>>(k.map, k.sampler, texel, place);
+    s.to_map.x = select(m, d.x, s.to_map.x);
+    s.to_map.y = select(m, d.y, s.to_map.y);
+    s.to_map.z = select(m, d.z, s.to_map.z);
+}
+
+/// Value over the sum of both densities: what the balance heuristic makes of a light's share, as
+/// the path draws its own directions with a density equal to that value.
+template <class T>
+PILEUS_FN T balanced(T own, T other) {
+    return own / max_(own + other, all<T>(1e-30f));
+}
+
+/// Real collisions in the lanes of `m`.
+template <int W, int NC>
+PILEUS_FN void scatter_path(PathLanes<W, NC>& s, const PathParams& k, PathTally& tally, M<W> m) {
+    using T = F<W>;
+    end_paths(s, m & (s.order >= k.max_depth));
+    m = m & s.alive;
+    if (!any(m)) return;
+    tally.scatterings += count_bits(bits_of(m));
+    s.cloud = s.cloud | (m & (s.order + s.bounces == 0));
+    s.order = select(m, s.order + 1, s.order);
+    s.outside = s.outside & lnot(m);
+    s.vertex = {select(m, s.p.x, s.vertex.x), select(m, s.p.y, s.vertex.y),
+                select(m, s.p.z, s.vertex.z)};
+
+    const Words<U<W>> w = draw(s, k, m);
+    const T u = uniform_open(w.a);
+    const Vec<T> sun{all<T>(k.to_sun[0]), all<T>(k.to_sun[1]), all<T>(k.to_sun[2])};
+    const T to_sun = one_minus_cosine(s.d, sun);
+    const bool map = k.map.columns > 0;
+    T to_map{};
+    if (map) {
+        aim_at_map(s, k, m);
+        to_map = one_minus_cosine(s.d, s.to_map);
+    }
+    Turn<T> turn{};
+    for_media(s, k, m, [&](const Optics& optics, M<W> mine) {
+        for (int c = 0; c < NC; ++c)
+            s.beta[c] = select(mine, s.beta[c] * optics.albedo[c], s.beta[c]);
+        const Turn<T> own = phase_sample(optics.phase, u);
+        turn.one_minus_cos = select(mine, own.one_minus_cos, turn.one_minus_cos);
+        turn.sine = select(mine, own.sine, turn.sine);
+        if (k.sunlit != 0) s.shade = select(mine, phase_density(optics.phase, to_sun), s.shade);
+        if (!map) return;
+        s.map_shade = select(mine, phase_density(optics.phase, to_map), s.map_shade);
+        s.next_density =
+            select(mine, phase_density(optics.phase, own.one_minus_cos), s.next_density);
+    });
+    if (map)
+        s.map_shade =
+            select(m, balanced(s.map_shade, sky_density(k.map, k.sampler, s.to_map)), s.map_shade);
+    const SinCos<T> phi = sincos_turns(uniform(w.b));
+    const Vec<T> d = turned(s.d, 1.0f - turn.one_minus_cos, turn.sine, phi.cosine, phi.sine);
+    s.next = {select(m, d.x, s.next.x), select(m, d.y, s.next.y), select(m, d.z, s.next.z)};
+    first_flight(s, k, m);
+}
+
+/// The lanes of `m` meet the ground at `at`, metres.
+template <int W, int NC>
+PILEUS_FN void reflect_path(PathLanes<W, NC>& s, const PathParams& k, PathTally& tally, M<W> m,
+                            const Vec<F<W>>& at) {
+    using T = F<W>;
+    constexpr float kInvPi = 4.0f * kInvFourPi;
+    tally.bounces += count_bits(bits_of(m));
+    s.bounces = select(m, s.bounces + 1, s.bounces);
+    s.outside = s.outside | m;
+    s.vertex = {select(m, at.x, s.vertex.x), select(m, at.y, s.vertex.y),
+                select(m, at.z, s.vertex.z)};
+    for (int c = 0; c < NC; ++c) s.beta[c] = select(m, s.beta[c] * k.ground_albedo, s.beta[c]);
+    const Lambert<T> up = lambert(draw(s, k, m));
+    const T height = max_(up.normal, all<T>(1e-6f));
+    s.next = {select(m, up.a, s.next.x), select(m, up.b, s.next.y), select(m, height, s.next.z)};
+    s.next_density = select(m, height * kInvPi, s.next_density);
+    s.shade = select(m, all<T>((k.to_sun[2] > 0.0f ? k.to_sun[2] : 0.0f) * kInvPi), s.shade);
+    if (k.map.columns > 0) {
+        aim_at_map(s, k, m);
+        const T own = max_(s.to_map.z, T{}) * kInvPi;
+        s.map_shade =
+            select(m, balanced(own, sky_density(k.map, k.sampler, s.to_map)), s.map_shade);
+    }
+    first_flight(s, k, m);
+}
+
+/// Paths of the lanes of `m` see the sky along their direction, and end.
+template <int W, int NC>
+PILEUS_FN void reach_sky(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
+    using T = F<W>;
+    Vec<T> light{all<T>(k.sky[0]), all<T>(k.sky[1]), all<T>(k.sky[2])};
+    T share = all<T>(1.0f);
+    if (k.map.columns > 0 && any(m)) {
+        // The camera's own rays see the map alone; so does a turn by exactly nothing.
+        light = map_radiance(k.map, s.d);
+        const T own = s.next_density, other = sky_density(k.map, k.sampler, s.d);
+        const M<W> both = (s.order + s.bounces > 0) & (own > 0.0f);
+        share = select(both, balanced(own, other), share);
+    }
+    add_light(s, k, m, share, light, s.alive & lnot(s.alive));
+    end_paths(s, m);
+}
+
+/// Paths of the lanes of `m` have left the box: the ground reflects them or the sky ends them.
+/// Returns the lanes that go on.
+template <int W, int NC>
+PILEUS_FN M<W> leave_media(PathLanes<W, NC>& s, const PathParams& k, PathTally& tally, M<W> m) {
+    using T = F<W>;
+    s.out = s.out & lnot(m);
+    M<W> ground = m & lnot(m);
+    if (k.ground != 0) {
+        const auto metres = [&](T v, int a) { return select(s.outside, v, v * k.grid.cell[a]); };
+        const Vec<T> o{metres(s.vertex.x, 0), metres(s.vertex.y, 1), metres(s.vertex.z, 2)};
+        const T height = o.z - k.ground_z;
+        ground = m & (s.d.z < 0.0f) & (height >= 0.0f);
+        if (k.ground_albedo > 0.0f && any(ground)) {
+            const T t = height / max_(T{} - s.d.z, all<T>(1e-18f));
+            reflect_path(s, k, tally, ground,
+                         Vec<T>{o.x + s.d.x * t, o.y + s.d.y * t, all<T>(k.ground_z)});
+        } else {
+            end_paths(s, ground);
+        }
+    }
+    const M<W> sky = m & lnot(ground);
+    if (any(sky)) reach_sky(s, k, sky);
+    return ground & s.alive;
+}
+
+/// Shadow rays of the lanes of `m` have ended: add what they bring, choose the next flight.
+template <int W, int NC>
+PILEUS_FN void gather_light(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
+    using T = F<W>;
+    s.lit = s.lit & lnot(m);
+    const M<W> sun = m & (s.flight == kFlightSun), map = m & lnot(sun);
+    Vec<T> light{all<T>(k.sun[0]), all<T>(k.sun[1]), all<T>(k.sun[2])};
+    if (any(map)) {
+        const Vec<T> sky = map_radiance(k.map, s.d);
+        light = {select(map, sky.x, light.x), select(map, sky.y, light.y),
+                 select(map, sky.z, light.z)};
+    }
+    add_light(s, k, m, (s.seen + s.carry) * s.shade, light, sun);
+    s.flight = select(m, all<I<W>>(kFlightPath), s.flight);
+    if (k.map.columns > 0) s.flight = select(sun, all<I<W>>(kFlightMap), s.flight);
+    s.shade = select(sun, s.map_shade, s.shade);
+}
+
+}  // namespace PILEUS_ISA
+}  // namespace pileus
