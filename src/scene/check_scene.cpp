@@ -26,10 +26,16 @@ void check_camera(SceneCheck& check) {
     const Node* projection = check.key("camera.projection");
     if (projection == nullptr || check.valid_key("camera.projection") != nullptr) {
         if (camera.orthographic)
-            conflict(check, "camera.fov_deg", "projection \"orthographic\"");
+            conflict(check, "camera.fov_deg",
+                     camera.flux ? "projection \"flux\"" : "projection \"orthographic\"");
         else
             conflict(check, "camera.height_m", "projection \"perspective\"");
     }
+    if (camera.flux && projection != nullptr && check.scene.method != "path")
+        check.faults.add(projection->at, "camera.projection",
+                         "measured by no method but path, \"flux\", allowed: perspective, "
+                         "orthographic with method " +
+                             check.scene.method);
     const Node* target = check.valid_key("camera.target_m");
     const Node* position = check.valid_key("camera.position_m");
     const Node* up_node = check.key("camera.up");

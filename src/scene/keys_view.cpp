@@ -25,15 +25,19 @@ const KeyRow kRows[] = {
     range_key(KeyKind::kNumber3, "camera.up", "", "[0, 0, 1]", kMetres,
               "a direction that points up in the picture; not along the view",
               [](const Node& n, KeyTarget t) { t.scene.camera.up = number3_of(n); }),
-    choice_key(
-        KeyKind::kText, "camera.projection", "\"perspective\"", "perspective|orthographic", nullptr,
-        "how space is mapped to the picture",
-        [](const Node& n, KeyTarget t) { t.scene.camera.orthographic = n.text == "orthographic"; }),
+    choice_key(KeyKind::kText, "camera.projection", "\"perspective\"",
+               "perspective|orthographic|flux", nullptr,
+               "how space is mapped to the picture; `flux`, method `path` only: pixels tile a flat "
+               "detector through position_m that faces target_m, and show its irradiance",
+               [](const Node& n, KeyTarget t) {
+                   t.scene.camera.orthographic = n.text != "perspective";
+                   t.scene.camera.flux = n.text == "flux";
+               }),
     range_key(KeyKind::kNumber, "camera.fov_deg", "deg", "40", {0, 180, true, true},
               "vertical field of view; perspective only",
               [](const Node& n, KeyTarget t) { t.scene.camera.fov_deg = number_of(n); }),
     range_key(KeyKind::kNumber, "camera.height_m", "m", "2000", {0, 1e9, true, false},
-              "height of the picture in space; orthographic only",
+              "height of the picture in space; orthographic and flux only",
               [](const Node& n, KeyTarget t) { t.scene.camera.height_m = number_of(n); }),
     range_key(KeyKind::kInteger2, "camera.resolution", "pixels", "[960, 540]",
               {1, 16384, false, false}, "width and height of the picture",

@@ -14,9 +14,10 @@ using Float3 = std::array<float, 3>;
 
 struct Camera {
     Double3 position_m{0, -3000, 600}, target_m{0, 0, 900}, up{0, 0, 1};
-    bool orthographic = false;
-    double fov_deg = 40;     ///< vertical, perspective only; in (0, 180)
-    double height_m = 2000;  ///< orthographic only; > 0
+    bool orthographic = false;  ///< parallel rays, or none at all (flux)
+    bool flux = false;          ///< a flat detector of light from its front; orthographic too
+    double fov_deg = 40;        ///< vertical, perspective only; in (0, 180)
+    double height_m = 2000;     ///< orthographic and flux; > 0
     std::array<int, 2> resolution{960, 540};
 };
 

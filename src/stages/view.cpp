@@ -48,6 +48,7 @@ CameraParams make_camera(const Camera& camera, double orbit_deg, const Double3& 
     out.width = camera.resolution[0];
     out.height = camera.resolution[1];
     out.orthographic = camera.orthographic ? 1 : 0;
+    out.flux = camera.flux ? 1 : 0;
     const SineCosine half = sincos_deg(camera.fov_deg * 0.5);
     const double height = camera.orthographic ? camera.height_m * 0.5 : half.sine / half.cosine;
     out.half_height = float(height);

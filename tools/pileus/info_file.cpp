@@ -97,7 +97,9 @@ Status scene_lines(const std::string& path, std::string& lines) {
     lines += info_line("seed", fmt::to_string(scene.seed));
     lines +=
         info_line("picture", fmt::format("{} x {}, {}", camera.resolution[0], camera.resolution[1],
-                                         camera.orthographic ? "orthographic" : "perspective"));
+                                         camera.flux           ? "flux"
+                                         : camera.orthographic ? "orthographic"
+                                                               : "perspective"));
     std::vector<std::string> lights;
     if (scene.sun.present) lights.push_back("sun");
     if (scene.sky.present) lights.push_back("sky");
