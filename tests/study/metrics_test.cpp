@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every figure of a comparison against an answer known beforehand.
+// in: pictures made by hand, pictures of known noise -> out: pass or fail.
+// docs/compare.md, "Figures"
+#include "src/study/metrics.h"
+
+#include <cstdio>
+#include <initializer_list>
+#include <limits>
+
+#include "src/base/digest.h"
+#include "tests/study/pictures.h"
+
+using namespace pileus;
+using test::make_picture;
+
+namespace {
+
+const std::vector<std::string> kRgba = {"R", "G", "B", "A"};
+const std::vector<std::string> kRgbe = {"R", "G", "B", "error.R", "error.G", "error.B"};
+
+Metrics compare(const Image& a, const Image& r, const MetricOptions& options = {}) {
+    Metrics m;
+    const Status status = compare_images(a, r, options, m);
+    INFO(status.message);
+    REQUIRE(status);
+    return m;
+}
+
+/// r + deviation * normal noise, with the deviation as error layers.
+Image noisy(int side, double deviation, std::uint32_t seed, double offset = 0) {
+    return make_picture(side, side, kRgbe, [&](int c, int x, int y) {
+        if (c >= 3) return deviation;
+        const double r = 0.5 + 0.25 * c + 0.01 * (x % 7);
+        return r + offset + deviation * test::normal(seed, std::uint32_t(3 * (y * side + x) + c));
+    });
+}
+
+}  // namespace
+
+TEST_CASE("metrics: four pixels by hand, one of them outside the cloud") {
+    // r = 1, 2, 4 in the counted pixels and d = 0.1, -0.2, 0.4; the fourth has alpha 0.02 exactly.
+    const double r[4] = {1, 2, 4, 100}, d[4] = {0.125, -0.25, 0.5, 7};
+    const float alpha[4] = {1, 0.5f, 0.0201f, 0.02f};
+    const Image reference = make_picture(2, 2, kRgba, [&](int c, int x, int y) {
+        return c == 3 ? double(alpha[2 * y + x]) : r[2 * y + x];
+    });
+    const Image a = make_picture(2, 2, {"R", "G", "B"},
+                                 [&](int, int x, int y) { return r[2 * y + x] + d[2 * y + x]; });
+    MetricOptions exact;
+    exact.alpha_least = double(0.02f);
+    const Metrics m = compare(a, reference, exact);
+    CHECK(m.pixels == 4);
+    CHECK(m.cloud_pixels == 3);
+    CHECK(m.has_alpha);
+    CHECK_FALSE(m.has_error_a);
+    const double mean = 7.0 / 3, eps = 0.0001 * mean * mean;
+    CHECK(m.mean_reference == doctest::Approx(mean).epsilon(1e-14));
+    CHECK(m.mean_a == doctest::Approx(7.375 / 3).epsilon(1e-14));
+    CHECK(m.bias == doctest::Approx(0.125).epsilon(1e-14));
+    CHECK(m.rmse == doctest::Approx(std::sqrt(0.328125 / 3)).epsilon(1e-14));
+    const double wanted = (0.015625 / (1 + eps) + 0.0625 / (4 + eps) + 0.25 / (16 + eps)) / 3;
+    CHECK(m.relmse_raw == doctest::Approx(wanted).epsilon(1e-14));
+    CHECK(m.relmse == m.relmse_raw);
+    CHECK(m.largest == 0.5);
+    CHECK(m.largest_x == 0);
+    CHECK(m.largest_y == 1);
+    CHECK(m.percentile_999 == 0.5);
+    CHECK(std::isnan(m.bias_z));
+    CHECK(m.z_count == 0);
+    // All pixels, and a reference without alpha, count the fourth.
+    MetricOptions all;
+    all.alpha_least = -1;
+    CHECK(compare(a, reference, all).cloud_pixels == 4);
+    CHECK(compare(reference, a).cloud_pixels == 4);
+    CHECK_FALSE(compare(reference, a).has_alpha);
+}
+
+TEST_CASE("metrics: a picture against itself is zero everywhere") {
+    const Image a = noisy(20, 0.1, 1);
+    const Metrics m = compare(a, a);
+    for (double figure : {m.rmse, m.relmse_raw, m.largest, m.percentile_999, m.bias, m.bias_z,
+                          m.relative_percentile_999, m.relmse_trimmed, m.z_square_mean})
+        CHECK(figure == 0);
+    CHECK(m.relmse == -m.relmse_reference_noise);
+    CHECK(m.z_count == 1200);
+}
+
+TEST_CASE("metrics: percentiles by nearest rank, and what trimming leaves") {
+    // |d| = 1..1000 eighths in shuffled order, one channel each side by side: 3000 values.
+    const Image r = make_picture(50, 20, {"Y"}, [](int, int, int) { return 1024.0; });
+    const auto rank = [](int x, int y) { return (x + 50 * y) * 7 % 1000 + 1; };
+    const Image a = make_picture(50, 20, {"Y"}, [&](int, int x, int y) {
+        return 1024.0 + (rank(x, y) % 2 ? 0.125 : -0.125) * rank(x, y);
+    });
+    const Metrics m = compare(a, r);
+    CHECK(m.largest == 125);
+    CHECK(m.percentile_999 == 0.125 * 999);  // rank ceil(0.999 * 3000) = 2997, the last of 999's
+    const double scale = 1024 * std::sqrt(1.0001);
+    CHECK(m.relative_percentile_999 == doctest::Approx(0.125 * 999 / scale).epsilon(1e-7));
+    double sum = 0;
+    for (int n = 1; n <= 999; ++n) sum += 3 * 0.015625 * n * n;
+    CHECK(m.relmse_trimmed == doctest::Approx(sum / 2997 / (scale * scale)).epsilon(1e-7));
+    CHECK(m.relmse_trimmed < m.relmse_raw);
+}
+
+TEST_CASE("metrics: relMSE loses the reference's noise, z values are normal, the bias is seen") {
+    // 3 * 160^2 values: shares of |z| have standard errors of 7.5e-4 and 1.9e-4, mean z^2
+    // of 5.1e-3.
+    const int side = 160;
+    const double n = 3.0 * side * side, sa = 0.02, sr = 0.05;
+    const Metrics m = compare(noisy(side, sa, 11), noisy(side, sr, 12));
+    std::printf("relMSE %.4g of which own noise %.4g; z^2 %.4f, |z| > 2: %.4f, > 3: %.5f\n",
+                m.relmse, m.relmse_own_noise, m.z_square_mean, m.z_above_2, m.z_above_3);
+    CHECK(std::fabs(m.z_square_mean - 1) < 4.5 * std::sqrt(2 / n));
+    CHECK(std::fabs(m.z_above_2 - 0.0455) < 4.5 * std::sqrt(0.0455 * 0.9545 / n));
+    CHECK(std::fabs(m.z_above_3 - 0.0027) < 4.5 * std::sqrt(0.0027 * 0.9973 / n));
+    // The terms' variance is 2 (own + reference)^2 times that of 1/r^2, at most 4.
+    const double error = std::sqrt(2 / n) * 2 * m.relmse_raw;
+    CHECK(std::fabs(m.relmse - m.relmse_own_noise) < 4.5 * error);
+    CHECK(m.relmse_reference_noise > 10 * error);
+    CHECK(std::fabs(m.bias_z) < 4.5);
+    // Channels are independent here, so that the stated error is sqrt(3) too wide, never too small.
+    CHECK(m.bias_standard_error ==
+          doctest::Approx(std::sqrt(sa * sa + sr * sr) / side).epsilon(1e-6));
+    CHECK(m.bias_standard_error_most ==
+          doctest::Approx(std::sqrt(sa * sa + sr * sr)).epsilon(1e-6));
+    const Metrics off = compare(noisy(side, sa, 11, 0.01), noisy(side, sr, 12));
+    CHECK(off.bias - m.bias == doctest::Approx(0.01).epsilon(1e-5));
+    CHECK(off.bias_z > 20);
+    CHECK(off.bias_z_least < 1);
+}
+
+TEST_CASE("metrics: two halves give the product form of relMSE") {
+    const Image a = noisy(40, 0.02, 1), h1 = noisy(40, 0.07, 2), h2 = noisy(40, 0.07, 3);
+    Metrics m;
+    REQUIRE(compare_with_halves(a, h1, h2, {}, m));
+    double mean = 0, sum = 0;
+    for (int pass = 0; pass < 2; ++pass)
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t i = 0; i < 1600; ++i) {
+                const double x = double(a.channels[c].pixels[i]);
+                const double r1 = double(h1.channels[c].pixels[i]);
+                const double r2 = double(h2.channels[c].pixels[i]), r = (r1 + r2) / 2;
+                if (pass == 0)
+                    mean += r / 4800;
+                else
+                    sum += (x - r1) * (x - r2) / (r * r + 1e-4 * mean * mean) / 4800;
+            }
+    // The merged reference is rounded to floats: 6e-8 of r against differences of 0.05.
+    CHECK(m.relmse == doctest::Approx(sum).epsilon(2e-5));
+    CHECK(m.relmse_raw > 3 * m.relmse);
+    CHECK(m.z_count == 0);
+    CHECK(std::isfinite(m.bias_z));
+}
+
+TEST_CASE("metrics: what is not finite is counted and left out; a black reference") {
+    Image a = noisy(8, 0.1, 1), r = noisy(8, 0.1, 2);
+    const Metrics before = compare(a, r);
+    a.channels[1].pixels[5] = std::numeric_limits<float>::quiet_NaN();
+    r.channels[4].pixels[6] = std::numeric_limits<float>::infinity();
+    const Metrics m = compare(a, r);
+    CHECK(m.not_finite == 2);
+    CHECK(m.cloud_pixels == before.cloud_pixels - 2);
+    CHECK(std::isfinite(m.relmse));
+    const Image black = test::flat_picture(4, 4, 0, 0, 0);
+    CHECK(compare(black, black).relmse == 0);
+    CHECK(std::isinf(compare(test::flat_picture(4, 4, 0, 1, 0), black).relmse));
+}
+
+TEST_CASE("metrics: differences without any standard error are counted apart") {
+    Image a = noisy(4, 0.1, 1), r = noisy(4, 0.1, 2);
+    for (Image* image : {&a, &r}) image->channels[3].pixels[0] = 0;
+    const Metrics m = compare(a, r);
+    CHECK(m.z_unknown == 1);
+    CHECK(m.z_count == 47);
+}
+
+TEST_CASE("metrics: faults") {
+    const Image a = test::flat_picture(4, 3, 1, 1, 1);
+    Metrics m;
+    const Status sizes = compare_images(a, test::flat_picture(3, 4, 1, 1, 1), {}, m);
+    CHECK(sizes.code == Code::kBadInput);
+    CHECK(sizes.message == "compare: sizes: differ, 4 x 3, allowed: 3 x 4");
+    const Image none = make_picture(4, 3, {"Z"}, [](int, int, int) { return 1.0; });
+    CHECK(compare_images(a, none, {}, m).message ==
+          "image: channel R: missing, allowed: R G B, or Y");
+    const Image clear = make_picture(4, 3, kRgba, [](int c, int, int) { return c == 3 ? 0. : 1.; });
+    CHECK(compare_images(a, clear, {}, m).code == Code::kBadInput);
+    Image merged;
+    CHECK(merge_halves(a, test::flat_picture(3, 4, 1, 1, 1), merged).code == Code::kBadInput);
+}
+
+TEST_CASE("metrics: the same bits on every machine") {
+    // Neither libm nor the order of a sort may reach a figure: the digest is that of any build.
+    const Image a = make_picture(61, 43, kRgbe, [](int c, int x, int y) {
+        return 0.1 + ((x * 7 + y * 13 + c * 5) % 31) / 32.0;
+    });
+    const Image r = make_picture(61, 43, kRgbe, [](int c, int x, int y) {
+        return 0.1 + ((x * 5 + y * 11 + c * 3) % 29) / 32.0;
+    });
+    MetricOptions options;
+    options.flip = true;
+    const Metrics m = compare(a, r, options);
+    Digest digest;
+    for (double figure : {m.rmse, m.relmse, m.relmse_trimmed, m.relative_percentile_999, m.bias_z,
+                          m.bias_z_least, m.z_square_mean, m.flip_mean}) {
+        std::uint64_t bits;
+        std::memcpy(&bits, &figure, 8);
+        digest.u64(bits);
+    }
+    CHECK(digest.hex() == "2ce5750953a32457");
+}
