@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fuzz target: OpenEXR pictures through the library, behind our own checks.
-// in: bytes as an .exr file -> out: a lawful picture of at most 4096 pixels, or one line.
-// docs/formats.md
-#include "src/io/image_file.h"
+// in: bytes as an .exr file -> out: a lawful picture of at most 4096 pixels, or one line; the same
+// of the layer and the display window that a comparison would take. docs/formats.md,
+// docs/compare.md
+#include "src/io/picture.h"
 #include "tests/fuzz/target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -10,9 +11,17 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     pileus::Image image;
     const pileus::Status status =
         pileus::decode_exr("p.exr", fuzz::text_of(data, size), image, kMostPixels);
-    if (status)
+    if (!status) {
+        fuzz::check_fault(status, "p.exr", true);
+        return 0;
+    }
+    fuzz::check_picture(image, kMostPixels);
+    std::string chosen;
+    pileus::Status taken = pileus::choose_layer("p.exr", "", image, chosen);
+    if (taken) taken = pileus::fit_display_window("p.exr", image, kMostPixels);
+    if (taken)
         fuzz::check_picture(image, kMostPixels);
     else
-        fuzz::check_fault(status, "p.exr", true);
+        fuzz::check_fault(taken, "p.exr", true);
     return 0;
 }
