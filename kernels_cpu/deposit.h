@@ -10,19 +10,6 @@
 namespace pileus {
 inline namespace PILEUS_ISA {
 
-/// The first bands*bands values of y_i(d); evaluates the next even number of bands.
-template <class T>
-PILEUS_FN void sh_values(int bands, const Vec<T>& d, T* out) {
-    if (bands <= 2)
-        sh_eval<2>(d.x, d.y, d.z, out);
-    else if (bands <= 4)
-        sh_eval<4>(d.x, d.y, d.z, out);
-    else if (bands <= 6)
-        sh_eval<6>(d.x, d.y, d.z, out);
-    else
-        sh_eval<8>(d.x, d.y, d.z, out);
-}
-
 /// Adds `count` quantised values of the chosen lanes to slots [first, first + count).
 template <int W>
 PILEUS_FN void add_lanes(const TraceParams& k, const TraceBuffers& b, std::uint32_t lanes,

@@ -2,10 +2,12 @@
 // Marching: sunlight's optical depth per node, the picture per pixel, ground and sky behind it.
 // in: density, majorants, lit node grids -> out: planes of pixels or nodes.
 // docs/methods.md 3, repair 4, and 4 (closed form per step: S (1 - e^-sigma dt) / sigma).
-// Samples sit on a lattice along each ray; skipping empty blocks leaves out zeros only.
+// Samples sit on a lattice along each ray; skipping empty blocks leaves out zeros only. Through a
+// periodic medium rays run on unbent; what they read is reduced to one period.
 #pragma once
 #include "kernels_cpu/march_params.h"
 #include "kernels_cpu/medium.h"
+#include "kernels_cpu/sh.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
@@ -28,14 +30,15 @@ PILEUS_FN Block<T> block_ahead(const MediumView& m, const Vec<T>& p, const Vec<T
         return min_(max_(to_int(v * (1.0f / m.block)), II{}), all<II>(m.blocks[axis] - 1));
     };
     const II x = index(p.x, 0), y = index(p.y, 1), z = index(p.z, 2);
-    const auto rest = [&](II i, T v, T direction, float cell) {
+    const auto rest = [&](II i, T v, T direction, int axis) {
         const auto forward = direction >= 0.0f;
-        const T face = to_float(select(forward, i + 1, i)) * m.block;
+        // The grid may end within its last block; behind it the next period's begins.
+        const T face =
+            min_(to_float(select(forward, i + 1, i)) * m.block, all<T>(float(m.size[axis])));
         const T safe = max_(abs_(direction), all<T>(1e-18f));
-        return select(forward, face - v, v - face) * cell / safe;
+        return select(forward, face - v, v - face) * m.cell[axis] / safe;
     };
-    const T t = min_(min_(rest(x, p.x, d.x, m.cell[0]), rest(y, p.y, d.y, m.cell[1])),
-                     rest(z, p.z, d.z, m.cell[2]));
+    const T t = min_(min_(rest(x, p.x, d.x, 0), rest(y, p.y, d.y, 1)), rest(z, p.z, d.z, 2));
     return {gather(m.majorant, (z * m.blocks[1] + y) * m.blocks[0] + x), max_(t, T{})};
 }
 
@@ -43,25 +46,46 @@ PILEUS_FN Block<T> block_ahead(const MediumView& m, const Vec<T>& p, const Vec<T
 /// that a ray still takes two steps or more in each cell it crosses.
 constexpr float kLeastStep = 0x1p-13f;
 
+/// Most steps of a ray through a periodic medium: a level ray would see no end of it.
+constexpr float kMostPeriodicSteps = 0x1p17f;
+
+/// Where a ray enters and leaves the medium's box, or the layer that a periodic one is.
+template <class T>
+PILEUS_FN Segment<T> clip_to_medium(const MediumView& m, const Ray<T>& ray) {
+    if (m.periodic == 0) return clip_to_box(ray.origin, ray.direction, m.extent);
+    Segment<T> s = clip_to_layer(ray.origin.z, ray.direction.z, m.extent[2]);
+    s.leave = min_(s.leave, s.enter + kMostPeriodicSteps * m.step);
+    return s;
+}
+
+/// Metres within the box, or within the period that holds them.
+template <class T>
+PILEUS_FN Vec<T> reduced(const MediumView& m, const Vec<T>& q) {
+    if (m.periodic == 0) return q;
+    return {wrap_place(q.x, m.extent[0]), wrap_place(q.y, m.extent[1]), q.z};
+}
+
 /// Visits the middles of steps that start at enter + n step; the last one ends at `leave`.
-/// `sample(dense, t, width, voxel position)` may return lanes that are finished.
+/// `sample(dense, t, width, voxel position, metres)`, both places within one period, may return
+/// lanes that are finished.
 template <class T, class Sample>
 PILEUS_FN void march_ray(const MediumView& m, const Ray<T>& ray, T enter, T leave, Sample sample) {
     T n{};
     auto alive = enter < leave;
     // A flat voxel sets the step for rays along it, too: bound their number (docs/testing.md S41).
-    const T step = max_(all<T>(m.step), (leave - enter) * kLeastStep), per_metre = 1.0f / step;
+    const float least = m.periodic != 0 ? 1.0f / kMostPeriodicSteps : kLeastStep;
+    const T step = max_(all<T>(m.step), (leave - enter) * least), per_metre = 1.0f / step;
     // Bounded: every turn of the loop advances every living lane by a step.
     while (any(alive)) {
         const T start = enter + n * step;
         const T width = max_(min_(step, leave - start), T{});
         const T t = start + 0.5f * width;
-        const Vec<T> q = along(ray, t);
+        const Vec<T> q = reduced(m, along(ray, t));
         const Vec<T> p{q.x * (1.0f / m.cell[0]), q.y * (1.0f / m.cell[1]),
                        q.z * (1.0f / m.cell[2])};
         const Block<T> block = block_ahead(m, p, ray.direction);
         const auto dense = alive & (block.bound > 0.0f);
-        const auto ended = sample(dense, t, width, p);
+        const auto ended = sample(dense, t, width, p, q);
         // Jump to the last step whose middle lies in an empty block; it adds nothing either.
         const T skipped = to_float(to_int(min_(block.rest * per_metre, all<T>(1e6f))));
         n = select(dense, n + 1.0f, n + max_(skipped, all<T>(1.0f)));
@@ -72,14 +96,17 @@ PILEUS_FN void march_ray(const MediumView& m, const Ray<T>& ray, T enter, T leav
 /// Optical depth from `origin` along `direction` to the end of the box.
 template <class T>
 PILEUS_FN T optical_depth(const MediumView& m, const Ray<T>& ray, M_of<T> wanted) {
-    const Segment<T> box = clip_to_box(ray.origin, ray.direction, m.extent);
+    const Segment<T> box = clip_to_medium(m, ray);
     const T leave = select(wanted, box.leave, box.enter);
     T sum{};
-    march_ray(m, ray, box.enter, leave, [&](M_of<T> dense, T, T width, const Vec<T>& p) {
-        if (any(dense))
-            sum = select(dense, sum + width * interpolate(m.density, corners(p, m.size)), sum);
-        return sum * m.sigma > 60.0f;  // e^-60 is nothing
-    });
+    march_ray(m, ray, box.enter, leave,
+              [&](M_of<T> dense, T, T width, const Vec<T>& p, const Vec<T>&) {
+                  if (any(dense)) {
+                      const Corners<T> at = corners(p, m.size, m.periodic != 0);
+                      sum = select(dense, sum + width * interpolate(m.density, at), sum);
+                  }
+                  return sum * m.sigma > 60.0f;  // e^-60 is nothing
+              });
     return sum * m.sigma;
 }
 
@@ -147,6 +174,80 @@ PILEUS_FN void sun_source_at(const MarchParams& k, const MarchBuffers& b, const 
         });
 }
 
+/// The harmonics of the directions in which a ray's light travels, lane by lane.
+template <int W>
+struct RayHarmonics {
+    float y[W][kMostHarmonics];
+};
+template <int W>
+PILEUS_FN void set_harmonics(const MarchParams& k, const Vec<F<W>>& d, RayHarmonics<W>& h) {
+    F<W> y[kMaxBands * kMaxBands];
+    sh_values(k.bands, Vec<F<W>>{F<W>{} - d.x, F<W>{} - d.y, F<W>{} - d.z}, y);
+    for (int l = 0; l < W; ++l)
+        for (int i = 0; i < k.harmonics; ++i)
+            h.y[l][i] = i < k.bands * k.bands ? lane(y[i], l) : 0.0f;
+}
+
+/// Light of each set that leaves a place along directions with harmonics `y`. Numbers of one node
+/// lie side by side and are added up sixteen abreast, in an order that no width changes.
+template <class T>
+PILEUS_FN void light_along(const MarchParams& k, const float* source, const Corners<T>& c, int l,
+                           const float* y, float (&out)[3]) {
+    const float fx = lane(c.fx, l), fy = lane(c.fy, l), fz = lane(c.fz, l);
+    const std::int32_t xs[2] = {lane(c.x0, l), lane(c.x1, l)};
+    const std::int32_t ys[2] = {lane(c.y0, l), lane(c.y1, l)};
+    const std::int32_t zs[2] = {lane(c.z0, l), lane(c.z1, l)};
+    const float wx[2] = {1.0f - fx, fx}, wy[2] = {1.0f - fy, fy}, wz[2] = {1.0f - fz, fz};
+    const int numbers = k.sets * k.harmonics;
+    float sum[3 * kMostHarmonics];
+    for (int i = 0; i < numbers; ++i) sum[i] = 0;
+    for (int j = 0; j < 8; ++j) {
+        const float weight = wx[j & 1] * wy[(j >> 1) & 1] * wz[j >> 2];
+        const std::int64_t node = zs[j >> 2] + ys[(j >> 1) & 1] + xs[j & 1];
+        const float* from = source + node * numbers;
+        for (int i = 0; i < numbers; ++i) sum[i] = sum[i] + weight * from[i];
+    }
+    for (int s = 0; s < k.sets; ++s) {
+        float part[kHarmonicsAbreast] = {};
+        const float* own = sum + s * k.harmonics;
+        for (int i = 0; i < k.harmonics; i += kHarmonicsAbreast)
+            for (int j = 0; j < kHarmonicsAbreast; ++j) part[j] = part[j] + y[i + j] * own[i + j];
+        for (int half = kHarmonicsAbreast / 2; half > 0; half /= 2)
+            for (int j = 0; j < half; ++j) part[j] = part[j] + part[j + half];
+        out[s] = part[0];
+    }
+}
+
+/// Adds `weight` times all light that leaves towards the camera: `direct` and that of the nodes.
+template <int W>
+PILEUS_FN void add_source(const MarchParams& k, const MarchBuffers& b, const Vec<F<W>>& metres,
+                          const RayHarmonics<W>& h, const F<W> (&direct)[3], F<W> weight,
+                          F<W>* colour) {
+    using T = F<W>;
+    const Corners<T> c =
+        corners(node_position(k.source, metres), k.source.size, k.medium.periodic != 0);
+    const std::int64_t nodes = std::int64_t(k.source.size[0]) * k.source.size[1] * k.source.size[2];
+    if (k.bands == 0) {
+        for (int i = 0; i < k.channels; ++i) {
+            T source = interpolate(b.source + i * nodes, c);
+            source = source + (direct[i % 3] + k.constant[i % 3]);
+            colour[i] = colour[i] + weight * source;
+        }
+        return;
+    }
+    T source[3];
+    for (int i = 0; i < 3; ++i) source[i] = direct[i] + k.constant[i];
+    for (std::uint32_t lanes = bits_of(weight > 0.0f); lanes != 0; lanes &= lanes - 1) {
+        const int l = __builtin_ctz(lanes);
+        float light[3] = {};
+        light_along(k, b.source, c, l, h.y[l], light);
+        for (int s = 0; s < k.sets; ++s)
+            for (int i = 0; i < 3; ++i)
+                set_lane(source[i], l, lane(source[i], l) + light[s] * k.set_colour[s][i]);
+    }
+    for (int i = 0; i < 3; ++i) colour[i] = colour[i] + weight * source[i];
+}
+
 /// W pixels of one row, from pixel x on.
 template <int W>
 PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::int32_t x,
@@ -160,7 +261,7 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
     const int lanes = k.camera.width - x < W ? k.camera.width - x : W;
 
     const Ray<T> ray = camera_ray(k.camera, to_float(column), all<T>(float(y)));
-    const Segment<T> box = clip_to_box(ray.origin, ray.direction, k.medium.extent);
+    const Segment<T> box = clip_to_medium(k.medium, ray);
     T leave = box.leave;
     if (b.opaque_depth != nullptr) {
         T depth{};
@@ -170,43 +271,41 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
     leave = select(real, leave, box.enter);
 
     const SunAlongRay<T> sun = sun_along(k, ray.direction);
-    const std::int64_t nodes = std::int64_t(k.source.size[0]) * k.source.size[1] * k.source.size[2];
+    RayHarmonics<W> harmonics;
+    if (k.bands > 0) set_harmonics(k, ray.direction, harmonics);
+    const bool wraps = k.medium.periodic != 0;
 
     T transmittance = all<T>(1.0f), half = all<T>(__builtin_inff());
     T colour[kMost];
     for (int c = 0; c < k.channels; ++c) colour[c] = T{};
-    march_ray(k.medium, ray, box.enter, leave, [&](M<W> dense, T t, T width, const Vec<T>& p) {
-        if (!any(dense)) return transmittance < k.cut;
-        const Corners<T> at = corners(p, k.medium.size);
-        const T density = interpolate(k.medium.density, at);
-        const T optical = select(dense, density * k.medium.sigma * width, T{});
-        if (!any(optical > 0.0f)) return transmittance < k.cut;
-        const T alpha = one_minus_exp(optical);
-        const T weight = transmittance * alpha;
-        const Vec<T> metres = along(ray, t);
-        T direct[3] = {};
-        if (sun.lit) {
-            const T tau = interpolate(b.optical_depth,
-                                      corners(node_position(k.shadow, metres), k.shadow.size));
-            sun_source_at(k, b, sun, at, density, exp_(T{} - tau), direct);
-        }
-        const Corners<T> c = corners(node_position(k.source, metres), k.source.size);
-        for (int i = 0; i < k.channels; ++i) {
-            T source = interpolate(b.source + i * nodes, c);
-            source = source + (direct[i % 3] + k.constant[i % 3]);
-            colour[i] = colour[i] + weight * source;
-        }
-        const T left = transmittance * (1.0f - alpha);
-        if (b.half_depth != nullptr) {
-            const auto crosses = (transmittance > 0.5f) & (left <= 0.5f);
-            if (any(crosses)) {
-                const T share = log_(transmittance * 2.0f) / max_(optical, all<T>(1e-30f));
-                half = select(crosses, t + (share - 0.5f) * width, half);
+    march_ray(
+        k.medium, ray, box.enter, leave,
+        [&](M<W> dense, T t, T width, const Vec<T>& p, const Vec<T>& metres) {
+            if (!any(dense)) return transmittance < k.cut;
+            const Corners<T> at = corners(p, k.medium.size, wraps);
+            const T density = interpolate(k.medium.density, at);
+            const T optical = select(dense, density * k.medium.sigma * width, T{});
+            if (!any(optical > 0.0f)) return transmittance < k.cut;
+            const T alpha = one_minus_exp(optical);
+            const T weight = transmittance * alpha;
+            T direct[3] = {};
+            if (sun.lit) {
+                const Vec<T> node = node_position(k.shadow, metres);
+                const T tau = interpolate(b.optical_depth, corners(node, k.shadow.size, wraps));
+                sun_source_at(k, b, sun, at, density, exp_(T{} - tau), direct);
             }
-        }
-        transmittance = left;
-        return transmittance < k.cut;
-    });
+            add_source<W>(k, b, metres, harmonics, direct, weight, colour);
+            const T left = transmittance * (1.0f - alpha);
+            if (b.half_depth != nullptr) {
+                const auto crosses = (transmittance > 0.5f) & (left <= 0.5f);
+                if (any(crosses)) {
+                    const T share = log_(transmittance * 2.0f) / max_(optical, all<T>(1e-30f));
+                    half = select(crosses, t + (share - 0.5f) * width, half);
+                }
+            }
+            transmittance = left;
+            return transmittance < k.cut;
+        });
     for (int l = 0; l < lanes; ++l) {
         b.transmittance[first + l] = lane(transmittance, l);
         if (b.half_depth != nullptr) b.half_depth[first + l] = lane(half, l);
@@ -222,15 +321,19 @@ PILEUS_FN void march_rows(const MarchParams& k, const MarchBuffers& b, std::uint
             march_pixels<W>(k, b, x, std::int32_t(y));
 }
 
-/// Light that the cloud scatters onto the ground at `at`; nothing is known beyond the map.
+/// Light that the cloud scatters onto the ground at `at`; nothing is known beyond the map, which
+/// covers one period where there are periods.
 template <class T>
 PILEUS_FN void scattered_on_ground(const BackgroundParams& k, const BackgroundBuffers& b,
                                    const Vec<T>& at, T* radiance) {
-    const Vec<T> p{(at.x - k.map_origin[0]) * k.map.per_metre[0],
-                   (at.y - k.map_origin[1]) * k.map.per_metre[1], all<T>(0.5f)};
-    const auto known = (p.x >= 0.0f) & (p.x <= float(k.map.size[0])) & (p.y >= 0.0f) &
-                       (p.y <= float(k.map.size[1]));
-    const Corners<T> c = corners(p, k.map.size);
+    const Vec<T> place = reduced(k.medium, at);
+    const Vec<T> p{(place.x - k.map_origin[0]) * k.map.per_metre[0],
+                   (place.y - k.map_origin[1]) * k.map.per_metre[1], all<T>(0.5f)};
+    const bool wraps = k.medium.periodic != 0;
+    auto known = (p.x >= 0.0f) & (p.x <= float(k.map.size[0])) & (p.y >= 0.0f) &
+                 (p.y <= float(k.map.size[1]));
+    if (wraps) known = p.z > 0.0f;
+    const Corners<T> c = corners(p, k.map.size, wraps);
     const std::int32_t cells = k.map.size[0] * k.map.size[1];
     for (int i = 0; i < 3; ++i) radiance[i] = select(known, interpolate(b.map + i * cells, c), T{});
 }

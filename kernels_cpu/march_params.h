@@ -20,6 +20,7 @@ struct MediumView {
     float step;              ///< m
     const float* density;
     const float* majorant;
+    std::int32_t periodic;  ///< 1: the box, and every grid over it, repeats along x and y
 };
 
 /// A grid of nodes at (i + 1/2) * spacing over the same box.
@@ -37,6 +38,10 @@ struct ShadowBuffers {
     float* optical_depth;  ///< nodes
 };
 
+/// Harmonics of a node are stored in groups of so many, the last one filled up with zeros.
+constexpr int kHarmonicsAbreast = 16;
+constexpr int kMostHarmonics = 64;
+
 struct MarchParams {
     MediumView medium;
     CameraParams camera;
@@ -46,18 +51,23 @@ struct MarchParams {
     float sun_source[kMostMedia][3];  ///< irradiance times albedo; all zero: no direct sunlight
     float constant[3];  ///< source everywhere in the media: sky by the furnace identity
     NodeGrid shadow, source;
-    std::int32_t channels;  ///< planes of `source` and of `colour`: 3, or 3*(1+batches)
-    float cut;              ///< stop below this transmittance
+    std::int32_t channels;   ///< planes of `source` and of `colour`: 3, or 3*(1+batches)
+    std::int32_t bands;      ///< 0; or `source` holds bands*bands harmonics of what goes each way
+    std::int32_t harmonics;  ///< stored per set and node
+    std::int32_t sets;       ///< 1..3 of such harmonics
+    float set_colour[3][3];  ///< R G B of each
+    float cut;               ///< stop below this transmittance
 };
 struct MarchBuffers {
     const float* optical_depth;  ///< shadow nodes; unused without direct sunlight
-    const float* source;         ///< [channel][node], scattered light towards the camera
-    const float* opaque_depth;   ///< [pixel], m along the ray; null: nothing opaque
-    const float* parts;          ///< [medium - 1][voxel]: densities of media 1, 2 ...
-    float* transmittance;        ///< [pixel]
-    float* half_depth;           ///< [pixel], m; infinity where transmittance stays above 1/2;
-                                 ///< null: not wanted
-    float* colour;               ///< [channel][pixel], premultiplied
+    const float* source;  ///< [channel][node], scattered light towards the camera; with bands:
+                          ///< [node][set][harmonic], scattered light per direction
+    const float* opaque_depth;  ///< [pixel], m along the ray; null: nothing opaque
+    const float* parts;         ///< [medium - 1][voxel]: densities of media 1, 2 ...
+    float* transmittance;       ///< [pixel]
+    float* half_depth;          ///< [pixel], m; infinity where transmittance stays above 1/2;
+                                ///< null: not wanted
+    float* colour;              ///< [channel][pixel], premultiplied
 };
 
 struct BackgroundParams {

@@ -4,6 +4,7 @@
 // docs/methods.md 2: orthonormal, no Condon-Shortley sign; |y_lm| <= sqrt((2l+1)/4pi).
 #pragma once
 #include "kernels_cpu/lanes.h"
+#include "kernels_cpu/vec.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
@@ -56,6 +57,19 @@ PILEUS_FN void sh_eval(T x, T y, T z, T* out) {
         sine = cosine * y + sine * x;
         cosine = turned_cosine;
     }
+}
+
+/// The first bands*bands values of y_i(d); evaluates the next even number of bands.
+template <class T>
+PILEUS_FN void sh_values(int bands, const Vec<T>& d, T* out) {
+    if (bands <= 2)
+        sh_eval<2>(d.x, d.y, d.z, out);
+    else if (bands <= 4)
+        sh_eval<4>(d.x, d.y, d.z, out);
+    else if (bands <= 6)
+        sh_eval<6>(d.x, d.y, d.z, out);
+    else
+        sh_eval<8>(d.x, d.y, d.z, out);
 }
 
 }  // namespace PILEUS_ISA

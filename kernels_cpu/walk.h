@@ -4,7 +4,7 @@
 // docs/methods.md 2, delta tracking and "Periodic media"; the walk stands on each plane it crosses:
 // none is met twice.
 #pragma once
-#include "kernels_cpu/math.h"
+#include "kernels_cpu/medium.h"
 #include "kernels_cpu/rng.h"
 #include "kernels_cpu/track_grid.h"
 #include "kernels_cpu/vec.h"
@@ -95,15 +95,6 @@ PILEUS_FN auto corner_voxel(const Vec<T>& p, UU bits, const TrackGrid& k) {
     const II y = draw(p.y, (bits >> 11) & 0x7ffu, 0x1p-11f, k.size[1], wraps);
     const II z = draw(p.z, (bits >> 22), 0x1p-10f, k.size[2], false);
     return (z * k.size[1] + y) * k.size[0] + x;
-}
-
-/// Place within one period of `length`. What lies 2^22 periods away or farther has no place that a
-/// float could tell: it counts as one of the ends.
-template <class T>
-PILEUS_FN T wrap_place(T at, float length) {
-    const T most = all<T>(0x1p22f);
-    const T periods = min_(max_(at * (1.0f / length), T{} - most), most);
-    return min_(max_(at - to_float(floor_int(periods)) * length, T{}), all<T>(length));
 }
 
 /// What one stride met: a tentative collision (hits) or the border of the block (hops).

@@ -45,6 +45,12 @@ inline bool is_marched(const CollectorsRun& run) {
     return !run.scene->collectors.billboards || run.camera_cells > 0;
 }
 
+/// Whether the display keeps what each collector scatters into every direction: a perspective view
+/// of a periodic medium shows each from many sides.
+inline bool shows_harmonics(const CollectorsRun& run) {
+    return is_marched(run) && run.medium.grid.periodic && !run.scene->camera.orthographic;
+}
+
 /// Slots of the photon map: the generations of an animation's ring, or batches for the error.
 std::uint64_t collectors_slots(const CollectorsRun& run);
 

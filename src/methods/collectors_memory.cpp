@@ -110,8 +110,9 @@ void add_photons(const CollectorsSizes& s, MemoryTable& t) {
 /// methods/collectors_show.cpp, up to the display.
 void add_light(const CollectorsSizes& s, MemoryTable& t) {
     const Size pixels = s.width * s.height;
+    const Size source = s.harmonics > 0 ? s.harmonics : s.planes;
     t.add("collector colours", Stage::kReconstruct, Stage::kLayers,
-          bytes_of(kFloat * s.planes, s.collectors));
+          bytes_of(kFloat * source, s.collectors));
     // Colours with their batches, transmittance, background; depths where something asks for them.
     const Size planes = s.planes + 4 + (s.ground ? 1u : 0u) + (s.depth ? 1u : 0u);
     t.add("picture planes", Stage::kBackground, Stage::kLayers, bytes_of(kFloat * planes, pixels));
@@ -120,7 +121,9 @@ void add_light(const CollectorsSizes& s, MemoryTable& t) {
           kFloat * s.shadow_nodes);
     if (s.marched) {
         t.add("source grid", Stage::kSplat, Stage::kDisplay,
-              bytes_of(kFloat * s.planes, s.source_nodes));
+              bytes_of(kFloat * source, s.source_nodes));
+        t.add("source by node", Stage::kSplat, Stage::kDisplay,
+              bytes_of(kFloat * s.stored_harmonics, s.source_nodes));
         t.add("source weights", Stage::kSplat, Stage::kSplat, kFloat * s.source_nodes);
     }
 }

@@ -14,8 +14,14 @@ namespace {
 constexpr float kCut = 1e-4f;         // transmittance that no eye misses
 constexpr float kSplatFactor = 1.2f;  // docs/methods.md 3, repair 4
 constexpr double kPriorScatterings = 8;
-constexpr double kShadowVoxels = 2;              // spacing of the shadow nodes
-constexpr std::uint64_t kNodeBudget = 1u << 19;  // nodes of the source grid, about
+constexpr double kShadowVoxels = 2;                  // spacing of the shadow nodes
+constexpr std::uint64_t kNodeBudget = 1u << 19;      // nodes of the source grid, about
+constexpr std::uint64_t kHarmonicBudget = 1u << 18;  // of one that holds harmonics
+
+/// Numbers per node and set, filled up to whole groups.
+int stored_harmonics(int bands) {
+    return (bands * bands + kHarmonicsAbreast - 1) / kHarmonicsAbreast * kHarmonicsAbreast;
+}
 
 float smallest_cell(const Grid& grid) {
     float smallest = grid.cell_m[0];
@@ -37,6 +43,7 @@ MediumView view_of(const CollectorsRun& run) {
     v.step = smallest_cell(m.grid);
     v.density = m.volume.density.data();
     v.majorant = run.prepared.skip_majorants.data();
+    v.periodic = m.grid.periodic ? 1 : 0;
     return v;
 }
 
@@ -98,7 +105,8 @@ double source_spacing(const CollectorsRun& run) {
     const double smallest = double(smallest_cell(run.medium.grid));
     if (run.camera_cells > 0) return smallest * run.camera_cells;
     double spacing = 2 * smallest;
-    while (e[0] * e[1] * e[2] > spacing * spacing * spacing * double(kNodeBudget)) spacing *= 1.25;
+    const double budget = double(shows_harmonics(run) ? kHarmonicBudget : kNodeBudget);
+    while (e[0] * e[1] * e[2] > spacing * spacing * spacing * budget) spacing *= 1.25;
     return spacing;
 }
 
@@ -110,22 +118,36 @@ SplatOptions splat_options(const CollectorsRun& run) {
     for (const PhotonSlot& slot : run.photons.slots) scatterings += double(slot.scatterings);
     SplatOptions options;
     options.radius_factor = kSplatFactor;
+    options.periodic = run.medium.grid.periodic;
     options.prior_mass = scatterings > 0 ? float(kPriorScatterings * mass / scatterings) : 0.0f;
     return options;
 }
 
-Status show_marched(const Context& context, CollectorsRun& run, const CameraParams& camera,
-                    const CollectorColours& colours, int channels, Planes& planes) {
-    PILEUS_TRY(make_shadow(context, run));
-    const NodeGrid nodes =
-        make_node_grid(run.medium.grid, run.medium.extent_m, source_spacing(run));
-    Buffer<float> source;
-    {
-        const StageClock clock(context, "splat");
-        PILEUS_TRY(splat_colours(run.prepared.collectors.span(), colours.colour.span(), channels,
-                                 nodes, splat_options(run), context.threads, source));
-    }
+Status splat(const Context& context, const CollectorsRun& run, Span<const float> colour, int planes,
+             const NodeGrid& nodes, Buffer<float>& source) {
+    const StageClock clock(context, "splat");
+    return splat_colours(run.prepared.collectors.span(), colour, planes, nodes, splat_options(run),
+                         context.threads, source);
+}
+
+/// Marches through `source` into `target`'s planes.
+Status march(const Context& context, const CollectorsRun& run, const float* source,
+             const MarchParams& k, float* target, Planes& planes) {
     const StageClock clock(context, "march");
+    MarchBuffers b{};
+    b.optical_depth = run.shadow.data();
+    b.source = source;
+    b.opaque_depth = planes.opaque_depth.data();
+    b.parts = run.medium.parts.data();
+    b.transmittance = planes.transmittance.data();
+    b.half_depth = planes.half_depth.data();
+    b.colour = target;
+    run_rows(context, context.kernels->march_rows, k, b, std::uint32_t(k.camera.height));
+    return Status::ok();
+}
+
+/// What all marches of a picture share.
+MarchParams march_params(const CollectorsRun& run, const CameraParams& camera) {
     MarchParams k{};
     k.medium = view_of(run);
     k.camera = camera;
@@ -141,18 +163,69 @@ Status show_marched(const Context& context, CollectorsRun& run, const CameraPara
             k.sun_source[i][c] = float(run.lighting.sun_irradiance[c] * double(optics.albedo[c]));
     }
     k.shadow = run.shadow_nodes;
-    k.source = nodes;
-    k.channels = channels;
+    k.source = make_node_grid(run.medium.grid, run.medium.extent_m, source_spacing(run));
+    k.channels = 3;
     k.cut = kCut;
-    MarchBuffers b{};
-    b.optical_depth = run.shadow.data();
-    b.source = source.data();
-    b.opaque_depth = planes.opaque_depth.data();
-    b.parts = run.medium.parts.data();
-    b.transmittance = planes.transmittance.data();
-    b.half_depth = planes.half_depth.data();
-    b.colour = planes.colour.data();
-    run_rows(context, context.kernels->march_rows, k, b, std::uint32_t(camera.height));
+    return k;
+}
+
+Status show_marched(const Context& context, CollectorsRun& run, const CameraParams& camera,
+                    const CollectorColours& colours, int channels, Planes& planes) {
+    PILEUS_TRY(make_shadow(context, run));
+    MarchParams k = march_params(run, camera);
+    k.channels = channels;
+    Buffer<float> source;
+    PILEUS_TRY(splat(context, run, colours.colour.span(), channels, k.source, source));
+    return march(context, run, source.data(), k, planes.colour.data(), planes);
+}
+
+/// Numbers of one harmonic of one set after the other become those of one node after the other.
+Status gather_by_node(const Context& context, const HarmonicSource& lit, const MarchParams& k,
+                      Span<const float> planes, Buffer<float>& by_node) {
+    const std::size_t nodes = std::size_t(node_count(k.source)),
+                      own = std::size_t(k.bands * k.bands);
+    const std::size_t stored = std::size_t(k.harmonics), sets = std::size_t(lit.sets);
+    if (by_node.size() != nodes * sets * stored)
+        PILEUS_TRY(by_node.resize(nodes * sets * stored, "source by node"));
+    const std::size_t slice = nodes / std::size_t(k.source.size[2]);
+    parallel_for(context.threads, k.source.size[2], [&](std::int64_t z, int) {
+        for (std::size_t n = std::size_t(z) * slice; n < (std::size_t(z) + 1) * slice; ++n)
+            for (std::size_t s = 0; s < sets; ++s)
+                for (std::size_t i = 0; i < own; ++i)
+                    by_node[(n * sets + s) * stored + i] = planes[(s * own + i) * nodes + n];
+    });
+    return Status::ok();
+}
+
+/// A periodic medium shows each collector from many directions at once: the nodes hold harmonics.
+/// One march for the picture and one for each batch.
+Status show_harmonics(const Context& context, CollectorsRun& run, const ReconstructInput& in,
+                      Planes& planes) {
+    PILEUS_TRY(make_shadow(context, run));
+    MarchParams k = march_params(run, in.camera);
+    const std::size_t pixels = std::size_t(k.camera.width) * std::size_t(k.camera.height);
+    HarmonicSource lit;
+    Buffer<float> source, by_node;
+    Digest digest;
+    for (int batch = -1; batch < in.batches; ++batch) {
+        {
+            const StageClock clock(context, "reconstruct");
+            PILEUS_TRY(reconstruct_harmonics(in, batch, lit));
+        }
+        if (batch < 0) digest.floats(lit.values.span());
+        k.bands = lit.bands;
+        k.sets = lit.sets;
+        k.harmonics = stored_harmonics(lit.bands);
+        for (int s = 0; s < lit.sets; ++s)
+            for (int c = 0; c < 3; ++c) k.set_colour[s][c] = lit.colour[s][c];
+        float* target = planes.colour.data() + 3 * std::size_t(batch + 1) * pixels;
+        PILEUS_TRY(splat(context, run, lit.values.span(), lit.sets * lit.bands * lit.bands,
+                         k.source, source));
+        PILEUS_TRY(gather_by_node(context, lit, k, source.span(), by_node));
+        source = Buffer<float>();
+        PILEUS_TRY(march(context, run, by_node.data(), k, target, planes));
+    }
+    context.report->digests.emplace_back("colours", digest.hex());
     return Status::ok();
 }
 
@@ -214,6 +287,11 @@ void collectors_size_display(const CollectorsRun& run, CollectorsSizes& sizes) {
     sizes.ground = run.lighting.ground;
     sizes.depth = output.layer_depth;
     if (!sizes.marched) return;
+    if (shows_harmonics(run)) {
+        const std::uint64_t sets = std::uint64_t(harmonic_sets(run.medium, run.lighting));
+        sizes.harmonics = sets * std::uint64_t(run.deposit.bands * run.deposit.bands);
+        sizes.stored_harmonics = sets * std::uint64_t(stored_harmonics(run.deposit.bands));
+    }
     sizes.source_nodes =
         source_nodes(make_node_grid(run.medium.grid, run.medium.extent_m, source_spacing(run)));
     if (run.lighting.sunlit && run.deposit.first_order == 2)
@@ -243,21 +321,22 @@ ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const 
 Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& run, Image& image) {
     const Scene& scene = *run.scene;
     const CameraParams camera = make_camera(scene.camera, orbit_deg, run.medium.low_m);
-    const bool marched = is_marched(run);
     const ReconstructInput in = collectors_reconstruct_input(camera, context, run);
+    const int channels = 3 * (1 + in.batches);
+    Planes planes;
+    Report& report = *context.report;
     CollectorColours colours;
-    {
+    if (!shows_harmonics(run)) {
         const StageClock clock(context, "reconstruct");
         PILEUS_TRY(reconstruct(in, colours));
     }
-    const int channels = 3 * (1 + in.batches);
-    Planes planes;
     PILEUS_TRY(allocate_planes(camera.width, camera.height, channels, run.lighting.ground,
                                scene.output.layer_depth, planes));
     PILEUS_TRY(make_background(context, run, in, planes));
-    PILEUS_TRY(marched ? show_marched(context, run, camera, colours, channels, planes)
-                       : show_billboards(context, run, camera, colours, channels, planes));
-    Report& report = *context.report;
+    PILEUS_TRY(shows_harmonics(run) ? show_harmonics(context, run, in, planes)
+               : is_marched(run)
+                   ? show_marched(context, run, camera, colours, channels, planes)
+                   : show_billboards(context, run, camera, colours, channels, planes));
     report.counters.clear();
     std::uint64_t clamped = colours.clamped_negative;
     PILEUS_TRY(make_layers(planes, camera.width, camera.height, channels, scene.output, image,
@@ -268,6 +347,7 @@ Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& 
                        {"batches", std::uint64_t(in.batches)},
                        {"parts_stored", run.medium.parts.size()}};
     set_image_camera(camera, run.medium.low_m, image);
+    if (shows_harmonics(run)) return Status::ok();
     Digest digest;
     digest.floats(colours.colour.span());
     report.digests.emplace_back("colours", digest.hex());

@@ -125,6 +125,28 @@ void fill_paper_defaults(SceneCheck& check) {
     if (check.key("collectors.first_order_split") == nullptr) settings.first_order_split = false;
 }
 
+/// A periodic medium is seen from many sides at once: what is lit towards one camera alone will not
+/// do, nor will sprites of one period.
+void check_periodic(SceneCheck& check) {
+    const Scene& scene = check.scene;
+    bool periodic = false;
+    for (const MediumSettings& m : scene.media) periodic |= m.periodic;
+    if (!periodic || scene.method != "collectors") return;
+    const CollectorSettings& c = scene.collectors;
+    const auto refuse = [&](const char* key, const char* value, const char* allowed) {
+        const Node* node = check.key(key);
+        if (node == nullptr) node = check.key("collectors.variant");
+        if (node == nullptr) return;
+        check.faults.add(node->at, key,
+                         std::string("not for periodic media, ") + value + ", allowed: " + allowed);
+    };
+    if (c.billboards) refuse("collectors.display", "\"billboards\"", "march");
+    if (!scene.camera.orthographic && c.lobe_closure)
+        refuse("collectors.closure", "\"lobe\"", "sh, or an orthographic camera");
+    if (!scene.camera.orthographic && c.camera_closure)
+        refuse("collectors.closure", "\"camera\"", "sh, or an orthographic camera");
+}
+
 }  // namespace
 
 void check_scene(SceneCheck& check) {
@@ -140,6 +162,7 @@ void check_scene(SceneCheck& check) {
     check_animation(check);
     fill_paper_defaults(check);
     for (std::size_t i = 0; i < scene.media.size(); ++i) check_medium(check, i);
+    check_periodic(check);
 }
 
 }  // namespace pileus

@@ -94,18 +94,24 @@ double lobe_power(const ReconstructInput& in, const Mixture& mix, const double* 
     return flux * double(hg_density(g, 1.0f - cosine));
 }
 
-/// Light of one light in one slot, scattered towards `to`, per unit of its colour.
-double slot_power(const ReconstructInput& in, const Window& window, const Mixture& mix,
-                  const PhotonSlot& slot, std::size_t light, std::uint64_t set,
-                  const Direction& to) {
-    if (slot.generations == 0) return 0;
+/// Sums of one set of one light in one slot, per unit of its colour.
+void slot_sums(const ReconstructInput& in, const PhotonSlot& slot, std::size_t light,
+               std::uint64_t set, double* sums) {
     const int n = in.deposit.coefficients;
     const std::uint64_t stride = slot.sums.size() / in.lighting->lights.size();
     const std::int64_t* from = slot.sums.data() + light * stride + set * std::uint64_t(n);
     const double norm = slot.flux_per_photon_m2[light] /
                         double(std::uint64_t{1} << in.deposit.places) / double(slot.generations);
-    double sums[kMostNumbers];
     for (int i = 0; i < n; ++i) sums[i] = double(from[i]) * norm;
+}
+
+/// Light of one light in one slot, scattered towards `to`, per unit of its colour.
+double slot_power(const ReconstructInput& in, const Window& window, const Mixture& mix,
+                  const PhotonSlot& slot, std::size_t light, std::uint64_t set,
+                  const Direction& to) {
+    if (slot.generations == 0) return 0;
+    double sums[kMostNumbers];
+    slot_sums(in, slot, light, set, sums);
     if (in.closure == Closure::kCamera) return sums[0];
 
     double power = in.closure == Closure::kLobe ? lobe_power(in, mix, sums, to)
@@ -203,6 +209,83 @@ Status reconstruct(const ReconstructInput& in, CollectorColours& out) {
     });
     out.clamped_negative = 0;
     for (std::uint64_t n : negative.span()) out.clamped_negative += n;
+    return Status::ok();
+}
+
+int harmonic_sets(const Medium& medium, const Lighting& lighting) {
+    return medium.channels == 1 && lighting.lights.size() < 3 ? int(lighting.lights.size()) : 3;
+}
+
+namespace {
+
+/// Harmonics of collector i: [set][harmonic] into `out`.
+void collector_harmonics(const ReconstructInput& in, const Window& window, std::size_t i,
+                         std::size_t first, std::size_t last, const HarmonicSource& sets,
+                         double* out) {
+    const Medium& m = *in.medium;
+    const int count = sets.bands * sets.bands;
+    const bool by_light = sets.sets < 3;
+    const bool albedo_done = in.deposit.mode == kDepositOutgoing;
+    double generations = 0;
+    for (std::size_t s = first; s < last; ++s)
+        generations += double(in.photons->slots[s].generations);
+    for (int k = 0; k < sets.sets * count; ++k) out[k] = 0;
+    for (std::size_t ch = 0; ch < std::size_t(m.channels == 3 ? 3 : 1); ++ch) {
+        const Mixture mix = mixture_of(in, i, ch);
+        double factor[kMaxBands];
+        for (int l = 0; l < sets.bands; ++l)
+            factor[l] = double(albedo_done ? 1.0f : mix.moment(l) * mix.albedo) *
+                        double(window.factor[l]) / (in.collectors[i].mass * double(m.sigma));
+        for (std::size_t s = first; s < last; ++s) {
+            const PhotonSlot& slot = in.photons->slots[s];
+            if (slot.generations == 0) continue;
+            const double share = double(slot.generations) / generations;
+            for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {
+                double sums[kMostNumbers];
+                slot_sums(in, slot, l, std::uint64_t(i) * std::uint64_t(m.channels) + ch, sums);
+                // Which sets this light feeds, and how brightly.
+                const auto& colour = in.lighting->lights[l].colour;
+                for (std::size_t set = 0; set < std::size_t(sets.sets); ++set) {
+                    if (by_light ? set != l : (m.channels == 3 && set != ch)) continue;
+                    const double power = share * (by_light ? 1.0 : colour[set]);
+                    for (int band = 0, k = 0; band < sets.bands; ++band)
+                        for (int order = -band; order <= band; ++order, ++k)
+                            out[int(set) * count + k] += sums[k] * factor[band] * power;
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+
+Status reconstruct_harmonics(const ReconstructInput& in, int batch, HarmonicSource& out) {
+    const std::size_t slots = in.photons->slots.size(), count = in.collectors.size;
+    const std::size_t batches = std::size_t(in.batches);
+    const std::size_t first = batch < 0 ? 0 : std::size_t(batch) * slots / batches;
+    const std::size_t last = batch < 0 ? slots : (std::size_t(batch) + 1) * slots / batches;
+    out.bands = in.deposit.bands;
+    out.sets = harmonic_sets(*in.medium, *in.lighting);
+    for (int s = 0; s < out.sets; ++s)
+        for (std::size_t c = 0; c < 3; ++c)
+            out.colour[s][c] = out.sets < 3 ? float(in.lighting->lights[std::size_t(s)].colour[c])
+                                            : (std::size_t(s) == c ? 1.0f : 0.0f);
+    const std::size_t numbers = std::size_t(out.sets) * std::size_t(out.bands * out.bands);
+    if (out.values.size() != numbers * count)
+        PILEUS_TRY(out.values.resize(numbers * count, "collector colours"));
+    const Window window = band_window(in);
+    constexpr std::size_t kPiece = 256;
+    parallel_for(in.threads, std::int64_t((count + kPiece - 1) / kPiece),
+                 [&](std::int64_t piece, int) {
+                     const std::size_t begin = std::size_t(piece) * kPiece;
+                     const std::size_t end = begin + kPiece < count ? begin + kPiece : count;
+                     double own[3 * kMaxBands * kMaxBands];
+                     for (std::size_t i = begin; i < end; ++i) {
+                         collector_harmonics(in, window, i, first, last, out, own);
+                         for (std::size_t k = 0; k < numbers; ++k)
+                             out.values[k * count + i] = float(own[k]);
+                     }
+                 });
     return Status::ok();
 }
 

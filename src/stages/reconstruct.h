@@ -33,6 +33,21 @@ struct CollectorColours {
 /// clamped: their spread is what matters). kLimit: out of memory.
 Status reconstruct(const ReconstructInput& in, CollectorColours& out);
 
+/// Scattered light of every collector in all directions: set s holds bands*bands harmonics of what
+/// leaves along a direction, to be multiplied by the set's colour. No constant part.
+struct HarmonicSource {
+    Buffer<float> values;  ///< [set][harmonic][collector]
+    int bands = 0, sets = 0;
+    float colour[3][3] = {};  ///< [set][channel]
+};
+
+/// Sets of a run: one per light where light differs in colour only, otherwise one per channel.
+int harmonic_sets(const Medium& medium, const Lighting& lighting);
+
+/// What `reconstruct` evaluates towards one camera, for all directions, from batch `batch` of the
+/// slots, or from all: -1. Closure kSh only. Nothing is clamped. kLimit: out of memory.
+Status reconstruct_harmonics(const ReconstructInput& in, int batch, HarmonicSource& out);
+
 /// Radiance that the cells of the ground send back of the light scattered onto them (or kept from
 /// them, then negative): [3][cells * cells]. kLimit: out of memory.
 Status reconstruct_ground(const ReconstructInput& in, const GroundMap& map,

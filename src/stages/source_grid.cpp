@@ -13,9 +13,17 @@ namespace {
 struct Range {
     int first, last;  ///< nodes, last excluded
 };
-Range nodes_within(float centre, float radius, float per_metre, int size) {
+
+int wrapped(int node, int size) {
+    const int rest = node % size;
+    return rest < 0 ? rest + size : rest;
+}
+
+Range nodes_within(float centre, float radius, float per_metre, int size, bool wraps) {
     const float low = (centre - radius) * per_metre - 0.5f;
     const float high = (centre + radius) * per_metre - 0.5f;
+    // A ball reaches over the faces of a period; its nodes are counted on and wrapped where used.
+    if (wraps) return {floor_int(low), floor_int(high) + 1};
     const int first = low <= 0 ? 0 : int(low);
     const int last = high >= float(size - 1) ? size : (high < 0 ? 0 : int(high) + 1);
     return {first < size ? first : size, last};
@@ -23,7 +31,9 @@ Range nodes_within(float centre, float radius, float per_metre, int size) {
 
 /// Adds every ball's share to the nodes of one slice, in the order of the collectors.
 void splat_slice(Span<const Collector> collectors, Span<const float> colour, int channels,
-                 const NodeGrid& g, float factor, int z, Span<float> source, float* weights) {
+                 const NodeGrid& g, const SplatOptions& options, int z, Span<float> source,
+                 float* weights) {
+    const bool wraps = options.periodic;
     float coarsest = g.per_metre[0];
     for (float n : g.per_metre) coarsest = n < coarsest ? n : coarsest;
     const float least = 1.2f / coarsest;
@@ -31,11 +41,12 @@ void splat_slice(Span<const Collector> collectors, Span<const float> colour, int
     const float pz = (float(z) + 0.5f) / g.per_metre[2];
     for (std::size_t c = 0; c < count; ++c) {
         const Collector& k = collectors[c];
-        const float radius = k.radius * factor > least ? k.radius * factor : least;
+        const float wide = k.radius * options.radius_factor;
+        const float radius = wide > least ? wide : least;
         const float dz = pz - k.centre[2], inverse = 1.0f / (radius * radius);
         if (dz * dz >= radius * radius) continue;
-        const Range ys = nodes_within(k.centre[1], radius, g.per_metre[1], g.size[1]);
-        const Range xs = nodes_within(k.centre[0], radius, g.per_metre[0], g.size[0]);
+        const Range ys = nodes_within(k.centre[1], radius, g.per_metre[1], g.size[1], wraps);
+        const Range xs = nodes_within(k.centre[0], radius, g.per_metre[0], g.size[0], wraps);
         for (int y = ys.first; y < ys.last; ++y) {
             const float dy = (float(y) + 0.5f) / g.per_metre[1] - k.centre[1];
             for (int x = xs.first; x < xs.last; ++x) {
@@ -43,7 +54,10 @@ void splat_slice(Span<const Collector> collectors, Span<const float> colour, int
                 const float near = 1.0f - (dx * dx + dy * dy + dz * dz) * inverse;
                 if (near <= 0) continue;
                 const float w = near * near * float(k.mass);
-                const std::size_t column = std::size_t(y) * std::size_t(g.size[0]) + std::size_t(x);
+                const int column_x = wraps ? wrapped(x, g.size[0]) : x;
+                const int column_y = wraps ? wrapped(y, g.size[1]) : y;
+                const std::size_t column =
+                    std::size_t(column_y) * std::size_t(g.size[0]) + std::size_t(column_x);
                 const std::size_t node =
                     std::size_t(z) * std::size_t(g.size[0]) * std::size_t(g.size[1]) + column;
                 weights[column] += w;
@@ -109,7 +123,7 @@ void sum_slice(const Level& fine, const Level& up, int channels, int z, Pyramid&
 }
 
 /// Turns sums into means that lean on the coarser level's where they hold less than `prior`.
-void settle_slice(const Level& fine, const Level* up, float prior, int z, Pyramid& p) {
+void settle_slice(const Level& fine, const Level* up, float prior, bool wraps, int z, Pyramid& p) {
     const float* weights = p.weights.data() + fine.weights;
     for (int y = 0; y < fine.size[1]; ++y)
         for (int x = 0; x < fine.size[0]; ++x) {
@@ -121,7 +135,7 @@ void settle_slice(const Level& fine, const Level* up, float prior, int z, Pyrami
             if (up != nullptr) {
                 const Vec<float> at{(float(x) + 0.5f) * 0.5f, (float(y) + 0.5f) * 0.5f,
                                     (float(z) + 0.5f) * 0.5f};
-                around = corners(at, up->size);
+                around = corners(at, up->size, wraps);
             }
             for (int c = 0; c < p.channels; ++c) {
                 float& v = p.source[fine.source + std::size_t(c) * fine.nodes() + node];
@@ -161,8 +175,8 @@ Status splat_colours(Span<const Collector> collectors, Span<const float> colour,
     PILEUS_TRY(make_pyramid(nodes, channels, p));
     const std::size_t slice = std::size_t(nodes.size[0]) * std::size_t(nodes.size[1]);
     parallel_for(threads, nodes.size[2], [&](std::int64_t z, int) {
-        splat_slice(collectors, colour, channels, nodes, options.radius_factor, int(z),
-                    p.source.span(), p.weights.data() + std::size_t(z) * slice);
+        splat_slice(collectors, colour, channels, nodes, options, int(z), p.source.span(),
+                    p.weights.data() + std::size_t(z) * slice);
     });
     for (std::size_t l = 1; l < p.levels.size(); ++l)
         parallel_for(threads, p.levels[l].size[2], [&](std::int64_t z, int) {
@@ -173,7 +187,8 @@ Status splat_colours(Span<const Collector> collectors, Span<const float> colour,
     for (std::size_t l = p.levels.size(); l-- > 0;)
         parallel_for(threads, p.levels[l].size[2], [&](std::int64_t z, int) {
             const bool top = l + 1 == p.levels.size();
-            settle_slice(p.levels[l], top ? nullptr : &p.levels[l + 1], prior, int(z), p);
+            settle_slice(p.levels[l], top ? nullptr : &p.levels[l + 1], prior, options.periodic,
+                         int(z), p);
         });
     source.swap(p.source);
     return Status::ok();
