@@ -122,8 +122,7 @@ void add_light(const CollectorsSizes& s, MemoryTable& t) {
     if (s.marched) {
         t.add("source grid", Stage::kSplat, Stage::kDisplay,
               bytes_of(kFloat * source, s.source_nodes));
-        t.add("source by node", Stage::kSplat, Stage::kDisplay,
-              bytes_of(kFloat * s.stored_harmonics, s.source_nodes));
+        t.add("source by node", Stage::kSplat, Stage::kDisplay, kFloat * s.numbers_by_node);
         t.add("source weights", Stage::kSplat, Stage::kSplat, kFloat * s.source_nodes);
     }
 }

@@ -19,7 +19,7 @@ struct CollectorsSizes {
     std::uint64_t width = 0, height = 0;
     std::uint64_t planes = 3;                    ///< of colour: 3 * (1 + batches)
     std::uint64_t harmonics = 0;                 ///< numbers per node, where nodes hold them
-    std::uint64_t stored_harmonics = 0;          ///< the same with what fills them up
+    std::uint64_t numbers_by_node = 0;           ///< of all nodes, with what fills them up
     std::uint64_t layers = 4;                    ///< of the image
     std::uint64_t sky_map = 0, sky_picture = 0;  ///< bytes kept, and while the file is read
     std::uint64_t shadow_nodes = 0, source_nodes = 0;

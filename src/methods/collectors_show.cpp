@@ -287,13 +287,15 @@ void collectors_size_display(const CollectorsRun& run, CollectorsSizes& sizes) {
     sizes.ground = run.lighting.ground;
     sizes.depth = output.layer_depth;
     if (!sizes.marched) return;
+    const NodeGrid nodes =
+        make_node_grid(run.medium.grid, run.medium.extent_m, source_spacing(run));
+    sizes.source_nodes = source_nodes(nodes);
     if (shows_harmonics(run)) {
         const std::uint64_t sets = std::uint64_t(harmonic_sets(run.medium, run.lighting));
         sizes.harmonics = sets * std::uint64_t(run.deposit.bands * run.deposit.bands);
-        sizes.stored_harmonics = sets * std::uint64_t(stored_harmonics(run.deposit.bands));
+        sizes.numbers_by_node =
+            bytes_of(node_count(nodes), sets * std::uint64_t(stored_harmonics(run.deposit.bands)));
     }
-    sizes.source_nodes =
-        source_nodes(make_node_grid(run.medium.grid, run.medium.extent_m, source_spacing(run)));
     if (run.lighting.sunlit && run.deposit.first_order == 2)
         sizes.shadow_nodes = node_count(shadow_grid(run));
 }

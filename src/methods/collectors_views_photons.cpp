@@ -27,6 +27,15 @@ bool leaves_box(PathEvent event) {
     return event == PathEvent::kTop || event == PathEvent::kBottom || event == PathEvent::kSides;
 }
 
+/// Where the stretch from one point to the next ends: there, or beyond a periodic box's face where
+/// the photon went on in the next period.
+void stretch_end(const Drawing& d, const PathPoint& from, const PathPoint& to, float* end) {
+    const float metres = to.path_m - from.path_m;
+    for (int a = 0; a < 3; ++a)
+        end[a] =
+            d.run.medium.grid.periodic ? from.at_m[a] + metres * from.direction[a] : to.at_m[a];
+}
+
 /// A path from before the box to after it, and a dot for each scattering.
 void add_path(const Drawing& d, const std::vector<PathPoint>& path, const Float3& colour,
               const Line& light, std::vector<Line>& lines, std::vector<Disc>& dots) {
@@ -43,8 +52,11 @@ void add_path(const Drawing& d, const std::vector<PathPoint>& path, const Float3
     add_stretch(d, before, path.front().at_m, look, lines);
     for (std::size_t i = 1; i < path.size(); ++i) {
         if (path[i - 1].order > 0) look.colour = colour;
-        if (path[i].event != PathEvent::kGround)
-            add_stretch(d, path[i - 1].at_m, path[i].at_m, look, lines);
+        if (path[i].event != PathEvent::kGround) {
+            float end[3];
+            stretch_end(d, path[i - 1], path[i], end);
+            add_stretch(d, path[i - 1].at_m, end, look, lines);
+        }
         if (path[i].event != PathEvent::kScatter) continue;
         const double at[3] = {double(path[i].at_m[0]), double(path[i].at_m[1]),
                               double(path[i].at_m[2])};

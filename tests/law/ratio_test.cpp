@@ -138,6 +138,26 @@ TEST_CASE("linear ramp: trilinear density read by one voxel") {
     }
 }
 
+TEST_CASE("periodic media: the depth of a ray is that of every period it passes") {
+    constexpr int n = 12;
+    for (int block : {0, 1, 5}) {
+        Rig rig = make_rig({n, 3, 4}, {n, 3, 400}, 0.01);
+        fill(rig, block, [](int x, int, int) { return (float(x) + 0.5f) / n; });
+        rig.medium.grid.periodic = true;
+        set_majorants(rig, block);
+        // Mean density 1/2 in every period: 50 periods and more from the top to the bottom.
+        const std::string end = ", block " + std::to_string(block);
+        const double way = std::sqrt(600.0 * 600 + 30 * 30 + 400 * 400);
+        check_line("periods of a ramp" + end, rig, {{0, 1.2, 4}, {600, 30, -400}, kFar},
+                   0.005 * way);
+        check_line("periods, against x" + end, rig, {{n, 2.9, 0}, {-600, -30, 400}, kFar},
+                   0.005 * way);
+        // A length ends it after ten periods, level.
+        check_line("ten periods, level" + end, rig, {{3, 1.2, 2}, {1, 0, 0}, 10.0 * n},
+                   0.005 * 10 * n, 1e-5);
+    }
+}
+
 TEST_CASE("one voxel a million times denser than the rest") {
     constexpr double middle = kHotAt + 0.5;
     for (int block : {0, 1, 4}) {
