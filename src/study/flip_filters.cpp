@@ -76,6 +76,12 @@ void make_feature_filters(double pixels_per_degree, FlipFilters& f) {
     balance(f.point);
 }
 
+/// Adds two taps whose weights are equal (mirror 1) or opposite (mirror -1).
+void add_taps(const double* before, const double* after, double mirror, double weight,
+              std::size_t count, double* sum) {
+    for (std::size_t x = 0; x < count; ++x) sum[x] += weight * (after[x] + mirror * before[x]);
+}
+
 }  // namespace
 
 FlipFilters make_flip_filters(double pixels_per_degree) {
@@ -147,52 +153,50 @@ void FlipBand::filter_row(int slot) {
         std::fill(row + stride - halo, row + stride, row[stride - std::size_t(halo) - 1]);
     }
 
-    const auto filter = [&](int n, int channel, const std::vector<double>& weights, int radius) {
+    const auto filter = [&](int n, int channel, const std::vector<double>& weights, int radius,
+                            double mirror) {
         double* out = plane(slot, n);
-        std::fill(out, out + w, 0.0);
-        for (int i = -radius; i <= radius; ++i) {
-            const double weight = weights[std::size_t(i + radius)];
-            const double* in = ycc + std::size_t(channel) * stride + halo + i;
-            for (std::size_t x = 0; x < w; ++x) out[x] += weight * in[x];
-        }
+        const double* in = ycc + std::size_t(channel) * stride + halo;
+        const double centre = weights[std::size_t(radius)];
+        for (std::size_t x = 0; x < w; ++x) out[x] = centre * in[x];
+        for (int i = 1; i <= radius; ++i)
+            add_taps(in - i, in + i, mirror, weights[std::size_t(radius + i)], w, out);
     };
     const int spatial = filters_->spatial_radius, feature = filters_->feature_radius;
-    filter(0, 0, filters_->y, spatial);
-    filter(1, 1, filters_->cx, spatial);
-    filter(2, 2, filters_->cz1, spatial);
-    filter(3, 2, filters_->cz2, spatial);
+    filter(0, 0, filters_->y, spatial, 1);
+    filter(1, 1, filters_->cx, spatial, 1);
+    filter(2, 2, filters_->cz1, spatial, 1);
+    filter(3, 2, filters_->cz2, spatial, 1);
     // Features are those of luminance in [0, 1].
     for (std::size_t x = 0; x < stride; ++x) ycc[x] = (ycc[x] + 16) / 116;
-    filter(4, 0, filters_->smooth, feature);
-    filter(5, 0, filters_->edge, feature);
-    filter(6, 0, filters_->point, feature);
+    filter(4, 0, filters_->smooth, feature, 1);
+    filter(5, 0, filters_->edge, feature, -1);
+    filter(6, 0, filters_->point, feature, 1);
 }
 
-void FlipBand::add_row(int n, int slot, double weight, double* sum) {
-    const double* in = plane(slot, n);
-    for (int x = 0; x < width_; ++x) sum[x] += weight * in[x];
+void FlipBand::filter_column(int n, int centre, const std::vector<double>& weights, int radius,
+                             double mirror, double* out) {
+    const std::size_t w = std::size_t(width_);
+    const double* in = plane(centre, n);
+    for (std::size_t x = 0; x < w; ++x) out[x] = weights[std::size_t(radius)] * in[x];
+    for (int i = 1; i <= radius; ++i)
+        add_taps(plane(centre - i, n), plane(centre + i, n), mirror,
+                 weights[std::size_t(radius + i)], w, out);
 }
 
 void FlipBand::view(int y, FlipPixel* pixels) {
     const FlipFilters& f = *filters_;
     const std::size_t w = std::size_t(width_);
     const int centre = y - begin_ + f.halo();
-    std::fill(sums_.data(), sums_.data() + 8 * w, 0.0);
     double* s = sums_.data();
-    for (int i = -f.spatial_radius; i <= f.spatial_radius; ++i) {
-        const std::size_t tap = std::size_t(i + f.spatial_radius);
-        add_row(0, centre + i, f.y[tap], s);
-        add_row(1, centre + i, f.cx[tap], s + w);
-        add_row(2, centre + i, f.cz1[tap], s + 2 * w);
-        add_row(3, centre + i, f.cz2[tap], s + 3 * w);
-    }
-    for (int i = -f.feature_radius; i <= f.feature_radius; ++i) {
-        const std::size_t tap = std::size_t(i + f.feature_radius);
-        add_row(5, centre + i, f.smooth[tap], s + 4 * w);  // d/dx
-        add_row(4, centre + i, f.edge[tap], s + 5 * w);    // d/dy
-        add_row(6, centre + i, f.smooth[tap], s + 6 * w);  // d2/dx2
-        add_row(4, centre + i, f.point[tap], s + 7 * w);   // d2/dy2
-    }
+    filter_column(0, centre, f.y, f.spatial_radius, 1, s);
+    filter_column(1, centre, f.cx, f.spatial_radius, 1, s + w);
+    filter_column(2, centre, f.cz1, f.spatial_radius, 1, s + 2 * w);
+    filter_column(3, centre, f.cz2, f.spatial_radius, 1, s + 3 * w);
+    filter_column(5, centre, f.smooth, f.feature_radius, 1, s + 4 * w);  // d/dx
+    filter_column(4, centre, f.edge, f.feature_radius, -1, s + 5 * w);   // d/dy
+    filter_column(6, centre, f.smooth, f.feature_radius, 1, s + 6 * w);  // d2/dx2
+    filter_column(4, centre, f.point, f.feature_radius, 1, s + 7 * w);   // d2/dy2
     for (std::size_t x = 0; x < w; ++x) {
         const double luminance = (s[x] + 16) / 116;
         const double xyz[3] = {(luminance + s[w + x] / 500) * kWhite[0], luminance * kWhite[1],

@@ -10,7 +10,7 @@
 
 namespace pileus {
 
-/// Weights of taps -radius...radius of the separable filters.
+/// Weights of taps -radius...radius of the separable filters; `edge` is odd, the others even.
 struct FlipFilters {
     int spatial_radius = 0, feature_radius = 0;
     std::vector<double> y, cx, cz1, cz2;      ///< contrast sensitivity; Cz is a sum of two products
@@ -58,8 +58,9 @@ private:
     double* plane(int slot, int n) {
         return rows_.data() + (std::size_t(slot) * 7 + std::size_t(n)) * std::size_t(width_);
     }
-    /// sums[n] += weight * plane n of a row.
-    void add_row(int n, int slot, double weight, double* sum);
+    /// One plane along y around a row; `mirror`: 1 for even weights, -1 for odd ones.
+    void filter_column(int n, int centre, const std::vector<double>& weights, int radius,
+                       double mirror, double* out);
 
     const FlipFilters* filters_ = nullptr;
     int width_ = 0, begin_ = 0;
