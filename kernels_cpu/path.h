@@ -10,7 +10,7 @@ namespace pileus {
 inline namespace PILEUS_ISA {
 
 /// Groups of lanes in flight: while one waits for memory the others compute.
-constexpr int kPathGroups = 3;
+constexpr int kPathGroups = 4;
 
 /// Paths, and the tentative collision that each flight has come to.
 template <int W, int NC>
@@ -114,10 +114,10 @@ PILEUS_FN void serve(PathLanes<W, NC>& s, const PathParams& k, const PathBuffers
         due = due | (met & s.alive);
     }
     if (any(s.out)) due = due | leave_media(s, k, tally, s.out);
-    if (any(due)) launch(s, k, tally, due);
+    thin_out(s, k, due);
     store_paths(s, k, b, before & ~bits_of(s.alive));
-    const M<W> fresh = refill_paths(s, k, tally, ~bits_of(s.alive) & kFull, next, end);
-    if (any(fresh)) launch(s, k, tally, fresh);
+    due = (due & s.alive) | refill_paths(s, k, tally, ~bits_of(s.alive) & kFull, next, end);
+    if (any(due)) launch(s, k, tally, due);
 }
 
 /// Move every flight to its next tentative collision or block border.
@@ -193,7 +193,7 @@ PILEUS_FN void collide_paths(PathGroup<W, NC>& g, const PathParams& k, const Pat
 /// Whether to serve the lanes now: results belong to samples, so the moment is free.
 template <int W, int NC>
 PILEUS_FN bool worth_serving(const PathLanes<W, NC>& s) {
-    constexpr int kFew = W / 4 > 1 ? W / 4 : 1;
+    constexpr int kFew = W * 3 / 8 > 1 ? W * 3 / 8 : 1;
     const std::uint32_t flying = bits_of(s.alive & lnot(waiting(s)));
     return W - count_bits(flying) >= kFew;
 }

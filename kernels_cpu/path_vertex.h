@@ -19,11 +19,26 @@ PILEUS_FN void for_media(const PathLanes<W, NC>& s, const PathParams& k, M<W> m,
     }
 }
 
+/// Of the shadow rays towards the sun from the lanes of `m`, leave out by luck those that would
+/// bring little, and let the others bring theirs; rays of the first vertex, which carry the
+/// picture's detail, are all kept. Returns the lanes that fly.
+template <int W, int NC>
+PILEUS_FN M<W> thin_out_sun(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
+    using T = F<W>;
+    const T chance = heaviest(s) * s.shade * (1.0f / kSunRoulette);
+    const M<W> low = m & (chance < 1.0f) & (s.order + s.bounces > 1);
+    if (!any(low)) return m;
+    const M<W> lost = low & lnot(uniform(draw(s, k, low).a) < chance);
+    s.shade = select(low, s.shade / max_(chance, all<T>(1e-30f)), s.shade);
+    return m & lnot(lost);
+}
+
 /// Choose the first flight from a new vertex: the sun's, the map's or the path's own.
 template <int W, int NC>
 PILEUS_FN void first_flight(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
     const std::int32_t after = k.map.columns > 0 ? kFlightMap : kFlightPath;
-    const M<W> sun = m & (s.shade > 0.0f);
+    M<W> sun = m & (s.shade > 0.0f);
+    if (k.sunlit != 0) sun = thin_out_sun(s, k, sun);
     s.flight = select(m, all<I<W>>(after), s.flight);
     if (k.sunlit != 0) s.flight = select(sun, all<I<W>>(kFlightSun), s.flight);
     const M<W> mapped = m & (s.flight == kFlightMap);

@@ -83,7 +83,7 @@ TEST_CASE("a bright spot of the sky is a sun of its irradiance") {
             set_ground(mapped, -5, 0.4);
         }
         check_equal_light(ground ? "spot on a cloud over ground" : "spot on a cloud", mapped, sun,
-                          1500, 1e-5);
+                          9000, 1e-5);
     }
 }
 

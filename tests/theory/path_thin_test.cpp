@@ -49,7 +49,7 @@ TEST_CASE("single scattering of a thin ball is its mass times the phase function
                     PathInput in =
                         path_input(rig, make_flat_view({1, -5, 1}, {0, 1, 0}, 2, 16, 16), seed);
                     in.max_depth = 1;
-                    return film_average(trace_film(in, 6000u * unsigned(more)));
+                    return film_average(trace_film(in, 36000u * unsigned(more)));
                 },
                 exact * tau);
         }
