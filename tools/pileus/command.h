@@ -22,6 +22,7 @@ void add_compare(CLI::App& app, Chosen& chosen);
 void add_hash(CLI::App& app, Chosen& chosen);
 void add_info(CLI::App& app, Chosen& chosen);
 void add_convert(CLI::App& app, Chosen& chosen);
+void add_study(CLI::App& app, Chosen& chosen);
 
 /// Writes `text` to the standard output at once; a full disk or a closed pipe: kIo.
 Status print(const std::string& text);

@@ -24,13 +24,6 @@ std::string info_line(const char* name, const std::string& value) {
     return fmt::format("{:<14} {}\n", name, value);
 }
 
-namespace {
-
-struct InfoArguments {
-    std::string file, grid;
-    RawOptions raw;
-};
-
 std::string compiler_text() {
 #ifdef __clang__
     return std::string("Clang ") + __clang_version__;
@@ -38,6 +31,13 @@ std::string compiler_text() {
     return std::string("GCC ") + __VERSION__;
 #endif
 }
+
+namespace {
+
+struct InfoArguments {
+    std::string file, grid;
+    RawOptions raw;
+};
 
 std::string isa_text() {
     const KernelTable* chosen = kernel_table(nullptr);

@@ -13,6 +13,9 @@ namespace pileus {
 /// "name           value\n".
 std::string info_line(const char* name, const std::string& value);
 
+/// Name and version of the compiler that built this program.
+std::string compiler_text();
+
 /// Lines "size" and, where the place is known, "box".
 std::string size_lines(const std::array<int, 3>& size, bool knows_bounds,
                        const std::array<std::array<double, 3>, 2>& bounds_m);

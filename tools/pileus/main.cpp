@@ -24,7 +24,7 @@ Status print(const std::string& text) {
 
 namespace {
 
-constexpr const char* kCommands = "render, plan, follow, compare, hash, info, convert";
+constexpr const char* kCommands = "render, plan, follow, compare, study, hash, info, convert";
 
 /// Says nothing for Code::kOk without a message.
 int finish(const Status& status) {
@@ -57,11 +57,10 @@ Status check_command(int count, char** words) {
     if (!word.empty() && word[0] == '-')
         return Status::bad_input("pileus: unknown option before the subcommand, " +
                                  quote_text(word) + ", allowed: --help, --version");
-    for (const char* later : {"study", "view"})
-        if (word == later)
-            return Status::bad_input("pileus " + word +
-                                     ": not in this version, allowed: " + kCommands);
-    for (const char* known : {"render", "plan", "follow", "compare", "hash", "info", "convert"})
+    if (word == "view")
+        return Status::bad_input("pileus " + word + ": not in this version, allowed: " + kCommands);
+    for (const char* known :
+         {"render", "plan", "follow", "compare", "study", "hash", "info", "convert"})
         if (word == known) return Status::ok();
     return Status::bad_input("pileus: unknown subcommand, " + quote_text(word) +
                              ", allowed: " + kCommands);
@@ -96,6 +95,7 @@ int run(int count, char** words) {
     add_hash(app, chosen);
     add_info(app, chosen);
     add_convert(app, chosen);
+    add_study(app, chosen);
 
     const Status known = check_command(count, words);
     if (!known) return finish(known);

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+// Runs another program to its end and tells what it cost; notices Ctrl-C without global state.
+// in: a command line -> out: exit status, its last words, wall time, CPU time, memory.
+// posix_spawn(3), wait4(2), sigpending(2); docs/study.md, "Runs"
+#pragma once
+#include <signal.h>
+
+#include <string>
+#include <vector>
+
+namespace pileus {
+
+struct ProcessResult {
+    int system_error = 0;          ///< errno where the program could not be started; else 0
+    int exit_status = -1;          ///< 128 + the signal's number where a signal ended it
+    bool interrupted = false;      ///< ended by us, because an InterruptHold saw an interrupt
+    std::string errors;            ///< start of its standard error, at most 64 KiB
+    double wall_s = 0, cpu_s = 0;  ///< from its start to its end; CPU time of all its threads
+    long long peak_bytes = 0;      ///< highest resident size
+};
+
+/// Holds back SIGINT, SIGTERM and SIGHUP while it lives, so that work can end in order; when it
+/// goes, a signal that came ends the program as if it came then. One at a time, on one thread.
+class InterruptHold {
+public:
+    InterruptHold();
+    ~InterruptHold();
+    InterruptHold(const InterruptHold&) = delete;
+    InterruptHold& operator=(const InterruptHold&) = delete;
+
+    /// Whether one of them has come.
+    bool pending() const;
+    /// The signals as they were before; for programs started meanwhile.
+    const sigset_t& before() const { return before_; }
+
+private:
+    sigset_t before_, held_;
+};
+
+/// Runs `words[0]` with the words as its arguments to its end. Its standard input and output are
+/// empty. An interrupt that `hold` sees ends it at once.
+ProcessResult run_process(const std::vector<std::string>& words, const InterruptHold& hold);
+
+/// The file of the program that runs now; `first_word` (argv[0]) where the system does not tell.
+std::string own_program(const char* first_word);
+
+/// What the processor calls itself; empty where unknown.
+std::string processor_name();
+
+}  // namespace pileus

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// pileus study: error against run time, over scenes, methods, settings, budgets and seeds.
+// in: a study file -> out: a folder of runs, tables, plots and one page; progress on stderr.
+// docs/study.md
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "kernels_cpu/kernels.h"
+#include "platform/clock.h"
+#include "platform/process.h"
+#include "platform/threads.h"
+#include "src/api/render.h"
+#include "src/base/file.h"
+#include "src/study/study_execute.h"
+#include "src/study/study_report.h"
+#include "tools/pileus/command.h"
+#include "tools/pileus/info.h"
+#include "tools/pileus/option_text.h"
+
+namespace pileus {
+
+namespace {
+
+constexpr std::int64_t kMostThreads = 1024;
+
+struct StudyArguments {
+    std::string file;
+    std::optional<std::string> folder, references, threads, isa, program;
+    std::vector<std::string> scenes, methods;
+    bool list = false, quiet = false;
+};
+
+Status read_options(const StudyArguments& arguments, StudyOptions& options) {
+    const std::string stem = std::filesystem::path(arguments.file).stem().string();
+    options.folder = arguments.folder.value_or(stem + ".study");
+    options.references = arguments.references.value_or("");
+    options.program = arguments.program.value_or(own_program(nullptr));
+    options.version = kVersion;
+    options.threads = hardware_threads();
+    options.isa = arguments.isa.value_or("");
+    options.only_scenes = arguments.scenes;
+    options.only_methods = arguments.methods;
+    Status faults;
+    std::int64_t threads = 0;
+    if (arguments.threads)
+        add_fault(read_integer("--threads", *arguments.threads, 1, kMostThreads, threads), faults);
+    if (threads > 0) options.threads = int(threads);
+    if (!options.isa.empty() && kernel_table(options.isa.c_str()) == nullptr)
+        add_fault(Status::bad_input("--isa: no such instruction set here, " + options.isa +
+                                    ", allowed: see pileus info"),
+                  faults);
+    for (const std::string& folder : {options.folder, options.references})
+        if (!folder.empty()) add_fault(check_file_name(folder), faults);
+    PILEUS_TRY(faults);
+    return can_write_file(options.folder + "/study.json");
+}
+
+void tell(void*, const std::string& line) { std::fprintf(stderr, "%s\n", line.c_str()); }
+
+/// One line for each run, for a look before the hours.
+Status print_runs(const std::vector<StudyRun>& runs) {
+    std::string text;
+    for (const StudyRun& run : runs) {
+        text += run.digest + " pileus";
+        for (const std::string& word : run.words) text += ' ' + word;
+        text += '\n';
+    }
+    return print(text);
+}
+
+/// What a user wants to see at the end without opening a file.
+std::string result_lines(const Study& study, const StudyOptions& options,
+                         const StudyResult& result) {
+    std::string text;
+    for (const SceneResult& scene : result.scenes) {
+        text += fmt::format("{}\n", study.scenes[std::size_t(scene.scene)].title);
+        if (!scene.fault.empty()) text += "  no result: " + scene.fault + "\n";
+        if (scene.fault.empty()) text += "  reference: " + reference_text(scene) + "\n";
+        for (const CurveResult& curve : scene.curves)
+            text += fmt::format("  {:<34} to relMSE {}: {}; floor: {}\n",
+                                study.curves[std::size_t(curve.curve)].title,
+                                number_short(study.targets[0]),
+                                target_text(curve.to_target[0], curve.fit), floor_text(curve.fit));
+    }
+    for (const std::string& fault : result.faults) text += fault + "\n";
+    return text + options.folder + "/index.html\n";
+}
+
+Status run_study(const StudyArguments& arguments) {
+    Study study;
+    StudyOptions options;
+    std::vector<StudyRun> runs;
+    std::vector<RunRecord> records;
+    PILEUS_TRY(read_options(arguments, options));
+    PILEUS_TRY(read_study_file(arguments.file, study));
+    PILEUS_TRY(list_runs(study, options, runs));
+    if (arguments.list) return print_runs(runs);
+    if (!arguments.quiet) options.progress = tell;
+
+    bool stopped = false;
+    {
+        const InterruptHold hold;
+        PILEUS_TRY(execute_runs(study, options, runs, hold, records, stopped));
+    }
+    // The signal that stopped us has ended the program unless its sender ignores it.
+    if (stopped) return {Code::kCheckFailed, "pileus study: interrupted"};
+    StudyResult result;
+    result.machine = {kVersion, compiler_text(),    processor_name(),
+                      "",       hardware_threads(), options.threads};
+    for (const RunRecord& record : records)
+        if (record.done) result.machine.isa = record.isa;
+    PILEUS_TRY(analyse_study(study, runs, records, result));
+    PILEUS_TRY(write_study(study, options, result));
+    PILEUS_TRY(print(result_lines(study, options, result)));
+    if (result.failed == 0) return Status::ok();
+    return {Code::kCheckFailed, fmt::format("pileus study: {} runs failed", result.failed)};
+}
+
+}  // namespace
+
+void add_study(CLI::App& app, Chosen& chosen) {
+    CLI::App* command =
+        app.add_subcommand("study", "Measure error against run time and write a page about it");
+    const auto arguments = std::make_shared<StudyArguments>();
+    command->add_option("study", arguments->file, "The study file")
+        ->required()
+        ->type_name("STUDY.toml");
+    command
+        ->add_option("-o,--output", arguments->folder,
+                     "Folder for everything; left out: the study's name with .study behind")
+        ->type_name("DIR");
+    command
+        ->add_option("--references", arguments->references,
+                     "Folder of references, to be shared by studies; left out: within the output")
+        ->type_name("DIR");
+    command->add_option("--threads", arguments->threads, "Threads of each run; left out: all")
+        ->type_name("N");
+    command
+        ->add_option("--program", arguments->program,
+                     "The pileus to measure; left out: this one. Another of the same version, for "
+                     "what it costs now and what it cost before")
+        ->type_name("FILE");
+    command->add_option("--isa", arguments->isa, "Instruction set; left out: the widest")
+        ->type_name("NAME");
+    command->add_option("--scene", arguments->scenes, "Only this scene; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("NAME");
+    command->add_option("--method", arguments->methods, "Only this method; may be repeated")
+        ->allow_extra_args(false)
+        ->type_name("NAME");
+    command->add_flag("--list", arguments->list, "Print the runs and make none");
+    command->add_flag("-q,--quiet", arguments->quiet, "No progress");
+    command->callback(
+        [arguments, &chosen] { chosen = [arguments] { return run_study(*arguments); }; });
+}
+
+}  // namespace pileus
