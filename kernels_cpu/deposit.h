@@ -76,7 +76,7 @@ PILEUS_FN void deposit(const TraceParams& k, const TraceBuffers& b, const Photon
         if (k.first_order == 1 && any(straight)) {
             const I<W> q = quantise(value, k.scale);
             for (int c = 0; c < NC; ++c)
-                add_lanes<W>(k, b, bits_of(straight), collector, &q, c, k.bands * k.bands, 1);
+                add_lanes<W>(k, b, bits_of(straight), collector, &q, c, k.coefficients - 1, 1);
         }
         rest &= ~bits_of(straight);
         if (rest == 0) return;
@@ -96,10 +96,16 @@ PILEUS_FN void deposit(const TraceParams& k, const TraceBuffers& b, const Photon
         return;
     }
 
-    T y[kMaxBands * kMaxBands];
-    I<W> q[kMaxBands * kMaxBands];
+    T y[kMaxBands * kMaxBands + kMaxAxisDegrees];
+    I<W> q[kMaxBands * kMaxBands + kMaxAxisDegrees];
     sh_values(k.bands, d, y);
-    const int count = k.bands * k.bands;
+    int count = k.bands * k.bands;
+    if (k.axis_degrees > 0 && k.light == kLightBeam) {
+        // Beyond the bands, keep what lies evenly around the beam.
+        const T cosine = d.x * k.direction[0] + d.y * k.direction[1] + d.z * k.direction[2];
+        axis_values(k.bands, k.axis_degrees, cosine, y + count);
+        count += k.axis_degrees;
+    }
     for (int c = 0; c < NC; ++c) {
         const T weighted = value * s.weight[c];
         for (int i = 0; i < count; ++i) q[i] = quantise(weighted * y[i], k.scale);

@@ -72,5 +72,23 @@ PILEUS_FN void sh_values(int bands, const Vec<T>& d, T* out) {
         sh_eval<8>(d.x, d.y, d.z, out);
 }
 
+/// Most degrees beyond the bands that are kept about an axis.
+constexpr int kMaxAxisDegrees = 16;
+
+/// Legendre polynomials P_l(cosine), l = first ... first + count - 1, count <= kMaxAxisDegrees.
+/// Bonnet's recurrence; rounding grows with l and stays below 1e-5 for l < 32.
+template <class T>
+PILEUS_FN void axis_values(int first, int count, T cosine, T* out) {
+    T before = all<T>(1.0f), current = cosine;
+    for (int l = 0; l < first + count; ++l) {
+        if (l >= first) out[l - first] = before;
+        const float next = 1.0f / float(l + 2);
+        const T above =
+            (float(2 * l + 3) * next) * (cosine * current) - (float(l + 1) * next) * before;
+        before = current;
+        current = above;
+    }
+}
+
 }  // namespace PILEUS_ISA
 }  // namespace pileus

@@ -40,11 +40,36 @@ double first_elevation(const Scene& scene) {
                                                            : a.sun_elevation_deg[1];
 }
 
-/// First-order coefficients are 1; |y| stays below 1.1 for 8 bands; else the phase function's peak.
+/// Why a collision stores nothing about the sun's axis; null where it does.
+const char* why_no_axis(const CollectorSettings& c, const CollectorsRun& run) {
+    if (run.camera_cells > 0) return "closure \"camera\" has all bands";
+    if (c.paper) return "variant \"paper\"";
+    if (c.lobe_closure) return "closure \"lobe\"";
+    if (!run.lighting.sunlit) return "no sun";
+    if (c.window) return "the window damps the higher bands";
+    if (c.axis_degrees == 0) return "switched off";
+    return nullptr;
+}
+
+/// Degrees beyond the bands that a phase function still sends on, as far as they were asked for.
+int axis_degrees(const CollectorSettings& c, const CollectorsRun& run) {
+    constexpr float kNothing = 1e-3f;  // of a moment
+    if (why_no_axis(c, run) != nullptr) return 0;
+    for (int n = c.axis_degrees; n > 0; --n)
+        for (int i = 0; i < run.medium.count; ++i) {
+            const float chi =
+                phase_moment(run.medium.optics[std::size_t(i)].phase, c.bands + n - 1);
+            if (chi > kNothing || chi < -kNothing) return n;
+        }
+    return 0;
+}
+
+/// First-order coefficients are 1; P_l exceeds 1 by its rounding alone; |y| stays below 1.1 for 8
+/// bands; else the phase function's peak.
 double largest_deposit(const CollectorsRun& run) {
     const double peak = double(phase_peak(run.medium));
     if (run.deposit.mode == kDepositCamera && peak > 1) return peak;
-    return run.deposit.bands > 6 ? 1.1 : 1;
+    return run.deposit.bands > 6 ? 1.1 : run.deposit.axis_degrees > 0 ? 1.01 : 1;
 }
 
 /// Every photon of the ring may end only with its last event.
@@ -63,8 +88,15 @@ Status plan_deposit(const Scene& scene, CollectorsRun& run) {
     if (run.camera_cells > 0) d.mode = kDepositCamera;
     const bool split = (c.first_order_split || run.camera_cells > 0) && run.lighting.sunlit;
     d.first_order = !split ? 0 : (is_marched(run) ? 2 : 1);
-    d.coefficients =
-        d.mode == kDepositCamera ? 1 : d.bands * d.bands + (d.first_order == 1 ? 1 : 0);
+    d.axis_degrees = axis_degrees(c, run);
+    if (d.axis_degrees == 0) {
+        const char* why = why_no_axis(c, run);
+        run.plan.leave_out("degrees about the sun's axis",
+                           why != nullptr ? why : "no phase function has moments there");
+    }
+    d.coefficients = d.mode == kDepositCamera
+                         ? 1
+                         : d.bands * d.bands + d.axis_degrees + (d.first_order == 1 ? 1 : 0);
     if (!split)
         run.plan.leave_out("first-order split", run.lighting.sunlit ? "switched off" : "no sun");
 

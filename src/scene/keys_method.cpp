@@ -31,6 +31,12 @@ const KeyRow kRows[] =
                   [](const Node& n, KeyTarget t) {
                       t.scene.collectors.bands = static_cast<int>(integer_of(n));
                   }),
+        range_key(KeyKind::kInteger, "collectors.axis_degrees", "", "8", {0, 16, false, false},
+                  "degrees beyond the bands that a collector keeps of the light around the sun's "
+                  "direction; closure `sh` and variant `best` only",
+                  [](const Node& n, KeyTarget t) {
+                      t.scene.collectors.axis_degrees = static_cast<int>(integer_of(n));
+                  }),
         range_key(KeyKind::kInteger, "collectors.samples", "", "20_000",
                   {1, 10000000, false, false}, "points from which the collectors are grown",
                   [](const Node& n, KeyTarget t) {
@@ -133,8 +139,8 @@ const KeyRow kRows[] =
                   [](const Node& n, KeyTarget t) {
                       t.scene.animation.frames = static_cast<int>(integer_of(n));
                   }),
-        range_key(KeyKind::kNumber2, "animation.camera_orbit_deg", "deg", "",
-                  {-36000, 36000, false, false},
+        range_key(KeyKind::kNumber2, "animation.camera_orbit_deg", "deg",
+                  "", {-36000, 36000, false, false},
                   "first and last angle by which the camera has turned about its target",
                   [](const Node& n, KeyTarget t) {
                       t.scene.animation.camera_orbit_deg = number2_of(n);

@@ -89,6 +89,7 @@ struct CollectorSettings {
     double density_range = 0.1;      ///< stop splitting below this range of density; [0, 1]
     double influence_radius = 0.05;  ///< of a sample, as a share of the box's diagonal; (0, 1]
     double radius_factor = 1.35;     ///< billboard radius over r; best only; [1, 3]
+    int axis_degrees = 8;
     bool first_order_split = true;
     bool window = false;  ///< sinc window against ringing
 };

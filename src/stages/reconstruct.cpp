@@ -9,7 +9,7 @@
 namespace pileus {
 namespace {
 
-constexpr int kMostNumbers = kMaxBands * kMaxBands + 1;
+constexpr int kMostNumbers = kMaxBands * kMaxBands + kMaxAxisDegrees + 1;
 using Direction = Vec<float>;
 
 /// What the sinc window multiplies each band by.
@@ -78,6 +78,21 @@ double sh_power(const ReconstructInput& in, const Window& window, const Mixture&
     return power;
 }
 
+/// What the degrees beyond the bands add to it, of light spread evenly around the beam's direction
+/// `sun`: sum_l (2l+1)/4pi chi_l m_l P_l(cosine), m_l the sum of P_l over the light.
+double axis_power(const ReconstructInput& in, const Mixture& mix, const double* sums,
+                  const Direction& sun, const Direction& to) {
+    float p[kMaxAxisDegrees];
+    axis_values(in.deposit.bands, in.deposit.axis_degrees, 1.0f - one_minus_cosine(sun, to), p);
+    double power = 0;
+    for (int j = 0; j < in.deposit.axis_degrees; ++j) {
+        const int l = in.deposit.bands + j;
+        const double weight = double(2 * l + 1) * 0.079577471545947667884;  // 1 / 4 pi
+        power += weight * double(mix.moment(l)) * double(p[j]) * sums[j];
+    }
+    return power;
+}
+
 /// The same from flux and mean direction alone: one HG lobe (docs/methods.md 3, closure `lobe`).
 double lobe_power(const ReconstructInput& in, const Mixture& mix, const double* sums,
                   const Direction& to) {
@@ -116,11 +131,11 @@ double slot_power(const ReconstructInput& in, const Window& window, const Mixtur
 
     double power = in.closure == Closure::kLobe ? lobe_power(in, mix, sums, to)
                                                 : sh_power(in, window, mix, sums, to);
-    if (in.deposit.first_order == 1 && in.lighting->lights[light].beam) {
-        const Direction sun{slot.sun_travel[0], slot.sun_travel[1], slot.sun_travel[2]};
-        power += sums[in.deposit.bands * in.deposit.bands] *
-                 double(mix.density(one_minus_cosine(sun, to)));
-    }
+    if (!in.lighting->lights[light].beam) return power;
+    const Direction sun{slot.sun_travel[0], slot.sun_travel[1], slot.sun_travel[2]};
+    power += axis_power(in, mix, sums + in.deposit.bands * in.deposit.bands, sun, to);
+    if (in.deposit.first_order == 1)
+        power += sums[n - 1] * double(mix.density(one_minus_cosine(sun, to)));
     return power;
 }
 

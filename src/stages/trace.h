@@ -16,6 +16,7 @@ struct DepositPlan {
     std::int32_t mode = kDepositIncident;
     int bands = 4;
     int first_order = 0;    ///< see TraceParams
+    int axis_degrees = 0;   ///< see TraceParams
     int coefficients = 16;  ///< per collector and channel
     int places = 16;        ///< binary places of the sums
     float camera[3] = {0, 0, 0};

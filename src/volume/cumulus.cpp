@@ -95,6 +95,8 @@ FF density_at(const Field& f, const Point& p, const std::uint16_t* near, std::si
     const FF calm = 0.55f + 0.45f * smooth<FF>(p.z * 8.0f);
     FF d = smooth_d;
     if (any(d > -(kPushIn + f.shell))) d = d - calm * billows(f, q);
+    // Outside the edge nothing is left that the rest could scale.
+    if (!any(d < 0.5f * f.shell)) return FF{};
     const FF slow = gradient_noise<FF>(p.x * 5.0f, p.y * 5.0f, p.z * 5.0f, f.seed + 40u);
     const FF fast = gradient_noise<FF>(p.x * 14.0f, p.y * 14.0f, p.z * 14.0f, f.seed + 41u);
     // Edge: a thin firm shell, then a core that entrainment has not reached.

@@ -80,7 +80,8 @@ std::string dump(const Scene& scene) {
     s << k.samples << ' ' << k.local_tracking << k.lobe_closure << k.paper << k.billboards;
     s << k.rejection_sampler << k.variance_field << ' ' << k.variance_radius << ' ';
     s << k.density_range << ' ' << k.influence_radius << ' ' << k.radius_factor << ' ';
-    s << k.first_order_split << k.window << k.camera_closure << ' ' << k.cell_voxels << '\n'
+    s << k.axis_degrees << ' ' << k.first_order_split << k.window << k.camera_closure << ' '
+      << k.cell_voxels << '\n'
       << scene.path_samples_per_pixel << '\n';
     const OutputSettings& o = scene.output;
     dump_list(s, o.files);
@@ -149,6 +150,7 @@ name = "collectors"
 photons = 2e6
 generations = 7
 bands = 5
+axis_degrees = 3
 samples = 11
 tracking = "global"
 closure = "lobe"
@@ -192,7 +194,7 @@ TEST_CASE("every key of a full scene reaches its field") {
           "4 c.txt les  2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 2.5 1 1 1 0 0 0 0 1 0\n"
           "4 c.vdb openvdb smoke 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 1 0 0 0 0 1 0\n"
           "4 d.vdb openvdb fog 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 1 0 0 0 0 1 0\n"
-          "collectors 2000000 7 5 11 011001 3 0.5 1 2 110 4\n"
+          "collectors 2000000 7 5 11 011001 3 0.5 1 2 3 110 4\n"
           "5\n"
           "x.exr y.pfm r.json 111\n"
           "1 12 11 0 90 35 5 ");

@@ -129,6 +129,7 @@ private:
         line("first_order_split", (bits & 32) != 0 ? "false" : "true");
         line("window", (bits & 64) != 0 ? "true" : "false");
         line("density_range", share());
+        line("axis_degrees", std::to_string(below(17)));
         text_ += "[output]\n";
         if ((bits & 128) != 0) line("layers", "[\"depth\", \"error\", \"cloud\"]");
     }

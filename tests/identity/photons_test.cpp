@@ -103,8 +103,10 @@ TEST_CASE("identity: every instruction set, every deposit, the same sums") {
                 Rig rig = make_lump(albedo);
                 rig.deposit.mode = mode;
                 rig.deposit.first_order = first_order;
-                rig.deposit.coefficients =
-                    mode == kDepositCamera ? 1 : 16 + (first_order == 1 ? 1 : 0);
+                rig.deposit.axis_degrees = first_order == 0 ? 0 : 5;
+                rig.deposit.coefficients = mode == kDepositCamera ? 1
+                                                                  : 16 + rig.deposit.axis_degrees +
+                                                                        (first_order == 1 ? 1 : 0);
                 rig.deposit.camera[1] = -500;
                 rig.kernels = kernel_table_at(0);
                 const std::string scalar = shoot_digest(rig, 3'000, 1);
