@@ -135,7 +135,7 @@ double slot_power(const ReconstructInput& in, const Window& window, const Mixtur
     const Direction sun{slot.sun_travel[0], slot.sun_travel[1], slot.sun_travel[2]};
     power += axis_power(in, mix, sums + in.deposit.bands * in.deposit.bands, sun, to);
     if (in.deposit.first_order == 1)
-        power += sums[n - 1] * double(mix.density(one_minus_cosine(sun, to)));
+        power += sums[in.deposit.coefficients - 1] * double(mix.density(one_minus_cosine(sun, to)));
     return power;
 }
 
