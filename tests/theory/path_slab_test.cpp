@@ -2,6 +2,7 @@
 // Flux cameras above and below slabs against published reflection and transmission.
 // in: tau, g, albedo, angle of the sun -> out: R and T, each judged in standard errors.
 // H. C. van de Hulst, Multiple Light Scattering (1980), table 35; docs/testing.md "theory".
+#include "tests/long_tests.h"
 #include "tests/path_harness.h"
 
 namespace {
@@ -17,7 +18,7 @@ Mean slab_share(float tau, float g, float albedo, float mu0, int side, int more,
     const float middle = float(kSlabWidth / 2);
     const CameraParams flux =
         make_flux_view({middle, middle, side > 0 ? 1.0f : 0.0f}, {0, 0, float(-side)}, 10);
-    return film_average(trace_film(path_input(rig, flux, seed), 1500000u * unsigned(more)));
+    return film_average(trace_film(path_input(rig, flux, seed), 1500000u * unsigned(more) * (long_tests() ? 64u : 1u)));
 }
 
 TEST_CASE("van de Hulst's slab: tau 2, g 0.75, albedo 0.9") {
