@@ -18,7 +18,8 @@ Mean slab_share(float tau, float g, float albedo, float mu0, int side, int more,
     const float middle = float(kSlabWidth / 2);
     const CameraParams flux =
         make_flux_view({middle, middle, side > 0 ? 1.0f : 0.0f}, {0, 0, float(-side)}, 10);
-    return film_average(trace_film(path_input(rig, flux, seed), 1500000u * unsigned(more) * (long_tests() ? 64u : 1u)));
+    return film_average(trace_film(path_input(rig, flux, seed),
+                                   1500000u * unsigned(more) * (long_tests() ? 64u : 1u)));
 }
 
 TEST_CASE("van de Hulst's slab: tau 2, g 0.75, albedo 0.9") {
