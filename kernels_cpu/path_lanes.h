@@ -98,11 +98,21 @@ template <int W>
 PILEUS_FN Vec<F<W>> enter_box(const PathParams& k, const Vec<F<W>>& origin, const Vec<F<W>>& d,
                               M<W>& hit) {
     using T = F<W>;
-    const Segment<T> box = clip_to_box(origin, d, k.extent);
+    // A periodic medium has no sides: it is a layer, whose places repeat.
+    const bool wraps = k.grid.periodic != 0;
+    Segment<T> box;
+    if (wraps) {
+        const T inverse = safe_inverse(d.z);
+        const T a = (T{} - origin.z) * inverse, b = (k.extent[2] - origin.z) * inverse;
+        box = {max_(min_(a, b), T{}), max_(a, b)};
+    } else {
+        box = clip_to_box(origin, d, k.extent);
+    }
     hit = hit & (box.enter < box.leave);
     const auto inside = [&](T o, T along, int a) {
-        const T voxels = (o + along * box.enter) * (1.0f / k.grid.cell[a]);
-        return min_(max_(voxels, T{}), all<T>(float(k.grid.size[a])));
+        T metres = o + along * box.enter;
+        if (wraps && a < 2) metres = wrap_place(metres, k.extent[a]);
+        return min_(max_(metres * (1.0f / k.grid.cell[a]), T{}), all<T>(float(k.grid.size[a])));
     };
     return {inside(origin.x, d.x, 0), inside(origin.y, d.y, 1), inside(origin.z, d.z, 2)};
 }
@@ -141,7 +151,8 @@ PILEUS_FN void launch(PathLanes<W, NC>& s, const PathParams& k, PathTally& tally
     M<W> hit = m;
     Vec<T> p = s.vertex;
     if (any(m & s.outside)) {
-        const Vec<T> entry = enter_box<W>(k, s.vertex, d, hit);
+        // The walker's own direction: it is never quite level in a periodic medium.
+        const Vec<T> entry = enter_box<W>(k, s.vertex, s.d, hit);
         const M<W> inside = m & lnot(s.outside);
         hit = hit | inside;
         p = {select(inside, p.x, entry.x), select(inside, p.y, entry.y),

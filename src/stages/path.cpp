@@ -3,7 +3,7 @@
 #include "src/stages/path.h"
 
 #include "platform/threads.h"
-#include "src/stages/prepare_majorant.h"
+#include "src/stages/trace.h"
 
 namespace pileus {
 namespace {
@@ -27,19 +27,8 @@ std::uint64_t samples_per_key(const PathInput& in) {
 
 void set_medium(const PathInput& in, PathParams& k) {
     const Medium& m = *in.medium;
-    int blocks[3];
-    block_counts(m.grid, in.block, blocks);
-    for (int a = 0; a < 3; ++a) {
-        k.grid.size[a] = m.grid.size[a];
-        k.grid.cell[a] = m.grid.cell_m[a];
-        k.grid.blocks[a] = blocks[a];
-        k.extent[a] = float(m.grid.size[a]) * m.grid.cell_m[a];
-    }
-    k.grid.block = float(in.block);
-    k.grid.sigma = m.sigma;
-    k.grid.max_events = in.max_events;
-    k.grid.density = m.volume.density.data();
-    k.grid.majorant = in.majorants.data;
+    k.grid = track_grid(m, in.majorants, in.block, in.max_events);
+    for (int a = 0; a < 3; ++a) k.extent[a] = float(m.grid.size[a]) * m.grid.cell_m[a];
     k.channels = m.channels;
     k.media = m.count;
     for (std::size_t i = 0; i < m.optics.size(); ++i) k.optics[i] = m.optics[i];

@@ -57,6 +57,23 @@ TEST_CASE("a furnace with a white ground and a grey one") {
     }
 }
 
+TEST_CASE("a periodic white layer in a uniform sky is the sky, level rays included") {
+    Rig rig = bumpy_cloud(0.2, 2);
+    rig.medium.grid.periodic = true;
+    set_majorants(rig, 2);
+    set_sky(rig, 1);
+    for (double ground : {0.0, 1.0}) {
+        if (ground > 0) set_ground(rig, -20, ground);
+        for (float height : {40.0f, 300.0f}) {
+            const Film film = trace_film(
+                path_input(rig, make_view({-960, 5000, height}, {0, 1, 0}, 16, 16), 3), 32);
+            CHECK(film.tally.scatterings > 1000);
+            for (std::size_t p = 0; p < film.pixels(); ++p)
+                REQUIRE(film_mean(film, 0, 0, p) == 1.0);
+        }
+    }
+}
+
 TEST_CASE("an empty box shows the sky; the sun is never seen") {
     Rig rig = make_rig({4, 4, 4}, {4, 4, 4}, 1);
     for (float& v : rig.medium.volume.density.span()) v = 0;
