@@ -35,7 +35,7 @@ void add_density(const CollectorsSizes& s, MemoryTable& t) {
     }
     if (s.source.cumulus)
         t.add("bubbles of the cumulus", Stage::kDensity, Stage::kDensity,
-              kMaxBubbles * (sizeof(Bubble) + 2 * sizeof(std::uint16_t) * s.threads));
+              kMaxBubbles * (sizeof(Bubble) + 3 * sizeof(std::uint16_t) * s.threads));
 }
 
 /// stages/prepare.cpp draw_samples and what it calls.

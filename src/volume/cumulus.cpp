@@ -15,6 +15,7 @@ namespace pileus {
 namespace {
 
 constexpr int kBlock = 8;                 // cells along a block's edge
+constexpr int kPart = 4;                  // and along the edge of a part of it
 constexpr int kWidth = 4;                 // cells computed side by side
 constexpr std::uint64_t kFirstCloud = 4;  // seed 0 is the cloud a first picture should show
 constexpr std::uint32_t kNoiseStream = 0x6e6f6973u;
@@ -86,9 +87,9 @@ FF distance(const Field& f, const Point& p, const std::uint16_t* near, std::size
     return d;
 }
 
-/// Density at four points whose height above the base is p.z.
-FF density_at(const Field& f, const Point& p, const std::uint16_t* near, std::size_t count) {
-    const Point q = warp(f, p);
+/// Density at four points whose height above the base is p.z, and which are bent to `q`.
+FF density_at(const Field& f, const Point& p, const Point& q, const std::uint16_t* near,
+              std::size_t count) {
     const FF smooth_d = distance(f, q, near, count);
     if (!any(smooth_d < kPushOut + f.shell)) return FF{};
     // Calm the billows towards the base, where the cloud is young and ragged instead of firm.
@@ -130,7 +131,8 @@ Block make_block(const Field& f, const std::array<int, 3>& begin, const std::arr
 }
 
 /// Keeps the spheres that can be nearest somewhere in the block; returns how many of `from` (all
-/// spheres when null) stay in `kept`, 0 when the block lies clear of the cloud.
+/// spheres when null) stay in `kept`, 0 when the block lies clear of the cloud. `kept` may be
+/// `from`.
 std::size_t cull(const Field& f, const Block& b, const std::uint16_t* from, std::size_t count,
                  std::uint16_t* kept) {
     const auto gap = [&](std::size_t i) {
@@ -149,23 +151,70 @@ std::size_t cull(const Field& f, const Block& b, const std::uint16_t* from, std:
     return n;
 }
 
-void fill_block(const Field& f, const Block& b, const std::uint16_t* near, std::size_t count) {
-    for (int z = b.begin[2]; z < b.end[2]; ++z)
-        for (int y = b.begin[1]; y < b.end[1]; ++y)
-            for (int x = b.begin[0]; x < b.end[0]; x += kWidth) {
-                Point p{};
-                p.x = f.corner[0] + (float(x) + to_float(iota<I<kWidth>>())) * f.cell[0];
-                p.y = all<FF>(f.corner[1] + float(y) * f.cell[1]);
-                p.z = all<FF>(f.corner[2] + float(z) * f.cell[2]);
-                const FF value = density_at(f, p, near, count);
-                const std::size_t row =
-                    (std::size_t(z) * std::size_t(f.n[1]) + std::size_t(y)) * std::size_t(f.n[0]);
-                for (int i = 0; i < kWidth && x + i < b.end[0]; ++i)
-                    f.density[row + std::size_t(x + i)] = value[i];
+/// Ball around the bent points, a little wider than rounding needs.
+void enclose(const Point* q, int count, Block& part) {
+    Point low = q[0], high = q[0];
+    for (int i = 1; i < count; ++i) {
+        low = {min_(low.x, q[i].x), min_(low.y, q[i].y), min_(low.z, q[i].z)};
+        high = {max_(high.x, q[i].x), max_(high.y, q[i].y), max_(high.z, q[i].z)};
+    }
+    const FF lows[3] = {low.x, low.y, low.z}, highs[3] = {high.x, high.y, high.z};
+    float square = 0.0f;
+    for (std::size_t a = 0; a < 3; ++a) {
+        float from = lows[a][0], to = highs[a][0];
+        for (int i = 1; i < kWidth; ++i) {
+            from = min_(from, float(lows[a][i]));
+            to = max_(to, float(highs[a][i]));
+        }
+        part.centre[a] = 0.5f * (from + to);
+        square += 0.25f * (to - from) * (to - from);
+    }
+    part.radius = sqrt_(square) + 1e-4f;
+}
+
+/// Fills a part of a block. Few spheres can be the nearest to its points once these are bent;
+/// `scratch` holds a list of kMaxBubbles numbers.
+void fill_part(const Field& f, Block part, const std::uint16_t* near, std::size_t count,
+               std::uint16_t* scratch) {
+    Point p[kPart * kPart * kPart / kWidth] = {}, q[kPart * kPart * kPart / kWidth] = {};
+    int points = 0;
+    for (int z = part.begin[2]; z < part.end[2]; ++z)
+        for (int y = part.begin[1]; y < part.end[1]; ++y, ++points) {
+            p[points].x =
+                f.corner[0] + (float(part.begin[0]) + to_float(iota<I<kWidth>>())) * f.cell[0];
+            p[points].y = all<FF>(f.corner[1] + float(y) * f.cell[1]);
+            p[points].z = all<FF>(f.corner[2] + float(z) * f.cell[2]);
+            q[points] = warp(f, p[points]);
+        }
+    enclose(q, points, part);
+    const std::size_t n = cull(f, part, near, count, scratch);
+    if (n == 0) return;
+    points = 0;
+    for (int z = part.begin[2]; z < part.end[2]; ++z)
+        for (int y = part.begin[1]; y < part.end[1]; ++y, ++points) {
+            const FF value = density_at(f, p[points], q[points], scratch, n);
+            const std::size_t row =
+                (std::size_t(z) * std::size_t(f.n[1]) + std::size_t(y)) * std::size_t(f.n[0]);
+            for (int i = 0; i < kWidth && part.begin[0] + i < part.end[0]; ++i)
+                f.density[row + std::size_t(part.begin[0] + i)] = value[i];
+        }
+}
+
+void fill_block(const Field& f, const Block& b, const std::uint16_t* near, std::size_t count,
+                std::uint16_t* scratch) {
+    static_assert(kPart == kWidth, "a row of a part is one group of lanes");
+    for (int z = b.begin[2]; z < b.end[2]; z += kPart)
+        for (int y = b.begin[1]; y < b.end[1]; y += kPart)
+            for (int x = b.begin[0]; x < b.end[0]; x += kPart) {
+                Block part = b;
+                part.begin = {x, y, z};
+                part.end = {min_(x + kPart, b.end[0]), min_(y + kPart, b.end[1]),
+                            min_(z + kPart, b.end[2])};
+                fill_part(f, part, near, count, scratch);
             }
 }
 
-/// Fills one row of blocks along x; `scratch` holds two lists of kMaxBubbles numbers.
+/// Fills one row of blocks along x; `scratch` holds three lists of kMaxBubbles numbers.
 void fill_row(const Field& f, int by, int bz, std::uint16_t* scratch) {
     // Leave the outermost layer of cells at zero.
     std::array<int, 3> begin{1, 1 + by * kBlock, 1 + bz * kBlock};
@@ -179,7 +228,7 @@ void fill_row(const Field& f, int by, int bz, std::uint16_t* scratch) {
         begin[0] = x, end[0] = min_(x + kBlock, f.n[0] - 1);
         const Block block = make_block(f, begin, end);
         const std::size_t n = cull(f, block, in_row, row, in_block);
-        if (n > 0) fill_block(f, block, in_block, n);
+        if (n > 0) fill_block(f, block, in_block, n, scratch + 2 * kMaxBubbles);
     }
 }
 
@@ -237,11 +286,11 @@ Status make_cumulus(const CumulusSettings& asked, int threads, Volume& volume) {
     f.density = volume.density.data();
     const int workers = threads > 0 ? threads : hardware_threads();
     Buffer<std::uint16_t> scratch;
-    PILEUS_TRY(scratch.resize(2 * std::uint64_t(workers) * kMaxBubbles, "cumulus scratch"));
+    PILEUS_TRY(scratch.resize(3 * std::uint64_t(workers) * kMaxBubbles, "cumulus scratch"));
     const int rows_y = (f.n[1] - 3) / kBlock + 1, rows_z = (f.n[2] - 3) / kBlock + 1;
     parallel_for(workers, std::int64_t(rows_y) * rows_z, [&](std::int64_t piece, int thread) {
         fill_row(f, int(piece % rows_y), int(piece / rows_y),
-                 scratch.data() + 2 * std::size_t(thread) * kMaxBubbles);
+                 scratch.data() + 3 * std::size_t(thread) * kMaxBubbles);
     });
     volume.size = f.n;
     volume.knows_bounds = false;
