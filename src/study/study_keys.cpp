@@ -90,26 +90,11 @@ void add_unknown(const StudyTable& table, const Node& child, const std::string& 
 
 }  // namespace
 
-const StudyTable& study_top_table() {
-    static const StudyTable table{"Top level", rows_of(kTop), "reference|scene|method"};
-    return table;
-}
-const StudyTable& study_reference_table() {
-    static const StudyTable table{"`[reference]`", rows_of(kReference), ""};
-    return table;
-}
-const StudyTable& study_scene_table() {
-    static const StudyTable table{"`[[scene]]`", rows_of(kScene), ""};
-    return table;
-}
-const StudyTable& study_method_table() {
-    static const StudyTable table{"`[[method]]`", rows_of(kMethod), "setting"};
-    return table;
-}
-const StudyTable& study_setting_table() {
-    static const StudyTable table{"`[[method.setting]]`", rows_of(kSetting), ""};
-    return table;
-}
+StudyTable study_top_table() { return {"Top level", rows_of(kTop), "reference|scene|method"}; }
+StudyTable study_reference_table() { return {"`[reference]`", rows_of(kReference), ""}; }
+StudyTable study_scene_table() { return {"`[[scene]]`", rows_of(kScene), ""}; }
+StudyTable study_method_table() { return {"`[[method]]`", rows_of(kMethod), "setting"}; }
+StudyTable study_setting_table() { return {"`[[method.setting]]`", rows_of(kSetting), ""}; }
 
 std::string study_path(const std::string& path, const std::string& name) {
     return path.empty() ? name : path + "." + name;
@@ -137,12 +122,11 @@ void check_study_table(const StudyTable& table, const Node& node, const std::str
 
 std::string describe_study_keys_markdown() {
     std::string text;
-    for (const StudyTable* table :
-         {&study_top_table(), &study_reference_table(), &study_scene_table(), &study_method_table(),
-          &study_setting_table()}) {
-        text += (text.empty() ? "### " : "\n### ") + std::string(table->heading) + "\n\n";
+    for (const StudyTable& table : {study_top_table(), study_reference_table(), study_scene_table(),
+                                    study_method_table(), study_setting_table()}) {
+        text += (text.empty() ? "### " : "\n### ") + std::string(table.heading) + "\n\n";
         text += "| key | value | default | meaning |\n|---|---|---|---|\n";
-        for (const KeyRow& row : table->rows) {
+        for (const KeyRow& row : table.rows) {
             const std::string fallback = row.fallback;
             text += std::string("| `") + row.path + "` | " + allowed_text(row) + " | ";
             text += fallback == kRequired || fallback.empty() ? fallback : "`" + fallback + "`";

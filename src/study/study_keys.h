@@ -17,11 +17,11 @@ struct StudyTable {
     const char* tables;  ///< names of tables within it, parted by '|'; empty: none
 };
 
-const StudyTable& study_top_table();
-const StudyTable& study_reference_table();
-const StudyTable& study_scene_table();
-const StudyTable& study_method_table();
-const StudyTable& study_setting_table();
+StudyTable study_top_table();
+StudyTable study_reference_table();
+StudyTable study_scene_table();
+StudyTable study_method_table();
+StudyTable study_setting_table();
 
 /// Adds a fault for every unknown or missing key and every value that its row does not allow.
 /// `path` names the table in messages; empty for the top.

@@ -118,7 +118,9 @@ TEST_CASE("pictures that do not fit are refused") {
     Image small = picture(0, 0, 1);
     small.width = kSide / 2;
     ErrorSplit split;
-    CHECK(split_error({small}, picture(0, 0, 1), picture(0, 0, 2), split).code == Code::kBadInput);
+    std::vector<Image> of_half;
+    of_half.push_back(std::move(small));
+    CHECK(split_error(of_half, picture(0, 0, 1), picture(0, 0, 2), split).code == Code::kBadInput);
     Image clear = picture(0, 0, 1);
     for (float& alpha : clear.channels[3].pixels.span()) alpha = 0;
     ReferenceNoise noise;
