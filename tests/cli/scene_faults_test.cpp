@@ -163,6 +163,9 @@ TEST_CASE("keys that do not go together") {
         {kCamera + "height_m = 30\n",
          "s.toml:4:1: camera.height_m: conflicts with projection "
          "\"perspective\", 30, allowed: left out"},
+        {kCamera + "projection = \"flux\"\n",
+         "s.toml:4:14: camera.projection: measured by no method but path, \"flux\", allowed: "
+         "perspective, orthographic with method collectors"},
         {"[camera]\nposition_m = [1, 2, 3]\ntarget_m = [1, 2, 3]\n",
          "s.toml:3:12: camera.target_m: same as position_m, [1, 2, 3], allowed: any other point"},
         {kCamera + "up = [0, -2, 0]\n",
