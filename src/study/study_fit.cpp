@@ -54,7 +54,7 @@ TimeLaw fit_time(Span<const double> amounts, Span<const double> times) {
     if (amounts.size < 2 || !(determinant > 1e-12 * s * sxx)) return law;
     const double intercept = (sxx * sy - sx * sxy) / determinant;
     // Held at an end, the slope is fitted again for what is left.
-    law.fixed_s = std::min(std::max(intercept, 0.0), 0.95 * least);
+    law.fixed_s = std::min(std::max(intercept, 0.0), least);
     law.per_amount_s = (sxy - law.fixed_s * sx) / sxx;
     law.known = law.per_amount_s > 0;
     return law;

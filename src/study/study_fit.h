@@ -25,7 +25,7 @@ struct FloorFit {
 };
 
 /// time = fixed_s + per_amount_s * amount, by least squares weighted by 1/time^2; what does not
-/// grow with the work is held to [0, 0.95 of the least time].
+/// grow with the work is held to [0, the least time].
 struct TimeLaw {
     bool known = false;  ///< false for fewer than two amounts, or times that do not grow
     double fixed_s = 0, per_amount_s = 0;

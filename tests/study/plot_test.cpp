@@ -53,13 +53,13 @@ std::string digest_of(const Buffer<std::uint8_t>& bytes) {
 
 TEST_CASE("a plot is the same text and the same pixels on every machine") {
     const Drawing drawing = draw_plot(sample_plot());
-    CHECK(digest_of(drawing_svg(drawing)) == "SVG_DIGEST");
+    CHECK(digest_of(drawing_svg(drawing)) == "f9b3e4904685ff1b");
     int width = 0, height = 0;
     Buffer<std::uint8_t> rgb;
     REQUIRE(drawing_pixels(drawing, 2, width, height, rgb));
     CHECK(width == 1720);
     CHECK(height == 880);
-    CHECK(digest_of(rgb) == "PNG_DIGEST");
+    CHECK(digest_of(rgb) == "0c4b9fc047fd8211");
 }
 
 TEST_CASE("everything lies on the paper, and the points where the axes say") {
