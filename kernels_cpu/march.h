@@ -264,9 +264,9 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
     const Segment<T> box = clip_to_medium(k.medium, ray);
     T leave = box.leave;
     if (b.opaque_depth != nullptr) {
-        T depth{};
-        for (int l = 0; l < lanes; ++l) set_lane(depth, l, b.opaque_depth[first + l]);
-        leave = min_(leave, depth);
+        T opaque{};
+        for (int l = 0; l < lanes; ++l) set_lane(opaque, l, b.opaque_depth[first + l]);
+        leave = min_(leave, opaque);
     }
     leave = select(real, leave, box.enter);
 
@@ -275,7 +275,7 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
     if (k.bands > 0) set_harmonics(k, ray.direction, harmonics);
     const bool wraps = k.medium.periodic != 0;
 
-    T transmittance = all<T>(1.0f), half = all<T>(__builtin_inff());
+    T transmittance = all<T>(1.0f), half = all<T>(__builtin_inff()), depth{};
     T colour[kMost];
     for (int c = 0; c < k.channels; ++c) colour[c] = T{};
     march_ray(
@@ -286,6 +286,7 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
             const T density = interpolate(k.medium.density, at);
             const T optical = select(dense, density * k.medium.sigma * width, T{});
             if (!any(optical > 0.0f)) return transmittance < k.cut;
+            depth = depth + optical;
             const T alpha = one_minus_exp(optical);
             const T weight = transmittance * alpha;
             T direct[3] = {};
@@ -309,6 +310,7 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
     for (int l = 0; l < lanes; ++l) {
         b.transmittance[first + l] = lane(transmittance, l);
         if (b.half_depth != nullptr) b.half_depth[first + l] = lane(half, l);
+        if (b.ray_depth != nullptr) b.ray_depth[first + l] = lane(depth, l);
         for (int c = 0; c < k.channels; ++c) b.colour[c * pixels + first + l] = lane(colour[c], l);
     }
 }
@@ -371,7 +373,7 @@ PILEUS_FN void background_rows(const BackgroundParams& k, const BackgroundBuffer
                 const std::int64_t pixel = std::int64_t(y) * k.camera.width + x + l;
                 const bool hit = (bits_of(ground) >> l) & 1u;
                 if (b.opaque_depth != nullptr) b.opaque_depth[pixel] = lane(depth, l);
-                for (int c = 0; c < 3; ++c)
+                for (int c = 0; c < 3 && b.colour != nullptr; ++c)
                     b.colour[c * pixels + pixel] = hit ? k.ground_diffuse[c] +
                                                              k.ground_sun[c] * lane(sunlight, l) +
                                                              lane(scattered[c], l)

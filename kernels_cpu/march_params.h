@@ -68,6 +68,7 @@ struct MarchBuffers {
     float* half_depth;          ///< [pixel], m; infinity where transmittance stays above 1/2;
                                 ///< null: not wanted
     float* colour;              ///< [channel][pixel], premultiplied
+    float* ray_depth;           ///< [pixel], optical depth along the ray; null: not wanted
 };
 
 struct BackgroundParams {
@@ -85,7 +86,7 @@ struct BackgroundParams {
 };
 struct BackgroundBuffers {
     const float* map;     ///< [3][cell], radiance
-    float* colour;        ///< [3][pixel]
+    float* colour;        ///< [3][pixel]; null: not wanted
     float* opaque_depth;  ///< [pixel], m; infinity for the sky; null: nothing solid
 };
 

@@ -106,4 +106,11 @@ std::string file_extension(const std::string& path) {
     return extension;
 }
 
+std::string numbered_path(const std::string& path, int frame) {
+    const std::size_t stem = path.size() - file_extension(path).size();
+    const std::string digits = std::to_string(frame);
+    const std::string zeros(digits.size() < 4 ? 4 - digits.size() : 0, '0');
+    return path.substr(0, stem) + "." + zeros + digits + path.substr(stem);
+}
+
 }  // namespace pileus

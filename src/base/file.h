@@ -44,4 +44,7 @@ Status can_write_file(const std::string& path);
 /// empty where there is none.
 std::string file_extension(const std::string& path);
 
+/// "out/name.png" of frame 7 becomes "out/name.0007.png".
+std::string numbered_path(const std::string& path, int frame);
+
 }  // namespace pileus

@@ -56,6 +56,7 @@ struct ReportWork {
     bool known = false;
     double photons = 0, scatterings_per_photon = 0, scatterings = 0;
     std::string law;
+    std::string of = "photons";  ///< what is counted as photons: they, or paths
 };
 
 struct Report {
@@ -80,6 +81,9 @@ struct Report {
 
     std::uint64_t photons = 0, generations = 0, scatterings = 0, tentative = 0, crossings = 0;
     std::uint64_t leaves = 0, collectors = 0, samples = 0;
+    std::uint64_t paths = 0, samples_per_pixel = 0, shadow_rays = 0;  ///< of method `path`
+    std::uint64_t earlier_paths = 0, earlier_scatterings = 0;  ///< of these, from a state file
+    bool interrupted = false;  ///< the user ended the run before its budget
     double tracing_cpu_s = 0, tracing_wall_s = 0;
     double mean_path_m = 0;  ///< per photon, inside the box
     std::vector<EnergyRow> energy;

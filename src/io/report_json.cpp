@@ -45,7 +45,8 @@ Json bounds_of(const Report& report) {
 Json known(bool is_known, double number) { return is_known ? Json(number) : Json(nullptr); }
 
 Json work_of(const ReportWork& work) {
-    return {{"photons", work.photons},
+    return {{"of", work.of},
+            {"photons", work.photons},
             {"scatterings_per_photon", known(work.known, work.scatterings_per_photon)},
             {"scatterings", known(work.known, work.scatterings)},
             {"law", work.law}};
@@ -158,13 +159,19 @@ std::string report_json(const Report& report) {
     json["memory"] = {{"peak_bytes", report.peak_bytes}};
     json["time"] = time_of(report);
 
+    json["interrupted"] = report.interrupted;
     json["photons"] = report.photons;
     json["generations"] = report.generations;
+    json["paths"] = report.paths;
+    json["samples_per_pixel"] = report.samples_per_pixel;
     json["scatterings"] = report.scatterings;
     json["tentative"] = report.tentative;
     json["crossings"] = report.crossings;
-    json["scatterings_per_second"] = rate_of(report.scatterings, report.tracing_cpu_s);
+    json["shadow_rays"] = report.shadow_rays;
+    json["scatterings_per_second"] =
+        rate_of(report.scatterings - report.earlier_scatterings, report.tracing_cpu_s);
     json["photons_per_second"] = rate_of(report.photons, report.tracing_cpu_s);
+    json["paths_per_second"] = rate_of(report.paths - report.earlier_paths, report.tracing_cpu_s);
     json["mean_path_m"] = report.mean_path_m;
     json["samples"] = report.samples;
     json["leaves"] = report.leaves;

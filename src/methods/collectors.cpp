@@ -2,10 +2,9 @@
 // See collectors.h. Preparation, photons and the plan; collectors_show.cpp makes the picture.
 #include "src/methods/collectors.h"
 
-#include "src/base/file.h"
 #include "src/plan/scene_limits.h"
-#include "src/scene/read_scene.h"
 #include "src/stages/mix_media.h"
+#include "src/stages/world.h"
 
 namespace pileus {
 namespace {
@@ -140,28 +139,6 @@ void note_plan(const Scene& scene, CollectorsRun& run) {
     for (const LeftOut& l : run.media_plan.left_out) plan.left_out.push_back(l);
 }
 
-/// A scene without media still has a sky and a ground to show.
-Status empty_medium(const Scene& scene, Medium& medium) {
-    medium.low_m = scene.camera.target_m;
-    for (std::size_t a = 0; a < 3; ++a) {
-        medium.extent_m[a] = 1;
-        medium.volume.size[a] = medium.grid.size[a] = 1;
-        medium.grid.cell_m[a] = 1;
-    }
-    return medium.volume.density.resize(1, "density");
-}
-
-/// Reads the scene's sky map: lights, and with them the plan, depend on its colours.
-Status read_map(const Scene& scene, const Context& context, CollectorsRun& run) {
-    if (scene.sky.map.empty()) return Status::ok();
-    const StageClock clock(context, "sky map");
-    InputFile file;
-    const std::string path = scene_path(scene.directory, scene.sky.map);
-    PILEUS_TRY(open_file(path, file));
-    PILEUS_TRY(check_limit(context.limits, LimitId::kFile, file.size(), path));
-    return load_sky_map(scene, run.sky_map);
-}
-
 /// Aims the sky map at the medium's box. A coloured one asks for a set of sums per colour channel,
 /// as its photons differ in colour.
 Status aim_map(CollectorsRun& run) {
@@ -231,7 +208,7 @@ Status collectors_outline(const Scene& scene, std::int64_t photons, const Contex
                    ? empty_medium(scene, run.medium)
                    : outline_media(scene, context.limits, std::uint64_t(context.threads),
                                    run.media_plan, run.medium, run.source));
-    PILEUS_TRY(read_map(scene, context, run));
+    PILEUS_TRY(read_sky_map(scene, context, run.sky_map));
     PILEUS_TRY(choose_light(scene, photons, run));
     note_plan(scene, run);
     return collectors_measure(context, run);

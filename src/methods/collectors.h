@@ -3,6 +3,7 @@
 // in: a scene and its medium -> out: images, one per call of `show`.
 // Elek 2011 with the repairs of docs/methods.md 3; docs/collectors.md.
 #pragma once
+#include "src/methods/methods.h"
 #include "src/plan/plan.h"
 #include "src/stages/composite_billboards.h"
 #include "src/stages/prepare.h"
@@ -13,6 +14,9 @@ namespace pileus {
 
 /// Most groups of generations that the standard error is made from.
 constexpr std::uint64_t kMostBatches = 16;
+
+/// The recipe.
+const Method& collectors_method();
 
 /// Everything one run holds; made by `prepare`, lit by `shoot`, read by `show`.
 struct CollectorsRun {
@@ -37,7 +41,8 @@ struct CollectorsRun {
     NodeGrid shadow_nodes{};
     Buffer<float> shadow;  ///< optical depth to the sun per node
     bool shadow_ready = false;
-    int camera_cells = 0;  ///< > 0: the camera-directed estimate on cells of so many voxels
+    bool interrupted = false;  ///< fewer generations than asked for, because the user wanted an end
+    int camera_cells = 0;      ///< > 0: the camera-directed estimate on cells of so many voxels
 };
 
 /// The display that a run uses: cells lit towards the camera are always marched.
@@ -95,6 +100,13 @@ Status collectors_billboards(const Context& context, const CollectorsRun& run,
 
 /// Frees what only tracing needs; part of rendering a still once its photons are shot.
 void collectors_end_tracing(CollectorsRun& run);
+
+/// Photons over the whole ring.
+std::int64_t collectors_photons(const Scene& scene, const Budget& budget);
+
+/// Shoots what a frame needs. kCheckFailed: interrupted before there was anything to show.
+Status collectors_light(const Budget& budget, const FrameStep& step, const Context& context,
+                        CollectorsRun& run);
 
 struct CollectorsSizes;
 

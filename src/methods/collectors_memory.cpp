@@ -5,8 +5,6 @@
 #include "src/methods/collectors_memory.h"
 
 #include "kernels_cpu/blend_params.h"
-#include "src/stages/prepare_majorant.h"
-#include "src/volume/bubbles.h"
 
 namespace pileus {
 namespace {
@@ -17,26 +15,6 @@ constexpr Size kFloat = sizeof(float);
 Size voxels_of(const CollectorsSizes& s) { return voxel_count(s.grid); }
 
 Size side(const CollectorsSizes& s, int axis) { return Size(s.grid.size[axis]); }
-
-/// Reading or making the density: stages/medium.cpp.
-void add_density(const CollectorsSizes& s, MemoryTable& t) {
-    const Size grid = bytes_of(voxels_of(s), kFloat);
-    t.add("density", Stage::kDensity, Stage::kWrite, grid);
-    t.add("sky map", Stage::kDensity, Stage::kWrite, s.sky_map);
-    t.add("sky map while it is read", Stage::kDensity, Stage::kDensity, s.sky_picture);
-    t.add("file while it is read", Stage::kDensity, Stage::kDensity, s.source.reading_bytes);
-    t.add("density, turned", Stage::kDensity, Stage::kDensity,
-          bytes_of(s.source.turned_voxels, kFloat));
-    if (s.media > 1) {
-        t.add("media apart", Stage::kDensity, Stage::kDensity,
-              bytes_of(s.source.apart_voxels, kFloat));
-        t.add("mixing of media", Stage::kDensity, Stage::kDensity, s.source.mixing_bytes);
-        t.add("parts of the media", Stage::kDensity, Stage::kWrite, bytes_of(s.media - 1, grid));
-    }
-    if (s.source.cumulus)
-        t.add("bubbles of the cumulus", Stage::kDensity, Stage::kDensity,
-              kMaxBubbles * (sizeof(Bubble) + 3 * sizeof(std::uint16_t) * s.threads));
-}
 
 /// stages/prepare.cpp draw_samples and what it calls.
 void add_samples(const CollectorsSizes& s, MemoryTable& t) {
@@ -86,14 +64,7 @@ void add_collectors(const CollectorsSizes& s, MemoryTable& t) {
     if (s.paper)
         t.add("centroids of samples", Stage::kLeafGrid, Stage::kLeafGrid,
               bytes_of(s.leaves, 4 * sizeof(double)));
-    // The search holds the finest blocks and the next, and is over before the choice is made.
-    const int finest = voxels <= kMostSingleVoxels ? 1 : 2;
-    const Size search = block_total(s.grid, finest) + block_total(s.grid, 2 * finest);
-    t.add("search for the block size", Stage::kMajorants, Stage::kMajorants, kFloat * search);
-    t.add("rows of the majorants", Stage::kMajorants, Stage::kMajorants,
-          bytes_of(kFloat * s.threads, side(s, 0) * side(s, 1) + side(s, 0)));
-    t.add("majorants", Stage::kMajorants, traced, kFloat * s.tracking_blocks);
-    t.add("blocks to skip", Stage::kMajorants, Stage::kWrite, kFloat * block_total(s.grid, 4));
+    add_majorant_rows(s.grid, s.tracking_blocks, s.threads, traced, t);
 }
 
 /// stages/trace.cpp: sums per light and slot, and each thread's own.
@@ -114,8 +85,14 @@ void add_light(const CollectorsSizes& s, MemoryTable& t) {
     t.add("collector colours", Stage::kReconstruct, Stage::kLayers,
           bytes_of(kFloat * source, s.collectors));
     // Colours with their batches, transmittance, background; depths where something asks for them.
-    const Size planes = s.planes + 4 + (s.ground ? 1u : 0u) + (s.depth ? 1u : 0u);
+    const Size planes = s.planes + 4 + (s.ground ? 1u : 0u) + (s.depth ? 1u : 0u) + s.extra_planes;
     t.add("picture planes", Stage::kBackground, Stage::kLayers, bytes_of(kFloat * planes, pixels));
+    if (s.extra_planes > 0)
+        t.add("planes of a part", Stage::kDisplay, Stage::kDisplay,
+              bytes_of(kFloat * ((s.parts ? 7u : 1u) + (s.ground ? 1u : 0u)), pixels));
+    if (s.parts)
+        t.add("colours of a part", Stage::kDisplay, Stage::kDisplay,
+              bytes_of(3 * kFloat, s.collectors));
     t.add("ground map", Stage::kBackground, Stage::kBackground, 3 * kFloat * s.ground_cells);
     t.add("shadow", s.shoots_again ? Stage::kPhotons : Stage::kShadow, Stage::kWrite,
           kFloat * s.shadow_nodes);
@@ -144,34 +121,18 @@ void add_billboards(const CollectorsSizes& s, MemoryTable& t) {
           bytes_of(kFloat * s.threads, row * (high * (Size(kBlendPlanes) + s.planes) + 2) + 16));
 }
 
-/// stages/layers.cpp and the encoders of io: a growing buffer is three times the file at most, and
-/// no file is larger than its raw values but for its head; rows wait in packs of 16.
-void add_picture(const CollectorsSizes& s, MemoryTable& t) {
-    const Size image = bytes_of(kFloat * s.layers, s.width, s.height);
-    t.add("image layers", Stage::kLayers, Stage::kWrite, image);
-    t.add("file being encoded", Stage::kWrite, Stage::kWrite, bytes_of(3, image + (Size{1} << 20)));
-    t.add("rows being encoded", Stage::kWrite, Stage::kWrite,
-          bytes_of(3 * 16, s.width, kFloat * s.layers));
-}
-
 }  // namespace
-
-Size block_total(const Grid& grid, int edge) {
-    int n[3];
-    block_counts(grid, edge, n);
-    return Size(n[0]) * Size(n[1]) * Size(n[2]);
-}
 
 MemoryTable collectors_memory(const CollectorsSizes& sizes) {
     MemoryTable table;
-    add_density(sizes, table);
+    add_density_rows(sizes.grid, sizes.source, sizes.media, sizes.threads, sizes.sky, table);
     add_samples(sizes, table);
     add_tree(sizes, table);
     add_collectors(sizes, table);
     add_photons(sizes, table);
     add_light(sizes, table);
     add_billboards(sizes, table);
-    add_picture(sizes, table);
+    add_image_rows(sizes.width, sizes.height, sizes.layers, table);
     return table;
 }
 

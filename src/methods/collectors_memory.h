@@ -5,6 +5,7 @@
 #pragma once
 #include "src/methods/collectors.h"
 #include "src/plan/memory_table.h"
+#include "src/stages/plan_parts.h"
 
 namespace pileus {
 
@@ -17,20 +18,19 @@ struct CollectorsSizes {
     std::uint64_t tracking_blocks = 0;  ///< majorants that photons meet
     std::uint64_t channels = 1, coefficients = 1, lights = 0, slots = 1, ground_cells = 0;
     std::uint64_t width = 0, height = 0;
-    std::uint64_t planes = 3;                    ///< of colour: 3 * (1 + batches)
-    std::uint64_t harmonics = 0;                 ///< numbers per node, where nodes hold them
-    std::uint64_t numbers_by_node = 0;           ///< of all nodes, with what fills them up
-    std::uint64_t layers = 4;                    ///< of the image
-    std::uint64_t sky_map = 0, sky_picture = 0;  ///< bytes kept, and while the file is read
+    std::uint64_t planes = 3;           ///< of colour: 3 * (1 + batches)
+    std::uint64_t harmonics = 0;        ///< numbers per node, where nodes hold them
+    std::uint64_t numbers_by_node = 0;  ///< of all nodes, with what fills them up
+    std::uint64_t layers = 4;           ///< of the image
+    std::uint64_t extra_planes = 0;     ///< parts of the light, optical depth
+    SkyMapBytes sky;
     std::uint64_t shadow_nodes = 0, source_nodes = 0;
+    bool parts = false;     ///< some of the light is shown alone
     bool cells = false;     ///< closure "camera": no samples and no tree
     bool variance = false;  ///< placement "variance"
     bool rejection = false, paper = false, marched = true, ground = false, depth = false;
     bool shoots_again = false;  ///< an animation: what tracing needs stays until the end
 };
-
-/// Blocks of `edge` voxels over the grid.
-std::uint64_t block_total(const Grid& grid, int edge);
 
 /// The sizes of a run: bounds before `collectors_prepare` has filled it, exact afterwards.
 CollectorsSizes collectors_sizes(const CollectorsRun& run, const Context& context);

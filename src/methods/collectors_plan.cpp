@@ -9,32 +9,11 @@
 namespace pileus {
 namespace {
 
-double mean_cosine(const PhaseParams& phase) { return double(phase_moment(phase, 1)); }
-
 /// The ring, and one generation for each further picture.
 std::uint64_t photons_of(const CollectorsRun& run, const Context& context) {
     std::uint64_t generation = 0;
     for (const Light& light : run.lighting.lights) generation += light.photons;
     return bytes_of(generation, run.generations + context.frames - 1);
-}
-
-WorkInput work_input(const CollectorsRun& run, std::uint64_t photons) {
-    WorkInput in;
-    in.extinction_per_m = double(run.medium.sigma);
-    in.mean_density = run.source.mean_density;
-    for (int a = 0; a < 3; ++a) in.extent_m[a] = run.medium.extent_m[a];
-    // Of several media the one that keeps photons busy longest stands for all.
-    in.albedo = 0;
-    in.mean_cosine = 1;
-    for (int i = 0; i < run.medium.count; ++i) {
-        const Optics& optics = run.medium.optics[std::size_t(i)];
-        const double cosine = mean_cosine(optics.phase);
-        if (double(optics.albedo_max) > in.albedo) in.albedo = double(optics.albedo_max);
-        if (cosine < in.mean_cosine) in.mean_cosine = cosine;
-    }
-    in.max_events = double(run.max_events);
-    in.photons = double(photons);
-    return in;
 }
 
 /// Bounds of the sums that no picture shows but every report does.
@@ -57,18 +36,6 @@ Status check_bounds(const CollectorsRun& run) {
     return Status::ok();
 }
 
-std::uint64_t whole(double number) {
-    return number < 0x1p63 ? std::uint64_t(number) : std::uint64_t{1} << 63;
-}
-
-Status check_work(const CollectorsRun& run, const Context& context) {
-    const WorkEstimate& work = run.plan.work;
-    if (!work.known || !(work.photons > 0)) return Status::ok();
-    PILEUS_TRY(check_limit(context.limits, LimitId::kScatterings,
-                           whole(work.scatterings_per_photon), run.scene->file));
-    return check_limit(context.limits, LimitId::kWork, whole(work.scatterings), run.scene->file);
-}
-
 /// Leaves, collectors and blocks: counted after preparation, bounded before.
 void size_prepared(const CollectorsRun& run, const Context& context, CollectorsSizes& s) {
     const CollectorSettings& settings = run.scene->collectors;
@@ -86,8 +53,7 @@ void size_prepared(const CollectorsRun& run, const Context& context, CollectorsS
     else
         s.leaves = most > 0 ? most : expected_leaves(s.grid, leaf_share(run.medium), s.samples);
     s.collectors = s.leaves;
-    const bool single = voxel_count(s.grid) <= kMostSingleVoxels;
-    s.tracking_blocks = settings.local_tracking ? block_total(s.grid, single ? 1 : 2) : 1;
+    s.tracking_blocks = most_tracking_blocks(s.grid, settings.local_tracking);
 }
 
 }  // namespace
@@ -106,9 +72,7 @@ CollectorsSizes collectors_sizes(const CollectorsRun& run, const Context& contex
     s.channels = std::uint64_t(run.medium.channels);
     s.coefficients = std::uint64_t(run.deposit.coefficients);
     s.lights = run.lighting.lights.size();
-    s.sky_map = run.sky_map.bytes();
-    // Four channels decoded, and the file, which is hardly larger than its values.
-    s.sky_picture = 32 * std::uint64_t(run.sky_map.size[0]) * std::uint64_t(run.sky_map.size[1]);
+    s.sky = sky_map_bytes(run.sky_map);
     s.slots = collectors_slots(run);
     s.ground_cells = std::uint64_t(run.ground_map.cells) * std::uint64_t(run.ground_map.cells);
     s.shoots_again = context.frames > 1;
@@ -127,8 +91,10 @@ Status collectors_measure(const Context& context, CollectorsRun& run) {
     run.plan.exact = !run.outlined_only;
     PILEUS_TRY(
         check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), run.scene->file));
-    run.plan.work = estimate_work(work_input(run, photons));
-    return check_work(run, context);
+    run.plan.skip(Stage::kPaths);
+    run.plan.work = estimate_work(
+        medium_work(run.medium, run.source.mean_density, double(run.max_events), double(photons)));
+    return check_work(run.plan.work, context.limits, run.scene->file);
 }
 
 namespace {
@@ -138,7 +104,7 @@ void report_limits(const CollectorsRun& run, const Context& context, Report& rep
     const auto& size = scene.camera.resolution;
     const WorkEstimate& work = run.plan.work;
     const auto add = [&](LimitId id, std::uint64_t needs, bool known = true) {
-        report.limits.push_back({limit_row(id).name, known, needs, context.limits[id]});
+        report.limits.push_back(limit_of(context.limits, id, needs, known));
     };
     report.limits.clear();
     add(LimitId::kVoxels, voxel_count(run.medium.grid));
@@ -154,27 +120,7 @@ void report_limits(const CollectorsRun& run, const Context& context, Report& rep
 }  // namespace
 
 void collectors_report_plan(const CollectorsRun& run, const Context& context, Report& report) {
-    const Plan& plan = run.plan;
-    report.needed = plan.needed;
-    report.left_out.clear();
-    for (const LeftOut& l : plan.left_out) report.left_out.push_back({l.what, l.why});
-    report.bytes.clear();
-    for (const MemoryRow& row : plan.memory.rows())
-        report.bytes.push_back({row.item, row.bytes, stage_name(row.first), stage_name(row.last)});
-    report.stage_bytes.clear();
-    for (std::size_t s = 0; s < kStageCount; ++s)
-        report.stage_bytes.push_back({stage_name(Stage(s)), plan.memory.live(Stage(s))});
-    report.total_bytes = plan.memory.peak();
-    report.exact = plan.exact;
-    report.bounds.clear();
-    for (const SumBound& b : plan.bounds)
-        report.bounds.push_back({b.sum, b.addends, b.largest, b.places, b.worst, b.allowed});
-    const WorkEstimate& work = plan.work;
-    report.work = {work.known, work.photons, work.scatterings_per_photon, work.scatterings,
-                   work.law};
-    report.bias_of = plan.bias.method;
-    report.bias = plan.bias.size;
-    report.bias_page = plan.bias.page;
+    report_plan(run.plan, report);
     report_limits(run, context, report);
 }
 

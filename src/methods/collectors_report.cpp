@@ -93,6 +93,7 @@ void collectors_report(const CollectorsRun& run, Report& report) {
     report.leaves = run.prepared.leaves.size();
     report.collectors = run.prepared.collectors.size();
     report.generations = run.next_generation;
+    report.interrupted = run.interrupted;
     report.energy.clear();
     TraceTally all{};
     for (std::size_t l = 0; l < run.photons.tallies.size(); ++l) {

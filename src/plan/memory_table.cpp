@@ -6,8 +6,9 @@ namespace pileus {
 
 const char* stage_name(Stage stage) {
     static constexpr const char* names[kStageCount] = {
-        "density",     "samples",    "tree",   "collectors", "leaf grid", "majorants", "photons",
-        "reconstruct", "background", "shadow", "splat",      "display",   "layers",    "write"};
+        "density",   "samples", "tree",    "collectors",  "leaf grid",
+        "majorants", "photons", "paths",   "reconstruct", "background",
+        "shadow",    "splat",   "display", "layers",      "write"};
     return names[std::size_t(stage)];
 }
 

@@ -20,6 +20,7 @@ enum class Stage : std::size_t {
     kLeafGrid,
     kMajorants,
     kPhotons,
+    kPaths,
     kReconstruct,
     kBackground,
     kShadow,

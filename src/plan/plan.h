@@ -41,7 +41,11 @@ struct Plan {
     MemoryTable memory;
     bool exact = false;  ///< false: `memory` holds upper bounds, made from sizes alone
     WorkEstimate work;
+    const char* work_of = "photons";    ///< what `work` counts as photons
+    std::uint32_t stages_left_out = 0;  ///< a bit for each Stage that the method does not have
 
+    bool runs(Stage stage) const { return (stages_left_out >> unsigned(stage) & 1u) == 0; }
+    void skip(Stage stage) { stages_left_out |= 1u << unsigned(stage); }
     void need(const char* what) { needed.emplace_back(what); }
     void leave_out(const char* what, const char* why) { left_out.push_back({what, why}); }
 };

@@ -8,7 +8,7 @@ namespace pileus {
 namespace {
 
 constexpr KeyRange kShare{0, 1, false, false};
-constexpr double kManyPhotons = 0x1p40;
+constexpr double kManyPhotons = 0x1p40, kManySamples = 0x1p32;
 
 const KeyRow kRows[] =
     {
@@ -108,9 +108,27 @@ const KeyRow kRows[] =
                   [](const Node& n, KeyTarget t) { t.scene.collectors.window = n.flag; }),
 
         range_key(
-            KeyKind::kInteger, "path.samples_per_pixel", "", "64", {1, 0x1p32, false, false},
+            KeyKind::kInteger, "path.samples_per_pixel", "", "64", {1, kManySamples, false, false},
             "paths for each pixel",
-            [](const Node& n, KeyTarget t) { t.scene.path_samples_per_pixel = integer_of(n); }),
+            [](const Node& n, KeyTarget t) { t.scene.path.samples_per_pixel = integer_of(n); }),
+        range_key(KeyKind::kInteger, "path.max_depth", "", "0", {0, 1000000, false, false},
+                  "scatterings after which light is not followed; 0: unlimited, without bias",
+                  [](const Node& n, KeyTarget t) {
+                      t.scene.path.max_depth = static_cast<int>(integer_of(n));
+                  }),
+        choice_key(KeyKind::kText, "path.pixel", "\"box\"", "box|centre", nullptr,
+                   "where a pixel's rays go: spread evenly over it, or all through its centre, as "
+                   "the other methods send theirs",
+                   [](const Node& n, KeyTarget t) { t.scene.path.centre = n.text == "centre"; }),
+        range_key(KeyKind::kNumber, "path.target_error", "", "0", {0, 1, false, false},
+                  "ends where the standard error over the radiance, its mean over the cloud's "
+                  "pixels, is no more than this; 0: after samples_per_pixel",
+                  [](const Node& n, KeyTarget t) { t.scene.path.target_error = number_of(n); }),
+        range_key(
+            KeyKind::kInteger, "path.max_samples_per_pixel", "", "65_536",
+            {1, kManySamples, false, false},
+            "the most where target_error or --budget error or seconds decides",
+            [](const Node& n, KeyTarget t) { t.scene.path.max_samples_per_pixel = integer_of(n); }),
         plain_key(KeyKind::kTable, "raymarch", "", "settings of a later method", nullptr),
         plain_key(KeyKind::kTable, "optical-depth", "", "settings of a later method", nullptr),
         plain_key(KeyKind::kTable, "photon-grid", "", "settings of a later method", nullptr),
@@ -126,19 +144,23 @@ const KeyRow kRows[] =
                   "JSON report to write, relative to the scene's folder; empty: none",
                   [](const Node& n, KeyTarget t) { t.scene.output.report = n.text; }),
         choice_key(KeyKind::kTexts, "output.layers", "[\"radiance\", \"alpha\"]",
-                   "radiance|alpha|depth|error|cloud", nullptr,
-                   "layers of the picture; radiance and alpha are always there",
+                   "radiance|alpha|depth|error|cloud|optical_depth|transmittance|light|order",
+                   nullptr, "layers of the picture; radiance and alpha are always there",
                    [](const Node& n, KeyTarget t) {
                        t.scene.output.layer_depth = texts_hold(n, "depth");
                        t.scene.output.layer_error = texts_hold(n, "error");
                        t.scene.output.layer_cloud = texts_hold(n, "cloud");
+                       t.scene.output.layer_optical_depth = texts_hold(n, "optical_depth");
+                       t.scene.output.layer_transmittance = texts_hold(n, "transmittance");
+                       t.scene.output.layer_light = texts_hold(n, "light");
+                       t.scene.output.layer_order = texts_hold(n, "order");
                    }),
 
-        range_key(KeyKind::kInteger, "animation.frames", "", "1", {1, 1000000, false, false},
-                  "number of pictures",
-                  [](const Node& n, KeyTarget t) {
-                      t.scene.animation.frames = static_cast<int>(integer_of(n));
-                  }),
+        range_key(
+            KeyKind::kInteger, "animation.frames", "", "1", {1, 1000000, false, false},
+            "number of pictures",
+            [](const Node& n,
+               KeyTarget t) { t.scene.animation.frames = static_cast<int>(integer_of(n)); }),
         range_key(KeyKind::kNumber2, "animation.camera_orbit_deg", "deg",
                   "", {-36000, 36000, false, false},
                   "first and last angle by which the camera has turned about its target",

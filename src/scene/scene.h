@@ -94,10 +94,20 @@ struct CollectorSettings {
     bool window = false;  ///< sinc window against ringing
 };
 
+struct PathSettings {
+    std::int64_t samples_per_pixel = 64;
+    int max_depth = 0;        ///< scatterings after which light is not followed; 0: unlimited
+    bool centre = false;      ///< pixel = "centre": rays through the middles of pixels only
+    double target_error = 0;  ///< mean relative standard error to reach; 0: none
+    std::int64_t max_samples_per_pixel = 65536;  ///< where an error or a time decides
+};
+
 struct OutputSettings {
     std::vector<std::string> files;  ///< relative to the scene's folder
     std::string report;
     bool layer_depth = false, layer_error = false, layer_cloud = false;
+    bool layer_optical_depth = false, layer_transmittance = false;
+    bool layer_light = false, layer_order = false;
 };
 
 struct Animation {
@@ -116,7 +126,7 @@ struct Scene {
     std::vector<MediumSettings> media;
     std::string method = "collectors";
     CollectorSettings collectors;
-    std::int64_t path_samples_per_pixel = 64;
+    PathSettings path;
     OutputSettings output;
     Animation animation;
     std::string text;       ///< the file's own text

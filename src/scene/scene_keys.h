@@ -14,7 +14,7 @@
 namespace pileus {
 
 /// Methods this version can run, and all names that a scene may use; parted by '|'.
-constexpr const char* kAvailableMethods = "collectors";
+constexpr const char* kAvailableMethods = "collectors|path";
 constexpr const char* kKnownMethods =
     "collectors|raymarch|optical-depth|photon-grid|particles|path";
 

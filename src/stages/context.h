@@ -17,7 +17,9 @@ struct Context {
     Limits limits;
     std::uint64_t frames = 1;  ///< pictures of this run
     std::function<void(const char* stage, double share)> progress;
+    std::function<bool()> interrupted;  ///< whether the user wants an end
 
+    bool stop() const { return interrupted && interrupted(); }
     void tell(const char* stage, double share) const {
         if (progress) progress(stage, share);
     }

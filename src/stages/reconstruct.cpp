@@ -129,11 +129,13 @@ double slot_power(const ReconstructInput& in, const Window& window, const Mixtur
     slot_sums(in, slot, light, set, sums);
     if (in.closure == Closure::kCamera) return sums[0];
 
-    double power = in.closure == Closure::kLobe ? lobe_power(in, mix, sums, to)
-                                                : sh_power(in, window, mix, sums, to);
+    double power = in.first_order_alone           ? 0
+                   : in.closure == Closure::kLobe ? lobe_power(in, mix, sums, to)
+                                                  : sh_power(in, window, mix, sums, to);
     if (!in.lighting->lights[light].beam) return power;
     const Direction sun{slot.sun_travel[0], slot.sun_travel[1], slot.sun_travel[2]};
-    power += axis_power(in, mix, sums + in.deposit.bands * in.deposit.bands, sun, to);
+    if (!in.first_order_alone)
+        power += axis_power(in, mix, sums + in.deposit.bands * in.deposit.bands, sun, to);
     if (in.deposit.first_order == 1)
         power += sums[in.deposit.coefficients - 1] * double(mix.density(one_minus_cosine(sun, to)));
     return power;
@@ -147,6 +149,13 @@ Direction towards_camera(const ReconstructInput& in, const Collector& c) {
     // From inside the collector there is no such direction: any will do.
     if (!(dot(d, d) > 1e-12f)) return {0, 0, 1};
     return normalized(d);
+}
+
+/// Slots up to the first that no generation has reached: tracing may have ended early.
+std::size_t filled_slots(const Photons& photons) {
+    std::size_t filled = 0;
+    while (filled < photons.slots.size() && photons.slots[filled].generations > 0) ++filled;
+    return filled;
 }
 
 struct Row {
@@ -191,7 +200,7 @@ Row collector_colour(const ReconstructInput& in, const Window& window, std::size
 }  // namespace
 
 Status reconstruct(const ReconstructInput& in, CollectorColours& out) {
-    const std::size_t slots = in.photons->slots.size(), count = in.collectors.size;
+    const std::size_t slots = filled_slots(*in.photons), count = in.collectors.size;
     const std::size_t batches = std::size_t(in.batches), sets = 1 + batches;
     if (out.colour.size() != 3 * sets * count)
         PILEUS_TRY(out.colour.resize(3 * sets * count, "collector colours"));

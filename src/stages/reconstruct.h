@@ -18,7 +18,8 @@ struct ReconstructInput {
     CameraParams camera{};
     DepositPlan deposit;
     Closure closure = Closure::kSh;
-    bool window = false;    ///< sinc window on the bands
+    bool window = false;             ///< sinc window on the bands
+    bool first_order_alone = false;  ///< only sunlight scattered once, where deposits keep it apart
     int batches = 0;        ///< also one RGB for each of so many groups of slots, for the error
     bool constant = false;  ///< add the lighting's constant source (billboards)
     int threads = 1;

@@ -198,7 +198,7 @@ TEST_CASE("keys that do not go together") {
          "s.toml:5:19: output.files: given twice, \"a.png\", allowed: list of up to 16 texts"},
         {kCamera + "[output]\nlayers = [\"depht\"]\n",
          "s.toml:5:11: output.layers: unknown value, \"depht\", allowed: list of radiance, alpha, "
-         "depth, error, cloud"},
+         "depth, error, cloud, optical_depth, transmittance, light, order"},
     };
     for (const Row& row : rows) check(row);
 }
@@ -280,10 +280,10 @@ TEST_CASE("extinction is the scene's or the file's, never both") {
 
 TEST_CASE("parts of the format that this version cannot use") {
     const Row rows[] = {
-        {kCamera + "[method]\nname = \"path\"\n",
-         "s.toml:5:8: method.name: not in this version, \"path\", allowed: collectors"},
+        {kCamera + "[method]\nname = \"raymarch\"\n",
+         "s.toml:5:8: method.name: not in this version, \"raymarch\", allowed: collectors, path"},
         {kCamera + "[method]\nname = \"radiosity\"\n",
-         "s.toml:5:8: method.name: unknown value, \"radiosity\", allowed: collectors"},
+         "s.toml:5:8: method.name: unknown value, \"radiosity\", allowed: collectors, path"},
         {kCamera + "depth = \"z.exr\"\n",
          "s.toml:4:1: camera.depth: not in this version, \"z.exr\", allowed: nothing"},
         {kCamera + "[sky]\nmodel = \"atmosphere\"\n", "s.toml:5:1: sky.model: not in this ..."},
@@ -367,9 +367,9 @@ TEST_CASE("faults of overrides name the option") {
          "--set camera.fov_deg=1\\x0aseed = 3: not a value, "
          "\"1\\x0aseed = 3\", allowed: a TOML value, or a text "
          "without quotes"},
-        {"method.name=path",
-         "--set method.name=path: method.name: not in this version, \"path\", "
-         "allowed: collectors"},
+        {"method.name=particles",
+         "--set method.name=particles: method.name: not in this version, \"particles\", "
+         "allowed: collectors, path"},
     };
     const std::string text = kCamera + "up = [0, 0, 1]\n" + kMedium;
     for (const auto& row : rows) {

@@ -82,10 +82,12 @@ std::string dump(const Scene& scene) {
     s << k.density_range << ' ' << k.influence_radius << ' ' << k.radius_factor << ' ';
     s << k.axis_degrees << ' ' << k.first_order_split << k.window << k.camera_closure << ' '
       << k.cell_voxels << '\n'
-      << scene.path_samples_per_pixel << '\n';
+      << scene.path.samples_per_pixel << ' ' << scene.path.max_depth << scene.path.centre << ' '
+      << scene.path.target_error << ' ' << scene.path.max_samples_per_pixel << '\n';
     const OutputSettings& o = scene.output;
     dump_list(s, o.files);
-    s << o.report << ' ' << o.layer_depth << o.layer_error << o.layer_cloud << '\n';
+    s << o.report << ' ' << o.layer_depth << o.layer_error << o.layer_cloud << o.layer_optical_depth
+      << o.layer_transmittance << o.layer_light << o.layer_order << '\n';
     const Animation& a = scene.animation;
     s << a.present << ' ' << a.frames << ' ' << a.moves_camera << a.moves_sun << ' ';
     dump_list(s, a.camera_orbit_deg);
@@ -167,12 +169,16 @@ first_order_split = true
 window = true
 [path]
 samples_per_pixel = 5
+max_depth = 6
+pixel = "centre"
+target_error = 0.5
+max_samples_per_pixel = 7
 [photon-grid]
 anything = { goes = [1, 2] }
 [output]
 files = ["x.exr", "y.pfm"]
 report = "r.json"
-layers = ["radiance", "depth", "error", "cloud"]
+layers = ["radiance", "depth", "error", "cloud", "optical_depth", "transmittance", "light", "order"]
 [animation]
 frames = 12
 camera_orbit_deg = [0, 90]
@@ -195,8 +201,8 @@ TEST_CASE("every key of a full scene reaches its field") {
           "4 c.vdb openvdb smoke 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 1 0 0 0 0 1 0\n"
           "4 d.vdb openvdb fog 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 1 0 0 0 0 1 0\n"
           "collectors 2000000 7 5 11 011001 3 0.5 1 2 3 110 4\n"
-          "5\n"
-          "x.exr y.pfm r.json 111\n"
+          "5 61 0.5 7\n"
+          "x.exr y.pfm r.json 1111111\n"
           "1 12 11 0 90 35 5 ");
     CHECK(scene.text == kEveryKey);
     CHECK(scene.file == "s.toml");

@@ -43,6 +43,7 @@ std::string memory_lines(const Report& report) {
 }
 
 std::string bound_lines(const Report& report) {
+    if (report.bounds.empty()) return "";
     std::string text = "bounds of the sums, in whole numbers of 64 bits\n";
     for (const ReportBound& b : report.bounds)
         text += fmt::format("  {:<28} {:.3g} addends x {:.3g} x 2^{} = {:.2g} < {:.2g}\n", b.sum,
@@ -52,11 +53,14 @@ std::string bound_lines(const Report& report) {
 
 std::string work_lines(const Report& report) {
     const ReportWork& work = report.work;
-    std::string text = fmt::format("work, foretold\n  {:<28} {:.4g}\n", "photons", work.photons);
+    std::string text =
+        work.photons > 0 || work.of == "photons"
+            ? fmt::format("work, foretold\n  {:<28} {:.4g}\n", work.of, work.photons)
+            : fmt::format("work, foretold\n  {:<28} as the error or the time decides\n", work.of);
     if (!work.known)
         return text +
                fmt::format("  {:<28} shows once the values are read: --exact\n", "scatterings");
-    return text + fmt::format("  {:<28} about {:.3g} a photon, {:.3g} in all ({})\n", "scatterings",
+    return text + fmt::format("  {:<28} about {:.3g} each, {:.3g} in all ({})\n", "scatterings",
                               work.scatterings_per_photon, work.scatterings, work.law);
 }
 

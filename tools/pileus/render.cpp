@@ -9,6 +9,7 @@
 #include <set>
 
 #include "platform/clock.h"
+#include "platform/interrupt.h"
 #include "src/base/file.h"
 #include "src/methods/collectors_views.h"
 #include "src/scene/read_scene.h"
@@ -27,7 +28,7 @@ constexpr double kMostStops = 64;
 struct RenderArguments {
     SceneArguments scene;
     std::vector<std::string> files;
-    std::optional<std::string> report, frames, exposure, show;
+    std::optional<std::string> report, frames, exposure, show, state, state_every;
     bool quiet = false;
 };
 
@@ -39,11 +40,8 @@ struct Outputs {
     bool numbered = false;  ///< the scene has several frames, so names carry the frame's number
 };
 
-/// "out/name.png" of frame 7 becomes "out/name.0007.png".
 std::string frame_path(const std::string& path, int frame, bool numbered) {
-    if (!numbered) return path;
-    const std::size_t stem = path.size() - file_extension(path).size();
-    return path.substr(0, stem) + fmt::format(".{:04}", frame) + path.substr(stem);
+    return numbered ? numbered_path(path, frame) : path;
 }
 
 Status read_tone(const RenderArguments& arguments, ToneSettings& tone) {
@@ -57,12 +55,26 @@ Status read_tone(const RenderArguments& arguments, ToneSettings& tone) {
     return status;
 }
 
+Status read_state(const RenderArguments& arguments, RenderOptions& options) {
+    constexpr double kMostSeconds = 1e9;
+    options.state = arguments.state.value_or("");
+    if (arguments.state && options.state.empty())
+        return Status::bad_input("--state: no name, \"\", allowed: the name of a file");
+    if (!arguments.state_every) return Status::ok();
+    if (!arguments.state)
+        return Status::bad_input("--state-every: without --state, allowed: both or neither");
+    return read_number("--state-every", *arguments.state_every, 1e-3, kMostSeconds,
+                       options.state_every_s);
+}
+
 /// Finds what would make writing fail before the work is done.
-Status check_outputs(const Outputs& outputs, const std::string& scene, int frame) {
+Status check_outputs(const Outputs& outputs, const std::string& scene, const std::string& state,
+                     int frame) {
     Status faults;
     std::set<std::string> paths;
     std::vector<std::string> all = outputs.files;
     if (!outputs.report.empty()) all.push_back(outputs.report);
+    if (!state.empty()) all.push_back(state);
     for (std::size_t i = 0; i < all.size(); ++i) {
         const std::string path = frame_path(all[i], frame, outputs.numbered);
         const Status name = all[i].empty() ? Status::ok() : check_file_name(all[i]);
@@ -106,6 +118,7 @@ Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOpti
         options.show = *arguments.show;
     }
     add_fault(read_tone(arguments, outputs.tone), faults);
+    add_fault(read_state(arguments, options), faults);
     add_fault(read_scene_options(arguments.scene, scene, options), faults);
     PILEUS_TRY(faults);
 
@@ -127,7 +140,7 @@ Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOpti
         return Status::bad_input(scene.file +
                                  ": output.files: no output, allowed: -o FILE, --report FILE or "
                                  "output.files in the scene");
-    return check_outputs(outputs, arguments.scene.scene, options.first_frame);
+    return check_outputs(outputs, arguments.scene.scene, options.state, options.first_frame);
 }
 
 Status write_frame(const Outputs& outputs, int frame, const Image& image, const Report& report) {
@@ -149,6 +162,15 @@ Status write_frame(const Outputs& outputs, int frame, const Image& image, const 
     return Status::ok();
 }
 
+/// What there is of a picture that the user did not let finish.
+std::string interrupted_line(int frame, bool numbered, const Report& report) {
+    const std::string where = numbered ? fmt::format("frame {}: ", frame) : std::string();
+    if (report.samples_per_pixel > 0)
+        return fmt::format("{}interrupted: {} samples per pixel", where, report.samples_per_pixel);
+    return fmt::format("{}interrupted: {} generations, {} photons", where, report.generations,
+                       report.photons);
+}
+
 Status run_render(RenderArguments& arguments) {
     const double start = wall_seconds();
     Scene scene;
@@ -161,17 +183,22 @@ Status run_render(RenderArguments& arguments) {
     options.progress = [&progress](const char* stage, double share) {
         progress.tell(stage, share);
     };
+    std::string ended;
+    catch_interrupts();
+    options.interrupted = interrupt_asked;
     const Status status =
         render(scene, options, [&](int frame, Image& image, Report& report) -> Status {
             progress.clear();
             if (image.pixel_hash.empty()) image.pixel_hash = pixel_hash(image);
             if (report.hash.empty()) report.hash = image.pixel_hash;
+            if (report.interrupted) ended = interrupted_line(frame, outputs.numbered, report);
             return write_frame(outputs, frame, image, report);
         });
     progress.clear();
     PILEUS_TRY(status);
-    if (arguments.quiet) return Status::ok();
-    return print(fmt::format("{:16} {:.3f} s\n", "total", wall_seconds() - start));
+    if (!arguments.quiet)
+        PILEUS_TRY(print(fmt::format("{:16} {:.3f} s\n", "total", wall_seconds() - start)));
+    return {Code::kOk, ended};
 }
 
 }  // namespace
@@ -197,6 +224,14 @@ void add_render(CLI::App& app, Chosen& chosen) {
                      "A step of the method instead of its picture: gradient, samples, tree, "
                      "leaf-density, collectors, photons, illumination")
         ->type_name("VIEW");
+    command
+        ->add_option("--state", arguments->state,
+                     "Keep the path tracer's progress in this file, and go on from it")
+        ->type_name("FILE");
+    command
+        ->add_option("--state-every", arguments->state_every,
+                     "Seconds between two writings of it; left out: 60")
+        ->type_name("S");
     command->add_flag("-q,--quiet", arguments->quiet, "No progress and no total");
     command->callback(
         [arguments, &chosen] { chosen = [arguments] { return run_render(*arguments); }; });

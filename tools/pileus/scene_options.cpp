@@ -18,6 +18,7 @@ namespace {
 
 constexpr std::int64_t kMostThreads = 1024;
 constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+constexpr std::int64_t kMostSamples = std::int64_t{1} << 32;
 constexpr double kMostSeconds = 1e9;
 
 Status check_isa(const std::string& name) {
@@ -37,10 +38,12 @@ Status read_budget(const std::string& text, RenderOptions& options) {
         return read_integer("--budget photons", amount, 0, kMost, options.budget_photons);
     if (kind == "seconds")
         return read_number("--budget seconds", amount, 1e-3, kMostSeconds, options.budget_seconds);
-    const bool later = kind == "samples" || kind == "error";
-    return Status::bad_input(std::string("--budget: ") +
-                             (later ? "not in this version, " : "unknown kind, ") +
-                             quote_text(text) + ", allowed: photons=N, seconds=S");
+    if (kind == "samples")
+        return read_integer("--budget samples", amount, 1, kMostSamples, options.budget_samples);
+    if (kind == "error")
+        return read_number("--budget error", amount, 1e-6, 1, options.budget_error);
+    return Status::bad_input("--budget: unknown kind, " + quote_text(text) +
+                             ", allowed: photons=N, samples=N, error=E, seconds=S");
 }
 
 }  // namespace
@@ -59,8 +62,10 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
         ->type_name("NAME");
     command
         .add_option("--budget", arguments.budgets,
-                    "photons=N instead of the scene's number; seconds=S ends tracing early, after "
-                    "whole generations; may be repeated")
+                    "photons=N (collectors) or samples=N for each pixel (path) instead of the "
+                    "scene's number; error=E (path) ends at a mean relative standard error; "
+                    "seconds=S ends tracing after that time, between two passes; may be repeated: "
+                    "what comes first ends it")
         ->allow_extra_args(false)
         ->type_name("KIND=N");
     command

@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// See run_context.h.
+#include "src/api/run_context.h"
+
+#include "src/methods/collectors.h"
+#include "src/methods/path.h"
+
+namespace pileus {
+namespace {
+
+constexpr int kMostThreads = 1024;
+
+}  // namespace
+
+Status make_context(const Scene& scene, const RenderOptions& options, Context& context,
+                    Report& report) {
+    context.kernels = kernel_table(options.isa.empty() ? nullptr : options.isa.c_str());
+    if (context.kernels == nullptr) {
+        std::string names;
+        for (int i = 0; const KernelTable* table = kernel_table_at(i); ++i)
+            names += (i > 0 ? ", " : "") + std::string(table->name);
+        return Status::bad_input("--isa: no such instruction set here, \"" + options.isa +
+                                 "\", allowed: " + names);
+    }
+    if (context.kernels->self_test() != expected_self_test())
+        return Status{Code::kCheckFailed,
+                      "self test: the kernels give other bits than they must on this machine"};
+    if (options.threads < 0 || options.threads > kMostThreads)
+        return Status::bad_input("--threads: out of range, " + std::to_string(options.threads) +
+                                 ", allowed: 0 (all) to " + std::to_string(kMostThreads));
+    context.threads = options.threads > 0 ? options.threads : hardware_threads();
+    context.report = &report;
+    context.progress = options.progress;
+    context.interrupted = options.interrupted;
+    context.limits = options.limits;
+    context.frames = std::uint64_t(options.last_frame - options.first_frame + 1);
+    report.version = kVersion;
+    report.scene = scene.file;
+    report.method = scene.method;
+    report.seed = scene.seed;
+    report.isa = context.kernels->name;
+    report.threads = context.threads;
+    return Status::ok();
+}
+
+Status frames_of(const Scene& scene, const RenderOptions& options, Frames& frames) {
+    frames = {options.first_frame, options.last_frame,
+              scene.animation.present ? scene.animation.frames : 1};
+    if (frames.first >= 0 && frames.first <= frames.last && frames.last < frames.total)
+        return Status::ok();
+    return Status::bad_input("--frames: " + std::to_string(frames.first) + "-" +
+                             std::to_string(frames.last) + ", allowed: within 0-" +
+                             std::to_string(frames.total - 1));
+}
+
+Budget budget_of(const RenderOptions& options) {
+    Budget budget;
+    budget.photons = options.budget_photons;
+    budget.samples = options.budget_samples;
+    budget.error = options.budget_error;
+    budget.seconds = options.budget_seconds;
+    budget.state = options.state;
+    budget.state_every_s = options.state_every_s;
+    return budget;
+}
+
+Status find_method(const Scene& scene, const Method*& method) {
+    const Method* const all[] = {&collectors_method(), &path_method()};
+    std::string names;
+    for (const Method* one : all) {
+        method = one;
+        if (scene.method == one->name) return Status::ok();
+        names += (names.empty() ? "" : ", ") + std::string(one->name);
+    }
+    return Status::bad_input(scene.file + ": method.name: not in this version, \"" + scene.method +
+                             "\", allowed: " + names);
+}
+
+}  // namespace pileus

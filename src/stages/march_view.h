@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// The medium along the rays through pixel centres, without light: what alpha and depth show.
+// in: a medium, its blocks to skip, a camera -> out: transmittance, optical and half depth.
+// docs/formats.md, "Pictures out".
+#pragma once
+#include "src/stages/context.h"
+#include "src/stages/layers.h"
+#include "src/stages/lights.h"
+#include "src/stages/prepare.h"
+
+namespace pileus {
+
+/// The grid as the marching kernels see it; `prepared` holds the blocks to skip.
+MediumView make_medium_view(const Medium& medium, const Prepared& prepared);
+
+/// Which of its results a march stores; transmittance always.
+struct MarchWanted {
+    bool half_depth = false, optical_depth = false;
+};
+
+/// Marches the whole way of each ray in the box, or to the ground, without a cut, into the planes'
+/// `transmittance` and what is wanted; `opaque_depth` where there is a ground. Needs the planes'
+/// sizes as allocate_planes leaves them. kLimit: out of memory.
+Status march_medium(const Context& context, const Medium& medium, const Prepared& prepared,
+                    const Lighting& lighting, const CameraParams& camera, const MarchWanted& wanted,
+                    Planes& planes);
+
+}  // namespace pileus
