@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parts of a collectors picture's light: the sun's, the singly scattered; and the optical depth.
 // in: CollectorsRun after shooting -> out: planes of the layers light, order and optical_depth.
-// docs/formats.md, "Pictures out"; docs/collectors.md, "Layers".
+// docs/formats.md, "Pictures out".
 #include "src/methods/collectors_display.h"
 #include "src/stages/march_view.h"
 

@@ -17,6 +17,13 @@ std::unique_ptr<MethodRun> make() { return std::make_unique<PathRun>(); }
 Status check(const Scene& scene, const Budget& budget) {
     if (budget.photons >= 0)
         return unknown_budget("--budget photons", scene.method, "samples=N, error=E, seconds=S");
+    const OutputSettings& output = scene.output;
+    if (scene.camera.flux &&
+        (output.layer_depth || output.layer_optical_depth || output.layer_transmittance))
+        return Status::bad_input(scene.file +
+                                 ": output.layers: a flat detector (camera.projection \"flux\") "
+                                 "sees along no single ray, allowed: radiance, alpha, error, "
+                                 "cloud, light, order");
     return Status::ok();
 }
 

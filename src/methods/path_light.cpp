@@ -17,6 +17,7 @@ Status make_alpha(const Context& context, PathRun& run) {
     const OutputSettings& output = run.scene->output;
     PILEUS_TRY(allocate_planes(run.camera.width, run.camera.height, 0, run.lighting.ground,
                                output.layer_depth, run.planes));
+    if (run.camera.flux != 0) return Status::ok();  // alpha 1: all pixels are measured
     const MarchWanted wanted{output.layer_depth, output.layer_optical_depth};
     return march_medium(context, run.medium, run.prepared, run.lighting, run.camera, wanted,
                         run.planes);
@@ -68,8 +69,9 @@ Status trace_passes(const PassRule& rule, const Context& context, const PathInpu
     double last_s = 0;
     while (!is_met(rule, run)) {
         const double spent_s = wall_seconds() - start;
-        const bool late = rule.seconds > 0 && rule.seconds - spent_s < 0.5 * last_s / double(last);
-        if (run.film.samples > 0 && (late || (rule.seconds > 0 && spent_s >= rule.seconds))) break;
+        const double each_s = last > 0 ? last_s / double(last) : 0;
+        const bool late = rule.seconds > 0 && rule.seconds - spent_s <= 0.5 * each_s;
+        if (run.film.samples > 0 && late) break;
         if (context.stop()) {
             run.interrupted = true;
             break;

@@ -62,7 +62,10 @@ void note_plan(PathRun& run) {
         plan.bias.size = "light scattered more than " + std::to_string(scene.path.max_depth) +
                          " times is missing";
     plan.need("majorants");
-    plan.need("alpha, marched through pixel centres");
+    if (scene.camera.flux)
+        plan.leave_out("alpha", "a flat detector: 1 everywhere");
+    else
+        plan.need("alpha, marched through pixel centres");
     plan.need("paths");
     note_light(scene, run, plan);
     note_parts(scene, run, plan);

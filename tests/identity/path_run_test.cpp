@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// A path traced picture depends on its number of samples alone: not on passes, breaks, threads.
+// in: small scenes, interrupted at chosen moments -> out: equal digests.
+// docs/determinism.md; docs/program.md, "Budgets of a path tracing"
+#include "src/methods/path_passes.h"
+#include "tests/io/temp_folder.h"
+#include "tests/render_harness.h"
+
+using namespace render_test;
+
+namespace {
+
+Scene path_scene(const std::string& samples, const std::vector<std::string>& more = {}) {
+    std::vector<std::string> set = {"method.name=path", "path.samples_per_pixel=" + samples,
+                                    "output.layers=[\"error\",\"light\",\"order\",\"cloud\"]"};
+    set.insert(set.end(), more.begin(), more.end());
+    return scene_from(kSmallCumulus, set);
+}
+
+/// Asks for an end at the n-th question.
+std::function<bool()> stop_at(int n) {
+    auto asked = std::make_shared<int>(0);
+    return [asked, n] { return ++*asked >= n; };
+}
+
+std::vector<Picture> render_frames(const Scene& scene, int first, int last) {
+    RenderOptions options;
+    options.first_frame = first;
+    options.last_frame = last;
+    std::vector<Picture> all;
+    const Status status = render(scene, options, [&](int, Image& image, Report& report) {
+        all.emplace_back();
+        all.back().image = std::move(image);
+        all.back().report = report;
+        return Status::ok();
+    });
+    REQUIRE_MESSAGE(status, status.message);
+    return all;
+}
+
+std::string film_of(const Picture& picture) {
+    for (const auto& digest : picture.report.digests)
+        if (digest.first == "film") return digest.second;
+    FAIL("no film");
+    return "";
+}
+
+}  // namespace
+
+TEST_CASE("path: interrupted twice and resumed, a film has the bits of one that was not") {
+    const test::TempFolder folder;
+    const Picture whole = render_one(path_scene("40"));
+    CHECK(whole.report.samples_per_pixel == 40);
+    CHECK_FALSE(whole.report.interrupted);
+    RenderOptions options;
+    options.state = folder.path("film.state");
+    std::uint64_t samples = 0;
+    for (int stop : {2, 4}) {
+        options.interrupted = stop_at(stop);
+        options.threads = stop - 1;
+        const Picture part = render_one(path_scene("40"), options);
+        CHECK(part.report.interrupted);
+        CHECK(part.report.samples_per_pixel > samples);
+        CHECK(part.report.samples_per_pixel < 40);
+        CHECK(part.report.paths == 24 * 14 * part.report.samples_per_pixel);
+        samples = part.report.samples_per_pixel;
+        const Picture at_once = render_one(path_scene(std::to_string(samples)));
+        CHECK(film_of(part) == film_of(at_once));
+        CHECK(part.report.hash == at_once.report.hash);
+        CHECK(part.report.mean_relative == at_once.report.mean_relative);
+    }
+    options.interrupted = nullptr;
+    options.isa = "scalar";
+    const Picture resumed = render_one(path_scene("40"), options);
+    CHECK(film_of(resumed) == film_of(whole));
+    CHECK(resumed.report.hash == whole.report.hash);
+    CHECK(resumed.report.scatterings == whole.report.scatterings);
+    CHECK(resumed.report.shadow_rays == whole.report.shadow_rays);
+    CHECK(resumed.report.earlier_paths == 24 * 14 * samples);
+}
+
+TEST_CASE("path: an error ends where it would have ended without a break") {
+    const test::TempFolder folder;
+    RenderOptions options;
+    options.budget_error = 0.12;
+    const Picture whole = render_one(path_scene("1"), options);
+    CHECK(whole.report.mean_relative <= 0.12);
+    CHECK(whole.report.samples_per_pixel > 16);
+    options.state = folder.path("film.state");
+    options.interrupted = stop_at(3);
+    const Picture part = render_one(path_scene("1"), options);
+    CHECK(part.report.interrupted);
+    options.interrupted = nullptr;
+    for (int again = 0; again < 2; ++again) {
+        const Picture resumed = render_one(path_scene("1"), options);
+        CHECK(resumed.report.samples_per_pixel == whole.report.samples_per_pixel);
+        CHECK(film_of(resumed) == film_of(whole));
+    }
+}
+
+TEST_CASE("path: interrupted before the first sample there is no picture") {
+    RenderOptions options;
+    options.interrupted = [] { return true; };
+    const Status status = render(path_scene("4"), options, [](int, Image&, Report&) {
+        FAIL("a picture of nothing");
+        return Status::ok();
+    });
+    CHECK(status.code == Code::kCheckFailed);
+    CHECK(status.message.find("interrupted before the first sample") != std::string::npos);
+}
+
+TEST_CASE("path: a frame is that of its own sun, camera and seed, rendered alone or not") {
+    const std::vector<std::string> moves = {"animation.frames=3",
+                                            "animation.sun_elevation_deg=[40,10]"};
+    const Scene scene = path_scene("6", moves);
+    const std::vector<Picture> all = render_frames(scene, 0, 2);
+    REQUIRE(all.size() == 3);
+    CHECK(film_of(render_frames(scene, 2, 2)[0]) == film_of(all[2]));
+    CHECK(all[2].report.paths == 3 * all[0].report.paths);
+    // The scene's seed is 4; frame 1 has that of a still with seed 5.
+    CHECK(film_of(render_one(path_scene("6", {"sun.elevation_deg=25", "seed=5"}))) ==
+          film_of(all[1]));
+    CHECK(film_of(all[0]) != film_of(all[1]));
+
+    const test::TempFolder folder;
+    RenderOptions options;
+    options.last_frame = 2;
+    options.state = folder.path("film.state");
+    options.interrupted = stop_at(5);
+    int frames = 0;
+    bool interrupted = false;
+    REQUIRE(render(scene, options, [&](int, Image&, Report& report) {
+        ++frames;
+        interrupted = report.interrupted;
+        return Status::ok();
+    }));
+    CHECK(interrupted);
+    CHECK(frames < 3);
+    options.interrupted = nullptr;
+    std::vector<std::string> films;
+    REQUIRE(render(scene, options, [&](int, Image&, Report& report) {
+        films.push_back(report.digests[2].second);
+        return Status::ok();
+    }));
+    REQUIRE(films.size() == 3);
+    for (std::size_t f = 0; f < 3; ++f) CHECK(films[f] == film_of(all[f]));
+}
+
+TEST_CASE("collectors: interrupted, the picture is that of the generations there are") {
+    const std::vector<std::string> layers = {"output.layers=[\"error\"]"};
+    RenderOptions options;
+    options.interrupted = stop_at(4);
+    const Picture part = render_one(scene_from(kSmallCumulus, layers), options);
+    CHECK(part.report.interrupted);
+    CHECK(part.report.generations == 3);
+    REQUIRE(part.image.find("error.R") != nullptr);
+    // Four generations of 3000 photons each, and three of the same.
+    const Picture whole = render_one(scene_from(
+        kSmallCumulus, {layers[0], "collectors.photons=9000", "collectors.generations=3"}));
+    CHECK(whole.report.photons == part.report.photons);
+    CHECK(whole.report.hash == part.report.hash);
+    CHECK(whole.report.mean_relative == part.report.mean_relative);
+    options.interrupted = [] { return true; };
+    CHECK(render(scene_from(kSmallCumulus, layers), options, [](int, Image&, Report&) {
+              return Status::ok();
+          }).code == Code::kCheckFailed);
+}
+
+TEST_CASE("path: passes stay within their rule, and rungs rise") {
+    std::uint64_t rung = 0;
+    for (int i = 0; i < 40; ++i) {
+        const std::uint64_t next = next_rung(rung);
+        REQUIRE(next > rung);
+        CHECK(is_rung(next));
+        CHECK_FALSE(is_rung(next + 1));
+        if (rung > 0) CHECK(next <= rung + rung / 4);
+        rung = next;
+    }
+    PassRule rule;
+    rule.most = 100;
+    CHECK(pass_samples(rule, 0, 0, 0, 0) == 1);
+    CHECK(pass_samples(rule, 1, 1, 1e-6, 0) == 2);
+    CHECK(pass_samples(rule, 1, 8, 0.25, 0) == 16);
+    CHECK(pass_samples(rule, 1, 8, 4, 0) == 1);
+    CHECK(pass_samples(rule, 99, 64, 1e-6, 0) == 1);
+    rule.error = 0.1;
+    CHECK(pass_samples(rule, 16, 64, 1e-6, 0) == 4);
+    rule.seconds = 1;
+    rule.error = 0;
+    CHECK(pass_samples(rule, 16, 10, 0.1, 0.05) == 5);
+}

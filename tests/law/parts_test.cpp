@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// Layers of the light's parts add up to the whole, and are what their names say.
+// in: small scenes by every method and display -> out: sums, closed forms, parts rendered alone.
+// docs/formats.md, "Pictures out"
+#include <cmath>
+
+#include "tests/render_harness.h"
+
+using namespace render_test;
+
+namespace {
+
+using Texts = std::vector<std::string>;
+
+const char* const kLayers =
+    "output.layers=[\"light\",\"order\",\"cloud\",\"depth\","
+    "\"optical_depth\",\"transmittance\"]";
+const Texts kMethods[] = {
+    {"method.name=path", "path.samples_per_pixel=8"},
+    {"collectors.display=march"},
+    {"collectors.display=billboards"},
+    {"collectors.closure=camera"},
+};
+
+const Channel& channel(const Picture& picture, const std::string& name) {
+    const Channel* found = picture.image.find(name.c_str());
+    REQUIRE_MESSAGE(found != nullptr, name);
+    return *found;
+}
+
+Picture pictured(const Texts& method, const Texts& more = {}) {
+    Texts set = method;
+    set.push_back(kLayers);
+    set.insert(set.end(), more.begin(), more.end());
+    return render_one(scene_from(kSmallCumulus, set));
+}
+
+/// Largest |a + b - whole| over all pixels and colours, and the largest whole.
+struct Difference {
+    double worst = 0, scale = 0;
+};
+Difference compare(const Picture& p, const char* a, const char* b, const char* whole) {
+    Difference d;
+    for (const char* c : {"R", "G", "B"}) {
+        const Channel &x = channel(p, std::string(a) + c), &y = channel(p, std::string(b) + c),
+                      &z = channel(p, std::string(whole) + c);
+        for (std::size_t i = 0; i < z.pixels.size(); ++i) {
+            const double sum = double(x.pixels[i]) + double(y.pixels[i]);
+            d.worst = std::fmax(d.worst, std::fabs(sum - double(z.pixels[i])));
+            d.scale = std::fmax(d.scale, std::fabs(double(z.pixels[i])));
+        }
+    }
+    return d;
+}
+
+double worst(const Channel& a, const Channel& b) {
+    double d = 0;
+    for (std::size_t i = 0; i < a.pixels.size(); ++i)
+        d = std::fmax(d, std::fabs(double(a.pixels[i]) - double(b.pixels[i])));
+    return d;
+}
+
+double mean(const Channel& a) {
+    double sum = 0;
+    for (float v : a.pixels.span()) sum += double(v);
+    return sum / double(a.pixels.size());
+}
+
+}  // namespace
+
+TEST_CASE("parts: sun and sky make the picture, single and multiple the clouds") {
+    for (const Texts& method : kMethods) {
+        CAPTURE(method[0]);
+        const Picture p = pictured(method);
+        // A difference of floats and its sum: two roundings of half an ulp of the larger.
+        const Difference light = compare(p, "sun.", "sky.", ""),
+                         order = compare(p, "single.", "multiple.", "cloud.");
+        CHECK(light.scale > 0.01);
+        CHECK(light.worst <= 0x1p-23 * light.scale);
+        CHECK(order.worst <= 0x1p-23 * order.scale);
+        CHECK(mean(channel(p, "sun.G")) > 0.001);
+        CHECK(mean(channel(p, "sky.G")) > 0.001);
+        CHECK(mean(channel(p, "single.G")) > 1e-5);
+        CHECK(mean(channel(p, "multiple.G")) > mean(channel(p, "single.G")));
+        for (std::size_t i = 0; i < p.image.channels[3].pixels.size(); ++i)
+            REQUIRE(p.image.channels[3].pixels[i] == 1.0f - channel(p, "T").pixels[i]);
+    }
+}
+
+TEST_CASE("parts: layers change nothing in the picture that holds them") {
+    for (const Texts& method : kMethods) {
+        CAPTURE(method[0]);
+        Texts plain = method;
+        plain.push_back("output.layers=[\"radiance\"]");
+        CHECK(pictured(method).report.hash ==
+              render_one(scene_from(kSmallCumulus, plain)).report.hash);
+    }
+}
+
+TEST_CASE("parts: without a sky all is the sun's, without a sun nothing is") {
+    for (const Texts& method : kMethods) {
+        CAPTURE(method[0]);
+        const Picture sun = pictured(method, {"sky.radiance=0"});
+        const Picture sky = pictured(method, {"sun.irradiance=0"});
+        for (const char* c : {"R", "G", "B"}) {
+            // The display adds its parts in one order for both: nothing is left but rounding.
+            CHECK(worst(channel(sun, std::string("sun.") + c), channel(sun, c)) <= 1e-6);
+            for (float v : channel(sky, std::string("sun.") + c).pixels.span()) REQUIRE(v == 0);
+        }
+    }
+}
+
+TEST_CASE("parts: the sun's light of a path tracing is that of the sun alone, path by path") {
+    const Texts& method = kMethods[0];
+    const Picture both = pictured(method);
+    const Picture alone = pictured(method, {"sky.radiance=0"});
+    // The same paths: only the order of float additions along a path may differ.
+    for (const char* c : {"R", "G", "B"})
+        CHECK(worst(channel(both, std::string("sun.") + c), channel(alone, c)) <= 1e-6);
+    const Picture once = pictured(method, {"path.max_depth=1", "ground.albedo=0"});
+    for (const char* c : {"R", "G", "B"})
+        for (float v : channel(once, std::string("multiple.") + c).pixels.span()) REQUIRE(v == 0);
+}
+
+TEST_CASE("parts: tau and T of an even box are Beer's law") {
+    const char* const text = R"(
+[camera]
+position_m = [0, -300, 50]
+target_m = [0, 0, 50]
+projection = "orthographic"
+height_m = 50
+resolution = [8, 4]
+[sun]
+[[medium]]
+density = "uniform:box"
+bounds_m = [[-100, -50, 0], [100, 50, 100]]
+extinction_per_m = 0.125
+resolution = [16, 8, 8]
+)";
+    for (const Texts& method : kMethods) {
+        CAPTURE(method[0]);
+        Texts set = method;
+        set.push_back(kLayers);
+        set.push_back("collectors.photons=2000");
+        const Picture p = render_one(scene_from(text, set));
+        // 100 m of 0.125/m, in 8 steps of a few roundings each. Billboards keep their own T.
+        for (float v : channel(p, "tau").pixels.span())
+            CHECK(std::fabs(v - 12.5f) <= 1e-5f * 12.5f);
+        if (method[0] == "method.name=path")
+            for (float v : channel(p, "T").pixels.span())
+                CHECK(double(v) == doctest::Approx(std::exp(-12.5)).epsilon(1e-4));
+    }
+}
+
+TEST_CASE("parts: single scattering that is not kept apart is one line") {
+    const Scene scene = scene_from(kSmallCumulus, {kLayers, "collectors.variant=paper"});
+    const Status status = render(scene, {}, [](int, Image&, Report&) { return Status::ok(); });
+    CHECK(status.code == Code::kBadInput);
+    CHECK(status.message.find("output.layers: \"order\"") != std::string::npos);
+    CHECK(status.message.find('\n') == std::string::npos);
+}
