@@ -54,6 +54,9 @@ void path_report_plan(const MethodRun& run, const Context& context, Report& repo
 /// state file; kCheckFailed: interrupted before the first sample of every pixel.
 Status path_light(const FrameStep& step, const Context& context, MethodRun& run);
 
+/// The error of the film over the cloud's pixels, of numbers as the image holds them.
+ErrorSum path_error(const PathRun& run);
+
 /// The film as an image; frees it.
 Status path_show(const FrameStep& step, const Context& context, MethodRun& run, Image& image);
 void path_report(const MethodRun& run, Report& report);

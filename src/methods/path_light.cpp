@@ -23,18 +23,10 @@ Status make_alpha(const Context& context, PathRun& run) {
                         run.planes);
 }
 
-/// The error that the report would tell if the film ended here.
-double relative_error(const PathRun& run) {
-    ErrorSum sum;
-    for (std::size_t i = 0; i < run.film.pixels(); ++i)
-        sum.add(run.planes.transmittance[i], float(film_error(run.film, 1, i)),
-                float(film_mean(run.film, 0, 1, i)));
-    return sum.mean_relative();
-}
-
 bool is_met(const PassRule& rule, const PathRun& run) {
     if (run.film.samples >= rule.most) return true;
-    return rule.error > 0 && is_rung(run.film.samples) && relative_error(run) <= rule.error;
+    return rule.error > 0 && is_rung(run.film.samples) &&
+           path_error(run).mean_relative() <= rule.error;
 }
 
 /// How far the tracing is, by what will end it first.

@@ -58,7 +58,24 @@ std::string film_digest(const Film& film) {
     return d.hex();
 }
 
+/// The report tells the error also where no layer shows it.
+void report_error(const PathRun& run, Report& report) {
+    const ErrorSum sum = path_error(run);
+    report.has_error = run.film.samples >= 2 && sum.count > 0;
+    if (!report.has_error) return;
+    report.mean_relative = sum.mean_relative();
+    report.rmse_estimate = __builtin_sqrt(sum.square / sum.count);
+}
+
 }  // namespace
+
+ErrorSum path_error(const PathRun& run) {
+    ErrorSum sum;
+    for (std::size_t i = 0; i < run.film.pixels(); ++i)
+        sum.add(run.planes.transmittance[i], float(film_error(run.film, 1, i)),
+                float(film_mean(run.film, 0, 1, i)));
+    return sum;
+}
 
 Status path_show(const FrameStep&, const Context& context, MethodRun& method_run, Image& image) {
     PathRun& run = static_cast<PathRun&>(method_run);
@@ -68,10 +85,10 @@ Status path_show(const FrameStep&, const Context& context, MethodRun& method_run
     report.digests.emplace_back("film", film_digest(run.film));
     PILEUS_TRY(fill_planes(context, run));
     report.counters.clear();
-    report.has_error = false;
     std::uint64_t clamped = 0;
     PILEUS_TRY(make_layers(run.planes, run.film.width, run.film.height, 3, run.scene->output, image,
                            report, clamped));
+    report_error(run, report);
     report.counters.emplace_back("clamped_negative", clamped);
     report.executed = {{"depth_tests", run.planes.opaque_depth.size()},
                        {"depths_stored", run.planes.half_depth.size()},

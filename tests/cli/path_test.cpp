@@ -115,6 +115,10 @@ TEST_CASE("path: an error or a time only chooses a number of samples") {
     hash_of(folder, "--budget samples=" + std::to_string(n * 3 / 4) + " --report r.json");
     CHECK(report_of(folder)["error"]["mean_relative"].get<double>() > 0.1);
 
+    // The report tells the error without its layer, too.
+    hash_of(folder, samples_option(by_error) + " --set output.layers=[] --report r.json");
+    CHECK(report_of(folder)["error"] == by_error["error"]);
+
     const std::string time = hash_of(folder, "--budget seconds=0.02 --report r.json");
     CHECK(hash_of(folder, samples_option(report_of(folder))) == time);
     hash_of(folder, "--budget error=1e-6 --set path.max_samples_per_pixel=21 --report r.json");

@@ -22,6 +22,8 @@ public:
         lights();
         if (below(8) > 0) medium(side);
         collectors();
+        // Bytes that end before leave the method as it is.
+        if (below(4) == 1) path();
         return text_;
     }
 
@@ -132,6 +134,13 @@ private:
         line("axis_degrees", std::to_string(below(17)));
         text_ += "[output]\n";
         if ((bits & 128) != 0) line("layers", "[\"depth\", \"error\", \"cloud\"]");
+    }
+
+    void path() {
+        text_ += "[method]\nname = \"path\"\n[path]\n";
+        line("samples_per_pixel", std::to_string(1 + below(4)));
+        line("max_depth", std::to_string(below(4)));
+        line("pixel", below(2) == 0 ? "\"box\"" : "\"centre\"");
     }
 
     const std::uint8_t* data_;
