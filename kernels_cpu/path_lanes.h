@@ -93,7 +93,8 @@ PILEUS_FN void add_light(PathLanes<W, NC>& s, const PathParams& k, M<W> m, F<W> 
     }
 }
 
-/// Where rays from outside enter the box, voxels; `hit` loses the lanes that miss it.
+/// Where rays from outside enter the box, or the layer that a periodic one is, voxels; `hit` loses
+/// the lanes that miss it.
 template <int W>
 PILEUS_FN Vec<F<W>> enter_box(const PathParams& k, const Vec<F<W>>& origin, const Vec<F<W>>& d,
                               M<W>& hit) {

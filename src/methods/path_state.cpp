@@ -75,6 +75,7 @@ void add_medium(const PathInput& in, Digest& d) {
         d.f32(m.grid.cell_m[a]);
     }
     d.f32(m.sigma);
+    d.u32(m.grid.periodic ? 1 : 0);
     d.u32(std::uint32_t(m.channels));
     d.u32(std::uint32_t(m.count));
     for (int i = 0; i < m.count; ++i) {

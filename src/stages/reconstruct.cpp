@@ -284,7 +284,7 @@ void collector_harmonics(const ReconstructInput& in, const Window& window, std::
 }  // namespace
 
 Status reconstruct_harmonics(const ReconstructInput& in, int batch, HarmonicSource& out) {
-    const std::size_t slots = in.photons->slots.size(), count = in.collectors.size;
+    const std::size_t slots = filled_slots(*in.photons), count = in.collectors.size;
     const std::size_t batches = std::size_t(in.batches);
     const std::size_t first = batch < 0 ? 0 : std::size_t(batch) * slots / batches;
     const std::size_t last = batch < 0 ? slots : (std::size_t(batch) + 1) * slots / batches;
