@@ -101,14 +101,8 @@ PILEUS_FN Vec<F<W>> enter_box(const PathParams& k, const Vec<F<W>>& origin, cons
     using T = F<W>;
     // A periodic medium has no sides: it is a layer, whose places repeat.
     const bool wraps = k.grid.periodic != 0;
-    Segment<T> box;
-    if (wraps) {
-        const T inverse = safe_inverse(d.z);
-        const T a = (T{} - origin.z) * inverse, b = (k.extent[2] - origin.z) * inverse;
-        box = {max_(min_(a, b), T{}), max_(a, b)};
-    } else {
-        box = clip_to_box(origin, d, k.extent);
-    }
+    const Segment<T> box =
+        wraps ? clip_to_layer(origin.z, d.z, k.extent[2]) : clip_to_box(origin, d, k.extent);
     hit = hit & (box.enter < box.leave);
     const auto inside = [&](T o, T along, int a) {
         T metres = o + along * box.enter;
