@@ -125,7 +125,8 @@ void add_billboards(const CollectorsSizes& s, MemoryTable& t) {
 
 MemoryTable collectors_memory(const CollectorsSizes& sizes) {
     MemoryTable table;
-    add_density_rows(sizes.grid, sizes.source, sizes.media, sizes.threads, sizes.sky, table);
+    add_density_rows(sizes.grid, sizes.source, sizes.media, sizes.phases, sizes.threads, sizes.sky,
+                     table);
     add_samples(sizes, table);
     add_tree(sizes, table);
     add_collectors(sizes, table);

@@ -23,6 +23,7 @@ struct CollectorsSizes {
     std::uint64_t numbers_by_node = 0;  ///< of all nodes, with what fills them up
     std::uint64_t layers = 4;           ///< of the image
     std::uint64_t extra_planes = 0;     ///< parts of the light, optical depth
+    std::uint64_t phases = 0;           ///< bytes of tables of phase functions
     SkyMapBytes sky;
     std::uint64_t shadow_nodes = 0, source_nodes = 0;
     bool parts = false;     ///< some of the light is shown alone

@@ -72,6 +72,7 @@ CollectorsSizes collectors_sizes(const CollectorsRun& run, const Context& contex
     s.channels = std::uint64_t(run.medium.channels);
     s.coefficients = std::uint64_t(run.deposit.coefficients);
     s.lights = run.lighting.lights.size();
+    s.phases = phase_bytes(run.medium);
     s.sky = sky_map_bytes(run.sky_map);
     s.slots = collectors_slots(run);
     s.ground_cells = std::uint64_t(run.ground_map.cells) * std::uint64_t(run.ground_map.cells);

@@ -88,7 +88,7 @@ void weigh_memory(const Context& context, PathRun& run) {
     const Stage traced = again ? Stage::kWrite : Stage::kPaths;
     const SkyMapBytes sky = sky_map_bytes(run.sky_map);
     MemoryTable t;
-    add_density_rows(grid, run.source, std::uint64_t(run.medium.count),
+    add_density_rows(grid, run.source, std::uint64_t(run.medium.count), phase_bytes(run.medium),
                      std::uint64_t(context.threads), sky, t);
     add_majorant_rows(
         grid, run.outlined_only ? most_tracking_blocks(grid, true) : run.prepared.majorants.size(),

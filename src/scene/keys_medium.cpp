@@ -11,10 +11,31 @@ constexpr KeyRange kCosine{-1, 1, false, false};
 constexpr KeyRange kShare{0, 1, false, false};
 constexpr KeyRange kCells{1, 4096, false, false};
 
+/// In the order of PhaseKind.
+constexpr const char* kPhases =
+    "isotropic|rayleigh|henyey-greenstein|two-lobe|hg-draine|cloud|table|moments";
+
 PhaseKind phase_kind(const std::string& name) {
-    if (name == "henyey-greenstein") return PhaseKind::kHenyeyGreenstein;
-    if (name == "rayleigh") return PhaseKind::kRayleigh;
-    return name == "two-lobe" ? PhaseKind::kTwoLobe : PhaseKind::kIsotropic;
+    int kind = 0;
+    for (std::string_view choice : split_list(kPhases)) {
+        if (choice == name) break;
+        ++kind;
+    }
+    return static_cast<PhaseKind>(kind);
+}
+
+/// Kinds of water clouds and their effective radii, um (docs/phase.md, "Kinds of clouds").
+constexpr const char* kClouds =
+    "cumulus-clean|cumulus-polluted|cumulus-maritime|stratus-continental|stratus-maritime|fog";
+constexpr double kCloudRadius[] = {5.77, 4, 12.68, 7.33, 11.3, 10.7};
+
+double cloud_radius(const std::string& name) {
+    std::size_t kind = 0;
+    for (std::string_view choice : split_list(kClouds)) {
+        if (choice == name) break;
+        ++kind;
+    }
+    return kCloudRadius[kind];
 }
 
 RawType raw_type(const std::string& name) {
@@ -79,8 +100,7 @@ const KeyRow kRows[] = {
               "share of the extinction that scatters; the rest is absorbed",
               [](const Node& n, KeyTarget t) { t.medium.albedo = color_of(n); }),
 
-    choice_key(KeyKind::kText, "medium.N.phase.type", kRequired,
-               "isotropic|rayleigh|henyey-greenstein|two-lobe", "table|cloud",
+    choice_key(KeyKind::kText, "medium.N.phase.type", kRequired, kPhases, nullptr,
                "phase function; a medium without `phase` scatters alike in all directions",
                [](const Node& n, KeyTarget t) { t.medium.phase.kind = phase_kind(n.text); }),
     range_key(KeyKind::kNumber, "medium.N.phase.g", "", "", kCosine,
@@ -95,8 +115,23 @@ const KeyRow kRows[] = {
     range_key(KeyKind::kNumber, "medium.N.phase.weight", "", "", kShare,
               "share of the first of two lobes, required there",
               [](const Node& n, KeyTarget t) { t.medium.phase.weight = number_of(n); }),
-    later_key("medium.N.phase.file", "a measured phase function"),
-    later_key("medium.N.phase.effective_radius_um", "radius of the droplets"),
+    range_key(
+        KeyKind::kNumber, "medium.N.phase.droplet_diameter_um", "um", "", {5, 50, false, false},
+        "diameter of the droplets of hg-draine, required there",
+        [](const Node& n, KeyTarget t) { t.medium.phase.droplet_diameter_um = number_of(n); }),
+    range_key(
+        KeyKind::kNumber, "medium.N.phase.effective_radius_um", "um", "", {4, 20, false, false},
+        "effective radius of the droplets of a cloud; this or `phase.cloud` is required there",
+        [](const Node& n, KeyTarget t) { t.medium.phase.effective_radius_um = number_of(n); }),
+    choice_key(KeyKind::kText, "medium.N.phase.cloud", "", kClouds, nullptr,
+               "kind of cloud, which sets the effective radius (docs/phase.md)",
+               [](const Node& n, KeyTarget t) {
+                   t.medium.phase.effective_radius_um = cloud_radius(n.text);
+               }),
+    plain_key(KeyKind::kText, "medium.N.phase.file", "",
+              "path of a table of angles and values, or of Legendre moments, relative to the scene "
+              "file; required by both",
+              nullptr),
 
     choice_key(KeyKind::kText, "medium.N.boundary", "\"open\"", "open|periodic", nullptr,
                "what lies beside the box: nothing, or the same again without end along x and y; "

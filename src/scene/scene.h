@@ -42,12 +42,24 @@ struct Ground {
 };
 
 enum class DensityKind { kCumulus, kUniformBox, kUniformSphere, kUniformEllipsoid, kFile };
-enum class PhaseKind { kIsotropic, kRayleigh, kHenyeyGreenstein, kTwoLobe };
+enum class PhaseKind {
+    kIsotropic,
+    kRayleigh,
+    kHenyeyGreenstein,
+    kTwoLobe,
+    kHgDraine,
+    kCloud,
+    kTable,
+    kMoments,
+};
 
 struct PhaseSettings {
     PhaseKind kind = PhaseKind::kIsotropic;
     double g = 0;                       ///< HG; [-1, 1]
     double g1 = 0, g2 = 0, weight = 1;  ///< two-lobe: weight*HG(g1) + (1-weight)*HG(g2)
+    double droplet_diameter_um = 0;     ///< hg-draine; [5, 50]
+    double effective_radius_um = 0;     ///< cloud; [4, 20]
+    std::string file;                   ///< table, moments; as MediumSettings::file
 };
 
 enum class RawType { kUint8, kUint16, kFloat32 };

@@ -5,25 +5,12 @@
 #include "src/base/file.h"
 #include "src/io/volume_file.h"
 #include "src/scene/read_scene.h"
+#include "src/stages/medium_phase.h"
 #include "src/volume/cumulus.h"
 #include "src/volume/shapes.h"
 
 namespace pileus {
 namespace {
-
-PhaseParams phase_params(const PhaseSettings& phase) {
-    switch (phase.kind) {
-        case PhaseKind::kRayleigh:
-            return {kPhaseRayleigh, 0, 0, 1};
-        case PhaseKind::kTwoLobe:
-            return {kPhaseTwoLobe, float(phase.g1), float(phase.g2), float(phase.weight)};
-        case PhaseKind::kHenyeyGreenstein:
-            return {kPhaseHg, float(phase.g), 0, 1};
-        case PhaseKind::kIsotropic:
-            break;
-    }
-    return {kPhaseHg, 0, 0, 1};
-}
 
 Status load_density(const Scene& scene, const MediumSettings& settings, int threads,
                     Volume& volume) {
@@ -79,7 +66,10 @@ Status place_medium(const Scene& scene, const MediumSettings& settings, const Vo
     const bool grey =
         settings.albedo[0] == settings.albedo[1] && settings.albedo[1] == settings.albedo[2];
     out.channels = grey ? 1 : 3;
-    optics.phase = phase_params(settings.phase);
+    PhaseStore store;
+    PILEUS_TRY(load_phase(scene.directory, settings.phase, store, optics.phase));
+    out.phases.clear();
+    if (!store.table.empty()) out.phases.push_back(std::move(store));
     return Status::ok();
 }
 
@@ -113,6 +103,12 @@ Status outline_file(const Scene& scene, const MediumSettings& settings, const Li
 }
 
 }  // namespace
+
+std::uint64_t phase_bytes(const Medium& medium) {
+    std::uint64_t bytes = 0;
+    for (const PhaseStore& store : medium.phases) bytes += store.bytes();
+    return bytes;
+}
 
 bool is_white(const Medium& medium) {
     for (int i = 0; i < medium.count; ++i)

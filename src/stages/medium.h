@@ -7,6 +7,7 @@
 #include "src/base/limits.h"
 #include "src/io/volume.h"
 #include "src/scene/scene.h"
+#include "src/stages/phase_table.h"
 #include "src/stages/prepared.h"
 
 namespace pileus {
@@ -22,8 +23,12 @@ struct Medium {
     float density_max = 0;
     int count = 1;  ///< media on this grid, 1..kMostMedia; `volume` holds their sum
     std::array<Optics, kMostMedia> optics{};
-    Buffer<float> parts;  ///< [medium - 1][voxel]; medium 0 is what is left of the sum
+    Buffer<float> parts;             ///< [medium - 1][voxel]; medium 0 is what is left of the sum
+    std::vector<PhaseStore> phases;  ///< tables that `optics` points into
 };
+
+/// Bytes of all tables of phase functions.
+std::uint64_t phase_bytes(const Medium& medium);
 
 /// Whether no medium absorbs anything.
 bool is_white(const Medium& medium);

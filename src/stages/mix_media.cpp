@@ -129,8 +129,8 @@ double detail_of(const std::vector<Medium>& media, const MixBox& box) {
     return least > floor ? least : floor;
 }
 
-/// The common medium but for its values.
-void join_media(const std::vector<Medium>& media, const MixBox& box, Medium& out) {
+/// The common medium but for its values; takes over the tables of phase functions.
+void join_media(std::vector<Medium>& media, const MixBox& box, Medium& out) {
     out = Medium{};
     out.low_m = box.low_m;
     out.volume.size = box.size;
@@ -144,6 +144,8 @@ void join_media(const std::vector<Medium>& media, const MixBox& box, Medium& out
     out.detail_m = detail_of(media, box);
     for (std::size_t i = 0; i < media.size(); ++i) {
         out.optics[i] = media[i].optics[0];
+        for (PhaseStore& store : media[i].phases) out.phases.push_back(std::move(store));
+        media[i].phases.clear();
         if (media[i].channels > out.channels) out.channels = media[i].channels;
         if (media[i].sigma > out.sigma) out.sigma = media[i].sigma;
     }

@@ -32,9 +32,11 @@ SkyMapBytes sky_map_bytes(const SkyMap& map) {
 
 /// stages/medium.cpp, stages/mix_media.cpp
 void add_density_rows(const Grid& grid, const MediumSource& source, std::uint64_t media,
-                      std::uint64_t threads, const SkyMapBytes& sky, MemoryTable& t) {
+                      std::uint64_t phases, std::uint64_t threads, const SkyMapBytes& sky,
+                      MemoryTable& t) {
     const std::uint64_t bytes = bytes_of(voxel_count(grid), kFloat);
     t.add("density", Stage::kDensity, Stage::kWrite, bytes);
+    t.add("phase functions", Stage::kDensity, Stage::kWrite, phases);
     t.add("sky map", Stage::kDensity, Stage::kWrite, sky.kept);
     t.add("sky map while it is read", Stage::kDensity, Stage::kDensity, sky.reading);
     t.add("file while it is read", Stage::kDensity, Stage::kDensity, source.reading_bytes);

@@ -22,9 +22,11 @@ struct SkyMapBytes {
 };
 SkyMapBytes sky_map_bytes(const SkyMap& map);
 
-/// Reading or making the density of so many media on one grid, and the sky map.
+/// Reading or making the density of so many media on one grid, the bytes of their tables of phase
+/// functions, and the sky map.
 void add_density_rows(const Grid& grid, const MediumSource& source, std::uint64_t media,
-                      std::uint64_t threads, const SkyMapBytes& sky, MemoryTable& table);
+                      std::uint64_t phases, std::uint64_t threads, const SkyMapBytes& sky,
+                      MemoryTable& table);
 
 /// The tracking blocks, their search, and the blocks that marching skips; `last` uses them last.
 void add_majorant_rows(const Grid& grid, std::uint64_t blocks, std::uint64_t threads, Stage last,

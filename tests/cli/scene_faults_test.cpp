@@ -83,7 +83,7 @@ TEST_CASE("unknown, missing and ill-typed keys") {
          "s.toml:4:1: medium.0.extinction_per_m: missing, nothing, allowed: number in [0, 1e+12]"},
         {kCamera + kMedium + "phase = { g = 0.5 }\n",
          "s.toml:8:9: medium.0.phase.type: missing, nothing, allowed: isotropic, rayleigh, "
-         "henyey-greenstein, two-lobe"},
+         "henyey-greenstein, two-lobe, hg-draine, cloud, table, moments"},
         {"camera = 3\n", "s.toml:1:10: camera: wrong type, 3, allowed: a table"},
         {kCamera + "[medium]\ndensity = \"uniform:box\"\n",
          "s.toml:4:1: medium: wrong type or too many, a table, allowed: up to 64 tables, each "
@@ -133,6 +133,12 @@ TEST_CASE("values out of range") {
          "s.toml:8:17: medium.0.albedo: out of range, 1.5, ..."},
         {kCamera + kMedium + "phase = { type = \"henyey-greenstein\", g = 1.001 }\n",
          "s.toml:8:43: medium.0.phase.g: out of range, 1.001, allowed: number in [-1, 1]"},
+        {kCamera + kMedium + "phase = { type = \"cloud\", effective_radius_um = 3.99 }\n",
+         "s.toml:8:49: medium.0.phase.effective_radius_um: out of range, 3.99, allowed: number in "
+         "[4, 20]"},
+        {kCamera + kMedium + "phase = { type = \"hg-draine\", droplet_diameter_um = 51 }\n",
+         "s.toml:8:53: medium.0.phase.droplet_diameter_um: out of range, 51, allowed: number in "
+         "[5, 50]"},
         {kCamera + kMedium + "resolution = [1, 1, 4097]\n",
          "s.toml:8:21: medium.0.resolution: out of range, 4097, ..."},
         {kCamera + "[collectors]\nphotons = 1099511627777\n",
@@ -188,6 +194,28 @@ TEST_CASE("keys that do not go together") {
          "\"henyey-greenstein\""},
         {kCamera + kMedium + "phase = { type = \"two-lobe\", g1 = 0.5, g2 = -0.1 }\n",
          "s.toml:8:18: medium.0.phase.weight: missing, ..."},
+        {kCamera + kMedium + "phase = { type = \"cloud\" }\n",
+         "s.toml:8:18: medium.0.phase.effective_radius_um: missing, nothing, allowed: a number, or "
+         "phase.cloud, required by \"cloud\""},
+        {kCamera + kMedium +
+             "phase = { type = \"cloud\", cloud = \"fog\", "
+             "effective_radius_um = 5 }\n",
+         "s.toml:8:35: medium.0.phase.cloud: given twice, \"fog\", allowed: phase.cloud or "
+         "phase.effective_radius_um"},
+        {kCamera + kMedium + "phase = { type = \"rayleigh\", cloud = \"fog\" }\n",
+         "s.toml:8:38: medium.0.phase.cloud: conflicts with phase.type \"rayleigh\", \"fog\", "
+         "allowed: left out"},
+        {kCamera + kMedium + "phase = { type = \"hg-draine\" }\n",
+         "s.toml:8:18: medium.0.phase.droplet_diameter_um: missing, nothing, allowed: a number, "
+         "required by \"hg-draine\""},
+        {kCamera + kMedium + "phase = { type = \"table\" }\n",
+         "s.toml:8:18: medium.0.phase.file: missing, nothing, allowed: a path, required by "
+         "\"table\""},
+        {kCamera + kMedium + "phase = { type = \"moments\", file = \"\" }\n",
+         "s.toml:8:36: medium.0.phase.file: empty, \"\", allowed: the path of a file"},
+        {kCamera + kMedium + "phase = { type = \"isotropic\", file = \"a.txt\" }\n",
+         "s.toml:8:38: medium.0.phase.file: conflicts with phase.type \"isotropic\", \"a.txt\", "
+         "allowed: left out"},
         {kCamera + "[animation]\nsun_elevation_deg = [1, 2]\n",
          "s.toml:5:1: animation.sun_elevation_deg: conflicts with a scene without a sun, [1, 2], "
          "allowed: left out"},
@@ -287,8 +315,6 @@ TEST_CASE("parts of the format that this version cannot use") {
         {kCamera + "depth = \"z.exr\"\n",
          "s.toml:4:1: camera.depth: not in this version, \"z.exr\", allowed: nothing"},
         {kCamera + "[sky]\nmodel = \"atmosphere\"\n", "s.toml:5:1: sky.model: not in this ..."},
-        {kCamera + kMedium + "phase = { type = \"cloud\" }\n",
-         "s.toml:8:18: medium.0.phase.type: not in this version, \"cloud\", ..."},
         {kCamera + kFile + "density = \"a.x\"\nformat = \"netcdf\"\n",
          "s.toml:7:10: medium.0.format: not in this version, \"netcdf\", allowed: pbrt, raw, vol, "
          "les, openvdb, nanovdb"},

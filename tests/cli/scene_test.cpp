@@ -54,6 +54,7 @@ void dump_medium(std::ostream& s, const MediumSettings& m) {
     dump_list(s, m.albedo);
     const PhaseSettings& p = m.phase;
     s << int(p.kind) << ' ' << p.g << ' ' << p.g1 << ' ' << p.g2 << ' ' << p.weight << ' ';
+    s << p.droplet_diameter_um << ' ' << p.effective_radius_um << ' ';
     s << m.y_up << '\n';
 }
 
@@ -139,13 +140,16 @@ phase = { type = "rayleigh" }
 [[medium]]
 density = "c.txt"
 extinction_scale = 2.5
+phase = { type = "hg-draine", droplet_diameter_um = 20.5 }
 [[medium]]
 density = "c.vdb"
 grid = "smoke"
 extinction_per_m = 1
+phase = { type = "cloud", cloud = "fog" }
 [[medium]]
 density = { file = "d.vdb", grid = "fog" }
 extinction_per_m = 1
+phase = { type = "cloud", effective_radius_um = 4.5 }
 [method]
 name = "collectors"
 [collectors]
@@ -187,23 +191,25 @@ sun_elevation_deg = [35, 5]
 
 TEST_CASE("every key of a full scene reaches its field") {
     const Scene scene = good(kEveryKey);
-    CHECK(dump(scene) ==
-          "9223372036854775807\n"
-          "1 -2.5 3 4 5 6 0 1 0 1 40 77 16 9 \n"
-          "1 120 35 2 3 4 \n"
-          "1 0 0 0 a.PFM 2 -20\n"
-          "1 -10 0.5\n"
-          "0    2 0 0 0 0 1 0 0 0 1 2 3 3 4 5 8 0.050000000000000003 1 0.10000000149011612 "
-          "0.20000000298023224 0.30000001192092896 2 -1 0 0 1 0\n"
-          "4 a.dat raw  1 7 8 9 1 1 0 0 0 1 1 1 0 0 0 0 1000000000000 1 1 1 1 3 0 1 -0.5 0.75 1\n"
-          "4 b.txt pbrt  2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 1 0 0 0 1 0\n"
-          "4 c.txt les  2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 2.5 1 1 1 0 0 0 0 1 0\n"
-          "4 c.vdb openvdb smoke 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 1 0 0 0 0 1 0\n"
-          "4 d.vdb openvdb fog 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 1 0 0 0 0 1 0\n"
-          "collectors 2000000 7 5 11 011001 3 0.5 1 2 3 110 4\n"
-          "5 61 0.5 7\n"
-          "x.exr y.pfm r.json 1111111\n"
-          "1 12 11 0 90 35 5 ");
+    CHECK(
+        dump(scene) ==
+        "9223372036854775807\n"
+        "1 -2.5 3 4 5 6 0 1 0 1 40 77 16 9 \n"
+        "1 120 35 2 3 4 \n"
+        "1 0 0 0 a.PFM 2 -20\n"
+        "1 -10 0.5\n"
+        "0    2 0 0 0 0 1 0 0 0 1 2 3 3 4 5 8 0.050000000000000003 1 0.10000000149011612 "
+        "0.20000000298023224 0.30000001192092896 2 -1 0 0 1 0 0 0\n"
+        "4 a.dat raw  1 7 8 9 1 1 0 0 0 1 1 1 0 0 0 0 1000000000000 1 1 1 1 3 0 1 -0.5 0.75 0 0 1\n"
+        "4 b.txt pbrt  2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 1 0 0 0 1 0 0 0\n"
+        "4 c.txt les  2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 2.5 1 1 1 4 0 0 0 1 20.5 0 0\n"
+        "4 c.vdb openvdb smoke 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 1 5 0 0 0 1 0 "
+        "10.699999999999999 0\n"
+        "4 d.vdb openvdb fog 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 1 5 0 0 0 1 0 4.5 0\n"
+        "collectors 2000000 7 5 11 011001 3 0.5 1 2 3 110 4\n"
+        "5 61 0.5 7\n"
+        "x.exr y.pfm r.json 1111111\n"
+        "1 12 11 0 90 35 5 ");
     CHECK(scene.text == kEveryKey);
     CHECK(scene.file == "s.toml");
     CHECK(scene.directory == "dir");

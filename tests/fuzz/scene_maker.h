@@ -108,9 +108,13 @@ private:
         line("albedo", depth > 100 ? "0" : color());
         const std::string g = pick(cosines);
         const std::string phases[] = {
-            "\"isotropic\"", "\"rayleigh\"", "\"henyey-greenstein\", g = " + g,
-            "\"two-lobe\", g1 = " + g + ", g2 = -0.3, weight = " + share()};
-        line("phase", "{ type = " + phases[below(4)] + " }");
+            "\"isotropic\"",
+            "\"rayleigh\"",
+            "\"henyey-greenstein\", g = " + g,
+            "\"two-lobe\", g1 = " + g + ", g2 = -0.3, weight = " + share(),
+            "\"hg-draine\", droplet_diameter_um = " + std::to_string(5 + below(46)),
+            "\"cloud\", effective_radius_um = " + std::to_string(4 + below(17))};
+        line("phase", "{ type = " + phases[below(6)] + " }");
     }
 
     void collectors() {
