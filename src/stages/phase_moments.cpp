@@ -57,6 +57,22 @@ void phase_table_moments(const PhaseTable& t, int count, double* moment) {
     }
 }
 
+double phase_table_share(const PhaseTable& t, double angle_deg) {
+    constexpr double kTwoPi = 6.28318530717958647693;
+    const SineCosine half = sincos_deg(0.5 * angle_deg);
+    const double minus = 2 * half.sine * half.sine, plus = 2 * half.cosine * half.cosine;
+    double sum = 0;
+    for (std::int32_t cell = 0; cell < t.cells; ++cell) {
+        const double base = double(t.base[cell]), width = double(t.width[cell]);
+        const double part = cell < t.forward ? (minus - base) / width : 1 - (plus - base) / width;
+        if (!(part > 0)) break;
+        const double f = part < 1 ? part : 1;
+        const double first = double(t.density[cell]), last = double(t.density[cell + 1]);
+        sum += kTwoPi * width * f * (first + 0.5 * f * (last - first));
+    }
+    return sum;
+}
+
 Status phase_nodes_from_moments(Span<const double> moment, PhaseNodes& nodes, double& clipped) {
     assert(moment.size >= 1 && moment.size <= kMostPhaseMoments);
     const std::size_t wanted = 16 * moment.size < 720 ? 720 : 16 * moment.size;

@@ -37,4 +37,7 @@ Status make_phase_from_moments(const std::string& name, Span<const double> momen
 /// Legendre moments 0 ... count - 1 of the table's own function, to 1e-9 for count <= 1000.
 void phase_table_moments(const PhaseTable& table, int count, double* moment);
 
+/// Share of the light that turns by less than an angle in [0, 180] degrees.
+double phase_table_share(const PhaseTable& table, double angle_deg);
+
 }  // namespace pileus

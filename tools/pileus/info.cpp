@@ -36,6 +36,7 @@ namespace {
 
 struct InfoArguments {
     std::string file, grid;
+    bool phase = false;
     RawOptions raw;
 };
 
@@ -61,12 +62,17 @@ std::string program_lines() {
 }
 
 Status run_info(const InfoArguments& arguments) {
+    if (arguments.file.empty() && arguments.phase)
+        return Status::bad_input(
+            "--phase: no file, nothing, allowed: a table of angles and values");
     if (arguments.file.empty()) return print(program_lines());
     PILEUS_TRY(check_file_name(arguments.file));
     const std::string extension = file_extension(arguments.file);
     std::string lines;
     MediumSettings medium;
-    if (extension == ".toml") {
+    if (arguments.phase) {
+        PILEUS_TRY(phase_lines(arguments.file, lines));
+    } else if (extension == ".toml") {
         PILEUS_TRY(scene_lines(arguments.file, lines));
     } else if (extension == ".exr" || extension == ".pfm") {
         PILEUS_TRY(image_lines(arguments.file, lines));
@@ -90,6 +96,7 @@ void add_info(CLI::App& app, Chosen& chosen) {
         ->type_name("FILE");
     command->add_option("--grid", arguments->grid, "Name of the grid of a .vdb or .nvdb file")
         ->type_name("NAME");
+    command->add_flag("--phase", arguments->phase, "The file is a table of a phase function");
     add_raw_options(*command, arguments->raw);
     command->callback(
         [arguments, &chosen] { chosen = [arguments] { return run_info(*arguments); }; });

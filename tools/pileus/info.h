@@ -22,6 +22,8 @@ std::string size_lines(const std::array<int, 3>& size, bool knows_bounds,
 
 Status scene_lines(const std::string& path, std::string& lines);
 Status image_lines(const std::string& path, std::string& lines);
+/// A table of angles and values.
+Status phase_lines(const std::string& path, std::string& lines);
 /// `medium` holds the facts that a raw grid does not state itself.
 Status volume_lines(const std::string& path, const MediumSettings& medium, std::string& lines);
 

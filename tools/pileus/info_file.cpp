@@ -7,6 +7,7 @@
 #include "src/io/image_file.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/volume_format.h"
+#include "src/stages/phase_table.h"
 #include "tools/pileus/info.h"
 
 namespace pileus {
@@ -116,6 +117,35 @@ Status scene_lines(const std::string& path, std::string& lines) {
     lines +=
         info_line("frames", fmt::to_string(scene.animation.present ? scene.animation.frames : 1));
     lines += info_line("files", list_text(scene.output.files));
+    return Status::ok();
+}
+
+Status phase_lines(const std::string& path, std::string& lines) {
+    PhaseNodes nodes;
+    PhaseStore store;
+    PILEUS_TRY(read_phase_table(path, nodes));
+    PILEUS_TRY(make_phase_table(path, nodes, store));
+    double moment[2];
+    phase_table_moments(store.table[0], 2, moment);
+    lines += info_line("phase table", path);
+    lines += info_line("lines", fmt::to_string(nodes.value.size()));
+    lines += info_line("mean cosine", fmt::format("{:.6f}", moment[1]));
+    std::size_t peak = 0, least = 0;
+    for (std::size_t i = 1; i < nodes.value.size(); ++i) {
+        if (nodes.value[i] > nodes.value[peak]) peak = i;
+        if (nodes.value[i] < nodes.value[least]) least = i;
+    }
+    const auto place = [&](std::size_t i) {
+        return fmt::format("{:.6g} per sr at {:g} degrees", store.table[0].density[i],
+                           nodes.angle_deg[i]);
+    };
+    lines += info_line("peak", place(peak));
+    lines += info_line("least", place(least));
+    std::string shares;
+    for (const double angle : {1.0, 5.0, 10.0, 90.0})
+        shares += fmt::format("{}{:.4g} % within {:g}", shares.empty() ? "" : ", ",
+                              100 * phase_table_share(store.table[0], angle), angle);
+    lines += info_line("light", shares + " degrees");
     return Status::ok();
 }
 
