@@ -113,6 +113,8 @@ TEST_CASE("program: faults of scene and files, exit 2") {
     check_fault(folder, {"info none.pbrt", 2, "none.pbrt: cannot read: no such file"});
     check_fault(folder, {"info s.bmp", 2, "unknown, \".bmp\""});
     check_fault(folder, {"info x.raw", 2, "--size: missing"});
+    check_fault(folder, {"info --phase", 2, "--phase: no file"});
+    check_fault(folder, {"info --phase none.txt", 2, "none.txt: cannot read: no such file"});
     check_fault(folder, {"render s.toml -o a.bmp", 2, "a.bmp: extension: unknown, \".bmp\""});
     check_fault(folder, {"render s.toml -o a", 2, "a: extension: unknown, \"\""});
     check_fault(folder, {"render s.toml -o a.pfm -o a.pfm", 2, "a.pfm: output: named twice"});
