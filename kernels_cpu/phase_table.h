@@ -89,7 +89,9 @@ PILEUS_FN T table_density(const PhaseTable& t, T one_minus_cos) {
     const auto front = cell < t.forward;
     const T part = (select(front, x, 2.0f - x) - gather(t.base, cell)) / gather(t.width, cell);
     const T f = max_(min_(select(front, part, 1.0f - part), all<T>(1.0f)), T{});
-    return (1.0f - f) * gather(t.density, cell) + f * gather(t.density, cell + 1);
+    const T a = gather(t.density, cell), b = gather(t.density, cell + 1);
+    // Rounding must not lead above both ends: the peak bounds sums.
+    return min_((1.0f - f) * a + f * b, max_(a, b));
 }
 
 }  // namespace PILEUS_ISA
