@@ -12,6 +12,7 @@ namespace pileus {
 namespace {
 
 constexpr int kStepsPerOctave = 20;
+constexpr double kUseless = 0.25;                 // a typical error of half the radiance
 constexpr double kShortest = 1.0717734625362931;  // 2^(1/10)
 
 /// The times between which a scene was measured.
@@ -26,7 +27,7 @@ bool find_range(const SceneResult& scene, double& low, double& high) {
     return high > low;
 }
 
-/// The curve whose law is lowest at a time; null where none has begun.
+/// The curve whose law is lowest at a time; null where none is of use.
 const CurveResult* best_at(const SceneResult& scene, double time_s) {
     const CurveResult* best = nullptr;
     for (const CurveResult& curve : scene.curves) {
@@ -35,7 +36,7 @@ const CurveResult* best_at(const SceneResult& scene, double time_s) {
         for (const StudyPoint& point : curve.points) first = std::min(first, point.cpu_s);
         if (time_s < first * (1 - 1e-9)) continue;
         const double error = fitted_error(curve.fit, time_s);
-        if (!std::isfinite(error)) continue;
+        if (!(error <= kUseless)) continue;
         if (best == nullptr || error < fitted_error(best->fit, time_s)) best = &curve;
     }
     return best;

@@ -146,7 +146,9 @@ TimeTo time_to(Span<const ErrorPoint> points, const FloorFit& fit, double target
     if (!fit.known) return result;
     if (fit.floor - 2 * fit.floor_error >= target || !(fit.noise_s > 0))
         return {TimeKind::kNever, 0};
-    if (fit.floor >= target) return {TimeKind::kDoubtful, 0};
+    const bool found = fit.floor > 2 * fit.floor_error;
+    if (fit.floor >= target || (found && fit.floor + 2 * fit.floor_error >= target))
+        return {TimeKind::kDoubtful, 0};
     result = {TimeKind::kExtrapolated, fit.fixed_s + fit.noise_s / (target - fit.floor)};
     result.time_s = std::max(result.time_s, points[points.size - 1].time_s);
     return result;

@@ -57,7 +57,7 @@ enum class TimeKind {
     kAtMost,        ///< already the cheapest point is better
     kExtrapolated,  ///< by the fit, beyond the dearest point
     kNever,         ///< the fit's floor is above the target, by two standard errors
-    kDoubtful       ///< the fit's floor is above the target, but by less
+    kDoubtful       ///< the fit's floor cannot be told from the target
 };
 struct TimeTo {
     TimeKind kind = TimeKind::kUnknown;

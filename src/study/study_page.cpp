@@ -71,11 +71,16 @@ std::string list(const std::vector<std::string>& lines) {
     return text + "</ul>\n";
 }
 
+/// "1 scene", "2 scenes".
+std::string counted(std::size_t count, const char* what) {
+    return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
+}
+
 std::string header(const Study& study, const StudyResult& result) {
     std::string text = fmt::format(
-        "<header><div><h1>{}</h1>\n<p>Error against run time: {} scenes, {} methods and "
-        "settings, {} seeds each. pileus {} on {}.</p>\n<nav>",
-        escape_xml(study.title), result.scenes.size(), study.curves.size(), study.seeds,
+        "<header><div><h1>{}</h1>\n<p>{}, {}, {} for each picture. pileus {} on {}.</p>\n<nav>",
+        escape_xml(study.title), counted(result.scenes.size(), "scene"),
+        counted(study.curves.size(), "method"), counted(std::size_t(study.seeds), "seed"),
         escape_xml(result.machine.version),
         escape_xml(result.machine.processor.empty() ? "an unnamed processor"
                                                     : result.machine.processor));

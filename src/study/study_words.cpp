@@ -89,24 +89,21 @@ std::vector<std::string> advice_lines(const Study& study, const SceneResult& sce
     std::vector<std::string> lines;
     for (std::size_t i = 0; i < scene.advice.size(); ++i) {
         const Advice& one = scene.advice[i];
-        const bool first = i == 0, last = i + 1 == scene.advice.size();
-        std::string when = "At every time measured";
-        if (first && !last)
-            when = "Up to " + seconds_text(one.to_s);
-        else if (!first)
-            when = "From " + seconds_text(one.from_s) +
-                   (last ? " on" : " to " + seconds_text(one.to_s));
+        const bool last = i + 1 == scene.advice.size();
+        const std::string when =
+            "From " + seconds_text(one.from_s) + (last ? " on" : " to " + seconds_text(one.to_s));
         lines.push_back(fmt::format("{}: {} (relMSE {} to {}).", when,
                                     curve_title(study, one.curve), number_short(one.error_from),
                                     number_short(one.error_to)));
     }
+    if (lines.empty()) lines.push_back("Nothing here comes below relMSE 0.25.");
     std::vector<std::string> beaten;
     for (const CurveResult& curve : scene.curves) {
         bool chosen = false;
         for (const Advice& one : scene.advice) chosen |= one.curve == curve.curve;
         if (!chosen) beaten.push_back(curve_title(study, curve.curve));
     }
-    if (!beaten.empty())
+    if (!scene.advice.empty() && !beaten.empty())
         lines.push_back(
             "At every time something else here is better than: " + joined(beaten, "; ") + ".");
     return lines;

@@ -104,6 +104,11 @@ TEST_CASE("time to a target: measured, foretold, never") {
     FloorFit doubtful = fit;
     doubtful.floor_error = 0.001;
     CHECK(time_to(span(points), doubtful, 0.002).kind == TimeKind::kDoubtful);
+    CHECK(time_to(span(points), doubtful, 0.004).kind == TimeKind::kDoubtful);
+    CHECK(time_to(span(points), doubtful, 0.0051).kind == TimeKind::kExtrapolated);
+    // Nor does an unbiased method lose its law because its floor is not told from 0.
+    doubtful.floor = 0;
+    CHECK(time_to(span(points), doubtful, 0.001).kind == TimeKind::kExtrapolated);
     // A lucky point before a worse one does not count.
     points[0].error = 0.04;
     CHECK(time_to(span(points), fit, 0.05).time_s > 10);
@@ -143,4 +148,11 @@ TEST_CASE("advice follows the laws that cross") {
     CHECK(scene.curves[0].points[0].pareto);
     CHECK_FALSE(scene.curves[1].points[0].pareto);
     CHECK(scene.curves[1].points[5].pareto);
+    // Where nothing is below 0.25 there is nothing to advise.
+    for (CurveResult& curve : scene.curves)
+        for (StudyPoint& point : curve.points) point.error.relmse *= 1e3;
+    for (CurveResult& curve : scene.curves) fit_curve({0.01, 0.001}, curve);
+    choose_curves(scene);
+    REQUIRE(scene.advice.size() == 1);
+    CHECK(scene.advice[0].error_from <= 0.25);
 }
