@@ -185,8 +185,15 @@ void fit_curve(const std::array<double, 2>& targets, CurveResult& curve) {
     const double fixed = curve.time.known ? curve.time.fixed_s : 0;
     curve.fit = fit_floor(by_law, fixed);
     curve.slope = fit_slope(by_law, fixed);
-    for (std::size_t i = 0; i < 2; ++i)
-        curve.to_target[i] = time_to(measured, curve.fit, targets[i]);
+    const ErrorSplit& last = curve.points.back().error;
+    for (std::size_t i = 0; i < 2; ++i) {
+        TimeTo& to = curve.to_target[i];
+        to = time_to(measured, curve.fit, targets[i]);
+        // The bias that the dearest point's seeds share is a floor too, found without a law.
+        const bool foretold = to.kind == TimeKind::kExtrapolated || to.kind == TimeKind::kDoubtful;
+        if (foretold && last.bias2 - 2 * last.bias2_error >= targets[i])
+            to = {TimeKind::kNever, 0, last.bias2};
+    }
 }
 
 Status analyse_study(const Study& study, const std::vector<StudyRun>& runs,

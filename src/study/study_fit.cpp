@@ -84,6 +84,7 @@ FloorFit fit_floor(Span<const ErrorPoint> points, double fixed_s) {
         const double rest = p.error - fit.floor - fit.noise_s / p.time_s;
         misfit += weight(p) * rest * rest;
     }
+    fit.noise_alone_s = sxy / sxx;
     const double free = double(used.size()) - 2;
     fit.floor_error = std::sqrt(sxx / determinant * std::max(1.0, free > 0 ? misfit / free : 1.0));
     if (fit.floor < 0) {
@@ -134,22 +135,23 @@ TimeTo time_to(Span<const ErrorPoint> points, const FloorFit& fit, double target
     std::size_t first = points.size;
     while (first > 0 && points[first - 1].error <= target) --first;
     if (points.empty()) return result;
-    if (first == 0) return {TimeKind::kAtMost, points[0].time_s};
+    if (first == 0) return {TimeKind::kAtMost, points[0].time_s, 0};
     if (first < points.size) {
         const ErrorPoint &a = points[first - 1], &b = points[first];
         // A point whose error is lost in the reference's noise only tells that it is below.
-        if (!(b.error > 0)) return {TimeKind::kInterpolated, b.time_s};
+        if (!(b.error > 0)) return {TimeKind::kInterpolated, b.time_s, 0};
         const double share = std::log(a.error / target) / std::log(a.error / b.error);
         const double time = a.time_s * std::pow(b.time_s / a.time_s, share);
-        return {TimeKind::kInterpolated, time};
+        return {TimeKind::kInterpolated, time, 0};
     }
     if (!fit.known) return result;
-    if (fit.floor - 2 * fit.floor_error >= target || !(fit.noise_s > 0))
-        return {TimeKind::kNever, 0};
-    const bool found = fit.floor > 2 * fit.floor_error;
-    if (fit.floor >= target || (found && fit.floor + 2 * fit.floor_error >= target))
-        return {TimeKind::kDoubtful, 0};
-    result = {TimeKind::kExtrapolated, fit.fixed_s + fit.noise_s / (target - fit.floor)};
+    const double floor = fit.found() ? fit.floor : 0;
+    const double noise = fit.found() ? fit.noise_s : fit.noise_alone_s;
+    if (fit.found() && fit.floor - 2 * fit.floor_error >= target)
+        return {TimeKind::kNever, 0, fit.floor};
+    if (fit.found() && fit.floor + 2 * fit.floor_error >= target)
+        return {TimeKind::kDoubtful, 0, fit.floor};
+    result = {TimeKind::kExtrapolated, fit.fixed_s + noise / (target - floor), 0};
     result.time_s = std::max(result.time_s, points[points.size - 1].time_s);
     return result;
 }

@@ -19,8 +19,11 @@ struct ErrorPoint {
 /// falls with the work; what is prepared once takes `fixed_s`.
 struct FloorFit {
     bool known = false;
+    /// Whether the floor is told apart from 0.
+    bool found() const { return known && floor > 2 * floor_error; }
     double floor = 0, floor_error = 0;  ///< >= 0; its standard error
     double noise_s = 0;                 ///< seconds at which the noise alone would be 1
+    double noise_alone_s = 0;           ///< the same, fitted without a floor
     double fixed_s = 0;
 };
 
@@ -62,8 +65,10 @@ enum class TimeKind {
 struct TimeTo {
     TimeKind kind = TimeKind::kUnknown;
     double time_s = 0;
+    double floor = 0;  ///< what forbids it, for kNever and kDoubtful
 };
-/// Time until the error stays at or below `target` > 0. Points in order of time.
+/// Time until the error stays at or below `target` > 0. Points in order of time. A floor that is
+/// not found is taken as none.
 TimeTo time_to(Span<const ErrorPoint> points, const FloorFit& fit, double target);
 
 /// True where no other point is at least as quick and at least as good, and better in one.

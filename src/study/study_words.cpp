@@ -56,7 +56,7 @@ std::string target_text(const TimeTo& time, const FloorFit& fit) {
         case TimeKind::kExtrapolated:
             return "about " + seconds_text(time.time_s) + " (extrapolated)";
         case TimeKind::kNever:
-            return "never: floor " + number_short(fit.floor);
+            return "never: floor " + number_short(time.floor);
         case TimeKind::kDoubtful:
             return "not known: floor " + error_text(fit.floor, fit.floor_error);
         case TimeKind::kUnknown:
@@ -68,7 +68,7 @@ std::string target_text(const TimeTo& time, const FloorFit& fit) {
 std::string floor_text(const FloorFit& fit) {
     if (!fit.known) return kUnknownText;
     // What lies within two standard errors of nothing is only an upper bound.
-    if (fit.floor <= 2 * fit.floor_error)
+    if (!fit.found())
         return "none found, below " + fmt::format("{:.0e}", fit.floor + 2 * fit.floor_error);
     return error_text(fit.floor, fit.floor_error);
 }
@@ -143,8 +143,7 @@ Plot scene_plot(const Study& study, const SceneResult& scene) {
         PlotSeries series;
         series.label = curve_title(study, curve.curve);
         // A floor that is not told apart from none is not drawn.
-        if (curve.fit.known && curve.fit.floor > 2 * curve.fit.floor_error)
-            series.floor = curve.fit.floor;
+        if (curve.fit.found()) series.floor = curve.fit.floor;
         for (const StudyPoint& point : curve.points) {
             const double half =
                 point.seeds > 1 ? student_95(point.seeds - 1) * point.error.relmse_error : 0;

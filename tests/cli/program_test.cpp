@@ -52,9 +52,11 @@ void check_fault(const ProgramFolder& folder, const Fault& fault) {
 TEST_CASE("program: wrong usage is one line and exit 2") {
     const ProgramFolder folder;
     const Fault faults[] = {
-        {"", 2, "no subcommand, allowed: render, plan, follow, compare, study, hash, info, convert"},
+        {"", 2,
+         "no subcommand, allowed: render, plan, follow, compare, study, hash, info, convert"},
         {"paint s.toml", 2,
-         "unknown subcommand, \"paint\", allowed: render, plan, follow, compare, study, hash, info, "
+         "unknown subcommand, \"paint\", allowed: render, plan, follow, compare, study, hash, "
+         "info, "
          "convert"},
         {"--loud render s.toml", 2, "unknown option before the subcommand, \"--loud\""},
         {"compare a.exr b.exr", 2, "a.exr: cannot read: no such file"},

@@ -106,12 +106,24 @@ TEST_CASE("time to a target: measured, foretold, never") {
     CHECK(time_to(span(points), doubtful, 0.002).kind == TimeKind::kDoubtful);
     CHECK(time_to(span(points), doubtful, 0.004).kind == TimeKind::kDoubtful);
     CHECK(time_to(span(points), doubtful, 0.0051).kind == TimeKind::kExtrapolated);
-    // Nor does an unbiased method lose its law because its floor is not told from 0.
-    doubtful.floor = 0;
+    // A floor that is not told from 0 is taken as none, so that an unbiased method keeps its law.
+    doubtful.floor_error = 0.002;
+    doubtful.noise_alone_s = 1.5;
     CHECK(time_to(span(points), doubtful, 0.001).kind == TimeKind::kExtrapolated);
+    CHECK(time_to(span(points), doubtful, 0.001).time_s == doctest::Approx(1500));
     // A lucky point before a worse one does not count.
     points[0].error = 0.04;
     CHECK(time_to(span(points), fit, 0.05).time_s > 10);
+}
+
+TEST_CASE("a bias that the seeds share forbids what the law would foretell") {
+    CurveResult curve = curve_of(0, 400, 0.2, 1e-6, 5);
+    CHECK(curve.to_target[1].kind == TimeKind::kExtrapolated);
+    curve.points.back().error.bias2 = 0.0015;
+    curve.points.back().error.bias2_error = 0.0002;
+    fit_curve({0.01, 0.001}, curve);
+    CHECK(curve.to_target[1].kind == TimeKind::kNever);
+    CHECK(curve.to_target[1].floor == 0.0015);
 }
 
 TEST_CASE("the Pareto front holds what nothing beats") {
