@@ -15,6 +15,7 @@
 #include "platform/threads.h"
 #include "src/api/render.h"
 #include "src/base/file.h"
+#include "src/io/image_file.h"
 #include "src/study/study_execute.h"
 #include "src/study/study_report.h"
 #include "tools/pileus/command.h"
@@ -56,6 +57,7 @@ Status read_options(const StudyArguments& arguments, StudyOptions& options) {
     for (const std::string& folder : {options.folder, options.references})
         if (!folder.empty()) add_fault(check_file_name(folder), faults);
     PILEUS_TRY(faults);
+    PILEUS_TRY(can_write_image("study.exr"));
     return can_write_file(options.folder + "/study.json");
 }
 
