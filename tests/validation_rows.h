@@ -70,8 +70,9 @@ public:
 private:
     /// Put the body in the place of what stands between the marks of the page, where one is wanted.
     void write() {
-        std::printf("%s: %d rows, largest |z| %.2f, %d beyond 2\n", name_.c_str(), rows_, most_,
-                    beyond_two_);
+        if (rows_ > 0)
+            std::printf("%s: %d rows, largest |z| %.2f, %d beyond 2\n", name_.c_str(), rows_, most_,
+                        beyond_two_);
         const char* page = std::getenv("PILEUS_VALIDATION_PAGE");
         if (page == nullptr || *page == '\0') return;
         Buffer<char> bytes;

@@ -18,7 +18,7 @@ void check_slab(const slab_list::Case& c, Section& section) {
     add_light(rig, beam_light(rig.medium, {std::sqrt(1 - c.mu0 * c.mu0), 0, -c.mu0}));
     const auto measure = [&](auto fate) {
         return [&, fate](int multiple, std::uint64_t seed) {
-            const std::uint64_t photons = samples(100'000, 8'000'000);
+            const std::uint64_t photons = samples(100'000, 2'000'000);
             const TraceTally t = shoot(rig, photons * std::uint64_t(multiple), seed);
             return share_mean(fate(t.light), t);
         };
