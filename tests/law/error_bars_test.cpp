@@ -141,7 +141,5 @@ TEST_CASE("validation: error bars") {
                 of_collectors({key}, true, count));
         add_row(section, what + ", ground of albedo 0.2", count, false, kIndependent,
                 of_collectors({key, "ground.albedo=0.2"}, false, count));
-        add_row(section, what + ", black sky", count, false, kIndependent,
-                of_collectors({key, "sky.radiance=0"}, false, count));
     }
 }
