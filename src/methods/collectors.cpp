@@ -45,6 +45,7 @@ const char* why_no_axis(const CollectorSettings& c, const CollectorsRun& run) {
     if (c.paper) return "variant \"paper\"";
     if (c.lobe_closure) return "closure \"lobe\"";
     if (!run.lighting.sunlit) return "no sun";
+    if (shows_harmonics(run)) return "nodes of a periodic medium hold bands alone";
     if (c.window) return "the window damps the higher bands";
     if (c.axis_degrees == 0) return "switched off";
     return nullptr;
@@ -54,7 +55,9 @@ const char* why_no_axis(const CollectorSettings& c, const CollectorsRun& run) {
 int axis_degrees(const CollectorSettings& c, const CollectorsRun& run) {
     constexpr float kNothing = 1e-3f;  // of a moment
     if (why_no_axis(c, run) != nullptr) return 0;
-    for (int n = c.axis_degrees; n > 0; --n)
+    // Moments of tables end at a degree of their own.
+    const int most = kPhaseMoments - c.bands;
+    for (int n = c.axis_degrees < most ? c.axis_degrees : most; n > 0; --n)
         for (int i = 0; i < run.medium.count; ++i) {
             const float chi =
                 phase_moment(run.medium.optics[std::size_t(i)].phase, c.bands + n - 1);

@@ -33,7 +33,7 @@ const KeyRow kRows[] =
                   }),
         range_key(KeyKind::kInteger, "collectors.axis_degrees", "", "8", {0, 16, false, false},
                   "degrees beyond the bands that a collector keeps of the light around the sun's "
-                  "direction; closure `sh` and variant `best` only",
+                  "direction, up to degree 15; closure `sh` and variant `best` only",
                   [](const Node& n, KeyTarget t) {
                       t.scene.collectors.axis_degrees = static_cast<int>(integer_of(n));
                   }),

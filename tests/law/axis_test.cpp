@@ -121,6 +121,11 @@ TEST_CASE("axis: an isotropic medium stores and shows the bands alone") {
     for (const ReportLeftOut& l : with.report.left_out)
         told |= l.what == std::string("degrees about the sun's axis");
     CHECK(told);
+    // Phase functions are known up to degree 15.
+    const Picture most =
+        render_one(scene_from(kSmallCumulus, {"collectors.bands=8", "collectors.axis_degrees=16"}));
+    for (const auto& e : most.report.executed)
+        if (e.first == "coefficients") CHECK(e.second == 3 * (64 + 8));
     // With a lobe they matter.
     CHECK(render_one(scene_from(kSmallCumulus)).report.hash !=
           render_one(scene_from(kSmallCumulus, {"collectors.axis_degrees=0"})).report.hash);
