@@ -55,6 +55,12 @@ public:
     Mean check(const std::string& row, const std::string& cells, double reference, double open,
                Measure measure) {
         const Mean m = trace_test::check_mean(row, reference, measure, open);
+        show(cells, reference, open, m);
+        return m;
+    }
+
+    /// The row of a value without a verdict.
+    void show(const std::string& cells, double reference, double open, const Mean& m) {
         const double off = std::fmax(0.0, std::fabs(m.value - reference) - open);
         const double z = m.error > 0 ? off / m.error : off;
         line(text_of("| %s | %.6g | %.6g | %.1e | %+.2f | %.1e |", cells.c_str(), reference,
@@ -62,7 +68,6 @@ public:
         rows_ += 1;
         most_ = std::fmax(most_, z);
         beyond_two_ += z > 2 ? 1 : 0;
-        return m;
     }
 
     int rows() const { return rows_; }

@@ -8,6 +8,7 @@
 #include "src/stages/phase_table.h"
 #include "tests/path_slab.h"
 #include "tests/shared/published.h"
+#include "tests/theory/isotropic_layers.h"
 
 namespace disort {
 
@@ -21,7 +22,8 @@ struct Case {
     Rig rig;
     PhaseStore phase;  ///< owns a table
     double tau = 0, beam = 0, mu0 = 0, sky = 0;
-    std::vector<double> albedo;  ///< of equally thick layers from the top
+    std::vector<double> albedo;               ///< of equally thick layers from the top
+    std::unique_ptr<isotropic::Field> exact;  ///< of thin layers that scatter isotropically
 
     /// Height of a level in the slab of one metre.
     double height(double level) const { return 1 - level / tau; }
@@ -85,6 +87,11 @@ inline void read_case(const published::Row& row, const std::string& moments, Cas
     } else {
         set_sky(c.rig, c.sky);
     }
+    if (row.text("phase_function") != "isotropic" || c.tau > 1) return;
+    std::vector<isotropic::Layer> layers;
+    for (double a : c.albedo) layers.push_back({c.tau / double(c.albedo.size()), a});
+    c.exact = std::make_unique<isotropic::Field>(layers, isotropic::Light{c.beam, c.mu0, c.sky},
+                                                 300 / int(layers.size()));
 }
 
 }  // namespace disort
