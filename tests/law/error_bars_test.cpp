@@ -126,11 +126,11 @@ TEST_CASE("validation: error bars") {
     add_row(section, "`path`, sky alone, 256 samples", count, true, 144,
             of_path(false, 12, 256, count));
     if (long_tests()) {
-        for (int n : {64, 1024})
+        for (int n : {64, 1024, 16384})
             add_row(section, validation::text_of("`path`, sun and sky, %d samples", n), count,
-                    false, 144, of_path(true, 12, std::uint64_t(n), count));
-        add_row(section, "`path`, sun and sky, 16384 samples", count, true, 16,
-                of_path(true, 4, 16384, count));
+                    false, 16, of_path(true, 4, std::uint64_t(n), count));
+        add_row(section, "`path`, sun and sky, 65536 samples", count, true, 16,
+                of_path(true, 4, 65536, count));
     }
     for (const char* display : {"march", "billboards"}) {
         const std::string key = std::string("collectors.display=") + display;
