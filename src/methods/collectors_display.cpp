@@ -205,15 +205,14 @@ Status show_billboards(const Context& context, const CollectorsRun& run,
     return Status::ok();
 }
 
-}  // namespace
-
-Status collectors_background(const Context& context, const CollectorsRun& run,
-                             const ReconstructInput& lit, Planes& planes) {
+/// Sky and ground of `lit`; the light scattered onto the ground is that of `batch`, 0: of all.
+Status fill_background(const Context& context, const CollectorsRun& run,
+                       const ReconstructInput& lit, int batch, Planes& planes) {
     const StageClock clock(context, "background");
     const CameraParams& camera = lit.camera;
     const Lighting& light = *lit.lighting;
     Buffer<float> map;
-    PILEUS_TRY(reconstruct_ground(lit, run.ground_map, map));
+    PILEUS_TRY(reconstruct_ground(lit, run.ground_map, batch, map));
     BackgroundParams k{};
     k.medium = view_of(run);
     k.camera = camera;
@@ -234,6 +233,34 @@ Status collectors_background(const Context& context, const CollectorsRun& run,
     }
     const BackgroundBuffers b{map.data(), planes.background.data(), planes.opaque_depth.data()};
     run_rows(context, context.kernels->background_rows, k, b, std::uint32_t(camera.height));
+    return Status::ok();
+}
+
+}  // namespace
+
+Status collectors_background(const Context& context, const CollectorsRun& run,
+                             const ReconstructInput& lit, Planes& planes) {
+    return fill_background(context, run, lit, 0, planes);
+}
+
+Status collectors_ground_noise(const Context& context, const CollectorsRun& run,
+                               const ReconstructInput& lit, Planes& planes) {
+    if (lit.batches < 2 || run.ground_map.cells == 0) return Status::ok();
+    // What is the same in every batch has no spread: sky, and the ground's light without the media.
+    Lighting scattered = *lit.lighting;
+    scattered.sky = scattered.ground_diffuse = scattered.ground_sun = {};
+    scattered.map = SkyMapView{};
+    ReconstructInput alone = lit;
+    alone.lighting = &scattered;
+    const std::size_t pixels = planes.transmittance.size();
+    Planes part;
+    PILEUS_TRY(part.background.resize(3 * pixels, "ground light of a batch"));
+    for (int b = 1; b <= lit.batches; ++b) {
+        PILEUS_TRY(fill_background(context, run, alone, b, part));
+        float* colour = planes.colour.data() + std::size_t(3 * b) * pixels;
+        for (std::size_t i = 0; i < 3 * pixels; ++i)
+            colour[i] += planes.transmittance[i % pixels] * part.background[i];
+    }
     return Status::ok();
 }
 

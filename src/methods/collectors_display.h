@@ -15,6 +15,11 @@ int collectors_batches(const CollectorsRun& run);
 Status collectors_background(const Context& context, const CollectorsRun& run,
                              const ReconstructInput& lit, Planes& planes);
 
+/// Adds to every batch's colour what its own photons brought to the ground, seen through the media:
+/// the spread of the batches then holds that light's noise, too. After collectors_display.
+Status collectors_ground_noise(const Context& context, const CollectorsRun& run,
+                               const ReconstructInput& lit, Planes& planes);
+
 /// Transmittance, colour and half depth of the media, lit by `colours` and, where the march does
 /// the first order, by the sun and the constant of `lit.lighting`. Without colours (the march
 /// alone): these two.

@@ -94,6 +94,9 @@ void add_light(const CollectorsSizes& s, MemoryTable& t) {
         t.add("colours of a part", Stage::kDisplay, Stage::kDisplay,
               bytes_of(3 * kFloat, s.collectors));
     t.add("ground map", Stage::kBackground, Stage::kBackground, 3 * kFloat * s.ground_cells);
+    if (s.planes > 3 && s.ground_cells > 0)
+        t.add("ground light of a batch", Stage::kLayers, Stage::kLayers,
+              bytes_of(3 * kFloat, pixels) + 3 * kFloat * s.ground_cells);
     t.add("shadow", s.shoots_again ? Stage::kPhotons : Stage::kShadow, Stage::kWrite,
           kFloat * s.shadow_nodes);
     if (s.marched) {

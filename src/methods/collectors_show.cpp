@@ -52,6 +52,7 @@ Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& 
                                scene.output.layer_depth, planes));
     PILEUS_TRY(collectors_background(context, run, in, planes));
     PILEUS_TRY(collectors_display(context, run, in, colours, channels, planes));
+    PILEUS_TRY(collectors_ground_noise(context, run, in, planes));
     PILEUS_TRY(collectors_parts(context, run, in, planes));
     Report& report = *context.report;
     report.counters.clear();

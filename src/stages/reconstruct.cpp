@@ -313,13 +313,19 @@ Status reconstruct_harmonics(const ReconstructInput& in, int batch, HarmonicSour
     return Status::ok();
 }
 
-Status reconstruct_ground(const ReconstructInput& in, const GroundMap& map,
+Status reconstruct_ground(const ReconstructInput& in, const GroundMap& map, int batch,
                           Buffer<float>& radiance) {
     const std::size_t cells = std::size_t(map.cells) * std::size_t(map.cells);
     PILEUS_TRY(radiance.resize(3 * cells, "ground light"));
     if (cells == 0) return Status::ok();
+    // The same groups of slots as the collectors' batches.
+    const std::size_t slots = in.photons->slots.size(), group = std::size_t(batch);
+    const std::size_t batches = std::size_t(in.batches);
+    const std::size_t first = batch > 0 ? (group - 1) * slots / batches : 0;
+    const std::size_t last = batch > 0 ? group * slots / batches : slots;
     double generations = 0;
-    for (const PhotonSlot& slot : in.photons->slots) generations += double(slot.generations);
+    for (std::size_t s = first; s < last; ++s)
+        generations += double(in.photons->slots[s].generations);
     if (!(generations > 0)) return Status::ok();
     // Irradiance = flux per cell area; a Lambertian ground sends albedo / pi of it back.
     const double unit = in.lighting->ground_albedo / 3.14159265358979323846 *
@@ -328,7 +334,8 @@ Status reconstruct_ground(const ReconstructInput& in, const GroundMap& map,
     const std::size_t channels = std::size_t(in.medium->channels);
     for (std::size_t i = 0; i < cells; ++i) {
         double rgb[3] = {};
-        for (const PhotonSlot& slot : in.photons->slots) {
+        for (std::size_t s = first; s < last; ++s) {
+            const PhotonSlot& slot = in.photons->slots[s];
             if (slot.generations == 0) continue;
             const std::size_t stride = slot.sums.size() / in.lighting->lights.size();
             for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {

@@ -50,8 +50,9 @@ int harmonic_sets(const Medium& medium, const Lighting& lighting);
 Status reconstruct_harmonics(const ReconstructInput& in, int batch, HarmonicSource& out);
 
 /// Radiance that the cells of the ground send back of the light scattered onto them (or kept from
-/// them, then negative): [3][cells * cells]. kLimit: out of memory.
-Status reconstruct_ground(const ReconstructInput& in, const GroundMap& map,
+/// them, then negative): [3][cells * cells]. `batch` 0: of all slots; 1 ... in.batches: of that
+/// group of them alone. kLimit: out of memory.
+Status reconstruct_ground(const ReconstructInput& in, const GroundMap& map, int batch,
                           Buffer<float>& radiance);
 
 }  // namespace pileus
