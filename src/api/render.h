@@ -12,7 +12,7 @@
 
 namespace pileus {
 
-constexpr const char* kVersion = "0.1.0";
+constexpr const char* kVersion = "0.2.0";
 
 struct RenderOptions {
     int threads = 0;                   ///< 0: all there are
