@@ -53,22 +53,22 @@ void count_and_mean(const PicturePair& pair, Metrics& m) {
 }
 
 /// square/(r^2 + eps); nothing over nothing is nothing.
-double relative(double square, double r, double epsilon) {
-    return square > 0 ? square / (r * r + epsilon) : 0;
+double relative(double square, double r_square, double epsilon) {
+    return square > 0 ? square / (r_square + epsilon) : 0;
 }
 
 void add_errors(const PicturePair& pair, double epsilon, Metrics& m) {
     RowSum square, ratio, bias, noise_a, noise_r;
     each_counted(pair, [&](std::size_t i, int y) {
         for (int c = 0; c < 3; ++c) {
-            const double d = pair.difference(c, i), r = double(pair.r[c][i]);
+            const double d = pair.difference(c, i), r2 = pair.square(c, i);
             bias.add(d, y);
             square.add(d * d, y);
-            ratio.add(relative(d * d, r, epsilon), y);
+            ratio.add(relative(d * d, r2, epsilon), y);
             const double ea = m.has_error_a ? double(pair.a_error[c][i]) : 0;
             const double er = m.has_error_reference ? double(pair.r_error[c][i]) : 0;
-            noise_a.add(relative(ea * ea, r, epsilon), y);
-            noise_r.add(relative(er * er, r, epsilon), y);
+            noise_a.add(relative(ea * ea, r2, epsilon), y);
+            noise_r.add(relative(er * er, r2, epsilon), y);
             if (std::fabs(d) <= m.largest) continue;
             m.largest = std::fabs(d);
             m.largest_x = int(i % std::size_t(pair.width));
@@ -162,7 +162,7 @@ Status add_percentiles(const PicturePair& pair, double epsilon, Metrics& m) {
 
     const auto ratio = [&](int c, std::size_t i) {
         const double d = pair.difference(c, i);
-        return relative(d * d, double(pair.r[c][i]), epsilon);
+        return relative(d * d, pair.square(c, i), epsilon);
     };
     fill(pair, values, ratio);
     const float edge = percentile(values);
@@ -184,13 +184,14 @@ Status add_percentiles(const PicturePair& pair, double epsilon, Metrics& m) {
     return Status::ok();
 }
 
-}  // namespace
-
-Status compare_images(const Image& a, const Image& reference, const MetricOptions& options,
-                      Metrics& metrics) {
+/// `halves`: those that the reference was merged from, or null.
+Status compare_pair(const Image& a, const Image& reference, const Image* const* halves,
+                    const MetricOptions& options, Metrics& metrics) {
     metrics = Metrics();
     PicturePair pair;
+    SmoothSquares smooth;
     PILEUS_TRY(pair_pictures(a, reference, options.alpha_least, pair));
+    if (halves != nullptr) PILEUS_TRY(smooth_squares(*halves[0], *halves[1], pair, smooth));
     metrics.has_alpha = pair.alpha != nullptr;
     metrics.has_error_a = pair.a_error[0] != nullptr;
     metrics.has_error_reference = pair.r_error[0] != nullptr;
@@ -214,11 +215,19 @@ Status compare_images(const Image& a, const Image& reference, const MetricOption
     return Status::ok();
 }
 
+}  // namespace
+
+Status compare_images(const Image& a, const Image& reference, const MetricOptions& options,
+                      Metrics& metrics) {
+    return compare_pair(a, reference, nullptr, options, metrics);
+}
+
 Status compare_with_halves(const Image& a, const Image& half1, const Image& half2,
                            const MetricOptions& options, Metrics& metrics) {
     Image reference;
     PILEUS_TRY(merge_halves(half1, half2, reference));
-    PILEUS_TRY(compare_images(a, reference, options, metrics));
+    const Image* const halves[2] = {&half1, &half2};
+    PILEUS_TRY(compare_pair(a, reference, halves, options, metrics));
     metrics.z_count = metrics.z_unknown = 0;
     metrics.z_above_2 = metrics.z_above_3 = metrics.z_square_mean = 0;
     return Status::ok();

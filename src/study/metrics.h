@@ -64,8 +64,8 @@ Status compare_images(const Image& a, const Image& reference, const MetricOption
 
 /// Compares `a` with the mean of two independent halves of a reference. Their difference gives the
 /// reference's noise: relmse = mean (a - r1)(a - r2)/(r^2 + eps), whose expectation does not hold
-/// it. z figures are left out: one difference is no estimate of a pixel's own error. Errors as
-/// above.
+/// it; r^2 is a local mean of r1 r2 (smooth_squares), or its noise would raise the figure. z
+/// figures are left out: one difference is no estimate of a pixel's own error. Errors as above.
 Status compare_with_halves(const Image& a, const Image& half1, const Image& half2,
                            const MetricOptions& options, Metrics& metrics);
 

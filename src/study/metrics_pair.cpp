@@ -4,6 +4,8 @@
 // docs/compare.md
 #include "src/study/metrics_pair.h"
 
+#include <algorithm>
+
 #include "src/io/image_file.h"
 #include "src/study/metrics.h"
 
@@ -52,6 +54,37 @@ Status pair_pictures(const Image& a, const Image& reference, double alpha_least,
     pair.alpha_least = alpha_least;
     find_errors(a, pair.a_error);
     find_errors(reference, pair.r_error);
+    return Status::ok();
+}
+
+Status smooth_squares(const Image& half1, const Image& half2, PicturePair& pair,
+                      SmoothSquares& smooth) {
+    constexpr int kReach = 2;
+    const Channel* first[3];
+    const Channel* second[3];
+    PILEUS_TRY(color_channels(half1, first));
+    PILEUS_TRY(color_channels(half2, second));
+    const std::size_t pixels = pair.pixels();
+    PILEUS_TRY(smooth.planes.resize(3 * pixels, "smooth squares of the reference"));
+    for (std::size_t c = 0; c < 3; ++c) {
+        double* plane = smooth.planes.data() + c * pixels;
+        const float *one = first[c]->pixels.data(), *two = second[c]->pixels.data();
+        each_counted(pair, [&](std::size_t at, int y) {
+            const int x = int(at % std::size_t(pair.width));
+            double sum = 0, count = 0;
+            for (int v = std::max(y - kReach, 0); v <= std::min(y + kReach, pair.height - 1); ++v)
+                for (int u = std::max(x - kReach, 0); u <= std::min(x + kReach, pair.width - 1);
+                     ++u) {
+                    const std::size_t i = std::size_t(v) * std::size_t(pair.width) + std::size_t(u);
+                    if (i == at || !pair.counted(i)) continue;
+                    sum += double(one[i]) * double(two[i]);
+                    ++count;
+                }
+            if (!(count > 0)) sum = double(one[at]) * double(two[at]), count = 1;
+            plane[at] = std::max(sum / count, 0.0);
+        });
+        pair.smooth[c] = plane;
+    }
     return Status::ok();
 }
 

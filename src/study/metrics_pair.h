@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 
+#include "src/base/buffer.h"
 #include "src/base/status.h"
 #include "src/io/image.h"
 
@@ -18,6 +19,7 @@ struct PicturePair {
     const float* r[3] = {};
     const float* a_error[3] = {};
     const float* r_error[3] = {};
+    const double* smooth[3] = {};  ///< of smooth_squares, or null
     const float* alpha = nullptr;
     double alpha_least = 0;
 
@@ -36,6 +38,10 @@ struct PicturePair {
     bool counted(std::size_t i) const { return in_cloud(i) && finite(i); }
     /// a - r of a channel.
     double difference(int c, std::size_t i) const { return double(a[c][i]) - double(r[c][i]); }
+    /// What a squared difference is measured against: r^2, smooth where the reference is noisy.
+    double square(int c, std::size_t i) const {
+        return smooth[c] != nullptr ? smooth[c][i] : double(r[c][i]) * double(r[c][i]);
+    }
     /// se_a^2 + se_r^2 of a channel; a layer that is not there adds nothing.
     double variance(int c, std::size_t i) const {
         const double ea = a_error[c] != nullptr ? double(a_error[c][i]) : 0;
@@ -47,6 +53,19 @@ struct PicturePair {
 /// Finds R G B (or Y), alpha of the reference, and error layers (all three or none). Different
 /// sizes or missing channels: kBadInput. The planes live as long as the pictures.
 Status pair_pictures(const Image& a, const Image& reference, double alpha_least, PicturePair& pair);
+
+/// The planes of smooth_squares, one after the other.
+struct SmoothSquares {
+    Buffer<double> planes;
+};
+
+/// Fills `smooth` and points `pair.smooth` into it: the mean of half1 * half2 over the counted
+/// pixels of the 5 x 5 around each, itself left out, per channel, never below 0. A product of
+/// independent halves holds no noise squared, the mean of 24 hardly any noise, and none that the
+/// pixel's own difference shares: so 1/r^2 neither grows nor leans by it.
+/// Sizes and channels as merge_halves found them; memory: kLimit. docs/compare.md
+Status smooth_squares(const Image& half1, const Image& half2, PicturePair& pair,
+                      SmoothSquares& smooth);
 
 /// Calls `add(pixel, row)` for every counted pixel, rows from the top.
 template <class Function>

@@ -24,9 +24,11 @@ double mean_of(const PicturePair& pair, double& values) {
     return values > 0 ? sum / values : 0;
 }
 
-Status pair_all(const Image& half1, const Image& half2, Image& reference, PicturePair& pair) {
+Status pair_all(const Image& half1, const Image& half2, Image& reference, PicturePair& pair,
+                SmoothSquares& smooth) {
     PILEUS_TRY(merge_halves(half1, half2, reference));
-    return pair_pictures(half1, reference, MetricOptions().alpha_least, pair);
+    PILEUS_TRY(pair_pictures(half1, reference, MetricOptions().alpha_least, pair));
+    return smooth_squares(half1, half2, pair, smooth);
 }
 
 Status no_cloud() {
@@ -39,7 +41,8 @@ Status no_cloud() {
 Status reference_noise(const Image& half1, const Image& half2, ReferenceNoise& noise) {
     Image reference;
     PicturePair pair;
-    PILEUS_TRY(pair_all(half1, half2, reference, pair));
+    SmoothSquares smooth;
+    PILEUS_TRY(pair_all(half1, half2, reference, pair, smooth));
     double values = 0;
     noise.mean = mean_of(pair, values);
     if (!(values > 0)) return no_cloud();
@@ -47,8 +50,8 @@ Status reference_noise(const Image& half1, const Image& half2, ReferenceNoise& n
     double sum = 0, squares = 0;
     each_counted(pair, [&](std::size_t i, int) {
         for (int c = 0; c < 3; ++c) {
-            const double r = double(pair.r[c][i]), d = 2 * pair.difference(c, i);
-            const double term = r * r + epsilon > 0 ? d * d / (r * r + epsilon) : 0;
+            const double unit = pair.square(c, i) + epsilon, d = 2 * pair.difference(c, i);
+            const double term = unit > 0 ? d * d / unit : 0;
             sum += term / 4;
             // E d^4 = 3 (E d^2)^2 where the noise is normal, and half of d^2 is that of one half.
             squares += term * term / 12;
@@ -99,7 +102,8 @@ Status split_error(const std::vector<Image>& pictures, const Image& half1, const
                    ErrorSplit& split) {
     Image reference;
     PicturePair pair, second;
-    PILEUS_TRY(pair_all(half1, half2, reference, pair));
+    SmoothSquares smooth;
+    PILEUS_TRY(pair_all(half1, half2, reference, pair, smooth));
     PILEUS_TRY(pair_pictures(half2, reference, MetricOptions().alpha_least, second));
     double values = 0;
     const double mean = mean_of(pair, values);
@@ -117,7 +121,8 @@ Status split_error(const std::vector<Image>& pictures, const Image& half1, const
             if (!one.finite(i)) return;
         for (int c = 0; c < 3; ++c) {
             const double r = double(pair.r[c][i]);
-            if (!(r * r + epsilon > 0)) continue;
+            const double unit = pair.square(c, i) + epsilon;
+            if (!(unit > 0)) continue;
             for (std::size_t s = 0; s < k; ++s) {
                 const double x = double(pairs[s].a[c][i]);
                 from1[s] = x - double(pair.a[c][i]);
@@ -126,8 +131,7 @@ Status split_error(const std::vector<Image>& pictures, const Image& half1, const
             }
             for (std::size_t s = 0; s < k; ++s)
                 for (std::size_t t = 0; t < k; ++t)
-                    matrix[s * k + t] +=
-                        (from1[s] * from2[t] + from1[t] * from2[s]) / (2 * (r * r + epsilon));
+                    matrix[s * k + t] += (from1[s] * from2[t] + from1[t] * from2[s]) / (2 * unit);
         }
         counted += 3;
     });

@@ -10,7 +10,8 @@
 
 namespace pileus {
 
-/// All of them relMSE: mean over the cloud's pixels and colours of (...)/(r^2 + eps). With one
+/// All of them relMSE: mean over the cloud's pixels and colours of (...)/(r^2 + eps), r^2
+/// smooth as compare_with_halves has it. With one
 /// seed bias2 and noise are unknown (NaN), with two their standard error is.
 struct ErrorSplit {
     double relmse = 0, relmse_error = 0;  ///< mean over the seeds; its standard error

@@ -4,6 +4,7 @@
 // docs/compare.md, "Figures"
 #include "src/study/metrics.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <initializer_list>
 #include <limits>
@@ -132,26 +133,60 @@ TEST_CASE("metrics: relMSE loses the reference's noise, z values are normal, the
 }
 
 TEST_CASE("metrics: two halves give the product form of relMSE") {
-    const Image a = noisy(40, 0.02, 1), h1 = noisy(40, 0.07, 2), h2 = noisy(40, 0.07, 3);
+    const int side = 40;
+    const Image a = noisy(side, 0.02, 1), h1 = noisy(side, 0.07, 2), h2 = noisy(side, 0.07, 3);
     Metrics m;
     REQUIRE(compare_with_halves(a, h1, h2, {}, m));
     double mean = 0, sum = 0;
     for (int pass = 0; pass < 2; ++pass)
-        for (std::size_t c = 0; c < 3; ++c)
-            for (std::size_t i = 0; i < 1600; ++i) {
-                const double x = double(a.channels[c].pixels[i]);
-                const double r1 = double(h1.channels[c].pixels[i]);
-                const double r2 = double(h2.channels[c].pixels[i]), r = (r1 + r2) / 2;
-                if (pass == 0)
-                    mean += r / 4800;
-                else
-                    sum += (x - r1) * (x - r2) / (r * r + 1e-4 * mean * mean) / 4800;
-            }
+        for (int n = 0; n < 3 * side * side; ++n) {
+            const auto c = std::size_t(n / (side * side));
+            const int x = n % side, y = n / side % side;
+            const float* r1 = h1.channels[c].pixels.data();
+            const float* r2 = h2.channels[c].pixels.data();
+            const auto product = [&](int u, int v) {
+                return double(r1[v * side + u]) * double(r2[v * side + u]);
+            };
+            const double p = double(a.channels[c].pixels[std::size_t(y * side + x)]);
+            const double q1 = double(r1[y * side + x]), q2 = double(r2[y * side + x]);
+            double smooth = 0, count = 0;
+            for (int v = std::max(y - 2, 0); v <= std::min(y + 2, side - 1); ++v)
+                for (int u = std::max(x - 2, 0); u <= std::min(x + 2, side - 1); ++u)
+                    if (u != x || v != y) smooth += product(u, v), ++count;
+            if (pass == 0)
+                mean += (q1 + q2) / 9600;
+            else
+                sum += (p - q1) * (p - q2) / (smooth / count + 1e-4 * mean * mean) / 4800;
+        }
     // The merged reference is rounded to floats: 6e-8 of r against differences of 0.05.
     CHECK(m.relmse == doctest::Approx(sum).epsilon(2e-5));
     CHECK(m.relmse_raw > 3 * m.relmse);
     CHECK(m.z_count == 0);
     CHECK(std::isfinite(m.bias_z));
+}
+
+TEST_CASE("metrics: halves of much noise leave relMSE what it is") {
+    // A picture 10 % too bright, a reference of 1 whose halves have a noise of 0.25 and 0.5.
+    const int side = 200;
+    const auto flat = [&](double light, double deviation, std::uint32_t seed) {
+        return make_picture(side, side, {"R", "G", "B"}, [&](int c, int x, int y) {
+            const auto index = std::uint32_t(3 * (y * side + x) + c);
+            return light + deviation * test::normal(seed, index);
+        });
+    };
+    for (const double deviation : {0.25, 0.5}) {
+        Metrics m;
+        REQUIRE(compare_with_halves(flat(1.1, 0, 1), flat(1, deviation, 2), flat(1, deviation, 3),
+                                    {}, m));
+        // A term (0.1 - n1)(0.1 - n2) scatters by v = deviation^2 and by 0.14 deviation; the mean
+        // of 24 products raises 1/s by its variance, (v^2 + 2 v)/24, twice that at the corners.
+        const double v = deviation * deviation, n = 3.0 * side * side;
+        const double error = std::sqrt((v * v + 0.02 * v) / n) * (1 + 2 * v);
+        std::printf("noise %.1f: relMSE %.5f +- %.5f, raw %.3f\n", deviation, m.relmse, error,
+                    m.relmse_raw);
+        CHECK(std::fabs(m.relmse - 0.01) < 4.5 * error + 0.01 * (v * v + 2 * v) / 12);
+        CHECK(m.relmse_raw > 3 * m.relmse);
+    }
 }
 
 TEST_CASE("metrics: what is not finite is counted and left out; a black reference") {
