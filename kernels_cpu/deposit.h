@@ -3,6 +3,7 @@
 // in: direction, share and collector per lane -> out: sums[collector][channel][coefficient].
 // docs/methods.md 3, repairs 2 and 3: sum_i w rho/rho_T y_i(incident) estimates the incident light.
 #pragma once
+#include "kernels_cpu/accumulate.h"
 #include "kernels_cpu/fixed.h"
 #include "kernels_cpu/sh.h"
 #include "kernels_cpu/trace_start.h"
@@ -18,7 +19,7 @@ PILEUS_FN void add_lanes(const TraceParams& k, const TraceBuffers& b, std::uint3
         const int i = __builtin_ctz(lanes);
         const std::int64_t set = std::int64_t(lane(collector, i)) * k.channels + channel;
         std::int64_t* sums = b.sums + set * k.coefficients + first;
-        for (int c = 0; c < count; ++c) sums[c] += lane(quanta[c], i);
+        add_sums(sums, quanta, i, count, b.shared_sums != 0);
     }
 }
 

@@ -44,7 +44,7 @@ PILEUS_FN void light_ground(const Photon<W, NC>& s, const TraceParams& k, const 
             b.ground + (std::int64_t(lane(y, i)) * k.ground_cells[0] + lane(x, i)) * NC;
         for (int c = 0; c < NC; ++c) {
             const std::int32_t quanta = quantise(lane(s.weight[c], i), k.scale);
-            cell[c] += (dark >> i) & 1u ? -quanta : quanta;
+            add_sum(cell + c, (dark >> i) & 1u ? -quanta : quanta, b.shared_sums != 0);
         }
     }
 }

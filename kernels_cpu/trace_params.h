@@ -74,10 +74,11 @@ struct TraceTally {
 
 struct TraceBuffers {
     const std::int32_t* collector;  ///< per voxel, -1 where none
-    std::int64_t* sums;             ///< collectors * channels * coefficients, this thread's own
-    std::int64_t* ground;           ///< ground cells * channels, scaled like the sums, its own too
+    std::int64_t* sums;             ///< collectors * channels * coefficients
+    std::int64_t* ground;           ///< ground cells * channels, scaled like the sums
     TraceTally* tally;              ///< this thread's own
     const float* parts;             ///< [medium - 1][voxel]: densities of media 1, 2 ...
+    std::int32_t shared_sums;       ///< 0: `sums` and `ground` are this thread's own, too
 };
 
 }  // namespace pileus

@@ -74,7 +74,8 @@ struct Report {
     std::vector<ReportLimit> limits;
     ReportWork work;
     std::string bias_of, bias, bias_page;
-    std::int64_t peak_bytes = 0;  ///< of the whole process
+    std::string accumulation, accumulation_why;  ///< who adds to which sums; empty: no such sums
+    std::int64_t peak_bytes = 0;                 ///< of the whole process
 
     double total_s = 0, cpu_s = 0;
     std::vector<StageTime> stages;

@@ -81,6 +81,9 @@ Json plan_of(const Report& report) {
         {"stages", stages},
         {"bounds", bounds_of(report)},
         {"bias", {{"of", report.bias_of}, {"measured", report.bias}, {"page", report.bias_page}}},
+        {"accumulation", report.accumulation.empty() ? Json(nullptr)
+                                                     : Json({{"kind", report.accumulation},
+                                                             {"why", report.accumulation_why}})},
         {"work", work_of(report.work)},
         {"limits", limits_of(report)}};
 }

@@ -188,6 +188,7 @@ TraceInput collectors_trace_input(const Context& context, const CollectorsRun& r
     in.kernels = context.kernels;
     in.max_events = run.max_events;
     in.ground = run.ground_map;
+    in.shared_sums = run.plan.accumulation.shared;
     return in;
 }
 

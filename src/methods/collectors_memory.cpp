@@ -67,15 +67,21 @@ void add_collectors(const CollectorsSizes& s, MemoryTable& t) {
     add_majorant_rows(s.grid, s.tracking_blocks, s.threads, traced, t);
 }
 
-/// stages/trace.cpp: sums per light and slot, and each thread's own.
+/// Bytes of the sums of one light.
+Size sums_of_light(const CollectorsSizes& s) {
+    return bytes_of(
+        bytes_of(s.collectors, s.channels, s.coefficients) + s.ground_cells * s.channels,
+        sizeof(std::int64_t));
+}
+
+/// stages/trace.cpp: sums per light and slot, and each thread's own where they do not share.
 void add_photons(const CollectorsSizes& s, MemoryTable& t) {
     const Stage traced = s.shoots_again ? Stage::kWrite : Stage::kPhotons;
-    const Size light =
-        bytes_of(bytes_of(s.collectors, s.channels, s.coefficients) + s.ground_cells * s.channels,
-                 sizeof(std::int64_t));
-    t.add("photon map", Stage::kPhotons, Stage::kWrite, bytes_of(light, s.lights, s.slots));
-    t.add("photon sums per thread", Stage::kPhotons, traced,
-          bytes_of(light + 256 + 2 * sizeof(TraceTally), s.threads));
+    t.add("photon map", Stage::kPhotons, Stage::kWrite,
+          bytes_of(sums_of_light(s), s.lights, s.slots));
+    t.add("photon tallies per thread", Stage::kPhotons, traced,
+          bytes_of(2 * sizeof(TraceTally), s.threads));
+    t.add("photon sums per thread", Stage::kPhotons, traced, s.private_sums);
 }
 
 /// methods/collectors_show.cpp, up to the display.
@@ -125,6 +131,8 @@ void add_billboards(const CollectorsSizes& s, MemoryTable& t) {
 }
 
 }  // namespace
+
+std::uint64_t bytes_of_sums(const CollectorsSizes& s) { return sums_of_light(s) + 256; }
 
 MemoryTable collectors_memory(const CollectorsSizes& sizes) {
     MemoryTable table;

@@ -17,6 +17,7 @@ struct CollectorsSizes {
     std::uint64_t samples = 0, leaves = 0, collectors = 0;
     std::uint64_t tracking_blocks = 0;  ///< majorants that photons meet
     std::uint64_t channels = 1, coefficients = 1, lights = 0, slots = 1, ground_cells = 0;
+    std::uint64_t private_sums = 0;  ///< bytes of all threads' own sums
     std::uint64_t width = 0, height = 0;
     std::uint64_t planes = 3;           ///< of colour: 3 * (1 + batches)
     std::uint64_t harmonics = 0;        ///< numbers per node, where nodes hold them
@@ -35,6 +36,9 @@ struct CollectorsSizes {
 
 /// The sizes of a run: bounds before `collectors_prepare` has filled it, exact afterwards.
 CollectorsSizes collectors_sizes(const CollectorsRun& run, const Context& context);
+
+/// Bytes of one thread's own sums, its distance to the next one's among them.
+std::uint64_t bytes_of_sums(const CollectorsSizes& sizes);
 
 /// The table of all arrays, in the order of the stages.
 MemoryTable collectors_memory(const CollectorsSizes& sizes);

@@ -88,8 +88,14 @@ Status collectors_measure(const Context& context, CollectorsRun& run) {
     run.plan.bounds.resize(1);
     bound_ledgers(double(photons), run, run.plan);
     PILEUS_TRY(check_bounds(run));
-    run.plan.memory = collectors_memory(collectors_sizes(run, context));
+    CollectorsSizes sizes = collectors_sizes(run, context);
     run.plan.exact = !run.outlined_only;
+    run.plan.accumulation =
+        plan_accumulation(run.scene->collectors.accumulation,
+                          {sizes.threads, bytes_of_sums(sizes), collectors_memory(sizes).peak(),
+                           context.limits[LimitId::kMemory], run.plan.exact});
+    sizes.private_sums = run.plan.accumulation.bytes;
+    run.plan.memory = collectors_memory(sizes);
     PILEUS_TRY(
         check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), run.scene->file));
     run.plan.skip(Stage::kPaths);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "src/plan/accumulation.h"
 #include "src/plan/memory_table.h"
 #include "src/plan/work.h"
 
@@ -38,6 +39,7 @@ struct Plan {
     std::vector<LeftOut> left_out;
     std::vector<SumBound> bounds;
     BiasNote bias;
+    Accumulation accumulation;  ///< no kind: nothing is accumulated in shared places
     MemoryTable memory;
     bool exact = false;  ///< false: `memory` holds upper bounds, made from sizes alone
     WorkEstimate work;

@@ -106,6 +106,16 @@ const KeyRow kRows[] =
         plain_key(KeyKind::kBool, "collectors.window", "false",
                   "true: damps the higher bands against ringing",
                   [](const Node& n, KeyTarget t) { t.scene.collectors.window = n.flag; }),
+        choice_key(
+            KeyKind::kText, "collectors.accumulation", "\"auto\"", "auto|private|shared", nullptr,
+            "sums per thread, or one set that all threads add to atomically, slower but "
+            "smaller; `auto`: per thread up to a quarter of the limit of memory. The same "
+            "bits either way",
+            [](const Node& n, KeyTarget t) {
+                t.scene.collectors.accumulation = n.text == "private" ? AccumulationChoice::kPrivate
+                                                  : n.text == "shared" ? AccumulationChoice::kShared
+                                                                       : AccumulationChoice::kAuto;
+            }),
 
         range_key(
             KeyKind::kInteger, "path.samples_per_pixel", "", "64", {1, kManySamples, false, false},

@@ -84,6 +84,9 @@ struct MediumSettings {
     bool y_up = false;
 };
 
+/// Who adds to which sums: see src/plan/accumulation.h.
+enum class AccumulationChoice { kAuto, kPrivate, kShared };
+
 struct CollectorSettings {
     std::int64_t photons = 5'000'000;  ///< over the whole ring
     int generations = 50;
@@ -104,6 +107,7 @@ struct CollectorSettings {
     int axis_degrees = 8;
     bool first_order_split = true;
     bool window = false;  ///< sinc window against ringing
+    AccumulationChoice accumulation = AccumulationChoice::kAuto;
 };
 
 struct PathSettings {

@@ -124,6 +124,8 @@ void report_plan(const Plan& plan, Report& report) {
     const WorkEstimate& work = plan.work;
     report.work = {work.known,       work.photons, work.scatterings_per_photon,
                    work.scatterings, work.law,     plan.work_of};
+    report.accumulation = plan.accumulation.kind;
+    report.accumulation_why = plan.accumulation.why;
     report.bias_of = plan.bias.method;
     report.bias = plan.bias.size;
     report.bias_page = plan.bias.page;

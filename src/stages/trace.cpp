@@ -2,6 +2,7 @@
 // See trace.h.
 #include "src/stages/trace.h"
 
+#include "kernels_cpu/accumulate.h"
 #include "platform/threads.h"
 #include "src/stages/prepare_majorant.h"
 
@@ -16,31 +17,46 @@ std::uint64_t collector_numbers(const TraceInput& in) {
            std::uint64_t(in.deposit.coefficients);
 }
 
+/// Whether photons add to the slot's own sums: no other thread does, or all do it atomically.
+bool adds_directly(const TraceInput& in) { return in.threads == 1 || in.shared_sums; }
+
 /// `count` photons of one light that share the high half of their index.
 struct Launch {
     const TraceInput* in;
     TraceScratch* scratch;
     TraceParams params;
     std::uint64_t count;
+    std::int64_t* total;  ///< the light's sums in the slot
 };
 
 void run_piece(const Launch& launch, std::uint64_t piece, int thread) {
     const TraceInput& in = *launch.in;
     const std::uint64_t begin = piece * kChunk;
     const std::uint64_t end = begin + kChunk < launch.count ? begin + kChunk : launch.count;
-    std::int64_t* sums = launch.scratch->sums.data();
-    if (sums != nullptr) sums += std::uint64_t(thread) * launch.scratch->stride;
-    const TraceBuffers b{in.collector_of_voxel.data, sums, sums + collector_numbers(in),
-                         &launch.scratch->tallies[std::size_t(thread) * 2],
-                         in.medium->parts.data()};
+    std::int64_t* sums = launch.total;
+    if (!adds_directly(in))
+        sums = launch.scratch->sums.data() + std::uint64_t(thread) * launch.scratch->stride;
+    const TraceBuffers b{
+        in.collector_of_voxel.data,   sums,
+        sums + collector_numbers(in), &launch.scratch->tallies[std::size_t(thread) * 2],
+        in.medium->parts.data(),      in.threads > 1 && adds_directly(in) ? 1 : 0};
     in.kernels->trace(launch.params, b, std::uint32_t(begin), std::uint32_t(end));
 }
 
 void run_launch(const Launch& launch, int threads) {
     const std::uint64_t pieces = (launch.count + kChunk - 1) / kChunk;
+    if (launch.in->shared_sums && !kSharesSums) threads = 1;
     parallel_for(threads, std::int64_t(pieces), [&](std::int64_t piece, int thread) {
         run_piece(launch, std::uint64_t(piece), thread);
     });
+}
+
+/// Adds one thread's sums to the total and leaves zeros behind.
+void move_sums(std::int64_t* own, std::int64_t* total, std::uint64_t count) {
+    for (std::uint64_t i = 0; i < count; ++i) {
+        total[i] += own[i];
+        own[i] = 0;
+    }
 }
 
 void add_fates(const Fates& from, Fates& to) {
@@ -141,7 +157,8 @@ std::uint64_t slot_stride(const TraceInput& in) {
 Status prepare_trace(const TraceInput& in, TraceScratch& scratch) {
     // Neighbouring threads keep 128 bytes apart (unpadded counters cost half the speed).
     scratch.stride = (slot_stride(in) + 31) / 16 * 16;
-    PILEUS_TRY(scratch.sums.resize(scratch.stride * std::uint64_t(in.threads), "photon sums"));
+    const std::uint64_t blocks = adds_directly(in) ? 0 : std::uint64_t(in.threads);
+    PILEUS_TRY(scratch.sums.resize(scratch.stride * blocks, "photon sums"));
     return scratch.tallies.resize(std::uint64_t(in.threads) * 2, "photon tallies");
 }
 
@@ -150,7 +167,8 @@ Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScr
     const std::uint64_t stride = slot_stride(in);
     for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {
         const Light& light = in.lighting->lights[l];
-        Launch launch{&in, &scratch, launch_params(in, light, generation), 0};
+        Launch launch{&in, &scratch, launch_params(in, light, generation), 0,
+                      slot.sums.data() + l * stride};
         // Split where the photon index passes a multiple of 2^32: its high half is in the key.
         std::uint64_t index = generation * light.photons, left = light.photons;
         while (left > 0) {
@@ -166,12 +184,9 @@ Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScr
             launch.params.shift[1] += std::uint32_t(launch.count) * kR2[1];
         }
         for (int t = 0; t < in.threads; ++t) {
-            std::int64_t* own = scratch.sums.data() + std::uint64_t(t) * scratch.stride;
-            std::int64_t* total = slot.sums.data() + l * stride;
-            for (std::uint64_t i = 0; i < stride; ++i) {
-                total[i] += own[i];
-                own[i] = 0;
-            }
+            if (!adds_directly(in))
+                move_sums(scratch.sums.data() + std::uint64_t(t) * scratch.stride, launch.total,
+                          stride);
             slot.scatterings += scratch.tallies[std::size_t(t) * 2].scatterings;
             add_tally(scratch.tallies[std::size_t(t) * 2], tallies[l]);
             scratch.tallies[std::size_t(t) * 2] = TraceTally{};

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Launches photons: chunks over threads, private integer sums, reduced exactly.
+// Launches photons: chunks over threads, integer sums of each or of all, reduced exactly.
 // in: medium, lights, a map from voxels to collectors -> out: one slot of sums per batch, ledgers.
 // docs/methods.md 3; the result is a function of (seed, light, photon index) alone.
 #pragma once
@@ -47,6 +47,7 @@ struct TraceInput {
     const KernelTable* kernels = nullptr;
     std::uint32_t max_events = 1u << 20;
     GroundMap ground{};
+    bool shared_sums = false;  ///< all threads add atomically to one set of sums
 };
 
 /// Sums of all lights of one batch: [light], each [collector][channel][coefficient] and then
@@ -67,7 +68,8 @@ struct Photons {
 /// Numbers per light in a slot.
 std::uint64_t slot_stride(const TraceInput& in);
 
-/// Scratch of the tracer: per-thread sums and tallies, allocated once.
+/// Scratch of the tracer, allocated once: tallies per thread, and sums per thread where there are
+/// several and they do not share.
 struct TraceScratch {
     Buffer<std::int64_t> sums;
     Buffer<TraceTally> tallies;

@@ -54,3 +54,28 @@ TEST_CASE("S60: one deposit too many for the places costs a place, or the scene"
             CHECK(fixed_point_places(capacity + 64, largest) == (s > 8 ? s - 1 : -1));
         }
 }
+
+TEST_CASE("plan: whose sums photons are added to, by threads, bytes and the limit of memory") {
+    const auto kind = [](AccumulationChoice choice, std::uint64_t threads, std::uint64_t set,
+                         std::uint64_t others, bool exact = true) {
+        const Accumulation a = plan_accumulation(choice, {threads, set, others, 4'000'000, exact});
+        CHECK(a.shared == (a.kind == "shared"));
+        CHECK((a.bytes > 0) == (a.kind == "private"));
+        CHECK(a.bytes <= (a.kind == "private" ? threads * set : 0));
+        return a.kind;
+    };
+    const auto automatic = AccumulationChoice::kAuto;
+    CHECK(kind(automatic, 1, 900'000, 0) == "direct");
+    CHECK(kind(AccumulationChoice::kShared, 1, 900'000, 0) == "direct");
+    CHECK(kind(automatic, 2, 500'000, 0) == "private");
+    CHECK(kind(automatic, 2, 500'001, 0) == "shared");
+    CHECK(kind(automatic, 2, 500'000, 3'000'000) == "private");
+    CHECK(kind(automatic, 2, 500'000, 3'000'001) == "shared");
+    CHECK(kind(automatic, 2, 1, 5'000'000) == "shared");
+    CHECK(kind(AccumulationChoice::kPrivate, 2, 500'001, 0) == "private");
+    CHECK(kind(AccumulationChoice::kShared, 2, 1, 0) == "shared");
+
+    // Before collectors are counted the bytes must bound either way.
+    CHECK(kind(automatic, 2, 500'001, 0, false) == "private");
+    CHECK(plan_accumulation(automatic, {2, 500'001, 0, 4'000'000, false}).bytes == 1'000'000);
+}

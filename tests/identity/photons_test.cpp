@@ -45,9 +45,12 @@ std::string digest_of(Span<const std::int64_t> sums, const std::vector<TraceTall
     return d.hex();
 }
 
-std::string shoot_digest(Rig& rig, std::uint64_t photons, int generations) {
+std::string shoot_digest(Rig& rig, std::uint64_t photons, int generations, bool mapped = false,
+                         bool shared = false) {
     for (Light& l : rig.lighting.lights) l.photons = photons;
-    const TraceInput in = input_of(rig, 42);
+    TraceInput in = input_of(rig, 42);
+    if (mapped) in.ground = make_ground_map(rig.medium, rig.lighting);
+    in.shared_sums = shared;
     TraceScratch scratch;
     PhotonSlot slot;
     REQUIRE(prepare_trace(in, scratch));
@@ -69,8 +72,12 @@ std::string shoot_pieces(const Rig& rig, const std::vector<std::uint32_t>& ends)
     Buffer<std::int64_t> sums;
     REQUIRE(sums.resize(rig.collectors * 3 * std::uint64_t(k.coefficients), "sums"));
     std::vector<TraceTally> tally(1);
-    const TraceBuffers b{rig.collector_of_voxel.data(), sums.data(), nullptr, tally.data(),
-                         rig.medium.parts.data()};
+    const TraceBuffers b{rig.collector_of_voxel.data(),
+                         sums.data(),
+                         nullptr,
+                         tally.data(),
+                         rig.medium.parts.data(),
+                         0};
     std::uint32_t begin = 0;
     for (std::uint32_t end : ends) {
         rig.kernels->trace(k, b, begin, end);
@@ -131,6 +138,25 @@ TEST_CASE("identity: any number of threads") {
         rig.lighting.lights[0].stream += 16;
         CHECK(shoot_digest(rig, 50'000, 2) != one);
     }
+}
+
+TEST_CASE("identity: sums of each thread, of all threads and of one, every deposit") {
+    for (const Float3& albedo : kAlbedos)
+        for (std::int32_t mode : {kDepositIncident, kDepositCamera}) {
+            Rig rig = make_lump(albedo);
+            rig.deposit.mode = mode;
+            if (mode == kDepositCamera) rig.deposit.coefficients = 1;
+            rig.deposit.camera[1] = -500;
+            rig.threads = 1;
+            const std::string one = shoot_digest(rig, 20'000, 2, true);
+            for (int i = 0; const KernelTable* table = kernel_table_at(i); ++i) {
+                CAPTURE(table->name);
+                rig.kernels = table;
+                rig.threads = 3;
+                CHECK(shoot_digest(rig, 20'000, 2, true, true) == one);
+                CHECK(shoot_digest(rig, 20'000, 2, true, false) == one);
+            }
+        }
 }
 
 TEST_CASE("identity: light of a coloured sky map, every instruction set and number of threads") {

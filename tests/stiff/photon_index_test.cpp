@@ -16,7 +16,7 @@ bool same_tally(const TraceTally& a, const TraceTally& b) {
 TraceTally run_kernel(const Rig& rig, const TraceParams& k, std::uint32_t begin,
                       std::uint32_t end) {
     TraceTally tally{};
-    const TraceBuffers b{nullptr, nullptr, nullptr, &tally, nullptr};
+    const TraceBuffers b{nullptr, nullptr, nullptr, &tally, nullptr, 0};
     rig.kernels->trace(k, b, begin, end);
     return tally;
 }

@@ -70,6 +70,7 @@ template <class Register>
 void for_each_machine(Register add);
 
 void register_trace_cases(Bench& bench);
+void register_accumulate_cases(Bench& bench);
 void register_path_cases(Bench& bench);
 void register_frame_cases(Bench& bench);
 

@@ -118,6 +118,7 @@ int main(int argc, char** argv) {
     benchmark::AddCustomContext("pileus", pileus::kVersion);
     bench::Bench bench;
     bench::register_trace_cases(bench);
+    bench::register_accumulate_cases(bench);
     bench::register_path_cases(bench);
     bench::register_frame_cases(bench);
     benchmark::RunSpecifiedBenchmarks();

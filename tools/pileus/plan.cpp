@@ -51,6 +51,12 @@ std::string bound_lines(const Report& report) {
     return text;
 }
 
+std::string accumulation_lines(const Report& report) {
+    if (report.accumulation.empty()) return "";
+    return fmt::format("accumulation of photons\n  {:<28} {}\n", report.accumulation,
+                       report.accumulation_why);
+}
+
 std::string work_lines(const Report& report) {
     const ReportWork& work = report.work;
     std::string text =
@@ -75,6 +81,7 @@ std::string limit_lines(const Report& report) {
 
 std::string plan_lines(const Report& report) {
     return part_lines(report) + memory_lines(report) + bound_lines(report) +
+           accumulation_lines(report) +
            fmt::format("bias, where no noise is left\n  {:<28} {} ({})\n", report.bias_of,
                        report.bias, report.bias_page) +
            work_lines(report) + limit_lines(report);
