@@ -54,8 +54,16 @@ private:
 /// Forgets all photons, so that the next generation is the first again.
 void forget_photons(pileus::CollectorsRun& run);
 
-/// CPU seconds of the stages of that name so far.
-double stage_cpu(const pileus::Report& report, const char* stage);
+/// The cloud of the figures to reach, 128 voxels along each axis.
+constexpr const char* kCumulus128 = "../studies/scenes/cumulus128";
+
+using Stages = std::vector<const char*>;
+
+/// CPU seconds of the stages of these names so far.
+double stage_cpu(const pileus::Report& report, const Stages& stages);
+
+/// One counter NAME_ms per stage: CPU milliseconds.
+void count_stages(benchmark::State& state, const pileus::Report& report);
 
 /// Digest of the sums and of the ledger of all lights.
 std::uint64_t photon_digest(const pileus::CollectorsRun& run);
@@ -72,6 +80,7 @@ void for_each_machine(Register add);
 void register_trace_cases(Bench& bench);
 void register_accumulate_cases(Bench& bench);
 void register_path_cases(Bench& bench);
+void register_prepare_cases(Bench& bench);
 void register_frame_cases(Bench& bench);
 
 }  // namespace bench

@@ -80,11 +80,16 @@ void forget_photons(CollectorsRun& run) {
     for (TraceTally& t : run.photons.tallies) t = TraceTally{};
 }
 
-double stage_cpu(const Report& report, const char* stage) {
+double stage_cpu(const Report& report, const Stages& stages) {
     double sum = 0;
     for (const StageTime& s : report.stages)
-        if (s.name == stage) sum += s.cpu_s;
+        for (const char* stage : stages)
+            if (s.name == stage) sum += s.cpu_s;
     return sum;
+}
+
+void count_stages(benchmark::State& state, const Report& report) {
+    for (const StageTime& s : report.stages) state.counters[s.name + "_ms"] = s.cpu_s * 1e3;
 }
 
 std::uint64_t photon_digest(const CollectorsRun& run) {
@@ -120,6 +125,7 @@ int main(int argc, char** argv) {
     bench::register_trace_cases(bench);
     bench::register_accumulate_cases(bench);
     bench::register_path_cases(bench);
+    bench::register_prepare_cases(bench);
     bench::register_frame_cases(bench);
     benchmark::RunSpecifiedBenchmarks();
     benchmark::Shutdown();
