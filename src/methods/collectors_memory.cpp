@@ -5,6 +5,7 @@
 #include "src/methods/collectors_memory.h"
 
 #include "kernels_cpu/blend_params.h"
+#include "src/stages/prepare_leaves.h"
 
 namespace pileus {
 namespace {
@@ -33,15 +34,15 @@ void add_samples(const CollectorsSizes& s, MemoryTable& t) {
     t.add("samples", Stage::kSamples, Stage::kLeafGrid, s.samples * sizeof(Sample));
 }
 
-/// stages/prepare_tree.cpp: three lists sorted by keys of 8 bytes, and a list of leaves that grows
-/// by doubling.
+/// stages/prepare_tree.cpp: three lists sorted by two arrays of keys of 8 bytes, and a list of
+/// leaves that grows by doubling.
 void add_tree(const CollectorsSizes& s, MemoryTable& t) {
     const Size leaves = bytes_of(s.leaves, sizeof(Leaf));
     t.add("leaves", Stage::kTree, Stage::kWrite, leaves);
     if (s.cells) return;
     constexpr Size kNode = sizeof(std::int32_t) * 6 + sizeof(std::uint32_t) * 2;
     t.add("sorted lists of samples", Stage::kTree, Stage::kTree,
-          s.samples * (3 * (4 + 4 + 8) + 4 + 4 + 1));
+          s.samples * (3 * (4 + 4 + 2 * 8) + 4 + 4 + 1));
     t.add("growing list of leaves", Stage::kTree, Stage::kTree,
           bytes_of(2 * s.leaves + 1024, sizeof(Leaf)));
     t.add("stack of the tree", Stage::kTree, Stage::kTree,
@@ -52,7 +53,8 @@ void add_tree(const CollectorsSizes& s, MemoryTable& t) {
 void add_collectors(const CollectorsSizes& s, MemoryTable& t) {
     const Size voxels = voxels_of(s);
     const Stage traced = s.shoots_again ? Stage::kWrite : Stage::kPhotons;
-    t.add("voxel masses", Stage::kCollectors, Stage::kCollectors, bytes_of(voxels, 8));
+    t.add("moments of leaves", Stage::kCollectors, Stage::kLeafGrid,
+          bytes_of(s.leaves, sizeof(LeafMoments)) + bytes_of(side(s, 0), s.threads, 8));
     t.add("collector of voxel", Stage::kLeafGrid, traced, bytes_of(voxels, 4));
     t.add("collectors", Stage::kCollectors, Stage::kWrite,
           bytes_of(s.collectors, sizeof(Collector)));

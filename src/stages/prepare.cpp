@@ -18,40 +18,24 @@ double diagonal_m(const Medium& medium) {
     return __builtin_sqrt(square);
 }
 
-/// Leaf numbers become collector numbers, voxel by voxel.
-void name_collectors(Span<const Leaf> leaves, int threads, const Grid& grid,
-                     Span<std::int32_t> of_voxel) {
-    const std::size_t slice = std::size_t(grid.size[0]) * std::size_t(grid.size[1]);
-    parallel_for(threads, grid.size[2], [&](std::int64_t z, int) {
-        for (std::size_t i = std::size_t(z) * slice; i < (std::size_t(z) + 1) * slice; ++i)
-            of_voxel[i] = leaves[std::size_t(of_voxel[i])].collector;
-    });
-}
-
 Status finish_leaves(const Medium& medium, const CollectorOptions& options,
                      Span<const Sample> samples, const Context& context, Prepared& out) {
     const StageClock clock(context, "collectors");
-    const std::size_t voxels = voxel_count(medium.grid);
     const Span<const float> density = medium.volume.density.span();
-    Buffer<double> masses;
-    PILEUS_TRY(masses.resize(voxels, "voxel masses"));
-    voxel_masses(density, medium.grid, context.threads, masses.span());
-    measure_leaves(density, masses.span(), medium.grid, context.threads, out.leaves.span());
-    // The two largest arrays never live at once: only the first document's centroids ask for the
-    // leaf of a voxel, and only the others' for the masses of voxels.
-    const auto fill_grid = [&]() -> Status {
-        masses = Buffer<double>();
-        PILEUS_TRY(out.collector_of_voxel.resize(voxels, "leaf grid"));
-        fill_leaf_grid(out.leaves.span(), medium.grid, context.threads,
-                       out.collector_of_voxel.span());
-        return Status::ok();
+    Buffer<LeafMoments> moments;
+    PILEUS_TRY(moments.resize(out.leaves.size(), "moments of leaves"));
+    PILEUS_TRY(
+        measure_leaves(density, medium.grid, context.threads, out.leaves.span(), moments.span()));
+    // Only the first document's centroids ask for the leaf of a voxel.
+    Buffer<std::int32_t>& of_voxel = out.collector_of_voxel;
+    PILEUS_TRY(of_voxel.resize(voxel_count(medium.grid), "collector of voxel"));
+    const auto label = [&](LeafLabel which) {
+        fill_leaf_grid(out.leaves.span(), medium.grid, context.threads, which, of_voxel.span());
     };
-    if (options.paper) PILEUS_TRY(fill_grid());
-    PILEUS_TRY(place_collectors(options, masses.span(), medium.grid, samples,
-                                out.collector_of_voxel.span(), context.threads, out.leaves.span(),
-                                out.collectors));
-    if (!options.paper) PILEUS_TRY(fill_grid());
-    name_collectors(out.leaves.span(), context.threads, medium.grid, out.collector_of_voxel.span());
+    if (options.paper) label(LeafLabel::kLeaf);
+    PILEUS_TRY(place_collectors(options, moments.span(), medium.grid, samples, of_voxel.span(),
+                                context.threads, out.leaves.span(), out.collectors));
+    label(LeafLabel::kCollector);
     if (medium.count == 1) return Status::ok();
     return measure_shares(medium, out.leaves.span(), out.collectors.span(), context.threads,
                           out.shares);

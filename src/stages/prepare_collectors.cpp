@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // See prepare_collectors.h.
-// in: measured leaves, masses, samples -> out: collectors, and their index in each leaf.
+// in: measured leaves, moments, samples -> out: collectors, and their index in each leaf.
 // Elek 2011, section 5.5; the factor 8 there is the ratio of volumes for R = 2r.
 #include "src/stages/prepare_collectors.h"
 
@@ -57,29 +57,12 @@ void place_paper(Collector& c, const Leaf& leaf, const Centroid& samples, const 
     finish(c, grid, centre, edge, 2.0);
 }
 
-void place_best(Collector& c, const Leaf& leaf, Span<const double> masses, const Grid& grid,
+void place_best(Collector& c, const Leaf& leaf, const LeafMoments& m, const Grid& grid,
                 double factor) {
-    int lo[3], hi[3];
-    for (int a = 0; a < 3; ++a) lo[a] = leaf.hi[a], hi[a] = leaf.lo[a];
-    double sum[3] = {0, 0, 0};
-    for (int k = leaf.lo[2]; k < leaf.hi[2]; ++k)
-        for (int j = leaf.lo[1]; j < leaf.hi[1]; ++j) {
-            const double* row = masses.data + voxel_index(grid, 0, j, k);
-            for (int i = leaf.lo[0]; i < leaf.hi[0]; ++i) {
-                const double m = row[i];
-                if (!(m > 0)) continue;
-                const int voxel[3] = {i, j, k};
-                for (int a = 0; a < 3; ++a) {
-                    lo[a] = std::min(lo[a], voxel[a]);
-                    hi[a] = std::max(hi[a], voxel[a] + 1);
-                    sum[a] += m * (double(voxel[a] - leaf.lo[a]) + 0.5);
-                }
-            }
-        }
     double centre[3], edge[3];
     for (int a = 0; a < 3; ++a) {
-        centre[a] = double(leaf.lo[a]) + sum[a] / leaf.mass;
-        edge[a] = double(hi[a] - lo[a]);
+        centre[a] = double(leaf.lo[a]) + m.first[a] / leaf.mass;
+        edge[a] = double(m.hi[a] - m.lo[a]);
     }
     finish(c, grid, centre, edge, factor);
 }
@@ -98,11 +81,12 @@ double cube_root(double x) {
     return y;
 }
 
-Status place_collectors(const CollectorOptions& options, Span<const double> masses,
+Status place_collectors(const CollectorOptions& options, Span<const LeafMoments> moments,
                         const Grid& grid, Span<const Sample> samples,
                         Span<const std::int32_t> leaf_of_voxel, int threads, Span<Leaf> leaves,
                         Buffer<Collector>& collectors) {
-    assert((options.paper ? leaf_of_voxel.size : masses.size) == voxel_count(grid));
+    assert(moments.size == leaves.size);
+    assert(!options.paper || leaf_of_voxel.size == voxel_count(grid));
     // Number the leaves that take part.
     std::size_t count = 0;
     for (Leaf& leaf : leaves) leaf.collector = leaf.mass > 0 ? std::int32_t(count++) : -1;
@@ -124,7 +108,7 @@ Status place_collectors(const CollectorOptions& options, Span<const double> mass
             if (options.paper)
                 place_paper(c, leaf, sums[l], grid);
             else
-                place_best(c, leaf, masses, grid, double(options.radius_factor));
+                place_best(c, leaf, moments[l], grid, double(options.radius_factor));
         }
     });
     return Status::ok();

@@ -27,33 +27,6 @@ Corner corner(float x, int size, bool wraps = false) {
 
 float mix(float a, float b, float t) { return a + (b - a) * t; }
 
-/// Sums the 3x3 rows around (j, k) with weights 1 6 1, then 1 6 1 along x, in place.
-void mass_row(const float* density, const Grid& grid, int j, int k, double scale, double* out) {
-    const int nx = grid.size[0], ny = grid.size[1], nz = grid.size[2];
-    const bool wraps = grid.periodic;
-    const int js[3] = {j > 0 ? j - 1 : (wraps ? ny - 1 : 0), j,
-                       j + 1 < ny ? j + 1 : (wraps ? 0 : j)};
-    const int ks[3] = {k > 0 ? k - 1 : 0, k, k + 1 < nz ? k + 1 : k};
-    const float* row[3][3];
-    for (int c = 0; c < 3; ++c)
-        for (int b = 0; b < 3; ++b) row[c][b] = density + voxel_index(grid, 0, js[b], ks[c]);
-    for (int i = 0; i < nx; ++i) {
-        double layer[3];
-        for (int c = 0; c < 3; ++c)
-            layer[c] = double(row[c][0][i]) + 6.0 * double(row[c][1][i]) + double(row[c][2][i]);
-        out[i] = layer[0] + 6.0 * layer[1] + layer[2];
-    }
-    // Keep the unfiltered left neighbour while the row is overwritten.
-    const double first = out[0];
-    double left = wraps ? out[nx - 1] : first;
-    for (int i = 0; i < nx; ++i) {
-        const double here = out[i];
-        const double right = i + 1 < nx ? out[i + 1] : (wraps ? first : here);
-        out[i] = (left + 6.0 * here + right) * scale;
-        left = here;
-    }
-}
-
 }  // namespace
 
 float density_at(Span<const float> density, const Grid& grid, const float x[3]) {
@@ -69,13 +42,43 @@ float density_at(Span<const float> density, const Grid& grid, const float x[3]) 
     return mix(low, high, c.t);
 }
 
-void voxel_masses(Span<const float> density, const Grid& grid, int threads, Span<double> masses) {
-    assert(density.size == voxel_count(grid) && masses.size == density.size);
+void mass_row(Span<const float> density, const Grid& grid, const int (&range)[2], int j, int k,
+              double* out) {
+    const int nx = grid.size[0], ny = grid.size[1], nz = grid.size[2];
+    const bool wraps = grid.periodic;
+    const int js[3] = {j > 0 ? j - 1 : (wraps ? ny - 1 : 0), j,
+                       j + 1 < ny ? j + 1 : (wraps ? 0 : j)};
+    const int ks[3] = {k > 0 ? k - 1 : 0, k, k + 1 < nz ? k + 1 : k};
+    const float* row[3][3];
+    for (int c = 0; c < 3; ++c)
+        for (int b = 0; b < 3; ++b) row[c][b] = density.data + voxel_index(grid, 0, js[b], ks[c]);
+    // Sum the 3x3 rows around (j, k) with weights 1 6 1.
+    const auto across = [&](int i) {
+        double layer[3];
+        for (int c = 0; c < 3; ++c)
+            layer[c] = double(row[c][0][i]) + 6.0 * double(row[c][1][i]) + double(row[c][2][i]);
+        return layer[0] + 6.0 * layer[1] + layer[2];
+    };
+    const int begin = range[0], end = range[1], count = end - begin;
+    const double first = across(begin > 0 ? begin - 1 : (wraps ? nx - 1 : 0));
+    const double last = across(end < nx ? end : (wraps ? 0 : nx - 1));
+    for (int i = 0; i < count; ++i) out[i] = across(begin + i);
+    // Then 1 6 1 along x, in place: keep the left neighbour while the row is overwritten.
     const double scale =
         double(grid.cell_m[0]) * double(grid.cell_m[1]) * double(grid.cell_m[2]) / 512.0;
+    double left = first;
+    for (int i = 0; i < count; ++i) {
+        const double here = out[i];
+        out[i] = (left + 6.0 * here + (i + 1 < count ? out[i + 1] : last)) * scale;
+        left = here;
+    }
+}
+
+void voxel_masses(Span<const float> density, const Grid& grid, int threads, Span<double> masses) {
+    assert(density.size == voxel_count(grid) && masses.size == density.size);
     parallel_for(threads, grid.size[2], [&](std::int64_t k, int) {
         for (int j = 0; j < grid.size[1]; ++j)
-            mass_row(density.data, grid, j, int(k), scale,
+            mass_row(density, grid, {0, grid.size[0]}, j, int(k),
                      masses.data + voxel_index(grid, 0, j, int(k)));
     });
 }

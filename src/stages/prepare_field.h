@@ -11,8 +11,12 @@ namespace pileus {
 /// Trilinear density at a point inside the box, given in voxel coordinates [0, size].
 float density_at(Span<const float> density, const Grid& grid, const float x[3]);
 
-/// Integral of the trilinear density over each voxel, m^3, into `masses` (one per voxel).
-/// Exact but for double rounding; the same for any number of threads.
+/// Integral of the trilinear density over voxels [range[0], range[1]) of row (j, k), m^3 each.
+void mass_row(Span<const float> density, const Grid& grid, const int (&range)[2], int j, int k,
+              double* out);
+
+/// The same of every voxel, into `masses` (one per voxel). Exact but for double rounding; the same
+/// for any number of threads.
 void voxel_masses(Span<const float> density, const Grid& grid, int threads, Span<double> masses);
 
 }  // namespace pileus

@@ -7,6 +7,14 @@
 
 namespace pileus {
 
+/// Rows that are added up side by side.
+constexpr int kAbreast = 4;
+
+/// Sums of `rows` rows (1..kAbreast) of `count` numbers, `stride` apart, each from its first number
+/// to its last: side by side none waits for its own last addition.
+void sums_abreast(const float* values, std::size_t count, std::size_t stride, int rows,
+                  double* sums);
+
 /// Fills `stats`. kLimit: out of memory.
 Status field_stats(Span<const float> density, Span<const float> field, const Grid& grid,
                    int threads, FieldStats& stats);

@@ -9,6 +9,7 @@
 #include "kernels_cpu/rng.h"
 #include "platform/threads.h"
 #include "src/stages/prepare_field.h"
+#include "src/stages/prepare_field_stats.h"
 
 namespace pileus {
 namespace {
@@ -26,13 +27,13 @@ Sample make_sample(Span<const float> density, const Grid& grid, const int voxel[
     return s;
 }
 
-/// Runs work(sample) for every sample, in chunks.
+/// Runs work(first, last) for chunks of samples, last excluded.
 template <class Function>
-void for_each_sample(int threads, std::uint32_t count, Function&& work) {
+void for_each_chunk(int threads, std::uint32_t count, Function&& work) {
     parallel_for(threads, (std::int64_t(count) + kChunk - 1) / kChunk, [&](std::int64_t c, int) {
         const std::uint64_t begin = std::uint64_t(c) * kChunk;
         const std::uint64_t end = std::min<std::uint64_t>(begin + kChunk, count);
-        for (std::uint64_t s = begin; s < end; ++s) work(std::uint32_t(s));
+        work(std::uint32_t(begin), std::uint32_t(end));
     });
 }
 
@@ -43,38 +44,57 @@ Status cumulate_rows(Span<const float> field, const Grid& grid, int threads,
     const std::size_t per_slice = std::size_t(grid.size[1]);
     PILEUS_TRY(start.resize(rows + 1, "sampler: cumulative sums"));
     parallel_for(threads, grid.size[2], [&](std::int64_t k, int) {
-        const std::size_t begin = std::size_t(k) * per_slice;
-        for (std::size_t r = begin; r < begin + per_slice; ++r) {
-            double sum = 0;
-            for (std::size_t i = 0; i < nx; ++i) sum += double(field[r * nx + i]);
-            start[r + 1] = sum;
-        }
+        const std::size_t begin = std::size_t(k) * per_slice, end = begin + per_slice;
+        for (std::size_t r = begin; r < end; r += kAbreast)
+            sums_abreast(field.data + r * nx, nx, nx, int(std::min<std::size_t>(kAbreast, end - r)),
+                         start.data() + r + 1);
     });
     for (std::size_t r = 0; r < rows; ++r) start[r + 1] += start[r];
     return Status::ok();
 }
 
-/// Index of the voxel in which the cumulative sum passes `target`.
-std::size_t invert(Span<const float> field, const Grid& grid, Span<const double> start,
-                   double target) {
-    const std::size_t nx = std::size_t(grid.size[0]);
-    // Find the last row that begins at or before the target; rounding at the very end may pass
-    // beyond the last row that holds anything.
-    std::size_t row =
-        std::size_t(std::upper_bound(start.begin(), start.end(), target) - start.begin()) - 1;
-    row = std::min(row, start.size - 2);
-    while (start[row + 1] == start[row]) --row;
-    // Walk along the row; keep the last voxel of positive weight for the same reason.
-    double sum = start[row];
-    std::size_t found = row * nx;
-    for (std::size_t v = row * nx; v < (row + 1) * nx; ++v) {
-        if (!(field[v] > 0.0f)) continue;
-        found = v;
-        sum += double(field[v]);
-        if (target < sum) break;
+/// Finds the voxels in which the cumulative sum passes targets, none below the one before it.
+class Inverse {
+public:
+    Inverse(Span<const float> field, const Grid& grid, Span<const double> start)
+        : field_(field), start_(start), nx_(std::size_t(grid.size[0])) {}
+
+    std::size_t find(double target) {
+        // Find the last row that begins at or before the target; rounding at the very end may pass
+        // beyond the last row that holds anything.
+        if (!begun_ || target >= start_[row_ + 1]) {
+            const double* from = start_.begin() + row_;
+            const double* above = std::upper_bound(from, start_.end(), target);
+            std::size_t row = std::size_t(above - start_.begin()) - 1;
+            row = std::min(row, start_.size - 2);
+            while (start_[row + 1] == start_[row]) --row;
+            if (!begun_ || row != row_) enter(row);
+        }
+        // Walk on along the row; keep the last voxel of positive weight for the same reason.
+        while (!(target < sum_) && next_ < (row_ + 1) * nx_) {
+            const float weight = field_[next_++];
+            if (!(weight > 0.0f)) continue;
+            found_ = next_ - 1;
+            sum_ += double(weight);
+        }
+        return found_;
     }
-    return found;
-}
+
+private:
+    void enter(std::size_t row) {
+        begun_ = true;
+        row_ = row;
+        sum_ = start_[row];
+        found_ = next_ = row * nx_;
+    }
+
+    Span<const float> field_;
+    Span<const double> start_;
+    std::size_t nx_;
+    bool begun_ = false;
+    std::size_t row_ = 0, next_ = 0, found_ = 0;
+    double sum_ = 0;
+};
 
 }  // namespace
 
@@ -90,15 +110,17 @@ Status sample_stratified(Span<const float> field, const FieldStats& stats,
     out.tries = options.count;
     const Key key = make_key(options.seed, options.stream, options.high);
     const double total = start[start.size() - 1], share = total / double(options.count);
-    for_each_sample(threads, options.count, [&](std::uint32_t s) {
-        const Words<std::uint32_t> u = threefry(key.k0, key.k1, s, 0u);
-        const Words<std::uint32_t> v = threefry(key.k0, key.k1, s, 1u);
-        const double target = (double(s) + double(u.a) * 0x1p-32) * share;
-        const std::size_t found = invert(field, grid, start.span(), target);
-        const std::size_t nx = std::size_t(grid.size[0]), ny = std::size_t(grid.size[1]);
-        const int voxel[3] = {int(found % nx), int(found / nx % ny), int(found / nx / ny)};
-        const std::uint32_t words[3] = {u.b, v.a, v.b};
-        out.samples[s] = make_sample(density, grid, voxel, words);
+    const std::size_t nx = std::size_t(grid.size[0]), ny = std::size_t(grid.size[1]);
+    for_each_chunk(threads, options.count, [&](std::uint32_t first, std::uint32_t last) {
+        Inverse inverse(field, grid, start.span());
+        for (std::uint32_t s = first; s < last; ++s) {
+            const Words<std::uint32_t> u = threefry(key.k0, key.k1, s, 0u);
+            const Words<std::uint32_t> v = threefry(key.k0, key.k1, s, 1u);
+            const std::size_t found = inverse.find((double(s) + double(u.a) * 0x1p-32) * share);
+            const int voxel[3] = {int(found % nx), int(found / nx % ny), int(found / nx / ny)};
+            const std::uint32_t words[3] = {u.b, v.a, v.b};
+            out.samples[s] = make_sample(density, grid, voxel, words);
+        }
     });
     return Status::ok();
 }
@@ -115,7 +137,7 @@ Status sample_rejection(Span<const float> field, const FieldStats& stats, Span<c
     PILEUS_TRY(tries.resize(options.count, "sampler: tries"));
     const Key key = make_key(options.seed, options.stream, options.high);
     const std::uint32_t limit = std::min(options.max_tries, 0x7fffffffu);
-    for_each_sample(threads, options.count, [&](std::uint32_t s) {
+    const auto draw = [&](std::uint32_t s) {
         for (std::uint32_t t = 0; t < limit; ++t) {
             const Words<std::uint32_t> u = threefry(key.k0, key.k1, s, 2u * t);
             const Words<std::uint32_t> v = threefry(key.k0, key.k1, s, 2u * t + 1u);
@@ -135,6 +157,9 @@ Status sample_rejection(Span<const float> field, const FieldStats& stats, Span<c
             return;
         }
         found[s].density = -1.0f;
+    };
+    for_each_chunk(threads, options.count, [&](std::uint32_t first, std::uint32_t last) {
+        for (std::uint32_t s = first; s < last; ++s) draw(s);
     });
     // Close the gaps that given-up samples leave, in the order of the samples.
     std::uint32_t kept = 0;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <utility>
 
 #include "platform/threads.h"
 #include "src/stages/prepare_leaf_list.h"
@@ -25,6 +26,32 @@ struct Split {
     double cost = 0;           ///< summed squared deviation of both halves
     double edge_m = 0;         ///< breaks ties: the longer edge is split
 };
+
+struct SortKey {
+    std::uint32_t bits, sample;
+};
+
+/// Lists the samples by coordinate, then by index: by the bits of the coordinate, which rise with
+/// any number >= 0, eleven at a time from the lowest. `keys` has room for 2 `count`.
+void sort_axis(const float* x, std::uint32_t count, SortKey* keys, std::uint32_t* order) {
+    constexpr int kBits = 11, kDigits = 3;
+    constexpr std::uint32_t kValues = 1u << kBits;
+    std::uint32_t start[kDigits][kValues] = {};
+    SortKey *from = keys, *to = keys + count;
+    for (std::uint32_t s = 0; s < count; ++s) {
+        std::memcpy(&from[s].bits, x + s, sizeof from[s].bits);
+        from[s].sample = s;
+        for (int d = 0; d < kDigits; ++d) ++start[d][from[s].bits >> (d * kBits) & (kValues - 1)];
+    }
+    for (int d = 0; d < kDigits; ++d) {
+        std::uint32_t sum = 0;
+        for (std::uint32_t& n : start[d]) n = std::exchange(sum, sum + n);
+        for (std::uint32_t s = 0; s < count; ++s)
+            to[start[d][from[s].bits >> (d * kBits) & (kValues - 1)]++] = from[s];
+        std::swap(from, to);
+    }
+    for (std::uint32_t s = 0; s < count; ++s) order[s] = from[s].sample;
+}
 
 /// The samples by axis, and the three lists of their indices sorted along each axis.
 class SampleLists {
@@ -48,28 +75,19 @@ private:
 Status SampleLists::sort(Span<const Sample> samples, int threads) {
     if (samples.size > 0x7fffffffu) return Status::limit("kD-tree: more than 2147483647 samples");
     count_ = std::uint32_t(samples.size);
-    Buffer<std::uint64_t> keys[3];
+    Buffer<SortKey> keys[3];
     PILEUS_TRY(density_.resize(count_, "kD-tree: densities of samples"));
     PILEUS_TRY(scratch_.resize(count_, "kD-tree: scratch"));
     PILEUS_TRY(upper_.resize(count_, "kD-tree: sides"));
     for (int a = 0; a < 3; ++a) {
         PILEUS_TRY(x_[a].resize(count_, "kD-tree: coordinates"));
         PILEUS_TRY(order_[a].resize(count_, "kD-tree: sorted samples"));
-        PILEUS_TRY(keys[a].resize(count_, "kD-tree: sort keys"));
+        PILEUS_TRY(keys[a].resize(2 * std::uint64_t(count_), "kD-tree: sort keys"));
     }
     for (std::uint32_t s = 0; s < count_; ++s) density_[s] = samples[s].density;
     parallel_for(threads, 3, [&](std::int64_t a, int) {
-        // Order by the coordinate's bits, which rise with any number >= 0, then by index.
-        std::uint64_t* key = keys[a].data();
-        for (std::uint32_t s = 0; s < count_; ++s) {
-            const float x = samples[s].x[a];
-            std::uint32_t bits;
-            std::memcpy(&bits, &x, sizeof bits);
-            x_[a][s] = x;
-            key[s] = (std::uint64_t(bits) << 32) | s;
-        }
-        std::sort(key, key + count_);
-        for (std::uint32_t s = 0; s < count_; ++s) order_[a][s] = std::uint32_t(key[s]);
+        for (std::uint32_t s = 0; s < count_; ++s) x_[a][s] = samples[s].x[a];
+        sort_axis(x_[a].data(), count_, keys[a].data(), order_[a].data());
     });
     return Status::ok();
 }

@@ -33,11 +33,13 @@ Prepared prepare_samples(const Field& f, Span<const Sample> samples, const TreeO
     p.leaf_of_voxel.assign(f.rho.size(), -7);
     const Span<double> m{p.masses.data(), p.masses.size()};
     voxel_masses(f.span(), f.grid, threads, m);
-    measure_leaves(f.span(), m, f.grid, threads, p.leaves.span());
+    Buffer<LeafMoments> moments;
+    REQUIRE(bool(moments.resize(p.leaves.size(), "moments")));
+    REQUIRE(bool(measure_leaves(f.span(), f.grid, threads, p.leaves.span(), moments.span())));
     const Span<std::int32_t> grid{p.leaf_of_voxel.data(), p.leaf_of_voxel.size()};
-    fill_leaf_grid(p.leaves.span(), f.grid, threads, grid);
-    REQUIRE(bool(place_collectors(options, m, f.grid, samples, grid, threads, p.leaves.span(),
-                                  p.collectors)));
+    fill_leaf_grid(p.leaves.span(), f.grid, threads, LeafLabel::kLeaf, grid);
+    REQUIRE(bool(place_collectors(options, moments.span(), f.grid, samples, grid, threads,
+                                  p.leaves.span(), p.collectors)));
     return p;
 }
 
