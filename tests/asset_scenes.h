@@ -24,7 +24,7 @@ inline std::vector<std::string> find(bool with_data) {
         if (entry.path().extension() != ".toml") continue;
         std::ostringstream text;
         text << std::ifstream(entry.path()).rdbuf();
-        const bool needs = text.str().find("density = \"${PILEUS_DATA_DIR}") != std::string::npos;
+        const bool needs = text.str().find("\"${PILEUS_DATA_DIR}") != std::string::npos;
         if (needs == with_data) found.push_back(entry.path().string());
     }
     std::sort(found.begin(), found.end());

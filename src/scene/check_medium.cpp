@@ -40,9 +40,9 @@ public:
             } else {
                 shape_keys(*density);
             }
+            grid_name();
         }
         extinction();
-        grid_name();
         phase();
         bounds();
     }
