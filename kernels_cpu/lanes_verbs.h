@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The three verbs that deserve an instruction: any, sqrt, gather. Elsewhere a loop over lanes.
+// The verbs that deserve an instruction: any, sqrt, gather, stream. Elsewhere a loop over lanes.
 // Every form gives the same bits: IEEE square root, exact loads.
 #pragma once
 #include "kernels_cpu/lanes.h"
@@ -60,6 +60,33 @@ PILEUS_FN std::int32_t count_bits(std::uint32_t v) {
     v = (v & 0x3333u) + ((v >> 2) & 0x3333u);
     v = (v + (v >> 4)) & 0x0f0fu;
     return std::int32_t((v + (v >> 8)) & 0x1fu);
+}
+
+/// Number of the lowest set bit; some bit is set.
+PILEUS_FN std::int32_t lowest_bit(std::uint32_t v) { return __builtin_ctz(v); }
+
+/// Asks for the memory at `at`, to be read soon; changes nothing.
+PILEUS_FN void prefetch_(const void* at) { __builtin_prefetch(at); }
+
+/// Stores past the caches at a place aligned to sizeof(T), for what is not read again soon.
+template <class T>
+PILEUS_FN void stream_(float* to, T v) {
+#if defined(__AVX512F__)
+    if constexpr (sizeof(T) == 64) return _mm512_stream_ps(to, (__m512)v);
+#endif
+#if defined(__AVX__)
+    if constexpr (sizeof(T) == 32) return _mm256_stream_ps(to, (__m256)v);
+#endif
+#if defined(__SSE2__)
+    if constexpr (sizeof(T) == 16) return _mm_stream_ps(to, (__m128)v);
+#endif
+    __builtin_memcpy(to, &v, sizeof(T));
+}
+/// Makes what was streamed visible to other threads before anything that follows.
+PILEUS_FN void end_stream() {
+#if defined(__SSE2__)
+    _mm_sfence();
+#endif
 }
 
 template <class T>

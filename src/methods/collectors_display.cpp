@@ -196,12 +196,17 @@ Status show_harmonics(const Context& context, CollectorsRun& run, const Reconstr
 Status show_billboards(const Context& context, const CollectorsRun& run,
                        const ReconstructInput& lit, const CollectorColours& colours, int channels,
                        Planes& planes) {
+    // Lend the planes' memory: they are blended where they will be read.
     BillboardImage out;
+    const auto exchange = [&] {
+        planes.transmittance.swap(out.transmittance);
+        planes.half_depth.swap(out.half_depth);
+        planes.colour.swap(out.colour);
+    };
+    exchange();
     PILEUS_TRY(collectors_billboards(context, run, lit.camera, colours, channels,
                                      planes.opaque_depth.data(), out));
-    planes.transmittance.swap(out.transmittance);
-    planes.half_depth.swap(out.half_depth);
-    planes.colour.swap(out.colour);
+    exchange();
     return Status::ok();
 }
 

@@ -124,12 +124,14 @@ void add_billboards(const CollectorsSizes& s, MemoryTable& t) {
     if (high > s.height) high = s.height;
     const Size tiles = ((s.width + wide - 1) / wide) * ((s.height + high - 1) / high);
     t.add("billboards", Stage::kDisplay, Stage::kDisplay,
-          bytes_of(s.collectors, 5 * kFloat + 2 * sizeof(BlendSphere) + 16));
+          bytes_of(s.collectors, 5 * kFloat + sizeof(BlendSphere) + 4 + 16));
     t.add("billboards of tiles", Stage::kDisplay, Stage::kDisplay,
           bytes_of(s.collectors, tiles, 4) + 16 * (tiles + 1));
     const Size row = (wide + 15) / 16 * 16;
-    t.add("planes of tiles", Stage::kDisplay, Stage::kDisplay,
-          bytes_of(kFloat * s.threads, row * (high * (Size(kBlendPlanes) + s.planes) + 2) + 16));
+    t.add(
+        "planes of tiles", Stage::kDisplay, Stage::kDisplay,
+        bytes_of(kFloat * s.threads,
+                 row * (high * (Size(kBlendPlanes) + s.planes) + 1 + 2 * kBlendBlock) + high + 16));
 }
 
 }  // namespace

@@ -9,17 +9,18 @@ namespace pileus {
 
 /// Lists as BlendBuffers wants them.
 struct BillboardLists {
-    Buffer<BlendSphere> spheres;
+    Buffer<BlendSphere> spheres;  ///< as numbered in the scene
+    Buffer<std::uint32_t> order;  ///< their places, front to back
     Buffer<std::uint64_t> tile_begin;
     Buffer<std::uint32_t> tile_spheres;
 };
 
-/// Fills `lists.spheres`, ordered by distance of the centre (along the view when orthographic)
-/// and then by index. kLimit: no memory.
+/// Fills `lists.spheres`, and `lists.order` by distance of the centre (along the view when
+/// orthographic) and then by index. kLimit: no memory.
 Status project_billboards(const BillboardScene& scene, const CameraParams& camera, int threads,
                           BillboardLists& lists);
 
-/// Fills the lists of the tiles with places in `lists.spheres`, ascending. kLimit: no memory.
+/// Fills the lists of the tiles with places in `lists.spheres`, front to back. kLimit: no memory.
 Status bin_billboards(const BlendParams& params, std::uint32_t tiles, BillboardLists& lists);
 
 }  // namespace pileus

@@ -74,7 +74,8 @@ BlendParams make_params(const BillboardScene& s, const CameraParams& c, const Bi
 
     // Keep the planes of one tile near half a mebibyte, a share of any second-level cache.
     constexpr std::int32_t kTileFloats = 1 << 17;
-    p.tile_width = t.width < c.width ? t.width : c.width;
+    p.tile_width = t.width < kMostTileWidth ? t.width : kMostTileWidth;
+    p.tile_width = p.tile_width < c.width ? p.tile_width : c.width;
     std::int32_t rows = kTileFloats / ((kBlendPlanes + s.channels) * p.tile_width);
     rows = rows < 1 ? 1 : rows > 32 ? 32 : rows;
     p.tile_height = t.height > 0 ? t.height : rows;
@@ -121,7 +122,7 @@ Status composite_billboards(const BillboardScene& scene, const CameraParams& cam
     // Lend each thread its own planes.
     Buffer<float> scratch;
     const std::uint64_t share =
-        (blend_scratch_floats(params) + kBlendAlign - 1) / kBlendAlign * kBlendAlign;
+        (blend_scratch_floats(params) + kBlendBlock - 1) / kBlendBlock * kBlendBlock;
     PILEUS_TRY(scratch.resize(share * std::uint64_t(threads), "planes of the tiles"));
     PILEUS_TRY(prepare_image(params, scene.half_depth, out));
     const BlendBuffers buffers{
