@@ -82,6 +82,7 @@ void register_accumulate_cases(Bench& bench);
 void register_path_cases(Bench& bench);
 void register_prepare_cases(Bench& bench);
 void register_frame_cases(Bench& bench);
+void register_blend_cases(Bench& bench);
 
 }  // namespace bench
 

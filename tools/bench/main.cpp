@@ -127,6 +127,7 @@ int main(int argc, char** argv) {
     bench::register_path_cases(bench);
     bench::register_prepare_cases(bench);
     bench::register_frame_cases(bench);
+    bench::register_blend_cases(bench);
     benchmark::RunSpecifiedBenchmarks();
     benchmark::Shutdown();
     return bench.failed() ? 1 : 0;
