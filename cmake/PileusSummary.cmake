@@ -5,7 +5,7 @@
 set(features "")
 message(STATUS "pileus ${PROJECT_VERSION}: ${CMAKE_BUILD_TYPE}, ${CMAKE_CXX_COMPILER_ID} "
     "${CMAKE_CXX_COMPILER_VERSION}, ${CMAKE_SYSTEM_PROCESSOR}")
-foreach(name OPENEXR PNG ZLIB BLOSC OPENMP TESTS BENCHMARKS)
+foreach(name OPENEXR PNG ZLIB BLOSC OSMESA EGL OPENMP TESTS BENCHMARKS)
     if(PILEUS_WITH_${name})
         set(state "yes")
     elseif(PILEUS_${name})

@@ -248,24 +248,42 @@ PILEUS_FN void add_source(const MarchParams& k, const MarchBuffers& b, const Vec
     for (int i = 0; i < 3; ++i) colour[i] = colour[i] + weight * source[i];
 }
 
-/// W pixels of one row, from pixel x on.
+/// Lanes hold a block of pixels, so many of each row: its rays stay together longer than a row's.
+template <int W>
+constexpr int kMarchAcross = W >= 8   ? 4
+                             : W >= 4 ? 2
+                                      : 1;
+
+/// Calls function(lane, pixel) for the lanes of a block from (x, y) on that lie in the picture,
+/// above row `end`.
+template <int W, class Function>
+PILEUS_FN void for_block(const CameraParams& c, std::int32_t x, std::int32_t y, std::int32_t end,
+                         Function function) {
+    constexpr int across = kMarchAcross<W>;
+    for (int l = 0; l < W; ++l)
+        if (x + l % across < c.width && y + l / across < end)
+            function(l, std::int64_t(y + l / across) * c.width + x + l % across);
+}
+
+/// W pixels, a block from column x and row y on, in rows before `end`.
 template <int W>
 PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::int32_t x,
-                            std::int32_t y) {
+                            std::int32_t y, std::int32_t end) {
     using T = F<W>;
     constexpr int kMost = 3 * 17;
-    const I<W> column = iota<I<W>>() + x;
-    const M<W> real = column < k.camera.width;
-    const std::int64_t first = std::int64_t(y) * k.camera.width + x;
+    const I<W> number = iota<I<W>>();
+    const I<W> column = number % kMarchAcross<W> + x, row = number / kMarchAcross<W> + y;
+    const M<W> real = (column < k.camera.width) & (row < end);
     const std::int64_t pixels = std::int64_t(k.camera.width) * k.camera.height;
-    const int lanes = k.camera.width - x < W ? k.camera.width - x : W;
 
-    const Ray<T> ray = camera_ray(k.camera, to_float(column), all<T>(float(y)));
+    const Ray<T> ray = camera_ray(k.camera, to_float(column), to_float(row));
     const Segment<T> box = clip_to_medium(k.medium, ray);
     T leave = box.leave;
     if (b.opaque_depth != nullptr) {
         T opaque{};
-        for (int l = 0; l < lanes; ++l) set_lane(opaque, l, b.opaque_depth[first + l]);
+        for_block<W>(k.camera, x, y, end, [&](int l, std::int64_t pixel) {
+            set_lane(opaque, l, b.opaque_depth[pixel]);
+        });
         leave = min_(leave, opaque);
     }
     leave = select(real, leave, box.enter);
@@ -307,20 +325,21 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
             transmittance = left;
             return transmittance < k.cut;
         });
-    for (int l = 0; l < lanes; ++l) {
-        b.transmittance[first + l] = lane(transmittance, l);
-        if (b.half_depth != nullptr) b.half_depth[first + l] = lane(half, l);
-        if (b.ray_depth != nullptr) b.ray_depth[first + l] = lane(depth, l);
-        for (int c = 0; c < k.channels; ++c) b.colour[c * pixels + first + l] = lane(colour[c], l);
-    }
+    for_block<W>(k.camera, x, y, end, [&](int l, std::int64_t pixel) {
+        b.transmittance[pixel] = lane(transmittance, l);
+        if (b.half_depth != nullptr) b.half_depth[pixel] = lane(half, l);
+        if (b.ray_depth != nullptr) b.ray_depth[pixel] = lane(depth, l);
+        for (int c = 0; c < k.channels; ++c) b.colour[c * pixels + pixel] = lane(colour[c], l);
+    });
 }
 
 template <int W>
 PILEUS_FN void march_rows(const MarchParams& k, const MarchBuffers& b, std::uint32_t begin,
                           std::uint32_t end) {
-    for (std::uint32_t y = begin; y < end; ++y)
-        for (std::int32_t x = 0; x < k.camera.width; x += W)
-            march_pixels<W>(k, b, x, std::int32_t(y));
+    constexpr int across = kMarchAcross<W>;
+    for (std::uint32_t y = begin; y < end; y += W / across)
+        for (std::int32_t x = 0; x < k.camera.width; x += across)
+            march_pixels<W>(k, b, x, std::int32_t(y), std::int32_t(end));
 }
 
 /// Light that the cloud scatters onto the ground at `at`; nothing is known beyond the map, which

@@ -3,6 +3,7 @@
 #include "src/methods/collectors.h"
 
 #include "src/plan/scene_limits.h"
+#include "src/stages/gl_billboards.h"
 #include "src/stages/mix_media.h"
 #include "src/stages/world.h"
 
@@ -233,6 +234,11 @@ Status collectors_load(const Scene& scene, std::int64_t photons, const Context& 
 
 Status collectors_prepare(const Scene& scene, std::int64_t photons, const Context& context,
                           CollectorsRun& run) {
+    // Tell before any work that the compositor asked for is not here.
+    if (scene.collectors.compositor != Compositor::kBuiltin) {
+        GlBlender blender;
+        PILEUS_TRY(open_gl_blender(scene.collectors.compositor, blender));
+    }
     PILEUS_TRY(collectors_load(scene, photons, context, run));
     note_plan(scene, run);
     PILEUS_TRY(collectors_measure(context, run));

@@ -5,6 +5,7 @@
 #include "src/methods/collectors_display.h"
 
 #include "src/methods/collectors_memory.h"
+#include "src/stages/gl_billboards.h"
 #include "src/stages/march_view.h"
 #include "src/stages/prepare_majorant.h"
 #include "src/stages/source_grid.h"
@@ -301,7 +302,13 @@ Status collectors_billboards(const Context& context, const CollectorsRun& run,
     scene.channels = channels;
     scene.opaque_depth = opaque_depth;
     scene.half_depth = run.scene->output.layer_depth;
-    return composite_billboards(scene, camera, context.threads, context.kernels->blend_tile, out);
+    const Compositor by = run.scene->collectors.compositor;
+    if (by == Compositor::kBuiltin)
+        return composite_billboards(scene, camera, context.threads, context.kernels->blend_tile,
+                                    out);
+    GlBlender blender;
+    PILEUS_TRY(open_gl_blender(by, blender));
+    return blend_by_gl(blender, scene, camera, context.threads, out);
 }
 
 void collectors_size_display(const CollectorsRun& run, CollectorsSizes& sizes) {

@@ -147,6 +147,21 @@ void check_periodic(SceneCheck& check) {
         refuse("collectors.closure", "\"camera\"", "sh, or an orthographic camera");
 }
 
+/// A foreign compositor draws billboards, and no depth, which needs their order.
+void check_compositor(SceneCheck& check) {
+    const CollectorSettings& settings = check.scene.collectors;
+    const Node* node = check.key("collectors.compositor");
+    if (settings.compositor == Compositor::kBuiltin || node == nullptr) return;
+    if (!settings.billboards)
+        check.faults.add(node->at, "collectors.compositor",
+                         "draws billboards only, " + value_text(*node) +
+                             ", allowed: builtin, or display = \"billboards\"");
+    if (check.scene.output.layer_depth)
+        check.faults.add(node->at, "collectors.compositor",
+                         "knows no layer depth, " + value_text(*node) +
+                             ", allowed: builtin, or layers without depth");
+}
+
 }  // namespace
 
 void check_scene(SceneCheck& check) {
@@ -163,6 +178,7 @@ void check_scene(SceneCheck& check) {
     fill_paper_defaults(check);
     for (std::size_t i = 0; i < scene.media.size(); ++i) check_medium(check, i);
     check_periodic(check);
+    check_compositor(check);
 }
 
 }  // namespace pileus

@@ -70,6 +70,15 @@ const KeyRow kRows[] =
                    [](const Node& n, KeyTarget t) {
                        t.scene.collectors.billboards = n.text == "billboards";
                    }),
+        choice_key(KeyKind::kText, "collectors.compositor", "\"builtin\"", "builtin|osmesa|egl",
+                   nullptr,
+                   "who blends billboards: pileus, or OpenGL by a foreign library, to compare; its "
+                   "pictures agree to a tolerance and have no promised bits",
+                   [](const Node& n, KeyTarget t) {
+                       t.scene.collectors.compositor = n.text == "osmesa" ? Compositor::kOsmesa
+                                                       : n.text == "egl"  ? Compositor::kEgl
+                                                                          : Compositor::kBuiltin;
+                   }),
         choice_key(KeyKind::kText, "collectors.sampler", "\"stratified\"", "stratified|rejection",
                    nullptr, "how the sample points are drawn",
                    [](const Node& n, KeyTarget t) {

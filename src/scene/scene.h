@@ -87,17 +87,21 @@ struct MediumSettings {
 /// Who adds to which sums: see src/plan/accumulation.h.
 enum class AccumulationChoice { kAuto, kPrivate, kShared };
 
+/// Who blends billboards: pileus itself, or OpenGL by a foreign library for comparison.
+enum class Compositor { kBuiltin, kOsmesa, kEgl };
+
 struct CollectorSettings {
     std::int64_t photons = 5'000'000;  ///< over the whole ring
     int generations = 50;
     int bands = 4;  ///< 1..8
     int samples = 20'000;
     bool local_tracking = true;
-    bool lobe_closure = false;       ///< closure = "lobe"
-    bool camera_closure = false;     ///< closure = "camera": cells lit towards a fixed camera
-    int cell_voxels = 2;             ///< edge of such a cell, voxels; 1..64
-    bool paper = false;              ///< variant = "paper"
-    bool billboards = false;         ///< display = "billboards"
+    bool lobe_closure = false;    ///< closure = "lobe"
+    bool camera_closure = false;  ///< closure = "camera": cells lit towards a fixed camera
+    int cell_voxels = 2;          ///< edge of such a cell, voxels; 1..64
+    bool paper = false;           ///< variant = "paper"
+    bool billboards = false;      ///< display = "billboards"
+    Compositor compositor = Compositor::kBuiltin;
     bool rejection_sampler = false;  ///< sampler = "rejection" (paper) or "stratified"
     bool variance_field = false;     ///< placement = "variance" or "gradient"
     int variance_radius = 2;         ///< voxels, 1..8

@@ -37,11 +37,9 @@ Status check_sphere(const BillboardScene& s, std::uint32_t i) {
     return Status::ok();
 }
 
-Status check_input(const BillboardScene& s, const CameraParams& c, const BillboardTiling& t) {
-    if (s.channels < 1 || s.channels > kMaxBlendChannels)
-        return Status::bad_input("billboards: channels: " + std::to_string(s.channels) +
-                                 ", allowed: 1 to " + std::to_string(kMaxBlendChannels));
-    constexpr std::int32_t kMaxSide = 1 << 20;
+constexpr std::int32_t kMaxSide = 1 << 20;
+
+Status check_camera(const CameraParams& c) {
     if (c.width < 1 || c.height < 1 || c.width > kMaxSide || c.height > kMaxSide)
         return Status::bad_input("camera: resolution: " + std::to_string(c.width) + " x " +
                                  std::to_string(c.height) + ", allowed: 1 to 1048576 each");
@@ -54,10 +52,13 @@ Status check_input(const BillboardScene& s, const CameraParams& c, const Billboa
         if (!std::isfinite(c.right[k] + c.up[k] + c.forward[k]))
             return Status::bad_input("camera: direction: allowed: finite, unit length");
     }
+    return Status::ok();
+}
+
+Status check_tiling(const BillboardTiling& t) {
     if (t.width < 1 || t.height < 0 || t.width > kMaxSide || t.height > kMaxSide)
         return Status::bad_input("billboards: tile: " + std::to_string(t.width) + " x " +
                                  std::to_string(t.height) + ", allowed: 1 to 1048576 each");
-    for (std::uint32_t i = 0; i < s.count; ++i) PILEUS_TRY(check_sphere(s, i));
     return Status::ok();
 }
 
@@ -103,10 +104,20 @@ Status prepare_image(const BlendParams& p, bool half_depth, BillboardImage& out)
 
 }  // namespace
 
+Status check_billboards(const BillboardScene& s, const CameraParams& c) {
+    if (s.channels < 1 || s.channels > kMaxBlendChannels)
+        return Status::bad_input("billboards: channels: " + std::to_string(s.channels) +
+                                 ", allowed: 1 to " + std::to_string(kMaxBlendChannels));
+    PILEUS_TRY(check_camera(c));
+    for (std::uint32_t i = 0; i < s.count; ++i) PILEUS_TRY(check_sphere(s, i));
+    return Status::ok();
+}
+
 Status composite_billboards(const BillboardScene& scene, const CameraParams& camera, int threads,
                             BlendFunction blend, BillboardImage& out,
                             const BillboardTiling& tiling) {
-    PILEUS_TRY(check_input(scene, camera, tiling));
+    PILEUS_TRY(check_billboards(scene, camera));
+    PILEUS_TRY(check_tiling(tiling));
     if (threads < 1) threads = hardware_threads();
     const BlendParams params = make_params(scene, camera, tiling);
     const std::int32_t tiles_y = (params.height + params.tile_height - 1) / params.tile_height;

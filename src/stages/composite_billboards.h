@@ -38,6 +38,9 @@ struct BillboardTiling {
     std::int32_t width = 256, height = 0;
 };
 
+/// kBadInput: a sphere, a number of channels or a camera out of range, the first fault named.
+Status check_billboards(const BillboardScene& scene, const CameraParams& camera);
+
 /// Blends all spheres. `threads` 0: all there are. `blend` is blend_tile at any width of lanes.
 /// Buffers of `out` that already fit are used again. kBadInput: a sphere or camera out of range,
 /// the first fault named; kLimit: no memory.

@@ -14,8 +14,9 @@ constexpr std::uint64_t kFloorPlanes = 5;       ///< transmittance, 1/|ray| and 
 
 struct BlendFloorWork {
     std::uint64_t pixels;  ///< to blend
-    std::uint64_t frame;   ///< floats to write to `image`; planes of a tile are read, again and again
-    float *tile, *image;   ///< kFloorPlanes planes of kFloorTile; `frame` floats
+    std::uint64_t
+        frame;  ///< floats to write to `image`; planes of a tile are read, again and again
+    float *tile, *image;  ///< kFloorPlanes planes of kFloorTile; `frame` floats
 };
 
 using BlendFloor = float (*)(const BlendFloorWork&);
