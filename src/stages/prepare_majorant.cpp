@@ -35,43 +35,71 @@ void raise(float* into, const float* from, std::size_t count) {
     for (std::size_t i = 0; i < count; ++i) into[i] = from[i] > into[i] ? from[i] : into[i];
 }
 
+/// The largest number in each block's footprint along a row of `size`.
+void raise_along(const float* row, int size, int block, int blocks, float* out) {
+    if (block == 1) {
+        const std::size_t rest = std::size_t(size) - 1;
+        std::copy(row, row + size, out);
+        raise(out, row + 1, rest);
+        raise(out + 1, row, rest);
+        return;
+    }
+    for (int b = 0; b < blocks; ++b) {
+        const Range xs = footprint(b, block, size);
+        float most = 0.0f;
+        for (int i = xs.begin; i < xs.end; ++i) most = row[i] > most ? row[i] : most;
+        out[b] = most;
+    }
+}
+
 /// Edges of block b along one axis, metres; the last block may be cut short.
 double block_edge_m(const Grid& grid, int axis, int block, int b) {
     const int voxels = std::min(block, grid.size[axis] - b * block);
     return double(voxels) * double(grid.cell_m[axis]);
 }
 
-/// Cost of one layer of blocks of constant z.
-double layer_cost(const Grid& grid, int block, int bz, const float* majorants, double sigma,
-                  const TrackingCosts& costs) {
+constexpr int kLayers = 4;  // sums of so many layers run side by side: none waits for its last
+
+/// Costs of up to kLayers layers of blocks of constant z, from layer `first` on.
+void layer_costs(const Grid& grid, int block, int first, int layers, Span<const float> majorants,
+                 double sigma, const TrackingCosts& costs, double* totals) {
     int n[3];
     block_counts(grid, block, n);
-    const double c = block_edge_m(grid, 2, block, bz);
-    double total = 0;
+    const std::size_t row = std::size_t(n[0]), layer = row * std::size_t(n[1]);
+    double total[kLayers] = {};
     for (int by = 0; by < n[1]; ++by) {
         const double b = block_edge_m(grid, 1, block, by);
-        for (int bx = 0; bx < n[0]; ++bx) {
-            const double a = block_edge_m(grid, 0, block, bx);
-            const double quarter_surface = 0.5 * (a * b + b * c + c * a);
-            const double majorant =
-                double(majorants[std::size_t(by) * std::size_t(n[0]) + std::size_t(bx)]);
-            total +=
-                sigma * majorant * (a * b * c) * costs.tentative + quarter_surface * costs.crossing;
+        // All blocks of a row but the last have the same edges.
+        for (int part = 0; part < 2; ++part) {
+            const int begin = part == 0 ? 0 : n[0] - 1, end = part == 0 ? n[0] - 1 : n[0];
+            const double a = block_edge_m(grid, 0, block, begin);
+            double volume[kLayers], crossings[kLayers];
+            const float* from[kLayers];
+            for (int l = 0; l < kLayers; ++l) {
+                const int bz = first + (l < layers ? l : 0);
+                const double c = block_edge_m(grid, 2, block, bz);
+                volume[l] = a * b * c;
+                crossings[l] = 0.5 * (a * b + b * c + c * a) * costs.crossing;
+                from[l] = majorants.data + layer * std::size_t(bz) + row * std::size_t(by);
+            }
+            for (int bx = begin; bx < end; ++bx)
+                for (int l = 0; l < kLayers; ++l)
+                    total[l] +=
+                        sigma * double(from[l][bx]) * volume[l] * costs.tentative + crossings[l];
         }
     }
-    return total;
+    for (int l = 0; l < layers; ++l) totals[l] = total[l];
 }
 
 Status predicted_cost(const Grid& grid, int block, Span<const float> majorants, double sigma,
                       const TrackingCosts& costs, int threads, double& total) {
     int n[3];
     block_counts(grid, block, n);
-    const std::size_t layer = std::size_t(n[0]) * std::size_t(n[1]);
     Buffer<double> parts;
     PILEUS_TRY(parts.resize(std::uint64_t(n[2]), "majorants: costs"));
-    parallel_for(threads, n[2], [&](std::int64_t bz, int) {
-        parts[std::size_t(bz)] = layer_cost(grid, block, int(bz),
-                                            majorants.data + layer * std::size_t(bz), sigma, costs);
+    parallel_for(threads, (n[2] + kLayers - 1) / kLayers, [&](std::int64_t piece, int) {
+        const int first = int(piece) * kLayers, layers = std::min(kLayers, n[2] - first);
+        layer_costs(grid, block, first, layers, majorants, sigma, costs, parts.data() + first);
     });
     total = 0;
     for (double part : parts.span()) total += part;
@@ -138,13 +166,10 @@ Status majorant_grid(Span<const float> density, const Grid& grid, int block, int
             float* out =
                 majorants.data() +
                 (std::size_t(bz) * std::size_t(n[1]) + std::size_t(by)) * std::size_t(n[0]);
-            for (int bx = 0; bx < n[0]; ++bx) {
-                const Range xs = footprint(bx, block, grid.size[0]);
-                out[bx] = *std::max_element(row + xs.begin, row + xs.end);
-                const Beyond side = beyond(grid, bx, block, 0);
-                for (int i : {side.low, side.high})
-                    if (i >= 0) out[bx] = std::max(out[bx], row[i]);
-            }
+            raise_along(row, grid.size[0], block, n[0], out);
+            const Beyond first = beyond(grid, 0, block, 0), last = beyond(grid, n[0] - 1, block, 0);
+            if (first.low >= 0) out[0] = std::max(out[0], row[first.low]);
+            if (last.high >= 0) out[n[0] - 1] = std::max(out[n[0] - 1], row[last.high]);
         }
     });
     return Status::ok();

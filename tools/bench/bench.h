@@ -33,6 +33,10 @@ public:
     ReadyScene* prepared(benchmark::State& state, const std::string& name,
                          const Overrides& overrides);
 
+    /// The same, made anew and owned by the caller.
+    std::unique_ptr<ReadyScene> fresh(benchmark::State& state, const std::string& name,
+                                      const Overrides& overrides);
+
     /// Reads a scene without preparing it; false as above.
     bool read(benchmark::State& state, const std::string& name, const Overrides& overrides,
               pileus::Scene& scene);
@@ -68,6 +72,12 @@ void count_stages(benchmark::State& state, const pileus::Report& report);
 /// Digest of the sums and of the ledger of all lights.
 std::uint64_t photon_digest(const pileus::CollectorsRun& run);
 
+/// Digest of every number the preparation made.
+std::uint64_t prepared_digest(const pileus::Prepared& prepared);
+
+/// Digest of the pixels.
+std::uint64_t image_digest(const pileus::Image& image);
+
 /// Context with that many threads and that table.
 pileus::Context with(const pileus::Context& context, const pileus::KernelTable* kernels,
                      int threads);
@@ -81,6 +91,7 @@ void register_trace_cases(Bench& bench);
 void register_accumulate_cases(Bench& bench);
 void register_path_cases(Bench& bench);
 void register_prepare_cases(Bench& bench);
+void register_growth_cases(Bench& bench);
 void register_frame_cases(Bench& bench);
 void register_blend_cases(Bench& bench);
 

@@ -7,6 +7,7 @@
 #include "platform/fp_mode.h"
 #include "src/api/render.h"
 #include "src/base/digest.h"
+#include "src/io/image_file.h"
 #include "src/scene/read_scene.h"
 #include "tools/bench/bench.h"
 
@@ -51,6 +52,12 @@ ReadyScene* Bench::prepared(benchmark::State& state, const std::string& name,
     for (const std::string& o : overrides) key += " " + o;
     std::unique_ptr<ReadyScene>& slot = prepared_[key];
     if (slot != nullptr) return slot.get();
+    slot = fresh(state, name, overrides);
+    return slot.get();
+}
+
+std::unique_ptr<ReadyScene> Bench::fresh(benchmark::State& state, const std::string& name,
+                                         const Overrides& overrides) {
     auto made = std::make_unique<ReadyScene>();
     made->context.kernels = kernel_table(nullptr);
     made->context.threads = hardware_threads();
@@ -59,8 +66,7 @@ ReadyScene* Bench::prepared(benchmark::State& state, const std::string& name,
     if (!passed(state, collectors_prepare(made->scene, made->scene.collectors.photons,
                                           made->context, made->run)))
         return nullptr;
-    slot = std::move(made);
-    return slot.get();
+    return made;
 }
 
 void Bench::check(benchmark::State& state, const std::string& work, std::uint64_t digest) {
@@ -107,6 +113,24 @@ std::uint64_t photon_digest(const CollectorsRun& run) {
     return digest.value();
 }
 
+std::uint64_t prepared_digest(const pileus::Prepared& p) {
+    Digest digest;
+    for (const Collector& c : p.collectors.span()) {
+        digest.floats({c.centre, 3});
+        for (float v : {c.radius, c.billboard_radius, c.extinction}) digest.f32(v);
+    }
+    for (std::int32_t v : p.collector_of_voxel.span()) digest.u32(std::uint32_t(v));
+    digest.floats(p.majorants.span());
+    digest.floats(p.skip_majorants.span());
+    return digest.value();
+}
+
+std::uint64_t image_digest(const Image& image) {
+    Digest digest;
+    for (char c : pixel_hash(image)) digest.byte(std::uint8_t(c));
+    return digest.value();
+}
+
 Context with(const Context& context, const KernelTable* kernels, int threads) {
     Context other = context;
     other.kernels = kernels;
@@ -126,6 +150,7 @@ int main(int argc, char** argv) {
     bench::register_accumulate_cases(bench);
     bench::register_path_cases(bench);
     bench::register_prepare_cases(bench);
+    bench::register_growth_cases(bench);
     bench::register_frame_cases(bench);
     bench::register_blend_cases(bench);
     benchmark::RunSpecifiedBenchmarks();

@@ -2,7 +2,6 @@
 // Preparation: everything between the density and the photons, by cloud and number of samples.
 // in: a cloud read once -> out: CPU ms of all stages together and of each, digest checked.
 // docs: README.md in this folder. The time column is CPU time of the stages, not of the digest.
-#include "src/base/digest.h"
 #include "tools/bench/bench.h"
 
 namespace bench {
@@ -17,19 +16,6 @@ struct PrepareCase {
 };
 
 const Stages kStages = {"gradient", "samples", "tree", "collectors", "majorants"};
-
-/// Every number the preparation made.
-std::uint64_t prepared_digest(const pileus::Prepared& p) {
-    Digest digest;
-    for (const Collector& c : p.collectors.span()) {
-        digest.floats({c.centre, 3});
-        for (float v : {c.radius, c.billboard_radius, c.extinction}) digest.f32(v);
-    }
-    for (std::int32_t v : p.collector_of_voxel.span()) digest.u32(std::uint32_t(v));
-    digest.floats(p.majorants.span());
-    digest.floats(p.skip_majorants.span());
-    return digest.value();
-}
 
 void run_prepare(benchmark::State& state, Bench& bench, const PrepareCase& which) {
     ReadyScene* p = bench.prepared(state, which.scene, {});

@@ -7,6 +7,7 @@
     name = part[4]
     manual = name ~ /\/manual_time$/
     sub(/\/(manual|process)_time$/, "", name)
+    sub(/\/iterations:1$/, "", name)
     skip = 0
     next
 }
