@@ -20,11 +20,17 @@ endif()
 set(CMAKE_CXX_FLAGS_RELEASE "-O2 -DNDEBUG")
 
 # Turn on for every file: warnings, and arithmetic exactly as written.
+set(contract off)
+if(PILEUS_FREE_ARITHMETIC)
+    # What the promise of equal bits forbids: docs/performance.md, "What determinism costs".
+    message(WARNING "PILEUS_FREE_ARITHMETIC: for timing only, the bits are not those of pileus")
+    set(contract fast)
+endif()
 add_library(pileus_flags INTERFACE)
 target_include_directories(pileus_flags INTERFACE "${PROJECT_SOURCE_DIR}")
 target_compile_options(pileus_flags INTERFACE
     -Wall -Wextra -Wpedantic -Wshadow -Wno-psabi
-    -ffp-contract=off -fno-math-errno -fno-trapping-math)
+    -ffp-contract=${contract} -fno-math-errno -fno-trapping-math)
 
 # Sanitizers confuse GCC's flow analysis, so their build reports warnings without stopping.
 if(PILEUS_SANITIZE)

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// A small fixed set of work, each piece inside `counted`, for an instruction counter to see.
+// in: nothing -> out: one line per piece, in the order of the calls; exit 1 when one fails.
+// Read with README.md, "Counts": tools/bench/counts runs it under callgrind.
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "platform/fp_mode.h"
+#include "src/methods/collectors.h"
+#include "src/scene/read_scene.h"
+#include "src/stages/path.h"
+#include "src/stages/view.h"
+
+namespace {
+
+using namespace pileus;
+
+/// What a piece of work needs, and how it ended.
+struct Piece {
+    const Scene* scene;
+    Context context;
+    CollectorsRun* run;
+    Film* film;
+    PathScratch* scratch;
+    Status status = Status::ok();
+};
+
+void prepare(Piece& p) {
+    Prepared out;
+    p.status =
+        prepare_collectors(p.run->medium, p.scene->collectors, p.scene->seed, p.context, out);
+    if (p.status) p.status = prepare_majorants(p.run->medium, true, p.context, out);
+}
+void trace(Piece& p) { p.status = collectors_shoot(p.context, *p.run); }
+void show(Piece& p) {
+    Image image;
+    p.status = collectors_show(0, p.context, *p.run, image);
+}
+PathInput path_input(const Piece& p) {
+    PathInput in;
+    in.medium = &p.run->medium;
+    in.lighting = &p.run->lighting;
+    in.majorants = p.run->prepared.majorants.span();
+    in.block = p.run->prepared.block;
+    in.camera = make_camera(p.scene->camera, 0, p.run->medium.low_m);
+    in.seed = std::uint64_t(p.scene->seed);
+    in.kernels = p.context.kernels;
+    in.threads = 1;
+    return in;
+}
+void path(Piece& p) { p.status = trace_paths(path_input(p), 2, *p.scratch, *p.film); }
+
+}  // namespace
+
+/// What the counter counts, dump by dump.
+extern "C" __attribute__((noinline)) void counted(void (*work)(Piece&), Piece& piece) {
+    work(piece);
+    // Nothing may be moved past the end.
+    __asm__ volatile("" ::: "memory");
+}
+
+namespace {
+
+Status ready(const char* display, Scene& scene, Piece& p) {
+    const std::vector<std::string> overrides = {"medium.0.resolution=[40,40,40]",
+                                                "collectors.samples=1500",
+                                                "collectors.photons=1500",
+                                                "collectors.generations=1",
+                                                "camera.resolution=[48,40]",
+                                                "output.layers=[\"radiance\", \"alpha\"]",
+                                                std::string("collectors.display=") + display};
+    PILEUS_TRY(read_scene_file(PILEUS_COUNTS_SCENE, overrides, scene));
+    p.scene = &scene;
+    return collectors_prepare(scene, scene.collectors.photons, p.context, *p.run);
+}
+
+Status count_piece(const char* name, const char* isa, void (*work)(Piece&), Piece& p) {
+    counted(work, p);
+    PILEUS_TRY(p.status);
+    std::printf("%s %s\n", name, isa);
+    return Status::ok();
+}
+
+/// All pieces that depend on the instruction set.
+Status count_kernels(const KernelTable* kernels) {
+    Report report;
+    for (const char* display : {"march", "billboards"}) {
+        const bool marched = display[0] == 'm';
+        Scene scene;
+        CollectorsRun run;
+        Film film;
+        PathScratch scratch;
+        Piece p{&scene, Context{}, &run, &film, &scratch};
+        p.context.kernels = kernels;
+        p.context.report = &report;
+        PILEUS_TRY(ready(display, scene, p));
+        if (marched && kernels == kernel_table_at(0))
+            PILEUS_TRY(count_piece("prepare", "any", prepare, p));
+        if (marched)
+            PILEUS_TRY(count_piece("trace", kernels->name, trace, p));
+        else
+            PILEUS_TRY(collectors_shoot(p.context, run));
+        PILEUS_TRY(count_piece(marched ? "march" : "blend", kernels->name, show, p));
+        if (!marched) continue;
+        const PathInput in = path_input(p);
+        PILEUS_TRY(prepare_path(in, scratch));
+        PILEUS_TRY(make_film(in, film));
+        PILEUS_TRY(count_piece("path", kernels->name, path, p));
+    }
+    return Status::ok();
+}
+
+}  // namespace
+
+int main() {
+    const FpModeGuard guard;
+    for (const char* name : {"scalar", "sse2", "avx2"}) {
+        const KernelTable* kernels = kernel_table(name);
+        if (kernels == nullptr) continue;
+        const Status status = count_kernels(kernels);
+        if (status) continue;
+        std::fprintf(stderr, "%s\n", status.message.c_str());
+        return 1;
+    }
+    return 0;
+}
