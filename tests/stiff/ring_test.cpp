@@ -103,7 +103,7 @@ TEST_CASE("S63: a ring of one generation and a still sun gives frames that diffe
     CHECK(hashes(lone, 0, 0)[0] == hashes(still, 0, 0)[0]);
 }
 
-TEST_CASE("S65: the caller's rounding and flushing modes change no bit, and come back") {
+TEST_CASE("S65: the caller's rounding, flushing and traps change no bit, and come back") {
     for (const char* display : kDisplays) {
         const Scene scene = bent_scene(animated(display, {"medium.0.extinction_per_m=1e-5"}));
         const std::string plain = hashes(scene, 0, 0)[0];
@@ -123,6 +123,12 @@ TEST_CASE("S65: the caller's rounding and flushing modes change no bit, and come
         _mm_setcsr(before);
         CHECK(flushed == plain);
         CHECK((after & 0x8040u) == 0x8040u);
+        _mm_setcsr(before & ~0x1fbfu);  // every trap unmasked, no flag raised
+        const std::string trapped = hashes(scene, 0, 0)[0];
+        const unsigned armed = _mm_getcsr();
+        _mm_setcsr(before);
+        CHECK(trapped == plain);
+        CHECK((armed & 0x1f80u) == 0u);
 #endif
     }
 }

@@ -10,6 +10,7 @@
 #include <exception>
 #include <new>
 
+#include "platform/fp_mode.h"
 #include "src/api/render.h"
 #include "src/scene/toml_tree.h"
 #include "tools/pileus/command.h"
@@ -84,6 +85,8 @@ void on_exit() {
 }
 
 int run(int count, char** words) {
+    // What the parent left of rounding, flushing and traps must not reach our own times and texts.
+    const FpModeGuard guard;
     CLI::App app("Renders clouds, the same bits on every machine.", "pileus");
     Chosen chosen;
     app.set_version_flag("--version", std::string("pileus ") + kVersion);

@@ -10,6 +10,8 @@
 
 namespace pileus {
 
+constexpr std::int64_t kMostThreads = 1024;  ///< of option --threads
+
 /// A whole number in decimal digits within [low, high]; else kBadInput.
 Status read_integer(const char* option, const std::string& text, std::int64_t low,
                     std::int64_t high, std::int64_t& value);

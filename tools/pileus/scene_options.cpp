@@ -16,7 +16,6 @@ namespace pileus {
 
 namespace {
 
-constexpr std::int64_t kMostThreads = 1024;
 constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kMostSamples = std::int64_t{1} << 32;
 constexpr double kMostSeconds = 1e9;

@@ -26,8 +26,6 @@ namespace pileus {
 
 namespace {
 
-constexpr std::int64_t kMostThreads = 1024;
-
 struct StudyArguments {
     std::string file;
     std::optional<std::string> folder, references, threads, isa, program;
