@@ -82,7 +82,7 @@ std::string dump(const Scene& scene) {
     s << k.rejection_sampler << k.variance_field << ' ' << k.variance_radius << ' ';
     s << k.density_range << ' ' << k.influence_radius << ' ' << k.radius_factor << ' ';
     s << k.axis_degrees << ' ' << k.first_order_split << k.window << k.camera_closure
-      << int(k.accumulation) << ' ' << k.cell_voxels << '\n'
+      << int(k.accumulation) << int(k.compositor) << ' ' << k.cell_voxels << '\n'
       << scene.path.samples_per_pixel << ' ' << scene.path.max_depth << scene.path.centre << ' '
       << scene.path.target_error << ' ' << scene.path.max_samples_per_pixel << '\n';
     const OutputSettings& o = scene.output;
@@ -172,6 +172,7 @@ radius_factor = 2
 first_order_split = true
 window = true
 accumulation = "shared"
+compositor = "builtin"
 [path]
 samples_per_pixel = 5
 max_depth = 6
@@ -207,7 +208,7 @@ TEST_CASE("every key of a full scene reaches its field") {
         "4 c.vdb openvdb smoke 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 1 5 0 0 0 1 0 "
         "10.699999999999999 0\n"
         "4 d.vdb openvdb fog 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 1 5 0 0 0 1 0 4.5 0\n"
-        "collectors 2000000 7 5 11 011001 3 0.5 1 2 3 1102 4\n"
+        "collectors 2000000 7 5 11 011001 3 0.5 1 2 3 11020 4\n"
         "5 61 0.5 7\n"
         "x.exr y.pfm r.json 1111111\n"
         "1 12 11 0 90 35 5 ");
