@@ -66,6 +66,9 @@ using Stages = std::vector<const char*>;
 /// CPU seconds of the stages of these names so far.
 double stage_cpu(const pileus::Report& report, const Stages& stages);
 
+/// Wall seconds of the same.
+double stage_wall(const pileus::Report& report, const Stages& stages);
+
 /// One counter NAME_ms per stage: CPU milliseconds.
 void count_stages(benchmark::State& state, const pileus::Report& report);
 
@@ -91,6 +94,7 @@ void register_trace_cases(Bench& bench);
 void register_accumulate_cases(Bench& bench);
 void register_path_cases(Bench& bench);
 void register_prepare_cases(Bench& bench);
+void register_math_cases(Bench& bench);
 void register_growth_cases(Bench& bench);
 void register_frame_cases(Bench& bench);
 void register_blend_cases(Bench& bench);

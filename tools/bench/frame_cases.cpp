@@ -2,14 +2,25 @@
 // Display: CPU time of the stages that make one frame, of the default cloud.
 // in: lit scenes -> out: ms per frame and stage, digests checked.
 // docs: README.md in this folder. The time column is the CPU time of the named stages only.
+#include <algorithm>
+
+#include "kernels_cpu/camera.h"
+#include "kernels_cpu/medium.h"
+#include "platform/clock.h"
 #include "src/base/digest.h"
 #include "src/io/image_file.h"
+#include "src/stages/march_view.h"
+#include "src/stages/view.h"
 #include "tools/bench/bench.h"
+#include "tools/bench/lane_floor.h"
 
 namespace bench {
 namespace {
 
 using namespace pileus;
+
+/// Of the default camera at 1920 x 1080, in the middle of the cloud.
+constexpr float kPixelVoxels = 0.18f;
 
 /// What one case of the display is.
 struct FrameCase {
@@ -31,6 +42,64 @@ ReadyScene* lit(benchmark::State& state, Bench& bench, const FrameCase& which) {
     return bench.passed(state, collectors_shoot(p->context, p->run)) ? p : nullptr;
 }
 
+/// Samples in blocks that hold anything, until a ray is opaque: of every sixteenth pixel, times 16.
+std::uint64_t marched_samples(const CollectorsRun& run, const CameraParams& camera) {
+    const MediumView m = make_medium_view(run.medium, run.prepared);
+    std::uint64_t samples = 0;
+    for (int y = 0; y < camera.height; y += 4)
+        for (int x = 0; x < camera.width; x += 4) {
+            const Ray<float> ray = camera_ray(camera, float(x), float(y));
+            const Segment<float> box = clip_to_box(ray.origin, ray.direction, m.extent);
+            float left = 1;
+            for (float t = box.enter + 0.5f * m.step; t < box.leave && left >= 0x1p-10f;
+                 t += m.step) {
+                const float place[3] = {ray.origin.x + t * ray.direction.x,
+                                        ray.origin.y + t * ray.direction.y,
+                                        ray.origin.z + t * ray.direction.z};
+                std::int64_t voxel = 0, block = 0;
+                for (int a = 2; a >= 0; --a) {
+                    const int v = std::min(std::max(int(place[a] / m.cell[a]), 0), m.size[a] - 1);
+                    voxel = voxel * m.size[a] + v;
+                    block = block * m.blocks[a] + int(float(v) / m.block);
+                }
+                if (!(m.majorant[block] > 0)) continue;
+                samples += 16;
+                left *= exp_(-m.density[voxel] * m.sigma * m.step);
+            }
+        }
+    return samples;
+}
+
+/// Times over the floor of the same stage, fastest of five; 0 where there is none.
+double floor_ms(const FrameCase& which, const KernelTable* kernels, const ReadyScene& p) {
+    const LaneFloors* floors = lane_floors(kernels->name);
+    const CollectorsRun& run = p.run;
+    if (floors == nullptr || (which.name[0] != 'm' && which.name[0] != 'r')) return 0;
+    const CameraParams camera = make_camera(p.scene.camera, 0, run.medium.low_m);
+    const auto grid = [](const int(&n)[3], const float* values) {
+        return FloorGrid{{n[0], n[1], n[2]}, values};
+    };
+    const NodeGrid& nodes = run.shadow_nodes;
+    const std::vector<float> source(3 * run.shadow.size(), 0.25f);
+    const MarchFloorWork march{which.name[0] == 'm' ? marched_samples(run, camera) : 0,
+                               grid(run.medium.grid.size, run.medium.volume.density.data()),
+                               grid(nodes.size, run.shadow.data()), grid(nodes.size, source.data()),
+                               kPixelVoxels};
+    const Buffer<std::int64_t>& sums = run.photons.slots[0].sums;
+    const std::uint64_t numbers = std::uint64_t(run.deposit.coefficients);
+    const ReconstructFloorWork reconstruct{sums.data(), sums.size() / numbers, numbers};
+    double best = 1e30;
+    for (int i = 0; i < 5; ++i) {
+        const double start = cpu_seconds();
+        if (which.name[0] == 'm')
+            benchmark::DoNotOptimize(floors->march(march));
+        else
+            benchmark::DoNotOptimize(floors->reconstruct(reconstruct));
+        best = std::min(best, (cpu_seconds() - start) * 1e3);
+    }
+    return best;
+}
+
 void run_frame(benchmark::State& state, Bench& bench, const FrameCase& which,
                const KernelTable* kernels, int threads) {
     ReadyScene* p = lit(state, bench, which);
@@ -38,12 +107,16 @@ void run_frame(benchmark::State& state, Bench& bench, const FrameCase& which,
     Report report;
     Context context = with(p->context, kernels, threads);
     context.report = &report;
+    double fastest = 1e30, wall = 1e30;
     for (auto _ : state) {
         report = Report{};
         if (which.shadow) p->run.shadow_ready = false;
         Image image;
         if (!bench.passed(state, collectors_show(0, context, p->run, image))) return;
-        state.SetIterationTime(stage_cpu(report, which.stages));
+        const double took = stage_cpu(report, which.stages);
+        state.SetIterationTime(took);
+        fastest = std::min(fastest, took);
+        wall = std::min(wall, stage_wall(report, which.stages));
         Digest digest;
         for (char c : pixel_hash(image)) digest.byte(std::uint8_t(c));
         digest.floats(p->run.shadow.span());
@@ -51,6 +124,9 @@ void run_frame(benchmark::State& state, Bench& bench, const FrameCase& which,
     }
     // The last frame's other stages, for the whole picture.
     count_stages(state, report);
+    state.counters["wall_ms"] = wall * 1e3;
+    const double floor = threads == 1 ? floor_ms(which, kernels, *p) : 0;
+    if (floor > 0) state.counters["times_floor"] = fastest * 1e3 / floor;
 }
 
 }  // namespace
@@ -61,6 +137,8 @@ void register_frame_cases(Bench& bench) {
     const FrameCase cases[] = {
         {"shadow", {few, march}, {"shadow"}, true, true},
         {"reconstruct", {few, march}, {"reconstruct"}, false, false},
+        {"splat", {few, march}, {"splat"}, false, false},
+        {"background/1920x1080", {full, march}, {"background"}, false, true},
         {"march/1920x1080", {full, march}, {"march"}, false, true},
         {"blend/1920x1080", {full, blend}, {"blend"}, false, true},
     };

@@ -94,6 +94,14 @@ double stage_cpu(const Report& report, const Stages& stages) {
     return sum;
 }
 
+double stage_wall(const Report& report, const Stages& stages) {
+    double sum = 0;
+    for (const StageTime& s : report.stages)
+        for (const char* stage : stages)
+            if (s.name == stage) sum += s.wall_s;
+    return sum;
+}
+
 void count_stages(benchmark::State& state, const Report& report) {
     for (const StageTime& s : report.stages) state.counters[s.name + "_ms"] = s.cpu_s * 1e3;
 }
@@ -150,6 +158,7 @@ int main(int argc, char** argv) {
     bench::register_accumulate_cases(bench);
     bench::register_path_cases(bench);
     bench::register_prepare_cases(bench);
+    bench::register_math_cases(bench);
     bench::register_growth_cases(bench);
     bench::register_frame_cases(bench);
     bench::register_blend_cases(bench);

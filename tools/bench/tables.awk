@@ -65,7 +65,7 @@ function by_isa(pattern, first, scale, second, i, k, n, isa, cell, name, mark) {
     print "|---|---|---|---|---|"
     for (i = 1; i <= count; i++) {
         name = cases[i]
-        if (name !~ pattern || name ~ /\/(scalar|sse2|avx2|avx512|threads:[0-9]+)$/) continue
+        if (name !~ pattern || name ~ /\/(scalar|sse2|avx2|avx512|osmesa|egl|threads:[0-9]+)$/) continue
         printf "| `%s` |", name
         for (k = 1; k <= n; k++) {
             cell = name "/" isa[k]
@@ -145,6 +145,9 @@ END {
             "time*1 gradient_ms*1 samples_ms*1 tree_ms*1 collectors_ms*1 majorants_ms*1 collectors*1",
             "| | all | gradient | samples | tree | collectors | majorants | number of collectors |")
     if (table == "display") by_isa("^(shadow|splat|reconstruct|march|background|blend)", "time", 1, "times_floor")
+    if (table == "composites")
+        counters("^blend/(1k|8k|30k)/", "best_ms*1 best_wall_ms*1 times_floor*1",
+            "| | ms of CPU | ms of wall | times its floor |")
     if (table == "math") by_isa("^math/", "s/value", 1e9, "times_libm")
     if (table == "growth") growth()
 }

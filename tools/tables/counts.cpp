@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A small fixed set of work, each piece inside `counted`, for an instruction counter to see.
 // in: nothing -> out: one line per piece, in the order of the calls; exit 1 when one fails.
-// Read with README.md, "Counts": tools/bench/counts runs it under callgrind.
+// Read with tools/bench/README.md, "Counts": tools/bench/counts runs it under callgrind.
 #include <cstdio>
 #include <string>
 #include <vector>
@@ -15,6 +15,9 @@
 namespace {
 
 using namespace pileus;
+
+/// Read from the folder of the sources, where tools/bench/counts runs.
+constexpr const char* kScene = "assets/studies/scenes/cumulus128.toml";
 
 /// What a piece of work needs, and how it ended.
 struct Piece {
@@ -70,7 +73,7 @@ Status ready(const char* display, Scene& scene, Piece& p) {
                                                 "camera.resolution=[48,40]",
                                                 "output.layers=[\"radiance\", \"alpha\"]",
                                                 std::string("collectors.display=") + display};
-    PILEUS_TRY(read_scene_file(PILEUS_COUNTS_SCENE, overrides, scene));
+    PILEUS_TRY(read_scene_file(kScene, overrides, scene));
     p.scene = &scene;
     return collectors_prepare(scene, scene.collectors.photons, p.context, *p.run);
 }
