@@ -98,8 +98,9 @@ void draw(const GlApi& gl, const CameraParams& c, const Buffer<float>& instances
     gl.BufferData(kArrayBuffer, long(instances.bytes()), instances.data(), kStreamDraw);
     for (unsigned i = 0; i < unsigned(kVectors); ++i) {
         gl.EnableVertexAttribArray(i);
-        gl.VertexAttribPointer(i, 4, kFloat, 0, kFloats * int(sizeof(float)),
-                               static_cast<const char*>(nullptr) + i * 4 * sizeof(float));
+        gl.VertexAttribPointer(
+            i, 4, kFloat, 0, kFloats * int(sizeof(float)),
+            reinterpret_cast<const void*>(std::uintptr_t{i} * 4 * sizeof(float)));
         gl.VertexAttribDivisor(i, 1);
     }
     gl.Viewport(0, 0, c.width, c.height);

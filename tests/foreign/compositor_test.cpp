@@ -11,6 +11,7 @@
 
 #include "kernels_cpu/kernels.h"
 #include "kernels_cpu/rng.h"
+#include "src/scene/read_scene.h"
 #include "src/stages/gl_billboards.h"
 
 using namespace pileus;
@@ -122,4 +123,24 @@ TEST_CASE("compositor: OSMesa blends what the built-in blender blends") {
 
 TEST_CASE("compositor: EGL without a surface blends what the built-in blender blends") {
     compare_all(Compositor::kEgl, "EGL");
+}
+
+TEST_CASE("compositor: refused where it cannot show what the scene asks for") {
+    const std::string camera = "[camera]\nposition_m = [0, -9, 5]\ntarget_m = [0, 0, 5]\n";
+    const auto read = [&](const std::string& text, Scene& scene) {
+        return read_scene_text(camera + text, "s.toml", "", {}, scene);
+    };
+    Scene scene;
+    CHECK(bool(read("[collectors]\ndisplay = \"billboards\"\ncompositor = \"egl\"\n", scene)));
+    CHECK(scene.collectors.compositor == Compositor::kEgl);
+    CHECK(
+        read("[collectors]\ncompositor = \"osmesa\"\n", scene).message ==
+        "s.toml:5:14: collectors.compositor: draws billboards only, \"osmesa\", allowed: builtin, "
+        "or display = \"billboards\"");
+    CHECK(read("[collectors]\ndisplay = \"billboards\"\ncompositor = \"egl\"\n"
+               "[output]\nlayers = [\"radiance\", \"depth\"]\n",
+               scene)
+              .message ==
+          "s.toml:6:14: collectors.compositor: knows no layer depth, \"egl\", "
+          "allowed: builtin, or layers without depth");
 }
