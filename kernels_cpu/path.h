@@ -4,7 +4,7 @@
 // docs/path.md; null-collision tracking and the look-up as in docs/methods.md 2.
 // Paths and shadow rays are both walks on one grid, so that lanes of either kind share each step.
 #pragma once
-#include "kernels_cpu/path_vertex.h"
+#include "kernels_cpu/path_start.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
@@ -17,91 +17,21 @@ template <int W, int NC>
 struct PathGroup {
     PathLanes<W, NC> s;
     M<W> hits;      // arrived at a tentative collision
-    F<W> bound;     // majorant there
     I<W> corner;    // the look-up's voxel
     Words<U<W>> w;  // of the look-up and the next free flight
 };
-
-/// Begin the path of launch sample `sample` in lane i, with a ray of the camera.
-template <int W, int NC>
-PILEUS_FN void begin_paths(PathLanes<W, NC>& s, const PathParams& k, M<W> m, F<W> x, F<W> y) {
-    using T = F<W>;
-    s.event = select(m, U<W>{}, s.event);
-    const Words<U<W>> w = draw(s, k, m), aim = draw(s, k, m);
-    if (k.jitter != 0) {
-        x = x + (uniform(w.a) - 0.5f);
-        y = y + (uniform(w.b) - 0.5f);
-    }
-    const Ray<T> ray = camera_ray(k.camera, x, y);
-    Vec<T> d = ray.direction;
-    if (k.camera.flux != 0) {
-        const Lambert<T> l = lambert(aim);
-        const auto mix = [&](int a) {
-            return l.a * k.camera.right[a] + l.b * k.camera.up[a] + l.normal * k.camera.forward[a];
-        };
-        d = normalized(Vec<T>{mix(0), mix(1), mix(2)});
-    }
-    s.vertex = {select(m, ray.origin.x, s.vertex.x), select(m, ray.origin.y, s.vertex.y),
-                select(m, ray.origin.z, s.vertex.z)};
-    s.next = {select(m, d.x, s.next.x), select(m, d.y, s.next.y), select(m, d.z, s.next.z)};
-    for (int c = 0; c < NC; ++c) s.beta[c] = select(m, all<T>(1.0f), s.beta[c]);
-    for (T& sum : s.sum) sum = select(m, T{}, sum);
-    s.order = select(m, I<W>{}, s.order);
-    s.bounces = select(m, I<W>{}, s.bounces);
-    s.flight = select(m, all<I<W>>(kFlightPath), s.flight);
-    s.alive = s.alive | m;
-    s.outside = s.outside | m;
-    s.cloud = s.cloud & lnot(m);
-}
-
-/// Give the lanes of `idle` the next samples; returns those that began.
-template <int W, int NC>
-PILEUS_FN M<W> refill_paths(PathLanes<W, NC>& s, const PathParams& k, PathTally& tally,
-                            std::uint32_t idle, std::uint32_t& next, std::uint32_t end) {
-    const U<W> lanes = reinterpret<U<W>>(iota<I<W>>());
-    M<W> fresh = s.alive & lnot(s.alive);
-    F<W> x{}, y{};
-    const std::uint32_t width = std::uint32_t(k.camera.width);
-    for (; idle != 0 && next < end; idle &= idle - 1, ++next) {
-        const int i = __builtin_ctz(idle);
-        const std::uint32_t pixel = k.first_pixel + next / k.per_pixel;
-        const std::uint32_t sample = k.first_sample + next % k.per_pixel;
-        set_lane(s.number, i, sample * k.pixels + pixel);
-        set_lane(s.sample, i, next);
-        set_lane(x, i, float(std::int32_t(pixel % width)));
-        set_lane(y, i, float(std::int32_t(pixel / width)));
-        fresh = fresh | (lanes == std::uint32_t(i));
-    }
-    if (!any(fresh)) return fresh;
-    tally.paths += count_bits(bits_of(fresh));
-    begin_paths(s, k, fresh, x, y);
-    return fresh;
-}
 
 /// Store the radiance of paths that have ended.
 template <int W, int NC>
 PILEUS_FN void store_paths(const PathLanes<W, NC>& s, const PathParams& k, const PathBuffers& b,
                            std::uint32_t lanes) {
-    const float unit = k.camera.flux != 0 ? kPi : 1.0f;
-    const int count = k.parts_wanted != 0 ? 3 * kPathParts : 3;
-    for (; lanes != 0; lanes &= lanes - 1) {
-        const int i = __builtin_ctz(lanes);
-        float* out = b.radiance + lane(s.sample, i);
-        bool finite = true;
-        for (int c = 0; c < count; ++c) {
-            const float v = lane(s.sum[c], i) * unit;
-            finite = finite && v - v == 0.0f;
-        }
-        for (int c = 0; c < count; ++c)
-            out[std::uint64_t(c) * b.stride] = finite ? lane(s.sum[c], i) * unit : 0.0f;
-        if (!finite) ++b.tally->nan;
-    }
+    store_radiance<W>(s.sum, k.parts_wanted != 0 ? 3 * kPathParts : 3, s.sample, k, b, lanes);
 }
 
 /// Serve the lanes whose flights have ended, begin new paths, and send them all on.
 template <int W, int NC>
-PILEUS_FN void serve(PathLanes<W, NC>& s, const PathParams& k, const PathBuffers& b,
-                     std::uint32_t& next, std::uint32_t end) {
+PILEUS_FN void serve(PathLanes<W, NC>& s, FreshPaths<W>& fresh, const PathParams& k,
+                     const PathBuffers& b, std::uint32_t& next, std::uint32_t end) {
     constexpr std::uint32_t kFull = (1u << W) - 1u;
     const std::uint32_t before = bits_of(s.alive);
     PathTally& tally = *b.tally;
@@ -115,66 +45,89 @@ PILEUS_FN void serve(PathLanes<W, NC>& s, const PathParams& k, const PathBuffers
     }
     if (any(s.out)) due = due | leave_media(s, k, tally, s.out);
     thin_out(s, k, due);
-    store_paths(s, k, b, before & ~bits_of(s.alive));
-    due = (due & s.alive) | refill_paths(s, k, tally, ~bits_of(s.alive) & kFull, next, end);
+    due = due & s.alive;
     if (any(due)) launch(s, k, tally, due);
+    store_paths(s, k, b, before & ~bits_of(s.alive));
+    refill_paths(s, fresh, k, b, ~bits_of(s.alive) & kFull, next, end);
 }
 
-/// Move every flight to its next tentative collision or block border.
+/// Borders that a flight may cross before all that have come to a collision are looked after.
+constexpr int kHopsPerTurn = 2;
+
+/// Move every flight to its next tentative collision, or some borders on towards it.
 template <int W, int NC>
 PILEUS_FN void advance_paths(PathGroup<W, NC>& g, const PathParams& k, const PathBuffers& b) {
     PathLanes<W, NC>& s = g.s;
-    const M<W> flying = s.alive & lnot(waiting(s));
-    const Stride<W> m = stride(s, k.grid, k.grid.majorant, flying);
-    g.hits = m.hits;
-    g.bound = m.bound;
     const M<W> path = s.flight == kFlightPath;
-    if (any(m.hops)) {
+    M<W> flying = s.alive & lnot(waiting(s));
+    g.hits = flying & lnot(flying);
+    for (int hop = 0; hop < kHopsPerTurn && any(flying); ++hop) {
+        const Step<W> m = step_flight(s, k.grid, flying);
+        g.hits = g.hits | m.hits;
         b.tally->crossings += count_bits(bits_of(m.hops));
-        const M<W> out = cross(s, k.grid, m).out;
-        s.out = s.out | (out & path);
-        s.lit = s.lit | (out & lnot(path));
+        s.out = s.out | (m.out & path);
+        s.lit = s.lit | (m.out & lnot(path));
+        flying = m.hops & lnot(m.out);
     }
-    if (!any(m.hits)) return;
-    b.tally->tentative += count_bits(bits_of(m.hits));
-    b.tally->shadow_tentative += count_bits(bits_of(m.hits & lnot(path)));
+    if (!any(g.hits)) return;
+    b.tally->tentative += count_bits(bits_of(g.hits));
+    b.tally->shadow_tentative += count_bits(bits_of(g.hits & lnot(path)));
     // One look-up stands for eight: acceptance and transmittance are linear in density.
     g.w = threefry(k.key.k0, k.key.k1, s.number, s.event);
-    g.corner = select(m.hits, corner_voxel(s.p, g.w.b, k.grid), I<W>{});
-    for (std::uint32_t lanes = bits_of(m.hits); lanes != 0; lanes &= lanes - 1)
+    const Vec<F<W>> p = place_of(s);
+    s.p = {select(g.hits, p.x, s.p.x), select(g.hits, p.y, s.p.y), select(g.hits, p.z, s.p.z)};
+    g.corner = select(g.hits, corner_voxel(s.p, g.w.b, k.grid), I<W>{});
+    for (std::uint32_t lanes = bits_of(g.hits); lanes != 0; lanes &= lanes - 1)
         __builtin_prefetch(k.grid.density + lane(g.corner, __builtin_ctz(lanes)));
 }
 
-/// Tentative collisions: paths meet the medium or pass, shadow rays lose a share.
+/// Shadow rays of the lanes of `rays` lose the share `density` / bound of their light, and end by
+/// luck once little is left; `luck` is 0, 1/256 ... 255/256.
+template <int W, int NC>
+PILEUS_FN void dim_rays(PathGroup<W, NC>& g, M<W> rays, F<W> density, F<W> luck) {
+    using T = F<W>;
+    PathLanes<W, NC>& s = g.s;
+    // Carry the rounding: a million collisions in thin air would add theirs up.
+    const T share = min_(density / s.bound, all<T>(1.0f));
+    const T lost = s.carry - (s.seen + s.carry) * share;
+    const T seen = s.seen + lost;
+    s.carry = select(rays, lost - (seen - s.seen), s.carry);
+    s.seen = select(rays, seen, s.seen);
+    const M<W> low = rays & (s.seen < kShadowRoulette);
+    if (!any(low)) return;
+    const T chance = whole_chance(s.seen * (1.0f / kShadowRoulette), 256.0f);
+    const M<W> survives = low & (s.seen > 0.0f) & (luck < chance);
+    s.seen = select(low, select(survives, s.seen / chance, T{}), s.seen);
+    s.carry = select(low, T{}, s.carry);
+    s.lit = s.lit | (low & lnot(survives));
+}
+
+/// Tentative collisions: paths meet the medium or pass, shadow rays lose a share. The draw's first
+/// word is the next free flight but for eight bits, which decide what happens here; where they do
+/// not, and once in 2^24 flights, the next draw has more.
 template <int W, int NC>
 PILEUS_FN void collide_paths(PathGroup<W, NC>& g, const PathParams& k, const PathBuffers& b) {
     using T = F<W>;
     PathLanes<W, NC>& s = g.s;
     const T density = gather(k.grid.density, g.corner);
-    const M<W> over = g.hits & (density > g.bound);
+    const M<W> over = g.hits & (density > s.bound);
     if (any(over)) b.tally->majorant_violations += count_bits(bits_of(over));
-    s.tau = select(g.hits, free_flight(g.w.a, g.w.b), s.tau);
-    const Words<U<W>> luck = threefry(k.key.k0, k.key.k1, s.number, s.event + 1u);
-    s.event = select(g.hits, s.event + 2u, s.event);
-    const M<W> path = s.flight == kFlightPath;
-
-    const M<W> rays = g.hits & lnot(path);
-    if (any(rays)) {
-        // Carry the rounding: a million collisions in thin air would add theirs up.
-        const T share = min_(density / g.bound, all<T>(1.0f));
-        const T lost = s.carry - (s.seen + s.carry) * share;
-        const T seen = s.seen + lost;
-        s.carry = select(rays, lost - (seen - s.seen), s.carry);
-        s.seen = select(rays, seen, s.seen);
-        const M<W> low = rays & (s.seen < kShadowRoulette);
-        const M<W> survives = low & (uniform(luck.a) * kShadowRoulette < s.seen);
-        s.seen = select(low, select(survives, all<T>(kShadowRoulette), T{}), s.seen);
-        s.carry = select(low, T{}, s.carry);
-        s.lit = s.lit | (low & lnot(survives));
+    const M<W> path = g.hits & (s.flight == kFlightPath), rays = g.hits & lnot(path);
+    const T luck = to_float(reinterpret<I<W>>(g.w.a & 0xffu)) * 0x1p-8f;
+    T level = luck * s.bound;
+    M<W> open = path & (level < density);
+    if (k.media <= 1) open = open & ((luck + 0x1p-8f) * s.bound > density);
+    const M<W> tail = g.hits & ((g.w.a >> 8) == 0u);
+    Words<U<W>> more{};
+    if (any(open | tail)) {
+        more = threefry(k.key.k0, k.key.k1, s.number, s.event + 1u);
+        level = select(open, (luck + uniform(more.a) * 0x1p-8f) * s.bound, level);
     }
+    s.tau = select(g.hits, free_flight((g.w.a & 0xffffff00u) | (more.b & 0xffu), more.b), s.tau);
+    s.event = select(g.hits, s.event + 2u, s.event);
+    if (any(rays)) dim_rays(g, rays, density, luck);
 
-    const T level = uniform(luck.a) * g.bound;
-    const M<W> real = g.hits & path & (level < density);
+    const M<W> real = path & (level < density);
     if (k.media > 1 && any(real)) {
         // Below the density the level is uniform still: it falls to each medium by its share.
         const std::int64_t voxels = std::int64_t(k.grid.size[0]) * k.grid.size[1] * k.grid.size[2];
@@ -193,7 +146,7 @@ PILEUS_FN void collide_paths(PathGroup<W, NC>& g, const PathParams& k, const Pat
 /// Whether to serve the lanes now: results belong to samples, so the moment is free.
 template <int W, int NC>
 PILEUS_FN bool worth_serving(const PathLanes<W, NC>& s) {
-    constexpr int kFew = W * 3 / 8 > 1 ? W * 3 / 8 : 1;
+    constexpr int kFew = W / 2 > 1 ? W / 2 : 1;
     const std::uint32_t flying = bits_of(s.alive & lnot(waiting(s)));
     return W - count_bits(flying) >= kFew;
 }
@@ -201,17 +154,24 @@ PILEUS_FN bool worth_serving(const PathLanes<W, NC>& s) {
 template <int W, int NC>
 PILEUS_FN void trace_path_lanes(const PathParams& k, const PathBuffers& b, std::uint32_t begin,
                                 std::uint32_t end) {
+    // Lanes without a path stand at rest in the box: they are carried along by all that follows.
+    const auto rest = [&](Flight<W>& f) {
+        const F<W> middle = all<F<W>>(0.5f);
+        f.d.z = all<F<W>>(1.0f);
+        begin_flight(f, k.grid, iota<I<W>>() >= 0, {middle, middle, middle});
+    };
+    FreshPaths<W> fresh{};
+    rest(fresh.flight);
     PathGroup<W, NC> groups[kPathGroups] = {};
     for (PathGroup<W, NC>& g : groups) {
-        g.s.p = {all<F<W>>(0.5f), all<F<W>>(0.5f), all<F<W>>(0.5f)};
-        g.s.d.z = g.s.inverse.x = g.s.inverse.y = g.s.inverse.z = all<F<W>>(1.0f);
+        rest(g.s);
         g.s.next = g.s.to_map = g.s.d;
     }
     std::uint32_t next = begin;
     for (bool busy = true; busy;) {
         busy = false;
         for (PathGroup<W, NC>& g : groups) {
-            if (worth_serving(g.s)) serve(g.s, k, b, next, end);
+            if (worth_serving(g.s)) serve(g.s, fresh, k, b, next, end);
             busy |= any(g.s.alive);
             advance_paths(g, k, b);
         }

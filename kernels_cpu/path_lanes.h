@@ -3,8 +3,8 @@
 // in: vertices and directions -> out: walkers in the grid; sums of radiance.
 // docs/path.md: a path and its shadow rays take turns in one lane.
 #pragma once
+#include "kernels_cpu/flight.h"
 #include "kernels_cpu/path_params.h"
-#include "kernels_cpu/walk.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
@@ -16,16 +16,13 @@ constexpr std::int32_t kFlightMap = 2;   ///< a shadow ray towards a point of th
 
 /// Paths of less weight play Russian roulette: survive as twice this, with less than half a chance.
 constexpr float kPathRoulette = 1.0f / 8.0f;
-/// The same for a shadow ray's transmittance, which survives as this.
+/// The same for a shadow ray's transmittance, which survives as about this.
 constexpr float kShadowRoulette = 1.0f / 16.0f;
-
-/// And for rays towards the sun that bring less than this per irradiance, 1/sr: 1.6 times what an
-/// isotropic medium would (measured: docs/path.md, "Costs").
-constexpr float kSunRoulette = 1.0f / 8.0f;
 
 /// A path per lane. A flight that has ended waits until its lane is served.
 template <int W, int NC>
-struct PathLanes : Walker<W> {
+struct PathLanes : Flight<W> {
+    Vec<F<W>> p;               // last tentative collision, voxels
     F<W> beta[NC];             // light at the camera per light that leaves the last vertex
     F<W> sum[3 * kPathParts];  // radiance so far
     U<W> number, event;        // of the path; its next draw
@@ -38,6 +35,7 @@ struct PathLanes : Walker<W> {
     Vec<F<W>> next, to_map;    // directions: of the path's next flight; drawn from the map
     F<W> next_density;         // per steradian, of the path's own direction
     F<W> map_shade;            // of the flight towards the map
+    M<W> mapped;               // such a flight is due
     M<W> alive, outside;       // outside: the vertex need not lie in the box
     M<W> met, lit, out;        // waiting: collision; shadow ray ended; left the box
     M<W> cloud;                // the first vertex was in the media
@@ -71,6 +69,19 @@ PILEUS_FN Words<U<W>> draw(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
     const Words<U<W>> w = threefry(k.key.k0, k.key.k1, s.number, s.event);
     s.event = select(m, s.event + 1u, s.event);
     return w;
+}
+
+/// The 16 bits of two words that `uniform` leaves unused.
+template <class UU>
+PILEUS_FN UU spare_bits(const Words<UU>& w) {
+    return ((w.a & 0xffu) << 8) | (w.b & 0xffu);
+}
+
+/// A chance rounded up to whole multiples of 1/`steps`: met exactly by `bits < chance * steps`
+/// with random bits 0 .. steps - 1, so that what survives may be divided by it without a bias.
+template <class T>
+PILEUS_FN T whole_chance(T chance, float steps) {
+    return min_(to_float(to_int(chance * steps) + 1) * (1.0f / steps), all<T>(1.0f));
 }
 
 /// Add `share` of `light` that the lanes of `m` found at the end of their path.
@@ -112,6 +123,27 @@ PILEUS_FN Vec<F<W>> enter_box(const PathParams& k, const Vec<F<W>>& origin, cons
     return {inside(origin.x, d.x, 0), inside(origin.y, d.y, 1), inside(origin.z, d.z, 2)};
 }
 
+/// Begin the flights of the lanes of `m` at `from`: voxels, or metres where it lies `outside`.
+/// Returns the lanes that miss the box, which stay where they are.
+template <int W>
+PILEUS_FN M<W> send_flights(Flight<W>& w, const PathParams& k, M<W> m, const Vec<F<W>>& from,
+                            M<W> outside) {
+    M<W> hit = m;
+    Vec<F<W>> p = from;
+    if (any(m & outside)) {
+        // The flight's own direction: it is never quite level in a periodic medium.
+        const Vec<F<W>> entry = enter_box<W>(k, from, w.d, hit);
+        hit = hit | (m & lnot(outside));
+        p = {select(outside, entry.x, p.x), select(outside, entry.y, p.y),
+             select(outside, entry.z, p.z)};
+    }
+    const F<W> middle = all<F<W>>(0.5f);
+    w.lift = select(m, F<W>{}, w.lift);
+    begin_flight(w, k.grid, hit,
+                 {select(hit, p.x, middle), select(hit, p.y, middle), select(hit, p.z, middle)});
+    return m & lnot(hit);
+}
+
 /// Paths that go on from the lanes of `m` survive by luck once they are light: keeps the mean,
 /// saves the flights that would bring little.
 template <int W, int NC>
@@ -131,7 +163,8 @@ PILEUS_FN void thin_out(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
     end_paths(s, low & lnot(survives));
 }
 
-/// Send the lanes of `m` from their vertex on the flight that each is due.
+/// Send the lanes of `m` from their vertex on the flight that each is due. The optical depth to go
+/// is what the last flight had left, or drew where it ended: the exponential has no memory.
 template <int W, int NC>
 PILEUS_FN void launch(PathLanes<W, NC>& s, const PathParams& k, PathTally& tally, M<W> m) {
     using T = F<W>;
@@ -139,30 +172,14 @@ PILEUS_FN void launch(PathLanes<W, NC>& s, const PathParams& k, PathTally& tally
     const auto aim = [&](float sun, T map, T next) {
         return select(path, next, select(to_sun, all<T>(sun), map));
     };
-    const Vec<T> d{aim(k.to_sun[0], s.to_map.x, s.next.x), aim(k.to_sun[1], s.to_map.y, s.next.y),
-                   aim(k.to_sun[2], s.to_map.z, s.next.z)};
-    set_direction(s, k.grid, m, d);
-
-    M<W> hit = m;
-    Vec<T> p = s.vertex;
-    if (any(m & s.outside)) {
-        // The walker's own direction: it is never quite level in a periodic medium.
-        const Vec<T> entry = enter_box<W>(k, s.vertex, s.d, hit);
-        const M<W> inside = m & lnot(s.outside);
-        hit = hit | inside;
-        p = {select(inside, p.x, entry.x), select(inside, p.y, entry.y),
-             select(inside, p.z, entry.z)};
-    }
-    const T middle = all<T>(0.5f);
-    set_position(s, k.grid, hit,
-                 {select(hit, p.x, middle), select(hit, p.y, middle), select(hit, p.z, middle)});
-    const Words<U<W>> w = draw(s, k, hit);
-    s.tau = select(hit, free_flight(w.a, w.b), s.tau);
-    s.seen = select(m, all<T>(1.0f), s.seen);
-    s.carry = select(m, T{}, s.carry);
-    const M<W> missed = m & lnot(hit);
+    aim_flight(s, k.grid, m,
+               {aim(k.to_sun[0], s.to_map.x, s.next.x), aim(k.to_sun[1], s.to_map.y, s.next.y),
+                aim(k.to_sun[2], s.to_map.z, s.next.z)});
+    const M<W> missed = send_flights<W>(s, k, m, s.vertex, s.outside);
     s.out = s.out | (missed & path);
     s.lit = s.lit | (missed & lnot(path));
+    s.seen = select(m, all<T>(1.0f), s.seen);
+    s.carry = select(m, T{}, s.carry);
     tally.shadow_rays += count_bits(bits_of(m & lnot(path)));
 }
 

@@ -20,8 +20,12 @@ enum PathPart : std::int32_t {
 };
 constexpr int kPathParts = 4;
 
+/// Shadow rays that bring less than this per irradiance, 1/sr, play Russian roulette: 1.6 times
+/// what an isotropic medium would bring (measured: docs/path.md, "Costs").
+constexpr float kLightRoulette = 1.0f / 8.0f;
+
 struct PathParams {
-    TrackGrid grid;
+    TrackGrid grid;         ///< majorants of src/stages/path_blocks.h
     float extent[3];        ///< box edges, m
     std::int32_t channels;  ///< 1 (achromatic media) or 3
     std::int32_t media;     ///< on the grid, 1..kMostMedia
@@ -49,6 +53,7 @@ struct PathParams {
     /// first_sample + s % per_pixel; number * pixels fits 32 bits.
     std::uint32_t first_pixel, first_sample, per_pixel;
     std::int32_t parts_wanted;  ///< 0: the total alone is stored
+    float light_roulette;       ///< kLightRoulette; 0: every shadow ray flies
 };
 
 /// Sums of integers, so that threads and chunks can be added in any order.

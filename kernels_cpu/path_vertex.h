@@ -19,40 +19,48 @@ PILEUS_FN void for_media(const PathLanes<W, NC>& s, const PathParams& k, M<W> m,
     }
 }
 
-/// Of the shadow rays towards the sun from the lanes of `m`, leave out by luck those that would
-/// bring little, and let the others bring theirs; rays of the first vertex, which carry the
-/// picture's detail, are all kept. Returns the lanes that fly.
+/// Of the shadow rays that leave the lanes of `m`, leave out by luck those that would bring little:
+/// `value`, per steradian, for each unit of irradiance that the light could give. The others bring
+/// theirs, `shade` is raised. Rays of the first vertex, which carry the picture's detail, are all
+/// kept. `spare` are 16 random bits. Returns the lanes that fly.
 template <int W, int NC>
-PILEUS_FN M<W> thin_out_sun(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
+PILEUS_FN M<W> thin_out_rays(const PathLanes<W, NC>& s, const PathParams& k, M<W> m, F<W> value,
+                             U<W> spare, F<W>& shade) {
     using T = F<W>;
-    const T chance = heaviest(s) * s.shade * (1.0f / kSunRoulette);
-    const M<W> low = m & (chance < 1.0f) & (s.order + s.bounces > 1);
+    constexpr float kSteps = 0x1p16f;
+    const M<W> low = m & (heaviest(s) * value < k.light_roulette) & (s.order + s.bounces > 1);
     if (!any(low)) return m;
-    const M<W> lost = low & lnot(uniform(draw(s, k, low).a) < chance);
-    s.shade = select(low, s.shade / max_(chance, all<T>(1e-30f)), s.shade);
+    const T least = select(low, heaviest(s) * value, T{}) * (1.0f / k.light_roulette);
+    const T chance = whole_chance(least, kSteps);
+    const M<W> lost = low & lnot(to_float(reinterpret<I<W>>(spare)) < chance * kSteps);
+    shade = select(low, shade / chance, shade);
     return m & lnot(lost);
 }
 
-/// Choose the first flight from a new vertex: the sun's, the map's or the path's own.
+/// Choose the first flight from a new vertex: the sun's, the map's or the path's own. The lanes of
+/// `mapped` have a ray to the map.
 template <int W, int NC>
-PILEUS_FN void first_flight(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
-    const std::int32_t after = k.map.columns > 0 ? kFlightMap : kFlightPath;
+PILEUS_FN void first_flight(PathLanes<W, NC>& s, const PathParams& k, M<W> m, M<W> mapped,
+                            U<W> spare) {
     M<W> sun = m & (s.shade > 0.0f);
-    if (k.sunlit != 0) sun = thin_out_sun(s, k, sun);
-    s.flight = select(m, all<I<W>>(after), s.flight);
+    if (k.sunlit != 0) sun = thin_out_rays(s, k, sun, s.shade, spare, s.shade);
+    s.flight = select(m, all<I<W>>(kFlightPath), s.flight);
+    s.flight = select(mapped, all<I<W>>(kFlightMap), s.flight);
+    s.mapped = (s.mapped & lnot(m)) | mapped;
     if (k.sunlit != 0) s.flight = select(sun, all<I<W>>(kFlightSun), s.flight);
-    const M<W> mapped = m & (s.flight == kFlightMap);
+    mapped = m & (s.flight == kFlightMap);
     s.shade = select(mapped, s.map_shade, s.shade);
 }
 
-/// Draw a direction towards the map for the lanes of `m`.
+/// Draw a direction towards the map for the lanes of `m`; returns 16 random bits that are left.
 template <int W, int NC>
-PILEUS_FN void aim_at_map(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
+PILEUS_FN U<W> aim_at_map(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
     const Words<U<W>> texel = draw(s, k, m), place = draw(s, k, m);
     const Vec<F<W>> d = draw_sky<F<W>>(k.map, k.sampler, texel, place);
     s.to_map.x = select(m, d.x, s.to_map.x);
     s.to_map.y = select(m, d.y, s.to_map.y);
     s.to_map.z = select(m, d.z, s.to_map.z);
+    return spare_bits(place);
 }
 
 /// Value over the sum of both densities: what the balance heuristic makes of a light's share, as
@@ -60,6 +68,18 @@ PILEUS_FN void aim_at_map(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
 template <class T>
 PILEUS_FN T balanced(T own, T other) {
     return own / max_(own + other, all<T>(1e-30f));
+}
+
+/// Weigh the ray to the map, drawn where a path's own turn has the density `own`, and choose the
+/// lanes of `m` in which it flies.
+template <int W, int NC>
+PILEUS_FN M<W> map_rays(PathLanes<W, NC>& s, const PathParams& k, M<W> m, F<W> own, U<W> spare) {
+    const F<W> other = sky_density(k.map, k.sampler, s.to_map);
+    F<W> shade = balanced(own, other);
+    // The map's light, all of it, times the density of this direction is its radiance.
+    const M<W> mapped = thin_out_rays(s, k, m & (shade > 0.0f), shade * other, spare, shade);
+    s.map_shade = select(m, shade, s.map_shade);
+    return mapped;
 }
 
 /// Real collisions in the lanes of `m`.
@@ -81,9 +101,10 @@ PILEUS_FN void scatter_path(PathLanes<W, NC>& s, const PathParams& k, PathTally&
     const Vec<T> sun{all<T>(k.to_sun[0]), all<T>(k.to_sun[1]), all<T>(k.to_sun[2])};
     const T to_sun = one_minus_cosine(s.d, sun);
     const bool map = k.map.columns > 0;
-    T to_map{};
+    T to_map{}, to_map_density{};
+    U<W> map_luck{};
     if (map) {
-        aim_at_map(s, k, m);
+        map_luck = aim_at_map(s, k, m);
         to_map = one_minus_cosine(s.d, s.to_map);
     }
     Turn<T> turn{};
@@ -95,17 +116,16 @@ PILEUS_FN void scatter_path(PathLanes<W, NC>& s, const PathParams& k, PathTally&
         turn.sine = select(mine, own.sine, turn.sine);
         if (k.sunlit != 0) s.shade = select(mine, phase_density(optics.phase, to_sun), s.shade);
         if (!map) return;
-        s.map_shade = select(mine, phase_density(optics.phase, to_map), s.map_shade);
+        to_map_density = select(mine, phase_density(optics.phase, to_map), to_map_density);
         s.next_density =
             select(mine, phase_density(optics.phase, own.one_minus_cos), s.next_density);
     });
-    if (map)
-        s.map_shade =
-            select(m, balanced(s.map_shade, sky_density(k.map, k.sampler, s.to_map)), s.map_shade);
+    M<W> mapped = m & lnot(m);
+    if (map) mapped = map_rays(s, k, m, to_map_density, map_luck);
     const SinCos<T> phi = sincos_turns(uniform(w.b));
     const Vec<T> d = turned(s.d, 1.0f - turn.one_minus_cos, turn.sine, phi.cosine, phi.sine);
     s.next = {select(m, d.x, s.next.x), select(m, d.y, s.next.y), select(m, d.z, s.next.z)};
-    first_flight(s, k, m);
+    first_flight(s, k, m, mapped, spare_bits(w));
 }
 
 /// The lanes of `m` meet the ground at `at`, metres.
@@ -120,34 +140,39 @@ PILEUS_FN void reflect_path(PathLanes<W, NC>& s, const PathParams& k, PathTally&
     s.vertex = {select(m, at.x, s.vertex.x), select(m, at.y, s.vertex.y),
                 select(m, at.z, s.vertex.z)};
     for (int c = 0; c < NC; ++c) s.beta[c] = select(m, s.beta[c] * k.ground_albedo, s.beta[c]);
-    const Lambert<T> up = lambert(draw(s, k, m));
+    const Words<U<W>> w = draw(s, k, m);
+    const Lambert<T> up = lambert(w);
     const T height = max_(up.normal, all<T>(1e-6f));
     s.next = {select(m, up.a, s.next.x), select(m, up.b, s.next.y), select(m, height, s.next.z)};
     s.next_density = select(m, height * kInvPi, s.next_density);
     s.shade = select(m, all<T>((k.to_sun[2] > 0.0f ? k.to_sun[2] : 0.0f) * kInvPi), s.shade);
+    M<W> mapped = m & lnot(m);
     if (k.map.columns > 0) {
-        aim_at_map(s, k, m);
-        const T own = max_(s.to_map.z, T{}) * kInvPi;
-        s.map_shade =
-            select(m, balanced(own, sky_density(k.map, k.sampler, s.to_map)), s.map_shade);
+        const U<W> luck = aim_at_map(s, k, m);
+        mapped = map_rays(s, k, m, max_(s.to_map.z, T{}) * kInvPi, luck);
     }
-    first_flight(s, k, m);
+    first_flight(s, k, m, mapped, spare_bits(w));
+}
+
+/// The sky's light along `d`.
+template <int W>
+PILEUS_FN Vec<F<W>> sky_light(const PathParams& k, const Vec<F<W>>& d) {
+    if (k.map.columns > 0) return map_radiance(k.map, d);
+    return {all<F<W>>(k.sky[0]), all<F<W>>(k.sky[1]), all<F<W>>(k.sky[2])};
 }
 
 /// Paths of the lanes of `m` see the sky along their direction, and end.
 template <int W, int NC>
 PILEUS_FN void reach_sky(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
     using T = F<W>;
-    Vec<T> light{all<T>(k.sky[0]), all<T>(k.sky[1]), all<T>(k.sky[2])};
     T share = all<T>(1.0f);
-    if (k.map.columns > 0 && any(m)) {
+    if (k.map.columns > 0) {
         // The camera's own rays see the map alone; so does a turn by exactly nothing.
-        light = map_radiance(k.map, s.d);
         const T own = s.next_density, other = sky_density(k.map, k.sampler, s.d);
         const M<W> both = (s.order + s.bounces > 0) & (own > 0.0f);
         share = select(both, balanced(own, other), share);
     }
-    add_light(s, k, m, share, light, s.alive & lnot(s.alive));
+    add_light(s, k, m, share, sky_light<W>(k, s.d), s.alive & lnot(s.alive));
     end_paths(s, m);
 }
 
@@ -190,7 +215,7 @@ PILEUS_FN void gather_light(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
     }
     add_light(s, k, m, (s.seen + s.carry) * s.shade, light, sun);
     s.flight = select(m, all<I<W>>(kFlightPath), s.flight);
-    if (k.map.columns > 0) s.flight = select(sun, all<I<W>>(kFlightMap), s.flight);
+    s.flight = select(sun & s.mapped, all<I<W>>(kFlightMap), s.flight);
     s.shade = select(sun, s.map_shade, s.shade);
 }
 

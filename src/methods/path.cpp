@@ -75,7 +75,7 @@ Status prepare(const Scene& scene, const Budget& budget, const Context& context,
     light_world(scene, sun_at(scene, 0), run);
     run.camera = make_camera(scene.camera, 0, run.medium.low_m);
     PILEUS_TRY(path_measure(context, run));
-    PILEUS_TRY(prepare_majorants(run.medium, true, context, run.prepared));
+    PILEUS_TRY(prepare_majorants(run.medium, true, context, run.prepared, kPathCosts));
     run.outlined_only = false;
     PILEUS_TRY(path_measure(context, run));
     digest_prepared(run);

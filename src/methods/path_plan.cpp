@@ -5,6 +5,7 @@
 #include "src/methods/path.h"
 #include "src/methods/path_passes.h"
 #include "src/methods/path_state.h"
+#include "src/stages/path_blocks.h"
 #include "src/stages/plan_parts.h"
 
 namespace pileus {
@@ -100,6 +101,10 @@ void weigh_memory(const Context& context, PathRun& run) {
     t.add("directions to the sky map", Stage::kPaths, Stage::kPaths,
           bytes_of(8, texels) + 4 * std::uint64_t(run.sky_map.size[1]));
     t.add("film", Stage::kPaths, Stage::kLayers, film_bytes(in));
+    const int finest = voxel_count(grid) <= kMostSingleVoxels ? 1 : 2;
+    t.add(
+        "blocks that flights cross", Stage::kPaths, Stage::kPaths,
+        path_blocks_bytes(grid, run.outlined_only ? finest : run.prepared.block, context.threads));
     t.add("path samples", Stage::kPaths, Stage::kPaths, path_scratch_bytes(in));
     if (!run.budget.state.empty())
         t.add("state file", Stage::kPaths, Stage::kPaths, path_state_bytes(film_bytes(in)));

@@ -3,6 +3,7 @@
 #include "src/stages/path.h"
 
 #include "platform/threads.h"
+#include "src/stages/path_blocks.h"
 #include "src/stages/trace.h"
 
 namespace pileus {
@@ -25,9 +26,9 @@ std::uint64_t samples_per_key(const PathInput& in) {
     return pixels > 0 ? (std::uint64_t{1} << 32) / pixels : 1;
 }
 
-void set_medium(const PathInput& in, PathParams& k) {
+void set_medium(const PathInput& in, Span<const float> blocks, PathParams& k) {
     const Medium& m = *in.medium;
-    k.grid = track_grid(m, in.majorants, in.block, in.max_events);
+    k.grid = track_grid(m, blocks, in.block, in.max_events);
     for (int a = 0; a < 3; ++a) k.extent[a] = float(m.grid.size[a]) * m.grid.cell_m[a];
     k.channels = m.channels;
     k.media = m.count;
@@ -59,13 +60,14 @@ void set_light(const PathInput& in, const SkySampler& sampler, PathParams& k) {
 
 PathParams path_params(const PathInput& in, const PathScratch& scratch) {
     PathParams k{};
-    set_medium(in, k);
+    set_medium(in, scratch.blocks.span(), k);
     set_light(in, scratch.sky.view, k);
     k.camera = in.camera;
     k.jitter = in.jitter ? 1 : 0;
     k.max_depth = in.max_depth > 0 ? in.max_depth : 0x7fffffff;
     k.pixels = std::uint32_t(film_pixels(in));
     k.parts_wanted = in.parts ? 1 : 0;
+    k.light_roulette = in.light_roulette;
     return k;
 }
 
@@ -153,6 +155,9 @@ Status prepare_path(const PathInput& in, PathScratch& scratch) {
                                        "path samples"));
     PILEUS_TRY(scratch.tallies.resize(std::uint64_t(in.threads) * 2, "path tallies"));
     PILEUS_TRY(make_path_sky(in.lighting->map, scratch.sky));
+    std::int32_t counts[3];
+    block_counts(in.medium->grid, in.block, counts);
+    PILEUS_TRY(path_blocks(in.majorants, counts, in.threads, scratch.blocks));
     scratch.ready = true;
     return Status::ok();
 }

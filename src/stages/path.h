@@ -9,11 +9,15 @@
 #include "src/base/buffer.h"
 #include "src/stages/lights.h"
 #include "src/stages/path_sky.h"
+#include "src/stages/prepare_majorant.h"
 
 namespace pileus {
 
 /// Of random numbers; lights have 1 to 3 and 17 to 19, the preparation 8.
 constexpr std::uint32_t kPathStream = 32;
+
+/// A step of a flight across a border is a few additions: smaller blocks than photons have pay.
+constexpr TrackingCosts kPathCosts{1.0, 0.25};
 
 struct PathInput {
     const Medium* medium = nullptr;
@@ -28,6 +32,8 @@ struct PathInput {
     bool jitter = true;  ///< rays spread over their pixels; false: through the middles
     bool parts = false;  ///< also the sun's, the singly scattered and the media's light
     std::uint32_t max_events = 1u << 24;  ///< draws per path before it is given up
+    /// Shadow rays that bring less than this share of their light, 1/sr, play roulette; 0: all fly.
+    float light_roulette = kLightRoulette;
 };
 
 /// What samples have brought so far. Start with make_film; pixels are row by row from the top.
@@ -47,6 +53,7 @@ struct PathScratch {
     Buffer<float> radiance;
     Buffer<PathTally> tallies;
     PathSky sky;
+    Buffer<float> blocks;        ///< majorants, and leaps through empty ones
     std::uint64_t capacity = 0;  ///< samples
     bool ready = false;
 };

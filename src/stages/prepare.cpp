@@ -98,7 +98,8 @@ Status prepare_collectors(const Medium& medium, const CollectorSettings& setting
                          set.samples.span(), context, out);
 }
 
-Status prepare_majorants(const Medium& medium, bool local, const Context& context, Prepared& out) {
+Status prepare_majorants(const Medium& medium, bool local, const Context& context, Prepared& out,
+                         const TrackingCosts& costs) {
     const StageClock clock(context, "majorants");
     const Span<const float> density = medium.volume.density.span();
     int largest = 1;
@@ -106,8 +107,8 @@ Status prepare_majorants(const Medium& medium, bool local, const Context& contex
     out.block = largest;
     if (local) {
         BlockChoice choice;
-        PILEUS_TRY(choose_block(density, medium.grid, double(medium.sigma), TrackingCosts{},
-                                context.threads, choice));
+        PILEUS_TRY(choose_block(density, medium.grid, double(medium.sigma), costs, context.threads,
+                                choice));
         out.block = choice.block;
     }
     PILEUS_TRY(majorant_grid(density, medium.grid, out.block, context.threads, out.majorants));

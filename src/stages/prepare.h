@@ -5,6 +5,7 @@
 #pragma once
 #include "src/stages/context.h"
 #include "src/stages/medium.h"
+#include "src/stages/prepare_majorant.h"
 #include "src/stages/prepare_samples.h"
 
 namespace pileus {
@@ -38,8 +39,9 @@ double leaf_share(const Medium& medium);
 Status prepare_collectors(const Medium& medium, const CollectorSettings& settings,
                           std::int64_t seed, const Context& context, Prepared& out);
 
-/// The tracking blocks and skipping blocks alone.
-Status prepare_majorants(const Medium& medium, bool local, const Context& context, Prepared& out);
+/// The tracking blocks and skipping blocks alone; `costs` of tracking choose the former.
+Status prepare_majorants(const Medium& medium, bool local, const Context& context, Prepared& out,
+                         const TrackingCosts& costs = {});
 
 /// Regular cells of `edge` voxels instead of leaves: one collector per cell that holds medium.
 /// Used by the camera-directed estimate that `variant` is measured against.

@@ -18,6 +18,7 @@ struct PathCase {
     std::string name, scene;
     Overrides overrides;
     std::uint64_t samples;
+    bool every_ray = false;  ///< no roulette: every scattering sends its shadow ray
 };
 
 constexpr auto kRate = benchmark::Counter::kIsRate;
@@ -58,6 +59,9 @@ void count(benchmark::State& state, const Film& film) {
     state.counters["s/scattering"] = benchmark::Counter(n * scatterings, kTimeEach);
     state.counters["tentative/scattering"] = double(t.tentative) / scatterings;
     state.counters["crossings/scattering"] = double(t.crossings) / scatterings;
+    state.counters["rays/s"] = benchmark::Counter(n * double(t.shadow_rays), kRate);
+    state.counters["shadow_tentative/ray"] =
+        double(t.shadow_tentative) / double(t.shadow_rays > 0 ? t.shadow_rays : 1);
     state.counters["rays/scattering"] = double(t.shadow_rays) / scatterings;
     state.counters["relvar*s"] = benchmark::Counter(n / relative_variance(film), kTimeEach);
 }
@@ -69,8 +73,13 @@ void run_path(benchmark::State& state, Bench& bench, const PathCase& which,
     PathInput in;
     in.medium = &p->run.medium;
     in.lighting = &p->run.lighting;
-    in.majorants = p->run.prepared.majorants.span();
-    in.block = p->run.prepared.block;
+    Prepared blocks;
+    if (!bench.passed(state, prepare_majorants(p->run.medium, true, with(p->context, kernels, 1),
+                                               blocks, kPathCosts)))
+        return;
+    in.majorants = blocks.majorants.span();
+    in.block = blocks.block;
+    if (which.every_ray) in.light_roulette = 0;
     in.camera = make_camera(p->scene.camera, 0, p->run.medium.low_m);
     in.seed = std::uint64_t(p->scene.seed);
     in.kernels = kernels;
@@ -99,6 +108,8 @@ void register_path_cases(Bench& bench) {
     const PathCase cases[] = {
         {"path/slab", "slab", {"camera.position_m=[0,0,900]", "camera.up=[0,1,0]", small}, 4},
         {"path/cumulus", "cumulus", {small}, 16},
+        {"path/cumulus128", "../studies/scenes/cumulus128", {}, 4},
+        {"path/cumulus128/every_ray", "../studies/scenes/cumulus128", {}, 4, true},
         {"path/cumulus/chromatic", "cumulus", {small, "medium.0.albedo=[1.0,0.999,0.99]"}, 16},
     };
     for (const PathCase& which : cases)
