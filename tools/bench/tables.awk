@@ -76,7 +76,7 @@ function by_isa(pattern, first, scale, second, i, k, n, isa, cell, name, mark) {
             }
             mark = second != "" && (cell " " second) in values ? values[cell " " second] : 0
             printf " %s%s |", shown(values[cell " " first] * scale),
-                mark > 0 ? sprintf(" (%.2g)", mark) : ""
+                (mark > 0 ? sprintf(" (%.2g)", mark) : "")
         }
         print ""
     }
