@@ -132,12 +132,12 @@ function growth(i, part, key, x, y, keys, k, order, n, slope) {
 END {
     if (table == "tracing") by_isa("^trace/", "s/scattering", 1e9, "times_floor")
     if (table == "rates")
-        counters("^trace/[^/]+(/(local|global|two_media|two_lobes))?(/threads:[0-9]+)?$",
+        counters("^trace/[^/]+(/(local|global|bare|two_media|two_lobes))?(/threads:[0-9]+)?$",
             "photons/s*1e-6 scatterings/s*1e-6 tentative/scattering*1 crossings/scattering*1",
             "| | million photons/s | million scatterings/s | tentative | crossings |")
     if (table == "path") by_isa("^path/", "s/scattering", 1e9, "times_floor")
     if (table == "paths")
-        counters("^path/[^/]+(/chromatic)?(/threads:[0-9]+)?$",
+        counters("^path/[^/]+(/(chromatic|every_ray))?(/threads:[0-9]+)?$",
             "paths/s*1e-6 scatterings/s*1e-6 rays/scattering*1 relvar*s*1",
             "| | million paths/s | million scatterings/s | shadow rays a scattering | variance × s |")
     if (table == "preparation")
