@@ -5,6 +5,7 @@
 #pragma once
 #include "kernels_cpu/accumulate.h"
 #include "kernels_cpu/fixed.h"
+#include "kernels_cpu/pack.h"
 #include "kernels_cpu/sh.h"
 #include "kernels_cpu/trace_start.h"
 
@@ -59,46 +60,52 @@ PILEUS_FN void towards_camera(const TraceParams& k, const TraceBuffers& b, I<W> 
         });
 }
 
-/// Deposit `share` (0..1) of each lane in `m`, travelling along s.d, into its voxel's collector.
-/// Every lane's voxel must be readable, and `corner`, where the `density` was looked up.
+/// Lanes of photons that move in turn; what they leave behind is gathered into full vectors.
+constexpr int kGroups = 4;
+
+/// Light to be added to collectors, waiting until a whole vector of it has come together.
 template <int W, int NC>
-PILEUS_FN void deposit(const TraceParams& k, const TraceBuffers& b, const Photon<W, NC>& s, M<W> m,
-                       I<W> voxel, F<W> share, I<W> corner, F<W> density) {
+struct DepositQueue {
+    static constexpr int kRoom = (2 * kGroups + 4) * W;
+    float x[kRoom], y[kRoom], z[kRoom];  // direction of travel
+    float share[NC][kRoom];              // weight times acceptance, negative for shadows
+    std::int32_t collector[kRoom];
+    std::int32_t count;
+};
+
+/// Asks for the sums that the next deposits will add to.
+PILEUS_FN void fetch_sums(const TraceParams& k, const TraceBuffers& b,
+                          const std::int32_t* collector, std::int32_t count) {
+    const std::int64_t stride = std::int64_t(k.channels) * k.coefficients;
+    for (std::int32_t i = 0; i < count; ++i) {
+        const std::int64_t* sums = b.sums + collector[i] * stride;
+        for (std::int64_t c = 0; c < stride; c += 8) __builtin_prefetch(sums + c, 1);
+    }
+}
+
+/// Notes what the lanes of `m`, travelling along `d`, bring to their collectors.
+template <int W, int NC>
+PILEUS_FN void push_deposits(const TraceParams& k, const TraceBuffers& b, DepositQueue<W, NC>& q,
+                             const Vec<F<W>>& d, M<W> m, I<W> collector, const F<W> (&share)[NC]) {
+    const std::uint32_t bits = bits_of(m);
+    pack(q.x + q.count, d.x, bits);
+    pack(q.y + q.count, d.y, bits);
+    pack(q.z + q.count, d.z, bits);
+    for (int c = 0; c < NC; ++c) pack(q.share[c] + q.count, share[c], bits);
+    pack(q.collector + q.count, collector, bits);
+    const std::int32_t more = count_bits(bits);
+    fetch_sums(k, b, q.collector + q.count, more);
+    q.count += more;
+}
+
+/// Adds the directions of items [at, at + W) of the queue, or of its last few, to the sums.
+template <int W, int NC>
+PILEUS_FN void add_deposits(const TraceParams& k, const TraceBuffers& b,
+                            const DepositQueue<W, NC>& q, std::int32_t at) {
     using T = F<W>;
-    const Vec<T>& d = s.d;
-    const I<W> collector = gather(b.collector, voxel);
-    m = m & (collector >= 0);
-    if (!any(m)) return;
-
-    const T value = select(s.shadow, T{} - share, share);
-    const auto straight = m & (s.order == 0);
-    std::uint32_t rest = bits_of(m);
-    if (k.first_order != 0 && k.light == kLightBeam) {
-        if (k.first_order == 1 && any(straight)) {
-            const I<W> q = quantise(value, k.scale);
-            for (int c = 0; c < NC; ++c)
-                add_lanes<W>(k, b, bits_of(straight), collector, &q, c, k.coefficients - 1, 1);
-        }
-        rest &= ~bits_of(straight);
-        if (rest == 0) return;
-    }
-
-    if (k.mode == kDepositCamera) {
-        Vec<T> to{all<T>(k.camera[0]), all<T>(k.camera[1]), all<T>(k.camera[2])};
-        if (!k.orthographic)
-            to = normalized(Vec<T>{to.x - s.p.x * k.grid.cell[0], to.y - s.p.y * k.grid.cell[1],
-                                   to.z - s.p.z * k.grid.cell[2]});
-        T p[NC];
-        towards_camera<W, NC>(k, b, corner, density, one_minus_cosine(d, to), p);
-        for (int c = 0; c < NC; ++c) {
-            const I<W> q = quantise(value * s.weight[c] * p[c], k.scale);
-            add_lanes<W>(k, b, rest, collector, &q, c, 0, 1);
-        }
-        return;
-    }
-
-    T y[kMaxBands * kMaxBands + kMaxAxisDegrees];
-    I<W> q[kMaxBands * kMaxBands + kMaxAxisDegrees];
+    constexpr int kMost = kMaxBands * kMaxBands + kMaxAxisDegrees;
+    const Vec<T> d{load<T>(q.x + at), load<T>(q.y + at), load<T>(q.z + at)};
+    T y[kMost];
     sh_values(k.bands, d, y);
     int count = k.bands * k.bands;
     if (k.axis_degrees > 0 && k.light == kLightBeam) {
@@ -107,10 +114,72 @@ PILEUS_FN void deposit(const TraceParams& k, const TraceBuffers& b, const Photon
         axis_values(k.bands, k.axis_degrees, cosine, y + count);
         count += k.axis_degrees;
     }
+    const std::int32_t items = q.count - at < W ? q.count - at : W;
+    I<W> quanta[kMost];
     for (int c = 0; c < NC; ++c) {
-        const T weighted = value * s.weight[c];
-        for (int i = 0; i < count; ++i) q[i] = quantise(weighted * y[i], k.scale);
-        add_lanes<W>(k, b, rest, collector, q, c, 0, count);
+        const T share = load<T>(q.share[c] + at);
+        for (int i = 0; i < count; ++i) quanta[i] = quantise(share * y[i], k.scale);
+        for (std::int32_t i = 0; i < items; ++i) {
+            const std::int64_t set = std::int64_t(q.collector[at + i]) * k.channels + c;
+            std::int64_t* sums = b.sums + set * k.coefficients;
+            add_sums(sums, quanta, i, count, b.shared_sums != 0);
+        }
+    }
+}
+
+/// Adds all that waits but the last `keep` or fewer, oldest first; these move to the front.
+template <int W, int NC>
+PILEUS_FN void flush_deposits(const TraceParams& k, const TraceBuffers& b, DepositQueue<W, NC>& q,
+                              std::int32_t keep) {
+    std::int32_t at = 0;
+    for (; q.count - at > keep; at += W) add_deposits(k, b, q, at);
+    if (at == 0) return;
+    const std::int32_t left = q.count > at ? q.count - at : 0;
+    for (std::int32_t i = 0; i < left; ++i) {
+        q.x[i] = q.x[at + i], q.y[i] = q.y[at + i], q.z[i] = q.z[at + i];
+        for (int c = 0; c < NC; ++c) q.share[c][i] = q.share[c][at + i];
+        q.collector[i] = q.collector[at + i];
+    }
+    q.count = left;
+}
+
+/// Deposit `share` (0..1) of each lane in `m`, travelling along s.d, into its voxel's collector.
+/// Every lane's voxel must be readable, and `corner`, where the `density` was looked up.
+template <int W, int NC>
+PILEUS_FN void deposit(const TraceParams& k, const TraceBuffers& b, DepositQueue<W, NC>& q,
+                       const Photon<W, NC>& s, M<W> m, I<W> voxel, F<W> share, I<W> corner,
+                       F<W> density) {
+    using T = F<W>;
+    const Vec<T>& d = s.d;
+    const I<W> collector = gather(b.collector, voxel);
+    m = m & (collector >= 0);
+    const T value = select(s.shadow, T{} - share, share);
+    if (k.first_order != 0 && k.light == kLightBeam) {
+        const auto straight = m & (s.order == 0);
+        if (k.first_order == 1 && any(straight)) {
+            const I<W> quanta = quantise(value, k.scale);
+            for (int c = 0; c < NC; ++c)
+                add_lanes<W>(k, b, bits_of(straight), collector, &quanta, c, k.coefficients - 1, 1);
+        }
+        m = m & lnot(straight);
+    }
+    if (!any(m)) return;
+
+    if (k.mode != kDepositCamera) {
+        T shares[NC];
+        for (int c = 0; c < NC; ++c) shares[c] = value * s.weight[c];
+        push_deposits(k, b, q, d, m, collector, shares);
+        return;
+    }
+    Vec<T> to{all<T>(k.camera[0]), all<T>(k.camera[1]), all<T>(k.camera[2])};
+    if (!k.orthographic)
+        to = normalized(Vec<T>{to.x - s.p.x * k.grid.cell[0], to.y - s.p.y * k.grid.cell[1],
+                               to.z - s.p.z * k.grid.cell[2]});
+    T p[NC];
+    towards_camera<W, NC>(k, b, corner, density, one_minus_cosine(d, to), p);
+    for (int c = 0; c < NC; ++c) {
+        const I<W> quanta = quantise(value * s.weight[c] * p[c], k.scale);
+        add_lanes<W>(k, b, bits_of(m), collector, &quanta, c, 0, 1);
     }
 }
 

@@ -46,6 +46,7 @@ void follow(const TraceParams& k, TraceBuffers b, std::uint32_t number, std::siz
     TraceTally tally{};
     b.tally = &tally;
     Group<1, NC> g = {};
+    Queues<1, NC> queues = {};
     Photon<1, NC>& s = g.s;
     s.index = number;
     start_photons(s, k, true);
@@ -57,8 +58,9 @@ void follow(const TraceParams& k, TraceBuffers b, std::uint32_t number, std::siz
         if (s.alive && !g.hits && s.event != event)
             keep(point_of(s, k, PathEvent::kGround), most, path);
         if (!g.hits) continue;
-        collide(g, k, b);
+        collide(g, k, b, 0, queues);
         if (!s.alive) break;
+        turn_queued(&g, k, b, queues, true);
         PathPoint p = point_of(s, k, s.order != before ? PathEvent::kScatter : PathEvent::kNull);
         p.density_bound = g.bound;
         keep(p, most, path);
