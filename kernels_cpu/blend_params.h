@@ -65,16 +65,21 @@ using BlendFunction = void (*)(const BlendParams&, const BlendBuffers&, std::uin
                                std::uint32_t);
 
 /// Floats from one row of a tile to the next.
-inline std::int32_t blend_row_stride(std::int32_t tile_width) {
+constexpr std::int32_t blend_row_stride(std::int32_t tile_width) {
     return (tile_width + kBlendBlock - 1) / kBlendBlock * kBlendBlock;
 }
 
 /// Floats of scratch that one thread needs: all planes, a row of columns, two lists of kBlendBlock
 /// rows, a word per row.
-inline std::uint64_t blend_scratch_floats(const BlendParams& p) {
+constexpr std::uint64_t blend_scratch_floats(const BlendParams& p) {
     const std::uint64_t row = std::uint64_t(blend_row_stride(p.tile_width));
     const std::uint64_t high = std::uint64_t(p.tile_height);
     return row * (high * std::uint64_t(kBlendPlanes + p.channels) + 1 + 2 * kBlendBlock) + high;
+}
+
+/// Floats from one thread's scratch to the next one's.
+constexpr std::uint64_t blend_scratch_share(const BlendParams& p) {
+    return (blend_scratch_floats(p) + 15) / 16 * 16;
 }
 
 }  // namespace pileus

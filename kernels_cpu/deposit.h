@@ -17,7 +17,7 @@ template <int W>
 PILEUS_FN void add_lanes(const TraceParams& k, const TraceBuffers& b, std::uint32_t lanes,
                          I<W> collector, const I<W>* quanta, int channel, int first, int count) {
     for (; lanes != 0; lanes &= lanes - 1) {
-        const int i = __builtin_ctz(lanes);
+        const int i = lowest_bit(lanes);
         const std::int64_t set = std::int64_t(lane(collector, i)) * k.channels + channel;
         std::int64_t* sums = b.sums + set * k.coefficients + first;
         add_sums(sums, quanta, i, count, b.shared_sums != 0);
@@ -79,7 +79,7 @@ PILEUS_FN void fetch_sums(const TraceParams& k, const TraceBuffers& b,
     const std::int64_t stride = std::int64_t(k.channels) * k.coefficients;
     for (std::int32_t i = 0; i < count; ++i) {
         const std::int64_t* sums = b.sums + collector[i] * stride;
-        for (std::int64_t c = 0; c < stride; c += 8) __builtin_prefetch(sums + c, 1);
+        for (std::int64_t c = 0; c < stride; c += 8) prefetch_(sums + c, 1);
     }
 }
 

@@ -4,6 +4,7 @@
 // docs/architecture.md, "Kernels: written once".
 #pragma once
 #include "kernels_cpu/blend_params.h"
+#include "kernels_cpu/device_kernels.h"
 #include "kernels_cpu/march_params.h"
 #include "kernels_cpu/path_params.h"
 #include "kernels_cpu/trace_params.h"
@@ -24,6 +25,8 @@ struct KernelTable {
                         std::uint32_t end);
     /// FNV-1a 64 of every math kernel on 64 fixed inputs; the same on every machine.
     std::uint64_t (*self_test)();
+    /// Where set, the functions above are not called: whole launches go to the device.
+    const DeviceTable* device = nullptr;
 };
 
 /// The widest table this machine runs; `name` (or null) forces one. Null: no such table here.

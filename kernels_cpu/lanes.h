@@ -10,7 +10,17 @@
 #ifndef PILEUS_ISA
 #define PILEUS_ISA host
 #endif
+// nvcc compiles every function for its device and for the host, with one lane; arrays of constants
+// (PILEUS_NUMBERS) must lie on the device.
+#if defined(__CUDACC__)
+#define PILEUS_FN __host__ __device__ __forceinline__ static
+#define PILEUS_NUMBERS static __device__ constexpr
+#define PILEUS_CONVERT(v, To) To(v)
+#else
 #define PILEUS_FN [[gnu::always_inline]] static inline
+#define PILEUS_NUMBERS constexpr
+#define PILEUS_CONVERT(v, To) __builtin_convertvector(v, To)
+#endif
 
 namespace pileus {
 inline namespace PILEUS_ISA {
@@ -26,6 +36,7 @@ struct LaneTypes<1> {
     using M = bool;
 };
 
+#if !defined(__CUDACC__)
 #define PILEUS_LANE_TYPES(W)                                         \
     template <>                                                      \
     struct LaneTypes<W> {                                            \
@@ -38,6 +49,7 @@ PILEUS_LANE_TYPES(4)
 PILEUS_LANE_TYPES(8)
 PILEUS_LANE_TYPES(16)
 #undef PILEUS_LANE_TYPES
+#endif
 
 template <int W>
 using F = typename LaneTypes<W>::F;
@@ -112,14 +124,14 @@ PILEUS_FN auto to_int(T v) {
     if constexpr (width_of<T> == 1)
         return std::int32_t(v);
     else
-        return __builtin_convertvector(v, I_of<T>);
+        return PILEUS_CONVERT(v, I_of<T>);
 }
 template <class T>
 PILEUS_FN auto to_float(T v) {
     if constexpr (width_of<T> == 1)
         return float(v);
     else
-        return __builtin_convertvector(v, F_of<T>);
+        return PILEUS_CONVERT(v, F_of<T>);
 }
 
 template <class Mask, class T>

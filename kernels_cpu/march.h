@@ -238,7 +238,7 @@ PILEUS_FN void add_source(const MarchParams& k, const MarchBuffers& b, const Vec
     T source[3];
     for (int i = 0; i < 3; ++i) source[i] = direct[i] + k.constant[i];
     for (std::uint32_t lanes = bits_of(weight > 0.0f); lanes != 0; lanes &= lanes - 1) {
-        const int l = __builtin_ctz(lanes);
+        const int l = lowest_bit(lanes);
         float light[3] = {};
         light_along(k, b.source, c, l, h.y[l], light);
         for (int s = 0; s < k.sets; ++s)

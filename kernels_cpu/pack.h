@@ -45,7 +45,7 @@ PILEUS_FN void pack(S* at, T v, std::uint32_t bits) {
         return;
     }
 #endif
-    for (; bits != 0; bits &= bits - 1) *at++ = S(lane(v, __builtin_ctz(bits)));
+    for (; bits != 0; bits &= bits - 1) *at++ = S(lane(v, lowest_bit(bits)));
 }
 
 /// W numbers from at[0], at[1] ...; the array need not be aligned.

@@ -78,7 +78,7 @@ PILEUS_FN void advance_paths(PathGroup<W, NC>& g, const PathParams& k, const Pat
     s.p = {select(g.hits, p.x, s.p.x), select(g.hits, p.y, s.p.y), select(g.hits, p.z, s.p.z)};
     g.corner = select(g.hits, corner_voxel(s.p, g.w.b, k.grid), I<W>{});
     for (std::uint32_t lanes = bits_of(g.hits); lanes != 0; lanes &= lanes - 1)
-        prefetch_(k.grid.density + lane(g.corner, __builtin_ctz(lanes)));
+        prefetch_(k.grid.density + lane(g.corner, lowest_bit(lanes)));
 }
 
 /// Shadow rays of the lanes of `rays` lose the share `density` / bound of their light, and end by

@@ -25,7 +25,7 @@ PILEUS_FN void store_radiance(const F<W>* light, int count, const U<W>& sample, 
                               const PathBuffers& b, std::uint32_t lanes) {
     const float unit = k.camera.flux != 0 ? kPi : 1.0f;
     for (; lanes != 0; lanes &= lanes - 1) {
-        const int i = __builtin_ctz(lanes);
+        const int i = lowest_bit(lanes);
         float* out = b.radiance + lane(sample, i);
         bool finite = true;
         for (int c = 0; c < count; ++c) {
@@ -153,7 +153,7 @@ PILEUS_FN void refill_paths(PathLanes<W, NC>& s, FreshPaths<W>& f, const PathPar
             fill_fresh<W>(f, k, b, next, end);
             continue;
         }
-        const int to = __builtin_ctz(idle), from = __builtin_ctz(f.ready);
+        const int to = lowest_bit(idle), from = lowest_bit(f.ready);
         hand_over(s, to, f, from);
         const M<W> here = lanes == to;
         fresh = fresh | here;

@@ -15,10 +15,10 @@ template <int W>
 PILEUS_FN void fetch_ahead(const float* density, const std::int32_t* collectors, std::uint32_t m,
                            I<W> corner, I<W> voxel, const float* parts) {
     for (; m != 0; m &= m - 1) {
-        const int i = __builtin_ctz(m);
-        __builtin_prefetch(density + lane(corner, i));
-        if (parts != nullptr) __builtin_prefetch(parts + lane(corner, i));
-        if (collectors != nullptr) __builtin_prefetch(collectors + lane(voxel, i));
+        const int i = lowest_bit(m);
+        prefetch_(density + lane(corner, i));
+        if (parts != nullptr) prefetch_(parts + lane(corner, i));
+        if (collectors != nullptr) prefetch_(collectors + lane(voxel, i));
     }
 }
 
@@ -92,7 +92,7 @@ PILEUS_FN bool refill(Photon<W, NC>& s, const TraceParams& k, const TraceBuffers
     const U<W> numbers = reinterpret<U<W>>(iota<I<W>>());
     auto fresh = s.alive & lnot(s.alive);
     for (std::uint32_t lanes = idle; lanes != 0 && next < end; lanes &= lanes - 1) {
-        const int i = __builtin_ctz(lanes);
+        const int i = lowest_bit(lanes);
         set_lane(s.index, i, next++);
         fresh = fresh | (numbers == std::uint32_t(i));
     }

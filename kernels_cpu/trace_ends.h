@@ -20,7 +20,7 @@ PILEUS_FN void count_fate(const Photon<W, NC>& s, std::int64_t (&plain)[3],
         return;
     }
     for (; lanes != 0; lanes &= lanes - 1) {
-        const int i = __builtin_ctz(lanes);
+        const int i = lowest_bit(lanes);
         std::int64_t(&bin)[3] = (dark >> i) & 1u ? shadow : plain;
         for (int c = 0; c < NC; ++c) bin[c] += quantise(lane(s.weight[c], i), 0x1p20f);
     }
@@ -43,7 +43,7 @@ PILEUS_FN void light_ground(const Photon<W, NC>& s, const TraceParams& k, const 
     const auto known = m & (x >= 0) & (x < k.ground_cells[0]) & (y >= 0) & (y < k.ground_cells[1]);
     const std::uint32_t dark = bits_of(s.shadow);
     for (std::uint32_t lanes = bits_of(known); lanes != 0; lanes &= lanes - 1) {
-        const int i = __builtin_ctz(lanes);
+        const int i = lowest_bit(lanes);
         std::int64_t* cell =
             b.ground + (std::int64_t(lane(y, i)) * k.ground_cells[0] + lane(x, i)) * NC;
         for (int c = 0; c < NC; ++c) {
@@ -146,7 +146,7 @@ template <int W, int NC>
 PILEUS_FN void settle(Photon<W, NC>& s, const TraceParams& k, const TraceBuffers& b, M<W> died) {
     TraceTally& tally = *b.tally;
     for (std::uint32_t lanes = bits_of(died); lanes != 0; lanes &= lanes - 1)
-        tally.path += quantise(lane(s.path, __builtin_ctz(lanes)), k.path_scale);
+        tally.path += quantise(lane(s.path, lowest_bit(lanes)), k.path_scale);
     if (k.ground == 0) return;
     const auto owing = died & s.owes;
     if (!any(owing)) return;

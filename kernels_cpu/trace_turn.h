@@ -67,7 +67,7 @@ template <int W, int NC>
 PILEUS_FN void colour(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally, M<W> m,
                       I<W> medium) {
     for (std::uint32_t lanes = bits_of(m); lanes != 0; lanes &= lanes - 1) {
-        const int i = __builtin_ctz(lanes);
+        const int i = lowest_bit(lanes);
         const bool dark = (bits_of(s.shadow) >> i) & 1u;
         Fates& fates = dark ? tally.shadow : tally.light;
         const Optics& optics = k.optics[lane(medium, i)];

@@ -14,15 +14,18 @@ namespace pileus {
 
 constexpr const char* kVersion = "0.2.0";
 
+struct KernelTable;
+
 struct RenderOptions {
-    int threads = 0;                   ///< 0: all there are
-    std::string isa;                   ///< empty: the widest this machine runs
-    std::int64_t budget_photons = -1;  ///< >= 0: instead of the scene's number
-    std::int64_t budget_samples = -1;  ///< >= 1: paths a pixel, instead of the scene's number
-    double budget_error = 0;           ///< > 0: mean relative standard error to reach
-    double budget_seconds = 0;         ///< > 0: stop tracing after this wall time; whole passes
-    std::string state;                 ///< file that keeps a path tracer's progress; empty: none
-    double state_every_s = 60;         ///< between two writings of it while tracing
+    int threads = 0;                       ///< 0: all there are
+    std::string isa;                       ///< empty: the widest this machine runs
+    const KernelTable* kernels = nullptr;  ///< where set, instead of `isa`
+    std::int64_t budget_photons = -1;      ///< >= 0: instead of the scene's number
+    std::int64_t budget_samples = -1;      ///< >= 1: paths a pixel, instead of the scene's number
+    double budget_error = 0;               ///< > 0: mean relative standard error to reach
+    double budget_seconds = 0;             ///< > 0: stop tracing after this wall time; whole passes
+    std::string state;          ///< file that keeps a path tracer's progress; empty: none
+    double state_every_s = 60;  ///< between two writings of it while tracing
     std::string show;  ///< empty: the picture; else a step of the method (docs/how-it-works.md)
     int first_frame = 0, last_frame = 0;  ///< of the animation, inclusive
     Limits limits;                        ///< what the scene may ask for; docs/program.md

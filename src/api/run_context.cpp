@@ -4,6 +4,7 @@
 
 #include "src/methods/collectors.h"
 #include "src/methods/path.h"
+#include "src/stages/find_kernels.h"
 
 namespace pileus {
 namespace {
@@ -14,17 +15,9 @@ constexpr int kMostThreads = 1024;
 
 Status make_context(const Scene& scene, const RenderOptions& options, Context& context,
                     Report& report) {
-    context.kernels = kernel_table(options.isa.empty() ? nullptr : options.isa.c_str());
-    if (context.kernels == nullptr) {
-        std::string names;
-        for (int i = 0; const KernelTable* table = kernel_table_at(i); ++i)
-            names += (i > 0 ? ", " : "") + std::string(table->name);
-        return Status::bad_input("--isa: no such instruction set here, \"" + options.isa +
-                                 "\", allowed: " + names);
-    }
-    if (context.kernels->self_test() != expected_self_test())
-        return Status{Code::kCheckFailed,
-                      "self test: the kernels give other bits than they must on this machine"};
+    context.kernels = options.kernels;
+    if (context.kernels == nullptr) PILEUS_TRY(find_kernels(options.isa, context.kernels));
+    PILEUS_TRY(test_kernels(*context.kernels));
     if (options.threads < 0 || options.threads > kMostThreads)
         return Status::bad_input("--threads: out of range, " + std::to_string(options.threads) +
                                  ", allowed: 0 (all) to " + std::to_string(kMostThreads));

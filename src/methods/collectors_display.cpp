@@ -50,8 +50,8 @@ Status make_shadow(const Context& context, CollectorsRun& run) {
     k.medium = view_of(run);
     k.nodes = run.shadow_nodes;
     for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = run.lighting.to_sun[a];
-    run_rows(context, context.kernels->shadow_rows, k, ShadowBuffers{run.shadow.data()},
-             std::uint32_t(k.nodes.size[1] * k.nodes.size[2]));
+    PILEUS_TRY(run_rows(context, context.kernels->shadow_rows, k, ShadowBuffers{run.shadow.data()},
+                        std::uint32_t(k.nodes.size[1] * k.nodes.size[2])));
     run.shadow_ready = true;
     return Status::ok();
 }
@@ -99,7 +99,8 @@ Status march(const Context& context, const CollectorsRun& run, const float* sour
     b.transmittance = planes.transmittance.data();
     b.half_depth = planes.half_depth.data();
     b.colour = target;
-    run_rows(context, context.kernels->march_rows, k, b, std::uint32_t(k.camera.height));
+    PILEUS_TRY(
+        run_rows(context, context.kernels->march_rows, k, b, std::uint32_t(k.camera.height)));
     return Status::ok();
 }
 
@@ -238,7 +239,8 @@ Status fill_background(const Context& context, const CollectorsRun& run,
         k.map_origin[a] = run.ground_map.origin[a];
     }
     const BackgroundBuffers b{map.data(), planes.background.data(), planes.opaque_depth.data()};
-    run_rows(context, context.kernels->background_rows, k, b, std::uint32_t(camera.height));
+    PILEUS_TRY(
+        run_rows(context, context.kernels->background_rows, k, b, std::uint32_t(camera.height)));
     return Status::ok();
 }
 
@@ -304,8 +306,10 @@ Status collectors_billboards(const Context& context, const CollectorsRun& run,
     scene.half_depth = run.scene->output.layer_depth;
     const Compositor by = run.scene->collectors.compositor;
     if (by == Compositor::kBuiltin)
-        return composite_billboards(scene, camera, context.threads, context.kernels->blend_tile,
-                                    out);
+        return composite_billboards(
+            scene, camera, context.threads, context.kernels->blend_tile, out,
+            context.kernels->device != nullptr ? kDeviceTiling : BillboardTiling{},
+            context.kernels->device);
     GlBlender blender;
     PILEUS_TRY(open_gl_blender(by, blender));
     return blend_by_gl(blender, scene, camera, context.threads, out);

@@ -94,6 +94,8 @@ Status collectors_measure(const Context& context, CollectorsRun& run) {
         plan_accumulation(run.scene->collectors.accumulation,
                           {sizes.threads, bytes_of_sums(sizes), collectors_memory(sizes).peak(),
                            context.limits[LimitId::kMemory], run.plan.exact});
+    if (context.kernels->device != nullptr)
+        run.plan.accumulation = {"shared", "all threads of the device add to one set", 0, true};
     sizes.private_sums = run.plan.accumulation.bytes;
     run.plan.memory = collectors_memory(sizes);
     PILEUS_TRY(

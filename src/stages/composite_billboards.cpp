@@ -9,6 +9,7 @@
 
 #include "platform/threads.h"
 #include "src/stages/billboard_spheres.h"
+#include "src/stages/device_launch.h"
 
 namespace pileus {
 namespace {
@@ -114,8 +115,8 @@ Status check_billboards(const BillboardScene& s, const CameraParams& c) {
 }
 
 Status composite_billboards(const BillboardScene& scene, const CameraParams& camera, int threads,
-                            BlendFunction blend, BillboardImage& out,
-                            const BillboardTiling& tiling) {
+                            BlendFunction blend, BillboardImage& out, const BillboardTiling& tiling,
+                            const DeviceTable* device) {
     PILEUS_TRY(check_billboards(scene, camera));
     PILEUS_TRY(check_tiling(tiling));
     if (threads < 1) threads = hardware_threads();
@@ -132,14 +133,17 @@ Status composite_billboards(const BillboardScene& scene, const CameraParams& cam
 
     // Lend each thread its own planes.
     Buffer<float> scratch;
-    const std::uint64_t share =
-        (blend_scratch_floats(params) + kBlendBlock - 1) / kBlendBlock * kBlendBlock;
-    PILEUS_TRY(scratch.resize(share * std::uint64_t(threads), "planes of the tiles"));
+    const std::uint64_t share = blend_scratch_share(params);
+    const std::uint64_t own_planes = device != nullptr ? 0 : std::uint64_t(threads);
+    PILEUS_TRY(scratch.resize(share * own_planes, "planes of the tiles"));
     PILEUS_TRY(prepare_image(params, scene.half_depth, out));
     const BlendBuffers buffers{
         lists.spheres.data(),      scene.colour,       lists.tile_begin.data(),
         lists.tile_spheres.data(), scene.opaque_depth, out.transmittance.data(),
         out.half_depth.data(),     out.colour.data(),  nullptr};
+    if (device != nullptr)
+        return launch_on_device(*device, params, buffers, lists.spheres.size(),
+                                static_cast<std::uint32_t>(tiles));
     parallel_for(threads, static_cast<std::int64_t>(tiles), [&](std::int64_t piece, int thread) {
         BlendBuffers own = buffers;
         own.scratch = scratch.data() + share * std::uint64_t(thread);

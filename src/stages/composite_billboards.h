@@ -15,6 +15,8 @@ namespace pileus {
 /// `count` spheres. Centres and radii in metres (at most 1e15 in size), extinction in 1/m,
 /// colour [channel][sphere]: radiance of an opaque sphere, any unit, 1 to 51 channels.
 /// `opaque_depth` is [row][column], metres along the ray to a solid (infinity: none), or null.
+struct DeviceTable;
+
 struct BillboardScene {
     const float *x = nullptr, *y = nullptr, *z = nullptr;
     const float* radius = nullptr;
@@ -37,15 +39,19 @@ struct BillboardImage {
 struct BillboardTiling {
     std::int32_t width = 256, height = 0;
 };
+/// Where a thread per tile blends, and there are thousands of threads.
+constexpr BillboardTiling kDeviceTiling{32, 8};
 
 /// kBadInput: a sphere, a number of channels or a camera out of range, the first fault named.
 Status check_billboards(const BillboardScene& scene, const CameraParams& camera);
 
-/// Blends all spheres. `threads` 0: all there are. `blend` is blend_tile at any width of lanes.
+/// Blends all spheres. `threads` 0: all there are. `blend` is blend_tile at any width of lanes;
+/// with a `device` it is not called, the device blends.
 /// Buffers of `out` that already fit are used again. kBadInput: a sphere or camera out of range,
 /// the first fault named; kLimit: no memory.
 Status composite_billboards(const BillboardScene& scene, const CameraParams& camera, int threads,
                             BlendFunction blend, BillboardImage& out,
-                            const BillboardTiling& tiling = {});
+                            const BillboardTiling& tiling = {},
+                            const DeviceTable* device = nullptr);
 
 }  // namespace pileus

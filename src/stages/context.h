@@ -39,25 +39,30 @@ private:
     double wall_, cpu_;
 };
 
-/// Rows [0, rows) of a kernel in pieces over the threads.
+/// Rows [0, rows) of a kernel in pieces over the threads, or all of them on the device. Fails where
+/// a device does.
 template <class Kernel, class Params, class Buffers>
-void run_rows(const Context& context, Kernel kernel, const Params& params, const Buffers& buffers,
-              std::uint32_t rows);
+Status run_rows(const Context& context, Kernel kernel, const Params& params, const Buffers& buffers,
+                std::uint32_t rows);
 
 }  // namespace pileus
 
 #include "platform/threads.h"
+#include "src/stages/device_launch.h"
 
 namespace pileus {
 
 template <class Kernel, class Params, class Buffers>
-void run_rows(const Context& context, Kernel kernel, const Params& params, const Buffers& buffers,
-              std::uint32_t rows) {
+Status run_rows(const Context& context, Kernel kernel, const Params& params, const Buffers& buffers,
+                std::uint32_t rows) {
     constexpr std::uint32_t kPiece = 4;
+    if (context.kernels->device != nullptr)
+        return launch_on_device(*context.kernels->device, params, buffers, rows);
     parallel_for(context.threads, (rows + kPiece - 1) / kPiece, [&](std::int64_t piece, int) {
         const std::uint32_t begin = std::uint32_t(piece) * kPiece;
         kernel(params, buffers, begin, begin + kPiece < rows ? begin + kPiece : rows);
     });
+    return Status::ok();
 }
 
 }  // namespace pileus

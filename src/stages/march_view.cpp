@@ -38,7 +38,7 @@ Status march_medium(const Context& context, const Medium& medium, const Prepared
         k.ground = 1;
         k.ground_z = float(lighting.ground_z);
         const BackgroundBuffers b{nullptr, nullptr, planes.opaque_depth.data()};
-        run_rows(context, context.kernels->background_rows, k, b, rows);
+        PILEUS_TRY(run_rows(context, context.kernels->background_rows, k, b, rows));
     }
     // No planes of colour: the kernel's light is left out, its steps stay.
     MarchParams k{};
@@ -50,7 +50,7 @@ Status march_medium(const Context& context, const Medium& medium, const Prepared
     b.transmittance = planes.transmittance.data();
     b.half_depth = wanted.half_depth ? planes.half_depth.data() : nullptr;
     b.ray_depth = planes.optical_depth.data();
-    run_rows(context, context.kernels->march_rows, k, b, rows);
+    PILEUS_TRY(run_rows(context, context.kernels->march_rows, k, b, rows));
     return Status::ok();
 }
 

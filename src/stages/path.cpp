@@ -3,6 +3,7 @@
 #include "src/stages/path.h"
 
 #include "platform/threads.h"
+#include "src/stages/device_launch.h"
 #include "src/stages/path_blocks.h"
 #include "src/stages/trace.h"
 
@@ -72,8 +73,12 @@ PathParams path_params(const PathInput& in, const PathScratch& scratch) {
 }
 
 /// Traces the samples of a launch, which fit the scratch.
-void run_launch(const PathInput& in, const PathParams& k, std::uint64_t count,
-                PathScratch& scratch) {
+Status run_launch(const PathInput& in, const PathParams& k, std::uint64_t count,
+                  PathScratch& scratch) {
+    if (in.kernels->device != nullptr)
+        return launch_on_device(*in.kernels->device, k,
+                                {scratch.radiance.data(), scratch.capacity, &scratch.tallies[0]},
+                                std::uint32_t(count));
     const std::uint64_t pieces = (count + kPiece - 1) / kPiece;
     parallel_for(in.threads, std::int64_t(pieces), [&](std::int64_t piece, int thread) {
         const std::uint64_t begin = std::uint64_t(piece) * kPiece;
@@ -82,6 +87,7 @@ void run_launch(const PathInput& in, const PathParams& k, std::uint64_t count,
         in.kernels->trace_paths(k, b, std::uint32_t(begin),
                                 std::uint32_t(smaller(begin + kPiece, count)));
     });
+    return Status::ok();
 }
 
 /// Adds the samples of a launch to the film, each pixel's one after the other.
@@ -108,17 +114,18 @@ void add_samples(const PathInput& in, const PathParams& k, std::uint64_t count,
 }
 
 /// Samples [first, first + count) of every pixel; they share a key.
-void trace_run(const PathInput& in, PathParams& k, std::uint64_t count, PathScratch& scratch,
-               Film& film) {
+Status trace_run(const PathInput& in, PathParams& k, std::uint64_t count, PathScratch& scratch,
+                 Film& film) {
     // As many samples of as few pixels as the scratch holds: neighbours in a lane meet one memory.
     k.per_pixel = std::uint32_t(smaller(count, scratch.capacity));
     const std::uint64_t pixels = film_pixels(in), band = scratch.capacity / k.per_pixel;
     for (std::uint64_t first = 0; first < pixels; first += band) {
         k.first_pixel = std::uint32_t(first);
         const std::uint64_t samples = smaller(band, pixels - first) * k.per_pixel;
-        run_launch(in, k, samples, scratch);
+        PILEUS_TRY(run_launch(in, k, samples, scratch));
         add_samples(in, k, samples, scratch, film);
     }
+    return Status::ok();
 }
 
 }  // namespace
@@ -171,7 +178,7 @@ Status trace_paths(const PathInput& in, std::uint64_t samples, PathScratch& scra
         const std::uint64_t count = smaller(smaller(samples, shared - number), scratch.capacity);
         k.key = make_key(in.seed, kPathStream, std::uint32_t(film.samples / shared));
         k.first_sample = std::uint32_t(number);
-        trace_run(in, k, count, scratch, film);
+        PILEUS_TRY(trace_run(in, k, count, scratch, film));
         film.samples += count;
         samples -= count;
     }

@@ -4,6 +4,7 @@
 
 #include "kernels_cpu/accumulate.h"
 #include "platform/threads.h"
+#include "src/stages/device_launch.h"
 #include "src/stages/prepare_majorant.h"
 
 namespace pileus {
@@ -18,7 +19,9 @@ std::uint64_t collector_numbers(const TraceInput& in) {
 }
 
 /// Whether photons add to the slot's own sums: no other thread does, or all do it atomically.
-bool adds_directly(const TraceInput& in) { return in.threads == 1 || in.shared_sums; }
+bool adds_directly(const TraceInput& in) {
+    return in.threads == 1 || in.shared_sums || in.kernels->device != nullptr;
+}
 
 /// `count` photons of one light that share the high half of their index.
 struct Launch {
@@ -43,12 +46,27 @@ void run_piece(const Launch& launch, std::uint64_t piece, int thread) {
     in.kernels->trace(launch.params, b, std::uint32_t(begin), std::uint32_t(end));
 }
 
-void run_launch(const Launch& launch, int threads) {
+/// The whole launch at once, a photon per thread of the device.
+Status run_on_device(const Launch& launch) {
+    const TraceInput& in = *launch.in;
+    const TraceBuffers b{in.collector_of_voxel.data,
+                         launch.total,
+                         launch.total + collector_numbers(in),
+                         &launch.scratch->tallies[0],
+                         in.medium->parts.data(),
+                         1};
+    return launch_on_device(*in.kernels->device, launch.params, b, slot_stride(in),
+                            std::uint32_t(launch.count));
+}
+
+Status run_launch(const Launch& launch, int threads) {
+    if (launch.in->kernels->device != nullptr) return run_on_device(launch);
     const std::uint64_t pieces = (launch.count + kChunk - 1) / kChunk;
     if (launch.in->shared_sums && !kSharesSums) threads = 1;
     parallel_for(threads, std::int64_t(pieces), [&](std::int64_t piece, int thread) {
         run_piece(launch, std::uint64_t(piece), thread);
     });
+    return Status::ok();
 }
 
 /// Adds one thread's sums to the total and leaves zeros behind.
@@ -177,7 +195,7 @@ Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScr
             if (launch.count > kMostPhotons) launch.count = kMostPhotons;
             launch.params.first_photon = std::uint32_t(index);
             launch.params.key = make_key(in.seed, light.stream, std::uint32_t(index >> 32));
-            run_launch(launch, in.threads);
+            PILEUS_TRY(run_launch(launch, in.threads));
             index += launch.count;
             left -= launch.count;
             launch.params.shift[0] += std::uint32_t(launch.count) * kR2[0];

@@ -12,6 +12,7 @@
 #include "src/io/picture.h"
 #include "src/study/difference.h"
 #include "src/study/metrics_json.h"
+#include "tools/pileus/block_files.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
 #include "tools/pileus/output_set.h"
@@ -26,7 +27,8 @@ struct CompareArguments {
     std::optional<std::string> reference_layer, alpha, range, threads, tone, density;
     std::optional<std::string> difference, z_map, flip;
     std::optional<std::string> max_relmse, max_rmse, max_abs, max_bias, max_flip;
-    bool json = false, no_flip = false, all = false;
+    std::optional<std::string> significance;
+    bool json = false, no_flip = false, all = false, welch = false;
 };
 
 struct Limit {
@@ -206,6 +208,11 @@ Status read_pictures(const CompareArguments& arguments, Image& a, Image& referen
 }
 
 Status run_compare(const CompareArguments& arguments) {
+    if (arguments.welch)
+        return compare_blocks(arguments.a, arguments.reference, arguments.significance,
+                              arguments.json);
+    if (arguments.significance)
+        return Status::bad_input("--significance: without --welch, allowed: with it");
     Settings settings;
     Status faults = read_settings(arguments, settings);
     add_fault(check_outputs(arguments), faults);
@@ -301,6 +308,14 @@ void add_compare(CLI::App& app, Chosen& chosen) {
     command->add_option("--max-flip", arguments->max_flip, "Exit 1 above this, mean of FLIP")
         ->type_name("X");
     command->add_flag("--json", arguments->json, "Print JSON");
+    command->add_flag("--welch", arguments->welch,
+                      "Both files are blocks of render --blocks or another program: test whether "
+                      "their means differ; other options of pictures are left alone");
+    command
+        ->add_option("--significance", arguments->significance,
+                     "Of --welch: chance of finding a difference where there is none; left out: "
+                     "6.8e-6")
+        ->type_name("P");
     command->callback(
         [arguments, &chosen] { chosen = [arguments] { return run_compare(*arguments); }; });
 }

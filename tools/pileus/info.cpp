@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "kernels_cpu/kernels.h"
+#include "platform/cuda_device.h"
 #include "platform/threads.h"
 #include "src/api/render.h"
 #include "src/base/file.h"
@@ -49,6 +50,12 @@ std::string isa_text() {
     return text;
 }
 
+/// A device that --isa can name, or why there is none.
+std::string device_text() {
+    std::string why;
+    return has_cuda_device(why) ? "cuda (" + cuda_device_text() + ")" : "cuda: " + why;
+}
+
 /// The formats that depend on a library tell whether it was built in.
 std::string library_text() {
     const std::string exr = can_write_image("x.exr") ? "OpenEXR yes" : "OpenEXR no";
@@ -58,7 +65,7 @@ std::string library_text() {
 std::string program_lines() {
     return info_line("version", kVersion) + info_line("compiler", compiler_text()) +
            info_line("isa", isa_text()) + info_line("threads", fmt::to_string(hardware_threads())) +
-           info_line("libraries", library_text());
+           info_line("device", device_text()) + info_line("libraries", library_text());
 }
 
 Status run_info(const InfoArguments& arguments) {

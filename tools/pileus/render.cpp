@@ -13,6 +13,7 @@
 #include "src/base/file.h"
 #include "src/methods/collectors_views.h"
 #include "src/scene/read_scene.h"
+#include "tools/pileus/block_files.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
 #include "tools/pileus/output_set.h"
@@ -29,6 +30,7 @@ struct RenderArguments {
     SceneArguments scene;
     std::vector<std::string> files;
     std::optional<std::string> report, frames, exposure, show, state, state_every;
+    BlockArguments blocks;
     bool quiet = false;
 };
 
@@ -37,6 +39,7 @@ struct Outputs {
     std::vector<std::string> files;
     std::string report;
     ToneSettings tone;
+    BlockSettings blocks;
     bool numbered = false;  ///< the scene has several frames, so names carry the frame's number
 };
 
@@ -119,6 +122,7 @@ Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOpti
     }
     add_fault(read_tone(arguments, outputs.tone), faults);
     add_fault(read_state(arguments, options), faults);
+    add_fault(read_block_arguments(arguments.blocks, outputs.blocks), faults);
     add_fault(read_scene_options(arguments.scene, scene, options), faults);
     PILEUS_TRY(faults);
 
@@ -127,6 +131,11 @@ Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOpti
     if (arguments.frames)
         PILEUS_TRY(read_frames(*arguments.frames, frames, options.first_frame, options.last_frame));
     outputs.numbered = frames > 1;
+    // Blocks are all that such a run writes.
+    if (!outputs.blocks.file.empty()) {
+        if (arguments.files.empty() && !arguments.report) return Status::ok();
+        return Status::bad_input("--blocks: together with -o or --report, allowed: without");
+    }
     // Names on the command line start at the working directory, those in a scene at its folder.
     outputs.files = arguments.files;
     if (outputs.files.empty())
@@ -186,6 +195,11 @@ Status run_render(RenderArguments& arguments) {
     std::string ended;
     catch_interrupts();
     options.interrupted = interrupt_asked;
+    if (!outputs.blocks.file.empty()) {
+        const Status status = render_blocks(scene, options, outputs.blocks);
+        progress.clear();
+        return status;
+    }
     const Status status =
         render(scene, options, [&](int frame, Image& image, Report& report) -> Status {
             progress.clear();
@@ -232,6 +246,17 @@ void add_render(CLI::App& app, Chosen& chosen) {
         ->add_option("--state-every", arguments->state_every,
                      "Seconds between two writings of it; left out: 60")
         ->type_name("S");
+    command
+        ->add_option("--blocks", arguments->blocks.file,
+                     "Render under several seeds and write sums and squares by blocks of pixels "
+                     "instead of pictures, for compare --welch")
+        ->type_name("FILE");
+    command
+        ->add_option("--block-passes", arguments->blocks.passes,
+                     "Seeds, from the scene's own on; left out: 16")
+        ->type_name("N");
+    command->add_option("--block-side", arguments->blocks.side, "Pixels; left out: 8")
+        ->type_name("N");
     command->add_flag("-q,--quiet", arguments->quiet, "No progress and no total");
     command->callback(
         [arguments, &chosen] { chosen = [arguments] { return run_render(*arguments); }; });

@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <limits>
 
-#include "kernels_cpu/kernels.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/toml_tree.h"
+#include "src/stages/find_kernels.h"
 #include "tools/pileus/option_text.h"
 
 namespace pileus {
@@ -21,12 +21,8 @@ constexpr std::int64_t kMostSamples = std::int64_t{1} << 32;
 constexpr double kMostSeconds = 1e9;
 
 Status check_isa(const std::string& name) {
-    if (kernel_table(name.c_str()) != nullptr) return Status::ok();
-    std::string names;
-    for (int i = 0; const KernelTable* table = kernel_table_at(i); ++i)
-        names += std::string(i > 0 ? ", " : "") + table->name;
-    return Status::bad_input("--isa: no such instruction set here, " + quote_text(name) +
-                             ", allowed: " + names);
+    const KernelTable* kernels = nullptr;
+    return find_kernels(name, kernels);
 }
 
 Status read_budget(const std::string& text, RenderOptions& options) {

@@ -9,13 +9,13 @@
 #include <memory>
 #include <optional>
 
-#include "kernels_cpu/kernels.h"
 #include "platform/clock.h"
 #include "platform/process.h"
 #include "platform/threads.h"
 #include "src/api/render.h"
 #include "src/base/file.h"
 #include "src/io/image_file.h"
+#include "src/stages/find_kernels.h"
 #include "src/study/study_execute.h"
 #include "src/study/study_report.h"
 #include "tools/pileus/command.h"
@@ -48,10 +48,8 @@ Status read_options(const StudyArguments& arguments, StudyOptions& options) {
     if (arguments.threads)
         add_fault(read_integer("--threads", *arguments.threads, 1, kMostThreads, threads), faults);
     if (threads > 0) options.threads = int(threads);
-    if (!options.isa.empty() && kernel_table(options.isa.c_str()) == nullptr)
-        add_fault(Status::bad_input("--isa: no such instruction set here, " + options.isa +
-                                    ", allowed: see pileus info"),
-                  faults);
+    const KernelTable* kernels = nullptr;
+    add_fault(find_kernels(options.isa, kernels), faults);
     for (const std::string& folder : {options.folder, options.references})
         if (!folder.empty()) add_fault(check_file_name(folder), faults);
     PILEUS_TRY(faults);
