@@ -79,7 +79,7 @@ PILEUS_FN void fetch_sums(const TraceParams& k, const TraceBuffers& b,
     const std::int64_t stride = std::int64_t(k.channels) * k.coefficients;
     for (std::int32_t i = 0; i < count; ++i) {
         const std::int64_t* sums = b.sums + collector[i] * stride;
-        for (std::int64_t c = 0; c < stride; c += 8) prefetch_(sums + c, 1);
+        for (std::int64_t c = 0; c < stride; c += 8) prefetch_to_write_(sums + c);
     }
 }
 

@@ -93,6 +93,14 @@ PILEUS_FN void prefetch_(const void* at) {
     __builtin_prefetch(at);
 #endif
 }
+/// The same for memory that will be written.
+PILEUS_FN void prefetch_to_write_(const void* at) {
+#if defined(__CUDA_ARCH__)
+    (void)at;
+#else
+    __builtin_prefetch(at, 1);
+#endif
+}
 
 /// Stores past the caches at a place aligned to sizeof(T), for what is not read again soon.
 template <class T>
