@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The kernels as nvcc compiles them: the same sources with one lane, a thread per item.
 // in: the launches' structs, their pointers the device's -> out: the same bits as on the host.
-// docs/crosscheck.md; flags -fmad=false -ftz=false -prec-div=true -prec-sqrt=true (PileusCuda.cmake)
+// docs/crosscheck.md; cmake/PileusCuda.cmake has the flags that keep the bits.
 #include "kernels_cpu/blend.h"
 #include "kernels_cpu/device_kernels.h"
 #include "kernels_cpu/device_threads.h"
@@ -16,7 +16,8 @@ namespace {
 // The name of a template cannot be handed over as a kernel: wrap each in a type.
 #define PILEUS_DEVICE_KERNEL(name, Params, Buffers)                                            \
     struct name##_one_lane {                                                                   \
-        __device__ __forceinline__ void operator()(const Params& k, const Buffers& b, std::uint32_t begin,     \
+        __device__ __forceinline__ void operator()(const Params& k, const Buffers& b,         \
+                                                   std::uint32_t begin,                        \
                                    std::uint32_t end) const {                                  \
             name<1>(k, b, begin, end);                                                         \
         }                                                                                      \
