@@ -31,6 +31,9 @@ write_page() {
     reference=$work/facts/reference
     {
         echo "<!-- isas: begin -->"
+        echo "Version $(sed -n 's/^project(pileus VERSION \([0-9.]*\).*/\1/p' CMakeLists.txt)," \
+            "$(date -u +%Y-%m-%d), sources $before:"
+        echo
         echo "| configuration | | digest of all scenes, stages and counts |"
         echo "|---|---|---|"
         for name in "${native[@]}" "${foreign[@]}"; do
