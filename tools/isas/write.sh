@@ -9,7 +9,7 @@ digests_of() {
     local file
     for file in "$reference"/*.facts; do
         awk -v scene="$(basename "$file" .facts)" '
-            /^digests [{}]/ || !/^digests / { next }
+            !/^digests [a-z]*:[0-9a-f]+$/ { next }
             {
                 split($2, part, ":")
                 if (part[1] in seen) { print line; delete seen; ++frame; line = "" }
@@ -56,7 +56,7 @@ write_page() {
         !skip { print }
         /^<!-- isas: end -->/ { skip = 0 }' "$page" >"$work/page.md"
     cp "$work/page.md" "$page"
-    echo "$page: $(grep -c '^| [a-z0-9-]* .* [0-9a-f]\{16\} |$' "$table") rows written"
+    echo "$page: $(grep -c ' | [0-9a-f]\{16\} |$' "$table") rows written"
     if [ ${#missing[@]} -gt 0 ]; then
         echo "not on the page, not run with these sources: ${missing[*]}"
     fi
