@@ -59,7 +59,7 @@ public:
         find_ranges();
     }
 
-    Drawing draw() {
+    PlotDrawing draw() {
         words({kLeft, 24}, plot_.title, 15, -1, kInk);
         grid(x_, true);
         grid(y_, false);
@@ -256,7 +256,7 @@ private:
 
     const Plot& plot_;
     Axis x_, y_;
-    Drawing drawing_;
+    PlotDrawing drawing_;
 };
 
 }  // namespace
@@ -268,6 +268,6 @@ PlotColour series_colour(std::size_t i) {
     return kColours[i % 8];
 }
 
-Drawing draw_plot(const Plot& plot) { return Plotter(plot).draw(); }
+PlotDrawing draw_plot(const Plot& plot) { return Plotter(plot).draw(); }
 
 }  // namespace pileus

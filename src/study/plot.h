@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Curves on logarithmic axes: points with a band, dashed floors, marked points, a level.
-// in: numbers -> out: a Drawing, for SVG and for pixels.
+// in: numbers -> out: a PlotDrawing, for SVG and for pixels.
 // docs/study.md, "Plots"
 #pragma once
 #include <string>
@@ -31,7 +31,7 @@ struct Plot {
 
 /// 860 x 440 units. Both axes are logarithmic and reach to whole decades in y, to 1, 2 or 5 times a
 /// decade in x. A floor far below all points is left out.
-Drawing draw_plot(const Plot& plot);
+PlotDrawing draw_plot(const Plot& plot);
 
 /// Colour of series number i; eight that people with any colour vision can tell apart, then again.
 PlotColour series_colour(std::size_t i);

@@ -37,18 +37,18 @@ struct Shape {
     std::string text;
 };
 
-struct Drawing {
+struct PlotDrawing {
     double width = 0, height = 0;
     std::vector<Shape> shapes;  ///< later ones over earlier ones
 };
 
 /// One <svg> element with a white ground; coordinates rounded to 0.01. Characters that XML reserves
 /// are escaped, control characters become '?'.
-std::string drawing_svg(const Drawing& drawing);
+std::string drawing_svg(const PlotDrawing& drawing);
 
 /// The drawing on white, `scale` pixels for each unit (1 to 8), rows from the top, 3 bytes a pixel.
 /// Words are drawn in a font of straight strokes that knows ASCII; anything else becomes a box.
-Status drawing_pixels(const Drawing& drawing, int scale, int& width, int& height,
+Status drawing_pixels(const PlotDrawing& drawing, int scale, int& width, int& height,
                       Buffer<std::uint8_t>& rgb);
 
 /// Strokes of a text in the font of drawing_pixels: polylines in units of its size, from (0, 0) on

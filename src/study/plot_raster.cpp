@@ -195,7 +195,7 @@ private:
 
 }  // namespace
 
-Status drawing_pixels(const Drawing& drawing, int scale, int& width, int& height,
+Status drawing_pixels(const PlotDrawing& drawing, int scale, int& width, int& height,
                       Buffer<std::uint8_t>& rgb) {
     constexpr double kMostSide = 4096;
     const bool sound = drawing.width >= 1 && drawing.width <= kMostSide && drawing.height >= 1 &&

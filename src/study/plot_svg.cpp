@@ -82,7 +82,7 @@ std::string escape_xml(const std::string& text) {
     return out;
 }
 
-std::string drawing_svg(const Drawing& drawing) {
+std::string drawing_svg(const PlotDrawing& drawing) {
     const std::string w = place_text(drawing.width), h = place_text(drawing.height);
     std::string text = fmt::format(
         "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 {} {}\" width=\"{}\""

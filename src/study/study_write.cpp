@@ -22,7 +22,7 @@ Status write_plots(const Study& study, const StudyOptions& options, const SceneR
     if (!scene.fault.empty()) return Status::ok();
     const std::string stem =
         options.folder + "/plots/" + study.scenes[std::size_t(scene.scene)].name;
-    const Drawing drawing = draw_plot(scene_plot(study, scene));
+    const PlotDrawing drawing = draw_plot(scene_plot(study, scene));
     PILEUS_TRY(write_text(stem + ".svg", drawing_svg(drawing)));
     if (!has_png()) return Status::ok();
     int width = 0, height = 0;

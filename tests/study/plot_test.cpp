@@ -52,7 +52,7 @@ std::string digest_of(const Buffer<std::uint8_t>& bytes) {
 }  // namespace
 
 TEST_CASE("a plot is the same text and the same pixels on every machine") {
-    const Drawing drawing = draw_plot(sample_plot());
+    const PlotDrawing drawing = draw_plot(sample_plot());
     CHECK(digest_of(drawing_svg(drawing)) == "f9b3e4904685ff1b");
     int width = 0, height = 0;
     Buffer<std::uint8_t> rgb;
@@ -63,7 +63,7 @@ TEST_CASE("a plot is the same text and the same pixels on every machine") {
 }
 
 TEST_CASE("everything lies on the paper, and the points where the axes say") {
-    const Drawing drawing = draw_plot(sample_plot());
+    const PlotDrawing drawing = draw_plot(sample_plot());
     for (const Shape& shape : drawing.shapes)
         for (const PlotXy& p : shape.points) {
             CHECK(p.x >= 0);
@@ -76,7 +76,7 @@ TEST_CASE("everything lies on the paper, and the points where the axes say") {
     PlotSeries series;
     for (double x : {1.0, 10.0, 100.0}) series.points.push_back({x, x / 1000, 0, 0, false});
     plot.series.push_back(series);
-    const Drawing line = draw_plot(plot);
+    const PlotDrawing line = draw_plot(plot);
     for (const Shape& shape : line.shapes)
         if (shape.size == 2 && shape.points.size() == 3) {
             const auto& p = shape.points;
@@ -129,7 +129,7 @@ TEST_CASE("words become strokes, and reserved characters entities") {
 }
 
 TEST_CASE("a drawing of no size is refused") {
-    Drawing drawing;
+    PlotDrawing drawing;
     int width = 0, height = 0;
     Buffer<std::uint8_t> rgb;
     CHECK(drawing_pixels(drawing, 1, width, height, rgb).code == Code::kBadInput);
