@@ -61,7 +61,7 @@ PILEUS_FN void towards_camera(const TraceParams& k, const TraceBuffers& b, I<W> 
 }
 
 /// Lanes of photons that move in turn; what they leave behind is gathered into full vectors.
-constexpr int kGroups = 4;
+constexpr int kGroups = 6;
 
 /// Light to be added to collectors, waiting until a whole vector of it has come together.
 template <int W, int NC>
@@ -73,29 +73,28 @@ struct DepositQueue {
     std::int32_t count;
 };
 
-/// Asks for the sums that the next deposits will add to.
+/// Asks for the sums that a vector of deposits will add to.
+template <int W>
 PILEUS_FN void fetch_sums(const TraceParams& k, const TraceBuffers& b,
-                          const std::int32_t* collector, std::int32_t count) {
-    const std::int64_t stride = std::int64_t(k.channels) * k.coefficients;
-    for (std::int32_t i = 0; i < count; ++i) {
-        const std::int64_t* sums = b.sums + collector[i] * stride;
-        for (std::int64_t c = 0; c < stride; c += 8) prefetch_to_write_(sums + c);
+                          const std::int32_t* collector) {
+    const std::int32_t stride = k.channels * k.coefficients;
+    for (int i = 0; i < W; ++i) {
+        const std::int64_t* sums = b.sums + std::int64_t(collector[i]) * stride;
+        for (std::int32_t c = 0; c < stride; c += 8) prefetch_to_write_(sums + c);
     }
 }
 
 /// Notes what the lanes of `m`, travelling along `d`, bring to their collectors.
 template <int W, int NC>
-PILEUS_FN void push_deposits(const TraceParams& k, const TraceBuffers& b, DepositQueue<W, NC>& q,
-                             const Vec<F<W>>& d, M<W> m, I<W> collector, const F<W> (&share)[NC]) {
+PILEUS_FN void push_deposits(DepositQueue<W, NC>& q, const Vec<F<W>>& d, M<W> m, I<W> collector,
+                             const F<W> (&share)[NC]) {
     const std::uint32_t bits = bits_of(m);
     pack(q.x + q.count, d.x, bits);
     pack(q.y + q.count, d.y, bits);
     pack(q.z + q.count, d.z, bits);
     for (int c = 0; c < NC; ++c) pack(q.share[c] + q.count, share[c], bits);
     pack(q.collector + q.count, collector, bits);
-    const std::int32_t more = count_bits(bits);
-    fetch_sums(k, b, q.collector + q.count, more);
-    q.count += more;
+    q.count += count_bits(bits);
 }
 
 /// Adds the directions of items [at, at + W) of the queue, or of its last few, to the sums.
@@ -127,12 +126,16 @@ PILEUS_FN void add_deposits(const TraceParams& k, const TraceBuffers& b,
     }
 }
 
-/// Adds all that waits but the last `keep` or fewer, oldest first; these move to the front.
+/// Adds all that waits but the last vector or two, or all: a vector is added when the one after it
+/// is full, whose sums are asked for first.
 template <int W, int NC>
 PILEUS_FN void flush_deposits(const TraceParams& k, const TraceBuffers& b, DepositQueue<W, NC>& q,
-                              std::int32_t keep) {
+                              bool last) {
     std::int32_t at = 0;
-    for (; q.count - at > keep; at += W) add_deposits(k, b, q, at);
+    for (; q.count - at >= (last ? 1 : 2 * W); at += W) {
+        if (!last) fetch_sums<W>(k, b, q.collector + at + W);
+        add_deposits(k, b, q, at);
+    }
     if (at == 0) return;
     const std::int32_t left = q.count > at ? q.count - at : 0;
     for (std::int32_t i = 0; i < left; ++i) {
@@ -168,7 +171,7 @@ PILEUS_FN void deposit(const TraceParams& k, const TraceBuffers& b, DepositQueue
     if (k.mode != kDepositCamera) {
         T shares[NC];
         for (int c = 0; c < NC; ++c) shares[c] = value * s.weight[c];
-        push_deposits(k, b, q, d, m, collector, shares);
+        push_deposits(q, d, m, collector, shares);
         return;
     }
     Vec<T> to{all<T>(k.camera[0]), all<T>(k.camera[1]), all<T>(k.camera[2])};

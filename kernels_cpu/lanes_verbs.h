@@ -70,10 +70,14 @@ PILEUS_FN std::uint32_t bits_of(Mask m) {
 /// Number of set bits among the 16 lowest; the builtin calls a library where there is no
 /// instruction.
 PILEUS_FN std::int32_t count_bits(std::uint32_t v) {
+#if defined(__POPCNT__)
+    return __builtin_popcount(v & 0xffffu);
+#else
     v = v - ((v >> 1) & 0x5555u);
     v = (v & 0x3333u) + ((v >> 2) & 0x3333u);
     v = (v + (v >> 4)) & 0x0f0fu;
     return std::int32_t((v + (v >> 8)) & 0x1fu);
+#endif
 }
 
 /// Number of the lowest set bit; v is not 0.

@@ -10,43 +10,39 @@
 namespace pileus {
 inline namespace PILEUS_ISA {
 
-/// Ask for the memory that the lanes of `m` will read, so that it comes while others compute.
-template <int W>
-PILEUS_FN void fetch_ahead(const float* density, const std::int32_t* collectors, std::uint32_t m,
-                           I<W> corner, I<W> voxel, const float* parts) {
-    for (; m != 0; m &= m - 1) {
-        const int i = lowest_bit(m);
-        prefetch_(density + lane(corner, i));
-        if (parts != nullptr) prefetch_(parts + lane(corner, i));
-        if (collectors != nullptr) prefetch_(collectors + lane(voxel, i));
-    }
+/// Ask for the memory that the lanes will read, so that it comes while others compute. All lanes:
+/// a loop over some would end where no processor expects it.
+template <int W, class S>
+PILEUS_FN void fetch_ahead(const S* grid, I<W> at) {
+    for (int i = 0; i < W; ++i) prefetch_(grid + lane(at, i));
 }
 
 /// Move every living lane to its next collision or block border.
 template <int W, int NC>
 PILEUS_FN void advance(Group<W, NC>& g, const TraceParams& k, const TraceBuffers& b) {
     Photon<W, NC>& s = g.s;
-    g.before = s.alive;
-    const M<W> flies = s.alive & (g.waits == 0);
-    const Stride<W> m = stride(s, k.grid, k.grid.majorant, flies);
-    g.hits = m.hits;
-    g.bound = m.bound;
-    s.path = s.path + select(flies, m.metres, F<W>{});
-    if (any(m.hops)) {
-        b.tally->crossings += count_bits(bits_of(m.hops));
-        const Crossing<W> c = cross(s, k.grid, m);
-        if (any(c.out)) leave_box(s, k, b, c.out, c.by_z);
+    const M<W> flies = s.alive & lnot(g.out) & (g.waits == 0);
+    g.hits = fly(s, k.grid, flies);
+    const auto hops = flies & lnot(g.hits);
+    if (any(hops)) {
+        b.tally->crossings += count_bits(bits_of(hops));
+        const Crossing<W> c = hop(s, k.grid, hops);
+        g.out = g.out | c.out;
+        g.by_z = (g.by_z & lnot(c.out)) | (c.by_z & c.out);
     }
-    if (!any(m.hits)) return;
-    b.tally->tentative += count_bits(bits_of(m.hits));
-    s.event = select(m.hits, s.event + 1u, s.event);
-    const Words<U<W>> w = threefry(k.key.k0, k.key.k1, s.index + k.first_photon, s.event * 4u + 1u);
+    if (!any(g.hits)) return;
+    b.tally->tentative += count_bits(bits_of(g.hits));
+    s.event = select(g.hits, s.event + 1u, s.event);
+    const Words<U<W>> w = draw(s, k, 1u);
     // One look-up stands for eight: acceptance is linear in density.
-    g.corner = select(m.hits, corner_voxel(s.p, w.a, k.grid), I<W>{});
-    g.voxel = select(m.hits, voxel_of(s.p, k.grid), I<W>{});
-    g.spare = w.b;
-    fetch_ahead<W>(k.grid.density, k.mode != kDepositNone ? b.collector : nullptr, bits_of(m.hits),
-                   g.corner, g.voxel, k.media > 1 ? b.parts : nullptr);
+    g.corner = select(g.hits, corner_voxel(s.p, w.a, k.grid), I<W>{});
+    g.draw = w.b;
+    fetch_ahead<W>(k.grid.density, g.corner);
+    if (k.mode == kDepositIncident || k.mode == kDepositCamera) {
+        g.voxel = select(g.hits, voxel_of(s.p, k.grid), I<W>{});
+        fetch_ahead<W>(b.collector, g.voxel);
+    }
+    if (k.media > 1) fetch_ahead<W>(b.parts, g.corner);
 }
 
 /// Tentative collisions in the lanes that have come to one.
@@ -55,22 +51,26 @@ PILEUS_FN void collide(Group<W, NC>& g, const TraceParams& k, const TraceBuffers
                        Queues<W, NC>& queues) {
     using T = F<W>;
     Photon<W, NC>& s = g.s;
-    const Words<U<W>> flight = threefry(k.key.k0, k.key.k1, s.index + k.first_photon, s.event * 4u);
     const T density = gather(k.grid.density, g.corner);
-    const auto over = g.hits & (density > g.bound);
+    const auto over = g.hits & (density > s.bound);
     if (any(over)) b.tally->majorant_violations += count_bits(bits_of(over));
 
     const auto medium = g.hits & (density > 0.0f);
+    const T share = density / s.bound;
     if (k.mode != kDepositNone && k.mode != kDepositOutgoing && any(medium))
-        deposit(k, b, queues.deposits, s, medium, g.voxel, density / g.bound, g.corner, density);
-    s.tau = select(g.hits, free_flight(flight.a, g.spare), s.tau);
-    const T level = uniform(flight.b) * g.bound;
-    const auto real = medium & (level < density);
+        deposit(k, b, queues.deposits, s, medium, g.voxel, share, g.corner, density);
+
+    // Of the draw that refuses a collision the part above the share of real ones is even still.
+    const T level = uniform(g.draw);
+    const auto real = medium & (level < share);
+    const auto refused = g.hits & lnot(real);
+    s.tau = select(refused, next_flight(g.draw, share, refused, [&] { return draw(s, k, 2u).a; }),
+                   s.tau);
     if (any(real)) {
-        // Below the density the level is uniform still: it falls to each medium by its share.
-        const I<W> whose = k.media > 1
-                               ? medium_under(b.parts, voxels_of(k.grid), k.media, g.corner, level)
-                               : I<W>{};
+        // Below the share the level is even too: it falls to each medium by its part.
+        const I<W> whose = k.media > 1 ? medium_under(b.parts, voxels_of(k.grid), k.media, g.corner,
+                                                      level * s.bound)
+                                       : I<W>{};
         scatter(g, k, b, queues.turns, group, real, whose);
     }
 
@@ -81,25 +81,47 @@ PILEUS_FN void collide(Group<W, NC>& g, const TraceParams& k, const TraceBuffers
     }
 }
 
-/// Give idle lanes the next photons once a quarter is idle: results belong to photons, so the
-/// moment is free. Returns whether any lane lives.
+/// Lanes that have left the box do so: tally them, or send them on from the ground.
 template <int W, int NC>
-PILEUS_FN bool refill(Photon<W, NC>& s, const TraceParams& k, const TraceBuffers& b,
-                      std::uint32_t& next, std::uint32_t end) {
-    constexpr std::uint32_t kFull = (1u << W) - 1u;
-    const std::uint32_t living = bits_of(s.alive), idle = ~living & kFull;
-    if (next >= end || (living != 0 && count_bits(idle) * 4 < W)) return living != 0;
+PILEUS_FN void leave(Group<W, NC>& g, const TraceParams& k, const TraceBuffers& b) {
+    if (any(g.out)) leave_box(g.s, k, b, g.out, g.by_z);
+    g.out = g.out & lnot(g.out);
+}
+
+/// The next photons in the lanes of `idle`, as long as there are any.
+template <int W, int NC>
+PILEUS_FN void refill(Group<W, NC>& g, const TraceParams& k, const TraceBuffers& b,
+                      std::uint32_t idle, std::uint32_t& next, std::uint32_t end) {
     const U<W> numbers = reinterpret<U<W>>(iota<I<W>>());
-    auto fresh = s.alive & lnot(s.alive);
+    auto fresh = g.holds & lnot(g.holds);
     for (std::uint32_t lanes = idle; lanes != 0 && next < end; lanes &= lanes - 1) {
         const int i = lowest_bit(lanes);
-        set_lane(s.index, i, next++);
+        set_lane(g.s.index, i, next++);
         fresh = fresh | (numbers == std::uint32_t(i));
     }
-    start_photons(s, k, fresh);
+    start_photons(g.s, k, fresh);
     b.tally->photons += count_bits(bits_of(fresh));
-    PILEUS_FATE(s, *b.tally, emitted, fresh);
-    return true;
+    PILEUS_FATE(g.s, *b.tally, emitted, fresh);
+    g.holds = g.holds | fresh;
+}
+
+/// Books photons that have ended and starts others in their lanes, once a quarter stands idle:
+/// results belong to photons, so the moment is free. Returns whether any lane has a photon.
+template <int W, int NC>
+PILEUS_FN bool renew(Group<W, NC>& g, const TraceParams& k, const TraceBuffers& b,
+                     std::uint32_t& next, std::uint32_t end) {
+    constexpr std::uint32_t kFull = (1u << W) - 1u;
+    const std::uint32_t open = bits_of(g.holds);
+    const std::uint32_t ended = bits_of(g.out | (g.holds & lnot(g.s.alive)));
+    const std::uint32_t idle = ended | (next < end ? ~open & kFull : 0u);
+    if (idle == 0 || ((open & ~ended) != 0 && count_bits(idle) * 4 < W)) return open != 0;
+    if (ended != 0) {
+        leave(g, k, b);
+        settle(g.s, k, b, g.holds & lnot(g.s.alive));
+        g.holds = g.s.alive;
+    }
+    if (next < end) refill(g, k, b, ~bits_of(g.holds) & kFull, next, end);
+    return any(g.holds);
 }
 
 /// Trace photons [begin, end) of the launch, several groups of lanes in turn: while the memory of
@@ -117,17 +139,14 @@ PILEUS_FN void trace_photons(const TraceParams& k, const TraceBuffers& b, std::u
     for (bool busy = true; busy;) {
         busy = false;
         for (Group<W, NC>& g : groups) {
-            busy |= refill(g.s, k, b, next, end);
+            busy |= renew(g, k, b, next, end);
             advance(g, k, b);
         }
         for (int i = 0; i < kGroups; ++i) {
-            Group<W, NC>& g = groups[i];
-            if (any(g.hits)) collide(g, k, b, i, queues);
-            const auto died = g.before & lnot(g.s.alive);
-            if (any(died)) settle(g.s, k, b, died);
+            if (any(groups[i].hits)) collide(groups[i], k, b, i, queues);
         }
         turn_queued(groups, k, b, queues, next >= end);
-        flush_deposits(k, b, queues.deposits, busy ? 2 * W - 1 : 0);
+        flush_deposits(k, b, queues.deposits, !busy);
     }
 }
 #undef PILEUS_FATE

@@ -5,7 +5,7 @@
 #pragma once
 #include "kernels_cpu/accumulate.h"
 #include "kernels_cpu/fixed.h"
-#include "kernels_cpu/trace_start.h"
+#include "kernels_cpu/trace_walk.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
@@ -95,6 +95,7 @@ PILEUS_FN void bounce(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally,
         const T place = wraps ? wrap_place(metres, float(n) * cell) : metres;
         return min_(max_(place * (1.0f / cell), T{}), all<T>(float(n)));
     };
+    s.enters = select(hit, all<I<W>>(-1), s.enters);
     set_direction(s, k.grid, hit, d);
     set_position(s, k.grid, hit,
                  Vec<T>{inside(s.ground_x + d.x * enter, k.grid.cell[0], k.grid.size[0]),

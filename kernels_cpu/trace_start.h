@@ -15,6 +15,9 @@ template <int W, int NC>
 struct Photon : Walker<W> {
     F<W> weight[NC], path;  // share left per channel; metres
     U<W> index, event;
+    F<W> room, bound;          // metres to the end of the block; its majorant
+    I<W> exit, reach;          // axis across which it ends; empty blocks around it
+    I<W> enters;               // -1: the three above are to be found anew
     I<W> order;                // scatterings so far, bounces included
     I<W> texel;                // of the sky map that it comes from
     M<W> alive, shadow, owes;  // owes: the ground below misses this photon's light
@@ -129,6 +132,7 @@ PILEUS_FN void start_photons(Photon<W, NC>& s, const TraceParams& k, M<W> m) {
     s.path = select(m, zero, s.path);
     s.event = select(m, U<W>{}, s.event);
     s.order = select(m, I<W>{}, s.order);
+    s.enters = select(m, all<I<W>>(-1), s.enters);
     s.alive = s.alive | m;
     s.shadow = s.shadow & lnot(m);
     s.owes = s.owes & lnot(m);

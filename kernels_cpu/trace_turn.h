@@ -15,10 +15,11 @@ template <int W, int NC>
 struct Group {
     Photon<W, NC> s;
     I<W> waits;          // -1: in the queue for a new direction
-    M<W> before, hits;   // alive at the start of the round; arrived at a collision
-    F<W> bound;          // majorant there
+    M<W> holds;          // carries a photon whose end is not yet booked
+    M<W> out, by_z;      // stands outside of the box; which it left through top or bottom
+    M<W> hits;           // has come to a tentative collision
     I<W> corner, voxel;  // the look-up's voxel; the one that holds the photon
-    U<W> spare;          // random bits left over from choosing the corner
+    U<W> draw;           // decides it
 };
 
 /// Photons that wait for a new direction, wherever their lanes are.
@@ -28,9 +29,9 @@ struct TurnQueue {
     float x[kRoom], y[kRoom], z[kRoom];         // direction before
     std::uint32_t photon[kRoom], event[kRoom];  // what the random numbers belong to
     std::int32_t medium[kRoom];
-    std::int32_t place[kRoom];      // group * W + lane; -1: ended there
-    float share[NC][kRoom];         // paper only: signed weight to deposit,
-    std::int32_t collector[kRoom];  // and where; -1: nowhere
+    std::int32_t place[kRoom];  // group * W + lane; -1: ended there
+    float share[NC][kRoom];     // paper only: signed weight to deposit,
+    std::int32_t voxel[kRoom];  // and where
     std::int32_t count;
 };
 
@@ -41,10 +42,17 @@ struct Queues {
     DepositQueue<W, NC> deposits;
 };
 
+/// Random numbers of the lanes' present events: 0 absorption, 1 corner and collision, 2 direction,
+/// 3 free flight.
+template <int W, int NC>
+PILEUS_FN Words<U<W>> draw(const Photon<W, NC>& s, const TraceParams& k, std::uint32_t number) {
+    return threefry(k.key.k0, k.key.k1, s.index + k.first_photon, s.event * 4u + number);
+}
+
 /// Absorbs lanes of `m` by roulette: returns those that survive. One draw serves all channels.
 template <int W, int NC>
 PILEUS_FN M<W> survive(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally, M<W> m,
-                       U<W> spare, I<W> medium) {
+                       I<W> medium) {
     // White media absorb nothing: do not ask.
     float least = k.optics[0].albedo_max;
     for (int i = 1; i < k.media; ++i)
@@ -54,7 +62,7 @@ PILEUS_FN M<W> survive(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally
     F<W> survival = all<F<W>>(k.optics[0].albedo_max);
     for (int i = 1; i < k.media; ++i)
         survival = select(medium == i, all<F<W>>(k.optics[i].albedo_max), survival);
-    const auto absorbed = m & (uniform(spare) >= survival);
+    const auto absorbed = m & (uniform(draw(s, k, 0u).a) >= survival);
     if (any(absorbed)) {
         PILEUS_FATE(s, tally, absorbed, absorbed);
         s.alive = s.alive & lnot(absorbed);
@@ -95,7 +103,7 @@ PILEUS_FN void scatter(Group<W, NC>& g, const TraceParams& k, const TraceBuffers
         s.owed_y = select(owing, ground_place(s, k, 1), s.owed_y);
         s.owes = s.owes | owing;
     }
-    m = survive(s, k, tally, m, g.spare, medium);
+    m = survive(s, k, tally, m, medium);
     const std::uint32_t bits = bits_of(m);
     if (bits == 0) return;
     s.order = select(m, s.order + 1, s.order);
@@ -114,7 +122,8 @@ PILEUS_FN void scatter(Group<W, NC>& g, const TraceParams& k, const TraceBuffers
     if (k.mode != kDepositOutgoing) return;
     for (int c = 0; c < NC; ++c)
         pack(q.share[c] + at, select(s.shadow, F<W>{} - s.weight[c], s.weight[c]), bits);
-    pack(q.collector + at, gather(b.collector, g.voxel), bits);
+    pack(q.voxel + at, voxel_of(s.p, k.grid), bits);
+    for (std::int32_t i = at; i < q.count; ++i) prefetch_(b.collector + q.voxel[i]);
 }
 
 /// New directions of items [at, at + W) of the queue, or of its last few.
@@ -150,6 +159,9 @@ PILEUS_FN void turn_items(Group<W, NC>* groups, const TraceParams& k, const Trac
     using T = F<W>;
     const std::int32_t items = q.count - at < W ? q.count - at : W;
     Walker<W> w{};
+    const Words<U<W>> flight =
+        threefry(k.key.k0, k.key.k1, load<U<W>>(q.photon + at), load<U<W>>(q.event + at) * 4u + 3u);
+    w.tau = free_flight(flight.a, flight.b);
     set_direction(w, k.grid, iota<I<W>>() < items, turned_items(k, q, at));
     for (std::int32_t i = 0; i < items; ++i) {
         const std::int32_t place = q.place[at + i];
@@ -159,16 +171,18 @@ PILEUS_FN void turn_items(Group<W, NC>* groups, const TraceParams& k, const Trac
         put(g.s.d.x, l, lane(w.d.x, i)), put(g.s.inverse.x, l, lane(w.inverse.x, i));
         put(g.s.d.y, l, lane(w.d.y, i)), put(g.s.inverse.y, l, lane(w.inverse.y, i));
         put(g.s.d.z, l, lane(w.d.z, i)), put(g.s.inverse.z, l, lane(w.inverse.z, i));
+        put(g.s.tau, l, lane(w.tau, i));
+        put(g.s.enters, l, std::int32_t{-1});
         put(g.waits, l, std::int32_t{0});
     }
     if (k.mode != kDepositOutgoing) return;
-    const I<W> collector = load<I<W>>(q.collector + at);
+    const I<W> collector = gather(b.collector, load<I<W>>(q.voxel + at));
     T share[NC];
     for (int c = 0; c < NC; ++c) share[c] = load<T>(q.share[c] + at);
-    push_deposits(k, b, sums, w.d, (iota<I<W>>() < items) & (collector >= 0), collector, share);
+    push_deposits(sums, w.d, (iota<I<W>>() < items) & (collector >= 0), collector, share);
 }
 
-/// Turns all that wait but a last few less than a vector, unless they are to go as well.
+/// Turns all that wait but a last few, less than half a vector, unless they are to go as well.
 template <int W, int NC>
 PILEUS_FN void turn_queued(Group<W, NC>* groups, const TraceParams& k, const TraceBuffers& b,
                            Queues<W, NC>& queues, bool last) {
@@ -183,7 +197,7 @@ PILEUS_FN void turn_queued(Group<W, NC>* groups, const TraceParams& k, const Tra
         q.photon[i] = q.photon[at + i], q.event[i] = q.event[at + i];
         q.medium[i] = q.medium[at + i], q.place[i] = q.place[at + i];
         for (int c = 0; c < NC; ++c) q.share[c][i] = q.share[c][at + i];
-        q.collector[i] = q.collector[at + i];
+        q.voxel[i] = q.voxel[at + i];
     }
     q.count = left;
 }

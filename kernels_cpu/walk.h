@@ -78,6 +78,23 @@ PILEUS_FN auto free_flight(UU word, UU more) {
     return tau;
 }
 
+/// Optical depth to the next collision after one that was refused: the draw `u` of the `word` was
+/// not below the share `real` of real collisions, and is even above it still. Its 32 bits are
+/// continued where they end: `more()` is called for 2^-24 of all draws.
+template <class UU, class More>
+PILEUS_FN auto next_flight(UU word, F_of<UU> real, M_of<UU> refused, More more) {
+    using T = F_of<UU>;
+    const T low = to_float(reinterpret<I_of<UU>>(word & 255u));
+    T above = (1.0f - uniform(word)) - (low * 0x1p-32f + 0x1p-33f);
+    const auto tail = refused & (word >= 0xffffff00u);
+    if (any(tail)) {
+        const T fine = uniform(more());
+        above = select(tail, ((255.0f - low) + fine) * 0x1p-32f + 0x1p-64f, above);
+    }
+    // Never 0, as no free flight is.
+    return max_(T{} - log_(select(refused, above / (1.0f - real), all<T>(1.0f))), all<T>(0x1p-25f));
+}
+
 /// Index of one of the eight voxels around `p`, drawn with its trilinear weight: to 11 bits in x
 /// and y, 10 in z, rounded without a systematic error; the bits of one word serve once.
 template <class T, class UU>
@@ -85,10 +102,11 @@ PILEUS_FN auto corner_voxel(const Vec<T>& p, UU bits, const TrackGrid& k) {
     using II = I_of<T>;
     const auto draw = [](T at, UU word, float step, std::int32_t n, bool wraps) {
         const T jitter = to_float(reinterpret<II>(word)) * step + (0.5f * step - 0.5f);
-        const II i = floor_int(at + jitter), last = all<II>(n - 1);
+        const II last = all<II>(n - 1);
+        if (!wraps) return min_(to_int(max_(at + jitter, T{})), last);
         // Beyond the first voxel lies the last one of the period before, and the other way round.
-        if (wraps) return select(i < 0, last, select(i > last, II{}, i));
-        return min_(max_(i, II{}), last);
+        const II i = floor_int(at + jitter);
+        return select(i < 0, last, select(i > last, II{}, i));
     };
     const bool wraps = k.periodic != 0;
     const II x = draw(p.x, bits & 0x7ffu, 0x1p-11f, k.size[0], wraps);
@@ -103,9 +121,27 @@ struct Stride {
     M<W> hits, hops;
     F<W> bound, metres;    // the block's majorant; length of the stride
     F<W> sigma_t, border;  // 1/m; metres to the nearest plane
+    I<W> reach;            // blocks on all sides that are empty like this one
     F<W> tx, ty;           // metres to the planes ahead
     Vec<F<W>> plane;       // where they lie, voxels
 };
+
+/// Move the lanes of `active` straight on.
+template <int W>
+PILEUS_FN void move(Walker<W>& s, const TrackGrid& k, M<W> active, F<W> metres) {
+    using T = F<W>;
+    s.p.x = select(active, s.p.x + s.d.x * metres * (1.0f / k.cell[0]), s.p.x);
+    s.p.y = select(active, s.p.y + s.d.y * metres * (1.0f / k.cell[1]), s.p.y);
+    const T rise = s.d.z * metres * (1.0f / k.cell[2]);
+    if (k.periodic != 0) {
+        // A grazing ray makes many short strides: carry what rounding takes of its climb.
+        const T climb = rise + s.lift, z = s.p.z + climb;
+        s.lift = select(active, climb - (z - s.p.z), s.lift);
+        s.p.z = select(active, z, s.p.z);
+    } else {
+        s.p.z = select(active, s.p.z + rise, s.p.z);
+    }
+}
 
 /// Move the lanes of `active` to their next tentative collision or to the border of their block.
 template <int W>
@@ -114,6 +150,7 @@ PILEUS_FN Stride<W> stride(Walker<W>& s, const TrackGrid& k, const float* majora
     Stride<W> m;
     const I<W> block = (s.block_z * k.blocks[1] + s.block_y) * k.blocks[0] + s.block_x;
     m.bound = gather(majorant, select(active, block, I<W>{}));
+    m.reach = I<W>{};
     m.sigma_t = m.bound * k.sigma;
 
     const auto plane = [&](I<W> i, T inverse, std::int32_t n) {
@@ -131,17 +168,7 @@ PILEUS_FN Stride<W> stride(Walker<W>& s, const TrackGrid& k, const float* majora
     m.hops = active & lnot(m.hits);
     m.metres = select(m.hits, flight, m.border);
 
-    s.p.x = select(active, s.p.x + s.d.x * m.metres * (1.0f / k.cell[0]), s.p.x);
-    s.p.y = select(active, s.p.y + s.d.y * m.metres * (1.0f / k.cell[1]), s.p.y);
-    const T rise = s.d.z * m.metres * (1.0f / k.cell[2]);
-    if (k.periodic != 0) {
-        // A grazing ray makes many short strides: carry what rounding takes of its climb.
-        const T climb = rise + s.lift, z = s.p.z + climb;
-        s.lift = select(active, climb - (z - s.p.z), s.lift);
-        s.p.z = select(active, z, s.p.z);
-    } else {
-        s.p.z = select(active, s.p.z + rise, s.p.z);
-    }
+    move(s, k, active, m.metres);
     return m;
 }
 
@@ -160,16 +187,17 @@ PILEUS_FN void wrap(I<W>& block, F<W>& p, std::int32_t blocks, std::int32_t size
 }
 
 /// Put the lanes that hop into the next block, exactly on the plane they cross. A periodic grid is
-/// left through its top and bottom only.
-template <int W>
+/// left through its top and bottom only. With `Leaps` the planes may lie m.reach blocks farther on.
+template <bool Leaps = false, int W>
 PILEUS_FN Crossing<W> cross(Walker<W>& s, const TrackGrid& k, const Stride<W>& m) {
     using T = F<W>;
     s.tau = select(m.hops, max_(s.tau - m.sigma_t * m.border, T{}), s.tau);
     const M<W> by_x = m.hops & (m.tx <= m.border);
     const M<W> by_y = m.hops & lnot(by_x) & (m.ty <= m.border);
     const M<W> by_z = m.hops & lnot(by_x | by_y);
-    const auto turn = [](I<W> i, M<W> by, T inverse) {
-        return select(by, select(inverse > 0.0f, i + 1, i - 1), i);
+    const I<W> step = m.reach + 1;
+    const auto turn = [&](I<W> i, M<W> by, T inverse) {
+        return select(by, select(inverse > 0.0f, i + step, i - step), i);
     };
     s.p.x = select(by_x, m.plane.x, s.p.x);
     s.p.y = select(by_y, m.plane.y, s.p.y);
@@ -177,6 +205,15 @@ PILEUS_FN Crossing<W> cross(Walker<W>& s, const TrackGrid& k, const Stride<W>& m
     s.block_x = turn(s.block_x, by_x, s.inverse.x);
     s.block_y = turn(s.block_y, by_y, s.inverse.y);
     s.block_z = turn(s.block_z, by_z, s.inverse.z);
+    if constexpr (Leaps) {
+        // A leap may pass the sides of the block on its way: look where it ends.
+        const M<W> far = m.hops & (m.reach > 0);
+        if (any(far)) {
+            s.block_x = select(far & lnot(by_x), block_of(s.p.x, k, 0), s.block_x);
+            s.block_y = select(far & lnot(by_y), block_of(s.p.y, k, 1), s.block_y);
+            s.block_z = select(far & lnot(by_z), block_of(s.p.z, k, 2), s.block_z);
+        }
+    }
     if (k.periodic != 0) {
         s.lift = select(by_z, T{}, s.lift);
         wrap<W>(s.block_x, s.p.x, k.blocks[0], k.size[0]);

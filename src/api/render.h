@@ -12,7 +12,7 @@
 
 namespace pileus {
 
-constexpr const char* kVersion = "0.2.0";
+constexpr const char* kVersion = "0.3.0";
 
 struct KernelTable;
 

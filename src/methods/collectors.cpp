@@ -246,8 +246,8 @@ Status collectors_prepare(const Scene& scene, std::int64_t photons, const Contex
         run.camera_cells > 0
             ? prepare_cells(run.medium, run.camera_cells, context, run.prepared)
             : prepare_collectors(run.medium, scene.collectors, scene.seed, context, run.prepared));
-    PILEUS_TRY(
-        prepare_majorants(run.medium, scene.collectors.local_tracking, context, run.prepared));
+    PILEUS_TRY(prepare_photon_majorants(run.medium, scene.collectors.local_tracking, context,
+                                        run.prepared));
     run.outlined_only = false;
     PILEUS_TRY(collectors_measure(context, run));
     PILEUS_TRY(allocate_photons(context, run));

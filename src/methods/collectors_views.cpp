@@ -74,7 +74,8 @@ Status prepare_step(View view, const Context& context, ViewRun& out) {
         case View::kSamples:
             return prepare_sample_set(run.medium, settings, run.scene->seed, context, out.samples);
         case View::kPhotons:
-            return prepare_majorants(run.medium, settings.local_tracking, context, run.prepared);
+            return prepare_photon_majorants(run.medium, settings.local_tracking, context,
+                                            run.prepared);
         default:
             return run.camera_cells > 0
                        ? prepare_cells(run.medium, run.camera_cells, context, run.prepared)

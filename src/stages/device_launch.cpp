@@ -14,6 +14,11 @@ using Size = std::uint64_t;
 
 Size product(const std::int32_t (&n)[3]) { return Size(n[0]) * Size(n[1]) * Size(n[2]); }
 
+/// Blocks that flights of the path tracer cross: a ring of one more around the grid.
+Size product_with_ring(const std::int32_t (&n)[3]) {
+    return (Size(n[0]) + 2) * (Size(n[1]) + 2) * (Size(n[2]) + 2);
+}
+
 Size pixels_of(const CameraParams& c) { return Size(c.width) * Size(c.height); }
 
 template <class Grid>
@@ -91,7 +96,8 @@ Status launch_on_device(const DeviceTable& device, const PathParams& params,
     PathParams k = params;
     PathBuffers b = buffers;
     DeviceArrays a(*device.device);
-    add_grid(a, k.grid);
+    a.in(k.grid.density, product(k.grid.size));
+    a.in(k.grid.majorant, product_with_ring(k.grid.blocks));
     for (int i = 0; i < k.media; ++i) a.in(k.optics[i].phase.table);
     if (k.media > 1) a.in(k.parts, Size(k.media - 1) * product(k.grid.size));
     add_sky(a, k.map);

@@ -55,6 +55,7 @@ void follow(const TraceParams& k, TraceBuffers b, std::uint32_t number, std::siz
         const int before = s.order;
         const std::uint32_t event = s.event;
         advance(g, k, b);
+        leave(g, k, b);
         if (s.alive && !g.hits && s.event != event)
             keep(point_of(s, k, PathEvent::kGround), most, path);
         if (!g.hits) continue;
@@ -62,7 +63,7 @@ void follow(const TraceParams& k, TraceBuffers b, std::uint32_t number, std::siz
         if (!s.alive) break;
         turn_queued(&g, k, b, queues, true);
         PathPoint p = point_of(s, k, s.order != before ? PathEvent::kScatter : PathEvent::kNull);
-        p.density_bound = g.bound;
+        p.density_bound = s.bound;
         keep(p, most, path);
     }
     keep(point_of(s, k, fate_of(tally)), most, path);

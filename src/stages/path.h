@@ -17,7 +17,7 @@ namespace pileus {
 constexpr std::uint32_t kPathStream = 32;
 
 /// A step of a flight across a border is a few additions: smaller blocks than photons have pay.
-constexpr TrackingCosts kPathCosts{1.0, 0.25};
+constexpr TrackingCosts kPathCosts{1.0, 0.25, 0.25};
 
 struct PathInput {
     const Medium* medium = nullptr;

@@ -43,6 +43,11 @@ Status prepare_collectors(const Medium& medium, const CollectorSettings& setting
 Status prepare_majorants(const Medium& medium, bool local, const Context& context, Prepared& out,
                          const TrackingCosts& costs = {});
 
+/// The same for photons, which leap over empty blocks: with blocks that suit them, and with the
+/// empty ones marked (mark_empty).
+Status prepare_photon_majorants(const Medium& medium, bool local, const Context& context,
+                                Prepared& out);
+
 /// Regular cells of `edge` voxels instead of leaves: one collector per cell that holds medium.
 /// Used by the camera-directed estimate that `variant` is measured against.
 Status prepare_cells(const Medium& medium, int edge, const Context& context, Prepared& out);

@@ -73,19 +73,21 @@ void layer_costs(const Grid& grid, int block, int first, int layers, Span<const 
         for (int part = 0; part < 2; ++part) {
             const int begin = part == 0 ? 0 : n[0] - 1, end = part == 0 ? n[0] - 1 : n[0];
             const double a = block_edge_m(grid, 0, block, begin);
-            double volume[kLayers], crossings[kLayers];
+            double volume[kLayers], surface[kLayers];
             const float* from[kLayers];
             for (int l = 0; l < kLayers; ++l) {
                 const int bz = first + (l < layers ? l : 0);
                 const double c = block_edge_m(grid, 2, block, bz);
                 volume[l] = a * b * c;
-                crossings[l] = 0.5 * (a * b + b * c + c * a) * costs.crossing;
+                surface[l] = 0.5 * (a * b + b * c + c * a);
                 from[l] = majorants.data + layer * std::size_t(bz) + row * std::size_t(by);
             }
             for (int bx = begin; bx < end; ++bx)
-                for (int l = 0; l < kLayers; ++l)
-                    total[l] +=
-                        sigma * double(from[l][bx]) * volume[l] * costs.tentative + crossings[l];
+                for (int l = 0; l < kLayers; ++l) {
+                    const double majorant = double(from[l][bx]);
+                    total[l] += sigma * majorant * volume[l] * costs.tentative +
+                                surface[l] * (majorant > 0 ? costs.crossing : costs.empty);
+                }
         }
     }
     for (int l = 0; l < layers; ++l) totals[l] = total[l];
@@ -173,6 +175,41 @@ Status majorant_grid(Span<const float> density, const Grid& grid, int block, int
         }
     });
     return Status::ok();
+}
+
+void mark_empty(const Grid& grid, int block, Span<float> majorants) {
+    // One sweep forth and one back over all 26 neighbours give the exact distance in blocks.
+    int n[3];
+    block_counts(grid, block, n);
+    const auto at = [&](int x, int y, int z) {
+        return (std::size_t(z) * std::size_t(n[1]) + std::size_t(y)) * std::size_t(n[0]) +
+               std::size_t(x);
+    };
+    constexpr float kFar = -1e6f;
+    for (float& m : majorants)
+        if (!(m > 0)) m = kFar;
+    const auto visit = [&](int x, int y, int z, int side) {
+        float& m = majorants.data[at(x, y, z)];
+        if (m > 0) return;
+        float reach = -m;
+        // The neighbours swept before: half of them all, in the order of the sweep.
+        for (int i = 0; i < 13; ++i) {
+            const int to[3] = {x + side * (i % 3 - 1), y + side * (i / 3 % 3 - 1),
+                               z + side * (i / 9 - 1)};
+            if (to[0] < 0 || to[1] < 0 || to[2] < 0 || to[0] >= n[0] || to[1] >= n[1] ||
+                to[2] >= n[2])
+                continue;
+            const float other = majorants.data[at(to[0], to[1], to[2])];
+            reach = std::min(reach, other > 0 ? 0.0f : 1.0f - other);
+        }
+        m = -reach;
+    };
+    for (int z = 0; z < n[2]; ++z)
+        for (int y = 0; y < n[1]; ++y)
+            for (int x = 0; x < n[0]; ++x) visit(x, y, z, 1);
+    for (int z = n[2]; z-- > 0;)
+        for (int y = n[1]; y-- > 0;)
+            for (int x = n[0]; x-- > 0;) visit(x, y, z, -1);
 }
 
 Status choose_block(Span<const float> density, const Grid& grid, double extinction_per_m,

@@ -40,9 +40,10 @@ double direct_cost(const Field& f, int block, double sigma, const TrackingCosts&
                 for (int a = 0; a < 3; ++a)
                     e[a] =
                         std::min(block, f.grid.size[a] - b[a] * block) * double(f.grid.cell_m[a]);
-                total += sigma * double(direct_majorant(f, block, i, j, k)) * e[0] * e[1] * e[2] *
-                             costs.tentative +
-                         2 * (e[0] * e[1] + e[1] * e[2] + e[2] * e[0]) / 4 * costs.crossing;
+                const double majorant = double(direct_majorant(f, block, i, j, k));
+                total += sigma * majorant * e[0] * e[1] * e[2] * costs.tentative +
+                         2 * (e[0] * e[1] + e[1] * e[2] + e[2] * e[0]) / 4 *
+                             (majorant > 0 ? costs.crossing : costs.empty);
             }
     return total;
 }
@@ -96,11 +97,43 @@ TEST_CASE("law: thin or empty media get one block, thick and ragged ones small b
     REQUIRE(bool(choose_block(nothing.span(), nothing.grid, 1.0, costs, 1, empty)));
     CHECK(empty.block == 40);
     // Where every size costs the same, the fewest blocks win.
-    REQUIRE(bool(choose_block(nothing.span(), nothing.grid, 1.0, {1.0, 0.0}, 1, empty)));
+    REQUIRE(bool(choose_block(nothing.span(), nothing.grid, 1.0, {1.0, 0.0, 0.0}, 1, empty)));
     CHECK(empty.block == 40);
     const Field f = balls(64, 64, 64, 3);
     REQUIRE(bool(choose_block(f.span(), f.grid, 1e-6, costs, 1, thin)));
     CHECK(thin.block == 64);
     REQUIRE(bool(choose_block(f.span(), f.grid, 100.0, costs, 1, ragged)));
     CHECK(ragged.block == 1);
+}
+
+TEST_CASE("law: an empty block knows the distance to the next that is not") {
+    Field f = speckle(37, 22, 31, 5);
+    // Almost all is air, so that there are distances.
+    for (std::size_t i = 0; i < f.rho.size(); ++i)
+        if (i % 5003 != 17) f.rho[i] = 0;
+    for (int block : {3, 5}) {
+        Buffer<float> plain, marked;
+        REQUIRE(bool(majorant_grid(f.span(), f.grid, block, 1, plain)));
+        REQUIRE(bool(majorant_grid(f.span(), f.grid, block, 1, marked)));
+        mark_empty(f.grid, block, marked.span());
+        int n[3], far = 0;
+        block_counts(f.grid, block, n);
+        const auto at = [&](int i, int j, int k) { return std::size_t((k * n[1] + j) * n[0] + i); };
+        for (int k = 0; k < n[2]; ++k)
+            for (int j = 0; j < n[1]; ++j)
+                for (int i = 0; i < n[0]; ++i) {
+                    int nearest = 1 << 20;
+                    for (int c = 0; c < n[2]; ++c)
+                        for (int b = 0; b < n[1]; ++b)
+                            for (int a = 0; a < n[0]; ++a)
+                                if (plain[at(a, b, c)] > 0)
+                                    nearest = std::min(nearest,
+                                                       std::max({std::abs(a - i), std::abs(b - j),
+                                                                 std::abs(c - k)}));
+                    const float expected = nearest == 0 ? plain[at(i, j, k)] : -float(nearest - 1);
+                    if (marked[at(i, j, k)] != expected) FAIL_CHECK("block " << at(i, j, k));
+                    far = std::max(far, nearest);
+                }
+        CHECK(far > 2);
+    }
 }

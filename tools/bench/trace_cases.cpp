@@ -16,7 +16,16 @@ using namespace pileus;
 struct TraceCase {
     std::string name, scene;
     Overrides overrides;
+    bool deposits = true;
 };
+
+/// One generation; without deposits its ledger alone, so that their share of the time shows.
+Status shoot(const Context& context, CollectorsRun& run, bool deposits) {
+    if (deposits) return collectors_shoot(context, run);
+    TraceInput in = collectors_trace_input(context, run);
+    in.deposit.mode = kDepositNone;
+    return trace_generation(in, 0, run.scratch, run.photons.slots[0], run.photons.tallies);
+}
 
 TraceTally total_of(const CollectorsRun& run) {
     TraceTally total{};
@@ -75,7 +84,7 @@ void run_trace(benchmark::State& state, Bench& bench, const TraceCase& which,
         forget_photons(p->run);
         state.ResumeTiming();
         const double start = cpu_seconds();
-        const Status status = collectors_shoot(context, p->run);
+        const Status status = shoot(context, p->run, which.deposits);
         fastest = std::min(fastest, cpu_seconds() - start);
         state.PauseTiming();
         if (!bench.passed(state, status)) return;
@@ -96,7 +105,7 @@ void run_floor(benchmark::State& state, Bench& bench, const TraceCase& which,
     const FloorKernel floor = floor_kernel(kernels->name);
     if (p == nullptr || floor == nullptr) return;
     forget_photons(p->run);
-    if (!bench.passed(state, collectors_shoot(p->context, p->run))) return;
+    if (!bench.passed(state, shoot(p->context, p->run, which.deposits))) return;
     const FloorWork work = floor_work(p->run);
     for (auto _ : state) bench.check(state, "floor of " + which.name, floor(work));
     count(state, total_of(p->run), 1);
@@ -115,10 +124,14 @@ void register_trace_cases(Bench& bench) {
                               "medium.1.resolution=[160,160,110]",
                               "medium.1.extinction_per_m=0.025",
                               "medium.1.phase={type=\"henyey-greenstein\",g=0.5}"};
+    const Overrides global = {few, "collectors.tracking=global"};
     // And as one medium of these two lobes: the same light, without mixing.
     const Overrides lobes = {few, "medium.0.phase={type=\"two-lobe\",g1=0.85,g2=0.5,weight=0.5}"};
     const TraceCase cases[] = {
         {"trace/slab", "slab", {few, "collectors.photons=1000000"}},
+        {"trace/cumulus128/local", "../studies/scenes/cumulus128", {few}},
+        {"trace/cumulus128/global", "../studies/scenes/cumulus128", global},
+        {"trace/cumulus128/bare", "../studies/scenes/cumulus128", {few}, false},
         {"trace/cumulus/local", "cumulus", {few, "collectors.tracking=local"}},
         {"trace/cumulus/global", "cumulus", {few, "collectors.tracking=global"}},
         {"trace/cumulus/two_media", "cumulus", halves},
