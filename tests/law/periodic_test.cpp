@@ -245,14 +245,15 @@ TEST_CASE("a camera moved by whole periods sees the same picture") {
 TEST_CASE("harmonics of the collectors give the colours towards a camera") {
     // Parallel rays have one direction for all collectors: both displays must show one picture.
     using namespace render_test;
+    const std::string photons = "collectors.photons=80000";
     const std::string narrow = "camera.fov_deg=0.05", far = "camera.position_m=[0,-300000,300000]";
     const Picture perspective =
-        render_one(scene_from(kPeriodicText, {narrow, far, "camera.target_m=[0,0,1024]"}));
+        render_one(scene_from(kPeriodicText, {narrow, far, photons, "camera.target_m=[0,0,1024]"}));
     const std::string no_fov =
         std::string(kPeriodicText)
             .replace(std::string(kPeriodicText).find("fov_deg = 50"), 12, "height_m = 370");
     const Picture parallel =
-        render_one(scene_from(no_fov, {"camera.projection=orthographic", far,
+        render_one(scene_from(no_fov, {"camera.projection=orthographic", far, photons,
                                        "camera.target_m=[0,0,1024]", "collectors.axis_degrees=0"}));
     double a = 0, b = 0;
     for (int y = 0; y < 18; ++y)
@@ -260,8 +261,9 @@ TEST_CASE("harmonics of the collectors give the colours towards a camera") {
             a += double(perspective.at("R", x, y));
             b += double(parallel.at("R", x, y));
         }
-    // The nodes of harmonics are coarser, and clamped colours are not taken out of them.
-    CHECK(a == doctest::Approx(b).epsilon(0.02));
+    // The nodes of harmonics are coarser, and clamped colours are not taken out of them: by six
+    // seeds 0.3 % with 80 000 photons, 0.05 % with four times as many, 2 to 4 % with 12 000.
+    CHECK(a == doctest::Approx(b).epsilon(0.01));
 }
 
 TEST_CASE("media of other periods, and displays of one camera, are refused in a line") {

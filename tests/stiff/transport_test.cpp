@@ -222,7 +222,7 @@ TEST_CASE("S35, S36: rods, plates and voxels of 1:1000 keep 4V/S and exp(-tau)")
         std::snprintf(name, sizeof name, "%d x %d x %d voxels, %g x %g x %g m: 4V/S", row.size[0],
                       row.size[1], row.size[2], row.extent[0], row.extent[1], row.extent[2]);
         check_fine(name, 1, [&](int multiple, std::uint64_t seed) {
-            return batch_mean(rig, 2'000'000 * std::uint64_t(multiple), seed,
+            return batch_mean(rig, 2'400'000 * std::uint64_t(multiple), seed,
                               [&](const TraceTally& t) {
                                   CHECK(balance(t.light, 0) == 0);
                                   CHECK(t.light.terminated[0] == 0);
