@@ -82,7 +82,7 @@ function by_isa(pattern, first, scale, second, i, k, n, isa, cell, name, mark) {
     }
 }
 # One row per case, one column for each counter of the list "counter*scale".
-function counters(pattern, list, heads, i, k, n, item, part, key) {
+function counters(pattern, list, heads, i, k, n, item, at, key) {
     n = split(list, item, " ")
     print heads
     gsub(/[^|]/, "", heads)
@@ -92,9 +92,10 @@ function counters(pattern, list, heads, i, k, n, item, part, key) {
         if (cases[i] !~ pattern) continue
         printf "| `%s` |", cases[i]
         for (k = 1; k <= n; k++) {
-            split(item[k], part, "*")
-            key = cases[i] " " part[1]
-            printf " %s |", key in values ? shown(values[key] * part[2]) : ""
+            # A counter's own name may hold a star: the scale follows the last one.
+            at = match(item[k], /\*[^*]*$/)
+            key = cases[i] " " substr(item[k], 1, at - 1)
+            printf " %s |", key in values ? shown(values[key] * substr(item[k], at + 1)) : ""
         }
         print ""
     }
