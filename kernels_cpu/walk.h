@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Steps along rays from block to block of a majorant grid, shared by all trackers.
+// Steps along rays from block to block of a majorant grid, shared by the trackers.
 // in: positions, directions, optical depths to go -> out: the next tentative collision or border.
 // docs/methods.md 2, delta tracking and "Periodic media"; the walk stands on each plane it crosses:
 // none is met twice.
