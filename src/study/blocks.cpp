@@ -43,7 +43,8 @@ struct Words {
         if (!skip()) return fault("file: ends early", text);
         const std::string found = word();
         if (found == text) return Status::ok();
-        return fault("word: \"" + printable_line(found) + "\"", std::string("\"") + text + "\"");
+        return fault("word: \"" + printable_line(found.substr(0, 40)) + "\"",
+                     std::string("\"") + text + "\"");
     }
     template <class Number>
     Status number(const char* what, double low, double high, Number& value) {
