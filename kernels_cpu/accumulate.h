@@ -32,6 +32,8 @@ PILEUS_FN void add_sum(std::int64_t* at, std::int64_t v, bool shared) {
         __atomic_fetch_add(reinterpret_cast<SharedSum*>(at), v, __ATOMIC_RELAXED);
         return;
     }
+#else
+    (void)shared;
 #endif
     *at += v;
 }
