@@ -47,7 +47,7 @@ PILEUS_FN void enter(Photon<W, NC>& s, const TrackGrid& k, M<W> m) {
 template <int W, int NC>
 PILEUS_FN Crossing<W> hop(Photon<W, NC>& s, const TrackGrid& k, M<W> hops) {
     using T = F<W>;
-    Stride<W> m;
+    BlockEnd<W> m;
     m.hops = hops;
     m.sigma_t = s.bound * k.sigma;
     m.border = s.room;
@@ -56,7 +56,7 @@ PILEUS_FN Crossing<W> hop(Photon<W, NC>& s, const TrackGrid& k, M<W> hops) {
     m.ty = select(s.exit == 1, T{}, all<T>(3e38f));
     m.plane = planes_ahead(s, k, s.reach);
     s.enters = select(hops, all<I<W>>(-1), s.enters);
-    return cross<true>(s, k, m);
+    return cross(s, k, m);
 }
 
 /// Move the lanes of `active` to their next tentative collision, or as far as the end of their

@@ -115,12 +115,11 @@ PILEUS_FN auto corner_voxel(const Vec<T>& p, UU bits, const TrackGrid& k) {
     return (z * k.size[1] + y) * k.size[0] + x;
 }
 
-/// What one stride met: a tentative collision (hits) or the border of the block (hops).
+/// The end of a way through one block, or over several empty ones.
 template <int W>
-struct Stride {
-    M<W> hits, hops;
-    F<W> bound, metres;    // the block's majorant; length of the stride
-    F<W> sigma_t, border;  // 1/m; metres to the nearest plane
+struct BlockEnd {
+    M<W> hops;             // lanes that stand there
+    F<W> sigma_t, border;  // 1/m; metres gone to the nearest plane
     I<W> reach;            // blocks on all sides that are empty like this one
     F<W> tx, ty;           // metres to the planes ahead
     Vec<F<W>> plane;       // where they lie, voxels
@@ -143,35 +142,6 @@ PILEUS_FN void move(Walker<W>& s, const TrackGrid& k, M<W> active, F<W> metres) 
     }
 }
 
-/// Move the lanes of `active` to their next tentative collision or to the border of their block.
-template <int W>
-PILEUS_FN Stride<W> stride(Walker<W>& s, const TrackGrid& k, const float* majorant, M<W> active) {
-    using T = F<W>;
-    Stride<W> m;
-    const I<W> block = (s.block_z * k.blocks[1] + s.block_y) * k.blocks[0] + s.block_x;
-    m.bound = gather(majorant, select(active, block, I<W>{}));
-    m.reach = I<W>{};
-    m.sigma_t = m.bound * k.sigma;
-
-    const auto plane = [&](I<W> i, T inverse, std::int32_t n) {
-        const I<W> ahead = select(inverse > 0.0f, i + 1, i);
-        return min_(to_float(ahead) * k.block, all<T>(float(n)));
-    };
-    m.plane = {plane(s.block_x, s.inverse.x, k.size[0]), plane(s.block_y, s.inverse.y, k.size[1]),
-               plane(s.block_z, s.inverse.z, k.size[2])};
-    m.tx = max_((m.plane.x - s.p.x) * s.inverse.x, T{});
-    m.ty = max_((m.plane.y - s.p.y) * s.inverse.y, T{});
-    const T tz = max_((m.plane.z - s.p.z) * s.inverse.z, T{});
-    m.border = min_(min_(m.tx, m.ty), tz);
-    const T flight = s.tau / m.sigma_t;
-    m.hits = active & (flight < m.border);
-    m.hops = active & lnot(m.hits);
-    m.metres = select(m.hits, flight, m.border);
-
-    move(s, k, active, m.metres);
-    return m;
-}
-
 /// Which lanes left the box, and which crossed a plane across z.
 template <int W>
 struct Crossing {
@@ -187,9 +157,9 @@ PILEUS_FN void wrap(I<W>& block, F<W>& p, std::int32_t blocks, std::int32_t size
 }
 
 /// Put the lanes that hop into the next block, exactly on the plane they cross. A periodic grid is
-/// left through its top and bottom only. With `Leaps` the planes may lie m.reach blocks farther on.
-template <bool Leaps = false, int W>
-PILEUS_FN Crossing<W> cross(Walker<W>& s, const TrackGrid& k, const Stride<W>& m) {
+/// left through its top and bottom only. The planes may lie m.reach blocks farther on.
+template <int W>
+PILEUS_FN Crossing<W> cross(Walker<W>& s, const TrackGrid& k, const BlockEnd<W>& m) {
     using T = F<W>;
     s.tau = select(m.hops, max_(s.tau - m.sigma_t * m.border, T{}), s.tau);
     const M<W> by_x = m.hops & (m.tx <= m.border);
@@ -205,14 +175,12 @@ PILEUS_FN Crossing<W> cross(Walker<W>& s, const TrackGrid& k, const Stride<W>& m
     s.block_x = turn(s.block_x, by_x, s.inverse.x);
     s.block_y = turn(s.block_y, by_y, s.inverse.y);
     s.block_z = turn(s.block_z, by_z, s.inverse.z);
-    if constexpr (Leaps) {
-        // A leap may pass the sides of the block on its way: look where it ends.
-        const M<W> far = m.hops & (m.reach > 0);
-        if (any(far)) {
-            s.block_x = select(far & lnot(by_x), block_of(s.p.x, k, 0), s.block_x);
-            s.block_y = select(far & lnot(by_y), block_of(s.p.y, k, 1), s.block_y);
-            s.block_z = select(far & lnot(by_z), block_of(s.p.z, k, 2), s.block_z);
-        }
+    // A leap may pass the sides of the block on its way: look where it ends.
+    const M<W> far = m.hops & (m.reach > 0);
+    if (any(far)) {
+        s.block_x = select(far & lnot(by_x), block_of(s.p.x, k, 0), s.block_x);
+        s.block_y = select(far & lnot(by_y), block_of(s.p.y, k, 1), s.block_y);
+        s.block_z = select(far & lnot(by_z), block_of(s.p.z, k, 2), s.block_z);
     }
     if (k.periodic != 0) {
         s.lift = select(by_z, T{}, s.lift);
