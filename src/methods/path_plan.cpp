@@ -102,9 +102,8 @@ void weigh_memory(const Context& context, PathRun& run) {
           bytes_of(8, texels) + 4 * std::uint64_t(run.sky_map.size[1]));
     t.add("film", Stage::kPaths, Stage::kLayers, film_bytes(in));
     const int finest = voxel_count(grid) <= kMostSingleVoxels ? 1 : 2;
-    t.add(
-        "blocks that flights cross", Stage::kPaths, Stage::kPaths,
-        path_blocks_bytes(grid, run.outlined_only ? finest : run.prepared.block, context.threads));
+    t.add("blocks that flights cross", Stage::kPaths, Stage::kPaths,
+          path_blocks_bytes(grid, run.outlined_only ? finest : run.prepared.block));
     t.add("path samples", Stage::kPaths, Stage::kPaths, path_scratch_bytes(in));
     if (!run.budget.state.empty())
         t.add("state file", Stage::kPaths, Stage::kPaths, path_state_bytes(film_bytes(in)));

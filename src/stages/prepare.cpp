@@ -2,6 +2,7 @@
 // See prepare.h.
 #include "src/stages/prepare.h"
 
+#include "src/stages/empty_blocks.h"
 #include "src/stages/prepare_collectors.h"
 #include "src/stages/prepare_field.h"
 #include "src/stages/prepare_leaves.h"
@@ -120,7 +121,9 @@ Status prepare_photon_majorants(const Medium& medium, bool local, const Context&
     // Fitted to the times of blocks of 4, 8 and 16 voxels on two clouds (docs/performance.md).
     constexpr TrackingCosts kCosts{1.0, 0.85, 0.15};
     PILEUS_TRY(prepare_majorants(medium, local, context, out, kCosts));
-    mark_empty(medium.grid, out.block, out.majorants.span());
+    int counts[3];
+    block_counts(medium.grid, out.block, counts);
+    mark_empty_blocks(out.majorants.span(), counts, context.threads);
     return Status::ok();
 }
 

@@ -44,7 +44,7 @@ Status prepare_majorants(const Medium& medium, bool local, const Context& contex
                          const TrackingCosts& costs = {});
 
 /// The same for photons, which leap over empty blocks: with blocks that suit them, and with the
-/// empty ones marked (mark_empty).
+/// empty ones marked (mark_empty_blocks).
 Status prepare_photon_majorants(const Medium& medium, bool local, const Context& context,
                                 Prepared& out);
 

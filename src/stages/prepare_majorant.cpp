@@ -177,41 +177,6 @@ Status majorant_grid(Span<const float> density, const Grid& grid, int block, int
     return Status::ok();
 }
 
-void mark_empty(const Grid& grid, int block, Span<float> majorants) {
-    // One sweep forth and one back over all 26 neighbours give the exact distance in blocks.
-    int n[3];
-    block_counts(grid, block, n);
-    const auto at = [&](int x, int y, int z) {
-        return (std::size_t(z) * std::size_t(n[1]) + std::size_t(y)) * std::size_t(n[0]) +
-               std::size_t(x);
-    };
-    constexpr float kFar = -1e6f;
-    for (float& m : majorants)
-        if (!(m > 0)) m = kFar;
-    const auto visit = [&](int x, int y, int z, int side) {
-        float& m = majorants.data[at(x, y, z)];
-        if (m > 0) return;
-        float reach = -m;
-        // The neighbours swept before: half of them all, in the order of the sweep.
-        for (int i = 0; i < 13; ++i) {
-            const int to[3] = {x + side * (i % 3 - 1), y + side * (i / 3 % 3 - 1),
-                               z + side * (i / 9 - 1)};
-            if (to[0] < 0 || to[1] < 0 || to[2] < 0 || to[0] >= n[0] || to[1] >= n[1] ||
-                to[2] >= n[2])
-                continue;
-            const float other = majorants.data[at(to[0], to[1], to[2])];
-            reach = std::min(reach, other > 0 ? 0.0f : 1.0f - other);
-        }
-        m = -reach;
-    };
-    for (int z = 0; z < n[2]; ++z)
-        for (int y = 0; y < n[1]; ++y)
-            for (int x = 0; x < n[0]; ++x) visit(x, y, z, 1);
-    for (int z = n[2]; z-- > 0;)
-        for (int y = n[1]; y-- > 0;)
-            for (int x = n[0]; x-- > 0;) visit(x, y, z, -1);
-}
-
 Status choose_block(Span<const float> density, const Grid& grid, double extinction_per_m,
                     const TrackingCosts& costs, int threads, BlockChoice& choice) {
     choice = BlockChoice{};

@@ -18,11 +18,6 @@ void block_counts(const Grid& grid, int block, int counts[3]);
 Status majorant_grid(Span<const float> density, const Grid& grid, int block, int threads,
                      Buffer<float>& majorants);
 
-/// Writes into each majorant that is 0 how many blocks on all sides are empty as well, as -r (what
-/// lies beyond the grid counts as empty): walks that know of it leap over them
-/// (kernels_cpu/walk.h).
-void mark_empty(const Grid& grid, int block, Span<float> majorants);
-
 /// What one event of tracking costs, in any one unit.
 struct TrackingCosts {
     double tentative = 1.0;  ///< a tentative collision

@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 
+#include "src/stages/empty_blocks.h"
 #include "tests/law/prepare_fields.h"
 
 using namespace pileus;
@@ -115,9 +116,9 @@ TEST_CASE("law: an empty block knows the distance to the next that is not") {
         Buffer<float> plain, marked;
         REQUIRE(bool(majorant_grid(f.span(), f.grid, block, 1, plain)));
         REQUIRE(bool(majorant_grid(f.span(), f.grid, block, 1, marked)));
-        mark_empty(f.grid, block, marked.span());
         int n[3], far = 0;
         block_counts(f.grid, block, n);
+        mark_empty_blocks(marked.span(), n, 2);
         const auto at = [&](int i, int j, int k) { return std::size_t((k * n[1] + j) * n[0] + i); };
         for (int k = 0; k < n[2]; ++k)
             for (int j = 0; j < n[1]; ++j)

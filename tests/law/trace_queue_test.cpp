@@ -4,6 +4,7 @@
 // docs/methods.md 3, "Queues".
 #include "kernels_cpu/pack.h"
 #include "kernels_cpu/walk.h"
+#include "src/stages/empty_blocks.h"
 #include "tests/trace_harness.h"
 #include "tests/widths.h"
 
@@ -42,6 +43,12 @@ Rig make_lumps() {
     return rig;
 }
 
+void mark_empties(Rig& rig) {
+    int counts[3];
+    block_counts(rig.medium.grid, rig.block, counts);
+    mark_empty_blocks(rig.majorants.span(), counts, 1);
+}
+
 }  // namespace
 
 TEST_CASE("law: packed lanes lie side by side in their order") { PILEUS_EACH_WIDTH(check_pack); }
@@ -49,7 +56,7 @@ TEST_CASE("law: packed lanes lie side by side in their order") { PILEUS_EACH_WID
 TEST_CASE("law: leaps over empty blocks change crossings and nothing else") {
     Rig rig = make_lumps();
     const TraceTally plain = shoot(rig, 60'000, 5);
-    mark_empty(rig.medium.grid, rig.block, rig.majorants.span());
+    mark_empties(rig);
     const TraceTally leaps = shoot(rig, 60'000, 5);
     CHECK(leaps.crossings * 2 < plain.crossings);
     CHECK(leaps.majorant_violations == 0);
@@ -67,7 +74,7 @@ TEST_CASE("law: leaps over empty blocks change crossings and nothing else") {
 
 TEST_CASE("law: leaps give the same bits at every width") {
     Rig rig = make_lumps();
-    mark_empty(rig.medium.grid, rig.block, rig.majorants.span());
+    mark_empties(rig);
     rig.kernels = kernel_table_at(0);
     const TraceTally scalar = shoot(rig, 5'003, 6);
     for (int i = 1; const KernelTable* table = kernel_table_at(i); ++i) {
