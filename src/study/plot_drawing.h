@@ -51,6 +51,9 @@ std::string drawing_svg(const PlotDrawing& drawing);
 Status drawing_pixels(const PlotDrawing& drawing, int scale, int& width, int& height,
                       Buffer<std::uint8_t>& rgb);
 
+/// Writes STEM.svg, and STEM.png where images can be written as PNG. kIo, kLimit.
+Status write_drawing(const std::string& stem, const PlotDrawing& drawing);
+
 /// Strokes of a text in the font of drawing_pixels: polylines in units of its size, from (0, 0) on
 /// the baseline's left end, y down; `width` gets where the next letter would begin.
 std::vector<std::vector<PlotXy>> text_strokes(const std::string& text, double& width);

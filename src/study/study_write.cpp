@@ -10,8 +10,6 @@ namespace pileus {
 
 namespace {
 
-constexpr int kPlotScale = 2;
-
 Status write_text(const std::string& path, const std::string& text) {
     return write_file(path, {text.data(), text.size()});
 }
@@ -22,15 +20,7 @@ Status write_plots(const Study& study, const StudyOptions& options, const SceneR
     if (!scene.fault.empty()) return Status::ok();
     const std::string stem =
         options.folder + "/plots/" + study.scenes[std::size_t(scene.scene)].name;
-    const PlotDrawing drawing = draw_plot(scene_plot(study, scene));
-    PILEUS_TRY(write_text(stem + ".svg", drawing_svg(drawing)));
-    if (!has_png()) return Status::ok();
-    int width = 0, height = 0;
-    Buffer<std::uint8_t> rgb;
-    Buffer<char> bytes;
-    PILEUS_TRY(drawing_pixels(drawing, kPlotScale, width, height, rgb));
-    PILEUS_TRY(encode_png(width, height, rgb.span(), bytes));
-    return write_file(stem + ".png", bytes.span());
+    return write_drawing(stem, draw_plot(scene_plot(study, scene)));
 }
 
 }  // namespace
