@@ -12,7 +12,8 @@
 
 namespace pileus {
 
-constexpr const char* kVersion = "0.3.0";
+/// As the build names it: "major.minor.patch".
+extern const char* const kVersion;
 
 struct KernelTable;
 
