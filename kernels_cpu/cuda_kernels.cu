@@ -6,6 +6,7 @@
 #include "kernels_cpu/device_kernels.h"
 #include "kernels_cpu/device_threads.h"
 #include "kernels_cpu/march.h"
+#include "kernels_cpu/march_background.h"
 #include "kernels_cpu/path.h"
 #include "kernels_cpu/self_test.h"
 #include "kernels_cpu/trace.h"

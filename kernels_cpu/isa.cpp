@@ -5,6 +5,7 @@
 #include "kernels_cpu/blend.h"
 #include "kernels_cpu/kernels.h"
 #include "kernels_cpu/march.h"
+#include "kernels_cpu/march_background.h"
 #include "kernels_cpu/self_test.h"
 #include "kernels_cpu/trace.h"
 
