@@ -50,9 +50,13 @@ std::uint64_t self_test_kernel() { return self_test_digest<PILEUS_WIDTH>(); }
 #define PILEUS_JOIN(a, b) a##b
 #define PILEUS_TABLE(isa) PILEUS_JOIN(kernel_table_, isa)
 #define PILEUS_PATH(isa) PILEUS_JOIN(path_kernel_, isa)
+#define PILEUS_RAYMARCH(isa) PILEUS_JOIN(raymarch_kernel_, isa)
 
 /// Of isa_path.cpp, compiled for the same instruction set.
 void PILEUS_PATH(PILEUS_ISA)(const PathParams&, const PathBuffers&, std::uint32_t, std::uint32_t);
+/// Of isa_raymarch.cpp.
+void PILEUS_RAYMARCH(PILEUS_ISA)(const RaymarchParams&, const RaymarchBuffers&, std::uint32_t,
+                                 std::uint32_t);
 
 extern const KernelTable PILEUS_TABLE(PILEUS_ISA);
 const KernelTable PILEUS_TABLE(PILEUS_ISA) = {
@@ -64,6 +68,7 @@ const KernelTable PILEUS_TABLE(PILEUS_ISA) = {
     background_kernel,
     blend_kernel,
     PILEUS_PATH(PILEUS_ISA),
+    PILEUS_RAYMARCH(PILEUS_ISA),
     self_test_kernel,
 };
 

@@ -7,6 +7,7 @@
 #include "kernels_cpu/device_kernels.h"
 #include "kernels_cpu/march_params.h"
 #include "kernels_cpu/path_params.h"
+#include "kernels_cpu/raymarch_params.h"
 #include "kernels_cpu/trace_params.h"
 
 namespace pileus {
@@ -23,6 +24,8 @@ struct KernelTable {
     /// Samples [begin, end) of the launch; stores each, adds none up.
     void (*trace_paths)(const PathParams&, const PathBuffers&, std::uint32_t begin,
                         std::uint32_t end);
+    void (*raymarch_rows)(const RaymarchParams&, const RaymarchBuffers&, std::uint32_t,
+                          std::uint32_t);
     /// FNV-1a 64 of every math kernel on 64 fixed inputs; the same on every machine.
     std::uint64_t (*self_test)();
     /// Where set, the functions above are not called: whole launches go to the device.

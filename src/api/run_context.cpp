@@ -4,6 +4,7 @@
 
 #include "src/methods/collectors.h"
 #include "src/methods/path.h"
+#include "src/methods/raymarch.h"
 #include "src/stages/find_kernels.h"
 
 namespace pileus {
@@ -58,7 +59,7 @@ Budget budget_of(const RenderOptions& options) {
 }
 
 Status find_method(const Scene& scene, const Method*& method) {
-    const Method* const all[] = {&collectors_method(), &path_method()};
+    const Method* const all[] = {&collectors_method(), &path_method(), &raymarch_method()};
     std::string names;
     for (const Method* one : all) {
         method = one;

@@ -122,6 +122,31 @@ struct PathSettings {
     std::int64_t max_samples_per_pixel = 65536;  ///< where an error or a time decides
 };
 
+enum class RaymarchIntegrator { kClosed, kRiemann, kTrapezoid, kSimpson, kSimpson38 };
+enum class RaymarchSpacing { kUniform, kVoxel, kOptimal, kGeometric };
+enum class RaymarchLightKind { kAuto, kMarch, kBuffer };
+enum class RaymarchPowderKind { kNone, kPowder, kBeerPowder, kDirectional };
+
+struct RaymarchSettings {
+    RaymarchIntegrator integrator = RaymarchIntegrator::kClosed;
+    int steps = 256;  ///< of a ray through the medium; 0: it is not seen
+    RaymarchSpacing spacing = RaymarchSpacing::kUniform;
+    double first_step_m = 0;  ///< geometric: at least; optimal: where steps stop shrinking; 0: auto
+    double growth = 1.01;     ///< geometric: of one step over the one before
+    bool stretch = false;     ///< occlusion = "stretch"
+    bool forward = false;     ///< scattering = "forward"
+    double cone_deg = 40;     ///< at its apex
+    double forward_share = -1;  ///< >= 0: instead of what the phase function keeps in the cone
+    RaymarchLightKind light = RaymarchLightKind::kAuto;
+    int light_steps = 0;  ///< 0: of a voxel, to the end
+    double light_first_step_m = 0, light_growth = 1;
+    RaymarchPowderKind powder = RaymarchPowderKind::kNone;
+    double powder_strength = 1;
+    Float3 ambient{0, 0, 0};  ///< emission over extinction
+    double stop_below = 1e-4;
+    bool peak_phase = false;  ///< phase = "peak": over its largest value
+};
+
 struct OutputSettings {
     std::vector<std::string> files;  ///< relative to the scene's folder
     std::string report;
@@ -147,6 +172,7 @@ struct Scene {
     std::string method = "collectors";
     CollectorSettings collectors;
     PathSettings path;
+    RaymarchSettings raymarch;
     OutputSettings output;
     Animation animation;
     std::string text;       ///< the file's own text

@@ -81,6 +81,8 @@ std::vector<const KeyRow*> all_scene_keys() {
     for (const KeyRow& row : view_keys()) rows.push_back(&row);
     for (const KeyRow& row : medium_keys()) rows.push_back(&row);
     for (const KeyRow& row : method_keys()) rows.push_back(&row);
+    for (const KeyRow& row : raymarch_keys()) rows.push_back(&row);
+    for (const KeyRow& row : output_keys()) rows.push_back(&row);
     return rows;
 }
 

@@ -14,7 +14,7 @@
 namespace pileus {
 
 /// Methods this version can run, and all names that a scene may use; parted by '|'.
-constexpr const char* kAvailableMethods = "collectors|path";
+constexpr const char* kAvailableMethods = "collectors|path|raymarch";
 constexpr const char* kKnownMethods =
     "collectors|raymarch|optical-depth|photon-grid|particles|path";
 
@@ -72,9 +72,11 @@ std::vector<std::string_view> split_list(const char* list);
 /// The tables of docs/scene.md as Markdown, one for each section of a scene.
 std::string describe_keys_markdown();
 
-Span<const KeyRow> view_keys();    // seed, camera, sun, sky, ground
-Span<const KeyRow> medium_keys();  // medium
-Span<const KeyRow> method_keys();  // method, collectors, path, output, animation
+Span<const KeyRow> view_keys();      // seed, camera, sun, sky, ground
+Span<const KeyRow> medium_keys();    // medium
+Span<const KeyRow> method_keys();    // method, collectors, path
+Span<const KeyRow> raymarch_keys();  // raymarch
+Span<const KeyRow> output_keys();    // tables of later methods, output, animation
 
 /// Conversions for the setters; the node has been checked against its row.
 std::int64_t integer_of(const Node& node);

@@ -102,10 +102,10 @@ TEST_CASE("unknown, missing and ill-typed keys") {
          "s.toml:8:9: medium.0.phase: wrong type, \"isotropic\", allowed: a table"},
         {kCamera + "[output]\nfiles = \"a.png\"\n",
          "s.toml:5:9: output.files: wrong type, \"a.png\", allowed: list of up to 16 texts"},
-        {kCamera + "[raymarch]\nx = 1\n[particles]\ny = 2\n[sky]\nradiance = {}\n",
+        {kCamera + "[photon-grid]\nx = 1\n[particles]\ny = 2\n[sky]\nradiance = {}\n",
          "s.toml:9:12: sky.radiance: wrong type, a table, allowed: number or [r, g, b] in "
          "[0, 1e+12]"},
-        {"raymarch = 1\n" + kCamera, "s.toml:1:12: raymarch: wrong type, 1, allowed: table"},
+        {"particles = 1\n" + kCamera, "s.toml:1:13: particles: wrong type, 1, allowed: table"},
     };
     for (const Row& row : rows) check(row);
 }
@@ -308,10 +308,12 @@ TEST_CASE("extinction is the scene's or the file's, never both") {
 
 TEST_CASE("parts of the format that this version cannot use") {
     const Row rows[] = {
-        {kCamera + "[method]\nname = \"raymarch\"\n",
-         "s.toml:5:8: method.name: not in this version, \"raymarch\", allowed: collectors, path"},
+        {kCamera + "[method]\nname = \"particles\"\n",
+         "s.toml:5:8: method.name: not in this version, \"particles\", allowed: collectors, path, "
+         "raymarch"},
         {kCamera + "[method]\nname = \"radiosity\"\n",
-         "s.toml:5:8: method.name: unknown value, \"radiosity\", allowed: collectors, path"},
+         "s.toml:5:8: method.name: unknown value, \"radiosity\", allowed: collectors, path, "
+         "raymarch"},
         {kCamera + "depth = \"z.exr\"\n",
          "s.toml:4:1: camera.depth: not in this version, \"z.exr\", allowed: nothing"},
         {kCamera + "[sky]\nmodel = \"atmosphere\"\n", "s.toml:5:1: sky.model: not in this ..."},

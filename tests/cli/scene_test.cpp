@@ -300,11 +300,12 @@ TEST_CASE("overrides change, add and create") {
               "medium.0.phase={type=\"henyey-greenstein\", g=0.5}", "medium.0.phase.g=0.75",
               "medium.1={density=\"a.pbrt\", extinction_per_m=1}", "output.layers=[depth,error]",
               "output.files=[out/a.png, \"b.exr\"]", "output.report=", "seed=1", "seed=2",
-              "collectors.photons=1_000", "raymarch.step=3"});
+              "collectors.photons=1_000", "raymarch.steps=3"});
     CHECK(scene.camera.resolution == std::array<int, 2>{160, 90});
     CHECK(scene.camera.position_m == Double3{0, -9, 6});
     CHECK(scene.sun.present);
     CHECK(scene.sun.elevation_deg == 20);
+    CHECK(scene.raymarch.steps == 3);
     REQUIRE(scene.media.size() == 2);
     CHECK(scene.media[0].density == DensityKind::kUniformSphere);
     CHECK(scene.media[0].albedo == Float3{0.9f, 0.9f, 0.9f});

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the kernel of method `raymarch` needs: plain structs and pointers.
+// in: the plan, the density, sunlight on nodes -> out: the layout of a launch.
+// docs/raymarch.md; Palenik 2016.
+#pragma once
+#include "kernels_cpu/march_params.h"
+
+namespace pileus {
+
+/// How one panel of the integral along a ray is added up.
+enum RaymarchRule : std::int32_t {
+    kRuleClosed = 0,     ///< S (1 - e^-tau), density and light from the middle
+    kRuleRiemann = 1,    ///< (3.6), (3.7): density and light from the start
+    kRuleTrapezoid = 2,  ///< (4.3)
+    kRuleSimpson = 3,    ///< (4.5), two steps a panel
+    kRuleSimpson38 = 4,  ///< (4.7), three steps a panel
+};
+
+enum RaymarchPowder : std::int32_t {
+    kPowderNone = 0,
+    kPowderAlone = 1,        ///< (3.13)
+    kPowderBeer = 2,         ///< (3.14)
+    kPowderDirectional = 3,  ///< (3.15)
+};
+
+/// Steps of a panel, each of which takes one sample.
+constexpr int rule_steps(std::int32_t rule) {
+    return rule == kRuleSimpson ? 2 : rule == kRuleSimpson38 ? 3 : 1;
+}
+
+/// Where steps along a ray lie. Step n begins at first (growth^n - 1) / (growth - 1) metres; as
+/// many or fewer than `most` reach through the medium.
+struct StepParams {
+    float most;                ///< steps a ray; 0: none
+    float least_m;             ///< no first step is shorter
+    std::int32_t grows;        ///< 0: all alike
+    std::int32_t by_distance;  ///< 1: growth - 1 is `pixel`, or what `most` steps need
+    float growth;              ///< of one step over the one before
+    float series;              ///< sum of growth^n over `most` steps
+    float pixel;               ///< edge of a pixel at distance 1
+    float near_m;              ///< distance below which steps stay alike
+    std::int32_t stretch;      ///< 1: steps adapt to what stands behind (4.1), (4.2)
+};
+
+/// How sunlight finds its way to a place.
+struct RaymarchLight {
+    std::int32_t march;         ///< 0: from nodes
+    NodeGrid nodes;             ///< of optical depths towards the sun
+    std::int32_t steps;         ///< of a march; 0: as many of `first_m` as the way takes
+    float first_m;              ///< 0: steps share the way
+    float growth;               ///< of one step over the one before
+    float series;               ///< sum of growth^n over `steps`
+    std::int32_t powder;        ///< a RaymarchPowder
+    float powder_strength;      ///< k of (3.13)
+    std::int32_t channels;      ///< 1, or 3 where the light kept differs by channel
+    std::int32_t forward;       ///< 1: some light is kept
+    float kept[kMostMedia][3];  ///< share of scattered light that goes on as if unscattered
+};
+
+struct RaymarchParams {
+    MediumView medium;
+    CameraParams camera;
+    std::int32_t media;  ///< on the grid, 1..kMostMedia
+    std::int32_t rule;   ///< a RaymarchRule
+    PhaseParams phase[kMostMedia];
+    float phase_scale[kMostMedia];  ///< 1, or one over the phase function's peak
+    float to_sun[3];
+    float sun_source[kMostMedia][3];  ///< irradiance times albedo
+    std::int32_t sunlit;              ///< 0: all of them are zero
+    float ambient[3];                 ///< emission over extinction, everywhere in the media
+    StepParams step;
+    RaymarchLight light;
+    float cut;  ///< stop below this transmittance
+};
+
+/// Counted per launch row; a block's counts go to its first row.
+enum RaymarchCount {
+    kCountSamples = 0,       ///< densities read along rays
+    kCountLightSamples = 1,  ///< densities read towards the sun
+    kCountBreaches = 2,      ///< pixels whose sum exceeded its own bound
+    kRaymarchCounts = 4,
+};
+
+struct RaymarchBuffers {
+    const float* optical_depth;  ///< light nodes; unused by a march
+    const float* opaque_depth;   ///< [pixel], m along the ray; null: nothing opaque
+    const float* parts;          ///< [medium - 1][voxel]: densities of media 1, 2 ...
+    float* transmittance;        ///< [pixel]
+    float*
+        half_depth;    ///< [pixel], m; infinity where transmittance stays above 1/2; null: unwanted
+    float* colour;     ///< [3][pixel], premultiplied
+    float* ray_depth;  ///< [pixel], optical depth along the ray; null: not wanted
+    std::int64_t* counts;  ///< [row][kRaymarchCounts], added to
+};
+
+}  // namespace pileus

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// Weighs a run of the raymarch: what it needs and leaves out, where sunlight comes from, memory.
+// in: RaymarchRun, outlined or prepared -> out: its plan; kLimit where something is too much.
+// docs/report.md, "Plan"; docs/raymarch.md
+#include "src/methods/raymarch.h"
+#include "src/stages/plan_parts.h"
+#include "src/stages/source_grid.h"
+
+namespace pileus {
+namespace {
+
+constexpr Stage kUnused[] = {Stage::kSamples, Stage::kTree,  Stage::kCollectors,  Stage::kLeafGrid,
+                             Stage::kPhotons, Stage::kPaths, Stage::kReconstruct, Stage::kSplat};
+
+std::uint64_t pixels_of(const Scene& scene) {
+    return std::uint64_t(scene.camera.resolution[0]) * std::uint64_t(scene.camera.resolution[1]);
+}
+
+/// Cells that a straight way through the grid crosses, about.
+double cells_across(const Grid& grid) {
+    return (double(grid.size[0]) + double(grid.size[1]) + double(grid.size[2])) / 3;
+}
+
+/// Marching from every sample, or from every node: what takes fewer samples of the density. About
+/// 64 samples of a ray lie where light still matters; half a way leads out of the medium.
+void choose_light(RaymarchRun& run) {
+    const RaymarchSettings& s = run.scene->raymarch;
+    const Grid& grid = run.medium.grid;
+    run.march_light = s.light == RaymarchLightKind::kMarch;
+    run.light_why = "as the scene asks";
+    if (s.light != RaymarchLightKind::kAuto) return;
+    const double way = 0.5 * cells_across(grid);
+    const double lit = double(s.steps < 64 ? s.steps : 64) * double(pixels_of(*run.scene));
+    const double marched = lit * (s.light_steps > 0 ? double(s.light_steps) : way);
+    const double nodes = double(node_count(sun_node_grid(grid, run.medium.extent_m))) * way;
+    run.march_light = marched < nodes;
+    run.light_why = "fewer samples of the density, about " +
+                    std::to_string(std::uint64_t(run.march_light ? marched : nodes)) +
+                    " instead of " +
+                    std::to_string(std::uint64_t(run.march_light ? nodes : marched));
+}
+
+/// What changes the picture's looks and has no physics behind it.
+void note_appearance(const RaymarchSettings& s, Plan& plan) {
+    constexpr const char* kTag = ": appearance, not physics";
+    if (s.powder != RaymarchPowderKind::kNone) plan.need((std::string("powder") + kTag).c_str());
+    if (s.ambient[0] > 0 || s.ambient[1] > 0 || s.ambient[2] > 0)
+        plan.need((std::string("ambient emission") + kTag).c_str());
+    if (s.peak_phase) plan.need((std::string("phase functions over their peak") + kTag).c_str());
+}
+
+bool has_sky(const Lighting& light) {
+    return light.map.columns > 0 || light.sky[0] > 0 || light.sky[1] > 0 || light.sky[2] > 0;
+}
+
+void note_light(const Scene& scene, const RaymarchRun& run, Plan& plan) {
+    const RaymarchSettings& s = scene.raymarch;
+    const bool moves = scene.animation.present && scene.animation.moves_sun;
+    const bool sun = run.lighting.sunlit || (moves && scene.sun.present);
+    if (!sun)
+        plan.leave_out("sunlight",
+                       scene.sun.present ? "below the ground's horizon, or dark" : "no sun");
+    else if (run.march_light)
+        plan.need(("sunlight by a march from each sample: " + run.light_why).c_str());
+    else
+        plan.need(("sunlight from nodes: " + run.light_why).c_str());
+    if (sun && s.forward)
+        plan.need("forward scattering: approximation");
+    else
+        plan.leave_out("forward scattering", sun ? "scattering = \"single\"" : "no sunlight");
+    plan.leave_out("light scattered more than once", "method raymarch has none but forward");
+    if (has_sky(run.lighting)) plan.leave_out("skylight in the medium", "sunlight alone");
+    if (run.lighting.ground)
+        plan.leave_out("light from the ground in the medium", "sunlight alone");
+}
+
+void note_plan(RaymarchRun& run) {
+    const Scene& scene = *run.scene;
+    Plan& plan = run.plan;
+    plan = Plan{};
+    plan.bias = {"raymarch", "light scattered more than once is missing or approximate",
+                 "docs/raymarch.md"};
+    if (scene.raymarch.steps > 0) {
+        plan.need("majorants");
+        plan.need("marched rays");
+        note_light(scene, run, plan);
+        note_appearance(scene.raymarch, plan);
+    } else {
+        plan.leave_out("marched rays", "steps = 0: the medium is not seen");
+    }
+    if (run.medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
+    if (!run.lighting.ground) plan.leave_out("depth test", "nothing solid: no ground");
+    if (!scene.output.layer_depth) plan.leave_out("depth of the medium", "no depth layer");
+    if (!scene.output.layer_optical_depth)
+        plan.leave_out("optical depth", "no optical_depth layer");
+    for (const std::string& what : run.media_plan.needed) plan.needed.push_back(what);
+    for (const LeftOut& l : run.media_plan.left_out) plan.left_out.push_back(l);
+    for (Stage stage : kUnused) plan.skip(stage);
+}
+
+void weigh_memory(const Context& context, RaymarchRun& run) {
+    const Scene& scene = *run.scene;
+    const OutputSettings& output = scene.output;
+    const Grid& grid = run.medium.grid;
+    const std::uint64_t pixels = pixels_of(scene), kFloat = sizeof(float);
+    const bool again = context.frames > 1;
+    const Stage last = again ? Stage::kWrite : Stage::kDisplay;
+    MemoryTable t;
+    add_density_rows(grid, run.source, std::uint64_t(run.medium.count), phase_bytes(run.medium),
+                     std::uint64_t(context.threads), sky_map_bytes(run.sky_map), t);
+    add_majorant_rows(grid, run.outlined_only ? 1 : run.prepared.majorants.size(),
+                      std::uint64_t(context.threads), last, t);
+    if (!run.march_light && run.lighting.sunlit)
+        t.add("sunlight's optical depth on nodes", Stage::kShadow, last,
+              bytes_of(kFloat, node_count(sun_node_grid(grid, run.medium.extent_m))));
+    const std::uint64_t shown = 7u + (output.layer_depth ? 1u : 0u) +
+                                (run.lighting.ground ? 1u : 0u) +
+                                (output.layer_optical_depth ? 1u : 0u);
+    t.add("picture planes", Stage::kBackground, Stage::kLayers, bytes_of(kFloat * shown, pixels));
+    t.add("counts of rows", Stage::kDisplay, Stage::kDisplay,
+          bytes_of(sizeof(std::int64_t) * kRaymarchCounts,
+                   std::uint64_t(scene.camera.resolution[1])));
+    add_image_rows(std::uint64_t(scene.camera.resolution[0]),
+                   std::uint64_t(scene.camera.resolution[1]), 4 + extra_layers(output, false), t);
+    run.plan.memory = t;
+    run.plan.exact = !run.outlined_only;
+}
+
+}  // namespace
+
+Status raymarch_measure(const Context& context, RaymarchRun& run) {
+    choose_light(run);
+    note_plan(run);
+    weigh_memory(context, run);
+    return check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), run.scene->file);
+}
+
+void raymarch_report_plan(const MethodRun& method_run, const Context& context, Report& report) {
+    const RaymarchRun& run = static_cast<const RaymarchRun&>(method_run);
+    report_plan(run.plan, report);
+    report.limits.clear();
+    const auto add = [&](LimitId id, std::uint64_t needs) {
+        report.limits.push_back(limit_of(context.limits, id, needs));
+    };
+    const Animation& animation = run.scene->animation;
+    add(LimitId::kVoxels, voxel_count(run.medium.grid));
+    add(LimitId::kPixels, pixels_of(*run.scene));
+    add(LimitId::kFrames, animation.present ? std::uint64_t(animation.frames) : 1);
+    add(LimitId::kMemory, run.plan.memory.peak());
+}
+
+}  // namespace pileus

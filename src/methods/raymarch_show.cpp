@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// One frame of a raymarch: sunlight, background, march, layers.
+// in: a prepared RaymarchRun -> out: Image, Report.
+// docs/raymarch.md; docs/formats.md, "Pictures out"
+#include "src/base/digest.h"
+#include "src/methods/raymarch.h"
+#include "src/stages/march_view.h"
+
+namespace pileus {
+namespace {
+
+/// Nodes serve every frame of the same sun.
+Status light_nodes(const Context& context, RaymarchRun& run) {
+    if (run.march_light || !run.lighting.sunlit || run.medium.sigma <= 0) return Status::ok();
+    if (!run.nodes.optical_depth.empty() && run.nodes_to_sun == run.lighting.to_sun)
+        return Status::ok();
+    PILEUS_TRY(make_sun_nodes(context, run.medium, run.prepared, run.lighting, run.nodes));
+    run.nodes_to_sun = run.lighting.to_sun;
+    return Status::ok();
+}
+
+Status fill_background(const Context& context, RaymarchRun& run) {
+    const StageClock clock(context, "background");
+    const Lighting& light = run.lighting;
+    BackgroundParams k{};
+    k.medium = make_medium_view(run.medium, run.prepared);
+    k.camera = run.camera;
+    k.ground = light.ground ? 1 : 0;
+    k.ground_z = float(light.ground_z);
+    for (std::size_t c = 0; c < 3; ++c) {
+        k.sky[c] = float(light.sky[c]);
+        k.ground_diffuse[c] = float(light.ground_diffuse[c]);
+        k.ground_sun[c] = float(light.ground_sun[c]);
+        k.to_sun[c] = light.to_sun[c];
+    }
+    k.sky_map = light.map;
+    const BackgroundBuffers b{nullptr, run.planes.background.data(),
+                              run.planes.opaque_depth.data()};
+    return run_rows(context, context.kernels->background_rows, k, b,
+                    std::uint32_t(run.camera.height));
+}
+
+}  // namespace
+
+Status raymarch_light(const FrameStep& step, const Context& context, MethodRun& method_run) {
+    RaymarchRun& run = static_cast<RaymarchRun&>(method_run);
+    const Scene& scene = *run.scene;
+    const OutputSettings& output = scene.output;
+    Plan photons;  // speaks of photons alone
+    run.lighting =
+        plan_lighting(scene, run.medium, sun_at(scene, step.frame), photons, &run.sky_map);
+    run.camera = make_camera(scene.camera, orbit_at(scene, step.frame), run.medium.low_m);
+    PILEUS_TRY(light_nodes(context, run));
+    PILEUS_TRY(allocate_planes(run.camera.width, run.camera.height, 3, run.lighting.ground,
+                               output.layer_depth, run.planes));
+    const std::uint64_t pixels = run.planes.transmittance.size();
+    if (output.layer_optical_depth)
+        PILEUS_TRY(run.planes.optical_depth.resize(pixels, "optical depth"));
+    PILEUS_TRY(fill_background(context, run));
+    RaymarchInput in;
+    in.medium = &run.medium;
+    in.prepared = &run.prepared;
+    in.lighting = &run.lighting;
+    in.settings = &scene.raymarch;
+    in.nodes = &run.nodes;
+    in.march_light = run.march_light;
+    in.camera = run.camera;
+    return raymarch_picture(context, in, run.planes, run.tally);
+}
+
+Status raymarch_show(const FrameStep&, const Context& context, MethodRun& method_run,
+                     Image& image) {
+    RaymarchRun& run = static_cast<RaymarchRun&>(method_run);
+    Report& report = *context.report;
+    const StageClock clock(context, "layers");
+    report.digests = run.digests;
+    Digest colours;
+    colours.floats(run.planes.colour.span());
+    report.digests.emplace_back("colours", colours.hex());
+    report.counters.clear();
+    std::uint64_t clamped = 0;
+    PILEUS_TRY(make_layers(run.planes, run.camera.width, run.camera.height, 3, run.scene->output,
+                           image, report, clamped));
+    report.counters.emplace_back("clamped_negative", clamped);
+    report.executed = {{"depth_tests", run.planes.opaque_depth.size()},
+                       {"depths_stored", run.planes.half_depth.size()},
+                       {"parts_stored", run.medium.parts.size()}};
+    set_image_camera(run.camera, run.medium.low_m, image);
+    run.planes = Planes{};
+    return Status::ok();
+}
+
+void raymarch_report(const MethodRun& method_run, Report& report) {
+    const RaymarchRun& run = static_cast<const RaymarchRun&>(method_run);
+    report.counters.emplace_back("bound_breaches", run.tally.breaches);
+    report.executed.emplace_back("ray_samples", run.tally.samples);
+    report.executed.emplace_back("light_samples", run.tally.light_samples);
+}
+
+}  // namespace pileus

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// See raymarch.h.
+#include "src/stages/raymarch.h"
+
+#include "platform/threads.h"
+#include "src/stages/forward_share.h"
+#include "src/stages/march_view.h"
+#include "src/stages/source_grid.h"
+
+namespace pileus {
+namespace {
+
+constexpr double kNodeVoxels = 1;  ///< spacing of the nodes: docs/raymarch.md, "Light"
+
+/// Sum of growth^n over so many steps; large enough where it leaves the range of floats.
+float series_of(double growth, int steps) {
+    double sum = 0, power = 1;
+    for (int n = 0; n < steps && sum < 1e30; ++n) sum += power, power *= growth;
+    return float(sum);
+}
+
+std::int32_t rule_of(RaymarchIntegrator integrator) { return std::int32_t(integrator); }
+
+void set_light(const RaymarchInput& in, RaymarchParams& k) {
+    const RaymarchSettings& s = *in.settings;
+    RaymarchLight& light = k.light;
+    light.march = in.march_light ? 1 : 0;
+    if (in.nodes != nullptr) light.nodes = in.nodes->grid;
+    light.steps = s.light_steps;
+    light.first_m =
+        s.light_steps == 0 ? smallest_cell(in.medium->grid) : float(s.light_first_step_m);
+    light.growth = float(s.light_growth);
+    light.series = s.light_steps > 0 ? series_of(s.light_growth, s.light_steps) : 1.0f;
+    light.powder = std::int32_t(s.powder);
+    light.powder_strength = float(s.powder_strength);
+    light.forward = s.forward ? 1 : 0;
+    light.channels = 1;
+    for (int i = 0; s.forward && i < in.medium->count; ++i) {
+        const Optics& optics = in.medium->optics[std::size_t(i)];
+        const double share =
+            s.forward_share >= 0 ? s.forward_share : forward_share(optics.phase, 0.5 * s.cone_deg);
+        for (std::size_t c = 0; c < 3; ++c) {
+            light.kept[i][c] = float(share * double(optics.albedo[c]));
+            if (light.kept[i][c] != light.kept[i][0]) light.channels = 3;
+        }
+    }
+}
+
+void set_media(const RaymarchInput& in, RaymarchParams& k) {
+    const Lighting& lighting = *in.lighting;
+    k.media = in.medium->count;
+    for (int i = 0; i < in.medium->count; ++i) {
+        const Optics& optics = in.medium->optics[std::size_t(i)];
+        k.phase[i] = optics.phase;
+        const float peak = phase_peak(optics.phase);
+        k.phase_scale[i] = in.settings->peak_phase && peak > 0 ? 1.0f / peak : 1.0f;
+        for (std::size_t c = 0; c < 3; ++c) {
+            k.sun_source[i][c] = float(lighting.sun_irradiance[c] * double(optics.albedo[c]));
+            if (lighting.sunlit && k.sun_source[i][c] > 0) k.sunlit = 1;
+        }
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+        k.to_sun[c] = lighting.to_sun[c];
+        k.ambient[c] = in.settings->ambient[c];
+    }
+}
+
+}  // namespace
+
+float smallest_cell(const Grid& grid) {
+    float smallest = grid.cell_m[0];
+    for (float cell : grid.cell_m) smallest = cell < smallest ? cell : smallest;
+    return smallest;
+}
+
+StepParams raymarch_steps(const RaymarchSettings& s, const CameraParams& camera, const Grid& grid) {
+    StepParams k{};
+    k.most = float(s.steps);
+    k.stretch = s.stretch ? 1 : 0;
+    k.growth = k.series = 1;
+    k.pixel = 2 * camera.half_height / float(camera.height);
+    switch (s.spacing) {
+        case RaymarchSpacing::kUniform:
+            break;
+        case RaymarchSpacing::kVoxel:
+            k.least_m = smallest_cell(grid);
+            // So many that the cell decides, as long as float counts them.
+            if (s.steps > 0) k.most = grid.periodic ? 0x1p17f : 0x1p13f;
+            break;
+        case RaymarchSpacing::kOptimal:
+            if (camera.orthographic != 0) {
+                k.least_m = k.pixel;
+                break;
+            }
+            k.grows = k.by_distance = 1;
+            k.near_m =
+                (s.first_step_m > 0 ? float(s.first_step_m) : 0.5f * smallest_cell(grid)) / k.pixel;
+            break;
+        case RaymarchSpacing::kGeometric:
+            k.least_m = float(s.first_step_m);
+            k.grows = s.growth > 1 ? 1 : 0;
+            k.growth = float(s.growth);
+            k.series = series_of(s.growth, s.steps);
+            break;
+    }
+    return k;
+}
+
+RaymarchParams raymarch_params(const RaymarchInput& in) {
+    RaymarchParams k{};
+    k.medium = make_medium_view(*in.medium, *in.prepared);
+    k.camera = in.camera;
+    k.rule = rule_of(in.settings->integrator);
+    k.step = raymarch_steps(*in.settings, in.camera, in.medium->grid);
+    k.cut = float(in.settings->stop_below);
+    set_media(in, k);
+    set_light(in, k);
+    return k;
+}
+
+NodeGrid sun_node_grid(const Grid& grid, const double (&extent_m)[3]) {
+    float coarse = 0;
+    for (float cell : grid.cell_m) coarse = cell > coarse ? cell : coarse;
+    return make_node_grid(grid, extent_m, kNodeVoxels * double(coarse));
+}
+
+Status make_sun_nodes(const Context& context, const Medium& medium, const Prepared& prepared,
+                      const Lighting& lighting, SunNodes& out) {
+    const StageClock clock(context, "shadow");
+    out.grid = sun_node_grid(medium.grid, medium.extent_m);
+    PILEUS_TRY(out.optical_depth.resize(node_count(out.grid), "shadow"));
+    ShadowParams k{};
+    k.medium = make_medium_view(medium, prepared);
+    k.nodes = out.grid;
+    for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = lighting.to_sun[a];
+    return run_rows(context, context.kernels->shadow_rows, k,
+                    ShadowBuffers{out.optical_depth.data()},
+                    std::uint32_t(k.nodes.size[1] * k.nodes.size[2]));
+}
+
+Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes& planes,
+                        RaymarchTally& tally) {
+    constexpr std::uint32_t kPiece = 4;
+    const StageClock clock(context, "march");
+    const RaymarchParams k = raymarch_params(in);
+    const std::uint32_t rows = std::uint32_t(k.camera.height);
+    Buffer<std::int64_t> counts;
+    PILEUS_TRY(counts.resize(std::uint64_t(rows) * kRaymarchCounts, "counts"));
+    RaymarchBuffers b{};
+    if (in.nodes != nullptr) b.optical_depth = in.nodes->optical_depth.data();
+    b.opaque_depth = planes.opaque_depth.data();
+    b.parts = in.medium->parts.data();
+    b.transmittance = planes.transmittance.data();
+    b.half_depth = planes.half_depth.data();
+    b.colour = planes.colour.data();
+    b.ray_depth = planes.optical_depth.data();
+    b.counts = counts.data();
+    parallel_for(context.threads, (rows + kPiece - 1) / kPiece, [&](std::int64_t piece, int) {
+        const std::uint32_t begin = std::uint32_t(piece) * kPiece;
+        context.kernels->raymarch_rows(k, b, begin, begin + kPiece < rows ? begin + kPiece : rows);
+    });
+    for (std::size_t row = 0; row < rows; ++row) {
+        const std::int64_t* own = counts.data() + row * kRaymarchCounts;
+        tally.samples += std::uint64_t(own[kCountSamples]);
+        tally.light_samples += std::uint64_t(own[kCountLightSamples]);
+        tally.breaches += std::uint64_t(own[kCountBreaches]);
+    }
+    return Status::ok();
+}
+
+}  // namespace pileus

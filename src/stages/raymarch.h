@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// A raymarched picture: the scene's settings become a launch of the kernel.
+// in: a medium, its lights, sunlight on nodes, a camera -> out: planes of pixels, counts.
+// docs/raymarch.md.
+#pragma once
+#include "kernels_cpu/raymarch_params.h"
+#include "src/stages/context.h"
+#include "src/stages/layers.h"
+#include "src/stages/lights.h"
+#include "src/stages/prepare.h"
+
+namespace pileus {
+
+/// Optical depths towards the sun on nodes over the box; none where light is marched.
+struct SunNodes {
+    NodeGrid grid{};
+    Buffer<float> optical_depth;
+};
+
+struct RaymarchInput {
+    const Medium* medium = nullptr;
+    const Prepared* prepared = nullptr;  ///< blocks to skip
+    const Lighting* lighting = nullptr;
+    const RaymarchSettings* settings = nullptr;
+    const SunNodes* nodes = nullptr;
+    bool march_light = false;
+    CameraParams camera;
+};
+
+struct RaymarchTally {
+    std::uint64_t samples = 0, light_samples = 0, breaches = 0;
+};
+
+/// Smallest edge of a cell, m.
+float smallest_cell(const Grid& grid);
+
+/// The steps that a scene asks for.
+StepParams raymarch_steps(const RaymarchSettings& settings, const CameraParams& camera,
+                          const Grid& grid);
+
+/// Everything that a launch reads, but for the pointers to planes.
+RaymarchParams raymarch_params(const RaymarchInput& in);
+
+/// Optical depths on nodes `spacing_voxels` apart, each marched to the sun. kLimit: out of memory.
+Status make_sun_nodes(const Context& context, const Medium& medium, const Prepared& prepared,
+                      const Lighting& lighting, SunNodes& out);
+
+/// Nodes that make_sun_nodes would make.
+NodeGrid sun_node_grid(const Grid& grid, const double (&extent_m)[3]);
+
+/// Marches into the planes' transmittance, colour and what else they have room for; ends rays at
+/// their opaque depth. kLimit: out of memory.
+Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes& planes,
+                        RaymarchTally& tally);
+
+}  // namespace pileus
