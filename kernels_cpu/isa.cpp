@@ -51,12 +51,19 @@ std::uint64_t self_test_kernel() { return self_test_digest<PILEUS_WIDTH>(); }
 #define PILEUS_TABLE(isa) PILEUS_JOIN(kernel_table_, isa)
 #define PILEUS_PATH(isa) PILEUS_JOIN(path_kernel_, isa)
 #define PILEUS_RAYMARCH(isa) PILEUS_JOIN(raymarch_kernel_, isa)
+#define PILEUS_SWEEP(isa) PILEUS_JOIN(sweep_kernel_, isa)
+#define PILEUS_SWEEP_LAYER(isa) PILEUS_JOIN(sweep_layer_kernel_, isa)
 
 /// Of isa_path.cpp, compiled for the same instruction set.
 void PILEUS_PATH(PILEUS_ISA)(const PathParams&, const PathBuffers&, std::uint32_t, std::uint32_t);
 /// Of isa_raymarch.cpp.
 void PILEUS_RAYMARCH(PILEUS_ISA)(const RaymarchParams&, const RaymarchBuffers&, std::uint32_t,
                                  std::uint32_t);
+
+/// Of isa_sweep.cpp, likewise.
+void PILEUS_SWEEP(PILEUS_ISA)(const SweepParams&, const SweepBuffers&, std::uint32_t);
+void PILEUS_SWEEP_LAYER(PILEUS_ISA)(const SweepLayerParams&, const SweepBuffers&, std::uint32_t,
+                                    std::uint32_t);
 
 extern const KernelTable PILEUS_TABLE(PILEUS_ISA);
 const KernelTable PILEUS_TABLE(PILEUS_ISA) = {
@@ -70,6 +77,9 @@ const KernelTable PILEUS_TABLE(PILEUS_ISA) = {
     PILEUS_PATH(PILEUS_ISA),
     PILEUS_RAYMARCH(PILEUS_ISA),
     self_test_kernel,
+    nullptr,
+    PILEUS_SWEEP(PILEUS_ISA),
+    PILEUS_SWEEP_LAYER(PILEUS_ISA),
 };
 
 }  // namespace pileus

@@ -8,6 +8,7 @@
 #include "kernels_cpu/march_params.h"
 #include "kernels_cpu/path_params.h"
 #include "kernels_cpu/raymarch_params.h"
+#include "kernels_cpu/sweep_params.h"
 #include "kernels_cpu/trace_params.h"
 
 namespace pileus {
@@ -30,6 +31,12 @@ struct KernelTable {
     std::uint64_t (*self_test)();
     /// Where set, the functions above are not called: whole launches go to the device.
     const DeviceTable* device = nullptr;
+    // On the host alone, null beside a device:
+    /// One block of the sun's optical depth; blocks nearer the sun must be done.
+    void (*sweep_block)(const SweepParams&, const SweepBuffers&, std::uint32_t block) = nullptr;
+    /// Rows of one slice of a periodic medium; the slice above it must be done.
+    void (*sweep_layer_rows)(const SweepLayerParams&, const SweepBuffers&, std::uint32_t begin,
+                             std::uint32_t end) = nullptr;
 };
 
 /// The widest table this machine runs; `name` (or null) forces one. Null: no such table here.

@@ -98,6 +98,7 @@ void register_math_cases(Bench& bench);
 void register_growth_cases(Bench& bench);
 void register_frame_cases(Bench& bench);
 void register_blend_cases(Bench& bench);
+void register_sweep_cases(Bench& bench);
 
 }  // namespace bench
 

@@ -162,6 +162,7 @@ int main(int argc, char** argv) {
     bench::register_growth_cases(bench);
     bench::register_frame_cases(bench);
     bench::register_blend_cases(bench);
+    bench::register_sweep_cases(bench);
     benchmark::RunSpecifiedBenchmarks();
     benchmark::Shutdown();
     return bench.failed() ? 1 : 0;
