@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Finds foreign libraries: four required sets of headers, nine optional libraries.
+# Finds foreign libraries: four required sets of headers, ten optional libraries.
 # in: PILEUS_<LIBRARY> options -> out: target pileus_headers, PILEUS_WITH_<LIBRARY> (0 or 1),
 # PILEUS_LINK_LIBRARIES, PILEUS_LIBRARY_DEFINITIONS. Debian package names: tools/install_packages
 add_library(pileus_headers INTERFACE)
@@ -42,7 +42,7 @@ endif()
 target_compile_definitions(pileus_headers INTERFACE FMT_HEADER_ONLY=1)
 
 # An optional library is used when it is wanted and found.
-foreach(name OPENEXR PNG ZLIB BLOSC OSMESA EGL OPENMP TESTS BENCHMARKS)
+foreach(name OPENEXR PNG ZLIB BLOSC ASSIMP OSMESA EGL OPENMP TESTS BENCHMARKS)
     set(PILEUS_WITH_${name} 0)
 endforeach()
 if(PILEUS_OPENEXR)
@@ -82,9 +82,9 @@ if(PILEUS_BLOSC)
         list(APPEND PILEUS_LINK_LIBRARIES pileus_blosc)
     endif()
 endif()
-# Headers alone: the program loads these two libraries when a scene asks for them, and starts
+# Headers alone: the program loads these libraries when a scene asks for them, and starts
 # without them. A static program could load none.
-foreach(row "OSMESA GL/osmesa.h" "EGL EGL/eglext.h")
+foreach(row "ASSIMP assimp/cimport.h" "OSMESA GL/osmesa.h" "EGL EGL/eglext.h")
     separate_arguments(row)
     list(POP_FRONT row name header)
     if(PILEUS_${name} AND NOT CMAKE_CROSSCOMPILING)

@@ -26,6 +26,7 @@ constexpr LimitRow kRows[kLimitCount] = {
     {"memory", two_to(33), two_to(46), "bytes", "peak of the planned arrays"},
     {"scatterings", 2000, two_to(40), "", "expected scatterings of one photon"},
     {"work", 1'000'000'000'000, two_to(60), "", "expected scatterings of all photons"},
+    {"triangles", 10'000'000, 100'000'000, "", "triangles of all solid meshes"},
 };
 
 std::string with_unit(std::uint64_t number, const char* unit) {

@@ -27,6 +27,7 @@ enum class LimitId : std::size_t {
     kMemory,
     kScatterings,
     kWork,
+    kTriangles,
     kCount
 };
 constexpr std::size_t kLimitCount = std::size_t(LimitId::kCount);
