@@ -53,6 +53,7 @@ std::uint64_t self_test_kernel() { return self_test_digest<PILEUS_WIDTH>(); }
 #define PILEUS_RAYMARCH(isa) PILEUS_JOIN(raymarch_kernel_, isa)
 #define PILEUS_SWEEP(isa) PILEUS_JOIN(sweep_kernel_, isa)
 #define PILEUS_SWEEP_LAYER(isa) PILEUS_JOIN(sweep_layer_kernel_, isa)
+#define PILEUS_SOLIDS(isa) PILEUS_JOIN(solid_rows_, isa)
 
 /// Of isa_path.cpp, compiled for the same instruction set.
 void PILEUS_PATH(PILEUS_ISA)(const PathParams&, const PathBuffers&, std::uint32_t, std::uint32_t);
@@ -65,6 +66,10 @@ void PILEUS_SWEEP(PILEUS_ISA)(const SweepParams&, const SweepBuffers&, std::uint
 void PILEUS_SWEEP_LAYER(PILEUS_ISA)(const SweepLayerParams&, const SweepBuffers&, std::uint32_t,
                                     std::uint32_t);
 
+/// Of isa_solids.cpp.
+void PILEUS_SOLIDS(PILEUS_ISA)(const SolidRowsParams&, const BackgroundBuffers&, std::uint32_t,
+                               std::uint32_t);
+
 extern const KernelTable PILEUS_TABLE(PILEUS_ISA);
 const KernelTable PILEUS_TABLE(PILEUS_ISA) = {
     PILEUS_NAME(PILEUS_ISA),
@@ -75,9 +80,10 @@ const KernelTable PILEUS_TABLE(PILEUS_ISA) = {
     background_kernel,
     blend_kernel,
     PILEUS_PATH(PILEUS_ISA),
-    PILEUS_RAYMARCH(PILEUS_ISA),
     self_test_kernel,
     nullptr,
+    PILEUS_RAYMARCH(PILEUS_ISA),
+    PILEUS_SOLIDS(PILEUS_ISA),
     PILEUS_SWEEP(PILEUS_ISA),
     PILEUS_SWEEP_LAYER(PILEUS_ISA),
 };

@@ -8,6 +8,7 @@
 #include "kernels_cpu/march_params.h"
 #include "kernels_cpu/path_params.h"
 #include "kernels_cpu/raymarch_params.h"
+#include "kernels_cpu/solids_params.h"
 #include "kernels_cpu/sweep_params.h"
 #include "kernels_cpu/trace_params.h"
 
@@ -25,13 +26,16 @@ struct KernelTable {
     /// Samples [begin, end) of the launch; stores each, adds none up.
     void (*trace_paths)(const PathParams&, const PathBuffers&, std::uint32_t begin,
                         std::uint32_t end);
-    void (*raymarch_rows)(const RaymarchParams&, const RaymarchBuffers&, std::uint32_t,
-                          std::uint32_t);
     /// FNV-1a 64 of every math kernel on 64 fixed inputs; the same on every machine.
     std::uint64_t (*self_test)();
     /// Where set, the functions above are not called: whole launches go to the device.
     const DeviceTable* device = nullptr;
     // On the host alone, null beside a device:
+    void (*raymarch_rows)(const RaymarchParams&, const RaymarchBuffers&, std::uint32_t,
+                          std::uint32_t) = nullptr;
+    /// As background_rows where there are solid meshes.
+    void (*solid_rows)(const SolidRowsParams&, const BackgroundBuffers&, std::uint32_t begin,
+                       std::uint32_t end) = nullptr;
     /// One block of the sun's optical depth; blocks nearer the sun must be done.
     void (*sweep_block)(const SweepParams&, const SweepBuffers&, std::uint32_t block) = nullptr;
     /// Rows of one slice of a periodic medium; the slice above it must be done.

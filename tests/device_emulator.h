@@ -98,7 +98,7 @@ struct Emulator {
         address(emulate<PathParams, PathBuffers, &KernelTable::trace_paths>),
         address(emulate_self_test)};
     DeviceTable pair{&device, &kernels};
-    KernelTable table{"emulated", 1,       nullptr, nullptr, nullptr, nullptr,
+    KernelTable table{"emulated", 1,       nullptr, nullptr, nullptr,
                       nullptr,    nullptr, nullptr, nullptr, &pair};
 };
 

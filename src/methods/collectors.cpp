@@ -135,7 +135,8 @@ void note_plan(const Scene& scene, CollectorsRun& run) {
     if (run.medium.channels == 1)
         plan.leave_out("coefficients per colour channel", "achromatic medium: one set per light");
     if (is_white(run.medium)) plan.leave_out("absorption", "albedo 1");
-    if (!run.lighting.ground) plan.leave_out("depth test", "nothing solid: no ground");
+    note_solids(run.solids, plan);
+    if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
     if (!scene.output.layer_depth) plan.leave_out("depth of the medium", "no depth layer");
     if (!scene.output.layer_error) plan.leave_out("batches and second moments", "no error layer");
     if (!scene.collectors.billboards) plan.leave_out("billboards", "display = \"march\"");
@@ -165,7 +166,8 @@ Status choose_light(const Scene& scene, std::int64_t photons, CollectorsRun& run
     if (photons >= 0 && std::uint64_t(photons) < run.generations)
         run.generations = photons > 0 ? std::uint64_t(photons) : 1;
     run.sun_elevation_deg = first_elevation(scene);
-    run.lighting = plan_lighting(scene, run.medium, run.sun_elevation_deg, run.plan, &run.sky_map);
+    run.lighting = plan_lighting(scene, run.medium, run.sun_elevation_deg, run.plan, &run.sky_map,
+                                 &run.solids);
     share_photons(std::uint64_t(photons) / run.generations, run.lighting.lights);
     run.light_photons.clear();
     for (const Light& l : run.lighting.lights) run.light_photons.push_back(l.photons);
@@ -209,6 +211,7 @@ Status collectors_outline(const Scene& scene, std::int64_t photons, const Contex
         run.camera_cells = scene.collectors.cell_voxels;
     }
     PILEUS_TRY(check_scene_limits(scene, context.limits));
+    PILEUS_TRY(outline_solids(scene, context, run.solids));
     PILEUS_TRY(scene.media.empty()
                    ? empty_medium(scene, run.medium)
                    : outline_media(scene, context.limits, std::uint64_t(context.threads),
@@ -228,6 +231,7 @@ Status collectors_load(const Scene& scene, std::int64_t photons, const Context& 
         PILEUS_TRY(load_media(scene, context.limits, context.threads, run.media_plan, run.medium));
         run.source.mean_density = mean_density(run.medium);
     }
+    PILEUS_TRY(load_solids(scene, run.medium.low_m, context, run.solids));
     // The values may show that there is no medium, or more of it than sizes tell.
     return choose_light(scene, photons, run);
 }
@@ -265,7 +269,8 @@ Status collectors_set_sun(double elevation_deg, const Context&, CollectorsRun& r
     if (elevation_deg == run.sun_elevation_deg) return Status::ok();
     Plan ignored;
     const std::vector<Light> before = run.lighting.lights;
-    Lighting next = plan_lighting(*run.scene, run.medium, elevation_deg, ignored, &run.sky_map);
+    Lighting next =
+        plan_lighting(*run.scene, run.medium, elevation_deg, ignored, &run.sky_map, &run.solids);
     // The set of lights is the ring's layout: a light that has set keeps its place and shoots no
     // photons; those of its day stay in the ring until they leave it.
     std::vector<Light> lights = before;

@@ -8,6 +8,7 @@
 #include "src/stages/composite_billboards.h"
 #include "src/stages/prepare.h"
 #include "src/stages/reconstruct.h"
+#include "src/stages/solids.h"
 #include "src/stages/view.h"
 
 namespace pileus {
@@ -23,6 +24,7 @@ struct CollectorsRun {
     const Scene* scene = nullptr;
     Medium medium;
     SkyMap sky_map;
+    Solids solids;
     MediumSource source;
     Plan media_plan;  ///< what laying the media on one grid says
     Plan plan;

@@ -5,6 +5,7 @@
 #include "src/methods/collectors_display.h"
 
 #include "src/methods/collectors_memory.h"
+#include "src/stages/background.h"
 #include "src/stages/gl_billboards.h"
 #include "src/stages/march_view.h"
 #include "src/stages/prepare_majorant.h"
@@ -239,9 +240,7 @@ Status fill_background(const Context& context, const CollectorsRun& run,
         k.map_origin[a] = run.ground_map.origin[a];
     }
     const BackgroundBuffers b{map.data(), planes.background.data(), planes.opaque_depth.data()};
-    PILEUS_TRY(
-        run_rows(context, context.kernels->background_rows, k, b, std::uint32_t(camera.height)));
-    return Status::ok();
+    return show_background(context, light, k, b);
 }
 
 }  // namespace
@@ -257,6 +256,7 @@ Status collectors_ground_noise(const Context& context, const CollectorsRun& run,
     // What is the same in every batch has no spread: sky, and the ground's light without the media.
     Lighting scattered = *lit.lighting;
     scattered.sky = scattered.ground_diffuse = scattered.ground_sun = {};
+    scattered.sun_irradiance = {};
     scattered.map = SkyMapView{};
     ReconstructInput alone = lit;
     alone.lighting = &scattered;
@@ -322,7 +322,7 @@ void collectors_size_display(const CollectorsRun& run, CollectorsSizes& sizes) {
     sizes.planes = 3 * (1 + std::uint64_t(collectors_batches(run)));
     sizes.layers = 4 + extra_layers(output, sizes.planes > 3);
     sizes.marched = is_marched(run);
-    sizes.ground = run.lighting.ground;
+    sizes.ground = run.lighting.opaque();
     sizes.depth = output.layer_depth;
     const std::uint64_t parts = (output.layer_light ? 3u : 0u) + (output.layer_order ? 3u : 0u);
     sizes.extra_planes = parts + (output.layer_optical_depth ? 1u : 0u);

@@ -24,8 +24,8 @@ Lighting sun_alone(const Lighting& all) {
 /// A picture of one part of the light, without batches; `colours` as in collectors_display.
 Status show_part(const Context& context, CollectorsRun& run, const ReconstructInput& lit,
                  const CollectorColours& colours, Planes& part) {
-    PILEUS_TRY(
-        allocate_planes(lit.camera.width, lit.camera.height, 3, lit.lighting->ground, false, part));
+    PILEUS_TRY(allocate_planes(lit.camera.width, lit.camera.height, 3, lit.lighting->opaque(),
+                               false, part));
     PILEUS_TRY(collectors_background(context, run, lit, part));
     return collectors_display(context, run, lit, colours, 3, part);
 }
@@ -67,8 +67,8 @@ Status show_single(const Context& context, CollectorsRun& run, const Reconstruct
 Status show_optical_depth(const Context& context, const CollectorsRun& run,
                           const ReconstructInput& lit, Planes& planes) {
     Planes part;
-    PILEUS_TRY(
-        allocate_planes(lit.camera.width, lit.camera.height, 0, lit.lighting->ground, false, part));
+    PILEUS_TRY(allocate_planes(lit.camera.width, lit.camera.height, 0, lit.lighting->opaque(),
+                               false, part));
     PILEUS_TRY(march_medium(context, run.medium, run.prepared, *lit.lighting, lit.camera,
                             {false, true}, part));
     planes.optical_depth.swap(part.optical_depth);

@@ -98,6 +98,7 @@ Status collectors_measure(const Context& context, CollectorsRun& run) {
         run.plan.accumulation = {"shared", "all threads of the device add to one set", 0, true};
     sizes.private_sums = run.plan.accumulation.bytes;
     run.plan.memory = collectors_memory(sizes);
+    add_solid_rows(*run.scene, context.limits, run.solids, run.plan.memory);
     PILEUS_TRY(
         check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), run.scene->file));
     run.plan.skip(Stage::kPaths);

@@ -48,7 +48,7 @@ Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& 
     }
     const int channels = 3 * (1 + in.batches);
     Planes planes;
-    PILEUS_TRY(allocate_planes(camera.width, camera.height, channels, run.lighting.ground,
+    PILEUS_TRY(allocate_planes(camera.width, camera.height, channels, run.lighting.opaque(),
                                scene.output.layer_depth, planes));
     PILEUS_TRY(collectors_background(context, run, in, planes));
     PILEUS_TRY(collectors_display(context, run, in, colours, channels, planes));
@@ -64,6 +64,7 @@ Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& 
                        {"depths_stored", planes.half_depth.size()},
                        {"batches", std::uint64_t(in.batches)},
                        {"parts_stored", run.medium.parts.size()}};
+    report_solids(run.solids, report);
     set_image_camera(camera, run.medium.low_m, image);
     if (shows_harmonics(run)) return Status::ok();
     Digest digest;

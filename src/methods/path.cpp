@@ -30,7 +30,8 @@ Status check(const Scene& scene, const Budget& budget) {
 /// Light for the medium as it is known now; a map lights by its own radiances.
 void light_world(const Scene& scene, double sun_elevation_deg, PathRun& run) {
     Plan photons;  // speaks of photons alone
-    run.lighting = plan_lighting(scene, run.medium, sun_elevation_deg, photons, &run.sky_map);
+    run.lighting =
+        plan_lighting(scene, run.medium, sun_elevation_deg, photons, &run.sky_map, &run.solids);
 }
 
 void digest_prepared(PathRun& run) {
@@ -47,6 +48,7 @@ Status outline(const Scene& scene, const Budget& budget, const Context& context,
     run.scene = &scene;
     run.budget = budget;
     PILEUS_TRY(check_scene_limits(scene, context.limits));
+    PILEUS_TRY(outline_solids(scene, context, run.solids));
     PILEUS_TRY(scene.media.empty()
                    ? empty_medium(scene, run.medium)
                    : outline_media(scene, context.limits, std::uint64_t(context.threads),
@@ -71,6 +73,7 @@ Status prepare(const Scene& scene, const Budget& budget, const Context& context,
     PathRun& run = own(method_run);
     PILEUS_TRY(outline(scene, budget, context, run));
     PILEUS_TRY(load(scene, context, run));
+    PILEUS_TRY(load_solids(scene, run.medium.low_m, context, run.solids));
     // The values may show that there is no medium, or more of it than sizes tell.
     light_world(scene, sun_at(scene, 0), run);
     run.camera = make_camera(scene.camera, 0, run.medium.low_m);

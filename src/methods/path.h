@@ -8,6 +8,7 @@
 #include "src/stages/layers.h"
 #include "src/stages/path.h"
 #include "src/stages/prepare.h"
+#include "src/stages/solids.h"
 #include "src/stages/view.h"
 
 namespace pileus {
@@ -18,6 +19,7 @@ struct PathRun : MethodRun {
     Budget budget;
     Medium medium;
     SkyMap sky_map;
+    Solids solids;
     MediumSource source;
     Plan media_plan;  ///< what laying the media on one grid says
     Plan plan;

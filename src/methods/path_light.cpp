@@ -15,7 +15,7 @@ namespace {
 /// What the medium shows along the rays through pixel centres; a flat detector has no such rays.
 Status make_alpha(const Context& context, PathRun& run) {
     const OutputSettings& output = run.scene->output;
-    PILEUS_TRY(allocate_planes(run.camera.width, run.camera.height, 0, run.lighting.ground,
+    PILEUS_TRY(allocate_planes(run.camera.width, run.camera.height, 0, run.lighting.opaque(),
                                output.layer_depth, run.planes));
     if (run.camera.flux != 0) return Status::ok();  // alpha 1: all pixels are measured
     const MarchWanted wanted{output.layer_depth, output.layer_optical_depth};

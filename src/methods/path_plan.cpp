@@ -46,7 +46,7 @@ void note_parts(const Scene& scene, const PathRun& run, Plan& plan) {
         plan.leave_out("parts of the light, apart", "no layer cloud, light or order");
     if (run.medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
     if (is_white(run.medium)) plan.leave_out("absorption", "albedo 1");
-    if (!run.lighting.ground) plan.leave_out("depth test", "nothing solid: no ground");
+    if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
     if (!output.layer_depth) plan.leave_out("depth of the medium", "no depth layer");
     if (!output.layer_optical_depth) plan.leave_out("optical depth", "no optical_depth layer");
     if (!output.layer_error) plan.leave_out("standard error per pixel", "no error layer");
@@ -69,6 +69,7 @@ void note_plan(PathRun& run) {
         plan.need("alpha, marched through pixel centres");
     plan.need("paths");
     note_light(scene, run, plan);
+    note_solids(run.solids, plan);
     note_parts(scene, run, plan);
     for (const std::string& what : run.media_plan.needed) plan.needed.push_back(what);
     for (const LeftOut& l : run.media_plan.left_out) plan.left_out.push_back(l);
@@ -108,7 +109,7 @@ void weigh_memory(const Context& context, PathRun& run) {
     if (!run.budget.state.empty())
         t.add("state file", Stage::kPaths, Stage::kPaths, path_state_bytes(film_bytes(in)));
     const std::uint64_t shown = 1u + (output.layer_depth ? 1u : 0u) +
-                                (run.lighting.ground ? 1u : 0u) +
+                                (run.lighting.opaque() ? 1u : 0u) +
                                 (output.layer_optical_depth ? 1u : 0u);
     t.add("picture planes", Stage::kPaths, Stage::kLayers, bytes_of(kFloat * shown, pixels));
     const std::uint64_t light = 3u + (output.layer_cloud || output.layer_order ? 3u : 0u) +
@@ -118,6 +119,7 @@ void weigh_memory(const Context& context, PathRun& run) {
     add_image_rows(std::uint64_t(scene.camera.resolution[0]),
                    std::uint64_t(scene.camera.resolution[1]),
                    4 + extra_layers(output, output.layer_error), t);
+    add_solid_rows(scene, context.limits, run.solids, t);
     run.plan.memory = t;
     run.plan.exact = !run.outlined_only;
 }

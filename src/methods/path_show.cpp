@@ -94,6 +94,7 @@ Status path_show(const FrameStep&, const Context& context, MethodRun& method_run
                        {"depths_stored", run.planes.half_depth.size()},
                        {"parts_stored", run.medium.parts.size()},
                        {"film_parts", std::uint64_t(run.film.parts)}};
+    report_solids(run.solids, report);
     report.samples_per_pixel = run.film.samples;
     set_image_camera(run.camera, run.medium.low_m, image);
     run.planes = Planes{};

@@ -9,7 +9,7 @@
 namespace pileus {
 namespace {
 
-constexpr std::size_t kMaxMedia = 64;
+constexpr std::size_t kMaxTables = 64;  // of one list
 constexpr std::size_t kLongestName = 40;
 
 std::size_t edit_distance(std::string_view a, std::string_view b) {
@@ -66,9 +66,17 @@ private:
             if (!valid) return;
             if (row->kind == KeyKind::kDensity && child.is_table())
                 table(child, path, pattern, medium);
-            if (row->set != nullptr) row->set(child, {check_.scene, medium});
+            if (row->set != nullptr) row->set(child, {check_.scene, medium, *solid_});
         } else if (pattern == "medium") {
-            media(child);
+            list(child, pattern, check_.scene.media, [&](const Node& table_node, std::size_t i) {
+                table(table_node, "medium." + std::to_string(i), "medium.N", check_.scene.media[i]);
+            });
+        } else if (pattern == "solid") {
+            list(child, pattern, check_.scene.solids, [&](const Node& table_node, std::size_t i) {
+                solid_ = &check_.scene.solids[i];
+                table(table_node, "solid." + std::to_string(i), "solid.N", medium);
+                solid_ = &nowhere_;
+            });
         } else if (is_section(pattern)) {
             check_.found[path] = {&child, child.is_table()};
             if (child.is_table()) return table(child, path, pattern, medium);
@@ -79,20 +87,21 @@ private:
         }
     }
 
-    void media(const Node& node) {
-        bool good = node.is_array() && node.children.size() <= kMaxMedia;
+    /// A list of tables: as many settings, and `each` table walked.
+    template <class Settings, class Each>
+    void list(const Node& node, const std::string& name, std::vector<Settings>& settings,
+              Each each) {
+        bool good = node.is_array() && node.children.size() <= kMaxTables;
         if (node.is_array())
             for (const Node& child : node.children) good = good && child.is_table();
         if (!good) {
-            check_.faults.add(node.at, "medium",
+            check_.faults.add(node.at, name,
                               "wrong type or too many, " + value_text(node) +
-                                  ", allowed: up to 64 tables, each headed [[medium]]");
+                                  ", allowed: up to 64 tables, each headed [[" + name + "]]");
             return;
         }
-        check_.scene.media.resize(node.children.size());
-        for (std::size_t i = 0; i < node.children.size(); ++i)
-            table(node.children[i], "medium." + std::to_string(i), "medium.N",
-                  check_.scene.media[i]);
+        settings.resize(node.children.size());
+        for (std::size_t i = 0; i < node.children.size(); ++i) each(node.children[i], i);
     }
 
     const KeyRow* row_of(const std::string& pattern) const {
@@ -159,6 +168,8 @@ private:
 
     SceneCheck& check_;
     std::vector<const KeyRow*> rows_;
+    SolidSettings nowhere_;
+    SolidSettings* solid_ = &nowhere_;  ///< of the table being walked
 };
 
 }  // namespace

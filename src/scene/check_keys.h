@@ -40,6 +40,9 @@ bool check_path(SceneCheck& check, const Node& node, const char* key, std::strin
 /// Laws between the keys of one medium: density, file, phase, bounds.
 void check_medium(SceneCheck& check, std::size_t index);
 
+/// Laws between the keys of meshes and of the camera's depth.
+void check_solids(SceneCheck& check);
+
 /// Laws between all other keys, and defaults that depend on other keys.
 void check_scene(SceneCheck& check);
 

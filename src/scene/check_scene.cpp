@@ -179,6 +179,7 @@ void check_scene(SceneCheck& check) {
     for (std::size_t i = 0; i < scene.media.size(); ++i) check_medium(check, i);
     check_periodic(check);
     check_compositor(check);
+    check_solids(check);
 }
 
 }  // namespace pileus

@@ -45,7 +45,17 @@ const KeyRow kRows[] = {
                   for (std::size_t i = 0; i < 2; ++i)
                       t.scene.camera.resolution[i] = static_cast<int>(integer_of(n.children[i]));
               }),
-    later_key("camera.depth", "an image of the distance to solid things"),
+    plain_key(
+        KeyKind::kText, "camera.depth", "",
+        "image of the distance to solid things, .exr (channel Z, or its first) or .pfm, of the "
+        "picture's size; what lies behind is left out, and black",
+        nullptr),
+    choice_key(KeyKind::kText, "camera.depth_kind", "\"distance\"", "distance|z", nullptr,
+               "its values: along each pixel's ray, or along the view's axis",
+               [](const Node& n, KeyTarget t) { t.scene.camera.depth_on_axis = n.text == "z"; }),
+    range_key(KeyKind::kNumber, "camera.depth_scale", "m", "1", {0, 1e9, true, false},
+              "metres per unit of its values",
+              [](const Node& n, KeyTarget t) { t.scene.camera.depth_scale = number_of(n); }),
 
     range_key(KeyKind::kNumber, "sun.azimuth_deg", "deg", "0", {-360, 360, false, false},
               "where the sun stands, from north (+y) towards east (+x)",

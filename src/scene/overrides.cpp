@@ -75,7 +75,10 @@ bool split_path(std::string_view path, std::vector<std::string>& segments) {
     }
 }
 
-/// The element of an array under an index; `medium` grows by its next element.
+/// Lists of tables, which may grow.
+bool is_list(const std::string& key) { return key == "medium" || key == "solid"; }
+
+/// The element of an array under an index; a list of tables grows by its next element.
 Node* element(Node& array, const std::string& segment, bool may_grow, const Place& place,
               std::string& fault) {
     std::size_t index = 0;
@@ -99,7 +102,7 @@ Node* descend(Node& root, const std::vector<std::string>& path, const Place& pla
               std::string& walked, std::string& fault) {
     Node* node = &root;
     for (std::size_t i = 0; i < path.size(); ++i) {
-        const bool in_media = i == 1 && path[0] == "medium";
+        const bool in_media = i == 1 && is_list(path[0]);
         if (!node->is_table() && !node->is_array()) {
             fault = "holds a single value, " + value_text(*node) + ", allowed: a table or list";
             return nullptr;
@@ -116,7 +119,7 @@ Node* descend(Node& root, const std::vector<std::string>& path, const Place& pla
             node->children.emplace_back();
             child = &node->children.back();
             child->key = path[i];
-            if (i == 0 && path[0] == "medium") child->kind = NodeKind::kArray;
+            if (i == 0 && is_list(path[0])) child->kind = NodeKind::kArray;
             mark(*child, place);
         }
         node = child;

@@ -19,6 +19,9 @@ struct Camera {
     double fov_deg = 40;        ///< vertical, perspective only; in (0, 180)
     double height_m = 2000;     ///< orthographic and flux; > 0
     std::array<int, 2> resolution{960, 540};
+    std::string depth;           ///< image of the way to solid things; empty: none
+    bool depth_on_axis = false;  ///< depth_kind = "z": along the view's axis, not along each ray
+    double depth_scale = 1;      ///< metres per unit of its values; > 0
 };
 
 struct Sun {
@@ -39,6 +42,15 @@ struct Sky {
 struct Ground {
     bool present = false;
     double altitude_m = 0, albedo = 0.2;
+};
+
+/// A mesh of triangles that hides, is lit and casts shadows.
+struct SolidSettings {
+    std::string file;  ///< as MediumSettings::file
+    Float3 albedo{0.2f, 0.2f, 0.2f};
+    Double3 position_m{}, rotation_deg{};  ///< turned about x, then y, then z
+    double scale = 1;                      ///< metres per unit of the file
+    bool y_up = false;                     ///< the file's y points up; glTF's always does
 };
 
 enum class DensityKind { kCumulus, kUniformBox, kUniformSphere, kUniformEllipsoid, kFile };
@@ -168,6 +180,7 @@ struct Scene {
     Sun sun;
     Sky sky;
     Ground ground;
+    std::vector<SolidSettings> solids;
     std::vector<MediumSettings> media;
     std::string method = "collectors";
     CollectorSettings collectors;

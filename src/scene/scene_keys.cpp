@@ -33,6 +33,7 @@ std::string section_of(const KeyRow& row) {
     const std::string path = row.path;
     if (row.kind == KeyKind::kTable) return "other";
     if (path.compare(0, 9, "medium.N.") == 0) return "medium.N";
+    if (path.compare(0, 8, "solid.N.") == 0) return "solid.N";
     const std::size_t dot = path.find('.');
     return dot == std::string::npos ? "" : path.substr(0, dot);
 }
@@ -40,6 +41,7 @@ std::string section_of(const KeyRow& row) {
 std::string heading_of(const std::string& section) {
     if (section.empty()) return "Top level";
     if (section == "other") return "Tables of other methods";
+    if (section == "solid.N") return "`[[solid]]`";
     return section == "medium.N" ? "`[[medium]]`" : "`[" + section + "]`";
 }
 
@@ -79,6 +81,7 @@ std::vector<std::string_view> split_list(const char* list) {
 std::vector<const KeyRow*> all_scene_keys() {
     std::vector<const KeyRow*> rows;
     for (const KeyRow& row : view_keys()) rows.push_back(&row);
+    for (const KeyRow& row : solid_keys()) rows.push_back(&row);
     for (const KeyRow& row : medium_keys()) rows.push_back(&row);
     for (const KeyRow& row : method_keys()) rows.push_back(&row);
     for (const KeyRow& row : raymarch_keys()) rows.push_back(&row);

@@ -46,6 +46,7 @@ struct KeyRange {
 struct KeyTarget {
     Scene& scene;
     MediumSettings& medium;
+    SolidSettings& solid;
 };
 
 struct KeyRow {
@@ -73,6 +74,7 @@ std::vector<std::string_view> split_list(const char* list);
 std::string describe_keys_markdown();
 
 Span<const KeyRow> view_keys();      // seed, camera, sun, sky, ground
+Span<const KeyRow> solid_keys();     // solid
 Span<const KeyRow> medium_keys();    // medium
 Span<const KeyRow> method_keys();    // method, collectors, path
 Span<const KeyRow> raymarch_keys();  // raymarch

@@ -3,6 +3,7 @@
 #include "src/stages/lights.h"
 
 #include "src/base/angles.h"
+#include "src/stages/solids.h"
 
 namespace pileus {
 namespace {
@@ -139,8 +140,9 @@ void share_photons(std::uint64_t per_generation, std::vector<Light>& lights) {
 }
 
 Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elevation_deg,
-                       Plan& plan, const SkyMap* map) {
+                       Plan& plan, const SkyMap* map, const Solids* solids) {
     Lighting out;
+    if (solids != nullptr && solids->present()) out.solids = solids;
     const bool mapped = map != nullptr && map->present();
     const bool dark = medium.sigma <= 0 || medium.density_max <= 0;
     if (mapped) out.map = map->view;
@@ -170,7 +172,7 @@ Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elev
     for (std::size_t c = 0; c < 3; ++c) below[c] = out.ground_diffuse[c] + out.ground_sun[c];
     if (mapped && map->power_m2 > 0) {
         add_light("sky", 2, {1, 1, 1}, map_light(*map), out);
-    } else if (white && any_positive(out.sky)) {
+    } else if (white && any_positive(out.sky) && scene.solids.empty()) {
         out.constant = out.sky;
         plan.leave_out("sky photons", "constant sky and albedo 1: the furnace identity");
         for (std::size_t c = 0; c < 3; ++c) below[c] -= out.sky[c];

@@ -13,6 +13,8 @@
 
 namespace pileus {
 
+struct Solids;
+
 /// A light that shoots photons. Its radiance (diffuse) or irradiance on a plane facing it (beam)
 /// is `colour`; `power_m2` is its flux into the box per unit of that. A sky map has its own
 /// radiances: its colour is 1 and its photons carry shares of their texel's brightest channel.
@@ -31,6 +33,7 @@ struct Light {
 
 /// Everything about illumination that is not in the medium.
 struct Lighting {
+    const Solids* solids = nullptr;  ///< what casts shadows and hides; null: nothing does
     std::vector<Light> lights;
     std::array<double, 3> constant{};  ///< source everywhere in the medium (furnace identity)
     bool sunlit = false;
@@ -42,12 +45,15 @@ struct Lighting {
     double ground_z = 0;  ///< m, box-local
     double ground_albedo = 0;
     std::array<double, 3> ground_diffuse{}, ground_sun{};  ///< radiance of the unshadowed ground
+
+    /// Whether rays may end before the sky.
+    bool opaque() const { return ground || solids != nullptr; }
 };
 
 /// Works out the lights and notes in `plan` what was left out. `map` is the scene's sky map, aimed
-/// at the medium's box; null or empty: a constant sky.
+/// at the medium's box; null or empty: a constant sky. `solids`: null or without any: none.
 Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elevation_deg,
-                       Plan& plan, const SkyMap* map = nullptr);
+                       Plan& plan, const SkyMap* map = nullptr, const Solids* solids = nullptr);
 
 /// Shares `per_generation` photons among the lights by power; every light with power gets one.
 void share_photons(std::uint64_t per_generation, std::vector<Light>& lights);

@@ -2,6 +2,7 @@
 // See march_view.h.
 #include "src/stages/march_view.h"
 
+#include "src/stages/background.h"
 #include "src/stages/prepare_majorant.h"
 
 namespace pileus {
@@ -31,14 +32,14 @@ Status march_medium(const Context& context, const Medium& medium, const Prepared
     const std::uint32_t rows = std::uint32_t(camera.height);
     const std::uint64_t pixels = std::uint64_t(camera.width) * rows;
     if (wanted.optical_depth) PILEUS_TRY(planes.optical_depth.resize(pixels, "optical depth"));
-    if (lighting.ground) {
+    if (lighting.opaque()) {
         BackgroundParams k{};
         k.medium = make_medium_view(medium, prepared);
         k.camera = camera;
-        k.ground = 1;
+        k.ground = lighting.ground ? 1 : 0;
         k.ground_z = float(lighting.ground_z);
         const BackgroundBuffers b{nullptr, nullptr, planes.opaque_depth.data()};
-        PILEUS_TRY(run_rows(context, context.kernels->background_rows, k, b, rows));
+        PILEUS_TRY(show_background(context, lighting, k, b));
     }
     // No planes of colour: the kernel's light is left out, its steps stay.
     MarchParams k{};

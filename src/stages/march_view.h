@@ -19,8 +19,8 @@ struct MarchWanted {
 };
 
 /// Marches the whole way of each ray in the box, or to the ground, without a cut, into the planes'
-/// `transmittance` and what is wanted; `opaque_depth` where there is a ground. Needs the planes'
-/// sizes as allocate_planes leaves them. kLimit: out of memory.
+/// `transmittance` and what is wanted; `opaque_depth` where there is a ground or something solid.
+/// Needs the planes' sizes as allocate_planes leaves them. kLimit: out of memory.
 Status march_medium(const Context& context, const Medium& medium, const Prepared& prepared,
                     const Lighting& lighting, const CameraParams& camera, const MarchWanted& wanted,
                     Planes& planes);

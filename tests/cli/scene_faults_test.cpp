@@ -62,17 +62,17 @@ TEST_CASE("unknown, missing and ill-typed keys") {
     const Row rows[] = {
         {"sed = 1\n" + kCamera,
          "s.toml:1:1: sed: unknown key, \"sed\", allowed: seed, camera, "
-         "sun, sky, ground, medium, method, collectors, path, raymarch, "
+         "sun, sky, ground, solid, medium, method, collectors, path, raymarch, "
          "optical-depth, photon-grid, particles, output, animation; did "
          "you mean seed?"},
         {kCamera + "fov_dg = 1\n",
          "s.toml:4:1: camera.fov_dg: unknown key, \"fov_dg\", allowed: "
          "position_m, target_m, up, projection, fov_deg, height_m, "
-         "resolution, depth; did you mean fov_deg?"},
+         "resolution, depth, depth_kind, depth_scale; did you mean fov_deg?"},
         {kCamera + "photons = 1\n",
          "s.toml:4:1: camera.photons: unknown key, \"photons\", "
          "allowed: position_m, target_m, up, projection, fov_deg, "
-         "height_m, resolution, depth; did you mean "
+         "height_m, resolution, depth, depth_kind, depth_scale; did you mean "
          "collectors.photons?"},
         {kCamera + "[sun]\n\"a\\nb\" = 1\n",
          "s.toml:5:1: sun.\"a\\x0ab\": unknown key, \"a\\x0ab\", allowed: azimuth_deg, "
@@ -306,6 +306,38 @@ TEST_CASE("extinction is the scene's or the file's, never both") {
     for (const Row& row : rows) check(row);
 }
 
+TEST_CASE("faults of solids and of the camera's depth") {
+    const std::string solid = "[[solid]]\nfile = ";
+    const Row rows[] = {
+        {kCamera + solid + "\"a.stl\"\n",
+         "s.toml:5:8: solid.0.file: unknown kind of mesh, \"a.stl\", allowed: .obj, .ply, .gltf, "
+         ".glb"},
+        {kCamera + "[[solid]]\nalbedo = 1\n",
+         "s.toml:4:1: solid.0.file: missing, nothing, allowed: text"},
+        {kCamera + solid + "\"a.ply\"\nalbedo = 1.5\n",
+         "s.toml:6:10: solid.0.albedo: out of range, 1.5, allowed: ..."},
+        {kCamera + solid + "\"a.ply\"\nscale = 0\n",
+         "s.toml:6:9: solid.0.scale: out of range, 0, allowed: ..."},
+        {kCamera + solid + "\"a.glb\"\ny_up = false\n",
+         "s.toml:6:1: solid.0.y_up: conflicts with glTF, whose y axis always points up, false, "
+         "allowed: left out"},
+        {kCamera + "depth = \"z.png\"\n",
+         "s.toml:4:9: camera.depth: unknown kind of picture, \"z.png\", allowed: .exr, .pfm"},
+        {kCamera + "depth_kind = \"z\"\n",
+         "s.toml:4:1: camera.depth_kind: conflicts with a camera without depth, \"z\", allowed: "
+         "left "
+         "out"},
+        {kCamera + "depth = \"z.exr\"\n[animation]\nframes = 2\ncamera_orbit_deg = [0, 9]\n",
+         "s.toml:7:1: animation.camera_orbit_deg: conflicts with camera.depth, which one camera "
+         "sees, ..."},
+        {kCamera + "solid = 1\n", "s.toml:4:1: camera.solid: ..."},
+        {"solid = 1\n" + kCamera,
+         "s.toml:1:9: solid: wrong type or too many, 1, allowed: up to 64 tables, each headed "
+         "[[solid]]"},
+    };
+    for (const Row& row : rows) check(row);
+}
+
 TEST_CASE("parts of the format that this version cannot use") {
     const Row rows[] = {
         {kCamera + "[method]\nname = \"particles\"\n",
@@ -314,8 +346,6 @@ TEST_CASE("parts of the format that this version cannot use") {
         {kCamera + "[method]\nname = \"radiosity\"\n",
          "s.toml:5:8: method.name: unknown value, \"radiosity\", allowed: collectors, path, "
          "raymarch"},
-        {kCamera + "depth = \"z.exr\"\n",
-         "s.toml:4:1: camera.depth: not in this version, \"z.exr\", allowed: nothing"},
         {kCamera + "[sky]\nmodel = \"atmosphere\"\n", "s.toml:5:1: sky.model: not in this ..."},
         {kCamera + kFile + "density = \"a.x\"\nformat = \"netcdf\"\n",
          "s.toml:7:10: medium.0.format: not in this version, \"netcdf\", allowed: pbrt, raw, vol, "

@@ -85,6 +85,13 @@ std::string dump(const Scene& scene) {
     s << scene.sky.map << ' ' << scene.sky.map_scale << ' ' << scene.sky.map_rotation_deg;
     const Ground& g = scene.ground;
     s << '\n' << g.present << ' ' << g.altitude_m << ' ' << g.albedo << '\n';
+    for (const SolidSettings& solid : scene.solids) {
+        s << solid.file << ' ' << solid.scale << ' ' << solid.y_up << ' ';
+        dump_list(s, solid.albedo);
+        dump_list(s, solid.position_m);
+        dump_list(s, solid.rotation_deg);
+        s << '\n';
+    }
     for (const MediumSettings& medium : scene.media) dump_medium(s, medium);
     const CollectorSettings& k = scene.collectors;
     s << scene.method << ' ' << k.photons << ' ' << k.generations << ' ' << k.bands << ' ';
@@ -127,6 +134,13 @@ map_rotation_deg = -20
 [ground]
 altitude_m = -10
 albedo = 0.5
+[[solid]]
+file = "a.ply"
+albedo = [0.25, 0.5, 0.75]
+position_m = [1, 2, 3]
+scale = 4
+rotation_deg = [5, 6, 7]
+y_up = true
 [[medium]]
 density = "procedural:cumulus"
 bounds_m = [[0, 0, 0], [1, 2, 3]]
@@ -230,6 +244,7 @@ TEST_CASE("every key of a full scene reaches its field") {
         "1 120 35 2 3 4 \n"
         "1 0 0 0 a.PFM 2 -20\n"
         "1 -10 0.5\n"
+        "a.ply 4 1 0.25 0.5 0.75 1 2 3 5 6 7 \n"
         "0    2 0 0 0 0 1 0 0 0 1 2 3 3 4 5 8 0.050000000000000003 1 0.10000000149011612 "
         "0.20000000298023224 0.30000001192092896 2 -1 0 0 1 0 0 0\n"
         "4 a.dat raw  1 7 8 9 1 1 0 0 0 1 1 1 0 0 0 0 1000000000000 1 1 1 1 3 0 1 -0.5 0.75 0 0 1\n"
@@ -246,6 +261,12 @@ TEST_CASE("every key of a full scene reaches its field") {
     CHECK(scene.text == kEveryKey);
     CHECK(scene.file == "s.toml");
     CHECK(scene.directory == "dir");
+    const Scene deep = good(kCamera + "depth = \"d.exr\"\ndepth_kind = \"z\"\ndepth_scale = 0.5\n");
+    CHECK(deep.camera.depth == "d.exr");
+    CHECK(deep.camera.depth_on_axis);
+    CHECK(deep.camera.depth_scale == 0.5);
+    const Scene gltf = good(kCamera + "[[solid]]\nfile = \"a.GLB\"\n");
+    CHECK(gltf.solids[0].y_up);
     const Scene even = good(kCamera + "[sky]\nradiance = 0.25\n");
     CHECK(even.sky.radiance == Float3{0.25f, 0.25f, 0.25f});
     CHECK(even.sky.map.empty());
@@ -259,11 +280,13 @@ TEST_CASE("the full scene holds every key that sets something") {
     FaultList faults("s.toml", {});
     SceneCheck check{scene, root, faults, {}};
     check_keys(check);
-    // Excluded by the orthographic view and by the map.
-    std::set<std::string> seen{"camera.fov_deg", "sky.radiance"};
+    // Excluded by the orthographic view, by the map and by the moving camera.
+    std::set<std::string> seen{"camera.fov_deg", "sky.radiance", "camera.depth_kind",
+                               "camera.depth_scale"};
     for (const auto& [path, found] : check.found) {
         std::string pattern = path;
         if (pattern.compare(0, 7, "medium.") == 0) pattern.replace(7, 1, "N");
+        if (pattern.compare(0, 6, "solid.") == 0) pattern.replace(6, 1, "N");
         seen.insert(pattern);
     }
     for (const KeyRow* row : all_scene_keys())
@@ -283,9 +306,12 @@ TEST_CASE("the defaults of the key table are those of the structs") {
         CHECK(check_value(*row, root.children[0], row->path, faults));
         Scene scene, untouched;
         MediumSettings medium;
-        row->set(root.children[0], {scene, medium});
+        SolidSettings solid;
+        row->set(root.children[0], {scene, medium, solid});
         scene.media.push_back(medium);
+        scene.solids.push_back(solid);
         untouched.media.emplace_back();
+        untouched.solids.emplace_back();
         CHECK(dump(scene) == dump(untouched));
         ++compared;
     }

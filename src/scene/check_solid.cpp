@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// Laws between the keys of solid things: meshes, and the camera's image of their distance.
+// in: keys that passed their own checks -> out: paths and defaults of the Scene; faults.
+// docs/scene.md; docs/solids.md.
+#include "src/scene/check_keys.h"
+
+namespace pileus {
+namespace {
+
+/// What follows the last point of a name, in lower case.
+std::string extension_of(const std::string& name) {
+    const std::size_t dot = name.rfind('.');
+    std::string end = dot == std::string::npos ? "" : name.substr(dot);
+    for (char& c : end)
+        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+    return end;
+}
+
+void conflict(SceneCheck& check, const std::string& key, const char* with) {
+    if (const Node* node = check.key(key))
+        check.faults.add(node->key_at, key,
+                         std::string("conflicts with ") + with + ", " + value_text(*node) +
+                             ", allowed: left out");
+}
+
+void check_solid(SceneCheck& check, std::size_t index) {
+    SolidSettings& solid = check.scene.solids[index];
+    const std::string path = "solid." + std::to_string(index) + ".";
+    const Node* file = check.valid_key(path + "file");
+    if (file == nullptr || !check_path(check, *file, (path + "file").c_str(), solid.file)) return;
+    const std::string end = extension_of(solid.file);
+    const bool gltf = end == ".gltf" || end == ".glb";
+    if (!gltf && end != ".obj" && end != ".ply")
+        check.faults.add(
+            file->at, path + "file",
+            "unknown kind of mesh, " + value_text(*file) + ", allowed: .obj, .ply, .gltf, .glb");
+    if (!gltf) return;
+    conflict(check, path + "y_up", "glTF, whose y axis always points up");
+    solid.y_up = true;
+}
+
+void check_depth(SceneCheck& check) {
+    Camera& camera = check.scene.camera;
+    if (check.key("camera.depth") == nullptr) {
+        for (const char* key : {"camera.depth_kind", "camera.depth_scale"})
+            conflict(check, key, "a camera without depth");
+        return;
+    }
+    if (camera.flux) conflict(check, "camera.depth", "projection \"flux\"");
+    if (check.scene.animation.moves_camera)
+        conflict(check, "animation.camera_orbit_deg", "camera.depth, which one camera sees");
+    const Node* file = check.valid_key("camera.depth");
+    if (file == nullptr || !check_path(check, *file, "camera.depth", camera.depth)) return;
+    const std::string end = extension_of(camera.depth);
+    if (end != ".exr" && end != ".pfm")
+        check.faults.add(file->at, "camera.depth",
+                         "unknown kind of picture, " + value_text(*file) + ", allowed: .exr, .pfm");
+}
+
+}  // namespace
+
+void check_solids(SceneCheck& check) {
+    check_depth(check);
+    for (std::size_t i = 0; i < check.scene.solids.size(); ++i) check_solid(check, i);
+    if (check.scene.solids.empty()) return;
+    for (const MediumSettings& m : check.scene.media) {
+        if (!m.periodic) continue;
+        if (const Node* node = check.key("solid.0.file"))
+            check.faults.add(node->at, "solid.0.file",
+                             "not with a periodic medium in this version, " + value_text(*node) +
+                                 ", allowed: boundary = \"open\"");
+        return;
+    }
+}
+
+}  // namespace pileus
