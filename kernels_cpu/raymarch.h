@@ -7,6 +7,7 @@
 #include "kernels_cpu/pixel_block.h"
 #include "kernels_cpu/raymarch_light.h"
 #include "kernels_cpu/raymarch_steps.h"
+#include "kernels_cpu/rng.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
@@ -152,7 +153,7 @@ PILEUS_FN void march_lattice(const RayMarch<T, Field>& r, const Lattice<T>& latt
                              RaySum<T>& sum) {
     const bool ends = r.k.rule >= kRuleTrapezoid;
     const float steps = float(rule_steps(r.k.rule));
-    T n{}, from = low;
+    T n = to_float(to_int(lattice_step(lattice, low) * (1.0f / steps))) * steps, from = low;
     auto alive = low < high;
     RaySample<T> last{};
     if (ends && any(alive)) last = sample_at(r, from, lattice.first, alive);
@@ -182,6 +183,36 @@ PILEUS_FN void march_lattice(const RayMarch<T, Field>& r, const Lattice<T>& latt
         from = max_(lattice_place(lattice, n), low);
         alive = alive & (from < high) & (to < high) & (sum.transmittance >= r.k.cut);
     }
+}
+
+/// How far before the medium the lattices of a block's rays begin, m.
+template <int W>
+PILEUS_FN F<W> start_before(const RaymarchParams& k, const RaymarchBuffers& b, I<W> column,
+                            I<W> row, const Vec<F<W>>& enters, const Vec<F<W>>& d,
+                            const Lattice<F<W>>& lattice) {
+    using T = F<W>;
+    T before{};
+    if (k.step.grid_m > 0) {
+        // Planes that stay where they are while the camera moves.
+        const float* f = k.camera.forward;
+        const T depth = enters.x * f[0] + enters.y * f[1] + enters.z * f[2];
+        const T ahead = max_(d.x * f[0] + d.y * f[1] + d.z * f[2], all<T>(1e-3f));
+        const T planes =
+            max_(min_(depth * (1.0f / k.step.grid_m), all<T>(0x1p30f)), all<T>(-0x1p30f));
+        before = max_(depth - to_float(floor_int(planes)) * k.step.grid_m, T{}) / ahead;
+    }
+    if (k.step.jitter == kJitterNone) return before;
+    T u{};
+    if (k.step.jitter == kJitterHash) {
+        const auto pixel = reinterpret<U<W>>(row * k.camera.width + column);
+        u = uniform(threefry(k.step.key[0], k.step.key[1], pixel, pixel ^ pixel).a);
+    } else {
+        const I<W> x = (column + std::int32_t(k.step.key[0])) & (kNoiseTile - 1);
+        const I<W> y = (row + std::int32_t(k.step.key[1])) & (kNoiseTile - 1);
+        u = gather(b.noise, y * kNoiseTile + x);
+    }
+    const T panel = lattice_place(lattice, all<T>(float(rule_steps(k.rule))));
+    return before + u * (k.step.jitter_share * panel);
 }
 
 /// Stores the pixels of a block.
@@ -224,15 +255,18 @@ PILEUS_FN void raymarch_pixels(const RaymarchParams& k, const RaymarchBuffers& b
         // The lattice knows nothing of what stands behind, unless it should (4.1).
         const T length = max_((k.step.stretch != 0 ? leave : box.leave) - box.enter, T{});
         const Lattice<T> lattice = make_lattice(k.step, box.enter, length);
+        const T before =
+            start_before<W>(k, b, column, row, along(ray, box.enter), ray.direction, lattice);
+        const T start = box.enter - before;
         const RayMarch<T, Field> r{k,
                                    b,
                                    field,
-                                   along(ray, box.enter),
+                                   along(ray, start),
                                    ray.direction,
-                                   box.enter,
+                                   start,
                                    ray_light(k, ray.direction),
                                    b.counts + std::int64_t(y) * kRaymarchCounts};
-        march_lattice(r, lattice, T{}, leave - box.enter, sum);
+        march_lattice(r, lattice, before, leave - start, sum);
         // The light without phase functions is a mean of what is at most 1 (chapter 4.2).
         const auto breach = sum.share > 1.0001f;
         r.counts[kCountBreaches] += count_bits(bits_of(breach));

@@ -40,13 +40,23 @@ PILEUS_FN SunDepths<T> march_to_sun(const RaymarchParams& k, const Field& field,
     const float growth = k.light.steps > 0 ? k.light.growth : 1.0f;
     SunDepths<T> sum{};
     T at{};
+    Vec<T> from = place;
     auto alive = wanted & (leave > 0.0f);
     for (std::int32_t n = 0; any(alive) && (k.light.steps == 0 || n < k.light.steps); ++n) {
         const T real = max_(min_(width, leave - at), T{});
         const T middle = at + 0.5f * real;
-        const Vec<T> p{place.x + d.x * middle, place.y + d.y * middle, place.z + d.z * middle};
+        Vec<T> p{place.x + d.x * middle, place.y + d.y * middle, place.z + d.z * middle};
+        auto within = alive;
+        if (k.light.turns > 0) {
+            // A fuzzy way: each step has a direction of its own, and may lead out of the medium.
+            const float* turn = k.light.direction[n % k.light.turns];
+            const T half = 0.5f * real;
+            p = {from.x + turn[0] * half, from.y + turn[1] * half, from.z + turn[2] * half};
+            from = {from.x + turn[0] * real, from.y + turn[1] * real, from.z + turn[2] * real};
+            within = within & field_holds(field, p);
+        }
         const Block<T> ahead = field_ahead(field, p, d, real);
-        const auto dense = alive & (ahead.bound > 0.0f);
+        const auto dense = within & (ahead.bound > 0.0f);
         if (any(dense)) {
             counts[kCountLightSamples] += count_bits(bits_of(dense));
             const T density = select(dense, field_density(field, p, real), T{});
@@ -56,7 +66,7 @@ PILEUS_FN SunDepths<T> march_to_sun(const RaymarchParams& k, const Field& field,
         }
         T skipped = all<T>(1.0f);
         // Even steps leap to the last one whose middle lies in an empty block.
-        if (k.light.steps == 0)
+        if (k.light.steps == 0 && k.light.turns == 0)
             skipped = select(
                 dense, skipped,
                 max_(to_float(to_int(min_(ahead.rest / width, all<T>(1e6f)))), all<T>(1.0f)));

@@ -23,6 +23,14 @@ enum RaymarchPowder : std::int32_t {
     kPowderDirectional = 3,  ///< (3.15)
 };
 
+/// How far rays begin before the medium, so that their samples do not line up.
+enum RaymarchJitter : std::int32_t {
+    kJitterNone = 0,
+    kJitterHash = 1,
+    kJitterTile = 2,  ///< from a tile that repeats over the picture
+};
+constexpr std::int32_t kNoiseTile = 64;  ///< pixels of its edge
+
 /// Steps of a panel, each of which takes one sample.
 constexpr int rule_steps(std::int32_t rule) {
     return rule == kRuleSimpson ? 2 : rule == kRuleSimpson38 ? 3 : 1;
@@ -39,17 +47,26 @@ struct StepParams {
     float series;              ///< sum of growth^n over `most` steps
     float pixel;               ///< edge of a pixel at distance 1
     float near_m;              ///< distance below which steps stay alike
+    std::int32_t jitter;       ///< a RaymarchJitter
+    float jitter_share;        ///< of a panel, at most
+    std::uint32_t key[2];      ///< of the hash; of the tile, the place of its corner
+    float grid_m;              ///< > 0: lattices begin at planes across the view so far apart
     std::int32_t stretch;      ///< 1: steps adapt to what stands behind (4.1), (4.2)
 };
 
+/// Directions that a fuzzy way to the sun takes in turn.
+constexpr int kLightTurns = 16;
+
 /// How sunlight finds its way to a place.
 struct RaymarchLight {
-    std::int32_t march;         ///< 0: from nodes
-    NodeGrid nodes;             ///< of optical depths towards the sun
-    std::int32_t steps;         ///< of a march; 0: as many of `first_m` as the way takes
-    float first_m;              ///< 0: steps share the way
-    float growth;               ///< of one step over the one before
-    float series;               ///< sum of growth^n over `steps`
+    std::int32_t march;  ///< 0: from nodes
+    NodeGrid nodes;      ///< of optical depths towards the sun
+    std::int32_t steps;  ///< of a march; 0: as many of `first_m` as the way takes
+    float first_m;       ///< 0: steps share the way
+    float growth;        ///< of one step over the one before
+    float series;        ///< sum of growth^n over `steps`
+    std::int32_t turns;  ///< 0: straight; else so many directions one after the other
+    float direction[kLightTurns][3];
     std::int32_t powder;        ///< a RaymarchPowder
     float powder_strength;      ///< k of (3.13)
     std::int32_t channels;      ///< 1, or 3 where the light kept differs by channel
@@ -84,6 +101,7 @@ enum RaymarchCount {
 struct RaymarchBuffers {
     const float* optical_depth;  ///< light nodes; unused by a march
     const float* opaque_depth;   ///< [pixel], m along the ray; null: nothing opaque
+    const float* noise;          ///< [kNoiseTile][kNoiseTile] in [0, 1); of its jitter alone
     const float* parts;          ///< [medium - 1][voxel]: densities of media 1, 2 ...
     float* transmittance;        ///< [pixel]
     float*

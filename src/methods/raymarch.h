@@ -26,6 +26,7 @@ struct RaymarchRun : MethodRun {
     std::string light_why;                                     ///< and why that is
     std::vector<std::pair<std::string, std::string>> digests;  ///< of what no frame changes
 
+    Buffer<float> noise;  ///< tile of the jitter; empty: none
     SunNodes nodes;
     std::array<float, 3> nodes_to_sun{};  ///< the sun that the nodes were made for
     CameraParams camera{};

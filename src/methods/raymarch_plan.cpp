@@ -26,9 +26,9 @@ double cells_across(const Grid& grid) {
 void choose_light(RaymarchRun& run) {
     const RaymarchSettings& s = run.scene->raymarch;
     const Grid& grid = run.medium.grid;
-    run.march_light = s.light == RaymarchLightKind::kMarch;
-    run.light_why = "as the scene asks";
-    if (s.light != RaymarchLightKind::kAuto) return;
+    run.march_light = s.light == RaymarchLightKind::kMarch || s.light_cone;
+    run.light_why = s.light_cone ? "light_path = \"cone\"" : "as the scene asks";
+    if (s.light_cone || s.light != RaymarchLightKind::kAuto) return;
     const double way = 0.5 * cells_across(grid);
     const double lit = double(s.steps < 64 ? s.steps : 64) * double(pixels_of(*run.scene));
     const double marched = lit * (s.light_steps > 0 ? double(s.light_steps) : way);
@@ -88,6 +88,8 @@ void note_plan(RaymarchRun& run) {
     } else {
         plan.leave_out("marched rays", "steps = 0: the medium is not seen");
     }
+    if (scene.raymarch.jitter == RaymarchJitterKind::kNone)
+        plan.leave_out("jitter of samples", "jitter = \"none\"");
     if (run.medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
     if (!run.lighting.ground) plan.leave_out("depth test", "nothing solid: no ground");
     if (!scene.output.layer_depth) plan.leave_out("depth of the medium", "no depth layer");
@@ -117,6 +119,8 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
                                 (run.lighting.ground ? 1u : 0u) +
                                 (output.layer_optical_depth ? 1u : 0u);
     t.add("picture planes", Stage::kBackground, Stage::kLayers, bytes_of(kFloat * shown, pixels));
+    if (scene.raymarch.jitter == RaymarchJitterKind::kBlueNoise)
+        t.add("blue noise", Stage::kShadow, last, bytes_of(kFloat, kNoiseTile * kNoiseTile));
     t.add("counts of rows", Stage::kDisplay, Stage::kDisplay,
           bytes_of(sizeof(std::int64_t) * kRaymarchCounts,
                    std::uint64_t(scene.camera.resolution[1])));

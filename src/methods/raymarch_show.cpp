@@ -4,6 +4,7 @@
 // docs/raymarch.md; docs/formats.md, "Pictures out"
 #include "src/base/digest.h"
 #include "src/methods/raymarch.h"
+#include "src/stages/blue_noise.h"
 #include "src/stages/march_view.h"
 
 namespace pileus {
@@ -50,6 +51,8 @@ Status raymarch_light(const FrameStep& step, const Context& context, MethodRun& 
     run.lighting =
         plan_lighting(scene, run.medium, sun_at(scene, step.frame), photons, &run.sky_map);
     run.camera = make_camera(scene.camera, orbit_at(scene, step.frame), run.medium.low_m);
+    if (scene.raymarch.jitter == RaymarchJitterKind::kBlueNoise && run.noise.empty())
+        PILEUS_TRY(make_blue_noise(run.noise));
     PILEUS_TRY(light_nodes(context, run));
     PILEUS_TRY(allocate_planes(run.camera.width, run.camera.height, 3, run.lighting.ground,
                                output.layer_depth, run.planes));
@@ -64,6 +67,9 @@ Status raymarch_light(const FrameStep& step, const Context& context, MethodRun& 
     in.settings = &scene.raymarch;
     in.nodes = &run.nodes;
     in.march_light = run.march_light;
+    in.noise = &run.noise;
+    // Frame f of an animation has the jitter of the seed f further on.
+    in.seed = std::uint64_t(scene.seed) + std::uint64_t(step.frame);
     in.camera = run.camera;
     return raymarch_picture(context, in, run.planes, run.tally);
 }

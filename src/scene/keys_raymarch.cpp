@@ -25,6 +25,7 @@ Kind kind_of(const Node& n, const char* choices) {
 constexpr const char* kIntegrators = "closed|riemann|trapezoid|simpson|simpson38";
 constexpr const char* kSpacings = "uniform|voxel|optimal|geometric";
 constexpr const char* kLights = "auto|march|buffer";
+constexpr const char* kJitters = "none|hash|blue-noise";
 constexpr const char* kPowders = "none|powder|beer-powder|directional";
 
 const KeyRow kRows[] = {
@@ -88,6 +89,23 @@ const KeyRow kRows[] = {
     range_key(KeyKind::kNumber, "raymarch.light_growth", "", "1", {1, 16, false, false},
               "length of one of light_steps over that of the one before",
               [](const Node& n, KeyTarget t) { t.scene.raymarch.light_growth = number_of(n); }),
+    choice_key(KeyKind::kText, "raymarch.light_path", "\"straight\"", "straight|cone", nullptr,
+               "`cone`: steps of a march towards the sun turn off by a quarter to all of half "
+               "cone_deg, one after the other; softens shades",
+               [](const Node& n, KeyTarget t) { t.scene.raymarch.light_cone = n.text == "cone"; }),
+    choice_key(KeyKind::kText, "raymarch.jitter", "\"none\"", kJitters, nullptr,
+               "rays begin up to a panel before the medium, each pixel's by a number of its own: "
+               "noise instead of bands",
+               [](const Node& n, KeyTarget t) {
+                   t.scene.raymarch.jitter = kind_of<RaymarchJitterKind>(n, kJitters);
+               }),
+    range_key(KeyKind::kNumber, "raymarch.jitter_share", "panels", "1", kShare,
+              "how far before, at most",
+              [](const Node& n, KeyTarget t) { t.scene.raymarch.jitter_share = number_of(n); }),
+    range_key(KeyKind::kNumber, "raymarch.grid_lock_m", "m", "0", kLength,
+              "steps begin at planes across the view that stay where they are while the camera "
+              "moves, so far apart: less boiling in animations of spacing `voxel`; 0: none",
+              [](const Node& n, KeyTarget t) { t.scene.raymarch.grid_lock_m = number_of(n); }),
     choice_key(KeyKind::kText, "raymarch.powder", "\"none\"", kPowders, nullptr,
                "darkens where little lies before the sun; appearance, not physics",
                [](const Node& n, KeyTarget t) {

@@ -137,6 +137,7 @@ struct PathSettings {
 enum class RaymarchIntegrator { kClosed, kRiemann, kTrapezoid, kSimpson, kSimpson38 };
 enum class RaymarchSpacing { kUniform, kVoxel, kOptimal, kGeometric };
 enum class RaymarchLightKind { kAuto, kMarch, kBuffer };
+enum class RaymarchJitterKind { kNone, kHash, kBlueNoise };
 enum class RaymarchPowderKind { kNone, kPowder, kBeerPowder, kDirectional };
 
 struct RaymarchSettings {
@@ -152,6 +153,10 @@ struct RaymarchSettings {
     RaymarchLightKind light = RaymarchLightKind::kAuto;
     int light_steps = 0;  ///< 0: of a voxel, to the end
     double light_first_step_m = 0, light_growth = 1;
+    bool light_cone = false;  ///< light_path = "cone"
+    RaymarchJitterKind jitter = RaymarchJitterKind::kNone;
+    double jitter_share = 1;  ///< of a panel
+    double grid_lock_m = 0;   ///< 0: none
     RaymarchPowderKind powder = RaymarchPowderKind::kNone;
     double powder_strength = 1;
     Float3 ambient{0, 0, 0};  ///< emission over extinction

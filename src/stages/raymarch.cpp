@@ -2,7 +2,10 @@
 // See raymarch.h.
 #include "src/stages/raymarch.h"
 
+#include "kernels_cpu/rng.h"
+#include "kernels_cpu/vec.h"
 #include "platform/threads.h"
+#include "src/base/angles.h"
 #include "src/stages/forward_share.h"
 #include "src/stages/march_view.h"
 #include "src/stages/source_grid.h"
@@ -10,6 +13,7 @@
 namespace pileus {
 namespace {
 
+constexpr std::uint32_t kJitterStream = 31;
 constexpr double kNodeVoxels = 1;  ///< spacing of the nodes: docs/raymarch.md, "Light"
 
 /// Sum of growth^n over so many steps; large enough where it leaves the range of floats.
@@ -21,6 +25,32 @@ float series_of(double growth, int steps) {
 
 std::int32_t rule_of(RaymarchIntegrator integrator) { return std::int32_t(integrator); }
 
+/// Directions around the sun's, a quarter of half the cone farther off with each of four.
+void set_turns(const RaymarchInput& in, RaymarchLight& light) {
+    constexpr double kGoldenTurn = 360 * 0.38196601125010515180;
+    const auto& s = in.lighting->to_sun;
+    const Vec<float> axis{s[0], s[1], s[2]};
+    light.turns = kLightTurns;
+    for (int i = 0; i < kLightTurns; ++i) {
+        const SineCosine off = sincos_deg(0.125 * in.settings->cone_deg * (i % 4 + 1));
+        const SineCosine around = sincos_deg(kGoldenTurn * i);
+        const Vec<float> d = turned(axis, float(off.cosine), float(off.sine), float(around.cosine),
+                                    float(around.sine));
+        light.direction[i][0] = d.x;
+        light.direction[i][1] = d.y;
+        light.direction[i][2] = d.z;
+    }
+}
+
+void set_jitter(const RaymarchInput& in, StepParams& k) {
+    k.grid_m = float(in.settings->grid_lock_m);
+    k.jitter_share = float(in.settings->jitter_share);
+    k.jitter = std::int32_t(in.settings->jitter);
+    const Key key = make_key(in.seed, kJitterStream, 0);
+    k.key[0] = key.k0;
+    k.key[1] = key.k1;
+}
+
 void set_light(const RaymarchInput& in, RaymarchParams& k) {
     const RaymarchSettings& s = *in.settings;
     RaymarchLight& light = k.light;
@@ -31,6 +61,7 @@ void set_light(const RaymarchInput& in, RaymarchParams& k) {
         s.light_steps == 0 ? smallest_cell(in.medium->grid) : float(s.light_first_step_m);
     light.growth = float(s.light_growth);
     light.series = s.light_steps > 0 ? series_of(s.light_growth, s.light_steps) : 1.0f;
+    if (s.light_cone) set_turns(in, light);
     light.powder = std::int32_t(s.powder);
     light.powder_strength = float(s.powder_strength);
     light.forward = s.forward ? 1 : 0;
@@ -112,6 +143,7 @@ RaymarchParams raymarch_params(const RaymarchInput& in) {
     k.camera = in.camera;
     k.rule = rule_of(in.settings->integrator);
     k.step = raymarch_steps(*in.settings, in.camera, in.medium->grid);
+    set_jitter(in, k.step);
     k.cut = float(in.settings->stop_below);
     set_media(in, k);
     set_light(in, k);
@@ -149,6 +181,7 @@ Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes&
     RaymarchBuffers b{};
     if (in.nodes != nullptr) b.optical_depth = in.nodes->optical_depth.data();
     b.opaque_depth = planes.opaque_depth.data();
+    if (in.noise != nullptr) b.noise = in.noise->data();
     b.parts = in.medium->parts.data();
     b.transmittance = planes.transmittance.data();
     b.half_depth = planes.half_depth.data();

@@ -24,6 +24,8 @@ struct RaymarchInput {
     const RaymarchSettings* settings = nullptr;
     const SunNodes* nodes = nullptr;
     bool march_light = false;
+    const Buffer<float>* noise = nullptr;  ///< tile of make_blue_noise, where jitter asks for it
+    std::uint64_t seed = 0;                ///< of the frame
     CameraParams camera;
 };
 

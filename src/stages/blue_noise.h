@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// A tile of numbers that differ most from those beside them: noise without low frequencies.
+// in: nothing -> out: kNoiseTile^2 numbers in [0, 1), each once, that repeat without a seam.
+// docs/raymarch.md, "Jitter"; Ulichney 1993, "The void-and-cluster method for dither array
+// generation".
+#pragma once
+#include "src/base/buffer.h"
+#include "src/base/status.h"
+
+namespace pileus {
+
+/// The same tile on every machine. kLimit: out of memory.
+Status make_blue_noise(Buffer<float>& tile);
+
+}  // namespace pileus
