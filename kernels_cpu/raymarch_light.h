@@ -86,6 +86,24 @@ PILEUS_FN T powder_factor(const RaymarchLight& light, T tau, T turn) {
     return 1.0f - 0.5f * turn * (1.0f - p);
 }
 
+/// Skylight at a place, scattered alike in all directions; returns its share, at most 1.
+template <class T>
+PILEUS_FN T skylight_at(const RaymarchParams& k, const float* nodes, const Vec<T>& place,
+                        T (&out)[3]) {
+    const RaymarchSky& sky = k.sky;
+    const std::int64_t count =
+        std::int64_t(sky.nodes.size[0]) * sky.nodes.size[1] * sky.nodes.size[2];
+    const Corners<T> at = corners(node_position(sky.nodes, reduced(k.medium, place)),
+                                  sky.nodes.size, k.medium.periodic != 0);
+    T share{};
+    for (std::int32_t s = 0; s < sky.sets; ++s) {
+        const T seen = interpolate(nodes + s * count, at);
+        share = max_(share, seen);
+        for (int c = 0; c < 3; ++c) out[c] = out[c] + seen * sky.colour[s][c];
+    }
+    return share;
+}
+
 /// Share of the sun's light at a place, per channel (light.channels of them).
 template <class T, class Field>
 PILEUS_FN void sunlight_at(const RaymarchParams& k, const float* optical_depth, const Field& field,

@@ -74,8 +74,20 @@ struct RaymarchLight {
     float kept[kMostMedia][3];  ///< share of scattered light that goes on as if unscattered
 };
 
+/// Skylight on nodes: sets of brightness, each of one colour.
+struct RaymarchSky {
+    NodeGrid nodes;
+    std::int32_t sets;   ///< 0: none
+    float colour[3][3];  ///< R G B of each set
+};
+
+/// Coarser grids of the density, each of half the cells along each axis.
+constexpr int kMostLevels = 12;
+
 struct RaymarchParams {
     MediumView medium;
+    std::int32_t levels;            ///< coarser grids; 0: none
+    MediumView level[kMostLevels];  ///< of them, the finest first
     CameraParams camera;
     std::int32_t media;  ///< on the grid, 1..kMostMedia
     std::int32_t rule;   ///< a RaymarchRule
@@ -83,8 +95,10 @@ struct RaymarchParams {
     float phase_scale[kMostMedia];  ///< 1, or one over the phase function's peak
     float to_sun[3];
     float sun_source[kMostMedia][3];  ///< irradiance times albedo
-    std::int32_t sunlit;              ///< 0: all of them are zero
-    float ambient[3];                 ///< emission over extinction, everywhere in the media
+    float albedo[kMostMedia][3];
+    RaymarchSky sky;
+    std::int32_t sunlit;  ///< 0: all of them are zero
+    float ambient[3];     ///< emission over extinction, everywhere in the media
     StepParams step;
     RaymarchLight light;
     float cut;  ///< stop below this transmittance
@@ -100,6 +114,7 @@ enum RaymarchCount {
 
 struct RaymarchBuffers {
     const float* optical_depth;  ///< light nodes; unused by a march
+    const float* sky;            ///< [set][node]; unused without skylight
     const float* opaque_depth;   ///< [pixel], m along the ray; null: nothing opaque
     const float* noise;          ///< [kNoiseTile][kNoiseTile] in [0, 1); of its jitter alone
     const float* parts;          ///< [medium - 1][voxel]: densities of media 1, 2 ...

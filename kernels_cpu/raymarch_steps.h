@@ -29,6 +29,12 @@ struct Lattice {
     bool grows;
 };
 
+/// Width of a pixel at a distance.
+template <class T>
+PILEUS_FN T pixel_width(const CameraParams& camera, const StepParams& k, T distance) {
+    return camera.orthographic != 0 ? all<T>(k.pixel) : distance * k.pixel;
+}
+
 /// A lattice for a ray that is within the medium for `length` metres, `enter` metres away.
 template <class T>
 PILEUS_FN Lattice<T> make_lattice(const StepParams& k, T enter, T length) {

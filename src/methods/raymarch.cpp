@@ -77,6 +77,8 @@ Status prepare(const Scene& scene, const Budget& budget, const Context& context,
     light_world(scene, sun_at(scene, 0), run);
     PILEUS_TRY(prepare_majorants(run.medium, false, context, run.prepared));
     run.outlined_only = false;
+    PILEUS_TRY(
+        make_density_levels(run.medium, run.levels, run.prepared.skip_block, context, run.coarse));
     PILEUS_TRY(raymarch_measure(context, run));
     Digest density;
     density.floats(run.medium.volume.density.span());

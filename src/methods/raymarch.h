@@ -27,6 +27,9 @@ struct RaymarchRun : MethodRun {
     std::vector<std::pair<std::string, std::string>> digests;  ///< of what no frame changes
 
     Buffer<float> noise;  ///< tile of the jitter; empty: none
+    SkyNodes sky;
+    int levels = 0;                    ///< of detail
+    std::vector<DensityLevel> coarse;  ///< their densities
     SunNodes nodes;
     std::array<float, 3> nodes_to_sun{};  ///< the sun that the nodes were made for
     CameraParams camera{};

@@ -21,6 +21,20 @@ double cells_across(const Grid& grid) {
     return (double(grid.size[0]) + double(grid.size[1]) + double(grid.size[2])) / 3;
 }
 
+/// Metres that a camera which turns about its target is away from the medium at most.
+double reach_of(const RaymarchRun& run) {
+    double from_target = 0, target = 0, diagonal = 0;
+    const Camera& c = run.scene->camera;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const double arm = c.position_m[a] - c.target_m[a];
+        const double off = c.target_m[a] - run.medium.low_m[a] - 0.5 * run.medium.extent_m[a];
+        from_target += arm * arm;
+        target += off * off;
+        diagonal += run.medium.extent_m[a] * run.medium.extent_m[a];
+    }
+    return __builtin_sqrt(from_target) + __builtin_sqrt(target) + 0.5 * __builtin_sqrt(diagonal);
+}
+
 /// Marching from every sample, or from every node: what takes fewer samples of the density. About
 /// 64 samples of a ray lie where light still matters; half a way leads out of the medium.
 void choose_light(RaymarchRun& run) {
@@ -69,9 +83,12 @@ void note_light(const Scene& scene, const RaymarchRun& run, Plan& plan) {
     else
         plan.leave_out("forward scattering", sun ? "scattering = \"single\"" : "no sunlight");
     plan.leave_out("light scattered more than once", "method raymarch has none but forward");
-    if (has_sky(run.lighting)) plan.leave_out("skylight in the medium", "sunlight alone");
-    if (run.lighting.ground)
-        plan.leave_out("light from the ground in the medium", "sunlight alone");
+    if (!has_sky(run.lighting) && !run.lighting.ground)
+        plan.leave_out("skylight in the medium", "no sky, no ground");
+    else if (s.sky_ambient)
+        plan.need("skylight from 24 directions on coarse nodes: approximation");
+    else
+        plan.leave_out("skylight in the medium", "sky_light = \"none\"");
 }
 
 void note_plan(RaymarchRun& run) {
@@ -88,6 +105,12 @@ void note_plan(RaymarchRun& run) {
     } else {
         plan.leave_out("marched rays", "steps = 0: the medium is not seen");
     }
+    if (run.levels > 0)
+        plan.need((std::to_string(run.levels) + " coarser levels of the density").c_str());
+    else
+        plan.leave_out(
+            "coarser levels of the density",
+            scene.raymarch.detail ? "no step or pixel is wider than a cell" : "detail = false");
     if (scene.raymarch.jitter == RaymarchJitterKind::kNone)
         plan.leave_out("jitter of samples", "jitter = \"none\"");
     if (run.medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
@@ -115,6 +138,23 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
     if (!run.march_light && run.lighting.sunlit)
         t.add("sunlight's optical depth on nodes", Stage::kShadow, last,
               bytes_of(kFloat, node_count(sun_node_grid(grid, run.medium.extent_m))));
+    for (const Grid& level : level_grids(grid, run.levels)) {
+        int blocks[3];
+        block_counts(level, run.prepared.skip_block, blocks);
+        t.add("coarser density", Stage::kMajorants, last, bytes_of(kFloat, voxel_count(level)));
+        t.add("its blocks", Stage::kMajorants, last,
+              bytes_of(kFloat * std::uint64_t(blocks[0]), std::uint64_t(blocks[1]),
+                       std::uint64_t(blocks[2])));
+    }
+    if (scene.raymarch.sky_ambient) {
+        const std::uint64_t nodes = node_count(sky_node_grid(run.medium));
+        const int sets = sky_node_sets(run.lighting);
+        t.add("skylight on nodes", Stage::kShadow, last,
+              bytes_of(kFloat * std::uint64_t(sets), nodes));
+        if (sets > 0)
+            t.add("optical depths of the sky", Stage::kShadow, Stage::kShadow,
+                  bytes_of(kFloat, nodes));
+    }
     const std::uint64_t shown = 7u + (output.layer_depth ? 1u : 0u) +
                                 (run.lighting.ground ? 1u : 0u) +
                                 (output.layer_optical_depth ? 1u : 0u);
@@ -134,6 +174,9 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
 
 Status raymarch_measure(const Context& context, RaymarchRun& run) {
     choose_light(run);
+    run.levels =
+        raymarch_levels(run.scene->raymarch, make_camera(run.scene->camera, 0, run.medium.low_m),
+                        run.medium, reach_of(run));
     note_plan(run);
     weigh_memory(context, run);
     return check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), run.scene->file);

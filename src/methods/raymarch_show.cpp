@@ -20,6 +20,16 @@ Status light_nodes(const Context& context, RaymarchRun& run) {
     return Status::ok();
 }
 
+/// A sun that moves changes the ground's light.
+Status light_sky(const Context& context, const FrameStep& step, RaymarchRun& run) {
+    const Scene& scene = *run.scene;
+    if (!scene.raymarch.sky_ambient || run.medium.sigma <= 0) return Status::ok();
+    const bool moves = scene.animation.present && scene.animation.moves_sun;
+    if (!step.first && !moves) return Status::ok();
+    return make_sky_nodes(context, run.medium, run.prepared, run.lighting,
+                          mean_kept(scene.raymarch, run.medium), run.sky);
+}
+
 Status fill_background(const Context& context, RaymarchRun& run) {
     const StageClock clock(context, "background");
     const Lighting& light = run.lighting;
@@ -54,6 +64,7 @@ Status raymarch_light(const FrameStep& step, const Context& context, MethodRun& 
     if (scene.raymarch.jitter == RaymarchJitterKind::kBlueNoise && run.noise.empty())
         PILEUS_TRY(make_blue_noise(run.noise));
     PILEUS_TRY(light_nodes(context, run));
+    PILEUS_TRY(light_sky(context, step, run));
     PILEUS_TRY(allocate_planes(run.camera.width, run.camera.height, 3, run.lighting.ground,
                                output.layer_depth, run.planes));
     const std::uint64_t pixels = run.planes.transmittance.size();
@@ -66,6 +77,8 @@ Status raymarch_light(const FrameStep& step, const Context& context, MethodRun& 
     in.lighting = &run.lighting;
     in.settings = &scene.raymarch;
     in.nodes = &run.nodes;
+    in.sky = &run.sky;
+    in.levels = &run.coarse;
     in.march_light = run.march_light;
     in.noise = &run.noise;
     // Frame f of an animation has the jitter of the seed f further on.
@@ -100,6 +113,7 @@ void raymarch_report(const MethodRun& method_run, Report& report) {
     const RaymarchRun& run = static_cast<const RaymarchRun&>(method_run);
     report.counters.emplace_back("majorant_violations", 0);  // bounds only say where nothing is
     report.counters.emplace_back("bound_breaches", run.tally.breaches);
+    report.executed.emplace_back("density_levels", run.coarse.size());
     report.executed.emplace_back("ray_samples", run.tally.samples);
     report.executed.emplace_back("light_samples", run.tally.light_samples);
 }

@@ -93,6 +93,14 @@ const KeyRow kRows[] = {
                "`cone`: steps of a march towards the sun turn off by a quarter to all of half "
                "cone_deg, one after the other; softens shades",
                [](const Node& n, KeyTarget t) { t.scene.raymarch.light_cone = n.text == "cone"; }),
+    choice_key(
+        KeyKind::kText, "raymarch.sky_light", "\"ambient\"", "none|ambient", nullptr,
+        "light of sky and ground in the medium: none, or what reaches coarse nodes from 24 "
+        "directions, scattered alike everywhere; approximation",
+        [](const Node& n, KeyTarget t) { t.scene.raymarch.sky_ambient = n.text == "ambient"; }),
+    plain_key(KeyKind::kBool, "raymarch.detail", "false",
+              "true: where steps or pixels are wider than cells, coarser densities are marched",
+              [](const Node& n, KeyTarget t) { t.scene.raymarch.detail = n.flag; }),
     choice_key(KeyKind::kText, "raymarch.jitter", "\"none\"", kJitters, nullptr,
                "rays begin up to a panel before the medium, each pixel's by a number of its own: "
                "noise instead of bands",

@@ -153,6 +153,8 @@ struct RaymarchSettings {
     RaymarchLightKind light = RaymarchLightKind::kAuto;
     int light_steps = 0;  ///< 0: of a voxel, to the end
     double light_first_step_m = 0, light_growth = 1;
+    bool sky_ambient = true;  ///< sky_light = "ambient"
+    bool detail = false;      ///< coarser densities for steps and pixels wider than cells
     bool light_cone = false;  ///< light_path = "cone"
     RaymarchJitterKind jitter = RaymarchJitterKind::kNone;
     double jitter_share = 1;  ///< of a panel

@@ -51,6 +51,11 @@ void set_jitter(const RaymarchInput& in, StepParams& k) {
     k.key[1] = key.k1;
 }
 
+double kept_of(const RaymarchSettings& s, const Optics& optics) {
+    if (!s.forward) return 0;
+    return s.forward_share >= 0 ? s.forward_share : forward_share(optics.phase, 0.5 * s.cone_deg);
+}
+
 void set_light(const RaymarchInput& in, RaymarchParams& k) {
     const RaymarchSettings& s = *in.settings;
     RaymarchLight& light = k.light;
@@ -68,8 +73,7 @@ void set_light(const RaymarchInput& in, RaymarchParams& k) {
     light.channels = 1;
     for (int i = 0; s.forward && i < in.medium->count; ++i) {
         const Optics& optics = in.medium->optics[std::size_t(i)];
-        const double share =
-            s.forward_share >= 0 ? s.forward_share : forward_share(optics.phase, 0.5 * s.cone_deg);
+        const double share = kept_of(s, optics);
         for (std::size_t c = 0; c < 3; ++c) {
             light.kept[i][c] = float(share * double(optics.albedo[c]));
             if (light.kept[i][c] != light.kept[i][0]) light.channels = 3;
@@ -86,6 +90,7 @@ void set_media(const RaymarchInput& in, RaymarchParams& k) {
         const float peak = phase_peak(optics.phase);
         k.phase_scale[i] = in.settings->peak_phase && peak > 0 ? 1.0f / peak : 1.0f;
         for (std::size_t c = 0; c < 3; ++c) {
+            k.albedo[i][c] = optics.albedo[c];
             k.sun_source[i][c] = float(lighting.sun_irradiance[c] * double(optics.albedo[c]));
             if (lighting.sunlit && k.sun_source[i][c] > 0) k.sunlit = 1;
         }
@@ -96,7 +101,52 @@ void set_media(const RaymarchInput& in, RaymarchParams& k) {
     }
 }
 
+void set_levels(const RaymarchInput& in, RaymarchParams& k) {
+    if (in.levels == nullptr) return;
+    for (const DensityLevel& level : *in.levels) {
+        MediumView& v = k.level[k.levels++];
+        v = k.medium;
+        for (int a = 0; a < 3; ++a) {
+            v.size[a] = level.grid.size[a];
+            v.cell[a] = level.grid.cell_m[a];
+        }
+        block_counts(level.grid, in.prepared->skip_block, v.blocks);
+        v.density = level.density.data();
+        v.majorant = level.majorants.data();
+    }
+}
+
 }  // namespace
+
+int raymarch_levels(const RaymarchSettings& s, const CameraParams& camera, const Medium& medium,
+                    double reach_m) {
+    if (!s.detail) return 0;
+    double diagonal = 0;
+    for (double e : medium.extent_m) diagonal += e * e;
+    diagonal = __builtin_sqrt(diagonal);
+    const StepParams k = raymarch_steps(s, camera, medium.grid);
+    double widest = double(k.pixel) * (camera.orthographic != 0 ? 1 : reach_m);
+    const auto at_least = [&](double width) { widest = width > widest ? width : widest; };
+    if (s.steps > 0 && s.spacing == RaymarchSpacing::kUniform) at_least(diagonal / s.steps);
+    // Growing steps may end with any share of the way, a slanted way is longer.
+    if (k.grows != 0) at_least(diagonal);
+    if (s.light_steps > 0) at_least(diagonal);
+    if (medium.grid.periodic) at_least(diagonal);
+    int levels = 0;
+    for (double cell = double(smallest_cell(medium.grid)); cell < widest && levels < kMostLevels;
+         cell *= 2)
+        ++levels;
+    return int(level_grids(medium.grid, levels).size());
+}
+
+double mean_kept(const RaymarchSettings& s, const Medium& medium) {
+    double sum = 0;
+    for (int i = 0; i < medium.count; ++i) {
+        const Optics& optics = medium.optics[std::size_t(i)];
+        for (float albedo : optics.albedo) sum += kept_of(s, optics) * double(albedo) / 3;
+    }
+    return medium.count > 0 ? sum / medium.count : 0;
+}
 
 float smallest_cell(const Grid& grid) {
     float smallest = grid.cell_m[0];
@@ -144,6 +194,12 @@ RaymarchParams raymarch_params(const RaymarchInput& in) {
     k.rule = rule_of(in.settings->integrator);
     k.step = raymarch_steps(*in.settings, in.camera, in.medium->grid);
     set_jitter(in, k.step);
+    set_levels(in, k);
+    if (in.sky != nullptr) {
+        k.sky.nodes = in.sky->grid;
+        k.sky.sets = in.sky->sets;
+        std::memcpy(k.sky.colour, in.sky->colour, sizeof k.sky.colour);
+    }
     k.cut = float(in.settings->stop_below);
     set_media(in, k);
     set_light(in, k);
@@ -181,6 +237,7 @@ Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes&
     RaymarchBuffers b{};
     if (in.nodes != nullptr) b.optical_depth = in.nodes->optical_depth.data();
     b.opaque_depth = planes.opaque_depth.data();
+    if (in.sky != nullptr) b.sky = in.sky->light.data();
     if (in.noise != nullptr) b.noise = in.noise->data();
     b.parts = in.medium->parts.data();
     b.transmittance = planes.transmittance.data();

@@ -5,9 +5,11 @@
 #pragma once
 #include "kernels_cpu/raymarch_params.h"
 #include "src/stages/context.h"
+#include "src/stages/density_levels.h"
 #include "src/stages/layers.h"
 #include "src/stages/lights.h"
 #include "src/stages/prepare.h"
+#include "src/stages/sky_nodes.h"
 
 namespace pileus {
 
@@ -23,6 +25,8 @@ struct RaymarchInput {
     const Lighting* lighting = nullptr;
     const RaymarchSettings* settings = nullptr;
     const SunNodes* nodes = nullptr;
+    const SkyNodes* sky = nullptr;
+    const std::vector<DensityLevel>* levels = nullptr;
     bool march_light = false;
     const Buffer<float>* noise = nullptr;  ///< tile of make_blue_noise, where jitter asks for it
     std::uint64_t seed = 0;                ///< of the frame
@@ -39,6 +43,14 @@ float smallest_cell(const Grid& grid);
 /// The steps that a scene asks for.
 StepParams raymarch_steps(const RaymarchSettings& settings, const CameraParams& camera,
                           const Grid& grid);
+
+/// Levels of detail that no step or pixel of a run goes beyond; 0 where cells are never too fine.
+/// The camera is at most `reach_m` away from the medium's far end.
+int raymarch_levels(const RaymarchSettings& settings, const CameraParams& camera,
+                    const Medium& medium, double reach_m);
+
+/// Share of scattered light that forward scattering keeps, over all media and channels.
+double mean_kept(const RaymarchSettings& settings, const Medium& medium);
 
 /// Everything that a launch reads, but for the pointers to planes.
 RaymarchParams raymarch_params(const RaymarchInput& in);
