@@ -89,6 +89,9 @@ struct Report {
     double mean_path_m = 0;  ///< per photon, inside the box
     std::vector<EnergyRow> energy;
 
+    std::uint64_t buffer_nodes = 0;  ///< of a swept optical depth, compared with rays; 0: none
+    double buffer_rms = 0, buffer_largest = 0, buffer_mean = 0;  ///< of transmittance
+
     bool has_error = false;
     double mean_relative = 0, rmse_estimate = 0;  ///< over pixels with A > 0.02
 

@@ -135,6 +135,16 @@ Json error_of(const Report& report) {
     return {{"mean_relative", report.mean_relative}, {"rmse_estimate", report.rmse_estimate}};
 }
 
+Json light_of(const Report& report) {
+    Json difference;
+    if (report.buffer_nodes > 0)
+        difference = {{"nodes", report.buffer_nodes},
+                      {"rms", report.buffer_rms},
+                      {"largest", report.buffer_largest},
+                      {"mean", report.buffer_mean}};
+    return {{"buffer_difference", difference}};
+}
+
 /// A later entry of one name replaces an earlier one.
 template <class Pairs>
 Json object_of(const Pairs& pairs) {
@@ -182,6 +192,7 @@ std::string report_json(const Report& report) {
 
     json["energy"] = energy_of(report);
     json["error"] = error_of(report);
+    json["light"] = light_of(report);
     json["counters"] = object_of(report.counters);
     json["executed"] = object_of(report.executed);
     json["digests"] = object_of(report.digests);

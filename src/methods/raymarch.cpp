@@ -28,9 +28,11 @@ Status check(const Scene& scene, const Budget& budget) {
         return Status::bad_input(scene.file +
                                  ": camera.projection: \"flux\" sees along no single ray, which "
                                  "method raymarch marches, allowed: perspective, orthographic");
-    if (scene.raymarch.light_cone && scene.raymarch.light == RaymarchLightKind::kBuffer)
+    const RaymarchLightKind light = scene.raymarch.light;
+    if (scene.raymarch.light_cone &&
+        (light == RaymarchLightKind::kBuffer || light == RaymarchLightKind::kBufferExact))
         return Status::bad_input(scene.file +
-                                 ": raymarch.light: \"buffer\" holds straight ways, not those of "
+                                 ": raymarch.light: nodes hold straight ways, not those of "
                                  "light_path = \"cone\", allowed: auto, march");
     const OutputSettings& output = scene.output;
     if (output.layer_error || output.layer_light || output.layer_order)

@@ -30,7 +30,8 @@ struct RaymarchRun : MethodRun {
     SkyNodes sky;
     int levels = 0;                    ///< of detail
     std::vector<DensityLevel> coarse;  ///< their densities
-    SunNodes nodes;
+    SunDepth nodes;
+    SunDepthDifference nodes_difference;  ///< of swept nodes to rays
     std::array<float, 3> nodes_to_sun{};  ///< the sun that the nodes were made for
     CameraParams camera{};
     Planes planes;

@@ -4,7 +4,6 @@
 // docs/report.md, "Plan"; docs/raymarch.md
 #include "src/methods/raymarch.h"
 #include "src/stages/plan_parts.h"
-#include "src/stages/source_grid.h"
 
 namespace pileus {
 namespace {
@@ -46,7 +45,7 @@ void choose_light(RaymarchRun& run) {
     const double way = 0.5 * cells_across(grid);
     const double lit = double(s.steps < 64 ? s.steps : 64) * double(pixels_of(*run.scene));
     const double marched = lit * (s.light_steps > 0 ? double(s.light_steps) : way);
-    const double nodes = double(node_count(sun_node_grid(grid, run.medium.extent_m))) * way;
+    const double nodes = double(voxel_count(grid)) * way;
     run.march_light = marched < nodes;
     run.light_why = "fewer samples of the density, about " +
                     std::to_string(std::uint64_t(run.march_light ? marched : nodes)) +
@@ -136,8 +135,7 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
     add_majorant_rows(grid, run.outlined_only ? 1 : run.prepared.majorants.size(),
                       std::uint64_t(context.threads), last, t);
     if (!run.march_light && run.lighting.sunlit)
-        t.add("sunlight's optical depth on nodes", Stage::kShadow, last,
-              bytes_of(kFloat, node_count(sun_node_grid(grid, run.medium.extent_m))));
+        t.add("sunlight's optical depth on nodes", Stage::kShadow, last, sun_depth_bytes(grid));
     for (const Grid& level : level_grids(grid, run.levels)) {
         int blocks[3];
         block_counts(level, run.prepared.skip_block, blocks);

@@ -10,12 +10,22 @@
 namespace pileus {
 namespace {
 
+constexpr std::uint64_t kComparedNodes = 1024;
+
 /// Nodes serve every frame of the same sun.
 Status light_nodes(const Context& context, RaymarchRun& run) {
     if (run.march_light || !run.lighting.sunlit || run.medium.sigma <= 0) return Status::ok();
     if (!run.nodes.optical_depth.empty() && run.nodes_to_sun == run.lighting.to_sun)
         return Status::ok();
-    PILEUS_TRY(make_sun_nodes(context, run.medium, run.prepared, run.lighting, run.nodes));
+    const bool swept = run.scene->raymarch.light == RaymarchLightKind::kBuffer;
+    const auto kind = swept ? SunDepthKind::kSwept : SunDepthKind::kExact;
+    const auto& to_sun = run.lighting.to_sun;
+    PILEUS_TRY(make_sun_depth(context, run.medium, run.prepared, to_sun, kind, run.nodes));
+    // A thousand rays tell what the sweep smears.
+    run.nodes_difference = {};
+    if (run.nodes.swept)
+        PILEUS_TRY(sun_depth_difference(context, run.medium, run.prepared, to_sun, run.nodes,
+                                        kComparedNodes, run.nodes_difference));
     run.nodes_to_sun = run.lighting.to_sun;
     return Status::ok();
 }
@@ -116,6 +126,10 @@ void raymarch_report(const MethodRun& method_run, Report& report) {
     report.executed.emplace_back("density_levels", run.coarse.size());
     report.executed.emplace_back("ray_samples", run.tally.samples);
     report.executed.emplace_back("light_samples", run.tally.light_samples);
+    report.buffer_nodes = run.nodes_difference.nodes;
+    report.buffer_rms = run.nodes_difference.rms;
+    report.buffer_largest = run.nodes_difference.largest;
+    report.buffer_mean = run.nodes_difference.mean;
 }
 
 }  // namespace pileus

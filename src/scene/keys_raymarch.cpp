@@ -24,8 +24,8 @@ Kind kind_of(const Node& n, const char* choices) {
 // In the order of their enumerations in scene.h.
 constexpr const char* kIntegrators = "closed|riemann|trapezoid|simpson|simpson38";
 constexpr const char* kSpacings = "uniform|voxel|optimal|geometric";
-constexpr const char* kLights = "auto|march|buffer";
 constexpr const char* kJitters = "none|hash|blue-noise";
+constexpr const char* kLights = "auto|march|buffer|buffer-exact";
 constexpr const char* kPowders = "none|powder|beer-powder|directional";
 
 const KeyRow kRows[] = {
@@ -71,8 +71,8 @@ const KeyRow kRows[] = {
               [](const Node& n, KeyTarget t) { t.scene.raymarch.forward_share = number_of(n); }),
     choice_key(
         KeyKind::kText, "raymarch.light", "\"auto\"", kLights, nullptr,
-        "sunlight by a march from each sample, or from nodes made before; `auto`: what costs "
-        "less",
+        "sunlight by a march from each sample, or from nodes made before: swept from slice to "
+        "slice, or by exact rays; `auto`: what costs less of march and buffer-exact",
         [](const Node& n, KeyTarget t) {
             t.scene.raymarch.light = kind_of<RaymarchLightKind>(n, kLights);
         }),

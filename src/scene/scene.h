@@ -136,8 +136,8 @@ struct PathSettings {
 
 enum class RaymarchIntegrator { kClosed, kRiemann, kTrapezoid, kSimpson, kSimpson38 };
 enum class RaymarchSpacing { kUniform, kVoxel, kOptimal, kGeometric };
-enum class RaymarchLightKind { kAuto, kMarch, kBuffer };
 enum class RaymarchJitterKind { kNone, kHash, kBlueNoise };
+enum class RaymarchLightKind { kAuto, kMarch, kBuffer, kBufferExact };
 enum class RaymarchPowderKind { kNone, kPowder, kBeerPowder, kDirectional };
 
 struct RaymarchSettings {

@@ -8,13 +8,11 @@
 #include "src/base/angles.h"
 #include "src/stages/forward_share.h"
 #include "src/stages/march_view.h"
-#include "src/stages/source_grid.h"
 
 namespace pileus {
 namespace {
 
 constexpr std::uint32_t kJitterStream = 31;
-constexpr double kNodeVoxels = 1;  ///< spacing of the nodes: docs/raymarch.md, "Light"
 
 /// Sum of growth^n over so many steps; large enough where it leaves the range of floats.
 float series_of(double growth, int steps) {
@@ -60,7 +58,7 @@ void set_light(const RaymarchInput& in, RaymarchParams& k) {
     const RaymarchSettings& s = *in.settings;
     RaymarchLight& light = k.light;
     light.march = in.march_light ? 1 : 0;
-    if (in.nodes != nullptr) light.nodes = in.nodes->grid;
+    if (in.nodes != nullptr) light.nodes = in.nodes->nodes;
     light.steps = s.light_steps;
     light.first_m =
         s.light_steps == 0 ? smallest_cell(in.medium->grid) : float(s.light_first_step_m);
@@ -204,26 +202,6 @@ RaymarchParams raymarch_params(const RaymarchInput& in) {
     set_media(in, k);
     set_light(in, k);
     return k;
-}
-
-NodeGrid sun_node_grid(const Grid& grid, const double (&extent_m)[3]) {
-    float coarse = 0;
-    for (float cell : grid.cell_m) coarse = cell > coarse ? cell : coarse;
-    return make_node_grid(grid, extent_m, kNodeVoxels * double(coarse));
-}
-
-Status make_sun_nodes(const Context& context, const Medium& medium, const Prepared& prepared,
-                      const Lighting& lighting, SunNodes& out) {
-    const StageClock clock(context, "shadow");
-    out.grid = sun_node_grid(medium.grid, medium.extent_m);
-    PILEUS_TRY(out.optical_depth.resize(node_count(out.grid), "shadow"));
-    ShadowParams k{};
-    k.medium = make_medium_view(medium, prepared);
-    k.nodes = out.grid;
-    for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = lighting.to_sun[a];
-    return run_rows(context, context.kernels->shadow_rows, k,
-                    ShadowBuffers{out.optical_depth.data()},
-                    std::uint32_t(k.nodes.size[1] * k.nodes.size[2]));
 }
 
 Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes& planes,

@@ -10,21 +10,16 @@
 #include "src/stages/lights.h"
 #include "src/stages/prepare.h"
 #include "src/stages/sky_nodes.h"
+#include "src/stages/sun_depth.h"
 
 namespace pileus {
-
-/// Optical depths towards the sun on nodes over the box; none where light is marched.
-struct SunNodes {
-    NodeGrid grid{};
-    Buffer<float> optical_depth;
-};
 
 struct RaymarchInput {
     const Medium* medium = nullptr;
     const Prepared* prepared = nullptr;  ///< blocks to skip
     const Lighting* lighting = nullptr;
     const RaymarchSettings* settings = nullptr;
-    const SunNodes* nodes = nullptr;
+    const SunDepth* nodes = nullptr;
     const SkyNodes* sky = nullptr;
     const std::vector<DensityLevel>* levels = nullptr;
     bool march_light = false;
@@ -54,13 +49,6 @@ double mean_kept(const RaymarchSettings& settings, const Medium& medium);
 
 /// Everything that a launch reads, but for the pointers to planes.
 RaymarchParams raymarch_params(const RaymarchInput& in);
-
-/// Optical depths on nodes `spacing_voxels` apart, each marched to the sun. kLimit: out of memory.
-Status make_sun_nodes(const Context& context, const Medium& medium, const Prepared& prepared,
-                      const Lighting& lighting, SunNodes& out);
-
-/// Nodes that make_sun_nodes would make.
-NodeGrid sun_node_grid(const Grid& grid, const double (&extent_m)[3]);
 
 /// Marches into the planes' transmittance, colour and what else they have room for; ends rays at
 /// their opaque depth. kLimit: out of memory.

@@ -107,7 +107,7 @@ std::uint64_t sun_depth_bytes(const Grid& grid) { return 4 * std::uint64_t(voxel
 
 Status make_sun_depth(const Context& context, const Medium& medium, const Prepared& prepared,
                       const std::array<float, 3>& to_sun, SunDepthKind kind, SunDepth& out) {
-    const StageClock clock(context, "sun depth");
+    const StageClock clock(context, "shadow");
     out.nodes = make_node_grid(medium.grid, medium.extent_m, 0);
     for (int a = 0; a < 3; ++a) {
         out.nodes.size[a] = medium.grid.size[a];
@@ -124,7 +124,7 @@ Status make_sun_depth(const Context& context, const Medium& medium, const Prepar
 Status sun_depth_difference(const Context& context, const Medium& medium, const Prepared& prepared,
                             const std::array<float, 3>& to_sun, const SunDepth& depth,
                             std::uint64_t wanted, SunDepthDifference& out) {
-    const StageClock clock(context, "sun depth difference");
+    const StageClock clock(context, "shadow difference");
     const SparseNodes sparse = sparse_nodes(depth.nodes, wanted);
     Buffer<float> rays;
     PILEUS_TRY(rays.resize(node_count(sparse.grid), "sun depth difference"));

@@ -65,8 +65,8 @@ void run_sweep(benchmark::State& state, Bench& bench, const SweepCase& which,
     if (!once()) return;  // takes the memory
     for (auto _ : state) {
         if (!once()) return;
-        state.SetIterationTime(stage_cpu(report, {"sun depth"}));
-        best_wall = std::min(best_wall, stage_wall(report, {"sun depth"}));
+        state.SetIterationTime(stage_cpu(report, {"shadow"}));
+        best_wall = std::min(best_wall, stage_wall(report, {"shadow"}));
     }
     Digest digest;
     digest.floats(depth.optical_depth.span());
