@@ -50,6 +50,7 @@ std::uint64_t self_test_kernel() { return self_test_digest<PILEUS_WIDTH>(); }
 #define PILEUS_JOIN(a, b) a##b
 #define PILEUS_TABLE(isa) PILEUS_JOIN(kernel_table_, isa)
 #define PILEUS_PATH(isa) PILEUS_JOIN(path_kernel_, isa)
+#define PILEUS_SKY(isa) PILEUS_JOIN(sky_kernel_, isa)
 #define PILEUS_RAYMARCH(isa) PILEUS_JOIN(raymarch_kernel_, isa)
 #define PILEUS_SWEEP(isa) PILEUS_JOIN(sweep_kernel_, isa)
 #define PILEUS_SWEEP_LAYER(isa) PILEUS_JOIN(sweep_layer_kernel_, isa)
@@ -60,6 +61,8 @@ void PILEUS_PATH(PILEUS_ISA)(const PathParams&, const PathBuffers&, std::uint32_
 /// Of isa_raymarch.cpp.
 void PILEUS_RAYMARCH(PILEUS_ISA)(const RaymarchParams&, const RaymarchBuffers&, std::uint32_t,
                                  std::uint32_t);
+/// Of isa_sky.cpp.
+extern const SkyKernels PILEUS_SKY(PILEUS_ISA);
 
 /// Of isa_sweep.cpp, likewise.
 void PILEUS_SWEEP(PILEUS_ISA)(const SweepParams&, const SweepBuffers&, std::uint32_t);
@@ -86,6 +89,7 @@ const KernelTable PILEUS_TABLE(PILEUS_ISA) = {
     PILEUS_SOLIDS(PILEUS_ISA),
     PILEUS_SWEEP(PILEUS_ISA),
     PILEUS_SWEEP_LAYER(PILEUS_ISA),
+    &PILEUS_SKY(PILEUS_ISA),
 };
 
 }  // namespace pileus

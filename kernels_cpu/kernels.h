@@ -8,6 +8,7 @@
 #include "kernels_cpu/march_params.h"
 #include "kernels_cpu/path_params.h"
 #include "kernels_cpu/raymarch_params.h"
+#include "kernels_cpu/sky_params.h"
 #include "kernels_cpu/solids_params.h"
 #include "kernels_cpu/sweep_params.h"
 #include "kernels_cpu/trace_params.h"
@@ -41,6 +42,7 @@ struct KernelTable {
     /// Rows of one slice of a periodic medium; the slice above it must be done.
     void (*sweep_layer_rows)(const SweepLayerParams&, const SweepBuffers&, std::uint32_t begin,
                              std::uint32_t end) = nullptr;
+    const SkyKernels* sky = nullptr;  ///< procedural skies
 };
 
 /// The widest table this machine runs; `name` (or null) forces one. Null: no such table here.

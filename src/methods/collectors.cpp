@@ -228,7 +228,8 @@ Status collectors_load(const Scene& scene, std::int64_t photons, const Context& 
     if (!scene.media.empty()) {
         const StageClock clock(context, "density");
         run.media_plan = Plan{};
-        PILEUS_TRY(load_media(scene, context.limits, context.threads, run.media_plan, run.medium));
+        PILEUS_TRY(load_media(scene, context.limits, context.threads, run.media_plan, run.medium,
+                              context.kernels));
         run.source.mean_density = mean_density(run.medium);
     }
     PILEUS_TRY(load_solids(scene, run.medium.low_m, context, run.solids));

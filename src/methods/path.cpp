@@ -63,7 +63,8 @@ Status load(const Scene& scene, const Context& context, PathRun& run) {
     if (scene.media.empty()) return Status::ok();
     const StageClock clock(context, "density");
     run.media_plan = Plan{};
-    PILEUS_TRY(load_media(scene, context.limits, context.threads, run.media_plan, run.medium));
+    PILEUS_TRY(load_media(scene, context.limits, context.threads, run.media_plan, run.medium,
+                          context.kernels));
     run.source.mean_density = mean_density(run.medium);
     return Status::ok();
 }

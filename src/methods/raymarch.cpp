@@ -72,7 +72,8 @@ Status prepare(const Scene& scene, const Budget& budget, const Context& context,
     if (!scene.media.empty()) {
         const StageClock clock(context, "density");
         run.media_plan = Plan{};
-        PILEUS_TRY(load_media(scene, context.limits, context.threads, run.media_plan, run.medium));
+        PILEUS_TRY(load_media(scene, context.limits, context.threads, run.media_plan, run.medium,
+                              context.kernels));
         run.source.mean_density = mean_density(run.medium);
     }
     // The values may show that there is no medium.

@@ -42,6 +42,8 @@ void check_medium(SceneCheck& check, std::size_t index);
 
 /// Laws between the keys of meshes and of the camera's depth.
 void check_solids(SceneCheck& check);
+/// Laws between the keys of a procedural sky; fills in what its type brings.
+void check_sky(SceneCheck& check, std::size_t index);
 
 /// Laws between all other keys, and defaults that depend on other keys.
 void check_scene(SceneCheck& check);

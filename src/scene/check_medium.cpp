@@ -13,7 +13,8 @@ namespace {
 // A procedural cloud keeps its outermost layer of cells empty.
 constexpr int kLeastCells = 3;
 constexpr const char* kDensities =
-    "procedural:cumulus, uniform:box, uniform:sphere, uniform:ellipsoid, the path of a file";
+    "procedural:cumulus, procedural:sky, uniform:box, uniform:sphere, uniform:ellipsoid, the path "
+    "of a file";
 
 bool starts_with(const std::string& text, std::string_view start) {
     return std::string_view(text).substr(0, start.size()) == start;
@@ -30,6 +31,7 @@ public:
         : check_(check),
           medium_(check.scene.media[index]),
           table_(check.root.find("medium")->children[index]),
+          index_(index),
           path_("medium." + std::to_string(index) + ".") {}
 
     void run() {
@@ -42,6 +44,7 @@ public:
             }
             grid_name();
         }
+        sky();
         extinction();
         phase();
         bounds();
@@ -60,6 +63,8 @@ private:
         }
         if (node.text == "procedural:cumulus") {
             medium_.density = DensityKind::kCumulus;
+        } else if (node.text == "procedural:sky") {
+            medium_.density = DensityKind::kSky;
         } else if (node.text == "uniform:box") {
             medium_.density = DensityKind::kUniformBox;
         } else if (node.text == "uniform:sphere") {
@@ -137,6 +142,14 @@ private:
                   ", or the key format = \"pbrt\"");
     }
 
+    /// A kind of cloud brings its extinction and its phase function.
+    void sky() {
+        const Node* table = check_.key(path_ + "sky");
+        if (medium_.density == DensityKind::kSky) return check_sky(check_, index_);
+        if (table != nullptr)
+            fault(*table, "sky", "for procedural:sky only, a table, allowed: left out");
+    }
+
     /// A file in physical units takes a factor; everything else takes the extinction at density 1.
     void extinction() {
         const VolumeFormat* format = volume_format_named(medium_.format);
@@ -151,7 +164,8 @@ private:
             fault(*scale, "extinction_scale",
                   "for files that hold extinction only, " + value_text(*scale) +
                       ", allowed: left out, and the key extinction_per_m");
-        if (!physical && per_m == nullptr)
+        const bool known = medium_.density == DensityKind::kSky && medium_.extinction_per_m > 0;
+        if (!physical && per_m == nullptr && !known)
             fault(table_, "extinction_per_m", "missing, nothing, allowed: number in [0, 1e+12]");
     }
 
@@ -244,6 +258,7 @@ private:
     SceneCheck& check_;
     MediumSettings& medium_;
     const Node& table_;
+    std::size_t index_;
     std::string path_;
 };
 

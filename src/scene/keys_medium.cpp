@@ -49,7 +49,8 @@ void set_cells(const Node& n, std::array<int, 3>& cells) {
 
 const KeyRow kRows[] = {
     plain_key(KeyKind::kDensity, "medium.N.density", kRequired,
-              "`procedural:cumulus`, `uniform:box`, `uniform:sphere`, `uniform:ellipsoid` (filling "
+              "`procedural:cumulus`, `procedural:sky`, `uniform:box`, `uniform:sphere`, "
+              "`uniform:ellipsoid` (filling "
               "bounds_m), the path of a file, or a table for a raw, OpenVDB or NanoVDB file",
               nullptr),
     plain_key(KeyKind::kText, "medium.N.density.file", kRequired,

@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "src/scene/sky_settings.h"
+
 namespace pileus {
 
 using Double3 = std::array<double, 3>;
@@ -53,7 +55,7 @@ struct SolidSettings {
     bool y_up = false;                     ///< the file's y points up; glTF's always does
 };
 
-enum class DensityKind { kCumulus, kUniformBox, kUniformSphere, kUniformEllipsoid, kFile };
+enum class DensityKind { kCumulus, kUniformBox, kUniformSphere, kUniformEllipsoid, kFile, kSky };
 enum class PhaseKind {
     kIsotropic,
     kRayleigh,
@@ -88,6 +90,7 @@ struct MediumSettings {
     std::array<Double3, 2> bounds_m{};
     std::array<int, 3> resolution{0, 0, 0};  ///< procedural and uniform shapes; 0: a default
     std::int64_t shape_seed = 0;             ///< another cumulus for each; key `shape_seed`
+    SkySettings sky;                         ///< of a procedural sky
     double extinction_per_m = 0;             ///< at density 1
     double extinction_scale = 1;             ///< for files that hold extinction; >= 0
     Float3 albedo{1, 1, 1};

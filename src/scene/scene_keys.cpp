@@ -32,6 +32,7 @@ std::string choices_text(const char* choices) {
 std::string section_of(const KeyRow& row) {
     const std::string path = row.path;
     if (row.kind == KeyKind::kTable) return "other";
+    if (path.compare(0, 13, "medium.N.sky.") == 0) return "medium.N.sky";
     if (path.compare(0, 9, "medium.N.") == 0) return "medium.N";
     if (path.compare(0, 8, "solid.N.") == 0) return "solid.N";
     const std::size_t dot = path.find('.');
@@ -42,6 +43,7 @@ std::string heading_of(const std::string& section) {
     if (section.empty()) return "Top level";
     if (section == "other") return "Tables of other methods";
     if (section == "solid.N") return "`[[solid]]`";
+    if (section == "medium.N.sky") return "`[[medium]]`, `sky = { ... }`";
     return section == "medium.N" ? "`[[medium]]`" : "`[" + section + "]`";
 }
 
@@ -83,6 +85,7 @@ std::vector<const KeyRow*> all_scene_keys() {
     for (const KeyRow& row : view_keys()) rows.push_back(&row);
     for (const KeyRow& row : solid_keys()) rows.push_back(&row);
     for (const KeyRow& row : medium_keys()) rows.push_back(&row);
+    for (const KeyRow& row : sky_keys()) rows.push_back(&row);
     for (const KeyRow& row : method_keys()) rows.push_back(&row);
     for (const KeyRow& row : raymarch_keys()) rows.push_back(&row);
     for (const KeyRow& row : output_keys()) rows.push_back(&row);

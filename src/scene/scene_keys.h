@@ -76,6 +76,7 @@ std::string describe_keys_markdown();
 Span<const KeyRow> view_keys();      // seed, camera, sun, sky, ground
 Span<const KeyRow> solid_keys();     // solid
 Span<const KeyRow> medium_keys();    // medium
+Span<const KeyRow> sky_keys();       // medium.sky
 Span<const KeyRow> method_keys();    // method, collectors, path
 Span<const KeyRow> raymarch_keys();  // raymarch
 Span<const KeyRow> output_keys();    // tables of later methods, output, animation

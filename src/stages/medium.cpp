@@ -6,6 +6,7 @@
 #include "src/io/volume_file.h"
 #include "src/scene/read_scene.h"
 #include "src/stages/medium_phase.h"
+#include "src/stages/sky_field.h"
 #include "src/volume/cumulus.h"
 #include "src/volume/shapes.h"
 
@@ -13,12 +14,16 @@ namespace pileus {
 namespace {
 
 Status load_density(const Scene& scene, const MediumSettings& settings, int threads,
-                    Volume& volume) {
+                    const KernelTable* kernels, Volume& volume) {
     if (settings.density == DensityKind::kFile) {
         const std::string path = scene_path(scene.directory, settings.file);
         PILEUS_TRY(read_volume(settings, path, volume));
         if (settings.y_up) PILEUS_TRY(permute_y_up(volume));
         return Status::ok();
+    }
+    if (settings.density == DensityKind::kSky) {
+        if (kernels == nullptr || kernels->sky == nullptr) kernels = kernel_table(nullptr);
+        return bake_sky(settings, *kernels->sky, threads, volume);
     }
     if (settings.density != DensityKind::kCumulus)
         return make_shape(settings.density, settings.resolution, volume);
@@ -56,7 +61,9 @@ Status place_medium(const Scene& scene, const MediumSettings& settings, const Vo
         out.grid.cell_m[a] = float(out.extent_m[a] / head.size[a]);
     }
     // A file's extinction is known only from its values; until then any but none stands for it.
-    out.sigma = float(head.in_extinction ? settings.extinction_scale : settings.extinction_per_m);
+    const double per_m = settings.extinction_per_m *
+                         (settings.density == DensityKind::kSky ? settings.sky.density : 1);
+    out.sigma = float(head.in_extinction ? settings.extinction_scale : per_m);
     Optics& optics = out.optics[0];
     optics.albedo_max = 0;
     for (std::size_t c = 0; c < 3; ++c) {
@@ -77,6 +84,13 @@ Status place_medium(const Scene& scene, const MediumSettings& settings, const Vo
 void outline_shape(const MediumSettings& settings, VolumeHead& head, MediumSource& source) {
     source.cumulus = settings.density == DensityKind::kCumulus;
     const bool given = settings.resolution[0] > 0;
+    if (settings.density == DensityKind::kSky) {
+        const SkyBytes bytes = sky_bytes(settings.sky);
+        head.size = given ? settings.resolution : default_sky_size(settings);
+        source.noise_bytes = bytes.kept + bytes.making;
+        source.mean_density = kSkyMean;
+        return;
+    }
     head.size = given            ? settings.resolution
                 : source.cumulus ? CumulusSettings().resolution
                                  : default_shape_size(settings.density);
@@ -160,8 +174,9 @@ Status outline_medium(const Scene& scene, const MediumSettings& settings, const 
     return place_medium(scene, settings, head, out);
 }
 
-Status load_medium(const Scene& scene, const MediumSettings& settings, int threads, Medium& out) {
-    PILEUS_TRY(load_density(scene, settings, threads, out.volume));
+Status load_medium(const Scene& scene, const MediumSettings& settings, int threads, Medium& out,
+                   const KernelTable* kernels) {
+    PILEUS_TRY(load_density(scene, settings, threads, kernels, out.volume));
     VolumeHead head;
     head.size = out.volume.size;
     head.knows_bounds = out.volume.knows_bounds;

@@ -3,6 +3,7 @@
 // in: the scene's words about one medium -> out: plain numbers in kernel units.
 // docs/methods.md 1; mix_media.h lays several on one grid, which then is one of these too.
 #pragma once
+#include "kernels_cpu/kernels.h"
 #include "kernels_cpu/optics.h"
 #include "src/base/limits.h"
 #include "src/io/volume.h"
@@ -45,12 +46,16 @@ struct MediumSource {
     std::uint64_t turned_voxels = 0;  ///< of a file whose y axis points up: a grid more for a while
     std::uint64_t apart_voxels = 0;   ///< of media that are then laid on one grid
     std::uint64_t mixing_bytes = 0;   ///< scratch of that
+    std::uint64_t noise_bytes = 0;    ///< of noise volumes, while a sky is put on a grid
     bool cumulus = false;             ///< made by the program from bubbles
     double mean_density = -1;         ///< over the box; below 0: known only from the values
 };
 
 /// Mean density of `procedural:cumulus` in its default box, which other boxes come close to.
 constexpr double kCumulusMean = 0.08;
+
+/// The same of `procedural:sky`, which its coverage and its shape move by a factor of several.
+constexpr double kSkyMean = 0.1;
 
 /// kLimit: a side or the product over the limits; `where` opens the line.
 Status check_voxels(const std::string& where, const std::array<int, 3>& size, const Limits& limits);
@@ -67,6 +72,8 @@ Status outline_medium(const Scene& scene, const MediumSettings& settings, const 
 /// Reads or makes the density and places it. A file that holds extinction becomes densities up to 1
 /// (value over largest value) with sigma = extinction_scale times the largest value. Errors: those
 /// of the readers; kBadInput for a file that does not know its place while `bounds_m` is left out.
-Status load_medium(const Scene& scene, const MediumSettings& settings, int threads, Medium& out);
+/// `kernels`: those to put a sky on its grid; null or a device's: the widest of the host.
+Status load_medium(const Scene& scene, const MediumSettings& settings, int threads, Medium& out,
+                   const KernelTable* kernels = nullptr);
 
 }  // namespace pileus

@@ -343,6 +343,7 @@ Status outline_media(const Scene& scene, const Limits& limits, std::uint64_t thr
         const auto larger = [](std::uint64_t a, std::uint64_t b) { return a > b ? a : b; };
         source.reading_bytes = larger(source.reading_bytes, own.reading_bytes);
         source.turned_voxels = larger(source.turned_voxels, own.turned_voxels);
+        source.noise_bytes = larger(source.noise_bytes, own.noise_bytes);
         source.cumulus = source.cumulus || own.cumulus;
         const std::size_t before = list.media.size();
         list.add(std::move(medium), i, i + 1 == scene.media.size(), plan);
@@ -363,11 +364,12 @@ Status outline_media(const Scene& scene, const Limits& limits, std::uint64_t thr
     return Status::ok();
 }
 
-Status load_media(const Scene& scene, const Limits& limits, int threads, Plan& plan, Medium& out) {
+Status load_media(const Scene& scene, const Limits& limits, int threads, Plan& plan, Medium& out,
+                  const KernelTable* kernels) {
     MediaList list;
     for (std::size_t i = 0; i < scene.media.size(); ++i) {
         Medium medium;
-        PILEUS_TRY(load_medium(scene, scene.media[i], threads, medium));
+        PILEUS_TRY(load_medium(scene, scene.media[i], threads, medium, kernels));
         list.add(std::move(medium), i, i + 1 == scene.media.size(), plan);
     }
     const MixGrid grid = list.plan_grid(limits, plan);

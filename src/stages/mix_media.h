@@ -43,6 +43,7 @@ Status outline_media(const Scene& scene, const Limits& limits, std::uint64_t thr
 
 /// Loads every medium of a scene that has some and lays them on one grid; says in `plan` how.
 /// Media without extinction are left out, unless none has any. Errors: those of load_medium.
-Status load_media(const Scene& scene, const Limits& limits, int threads, Plan& plan, Medium& out);
+Status load_media(const Scene& scene, const Limits& limits, int threads, Plan& plan, Medium& out,
+                  const KernelTable* kernels = nullptr);
 
 }  // namespace pileus

@@ -48,6 +48,8 @@ void add_density_rows(const Grid& grid, const MediumSource& source, std::uint64_
         t.add("mixing of media", Stage::kDensity, Stage::kDensity, source.mixing_bytes);
         t.add("parts of the media", Stage::kDensity, Stage::kWrite, bytes_of(media - 1, bytes));
     }
+    if (source.noise_bytes > 0)
+        t.add("noises of the sky", Stage::kDensity, Stage::kDensity, source.noise_bytes);
     if (source.cumulus)
         t.add("bubbles of the cumulus", Stage::kDensity, Stage::kDensity,
               kMaxBubbles * (sizeof(Bubble) + 3 * sizeof(std::uint16_t) * threads));

@@ -237,7 +237,8 @@ TEST_CASE("densities and their files") {
     const Row rows[] = {
         {kCamera + kFile + "density = \"uniform:cone\"\n" + box,
          "s.toml:6:11: medium.0.density: unknown value, \"uniform:cone\", allowed: "
-         "procedural:cumulus, uniform:box, uniform:sphere, uniform:ellipsoid, the path of a file"},
+         "procedural:cumulus, procedural:sky, uniform:box, uniform:sphere, uniform:ellipsoid, the "
+         "path of a file"},
         {kCamera + kFile + "density = 3\n", "s.toml:6:11: medium.0.density: wrong type, 3, ..."},
         {kCamera + kFile + "density = \"\"\n", "s.toml:6:11: medium.0.density: empty, \"\", ..."},
         {kCamera + kFile + "density = \"procedural:cumulus\"\n",

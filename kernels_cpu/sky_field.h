@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// A procedural sky's density at any place: two noises blended, thresholded, shaped with height.
+// in: SkyParams, box-local metres, the width of steps -> out: densities in [0, 1], their bounds.
+// Palenik 2016, section 5.1 (blend, gains, parameters A and B, dimensions); docs/skies.md.
+#pragma once
+#include "kernels_cpu/sky_layer.h"
+#include "kernels_cpu/sky_texture.h"
+
+namespace pileus {
+inline namespace PILEUS_ISA {
+
+/// The smooth step from 0 to 1, of t cut to [0, 1].
+template <class T>
+PILEUS_FN T smooth_ramp(T t) {
+    const T s = max_(min_(t, all<T>(1.0f)), T{});
+    return s * s * (3.0f - 2.0f * s);
+}
+
+/// How much the noise is lowered at a share of the height: rounds the clouds off at both ends.
+template <class T>
+PILEUS_FN T sky_lift(const SkyParams& k, T share) {
+    const T shape = smooth_ramp(share * k.rise) * smooth_ramp((1.0f - share) * k.fall);
+    return k.rounding * (1.0f - shape);
+}
+
+/// The blended noise at a place in box-local metres, and the variance that its levels have lost.
+template <class T>
+PILEUS_FN NoiseValue<T> sky_noise(const SkyParams& k, const Vec<T>& p, T width) {
+    NoiseValue<T> sum{};
+    if (k.perlin.share != 0.0f) sum = read_noise(k.perlin, p, width);
+    if (k.worley.share != 0.0f) {
+        const NoiseValue<T> one = read_noise(k.worley, p, width);
+        sum = {sum.value + one.value, sum.lost + one.lost};
+    }
+    return sum;
+}
+
+/// The ramp between the thresholds, widened by what the noise has lost: its mean stays. A smooth
+/// step of half width w has the variance w^2 / 5 (docs/skies.md, "Level of detail").
+template <class T>
+PILEUS_FN T sky_ramp(const SkyParams& k, T value, T lost) {
+    const T half = sqrt_(k.half_width * k.half_width + 5.0f * lost);
+    return smooth_ramp((value - k.middle + half) / (half + half));
+}
+
+template <class T>
+PILEUS_FN Vec<T> sky_world(const SkyParams& k, const Vec<T>& local) {
+    return {local.x + k.shift_m[0], local.y + k.shift_m[1], local.z + k.shift_m[2]};
+}
+
+/// Density at a place in box-local metres, filtered for steps of `width`.
+template <class T>
+PILEUS_FN T sky_density(const SkyParams& k, const Vec<T>& local, T width) {
+    const Vec<T> p = sky_world(k, local);
+    const T share = (altitude(k, p) - k.low_m) * k.inverse_m;
+    const auto inside = (share >= 0.0f) & (share <= 1.0f);
+    if (k.empty != 0 || !any(inside)) return T{};
+    const NoiseValue<T> noise = sky_noise(k, local, width);
+    const T ramp = sky_ramp(k, noise.value - sky_lift(k, share), noise.lost);
+    const T weight = k.base_weight + (1.0f - k.base_weight) * share;
+    return select(inside, ramp * weight, T{});
+}
+
+/// Upper bound of sky_density near a place, and metres until it may change.
+template <class T>
+PILEUS_FN NoiseBound<T> sky_ahead(const SkyParams& k, const Vec<T>& local, const Vec<T>& d,
+                                  T width) {
+    const Vec<T> p = sky_world(k, local);
+    const T h = altitude(k, p);
+    const auto inside = (h >= k.low_m) & (h <= k.low_m + k.height_m);
+    if (k.empty != 0) return {T{}, all<T>(1e30f)};
+    if (!any(inside)) return {T{}, way_outside(k, p, d, h)};
+    NoiseBound<T> sum{T{}, all<T>(1e30f)};
+    T lost{};
+    for (const NoiseView* v : {&k.perlin, &k.worley}) {
+        if (v->share == 0.0f) continue;
+        const NoiseBound<T> one = noise_ahead(*v, local, d, width);
+        sum = {sum.bound + one.bound, min_(sum.rest, one.rest)};
+        lost = lost + lost_ahead(*v, width);
+    }
+    // Below the middle a wider ramp is a bound of the narrower ones; above it none is.
+    const T bound = select(sum.bound > k.middle, all<T>(1.0f), sky_ramp(k, sum.bound, lost));
+    return {select(inside, bound, T{}), select(inside, sum.rest, way_outside(k, p, d, h))};
+}
+
+}  // namespace PILEUS_ISA
+}  // namespace pileus

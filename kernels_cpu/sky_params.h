@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the kernels of procedural skies need: noise volumes, their packed levels, the cloud layer.
+// in: a scene's sky -> out: the layout of a launch. Filled by src/volume and src/stages/sky_field.
+// docs/skies.md; Palenik 2016, section 5.1.
+#pragma once
+#include <cstdint>
+
+namespace pileus {
+
+/// A periodic sum of octaves of lattice noise over size^3 texels.
+struct NoiseParams {
+    std::int32_t kind;     ///< NoiseKind
+    std::int32_t size;     ///< texels along each edge, a power of two
+    std::int32_t cells;    ///< lattice cells of the first octave along each edge
+    std::int32_t octaves;  ///< each twice as fine as the one before
+    float gain;            ///< size of an octave over that of the one before
+    std::uint32_t seed;
+};
+enum NoiseKind : std::int32_t { kNoisePerlin, kNoiseWorley };
+
+/// Edge of the blocks whose largest values are kept, in texels of their level.
+constexpr std::int32_t kNoiseBlock = 8;
+constexpr int kMostNoiseLevels = 10;  ///< 512 texels and all halvings
+
+/// A noise volume ready to be read: per texel one word of four bytes, the values at (x, y),
+/// (x+1, y), (x, y+1), (x+1, y+1), around the ends; levels of halved size behind one another.
+struct NoiseView {
+    const std::int32_t* words;     ///< level of size m from noise_level_start(m) on
+    const std::int32_t* largest;   ///< per block, 0..255; from block_level_start(m) on
+    std::int32_t size, last;       ///< of level 0; number of the last level
+    float per_m;                   ///< tiles per metre
+    float offset[3];               ///< of the origin, in tiles
+    float share;                   ///< of the blend: gain times weight, over 255; 0: not read
+    float lost[kMostNoiseLevels];  ///< variance of share * value that a level has no more
+};
+
+constexpr std::int64_t noise_level_start(std::int64_t m) { return m * m * m / 4; }
+constexpr std::int64_t noise_words(std::int64_t size) {
+    return noise_level_start(size) + size * size * size;
+}
+/// Blocks along an edge of a level of m texels; its blocks start where those of a smaller level
+/// end, as with the texels.
+constexpr std::int32_t noise_blocks(std::int32_t m) {
+    return m >= kNoiseBlock ? m / kNoiseBlock : 1;
+}
+
+/// The cloud layer: density(place) = ramp(blend of both noises - lift(height)) * weight(height).
+struct SkyParams {
+    NoiseView perlin, worley;
+    float middle, half_width;  ///< of the ramp, in units of the blended noise
+    float low_m, inverse_m;    ///< base altitude; 1 / thickness
+    float height_m;            ///< thickness
+    float rise, fall;          ///< inverse shares of the thickness; 0: cut off
+    float rounding;            ///< how much the noise is lowered at base and top
+    float base_weight;         ///< density just above the base; 1 at the top
+    float shift_m[3];          ///< world coordinates of the medium's low corner
+    float curvature_per_m;     ///< 1 / planet radius; 0: flat
+    std::int32_t empty;        ///< 1: coverage 0
+};
+
+/// Cell centres of a grid over a box.
+struct BakeParams {
+    SkyParams sky;
+    std::int32_t size[3];
+    float cell_m[3];
+    float width_m;  ///< details below are averaged
+};
+
+/// Largest lowered noise in columns strewn over the layer; from it follows the coverage.
+struct ColumnParams {
+    SkyParams sky;
+    std::int32_t heights;  ///< samples up each column
+    float reach_m;         ///< columns lie in a square of this edge
+};
+
+/// The kernels of procedural skies, one table per instruction set.
+struct SkyKernels {
+    int width;
+    void (*noise_rows)(const NoiseParams&, float* values, std::uint32_t begin, std::uint32_t end);
+    void (*bake_rows)(const BakeParams&, float* density, std::uint32_t begin, std::uint32_t end);
+    /// Columns in multiples of 16.
+    void (*columns)(const ColumnParams&, float* most, std::uint32_t begin, std::uint32_t end);
+};
+
+}  // namespace pileus

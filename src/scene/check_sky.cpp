@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// Laws between the keys of one procedural sky, and what its kind of cloud brings.
+// in: keys that passed their own checks -> out: a whole SkySettings; faults.
+// docs/skies.md, "Keys" and "Kinds of clouds".
+#include <cmath>
+
+#include "src/scene/check_keys.h"
+
+namespace pileus {
+namespace {
+
+class SkyCheck {
+public:
+    SkyCheck(SceneCheck& check, std::size_t index)
+        : check_(check),
+          medium_(check.scene.media[index]),
+          sky_(medium_.sky),
+          path_("medium." + std::to_string(index) + ".") {}
+
+    void run() {
+        fill_in();
+        thresholds();
+        layer();
+        sizes();
+        if (medium_.periodic) periods();
+    }
+
+private:
+    const Node* sky_key(const std::string& name) { return check_.key(path_ + "sky." + name); }
+
+    /// Faults point at the key, or where that is left out at the density.
+    void fault(const std::string& name, const std::string& text) {
+        const Node* node = sky_key(name);
+        if (node == nullptr) node = check_.key(path_ + "density");
+        check_.faults.add(node->at, path_ + "sky." + name, text);
+    }
+
+    void set(const char* name, double& value, double of_type) {
+        if (sky_key(name) == nullptr) value = of_type;
+    }
+
+    void fill_in() {
+        const SkyType& type = sky_type(sky_.type);
+        const bool own_thresholds =
+            sky_key("threshold_low") != nullptr || sky_key("threshold_high") != nullptr;
+        set("perlin_m", sky_.perlin.tile_m, type.perlin_m);
+        set("worley_m", sky_.worley.tile_m, type.worley_m);
+        set("blend", sky_.blend, type.blend);
+        set("threshold_low", sky_.threshold_low, type.threshold_low);
+        set("threshold_high", sky_.threshold_high, type.threshold_high);
+        set("coverage", sky_.coverage, own_thresholds ? -1 : type.coverage);
+        set("base_m", sky_.base_m, type.base_m);
+        set("top_m", sky_.top_m, type.top_m);
+        set("base_rise", sky_.base_rise, type.base_rise);
+        set("top_fall", sky_.top_fall, type.top_fall);
+        set("rounding", sky_.rounding, type.rounding);
+        set("base_density", sky_.base_density, type.base_density);
+        if (check_.key(path_ + "extinction_per_m") == nullptr)
+            medium_.extinction_per_m = type.extinction_per_m;
+        if (check_.key(path_ + "phase") == nullptr && type.effective_radius_um > 0) {
+            medium_.phase.kind = PhaseKind::kCloud;
+            medium_.phase.effective_radius_um = type.effective_radius_um;
+        }
+    }
+
+    void thresholds() {
+        if (!(sky_.threshold_low < sky_.threshold_high))
+            fault("threshold_high", "not above threshold_low, " + number_text(sky_.threshold_high) +
+                                        ", allowed: more than " + number_text(sky_.threshold_low));
+        if (!sky_.has_perlin() && !sky_.has_worley())
+            fault("blend", "no noise is left, " + number_text(sky_.blend) +
+                               ", allowed: a blend and gains that leave one of both");
+    }
+
+    void layer() {
+        if (!(sky_.base_m < sky_.top_m))
+            fault("top_m", "not above base_m, " + number_text(sky_.top_m) +
+                               ", allowed: more than " + number_text(sky_.base_m));
+        const double radius = sky_.planet_radius_m;
+        if (radius > 0 && !(radius >= 10 * (std::fabs(sky_.base_m) + std::fabs(sky_.top_m))))
+            fault("planet_radius_m", "too small for the layer, " + number_text(radius) +
+                                         ", allowed: 0, or at least ten times its altitudes");
+    }
+
+    void sizes() {
+        if ((sky_.size & (sky_.size - 1)) != 0)
+            fault("size", "not a power of two, " + std::to_string(sky_.size) +
+                              ", allowed: 16, 32, 64, 128, 256, 512");
+        noise_size("perlin_cells", sky_.perlin);
+        noise_size("worley_cells", sky_.worley);
+    }
+
+    void noise_size(const char* key, const SkyNoise& noise) {
+        const int octaves = noise.octaves > 0 ? noise.octaves : 1;
+        if (std::int64_t{noise.cells} << octaves > sky_.size)
+            fault(key, "too fine for the texels, " + std::to_string(noise.cells) + " lumps in " +
+                           std::to_string(octaves) + " octaves, allowed: at most half of size " +
+                           std::to_string(sky_.size) + " in the last octave");
+    }
+
+    /// What repeats must fit its box a whole number of times.
+    void periods() {
+        if (sky_.has_perlin()) period("perlin_m", sky_.perlin.tile_m * sky_.scale);
+        if (sky_.has_worley()) period("worley_m", sky_.worley.tile_m * sky_.scale);
+    }
+
+    void period(const char* key, double tile_m) {
+        for (std::size_t a = 0; a < 2; ++a) {
+            const double edge = medium_.bounds_m[1][a] - medium_.bounds_m[0][a];
+            const double times = edge / tile_m, whole = std::floor(times + 0.5);
+            if (whole >= 1 && std::fabs(times - whole) <= 1e-6 * whole) continue;
+            return fault(key, "does not divide the box of boundary \"periodic\", " +
+                                  number_text(tile_m) + " m, allowed: " + number_text(edge) +
+                                  " m over a whole number");
+        }
+    }
+
+    SceneCheck& check_;
+    MediumSettings& medium_;
+    SkySettings& sky_;
+    std::string path_;
+};
+
+}  // namespace
+
+void check_sky(SceneCheck& check, std::size_t index) { SkyCheck(check, index).run(); }
+
+}  // namespace pileus
