@@ -54,6 +54,7 @@ std::uint64_t self_test_kernel() { return self_test_digest<PILEUS_WIDTH>(); }
 #define PILEUS_RAYMARCH(isa) PILEUS_JOIN(raymarch_kernel_, isa)
 #define PILEUS_SWEEP(isa) PILEUS_JOIN(sweep_kernel_, isa)
 #define PILEUS_SWEEP_LAYER(isa) PILEUS_JOIN(sweep_layer_kernel_, isa)
+#define PILEUS_PATH_SOLIDS(isa) PILEUS_JOIN(path_solids_, isa)
 #define PILEUS_SOLIDS(isa) PILEUS_JOIN(solid_rows_, isa)
 
 /// Of isa_path.cpp, compiled for the same instruction set.
@@ -61,6 +62,9 @@ void PILEUS_PATH(PILEUS_ISA)(const PathParams&, const PathBuffers&, std::uint32_
 /// Of isa_raymarch.cpp.
 void PILEUS_RAYMARCH(PILEUS_ISA)(const RaymarchParams&, const RaymarchBuffers&, std::uint32_t,
                                  std::uint32_t);
+/// Of isa_path_solids.cpp.
+void PILEUS_PATH_SOLIDS(PILEUS_ISA)(const PathParams&, const PathBuffers&, std::uint32_t,
+                                    std::uint32_t);
 /// Of isa_sky.cpp.
 extern const SkyKernels PILEUS_SKY(PILEUS_ISA);
 
@@ -86,6 +90,7 @@ const KernelTable PILEUS_TABLE(PILEUS_ISA) = {
     self_test_kernel,
     nullptr,
     PILEUS_RAYMARCH(PILEUS_ISA),
+    PILEUS_PATH_SOLIDS(PILEUS_ISA),
     PILEUS_SOLIDS(PILEUS_ISA),
     PILEUS_SWEEP(PILEUS_ISA),
     PILEUS_SWEEP_LAYER(PILEUS_ISA),

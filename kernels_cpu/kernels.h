@@ -34,6 +34,9 @@ struct KernelTable {
     // On the host alone, null beside a device:
     void (*raymarch_rows)(const RaymarchParams&, const RaymarchBuffers&, std::uint32_t,
                           std::uint32_t) = nullptr;
+    /// As trace_paths where there are solids or an image of them.
+    void (*trace_paths_solid)(const PathParams&, const PathBuffers&, std::uint32_t begin,
+                              std::uint32_t end) = nullptr;
     /// As background_rows where there are solid meshes.
     void (*solid_rows)(const SolidRowsParams&, const BackgroundBuffers&, std::uint32_t begin,
                        std::uint32_t end) = nullptr;

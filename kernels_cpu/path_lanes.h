@@ -5,6 +5,7 @@
 #pragma once
 #include "kernels_cpu/flight.h"
 #include "kernels_cpu/path_params.h"
+#include "kernels_cpu/solids.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
@@ -19,9 +20,20 @@ constexpr float kPathRoulette = 1.0f / 8.0f;
 /// The same for a shadow ray's transmittance, which survives as about this.
 constexpr float kShadowRoulette = 1.0f / 16.0f;
 
-/// A path per lane. A flight that has ended waits until its lane is served.
-template <int W, int NC>
-struct PathLanes : Flight<W> {
+/// What solid thing ends each flight; nothing where the scene has none.
+template <int W, bool S>
+struct Walls {};
+template <int W>
+struct Walls<W, true> {
+    F<W> wall;   // metres from where the flight begins
+    I<W> piece;  // triangle, or one of the two below
+};
+constexpr std::int32_t kNoWall = -1;
+constexpr std::int32_t kImageWall = -2;  ///< of the camera's depth image
+
+/// A path per lane, `S`: among solids. A flight that has ended waits until its lane is served.
+template <int W, int NC, bool S>
+struct PathLanes : Flight<W>, Walls<W, S> {
     Vec<F<W>> p;               // last tentative collision, voxels
     F<W> beta[NC];             // light at the camera per light that leaves the last vertex
     F<W> sum[3 * kPathParts];  // radiance so far
@@ -41,13 +53,13 @@ struct PathLanes : Flight<W> {
     M<W> cloud;                // the first vertex was in the media
 };
 
-template <int W, int NC>
-PILEUS_FN M<W> waiting(const PathLanes<W, NC>& s) {
+template <int W, int NC, bool S>
+PILEUS_FN M<W> waiting(const PathLanes<W, NC, S>& s) {
     return s.met | s.lit | s.out;
 }
 
-template <int W, int NC>
-PILEUS_FN void end_paths(PathLanes<W, NC>& s, M<W> m) {
+template <int W, int NC, bool S>
+PILEUS_FN void end_paths(PathLanes<W, NC, S>& s, M<W> m) {
     const M<W> keep = lnot(m);
     s.alive = s.alive & keep;
     s.met = s.met & keep;
@@ -56,16 +68,16 @@ PILEUS_FN void end_paths(PathLanes<W, NC>& s, M<W> m) {
 }
 
 /// The largest share of light that a channel of the path still carries.
-template <int W, int NC>
-PILEUS_FN F<W> heaviest(const PathLanes<W, NC>& s) {
+template <int W, int NC, bool S>
+PILEUS_FN F<W> heaviest(const PathLanes<W, NC, S>& s) {
     F<W> most = s.beta[0];
     for (int c = 1; c < NC; ++c) most = max_(most, s.beta[c]);
     return most;
 }
 
 /// The next 64 random bits of the lanes of `m`.
-template <int W, int NC>
-PILEUS_FN Words<U<W>> draw(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
+template <int W, int NC, bool S>
+PILEUS_FN Words<U<W>> draw(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m) {
     const Words<U<W>> w = threefry(k.key.k0, k.key.k1, s.number, s.event);
     s.event = select(m, s.event + 1u, s.event);
     return w;
@@ -85,8 +97,8 @@ PILEUS_FN T whole_chance(T chance, float steps) {
 }
 
 /// Add `share` of `light` that the lanes of `m` found at the end of their path.
-template <int W, int NC>
-PILEUS_FN void add_light(PathLanes<W, NC>& s, const PathParams& k, M<W> m, F<W> share,
+template <int W, int NC, bool S>
+PILEUS_FN void add_light(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m, F<W> share,
                          const Vec<F<W>>& light, M<W> from_sun) {
     using T = F<W>;
     const T channel[3] = {light.x, light.y, light.z};
@@ -146,12 +158,12 @@ PILEUS_FN M<W> send_flights(Flight<W>& w, const PathParams& k, M<W> m, const Vec
 
 /// Paths that go on from the lanes of `m` survive by luck once they are light: keeps the mean,
 /// saves the flights that would bring little.
-template <int W, int NC>
-PILEUS_FN void thin_out(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
+template <int W, int NC, bool S>
+PILEUS_FN void thin_out(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m) {
     using T = F<W>;
     m = m & (s.flight == kFlightPath);
     // After the last scattering only light from behind the media is left to find.
-    if (k.sky_lit == 0 && k.ground == 0) end_paths(s, m & (s.order >= k.max_depth));
+    if (!S && k.sky_lit == 0 && k.ground == 0) end_paths(s, m & (s.order >= k.max_depth));
     m = m & s.alive;
     const T most = heaviest(s);
     const M<W> low = m & (most < kPathRoulette);
@@ -163,10 +175,53 @@ PILEUS_FN void thin_out(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
     end_paths(s, low & lnot(survives));
 }
 
+/// Where the last vertex lies, metres.
+template <int W, int NC, bool S>
+PILEUS_FN Vec<F<W>> vertex_metres(const PathLanes<W, NC, S>& s, const PathParams& k) {
+    const auto metres = [&](F<W> v, int a) { return select(s.outside, v, v * k.grid.cell[a]); };
+    return {metres(s.vertex.x, 0), metres(s.vertex.y, 1), metres(s.vertex.z, 2)};
+}
+
+/// Metres along `d` from `o` to the ground, or as far as a float reaches.
+template <int W>
+PILEUS_FN F<W> way_to_ground(const PathParams& k, const Vec<F<W>>& o, const Vec<F<W>>& d) {
+    const F<W> far = all<F<W>>(3e38f), height = o.z - k.ground_z;
+    if (k.ground == 0) return far;
+    const M<W> down = (d.z < 0.0f) & (height >= 0.0f);
+    return select(down, height / max_(F<W>{} - d.z, all<F<W>>(1e-18f)), far);
+}
+
+/// Flights of the lanes of `m`, which begin at `o` metres and have been sent, end at their walls.
+template <int W>
+PILEUS_FN void cut_flights(Flight<W>& w, const PathParams& k, M<W> m, const Vec<F<W>>& o,
+                           F<W> wall) {
+    const Vec<F<W>> way{w.from.x * k.grid.cell[0] - o.x, w.from.y * k.grid.cell[1] - o.y,
+                        w.from.z * k.grid.cell[2] - o.z};
+    const F<W> left = max_(wall - dot(way, w.d), F<W>{});
+    w.exit = select(m, min_(w.exit, left), w.exit);
+}
+
+/// Paths of the lanes of `paths` learn what they will meet; of `rays` those behind solids are dark.
+template <int W, int NC, bool S>
+PILEUS_FN void stop_at_solids(PathLanes<W, NC, S>& s, const PathParams& k, M<W> paths, M<W> rays) {
+    using T = F<W>;
+    const Vec<T> o = vertex_metres(s, k);
+    if (any(rays)) {
+        const M<W> dark = behind_solids(k.solids, o, s.d, all<T>(3e38f), rays);
+        s.seen = select(dark, T{}, s.seen);
+        s.lit = s.lit | dark;
+    }
+    if (!any(paths)) return;
+    const SolidHit<T> hit = hit_solids(k.solids, o, s.d, way_to_ground<W>(k, o, s.d), paths);
+    s.wall = select(paths, hit.distance, s.wall);
+    s.piece = select(paths, hit.triangle, s.piece);
+    cut_flights<W>(s, k, paths & (hit.triangle >= 0), o, hit.distance);
+}
+
 /// Send the lanes of `m` from their vertex on the flight that each is due. The optical depth to go
 /// is what the last flight had left, or drew where it ended: the exponential has no memory.
-template <int W, int NC>
-PILEUS_FN void launch(PathLanes<W, NC>& s, const PathParams& k, PathTally& tally, M<W> m) {
+template <int W, int NC, bool S>
+PILEUS_FN void launch(PathLanes<W, NC, S>& s, const PathParams& k, PathTally& tally, M<W> m) {
     using T = F<W>;
     const M<W> to_sun = s.flight == kFlightSun, path = s.flight == kFlightPath;
     const auto aim = [&](float sun, T map, T next) {
@@ -180,6 +235,7 @@ PILEUS_FN void launch(PathLanes<W, NC>& s, const PathParams& k, PathTally& tally
     s.lit = s.lit | (missed & lnot(path));
     s.seen = select(m, all<T>(1.0f), s.seen);
     s.carry = select(m, T{}, s.carry);
+    if constexpr (S) stop_at_solids(s, k, m & path, m & lnot(path));
     tally.shadow_rays += count_bits(bits_of(m & lnot(path)));
 }
 

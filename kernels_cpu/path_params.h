@@ -7,6 +7,7 @@
 #include "kernels_cpu/optics.h"
 #include "kernels_cpu/rng.h"
 #include "kernels_cpu/sky_sample.h"
+#include "kernels_cpu/solids_params.h"
 #include "kernels_cpu/track_grid.h"
 
 namespace pileus {
@@ -54,6 +55,8 @@ struct PathParams {
     std::uint32_t first_pixel, first_sample, per_pixel;
     std::int32_t parts_wanted;  ///< 0: the total alone is stored
     float light_roulette;       ///< kLightRoulette; 0: every shadow ray flies
+    SolidsView solids;          ///< read by trace_paths_solid alone, as is
+    const float* camera_depth;  ///< [pixel], m along the ray; null: no such image
 };
 
 /// Sums of integers, so that threads and chunks can be added in any order.

@@ -9,8 +9,8 @@ namespace pileus {
 inline namespace PILEUS_ISA {
 
 /// Rays that wait for a lane.
-template <int W>
-struct FreshPaths {
+template <int W, bool S>
+struct FreshPaths : Walls<W, S> {
     Flight<W> flight;
     Vec<F<W>> origin;     // metres
     U<W> number, sample;  // as in PathLanes
@@ -62,8 +62,8 @@ PILEUS_FN M<W> leap_to_medium(Flight<W>& s, const PathParams& k, PathTally& tall
 }
 
 /// Place and direction of the camera's rays through the pixels (x, y) of the lanes of `m`.
-template <int W>
-PILEUS_FN void aim_camera(FreshPaths<W>& f, const PathParams& k, M<W> m, F<W> x, F<W> y) {
+template <int W, bool S>
+PILEUS_FN void aim_camera(FreshPaths<W, S>& f, const PathParams& k, M<W> m, F<W> x, F<W> y) {
     // One draw for the place in the pixel, 16 bits each way, and the first free flight.
     const Words<U<W>> w = threefry(k.key.k0, k.key.k1, f.number, U<W>{});
     if (k.jitter != 0) {
@@ -89,8 +89,8 @@ PILEUS_FN void aim_camera(FreshPaths<W>& f, const PathParams& k, M<W> m, F<W> x,
 }
 
 /// The next samples' pixels, one per lane; returns the lanes that have one.
-template <int W>
-PILEUS_FN M<W> next_samples(FreshPaths<W>& f, const PathParams& k, std::uint32_t& next,
+template <int W, bool S>
+PILEUS_FN M<W> next_samples(FreshPaths<W, S>& f, const PathParams& k, std::uint32_t& next,
                             std::uint32_t end, F<W>& x, F<W>& y) {
     const std::uint32_t width = std::uint32_t(k.camera.width);
     int count = 0;
@@ -105,9 +105,35 @@ PILEUS_FN M<W> next_samples(FreshPaths<W>& f, const PathParams& k, std::uint32_t
     return iota<I<W>>() < count;
 }
 
+/// The camera's rays learn what they will meet: of mesh, image and ground the nearest.
+template <int W, bool S>
+PILEUS_FN void aim_at_solids(FreshPaths<W, S>& f, const PathParams& k, M<W> m) {
+    using T = F<W>;
+    T limit = way_to_ground<W>(k, f.origin, f.flight.d);
+    f.piece = all<I<W>>(kNoWall);
+    f.wall = all<T>(__builtin_inff());
+    if (k.camera_depth != nullptr) {
+        T depth = f.wall;
+        for (std::uint32_t lanes = bits_of(m); lanes != 0; lanes &= lanes - 1) {
+            const int i = lowest_bit(lanes);
+            set_lane(depth, i, k.camera_depth[k.first_pixel + lane(f.sample, i) / k.per_pixel]);
+        }
+        const M<W> hidden = m & (depth <= limit);
+        f.piece = select(hidden, all<I<W>>(kImageWall), f.piece);
+        f.wall = select(hidden, depth, f.wall);
+        limit = min_(limit, depth);
+    }
+    if (k.solids.count > 0) {
+        const SolidHit<T> hit = hit_solids(k.solids, f.origin, f.flight.d, limit, m);
+        f.piece = select(hit.triangle >= 0, hit.triangle, f.piece);
+        f.wall = select(hit.triangle >= 0, hit.distance, f.wall);
+    }
+    cut_flights<W>(f.flight, k, m & (f.piece != kNoWall), f.origin, f.wall);
+}
+
 /// Rays of the next samples, as many as there are lanes. What sees nothing but sky is done.
-template <int W>
-PILEUS_FN void fill_fresh(FreshPaths<W>& f, const PathParams& k, const PathBuffers& b,
+template <int W, bool S>
+PILEUS_FN void fill_fresh(FreshPaths<W, S>& f, const PathParams& k, const PathBuffers& b,
                           std::uint32_t& next, std::uint32_t end) {
     using T = F<W>;
     T x{}, y{};
@@ -115,8 +141,10 @@ PILEUS_FN void fill_fresh(FreshPaths<W>& f, const PathParams& k, const PathBuffe
     b.tally->paths += count_bits(bits_of(m));
     aim_camera<W>(f, k, m, x, y);
     const M<W> missed = send_flights<W>(f.flight, k, m, f.origin, m);
+    if constexpr (S) aim_at_solids(f, k, m);
     f.out = missed | leap_to_medium(f.flight, k, *b.tally, m & lnot(missed));
     M<W> sky = f.out;
+    if constexpr (S) sky = sky & (f.piece == kNoWall);
     if (k.ground != 0) sky = sky & lnot((f.flight.d.z < 0.0f) & (f.origin.z - k.ground_z >= 0.0f));
     f.ready = bits_of(m & lnot(sky));
     if (!any(sky)) return;
@@ -126,8 +154,8 @@ PILEUS_FN void fill_fresh(FreshPaths<W>& f, const PathParams& k, const PathBuffe
 }
 
 /// Hand the waiting ray `from` over to lane `to`.
-template <int W, int NC>
-PILEUS_FN void hand_over(PathLanes<W, NC>& s, int to, const FreshPaths<W>& f, int from) {
+template <int W, int NC, bool S>
+PILEUS_FN void hand_over(PathLanes<W, NC, S>& s, int to, const FreshPaths<W, S>& f, int from) {
     const auto move = [&](auto& a, const auto& b) { set_lane(a, to, lane(b, from)); };
     const auto move3 = [&](auto& a, const auto& b) {
         move(a.x, b.x), move(a.y, b.y), move(a.z, b.z);
@@ -138,11 +166,12 @@ PILEUS_FN void hand_over(PathLanes<W, NC>& s, int to, const FreshPaths<W>& f, in
     move(s.t, w.t), move(s.exit, w.exit), move(s.tau, w.tau);
     move(s.bound, w.bound), move(s.lift, w.lift), move(s.block, w.block);
     move(s.number, f.number), move(s.sample, f.sample);
+    if constexpr (S) move(s.wall, f.wall), move(s.piece, f.piece);
 }
 
 /// Give the lanes of `idle` the next samples, whose rays fly already.
-template <int W, int NC>
-PILEUS_FN void refill_paths(PathLanes<W, NC>& s, FreshPaths<W>& f, const PathParams& k,
+template <int W, int NC, bool S>
+PILEUS_FN void refill_paths(PathLanes<W, NC, S>& s, FreshPaths<W, S>& f, const PathParams& k,
                             const PathBuffers& b, std::uint32_t idle, std::uint32_t& next,
                             std::uint32_t end) {
     const I<W> lanes = iota<I<W>>();

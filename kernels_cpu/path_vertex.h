@@ -9,9 +9,12 @@
 namespace pileus {
 inline namespace PILEUS_ISA {
 
+/// Reflections after which a path is given up, where solids reflect all light.
+constexpr std::int32_t kMostBounces = 1 << 14;
+
 /// Calls `use(optics, lanes)` for every medium that lanes of `m` have met.
-template <int W, int NC, class Use>
-PILEUS_FN void for_media(const PathLanes<W, NC>& s, const PathParams& k, M<W> m, Use use) {
+template <int W, int NC, bool S, class Use>
+PILEUS_FN void for_media(const PathLanes<W, NC, S>& s, const PathParams& k, M<W> m, Use use) {
     if (k.media <= 1) return use(k.optics[0], m);
     for (int i = 0; i < k.media; ++i) {
         const M<W> mine = m & (s.medium == i);
@@ -23,8 +26,8 @@ PILEUS_FN void for_media(const PathLanes<W, NC>& s, const PathParams& k, M<W> m,
 /// `value`, per steradian, for each unit of irradiance that the light could give. The others bring
 /// theirs, `shade` is raised. Rays of the first vertex, which carry the picture's detail, are all
 /// kept. `spare` are 16 random bits. Returns the lanes that fly.
-template <int W, int NC>
-PILEUS_FN M<W> thin_out_rays(const PathLanes<W, NC>& s, const PathParams& k, M<W> m, F<W> value,
+template <int W, int NC, bool S>
+PILEUS_FN M<W> thin_out_rays(const PathLanes<W, NC, S>& s, const PathParams& k, M<W> m, F<W> value,
                              U<W> spare, F<W>& shade) {
     using T = F<W>;
     constexpr float kSteps = 0x1p16f;
@@ -39,8 +42,8 @@ PILEUS_FN M<W> thin_out_rays(const PathLanes<W, NC>& s, const PathParams& k, M<W
 
 /// Choose the first flight from a new vertex: the sun's, the map's or the path's own. The lanes of
 /// `mapped` have a ray to the map.
-template <int W, int NC>
-PILEUS_FN void first_flight(PathLanes<W, NC>& s, const PathParams& k, M<W> m, M<W> mapped,
+template <int W, int NC, bool S>
+PILEUS_FN void first_flight(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m, M<W> mapped,
                             U<W> spare) {
     M<W> sun = m & (s.shade > 0.0f);
     if (k.sunlit != 0) sun = thin_out_rays(s, k, sun, s.shade, spare, s.shade);
@@ -53,8 +56,8 @@ PILEUS_FN void first_flight(PathLanes<W, NC>& s, const PathParams& k, M<W> m, M<
 }
 
 /// Draw a direction towards the map for the lanes of `m`; returns 16 random bits that are left.
-template <int W, int NC>
-PILEUS_FN U<W> aim_at_map(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
+template <int W, int NC, bool S>
+PILEUS_FN U<W> aim_at_map(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m) {
     const Words<U<W>> texel = draw(s, k, m), place = draw(s, k, m);
     const Vec<F<W>> d = draw_sky<F<W>>(k.map, k.sampler, texel, place);
     s.to_map.x = select(m, d.x, s.to_map.x);
@@ -72,8 +75,8 @@ PILEUS_FN T balanced(T own, T other) {
 
 /// Weigh the ray to the map, drawn where a path's own turn has the density `own`, and choose the
 /// lanes of `m` in which it flies.
-template <int W, int NC>
-PILEUS_FN M<W> map_rays(PathLanes<W, NC>& s, const PathParams& k, M<W> m, F<W> own, U<W> spare) {
+template <int W, int NC, bool S>
+PILEUS_FN M<W> map_rays(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m, F<W> own, U<W> spare) {
     const F<W> other = sky_density(k.map, k.sampler, s.to_map);
     F<W> shade = balanced(own, other);
     // The map's light, all of it, times the density of this direction is its radiance.
@@ -83,8 +86,8 @@ PILEUS_FN M<W> map_rays(PathLanes<W, NC>& s, const PathParams& k, M<W> m, F<W> o
 }
 
 /// Real collisions in the lanes of `m`.
-template <int W, int NC>
-PILEUS_FN void scatter_path(PathLanes<W, NC>& s, const PathParams& k, PathTally& tally, M<W> m) {
+template <int W, int NC, bool S>
+PILEUS_FN void scatter_path(PathLanes<W, NC, S>& s, const PathParams& k, PathTally& tally, M<W> m) {
     using T = F<W>;
     end_paths(s, m & (s.order >= k.max_depth));
     m = m & s.alive;
@@ -129,8 +132,8 @@ PILEUS_FN void scatter_path(PathLanes<W, NC>& s, const PathParams& k, PathTally&
 }
 
 /// The lanes of `m` meet the ground at `at`, metres.
-template <int W, int NC>
-PILEUS_FN void reflect_path(PathLanes<W, NC>& s, const PathParams& k, PathTally& tally, M<W> m,
+template <int W, int NC, bool S>
+PILEUS_FN void reflect_path(PathLanes<W, NC, S>& s, const PathParams& k, PathTally& tally, M<W> m,
                             const Vec<F<W>>& at) {
     using T = F<W>;
     constexpr float kInvPi = 4.0f * kInvFourPi;
@@ -154,6 +157,41 @@ PILEUS_FN void reflect_path(PathLanes<W, NC>& s, const PathParams& k, PathTally&
     first_flight(s, k, m, mapped, spare_bits(w));
 }
 
+/// The lanes of `m` meet a solid.
+template <int W, int NC, bool S>
+PILEUS_FN void reflect_at_solid(PathLanes<W, NC, S>& s, const PathParams& k, PathTally& tally,
+                                M<W> m) {
+    using T = F<W>;
+    constexpr float kInvPi = 4.0f * kInvFourPi;
+    const SolidPlace<T> place = place_on_solid(
+        k.solids, vertex_metres(s, k), s.d, SolidHit<T>{s.wall, select(m, s.piece, s.piece | -1)});
+    const Vec<T>& n = place.normal;
+    tally.bounces += count_bits(bits_of(m));
+    s.bounces = select(m, s.bounces + 1, s.bounces);
+    s.outside = s.outside | m;
+    s.vertex = {select(m, place.at.x, s.vertex.x), select(m, place.at.y, s.vertex.y),
+                select(m, place.at.z, s.vertex.z)};
+    for (int c = 0; c < NC; ++c) s.beta[c] = select(m, s.beta[c] * place.albedo[c], s.beta[c]);
+    const Words<U<W>> w = draw(s, k, m);
+    const Lambert<T> up = lambert(w);
+    const T height = max_(up.normal, all<T>(1e-6f));
+    const Vec<T> d = turned(n, height, all<T>(1.0f), up.a, up.b);
+    s.next = {select(m, d.x, s.next.x), select(m, d.y, s.next.y), select(m, d.z, s.next.z)};
+    s.next_density = select(m, height * kInvPi, s.next_density);
+    const T sun = n.x * k.to_sun[0] + n.y * k.to_sun[1] + n.z * k.to_sun[2];
+    s.shade = select(m, max_(sun, T{}) * kInvPi, s.shade);
+    M<W> mapped = m & lnot(m);
+    if (k.map.columns > 0) {
+        const U<W> luck = aim_at_map(s, k, m);
+        mapped = map_rays(s, k, m, max_(dot(s.to_map, n), T{}) * kInvPi, luck);
+    }
+    first_flight(s, k, m, mapped, spare_bits(w));
+    // Black surfaces end paths; between white ones a path would go on for ever.
+    const M<W> endless = m & (s.bounces >= kMostBounces);
+    tally.terminated += count_bits(bits_of(endless));
+    end_paths(s, endless | (m & lnot(heaviest(s) > 0.0f)));
+}
+
 /// The sky's light along `d`.
 template <int W>
 PILEUS_FN Vec<F<W>> sky_light(const PathParams& k, const Vec<F<W>>& d) {
@@ -162,8 +200,8 @@ PILEUS_FN Vec<F<W>> sky_light(const PathParams& k, const Vec<F<W>>& d) {
 }
 
 /// Paths of the lanes of `m` see the sky along their direction, and end.
-template <int W, int NC>
-PILEUS_FN void reach_sky(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
+template <int W, int NC, bool S>
+PILEUS_FN void reach_sky(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m) {
     using T = F<W>;
     T share = all<T>(1.0f);
     if (k.map.columns > 0) {
@@ -178,11 +216,17 @@ PILEUS_FN void reach_sky(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
 
 /// Paths of the lanes of `m` have left the box: the ground reflects them or the sky ends them.
 /// Returns the lanes that go on.
-template <int W, int NC>
-PILEUS_FN M<W> leave_media(PathLanes<W, NC>& s, const PathParams& k, PathTally& tally, M<W> m) {
+template <int W, int NC, bool S>
+PILEUS_FN M<W> leave_media(PathLanes<W, NC, S>& s, const PathParams& k, PathTally& tally, M<W> m) {
     using T = F<W>;
     s.out = s.out & lnot(m);
-    M<W> ground = m & lnot(m);
+    M<W> ground = m & lnot(m), solid = ground;
+    if constexpr (S) {
+        solid = m & (s.piece >= 0);
+        end_paths(s, m & (s.piece == kImageWall));
+        m = m & (s.piece == kNoWall);
+        if (any(solid)) reflect_at_solid(s, k, tally, solid);
+    }
     if (k.ground != 0) {
         const auto metres = [&](T v, int a) { return select(s.outside, v, v * k.grid.cell[a]); };
         const Vec<T> o{metres(s.vertex.x, 0), metres(s.vertex.y, 1), metres(s.vertex.z, 2)};
@@ -198,12 +242,12 @@ PILEUS_FN M<W> leave_media(PathLanes<W, NC>& s, const PathParams& k, PathTally& 
     }
     const M<W> sky = m & lnot(ground);
     if (any(sky)) reach_sky(s, k, sky);
-    return ground & s.alive;
+    return (ground | solid) & s.alive;
 }
 
 /// Shadow rays of the lanes of `m` have ended: add what they bring, choose the next flight.
-template <int W, int NC>
-PILEUS_FN void gather_light(PathLanes<W, NC>& s, const PathParams& k, M<W> m) {
+template <int W, int NC, bool S>
+PILEUS_FN void gather_light(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m) {
     using T = F<W>;
     s.lit = s.lit & lnot(m);
     const M<W> sun = m & (s.flight == kFlightSun), map = m & lnot(sun);

@@ -4,6 +4,7 @@
 
 #include "src/base/digest.h"
 #include "src/base/file.h"
+#include "src/stages/solids.h"
 
 namespace pileus {
 namespace {
@@ -166,6 +167,16 @@ Status decode(const std::string& path, const Buffer<char>& bytes, std::uint64_t 
     return Status::ok();
 }
 
+void add_solids(const Solids& solids, Digest& d) {
+    for (const SolidTriangle& t : solids.triangles.span()) {
+        for (const auto& corner : t.corner)
+            for (float x : corner) d.f32(x);
+        d.u32(std::uint32_t(t.solid));
+    }
+    d.floats(solids.albedo.span());
+    d.floats(solids.camera_depth.span());
+}
+
 }  // namespace
 
 std::uint64_t path_state_digest(const PathInput& in, const std::string& version) {
@@ -173,6 +184,7 @@ std::uint64_t path_state_digest(const PathInput& in, const std::string& version)
     for (char c : version) d.byte(std::uint8_t(c));
     add_medium(in, d);
     add_light(*in.lighting, d);
+    if (in.lighting->solids != nullptr) add_solids(*in.lighting->solids, d);
     add_camera(in.camera, d);
     d.u64(in.seed);
     d.u32(std::uint32_t(in.max_depth));

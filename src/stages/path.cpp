@@ -5,6 +5,7 @@
 #include "platform/threads.h"
 #include "src/stages/device_launch.h"
 #include "src/stages/path_blocks.h"
+#include "src/stages/solids.h"
 #include "src/stages/trace.h"
 
 namespace pileus {
@@ -54,6 +55,11 @@ void set_light(const PathInput& in, const SkySampler& sampler, PathParams& k) {
         sky_lit = true;
     }
     k.sky_lit = sky_lit ? 1 : 0;
+    if (light.solids != nullptr) {
+        k.solids = light.solids->view();
+        k.camera_depth = light.solids->camera_depth.data();
+        if (light.solids->coloured()) k.channels = 3;
+    }
     k.ground = light.ground ? 1 : 0;
     k.ground_z = float(light.ground_z);
     k.ground_albedo = float(light.ground_albedo);
@@ -84,8 +90,9 @@ Status run_launch(const PathInput& in, const PathParams& k, std::uint64_t count,
         const std::uint64_t begin = std::uint64_t(piece) * kPiece;
         const PathBuffers b{scratch.radiance.data(), scratch.capacity,
                             &scratch.tallies[std::size_t(thread) * 2]};
-        in.kernels->trace_paths(k, b, std::uint32_t(begin),
-                                std::uint32_t(smaller(begin + kPiece, count)));
+        const auto kernel = in.lighting->solids != nullptr ? in.kernels->trace_paths_solid
+                                                           : in.kernels->trace_paths;
+        kernel(k, b, std::uint32_t(begin), std::uint32_t(smaller(begin + kPiece, count)));
     });
     return Status::ok();
 }

@@ -27,6 +27,12 @@ struct Solids {
     std::uint64_t file_bytes = 0;       ///< of all meshes
 
     bool present() const { return meshes || image; }
+    /// Whether any colour is no grey.
+    bool coloured() const {
+        for (std::size_t i = 0; i + 2 < albedo.size(); i += 3)
+            if (albedo[i] != albedo[i + 1] || albedo[i] != albedo[i + 2]) return true;
+        return false;
+    }
     SolidsView view() const {
         return {nodes.data(), triangles.data(), albedo.data(), std::int32_t(triangles.size())};
     }
