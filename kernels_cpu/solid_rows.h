@@ -3,7 +3,7 @@
 // in: rays of pixels -> out: radiance and distance, shadows of media and solids on both.
 // docs/solids.md, "How they are lit"; without solids background_rows (march.h) does this.
 #pragma once
-#include "kernels_cpu/march.h"
+#include "kernels_cpu/march_background.h"
 #include "kernels_cpu/solids.h"
 
 namespace pileus {
