@@ -17,7 +17,7 @@ RaymarchRun& own(MethodRun& run) { return static_cast<RaymarchRun&>(run); }
 std::unique_ptr<MethodRun> make() { return std::make_unique<RaymarchRun>(); }
 
 Status check(const Scene& scene, const Budget& budget) {
-    constexpr const char* kAllowed = "none: raymarch.steps decides";
+    constexpr const char* kAllowed = "steps=N";
     if (budget.photons >= 0) return unknown_budget("--budget photons", scene.method, kAllowed);
     if (budget.samples >= 0) return unknown_budget("--budget samples", scene.method, kAllowed);
     if (budget.error > 0) return unknown_budget("--budget error", scene.method, kAllowed);

@@ -114,7 +114,7 @@ private:
         if (!split_budget(node.text, kind, amount))
             fault(node, path,
                   "not a budget, " + value_text(node) +
-                      ", allowed: photons=N, samples=N, seconds=S or error=E");
+                      ", allowed: photons=N, samples=N, steps=N, seconds=S or error=E");
         else if (kind_of_all != nullptr && !kind_of_all->empty() && *kind_of_all != kind)
             fault(node, path,
                   "another kind, " + value_text(node) + ", allowed: " + *kind_of_all + "=N");
@@ -282,8 +282,8 @@ bool split_budget(const std::string& text, std::string& kind, double& amount) {
     const char* const begin = text.data() + equals + 1;
     const char* const end = text.data() + text.size();
     const std::from_chars_result read = std::from_chars(begin, end, amount);
-    const bool known =
-        kind == "photons" || kind == "samples" || kind == "seconds" || kind == "error";
+    const bool known = kind == "photons" || kind == "samples" || kind == "steps" ||
+                       kind == "seconds" || kind == "error";
     return known && read.ec == std::errc() && read.ptr == end && amount > 0 && amount < 1e18;
 }
 

@@ -19,13 +19,15 @@ namespace {
 constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
 constexpr std::int64_t kMostSamples = std::int64_t{1} << 32;
 constexpr double kMostSeconds = 1e9;
+constexpr std::int64_t kMostSteps = 65536;
 
 Status check_isa(const std::string& name) {
     const KernelTable* kernels = nullptr;
     return find_kernels(name, kernels);
 }
 
-Status read_budget(const std::string& text, RenderOptions& options) {
+/// `steps` stays as it is where the budget is of another kind.
+Status read_budget(const std::string& text, RenderOptions& options, std::int64_t& steps) {
     const std::size_t equals = text.find('=');
     const std::string kind = text.substr(0, equals);
     const std::string amount = equals == std::string::npos ? "" : text.substr(equals + 1);
@@ -37,8 +39,9 @@ Status read_budget(const std::string& text, RenderOptions& options) {
         return read_integer("--budget samples", amount, 1, kMostSamples, options.budget_samples);
     if (kind == "error")
         return read_number("--budget error", amount, 1e-6, 1, options.budget_error);
+    if (kind == "steps") return read_integer("--budget steps", amount, 0, kMostSteps, steps);
     return Status::bad_input("--budget: unknown kind, " + quote_text(text) +
-                             ", allowed: photons=N, samples=N, error=E, seconds=S");
+                             ", allowed: photons=N, samples=N, steps=N, error=E, seconds=S");
 }
 
 }  // namespace
@@ -57,8 +60,9 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
         ->type_name("NAME");
     command
         .add_option("--budget", arguments.budgets,
-                    "photons=N (collectors) or samples=N for each pixel (path) instead of the "
-                    "scene's number; error=E (path) ends at a mean relative standard error; "
+                    "photons=N (collectors), samples=N for each pixel (path) or steps=N of a ray "
+                    "(raymarch) instead of the scene's number; error=E (path) ends at a mean "
+                    "relative standard error; "
                     "seconds=S ends tracing after that time, between two passes; may be repeated: "
                     "what comes first ends it")
         ->allow_extra_args(false)
@@ -81,8 +85,9 @@ Status read_scene_options(const SceneArguments& arguments, Scene& scene, RenderO
     }
     if (arguments.isa) add_fault(check_isa(*arguments.isa), faults);
     options.isa = arguments.isa.value_or("");
+    std::int64_t steps = -1;
     for (const std::string& budget : arguments.budgets)
-        add_fault(read_budget(budget, options), faults);
+        add_fault(read_budget(budget, options, steps), faults);
     for (const std::string& limit : arguments.limits)
         add_fault(set_limit(limit, options.limits), faults);
     std::int64_t seed = 0;
@@ -93,6 +98,10 @@ Status read_scene_options(const SceneArguments& arguments, Scene& scene, RenderO
               faults);
     PILEUS_TRY(faults);
     if (arguments.seed) scene.seed = seed;
+    if (steps >= 0 && scene.method != "raymarch")
+        return Status::bad_input("--budget steps: not for method " + scene.method +
+                                 ", allowed: method raymarch");
+    if (steps >= 0) scene.raymarch.steps = int(steps);
     return Status::ok();
 }
 
