@@ -30,29 +30,27 @@ PILEUS_FN void add_kept(const RaymarchParams& k, const Field& field, const Vec<T
 template <class T, class Field>
 PILEUS_FN SunDepths<T> march_to_sun(const RaymarchParams& k, const Field& field,
                                     const Vec<T>& place, M_of<T> wanted, std::int64_t* counts) {
+    const RaymarchLight& light = k.light;
     const Vec<T> d{all<T>(k.to_sun[0]), all<T>(k.to_sun[1]), all<T>(k.to_sun[2])};
     const T leave = field_clip(field, Ray<T>{place, d}).leave;
     // All steps alike and to the end, or so many that grow.
+    const bool whole = light.steps == 0;
     const float most = k.medium.periodic != 0 ? 1.0f / kMostPeriodicSteps : kLeastStep;
-    T width = max_(all<T>(k.light.first_m), leave * most);
-    if (k.light.steps > 0)
-        width = k.light.first_m > 0 ? all<T>(k.light.first_m) : leave / k.light.series;
-    const float growth = k.light.steps > 0 ? k.light.growth : 1.0f;
+    T width = max_(all<T>(light.first_m), leave * most);
+    if (!whole) width = light.first_m > 0 ? all<T>(light.first_m) : leave / light.series;
     SunDepths<T> sum{};
-    T at{};
+    T at{}, n{};
     Vec<T> from = place;
     auto alive = wanted & (leave > 0.0f);
-    for (std::int32_t n = 0; any(alive) && (k.light.steps == 0 || n < k.light.steps); ++n) {
-        const T real = max_(min_(width, leave - at), T{});
-        const T middle = at + 0.5f * real;
+    for (std::int32_t turn = 0; any(alive) && (whole || turn < light.steps); ++turn) {
+        const T real = max_(min_(width, leave - at), T{}), half = 0.5f * real, middle = at + half;
         Vec<T> p{place.x + d.x * middle, place.y + d.y * middle, place.z + d.z * middle};
         auto within = alive;
-        if (k.light.turns > 0) {
+        if (light.turns > 0) {
             // A fuzzy way: each step has a direction of its own, and may lead out of the medium.
-            const float* turn = k.light.direction[n % k.light.turns];
-            const T half = 0.5f * real;
-            p = {from.x + turn[0] * half, from.y + turn[1] * half, from.z + turn[2] * half};
-            from = {from.x + turn[0] * real, from.y + turn[1] * real, from.z + turn[2] * real};
+            const float* way = light.direction[turn % light.turns];
+            p = {from.x + way[0] * half, from.y + way[1] * half, from.z + way[2] * half};
+            from = {from.x + way[0] * real, from.y + way[1] * real, from.z + way[2] * real};
             within = within & field_holds(field, p);
         }
         const Block<T> ahead = field_ahead(field, p, d, real);
@@ -66,12 +64,13 @@ PILEUS_FN SunDepths<T> march_to_sun(const RaymarchParams& k, const Field& field,
         }
         T skipped = all<T>(1.0f);
         // Even steps leap to the last one whose middle lies in an empty block.
-        if (k.light.steps == 0 && k.light.turns == 0)
-            skipped = select(
-                dense, skipped,
-                max_(to_float(to_int(min_(ahead.rest / width, all<T>(1e6f)))), all<T>(1.0f)));
-        at = at + width * skipped;
-        width = width * growth;
+        if (whole && light.turns == 0) {
+            const T steps = to_float(to_int(min_(ahead.rest / width, all<T>(1e6f))));
+            skipped = select(dense, skipped, max_(steps, skipped));
+        }
+        n = n + skipped;
+        at = whole ? n * width : at + width;
+        if (!whole) width = width * light.growth;
         alive = alive & (at < leave) & (sum.tau < 60.0f);  // e^-60 is nothing
     }
     return sum;

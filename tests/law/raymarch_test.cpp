@@ -1,0 +1,257 @@
+// SPDX-License-Identifier: Apache-2.0
+// Laws of the raymarch's pictures: skipping, cutting and widths of lanes change nothing, what
+// stands in an opaque cloud leaves no trace, skylight in thin media is the sky's. in: a small
+// cumulus, its settings -> out: planes of pixels compared. docs/raymarch.md; Palenik 2016,
+// figure 4.2.
+#include "src/stages/raymarch.h"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "src/stages/blue_noise.h"
+#include "src/stages/mix_media.h"
+#include "src/stages/view.h"
+#include "tests/render_harness.h"
+
+namespace raymarch_test {
+
+using namespace render_test;
+
+/// A cumulus with everything that a march needs, to be marched under changing settings.
+struct Rig {
+    Scene scene;
+    Context context;
+    Report report;
+    Medium medium;
+    Prepared prepared;
+    Lighting lighting;
+    SunNodes nodes;
+    SkyNodes sky;
+    Buffer<float> noise;
+    std::vector<DensityLevel> levels;
+    RaymarchInput in;
+
+    explicit Rig(const std::vector<std::string>& overrides) {
+        scene = scene_from(kSmallCumulus, overrides);
+        context.kernels = kernel_table(nullptr);
+        context.report = &report;
+        Plan plan;
+        REQUIRE(load_media(scene, context.limits, 1, plan, medium));
+        REQUIRE(prepare_majorants(medium, false, context, prepared));
+        lighting = plan_lighting(scene, medium, scene.sun.elevation_deg, plan);
+        REQUIRE(make_sun_nodes(context, medium, prepared, lighting, nodes));
+        REQUIRE(make_sky_nodes(context, medium, prepared, lighting,
+                               mean_kept(scene.raymarch, medium), sky));
+        REQUIRE(make_blue_noise(noise));
+        REQUIRE(make_density_levels(medium, 4, prepared.skip_block, context, levels));
+        in.medium = &medium;
+        in.prepared = &prepared;
+        in.lighting = &lighting;
+        in.settings = &scene.raymarch;
+        in.nodes = &nodes;
+        in.sky = &sky;
+        in.noise = &noise;
+        if (scene.raymarch.detail) in.levels = &levels;
+        in.march_light = scene.raymarch.light == RaymarchLightKind::kMarch;
+        in.camera = make_camera(scene.camera, 0, medium.low_m);
+    }
+
+    /// The picture, with something solid so many metres away in its left half.
+    Planes march(float solid_m = 0, RaymarchTally* tally = nullptr) {
+        Planes planes;
+        const int w = in.camera.width, h = in.camera.height;
+        REQUIRE(allocate_planes(w, h, 3, solid_m > 0, true, planes));
+        for (std::size_t i = 0; i < planes.opaque_depth.size(); ++i)
+            planes.opaque_depth[i] = int(i) % w < w / 2 ? solid_m : __builtin_inff();
+        RaymarchTally own;
+        REQUIRE(raymarch_picture(context, in, planes, tally != nullptr ? *tally : own));
+        return planes;
+    }
+};
+
+std::string digest_of(const Planes& p) {
+    Digest d;
+    d.floats(p.colour.span());
+    d.floats(p.transmittance.span());
+    d.floats(p.half_depth.span());
+    return d.hex();
+}
+
+const char* const kRules[] = {"closed", "riemann", "trapezoid", "simpson", "simpson38"};
+
+TEST_CASE("raymarch: empty blocks are skipped without a change of bits") {
+    const std::vector<std::string> kinds[] = {
+        {"raymarch.spacing=uniform", "raymarch.light=march"},
+        {"raymarch.spacing=voxel", "raymarch.jitter=blue-noise", "raymarch.grid_lock_m=100"},
+        {"raymarch.spacing=optimal", "raymarch.steps=40", "raymarch.detail=true"},
+        {"raymarch.spacing=geometric", "raymarch.growth=1.2", "raymarch.detail=true",
+         "raymarch.steps=30"}};
+    for (const auto& kind : kinds)
+        for (const char* rule : kRules) {
+            std::vector<std::string> overrides = kind;
+            overrides.push_back(std::string("raymarch.integrator=") + rule);
+            Rig rig(overrides);
+            CAPTURE(rule);
+            CAPTURE(kind[0]);
+            RaymarchTally skipped, whole;
+            const std::string leaping = digest_of(rig.march(0, &skipped));
+            for (float& bound : rig.prepared.skip_majorants.span()) bound = 1;
+            for (DensityLevel& level : rig.levels)
+                for (float& bound : level.majorants.span()) bound = 1;
+            CHECK(digest_of(rig.march(0, &whole)) == leaping);
+            CHECK(skipped.samples < whole.samples);
+        }
+}
+
+TEST_CASE("raymarch: every width of lanes, the same bits and counts") {
+    Rig rig({"raymarch.integrator=simpson38", "raymarch.spacing=optimal", "raymarch.steps=24",
+             "raymarch.scattering=forward", "raymarch.light=march", "raymarch.light_steps=4",
+             "raymarch.light_path=cone", "raymarch.jitter=hash", "raymarch.detail=true",
+             "raymarch.powder=directional", "raymarch.ambient=[0.1,0.2,0.3]"});
+    RaymarchTally first;
+    rig.context.kernels = kernel_table_at(0);
+    const std::string digest = digest_of(rig.march(2500, &first));
+    CHECK(first.samples > 0);
+    for (int i = 1; kernel_table_at(i) != nullptr; ++i) {
+        rig.context.kernels = kernel_table_at(i);
+        RaymarchTally tally;
+        CHECK(digest_of(rig.march(2500, &tally)) == digest);
+        CHECK(tally.samples == first.samples);
+        CHECK(tally.light_samples == first.light_samples);
+    }
+}
+
+/// Largest change of a colour by something solid at a depth that no light comes from, and how much
+/// light could.
+struct Ghost {
+    double change = 0, allowed = 0;
+};
+Ghost ghost_of(const char* rule, const char* occlusion) {
+    // The document's figure 4.2: the camera stands in an opaque cloud.
+    Rig rig({"camera.position_m=[0,0,1000]", "camera.target_m=[0,400,1000]",
+             "medium.0.density=uniform:box", "raymarch.stop_below=0", "raymarch.steps=96",
+             "raymarch.ambient=1", "raymarch.sky_light=none",
+             std::string("raymarch.integrator=") + rule,
+             std::string("raymarch.occlusion=") + occlusion});
+    const Planes without = rig.march(1e6f), with = rig.march(250);
+    Ghost ghost;
+    const std::size_t pixels = with.transmittance.size();
+    for (std::size_t i = 0; i < pixels; ++i) {
+        ghost.allowed = std::max(ghost.allowed, double(with.transmittance[i]));
+        for (std::size_t c = 0; c < 3; ++c)
+            ghost.change =
+                std::max(ghost.change, std::fabs(double(with.colour[c * pixels + i]) -
+                                                 double(without.colour[c * pixels + i])));
+    }
+    return ghost;
+}
+
+TEST_CASE("raymarch: nothing solid deep in an opaque cloud leaves a ghost, unless steps stretch") {
+    for (const char* rule : kRules) {
+        CAPTURE(rule);
+        const Ghost cut = ghost_of(rule, "cut");
+        // All that lies behind shows no more than the transmittance up to there, times the emission
+        // of 1 and sunlight below the phase function's peak of 7; e^(-0.0625 * 250) is 1.6e-7.
+        CHECK(cut.allowed < 1e-6);
+        CHECK(cut.change <= 8 * cut.allowed + 1e-6);
+        const Ghost stretched = ghost_of(rule, "stretch");
+        CAPTURE(stretched.change);
+        CHECK(stretched.change > 100 * (8 * cut.allowed + 1e-6));
+    }
+}
+
+TEST_CASE("raymarch: rays that end early lose no more than what they would have seen") {
+    Rig rig({"raymarch.ambient=1", "raymarch.sky_light=none", "sun.irradiance=0"});
+    const Planes early = rig.march();
+    rig.scene.raymarch.stop_below = 0;
+    const Planes late = rig.march();
+    double worst = 0;
+    for (std::size_t i = 0; i < early.colour.size(); ++i)
+        worst = std::max(worst, double(late.colour[i]) - double(early.colour[i]));
+    CHECK(worst > 0);
+    CHECK(worst <= 1.01e-4);
+}
+
+TEST_CASE("raymarch: what exceeds its own bound is counted and scaled down to it") {
+    for (const char* rule : kRules) {
+        Rig rig({"raymarch.ambient=1", "raymarch.steps=6", "sun.irradiance=0",
+                 "medium.0.density=uniform:box", "raymarch.sky_light=none",
+                 std::string("raymarch.integrator=") + rule});
+        RaymarchTally tally;
+        const Planes planes = rig.march(0, &tally);
+        CAPTURE(rule);
+        // Riemann's and the closed form's weights are shares of what is left: never above 1.
+        const bool bounded = std::string(rule) == "closed" || std::string(rule) == "riemann";
+        CHECK((tally.breaches == 0) == bounded);
+        for (float v : planes.colour.span()) CHECK(v <= 1.0002f);
+    }
+}
+
+TEST_CASE("raymarch: a thin white medium under a constant sky cannot be told from it") {
+    const char* kThin = "medium.0.extinction_per_m=1e-5";
+    const Picture p = render_one(scene_from(
+        kSmallCumulus, {"method.name=raymarch", "sun.irradiance=0", "sky.radiance=0.5", kThin,
+                        "ground.altitude_m=-1e6", "camera.position_m=[16,-400,256]",
+                        "medium.0.albedo=1", "output.layers=[\"alpha\"]"}));
+    for (int y = 0; y < p.image.height / 2; ++y)
+        for (int x = 0; x < p.image.width; ++x) {
+            // Up to half of the light from all around is the ground's, at a fifth of the sky's.
+            const double alpha = double(p.at("A", x, y));
+            CHECK(double(p.at("G", x, y)) <= 0.5 + 1e-6);
+            CHECK(double(p.at("G", x, y)) >= 0.5 - 0.5 * alpha);
+        }
+    const Picture all = render_one(scene_from(
+        kSmallCumulus, {"method.name=raymarch", "sun.irradiance=0", "sky.radiance=0.5", kThin,
+                        "ground.albedo=1", "medium.0.albedo=1", "output.layers=[\"alpha\"]"}));
+    // A ground as bright as the sky closes the sphere: only what is scattered twice is missing.
+    for (int y = 0; y < all.image.height; ++y)
+        for (int x = 0; x < all.image.width; ++x) {
+            const double alpha = double(all.at("A", x, y));
+            if (alpha > 0) CHECK(std::fabs(double(all.at("G", x, y)) - 0.5) <= 0.02 * alpha);
+        }
+}
+
+TEST_CASE("raymarch: levels of detail hold the density's mean") {
+    Rig rig({"raymarch.detail=true"});
+    double fine = 0;
+    for (float v : rig.medium.volume.density.span()) fine += double(v);
+    REQUIRE(rig.levels.size() == 4);
+    double cells = 8;
+    for (std::size_t l = 0; l < 3; ++l, cells *= 8) {
+        double sum = 0;
+        for (float v : rig.levels[l].density.span()) sum += double(v);
+        CHECK(sum * cells == doctest::Approx(fine).epsilon(1e-5));
+    }
+    // 3 x 3 x 2 cells: odd sizes of a periodic grid would not meet themselves.
+    CHECK(level_grids(rig.levels[2].grid, 4).size() == 2);
+    Grid periodic = rig.levels[2].grid;
+    periodic.periodic = true;
+    CHECK(level_grids(periodic, 4).empty());
+}
+
+TEST_CASE("raymarch: blue noise holds each number once and no low frequencies") {
+    Buffer<float> tile;
+    REQUIRE(make_blue_noise(tile));
+    constexpr int n = kNoiseTile;
+    std::vector<bool> seen(n * n, false);
+    for (float v : tile.span()) seen[std::size_t(v * n * n)] = true;
+    CHECK(std::count(seen.begin(), seen.end(), true) == n * n);
+    // Mean power of the waves that are longer than 8 pixels; white noise has 1/12 in each.
+    double power = 0, waves = 0;
+    for (int ky = -8; ky <= 8; ++ky)
+        for (int kx = -8; kx <= 8; ++kx) {
+            if (kx * kx + ky * ky > 64 || (kx == 0 && ky == 0)) continue;
+            double re = 0, im = 0;
+            for (int i = 0; i < n * n; ++i) {
+                const double angle = 6.283185307179586 * (kx * (i % n) + ky * (i / n)) / n;
+                re += double(tile[std::size_t(i)]) * std::cos(angle);
+                im += double(tile[std::size_t(i)]) * std::sin(angle);
+            }
+            power += (re * re + im * im) / (n * n);
+            waves += 1;
+        }
+    CHECK(power / waves * 12 < 0.05);
+}
+
+}  // namespace raymarch_test
