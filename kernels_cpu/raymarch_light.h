@@ -103,11 +103,27 @@ PILEUS_FN T skylight_at(const RaymarchParams& k, const float* nodes, const Vec<T
     return share;
 }
 
-/// Share of the sun's light at a place, per channel (light.channels of them).
+/// Shares of the light in octave n of the way's light, from octave 1 on, where its depth is `tau`;
+/// returns the mean of all octaves with `first`, by their shares.
+template <class T>
+PILEUS_FN T octave_light(const Octaves& o, T tau, T first, T factor, T (&light)[kMostOctaves]) {
+    float share = 1.0f, all_shares = 1.0f, thinner = 1.0f;
+    T sum = first;
+    for (int n = 1; n < o.count; ++n) {
+        share = share * o.share, thinner = thinner * o.extinction;
+        light[n] = exp_(T{} - tau * thinner) * factor;
+        sum = sum + share * light[n];
+        all_shares = all_shares + share;
+    }
+    return sum * (1.0f / all_shares);
+}
+
+/// Share of the sun's light at a place, per channel (light.channels of them); returns the optical
+/// depth of the way.
 template <class T, class Field>
-PILEUS_FN void sunlight_at(const RaymarchParams& k, const float* optical_depth, const Field& field,
-                           const Vec<T>& place, T density, M_of<T> wanted, T turn,
-                           std::int64_t* counts, T (&out)[3]) {
+PILEUS_FN T sunlight_at(const RaymarchParams& k, const float* optical_depth, const Field& field,
+                        const Vec<T>& place, T density, M_of<T> wanted, T turn,
+                        std::int64_t* counts, T (&out)[3]) {
     SunDepths<T> depth{};
     if (k.light.march != 0) {
         depth = march_to_sun(k, field, place, wanted, counts);
@@ -127,6 +143,7 @@ PILEUS_FN void sunlight_at(const RaymarchParams& k, const float* optical_depth, 
         if (k.light.powder != kPowderNone)
             out[c] = out[c] * powder_factor(k.light, depth.tau, turn);
     }
+    return depth.tau;
 }
 
 }  // namespace PILEUS_ISA

@@ -57,6 +57,16 @@ struct StepParams {
 /// Directions that a fuzzy way to the sun takes in turn.
 constexpr int kLightTurns = 16;
 
+constexpr int kMostOctaves = 8;
+
+/// Several scatterings as weaker and weaker copies of the first (Wrenninge, Kulla, Lundqvist 2013):
+/// octave n sees extinction^n of the extinction, has share^n of the light and a phase function
+/// of anisotropy^n of the mean cosine.
+struct Octaves {
+    std::int32_t count;  ///< 1: the first scattering alone
+    float extinction, share;
+};
+
 /// How sunlight finds its way to a place.
 struct RaymarchLight {
     std::int32_t march;  ///< 0: from nodes
@@ -67,10 +77,12 @@ struct RaymarchLight {
     float series;        ///< sum of growth^n over `steps`
     std::int32_t turns;  ///< 0: straight; else so many directions one after the other
     float direction[kLightTurns][3];
-    std::int32_t powder;        ///< a RaymarchPowder
-    float powder_strength;      ///< k of (3.13)
-    std::int32_t channels;      ///< 1, or 3 where the light kept differs by channel
-    std::int32_t forward;       ///< 1: some light is kept
+    std::int32_t powder;    ///< a RaymarchPowder
+    float powder_strength;  ///< k of (3.13)
+    std::int32_t channels;  ///< 1, or 3 where the light kept differs by channel
+    std::int32_t forward;   ///< 1: some light is kept
+    Octaves octaves;
+    float octave_g[kMostMedia][kMostOctaves];  ///< of Henyey-Greenstein; from octave 1 on
     float kept[kMostMedia][3];  ///< share of scattered light that goes on as if unscattered
 };
 
@@ -94,7 +106,8 @@ struct RaymarchParams {
     PhaseParams phase[kMostMedia];
     float phase_scale[kMostMedia];  ///< 1, or one over the phase function's peak
     float to_sun[3];
-    float sun_source[kMostMedia][3];  ///< irradiance times albedo
+    float sun_source[kMostMedia][3];                   ///< irradiance times albedo
+    float octave_source[kMostMedia][kMostOctaves][3];  ///< that of octave n, its share in it
     float albedo[kMostMedia][3];
     RaymarchSky sky;
     std::int32_t sunlit;  ///< 0: all of them are zero

@@ -12,16 +12,20 @@ inline namespace PILEUS_ISA {
 /// What does not change along a ray.
 template <class T>
 struct RayLight {
-    T phase[kMostMedia];  ///< of each medium towards the camera
-    T turn;               ///< 1 - cos of the angle by which sunlight is scattered
+    T phase[kMostMedia];                 ///< of each medium towards the camera
+    T turn;                              ///< 1 - cos of the angle by which sunlight is scattered
+    T octave[kMostMedia][kMostOctaves];  ///< phase functions of the octaves from 1 on
 };
 template <class T>
 PILEUS_FN RayLight<T> ray_light(const RaymarchParams& k, const Vec<T>& d) {
     RayLight<T> r{};
     const Vec<T> to_sun{all<T>(k.to_sun[0]), all<T>(k.to_sun[1]), all<T>(k.to_sun[2])};
     r.turn = one_minus_cosine(to_sun, d);
-    for (int i = 0; i < kMostMedia && i < k.media; ++i)
+    for (int i = 0; i < kMostMedia && i < k.media; ++i) {
         r.phase[i] = phase_density(k.phase[i], r.turn) * k.phase_scale[i];
+        for (int n = 1; n < k.light.octaves.count; ++n)
+            r.octave[i][n] = hg_density(all<T>(k.light.octave_g[i][n]), r.turn);
+    }
     return r;
 }
 
@@ -43,16 +47,27 @@ PILEUS_FN RaySample<T> take_sample(const RaymarchParams& k, const RaymarchBuffer
     const bool emits = k.ambient[0] > 0 || k.ambient[1] > 0 || k.ambient[2] > 0;
     if (emits) s.share = all<T>(1.0f);
     if (k.sunlit == 0 && k.sky.sets == 0) return s;
-    T light[3] = {}, glow[3] = {};
+    T light[3] = {}, glow[3] = {}, more[kMostOctaves] = {}, tau{};
     if (k.sunlit != 0)
-        sunlight_at(k, b.optical_depth, field, place, s.density, dense, r.turn, counts, light);
-    for (int c = 0; c < k.light.channels; ++c) s.share = max_(s.share, light[c]);
+        tau =
+            sunlight_at(k, b.optical_depth, field, place, s.density, dense, r.turn, counts, light);
+    const bool octaves = k.sunlit != 0 && k.light.octaves.count > 1;
+    T brightest = max_(light[0], max_(light[1], light[2]));
+    if (octaves) {
+        T factor = all<T>(1.0f);
+        if (k.light.powder != kPowderNone) factor = powder_factor(k.light, tau, r.turn);
+        brightest = octave_light(k.light.octaves, tau, brightest, factor, more);
+    }
+    s.share = max_(s.share, brightest);
     if (k.sky.sets > 0) s.share = max_(s.share, skylight_at(k, b.sky, place, glow));
     field_shares(field, place, s.density, [&](int i, T share) {
         const T weight = share * r.phase[i];
         for (int c = 0; c < 3; ++c) {
             const T sun = weight * light[k.light.channels == 1 ? 0 : c];
             s.source[c] = s.source[c] + sun * k.sun_source[i][c];
+            for (int n = 1; octaves && n < k.light.octaves.count; ++n)
+                s.source[c] =
+                    s.source[c] + share * r.octave[i][n] * more[n] * k.octave_source[i][n][c];
             if (k.sky.sets > 0) s.source[c] = s.source[c] + share * glow[c] * k.albedo[i][c];
         }
     });

@@ -81,7 +81,10 @@ void note_light(const Scene& scene, const RaymarchRun& run, Plan& plan) {
         plan.need("forward scattering: approximation");
     else
         plan.leave_out("forward scattering", sun ? "scattering = \"single\"" : "no sunlight");
-    plan.leave_out("light scattered more than once", "method raymarch has none but forward");
+    if (s.many)
+        plan.need("light scattered more than once as octaves of the first: approximation");
+    else
+        plan.leave_out("light scattered more than once", "scattering is not \"octaves\"");
     if (!has_sky(run.lighting) && !run.lighting.ground)
         plan.leave_out("skylight in the medium", "no sky, no ground");
     else if (s.sky_ambient)

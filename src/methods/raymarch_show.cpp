@@ -37,7 +37,8 @@ Status light_sky(const Context& context, const FrameStep& step, RaymarchRun& run
     const bool moves = scene.animation.present && scene.animation.moves_sun;
     if (!step.first && !moves) return Status::ok();
     return make_sky_nodes(context, run.medium, run.prepared, run.lighting,
-                          mean_kept(scene.raymarch, run.medium), run.sky);
+                          mean_kept(scene.raymarch, run.medium), octaves_of(scene.raymarch),
+                          run.sky);
 }
 
 Status fill_background(const Context& context, RaymarchRun& run) {

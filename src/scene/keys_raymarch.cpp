@@ -59,9 +59,30 @@ const KeyRow kRows[] = {
                "before something solid the last step ends at it, or all steps shrink, which shows "
                "its shape through opaque cloud; the latter only to compare",
                [](const Node& n, KeyTarget t) { t.scene.raymarch.stretch = n.text == "stretch"; }),
-    choice_key(KeyKind::kText, "raymarch.scattering", "\"single\"", "single|forward", nullptr,
-               "sunlight scattered once, or what stays within a cone goes on as sunlight",
-               [](const Node& n, KeyTarget t) { t.scene.raymarch.forward = n.text == "forward"; }),
+    choice_key(KeyKind::kText, "raymarch.scattering", "\"single\"", "single|forward|octaves",
+               nullptr,
+               "sunlight scattered once; or what stays within a cone goes on as sunlight; or many "
+               "scatterings as weaker and weaker copies of the first",
+               [](const Node& n, KeyTarget t) {
+                   t.scene.raymarch.forward = n.text == "forward";
+                   t.scene.raymarch.many = n.text == "octaves";
+               }),
+    range_key(KeyKind::kInteger, "raymarch.octaves", "", "8", {1, 8, false, false},
+              "scattering `octaves`: number of copies",
+              [](const Node& n, KeyTarget t) {
+                  t.scene.raymarch.octaves = static_cast<int>(integer_of(n));
+              }),
+    range_key(
+        KeyKind::kNumber, "raymarch.octave_extinction", "", "0.45", kShare,
+        "extinction of a copy over that of the one before",
+        [](const Node& n, KeyTarget t) { t.scene.raymarch.octave_extinction = number_of(n); }),
+    range_key(KeyKind::kNumber, "raymarch.octave_share", "", "0.65", kShare,
+              "light of a copy over that of the one before",
+              [](const Node& n, KeyTarget t) { t.scene.raymarch.octave_share = number_of(n); }),
+    range_key(
+        KeyKind::kNumber, "raymarch.octave_anisotropy", "", "0.75", kShare,
+        "mean cosine of a copy over that of the one before",
+        [](const Node& n, KeyTarget t) { t.scene.raymarch.octave_anisotropy = number_of(n); }),
     range_key(KeyKind::kNumber, "raymarch.cone_deg", "deg", "40", {0, 360, false, false},
               "angle of that cone at its apex",
               [](const Node& n, KeyTarget t) { t.scene.raymarch.cone_deg = number_of(n); }),

@@ -151,7 +151,10 @@ struct RaymarchSettings {
     double growth = 1.01;     ///< geometric: of one step over the one before
     bool stretch = false;     ///< occlusion = "stretch"
     bool forward = false;     ///< scattering = "forward"
-    double cone_deg = 40;     ///< at its apex
+    bool many = false;        ///< scattering = "octaves"
+    int octaves = 8;          ///< 1..8
+    double octave_extinction = 0.45, octave_share = 0.65, octave_anisotropy = 0.75;
+    double cone_deg = 40;       ///< at its apex
     double forward_share = -1;  ///< >= 0: instead of what the phase function keeps in the cone
     RaymarchLightKind light = RaymarchLightKind::kAuto;
     int light_steps = 0;  ///< 0: of a voxel, to the end

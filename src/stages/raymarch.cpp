@@ -79,6 +79,24 @@ void set_light(const RaymarchInput& in, RaymarchParams& k) {
     }
 }
 
+/// Octaves take albedo and share once more each; their phase functions are Henyey-Greenstein's.
+void set_octaves(const RaymarchInput& in, RaymarchParams& k) {
+    k.light.octaves = octaves_of(*in.settings);
+    for (int i = 0; i < in.medium->count; ++i) {
+        const Optics& optics = in.medium->optics[std::size_t(i)];
+        float g = phase_moment(optics.phase, 1), source[3];
+        for (int c = 0; c < 3; ++c) source[c] = k.sun_source[i][c];
+        for (int n = 1; n < k.light.octaves.count; ++n) {
+            g *= float(in.settings->octave_anisotropy);
+            k.light.octave_g[i][n] = g;
+            for (int c = 0; c < 3; ++c) {
+                source[c] *= optics.albedo[c] * k.light.octaves.share;
+                k.octave_source[i][n][c] = source[c];
+            }
+        }
+    }
+}
+
 void set_media(const RaymarchInput& in, RaymarchParams& k) {
     const Lighting& lighting = *in.lighting;
     k.media = in.medium->count;
@@ -135,6 +153,10 @@ int raymarch_levels(const RaymarchSettings& s, const CameraParams& camera, const
          cell *= 2)
         ++levels;
     return int(level_grids(medium.grid, levels).size());
+}
+
+Octaves octaves_of(const RaymarchSettings& s) {
+    return {s.many ? s.octaves : 1, float(s.octave_extinction), float(s.octave_share)};
 }
 
 double mean_kept(const RaymarchSettings& s, const Medium& medium) {
@@ -201,6 +223,7 @@ RaymarchParams raymarch_params(const RaymarchInput& in) {
     k.cut = float(in.settings->stop_below);
     set_media(in, k);
     set_light(in, k);
+    set_octaves(in, k);
     return k;
 }
 

@@ -47,6 +47,9 @@ int raymarch_levels(const RaymarchSettings& settings, const CameraParams& camera
 /// Share of scattered light that forward scattering keeps, over all media and channels.
 double mean_kept(const RaymarchSettings& settings, const Medium& medium);
 
+/// One octave unless scattering = "octaves".
+Octaves octaves_of(const RaymarchSettings& settings);
+
 /// Everything that a launch reads, but for the pointers to planes.
 RaymarchParams raymarch_params(const RaymarchInput& in);
 

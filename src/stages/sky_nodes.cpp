@@ -72,6 +72,16 @@ void set_map(const Lighting& light, Radiances& r) {
         for (double& share : r.share[c]) share = r.colour[c][c] > 0 ? share / r.colour[c][c] : 0;
 }
 
+/// Share of a light that comes through an optical depth.
+float seen_through(float tau, const Octaves& o) {
+    float seen = exp_(-tau), share = 1, thinner = 1;
+    for (int n = 1; n < o.count; ++n) {
+        share *= o.share, thinner *= o.extinction;
+        seen += share * exp_(-(tau * thinner));
+    }
+    return seen < 1 ? seen : 1.0f;
+}
+
 }  // namespace
 
 NodeGrid sky_node_grid(const Medium& medium) {
@@ -93,7 +103,8 @@ int sky_node_sets(const Lighting& light) {
 }
 
 Status make_sky_nodes(const Context& context, const Medium& medium, const Prepared& prepared,
-                      const Lighting& lighting, double kept, SkyNodes& out) {
+                      const Lighting& lighting, double kept, const Octaves& octaves,
+                      SkyNodes& out) {
     const StageClock clock(context, "skylight");
     out.sets = sky_node_sets(lighting);
     if (out.sets == 0) return Status::ok();
@@ -121,7 +132,7 @@ Status make_sky_nodes(const Context& context, const Medium& medium, const Prepar
         const std::size_t slice = std::size_t(nodes) / std::size_t(out.grid.size[2]);
         parallel_for(context.threads, out.grid.size[2], [&](std::int64_t z, int) {
             for (std::size_t n = std::size_t(z) * slice; n < std::size_t(z + 1) * slice; ++n) {
-                const float seen = exp_(-(tau[n] * left));
+                const float seen = seen_through(tau[n] * left, octaves);
                 for (int s = 0; s < out.sets; ++s)
                     out.light[std::size_t(s) * std::size_t(nodes) + n] +=
                         float(r.share[s][p]) * seen;

@@ -3,7 +3,7 @@
 // in: a medium, sky and ground -> out: brightness per node in sets of one colour each.
 // docs/raymarch.md, "Skylight".
 #pragma once
-#include "kernels_cpu/march_params.h"
+#include "kernels_cpu/raymarch_params.h"
 #include "src/stages/context.h"
 #include "src/stages/lights.h"
 #include "src/stages/prepare.h"
@@ -24,8 +24,8 @@ NodeGrid sky_node_grid(const Medium& medium);
 int sky_node_sets(const Lighting& lighting);
 
 /// Light from directions all around, each weakened by what it passes; forward scattering keeps
-/// `kept` of what is scattered. kLimit: out of memory.
+/// `kept` of what is scattered; octaves add up, to no more than there is. kLimit: out of memory.
 Status make_sky_nodes(const Context& context, const Medium& medium, const Prepared& prepared,
-                      const Lighting& lighting, double kept, SkyNodes& out);
+                      const Lighting& lighting, double kept, const Octaves& octaves, SkyNodes& out);
 
 }  // namespace pileus
