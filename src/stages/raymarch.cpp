@@ -213,6 +213,7 @@ RaymarchParams raymarch_params(const RaymarchInput& in) {
     k.camera = in.camera;
     k.rule = rule_of(in.settings->integrator);
     k.step = raymarch_steps(*in.settings, in.camera, in.medium->grid);
+    if (!(in.medium->sigma > 0)) k.step.most = 0;  // nothing to see, and no light was made for it
     set_jitter(in, k.step);
     set_levels(in, k);
     if (in.sky != nullptr) {

@@ -61,7 +61,7 @@ TEST_CASE("S40: an opaque sheet of one voxel is seen at any angle, and halving s
                             "raymarch.spacing=uniform",
                             rule_key(rule)};
         const Picture p = render_sound(marched(sheet));
-        CHECK(p.at("A", 2, 2) == 1);
+        CHECK(p.at("A", 2, 2) >= 0.9999f);  // stop_below ends the ray there
     }
 }
 
@@ -145,10 +145,13 @@ TEST_CASE("S49: fields of view and pictures at the ends of their ranges") {
 
 TEST_CASE("S42: rays in the planes of faces and through corners") {
     for (const char* rule : kRules)
-        for (const char* axis : {"[0,0,600]", "[-800,0,1150]", "[800,800,1700]"}) {
+        for (const char* along : {"0,1150]", "-800,1150]", "800,1700]", "-800,600]"}) {
+            const std::string to = along;
+            const std::string x = to.substr(0, to.find(',')), z = to.substr(to.find(',') + 1);
+            // The middle pixel's ray runs in a face, along an edge, or through the middle.
             const Picture p = render_sound(
-                marched({"camera.projection=orthographic", "camera.height_m=2000", rule_key(rule),
-                         "camera.resolution=[16,16]", std::string("camera.target_m=") + axis,
+                marched({"camera.position_m=[" + x + ",-3000," + z, "camera.resolution=[9,9]",
+                         "camera.target_m=[" + x + ",0," + z, rule_key(rule),
                          "medium.0.density=uniform:box"}));
             CHECK(largest_of(p, "A") > 0);
         }
