@@ -147,7 +147,7 @@ template <class T>
 PILEUS_FN SolidHit<T> hit_solids(const SolidsView& s, const Vec<T>& o, const Vec<T>& d, T limit,
                                  M_of<T> m) {
     SolidHit<T> hit{all<T>(__builtin_inff()), all<I_of<T>>(-1)};
-    for (std::uint32_t lanes = bits_of(m); lanes != 0; lanes &= lanes - 1) {
+    for (std::uint32_t lanes = s.count > 0 ? bits_of(m) : 0u; lanes != 0; lanes &= lanes - 1) {
         const int i = lowest_bit(lanes);
         const float from[3] = {lane(o.x, i), lane(o.y, i), lane(o.z, i)};
         const float along[3] = {lane(d.x, i), lane(d.y, i), lane(d.z, i)};
@@ -165,7 +165,7 @@ template <class T>
 PILEUS_FN M_of<T> behind_solids(const SolidsView& s, const Vec<T>& o, const Vec<T>& d, T limit,
                                 M_of<T> m) {
     I_of<T> blocked{};
-    for (std::uint32_t lanes = bits_of(m); lanes != 0; lanes &= lanes - 1) {
+    for (std::uint32_t lanes = s.count > 0 ? bits_of(m) : 0u; lanes != 0; lanes &= lanes - 1) {
         const int i = lowest_bit(lanes);
         const float from[3] = {lane(o.x, i), lane(o.y, i), lane(o.z, i)};
         const float along[3] = {lane(d.x, i), lane(d.y, i), lane(d.z, i)};

@@ -63,14 +63,19 @@ void set_around(const Lighting& light, SolidRowsParams& k) {
 }
 
 /// Where the image has something nearer, that hides what was found: black, for its owner draws it.
-void hide(const Solids& solids, const BackgroundBuffers& b) {
-    const std::size_t pixels = solids.camera_depth.size();
-    for (std::size_t i = 0; i < pixels; ++i) {
-        const float depth = solids.camera_depth[i];
+/// A picture of another size reads the image where its pixels' corners lie.
+void hide(const Solids& solids, const CameraParams& camera, const BackgroundBuffers& b) {
+    const std::size_t width = std::size_t(camera.width), height = std::size_t(camera.height);
+    const std::size_t columns = solids.depth_columns;
+    const std::size_t rows = solids.camera_depth.size() / columns;
+    for (std::size_t i = 0; i < width * height; ++i) {
+        const std::size_t x = i % width * columns / width, y = i / width * rows / height;
+        const float depth = solids.camera_depth[y * columns + x];
         const float other = b.opaque_depth != nullptr ? b.opaque_depth[i] : __builtin_inff();
         if (!(depth < __builtin_inff()) || depth > other) continue;
         if (b.opaque_depth != nullptr) b.opaque_depth[i] = depth;
-        for (std::size_t c = 0; c < 3 && b.colour != nullptr; ++c) b.colour[c * pixels + i] = 0;
+        for (std::size_t c = 0; c < 3 && b.colour != nullptr; ++c)
+            b.colour[c * width * height + i] = 0;
     }
 }
 
@@ -94,7 +99,7 @@ Status show_background(const Context& context, const Lighting& light, const Back
             kernel(params, b, begin, begin + kPiece < rows ? begin + kPiece : rows);
         });
     }
-    if (solids != nullptr && !solids->camera_depth.empty()) hide(*solids, b);
+    if (solids != nullptr && !solids->camera_depth.empty()) hide(*solids, k.camera, b);
     return Status::ok();
 }
 

@@ -33,6 +33,7 @@ Status take_camera_depth(const Camera& camera, const std::string& name, const Im
     const CameraParams view = make_camera(camera, 0, {});
     const std::size_t width = std::size_t(image.width);
     PILEUS_TRY(solids.camera_depth.resize(z->pixels.size(), "camera depth"));
+    solids.depth_columns = width;
     for (std::size_t i = 0; i < z->pixels.size(); ++i) {
         double metres = double(z->pixels[i]) * camera.depth_scale;
         if (camera.depth_on_axis) metres *= slant(view, i % width, i / width);

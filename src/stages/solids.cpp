@@ -102,6 +102,9 @@ Status outline_solids(const Scene& scene, const Context& context, Solids& solids
     if (solids.present() && context.kernels->device != nullptr)
         return Status::bad_input(scene.file + ": solid, camera.depth: not on the device " +
                                  context.kernels->name + " in this version, allowed: --isa auto");
+    PILEUS_TRY(solids.albedo.resize(3 * scene.solids.size(), "colours of solids"));
+    for (std::size_t i = 0; i < solids.albedo.size(); ++i)
+        solids.albedo[i] = scene.solids[i / 3].albedo[i % 3];
     for (const SolidSettings& settings : scene.solids) {
         InputFile file;
         const std::string path = scene_path(scene.directory, settings.file);
@@ -123,10 +126,8 @@ Status load_solids(const Scene& scene, const Double3& low_m, const Context& cont
     std::uint64_t sum = 0, used = 0;
     for (const Mesh& mesh : meshes) sum += mesh.triangles();
     PILEUS_TRY(solids.triangles.resize(sum, "triangles"));
-    PILEUS_TRY(solids.albedo.resize(3 * meshes.size(), "colours of solids"));
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         const SolidSettings& settings = scene.solids[i];
-        for (std::size_t c = 0; c < 3; ++c) solids.albedo[3 * i + c] = settings.albedo[c];
         PILEUS_TRY(place_triangles(settings, scene_path(scene.directory, settings.file),
                                    std::int32_t(i), low_m, meshes[i].corners.span(), used, solids));
         meshes[i] = Mesh();

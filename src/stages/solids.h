@@ -19,9 +19,10 @@ struct Solids {
     bool meshes = false, image = false;  ///< the scene has such; the arrays may not be there yet
     Buffer<SolidNode> nodes;
     Buffer<SolidTriangle> triangles;
-    Buffer<float> albedo;               ///< [solid][3]
-    std::uint64_t degenerate = 0;       ///< triangles without an area, left out
-    Buffer<float> camera_depth;         ///< [pixel], m along the ray; infinity: nothing solid
+    Buffer<float> albedo;          ///< [solid][3]
+    std::uint64_t degenerate = 0;  ///< triangles without an area, left out
+    Buffer<float> camera_depth;    ///< [pixel], m along the ray; infinity: nothing solid
+    std::size_t depth_columns = 0;
     std::uint64_t broken_depths = 0;    ///< values that were no numbers and count as infinity
     std::uint64_t negative_depths = 0;  ///< and below 0, which count as 0
     std::uint64_t file_bytes = 0;       ///< of all meshes

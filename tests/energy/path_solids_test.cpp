@@ -143,9 +143,9 @@ TEST_CASE("path, solids: a plate between sun and cloud leaves it dark, one behin
     CHECK(free.value > 0.01);
     CHECK(std::abs(free.value - behind.value) <
           kFar * std::sqrt(free.error * free.error + behind.error * behind.error));
-    // A white plate behind sends light back into the cloud.
+    // A white plate right behind sends light back into the cloud.
     const Mean bright =
-        lit("position_m = [0, -9, 0]\nrotation_deg = [90, 0, 0]\nscale = 5\nalbedo = 1");
+        lit("position_m = [0, -2.5, 0]\nrotation_deg = [90, 0, 0]\nscale = 9\nalbedo = 1");
     CHECK(bright.value > free.value + kFar * (free.error + bright.error));
 }
 
