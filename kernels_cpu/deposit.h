@@ -148,9 +148,9 @@ PILEUS_FN void flush_deposits(const TraceParams& k, const TraceBuffers& b, Depos
 
 /// Deposit `share` (0..1) of each lane in `m`, travelling along s.d, into its voxel's collector.
 /// Every lane's voxel must be readable, and `corner`, where the `density` was looked up.
-template <int W, int NC>
+template <int W, int NC, bool S>
 PILEUS_FN void deposit(const TraceParams& k, const TraceBuffers& b, DepositQueue<W, NC>& q,
-                       const Photon<W, NC>& s, M<W> m, I<W> voxel, F<W> share, I<W> corner,
+                       const Photon<W, NC, S>& s, M<W> m, I<W> voxel, F<W> share, I<W> corner,
                        F<W> density) {
     using T = F<W>;
     const Vec<T>& d = s.d;

@@ -16,13 +16,22 @@
 #error "fast-math changes results; pileus needs IEEE arithmetic"
 #endif
 
+#define PILEUS_JOIN(a, b) a##b
+#define PILEUS_TRACE_SOLIDS(isa) PILEUS_JOIN(trace_solids_, isa)
+
 namespace pileus {
+
+/// Of isa_trace_solids.cpp, compiled for the same instruction set.
+void PILEUS_TRACE_SOLIDS(PILEUS_ISA)(const TraceParams&, const TraceBuffers&, std::uint32_t,
+                                     std::uint32_t);
+
 namespace {
 
 static_assert(__FLT_EVAL_METHOD__ == 0, "floats must be computed as floats");
 
 void trace_kernel(const TraceParams& k, const TraceBuffers& b, std::uint32_t begin,
                   std::uint32_t end) {
+    if (k.solids.count > 0) return PILEUS_TRACE_SOLIDS(PILEUS_ISA)(k, b, begin, end);
     trace<PILEUS_WIDTH>(k, b, begin, end);
 }
 void shadow_kernel(const ShadowParams& k, const ShadowBuffers& b, std::uint32_t begin,
@@ -47,7 +56,6 @@ std::uint64_t self_test_kernel() { return self_test_digest<PILEUS_WIDTH>(); }
 
 #define PILEUS_QUOTE(name) #name
 #define PILEUS_NAME(name) PILEUS_QUOTE(name)
-#define PILEUS_JOIN(a, b) a##b
 #define PILEUS_TABLE(isa) PILEUS_JOIN(kernel_table_, isa)
 #define PILEUS_PATH(isa) PILEUS_JOIN(path_kernel_, isa)
 #define PILEUS_SKY(isa) PILEUS_JOIN(sky_kernel_, isa)

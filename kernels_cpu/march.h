@@ -123,7 +123,7 @@ PILEUS_FN void add_source(const MarchParams& k, const MarchBuffers& b, const Vec
 }
 
 /// W pixels, a block from column x and row y on, in rows before `end`.
-template <int W>
+template <int W, bool Veiled>
 PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::int32_t x,
                             std::int32_t y, std::int32_t end) {
     using T = F<W>;
@@ -153,35 +153,37 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
     T transmittance = all<T>(1.0f), half = all<T>(__builtin_inff()), depth{};
     T colour[kMost];
     for (int c = 0; c < k.channels; ++c) colour[c] = T{};
-    march_ray(
-        k.medium, ray, box.enter, leave,
-        [&](M<W> dense, T t, T width, const Vec<T>& p, const Vec<T>& metres) {
-            if (!any(dense)) return transmittance < k.cut;
-            const Corners<T> at = corners(p, k.medium.size, wraps);
-            const T density = interpolate(k.medium.density, at);
-            const T optical = select(dense, density * k.medium.sigma * width, T{});
-            if (!any(optical > 0.0f)) return transmittance < k.cut;
-            depth = depth + optical;
-            const T alpha = one_minus_exp(optical);
-            const T weight = transmittance * alpha;
-            T direct[3] = {};
-            if (sun.lit) {
-                const Vec<T> node = node_position(k.shadow, metres);
-                const T tau = interpolate(b.optical_depth, corners(node, k.shadow.size, wraps));
-                sun_source_at(k, b, sun, at, density, exp_(T{} - tau), direct);
-            }
-            add_source<W>(k, b, metres, harmonics, direct, weight, colour);
-            const T left = transmittance * (1.0f - alpha);
-            if (b.half_depth != nullptr) {
-                const auto crosses = (transmittance > 0.5f) & (left <= 0.5f);
-                if (any(crosses)) {
-                    const T share = log_(transmittance * 2.0f) / max_(optical, all<T>(1e-30f));
-                    half = select(crosses, t + (share - 0.5f) * width, half);
-                }
-            }
-            transmittance = left;
-            return transmittance < k.cut;
-        });
+    march_ray(k.medium, ray, box.enter, leave,
+              [&](M<W> dense, T t, T width, const Vec<T>& p, const Vec<T>& metres) {
+                  if (!any(dense)) return transmittance < k.cut;
+                  const Corners<T> at = corners(p, k.medium.size, wraps);
+                  const T density = interpolate(k.medium.density, at);
+                  const T optical = select(dense, density * k.medium.sigma * width, T{});
+                  if (!any(optical > 0.0f)) return transmittance < k.cut;
+                  depth = depth + optical;
+                  const T alpha = one_minus_exp(optical);
+                  const T weight = transmittance * alpha;
+                  T direct[3] = {};
+                  if (sun.lit) {
+                      const Vec<T> node = node_position(k.shadow, metres);
+                      const Corners<T> near = corners(node, k.shadow.size, wraps);
+                      T light = exp_(T{} - interpolate(b.optical_depth, near));
+                      if constexpr (Veiled) light = light * interpolate(b.visibility, near);
+                      sun_source_at(k, b, sun, at, density, light, direct);
+                  }
+                  add_source<W>(k, b, metres, harmonics, direct, weight, colour);
+                  const T left = transmittance * (1.0f - alpha);
+                  if (b.half_depth != nullptr) {
+                      const auto crosses = (transmittance > 0.5f) & (left <= 0.5f);
+                      if (any(crosses)) {
+                          const T share =
+                              log_(transmittance * 2.0f) / max_(optical, all<T>(1e-30f));
+                          half = select(crosses, t + (share - 0.5f) * width, half);
+                      }
+                  }
+                  transmittance = left;
+                  return transmittance < k.cut;
+              });
     for_block<W>(k.camera, x, y, end, [&](int l, std::int64_t pixel) {
         b.transmittance[pixel] = lane(transmittance, l);
         if (b.half_depth != nullptr) b.half_depth[pixel] = lane(half, l);
@@ -196,7 +198,10 @@ PILEUS_FN void march_rows(const MarchParams& k, const MarchBuffers& b, std::uint
     constexpr int across = kMarchAcross<W>;
     for (std::uint32_t y = begin; y < end; y += W / across)
         for (std::int32_t x = 0; x < k.camera.width; x += across)
-            march_pixels<W>(k, b, x, std::int32_t(y), std::int32_t(end));
+            if (b.visibility != nullptr)
+                march_pixels<W, true>(k, b, x, std::int32_t(y), std::int32_t(end));
+            else
+                march_pixels<W, false>(k, b, x, std::int32_t(y), std::int32_t(end));
 }
 
 }  // namespace PILEUS_ISA

@@ -69,6 +69,7 @@ struct MarchBuffers {
                                 ///< null: not wanted
     float* colour;              ///< [channel][pixel], premultiplied
     float* ray_depth;           ///< [pixel], optical depth along the ray; null: not wanted
+    const float* visibility;    ///< shadow nodes, share of the sun that no solid hides; null: all
 };
 
 struct BackgroundParams {

@@ -114,7 +114,8 @@ struct RaymarchParams {
     float ambient[3];     ///< emission over extinction, everywhere in the media
     StepParams step;
     RaymarchLight light;
-    float cut;  ///< stop below this transmittance
+    float cut;            ///< stop below this transmittance
+    NodeGrid visibility;  ///< nodes of what solids leave of the sun
 };
 
 /// Counted per launch row; a block's counts go to its first row.
@@ -136,7 +137,8 @@ struct RaymarchBuffers {
         half_depth;    ///< [pixel], m; infinity where transmittance stays above 1/2; null: unwanted
     float* colour;     ///< [3][pixel], premultiplied
     float* ray_depth;  ///< [pixel], optical depth along the ray; null: not wanted
-    std::int64_t* counts;  ///< [row][kRaymarchCounts], added to
+    std::int64_t* counts;     ///< [row][kRaymarchCounts], added to
+    const float* visibility;  ///< its nodes, share of the sun that no solid hides; null: all
 };
 
 }  // namespace pileus

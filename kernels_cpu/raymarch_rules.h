@@ -51,11 +51,16 @@ PILEUS_FN RaySample<T> take_sample(const RaymarchParams& k, const RaymarchBuffer
     if (k.sunlit != 0)
         tau =
             sunlight_at(k, b.optical_depth, field, place, s.density, dense, r.turn, counts, light);
+    T factor = all<T>(1.0f);
+    if (b.visibility != nullptr) {
+        const Vec<T> node = node_position(k.visibility, place);
+        factor = interpolate(b.visibility, corners(node, k.visibility.size));
+        for (int c = 0; c < k.light.channels; ++c) light[c] = light[c] * factor;
+    }
     const bool octaves = k.sunlit != 0 && k.light.octaves.count > 1;
     T brightest = max_(light[0], max_(light[1], light[2]));
     if (octaves) {
-        T factor = all<T>(1.0f);
-        if (k.light.powder != kPowderNone) factor = powder_factor(k.light, tau, r.turn);
+        if (k.light.powder != kPowderNone) factor = factor * powder_factor(k.light, tau, r.turn);
         brightest = octave_light(k.light.octaves, tau, brightest, factor, more);
     }
     s.share = max_(s.share, brightest);

@@ -5,7 +5,7 @@
 // Each lane carries one photon and takes the next when it dies; random numbers belong to
 // (photon, event), so neither lanes nor threads can change a result.
 #pragma once
-#include "kernels_cpu/trace_turn.h"
+#include "kernels_cpu/trace_solids.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
@@ -18,17 +18,22 @@ PILEUS_FN void fetch_ahead(const S* grid, I<W> at) {
 }
 
 /// Move every living lane to its next collision or block border.
-template <int W, int NC>
-PILEUS_FN void advance(Group<W, NC>& g, const TraceParams& k, const TraceBuffers& b) {
-    Photon<W, NC>& s = g.s;
+template <int W, int NC, bool S>
+PILEUS_FN void advance(Group<W, NC, S>& g, const TraceParams& k, const TraceBuffers& b) {
+    Photon<W, NC, S>& s = g.s;
     const M<W> flies = s.alive & lnot(g.out) & (g.waits == 0);
+    if constexpr (S) look_ahead(s, k, flies);
     g.hits = fly(s, k.grid, flies);
-    const auto hops = flies & lnot(g.hits);
+    auto hops = flies & lnot(g.hits);
+    if constexpr (S) hops = hops & lnot(s.stopped);
     if (any(hops)) {
         b.tally->crossings += count_bits(bits_of(hops));
         const Crossing<W> c = hop(s, k.grid, hops);
         g.out = g.out | c.out;
         g.by_z = (g.by_z & lnot(c.out)) | (c.by_z & c.out);
+    }
+    if constexpr (S) {
+        if (any(s.stopped)) meet_solid(s, k, *b.tally);
     }
     if (!any(g.hits)) return;
     b.tally->tentative += count_bits(bits_of(g.hits));
@@ -46,11 +51,11 @@ PILEUS_FN void advance(Group<W, NC>& g, const TraceParams& k, const TraceBuffers
 }
 
 /// Tentative collisions in the lanes that have come to one.
-template <int W, int NC>
-PILEUS_FN void collide(Group<W, NC>& g, const TraceParams& k, const TraceBuffers& b, int group,
-                       Queues<W, NC>& queues) {
+template <int W, int NC, bool S>
+PILEUS_FN void collide(Group<W, NC, S>& g, const TraceParams& k, const TraceBuffers& b, int group,
+                       Queues<W, NC, S>& queues) {
     using T = F<W>;
-    Photon<W, NC>& s = g.s;
+    Photon<W, NC, S>& s = g.s;
     const T density = gather(k.grid.density, g.corner);
     const auto over = g.hits & (density > s.bound);
     if (any(over)) b.tally->majorant_violations += count_bits(bits_of(over));
@@ -82,15 +87,15 @@ PILEUS_FN void collide(Group<W, NC>& g, const TraceParams& k, const TraceBuffers
 }
 
 /// Lanes that have left the box do so: tally them, or send them on from the ground.
-template <int W, int NC>
-PILEUS_FN void leave(Group<W, NC>& g, const TraceParams& k, const TraceBuffers& b) {
+template <int W, int NC, bool S>
+PILEUS_FN void leave(Group<W, NC, S>& g, const TraceParams& k, const TraceBuffers& b) {
     if (any(g.out)) leave_box(g.s, k, b, g.out, g.by_z);
     g.out = g.out & lnot(g.out);
 }
 
 /// The next photons in the lanes of `idle`, as long as there are any.
-template <int W, int NC>
-PILEUS_FN void refill(Group<W, NC>& g, const TraceParams& k, const TraceBuffers& b,
+template <int W, int NC, bool S>
+PILEUS_FN void refill(Group<W, NC, S>& g, const TraceParams& k, const TraceBuffers& b,
                       std::uint32_t idle, std::uint32_t& next, std::uint32_t end) {
     const U<W> numbers = reinterpret<U<W>>(iota<I<W>>());
     auto fresh = g.holds & lnot(g.holds);
@@ -102,13 +107,14 @@ PILEUS_FN void refill(Group<W, NC>& g, const TraceParams& k, const TraceBuffers&
     start_photons(g.s, k, fresh);
     b.tally->photons += count_bits(bits_of(fresh));
     PILEUS_FATE(g.s, *b.tally, emitted, fresh);
+    if constexpr (S) hide_fresh(g.s, k, *b.tally, fresh);
     g.holds = g.holds | fresh;
 }
 
 /// Books photons that have ended and starts others in their lanes, once a quarter stands idle:
 /// results belong to photons, so the moment is free. Returns whether any lane has a photon.
-template <int W, int NC>
-PILEUS_FN bool renew(Group<W, NC>& g, const TraceParams& k, const TraceBuffers& b,
+template <int W, int NC, bool S>
+PILEUS_FN bool renew(Group<W, NC, S>& g, const TraceParams& k, const TraceBuffers& b,
                      std::uint32_t& next, std::uint32_t end) {
     constexpr std::uint32_t kFull = (1u << W) - 1u;
     const std::uint32_t open = bits_of(g.holds);
@@ -126,19 +132,19 @@ PILEUS_FN bool renew(Group<W, NC>& g, const TraceParams& k, const TraceBuffers& 
 
 /// Trace photons [begin, end) of the launch, several groups of lanes in turn: while the memory of
 /// one is on its way the others compute.
-template <int W, int NC>
+template <int W, int NC, bool S>
 PILEUS_FN void trace_photons(const TraceParams& k, const TraceBuffers& b, std::uint32_t begin,
                              std::uint32_t end) {
-    Group<W, NC> groups[kGroups] = {};
-    for (Group<W, NC>& g : groups) {
+    Group<W, NC, S> groups[kGroups] = {};
+    for (Group<W, NC, S>& g : groups) {
         g.s.p = {all<F<W>>(0.5f), all<F<W>>(0.5f), all<F<W>>(0.5f)};
         g.s.d.z = g.s.inverse.x = g.s.inverse.y = g.s.inverse.z = all<F<W>>(1.0f);
     }
-    Queues<W, NC> queues{};
+    Queues<W, NC, S> queues{};
     std::uint32_t next = begin;
     for (bool busy = true; busy;) {
         busy = false;
-        for (Group<W, NC>& g : groups) {
+        for (Group<W, NC, S>& g : groups) {
             busy |= renew(g, k, b, next, end);
             advance(g, k, b);
         }
@@ -151,13 +157,13 @@ PILEUS_FN void trace_photons(const TraceParams& k, const TraceBuffers& b, std::u
 }
 #undef PILEUS_FATE
 
-template <int W>
+template <int W, bool S = false>
 PILEUS_FN void trace(const TraceParams& k, const TraceBuffers& b, std::uint32_t begin,
                      std::uint32_t end) {
     if (k.channels == 1)
-        trace_photons<W, 1>(k, b, begin, end);
+        trace_photons<W, 1, S>(k, b, begin, end);
     else
-        trace_photons<W, 3>(k, b, begin, end);
+        trace_photons<W, 3, S>(k, b, begin, end);
 }
 
 }  // namespace PILEUS_ISA

@@ -5,13 +5,14 @@
 #pragma once
 #include "kernels_cpu/accumulate.h"
 #include "kernels_cpu/fixed.h"
+#include "kernels_cpu/solids.h"
 #include "kernels_cpu/trace_walk.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
 
-template <int W, int NC>
-PILEUS_FN void count_fate(const Photon<W, NC>& s, std::int64_t (&plain)[3],
+template <int W, int NC, bool S>
+PILEUS_FN void count_fate(const Photon<W, NC, S>& s, std::int64_t (&plain)[3],
                           std::int64_t (&shadow)[3], std::uint32_t lanes) {
     const std::uint32_t dark = bits_of(s.shadow);
     if constexpr (NC == 1) {
@@ -31,8 +32,8 @@ PILEUS_FN void count_fate(const Photon<W, NC>& s, std::int64_t (&plain)[3],
     count_fate(s, (tally).light.name, (tally).shadow.name, bits_of(m))
 
 /// Add what the lanes of `m` bring to (ground_x, ground_y) to the map of the ground's light.
-template <int W, int NC>
-PILEUS_FN void light_ground(const Photon<W, NC>& s, const TraceParams& k, const TraceBuffers& b,
+template <int W, int NC, bool S>
+PILEUS_FN void light_ground(const Photon<W, NC, S>& s, const TraceParams& k, const TraceBuffers& b,
                             M<W> m) {
     // Light that grazes arrives farther away than whole numbers reach: stop it just off the map.
     const auto cell_at = [&](F<W> at, int a) {
@@ -53,9 +54,22 @@ PILEUS_FN void light_ground(const Photon<W, NC>& s, const TraceParams& k, const 
     }
 }
 
+/// Photons of the lanes of `m` that a solid keeps from the box, which they reach from the ground
+/// after `enter` metres along `d`: they end there.
+template <int W, int NC, bool S>
+PILEUS_FN M<W> hidden_from_box(Photon<W, NC, S>& s, const TraceParams& k, TraceTally& tally, M<W> m,
+                               const Vec<F<W>>& d, F<W> enter) {
+    const Vec<F<W>> ground{s.ground_x, s.ground_y, all<F<W>>(k.ground_z)};
+    const M<W> hidden = behind_solids(k.solids, ground, d, max_(enter, F<W>{}), m);
+    if (!any(hidden)) return hidden;
+    PILEUS_FATE(s, tally, solid, hidden);
+    s.alive = s.alive & lnot(hidden);
+    return hidden;
+}
+
 /// Ground: absorb or reflect the lanes of `m` that arrive at (ground_x, ground_y).
-template <int W, int NC>
-PILEUS_FN void bounce(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally, M<W> m) {
+template <int W, int NC, bool S>
+PILEUS_FN void bounce(Photon<W, NC, S>& s, const TraceParams& k, TraceTally& tally, M<W> m) {
     using T = F<W>;
     tally.bounces += count_bits(bits_of(m));
     s.event = select(m, s.event + 1u, s.event);
@@ -84,7 +98,7 @@ PILEUS_FN void bounce(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally,
     const bool wraps = k.grid.periodic != 0;
     const T enter = wraps ? enter_z : max_(max_(min_(ax, bx), min_(ay, by)), enter_z);
     const T leave = wraps ? leave_z : min_(min_(max_(ax, bx), max_(ay, by)), leave_z);
-    const auto hit = kept & (enter < leave);
+    auto hit = kept & (enter < leave);
     const auto gone = kept & lnot(hit);
     if (any(gone)) {
         PILEUS_FATE(s, tally, sky, gone);
@@ -95,7 +109,9 @@ PILEUS_FN void bounce(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally,
         const T place = wraps ? wrap_place(metres, float(n) * cell) : metres;
         return min_(max_(place * (1.0f / cell), T{}), all<T>(float(n)));
     };
+    if constexpr (S) hit = hit & lnot(hidden_from_box(s, k, tally, hit, d, enter));
     s.enters = select(hit, all<I<W>>(-1), s.enters);
+    if constexpr (S) s.wall = select(hit, all<T>(-1.0f), s.wall);
     set_direction(s, k.grid, hit, d);
     set_position(s, k.grid, hit,
                  Vec<T>{inside(s.ground_x + d.x * enter, k.grid.cell[0], k.grid.size[0]),
@@ -106,8 +122,8 @@ PILEUS_FN void bounce(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally,
 }
 
 /// Where the straight ray of a lane that travels down meets the ground: metres along `axis`.
-template <int W, int NC>
-PILEUS_FN F<W> ground_place(const Photon<W, NC>& s, const TraceParams& k, int axis) {
+template <int W, int NC, bool S>
+PILEUS_FN F<W> ground_place(const Photon<W, NC, S>& s, const TraceParams& k, int axis) {
     const F<W> t = (s.p.z * k.grid.cell[2] - k.ground_z) * (F<W>{} - safe_inverse(s.d.z));
     const float cell = k.grid.cell[axis];
     const F<W> place = axis == 0 ? s.p.x * cell + s.d.x * t : s.p.y * cell + s.d.y * t;
@@ -115,14 +131,23 @@ PILEUS_FN F<W> ground_place(const Photon<W, NC>& s, const TraceParams& k, int ax
 }
 
 /// Lanes of `m` have left the box: tally them, or send them to the ground.
-template <int W, int NC>
-PILEUS_FN void leave_box(Photon<W, NC>& s, const TraceParams& k, const TraceBuffers& b, M<W> m,
+template <int W, int NC, bool S>
+PILEUS_FN void leave_box(Photon<W, NC, S>& s, const TraceParams& k, const TraceBuffers& b, M<W> m,
                          M<W> by_z) {
     TraceTally& tally = *b.tally;
     auto down = m & lnot(m);
     if (k.ground != 0) {
         // Unscattered light is part of the unshadowed ground's radiance already.
         down = m & (s.d.z < 0.0f) & (s.order > 0);
+        if constexpr (S) {
+            // A solid in the way, outside of the box: it is black to what comes from there.
+            const F<W> way = (s.p.z * k.grid.cell[2] - k.ground_z) * (F<W>{} - safe_inverse(s.d.z));
+            const M<W> stopped = down & (s.wall >= 0.0f) & (s.wall < way);
+            if (any(stopped)) PILEUS_FATE(s, tally, solid, stopped);
+            s.alive = s.alive & lnot(stopped);
+            down = down & lnot(stopped);
+            m = m & lnot(stopped);
+        }
         s.ground_x = select(down, ground_place(s, k, 0), s.ground_x);
         s.ground_y = select(down, ground_place(s, k, 1), s.ground_y);
     }
@@ -143,8 +168,8 @@ PILEUS_FN void leave_box(Photon<W, NC>& s, const TraceParams& k, const TraceBuff
 }
 
 /// Photons that died may owe the ground's missing light: send it up as a negative photon.
-template <int W, int NC>
-PILEUS_FN void settle(Photon<W, NC>& s, const TraceParams& k, const TraceBuffers& b, M<W> died) {
+template <int W, int NC, bool S>
+PILEUS_FN void settle(Photon<W, NC, S>& s, const TraceParams& k, const TraceBuffers& b, M<W> died) {
     TraceTally& tally = *b.tally;
     for (std::uint32_t lanes = bits_of(died); lanes != 0; lanes &= lanes - 1)
         tally.path += quantise(lane(s.path, lowest_bit(lanes)), k.path_scale);

@@ -6,6 +6,7 @@
 #include "kernels_cpu/optics.h"
 #include "kernels_cpu/rng.h"
 #include "kernels_cpu/sky_map.h"
+#include "kernels_cpu/solids_params.h"
 #include "kernels_cpu/track_grid.h"
 
 namespace pileus {
@@ -50,6 +51,7 @@ struct TraceParams {
     float path_scale;           ///< quanta per metre of path
     float camera[3];            ///< position, or unit direction towards it when orthographic
     std::int32_t orthographic;
+    SolidsView solids;  ///< without triangles: the launch knows nothing of them
 };
 
 /// Steps of the R2 sequence in units of 2^-32 (Roberts 2018): photon i starts at i * kR2 + shift.
@@ -61,7 +63,7 @@ constexpr std::int64_t kPhotonQuanta = std::int64_t{1} << 20;
 /// Energy in quanta per channel; emitted = sum of the fates, exactly.
 struct Fates {
     std::int64_t emitted[3], top[3], bottom[3], sides[3], absorbed[3], ground[3], sky[3],
-        terminated[3], direct_bottom[3];
+        terminated[3], solid[3], direct_bottom[3];
 };
 
 /// Sums of integers, so that threads and chunks can be added in any order.

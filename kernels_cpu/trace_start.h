@@ -10,9 +10,19 @@
 namespace pileus {
 inline namespace PILEUS_ISA {
 
-/// Everything a lane knows of its photon.
-template <int W, int NC>
-struct Photon : Walker<W> {
+/// The solid thing ahead of a photon; nothing where the scene has none.
+template <int W, bool S>
+struct Ahead {};
+template <int W>
+struct Ahead<W, true> {
+    F<W> wall;     // metres to it along the flight; below 0: to be found anew
+    I<W> piece;    // triangle; -1: none
+    M<W> stopped;  // stands at it
+};
+
+/// Everything a lane knows of its photon, `S`: among solids.
+template <int W, int NC, bool S>
+struct Photon : Walker<W>, Ahead<W, S> {
     F<W> weight[NC], path;  // share left per channel; metres
     U<W> index, event;
     F<W> room, bound;          // metres to the end of the block; its majorant
@@ -109,15 +119,15 @@ PILEUS_FN Start<F<W>> start_from_map(const TraceParams& k, U<W> index, I<W>& tex
 }
 
 /// What a photon carries in channel `c` when it begins.
-template <int W, int NC>
-PILEUS_FN F<W> start_weight(const Photon<W, NC>& s, const TraceParams& k, int c) {
+template <int W, int NC, bool S>
+PILEUS_FN F<W> start_weight(const Photon<W, NC, S>& s, const TraceParams& k, int c) {
     if (NC == 1 || k.light != kLightMap) return all<F<W>>(1.0f);
     return texel_share(k.map, s.texel, c);
 }
 
 /// Begin photons `s.index` (numbered within the launch) in the lanes of `m`.
-template <int W, int NC>
-PILEUS_FN void start_photons(Photon<W, NC>& s, const TraceParams& k, M<W> m) {
+template <int W, int NC, bool S>
+PILEUS_FN void start_photons(Photon<W, NC, S>& s, const TraceParams& k, M<W> m) {
     using T = F<W>;
     const T zero{};
     const U<W> number = s.index + k.first_photon;
@@ -136,6 +146,7 @@ PILEUS_FN void start_photons(Photon<W, NC>& s, const TraceParams& k, M<W> m) {
     s.alive = s.alive | m;
     s.shadow = s.shadow & lnot(m);
     s.owes = s.owes & lnot(m);
+    if constexpr (S) s.wall = select(m, all<T>(-1.0f), s.wall);
 }
 
 }  // namespace PILEUS_ISA

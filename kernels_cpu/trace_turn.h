@@ -11,9 +11,9 @@ namespace pileus {
 inline namespace PILEUS_ISA {
 
 /// A photon per lane, and the tentative collision that each has come to.
-template <int W, int NC>
+template <int W, int NC, bool S>
 struct Group {
-    Photon<W, NC> s;
+    Photon<W, NC, S> s;
     I<W> waits;          // -1: in the queue for a new direction
     M<W> holds;          // carries a photon whose end is not yet booked
     M<W> out, by_z;      // stands outside of the box; which it left through top or bottom
@@ -23,7 +23,7 @@ struct Group {
 };
 
 /// Photons that wait for a new direction, wherever their lanes are.
-template <int W, int NC>
+template <int W, int NC, bool S>
 struct TurnQueue {
     static constexpr int kRoom = (kGroups + 2) * W;
     float x[kRoom], y[kRoom], z[kRoom];         // direction before
@@ -36,22 +36,22 @@ struct TurnQueue {
 };
 
 /// Rare events that wait until a whole vector of them has come together.
-template <int W, int NC>
+template <int W, int NC, bool S>
 struct Queues {
-    TurnQueue<W, NC> turns;
+    TurnQueue<W, NC, S> turns;
     DepositQueue<W, NC> deposits;
 };
 
 /// Random numbers of the lanes' present events: 0 absorption, 1 corner and collision, 2 direction,
 /// 3 free flight.
-template <int W, int NC>
-PILEUS_FN Words<U<W>> draw(const Photon<W, NC>& s, const TraceParams& k, std::uint32_t number) {
+template <int W, int NC, bool S>
+PILEUS_FN Words<U<W>> draw(const Photon<W, NC, S>& s, const TraceParams& k, std::uint32_t number) {
     return threefry(k.key.k0, k.key.k1, s.index + k.first_photon, s.event * 4u + number);
 }
 
 /// Absorbs lanes of `m` by roulette: returns those that survive. One draw serves all channels.
-template <int W, int NC>
-PILEUS_FN M<W> survive(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally, M<W> m,
+template <int W, int NC, bool S>
+PILEUS_FN M<W> survive(Photon<W, NC, S>& s, const TraceParams& k, TraceTally& tally, M<W> m,
                        I<W> medium) {
     // White media absorb nothing: do not ask.
     float least = k.optics[0].albedo_max;
@@ -71,8 +71,8 @@ PILEUS_FN M<W> survive(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally
 }
 
 /// Takes from the weights of the lanes of `m` what the medium absorbs of their colours.
-template <int W, int NC>
-PILEUS_FN void colour(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally, M<W> m,
+template <int W, int NC, bool S>
+PILEUS_FN void colour(Photon<W, NC, S>& s, const TraceParams& k, TraceTally& tally, M<W> m,
                       I<W> medium) {
     for (std::uint32_t lanes = bits_of(m); lanes != 0; lanes &= lanes - 1) {
         const int i = lowest_bit(lanes);
@@ -90,10 +90,10 @@ PILEUS_FN void colour(Photon<W, NC>& s, const TraceParams& k, TraceTally& tally,
 
 /// Real collisions with the media named, in the lanes of `m` of group number `group`: absorb by
 /// roulette, and let the others wait for a new direction.
-template <int W, int NC>
-PILEUS_FN void scatter(Group<W, NC>& g, const TraceParams& k, const TraceBuffers& b,
-                       TurnQueue<W, NC>& q, int group, M<W> m, I<W> medium) {
-    Photon<W, NC>& s = g.s;
+template <int W, int NC, bool S>
+PILEUS_FN void scatter(Group<W, NC, S>& g, const TraceParams& k, const TraceBuffers& b,
+                       TurnQueue<W, NC, S>& q, int group, M<W> m, I<W> medium) {
+    Photon<W, NC, S>& s = g.s;
     TraceTally& tally = *b.tally;
     tally.scatterings += count_bits(bits_of(m));
     if (k.ground != 0) {
@@ -127,8 +127,9 @@ PILEUS_FN void scatter(Group<W, NC>& g, const TraceParams& k, const TraceBuffers
 }
 
 /// New directions of items [at, at + W) of the queue, or of its last few.
-template <int W, int NC>
-PILEUS_FN Vec<F<W>> turned_items(const TraceParams& k, const TurnQueue<W, NC>& q, std::int32_t at) {
+template <int W, int NC, bool S>
+PILEUS_FN Vec<F<W>> turned_items(const TraceParams& k, const TurnQueue<W, NC, S>& q,
+                                 std::int32_t at) {
     using T = F<W>;
     const Words<U<W>> w =
         threefry(k.key.k0, k.key.k1, load<U<W>>(q.photon + at), load<U<W>>(q.event + at) * 4u + 2u);
@@ -153,9 +154,10 @@ PILEUS_FN void put(T& lanes, int i, S value) {
 }
 
 /// Turns items [at, at + W) of the queue, or its last few, and lets their lanes go on.
-template <int W, int NC>
-PILEUS_FN void turn_items(Group<W, NC>* groups, const TraceParams& k, const TraceBuffers& b,
-                          const TurnQueue<W, NC>& q, std::int32_t at, DepositQueue<W, NC>& sums) {
+template <int W, int NC, bool S>
+PILEUS_FN void turn_items(Group<W, NC, S>* groups, const TraceParams& k, const TraceBuffers& b,
+                          const TurnQueue<W, NC, S>& q, std::int32_t at,
+                          DepositQueue<W, NC>& sums) {
     using T = F<W>;
     const std::int32_t items = q.count - at < W ? q.count - at : W;
     Walker<W> w{};
@@ -166,13 +168,14 @@ PILEUS_FN void turn_items(Group<W, NC>* groups, const TraceParams& k, const Trac
     for (std::int32_t i = 0; i < items; ++i) {
         const std::int32_t place = q.place[at + i];
         if (place < 0) continue;
-        Group<W, NC>& g = groups[place / W];
+        Group<W, NC, S>& g = groups[place / W];
         const int l = place % W;
         put(g.s.d.x, l, lane(w.d.x, i)), put(g.s.inverse.x, l, lane(w.inverse.x, i));
         put(g.s.d.y, l, lane(w.d.y, i)), put(g.s.inverse.y, l, lane(w.inverse.y, i));
         put(g.s.d.z, l, lane(w.d.z, i)), put(g.s.inverse.z, l, lane(w.inverse.z, i));
         put(g.s.tau, l, lane(w.tau, i));
         put(g.s.enters, l, std::int32_t{-1});
+        if constexpr (S) put(g.s.wall, l, -1.0f);
         put(g.waits, l, std::int32_t{0});
     }
     if (k.mode != kDepositOutgoing) return;
@@ -183,10 +186,10 @@ PILEUS_FN void turn_items(Group<W, NC>* groups, const TraceParams& k, const Trac
 }
 
 /// Turns all that wait but a last few, less than half a vector, unless they are to go as well.
-template <int W, int NC>
-PILEUS_FN void turn_queued(Group<W, NC>* groups, const TraceParams& k, const TraceBuffers& b,
-                           Queues<W, NC>& queues, bool last) {
-    TurnQueue<W, NC>& q = queues.turns;
+template <int W, int NC, bool S>
+PILEUS_FN void turn_queued(Group<W, NC, S>* groups, const TraceParams& k, const TraceBuffers& b,
+                           Queues<W, NC, S>& queues, bool last) {
+    TurnQueue<W, NC, S>& q = queues.turns;
     std::int32_t at = 0;
     for (; q.count - at >= (last ? 1 : W); at += W)
         turn_items(groups, k, b, q, at, queues.deposits);

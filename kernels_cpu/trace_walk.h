@@ -23,8 +23,8 @@ PILEUS_FN Vec<F<W>> planes_ahead(const Walker<W>& s, const TrackGrid& k, I<W> re
 }
 
 /// Look up the blocks that the lanes of `m` stand in, and measure the way to where they leave them.
-template <int W, int NC>
-PILEUS_FN void enter(Photon<W, NC>& s, const TrackGrid& k, M<W> m) {
+template <int W, int NC, bool S>
+PILEUS_FN void enter(Photon<W, NC, S>& s, const TrackGrid& k, M<W> m) {
     using T = F<W>;
     const I<W> block = (s.block_z * k.blocks[1] + s.block_y) * k.blocks[0] + s.block_x;
     const T majorant = gather(k.majorant, select(m, block, I<W>{}));
@@ -44,8 +44,8 @@ PILEUS_FN void enter(Photon<W, NC>& s, const TrackGrid& k, M<W> m) {
 
 /// Put the lanes of `hops`, which stand at the end of their block, into the next one, exactly on
 /// the plane between the two.
-template <int W, int NC>
-PILEUS_FN Crossing<W> hop(Photon<W, NC>& s, const TrackGrid& k, M<W> hops) {
+template <int W, int NC, bool S>
+PILEUS_FN Crossing<W> hop(Photon<W, NC, S>& s, const TrackGrid& k, M<W> hops) {
     using T = F<W>;
     BlockEnd<W> m;
     m.hops = hops;
@@ -61,14 +61,20 @@ PILEUS_FN Crossing<W> hop(Photon<W, NC>& s, const TrackGrid& k, M<W> hops) {
 
 /// Move the lanes of `active` to their next tentative collision, or as far as the end of their
 /// block: returns those that come to a collision.
-template <int W, int NC>
-PILEUS_FN M<W> fly(Photon<W, NC>& s, const TrackGrid& k, M<W> active) {
+template <int W, int NC, bool S>
+PILEUS_FN M<W> fly(Photon<W, NC, S>& s, const TrackGrid& k, M<W> active) {
     using T = F<W>;
     const auto fresh = active & (s.enters != 0);
     if (any(fresh)) enter(s, k, fresh);
     const T flight = s.tau / (s.bound * k.sigma);
-    const auto hits = active & (flight < s.room);
-    const T metres = select(hits, flight, s.room);
+    auto hits = active & (flight < s.room);
+    T metres = select(hits, flight, s.room);
+    if constexpr (S) {
+        s.stopped = active & (s.wall <= metres);
+        hits = hits & lnot(s.stopped);
+        metres = min_(metres, s.wall);
+        s.wall = select(active, s.wall - metres, s.wall);
+    }
     move(s, k, active, metres);
     s.room = select(hits, s.room - flight, s.room);
     s.path = s.path + select(active, metres, T{});

@@ -192,7 +192,7 @@ Mean check_mean(const std::string& name, double reference, Measure measure, doub
 /// Emitted minus all fates of one channel, quanta; 0 unless light was lost or made.
 inline std::int64_t balance(const Fates& f, std::size_t c) {
     return f.emitted[c] - f.top[c] - f.bottom[c] - f.sides[c] - f.absorbed[c] - f.ground[c] -
-           f.sky[c] - f.terminated[c];
+           f.sky[c] - f.terminated[c] - f.solid[c];
 }
 
 /// A launch made by hand, without the launcher: one block for all, no deposits, no ground.

@@ -22,7 +22,7 @@ struct StageTime {
 struct EnergyRow {
     std::string light;
     double emitted = 0, top = 0, bottom = 0, sides = 0, absorbed = 0, ground = 0, sky = 0,
-           terminated = 0, direct_bottom = 0;
+           terminated = 0, solid = 0, direct_bottom = 0;
     double top_error = 0, bottom_error = 0, sides_error = 0, absorbed_error = 0;
     std::int64_t balance_quanta = 0;  ///< emitted minus all fates, in integers: always 0
 };

@@ -114,6 +114,7 @@ Json energy_of(const Report& report) {
                         {"ground", row.ground},
                         {"sky", row.sky},
                         {"terminated", row.terminated},
+                        {"solid", row.solid},
                         {"direct_bottom", row.direct_bottom},
                         {"standard_error",
                          {{"top", row.top_error},

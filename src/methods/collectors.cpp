@@ -156,11 +156,19 @@ Status aim_map(CollectorsRun& run) {
     return Status::ok();
 }
 
+/// Coloured solids tell the channels of a photon apart as well.
+void tell_colours(CollectorsRun& run) {
+    if (!run.solids.coloured() || run.medium.channels == 3) return;
+    run.medium.channels = 3;
+    run.plan.need("coefficients per colour channel: coloured solids");
+}
+
 /// Lights, photons and what a collision stores, for the medium as it is known now.
 Status choose_light(const Scene& scene, std::int64_t photons, CollectorsRun& run) {
     run.plan = Plan{};
     run.plan.bias = collectors_bias(scene.collectors);
     PILEUS_TRY(aim_map(run));
+    tell_colours(run);
     aim_deposit(scene, run);
     run.generations = std::uint64_t(scene.collectors.generations);
     if (photons >= 0 && std::uint64_t(photons) < run.generations)

@@ -41,7 +41,8 @@ struct CollectorsRun {
     std::uint64_t next_generation = 0, generations = 1;
     std::uint32_t max_events = 1u << 20;
     NodeGrid shadow_nodes{};
-    Buffer<float> shadow;  ///< optical depth to the sun per node
+    Buffer<float> shadow;      ///< optical depth to the sun per node
+    Buffer<float> visibility;  ///< and what solids leave of the sun; empty without solids
     bool shadow_ready = false;
     bool interrupted = false;  ///< fewer generations than asked for, because the user wanted an end
     int camera_cells = 0;      ///< > 0: the camera-directed estimate on cells of so many voxels

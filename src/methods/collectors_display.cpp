@@ -9,6 +9,7 @@
 #include "src/stages/gl_billboards.h"
 #include "src/stages/march_view.h"
 #include "src/stages/prepare_majorant.h"
+#include "src/stages/solid_shadow.h"
 #include "src/stages/source_grid.h"
 
 namespace pileus {
@@ -53,6 +54,9 @@ Status make_shadow(const Context& context, CollectorsRun& run) {
     for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = run.lighting.to_sun[a];
     PILEUS_TRY(run_rows(context, context.kernels->shadow_rows, k, ShadowBuffers{run.shadow.data()},
                         std::uint32_t(k.nodes.size[1] * k.nodes.size[2])));
+    if (run.lighting.solids != nullptr)
+        PILEUS_TRY(solid_visibility(context, *run.lighting.solids, run.shadow_nodes,
+                                    run.lighting.to_sun, run.visibility));
     run.shadow_ready = true;
     return Status::ok();
 }
@@ -100,6 +104,7 @@ Status march(const Context& context, const CollectorsRun& run, const float* sour
     b.transmittance = planes.transmittance.data();
     b.half_depth = planes.half_depth.data();
     b.colour = target;
+    b.visibility = run.visibility.data();
     PILEUS_TRY(
         run_rows(context, context.kernels->march_rows, k, b, std::uint32_t(k.camera.height)));
     return Status::ok();
@@ -338,7 +343,7 @@ void collectors_size_display(const CollectorsRun& run, CollectorsSizes& sizes) {
             bytes_of(node_count(nodes), sets * std::uint64_t(stored_harmonics(run.deposit.bands)));
     }
     if (run.lighting.sunlit && run.deposit.first_order == 2)
-        sizes.shadow_nodes = node_count(shadow_grid(run));
+        sizes.shadow_nodes = node_count(shadow_grid(run)) * (run.solids.meshes ? 2 : 1);
 }
 
 }  // namespace pileus

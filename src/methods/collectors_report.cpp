@@ -20,7 +20,7 @@ EnergyRow energy_row(const std::string& light, const Fates& f) {
     while (c < 2 && f.emitted[c] == 0) ++c;
     row.light = light;
     row.balance_quanta = f.emitted[c] - f.top[c] - f.bottom[c] - f.sides[c] - f.absorbed[c] -
-                         f.ground[c] - f.sky[c] - f.terminated[c];
+                         f.ground[c] - f.sky[c] - f.terminated[c] - f.solid[c];
     const double unit = double(f.emitted[c]);
     if (unit <= 0) return row;
     // A photon that carries a share of its power counts as that share: its variance is less yet.
@@ -32,6 +32,7 @@ EnergyRow energy_row(const std::string& light, const Fates& f) {
     row.absorbed = double(f.absorbed[c]) / unit;
     row.ground = double(f.ground[c]) / unit;
     row.sky = double(f.sky[c]) / unit;
+    row.solid = double(f.solid[c]) / unit;
     row.terminated = double(f.terminated[c]) / unit;
     row.direct_bottom = double(f.direct_bottom[c]) / unit;
     row.top_error = share_error(row.top, photons);

@@ -45,7 +45,8 @@ Status check(const Scene& scene, const Budget& budget) {
 
 void light_world(const Scene& scene, double sun_elevation_deg, RaymarchRun& run) {
     Plan photons;  // speaks of photons alone
-    run.lighting = plan_lighting(scene, run.medium, sun_elevation_deg, photons, &run.sky_map);
+    run.lighting =
+        plan_lighting(scene, run.medium, sun_elevation_deg, photons, &run.sky_map, &run.solids);
 }
 
 Status outline(const Scene& scene, const Budget&, const Context& context, MethodRun& method_run) {
@@ -56,6 +57,7 @@ Status outline(const Scene& scene, const Budget&, const Context& context, Method
                                  "\": method raymarch runs on the host alone, allowed: another, or "
                                  "another method");
     PILEUS_TRY(check_scene_limits(scene, context.limits));
+    PILEUS_TRY(outline_solids(scene, context, run.solids));
     PILEUS_TRY(scene.media.empty()
                    ? empty_medium(scene, run.medium)
                    : outline_media(scene, context.limits, std::uint64_t(context.threads),
@@ -76,6 +78,7 @@ Status prepare(const Scene& scene, const Budget& budget, const Context& context,
                               context.kernels));
         run.source.mean_density = mean_density(run.medium);
     }
+    PILEUS_TRY(load_solids(scene, run.medium.low_m, context, run.solids));
     // The values may show that there is no medium.
     light_world(scene, sun_at(scene, 0), run);
     PILEUS_TRY(prepare_majorants(run.medium, false, context, run.prepared));

@@ -7,6 +7,7 @@
 #include "src/plan/plan.h"
 #include "src/stages/prepare.h"
 #include "src/stages/raymarch.h"
+#include "src/stages/solids.h"
 #include "src/stages/view.h"
 
 namespace pileus {
@@ -16,6 +17,9 @@ struct RaymarchRun : MethodRun {
     const Scene* scene = nullptr;
     Medium medium;
     SkyMap sky_map;
+    Solids solids;
+    Buffer<float> visibility;  ///< what solids leave of the sun, on nodes; empty without solids
+    NodeGrid visibility_nodes{};
     MediumSource source;
     Plan media_plan;  ///< what laying the media on one grid says
     Plan plan;

@@ -116,7 +116,8 @@ void note_plan(RaymarchRun& run) {
     if (scene.raymarch.jitter == RaymarchJitterKind::kNone)
         plan.leave_out("jitter of samples", "jitter = \"none\"");
     if (run.medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
-    if (!run.lighting.ground) plan.leave_out("depth test", "nothing solid: no ground");
+    note_solids(run.solids, plan);
+    if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
     if (!scene.output.layer_depth) plan.leave_out("depth of the medium", "no depth layer");
     if (!scene.output.layer_optical_depth)
         plan.leave_out("optical depth", "no optical_depth layer");
@@ -157,7 +158,7 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
                   bytes_of(kFloat, nodes));
     }
     const std::uint64_t shown = 7u + (output.layer_depth ? 1u : 0u) +
-                                (run.lighting.ground ? 1u : 0u) +
+                                (run.lighting.opaque() ? 1u : 0u) +
                                 (output.layer_optical_depth ? 1u : 0u);
     t.add("picture planes", Stage::kBackground, Stage::kLayers, bytes_of(kFloat * shown, pixels));
     if (scene.raymarch.jitter == RaymarchJitterKind::kBlueNoise)
@@ -167,6 +168,9 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
                    std::uint64_t(scene.camera.resolution[1])));
     add_image_rows(std::uint64_t(scene.camera.resolution[0]),
                    std::uint64_t(scene.camera.resolution[1]), 4 + extra_layers(output, false), t);
+    add_solid_rows(scene, context.limits, run.solids, t);
+    if (run.solids.meshes && run.lighting.sunlit)
+        t.add("shadow of solids", Stage::kShadow, last, bytes_of(kFloat, voxel_count(grid)));
     run.plan.memory = t;
     run.plan.exact = !run.outlined_only;
 }

@@ -4,8 +4,11 @@
 // docs/raymarch.md; docs/formats.md, "Pictures out"
 #include "src/base/digest.h"
 #include "src/methods/raymarch.h"
+#include "src/stages/background.h"
 #include "src/stages/blue_noise.h"
 #include "src/stages/march_view.h"
+#include "src/stages/solid_shadow.h"
+#include "src/stages/source_grid.h"
 
 namespace pileus {
 namespace {
@@ -41,6 +44,16 @@ Status light_sky(const Context& context, const FrameStep& step, RaymarchRun& run
                           run.sky);
 }
 
+/// The shadow of solids, on nodes two voxels apart.
+Status shade_by_solids(const Context& context, RaymarchRun& run) {
+    if (!run.solids.meshes || !run.lighting.sunlit || run.medium.sigma <= 0) return Status::ok();
+    float coarse = 0;
+    for (float cell : run.medium.grid.cell_m) coarse = cell > coarse ? cell : coarse;
+    run.visibility_nodes = make_node_grid(run.medium.grid, run.medium.extent_m, 2 * double(coarse));
+    return solid_visibility(context, run.solids, run.visibility_nodes, run.lighting.to_sun,
+                            run.visibility);
+}
+
 Status fill_background(const Context& context, RaymarchRun& run) {
     const StageClock clock(context, "background");
     const Lighting& light = run.lighting;
@@ -58,8 +71,7 @@ Status fill_background(const Context& context, RaymarchRun& run) {
     k.sky_map = light.map;
     const BackgroundBuffers b{nullptr, run.planes.background.data(),
                               run.planes.opaque_depth.data()};
-    return run_rows(context, context.kernels->background_rows, k, b,
-                    std::uint32_t(run.camera.height));
+    return show_background(context, light, k, b);
 }
 
 }  // namespace
@@ -69,14 +81,15 @@ Status raymarch_light(const FrameStep& step, const Context& context, MethodRun& 
     const Scene& scene = *run.scene;
     const OutputSettings& output = scene.output;
     Plan photons;  // speaks of photons alone
-    run.lighting =
-        plan_lighting(scene, run.medium, sun_at(scene, step.frame), photons, &run.sky_map);
+    run.lighting = plan_lighting(scene, run.medium, sun_at(scene, step.frame), photons,
+                                 &run.sky_map, &run.solids);
     run.camera = make_camera(scene.camera, orbit_at(scene, step.frame), run.medium.low_m);
     if (scene.raymarch.jitter == RaymarchJitterKind::kBlueNoise && run.noise.empty())
         PILEUS_TRY(make_blue_noise(run.noise));
     PILEUS_TRY(light_nodes(context, run));
+    PILEUS_TRY(shade_by_solids(context, run));
     PILEUS_TRY(light_sky(context, step, run));
-    PILEUS_TRY(allocate_planes(run.camera.width, run.camera.height, 3, run.lighting.ground,
+    PILEUS_TRY(allocate_planes(run.camera.width, run.camera.height, 3, run.lighting.opaque(),
                                output.layer_depth, run.planes));
     const std::uint64_t pixels = run.planes.transmittance.size();
     if (output.layer_optical_depth)
@@ -88,6 +101,8 @@ Status raymarch_light(const FrameStep& step, const Context& context, MethodRun& 
     in.lighting = &run.lighting;
     in.settings = &scene.raymarch;
     in.nodes = &run.nodes;
+    in.visibility_nodes = run.visibility_nodes;
+    in.visibility = run.visibility.data();
     in.sky = &run.sky;
     in.levels = &run.coarse;
     in.march_light = run.march_light;
@@ -115,6 +130,7 @@ Status raymarch_show(const FrameStep&, const Context& context, MethodRun& method
     report.executed = {{"depth_tests", run.planes.opaque_depth.size()},
                        {"depths_stored", run.planes.half_depth.size()},
                        {"parts_stored", run.medium.parts.size()}};
+    report_solids(run.solids, report);
     set_image_camera(run.camera, run.medium.low_m, image);
     run.planes = Planes{};
     return Status::ok();

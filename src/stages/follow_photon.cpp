@@ -20,7 +20,7 @@ PathEvent fate_of(const TraceTally& t) {
 }
 
 template <int NC>
-PathPoint point_of(const Photon<1, NC>& s, const TraceParams& k, PathEvent event) {
+PathPoint point_of(const Photon<1, NC, false>& s, const TraceParams& k, PathEvent event) {
     PathPoint p;
     p.event = event;
     const float at[3] = {s.p.x, s.p.y, s.p.z}, d[3] = {s.d.x, s.d.y, s.d.z};
@@ -45,9 +45,9 @@ void follow(const TraceParams& k, TraceBuffers b, std::uint32_t number, std::siz
             std::vector<PathPoint>& path) {
     TraceTally tally{};
     b.tally = &tally;
-    Group<1, NC> g = {};
-    Queues<1, NC> queues = {};
-    Photon<1, NC>& s = g.s;
+    Group<1, NC, false> g = {};
+    Queues<1, NC, false> queues = {};
+    Photon<1, NC, false>& s = g.s;
     s.index = number;
     start_photons(s, k, true);
     keep(point_of(s, k, PathEvent::kStart), most, path);

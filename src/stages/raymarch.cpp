@@ -222,6 +222,7 @@ RaymarchParams raymarch_params(const RaymarchInput& in) {
         std::memcpy(k.sky.colour, in.sky->colour, sizeof k.sky.colour);
     }
     k.cut = float(in.settings->stop_below);
+    k.visibility = in.visibility_nodes;
     set_media(in, k);
     set_light(in, k);
     set_octaves(in, k);
@@ -238,6 +239,7 @@ Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes&
     PILEUS_TRY(counts.resize(std::uint64_t(rows) * kRaymarchCounts, "counts"));
     RaymarchBuffers b{};
     if (in.nodes != nullptr) b.optical_depth = in.nodes->optical_depth.data();
+    b.visibility = in.visibility;
     b.opaque_depth = planes.opaque_depth.data();
     if (in.sky != nullptr) b.sky = in.sky->light.data();
     if (in.noise != nullptr) b.noise = in.noise->data();

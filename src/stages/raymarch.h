@@ -20,6 +20,8 @@ struct RaymarchInput {
     const Lighting* lighting = nullptr;
     const RaymarchSettings* settings = nullptr;
     const SunDepth* nodes = nullptr;
+    NodeGrid visibility_nodes{};
+    const float* visibility = nullptr;  ///< of solid_shadow.h; null: nothing solid
     const SkyNodes* sky = nullptr;
     const std::vector<DensityLevel>* levels = nullptr;
     bool march_light = false;

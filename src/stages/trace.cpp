@@ -6,6 +6,7 @@
 #include "platform/threads.h"
 #include "src/stages/device_launch.h"
 #include "src/stages/prepare_majorant.h"
+#include "src/stages/solids.h"
 
 namespace pileus {
 namespace {
@@ -135,6 +136,7 @@ TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_
     k.scale = float(std::uint64_t{1} << in.deposit.places);
     k.path_scale = float(path_units(m) / __builtin_sqrt(diagonal));
     k.orthographic = in.deposit.orthographic ? 1 : 0;
+    if (in.lighting->solids != nullptr) k.solids = in.lighting->solids->view();
     const Key shift = make_key(in.seed, light.stream + 16u, std::uint32_t(generation));
     k.shift[0] = shift.k0;
     k.shift[1] = shift.k1;
