@@ -63,7 +63,8 @@ void dump_raymarch(std::ostringstream& s, const RaymarchSettings& r) {
       << ' ' << r.growth << ' ' << r.stretch << r.forward << ' ' << r.cone_deg << ' '
       << r.forward_share << ' ' << int(r.light) << ' ' << r.light_steps << ' '
       << r.light_first_step_m << ' ' << r.light_growth << ' ' << int(r.powder) << ' '
-      << r.powder_strength << ' ';
+      << r.powder_strength << ' ' << r.many << r.octaves << ' ' << r.octave_extinction << ' '
+      << r.octave_share << ' ' << r.octave_anisotropy << ' ';
     dump_list(s, r.ambient);
     s << r.sky_ambient << r.detail << r.light_cone << int(r.jitter) << ' ' << r.jitter_share << ' '
       << r.grid_lock_m << ' ';
@@ -216,6 +217,10 @@ occlusion = "stretch"
 scattering = "forward"
 cone_deg = 50
 forward_share = 0.5
+octaves = 3
+octave_extinction = 0.25
+octave_share = 0.75
+octave_anisotropy = 0.5
 light = "buffer"
 light_steps = 4
 light_first_step_m = 2.5

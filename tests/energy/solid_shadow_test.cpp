@@ -2,10 +2,11 @@
 // Solids in the light of clouds: the ledger's fate, shadows in every method, agreement with paths.
 // in: plates in and before a box of medium -> out: pass or fail.
 // docs/solids.md, "Shadows in clouds".
+#include "src/stages/solid_shadow.h"
+
 #include <cmath>
 
 #include "src/base/file.h"
-#include "src/stages/solid_shadow.h"
 #include "tests/io/temp_folder.h"
 #include "tests/render_harness.h"
 #include "tests/solid_harness.h"
@@ -47,7 +48,8 @@ samples_per_pixel = 256
 density = "uniform:box"
 bounds_m = [[-4, -4, -4], [4, 4, 4]]
 resolution = [32, 32, 32]
-)") + medium + light;
+)") + medium +
+           light;
 }
 constexpr const char* kSun = "[sun]\nazimuth_deg = 0\nelevation_deg = 45\n";
 
@@ -99,9 +101,9 @@ TEST_CASE("solid shadow: a photon's power has one fate more, and every quantum o
     for (const char* medium : {grey, colours})
         for (const char* albedo : {"albedo = 0", "albedo = [0.25, 0.5, 1]", "albedo = 1"}) {
             const std::string plate = std::string("scale = 2\n") + albedo;
-            const Picture p = render_one(scene_from(
-                world(medium, lights.c_str()) + files.plate(plate.c_str()) +
-                "[ground]\naltitude_m = -9\nalbedo = 0.5\n"));
+            const Picture p =
+                render_one(scene_from(world(medium, lights.c_str()) + files.plate(plate.c_str()) +
+                                      "[ground]\naltitude_m = -9\nalbedo = 0.5\n"));
             CHECK(p.report.energy.size() >= 4);  // render_one has looked at the quanta
             for (const EnergyRow& row : p.report.energy) {
                 const double sum = row.top + row.bottom + row.sides + row.absorbed + row.ground +
@@ -119,8 +121,7 @@ TEST_CASE("solid shadow: a plate before the sun leaves nothing, in any method") 
         files.plate("position_m = [0, 20, 20]\nrotation_deg = [-45, 0, 0]\nscale = 30\nalbedo = 0");
     for (const char* method : {"collectors", "path", "raymarch"}) {
         CAPTURE(method);
-        const Picture p =
-            render_one(scene_from(scene, {std::string("method.name=") + method}));
+        const Picture p = render_one(scene_from(scene, {std::string("method.name=") + method}));
         for (int i = 0; i < 16; ++i) CHECK(p.at("G", i, i) == 0.0f);
     }
     const Picture p = render_one(scene_from(scene, {"collectors.display=billboards"}));
@@ -143,8 +144,7 @@ TEST_CASE("solid shadow: half of a thin cloud, all methods against paths") {
         const auto got = halves(shaded, method), bare = halves(scene, method);
         // Nodes of two voxels, one order of scattering in raymarch: shadows compared as shares.
         CHECK(got.first / bare.first == doctest::Approx(path.first / free.first).epsilon(0.06));
-        CHECK(got.second / bare.second ==
-              doctest::Approx(path.second / free.second).epsilon(0.06));
+        CHECK(got.second / bare.second == doctest::Approx(path.second / free.second).epsilon(0.06));
     }
 }
 
