@@ -268,7 +268,7 @@ TEST_CASE("every key of a full scene reaches its field") {
         "4 d.vdb openvdb fog 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 1 5 0 0 0 1 0 4.5 0\n"
         "collectors 2000000 7 5 11 011001 3 0.5 1 2 3 11020 4\n"
         "5 61 0.5 7\n"
-        "3 31 3 1.5 1.25 11 50 0.5 2 4 2.5 3 3 0.25 1 2 3 0112 0.75 8 0.5 1\n"
+        "3 31 3 1.5 1.25 11 50 0.5 2 4 2.5 3 3 0.25 03 0.25 0.75 0.5 1 2 3 0112 0.75 8 0.5 1\n"
         "x.exr y.pfm r.json 1111111\n"
         "1 12 11 0 90 35 5 ");
     CHECK(scene.text == kEveryKey);
