@@ -2,6 +2,7 @@
 // Procedural skies, compiled once per instruction set, apart from isa.cpp so that both build at
 // once. in: the kernel templates -> out: a table of functions, named after the instruction set.
 // docs/architecture.md, "Kernels: written once"; tools/check_objects proves that nothing leaks.
+#include "kernels_cpu/raymarch_sky.h"
 #include "kernels_cpu/sky_bake.h"
 #include "kernels_cpu/sky_noise.h"
 
@@ -27,10 +28,15 @@ void bake_kernel(const BakeParams& k, float* density, std::uint32_t begin, std::
 void columns_kernel(const ColumnParams& k, float* most, std::uint32_t begin, std::uint32_t end) {
     sky_columns<PILEUS_WIDTH>(k, most, begin, end);
 }
+void raymarch_kernel(const RaymarchParams& k, const SkyParams& sky, const RaymarchBuffers& b,
+                     std::uint32_t begin, std::uint32_t end) {
+    raymarch_sky_rows<PILEUS_WIDTH>(k, sky, b, begin, end);
+}
 
 }  // namespace
 
 extern const SkyKernels PILEUS_SKY(PILEUS_ISA);
-const SkyKernels PILEUS_SKY(PILEUS_ISA) = {PILEUS_WIDTH, noise_kernel, bake_kernel, columns_kernel};
+const SkyKernels PILEUS_SKY(PILEUS_ISA) = {PILEUS_WIDTH, noise_kernel, bake_kernel, columns_kernel,
+                                           raymarch_kernel};
 
 }  // namespace pileus

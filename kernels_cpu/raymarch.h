@@ -25,13 +25,16 @@ PILEUS_FN void march_lattice(const RayMarch<T, Field>& r, const Lattice<T>& latt
     while (any(alive)) {
         const T to = max_(min_(lattice_place(lattice, n + steps), high), from);
         const T width = to - from;
-        const Vec<T> p{r.origin.x + r.direction.x * from, r.origin.y + r.direction.y * from,
-                       r.origin.z + r.direction.z * from};
+        // A panel of one sample is empty where that is; others over all of their length.
+        const T look = r.k.rule == kRuleClosed ? from + 0.5f * width : from;
+        const Vec<T> p{r.origin.x + r.direction.x * look, r.origin.y + r.direction.y * look,
+                       r.origin.z + r.direction.z * look};
         // A little wider: the filter may widen before the block ends.
         const T filter = max_(width, pixel_width(r.k.camera, r.k.step, r.shift + to));
         const Block<T> ahead =
             field_ahead(r.field, p, r.direction, filter * (1.25f + 8.0f * lattice.excess));
-        const auto empty = (ahead.bound <= 0.0f) & (width <= ahead.rest);
+        auto empty = ahead.bound <= 0.0f;
+        if (ends) empty = empty & (width <= ahead.rest);
         const auto dense = alive & lnot(empty);
         if (any(dense)) {
             if (ends)
@@ -43,7 +46,7 @@ PILEUS_FN void march_lattice(const RayMarch<T, Field>& r, const Lattice<T>& latt
         if (any(alive & empty)) {
             // The last panel that ends within the empty block; it adds nothing either.
             const T whole = to_float(to_int(
-                min_(lattice_step(lattice, from + ahead.rest) * (1.0f / steps), all<T>(1e6f))));
+                min_(lattice_step(lattice, look + ahead.rest) * (1.0f / steps), all<T>(1e6f))));
             next = select(empty, max_(whole * steps, next), next);
         }
         n = next;

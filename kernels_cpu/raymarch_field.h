@@ -16,11 +16,13 @@ inline namespace PILEUS_ISA {
 //   field_ahead(field, place, direction, width)  a bound on what field_density gives near the place
 //                                                for steps of `width` metres, and metres until it
 //                                                may change; bound 0: nothing up to there
+//   Field::kBoundsAreCheap                       whether to ask for a bound before each density
 //   field_density(field, place, width)           density, filtered for steps of `width` metres
 //   field_shares(field, place, density, use)     use(i, share) for each medium; sum of shares 1
 
 /// The trilinear density grid of the scene's media, and coarser ones of the same box.
 struct GridField {
+    static constexpr bool kBoundsAreCheap = true;
     const MediumView* medium;
     const MediumView* level;  ///< [levels], the finest first
     std::int32_t levels;

@@ -42,6 +42,7 @@ PILEUS_FN SunDepths<T> march_to_sun(const RaymarchParams& k, const Field& field,
     T at{}, n{};
     Vec<T> from = place;
     auto alive = wanted & (leave > 0.0f);
+    const bool leaps = whole && light.turns == 0;
     for (std::int32_t turn = 0; any(alive) && (whole || turn < light.steps); ++turn) {
         const T real = max_(min_(width, leave - at), T{}), half = 0.5f * real, middle = at + half;
         Vec<T> p{place.x + d.x * middle, place.y + d.y * middle, place.z + d.z * middle};
@@ -53,7 +54,8 @@ PILEUS_FN SunDepths<T> march_to_sun(const RaymarchParams& k, const Field& field,
             from = {from.x + way[0] * real, from.y + way[1] * real, from.z + way[2] * real};
             within = within & field_holds(field, p);
         }
-        const Block<T> ahead = field_ahead(field, p, d, real);
+        Block<T> ahead{all<T>(1.0f), T{}};
+        if (Field::kBoundsAreCheap || leaps) ahead = field_ahead(field, p, d, real);
         const auto dense = within & (ahead.bound > 0.0f);
         if (any(dense)) {
             counts[kCountLightSamples] += count_bits(bits_of(dense));
@@ -64,7 +66,7 @@ PILEUS_FN SunDepths<T> march_to_sun(const RaymarchParams& k, const Field& field,
         }
         T skipped = all<T>(1.0f);
         // Even steps leap to the last one whose middle lies in an empty block.
-        if (whole && light.turns == 0) {
+        if (leaps) {
             const T steps = to_float(to_int(min_(ahead.rest / width, all<T>(1e6f))));
             skipped = select(dense, skipped, max_(steps, skipped));
         }

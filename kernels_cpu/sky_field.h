@@ -72,12 +72,23 @@ PILEUS_FN NoiseBound<T> sky_ahead(const SkyParams& k, const Vec<T>& local, const
     if (!any(inside)) return {T{}, way_outside(k, p, d, h)};
     NoiseBound<T> sum{T{}, all<T>(1e30f)};
     T lost{};
-    for (const NoiseView* v : {&k.perlin, &k.worley}) {
+    const NoiseView* const both[2] = {&k.perlin, &k.worley};
+    for (const NoiseView* v : both) {
         if (v->share == 0.0f) continue;
         const NoiseBound<T> one = noise_ahead(*v, local, d, width);
         sum = {sum.bound + one.bound, min_(sum.rest, one.rest)};
-        lost = lost + lost_ahead(*v, width);
+        lost = lost + lost_at(*v, noise_level(*v, width));
     }
+    // Clouds are lowered least at one height of a band; the next band is as far as the ray climbs.
+    using II = I_of<T>;
+    const T bands = (h - k.low_m) * (k.inverse_m * float(kSkyBands));
+    const II band = min_(max_(to_int(bands), II{}), all<II>(kSkyBands - 1));
+    const T climb = d.z + k.curvature_per_m * (p.x * d.x + p.y * d.y + p.z * d.z);
+    const T gap = select(climb >= 0.0f, to_float(band + 1) - bands, bands - to_float(band));
+    const T height = max_(gap, T{}) * (k.height_m * (1.0f / float(kSkyBands)));
+    // A bent layer steepens by less than this over a block.
+    const T steep = abs_(climb) + (k.curvature_per_m > 0.0f ? 2e-3f : 1e-9f);
+    sum = {sum.bound - gather(k.least_lift, band), min_(sum.rest, height / steep)};
     // Below the middle a wider ramp is a bound of the narrower ones; above it none is.
     const T bound = select(sum.bound > k.middle, all<T>(1.0f), sky_ramp(k, sum.bound, lost));
     return {select(inside, bound, T{}), select(inside, sum.rest, way_outside(k, p, d, h))};

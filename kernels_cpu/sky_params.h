@@ -19,14 +19,14 @@ struct NoiseParams {
 enum NoiseKind : std::int32_t { kNoisePerlin, kNoiseWorley };
 
 /// Edge of the blocks whose largest values are kept, in texels of their level.
-constexpr std::int32_t kNoiseBlock = 8;
+constexpr std::int32_t kNoiseBlock = 4;
 constexpr int kMostNoiseLevels = 10;  ///< 512 texels and all halvings
 
 /// A noise volume ready to be read: per texel one word of four bytes, the values at (x, y),
 /// (x+1, y), (x, y+1), (x+1, y+1), around the ends; levels of halved size behind one another.
 struct NoiseView {
     const std::int32_t* words;     ///< level of size m from noise_level_start(m) on
-    const std::int32_t* largest;   ///< per block, 0..255; from block_level_start(m) on
+    const std::int32_t* largest;   ///< a byte per block, lowest first; levels as those of texels
     std::int32_t size, last;       ///< of level 0; number of the last level
     float per_m;                   ///< tiles per metre
     float offset[3];               ///< of the origin, in tiles
@@ -44,18 +44,25 @@ constexpr std::int32_t noise_blocks(std::int32_t m) {
     return m >= kNoiseBlock ? m / kNoiseBlock : 1;
 }
 
+/// Bands of the layer's height, for bounds.
+constexpr std::int32_t kSkyBands = 16;
+
 /// The cloud layer: density(place) = ramp(blend of both noises - lift(height)) * weight(height).
 struct SkyParams {
     NoiseView perlin, worley;
-    float middle, half_width;  ///< of the ramp, in units of the blended noise
-    float low_m, inverse_m;    ///< base altitude; 1 / thickness
-    float height_m;            ///< thickness
-    float rise, fall;          ///< inverse shares of the thickness; 0: cut off
-    float rounding;            ///< how much the noise is lowered at base and top
-    float base_weight;         ///< density just above the base; 1 at the top
-    float shift_m[3];          ///< world coordinates of the medium's low corner
-    float curvature_per_m;     ///< 1 / planet radius; 0: flat
-    std::int32_t empty;        ///< 1: coverage 0
+    float middle, half_width;     ///< of the ramp, in units of the blended noise
+    float low_m, inverse_m;       ///< base altitude; 1 / thickness
+    float height_m;               ///< thickness
+    float rise, fall;             ///< inverse shares of the thickness; 0: cut off
+    float rounding;               ///< how much the noise is lowered at base and top
+    float base_weight;            ///< density just above the base; 1 at the top
+    float shift_m[3];             ///< world coordinates of the medium's low corner
+    float curvature_per_m;        ///< 1 / planet radius; 0: flat
+    std::int32_t empty;           ///< 1: coverage 0
+    float least_lift[kSkyBands];  ///< of each band of the height
+    std::int32_t boxed;           ///< 1: nothing beside or outside the box [0, extent_m]
+    float extent_m[3];
+    float reach_m;  ///< rays are followed so far through the layer
 };
 
 /// Cell centres of a grid over a box.
@@ -73,6 +80,9 @@ struct ColumnParams {
     float reach_m;         ///< columns lie in a square of this edge
 };
 
+struct RaymarchParams;
+struct RaymarchBuffers;
+
 /// The kernels of procedural skies, one table per instruction set.
 struct SkyKernels {
     int width;
@@ -80,6 +90,9 @@ struct SkyKernels {
     void (*bake_rows)(const BakeParams&, float* density, std::uint32_t begin, std::uint32_t end);
     /// Columns in multiples of 16.
     void (*columns)(const ColumnParams&, float* most, std::uint32_t begin, std::uint32_t end);
+    /// Rows of a raymarched picture of the sky itself.
+    void (*raymarch_rows)(const RaymarchParams&, const SkyParams&, const RaymarchBuffers&,
+                          std::uint32_t begin, std::uint32_t end);
 };
 
 }  // namespace pileus

@@ -21,8 +21,8 @@ PILEUS_FN NoiseLevel<T> noise_level(const NoiseView& v, T width) {
     const T texels = max_(width * (v.per_m * float(v.size)), all<T>(1.0f));
     const II bits = reinterpret<II>(texels);
     const II level = min_((bits >> 23) - 127, all<II>(v.last));
-    const T rest = reinterpret<T>((bits & 0x7fffff) | 0x3f800000) - 1.5f;
-    return {level, select(level < v.last, max_(rest + rest, T{}), T{})};
+    const T rest = reinterpret<T>((bits & 0x7fffff) | 0x3f800000) - 1.0f;
+    return {level, select(level < v.last, max_(4.0f * rest - 3.0f, T{}), T{})};
 }
 
 /// Place in tiles, within [0, 1]; what lies 2^22 tiles away or farther counts as that far.
@@ -62,6 +62,18 @@ PILEUS_FN T read_level(const NoiseView& v, const Vec<T>& place, I_of<T> m) {
     return low + (high - low) * fz;
 }
 
+/// Variance that a level shows no more.
+template <class T>
+PILEUS_FN T lost_at(const NoiseView& v, const NoiseLevel<T>& at) {
+    T lost{};
+    if (!any((at.level > 0) | (at.blend > 0.0f))) return lost;
+    for (std::int32_t l = 0; any(at.level >= l) && l <= v.last; ++l) {
+        const float here = v.lost[l], next = v.lost[l < v.last ? l + 1 : l];
+        lost = select(at.level == l, here + (next - here) * at.blend, lost);
+    }
+    return lost;
+}
+
 /// A noise at a place, times its share, and the variance of what its level no longer shows.
 template <class T>
 struct NoiseValue {
@@ -72,27 +84,13 @@ PILEUS_FN NoiseValue<T> read_noise(const NoiseView& v, const Vec<T>& p, T width)
     using II = I_of<T>;
     const NoiseLevel<T> at = noise_level(v, width);
     const Vec<T> place = tile_place(v, p);
-    T value = read_level(v, place, all<II>(v.size) >> at.level), lost{};
+    T value = read_level(v, place, all<II>(v.size) >> at.level);
     if (any(at.blend > 0.0f)) {
         const II next = min_(at.level + 1, all<II>(v.last));
         const T coarse = read_level(v, place, all<II>(v.size) >> next);
         value = value + (coarse - value) * at.blend;
     }
-    for (std::int32_t l = 0; any(at.level >= l) && l <= v.last; ++l) {
-        const float here = v.lost[l], next = v.lost[l < v.last ? l + 1 : l];
-        lost = select(at.level == l, here + (next - here) * at.blend, lost);
-    }
-    return {value * v.share, lost};
-}
-
-/// The largest variance lost by steps of this width or of the next ones, up to twice as long.
-template <class T>
-PILEUS_FN T lost_ahead(const NoiseView& v, T width) {
-    const NoiseLevel<T> at = noise_level(v, width);
-    T lost{};
-    for (std::int32_t l = 0; any(at.level >= l) && l <= v.last; ++l)
-        lost = select(at.level == l, all<T>(v.lost[l < v.last ? l + 1 : l]), lost);
-    return lost;
+    return {value * v.share, lost_at(v, at)};
 }
 
 /// Largest value in the block around a place, at the level of a width or coarser, and metres to the
@@ -122,8 +120,9 @@ PILEUS_FN NoiseBound<T> noise_ahead(const NoiseView& v, const Vec<T>& p, const V
     const T near = min_(rest(x, place.x, d.x), rest(y, place.y, d.y));
     const T t = min_(near, rest(z, place.z, d.z));
     const II start = (blocks * blocks * blocks) >> 2;
-    const II largest = gather(v.largest, start + (z * blocks + y) * blocks + x);
-    return {to_float(largest) * v.share, max_(t, T{})};
+    const II number = start + (z * blocks + y) * blocks + x;
+    const II largest = gather(v.largest, number >> 2) >> ((number & 3) << 3);
+    return {to_float(largest & 255) * v.share, max_(t, T{})};
 }
 
 }  // namespace PILEUS_ISA

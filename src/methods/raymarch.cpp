@@ -58,8 +58,10 @@ Status outline(const Scene& scene, const Budget&, const Context& context, Method
                                  "another method");
     PILEUS_TRY(check_scene_limits(scene, context.limits));
     PILEUS_TRY(outline_solids(scene, context, run.solids));
-    PILEUS_TRY(scene.media.empty()
-                   ? empty_medium(scene, run.medium)
+    run.direct_sky = is_direct_sky(scene);
+    PILEUS_TRY(scene.media.empty() ? empty_medium(scene, run.medium)
+               : run.direct_sky
+                   ? outline_sky(scene, context.limits, run.medium, run.source)
                    : outline_media(scene, context.limits, std::uint64_t(context.threads),
                                    run.media_plan, run.medium, run.source));
     PILEUS_TRY(read_sky_map(scene, context, run.sky_map));
@@ -74,9 +76,10 @@ Status prepare(const Scene& scene, const Budget& budget, const Context& context,
     if (!scene.media.empty()) {
         const StageClock clock(context, "density");
         run.media_plan = Plan{};
-        PILEUS_TRY(load_media(scene, context.limits, context.threads, run.media_plan, run.medium,
-                              context.kernels));
-        run.source.mean_density = mean_density(run.medium);
+        PILEUS_TRY(run.direct_sky ? load_sky(scene, context, run.medium, run.layer)
+                                  : load_media(scene, context.limits, context.threads,
+                                               run.media_plan, run.medium, context.kernels));
+        if (!run.direct_sky) run.source.mean_density = mean_density(run.medium);
     }
     PILEUS_TRY(load_solids(scene, run.medium.low_m, context, run.solids));
     // The values may show that there is no medium.
@@ -88,6 +91,8 @@ Status prepare(const Scene& scene, const Budget& budget, const Context& context,
     PILEUS_TRY(raymarch_measure(context, run));
     Digest density;
     density.floats(run.medium.volume.density.span());
+    for (const NoiseTexture* noise : {&run.layer.perlin, &run.layer.worley})
+        for (const std::int32_t word : noise->words.span()) density.u32(std::uint32_t(word));
     if (run.medium.count > 1) density.floats(run.medium.parts.span());
     run.digests = {{"density", density.hex()}};
     return Status::ok();

@@ -7,6 +7,7 @@
 #include "src/plan/plan.h"
 #include "src/stages/prepare.h"
 #include "src/stages/raymarch.h"
+#include "src/stages/sky_medium.h"
 #include "src/stages/solids.h"
 #include "src/stages/view.h"
 
@@ -16,6 +17,8 @@ namespace pileus {
 struct RaymarchRun : MethodRun {
     const Scene* scene = nullptr;
     Medium medium;
+    bool direct_sky = false;  ///< the medium is `layer`, evaluated in place
+    SkyField layer;
     SkyMap sky_map;
     Solids solids;
     Buffer<float> visibility;  ///< what solids leave of the sun, on nodes; empty without solids

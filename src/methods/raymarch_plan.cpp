@@ -42,6 +42,11 @@ void choose_light(RaymarchRun& run) {
     run.march_light = s.light == RaymarchLightKind::kMarch || s.light_cone;
     run.light_why = s.light_cone ? "light_path = \"cone\"" : "as the scene asks";
     if (s.light_cone || s.light != RaymarchLightKind::kAuto) return;
+    if (run.direct_sky) {
+        run.march_light = true;
+        run.light_why = "the sky is evaluated in place";
+        return;
+    }
     const double way = 0.5 * cells_across(grid);
     const double lit = double(s.steps < 64 ? s.steps : 64) * double(pixels_of(*run.scene));
     const double marched = lit * (s.light_steps > 0 ? double(s.light_steps) : way);
@@ -100,7 +105,7 @@ void note_plan(RaymarchRun& run) {
     plan.bias = {"raymarch", "light scattered more than once is missing or approximate",
                  "docs/raymarch.md"};
     if (scene.raymarch.steps > 0) {
-        plan.need("majorants");
+        plan.need(run.direct_sky ? "the sky's noises, evaluated in place" : "majorants");
         plan.need("marched rays");
         note_light(scene, run, plan);
         note_appearance(scene.raymarch, plan);
@@ -136,6 +141,7 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
     MemoryTable t;
     add_density_rows(grid, run.source, std::uint64_t(run.medium.count), phase_bytes(run.medium),
                      std::uint64_t(context.threads), sky_map_bytes(run.sky_map), t);
+    if (run.direct_sky) add_sky_rows(scene.media[0].sky, last, t);
     add_majorant_rows(grid, run.outlined_only ? 1 : run.prepared.majorants.size(),
                       std::uint64_t(context.threads), last, t);
     if (!run.march_light && run.lighting.sunlit)

@@ -109,6 +109,7 @@ Status raymarch_light(const FrameStep& step, const Context& context, MethodRun& 
     in.noise = &run.noise;
     // Frame f of an animation has the jitter of the seed f further on.
     in.seed = std::uint64_t(scene.seed) + std::uint64_t(step.frame);
+    in.layer = run.direct_sky ? &run.layer : nullptr;
     in.camera = run.camera;
     return raymarch_picture(context, in, run.planes, run.tally);
 }

@@ -184,7 +184,7 @@ private:
                 fault(*node, "resolution",
                       "too coarse for procedural:cumulus, " + value_text(*node) +
                           ", allowed: at least 3 along each axis");
-        need_bounds(density);
+        if (medium_.density != DensityKind::kSky) need_bounds(density);
     }
 
     static int least(const std::array<int, 3>& cells) {

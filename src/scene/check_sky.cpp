@@ -22,7 +22,8 @@ public:
         thresholds();
         layer();
         sizes();
-        if (medium_.periodic) periods();
+        evaluation();
+        if (medium_.periodic && medium_.has_bounds) periods();
     }
 
 private:
@@ -96,6 +97,27 @@ private:
             fault(key, "too fine for the texels, " + std::to_string(noise.cells) + " lumps in " +
                            std::to_string(octaves) + " octaves, allowed: at most half of size " +
                            std::to_string(sky_.size) + " in the last octave");
+    }
+
+    /// The noise itself is marched where one sky is all there is; nodes of sunlight have a box.
+    void evaluation() {
+        const Scene& scene = check_.scene;
+        const RaymarchLightKind light = scene.raymarch.light;
+        const bool marched =
+            light == RaymarchLightKind::kAuto || light == RaymarchLightKind::kMarch;
+        const bool boxed = medium_.has_bounds && !medium_.periodic;
+        const bool can =
+            scene.method == "raymarch" && scene.media.size() == 1 && (marched || boxed);
+        if (sky_.evaluate == SkyEvaluation::kDirect && !can)
+            fault("evaluate",
+                  "not here, \"direct\", allowed: \"grid\", or method raymarch with this medium "
+                  "alone, and with raymarch.light \"auto\" or \"march\" or an open box");
+        if (sky_.evaluate == SkyEvaluation::kAuto)
+            sky_.evaluate = can ? SkyEvaluation::kDirect : SkyEvaluation::kGrid;
+        if (sky_.evaluate == SkyEvaluation::kGrid && check_.key(path_ + "bounds_m") == nullptr)
+            check_.faults.add(check_.key(path_ + "density")->at, path_ + "bounds_m",
+                              "missing, nothing, allowed: [[x, y, z], [x, y, z]], the lowest and "
+                              "highest corner in metres; a sky on a grid has a box");
     }
 
     /// What repeats must fit its box a whole number of times.

@@ -14,7 +14,7 @@ namespace pileus {
 namespace {
 
 Status load_density(const Scene& scene, const MediumSettings& settings, int threads,
-                    const KernelTable* kernels, Volume& volume) {
+                    const KernelTable* kernels, SkyField* sky, Volume& volume) {
     if (settings.density == DensityKind::kFile) {
         const std::string path = scene_path(scene.directory, settings.file);
         PILEUS_TRY(read_volume(settings, path, volume));
@@ -23,7 +23,7 @@ Status load_density(const Scene& scene, const MediumSettings& settings, int thre
     }
     if (settings.density == DensityKind::kSky) {
         if (kernels == nullptr || kernels->sky == nullptr) kernels = kernel_table(nullptr);
-        return bake_sky(settings, *kernels->sky, threads, volume);
+        return bake_sky(settings, *kernels->sky, threads, volume, sky);
     }
     if (settings.density != DensityKind::kCumulus)
         return make_shape(settings.density, settings.resolution, volume);
@@ -175,8 +175,8 @@ Status outline_medium(const Scene& scene, const MediumSettings& settings, const 
 }
 
 Status load_medium(const Scene& scene, const MediumSettings& settings, int threads, Medium& out,
-                   const KernelTable* kernels) {
-    PILEUS_TRY(load_density(scene, settings, threads, kernels, out.volume));
+                   const KernelTable* kernels, SkyField* sky) {
+    PILEUS_TRY(load_density(scene, settings, threads, kernels, sky, out.volume));
     VolumeHead head;
     head.size = out.volume.size;
     head.knows_bounds = out.volume.knows_bounds;

@@ -13,6 +13,8 @@
 
 namespace pileus {
 
+struct SkyField;
+
 struct Medium {
     Volume volume;
     Grid grid;
@@ -72,8 +74,9 @@ Status outline_medium(const Scene& scene, const MediumSettings& settings, const 
 /// Reads or makes the density and places it. A file that holds extinction becomes densities up to 1
 /// (value over largest value) with sigma = extinction_scale times the largest value. Errors: those
 /// of the readers; kBadInput for a file that does not know its place while `bounds_m` is left out.
-/// `kernels`: those to put a sky on its grid; null or a device's: the widest of the host.
+/// `kernels`: those to put a sky on its grid; null or a device's: the widest of the host. `sky`, if
+/// given, keeps it.
 Status load_medium(const Scene& scene, const MediumSettings& settings, int threads, Medium& out,
-                   const KernelTable* kernels = nullptr);
+                   const KernelTable* kernels = nullptr, SkyField* sky = nullptr);
 
 }  // namespace pileus

@@ -251,7 +251,11 @@ Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes&
     b.counts = counts.data();
     parallel_for(context.threads, (rows + kPiece - 1) / kPiece, [&](std::int64_t piece, int) {
         const std::uint32_t begin = std::uint32_t(piece) * kPiece;
-        context.kernels->raymarch_rows(k, b, begin, begin + kPiece < rows ? begin + kPiece : rows);
+        const std::uint32_t end = begin + kPiece < rows ? begin + kPiece : rows;
+        if (in.layer != nullptr)
+            context.kernels->sky->raymarch_rows(k, in.layer->params, b, begin, end);
+        else
+            context.kernels->raymarch_rows(k, b, begin, end);
     });
     for (std::size_t row = 0; row < rows; ++row) {
         const std::int64_t* own = counts.data() + row * kRaymarchCounts;

@@ -9,6 +9,7 @@
 #include "src/stages/layers.h"
 #include "src/stages/lights.h"
 #include "src/stages/prepare.h"
+#include "src/stages/sky_field.h"
 #include "src/stages/sky_nodes.h"
 #include "src/stages/sun_depth.h"
 
@@ -24,6 +25,7 @@ struct RaymarchInput {
     const float* visibility = nullptr;  ///< of solid_shadow.h; null: nothing solid
     const SkyNodes* sky = nullptr;
     const std::vector<DensityLevel>* levels = nullptr;
+    const SkyField* layer = nullptr;  ///< a sky marched itself, in place of the grid
     bool march_light = false;
     const Buffer<float>* noise = nullptr;  ///< tile of make_blue_noise, where jitter asks for it
     std::uint64_t seed = 0;                ///< of the frame

@@ -44,6 +44,28 @@ void place_noise(const SkySettings& settings, const SkyNoise& noise, const Doubl
 /// A whole share of the thickness becomes a ramp's slope; none is a step.
 float slope_of(double share) { return share > 1e-6 ? float(1 / share) : 1e6f; }
 
+double smooth(double t) {
+    const double s = std::min(1.0, std::max(0.0, t));
+    return s * s * (3 - 2 * s);
+}
+
+/// The least lift of each band, a little less than that of its samples: it must be a bound.
+void set_bands(const SkySettings& settings, SkyParams& p) {
+    constexpr int kSamples = 64;
+    for (int band = 0; band < kSkyBands; ++band) {
+        double most = 0;
+        for (int i = 0; i <= kSamples; ++i) {
+            // Half a sample wider on both sides.
+            const double place = (double(i) * (kSamples + 1.0) / kSamples - 0.5) / kSamples;
+            const double share = (band + place) / kSkyBands;
+            const double shape =
+                smooth(share * double(p.rise)) * smooth((1 - share) * double(p.fall));
+            most = std::max(most, shape);
+        }
+        p.least_lift[band] = float(std::max(0.0, settings.rounding * (0.995 - most)));
+    }
+}
+
 void place_layer(const SkySettings& settings, const Double3& low_m, SkyParams& p) {
     p.middle = float(0.5 * (settings.threshold_low + settings.threshold_high));
     p.half_width = float(0.5 * (settings.threshold_high - settings.threshold_low));
@@ -56,6 +78,7 @@ void place_layer(const SkySettings& settings, const Double3& low_m, SkyParams& p
     for (std::size_t a = 0; a < 3; ++a) p.shift_m[a] = float(low_m[a]);
     p.curvature_per_m = settings.planet_radius_m > 0 ? float(1 / settings.planet_radius_m) : 0.0f;
     p.empty = settings.coverage == 0 ? 1 : 0;
+    set_bands(settings, p);
 }
 
 /// Moves the ramp so that the asked share of columns reaches its middle: columns strewn over the
@@ -107,6 +130,15 @@ Status make_sky(const SkySettings& settings, const Double3& low_m, const SkyKern
     return Status::ok();
 }
 
+void bound_sky(const double* extent_m, SkyField& sky) {
+    // Farther than any horizon of the Earth's, and than flat layers are of use.
+    constexpr float kReach = 2e6f;
+    sky.params.boxed = extent_m != nullptr ? 1 : 0;
+    for (std::size_t a = 0; a < 3 && extent_m != nullptr; ++a)
+        sky.params.extent_m[a] = float(extent_m[a]);
+    sky.params.reach_m = kReach;
+}
+
 std::array<int, 3> default_sky_size(const MediumSettings& settings) {
     double edge[3], longest = 0;
     for (std::size_t a = 0; a < 3; ++a) {
@@ -120,8 +152,9 @@ std::array<int, 3> default_sky_size(const MediumSettings& settings) {
 }
 
 Status bake_sky(const MediumSettings& settings, const SkyKernels& kernels, int threads,
-                Volume& volume) {
-    SkyField sky;
+                Volume& volume, SkyField* keep) {
+    SkyField own;
+    SkyField& sky = keep != nullptr ? *keep : own;
     PILEUS_TRY(make_sky(settings.sky, settings.bounds_m[0], kernels, threads, sky));
     BakeParams k{};
     k.sky = sky.params;

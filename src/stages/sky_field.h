@@ -24,9 +24,13 @@ struct SkyField {
 Status make_sky(const SkySettings& settings, const Double3& low_m, const SkyKernels& kernels,
                 int threads, SkyField& sky);
 
-/// The sky of a medium on a grid of its box; cells wider than texels hold filtered noise.
+/// Shows the box [0, extent_m] of the sky and nothing beside it, or with null all of the layer.
+void bound_sky(const double* extent_m, SkyField& sky);
+
+/// The sky of a medium on a grid of its box; cells wider than texels hold filtered noise. `keep`,
+/// if given, becomes the field.
 Status bake_sky(const MediumSettings& settings, const SkyKernels& kernels, int threads,
-                Volume& volume);
+                Volume& volume, SkyField* keep = nullptr);
 
 /// Cells of such a grid where the scene leaves them out: cubes, 256 along the longest edge.
 std::array<int, 3> default_sky_size(const MediumSettings& settings);

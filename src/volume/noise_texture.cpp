@@ -105,8 +105,9 @@ int largest_in(const Level& level, const int (&low)[3], const int (&high)[3]) {
 }
 
 /// Maxima over all texels that reading within a block touches, of the level and of the next.
-void set_largest(const Level& level, const Level& next, std::int32_t* out, int threads) {
+void set_largest(const Level& level, const Level& next, std::uint8_t* out, int threads) {
     const int blocks = noise_blocks(level.size), edge = level.size / blocks;
+    const std::int64_t start = noise_level_start(blocks);
     parallel_for(threads, blocks, [&](std::int64_t slice, int) {
         for (int y = 0; y < blocks; ++y)
             for (int x = 0; x < blocks; ++x) {
@@ -118,7 +119,8 @@ void set_largest(const Level& level, const Level& next, std::int32_t* out, int t
                 }
                 const int here = largest_in(level, low, high);
                 const int coarse = largest_in(next, low_next, high_next);
-                out[(slice * blocks + y) * blocks + x] = here > coarse ? here : coarse;
+                const std::int64_t number = start + (slice * blocks + y) * blocks + x;
+                out[number] = std::uint8_t(here > coarse ? here : coarse);
             }
     });
 }
@@ -135,7 +137,7 @@ NoiseView NoiseTexture::view() const {
 
 std::uint64_t noise_texture_bytes(std::uint64_t size) {
     const std::int64_t blocks = noise_blocks(std::int32_t(size));
-    return 4 * std::uint64_t(noise_words(std::int64_t(size)) + noise_words(blocks));
+    return 4 * std::uint64_t(noise_words(std::int64_t(size))) + std::uint64_t(noise_words(blocks));
 }
 
 std::uint64_t noise_packing_bytes(std::uint64_t size) {
@@ -147,7 +149,10 @@ Status pack_noise(const Buffer<std::uint8_t>& texels, int size, int threads, Noi
     PILEUS_TRY(coarse.resize(coarse_bytes(std::uint64_t(size)), "levels of a noise volume"));
     PILEUS_TRY(out.words.resize(std::uint64_t(noise_words(size)), "noise texture"));
     const int blocks = noise_blocks(size);
-    PILEUS_TRY(out.largest.resize(std::uint64_t(noise_words(blocks)), "noise texture's maxima"));
+    const std::uint64_t largest_words = std::uint64_t(noise_words(blocks) + 3) / 4;
+    Buffer<std::uint8_t> largest;
+    PILEUS_TRY(largest.resize(4 * largest_words, "noise maxima"));
+    PILEUS_TRY(out.largest.resize(largest_words, "noise texture's maxima"));
     out.size = size;
     Level level{texels.data(), size};
     std::uint8_t* to = coarse.data();
@@ -160,12 +165,16 @@ Status pack_noise(const Buffer<std::uint8_t>& texels, int size, int threads, Noi
         out.lost[l] = variance < finest ? finest - variance : 0;
         pack_level(level, out.words.data() + noise_level_start(level.size), threads);
         // Smaller levels share one block, whose largest value bounds their means.
-        if (level.size >= kNoiseBlock)
-            set_largest(level, next,
-                        out.largest.data() + noise_level_start(noise_blocks(level.size)), threads);
+        if (level.size >= kNoiseBlock) set_largest(level, next, largest.data(), threads);
         if (next.size == 0) break;
         to += std::size_t(next.size) * std::size_t(next.size) * std::size_t(next.size);
         level = next;
+    }
+    // By value, not by the machine's order of bytes.
+    for (std::size_t w = 0; w < out.largest.size(); ++w) {
+        std::uint32_t word = 0;
+        for (std::size_t i = 0; i < 4; ++i) word |= std::uint32_t(largest[4 * w + i]) << (8 * i);
+        out.largest[w] = std::int32_t(word);
     }
     return Status::ok();
 }
