@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How solids are lit, shade and hide in the picture of collectors: closed forms.
+// How solids are lit, shade and hide in pictures of collectors and raymarch: closed forms.
 // in: squares under sun, sky, ground and an even layer of medium -> out: pass or fail.
 // docs/solids.md, "How they are lit".
 #include <cmath>
@@ -59,20 +59,22 @@ std::string solid(const std::string& file, const char* more) {
 
 TEST_CASE("solid light: sun and sky on a level square, and its shadow on the ground") {
     const Files files;
-    const Picture p = render_one(scene_from(
-        looking_down("[sun]\nazimuth_deg = 90\nelevation_deg = 30\nirradiance = [3, 2, 1]\n"
-                     "[sky]\nradiance = [0.5, 0.25, 0.125]\n[ground]\nalbedo = 0.5\n" +
-                     solid(files.square, "position_m = [0, 0, 1]\nalbedo = [0.25, 0.5, 0.75]")),
-        {}));
+    const std::string scene = looking_down(
+        "[sun]\nazimuth_deg = 90\nelevation_deg = 30\nirradiance = [3, 2, 1]\n"
+        "[sky]\nradiance = [0.5, 0.25, 0.125]\n[ground]\nalbedo = 0.5\n" +
+        solid(files.square, "position_m = [0, 0, 1]\nalbedo = [0.25, 0.5, 0.75]"));
     // The square fills pixels 6 to 9 both ways; its shadow lies sqrt(3) m to the west.
     const double albedo[3] = {0.25, 0.5, 0.75}, sun[3] = {3, 2, 1}, sky[3] = {0.5, 0.25, 0.125};
     const char* channels[3] = {"R", "G", "B"};
-    for (int c = 0; c < 3; ++c) {
-        const double lit = sky[c] + sun[c] * 0.5 / kHalfTurn;
-        CHECK(p.at(channels[c], 8, 8) == doctest::Approx(albedo[c] * lit).epsilon(kRounding));
-        CHECK(p.at(channels[c], 12, 8) == doctest::Approx(0.5 * lit).epsilon(kRounding));
-        CHECK(p.at(channels[c], 4, 8) == doctest::Approx(0.5 * sky[c]).epsilon(kRounding));
-        CHECK(p.at(channels[c], 1, 8) == doctest::Approx(0.5 * lit).epsilon(kRounding));
+    for (const char* method : {"method.name=collectors", "method.name=raymarch"}) {
+        const Picture p = render_one(scene_from(scene, {method}));
+        for (int c = 0; c < 3; ++c) {
+            const double lit = sky[c] + sun[c] * 0.5 / kHalfTurn;
+            CHECK(p.at(channels[c], 8, 8) == doctest::Approx(albedo[c] * lit).epsilon(kRounding));
+            CHECK(p.at(channels[c], 12, 8) == doctest::Approx(0.5 * lit).epsilon(kRounding));
+            CHECK(p.at(channels[c], 4, 8) == doctest::Approx(0.5 * sky[c]).epsilon(kRounding));
+            CHECK(p.at(channels[c], 1, 8) == doctest::Approx(0.5 * lit).epsilon(kRounding));
+        }
     }
 }
 
@@ -181,8 +183,8 @@ TEST_CASE("camera depth: a picture with surfaces in front of, within and behind 
         "[sky]\nradiance = 0.5\n[[medium]]\ndensity = \"uniform:box\"\n"
         "bounds_m = [[-20, -20, -5], [20, 20, 5]]\nresolution = [8, 8, 8]\n"
         "extinction_per_m = 0.125\nalbedo = 0\n");
-    for (const char* method : {"method.name=collectors", "method.name=path"}) {
-        if (std::string(method) == "method.name=path") continue;
+    // Method path has a test of its own: tests/energy/path_solids_test.cpp.
+    for (const char* method : {"method.name=collectors", "method.name=raymarch"}) {
         const Picture p = render_one(scene_from(scene, {method, "camera.depth=\"" + path + "\""}));
         CHECK(p.at("A", 8, 1) == 0.0f);
         CHECK(p.at("R", 8, 1) == 0.0f);
