@@ -22,6 +22,10 @@ Segment<T> field_clip(const Profile&, const Ray<T>&) {
     return {T(0), T(2)};
 }
 template <class T>
+M_of<T> field_holds(const Profile&, const Vec<T>&) {
+    return true;
+}
+template <class T>
 Block<T> field_ahead(const Profile&, const Vec<T>&, const Vec<T>&, T) {
     return {T(1), T(9)};
 }
