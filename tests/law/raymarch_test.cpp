@@ -89,10 +89,10 @@ TEST_CASE("raymarch: empty blocks are skipped without a change of bits") {
         {"raymarch.spacing=uniform", "raymarch.light=march", "raymarch.sky_light=none"},
         {"raymarch.spacing=voxel", "raymarch.jitter=hash", "raymarch.grid_lock_m=100"},
         {"raymarch.spacing=optimal", "raymarch.steps=200", "raymarch.detail=true",
-         "camera.fov_deg=5", "camera.target_m=[450,0,1300]", "medium.0.resolution=[48,48,32]"},
+         "camera.fov_deg=5", "camera.target_m=[450,0,1300]", "medium.0.resolution=[40,40,26]"},
         {"raymarch.spacing=geometric", "raymarch.growth=1.01", "raymarch.detail=true",
          "raymarch.steps=60", "camera.fov_deg=5", "camera.target_m=[450,0,1300]",
-         "medium.0.resolution=[48,48,32]"}};
+         "medium.0.resolution=[40,40,26]"}};
     for (const auto& kind : kinds)
         for (const char* rule : kRules) {
             std::vector<std::string> overrides = kind;
