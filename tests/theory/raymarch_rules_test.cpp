@@ -111,6 +111,43 @@ TEST_CASE("raymarch: orders on a smooth profile, even steps and growing ones, cu
             }
 }
 
+TEST_CASE("raymarch: lattices: the document's numbers, no more steps than asked for, and back") {
+    StepParams k{};
+    k.most = 255;
+    k.grows = k.by_distance = 1;
+    k.near_m = 1;
+    k.pixel = 1e-6f;
+    // (3.16): from 1 to 1000 in 255 steps, h' = 0.027459 and a last step of 26.73.
+    const Lattice<float> far = make_lattice(k, 1.0f, 999.0f);
+    CHECK(double(far.excess) == doctest::Approx(0.027459).epsilon(2e-5));
+    CHECK(double(lattice_place(far, 255.0f)) == doctest::Approx(999).epsilon(1e-4));
+    CHECK(double(lattice_place(far, 255.0f) - lattice_place(far, 254.0f)) ==
+          doctest::Approx(26.73).epsilon(1e-3));
+    // Enough steps: each as long as a pixel is wide where it begins.
+    k.pixel = 0.05f;
+    const Lattice<float> fine = make_lattice(k, 20.0f, 500.0f);
+    for (float n : {0.0f, 7.0f, 40.0f}) {
+        const float at = lattice_place(fine, n), next = lattice_place(fine, n + 1);
+        CHECK(double(next - at) == doctest::Approx(0.05 * (20 + double(at))).epsilon(1e-4));
+    }
+    // (3.17): a first step that is long enough is kept, one that is not grows.
+    k = StepParams{};
+    k.most = 10;
+    k.grows = 1;
+    k.growth = 1.5f;
+    k.series = float((std::pow(1.5, 10) - 1) / 0.5);
+    k.least_m = 3;
+    CHECK(make_lattice(k, 0.0f, 100.0f).first == 3);
+    CHECK(double(make_lattice(k, 0.0f, 1000.0f).first) ==
+          doctest::Approx(1000 / double(k.series)).epsilon(1e-6));
+    CHECK(double(lattice_place(make_lattice(k, 0.0f, 1000.0f), 10.0f)) ==
+          doctest::Approx(1000).epsilon(1e-5));
+    for (const Lattice<float>& a : {far, fine, make_lattice(k, 0.0f, 100.0f)})
+        for (float n : {0.0f, 1.0f, 9.0f})
+            CHECK(double(lattice_step(a, lattice_place(a, n))) ==
+                  doctest::Approx(double(n)).epsilon(1e-3));
+}
+
 /// The document's theorem 1 on steps that grow by `growth`: Simpson's 3/8 weights times the step
 /// behind each sample, or times the derivative of the map of steps.
 double theorem_error(int steps, double growth, bool derivative) {
