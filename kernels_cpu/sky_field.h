@@ -61,6 +61,38 @@ PILEUS_FN T sky_density(const SkyParams& k, const Vec<T>& local, T width) {
     return select(inside, ramp * weight, T{});
 }
 
+/// Least lift in the band of the height around a place, and metres until a ray may leave it.
+template <class T>
+PILEUS_FN NoiseBound<T> lift_ahead(const SkyParams& k, const Vec<T>& p, const Vec<T>& d, T h) {
+    using II = I_of<T>;
+    const T bands = (h - k.low_m) * (k.inverse_m * float(kSkyBands));
+    const II band = min_(max_(to_int(bands), II{}), all<II>(kSkyBands - 1));
+    const T climb = d.z + k.curvature_per_m * (p.x * d.x + p.y * d.y + p.z * d.z);
+    const T gap = select(climb >= 0.0f, to_float(band + 1) - bands, bands - to_float(band));
+    const T height = max_(gap, T{}) * (k.height_m * (1.0f / float(kSkyBands)));
+    // A bent layer steepens by less than this over a block.
+    const T steep = abs_(climb) + (k.curvature_per_m > 0.0f ? 2e-3f : 1e-9f);
+    return {gather(k.least_lift, band), height / steep};
+}
+
+/// Bound within blocks `raise` levels larger than they need be; `lift` as lift_ahead gives it.
+template <class T>
+PILEUS_FN NoiseBound<T> sky_blocks(const SkyParams& k, const Vec<T>& local, const Vec<T>& d,
+                                   T width, const NoiseBound<T>& lift, std::int32_t raise) {
+    NoiseBound<T> sum{T{} - lift.bound, lift.rest};
+    T lost{};
+    const NoiseView* const both[2] = {&k.perlin, &k.worley};
+    for (const NoiseView* v : both) {
+        if (v->share == 0.0f) continue;
+        const NoiseBound<T> one = noise_ahead(*v, local, d, width, raise);
+        sum = {sum.bound + one.bound, min_(sum.rest, one.rest)};
+        lost = lost + lost_at(*v, noise_level(*v, width));
+    }
+    // Below the middle a wider ramp is a bound of the narrower ones; above it none is.
+    const T ramp = select(sum.bound > k.middle, all<T>(1.0f), sky_ramp(k, sum.bound, lost));
+    return {ramp, sum.rest};
+}
+
 /// Upper bound of sky_density near a place, and metres until it may change.
 template <class T>
 PILEUS_FN NoiseBound<T> sky_ahead(const SkyParams& k, const Vec<T>& local, const Vec<T>& d,
@@ -70,28 +102,17 @@ PILEUS_FN NoiseBound<T> sky_ahead(const SkyParams& k, const Vec<T>& local, const
     const auto inside = (h >= k.low_m) & (h <= k.low_m + k.height_m);
     if (k.empty != 0) return {T{}, all<T>(1e30f)};
     if (!any(inside)) return {T{}, way_outside(k, p, d, h)};
-    NoiseBound<T> sum{T{}, all<T>(1e30f)};
-    T lost{};
-    const NoiseView* const both[2] = {&k.perlin, &k.worley};
-    for (const NoiseView* v : both) {
-        if (v->share == 0.0f) continue;
-        const NoiseBound<T> one = noise_ahead(*v, local, d, width);
-        sum = {sum.bound + one.bound, min_(sum.rest, one.rest)};
-        lost = lost + lost_at(*v, noise_level(*v, width));
+    const NoiseBound<T> lift = lift_ahead(k, p, d, h);
+    // Large blocks take rays far through clear air; near clouds small ones tell more.
+    constexpr std::int32_t kRaise = 2;
+    NoiseBound<T> ahead = sky_blocks(k, local, d, width, lift, kRaise);
+    const auto full = ahead.bound > 0.0f;
+    if (any(full & inside)) {
+        const NoiseBound<T> near = sky_blocks(k, local, d, width, lift, 0);
+        ahead = {select(full, near.bound, ahead.bound), select(full, near.rest, ahead.rest)};
     }
-    // Clouds are lowered least at one height of a band; the next band is as far as the ray climbs.
-    using II = I_of<T>;
-    const T bands = (h - k.low_m) * (k.inverse_m * float(kSkyBands));
-    const II band = min_(max_(to_int(bands), II{}), all<II>(kSkyBands - 1));
-    const T climb = d.z + k.curvature_per_m * (p.x * d.x + p.y * d.y + p.z * d.z);
-    const T gap = select(climb >= 0.0f, to_float(band + 1) - bands, bands - to_float(band));
-    const T height = max_(gap, T{}) * (k.height_m * (1.0f / float(kSkyBands)));
-    // A bent layer steepens by less than this over a block.
-    const T steep = abs_(climb) + (k.curvature_per_m > 0.0f ? 2e-3f : 1e-9f);
-    sum = {sum.bound - gather(k.least_lift, band), min_(sum.rest, height / steep)};
-    // Below the middle a wider ramp is a bound of the narrower ones; above it none is.
-    const T bound = select(sum.bound > k.middle, all<T>(1.0f), sky_ramp(k, sum.bound, lost));
-    return {select(inside, bound, T{}), select(inside, sum.rest, way_outside(k, p, d, h))};
+    if (!any(lnot(inside))) return ahead;
+    return {select(inside, ahead.bound, T{}), select(inside, ahead.rest, way_outside(k, p, d, h))};
 }
 
 }  // namespace PILEUS_ISA

@@ -93,17 +93,18 @@ PILEUS_FN NoiseValue<T> read_noise(const NoiseView& v, const Vec<T>& p, T width)
     return {value * v.share, lost_at(v, at)};
 }
 
-/// Largest value in the block around a place, at the level of a width or coarser, and metres to the
-/// block's end.
+/// Largest value in the block around a place, of all levels up to that of a width, and metres to
+/// the block's end; blocks are `raise` levels larger than they need be.
 template <class T>
 struct NoiseBound {
     T bound, rest;
 };
 template <class T>
-PILEUS_FN NoiseBound<T> noise_ahead(const NoiseView& v, const Vec<T>& p, const Vec<T>& d, T width) {
+PILEUS_FN NoiseBound<T> noise_ahead(const NoiseView& v, const Vec<T>& p, const Vec<T>& d, T width,
+                                    std::int32_t raise) {
     using II = I_of<T>;
-    const NoiseLevel<T> at = noise_level(v, width);
-    const II m = all<II>(v.size) >> at.level;
+    const II level = min_(noise_level(v, width).level + raise, all<II>(v.last));
+    const II m = all<II>(v.size) >> level;
     const II blocks = select(m >= kNoiseBlock, m / kNoiseBlock, all<II>(1));
     const T side = to_float(blocks);
     const Vec<T> place = tile_place(v, p);

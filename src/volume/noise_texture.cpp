@@ -104,8 +104,10 @@ int largest_in(const Level& level, const int (&low)[3], const int (&high)[3]) {
     return most;
 }
 
-/// Maxima over all texels that reading within a block touches, of the level and of the next.
-void set_largest(const Level& level, const Level& next, std::uint8_t* out, int threads) {
+/// Maxima over all texels that reading within a block touches, of the level, of the next, and of
+/// all finer ones, whose blocks are there already.
+void set_largest(const Level& level, const Level& next, bool finer, std::uint8_t* out,
+                 int threads) {
     const int blocks = noise_blocks(level.size), edge = level.size / blocks;
     const std::int64_t start = noise_level_start(blocks);
     parallel_for(threads, blocks, [&](std::int64_t slice, int) {
@@ -119,8 +121,14 @@ void set_largest(const Level& level, const Level& next, std::uint8_t* out, int t
                 }
                 const int here = largest_in(level, low, high);
                 const int coarse = largest_in(next, low_next, high_next);
-                const std::int64_t number = start + (slice * blocks + y) * blocks + x;
-                out[number] = std::uint8_t(here > coarse ? here : coarse);
+                int most = here > coarse ? here : coarse;
+                for (int c = 0; c < 8 && finer; ++c) {
+                    const std::int64_t n = 2 * blocks, fx = 2 * x + (c & 1);
+                    const std::int64_t fy = 2 * y + (c >> 1 & 1), fz = 2 * slice + (c >> 2);
+                    const int below = out[noise_level_start(n) + (fz * n + fy) * n + fx];
+                    most = below > most ? below : most;
+                }
+                out[start + (slice * blocks + y) * blocks + x] = std::uint8_t(most);
             }
     });
 }
@@ -165,7 +173,7 @@ Status pack_noise(const Buffer<std::uint8_t>& texels, int size, int threads, Noi
         out.lost[l] = variance < finest ? finest - variance : 0;
         pack_level(level, out.words.data() + noise_level_start(level.size), threads);
         // Smaller levels share one block, whose largest value bounds their means.
-        if (level.size >= kNoiseBlock) set_largest(level, next, largest.data(), threads);
+        if (level.size >= kNoiseBlock) set_largest(level, next, l > 0, largest.data(), threads);
         if (next.size == 0) break;
         to += std::size_t(next.size) * std::size_t(next.size) * std::size_t(next.size);
         level = next;

@@ -89,7 +89,8 @@ TEST_CASE("the defaults of a sky's keys are those of the struct") {
         REQUIRE(parse_toml("v = " + fallback, root, fault));
         Scene scene;
         MediumSettings medium;
-        row.set(root.children[0], {scene, medium});
+        SolidSettings solid;
+        row.set(root.children[0], {scene, medium, solid});
         CHECK(dump(medium.sky) == dump(SkySettings()));
         ++compared;
     }
