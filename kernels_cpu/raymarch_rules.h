@@ -54,7 +54,11 @@ PILEUS_FN RaySample<T> take_sample(const RaymarchParams& k, const RaymarchBuffer
     T factor = all<T>(1.0f);
     if (b.visibility != nullptr) {
         const Vec<T> node = node_position(k.visibility, place);
-        factor = interpolate(b.visibility, corners(node, k.visibility.size));
+        // A layer to the horizon goes on beyond its nodes: nothing is known of shadows there.
+        const std::int32_t* n = k.visibility.size;
+        const auto known =
+            (node.x >= 0.0f) & (node.x <= float(n[0])) & (node.y >= 0.0f) & (node.y <= float(n[1]));
+        factor = select(known, interpolate(b.visibility, corners(node, n)), factor);
         for (int c = 0; c < k.light.channels; ++c) light[c] = light[c] * factor;
     }
     const bool octaves = k.sunlit != 0 && k.light.octaves.count > 1;
