@@ -60,6 +60,7 @@ std::uint64_t self_test_kernel() { return self_test_digest<PILEUS_WIDTH>(); }
 #define PILEUS_PATH(isa) PILEUS_JOIN(path_kernel_, isa)
 #define PILEUS_SKY(isa) PILEUS_JOIN(sky_kernel_, isa)
 #define PILEUS_RAYMARCH(isa) PILEUS_JOIN(raymarch_kernel_, isa)
+#define PILEUS_LADDER(isa) PILEUS_JOIN(ladder_kernel_, isa)
 #define PILEUS_SWEEP(isa) PILEUS_JOIN(sweep_kernel_, isa)
 #define PILEUS_SWEEP_LAYER(isa) PILEUS_JOIN(sweep_layer_kernel_, isa)
 #define PILEUS_PATH_SOLIDS(isa) PILEUS_JOIN(path_solids_, isa)
@@ -76,7 +77,9 @@ void PILEUS_PATH_SOLIDS(PILEUS_ISA)(const PathParams&, const PathBuffers&, std::
 /// Of isa_sky.cpp.
 extern const SkyKernels PILEUS_SKY(PILEUS_ISA);
 
-/// Of isa_sweep.cpp, likewise.
+/// Of isa_ladder.cpp and isa_sweep.cpp, likewise.
+void PILEUS_LADDER(PILEUS_ISA)(const LadderParams&, const LadderBuffers&, std::uint32_t,
+                               std::uint32_t);
 void PILEUS_SWEEP(PILEUS_ISA)(const SweepParams&, const SweepBuffers&, std::uint32_t);
 void PILEUS_SWEEP_LAYER(PILEUS_ISA)(const SweepLayerParams&, const SweepBuffers&, std::uint32_t,
                                     std::uint32_t);
@@ -103,6 +106,7 @@ const KernelTable PILEUS_TABLE(PILEUS_ISA) = {
     PILEUS_SWEEP(PILEUS_ISA),
     PILEUS_SWEEP_LAYER(PILEUS_ISA),
     &PILEUS_SKY(PILEUS_ISA),
+    PILEUS_LADDER(PILEUS_ISA),
 };
 
 }  // namespace pileus

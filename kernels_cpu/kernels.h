@@ -5,6 +5,7 @@
 #pragma once
 #include "kernels_cpu/blend_params.h"
 #include "kernels_cpu/device_kernels.h"
+#include "kernels_cpu/ladder_params.h"
 #include "kernels_cpu/march_params.h"
 #include "kernels_cpu/path_params.h"
 #include "kernels_cpu/raymarch_params.h"
@@ -46,6 +47,9 @@ struct KernelTable {
     void (*sweep_layer_rows)(const SweepLayerParams&, const SweepBuffers&, std::uint32_t begin,
                              std::uint32_t end) = nullptr;
     const SkyKernels* sky = nullptr;  ///< procedural skies
+    /// Rows of a picture of which a lattice of pixels was marched.
+    void (*ladder_rows)(const LadderParams&, const LadderBuffers&, std::uint32_t begin,
+                        std::uint32_t end) = nullptr;
 };
 
 /// The widest table this machine runs; `name` (or null) forces one. Null: no such table here.

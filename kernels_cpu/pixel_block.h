@@ -15,9 +15,9 @@ constexpr int kMarchAcross = W >= 8   ? 4
                                       : 1;
 
 /// Calls function(lane, pixel) for the lanes of a block from (x, y) on that lie in the picture,
-/// above row `end`.
-template <int W, class Function>
-PILEUS_FN void for_block(const CameraParams& c, std::int32_t x, std::int32_t y, std::int32_t end,
+/// which has a width and a height, above row `end`.
+template <int W, class Picture, class Function>
+PILEUS_FN void for_block(const Picture& c, std::int32_t x, std::int32_t y, std::int32_t end,
                          Function function) {
     constexpr int across = kMarchAcross<W>;
     for (int l = 0; l < W; ++l)

@@ -89,8 +89,8 @@ PILEUS_FN F<W> start_before(const RaymarchParams& k, const RaymarchBuffers& b, I
 template <int W>
 PILEUS_FN void store_pixels(const RaymarchParams& k, const RaymarchBuffers& b, std::int32_t x,
                             std::int32_t y, std::int32_t end, const RaySum<F<W>>& sum) {
-    const std::int64_t pixels = std::int64_t(k.camera.width) * k.camera.height;
-    for_block<W>(k.camera, x, y, end, [&](int l, std::int64_t pixel) {
+    const std::int64_t pixels = std::int64_t(k.lattice.width) * k.lattice.height;
+    for_block<W>(k.lattice, x, y, end, [&](int l, std::int64_t pixel) {
         b.transmittance[pixel] = lane(sum.transmittance, l);
         if (b.half_depth != nullptr) b.half_depth[pixel] = lane(sum.half, l);
         if (b.ray_depth != nullptr) b.ray_depth[pixel] = lane(sum.depth, l);
@@ -98,7 +98,7 @@ PILEUS_FN void store_pixels(const RaymarchParams& k, const RaymarchBuffers& b, s
     });
 }
 
-/// W pixels, a block from column x and row y on, in rows before `end`.
+/// W marched pixels, a block from column x and row y on, in rows before `end`.
 template <int W, class Field>
 PILEUS_FN void raymarch_pixels(const RaymarchParams& k, const RaymarchBuffers& b,
                                const Field& field, std::int32_t x, std::int32_t y,
@@ -106,13 +106,15 @@ PILEUS_FN void raymarch_pixels(const RaymarchParams& k, const RaymarchBuffers& b
     using T = F<W>;
     const I<W> number = iota<I<W>>();
     const I<W> column = number % kMarchAcross<W> + x, row = number / kMarchAcross<W> + y;
-    const M<W> real = (column < k.camera.width) & (row < end);
-    const Ray<T> ray = camera_ray(k.camera, to_float(column), to_float(row));
+    const M<W> real = (column < k.lattice.width) & (row < end);
+    const I<W> pixel_x = column * k.lattice.every + k.lattice.first[0];
+    const I<W> pixel_y = row * k.lattice.every + k.lattice.first[1];
+    const Ray<T> ray = camera_ray(k.camera, to_float(pixel_x), to_float(pixel_y));
     const Segment<T> box = field_clip(field, ray);
     T leave = box.leave;
     if (b.opaque_depth != nullptr) {
         T opaque{};
-        for_block<W>(k.camera, x, y, end, [&](int l, std::int64_t pixel) {
+        for_block<W>(k.lattice, x, y, end, [&](int l, std::int64_t pixel) {
             set_lane(opaque, l, b.opaque_depth[pixel]);
         });
         leave = min_(leave, opaque);
@@ -126,7 +128,7 @@ PILEUS_FN void raymarch_pixels(const RaymarchParams& k, const RaymarchBuffers& b
         const T length = max_((k.step.stretch != 0 ? leave : box.leave) - box.enter, T{});
         const Lattice<T> lattice = make_lattice(k.step, box.enter, length);
         const T before =
-            start_before<W>(k, b, column, row, along(ray, box.enter), ray.direction, lattice);
+            start_before<W>(k, b, pixel_x, pixel_y, along(ray, box.enter), ray.direction, lattice);
         const T start = box.enter - before;
         const RayMarch<T, Field> r{k,
                                    b,
@@ -152,7 +154,7 @@ PILEUS_FN void raymarch_rows(const RaymarchParams& k, const RaymarchBuffers& b, 
     constexpr int across = kMarchAcross<W>;
     const GridField field{&k.medium, k.level, k.levels, b.parts, k.media};
     for (std::uint32_t y = begin; y < end; y += W / across)
-        for (std::int32_t x = 0; x < k.camera.width; x += across)
+        for (std::int32_t x = 0; x < k.lattice.width; x += across)
             raymarch_pixels<W>(k, b, field, x, std::int32_t(y), std::int32_t(end));
 }
 

@@ -3,6 +3,7 @@
 // in: the plan, the density, sunlight on nodes -> out: the layout of a launch.
 // docs/raymarch.md; Palenik 2016.
 #pragma once
+#include "kernels_cpu/ladder_params.h"
 #include "kernels_cpu/march_params.h"
 
 namespace pileus {
@@ -100,9 +101,10 @@ struct RaymarchParams {
     MediumView medium;
     std::int32_t levels;            ///< coarser grids; 0: none
     MediumView level[kMostLevels];  ///< of them, the finest first
-    CameraParams camera;
-    std::int32_t media;  ///< on the grid, 1..kMostMedia
-    std::int32_t rule;   ///< a RaymarchRule
+    CameraParams camera;            ///< of the whole picture
+    PixelLattice lattice;           ///< the pixels of it that are marched
+    std::int32_t media;             ///< on the grid, 1..kMostMedia
+    std::int32_t rule;              ///< a RaymarchRule
     PhaseParams phase[kMostMedia];
     float phase_scale[kMostMedia];  ///< 1, or one over the phase function's peak
     float to_sun[3];

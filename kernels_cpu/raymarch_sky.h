@@ -63,7 +63,7 @@ PILEUS_FN void raymarch_sky_rows(const RaymarchParams& k, const SkyParams& sky,
     constexpr int across = kMarchAcross<W>;
     const SkyMedium field{&sky};
     for (std::uint32_t y = begin; y < end; y += W / across)
-        for (std::int32_t x = 0; x < k.camera.width; x += across)
+        for (std::int32_t x = 0; x < k.lattice.width; x += across)
             raymarch_pixels<W>(k, b, field, x, std::int32_t(y), std::int32_t(end));
 }
 

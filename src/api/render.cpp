@@ -30,6 +30,7 @@ Status render_pictures(const Scene& scene, const Method& method, const RenderOpt
     PILEUS_TRY(method.prepare(scene, budget_of(options), context, *run));
     method.report_plan(*run, context, report);
     for (int frame = frames.first; frame <= frames.last && !report.interrupted; ++frame) {
+        const RunStart frame_start;
         const FrameStep step{frame, frame == frames.first, frame == frames.last};
         PILEUS_TRY(method.light(step, context, *run));
         Image image;
@@ -37,6 +38,8 @@ Status render_pictures(const Scene& scene, const Method& method, const RenderOpt
         PILEUS_TRY(method.show(step, context, *run, image));
         take_hash(image, report);
         method.report(*run, report);
+        report.frame_wall_s = wall_seconds() - frame_start.wall_s;
+        report.frame_cpu_s = cpu_seconds() - frame_start.cpu_s;
         PILEUS_TRY(deliver(scene, start, frame, sink, image, report));
     }
     return Status::ok();

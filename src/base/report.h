@@ -78,6 +78,7 @@ struct Report {
     std::int64_t peak_bytes = 0;                 ///< of the whole process
 
     double total_s = 0, cpu_s = 0;
+    double frame_wall_s = 0, frame_cpu_s = 0;  ///< of the last picture alone, from light to layers
     std::vector<StageTime> stages;
 
     std::uint64_t photons = 0, generations = 0, scatterings = 0, tentative = 0, crossings = 0;

@@ -97,6 +97,8 @@ Json time_of(const Report& report) {
     }
     return {{"total_s", report.total_s},
             {"cpu_s", report.cpu_s},
+            {"frame_wall_s", report.frame_wall_s},
+            {"frame_cpu_s", report.frame_cpu_s},
             {"tracing_wall_s", report.tracing_wall_s},
             {"tracing_cpu_s", report.tracing_cpu_s},
             {"stages", stages}};

@@ -16,6 +16,19 @@ RaymarchRun& own(MethodRun& run) { return static_cast<RaymarchRun&>(run); }
 
 std::unique_ptr<MethodRun> make() { return std::make_unique<RaymarchRun>(); }
 
+Status check_ladder(const Scene& scene) {
+    const RaymarchSettings& s = scene.raymarch;
+    const auto fault = [&](const char* key, int value, const char* allowed) {
+        return Status::bad_input(scene.file + ": raymarch." + key + ": " + std::to_string(value) +
+                                 ", allowed: " + allowed);
+    };
+    if (s.scale == 3) return fault("scale", s.scale, "1, 2, 4");
+    if (s.temporal == 1 || s.temporal == 3) return fault("temporal", s.temporal, "0, 2, 4");
+    if (s.temporal > 0 && s.scale > 1)
+        return fault("scale", s.scale, "1 where raymarch.temporal thins out pixels already");
+    return Status::ok();
+}
+
 Status check(const Scene& scene, const Budget& budget) {
     constexpr const char* kAllowed = "steps=N";
     if (budget.photons >= 0) return unknown_budget("--budget photons", scene.method, kAllowed);
@@ -34,6 +47,7 @@ Status check(const Scene& scene, const Budget& budget) {
         return Status::bad_input(scene.file +
                                  ": raymarch.light: nodes hold straight ways, not those of "
                                  "light_path = \"cone\", allowed: auto, march");
+    PILEUS_TRY(check_ladder(scene));
     const OutputSettings& output = scene.output;
     if (output.layer_error || output.layer_light || output.layer_order)
         return Status::bad_input(

@@ -5,6 +5,7 @@
 #pragma once
 #include "src/methods/methods.h"
 #include "src/plan/plan.h"
+#include "src/stages/ladder.h"
 #include "src/stages/prepare.h"
 #include "src/stages/raymarch.h"
 #include "src/stages/sky_medium.h"
@@ -39,9 +40,11 @@ struct RaymarchRun : MethodRun {
     std::vector<DensityLevel> coarse;  ///< their densities
     SunDepth nodes;
     SunDepthDifference nodes_difference;  ///< of swept nodes to rays
+    std::array<float, 3> sky_to_sun{};    ///< the sun that the sky's nodes were made for
     std::array<float, 3> nodes_to_sun{};  ///< the sun that the nodes were made for
     CameraParams camera{};
     Planes planes;
+    LadderMemory ladder;
     RaymarchTally tally;  ///< of all frames so far
 };
 

@@ -98,6 +98,14 @@ void note_light(const Scene& scene, const RaymarchRun& run, Plan& plan) {
         plan.leave_out("skylight in the medium", "sky_light = \"none\"");
 }
 
+void note_ladder(const Scene& scene, Plan& plan) {
+    const RaymarchSettings& s = scene.raymarch;
+    if (s.scale > 1) plan.need("pixels between marched ones: approximation");
+    if (s.temporal > 0) plan.need("pixels from the frame before: approximation");
+    if (s.temporal > 0 && !(scene.animation.present && scene.animation.frames > 1))
+        plan.leave_out("pixels from the frame before", "one frame");
+}
+
 void note_plan(RaymarchRun& run) {
     const Scene& scene = *run.scene;
     Plan& plan = run.plan;
@@ -120,6 +128,7 @@ void note_plan(RaymarchRun& run) {
             scene.raymarch.detail ? "no step or pixel is wider than a cell" : "detail = false");
     if (scene.raymarch.jitter == RaymarchJitterKind::kNone)
         plan.leave_out("jitter of samples", "jitter = \"none\"");
+    note_ladder(scene, plan);
     if (run.medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
     note_solids(run.solids, plan);
     if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
@@ -169,6 +178,10 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
     t.add("picture planes", Stage::kBackground, Stage::kLayers, bytes_of(kFloat * shown, pixels));
     if (scene.raymarch.jitter == RaymarchJitterKind::kBlueNoise)
         t.add("blue noise", Stage::kShadow, last, bytes_of(kFloat, kNoiseTile * kNoiseTile));
+    const bool half = output.layer_depth || scene.raymarch.temporal > 0;
+    t.add("marched pixels", Stage::kDisplay, last,
+          ladder_bytes(scene.raymarch, scene.camera.resolution, run.lighting.opaque(), half,
+                       output.layer_optical_depth));
     t.add("counts of rows", Stage::kDisplay, Stage::kDisplay,
           bytes_of(sizeof(std::int64_t) * kRaymarchCounts,
                    std::uint64_t(scene.camera.resolution[1])));

@@ -33,12 +33,12 @@ Status light_nodes(const Context& context, RaymarchRun& run) {
     return Status::ok();
 }
 
-/// A sun that moves changes the ground's light.
+/// Light of sky and ground changes with the sun alone.
 Status light_sky(const Context& context, const FrameStep& step, RaymarchRun& run) {
     const Scene& scene = *run.scene;
     if (!scene.raymarch.sky_ambient || run.medium.sigma <= 0) return Status::ok();
-    const bool moves = scene.animation.present && scene.animation.moves_sun;
-    if (!step.first && !moves) return Status::ok();
+    if (!step.first && run.sky_to_sun == run.lighting.to_sun) return Status::ok();
+    run.sky_to_sun = run.lighting.to_sun;
     return make_sky_nodes(context, run.medium, run.prepared, run.lighting,
                           mean_kept(scene.raymarch, run.medium), octaves_of(scene.raymarch),
                           run.sky);
@@ -111,7 +111,7 @@ Status raymarch_light(const FrameStep& step, const Context& context, MethodRun& 
     in.seed = std::uint64_t(scene.seed) + std::uint64_t(step.frame);
     in.layer = run.direct_sky ? &run.layer : nullptr;
     in.camera = run.camera;
-    return raymarch_picture(context, in, run.planes, run.tally);
+    return ladder_picture(context, in, step.frame, run.ladder, run.planes, run.tally);
 }
 
 Status raymarch_show(const FrameStep&, const Context& context, MethodRun& method_run,
@@ -120,13 +120,20 @@ Status raymarch_show(const FrameStep&, const Context& context, MethodRun& method
     Report& report = *context.report;
     const StageClock clock(context, "layers");
     report.digests = run.digests;
-    Digest colours;
-    colours.floats(run.planes.colour.span());
-    report.digests.emplace_back("colours", colours.hex());
     report.counters.clear();
     std::uint64_t clamped = 0;
-    PILEUS_TRY(make_layers(run.planes, run.camera.width, run.camera.height, 3, run.scene->output,
-                           image, report, clamped));
+    Digest colours;
+    Status layers;
+    // Neither is short, and neither can be shared by threads.
+    parallel_for(context.threads, 2, [&](std::int64_t piece, int) {
+        if (piece == 0)
+            colours.floats(run.planes.colour.span());
+        else
+            layers = make_layers(run.planes, run.camera.width, run.camera.height, 3,
+                                 run.scene->output, image, report, clamped);
+    });
+    PILEUS_TRY(layers);
+    report.digests.emplace_back("colours", colours.hex());
     report.counters.emplace_back("clamped_negative", clamped);
     report.executed = {{"depth_tests", run.planes.opaque_depth.size()},
                        {"depths_stored", run.planes.half_depth.size()},
@@ -142,6 +149,8 @@ void raymarch_report(const MethodRun& method_run, Report& report) {
     report.counters.emplace_back("majorant_violations", 0);  // bounds only say where nothing is
     report.counters.emplace_back("bound_breaches", run.tally.breaches);
     report.executed.emplace_back("density_levels", run.coarse.size());
+    report.executed.emplace_back("marched_pixels", run.ladder.marched);
+    report.executed.emplace_back("recalled_pixels", run.ladder.recalled);
     report.executed.emplace_back("ray_samples", run.tally.samples);
     report.executed.emplace_back("light_samples", run.tally.light_samples);
     report.buffer_nodes = run.nodes_difference.nodes;

@@ -26,6 +26,7 @@ constexpr const char* kIntegrators = "closed|riemann|trapezoid|simpson|simpson38
 constexpr const char* kSpacings = "uniform|voxel|optimal|geometric";
 constexpr const char* kJitters = "none|hash|blue-noise";
 constexpr const char* kLights = "auto|march|buffer|buffer-exact";
+constexpr const char* kUpsamples = "depth|linear|nearest";
 constexpr const char* kPowders = "none|powder|beer-powder|directional";
 
 const KeyRow kRows[] = {
@@ -150,6 +151,22 @@ const KeyRow kRows[] = {
     range_key(KeyKind::kNumber, "raymarch.stop_below", "", "1e-4", kShare,
               "a ray ends where less of what lies behind is seen",
               [](const Node& n, KeyTarget t) { t.scene.raymarch.stop_below = number_of(n); }),
+    range_key(KeyKind::kInteger, "raymarch.scale", "", "1", {1, 4, false, false},
+              "1, 2 or 4: one pixel of so many along x and y is marched, the others are filled in",
+              [](const Node& n, KeyTarget t) {
+                  t.scene.raymarch.scale = static_cast<int>(integer_of(n));
+              }),
+    choice_key(KeyKind::kText, "raymarch.upsample", "\"depth\"", kUpsamples, nullptr,
+               "how pixels between marched ones are filled in; `depth` minds what stands behind",
+               [](const Node& n, KeyTarget t) {
+                   t.scene.raymarch.upsample = kind_of<RaymarchUpsample>(n, kUpsamples);
+               }),
+    range_key(KeyKind::kInteger, "raymarch.temporal", "", "0", {0, 4, false, false},
+              "2 or 4: each frame marches one pixel of so many along x and y, in turn; the others "
+              "come from the frame before; 0: frames know nothing of one another",
+              [](const Node& n, KeyTarget t) {
+                  t.scene.raymarch.temporal = static_cast<int>(integer_of(n));
+              }),
     choice_key(KeyKind::kText, "raymarch.phase", "\"physical\"", "physical|peak", nullptr,
                "`peak`: phase functions over their largest value; appearance, not physics",
                [](const Node& n, KeyTarget t) { t.scene.raymarch.peak_phase = n.text == "peak"; }),

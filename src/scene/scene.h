@@ -141,6 +141,7 @@ enum class RaymarchIntegrator { kClosed, kRiemann, kTrapezoid, kSimpson, kSimpso
 enum class RaymarchSpacing { kUniform, kVoxel, kOptimal, kGeometric };
 enum class RaymarchJitterKind { kNone, kHash, kBlueNoise };
 enum class RaymarchLightKind { kAuto, kMarch, kBuffer, kBufferExact };
+enum class RaymarchUpsample { kDepth, kLinear, kNearest };
 enum class RaymarchPowderKind { kNone, kPowder, kBeerPowder, kDirectional };
 
 struct RaymarchSettings {
@@ -169,6 +170,9 @@ struct RaymarchSettings {
     double powder_strength = 1;
     Float3 ambient{0, 0, 0};  ///< emission over extinction
     double stop_below = 1e-4;
+    int scale = 1;     ///< one pixel of so many along x and y is marched: 1, 2 or 4
+    int temporal = 0;  ///< 2 or 4: the same, another one each frame, the rest from the frame before
+    RaymarchUpsample upsample = RaymarchUpsample::kDepth;
     bool peak_phase = false;  ///< phase = "peak": over its largest value
 };
 

@@ -211,6 +211,8 @@ RaymarchParams raymarch_params(const RaymarchInput& in) {
     RaymarchParams k{};
     k.medium = make_medium_view(*in.medium, *in.prepared);
     k.camera = in.camera;
+    k.lattice = in.lattice.every > 0 ? in.lattice
+                                     : PixelLattice{1, {0, 0}, in.camera.width, in.camera.height};
     k.rule = rule_of(in.settings->integrator);
     k.step = raymarch_steps(*in.settings, in.camera, in.medium->grid);
     if (!(in.medium->sigma > 0)) k.step.most = 0;  // nothing to see, and no light was made for it
@@ -234,7 +236,7 @@ Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes&
     constexpr std::uint32_t kPiece = 4;
     const StageClock clock(context, "march");
     const RaymarchParams k = raymarch_params(in);
-    const std::uint32_t rows = std::uint32_t(k.camera.height);
+    const std::uint32_t rows = std::uint32_t(k.lattice.height);
     Buffer<std::int64_t> counts;
     PILEUS_TRY(counts.resize(std::uint64_t(rows) * kRaymarchCounts, "counts"));
     RaymarchBuffers b{};

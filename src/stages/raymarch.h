@@ -30,6 +30,7 @@ struct RaymarchInput {
     const Buffer<float>* noise = nullptr;  ///< tile of make_blue_noise, where jitter asks for it
     std::uint64_t seed = 0;                ///< of the frame
     CameraParams camera;
+    PixelLattice lattice{};  ///< the pixels to march; every = 0: all of them
 };
 
 struct RaymarchTally {
@@ -59,6 +60,7 @@ RaymarchParams raymarch_params(const RaymarchInput& in);
 
 /// Marches into the planes' transmittance, colour and what else they have room for; ends rays at
 /// their opaque depth. kLimit: out of memory.
+/// Planes have the size of the lattice.
 Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes& planes,
                         RaymarchTally& tally);
 

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// The ladder, compiled once per instruction set, apart from isa.cpp so that both build at
+// once. in: the kernel templates -> out: one exported function, named after the instruction set.
+// docs/architecture.md, "Kernels: written once"; tools/check_objects proves that nothing leaks.
+#include "kernels_cpu/ladder_rows.h"
+
+#ifndef PILEUS_WIDTH
+#error "PILEUS_WIDTH is set by the build, one object per instruction set"
+#endif
+#ifdef __FAST_MATH__
+#error "fast-math changes results; pileus needs IEEE arithmetic"
+#endif
+
+#define PILEUS_JOIN(a, b) a##b
+#define PILEUS_LADDER(isa) PILEUS_JOIN(ladder_kernel_, isa)
+
+namespace pileus {
+
+void PILEUS_LADDER(PILEUS_ISA)(const LadderParams&, const LadderBuffers&, std::uint32_t,
+                               std::uint32_t);
+void PILEUS_LADDER(PILEUS_ISA)(const LadderParams& k, const LadderBuffers& b, std::uint32_t begin,
+                               std::uint32_t end) {
+    ladder_rows<PILEUS_WIDTH>(k, b, begin, end);
+}
+
+}  // namespace pileus
