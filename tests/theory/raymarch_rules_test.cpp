@@ -15,6 +15,7 @@ using namespace pileus;
 
 /// Density along x in [0, 2].
 struct Profile {
+    static constexpr bool kBoundsAreCheap = true;
     bool smooth;
 };
 template <class T>
