@@ -68,7 +68,8 @@ void dump_raymarch(std::ostringstream& s, const RaymarchSettings& r) {
     dump_list(s, r.ambient);
     s << r.sky_ambient << r.detail << r.light_cone << int(r.jitter) << ' ' << r.jitter_share << ' '
       << r.grid_lock_m << ' ';
-    s << r.stop_below << ' ' << r.peak_phase << '\n';
+    s << r.stop_below << ' ' << r.peak_phase << ' ' << r.scale << int(r.upsample) << r.temporal
+      << '\n';
 }
 
 /// Every value of a scene but its text and names: two scenes with equal dumps are equal.
@@ -235,6 +236,9 @@ powder = "directional"
 powder_strength = 0.25
 ambient = [1, 2, 3]
 stop_below = 0.5
+scale = 4
+upsample = "nearest"
+temporal = 2
 phase = "peak"
 [photon-grid]
 anything = { goes = [1, 2] }
@@ -268,7 +272,7 @@ TEST_CASE("every key of a full scene reaches its field") {
         "4 d.vdb openvdb fog 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 1 5 0 0 0 1 0 4.5 0\n"
         "collectors 2000000 7 5 11 011001 3 0.5 1 2 3 11020 4\n"
         "5 61 0.5 7\n"
-        "3 31 3 1.5 1.25 11 50 0.5 2 4 2.5 3 3 0.25 03 0.25 0.75 0.5 1 2 3 0112 0.75 8 0.5 1\n"
+        "3 31 3 1.5 1.25 11 50 0.5 2 4 2.5 3 3 0.25 03 0.25 0.75 0.5 1 2 3 0112 0.75 8 0.5 1 422\n"
         "x.exr y.pfm r.json 1111111\n"
         "1 12 11 0 90 35 5 ");
     CHECK(scene.text == kEveryKey);
