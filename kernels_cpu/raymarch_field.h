@@ -16,6 +16,7 @@ inline namespace PILEUS_ISA {
 //   field_ahead(field, place, direction, width)  a bound on what field_density gives near the place
 //                                                for steps of `width` metres, and metres until it
 //                                                may change; bound 0: nothing up to there
+//   field_in_box(field, medium, place)            where nodes over the medium's box are read
 //   Field::kBoundsAreCheap                       whether to ask for a bound before each density
 //   field_density(field, place, width)           density, filtered for steps of `width` metres
 //   field_shares(field, place, density, use)     use(i, share) for each medium; sum of shares 1
@@ -41,6 +42,12 @@ PILEUS_FN M_of<T> field_holds(const GridField& f, const Vec<T>& p) {
     const auto height = (p.z >= 0.0f) & (p.z <= e[2]);
     if (f.medium->periodic != 0) return height;
     return height & (p.x >= 0.0f) & (p.x <= e[0]) & (p.y >= 0.0f) & (p.y <= e[1]);
+}
+
+/// The place in the medium's box that nodes over it hold for a place.
+template <class T, class Field>
+PILEUS_FN Vec<T> field_in_box(const Field&, const MediumView& m, const Vec<T>& place) {
+    return reduced(m, place);
 }
 
 template <class T>

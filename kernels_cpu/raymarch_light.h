@@ -88,13 +88,13 @@ PILEUS_FN T powder_factor(const RaymarchLight& light, T tau, T turn) {
 }
 
 /// Skylight at a place, scattered alike in all directions; returns its share, at most 1.
-template <class T>
-PILEUS_FN T skylight_at(const RaymarchParams& k, const float* nodes, const Vec<T>& place,
-                        T (&out)[3]) {
+template <class T, class Field>
+PILEUS_FN T skylight_at(const RaymarchParams& k, const float* nodes, const Field& field,
+                        const Vec<T>& place, T (&out)[3]) {
     const RaymarchSky& sky = k.sky;
     const std::int64_t count =
         std::int64_t(sky.nodes.size[0]) * sky.nodes.size[1] * sky.nodes.size[2];
-    const Corners<T> at = corners(node_position(sky.nodes, reduced(k.medium, place)),
+    const Corners<T> at = corners(node_position(sky.nodes, field_in_box(field, k.medium, place)),
                                   sky.nodes.size, k.medium.periodic != 0);
     T share{};
     for (std::int32_t s = 0; s < sky.sets; ++s) {

@@ -68,7 +68,7 @@ PILEUS_FN RaySample<T> take_sample(const RaymarchParams& k, const RaymarchBuffer
         brightest = octave_light(k.light.octaves, tau, brightest, factor, more);
     }
     s.share = max_(s.share, brightest);
-    if (k.sky.sets > 0) s.share = max_(s.share, skylight_at(k, b.sky, place, glow));
+    if (k.sky.sets > 0) s.share = max_(s.share, skylight_at(k, b.sky, field, place, glow));
     field_shares(field, place, s.density, [&](int i, T share) {
         const T weight = share * r.phase[i];
         for (int c = 0; c < 3; ++c) {

@@ -39,6 +39,19 @@ PILEUS_FN M_of<T> field_holds(const SkyMedium& f, const Vec<T>& p) {
            (p.z >= 0.0f) & (p.z <= k.extent_m[2]);
 }
 
+/// Beyond its box a layer has what it has within, mirrored at the sides, at the same altitude: not
+/// the light of those clouds, but no seam and no streaks either.
+template <class T>
+PILEUS_FN Vec<T> field_in_box(const SkyMedium& f, const MediumView& m, const Vec<T>& p) {
+    const SkyParams& k = *f.sky;
+    if (k.boxed != 0) return p;
+    const auto mirrored = [](T v, float edge) {
+        return edge - abs_(wrap_place(v, 2.0f * edge) - edge);
+    };
+    return {mirrored(p.x, m.extent[0]), mirrored(p.y, m.extent[1]),
+            altitude(k, sky_world(k, p)) - k.shift_m[2]};
+}
+
 template <class T>
 PILEUS_FN Block<T> field_ahead(const SkyMedium& f, const Vec<T>& place, const Vec<T>& direction,
                                T width) {

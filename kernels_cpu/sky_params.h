@@ -31,6 +31,7 @@ struct NoiseView {
     float per_m;                   ///< tiles per metre
     float offset[3];               ///< of the origin, in tiles
     float share;                   ///< of the blend: gain times weight, over 255; 0: not read
+    float most;                    ///< share times the largest value
     float lost[kMostNoiseLevels];  ///< variance of share * value that a level has no more
 };
 

@@ -33,6 +33,7 @@ void place_noise(const SkySettings& settings, const SkyNoise& noise, const Doubl
     view = texture.view();
     view.per_m = float(1 / tile);
     view.share = float(share);
+    view.most = float(share * texture.most * (1 + 1e-6));
     for (std::size_t a = 0; a < 3; ++a) {
         const double blown =
             a < 2 ? std::fmod(settings.wind_m_per_s[a] * settings.time_s, tile) : 0;

@@ -178,6 +178,7 @@ Status pack_noise(const Buffer<std::uint8_t>& texels, int size, int threads, Noi
         to += std::size_t(next.size) * std::size_t(next.size) * std::size_t(next.size);
         level = next;
     }
+    out.most = largest[0];  // of the one block of the coarsest levels
     // By value, not by the machine's order of bytes.
     for (std::size_t w = 0; w < out.largest.size(); ++w) {
         std::uint32_t word = 0;

@@ -10,6 +10,7 @@ namespace pileus {
 struct NoiseTexture {
     Buffer<std::int32_t> words, largest;
     int size = 0;
+    int most = 0;  ///< the largest byte
     /// Variance that reading a level gives less than reading level 0, in units of a byte's step.
     double lost[kMostNoiseLevels] = {};
 
