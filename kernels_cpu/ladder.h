@@ -35,8 +35,9 @@ PILEUS_FN Around<T> around(const PixelLattice& g, T x, T y, bool nearest) {
     lattice_split(x, g, 0, g.width, x0, x1, fx);
     lattice_split(y, g, 1, g.height, y0, y1, fy);
     Around<T> a;
-    a.marched =
-        (to_float(x0 * g.every + g.first[0]) == x) & (to_float(y0 * g.every + g.first[1]) == y);
+    const auto column = to_float(x0 * g.every + g.first[0]) == x;
+    const auto row = to_float(y0 * g.every + g.first[1]) == y;
+    a.marched = column & row;
     if (nearest) {
         fx = select(fx < 0.5f, T{}, all<T>(1.0f));
         fy = select(fy < 0.5f, T{}, all<T>(1.0f));

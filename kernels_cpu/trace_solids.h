@@ -70,7 +70,8 @@ PILEUS_FN void meet_solid(Photon<W, NC, S>& s, const TraceParams& k, TraceTally&
     const U<W> number = s.index + k.first_photon, at = s.event * 4u;
     const Words<U<W>> first = threefry(k.key.k0, k.key.k1, number, at + 2u);
     const Lambert<T> up = lambert(threefry(k.key.k0, k.key.k1, number, at + 3u));
-    const M<W> kept = m & lnot(tired) & (uniform(first.a) < most);
+    const M<W> spared = uniform(first.a) < most;
+    const M<W> kept = m & lnot(tired) & spared;
     const M<W> lost = m & lnot(tired | kept);
     if (any(lost)) PILEUS_FATE(s, tally, solid, lost);
     s.alive = s.alive & lnot(lost | tired);
