@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pixels between marched ones: from their neighbours, or from the picture before.
 // in: a lattice of marched pixels, solid depths of all pixels -> out: planes of the whole picture.
-// docs/ladder.md. Marched pixels keep their numbers to the bit; a pixel reads, it knows no tile.
+// docs/upsampling.md. Marched pixels keep their bits; a pixel reads, it knows no tile.
 #pragma once
 #include "kernels_cpu/ladder_params.h"
 #include "kernels_cpu/march_ray.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the rungs between few marched rays and a whole picture need: plain structs and pointers.
 // in: the pixels that were marched, the picture before -> out: the layout of a launch.
-// docs/ladder.md
+// docs/upsampling.md
 #pragma once
 #include "kernels_cpu/march_params.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rows of a picture from a lattice of marched pixels and from the picture before.
 // in: LadderParams, LadderBuffers -> out: planes of the whole picture, pixels kept per row.
-// docs/ladder.md
+// docs/upsampling.md
 #pragma once
 #include "kernels_cpu/ladder.h"
 

@@ -116,7 +116,7 @@ void check_animation(SceneCheck& check) {
     conflict(check, "animation.sun_elevation_deg", "a scene without a sun");
 }
 
-/// The first document's variant asks for its own display, sampler and split unless told otherwise.
+/// Elek's variant asks for its own display, sampler and split unless told otherwise.
 void fill_paper_defaults(SceneCheck& check) {
     CollectorSettings& settings = check.scene.collectors;
     if (!settings.paper) return;

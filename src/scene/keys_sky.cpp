@@ -48,11 +48,11 @@ const KeyRow kRows[] = {
               "factor on the Worley noise",
               [](const Node& n, KeyTarget t) { t.medium.sky.worley.gain = number_of(n); }),
     range_key(KeyKind::kNumber, "medium.N.sky.threshold_low", "", "", kNoiseValue,
-              "noise below it is no cloud (the document's A); the noise has mean 0.5 and deviation "
+              "noise below it is no cloud (Palenik's A); the noise has mean 0.5 and deviation "
               "1/7 before blending",
               [](const Node& n, KeyTarget t) { t.medium.sky.threshold_low = number_of(n); }),
     range_key(KeyKind::kNumber, "medium.N.sky.threshold_high", "", "", kNoiseValue,
-              "noise above it has density 1 (the document's B)",
+              "noise above it has density 1 (Palenik's B)",
               [](const Node& n, KeyTarget t) { t.medium.sky.threshold_high = number_of(n); }),
     range_key(
         KeyKind::kNumber, "medium.N.sky.coverage", "", "", kShare,

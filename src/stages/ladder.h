@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures of which few pixels are marched: the others from their neighbours, or the frame before.
 // in: a raymarch, its camera, what the frame before left -> out: planes of the whole picture.
-// docs/ladder.md
+// docs/upsampling.md
 #pragma once
 #include "src/stages/raymarch.h"
 

@@ -27,7 +27,7 @@ Status finish_leaves(const Medium& medium, const CollectorOptions& options,
     PILEUS_TRY(moments.resize(out.leaves.size(), "moments of leaves"));
     PILEUS_TRY(
         measure_leaves(density, medium.grid, context.threads, out.leaves.span(), moments.span()));
-    // Only the first document's centroids ask for the leaf of a voxel.
+    // Only Elek's centroids ask for the leaf of a voxel.
     Buffer<std::int32_t>& of_voxel = out.collector_of_voxel;
     PILEUS_TRY(of_voxel.resize(voxel_count(medium.grid), "collector of voxel"));
     const auto label = [&](LeafLabel which) {

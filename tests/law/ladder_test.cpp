@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Laws of the ladder: marched pixels keep their bits, nothing stays nothing, rest becomes exact.
 // in: a small cumulus marched in full and thinned out -> out: equal pixels, bounded errors.
-// docs/ladder.md
+// docs/upsampling.md
 #include <algorithm>
 #include <cmath>
 
@@ -123,7 +123,7 @@ TEST_CASE("What each rung errs while the camera and the sun move") {
         CHECK(error > 1e-7);  // something was left out
         return error;
     };
-    // A picture so small has few pixels inside the cloud: larger ones err less (docs/ladder.md).
+    // Few pixels of a small picture lie inside the cloud; larger ones err less: docs/upsampling.md.
     const double half = error_of("raymarch.scale = 2"), quarter = error_of("raymarch.scale = 4");
     const double two = error_of("raymarch.temporal = 2"), four = error_of("raymarch.temporal = 4");
     CHECK(half < 0.02);

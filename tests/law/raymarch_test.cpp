@@ -135,7 +135,7 @@ struct Ghost {
     int pixels = 0;
 };
 Ghost ghost_of(const char* rule, const char* occlusion) {
-    // The document's figure 4.2: the camera stands in an opaque cloud, its steps are too long.
+    // Palenik's figure 4.2: the camera stands in an opaque cloud, its steps are too long.
     Rig rig({"camera.position_m=[0,-300,800]", "camera.target_m=[200,400,800]",
              "medium.0.extinction_per_m=0.25", "raymarch.stop_below=0", "raymarch.steps=64",
              "raymarch.sky_light=none", "raymarch.scattering=forward",

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A small cloud under sun and sky, and what every picture of it must obey however it is bent.
 // in: overrides of a scene -> out: pictures whose numbers are all finite and not negative.
-// docs/testing.md, "Stiff cases"
+// docs/testing.md, "Extreme cases"
 #pragma once
 #include <algorithm>
 #include <cmath>

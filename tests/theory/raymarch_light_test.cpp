@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Sunlight of the raymarch: forward scattering, its share, powder, the share of a cone.
-// in: phase functions, cones, recurrences -> out: closed forms, limits, the document's example.
+// in: phase functions, cones, recurrences -> out: closed forms, limits, Palenik's example.
 // docs/raymarch.md, "Light"; Palenik 2016, 3.2 and 3.3.
 #include "kernels_cpu/raymarch_light.h"
 
@@ -45,13 +45,13 @@ TEST_CASE("raymarch: share of a cone, against its sum") {
         CHECK(forward_share(phase, 0) == 0);
         CHECK(forward_share(phase, 180) == doctest::Approx(1).epsilon(1e-5));
     }
-    // The document's cone of 40 degrees at the apex.
+    // Palenik's cone of 40 degrees at the apex.
     CHECK(forward_share({kPhaseHg, 0.85f, 0, 1}, 20) == doctest::Approx(0.63).epsilon(0.005));
     CHECK(forward_share({kPhaseHg, 1, 0, 1}, 20) == 1);
     CHECK(forward_share({kPhaseHg, -1, 0, 1}, 20) == 0);
 }
 
-/// (3.12) along the document's tent in `steps` steps.
+/// (3.12) along Palenik's tent in `steps` steps.
 double recurrence(double sigma, double kept, int steps) {
     const auto eta = [&](int n) {
         const double t = 2.0 * n / steps;
@@ -63,7 +63,7 @@ double recurrence(double sigma, double kept, int steps) {
 }
 
 TEST_CASE("raymarch: the recurrence of forward scattering has the limit that is computed") {
-    // The document's example: sigma 3, kept 0.7, shading by 0.9.
+    // Palenik's example: sigma 3, kept 0.7, shading by 0.9.
     CHECK((1 - 0.7) * 3 == doctest::Approx(0.9));
     const double limit = std::exp(-0.9);
     const double coarse = std::fabs(recurrence(3, 0.7, 200) - limit);

@@ -77,7 +77,7 @@ double order_of(const Profile& field, std::int32_t rule, int steps, float growth
     return std::log2(coarse / fine);
 }
 
-TEST_CASE("raymarch: on the document's tent each rule shows its order; the closed form is exact") {
+TEST_CASE("raymarch: on Palenik's tent each rule shows its order; the closed form is exact") {
     const Profile tent{false};
     // Float rounds sums of this size to 1e-7: orders are read where errors are far above.
     CHECK(order_of(tent, kRuleRiemann, 96, 1, 2, 3) == doctest::Approx(1).epsilon(0.05));
@@ -112,7 +112,7 @@ TEST_CASE("raymarch: orders on a smooth profile, even steps and growing ones, cu
             }
 }
 
-TEST_CASE("raymarch: lattices: the document's numbers, no more steps than asked for, and back") {
+TEST_CASE("raymarch: lattices: Palenik's numbers, no more steps than asked for, and back") {
     StepParams k{};
     k.most = 255;
     k.grows = k.by_distance = 1;
@@ -149,7 +149,7 @@ TEST_CASE("raymarch: lattices: the document's numbers, no more steps than asked 
                   doctest::Approx(double(n)).epsilon(1e-3));
 }
 
-/// The document's theorem 1 on steps that grow by `growth`: Simpson's 3/8 weights times the step
+/// Palenik's theorem 1 on steps that grow by `growth`: Simpson's 3/8 weights times the step
 /// behind each sample, or times the derivative of the map of steps.
 double theorem_error(int steps, double growth, bool derivative) {
     const auto f = [](double x) { return std::exp(-x) * (2 + std::cos(3 * x)); };
