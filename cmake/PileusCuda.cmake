@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Compiles kernels_cpu/*.cu by nvcc: the kernels' own sources, for NVIDIA's devices.
+# Compiles kernels_cpu/isa/*.cu by nvcc: the kernels' own sources, for NVIDIA's devices.
 # in: PILEUS_CUDA, PILEUS_CUDA_ARCHITECTURE, CMAKE_CUDA_COMPILER -> out: PILEUS_CUDA_OBJECTS, the
 # runtime in PILEUS_LINK_LIBRARIES, <build>/cuda/*.ptx for tools/check_objects. docs/crosscheck.md
 set(PILEUS_CUDA_OBJECTS)
@@ -31,8 +31,8 @@ set(cuda_flags -std=c++17 -O3 -fmad=false -ftz=false -prec-div=true -prec-sqrt=t
     --expt-relaxed-constexpr -diag-suppress=1675
     -gencode "arch=compute_${PILEUS_CUDA_ARCHITECTURE},code=[compute_${PILEUS_CUDA_ARCHITECTURE},sm_${PILEUS_CUDA_ARCHITECTURE}]"
     -Xcompiler=-fPIC -DPILEUS_ISA=cuda "-I${PROJECT_SOURCE_DIR}")
-file(GLOB cuda_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/kernels_cpu/*.cu")
-file(GLOB cuda_headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/kernels_cpu/*.h")
+file(GLOB cuda_sources CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/kernels_cpu/isa/*.cu")
+file(GLOB_RECURSE cuda_headers CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/kernels_cpu/*.h")
 file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/cuda")
 foreach(source IN LISTS cuda_sources)
     cmake_path(GET source STEM stem)
@@ -45,7 +45,7 @@ foreach(source IN LISTS cuda_sources)
     list(APPEND PILEUS_CUDA_OBJECTS "${object}")
 endforeach()
 set_source_files_properties(${PILEUS_CUDA_OBJECTS} PROPERTIES EXTERNAL_OBJECT ON GENERATED ON)
-set_source_files_properties(platform/cuda_device.cpp src/stages/find_kernels.cpp PROPERTIES
+set_source_files_properties(platform/cuda_device.cpp src/run/find_kernels.cpp PROPERTIES
     COMPILE_DEFINITIONS PILEUS_WITH_CUDA=1)
 set_source_files_properties(platform/cuda_device.cpp PROPERTIES
     COMPILE_OPTIONS "-isystem;${PILEUS_CUDA_INCLUDE}")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a run tells about itself: plan, times, energy, errors, counters, digests.
-// in: the stages as they finish -> out: plain values; src/io/report_json.h writes them.
+// in: the stages as they finish -> out: plain values; src/io/text/report_json.h writes them.
 // docs/report.md explains each key.
 #pragma once
 #include <array>

@@ -6,9 +6,9 @@
 #include <memory>
 #include <string>
 
-#include "src/io/image.h"
+#include "src/io/images/image.h"
+#include "src/run/context.h"
 #include "src/scene/scene.h"
-#include "src/stages/context.h"
 
 namespace pileus {
 

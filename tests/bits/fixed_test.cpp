@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Floats to whole quanta: rounding half away from zero, clamping, and sums without an order.
-// in: kernels_cpu/fixed.h -> out: equality of integers with std::llround in double.
+// in: kernels_cpu/core/fixed.h -> out: equality of integers with std::llround in double.
 // docs/methods.md 2 (accumulation), docs/testing.md S59, S61.
-#include "kernels_cpu/fixed.h"
+#include "kernels_cpu/core/fixed.h"
 
 #include <doctest/doctest.h>
 
@@ -10,8 +10,8 @@
 #include <limits>
 #include <vector>
 
-#include "kernels_cpu/rng.h"
-#include "tests/widths.h"
+#include "kernels_cpu/core/rng.h"
+#include "tests/support/widths.h"
 
 using namespace pileus;
 

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every verb of the lanes against plain scalar C++, at every width.
-// in: kernels_cpu/lanes.h, lanes_verbs.h -> out: equality of bits, NaN and signed zeros included.
-// docs/architecture.md, "Kernels: written once".
-#include "kernels_cpu/lanes.h"
+// in: kernels_cpu/core/lanes.h, lanes_verbs.h -> out: equality of bits, NaN and signed zeros
+// included. docs/architecture.md, "Kernels: written once".
+#include "kernels_cpu/core/lanes.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <limits>
 
-#include "tests/widths.h"
+#include "tests/support/widths.h"
 
 using namespace pileus;
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Own log, exp, 1 - exp and sin/cos against the double library, over their whole domains.
-// in: kernels_cpu/math.h -> out: largest errors within the stated ones, equal bits at every width.
-// The bounds are those that kernels_cpu/math.h states; the figures found are printed.
-#include "kernels_cpu/math.h"
+// in: kernels_cpu/core/math.h -> out: largest errors within the stated ones, equal bits at every
+// width. The bounds are those that kernels_cpu/core/math.h states; the figures found are printed.
+#include "kernels_cpu/core/math.h"
 
 #include <doctest/doctest.h>
 
@@ -11,7 +11,7 @@
 #include <cstdio>
 
 #include "src/base/digest.h"
-#include "tests/widths.h"
+#include "tests/support/widths.h"
 
 using namespace pileus;
 

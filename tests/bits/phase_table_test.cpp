@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Tables of phase functions, and HG with Draine: samples, densities and moments.
-// in: kernels_cpu/phase.h, tables of all kinds -> out: largest errors against long double.
+// in: kernels_cpu/media/phase.h, tables of all kinds -> out: largest errors against long double.
 // docs/phase.md; docs/testing.md S7, S9.
 #include <doctest/doctest.h>
 
@@ -9,13 +9,13 @@
 #include <cstdio>
 #include <string>
 
-#include "kernels_cpu/rng.h"
+#include "kernels_cpu/core/rng.h"
 #include "src/base/digest.h"
 #include "src/base/exponential.h"
-#include "src/stages/medium_phase.h"
-#include "tests/phase_reference.h"
-#include "tests/quadrature.h"
-#include "tests/widths.h"
+#include "src/world/phase/medium_phase.h"
+#include "tests/support/phase_reference.h"
+#include "tests/support/quadrature.h"
+#include "tests/support/widths.h"
 
 using namespace pileus;
 

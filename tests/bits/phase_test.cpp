@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Phase functions: samples, densities and moments against long double references.
-// in: kernels_cpu/phase.h -> out: largest errors, exact cases, quadrature; no statistics.
+// in: kernels_cpu/media/phase.h -> out: largest errors, exact cases, quadrature; no statistics.
 // docs/testing.md S1-S4, S6, S7.
-#include "kernels_cpu/phase.h"
+#include "kernels_cpu/media/phase.h"
 
 #include <doctest/doctest.h>
 
@@ -10,11 +10,11 @@
 #include <cstdio>
 #include <vector>
 
-#include "kernels_cpu/rng.h"
+#include "kernels_cpu/core/rng.h"
 #include "src/base/digest.h"
-#include "tests/phase_reference.h"
-#include "tests/quadrature.h"
-#include "tests/widths.h"
+#include "tests/support/phase_reference.h"
+#include "tests/support/quadrature.h"
+#include "tests/support/widths.h"
 
 using namespace pileus;
 

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Random numbers: published vectors, exact uniforms, streams that do not meet.
-// in: kernels_cpu/rng.h -> out: equality of bits, chi-square of neighbouring counters.
+// in: kernels_cpu/core/rng.h -> out: equality of bits, chi-square of neighbouring counters.
 // Vectors: Random123 (Salmon et al. 2011), file kat_vectors, threefry2x32-20.
-#include "kernels_cpu/rng.h"
+#include "kernels_cpu/core/rng.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
 #include "src/base/digest.h"
-#include "tests/chi_square.h"
-#include "tests/widths.h"
+#include "tests/support/chi_square.h"
+#include "tests/support/widths.h"
 
 using namespace pileus;
 

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Real spherical harmonics: orthonormal, bounded, in the stated order and sign.
-// in: kernels_cpu/sh.h -> out: quadrature over the sphere, addition theorem, moments of HG.
+// in: kernels_cpu/core/sh.h -> out: quadrature over the sphere, addition theorem, moments of HG.
 // docs/methods.md 2.
-#include "kernels_cpu/sh.h"
+#include "kernels_cpu/core/sh.h"
 
 #include <doctest/doctest.h>
 
 #include <cstdio>
 
-#include "kernels_cpu/phase.h"
-#include "kernels_cpu/rng.h"
-#include "kernels_cpu/vec.h"
+#include "kernels_cpu/core/rng.h"
+#include "kernels_cpu/core/vec.h"
+#include "kernels_cpu/media/phase.h"
 #include "src/base/digest.h"
-#include "tests/quadrature.h"
-#include "tests/widths.h"
+#include "tests/support/quadrature.h"
+#include "tests/support/widths.h"
 
 using namespace pileus;
 

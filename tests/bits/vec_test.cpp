@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The frame around a direction, and a million turns one after another.
-// in: kernels_cpu/vec.h -> out: orthonormality, unit length within 4 ulp, small angles.
+// in: kernels_cpu/core/vec.h -> out: orthonormality, unit length within 4 ulp, small angles.
 // docs/testing.md S10, S11; Duff et al. 2017.
-#include "kernels_cpu/vec.h"
+#include "kernels_cpu/core/vec.h"
 
 #include <doctest/doctest.h>
 
@@ -10,10 +10,10 @@
 #include <cstdio>
 #include <vector>
 
-#include "kernels_cpu/phase.h"
-#include "kernels_cpu/rng.h"
+#include "kernels_cpu/core/rng.h"
+#include "kernels_cpu/media/phase.h"
 #include "src/base/digest.h"
-#include "tests/widths.h"
+#include "tests/support/widths.h"
 
 using namespace pileus;
 

@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "kernels_cpu/noise.h"
+#include "kernels_cpu/procedural/noise.h"
 #include "src/base/digest.h"
-#include "src/volume/cumulus.h"
-#include "src/volume/shapes.h"
+#include "src/world/density/cumulus.h"
+#include "src/world/density/shapes.h"
 
 using namespace pileus;
 

@@ -2,7 +2,7 @@
 // The scenes that come with the program render as they are, within the limits of every run.
 // in: assets/scenes -> out: pass or fail.
 // docs/testing.md, label cli
-#include "tests/asset_scenes.h"
+#include "tests/support/asset_scenes.h"
 
 TEST_CASE("asset scenes: those that need no other data render") {
     const std::vector<std::string> scenes = asset_scenes::find(false);

@@ -6,8 +6,8 @@
 
 #include <string>
 
-#include "src/api/render.h"
-#include "src/io/image_file.h"
+#include "src/io/images/image_file.h"
+#include "src/session/render.h"
 #include "tests/cli/run_program.h"
 
 using namespace pileus;

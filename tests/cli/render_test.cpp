@@ -2,15 +2,15 @@
 // What the program writes: pictures, hashes, reports, frames; and what it says about files.
 // in: PILEUS_PROGRAM -> out: pass or fail.
 // docs/program.md; docs/report.md
-#include "src/api/render.h"
+#include "src/session/render.h"
 
 #include <doctest/doctest.h>
 
 #include <limits>
 #include <nlohmann/json.hpp>
 
-#include "src/io/image_file.h"
-#include "src/io/report_json.h"
+#include "src/io/images/image_file.h"
+#include "src/io/text/report_json.h"
 #include "tests/cli/run_program.h"
 
 using namespace pileus;

@@ -8,10 +8,10 @@
 #include <cstdio>
 #include <string>
 
-#include "kernels_cpu/camera.h"
+#include "kernels_cpu/core/camera.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/scene_keys.h"
-#include "src/stages/view.h"
+#include "src/world/camera/view.h"
 
 using namespace pileus;
 

@@ -2,9 +2,9 @@
 // Sky maps through the program: pictures, the plan, faults and exit statuses.
 // in: scenes with small maps -> out: exit status, lines, files left behind.
 // docs/scene.md "Sky map".
-#include "src/io/image_file.h"
+#include "src/io/images/image_file.h"
 #include "tests/cli/run_program.h"
-#include "tests/sky_images.h"
+#include "tests/support/sky_images.h"
 
 using namespace pileus;
 using test::holds;

@@ -4,7 +4,7 @@
 // docs/program.md; docs/how-it-works.md
 #include <nlohmann/json.hpp>
 
-#include "src/io/image_file.h"
+#include "src/io/images/image_file.h"
 #include "tests/cli/run_program.h"
 
 using namespace pileus;

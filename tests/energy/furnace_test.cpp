@@ -2,13 +2,13 @@
 // Furnaces: inside a uniform field of radiance a white cloud cannot be told from its surroundings.
 // in: sky, ground of albedo 1, clouds -> out: pixels and collectors that show the same radiance.
 // docs/methods.md 3 "Shoot" (furnace identity); the ground's rules by forcing its photons.
-#include "kernels_cpu/vec.h"
-#include "src/stages/prepare.h"
-#include "src/stages/prepare_shares.h"
-#include "src/stages/reconstruct.h"
-#include "src/volume/cumulus.h"
-#include "tests/media_harness.h"
-#include "tests/render_harness.h"
+#include "kernels_cpu/core/vec.h"
+#include "src/methods/collectors/photons/reconstruct.h"
+#include "src/methods/collectors/prepare/prepare.h"
+#include "src/methods/collectors/prepare/shares.h"
+#include "src/world/density/cumulus.h"
+#include "tests/support/media_harness.h"
+#include "tests/support/render_harness.h"
 
 using namespace trace_test;
 

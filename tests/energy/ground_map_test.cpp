@@ -4,7 +4,7 @@
 // docs/collectors.md "Light that needs no photon".
 #include <doctest/doctest.h>
 
-#include "tests/trace_harness.h"
+#include "tests/support/trace_harness.h"
 
 using namespace pileus;
 using namespace trace_test;

@@ -2,8 +2,8 @@
 // Which lights a ground makes, and what becomes of the light between ground and cloud.
 // in: scenes with a ground -> out: lists of lights, energy per light.
 // docs/methods.md 3 "Shoot"; docs/collectors.md.
-#include "tests/render_harness.h"
-#include "tests/trace_harness.h"
+#include "tests/support/render_harness.h"
+#include "tests/support/trace_harness.h"
 
 using namespace trace_test;
 

@@ -2,7 +2,7 @@
 // The energy ledger: what is shot is found again, to the last quantum.
 // in: white, grey and coloured media, lights, ground -> out: exact integer balances.
 // docs/methods.md 3, each image frame, step 1; every comparison is between integers.
-#include "tests/trace_harness.h"
+#include "tests/support/trace_harness.h"
 
 using namespace trace_test;
 

@@ -2,8 +2,8 @@
 // Diffuse light in a white medium: exact means, whatever the density and the phase function.
 // in: fields of high contrast -> out: mean path 4V/S, mean scatterings, cost of tracking.
 // Blanco and Fournier 2003, "An invariance property of diffusive random walks".
-#include "src/volume/cumulus.h"
-#include "tests/trace_harness.h"
+#include "src/world/density/cumulus.h"
+#include "tests/support/trace_harness.h"
 
 using namespace trace_test;
 

@@ -2,7 +2,7 @@
 // Two media on one grid: exact ledgers, what each absorbs, mean paths.
 // in: shares of a field for each medium, albedos, phase functions -> out: integer balances, means.
 // docs/methods.md 2, "Several media"; Blanco and Fournier 2003 for the mean path.
-#include "tests/media_harness.h"
+#include "tests/support/media_harness.h"
 
 using namespace trace_test;
 

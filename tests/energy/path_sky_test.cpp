@@ -2,9 +2,9 @@
 // Sky maps under the path tracer: against a constant sky, and a bright spot against a sun.
 // in: maps of one colour, maps of one bright texel -> out: radiances that must agree.
 // docs/path.md "Sky maps": phase and map sampling together, by the balance heuristic.
-#include "tests/path_harness.h"
-#include "tests/quadrature.h"
-#include "tests/sky_images.h"
+#include "tests/support/path_harness.h"
+#include "tests/support/quadrature.h"
+#include "tests/support/sky_images.h"
 
 namespace {
 

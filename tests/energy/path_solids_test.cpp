@@ -5,9 +5,9 @@
 #include <cmath>
 
 #include "src/base/file.h"
-#include "src/io/image_file.h"
+#include "src/io/images/image_file.h"
 #include "tests/io/temp_folder.h"
-#include "tests/render_harness.h"
+#include "tests/support/render_harness.h"
 
 using namespace render_test;
 

@@ -2,8 +2,8 @@
 // Camera paths where energy tells the answer: furnaces, empty boxes, the bare ground.
 // in: uniform light, boxes and balls -> out: radiances that are known without any transport.
 // docs/path.md; docs/testing.md "energy".
-#include "kernels_cpu/rng.h"
-#include "tests/path_harness.h"
+#include "kernels_cpu/core/rng.h"
+#include "tests/support/path_harness.h"
 
 namespace {
 

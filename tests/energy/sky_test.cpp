@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light from sky maps: against a constant sky, against a sun, and in furnaces.
 // in: constant maps, maps of one bright texel -> out: fates, mean paths, pictures.
-// docs/methods.md 3 "Sky map". tests/trace_harness.h (two-stage rule).
-#include "src/io/image_file.h"
+// docs/methods.md 3 "Sky map". tests/support/trace_harness.h (two-stage rule).
+#include "src/io/images/image_file.h"
 #include "tests/io/temp_folder.h"
-#include "tests/render_harness.h"
-#include "tests/sky_images.h"
-#include "tests/trace_harness.h"
+#include "tests/support/render_harness.h"
+#include "tests/support/sky_images.h"
+#include "tests/support/trace_harness.h"
 
 using namespace trace_test;
 using namespace sky_test;

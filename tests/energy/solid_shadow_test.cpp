@@ -2,14 +2,14 @@
 // Solids in the light of clouds: the ledger's fate, shadows in every method, agreement with paths.
 // in: plates in and before a box of medium -> out: pass or fail.
 // docs/solids.md, "Shadows in clouds".
-#include "src/stages/solid_shadow.h"
+#include "src/picture/nodes/solid_shadow.h"
 
 #include <cmath>
 
 #include "src/base/file.h"
 #include "tests/io/temp_folder.h"
-#include "tests/render_harness.h"
-#include "tests/solid_harness.h"
+#include "tests/support/render_harness.h"
+#include "tests/support/solid_harness.h"
 
 using namespace render_test;
 

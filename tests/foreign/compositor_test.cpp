@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "kernels_cpu/kernels.h"
-#include "kernels_cpu/rng.h"
+#include "kernels_cpu/core/rng.h"
+#include "kernels_cpu/isa/kernels.h"
+#include "src/methods/collectors/billboards/gl_billboards.h"
 #include "src/scene/read_scene.h"
-#include "src/stages/gl_billboards.h"
 
 using namespace pileus;
 

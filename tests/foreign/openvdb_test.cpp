@@ -7,8 +7,8 @@
 #include <cstdlib>
 #include <string>
 
-#include "kernels_cpu/rng.h"
-#include "src/io/vdb_file.h"
+#include "kernels_cpu/core/rng.h"
+#include "src/io/volumes/vdb/vdb_file.h"
 #include "tests/foreign/random_grid.h"
 #include "tests/io/temp_folder.h"
 

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "src/io/volume.h"
+#include "src/io/volumes/volume.h"
 
 namespace pileus {
 namespace test {

@@ -2,7 +2,7 @@
 // Fuzz target: meshes as OBJ or PLY, by what the bytes begin with.
 // in: bytes as a mesh -> out: triangles with finite corners, or one line.
 // docs/solids.md, "Files"
-#include "src/io/mesh_file.h"
+#include "src/io/meshes/mesh_file.h"
 #include "tests/fuzz/target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

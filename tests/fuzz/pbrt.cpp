@@ -2,7 +2,7 @@
 // Fuzz target: density grids in pbrt's text form.
 // in: bytes as a .pbrt file -> out: a lawful volume, or one line with its place.
 // docs/formats.md
-#include "src/io/volume_file.h"
+#include "src/io/volumes/volume_file.h"
 #include "tests/fuzz/target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -4,7 +4,7 @@
 // docs/formats.md
 #include <cstring>
 
-#include "src/io/image_file.h"
+#include "src/io/images/image_file.h"
 #include "tests/fuzz/target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

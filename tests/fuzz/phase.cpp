@@ -2,7 +2,7 @@
 // Fuzz target: phase functions in files.
 // in: bytes as a table and as moments -> out: a lawful phase function, or one line with its place.
 // docs/phase.md, "Files".
-#include "src/stages/phase_table.h"
+#include "src/world/phase/phase_table.h"
 #include "tests/fuzz/target.h"
 
 namespace {

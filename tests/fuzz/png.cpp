@@ -2,7 +2,7 @@
 // Fuzz target: PNG pictures through libpng, behind our own checks.
 // in: bytes as a .png file -> out: a lawful picture of at most 4096 pixels, or one line.
 // docs/formats.md
-#include "src/io/image_file.h"
+#include "src/io/images/image_file.h"
 #include "tests/fuzz/target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

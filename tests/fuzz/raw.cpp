@@ -2,7 +2,7 @@
 // Fuzz target: density grids without a head.
 // in: type and byte order, three sides of 16 bits, then the file -> out: a lawful volume, or a
 // line. docs/formats.md
-#include "src/io/volume_file.h"
+#include "src/io/volumes/volume_file.h"
 #include "tests/fuzz/target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

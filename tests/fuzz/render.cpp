@@ -2,7 +2,7 @@
 // Fuzz target: the whole way from a scene to a picture, for scenes that are always valid.
 // in: bytes that choose a scene -> out: finite light, balanced ledgers, no accident counted.
 // docs/report.md, counters; docs/testing.md, section Fuzzing
-#include "src/api/render.h"
+#include "src/session/render.h"
 
 #include "src/scene/read_scene.h"
 #include "tests/fuzz/scene_maker.h"

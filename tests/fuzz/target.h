@@ -10,9 +10,9 @@
 
 #include "src/base/span.h"
 #include "src/base/status.h"
-#include "src/io/image.h"
-#include "src/io/vdb_file.h"
-#include "src/io/volume.h"
+#include "src/io/images/image.h"
+#include "src/io/volumes/vdb/vdb_file.h"
+#include "src/io/volumes/volume.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 

@@ -2,7 +2,7 @@
 // Fuzz target: OpenVDB fog volumes.
 // in: bytes as a .vdb file -> out: a lawful volume and an equal head, or one line with its place.
 // docs/formats.md
-#include "src/io/vdb_file.h"
+#include "src/io/volumes/vdb/vdb_file.h"
 #include "tests/fuzz/target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -2,7 +2,7 @@
 // Fuzz target: binary density grids.
 // in: bytes as a .vol file -> out: a lawful volume, or one line with its place.
 // docs/formats.md
-#include "src/io/vol_volume.h"
+#include "src/io/volumes/vol_volume.h"
 #include "tests/fuzz/target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -8,7 +8,7 @@
 #include <set>
 #include <sstream>
 
-#include "tests/render_harness.h"
+#include "tests/support/render_harness.h"
 
 using namespace render_test;
 

@@ -5,11 +5,11 @@
 #include <cstdio>
 
 #include "platform/cuda_device.h"
-#include "src/stages/device_launch.h"
-#include "src/stages/find_kernels.h"
-#include "tests/device_emulator.h"
-#include "tests/long_tests.h"
-#include "tests/render_harness.h"
+#include "src/run/device_launch.h"
+#include "src/run/find_kernels.h"
+#include "tests/support/device_emulator.h"
+#include "tests/support/long_tests.h"
+#include "tests/support/render_harness.h"
 
 using namespace render_test;
 

@@ -3,8 +3,8 @@
 // nothing change none.
 // in: three media of all kinds of phase function -> out: equal sums, ledgers and pictures.
 // docs/determinism.md; docs/methods.md 2, "Several media".
-#include "tests/media_harness.h"
-#include "tests/render_harness.h"
+#include "tests/support/media_harness.h"
+#include "tests/support/render_harness.h"
 
 using namespace trace_test;
 

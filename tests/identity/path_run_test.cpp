@@ -2,9 +2,9 @@
 // A path traced picture depends on its number of samples alone: not on passes, breaks, threads.
 // in: small scenes, interrupted at chosen moments -> out: equal digests.
 // docs/determinism.md; docs/program.md, "Budgets of a path tracing"
-#include "src/methods/path_passes.h"
+#include "src/methods/path/path_passes.h"
 #include "tests/io/temp_folder.h"
-#include "tests/render_harness.h"
+#include "tests/support/render_harness.h"
 
 using namespace render_test;
 
@@ -166,15 +166,16 @@ TEST_CASE("collectors: interrupted, the picture is that of the generations there
           }).code == Code::kCheckFailed);
 }
 
-TEST_CASE("path: passes stay within their rule, and rungs rise") {
-    std::uint64_t rung = 0;
+TEST_CASE(
+    "path: passes stay within their rule, and the samples at which the error is looked at rise") {
+    std::uint64_t count = 0;
     for (int i = 0; i < 40; ++i) {
-        const std::uint64_t next = next_rung(rung);
-        REQUIRE(next > rung);
-        CHECK(is_rung(next));
-        CHECK_FALSE(is_rung(next + 1));
-        if (rung > 0) CHECK(next <= rung + rung / 4);
-        rung = next;
+        const std::uint64_t next = next_check(count);
+        REQUIRE(next > count);
+        CHECK(is_check(next));
+        CHECK_FALSE(is_check(next + 1));
+        if (count > 0) CHECK(next <= count + count / 4);
+        count = next;
     }
     PassRule rule;
     rule.most = 100;

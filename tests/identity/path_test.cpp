@@ -2,8 +2,8 @@
 // Camera paths: the same film from every instruction set, number of threads and way of asking.
 // in: one scene of everything, traced in many ways -> out: equal bits; nothing is stored.
 // docs/path.md: samples belong to (seed, pixel, number) and are added up in their order.
-#include "tests/path_harness.h"
-#include "tests/sky_images.h"
+#include "tests/support/path_harness.h"
+#include "tests/support/sky_images.h"
 
 namespace {
 

@@ -2,7 +2,7 @@
 // Periodic media give equal bits from every instruction set and number of threads.
 // in: a periodic field over a ground, its pictures in both projections -> out: equal digests.
 // docs/determinism.md; docs/methods.md 2, "Periodic media".
-#include "tests/render_harness.h"
+#include "tests/support/render_harness.h"
 
 using namespace render_test;
 

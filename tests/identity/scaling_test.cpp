@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "tests/render_harness.h"
+#include "tests/support/render_harness.h"
 
 using namespace render_test;
 

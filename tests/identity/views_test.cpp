@@ -2,7 +2,7 @@
 // Views give the same bits from every number of threads and every instruction set.
 // in: a small cumulus, each view -> out: one hash per view.
 // docs/how-it-works.md; docs/determinism.md
-#include "tests/render_harness.h"
+#include "tests/support/render_harness.h"
 
 using namespace render_test;
 

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "src/io/volume_file.h"
-#include "src/stages/medium.h"
+#include "src/io/volumes/volume_file.h"
+#include "src/world/medium/medium.h"
 #include "tests/io/temp_folder.h"
-#include "tests/render_harness.h"
+#include "tests/support/render_harness.h"
 
 using namespace pileus;
 

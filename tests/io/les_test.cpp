@@ -4,9 +4,9 @@
 // docs/testing.md, label io
 #include <doctest/doctest.h>
 
-#include "src/io/les_layers.h"
-#include "src/io/les_volume.h"
-#include "src/io/volume_file.h"
+#include "src/io/volumes/les_layers.h"
+#include "src/io/volumes/les_volume.h"
+#include "src/io/volumes/volume_file.h"
 #include "tests/io/temp_folder.h"
 
 using namespace pileus;

@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "src/base/file.h"
-#include "src/io/mesh_file.h"
+#include "src/io/meshes/mesh_file.h"
 #include "tests/io/temp_folder.h"
 
 using namespace pileus;

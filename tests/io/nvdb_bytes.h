@@ -9,8 +9,8 @@
 #include <cstring>
 #include <string>
 
-#include "src/io/nvdb_file.h"
-#include "src/io/vdb_values.h"
+#include "src/io/volumes/vdb/nvdb_file.h"
+#include "src/io/volumes/vdb/vdb_values.h"
 
 namespace pileus {
 namespace test {

@@ -4,7 +4,7 @@
 // docs/testing.md, label io
 #include <doctest/doctest.h>
 
-#include "src/io/volume_file.h"
+#include "src/io/volumes/volume_file.h"
 #include "tests/io/temp_folder.h"
 
 using namespace pileus;

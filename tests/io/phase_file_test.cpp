@@ -2,11 +2,11 @@
 // Phase functions in files: known answers, each fault once with its place, and their limits.
 // in: small texts -> out: pass or fail.
 // docs/phase.md, "Files"; docs/testing.md S5, S9.
-#include "src/io/phase_file.h"
+#include "src/io/text/phase_file.h"
 
 #include <doctest/doctest.h>
 
-#include "src/stages/medium_phase.h"
+#include "src/world/phase/medium_phase.h"
 #include "tests/io/temp_folder.h"
 
 using namespace pileus;

@@ -4,9 +4,9 @@
 // docs/formats.md "Sky maps in".
 #include <limits>
 
-#include "src/io/image_file.h"
+#include "src/io/images/image_file.h"
 #include "tests/io/temp_folder.h"
-#include "tests/sky_images.h"
+#include "tests/support/sky_images.h"
 
 using namespace pileus;
 using sky_test::sky_image;

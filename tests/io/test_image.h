@@ -7,7 +7,7 @@
 
 #include <limits>
 
-#include "src/io/image_file.h"
+#include "src/io/images/image_file.h"
 
 namespace pileus {
 namespace test {

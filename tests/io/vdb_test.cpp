@@ -6,8 +6,8 @@
 
 #include <algorithm>
 
-#include "src/io/vdb_file.h"
-#include "src/io/volume_file.h"
+#include "src/io/volumes/vdb/vdb_file.h"
+#include "src/io/volumes/volume_file.h"
 #include "tests/io/temp_folder.h"
 
 using namespace pileus;

@@ -6,8 +6,8 @@
 
 #include <limits>
 
-#include "src/io/vol_volume.h"
-#include "src/io/volume_file.h"
+#include "src/io/volumes/vol_volume.h"
+#include "src/io/volumes/volume_file.h"
 #include "tests/io/temp_folder.h"
 
 using namespace pileus;

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "platform/clock.h"
-#include "src/io/volume_file.h"
+#include "src/io/volumes/volume_file.h"
 #include "tests/io/temp_folder.h"
 
 using namespace pileus;

@@ -4,10 +4,10 @@
 // untouched. docs/methods.md 3, repair 5.
 #include <cmath>
 
-#include "kernels_cpu/deposit.h"
-#include "src/stages/reconstruct.h"
-#include "tests/render_harness.h"
-#include "tests/trace_harness.h"
+#include "kernels_cpu/photons/deposit.h"
+#include "src/methods/collectors/photons/reconstruct.h"
+#include "tests/support/render_harness.h"
+#include "tests/support/trace_harness.h"
 
 using namespace pileus;
 

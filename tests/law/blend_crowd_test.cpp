@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tests/blend_harness.h"
+#include "tests/support/blend_harness.h"
 
 using namespace blend_harness;
 

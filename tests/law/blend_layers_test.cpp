@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels_cpu/blend.h"
+#include "kernels_cpu/display/blend.h"
 
 using namespace pileus;
 

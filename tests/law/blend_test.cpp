@@ -4,7 +4,7 @@
 // docs/methods.md 3, each image frame, step 5.
 #include <cmath>
 
-#include "tests/blend_harness.h"
+#include "tests/support/blend_harness.h"
 
 using namespace blend_harness;
 

@@ -2,10 +2,10 @@
 // Standard errors are right: intervals of 95 % hold the long-run mean in 95 % of pixels.
 // in: small clouds under many seeds -> out: shares of intervals that cover.
 // docs/validation.md, "Error bars"
-#include "tests/coverage.h"
-#include "tests/path_harness.h"
-#include "tests/render_harness.h"
-#include "tests/validation_rows.h"
+#include "tests/support/coverage.h"
+#include "tests/support/path_harness.h"
+#include "tests/support/render_harness.h"
+#include "tests/support/validation_rows.h"
 
 using namespace pileus;
 

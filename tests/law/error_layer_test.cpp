@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <vector>
 
-#include "tests/render_harness.h"
+#include "tests/support/render_harness.h"
 
 using namespace pileus;
 using namespace render_test;

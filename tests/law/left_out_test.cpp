@@ -4,7 +4,7 @@
 // docs/report.md, "Left out".
 #include <doctest/doctest.h>
 
-#include "tests/render_harness.h"
+#include "tests/support/render_harness.h"
 
 using namespace render_test;
 

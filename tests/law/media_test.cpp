@@ -2,9 +2,9 @@
 // Media laid on one grid: the grid, the weights, what is conserved, the collectors' shares.
 // in: boxes that are equal, nested, disjoint or askew -> out: masses, copies, integrals by
 // sampling. docs/methods.md 2, "Several media".
-#include "src/stages/mix_weights.h"
-#include "src/stages/prepare.h"
-#include "tests/media_harness.h"
+#include "src/methods/collectors/prepare/prepare.h"
+#include "src/world/grid/mix_weights.h"
+#include "tests/support/media_harness.h"
 
 using namespace trace_test;
 

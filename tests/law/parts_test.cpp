@@ -4,7 +4,7 @@
 // docs/formats.md, "Pictures out"
 #include <cmath>
 
-#include "tests/render_harness.h"
+#include "tests/support/render_harness.h"
 
 using namespace render_test;
 

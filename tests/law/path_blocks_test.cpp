@@ -2,15 +2,15 @@
 // The path tracer's grid of bounds: leaps clear nothing but empty blocks, and are as long as can
 // be. in: random sparse grids -> out: every entry against a search through all blocks.
 // docs/path.md, "Flight"
-#include "src/stages/path_blocks.h"
+#include "src/methods/path/path_blocks.h"
 
 #include <doctest/doctest.h>
 
 #include <algorithm>
 #include <cstdlib>
 
-#include "kernels_cpu/flight.h"
-#include "kernels_cpu/rng.h"
+#include "kernels_cpu/core/rng.h"
+#include "kernels_cpu/media/flight.h"
 
 namespace {
 

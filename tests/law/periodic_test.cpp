@@ -2,12 +2,12 @@
 // Periodic media in every stage: what is read beyond a face is the other side.
 // in: small fields, and the same fields laid side by side -> out: equal depths, bounds, masses.
 // docs/methods.md 2, "Periodic media".
-#include "kernels_cpu/march.h"
-#include "kernels_cpu/walk.h"
-#include "src/stages/prepare_field.h"
-#include "src/stages/source_grid.h"
-#include "tests/render_harness.h"
-#include "tests/trace_harness.h"
+#include "kernels_cpu/display/march.h"
+#include "kernels_cpu/media/walk.h"
+#include "src/methods/collectors/photons/source_grid.h"
+#include "src/world/grid/field.h"
+#include "tests/support/render_harness.h"
+#include "tests/support/trace_harness.h"
 
 using namespace trace_test;
 

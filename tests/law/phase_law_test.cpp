@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Phase functions drawn at random: the law of the angle and its mean.
-// in: kernels_cpu/phase.h, rng.h -> out: chi-square against the density, z of the mean cosine.
-// docs/testing.md S1-S3, S8, "Two-stage rule".
+// in: kernels_cpu/media/phase.h, rng.h -> out: chi-square against the density, z of the mean
+// cosine. docs/testing.md S1-S3, S8, "Two-stage rule".
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -10,11 +10,11 @@
 #include <string>
 #include <vector>
 
-#include "kernels_cpu/rng.h"
-#include "src/stages/medium_phase.h"
-#include "tests/chi_square.h"
-#include "tests/phase_reference.h"
-#include "tests/quadrature.h"
+#include "kernels_cpu/core/rng.h"
+#include "src/world/phase/medium_phase.h"
+#include "tests/support/chi_square.h"
+#include "tests/support/phase_reference.h"
+#include "tests/support/quadrature.h"
 
 using namespace pileus;
 

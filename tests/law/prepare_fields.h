@@ -8,10 +8,11 @@
 #include <cstdint>
 #include <vector>
 
-#include "kernels_cpu/rng.h"
+#include "kernels_cpu/core/rng.h"
 #include "src/base/digest.h"
 #include "src/base/span.h"
-#include "src/stages/prepared.h"
+#include "src/methods/collectors/prepare/prepared.h"
+#include "src/world/grid/grid.h"
 
 namespace prepare_test {
 

@@ -4,7 +4,7 @@
 // Elek 2011, section 5.3.
 #include <doctest/doctest.h>
 
-#include "src/stages/prepare_tree.h"
+#include "src/methods/collectors/prepare/tree.h"
 #include "tests/law/prepare_fields.h"
 
 using namespace pileus;

@@ -2,11 +2,10 @@
 // The majorant grid against a direct search, and the choice of its block against its formula.
 // in: small density fields -> out: passes or fails.
 // docs/methods.md 1 and 2 (local majorants).
-#include "src/stages/prepare_majorant.h"
-
 #include <doctest/doctest.h>
 
-#include "src/stages/empty_blocks.h"
+#include "src/world/majorant/empty_blocks.h"
+#include "src/world/majorant/majorant.h"
 #include "tests/law/prepare_fields.h"
 
 using namespace pileus;

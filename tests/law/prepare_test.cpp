@@ -6,8 +6,8 @@
 
 #include <cstring>
 
-#include "src/stages/prepare_field.h"
-#include "src/stages/prepare_samples.h"
+#include "src/methods/collectors/prepare/samples.h"
+#include "src/world/grid/field.h"
 #include "tests/law/prepare_fields.h"
 
 using namespace pileus;

@@ -2,14 +2,14 @@
 // Leaves tile the grid and collectors keep its optical cross-section, on ordinary and odd fields.
 // in: small density fields -> out: passes or fails.
 // Elek 2011, sections 5.3-5.5; docs/methods.md 3, prepare 3-5.
-#include "src/stages/prepare_tree.h"
-
 #include <doctest/doctest.h>
 
-#include "src/stages/prepare_collectors.h"
-#include "src/stages/prepare_field.h"
-#include "src/stages/prepare_leaves.h"
-#include "src/stages/prepare_samples.h"
+#include "src/base/powers.h"
+#include "src/methods/collectors/prepare/leaves.h"
+#include "src/methods/collectors/prepare/place_collectors.h"
+#include "src/methods/collectors/prepare/samples.h"
+#include "src/methods/collectors/prepare/tree.h"
+#include "src/world/grid/field.h"
 #include "tests/law/prepare_fields.h"
 
 using namespace pileus;

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "tests/render_harness.h"
+#include "tests/support/render_harness.h"
 
 namespace raymarch_run_test {
 

@@ -3,16 +3,15 @@
 // stands in an opaque cloud leaves no trace, skylight in thin media is the sky's. in: a small
 // cumulus, its settings -> out: planes of pixels compared. docs/raymarch.md; Palenik 2016,
 // figure 4.2.
-#include "src/stages/raymarch.h"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "src/stages/blue_noise.h"
-#include "src/stages/mix_media.h"
-#include "src/stages/view.h"
-#include "tests/render_harness.h"
+#include "src/methods/raymarch/march.h"
+#include "src/picture/blue_noise.h"
+#include "src/world/camera/view.h"
+#include "src/world/medium/mix_media.h"
+#include "tests/support/render_harness.h"
 
 namespace raymarch_test {
 
@@ -24,7 +23,7 @@ struct Rig {
     Context context;
     Report report;
     Medium medium;
-    Prepared prepared;
+    Majorants majorants;
     Lighting lighting;
     SunDepth nodes;
     SkyNodes sky;
@@ -38,19 +37,19 @@ struct Rig {
         context.report = &report;
         Plan plan;
         REQUIRE(load_media(scene, context.limits, 1, plan, medium));
-        REQUIRE(prepare_majorants(medium, false, context, prepared));
+        REQUIRE(make_majorants(medium, false, context, majorants));
         lighting = plan_lighting(scene, medium, scene.sun.elevation_deg, plan);
-        REQUIRE(make_sun_depth(context, medium, prepared, lighting.to_sun, SunDepthKind::kExact,
+        REQUIRE(make_sun_depth(context, medium, majorants, lighting.to_sun, SunDepthKind::kExact,
                                nodes));
         if (scene.raymarch.sky_ambient)
-            REQUIRE(make_sky_nodes(context, medium, prepared, lighting,
+            REQUIRE(make_sky_nodes(context, medium, majorants, lighting,
                                    mean_kept(scene.raymarch, medium), octaves_of(scene.raymarch),
                                    sky));
         if (scene.raymarch.jitter == RaymarchJitterKind::kBlueNoise)
             REQUIRE(make_blue_noise(noise));
-        REQUIRE(make_density_levels(medium, 4, prepared.skip_block, context, levels));
+        REQUIRE(make_density_levels(medium, 4, majorants.skip_block, context, levels));
         in.medium = &medium;
-        in.prepared = &prepared;
+        in.majorants = &majorants;
         in.lighting = &lighting;
         in.settings = &scene.raymarch;
         in.nodes = &nodes;
@@ -102,7 +101,7 @@ TEST_CASE("raymarch: empty blocks are skipped without a change of bits") {
             CAPTURE(kind[0]);
             RaymarchTally skipped, whole;
             const std::string leaping = digest_of(rig.march(0, &skipped));
-            for (float& bound : rig.prepared.skip_majorants.span()) bound = 1;
+            for (float& bound : rig.majorants.skipping.span()) bound = 1;
             for (DensityLevel& level : rig.levels)
                 for (float& bound : level.majorants.span()) bound = 1;
             CHECK(digest_of(rig.march(0, &whole)) == leaping);

@@ -2,11 +2,11 @@
 // Sky maps against their definition: what is seen, what is sent, where the directions lie.
 // in: small maps -> out: chi-square of directions, powers, radiances against plain double.
 // docs/methods.md 3 "Sky map"; docs/scene.md "Sky map".
-#include "tests/chi_square.h"
-#include "tests/render_harness.h"
-#include "tests/sky_images.h"
-#include "tests/trace_harness.h"
-#include "tests/widths.h"
+#include "tests/support/chi_square.h"
+#include "tests/support/render_harness.h"
+#include "tests/support/sky_images.h"
+#include "tests/support/trace_harness.h"
+#include "tests/support/widths.h"
 
 using namespace sky_test;
 

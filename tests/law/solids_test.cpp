@@ -2,10 +2,10 @@
 // Rays against triangles: the tree changes no hit, closed meshes leak nowhere, all widths agree.
 // in: random and hostile triangles and rays -> out: pass or fail.
 // docs/solids.md, "Rays"; Woop, Benthin, Wald 2013.
-#include "kernels_cpu/solids.h"
+#include "kernels_cpu/solids/solids.h"
 
-#include "tests/solid_harness.h"
-#include "tests/widths.h"
+#include "tests/support/solid_harness.h"
+#include "tests/support/widths.h"
 
 using namespace pileus;
 

@@ -2,9 +2,9 @@
 // Laws of the sun's optical depth on nodes: mirrors, conservation, smearing, rays.
 // in: small grids of random densities -> out: equal bits, equal sums, bounded differences.
 // docs/buffer.md. The reference integrates the trilinear field in double, cell by cell.
-#include "src/stages/sun_depth.h"
+#include "src/picture/nodes/sun_depth.h"
 
-#include "tests/sun_depth_harness.h"
+#include "tests/support/sun_depth_harness.h"
 
 using namespace sun_depth_test;
 

@@ -2,11 +2,11 @@
 // What makes tracing fast must not change its law: packed lanes, leaps, draws that serve twice.
 // in: lanes, words and small clouds -> out: the same as without, or the exponential law.
 // docs/methods.md 3, "Queues".
-#include "kernels_cpu/pack.h"
-#include "kernels_cpu/walk.h"
-#include "src/stages/empty_blocks.h"
-#include "tests/trace_harness.h"
-#include "tests/widths.h"
+#include "kernels_cpu/core/pack.h"
+#include "kernels_cpu/media/walk.h"
+#include "src/world/majorant/empty_blocks.h"
+#include "tests/support/trace_harness.h"
+#include "tests/support/widths.h"
 
 using namespace trace_test;
 

@@ -4,13 +4,13 @@
 // docs/how-it-works.md
 #include <cmath>
 
-#include "kernels_cpu/tone.h"
-#include "src/api/follow.h"
-#include "src/stages/show_canvas.h"
-#include "src/stages/show_colours.h"
-#include "src/stages/show_walk.h"
+#include "kernels_cpu/display/tone.h"
+#include "src/methods/collectors/views/show_walk.h"
+#include "src/picture/canvas/canvas.h"
+#include "src/picture/canvas/colours.h"
+#include "src/session/follow.h"
 #include "tests/law/prepare_fields.h"
-#include "tests/render_harness.h"
+#include "tests/support/render_harness.h"
 
 using namespace render_test;
 

@@ -2,7 +2,7 @@
 // The scenes of real clouds render as they are.
 // in: assets/scenes, PILEUS_DATA_DIR -> out: pass or fail, or one line why it was skipped.
 // docs/testing.md, label shared
-#include "tests/asset_scenes.h"
+#include "tests/support/asset_scenes.h"
 
 #include <cstdlib>
 

@@ -5,9 +5,9 @@
 #pragma once
 #include <memory>
 
-#include "src/stages/phase_table.h"
-#include "tests/path_slab.h"
+#include "src/world/phase/phase_table.h"
 #include "tests/shared/published.h"
+#include "tests/support/path_slab.h"
 #include "tests/theory/isotropic_layers.h"
 
 namespace disort {

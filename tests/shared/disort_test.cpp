@@ -3,7 +3,7 @@
 // in: PILEUS_DATA_DIR/reference/disort_*.csv -> out: a row per number, or why it was skipped.
 // docs/validation.md; Stamnes, Tsay, Wiscombe, Laszlo 2000, "DISORT report v1.1".
 #include "tests/shared/disort_case.h"
-#include "tests/validation_rows.h"
+#include "tests/support/validation_rows.h"
 
 using namespace disort;
 using namespace validation;

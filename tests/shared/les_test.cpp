@@ -9,7 +9,7 @@
 #include <string>
 
 #include "platform/clock.h"
-#include "src/io/volume_file.h"
+#include "src/io/volumes/volume_file.h"
 
 using namespace pileus;
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "src/base/file.h"
-#include "src/stages/phase_table.h"
+#include "src/world/phase/phase_table.h"
 
 using namespace pileus;
 

@@ -4,7 +4,7 @@
 // docs/validation.md; Cahalan et al. 2005, BAMS 86, 1275: phase I, case 1.
 #pragma once
 #include "src/base/angles.h"
-#include "tests/path_harness.h"
+#include "tests/support/path_harness.h"
 
 namespace step_cloud {
 

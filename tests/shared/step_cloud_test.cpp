@@ -3,8 +3,8 @@
 // in: PILEUS_DATA_DIR/reference, data/i3rc/step -> out: rows of R, T, A; per column T.
 // Cahalan et al. 2005, BAMS 86, 1275; docs/methods.md 2, "Periodic media"; docs/testing.md.
 #include "src/base/file.h"
-#include "tests/long_tests.h"
-#include "tests/trace_harness.h"
+#include "tests/support/long_tests.h"
+#include "tests/support/trace_harness.h"
 
 using namespace trace_test;
 

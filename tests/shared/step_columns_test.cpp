@@ -4,7 +4,7 @@
 // docs/validation.md; Cahalan et al. 2005, BAMS 86, 1275: phase I, case 1.
 #include "tests/shared/published.h"
 #include "tests/shared/step_cloud.h"
-#include "tests/validation_rows.h"
+#include "tests/support/validation_rows.h"
 
 using namespace step_cloud;
 using namespace validation;

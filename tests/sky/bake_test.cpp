@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "kernels_cpu/sky_field.h"
+#include "kernels_cpu/procedural/sky_field.h"
 #include "src/scene/read_scene.h"
 #include "tests/sky/sky_rig.h"
 

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "kernels_cpu/sky_field.h"
+#include "kernels_cpu/procedural/sky_field.h"
 #include "tests/sky/sky_rig.h"
 
 using namespace sky_test;

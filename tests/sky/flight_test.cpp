@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "tests/render_harness.h"
+#include "tests/support/render_harness.h"
 
 using namespace render_test;
 

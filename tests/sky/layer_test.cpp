@@ -3,7 +3,7 @@
 // in: places and rays -> out: pass or fail.
 #include <cmath>
 
-#include "kernels_cpu/sky_layer.h"
+#include "kernels_cpu/procedural/sky_layer.h"
 #include "tests/sky/sky_rig.h"
 
 using namespace sky_test;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Noise volumes on disk: read back bit for bit; damaged, foreign or forbidden files only cost time.
 // in: folders -> out: pass or fail.
-#include "src/volume/noise_cache.h"
+#include "src/world/density/noise_cache.h"
 
 #include <doctest/doctest.h>
 
@@ -9,7 +9,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "kernels_cpu/kernels.h"
+#include "kernels_cpu/isa/kernels.h"
 
 using namespace pileus;
 namespace fs = std::filesystem;

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <vector>
 
-#include "kernels_cpu/kernels.h"
-#include "kernels_cpu/sky_noise.h"
+#include "kernels_cpu/isa/kernels.h"
+#include "kernels_cpu/procedural/sky_noise.h"
 #include "src/base/digest.h"
-#include "src/volume/noise_volume.h"
-#include "tests/widths.h"
+#include "src/world/density/noise_volume.h"
+#include "tests/support/widths.h"
 
 using namespace pileus;
 

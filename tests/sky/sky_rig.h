@@ -6,8 +6,8 @@
 
 #include <cstdlib>
 
-#include "kernels_cpu/kernels.h"
-#include "src/stages/sky_field.h"
+#include "kernels_cpu/isa/kernels.h"
+#include "src/world/density/sky_field.h"
 
 namespace sky_test {
 using namespace pileus;

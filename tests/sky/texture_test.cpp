@@ -3,9 +3,9 @@
 // in: a small volume -> out: pass or fail.
 #include <cmath>
 
-#include "kernels_cpu/sky_field.h"
+#include "kernels_cpu/procedural/sky_field.h"
 #include "tests/sky/sky_rig.h"
-#include "tests/widths.h"
+#include "tests/support/widths.h"
 
 using namespace sky_test;
 

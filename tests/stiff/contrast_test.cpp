@@ -2,7 +2,7 @@
 // Densities of extreme contrast: means stay true, work stays bounded, wrong bounds are noticed.
 // in: single hot voxels, checkerboards -> out: rows of means and of work against their exact laws.
 // A block of volume V, surface S and majorant M sees sigma M 4V and S events per unit of S_box.
-#include "tests/trace_harness.h"
+#include "tests/support/trace_harness.h"
 
 using namespace trace_test;
 

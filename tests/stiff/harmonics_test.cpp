@@ -6,10 +6,10 @@
 #include <cmath>
 #include <cstdio>
 
-#include "kernels_cpu/phase.h"
-#include "kernels_cpu/sh.h"
-#include "tests/quadrature.h"
+#include "kernels_cpu/core/sh.h"
+#include "kernels_cpu/media/phase.h"
 #include "tests/stiff/stiff_scene.h"
+#include "tests/support/quadrature.h"
 
 using namespace stiff_test;
 

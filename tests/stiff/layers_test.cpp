@@ -10,9 +10,9 @@
 #include <limits>
 #include <vector>
 
-#include "kernels_cpu/kernels.h"
-#include "src/io/image_file.h"
-#include "src/stages/composite_billboards.h"
+#include "kernels_cpu/isa/kernels.h"
+#include "src/io/images/image_file.h"
+#include "src/methods/collectors/billboards/composite_billboards.h"
 #include "tests/io/temp_folder.h"
 
 using namespace pileus;

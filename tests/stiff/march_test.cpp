@@ -2,7 +2,7 @@
 // Rays through boxes at their worst: sheets, steps of any size, planes, corners, signs of zero.
 // in: grids made by hand and single rays -> out: optical depths against sums along the ray.
 // docs/testing.md S14, S34, S40-S44, S49.
-#include "kernels_cpu/march.h"
+#include "kernels_cpu/display/march.h"
 
 #include <doctest/doctest.h>
 
@@ -11,7 +11,7 @@
 #include <limits>
 #include <vector>
 
-#include "src/stages/prepare_majorant.h"
+#include "src/world/majorant/majorant.h"
 
 using namespace pileus;
 

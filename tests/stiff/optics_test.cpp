@@ -2,7 +2,7 @@
 // Whole pictures of media at the ends of what the scene format allows.
 // in: one small scene with extreme extinctions, albedos, phase functions -> out: sound pictures.
 // docs/testing.md S20, S27, S36, S57, S65, S72: bounded work, finite numbers, balanced ledgers.
-#include "src/io/image_file.h"
+#include "src/io/images/image_file.h"
 #include "tests/stiff/stiff_scene.h"
 
 using namespace stiff_test;

@@ -2,8 +2,8 @@
 // Photon numbers around 2^32, none, one and two photons; free flights at the ends of their range.
 // in: generations far along a stream -> out: exact ledgers and sums.
 // The index's high half is part of the key: streams differ across 2^32.
-#include "kernels_cpu/trace_start.h"
-#include "tests/trace_harness.h"
+#include "kernels_cpu/photons/trace_start.h"
+#include "tests/support/trace_harness.h"
 
 using namespace trace_test;
 

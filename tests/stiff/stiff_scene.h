@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "tests/render_harness.h"
+#include "tests/support/render_harness.h"
 
 namespace stiff_test {
 

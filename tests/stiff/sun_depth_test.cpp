@@ -2,7 +2,7 @@
 // The sun's optical depth at the edge of what a scene may hold.
 // in: dark, empty, thin, flat grids; suns in planes of faces -> out: numbers, none of them missing.
 // docs/buffer.md; docs/testing.md
-#include "tests/sun_depth_harness.h"
+#include "tests/support/sun_depth_harness.h"
 
 using namespace sun_depth_test;
 
@@ -90,11 +90,11 @@ TEST_CASE("A level sun over a periodic layer gets rays") {
     Rig rig = random_box({6, 6, 4}, {6, 6, 4}, 0.1);
     rig.medium.grid.periodic = true;
     Report report;
-    Prepared prepared;
-    bound(rig, prepared);
+    Majorants majorants;
+    bound(rig, majorants);
     SunDepth depth;
     for (float up : {0.0f, 1e-4f}) {
-        REQUIRE(make_sun_depth(context_of(kernel_table(nullptr), 1, report), rig.medium, prepared,
+        REQUIRE(make_sun_depth(context_of(kernel_table(nullptr), 1, report), rig.medium, majorants,
                                {1, 0, up}, SunDepthKind::kSwept, depth));
         CHECK(!depth.swept);
         for (float tau : depth.optical_depth.span()) CHECK(tau >= 0.0f);

@@ -2,8 +2,8 @@
 // Photons at the ends of what a medium can be: thin, thick, black, almost white, flat, mirrored.
 // in: slabs and boxes made by hand -> out: exact ledgers and rows of means.
 // docs/testing.md S14, S20, S32-S36, S42, S46, S56, S60, S82.
-#include "tests/long_tests.h"
-#include "tests/trace_harness.h"
+#include "tests/support/long_tests.h"
+#include "tests/support/trace_harness.h"
 
 using namespace trace_test;
 

@@ -2,11 +2,11 @@
 // Pictures of a comparison: values, masks and colours.
 // in: pictures made by hand -> out: pass or fail.
 // docs/compare.md, "Pictures"
-#include "src/study/difference.h"
+#include "src/compare/difference.h"
 
 #include <limits>
 
-#include "kernels_cpu/tone.h"
+#include "kernels_cpu/display/tone.h"
 #include "tests/study/pictures.h"
 
 using namespace pileus;

@@ -7,8 +7,8 @@
 #include <fstream>
 #include <sstream>
 
-#include "src/study/study_file.h"
 #include "tests/io/temp_folder.h"
+#include "tools/study/study_file.h"
 
 using namespace pileus;
 using test::holds;

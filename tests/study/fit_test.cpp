@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "src/study/study_analysis.h"
-#include "src/study/study_fit.h"
+#include "tools/study/study_analysis.h"
+#include "tools/study/study_fit.h"
 
 using namespace pileus;
 

@@ -9,8 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "kernels_cpu/rng.h"
-#include "src/io/image.h"
+#include "kernels_cpu/core/rng.h"
+#include "src/io/images/image.h"
 
 namespace pileus {
 namespace test {

@@ -2,14 +2,14 @@
 // Plots: the same bytes everywhere, inside their frame, in both forms.
 // in: fixed curves -> out: digests of SVG text and of pixels.
 // docs/study.md, "Plots"
-#include "src/study/plot.h"
+#include "tools/study/plot.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
 #include "src/base/digest.h"
-#include "src/study/study_report.h"
+#include "tools/study/study_report.h"
 
 using namespace pileus;
 

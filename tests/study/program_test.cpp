@@ -10,7 +10,7 @@
 
 #include "platform/process.h"
 #include "src/base/file.h"
-#include "src/io/image_file.h"
+#include "src/io/images/image_file.h"
 #include "tests/cli/run_program.h"
 
 using namespace pileus;

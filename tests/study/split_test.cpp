@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "src/study/metrics.h"
-#include "src/study/study_split.h"
+#include "src/compare/metrics.h"
+#include "tools/study/study_split.h"
 
 using namespace pileus;
 

@@ -2,14 +2,14 @@
 // Welch tests of blocks: the law of their deviates, biases they must find, files they must refuse.
 // in: drawn numbers with fixed seeds, texts -> out: pass or fail.
 // docs/crosscheck.md
-#include "src/study/welch.h"
+#include "src/compare/welch.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 
-#include "kernels_cpu/rng.h"
-#include "tests/student.h"
+#include "kernels_cpu/core/rng.h"
+#include "tests/support/student.h"
 
 using namespace pileus;
 

@@ -2,8 +2,8 @@
 // Two media with one lobe each are one medium with two lobes: photons and pictures.
 // in: slabs and small scenes, written both ways -> out: differences of means, two-stage.
 // docs/methods.md 2, "Several media": phases mix by their share of the extinction.
-#include "tests/media_harness.h"
-#include "tests/render_harness.h"
+#include "tests/support/media_harness.h"
+#include "tests/support/render_harness.h"
 
 using namespace trace_test;
 

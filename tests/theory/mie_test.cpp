@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lorenz-Mie spheres against published numbers, and the stored tables of clouds against them.
-// in: src/study/mie.h, src/stages/mie_data.h -> out: efficiencies, mean cosines, densities.
-// docs/phase.md, "Mie"; Bohren and Huffman 1983, appendix A; Wiscombe 1979, table of test cases.
-#include "src/study/mie.h"
+// in: src/world/phase/mie.h, src/world/phase/mie_data.h -> out: efficiencies, mean cosines,
+// densities. docs/phase.md, "Mie"; Bohren and Huffman 1983, appendix A; Wiscombe 1979, table of
+// test cases.
+#include "src/world/phase/mie.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <cstdio>
 
-#include "src/stages/medium_phase.h"
-#include "src/stages/mie_data.h"
-#include "tests/long_tests.h"
+#include "src/world/phase/medium_phase.h"
+#include "src/world/phase/mie_data.h"
+#include "tests/support/long_tests.h"
 
 using namespace pileus;
 

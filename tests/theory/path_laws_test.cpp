@@ -2,8 +2,8 @@
 // Laws of thick layers, of mean paths and of reciprocity, by path.
 // in: slabs, boxes and a lumpy cloud -> out: a row for each law.
 // docs/validation.md; van de Hulst 1980; Blanco & Fournier 2003, EPL 61, 168 (4V/S).
-#include "tests/path_slab.h"
-#include "tests/validation_rows.h"
+#include "tests/support/path_slab.h"
+#include "tests/support/validation_rows.h"
 
 using namespace path_slab;
 using namespace validation;

@@ -2,8 +2,8 @@
 // Flux cameras above and below slabs against published reflection and transmission.
 // in: tau, g, albedo, angle of the sun -> out: R and T, each judged in standard errors.
 // H. C. van de Hulst, Multiple Light Scattering (1980), table 35; docs/testing.md "theory".
-#include "tests/long_tests.h"
-#include "tests/path_harness.h"
+#include "tests/support/long_tests.h"
+#include "tests/support/path_harness.h"
 
 namespace {
 

@@ -2,7 +2,7 @@
 // A thin sphere in sunlight, whose singly scattered light has a closed form.
 // in: optical depth 0.02 across, a phase function, angles -> out: radiance over the closed form.
 // docs/path.md: irradiance x albedo x phase function x the mean depth that both ways see.
-#include "tests/path_harness.h"
+#include "tests/support/path_harness.h"
 
 namespace {
 

@@ -2,7 +2,7 @@
 // Camera paths through periodic media: a small box that repeats is the slab without end.
 // in: small periodic boxes -> out: R and T against tables, Beer's law aslant, a furnace.
 // docs/methods.md 2, "Periodic media"; van de Hulst 1980; docs/testing.md "theory".
-#include "tests/path_harness.h"
+#include "tests/support/path_harness.h"
 
 namespace {
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Periodic media: a small box that repeats is the slab without end.
 // in: small periodic boxes -> out: shares against tables, against wide open slabs, shifted fields.
-// docs/methods.md 2, "Periodic media"; van de Hulst 1980; tests/trace_harness.h (two-stage rule).
-#include "tests/trace_harness.h"
+// docs/methods.md 2, "Periodic media"; van de Hulst 1980; tests/support/trace_harness.h (two-stage
+// rule).
+#include "tests/support/trace_harness.h"
 
 using namespace trace_test;
 

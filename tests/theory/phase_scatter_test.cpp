@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "src/stages/medium_phase.h"
-#include "tests/render_harness.h"
+#include "src/world/phase/medium_phase.h"
+#include "tests/support/render_harness.h"
 
 using namespace render_test;
 

@@ -2,14 +2,14 @@
 // Sunlight of the raymarch: forward scattering, its share, powder, the share of a cone.
 // in: phase functions, cones, recurrences -> out: closed forms, limits, Palenik's example.
 // docs/raymarch.md, "Light"; Palenik 2016, 3.2 and 3.3.
-#include "kernels_cpu/raymarch_light.h"
+#include "kernels_cpu/raymarch/raymarch_light.h"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <initializer_list>
 
-#include "src/stages/forward_share.h"
+#include "src/world/phase/forward_share.h"
 
 namespace raymarch_light_test {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "kernels_cpu/raymarch.h"
+#include "kernels_cpu/raymarch/raymarch.h"
 
 namespace raymarch_rules_test {
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "tests/render_harness.h"
+#include "tests/support/render_harness.h"
 
 using namespace render_test;
 

@@ -2,10 +2,10 @@
 // Slabs by path: thirty against adding and doubling, printed numbers, laws of thick layers.
 // in: tests/theory/slab_list.h -> out: a row for each share; four slabs, all in the long form.
 // docs/validation.md; van de Hulst 1980; Chandrasekhar 1960.
-#include "tests/path_slab.h"
+#include "tests/support/path_slab.h"
+#include "tests/support/validation_rows.h"
 #include "tests/theory/adding_doubling.h"
 #include "tests/theory/slab_list.h"
-#include "tests/validation_rows.h"
 
 using namespace path_slab;
 using namespace validation;

@@ -2,9 +2,9 @@
 // Thirty slabs by photons against the answers of adding and doubling.
 // in: tests/theory/slab_list.h -> out: a row for each share; four slabs, all in the long form.
 // docs/validation.md
+#include "tests/support/validation_rows.h"
 #include "tests/theory/adding_doubling.h"
 #include "tests/theory/slab_list.h"
-#include "tests/validation_rows.h"
 
 using namespace trace_test;
 using namespace validation;

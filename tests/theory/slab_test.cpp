@@ -2,7 +2,7 @@
 // Reflected and transmitted shares of slabs against published tables.
 // in: slabs 10^5 times wider than thick -> out: a row per share.
 // van de Hulst 1980, "Multiple light scattering"; Chandrasekhar 1960, "Radiative transfer".
-#include "tests/trace_harness.h"
+#include "tests/support/trace_harness.h"
 
 using namespace trace_test;
 

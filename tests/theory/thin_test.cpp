@@ -2,7 +2,7 @@
 // Limits with a closed form: thin slabs, no scattering, scattering that turns by 0 or 180 degrees.
 // in: slabs and spheres -> out: a row per share.
 // Beer-Lambert law; Henyey-Greenstein in closed form.
-#include "tests/trace_harness.h"
+#include "tests/support/trace_harness.h"
 
 using namespace trace_test;
 

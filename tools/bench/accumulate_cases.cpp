@@ -2,8 +2,8 @@
 // What one deposit of 16 coefficients costs: into sums of a thread alone, and of all threads.
 // in: events at random collectors -> out: ns of CPU per event; equal sums both ways.
 // docs/collectors.md, "Accumulation"; docs: README.md in this folder.
-#include "kernels_cpu/accumulate.h"
-#include "kernels_cpu/rng.h"
+#include "kernels_cpu/core/accumulate.h"
+#include "kernels_cpu/core/rng.h"
 #include "platform/threads.h"
 #include "src/base/digest.h"
 #include "tools/bench/bench.h"

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "src/methods/collectors.h"
+#include "src/methods/collectors/collectors.h"
 
 namespace bench {
 
@@ -76,7 +76,7 @@ void count_stages(benchmark::State& state, const pileus::Report& report);
 std::uint64_t photon_digest(const pileus::CollectorsRun& run);
 
 /// Digest of every number the preparation made.
-std::uint64_t prepared_digest(const pileus::Prepared& prepared);
+std::uint64_t prepared_digest(const pileus::Prepared& prepared, const pileus::Majorants& majorants);
 
 /// Digest of the pixels.
 std::uint64_t image_digest(const pileus::Image& image);

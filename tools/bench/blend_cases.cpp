@@ -4,11 +4,11 @@
 // docs: README.md in this folder.
 #include <utility>
 
-#include "kernels_cpu/blend_layer.h"
+#include "kernels_cpu/display/blend_layer.h"
 #include "platform/clock.h"
 #include "src/base/digest.h"
-#include "src/stages/billboard_spheres.h"
-#include "src/stages/gl_billboards.h"
+#include "src/methods/collectors/billboards/billboard_spheres.h"
+#include "src/methods/collectors/billboards/gl_billboards.h"
 #include "tools/bench/bench.h"
 #include "tools/bench/blend_floor.h"
 #include "tools/bench/blend_scene.h"

@@ -5,7 +5,7 @@
 #pragma once
 #include <cstdint>
 
-#include "kernels_cpu/kernels.h"
+#include "kernels_cpu/isa/kernels.h"
 
 namespace bench {
 

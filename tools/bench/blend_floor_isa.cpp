@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled once per instruction set, with the definitions and flags of kernels_cpu/isa.cpp.
+// Compiled once per instruction set, with the definitions and flags of kernels_cpu/isa/isa.cpp.
 // in: BlendFloorWork -> out: one pixel's colour, which depends on every layer it took.
 // Per W pixels: 5 loads, 4 stores, 16 multiplications, 15 additions and a root, all lanes full, in
 // one pass over the rows of a tile and again; then the picture's floats, past the caches.
-#include "kernels_cpu/blend_layer.h"
+#include "kernels_cpu/display/blend_layer.h"
 #include "tools/bench/blend_floor.h"
 
 namespace bench {

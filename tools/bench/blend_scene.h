@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "kernels_cpu/rng.h"
-#include "src/stages/composite_billboards.h"
+#include "kernels_cpu/core/rng.h"
+#include "src/methods/collectors/billboards/composite_billboards.h"
 
 namespace bench {
 

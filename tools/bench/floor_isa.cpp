@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled once per instruction set, with the definitions and flags of kernels_cpu/isa.cpp.
+// Compiled once per instruction set, with the definitions and flags of kernels_cpu/isa/isa.cpp.
 // in: FloorWork -> out: a checksum that depends on every word drawn and every number loaded.
 // Per tentative collision two Threefry calls, a logarithm, a density and a collector; per
 // scattering one more call; per collision or crossing one majorant. All lanes full.
-#include "kernels_cpu/math.h"
-#include "kernels_cpu/rng.h"
+#include "kernels_cpu/core/math.h"
+#include "kernels_cpu/core/rng.h"
 #include "tools/bench/floor.h"
 
 namespace bench {

@@ -4,13 +4,13 @@
 // docs: README.md in this folder. The time column is the CPU time of the named stages only.
 #include <algorithm>
 
-#include "kernels_cpu/camera.h"
-#include "kernels_cpu/medium.h"
+#include "kernels_cpu/core/camera.h"
+#include "kernels_cpu/media/medium.h"
 #include "platform/clock.h"
 #include "src/base/digest.h"
-#include "src/io/image_file.h"
-#include "src/stages/march_view.h"
-#include "src/stages/view.h"
+#include "src/io/images/image_file.h"
+#include "src/picture/march_view.h"
+#include "src/world/camera/view.h"
 #include "tools/bench/bench.h"
 #include "tools/bench/lane_floor.h"
 
@@ -44,7 +44,7 @@ ReadyScene* lit(benchmark::State& state, Bench& bench, const FrameCase& which) {
 
 /// Samples in blocks that hold anything, until a ray is opaque: of every sixteenth pixel, times 16.
 std::uint64_t marched_samples(const CollectorsRun& run, const CameraParams& camera) {
-    const MediumView m = make_medium_view(run.medium, run.prepared);
+    const MediumView m = make_medium_view(run.medium, run.majorants);
     std::uint64_t samples = 0;
     for (int y = 0; y < camera.height; y += 4)
         for (int x = 0; x < camera.width; x += 4) {

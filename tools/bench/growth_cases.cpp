@@ -43,12 +43,13 @@ double prepare_seconds(benchmark::State& state, Bench& bench, const GrowthCase& 
     for (int i = 0; i < kTurns; ++i) {
         const double start = cpu_seconds();
         pileus::Prepared out;
+        pileus::Majorants majorants;
         if (!bench.passed(state, prepare_collectors(scene.run.medium, scene.scene.collectors,
                                                     scene.scene.seed, context, out)) ||
-            !bench.passed(state, prepare_majorants(scene.run.medium, true, context, out)))
+            !bench.passed(state, make_majorants(scene.run.medium, true, context, majorants)))
             return 0;
         best = std::min(best, cpu_seconds() - start);
-        bench.check(state, which.name, prepared_digest(out));
+        bench.check(state, which.name, prepared_digest(out, majorants));
     }
     return best;
 }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Compiled once per instruction set, with the definitions and flags of kernels_cpu/isa.cpp.
+// Compiled once per instruction set, with the definitions and flags of kernels_cpu/isa/isa.cpp.
 // in: see lane_floor.h -> out: checksums that depend on every number read.
 // Read with README.md in this folder.
 #include <cstring>
 
-#include "kernels_cpu/medium.h"
-#include "kernels_cpu/rng.h"
+#include "kernels_cpu/core/rng.h"
+#include "kernels_cpu/media/medium.h"
 #include "tools/bench/lane_floor.h"
 
 namespace bench {

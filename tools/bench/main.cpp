@@ -5,10 +5,10 @@
 #include <cstdio>
 
 #include "platform/fp_mode.h"
-#include "src/api/render.h"
 #include "src/base/digest.h"
-#include "src/io/image_file.h"
+#include "src/io/images/image_file.h"
 #include "src/scene/read_scene.h"
+#include "src/session/render.h"
 #include "tools/bench/bench.h"
 
 namespace bench {
@@ -121,15 +121,15 @@ std::uint64_t photon_digest(const CollectorsRun& run) {
     return digest.value();
 }
 
-std::uint64_t prepared_digest(const pileus::Prepared& p) {
+std::uint64_t prepared_digest(const pileus::Prepared& p, const pileus::Majorants& majorants) {
     Digest digest;
     for (const Collector& c : p.collectors.span()) {
         digest.floats({c.centre, 3});
         for (float v : {c.radius, c.billboard_radius, c.extinction}) digest.f32(v);
     }
     for (std::int32_t v : p.collector_of_voxel.span()) digest.u32(std::uint32_t(v));
-    digest.floats(p.majorants.span());
-    digest.floats(p.skip_majorants.span());
+    digest.floats(majorants.tracking.span());
+    digest.floats(majorants.skipping.span());
     return digest.value();
 }
 

@@ -5,8 +5,8 @@
 #include <cstring>
 
 #include "src/base/digest.h"
-#include "src/stages/path.h"
-#include "src/stages/view.h"
+#include "src/methods/path/trace_paths.h"
+#include "src/world/camera/view.h"
 #include "tools/bench/bench.h"
 
 namespace bench {
@@ -73,11 +73,11 @@ void run_path(benchmark::State& state, Bench& bench, const PathCase& which,
     PathInput in;
     in.medium = &p->run.medium;
     in.lighting = &p->run.lighting;
-    Prepared blocks;
-    if (!bench.passed(state, prepare_majorants(p->run.medium, true, with(p->context, kernels, 1),
-                                               blocks, kPathCosts)))
+    Majorants blocks;
+    if (!bench.passed(state, make_majorants(p->run.medium, true, with(p->context, kernels, 1),
+                                            blocks, kPathCosts)))
         return;
-    in.majorants = blocks.majorants.span();
+    in.majorants = blocks.tracking.span();
     in.block = blocks.block;
     if (which.every_ray) in.light_roulette = 0;
     in.camera = make_camera(p->scene.camera, 0, p->run.medium.low_m);

@@ -28,12 +28,13 @@ void run_prepare(benchmark::State& state, Bench& bench, const PrepareCase& which
     for (auto _ : state) {
         report.stages.clear();
         pileus::Prepared out;
+        pileus::Majorants majorants;
         if (!bench.passed(
                 state, prepare_collectors(p->run.medium, settings, p->scene.seed, context, out)) ||
-            !bench.passed(state, prepare_majorants(p->run.medium, true, context, out)))
+            !bench.passed(state, make_majorants(p->run.medium, true, context, majorants)))
             return;
         state.SetIterationTime(stage_cpu(report, kStages));
-        bench.check(state, which.name, prepared_digest(out));
+        bench.check(state, which.name, prepared_digest(out, majorants));
         state.counters["collectors"] = double(out.collectors.size());
     }
     count_stages(state, report);

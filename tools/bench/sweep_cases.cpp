@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "src/base/digest.h"
-#include "src/stages/sun_depth.h"
+#include "src/picture/nodes/sun_depth.h"
 #include "tools/bench/bench.h"
 
 namespace bench {
@@ -54,12 +54,12 @@ void run_sweep(benchmark::State& state, Bench& bench, const SweepCase& which,
     context.kernels = table;
     context.threads = threads;
     context.report = &report;
-    const Prepared prepared;
+    const Majorants majorants;
     SunDepth depth;
     double best_wall = 1e9;
     const auto once = [&] {
         report.stages.clear();
-        return bench.passed(state, make_sun_depth(context, medium, prepared, which.to_sun,
+        return bench.passed(state, make_sun_depth(context, medium, majorants, which.to_sun,
                                                   SunDepthKind::kSwept, depth));
     };
     if (!once()) return;  // takes the memory

@@ -40,9 +40,9 @@ FloorWork floor_work(const CollectorsRun& run) {
     work.scatterings = std::uint32_t(t.scatterings);
     work.crossings = std::uint32_t(t.crossings);
     work.voxels = std::uint32_t(run.medium.volume.density.size());
-    work.blocks = std::uint32_t(run.prepared.majorants.size());
+    work.blocks = std::uint32_t(run.majorants.tracking.size());
     work.density = run.medium.volume.density.data();
-    work.majorant = run.prepared.majorants.data();
+    work.majorant = run.majorants.tracking.data();
     work.collector = run.prepared.collector_of_voxel.data();
     return work;
 }

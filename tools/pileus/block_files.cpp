@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "src/base/file.h"
-#include "src/study/welch.h"
+#include "src/compare/welch.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include "src/api/render.h"
+#include "src/session/render.h"
 
 namespace pileus {
 

@@ -9,9 +9,9 @@
 #include <optional>
 
 #include "src/base/file.h"
-#include "src/io/picture.h"
-#include "src/study/difference.h"
-#include "src/study/metrics_json.h"
+#include "src/compare/difference.h"
+#include "src/compare/metrics_json.h"
+#include "src/io/images/picture.h"
 #include "tools/pileus/block_files.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"

@@ -7,7 +7,7 @@
 #include <memory>
 
 #include "src/base/file.h"
-#include "src/io/vdb_file.h"
+#include "src/io/volumes/vdb/vdb_file.h"
 #include "src/scene/toml_tree.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/info.h"

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "src/base/file.h"
-#include "src/io/picture.h"
+#include "src/io/images/picture.h"
 #include "tools/pileus/command.h"
 
 namespace pileus {

@@ -8,14 +8,14 @@
 
 #include <memory>
 
-#include "kernels_cpu/kernels.h"
+#include "kernels_cpu/isa/kernels.h"
 #include "platform/cuda_device.h"
 #include "platform/threads.h"
-#include "src/api/render.h"
 #include "src/base/file.h"
-#include "src/io/image_file.h"
-#include "src/io/vdb_file.h"
+#include "src/io/images/image_file.h"
+#include "src/io/volumes/vdb/vdb_file.h"
 #include "src/scene/volume_format.h"
+#include "src/session/render.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/raw_options.h"
 

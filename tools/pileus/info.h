@@ -6,7 +6,7 @@
 #include <string>
 
 #include "src/base/status.h"
-#include "src/io/volume_file.h"
+#include "src/io/volumes/volume_file.h"
 
 namespace pileus {
 

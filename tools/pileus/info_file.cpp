@@ -4,10 +4,10 @@
 // docs/program.md
 #include <fmt/format.h>
 
-#include "src/io/image_file.h"
+#include "src/io/images/image_file.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/volume_format.h"
-#include "src/stages/phase_table.h"
+#include "src/world/phase/phase_table.h"
 #include "tools/pileus/info.h"
 
 namespace pileus {

@@ -11,8 +11,8 @@
 #include <new>
 
 #include "platform/fp_mode.h"
-#include "src/api/render.h"
 #include "src/scene/toml_tree.h"
+#include "src/session/render.h"
 #include "tools/pileus/command.h"
 
 namespace pileus {

@@ -10,7 +10,7 @@
 #include "platform/new_file.h"
 #include "src/base/report.h"
 #include "src/base/status.h"
-#include "src/io/image_file.h"
+#include "src/io/images/image_file.h"
 
 namespace pileus {
 

@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "src/io/report_json.h"
+#include "src/io/text/report_json.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
 #include "tools/pileus/scene_options.h"

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "src/io/volume_file.h"
+#include "src/io/volumes/volume_file.h"
 
 namespace pileus {
 

@@ -11,7 +11,7 @@
 #include "platform/clock.h"
 #include "platform/interrupt.h"
 #include "src/base/file.h"
-#include "src/methods/collectors_views.h"
+#include "src/methods/collectors/views/views.h"
 #include "src/scene/read_scene.h"
 #include "tools/pileus/block_files.h"
 #include "tools/pileus/command.h"

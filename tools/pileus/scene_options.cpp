@@ -7,9 +7,9 @@
 #include <cstdint>
 #include <limits>
 
+#include "src/run/find_kernels.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/toml_tree.h"
-#include "src/stages/find_kernels.h"
 #include "tools/pileus/option_text.h"
 
 namespace pileus {

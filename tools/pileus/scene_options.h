@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "src/api/render.h"
+#include "src/session/render.h"
 
 namespace pileus {
 

@@ -12,15 +12,15 @@
 #include "platform/clock.h"
 #include "platform/process.h"
 #include "platform/threads.h"
-#include "src/api/render.h"
 #include "src/base/file.h"
-#include "src/io/image_file.h"
-#include "src/stages/find_kernels.h"
-#include "src/study/study_execute.h"
-#include "src/study/study_report.h"
+#include "src/io/images/image_file.h"
+#include "src/run/find_kernels.h"
+#include "src/session/render.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/info.h"
 #include "tools/pileus/option_text.h"
+#include "tools/study/study_execute.h"
+#include "tools/study/study_report.h"
 
 namespace pileus {
 

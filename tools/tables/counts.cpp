@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "platform/fp_mode.h"
-#include "src/methods/collectors.h"
+#include "src/methods/collectors/collectors.h"
+#include "src/methods/path/trace_paths.h"
 #include "src/scene/read_scene.h"
-#include "src/stages/path.h"
-#include "src/stages/view.h"
+#include "src/world/camera/view.h"
 
 namespace {
 
@@ -31,9 +31,10 @@ struct Piece {
 
 void prepare(Piece& p) {
     Prepared out;
+    Majorants majorants;
     p.status =
         prepare_collectors(p.run->medium, p.scene->collectors, p.scene->seed, p.context, out);
-    if (p.status) p.status = prepare_majorants(p.run->medium, true, p.context, out);
+    if (p.status) p.status = make_majorants(p.run->medium, true, p.context, majorants);
 }
 void trace(Piece& p) { p.status = collectors_shoot(p.context, *p.run); }
 void show(Piece& p) {
@@ -44,8 +45,8 @@ PathInput path_input(const Piece& p) {
     PathInput in;
     in.medium = &p.run->medium;
     in.lighting = &p.run->lighting;
-    in.majorants = p.run->prepared.majorants.span();
-    in.block = p.run->prepared.block;
+    in.majorants = p.run->majorants.tracking.span();
+    in.block = p.run->majorants.block;
     in.camera = make_camera(p.scene->camera, 0, p.run->medium.low_m);
     in.seed = std::uint64_t(p.scene->seed);
     in.kernels = p.context.kernels;

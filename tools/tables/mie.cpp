@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Writes the phase functions of water clouds that the program holds.
-// in: nothing -> out: src/stages/mie_data.cpp on standard output; a minute or two of one processor.
-// docs/phase.md, "Mie".
-#include "src/study/mie.h"
+// in: nothing -> out: src/world/phase/mie_data.cpp on standard output; a minute or two of one
+// processor. docs/phase.md, "Mie".
+#include "src/world/phase/mie.h"
 
 #include <fmt/format.h>
 
 #include <cstdio>
 #include <string>
 
-#include "src/stages/mie_data.h"
+#include "src/world/phase/mie_data.h"
 
 namespace {
 
@@ -39,7 +39,7 @@ int main() {
         "// Phase functions of water clouds; written by tools/tables/mie.cpp, not by hand.\n"
         "// in: nothing -> out: see mie_data.h.\n"
         "// docs/phase.md, \"Mie\".\n"
-        "#include \"src/stages/mie_data.h\"\n\n// clang-format off\nnamespace pileus {\n\n",
+        "#include \"src/world/phase/mie_data.h\"\n\n// clang-format off\nnamespace pileus {\n\n",
         stdout);
     std::vector<std::string> radii, efficiency, places;
     std::vector<std::vector<std::string>> densities;

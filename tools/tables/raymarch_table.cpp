@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "platform/threads.h"
-#include "src/api/render.h"
 #include "src/scene/read_scene.h"
-#include "src/study/plot.h"
+#include "src/session/render.h"
+#include "tools/study/plot.h"
 
 namespace {
 

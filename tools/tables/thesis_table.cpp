@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "platform/threads.h"
-#include "src/api/render.h"
 #include "src/scene/read_scene.h"
+#include "src/session/render.h"
 
 namespace {
 

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "src/api/render.h"
-#include "src/io/picture.h"
+#include "src/io/images/picture.h"
 #include "src/scene/read_scene.h"
+#include "src/session/render.h"
 
 namespace {
 

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+// Marching: the picture of lit nodes per pixel.
+// in: density, majorants, lit node grids -> out: planes of pixels.
+// docs/methods.md 3, repair 4, and 4 (closed form per step: S (1 - e^-sigma dt) / sigma).
+#pragma once
+#include "kernels_cpu/core/pixel_block.h"
+#include "kernels_cpu/core/sh.h"
+#include "kernels_cpu/display/march_ray.h"
+
+namespace pileus {
+inline namespace PILEUS_ISA {
+
+/// The sun's first order along one ray, per unit of the sunlight that arrives.
+template <class T>
+struct SunAlongRay {
+    T phase[kMostMedia];
+    bool lit;
+};
+template <class T>
+PILEUS_FN SunAlongRay<T> sun_along(const MarchParams& k, const Vec<T>& direction) {
+    SunAlongRay<T> s{};
+    const Vec<T> sun{all<T>(k.sun_travel[0]), all<T>(k.sun_travel[1]), all<T>(k.sun_travel[2])};
+    const T turn =
+        one_minus_cosine(sun, Vec<T>{T{} - direction.x, T{} - direction.y, T{} - direction.z});
+    for (int i = 0; i < kMostMedia && i < k.media; ++i) {
+        s.phase[i] = phase_density(k.phase[i], turn);
+        for (int c = 0; c < 3; ++c) s.lit |= k.sun_source[i][c] > 0.0f;
+    }
+    return s;
+}
+
+/// The same where the sunlight is `light`: by the share of each medium in the `density` there.
+template <class T>
+PILEUS_FN void sun_source_at(const MarchParams& k, const MarchBuffers& b, const SunAlongRay<T>& s,
+                             const Corners<T>& at, T density, T light, T (&source)[3]) {
+    if (k.media <= 1) {
+        const T direct = s.phase[0] * light;
+        for (int c = 0; c < 3; ++c) source[c] = direct * k.sun_source[0][c];
+        return;
+    }
+    const std::int32_t* n = k.medium.size;
+    for_shares(
+        b.parts, std::int64_t(n[0]) * n[1] * n[2], k.media, density,
+        [&](const float* grid) { return interpolate(grid, at); },
+        [&](int i, T share) {
+            const T direct = share * s.phase[i] * light;
+            for (int c = 0; c < 3; ++c) source[c] = source[c] + direct * k.sun_source[i][c];
+        });
+}
+
+/// The harmonics of the directions in which a ray's light travels, lane by lane.
+template <int W>
+struct RayHarmonics {
+    float y[W][kMostHarmonics];
+};
+template <int W>
+PILEUS_FN void set_harmonics(const MarchParams& k, const Vec<F<W>>& d, RayHarmonics<W>& h) {
+    F<W> y[kMaxBands * kMaxBands];
+    sh_values(k.bands, Vec<F<W>>{F<W>{} - d.x, F<W>{} - d.y, F<W>{} - d.z}, y);
+    for (int l = 0; l < W; ++l)
+        for (int i = 0; i < k.harmonics; ++i)
+            h.y[l][i] = i < k.bands * k.bands ? lane(y[i], l) : 0.0f;
+}
+
+/// Light of each set that leaves a place along directions with harmonics `y`. Numbers of one node
+/// lie side by side and are added up sixteen abreast, in an order that no width changes.
+template <class T>
+PILEUS_FN void light_along(const MarchParams& k, const float* source, const Corners<T>& c, int l,
+                           const float* y, float (&out)[3]) {
+    const float fx = lane(c.fx, l), fy = lane(c.fy, l), fz = lane(c.fz, l);
+    const std::int32_t xs[2] = {lane(c.x0, l), lane(c.x1, l)};
+    const std::int32_t ys[2] = {lane(c.y0, l), lane(c.y1, l)};
+    const std::int32_t zs[2] = {lane(c.z0, l), lane(c.z1, l)};
+    const float wx[2] = {1.0f - fx, fx}, wy[2] = {1.0f - fy, fy}, wz[2] = {1.0f - fz, fz};
+    const int numbers = k.sets * k.harmonics;
+    float sum[3 * kMostHarmonics];
+    for (int i = 0; i < numbers; ++i) sum[i] = 0;
+    for (int j = 0; j < 8; ++j) {
+        const float weight = wx[j & 1] * wy[(j >> 1) & 1] * wz[j >> 2];
+        const std::int64_t node = zs[j >> 2] + ys[(j >> 1) & 1] + xs[j & 1];
+        const float* from = source + node * numbers;
+        for (int i = 0; i < numbers; ++i) sum[i] = sum[i] + weight * from[i];
+    }
+    for (int s = 0; s < k.sets; ++s) {
+        float part[kHarmonicsAbreast] = {};
+        const float* own = sum + s * k.harmonics;
+        for (int i = 0; i < k.harmonics; i += kHarmonicsAbreast)
+            for (int j = 0; j < kHarmonicsAbreast; ++j) part[j] = part[j] + y[i + j] * own[i + j];
+        for (int half = kHarmonicsAbreast / 2; half > 0; half /= 2)
+            for (int j = 0; j < half; ++j) part[j] = part[j] + part[j + half];
+        out[s] = part[0];
+    }
+}
+
+/// Adds `weight` times all light that leaves towards the camera: `direct` and that of the nodes.
+template <int W>
+PILEUS_FN void add_source(const MarchParams& k, const MarchBuffers& b, const Vec<F<W>>& metres,
+                          const RayHarmonics<W>& h, const F<W> (&direct)[3], F<W> weight,
+                          F<W>* colour) {
+    using T = F<W>;
+    const Corners<T> c =
+        corners(node_position(k.source, metres), k.source.size, k.medium.periodic != 0);
+    const std::int64_t nodes = std::int64_t(k.source.size[0]) * k.source.size[1] * k.source.size[2];
+    if (k.bands == 0) {
+        for (int i = 0; i < k.channels; ++i) {
+            T source = interpolate(b.source + i * nodes, c);
+            source = source + (direct[i % 3] + k.constant[i % 3]);
+            colour[i] = colour[i] + weight * source;
+        }
+        return;
+    }
+    T source[3];
+    for (int i = 0; i < 3; ++i) source[i] = direct[i] + k.constant[i];
+    for (std::uint32_t lanes = bits_of(weight > 0.0f); lanes != 0; lanes &= lanes - 1) {
+        const int l = lowest_bit(lanes);
+        float light[3] = {};
+        light_along(k, b.source, c, l, h.y[l], light);
+        for (int s = 0; s < k.sets; ++s)
+            for (int i = 0; i < 3; ++i)
+                set_lane(source[i], l, lane(source[i], l) + light[s] * k.set_colour[s][i]);
+    }
+    for (int i = 0; i < 3; ++i) colour[i] = colour[i] + weight * source[i];
+}
+
+/// W pixels, a block from column x and row y on, in rows before `end`.
+template <int W, bool Veiled>
+PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::int32_t x,
+                            std::int32_t y, std::int32_t end) {
+    using T = F<W>;
+    constexpr int kMost = 3 * 17;
+    const I<W> number = iota<I<W>>();
+    const I<W> column = number % kMarchAcross<W> + x, row = number / kMarchAcross<W> + y;
+    const M<W> real = (column < k.camera.width) & (row < end);
+    const std::int64_t pixels = std::int64_t(k.camera.width) * k.camera.height;
+
+    const Ray<T> ray = camera_ray(k.camera, to_float(column), to_float(row));
+    const Segment<T> box = clip_to_medium(k.medium, ray);
+    T leave = box.leave;
+    if (b.opaque_depth != nullptr) {
+        T opaque{};
+        for_block<W>(k.camera, x, y, end, [&](int l, std::int64_t pixel) {
+            set_lane(opaque, l, b.opaque_depth[pixel]);
+        });
+        leave = min_(leave, opaque);
+    }
+    leave = select(real, leave, box.enter);
+
+    const SunAlongRay<T> sun = sun_along(k, ray.direction);
+    RayHarmonics<W> harmonics;
+    if (k.bands > 0) set_harmonics(k, ray.direction, harmonics);
+    const bool wraps = k.medium.periodic != 0;
+
+    T transmittance = all<T>(1.0f), half = all<T>(__builtin_inff()), depth{};
+    T colour[kMost];
+    for (int c = 0; c < k.channels; ++c) colour[c] = T{};
+    march_ray(k.medium, ray, box.enter, leave,
+              [&](M<W> dense, T t, T width, const Vec<T>& p, const Vec<T>& metres) {
+                  if (!any(dense)) return transmittance < k.cut;
+                  const Corners<T> at = corners(p, k.medium.size, wraps);
+                  const T density = interpolate(k.medium.density, at);
+                  const T optical = select(dense, density * k.medium.sigma * width, T{});
+                  if (!any(optical > 0.0f)) return transmittance < k.cut;
+                  depth = depth + optical;
+                  const T alpha = one_minus_exp(optical);
+                  const T weight = transmittance * alpha;
+                  T direct[3] = {};
+                  if (sun.lit) {
+                      const Vec<T> node = node_position(k.shadow, metres);
+                      const Corners<T> near = corners(node, k.shadow.size, wraps);
+                      T light = exp_(T{} - interpolate(b.optical_depth, near));
+                      if constexpr (Veiled) light = light * interpolate(b.visibility, near);
+                      sun_source_at(k, b, sun, at, density, light, direct);
+                  }
+                  add_source<W>(k, b, metres, harmonics, direct, weight, colour);
+                  const T left = transmittance * (1.0f - alpha);
+                  if (b.half_depth != nullptr) {
+                      const auto crosses = (transmittance > 0.5f) & (left <= 0.5f);
+                      if (any(crosses)) {
+                          const T share =
+                              log_(transmittance * 2.0f) / max_(optical, all<T>(1e-30f));
+                          half = select(crosses, t + (share - 0.5f) * width, half);
+                      }
+                  }
+                  transmittance = left;
+                  return transmittance < k.cut;
+              });
+    for_block<W>(k.camera, x, y, end, [&](int l, std::int64_t pixel) {
+        b.transmittance[pixel] = lane(transmittance, l);
+        if (b.half_depth != nullptr) b.half_depth[pixel] = lane(half, l);
+        if (b.ray_depth != nullptr) b.ray_depth[pixel] = lane(depth, l);
+        for (int c = 0; c < k.channels; ++c) b.colour[c * pixels + pixel] = lane(colour[c], l);
+    });
+}
+
+template <int W>
+PILEUS_FN void march_rows(const MarchParams& k, const MarchBuffers& b, std::uint32_t begin,
+                          std::uint32_t end) {
+    constexpr int across = kMarchAcross<W>;
+    for (std::uint32_t y = begin; y < end; y += W / across)
+        for (std::int32_t x = 0; x < k.camera.width; x += across)
+            if (b.visibility != nullptr)
+                march_pixels<W, true>(k, b, x, std::int32_t(y), std::int32_t(end));
+            else
+                march_pixels<W, false>(k, b, x, std::int32_t(y), std::int32_t(end));
+}
+
+}  // namespace PILEUS_ISA
+}  // namespace pileus

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// What lies behind the media: sky and ground, with the media's shadow and light upon it.
+// in: density, majorants, the map of scattered light -> out: planes of pixels.
+// docs/collectors.md, "Light that needs no photon"; docs/formats.md, "Pictures out".
+#pragma once
+#include "kernels_cpu/display/march_ray.h"
+
+namespace pileus {
+inline namespace PILEUS_ISA {
+
+/// Light that the cloud scatters onto the ground at `at`; nothing is known beyond the map, which
+/// covers one period where there are periods.
+template <class T>
+PILEUS_FN void scattered_on_ground(const BackgroundParams& k, const BackgroundBuffers& b,
+                                   const Vec<T>& at, T* radiance) {
+    const Vec<T> place = reduced(k.medium, at);
+    const Vec<T> p{(place.x - k.map_origin[0]) * k.map.per_metre[0],
+                   (place.y - k.map_origin[1]) * k.map.per_metre[1], all<T>(0.5f)};
+    const bool wraps = k.medium.periodic != 0;
+    auto known = (p.x >= 0.0f) & (p.x <= float(k.map.size[0])) & (p.y >= 0.0f) &
+                 (p.y <= float(k.map.size[1]));
+    if (wraps) known = p.z > 0.0f;
+    const Corners<T> c = corners(p, k.map.size, wraps);
+    const std::int32_t cells = k.map.size[0] * k.map.size[1];
+    for (int i = 0; i < 3; ++i) radiance[i] = select(known, interpolate(b.map + i * cells, c), T{});
+}
+
+/// What lies behind the media: sky, or a Lambertian ground with the clouds' shadow of the sun.
+template <int W>
+PILEUS_FN void background_rows(const BackgroundParams& k, const BackgroundBuffers& b,
+                               std::uint32_t begin, std::uint32_t end) {
+    using T = F<W>;
+    const std::int64_t pixels = std::int64_t(k.camera.width) * k.camera.height;
+    const Vec<T> to_sun{all<T>(k.to_sun[0]), all<T>(k.to_sun[1]), all<T>(k.to_sun[2])};
+    const bool sunlit = k.ground_sun[0] > 0.0f || k.ground_sun[1] > 0.0f || k.ground_sun[2] > 0.0f;
+    for (std::uint32_t y = begin; y < end; ++y) {
+        for (std::int32_t x = 0; x < k.camera.width; x += W) {
+            const I<W> column = iota<I<W>>() + x;
+            const Ray<T> ray = camera_ray(k.camera, to_float(column), all<T>(float(y)));
+            T depth = all<T>(__builtin_inff()), sunlight{};
+            M<W> ground = column < 0;
+            if (k.ground != 0) {
+                const T height = ray.origin.z - k.ground_z;
+                ground = (ray.direction.z < 0.0f) & (height >= 0.0f) & (column < k.camera.width);
+                depth = select(ground, height / max_(T{} - ray.direction.z, all<T>(1e-18f)), depth);
+                if (sunlit && any(ground)) {
+                    const Ray<T> up{along(ray, select(ground, depth, T{})), to_sun};
+                    sunlight = exp_(T{} - optical_depth(k.medium, up, ground));
+                }
+            }
+            T scattered[3] = {};
+            if (k.map.size[0] > 0 && any(ground))
+                scattered_on_ground(k, b, along(ray, select(ground, depth, T{})), scattered);
+            Vec<T> sky{all<T>(k.sky[0]), all<T>(k.sky[1]), all<T>(k.sky[2])};
+            if (k.sky_map.columns > 0) sky = map_radiance(k.sky_map, ray.direction);
+            const T above[3] = {sky.x, sky.y, sky.z};
+            for (int l = 0; l < W && x + l < k.camera.width; ++l) {
+                const std::int64_t pixel = std::int64_t(y) * k.camera.width + x + l;
+                const bool hit = (bits_of(ground) >> l) & 1u;
+                if (b.opaque_depth != nullptr) b.opaque_depth[pixel] = lane(depth, l);
+                for (int c = 0; c < 3 && b.colour != nullptr; ++c)
+                    b.colour[c * pixels + pixel] = hit ? k.ground_diffuse[c] +
+                                                             k.ground_sun[c] * lane(sunlight, l) +
+                                                             lane(scattered[c], l)
+                                                       : lane(above[c], l);
+            }
+        }
+    }
+}
+
+}  // namespace PILEUS_ISA
+}  // namespace pileus

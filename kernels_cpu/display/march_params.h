@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the marching kernels need: plain structs and pointers.
+// in: the plan and the lit grids -> out: the layout of a launch.
+// docs/methods.md 3, repairs 3 and 4.
+#pragma once
+#include "kernels_cpu/core/camera.h"
+#include "kernels_cpu/light/sky_map.h"
+#include "kernels_cpu/media/optics.h"
+
+namespace pileus {
+
+/// The density grid and its majorants as the marching kernels see it.
+struct MediumView {
+    std::int32_t size[3];    ///< voxels
+    float cell[3];           ///< voxel edges, m
+    float extent[3];         ///< box edges, m
+    std::int32_t blocks[3];  ///< majorant blocks, used to skip empty space
+    float block;             ///< block edge, voxels
+    float sigma;             ///< extinction at density 1, 1/m
+    float step;              ///< m
+    const float* density;
+    const float* majorant;
+    std::int32_t periodic;  ///< 1: the box, and every grid over it, repeats along x and y
+};
+
+/// A grid of nodes at (i + 1/2) * spacing over the same box.
+struct NodeGrid {
+    std::int32_t size[3];
+    float per_metre[3];  ///< nodes per metre along each axis
+};
+
+struct ShadowParams {
+    MediumView medium;
+    NodeGrid nodes;
+    float to_sun[3];
+};
+struct ShadowBuffers {
+    float* optical_depth;  ///< nodes
+};
+
+/// Harmonics of a node are stored in groups of so many, the last one filled up with zeros.
+constexpr int kHarmonicsAbreast = 16;
+constexpr int kMostHarmonics = 64;
+
+struct MarchParams {
+    MediumView medium;
+    CameraParams camera;
+    std::int32_t media;  ///< on the grid, 1..kMostMedia
+    PhaseParams phase[kMostMedia];
+    float sun_travel[3];
+    float sun_source[kMostMedia][3];  ///< irradiance times albedo; all zero: no direct sunlight
+    float constant[3];  ///< source everywhere in the media: sky by the furnace identity
+    NodeGrid shadow, source;
+    std::int32_t channels;   ///< planes of `source` and of `colour`: 3, or 3*(1+batches)
+    std::int32_t bands;      ///< 0; or `source` holds bands*bands harmonics of what goes each way
+    std::int32_t harmonics;  ///< stored per set and node
+    std::int32_t sets;       ///< 1..3 of such harmonics
+    float set_colour[3][3];  ///< R G B of each
+    float cut;               ///< stop below this transmittance
+};
+struct MarchBuffers {
+    const float* optical_depth;  ///< shadow nodes; unused without direct sunlight
+    const float* source;  ///< [channel][node], scattered light towards the camera; with bands:
+                          ///< [node][set][harmonic], scattered light per direction
+    const float* opaque_depth;  ///< [pixel], m along the ray; null: nothing opaque
+    const float* parts;         ///< [medium - 1][voxel]: densities of media 1, 2 ...
+    float* transmittance;       ///< [pixel]
+    float* half_depth;          ///< [pixel], m; infinity where transmittance stays above 1/2;
+                                ///< null: not wanted
+    float* colour;              ///< [channel][pixel], premultiplied
+    float* ray_depth;           ///< [pixel], optical depth along the ray; null: not wanted
+    const float* visibility;    ///< shadow nodes, share of the sun that no solid hides; null: all
+};
+
+struct BackgroundParams {
+    MediumView medium;
+    CameraParams camera;
+    float sky[3];  ///< radiance, where there is no map of it
+    SkyMapView sky_map;
+    std::int32_t ground;      ///< 0: none
+    float ground_z;           ///< m, box-local
+    float ground_diffuse[3];  ///< radiance under the sky alone
+    float ground_sun[3];      ///< radiance added by the unshadowed sun
+    NodeGrid map;             ///< of light scattered onto the ground; size 0: none
+    float map_origin[2];      ///< m, box-local
+    float to_sun[3];
+};
+struct BackgroundBuffers {
+    const float* map;     ///< [3][cell], radiance
+    float* colour;        ///< [3][pixel]; null: not wanted
+    float* opaque_depth;  ///< [pixel], m; infinity for the sky; null: nothing solid
+};
+
+}  // namespace pileus

@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: Apache-2.0
+// A ray through the density grid in steps that leap over empty blocks; the sun's depth per node.
+// in: density, majorants, rays -> out: visits of steps; optical depths.
+// docs/methods.md 4. Samples sit on a lattice along each ray; skipping leaves out zeros only.
+// Through a periodic medium rays run on unbent; what they read is reduced to one period.
+#pragma once
+#include "kernels_cpu/display/march_params.h"
+#include "kernels_cpu/media/medium.h"
+
+namespace pileus {
+inline namespace PILEUS_ISA {
+
+template <class T>
+PILEUS_FN Vec<T> along(const Ray<T>& r, T t) {
+    return {r.origin.x + r.direction.x * t, r.origin.y + r.direction.y * t,
+            r.origin.z + r.direction.z * t};
+}
+
+/// Bound on the density around `p` (voxels), and metres from there to the end of its block.
+template <class T>
+struct Block {
+    T bound, rest;
+};
+template <class T>
+PILEUS_FN Block<T> block_ahead(const MediumView& m, const Vec<T>& p, const Vec<T>& d) {
+    using II = I_of<T>;
+    const auto index = [&](T v, int axis) {
+        return min_(max_(to_int(v * (1.0f / m.block)), II{}), all<II>(m.blocks[axis] - 1));
+    };
+    const II x = index(p.x, 0), y = index(p.y, 1), z = index(p.z, 2);
+    const auto rest = [&](II i, T v, T direction, int axis) {
+        const auto forward = direction >= 0.0f;
+        // The grid may end within its last block; behind it the next period's begins.
+        const T face =
+            min_(to_float(select(forward, i + 1, i)) * m.block, all<T>(float(m.size[axis])));
+        const T safe = max_(abs_(direction), all<T>(1e-18f));
+        return select(forward, face - v, v - face) * m.cell[axis] / safe;
+    };
+    const T t = min_(min_(rest(x, p.x, d.x, 0), rest(y, p.y, d.y, 1)), rest(z, p.z, d.z, 2));
+    return {gather(m.majorant, (z * m.blocks[1] + y) * m.blocks[0] + x), max_(t, T{})};
+}
+
+/// Shortest step as a share of the ray in the box: grids have at most 4096 cells along an axis, so
+/// that a ray still takes two steps or more in each cell it crosses.
+constexpr float kLeastStep = 0x1p-13f;
+
+/// Most steps of a ray through a periodic medium: a level ray would see no end of it.
+constexpr float kMostPeriodicSteps = 0x1p17f;
+
+/// Where a ray enters and leaves the medium's box, or the layer that a periodic one is.
+template <class T>
+PILEUS_FN Segment<T> clip_to_medium(const MediumView& m, const Ray<T>& ray) {
+    if (m.periodic == 0) return clip_to_box(ray.origin, ray.direction, m.extent);
+    Segment<T> s = clip_to_layer(ray.origin.z, ray.direction.z, m.extent[2]);
+    s.leave = min_(s.leave, s.enter + kMostPeriodicSteps * m.step);
+    return s;
+}
+
+/// Metres within the box, or within the period that holds them.
+template <class T>
+PILEUS_FN Vec<T> reduced(const MediumView& m, const Vec<T>& q) {
+    if (m.periodic == 0) return q;
+    return {wrap_place(q.x, m.extent[0]), wrap_place(q.y, m.extent[1]), q.z};
+}
+
+/// Visits the middles of steps that start at enter + n step; the last one ends at `leave`.
+/// `sample(dense, t, width, voxel position, metres)`, both places within one period, may return
+/// lanes that are finished.
+template <class T, class Sample>
+PILEUS_FN void march_ray(const MediumView& m, const Ray<T>& ray, T enter, T leave, Sample sample) {
+    T n{};
+    auto alive = enter < leave;
+    // A flat voxel sets the step for rays along it, too: bound their number (docs/testing.md S41).
+    const float least = m.periodic != 0 ? 1.0f / kMostPeriodicSteps : kLeastStep;
+    const T step = max_(all<T>(m.step), (leave - enter) * least), per_metre = 1.0f / step;
+    // Bounded: every turn of the loop advances every living lane by a step.
+    while (any(alive)) {
+        const T start = enter + n * step;
+        const T width = max_(min_(step, leave - start), T{});
+        const T t = start + 0.5f * width;
+        const Vec<T> q = reduced(m, along(ray, t));
+        const Vec<T> p{q.x * (1.0f / m.cell[0]), q.y * (1.0f / m.cell[1]),
+                       q.z * (1.0f / m.cell[2])};
+        const Block<T> block = block_ahead(m, p, ray.direction);
+        const auto dense = alive & (block.bound > 0.0f);
+        const auto ended = sample(dense, t, width, p, q);
+        // Jump to the last step whose middle lies in an empty block; it adds nothing either.
+        const T skipped = to_float(to_int(min_(block.rest * per_metre, all<T>(1e6f))));
+        n = select(dense, n + 1.0f, n + max_(skipped, all<T>(1.0f)));
+        alive = alive & lnot(dense & ended) & (enter + n * step < leave);
+    }
+}
+
+/// Optical depth from `origin` along `direction` to the end of the box.
+template <class T>
+PILEUS_FN T optical_depth(const MediumView& m, const Ray<T>& ray, M_of<T> wanted) {
+    const Segment<T> box = clip_to_medium(m, ray);
+    const T leave = select(wanted, box.leave, box.enter);
+    T sum{};
+    march_ray(m, ray, box.enter, leave,
+              [&](M_of<T> dense, T, T width, const Vec<T>& p, const Vec<T>&) {
+                  if (any(dense)) {
+                      const Corners<T> at = corners(p, m.size, m.periodic != 0);
+                      sum = select(dense, sum + width * interpolate(m.density, at), sum);
+                  }
+                  return sum * m.sigma > 60.0f;  // e^-60 is nothing
+              });
+    return sum * m.sigma;
+}
+
+/// Rows of nodes [begin, end), a row along x.
+template <int W>
+PILEUS_FN void shadow_rows(const ShadowParams& k, const ShadowBuffers& b, std::uint32_t begin,
+                           std::uint32_t end) {
+    using T = F<W>;
+    const std::int32_t nx = k.nodes.size[0], ny = k.nodes.size[1];
+    const Vec<T> d{all<T>(k.to_sun[0]), all<T>(k.to_sun[1]), all<T>(k.to_sun[2])};
+    for (std::uint32_t row = begin; row < end; ++row) {
+        const float y = (float(std::int32_t(row) % ny) + 0.5f) / k.nodes.per_metre[1];
+        const float z = (float(std::int32_t(row) / ny) + 0.5f) / k.nodes.per_metre[2];
+        for (std::int32_t x = 0; x < nx; x += W) {
+            const I<W> i = iota<I<W>>() + x;
+            const T px = (to_float(i) + 0.5f) / k.nodes.per_metre[0];
+            const Ray<T> ray{{px, all<T>(y), all<T>(z)}, d};
+            const T tau = optical_depth(k.medium, ray, i < nx);
+            for (int l = 0; l < W && x + l < nx; ++l)
+                b.optical_depth[std::int64_t(row) * nx + x + l] = lane(tau, l);
+        }
+    }
+}
+
+template <class T>
+PILEUS_FN Vec<T> node_position(const NodeGrid& g, const Vec<T>& metres) {
+    return {metres.x * g.per_metre[0], metres.y * g.per_metre[1], metres.z * g.per_metre[2]};
+}
+
+}  // namespace PILEUS_ISA
+}  // namespace pileus

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rows of a picture from a lattice of marched pixels and from the picture before.
+// in: UpsampleParams, UpsampleBuffers -> out: planes of the whole picture, pixels kept per row.
+// docs/upsampling.md
+#pragma once
+#include "kernels_cpu/display/upsample.h"
+
+namespace pileus {
+inline namespace PILEUS_ISA {
+
+/// Where a place was in the picture before: pixels, and its distance; `seen`: within its frame.
+template <class T>
+struct SeenBefore {
+    T x, y, distance;
+    M_of<T> seen;
+};
+template <class T>
+PILEUS_FN SeenBefore<T> seen_before(const CameraParams& c, const Vec<T>& place) {
+    const Vec<T> v{place.x - c.origin[0], place.y - c.origin[1], place.z - c.origin[2]};
+    const auto part = [&](const float(&axis)[3]) {
+        return v.x * axis[0] + v.y * axis[1] + v.z * axis[2];
+    };
+    const T ahead = part(c.forward);
+    const T depth = c.orthographic != 0 ? all<T>(1.0f) : max_(ahead, all<T>(1e-6f));
+    SeenBefore<T> s;
+    s.x = (part(c.right) / (depth * c.half_width) + 1.0f) * (0.5f * float(c.width)) - 0.5f;
+    s.y = (1.0f - part(c.up) / (depth * c.half_height)) * (0.5f * float(c.height)) - 0.5f;
+    s.distance = c.orthographic != 0 ? ahead : sqrt_(dot(v, v));
+    s.seen = (ahead > 0.0f) & (s.x >= 0.0f) & (s.y >= 0.0f) & (s.x <= float(c.width - 1)) &
+             (s.y <= float(c.height - 1));
+    return s;
+}
+
+/// Distance at which the medium shows: where half of it lies before, or else in the box's middle.
+template <class T>
+PILEUS_FN T shown_at(const UpsampleParams& k, const UpsampleBuffers& b, const Around<T>& a,
+                     const Ray<T>& ray, T opaque) {
+    const T half = heaviest(b.half_depth, a);
+    const Segment<T> box = clip_to_medium(k.medium, ray);
+    const T middle = 0.5f * (box.enter + min_(max_(box.leave, box.enter), opaque));
+    return select(half < 1e30f, half, middle);
+}
+
+/// The picture before at a pixel of it or between some.
+template <class T>
+PILEUS_FN Around<T> around_before(const CameraParams& c, T x, T y) {
+    return around(PixelLattice{1, {0, 0}, c.width, c.height}, x, y, false);
+}
+template <class T>
+PILEUS_FN void read_before(const UpsampleParams& k, const UpsampleBuffers& b, const Around<T>& p,
+                           PixelLight<T>& light) {
+    const std::int64_t pixels = std::int64_t(k.before.width) * k.before.height;
+    light.value[0] = blended(b.before_transmittance, p);
+    for (int i = 0; i < 3; ++i) light.value[1 + i] = blended(b.before_colour + i * pixels, p);
+}
+
+/// The same where a place was then, if it shows what lies there; false lanes have nothing of use.
+template <class T>
+PILEUS_FN M_of<T> recall(const UpsampleParams& k, const UpsampleBuffers& b, const Around<T>& a,
+                         const Ray<T>& ray, T opaque, PixelLight<T>& light) {
+    const CameraParams& c = k.before;
+    const T far = shown_at(k, b, a, ray, opaque);
+    const SeenBefore<T> s = seen_before(c, along(ray, far));
+    auto good = s.seen;
+    const T x = select(s.seen, s.x, T{}), y = select(s.seen, s.y, T{});
+    const Around<T> p = around_before(c, x, y);
+    if (b.before_opaque != nullptr) {
+        // What stood behind must stand there still, as seen from the other camera.
+        const SeenBefore<T> solid = seen_before(c, along(ray, min_(opaque, all<T>(1e18f))));
+        const T then = heaviest(b.before_opaque, p);
+        const T now = select(opaque < 1e18f, solid.distance, opaque);
+        good = good & (depth_gap(then, now) < 0.05f);
+    }
+    read_before(k, b, p, light);
+    return good;
+}
+
+/// W pixels of a row from column x on.
+template <int W>
+PILEUS_FN void upsample_pixels(const UpsampleParams& k, const UpsampleBuffers& b, std::int32_t x,
+                               std::int32_t y) {
+    using T = F<W>;
+    const std::int32_t width = k.camera.width, real = width - x < W ? width - x : W;
+    const std::int64_t pixels = std::int64_t(width) * k.camera.height;
+    const std::int64_t few = std::int64_t(k.lattice.width) * k.lattice.height;
+    const std::int64_t first = std::int64_t(y) * width + x;
+    const T column = min_(to_float(iota<I<W>>() + x), all<T>(float(width - 1)));
+    const T row = all<T>(float(y));
+    T opaque = all<T>(__builtin_inff());
+    for (int l = 0; l < real && b.whole_opaque != nullptr; ++l)
+        set_lane(opaque, l, b.whole_opaque[first + l]);
+    Around<T> a = around(k.lattice, column, row, k.rule == kUpsampleNearest);
+    if (k.rule == kUpsampleDepth && b.opaque_depth != nullptr) weigh_depths(b, opaque, a);
+    PixelLight<T> light;
+    light.value[0] = blended(b.transmittance, a);
+    for (int i = 0; i < 3; ++i) light.value[1 + i] = blended(b.colour + i * few, a);
+    if (k.remembers != 0) {
+        PixelLight<T> old;
+        const Ray<T> ray = camera_ray(k.camera, column, row);
+        auto good = lnot(a.marched);
+        if (k.still != 0)
+            read_before(k, b, around_before(k.before, column, row), old);
+        else
+            good = good & recall(k, b, a, ray, opaque, old);
+        for (int i = 0; i < 4; ++i) {
+            const float* plane = i == 0 ? b.transmittance : b.colour + (i - 1) * few;
+            if (k.still == 0) clamp_around(plane, a, old.value[i]);
+            light.value[i] = select(good, old.value[i], light.value[i]);
+        }
+        const auto within = iota<I<W>>() < real;
+        b.kept[y] += count_bits(bits_of(good & within));
+    }
+    for (int l = 0; l < real; ++l) {
+        b.whole_transmittance[first + l] = lane(light.value[0], l);
+        for (int i = 0; i < 3; ++i)
+            b.whole_colour[i * pixels + first + l] = lane(light.value[1 + i], l);
+    }
+    const T half = b.whole_half != nullptr ? heaviest(b.half_depth, a) : T{};
+    const T depth = b.whole_depth != nullptr ? blended(b.ray_depth, a) : T{};
+    for (int l = 0; l < real && b.whole_half != nullptr; ++l)
+        b.whole_half[first + l] = lane(half, l);
+    for (int l = 0; l < real && b.whole_depth != nullptr; ++l)
+        b.whole_depth[first + l] = lane(depth, l);
+}
+
+template <int W>
+PILEUS_FN void upsample_rows(const UpsampleParams& k, const UpsampleBuffers& b, std::uint32_t begin,
+                             std::uint32_t end) {
+    for (std::uint32_t y = begin; y < end; ++y)
+        for (std::int32_t x = 0; x < k.camera.width; x += W)
+            upsample_pixels<W>(k, b, x, std::int32_t(y));
+}
+
+}  // namespace PILEUS_ISA
+}  // namespace pileus

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: Apache-2.0
+// Beginnings of paths: rays of the camera, flown in full vectors to the first medium that they
+// meet. in: numbers of samples -> out: walkers that stand at medium; light of rays that meet none.
+// docs/path.md, "How it runs": a lane that falls free takes one ray over.
+#pragma once
+#include "kernels_cpu/path/path_vertex.h"
+
+namespace pileus {
+inline namespace PILEUS_ISA {
+
+/// Rays that wait for a lane.
+template <int W, bool S>
+struct FreshPaths : Walls<W, S> {
+    Flight<W> flight;
+    Vec<F<W>> origin;     // metres
+    U<W> number, sample;  // as in PathLanes
+    M<W> out;             // met nothing, and is to be served
+    std::uint32_t ready;  // bit per lane: waits
+    std::uint32_t event;  // draws made
+};
+
+/// Store the radiance of the samples in `lanes`, light[c] for c < `count`.
+template <int W>
+PILEUS_FN void store_radiance(const F<W>* light, int count, const U<W>& sample, const PathParams& k,
+                              const PathBuffers& b, std::uint32_t lanes) {
+    const float unit = k.camera.flux != 0 ? kPi : 1.0f;
+    for (; lanes != 0; lanes &= lanes - 1) {
+        const int i = lowest_bit(lanes);
+        float* out = b.radiance + lane(sample, i);
+        bool finite = true;
+        for (int c = 0; c < count; ++c) {
+            const float v = lane(light[c], i) * unit;
+            finite = finite && v - v == 0.0f;
+        }
+        for (int c = 0; c < count; ++c)
+            out[std::uint64_t(c) * b.stride] = finite ? lane(light[c], i) * unit : 0.0f;
+        if (!finite) ++b.tally->nan;
+    }
+}
+
+/// Directions over the front of a flat detector.
+template <int W>
+PILEUS_FN Vec<F<W>> flux_direction(const CameraParams& c, const Words<U<W>>& w) {
+    const Lambert<F<W>> l = lambert(w);
+    const auto mix = [&](int a) {
+        return l.a * c.right[a] + l.b * c.up[a] + l.normal * c.forward[a];
+    };
+    return normalized(Vec<F<W>>{mix(0), mix(1), mix(2)});
+}
+
+/// Fly the lanes of `m` through empty blocks; returns those that leave the box.
+template <int W>
+PILEUS_FN M<W> leap_to_medium(Flight<W>& s, const PathParams& k, PathTally& tally, M<W> m) {
+    M<W> out = m & lnot(m);
+    for (m = m & (s.bound <= 0.0f); any(m); m = m & (s.bound <= 0.0f)) {
+        const Step<W> step = step_flight(s, k.grid, m);
+        tally.crossings += count_bits(bits_of(step.hops));
+        out = out | step.out;
+        m = m & lnot(step.out);
+    }
+    return out;
+}
+
+/// Place and direction of the camera's rays through the pixels (x, y) of the lanes of `m`.
+template <int W, bool S>
+PILEUS_FN void aim_camera(FreshPaths<W, S>& f, const PathParams& k, M<W> m, F<W> x, F<W> y) {
+    // One draw for the place in the pixel, 16 bits each way, and the first free flight.
+    const Words<U<W>> w = threefry(k.key.k0, k.key.k1, f.number, U<W>{});
+    if (k.jitter != 0) {
+        const auto place = [](U<W> bits) {
+            return to_float(reinterpret<I<W>>(bits)) * 0x1p-16f + (0x1p-17f - 0.5f);
+        };
+        x = x + place(w.a & 0xffffu);
+        y = y + place(w.b & 0xffffu);
+    }
+    const U<W> word = (w.a & 0xffff0000u) | (w.b >> 16);
+    Words<U<W>> more{};
+    const M<W> tail = m & ((word >> 8) == 0u);
+    if (any(tail)) more = threefry(k.key.k0, k.key.k1, f.number, U<W>{} + 1u);
+    f.flight.tau = free_flight(word, more.b);
+
+    const Ray<F<W>> ray = camera_ray(k.camera, x, y);
+    Vec<F<W>> d = ray.direction;
+    if (k.camera.flux != 0)
+        d = flux_direction<W>(k.camera, threefry(k.key.k0, k.key.k1, f.number, U<W>{} + 2u));
+    f.event = 3;
+    f.origin = ray.origin;
+    aim_flight(f.flight, k.grid, m, d);
+}
+
+/// The next samples' pixels, one per lane; returns the lanes that have one.
+template <int W, bool S>
+PILEUS_FN M<W> next_samples(FreshPaths<W, S>& f, const PathParams& k, std::uint32_t& next,
+                            std::uint32_t end, F<W>& x, F<W>& y) {
+    const std::uint32_t width = std::uint32_t(k.camera.width);
+    int count = 0;
+    for (; count < W && next < end; ++count, ++next) {
+        const std::uint32_t pixel = k.first_pixel + next / k.per_pixel;
+        const std::uint32_t number = k.first_sample + next % k.per_pixel;
+        set_lane(f.number, count, number * k.pixels + pixel);
+        set_lane(f.sample, count, next);
+        set_lane(x, count, float(std::int32_t(pixel % width)));
+        set_lane(y, count, float(std::int32_t(pixel / width)));
+    }
+    return iota<I<W>>() < count;
+}
+
+/// The camera's rays learn what they will meet: of mesh, image and ground the nearest.
+template <int W, bool S>
+PILEUS_FN void aim_at_solids(FreshPaths<W, S>& f, const PathParams& k, M<W> m) {
+    using T = F<W>;
+    T limit = way_to_ground<W>(k, f.origin, f.flight.d);
+    f.piece = all<I<W>>(kNoWall);
+    f.wall = all<T>(__builtin_inff());
+    if (k.camera_depth != nullptr) {
+        T depth = f.wall;
+        for (std::uint32_t lanes = bits_of(m); lanes != 0; lanes &= lanes - 1) {
+            const int i = lowest_bit(lanes);
+            set_lane(depth, i, k.camera_depth[k.first_pixel + lane(f.sample, i) / k.per_pixel]);
+        }
+        const M<W> hidden = m & (depth <= limit);
+        f.piece = select(hidden, all<I<W>>(kImageWall), f.piece);
+        f.wall = select(hidden, depth, f.wall);
+        limit = min_(limit, depth);
+    }
+    if (k.solids.count > 0) {
+        const SolidHit<T> hit = hit_solids(k.solids, f.origin, f.flight.d, limit, m);
+        f.piece = select(hit.triangle >= 0, hit.triangle, f.piece);
+        f.wall = select(hit.triangle >= 0, hit.distance, f.wall);
+    }
+    cut_flights<W>(f.flight, k, m & (f.piece != kNoWall), f.origin, f.wall);
+}
+
+/// Rays of the next samples, as many as there are lanes. What sees nothing but sky is done.
+template <int W, bool S>
+PILEUS_FN void fill_fresh(FreshPaths<W, S>& f, const PathParams& k, const PathBuffers& b,
+                          std::uint32_t& next, std::uint32_t end) {
+    using T = F<W>;
+    T x{}, y{};
+    const M<W> m = next_samples<W>(f, k, next, end, x, y);
+    b.tally->paths += count_bits(bits_of(m));
+    aim_camera<W>(f, k, m, x, y);
+    const M<W> missed = send_flights<W>(f.flight, k, m, f.origin, m);
+    if constexpr (S) aim_at_solids(f, k, m);
+    f.out = missed | leap_to_medium(f.flight, k, *b.tally, m & lnot(missed));
+    M<W> sky = f.out;
+    if constexpr (S) sky = sky & (f.piece == kNoWall);
+    if (k.ground != 0) sky = sky & lnot((f.flight.d.z < 0.0f) & (f.origin.z - k.ground_z >= 0.0f));
+    f.ready = bits_of(m & lnot(sky));
+    if (!any(sky)) return;
+    const Vec<T> light = sky_light<W>(k, f.flight.d);
+    const T sum[3 * kPathParts] = {light.x, light.y, light.z};
+    store_radiance<W>(sum, k.parts_wanted != 0 ? 3 * kPathParts : 3, f.sample, k, b, bits_of(sky));
+}
+
+/// Hand the waiting ray `from` over to lane `to`.
+template <int W, int NC, bool S>
+PILEUS_FN void hand_over(PathLanes<W, NC, S>& s, int to, const FreshPaths<W, S>& f, int from) {
+    const auto move = [&](auto& a, const auto& b) { set_lane(a, to, lane(b, from)); };
+    const auto move3 = [&](auto& a, const auto& b) {
+        move(a.x, b.x), move(a.y, b.y), move(a.z, b.z);
+    };
+    const Flight<W>& w = f.flight;
+    move3(s.from, w.from), move3(s.speed, w.speed), move3(s.d, w.d);
+    move3(s.plane, w.plane), move3(s.gap, w.gap), move3(s.vertex, f.origin);
+    move(s.t, w.t), move(s.exit, w.exit), move(s.tau, w.tau);
+    move(s.bound, w.bound), move(s.lift, w.lift), move(s.block, w.block);
+    move(s.number, f.number), move(s.sample, f.sample);
+    if constexpr (S) move(s.wall, f.wall), move(s.piece, f.piece);
+}
+
+/// Give the lanes of `idle` the next samples, whose rays fly already.
+template <int W, int NC, bool S>
+PILEUS_FN void refill_paths(PathLanes<W, NC, S>& s, FreshPaths<W, S>& f, const PathParams& k,
+                            const PathBuffers& b, std::uint32_t idle, std::uint32_t& next,
+                            std::uint32_t end) {
+    const I<W> lanes = iota<I<W>>();
+    M<W> fresh = s.alive & lnot(s.alive), out = fresh;
+    while (idle != 0) {
+        if (f.ready == 0) {
+            if (next >= end) break;
+            fill_fresh<W>(f, k, b, next, end);
+            continue;
+        }
+        const int to = lowest_bit(idle), from = lowest_bit(f.ready);
+        hand_over(s, to, f, from);
+        const M<W> here = lanes == to;
+        fresh = fresh | here;
+        if ((bits_of(f.out) >> from) & 1u) out = out | here;
+        idle &= idle - 1, f.ready &= f.ready - 1;
+    }
+    if (!any(fresh)) return;
+    s.event = select(fresh, U<W>{} + f.event, s.event);
+    for (int c = 0; c < NC; ++c) s.beta[c] = select(fresh, all<F<W>>(1.0f), s.beta[c]);
+    for (F<W>& sum : s.sum) sum = select(fresh, F<W>{}, sum);
+    s.order = select(fresh, I<W>{}, s.order);
+    s.bounces = select(fresh, I<W>{}, s.bounces);
+    s.flight = select(fresh, all<I<W>>(kFlightPath), s.flight);
+    s.alive = s.alive | fresh;
+    s.outside = s.outside | fresh;
+    s.cloud = s.cloud & lnot(fresh);
+    s.out = s.out | out;
+}
+
+}  // namespace PILEUS_ISA
+}  // namespace pileus

@@ -1,0 +1,267 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ends of flights: scattering, the ground, the sky, and the light that shadow rays bring.
+// in: lanes whose flight has ended -> out: lanes due for the next flight, radiance added.
+// docs/path.md: next-event estimation; sky maps by the balance heuristic (Veach 1997, 9.2).
+#pragma once
+#include "kernels_cpu/light/lambert.h"
+#include "kernels_cpu/path/path_lanes.h"
+
+namespace pileus {
+inline namespace PILEUS_ISA {
+
+/// Reflections after which a path is given up, where solids reflect all light.
+constexpr std::int32_t kMostBounces = 1 << 14;
+
+/// Calls `use(optics, lanes)` for every medium that lanes of `m` have met.
+template <int W, int NC, bool S, class Use>
+PILEUS_FN void for_media(const PathLanes<W, NC, S>& s, const PathParams& k, M<W> m, Use use) {
+    if (k.media <= 1) return use(k.optics[0], m);
+    for (int i = 0; i < k.media; ++i) {
+        const M<W> mine = m & (s.medium == i);
+        if (any(mine)) use(k.optics[i], mine);
+    }
+}
+
+/// Of the shadow rays that leave the lanes of `m`, leave out by luck those that would bring little:
+/// `value`, per steradian, for each unit of irradiance that the light could give. The others bring
+/// theirs, `shade` is raised. Rays of the first vertex, which carry the picture's detail, are all
+/// kept. `spare` are 16 random bits. Returns the lanes that fly.
+template <int W, int NC, bool S>
+PILEUS_FN M<W> thin_out_rays(const PathLanes<W, NC, S>& s, const PathParams& k, M<W> m, F<W> value,
+                             U<W> spare, F<W>& shade) {
+    using T = F<W>;
+    constexpr float kSteps = 0x1p16f;
+    const M<W> low = m & (heaviest(s) * value < k.light_roulette) & (s.order + s.bounces > 1);
+    if (!any(low)) return m;
+    const T least = select(low, heaviest(s) * value, T{}) * (1.0f / k.light_roulette);
+    const T chance = whole_chance(least, kSteps);
+    const M<W> lost = low & lnot(to_float(reinterpret<I<W>>(spare)) < chance * kSteps);
+    shade = select(low, shade / chance, shade);
+    return m & lnot(lost);
+}
+
+/// Choose the first flight from a new vertex: the sun's, the map's or the path's own. The lanes of
+/// `mapped` have a ray to the map.
+template <int W, int NC, bool S>
+PILEUS_FN void first_flight(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m, M<W> mapped,
+                            U<W> spare) {
+    M<W> sun = m & (s.shade > 0.0f);
+    if (k.sunlit != 0) sun = thin_out_rays(s, k, sun, s.shade, spare, s.shade);
+    s.flight = select(m, all<I<W>>(kFlightPath), s.flight);
+    s.flight = select(mapped, all<I<W>>(kFlightMap), s.flight);
+    s.mapped = (s.mapped & lnot(m)) | mapped;
+    if (k.sunlit != 0) s.flight = select(sun, all<I<W>>(kFlightSun), s.flight);
+    mapped = m & (s.flight == kFlightMap);
+    s.shade = select(mapped, s.map_shade, s.shade);
+}
+
+/// Draw a direction towards the map for the lanes of `m`; returns 16 random bits that are left.
+template <int W, int NC, bool S>
+PILEUS_FN U<W> aim_at_map(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m) {
+    const Words<U<W>> texel = draw(s, k, m), place = draw(s, k, m);
+    const Vec<F<W>> d = draw_sky<F<W>>(k.map, k.sampler, texel, place);
+    s.to_map.x = select(m, d.x, s.to_map.x);
+    s.to_map.y = select(m, d.y, s.to_map.y);
+    s.to_map.z = select(m, d.z, s.to_map.z);
+    return spare_bits(place);
+}
+
+/// Value over the sum of both densities: what the balance heuristic makes of a light's share, as
+/// the path draws its own directions with a density equal to that value.
+template <class T>
+PILEUS_FN T balanced(T own, T other) {
+    return own / max_(own + other, all<T>(1e-30f));
+}
+
+/// Weigh the ray to the map, drawn where a path's own turn has the density `own`, and choose the
+/// lanes of `m` in which it flies.
+template <int W, int NC, bool S>
+PILEUS_FN M<W> map_rays(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m, F<W> own, U<W> spare) {
+    const F<W> other = sky_density(k.map, k.sampler, s.to_map);
+    F<W> shade = balanced(own, other);
+    // The map's light, all of it, times the density of this direction is its radiance.
+    const M<W> mapped = thin_out_rays(s, k, m & (shade > 0.0f), shade * other, spare, shade);
+    s.map_shade = select(m, shade, s.map_shade);
+    return mapped;
+}
+
+/// Real collisions in the lanes of `m`.
+template <int W, int NC, bool S>
+PILEUS_FN void scatter_path(PathLanes<W, NC, S>& s, const PathParams& k, PathTally& tally, M<W> m) {
+    using T = F<W>;
+    end_paths(s, m & (s.order >= k.max_depth));
+    m = m & s.alive;
+    if (!any(m)) return;
+    tally.scatterings += count_bits(bits_of(m));
+    s.cloud = s.cloud | (m & (s.order + s.bounces == 0));
+    s.order = select(m, s.order + 1, s.order);
+    s.outside = s.outside & lnot(m);
+    s.vertex = {select(m, s.p.x, s.vertex.x), select(m, s.p.y, s.vertex.y),
+                select(m, s.p.z, s.vertex.z)};
+
+    const Words<U<W>> w = draw(s, k, m);
+    const T u = uniform_open(w.a);
+    const Vec<T> sun{all<T>(k.to_sun[0]), all<T>(k.to_sun[1]), all<T>(k.to_sun[2])};
+    const T to_sun = one_minus_cosine(s.d, sun);
+    const bool map = k.map.columns > 0;
+    T to_map{}, to_map_density{};
+    U<W> map_luck{};
+    if (map) {
+        map_luck = aim_at_map(s, k, m);
+        to_map = one_minus_cosine(s.d, s.to_map);
+    }
+    Turn<T> turn{};
+    for_media(s, k, m, [&](const Optics& optics, M<W> mine) {
+        for (int c = 0; c < NC; ++c)
+            s.beta[c] = select(mine, s.beta[c] * optics.albedo[c], s.beta[c]);
+        const Turn<T> own = phase_sample(optics.phase, u);
+        turn.one_minus_cos = select(mine, own.one_minus_cos, turn.one_minus_cos);
+        turn.sine = select(mine, own.sine, turn.sine);
+        if (k.sunlit != 0) s.shade = select(mine, phase_density(optics.phase, to_sun), s.shade);
+        if (!map) return;
+        to_map_density = select(mine, phase_density(optics.phase, to_map), to_map_density);
+        s.next_density =
+            select(mine, phase_density(optics.phase, own.one_minus_cos), s.next_density);
+    });
+    M<W> mapped = m & lnot(m);
+    if (map) mapped = map_rays(s, k, m, to_map_density, map_luck);
+    const SinCos<T> phi = sincos_turns(uniform(w.b));
+    const Vec<T> d = turned(s.d, 1.0f - turn.one_minus_cos, turn.sine, phi.cosine, phi.sine);
+    s.next = {select(m, d.x, s.next.x), select(m, d.y, s.next.y), select(m, d.z, s.next.z)};
+    first_flight(s, k, m, mapped, spare_bits(w));
+}
+
+/// The lanes of `m` meet the ground at `at`, metres.
+template <int W, int NC, bool S>
+PILEUS_FN void reflect_path(PathLanes<W, NC, S>& s, const PathParams& k, PathTally& tally, M<W> m,
+                            const Vec<F<W>>& at) {
+    using T = F<W>;
+    constexpr float kInvPi = 4.0f * kInvFourPi;
+    tally.bounces += count_bits(bits_of(m));
+    s.bounces = select(m, s.bounces + 1, s.bounces);
+    s.outside = s.outside | m;
+    s.vertex = {select(m, at.x, s.vertex.x), select(m, at.y, s.vertex.y),
+                select(m, at.z, s.vertex.z)};
+    for (int c = 0; c < NC; ++c) s.beta[c] = select(m, s.beta[c] * k.ground_albedo, s.beta[c]);
+    const Words<U<W>> w = draw(s, k, m);
+    const Lambert<T> up = lambert(w);
+    const T height = max_(up.normal, all<T>(1e-6f));
+    s.next = {select(m, up.a, s.next.x), select(m, up.b, s.next.y), select(m, height, s.next.z)};
+    s.next_density = select(m, height * kInvPi, s.next_density);
+    s.shade = select(m, all<T>((k.to_sun[2] > 0.0f ? k.to_sun[2] : 0.0f) * kInvPi), s.shade);
+    M<W> mapped = m & lnot(m);
+    if (k.map.columns > 0) {
+        const U<W> luck = aim_at_map(s, k, m);
+        mapped = map_rays(s, k, m, max_(s.to_map.z, T{}) * kInvPi, luck);
+    }
+    first_flight(s, k, m, mapped, spare_bits(w));
+}
+
+/// The lanes of `m` meet a solid.
+template <int W, int NC, bool S>
+PILEUS_FN void reflect_at_solid(PathLanes<W, NC, S>& s, const PathParams& k, PathTally& tally,
+                                M<W> m) {
+    using T = F<W>;
+    constexpr float kInvPi = 4.0f * kInvFourPi;
+    const SolidPlace<T> place = place_on_solid(
+        k.solids, vertex_metres(s, k), s.d, SolidHit<T>{s.wall, select(m, s.piece, s.piece | -1)});
+    const Vec<T>& n = place.normal;
+    tally.bounces += count_bits(bits_of(m));
+    s.bounces = select(m, s.bounces + 1, s.bounces);
+    s.outside = s.outside | m;
+    s.vertex = {select(m, place.at.x, s.vertex.x), select(m, place.at.y, s.vertex.y),
+                select(m, place.at.z, s.vertex.z)};
+    for (int c = 0; c < NC; ++c) s.beta[c] = select(m, s.beta[c] * place.albedo[c], s.beta[c]);
+    const Words<U<W>> w = draw(s, k, m);
+    const Lambert<T> up = lambert(w);
+    const T height = max_(up.normal, all<T>(1e-6f));
+    const Vec<T> d = turned(n, height, all<T>(1.0f), up.a, up.b);
+    s.next = {select(m, d.x, s.next.x), select(m, d.y, s.next.y), select(m, d.z, s.next.z)};
+    s.next_density = select(m, height * kInvPi, s.next_density);
+    const T sun = n.x * k.to_sun[0] + n.y * k.to_sun[1] + n.z * k.to_sun[2];
+    s.shade = select(m, max_(sun, T{}) * kInvPi, s.shade);
+    M<W> mapped = m & lnot(m);
+    if (k.map.columns > 0) {
+        const U<W> luck = aim_at_map(s, k, m);
+        mapped = map_rays(s, k, m, max_(dot(s.to_map, n), T{}) * kInvPi, luck);
+    }
+    first_flight(s, k, m, mapped, spare_bits(w));
+    // Black surfaces end paths; between white ones a path would go on for ever.
+    const M<W> endless = m & (s.bounces >= kMostBounces);
+    tally.terminated += count_bits(bits_of(endless));
+    end_paths(s, endless | (m & lnot(heaviest(s) > 0.0f)));
+}
+
+/// The sky's light along `d`.
+template <int W>
+PILEUS_FN Vec<F<W>> sky_light(const PathParams& k, const Vec<F<W>>& d) {
+    if (k.map.columns > 0) return map_radiance(k.map, d);
+    return {all<F<W>>(k.sky[0]), all<F<W>>(k.sky[1]), all<F<W>>(k.sky[2])};
+}
+
+/// Paths of the lanes of `m` see the sky along their direction, and end.
+template <int W, int NC, bool S>
+PILEUS_FN void reach_sky(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m) {
+    using T = F<W>;
+    T share = all<T>(1.0f);
+    if (k.map.columns > 0) {
+        // The camera's own rays see the map alone; so does a turn by exactly nothing.
+        const T own = s.next_density, other = sky_density(k.map, k.sampler, s.d);
+        const M<W> both = (s.order + s.bounces > 0) & (own > 0.0f);
+        share = select(both, balanced(own, other), share);
+    }
+    add_light(s, k, m, share, sky_light<W>(k, s.d), s.alive & lnot(s.alive));
+    end_paths(s, m);
+}
+
+/// Paths of the lanes of `m` have left the box: the ground reflects them or the sky ends them.
+/// Returns the lanes that go on.
+template <int W, int NC, bool S>
+PILEUS_FN M<W> leave_media(PathLanes<W, NC, S>& s, const PathParams& k, PathTally& tally, M<W> m) {
+    using T = F<W>;
+    s.out = s.out & lnot(m);
+    M<W> ground = m & lnot(m), solid = ground;
+    if constexpr (S) {
+        solid = m & (s.piece >= 0);
+        end_paths(s, m & (s.piece == kImageWall));
+        m = m & (s.piece == kNoWall);
+        if (any(solid)) reflect_at_solid(s, k, tally, solid);
+    }
+    if (k.ground != 0) {
+        const auto metres = [&](T v, int a) { return select(s.outside, v, v * k.grid.cell[a]); };
+        const Vec<T> o{metres(s.vertex.x, 0), metres(s.vertex.y, 1), metres(s.vertex.z, 2)};
+        const T height = o.z - k.ground_z;
+        ground = m & (s.d.z < 0.0f) & (height >= 0.0f);
+        if (k.ground_albedo > 0.0f && any(ground)) {
+            const T t = height / max_(T{} - s.d.z, all<T>(1e-18f));
+            reflect_path(s, k, tally, ground,
+                         Vec<T>{o.x + s.d.x * t, o.y + s.d.y * t, all<T>(k.ground_z)});
+        } else {
+            end_paths(s, ground);
+        }
+    }
+    const M<W> sky = m & lnot(ground);
+    if (any(sky)) reach_sky(s, k, sky);
+    return (ground | solid) & s.alive;
+}
+
+/// Shadow rays of the lanes of `m` have ended: add what they bring, choose the next flight.
+template <int W, int NC, bool S>
+PILEUS_FN void gather_light(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m) {
+    using T = F<W>;
+    s.lit = s.lit & lnot(m);
+    const M<W> sun = m & (s.flight == kFlightSun), map = m & lnot(sun);
+    Vec<T> light{all<T>(k.sun[0]), all<T>(k.sun[1]), all<T>(k.sun[2])};
+    if (any(map)) {
+        const Vec<T> sky = map_radiance(k.map, s.d);
+        light = {select(map, sky.x, light.x), select(map, sky.y, light.y),
+                 select(map, sky.z, light.z)};
+    }
+    add_light(s, k, m, (s.seen + s.carry) * s.shade, light, sun);
+    s.flight = select(m, all<I<W>>(kFlightPath), s.flight);
+    s.flight = select(sun & s.mapped, all<I<W>>(kFlightMap), s.flight);
+    s.shade = select(sun, s.map_shade, s.shade);
+}
+
+}  // namespace PILEUS_ISA
+}  // namespace pileus

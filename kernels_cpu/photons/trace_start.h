@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// Where a photon begins: on the box's silhouette (beam, sky map) or its faces (diffuse light).
+// in: photon numbers -> out: position (voxels) and direction of travel.
+// docs/methods.md 3 "Shoot"; points from the R2 sequence (Roberts 2018), shifted at random.
+#pragma once
+#include "kernels_cpu/light/lambert.h"
+#include "kernels_cpu/media/walk.h"
+#include "kernels_cpu/photons/trace_params.h"
+
+namespace pileus {
+inline namespace PILEUS_ISA {
+
+/// The solid thing ahead of a photon; nothing where the scene has none.
+template <int W, bool S>
+struct Ahead {};
+template <int W>
+struct Ahead<W, true> {
+    F<W> wall;     // metres to it along the flight; below 0: to be found anew
+    I<W> piece;    // triangle; -1: none
+    M<W> stopped;  // stands at it
+};
+
+/// Everything a lane knows of its photon, `S`: among solids.
+template <int W, int NC, bool S>
+struct Photon : Walker<W>, Ahead<W, S> {
+    F<W> weight[NC], path;  // share left per channel; metres
+    U<W> index, event;
+    F<W> room, bound;          // metres to the end of the block; its majorant
+    I<W> exit, reach;          // axis across which it ends; empty blocks around it
+    I<W> enters;               // -1: the three above are to be found anew
+    I<W> order;                // scatterings so far, bounces included
+    I<W> texel;                // of the sky map that it comes from
+    M<W> alive, shadow, owes;  // owes: the ground below misses this photon's light
+    F<W> owed_x, owed_y;       // where on the ground, metres
+    F<W> ground_x, ground_y;   // where on the ground the next bounce starts, metres
+};
+
+/// Position (voxels) and direction of travel of photons that begin.
+template <class T>
+struct Start {
+    Vec<T> p, d;
+};
+
+/// Beam and diffuse light: a place on the box's faces, then a direction.
+template <int W>
+PILEUS_FN Start<F<W>> start_on_faces(const TraceParams& k, U<W> index) {
+    using T = F<W>;
+    const U<W> number = index + k.first_photon;
+    T u = uniform(index * kR2[0] + k.shift[0]);
+    const T v = uniform(index * kR2[1] + k.shift[1]);
+
+    // Choose a face by its share of the flux and stretch the rest of u over it.
+    I<W> face{};
+    T below{}, above = all<T>(k.face_cdf[0]);
+    for (int f = 0; f < 5; ++f) {
+        const auto past = u >= k.face_cdf[f];
+        face = select(past, all<I<W>>(f + 1), face);
+        below = select(past, all<T>(k.face_cdf[f]), below);
+        above = select(past, all<T>(k.face_cdf[f + 1]), above);
+    }
+    u = min_((u - below) / max_(above - below, all<T>(1e-12f)), all<T>(1.0f));
+
+    const I<W> axis = face >> 1;
+    const auto on_x = axis == 0, on_y = axis == 1, high = (face & 1) != 0;
+    const T nx = all<T>(float(k.grid.size[0])), ny = all<T>(float(k.grid.size[1])),
+            nz = all<T>(float(k.grid.size[2]));
+    const T zero{};
+    const Vec<T> p{select(on_x, select(high, nx, zero), u * nx),
+                   select(on_y, select(high, ny, zero), select(on_x, u * ny, v * ny)),
+                   select(on_x, v * nz, select(on_y, v * nz, select(high, nz, zero)))};
+
+    Vec<T> d{all<T>(k.direction[0]), all<T>(k.direction[1]), all<T>(k.direction[2])};
+    if (k.light == kLightDiffuse) {
+        const Lambert<T> l = lambert(threefry(k.key.k0, k.key.k1, number, U<W>{}));
+        const T n = select(high, T{} - l.normal, l.normal);
+        d = {select(on_x, n, l.a), select(on_y, n, select(on_x, l.a, l.b)),
+             select(on_x, l.b, select(on_y, l.b, n))};
+        // A side face sees half of a hemisphere of sky: mirror the other half into it.
+        if (k.hemisphere != 0) d.z = copysign_(d.z, all<T>(float(k.hemisphere)));
+    }
+    return {p, d};
+}
+
+/// Sky map: a direction, then a place on the silhouette that the box shows to it. The R2 sequence
+/// spreads the directions over the map.
+template <int W>
+PILEUS_FN Start<F<W>> start_from_map(const TraceParams& k, U<W> index, I<W>& texel, M<W> m) {
+    using T = F<W>;
+    const U<W> number = index + k.first_photon;
+    const float edge[3] = {float(k.grid.size[0]) * k.grid.cell[0],
+                           float(k.grid.size[1]) * k.grid.cell[1],
+                           float(k.grid.size[2]) * k.grid.cell[2]};
+    const float sides = k.grid.periodic != 0 ? 0.0f : edge[2];
+    const float face[3] = {edge[1] * sides, sides * edge[0], edge[0] * edge[1]};
+    const MapDraw<T> draw = draw_from_map<T>(
+        k.map, face, k.key, number, index * kR2[0] + k.shift[0], index * kR2[1] + k.shift[1], m);
+    texel = select(m, draw.texel, texel);
+    const Vec<T> d{T{} - draw.to_sky.x, T{} - draw.to_sky.y, T{} - draw.to_sky.z};
+
+    // Choose one of the three lit faces by its share of the silhouette.
+    const Words<U<W>> w = threefry(k.key.k0, k.key.k1, number, U<W>{});
+    const T ax = abs_(d.x) * face[0], ay = abs_(d.y) * face[1], az = abs_(d.z) * face[2];
+    const T at = uniform(w.a) * (ax + ay + az);
+    const M<W> on_x = at < ax;
+    const M<W> on_y = lnot(on_x) & (at < ax + ay);
+    const T below = select(on_x, T{}, select(on_y, ax, ax + ay));
+    const T area = select(on_x, ax, select(on_y, ay, az));
+    const T u = min_((at - below) / max_(area, all<T>(1e-30f)), all<T>(1.0f));
+    const T v = uniform(w.b);
+    const auto entry = [](T along, std::int32_t n) {
+        return select(along < 0.0f, all<T>(float(n)), T{});
+    };
+    const T nx = all<T>(float(k.grid.size[0])), ny = all<T>(float(k.grid.size[1])),
+            nz = all<T>(float(k.grid.size[2]));
+    return {{select(on_x, entry(d.x, k.grid.size[0]), u * nx),
+             select(on_y, entry(d.y, k.grid.size[1]), select(on_x, u * ny, v * ny)),
+             select(on_x | on_y, v * nz, entry(d.z, k.grid.size[2]))},
+            d};
+}
+
+/// What a photon carries in channel `c` when it begins.
+template <int W, int NC, bool S>
+PILEUS_FN F<W> start_weight(const Photon<W, NC, S>& s, const TraceParams& k, int c) {
+    if (NC == 1 || k.light != kLightMap) return all<F<W>>(1.0f);
+    return texel_share(k.map, s.texel, c);
+}
+
+/// Begin photons `s.index` (numbered within the launch) in the lanes of `m`.
+template <int W, int NC, bool S>
+PILEUS_FN void start_photons(Photon<W, NC, S>& s, const TraceParams& k, M<W> m) {
+    using T = F<W>;
+    const T zero{};
+    const U<W> number = s.index + k.first_photon;
+    const Start<T> start = k.light == kLightMap ? start_from_map<W>(k, s.index, s.texel, m)
+                                                : start_on_faces<W>(k, s.index);
+    set_position(s, k.grid, m, start.p);
+    set_direction(s, k.grid, m, start.d);
+
+    const Words<U<W>> w = threefry(k.key.k0, k.key.k1, number, all<U<W>>(1u));
+    s.tau = select(m, free_flight(w.a, w.b), s.tau);
+    for (int c = 0; c < NC; ++c) s.weight[c] = select(m, start_weight(s, k, c), s.weight[c]);
+    s.path = select(m, zero, s.path);
+    s.event = select(m, U<W>{}, s.event);
+    s.order = select(m, I<W>{}, s.order);
+    s.enters = select(m, all<I<W>>(-1), s.enters);
+    s.alive = s.alive | m;
+    s.shadow = s.shadow & lnot(m);
+    s.owes = s.owes & lnot(m);
+    if constexpr (S) s.wall = select(m, all<T>(-1.0f), s.wall);
+}
+
+}  // namespace PILEUS_ISA
+}  // namespace pileus

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// Raymarching: single or forward scattered sunlight, and emission, added up along each pixel's ray.
+// in: a field, sunlight on nodes or by marching -> out: planes of pixels, counts.
+// Palenik 2016, chapters 3 and 4; docs/raymarch.md. A panel of the integral takes one to three
+// steps of the lattice; within it they are alike. Pixels know nothing of one another.
+#pragma once
+#include "kernels_cpu/core/pixel_block.h"
+#include "kernels_cpu/core/rng.h"
+#include "kernels_cpu/raymarch/raymarch_rules.h"
+
+namespace pileus {
+inline namespace PILEUS_ISA {
+
+/// The whole ray from `low` to `high` metres behind the lattice's start.
+template <class T, class Field>
+PILEUS_FN void march_lattice(const RayMarch<T, Field>& r, const Lattice<T>& lattice, T low, T high,
+                             RaySum<T>& sum) {
+    const bool ends = r.k.rule >= kRuleTrapezoid;
+    const float steps = float(rule_steps(r.k.rule));
+    T n = to_float(to_int(lattice_step(lattice, low) * (1.0f / steps))) * steps, from = low;
+    auto alive = low < high;
+    RaySample<T> last{};
+    if (ends && any(alive)) last = sample_at(r, from, lattice.first, alive);
+    // Bounded: every turn of the loop takes every living lane to a later step.
+    while (any(alive)) {
+        const T to = max_(min_(lattice_place(lattice, n + steps), high), from);
+        const T width = to - from;
+        // A panel of one sample is empty where that is; others over all of their length.
+        const T look = r.k.rule == kRuleClosed ? from + 0.5f * width : from;
+        const Vec<T> p{r.origin.x + r.direction.x * look, r.origin.y + r.direction.y * look,
+                       r.origin.z + r.direction.z * look};
+        // A little wider: the filter may widen before the block ends.
+        const T filter = max_(width, pixel_width(r.k.camera, r.k.step, r.shift + to));
+        const Block<T> ahead =
+            field_ahead(r.field, p, r.direction, filter * (1.25f + 8.0f * lattice.excess));
+        auto empty = ahead.bound <= 0.0f;
+        if (ends) empty = empty & (width <= ahead.rest);
+        const auto dense = alive & lnot(empty);
+        if (any(dense)) {
+            if (ends)
+                add_panel(r, from, to, dense, last, sum);
+            else
+                add_single(r, from, to, dense, sum);
+        }
+        T next = n + steps;
+        if (any(alive & empty)) {
+            // The last panel that ends within the empty block; it adds nothing either.
+            const T whole = to_float(to_int(
+                min_(lattice_step(lattice, look + ahead.rest) * (1.0f / steps), all<T>(1e6f))));
+            next = select(empty, max_(whole * steps, next), next);
+        }
+        n = next;
+        from = max_(lattice_place(lattice, n), low);
+        alive = alive & (from < high) & (to < high) & (sum.transmittance >= r.k.cut);
+    }
+}
+
+/// How far before the medium the lattices of a block's rays begin, m.
+template <int W>
+PILEUS_FN F<W> start_before(const RaymarchParams& k, const RaymarchBuffers& b, I<W> column,
+                            I<W> row, const Vec<F<W>>& enters, const Vec<F<W>>& d,
+                            const Lattice<F<W>>& lattice) {
+    using T = F<W>;
+    T before{};
+    if (k.step.grid_m > 0) {
+        // Planes that stay where they are while the camera moves.
+        const float* f = k.camera.forward;
+        const T depth = enters.x * f[0] + enters.y * f[1] + enters.z * f[2];
+        const T ahead = max_(d.x * f[0] + d.y * f[1] + d.z * f[2], all<T>(1e-3f));
+        const T planes =
+            max_(min_(depth * (1.0f / k.step.grid_m), all<T>(0x1p30f)), all<T>(-0x1p30f));
+        before = max_(depth - to_float(floor_int(planes)) * k.step.grid_m, T{}) / ahead;
+    }
+    if (k.step.jitter == kJitterNone) return before;
+    T u{};
+    if (k.step.jitter == kJitterHash) {
+        const auto pixel = reinterpret<U<W>>(row * k.camera.width + column);
+        u = uniform(threefry(k.step.key[0], k.step.key[1], pixel, pixel ^ pixel).a);
+    } else {
+        const I<W> x = (column + std::int32_t(k.step.key[0])) & (kNoiseTile - 1);
+        const I<W> y = (row + std::int32_t(k.step.key[1])) & (kNoiseTile - 1);
+        u = gather(b.noise, y * kNoiseTile + x);
+    }
+    const T panel = lattice_place(lattice, all<T>(float(rule_steps(k.rule))));
+    return before + u * (k.step.jitter_share * panel);
+}
+
+/// Stores the pixels of a block.
+template <int W>
+PILEUS_FN void store_pixels(const RaymarchParams& k, const RaymarchBuffers& b, std::int32_t x,
+                            std::int32_t y, std::int32_t end, const RaySum<F<W>>& sum) {
+    const std::int64_t pixels = std::int64_t(k.lattice.width) * k.lattice.height;
+    for_block<W>(k.lattice, x, y, end, [&](int l, std::int64_t pixel) {
+        b.transmittance[pixel] = lane(sum.transmittance, l);
+        if (b.half_depth != nullptr) b.half_depth[pixel] = lane(sum.half, l);
+        if (b.ray_depth != nullptr) b.ray_depth[pixel] = lane(sum.depth, l);
+        for (int c = 0; c < 3; ++c) b.colour[c * pixels + pixel] = lane(sum.colour[c], l);
+    });
+}
+
+/// W marched pixels, a block from column x and row y on, in rows before `end`.
+template <int W, class Field>
+PILEUS_FN void raymarch_pixels(const RaymarchParams& k, const RaymarchBuffers& b,
+                               const Field& field, std::int32_t x, std::int32_t y,
+                               std::int32_t end) {
+    using T = F<W>;
+    const I<W> number = iota<I<W>>();
+    const I<W> column = number % kMarchAcross<W> + x, row = number / kMarchAcross<W> + y;
+    const M<W> real = (column < k.lattice.width) & (row < end);
+    const I<W> pixel_x = column * k.lattice.every + k.lattice.first[0];
+    const I<W> pixel_y = row * k.lattice.every + k.lattice.first[1];
+    const Ray<T> ray = camera_ray(k.camera, to_float(pixel_x), to_float(pixel_y));
+    const Segment<T> box = field_clip(field, ray);
+    T leave = box.leave;
+    if (b.opaque_depth != nullptr) {
+        T opaque{};
+        for_block<W>(k.lattice, x, y, end, [&](int l, std::int64_t pixel) {
+            set_lane(opaque, l, b.opaque_depth[pixel]);
+        });
+        leave = min_(leave, opaque);
+    }
+    leave = select(real, leave, box.enter);
+    RaySum<T> sum{};
+    sum.transmittance = all<T>(1.0f);
+    sum.half = all<T>(__builtin_inff());
+    if (k.step.most > 0 && any(box.enter < leave)) {
+        // The lattice knows nothing of what stands behind, unless it should (4.1).
+        const T length = max_((k.step.stretch != 0 ? leave : box.leave) - box.enter, T{});
+        const Lattice<T> lattice = make_lattice(k.step, box.enter, length);
+        const T before =
+            start_before<W>(k, b, pixel_x, pixel_y, along(ray, box.enter), ray.direction, lattice);
+        const T start = box.enter - before;
+        const RayMarch<T, Field> r{k,
+                                   b,
+                                   field,
+                                   along(ray, start),
+                                   ray.direction,
+                                   start,
+                                   ray_light(k, ray.direction),
+                                   b.counts + std::int64_t(y) * kRaymarchCounts};
+        march_lattice(r, lattice, before, leave - start, sum);
+        // The light without phase functions is a mean of what is at most 1 (chapter 4.2).
+        const auto breach = sum.share > 1.0001f;
+        r.counts[kCountBreaches] += count_bits(bits_of(breach));
+        const T most = select(breach, 1.0f / max_(sum.share, all<T>(1.0f)), all<T>(1.0f));
+        for (int c = 0; c < 3; ++c) sum.colour[c] = sum.colour[c] * most;
+    }
+    store_pixels<W>(k, b, x, y, end, sum);
+}
+
+template <int W>
+PILEUS_FN void raymarch_rows(const RaymarchParams& k, const RaymarchBuffers& b, std::uint32_t begin,
+                             std::uint32_t end) {
+    constexpr int across = kMarchAcross<W>;
+    const GridField field{&k.medium, k.level, k.levels, b.parts, k.media};
+    for (std::uint32_t y = begin; y < end; y += W / across)
+        for (std::int32_t x = 0; x < k.lattice.width; x += across)
+            raymarch_pixels<W>(k, b, field, x, std::int32_t(y), std::int32_t(end));
+}
+
+}  // namespace PILEUS_ISA
+}  // namespace pileus

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// What lies behind the media where there are solid meshes: they, the ground or the sky.
+// in: rays of pixels -> out: radiance and distance, shadows of media and solids on both.
+// docs/solids.md, "How they are lit"; without solids background_rows (march.h) does this.
+#pragma once
+#include "kernels_cpu/display/march_background.h"
+#include "kernels_cpu/solids/solids.h"
+
+namespace pileus {
+inline namespace PILEUS_ISA {
+
+/// Light on a surface from everything but the sun, over pi: harmonics up to the second degree
+/// (Ramamoorthi, Hanrahan 2001), never negative.
+template <class T>
+PILEUS_FN T around_light(const float (&k)[kAroundTerms], const Vec<T>& n) {
+    const T flat = k[0] + k[1] * n.x + k[2] * n.y + k[3] * n.z;
+    const T bent = k[4] * n.x * n.y + k[5] * n.y * n.z + k[6] * n.z * n.x +
+                   k[7] * (n.x * n.x - n.y * n.y) + k[8] * (3.0f * n.z * n.z - 1.0f);
+    return max_(flat + bent, T{});
+}
+
+/// A surface that rays have met, and the share of the sun's light that reaches it.
+template <class T>
+struct LitSurface {
+    M_of<T> solid, ground;
+    T depth;  // metres along the ray; infinity for the sky
+    T sunlight;
+    SolidPlace<T> place;  // of solids
+};
+
+/// Share of the sun's light at the lanes of `m`: nothing behind solids, less behind media.
+template <class T>
+PILEUS_FN T sunlight_at(const SolidRowsParams& k, const Vec<T>& at, const Vec<T>& to_sun,
+                        M_of<T> m) {
+    if (!any(m)) return T{};
+    m = m & lnot(behind_solids(k.solids, at, to_sun, all<T>(3e38f), m));
+    if (!any(m)) return T{};
+    const Ray<T> up{at, to_sun};
+    return select(m, exp_(T{} - optical_depth(k.back.medium, up, m)), T{});
+}
+
+template <class T>
+PILEUS_FN LitSurface<T> find_surface(const SolidRowsParams& k, const Ray<T>& ray, M_of<T> real,
+                                     bool lit) {
+    LitSurface<T> s{};
+    s.depth = all<T>(__builtin_inff());
+    s.ground = real & lnot(real);
+    if (k.back.ground != 0) {
+        const T height = ray.origin.z - k.back.ground_z;
+        s.ground = real & (ray.direction.z < 0.0f) & (height >= 0.0f);
+        s.depth = select(s.ground, height / max_(T{} - ray.direction.z, all<T>(1e-18f)), s.depth);
+    }
+    const SolidHit<T> hit =
+        hit_solids(k.solids, ray.origin, ray.direction, min_(s.depth, all<T>(3e38f)), real);
+    s.solid = hit.triangle >= 0;
+    s.ground = s.ground & lnot(s.solid);
+    s.depth = min_(s.depth, hit.distance);
+    if (!lit || !any(s.solid | s.ground)) return s;
+
+    const Vec<T> to_sun{all<T>(k.back.to_sun[0]), all<T>(k.back.to_sun[1]),
+                        all<T>(k.back.to_sun[2])};
+    s.place = place_on_solid(k.solids, ray.origin, ray.direction, hit);
+    const T cosine = dot(s.place.normal, to_sun);
+    const Vec<T> flat = along(ray, select(s.ground, s.depth, T{}));
+    const Vec<T> at{select(s.solid, s.place.at.x, flat.x), select(s.solid, s.place.at.y, flat.y),
+                    select(s.solid, s.place.at.z, flat.z)};
+    const T sun = sunlight_at(k, at, to_sun, s.ground | (s.solid & (cosine > 0.0f)));
+    s.sunlight = select(s.solid, sun * max_(cosine, T{}), sun);
+    return s;
+}
+
+/// Radiance of what the rays meet, channel by channel.
+template <class T>
+PILEUS_FN void surface_light(const SolidRowsParams& k, const BackgroundBuffers& b,
+                             const Ray<T>& ray, const LitSurface<T>& s, T (&out)[3]) {
+    T scattered[3] = {};
+    if (k.back.map.size[0] > 0 && any(s.ground))
+        scattered_on_ground(k.back, b, along(ray, select(s.ground, s.depth, T{})), scattered);
+    Vec<T> sky{all<T>(k.back.sky[0]), all<T>(k.back.sky[1]), all<T>(k.back.sky[2])};
+    if (k.back.sky_map.columns > 0) sky = map_radiance(k.back.sky_map, ray.direction);
+    const T above[3] = {sky.x, sky.y, sky.z};
+    for (int c = 0; c < 3; ++c) {
+        const T ground =
+            k.back.ground_diffuse[c] + k.back.ground_sun[c] * s.sunlight + scattered[c];
+        const T solid =
+            s.place.albedo[c] * (around_light(k.around[c], s.place.normal) + k.sun[c] * s.sunlight);
+        out[c] = select(s.solid, solid, select(s.ground, ground, above[c]));
+    }
+}
+
+template <int W>
+PILEUS_FN void solid_rows(const SolidRowsParams& k, const BackgroundBuffers& b, std::uint32_t begin,
+                          std::uint32_t end) {
+    using T = F<W>;
+    const CameraParams& camera = k.back.camera;
+    const std::int64_t pixels = std::int64_t(camera.width) * camera.height;
+    for (std::uint32_t y = begin; y < end; ++y) {
+        for (std::int32_t x = 0; x < camera.width; x += W) {
+            const I<W> column = iota<I<W>>() + x;
+            const Ray<T> ray = camera_ray(camera, to_float(column), all<T>(float(y)));
+            const LitSurface<T> s =
+                find_surface<T>(k, ray, column < camera.width, b.colour != nullptr);
+            T light[3] = {};
+            if (b.colour != nullptr) surface_light(k, b, ray, s, light);
+            for (int l = 0; l < W && x + l < camera.width; ++l) {
+                const std::int64_t pixel = std::int64_t(y) * camera.width + x + l;
+                if (b.opaque_depth != nullptr) b.opaque_depth[pixel] = lane(s.depth, l);
+                for (int c = 0; c < 3 && b.colour != nullptr; ++c)
+                    b.colour[c * pixels + pixel] = lane(light[c], l);
+            }
+        }
+    }
+}
+
+}  // namespace PILEUS_ISA
+}  // namespace pileus

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// Chooses a picture format by extension, checks pictures, and names their pixels by a hash.
+// in: an Image or a path -> out: see image_file.h.
+// docs/formats.md
+#include "src/io/images/image_file.h"
+
+#include "src/base/digest.h"
+#include "src/base/file.h"
+
+namespace pileus {
+
+namespace {
+
+constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 34;
+
+Status in_file(const std::string& path, Status status) {
+    if (!status && status.message.compare(0, path.size(), path) != 0)
+        status.message = path + ": " + status.message;
+    return status;
+}
+
+Status encode_ppm(int width, int height, Span<const std::uint8_t> rgb, Buffer<char>& bytes) {
+    const std::string head =
+        "P6\n" + std::to_string(width) + ' ' + std::to_string(height) + "\n255\n";
+    PILEUS_TRY(bytes.resize(head.size() + rgb.size, "PPM file"));
+    std::memcpy(bytes.data(), head.data(), head.size());
+    std::memcpy(bytes.data() + head.size(), rgb.data, rgb.size);
+    return Status::ok();
+}
+
+Status encode(const Image& image, const std::string& extension, const ToneSettings& tone,
+              Buffer<char>& bytes) {
+    PILEUS_TRY(check_image(image));
+    if (extension == ".exr") return encode_exr(image, bytes);
+    if (extension == ".pfm") return encode_pfm(image, bytes);
+    Buffer<std::uint8_t> rgb;
+    PILEUS_TRY(tone_map_8bit(image, tone, rgb));
+    if (extension == ".png") return encode_png(image.width, image.height, rgb.span(), bytes);
+    return encode_ppm(image.width, image.height, rgb.span(), bytes);
+}
+
+}  // namespace
+
+Status check_image_size(const std::string& where, std::int64_t width, std::int64_t height,
+                        std::uint64_t most_pixels) {
+    const std::string size = std::to_string(width) + " x " + std::to_string(height);
+    if (width < 1 || height < 1)
+        return Status::bad_input(where + ": size: out of range, " + size + ", allowed: 1 x 1 up");
+    if (width > kMaxImageSide || height > kMaxImageSide ||
+        std::uint64_t(width) * std::uint64_t(height) > most_pixels)
+        return Status::limit(where + ": size: too large, " + size + ", allowed: sides up to " +
+                             std::to_string(kMaxImageSide) + " and " + std::to_string(most_pixels) +
+                             " pixels");
+    return Status::ok();
+}
+
+Status check_image(const Image& image) {
+    PILEUS_TRY(check_image_size("image", image.width, image.height));
+    const std::size_t pixels = std::size_t(image.width) * std::size_t(image.height);
+    if (image.channels.empty() || image.channels.size() > kMaxChannels)
+        return Status::bad_input("image: channels: wrong number, " +
+                                 std::to_string(image.channels.size()) + ", allowed: 1 to " +
+                                 std::to_string(kMaxChannels));
+    for (const Channel& channel : image.channels) {
+        if (channel.name.empty() || channel.name.size() > 31)
+            return Status::bad_input("image: channel name: wrong length, \"" + channel.name +
+                                     "\", allowed: 1 to 31 characters");
+        if (image.find(channel.name.c_str()) != &channel)
+            return Status::bad_input("image: channel " + channel.name + ": given twice");
+        if (channel.pixels.size() != pixels)
+            return Status::bad_input("image: channel " + channel.name + ": wrong length, " +
+                                     std::to_string(channel.pixels.size()) +
+                                     ", allowed: " + std::to_string(pixels));
+    }
+    return Status::ok();
+}
+
+Status color_channels(const Image& image, const Channel* (&rgb)[3]) {
+    const Channel* grey = image.find("Y");
+    const char* const names[3] = {"R", "G", "B"};
+    for (int i = 0; i < 3; ++i) {
+        rgb[i] = image.find(names[i]);
+        if (rgb[i] == nullptr) rgb[i] = grey;
+        if (rgb[i] == nullptr)
+            return Status::bad_input(std::string("image: channel ") + names[i] +
+                                     ": missing, allowed: R G B, or Y");
+    }
+    return Status::ok();
+}
+
+Status can_write_image(const std::string& path) {
+    const std::string extension = file_extension(path);
+    if (extension == ".pfm" || extension == ".ppm") return Status::ok();
+    if (extension != ".exr" && extension != ".png")
+        return Status::bad_input(path + ": extension: unknown, \"" + extension +
+                                 "\", allowed: .exr .png .pfm .ppm");
+#ifndef PILEUS_WITH_OPENEXR
+    if (extension == ".exr")
+        return Status::bad_input(path +
+                                 ": extension: .exr left out of this build, allowed: .pfm, "
+                                 "or configure with -DPILEUS_OPENEXR=ON");
+#endif
+#ifndef PILEUS_WITH_PNG
+    if (extension == ".png")
+        return Status::bad_input(path +
+                                 ": extension: .png left out of this build, allowed: .ppm, "
+                                 "or configure with -DPILEUS_PNG=ON");
+#endif
+    return Status::ok();
+}
+
+Status encode_image(const Image& image, const std::string& path, const ToneSettings& tone,
+                    Buffer<char>& bytes) {
+    PILEUS_TRY(can_write_image(path));
+    return in_file(path, encode(image, file_extension(path), tone, bytes));
+}
+
+Status write_image(const Image& image, const std::string& path, const ToneSettings& tone) {
+    Buffer<char> bytes;
+    PILEUS_TRY(encode_image(image, path, tone, bytes));
+    return write_file(path, bytes.span());
+}
+
+Status read_image(const std::string& path, Image& image, std::uint64_t most_pixels) {
+    const std::string extension = file_extension(path);
+    if (extension != ".exr" && extension != ".pfm")
+        return Status::bad_input(path + ": extension: unknown, \"" + extension +
+                                 "\", allowed: .exr .pfm");
+    if (extension == ".exr") PILEUS_TRY(can_write_image(path));
+    image = Image();
+    Buffer<char> bytes;
+    PILEUS_TRY(read_whole_file(path, kMaxFileBytes, bytes));
+    return extension == ".exr" ? decode_exr(path, bytes.span(), image, most_pixels)
+                               : decode_pfm(path, bytes.span(), image, most_pixels);
+}
+
+std::string pixel_hash(const Image& image) {
+    const Channel* channels[4] = {image.find("R"), image.find("G"), image.find("B"),
+                                  image.find("A")};
+    for (int c = 0; c < 3; ++c)
+        if (channels[c] == nullptr) channels[c] = image.find("Y");
+    const std::size_t pixels = std::size_t(image.width) * std::size_t(image.height);
+    Digest digest;
+    for (std::size_t i = 0; i < pixels; ++i)
+        for (int c = 0; c < 4; ++c)
+            digest.f32(channels[c] != nullptr ? channels[c]->pixels[i] : c == 3 ? 1.0f : 0.0f);
+    return digest.hex();
+}
+
+Status tone_map_8bit(const Image& image, const ToneSettings& tone, Buffer<std::uint8_t>& rgb) {
+    const Channel* planes[3];
+    PILEUS_TRY(color_channels(image, planes));
+    const std::size_t pixels = planes[0]->pixels.size();
+    PILEUS_TRY(rgb.resize(std::uint64_t(pixels) * 3, "8-bit picture"));
+    const float* r = planes[0]->pixels.data();
+    const float* g = planes[1]->pixels.data();
+    const float* b = planes[2]->pixels.data();
+
+    if (image.display_colours) {
+        for (std::size_t i = 0; i < pixels; ++i) {
+            rgb[3 * i] = std::uint8_t(srgb_code(r[i]));
+            rgb[3 * i + 1] = std::uint8_t(srgb_code(g[i]));
+            rgb[3 * i + 2] = std::uint8_t(srgb_code(b[i]));
+        }
+        return Status::ok();
+    }
+    // Measure the whole picture first if asked to; stops then count from what was found.
+    float gain = exposure_gain(tone.stops);
+    if (tone.automatic) {
+        Buffer<std::uint32_t> bins;
+        PILEUS_TRY(bins.resize(kToneBins, "brightness histogram"));
+        for (std::size_t i = 0; i < pixels; ++i) tone_count({r[i], g[i], b[i]}, bins.data());
+        gain = automatic_gain(bins.data()) * (gain / kDaylightGain);
+    }
+    for (std::size_t i = 0; i < pixels; ++i) {
+        const Rgb<float> c = tone_curve(Rgb<float>{r[i], g[i], b[i]}, gain);
+        rgb[3 * i] = std::uint8_t(srgb_code(c.r));
+        rgb[3 * i + 1] = std::uint8_t(srgb_code(c.g));
+        rgb[3 * i + 2] = std::uint8_t(srgb_code(c.b));
+    }
+    return Status::ok();
+}
+
+}  // namespace pileus

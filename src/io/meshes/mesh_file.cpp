@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// See mesh_file.h: one reader for each extension.
+#include "src/io/meshes/mesh_file.h"
+
+#include "src/base/file.h"
+
+namespace pileus {
+
+Status check_triangles(const std::string& name, std::uint64_t triangles, std::uint64_t most) {
+    if (triangles == 0)
+        return Status::bad_input(name + ": mesh: no triangles, allowed: one or more");
+    if (triangles <= most) return Status::ok();
+    return Status::limit(name + ": limits.triangles: needs " + std::to_string(triangles) +
+                         ", allowed: at most " + std::to_string(most) + " (--limit triangles=...)");
+}
+
+Status decode_mesh(const std::string& name, const std::string& extension, Span<const char> bytes,
+                   std::uint64_t most_triangles, Mesh& mesh) {
+    if (extension == ".obj") return decode_obj(name, bytes, most_triangles, mesh);
+    if (extension == ".ply") return decode_ply(name, bytes, most_triangles, mesh);
+    if (extension == ".gltf" || extension == ".glb")
+        return decode_gltf(name, extension == ".glb", bytes, most_triangles, mesh);
+    return Status::bad_input(name + ": mesh: unknown kind of file, " + extension +
+                             ", allowed: .obj, .ply, .gltf, .glb");
+}
+
+Status read_mesh(const std::string& path, const Limits& limits, Mesh& mesh) {
+    Buffer<char> bytes;
+    PILEUS_TRY(read_whole_file(path, limits[LimitId::kFile], bytes));
+    return decode_mesh(path, file_extension(path), bytes.span(), limits[LimitId::kTriangles], mesh);
+}
+
+}  // namespace pileus

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reads a density grid stored as bare numbers.
+// in: uint8, uint16 or float32 values, x fastest -> out: floats, whole numbers scaled to 0..1.
+// docs/formats.md
+#include "src/base/file.h"
+#include "src/io/volumes/volume_file.h"
+
+namespace pileus {
+
+namespace {
+
+constexpr std::size_t kPieceValues = 1 << 16;
+
+std::size_t bytes_per_value(RawType type) {
+    return type == RawType::kUint8 ? 1 : type == RawType::kUint16 ? 2 : 4;
+}
+
+/// Assembles one value from its bytes, whatever this machine's own byte order.
+float decode(const unsigned char* at, RawType type, bool big_endian) {
+    if (type == RawType::kUint8) return float(at[0]) / 255.0f;
+    if (type == RawType::kUint16) {
+        const int value = big_endian ? at[0] << 8 | at[1] : at[1] << 8 | at[0];
+        return float(value) / 65535.0f;
+    }
+    std::uint32_t bits = 0;
+    for (int i = 0; i < 4; ++i) bits = bits << 8 | at[big_endian ? i : 3 - i];
+    float value;
+    std::memcpy(&value, &bits, 4);
+    return value;
+}
+
+/// True for a finite value >= 0; refuses NaN as well.
+bool usable(float value) { return value >= 0.0f && value <= 3.402823466e38f; }
+
+/// Checks the stated size, and the length against it.
+Status check_length(const std::string& name, RawType type, const std::array<int, 3>& size,
+                    std::uint64_t bytes, std::uint64_t& count) {
+    PILEUS_TRY(check_volume_size(name, {size[0], size[1], size[2]}));
+    count = std::uint64_t(size[0]) * std::uint64_t(size[1]) * std::uint64_t(size[2]);
+    const std::uint64_t wanted = count * bytes_per_value(type);
+    if (bytes == wanted) return Status::ok();
+    return Status::bad_input(name + ": file length: does not fit the size, " +
+                             std::to_string(bytes) + " bytes, allowed: exactly " +
+                             std::to_string(wanted));
+}
+
+/// Converts `count` values from `from` on, the first of which is voxel `first`.
+Status decode_values(const std::string& name, const unsigned char* from, RawType type,
+                     bool big_endian, std::uint64_t first, std::uint64_t count, Volume& volume) {
+    const std::size_t step = bytes_per_value(type);
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const float value = decode(from + i * step, type, big_endian);
+        if (!usable(value))
+            return Status::bad_input(name + ": density: " + voxel_name(volume.size, first + i) +
+                                     ", " + std::to_string(value) +
+                                     ", allowed: a finite number >= 0");
+        volume.density[std::size_t(first + i)] = value;
+    }
+    return Status::ok();
+}
+
+Status make_room(const std::string& name, const std::array<int, 3>& size, std::uint64_t count,
+                 Volume& volume) {
+    volume.size = size;
+    volume.knows_bounds = false;
+    volume.bounds_m = {};
+    volume.in_extinction = false;
+    return volume.density.resize(count, name.c_str());
+}
+
+}  // namespace
+
+Status decode_raw_volume(const std::string& name, Span<const char> bytes, RawType type,
+                         const std::array<int, 3>& size, bool big_endian, Volume& volume) {
+    std::uint64_t count = 0;
+    PILEUS_TRY(check_length(name, type, size, bytes.size, count));
+    PILEUS_TRY(make_room(name, size, count, volume));
+    const auto* from = reinterpret_cast<const unsigned char*>(bytes.data);
+    return decode_values(name, from, type, big_endian, 0, count, volume);
+}
+
+Status read_raw_volume(const std::string& path, RawType type, const std::array<int, 3>& size,
+                       bool big_endian, Volume& volume) {
+    PILEUS_TRY(check_volume_size(path, {size[0], size[1], size[2]}));
+    InputFile file;
+    PILEUS_TRY(open_file(path, file));
+
+    // Compare lengths before any memory is taken.
+    std::uint64_t count = 0;
+    PILEUS_TRY(check_length(path, type, size, file.size(), count));
+    PILEUS_TRY(make_room(path, size, count, volume));
+    const std::size_t step = bytes_per_value(type);
+    Buffer<unsigned char> piece;
+    PILEUS_TRY(piece.resize(kPieceValues * step, path.c_str()));
+
+    // Convert piece by piece, so that the file is never held whole beside the grid.
+    for (std::uint64_t done = 0; done < count;) {
+        const std::uint64_t left = count - done;
+        const std::size_t n = std::size_t(left < kPieceValues ? left : kPieceValues);
+        const FileResult result = file.read(piece.data(), n * step);
+        if (!result) return read_fault(path, result);
+        PILEUS_TRY(decode_values(path, piece.data(), type, big_endian, done, n, volume));
+        done += n;
+    }
+    return Status::ok();
+}
+
+Status read_raw_head(const std::string& path, RawType type, const std::array<int, 3>& size,
+                     VolumeHead& head) {
+    static const char* const types[] = {"uint8", "uint16", "float32"};
+    PILEUS_TRY(check_volume_size(path, {size[0], size[1], size[2]}));
+    InputFile file;
+    PILEUS_TRY(open_file(path, file));
+    std::uint64_t count = 0;
+    PILEUS_TRY(check_length(path, type, size, file.size(), count));
+    head = VolumeHead();
+    head.size = size;
+    head.kind = std::string("raw numbers, ") + types[std::size_t(type)];
+    return Status::ok();
+}
+
+}  // namespace pileus

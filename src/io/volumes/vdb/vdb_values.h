@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// The values of one node of an OpenVDB tree: compressed blocks, masks, three kinds of numbers.
+// in: a cursor at a node's values -> out: a float per entry, inactive entries 0.
+// docs/formats.md
+#pragma once
+#include "src/base/buffer.h"
+#include "src/io/text/byte_cursor.h"
+#include "src/io/volumes/vdb/vdb_grid.h"
+
+namespace pileus {
+
+constexpr unsigned kVdbMaxEntries = 1u << 15;  // a node of 32^3 entries
+
+/// Whether bit `index` of a node's mask is on.
+inline bool vdb_mask_on(const unsigned char* mask, unsigned index) {
+    return (mask[index >> 3] >> (index & 7) & 1) != 0;
+}
+
+/// Number of bits that are on among `entries`, a multiple of 8.
+unsigned vdb_mask_count(const unsigned char* mask, unsigned entries);
+
+class VdbValues {
+public:
+    /// Takes working memory: kLimit where there is none.
+    Status prepare(const VdbGrid& grid);
+
+    /// Reads the values of a node with `entries` entries, of which `mask` are active; what at()
+    /// gives for the others is 0.
+    Status read(ByteCursor& in, const unsigned char* mask, unsigned entries);
+    float at(unsigned entry) const { return values_[entry]; }
+
+    /// One number as it stands in tiles and backgrounds, never half.
+    Status single(ByteCursor& in, const char* what, float& value) const;
+
+private:
+    Status block(ByteCursor& in, std::uint64_t bytes, const unsigned char*& from);
+
+    unsigned compression_ = 0, stored_bytes_ = 4, value_bytes_ = 4;
+    Buffer<unsigned char> unpacked_;
+    Buffer<float> values_;
+};
+
+/// A number of 2, 4 or 8 bytes, little-endian, rounded to the nearest float.
+float vdb_number(const unsigned char* from, unsigned bytes);
+
+/// Unpacks `count` bytes, which must give exactly `bytes`; by blosc or else zlib.
+Status vdb_inflate(const ByteCursor& in, bool blosc, const unsigned char* packed,
+                   std::uint64_t count, unsigned char* to, std::uint64_t bytes);
+
+/// zlib of `bytes` from `from`; how many bytes it took, or 0 where that is not fewer, there is no
+/// room, or zlib was left out of the build.
+std::uint64_t vdb_deflate(const unsigned char* from, std::uint64_t bytes, unsigned char* to,
+                          std::uint64_t room);
+
+}  // namespace pileus

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// Readers of density grids.
+// in: a file of grey values -> out: a Volume whose every value is finite and >= 0.
+// docs/formats.md
+#pragma once
+#include <array>
+#include <string>
+
+#include "src/base/span.h"
+#include "src/base/status.h"
+#include "src/io/volumes/volume.h"
+#include "src/scene/scene.h"
+
+namespace pileus {
+
+constexpr int kMaxVolumeSide = 4096;
+constexpr std::uint64_t kMaxVolumeCells = std::uint64_t{1} << 31;
+
+/// Reads `path` (already resolved) as medium.format says, or by extension (volume_format_of in
+/// src/scene/volume_format.h). Axes and box stay as in the file: the caller turns a y-up grid with
+/// permute_y_up and lets a box given in the scene win. Bad settings or contents: kBadInput; more
+/// cells or memory than allowed: kLimit; failed half way: kIo. `volume` is unspecified after a
+/// fault.
+Status read_volume(const MediumSettings& medium, const std::string& path, Volume& volume);
+
+/// What read_volume would give, before its values: size, place and kind. Reads little more than
+/// the head of the file; faults of the head as read_volume's, those of the values are not met.
+Status read_volume_head(const MediumSettings& medium, const std::string& path, VolumeHead& head);
+
+/// The text form `Volume "volumegrid" "integer nx" N ... "float density" [...]`. Axes stay in file
+/// order. `point p0` and `point p1` are the outer faces of the box; both or neither must be given.
+Status read_pbrt_volume(const std::string& path, Volume& volume);
+Status decode_pbrt_volume(const std::string& name, Span<const char> text, Volume& volume);
+Status read_pbrt_head(const std::string& path, VolumeHead& head);
+
+/// Bare numbers, x fastest; whole numbers are scaled so that the largest becomes 1. The length
+/// must be exactly that of size[0]*size[1]*size[2] values.
+Status read_raw_volume(const std::string& path, RawType type, const std::array<int, 3>& size,
+                       bool big_endian, Volume& volume);
+Status decode_raw_volume(const std::string& name, Span<const char> bytes, RawType type,
+                         const std::array<int, 3>& size, bool big_endian, Volume& volume);
+Status read_raw_head(const std::string& path, RawType type, const std::array<int, 3>& size,
+                     VolumeHead& head);
+
+/// What write_raw_volume divides by: for whole numbers the largest value, of relative densities
+/// only where that is above 1; otherwise 1.
+double raw_scale(const Volume& volume, RawType type);
+
+/// Writes bare numbers, x fastest. float32 keeps every bit; whole numbers hold density / raw_scale,
+/// rounded to the nearest of 0..255 or 0..65535. Out of memory: kLimit; cannot write: kIo.
+Status write_raw_volume(const std::string& path, RawType type, bool big_endian,
+                        const Volume& volume);
+
+/// Size and box of a grid that permute_y_up turns; mirroring an axis exchanges its two faces.
+void turn_y_up(std::array<int, 3>& size, std::array<std::array<double, 3>, 2>& bounds_m);
+
+/// Turns a grid whose y axis points up by +90 degrees about x: (x, y, z) -> (x, -z, y), values and
+/// box alike, so that z points up and handedness is kept. Out of memory: kLimit.
+Status permute_y_up(Volume& volume);
+
+/// Checks three side lengths and their product: kBadInput for a side, kLimit for the product.
+/// `where` opens the line.
+Status check_volume_size(const std::string& where, const std::array<std::int64_t, 3>& size);
+
+/// "voxel 3 4 5 (index 1234)".
+std::string voxel_name(const std::array<int, 3>& size, std::uint64_t index);
+
+}  // namespace pileus

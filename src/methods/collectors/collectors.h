@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// Method `collectors`: photons into virtual photon collectors, shown as billboards or marched.
+// in: a scene and its medium -> out: images, one per call of `show`.
+// Elek 2011 with the repairs of docs/methods.md 3; docs/collectors.md.
+#pragma once
+#include "src/methods/collectors/billboards/composite_billboards.h"
+#include "src/methods/collectors/photons/reconstruct.h"
+#include "src/methods/collectors/prepare/prepare.h"
+#include "src/methods/methods.h"
+#include "src/plan/plan.h"
+#include "src/world/camera/view.h"
+#include "src/world/solids/solids.h"
+
+namespace pileus {
+
+/// Most groups of generations that the standard error is made from.
+constexpr std::uint64_t kMostBatches = 16;
+
+/// The recipe.
+const Method& collectors_method();
+
+/// Everything one run holds; made by `prepare`, lit by `shoot`, read by `show`.
+struct CollectorsRun {
+    const Scene* scene = nullptr;
+    Medium medium;
+    SkyMap sky_map;
+    Solids solids;
+    MediumSource source;
+    Plan media_plan;  ///< what laying the media on one grid says
+    Plan plan;
+    Lighting lighting;
+    std::vector<std::uint64_t> light_photons;  ///< per light and generation while it is up
+    double sun_elevation_deg = 0;
+    bool outlined_only = true;  ///< sizes are known, values are not
+    Prepared prepared;
+    Majorants majorants;
+    DepositPlan deposit;
+    GroundMap ground_map;
+    Photons photons;
+    std::vector<std::pair<std::string, std::string>> digests;  ///< of the prepared stages
+    TraceScratch scratch;
+    std::uint64_t next_generation = 0, generations = 1;
+    std::uint32_t max_events = 1u << 20;
+    NodeGrid shadow_nodes{};
+    Buffer<float> shadow;      ///< optical depth to the sun per node
+    Buffer<float> visibility;  ///< and what solids leave of the sun; empty without solids
+    bool shadow_ready = false;
+    bool interrupted = false;  ///< fewer generations than asked for, because the user wanted an end
+    int camera_cells = 0;      ///< > 0: the camera-directed estimate on cells of so many voxels
+};
+
+/// The display that a run uses: cells lit towards the camera are always marched.
+inline bool is_marched(const CollectorsRun& run) {
+    return !run.scene->collectors.billboards || run.camera_cells > 0;
+}
+
+/// Whether the display keeps what each collector scatters into every direction: a perspective view
+/// of a periodic medium shows each from many sides.
+inline bool shows_harmonics(const CollectorsRun& run) {
+    return is_marched(run) && run.medium.grid.periodic && !run.scene->camera.orthographic;
+}
+
+/// Slots of the photon map: the generations of an animation's ring, or batches for the error.
+std::uint64_t collectors_slots(const CollectorsRun& run);
+
+/// Groups of slots that the standard error is made from; 0: no error layer.
+int collectors_batches(const CollectorsRun& run);
+
+/// Chooses what is needed and fills the plan from sizes alone: reads no values, prepares nothing,
+/// takes no memory to speak of. kLimit: the scene or the plan is over a limit.
+Status collectors_outline(const Scene& scene, std::int64_t photons, const Context& context,
+                          CollectorsRun& run);
+
+/// Outlines, loads the media and works out the lights and what a collision stores; the first part
+/// of `collectors_prepare`.
+Status collectors_load(const Scene& scene, std::int64_t photons, const Context& context,
+                       CollectorsRun& run);
+
+/// Loads, chooses what is needed, prepares the tree and allocates the sums.
+Status collectors_prepare(const Scene& scene, std::int64_t photons, const Context& context,
+                          CollectorsRun& run);
+
+/// Moves the sun; generations already shot keep the sun they were shot under.
+Status collectors_set_sun(double elevation_deg, const Context& context, CollectorsRun& run);
+
+/// Shoots one generation into its slot of the ring, replacing the oldest where it is full.
+Status collectors_shoot(const Context& context, CollectorsRun& run);
+
+/// Reconstructs and composites one picture.
+Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& run, Image& image);
+
+/// What launches of this run's photons read.
+TraceInput collectors_trace_input(const Context& context, const CollectorsRun& run);
+
+/// What the colours of this run's collectors towards a camera are made from.
+ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const Context& context,
+                                              const CollectorsRun& run);
+
+/// Blends the collectors as billboards of these colours, [channel][collector]; `opaque_depth` as in
+/// BillboardScene, or null.
+Status collectors_billboards(const Context& context, const CollectorsRun& run,
+                             const CameraParams& camera, const CollectorColours& colours,
+                             int channels, const float* opaque_depth, BillboardImage& out);
+
+/// Frees what only tracing needs; part of rendering a still once its photons are shot.
+void collectors_end_tracing(CollectorsRun& run);
+
+/// Photons over the whole ring.
+std::int64_t collectors_photons(const Scene& scene, const Budget& budget);
+
+/// Shoots what a frame needs. kCheckFailed: interrupted before there was anything to show.
+Status collectors_light(const Budget& budget, const FrameStep& step, const Context& context,
+                        CollectorsRun& run);
+
+struct CollectorsSizes;
+
+/// The sizes of the display's grids; part of `collectors_sizes`.
+void collectors_size_display(const CollectorsRun& run, CollectorsSizes& sizes);
+
+/// What is known of the method's bias in this scene's settings.
+BiasNote collectors_bias(const CollectorSettings& settings);
+
+/// Fills plan.memory, plan.work and plan.bounds, bounds or exact by what the run holds, and checks
+/// them against the limits; part of outlining and preparing.
+Status collectors_measure(const Context& context, CollectorsRun& run);
+
+/// Fills the report's plan.
+void collectors_report_plan(const CollectorsRun& run, const Context& context, Report& report);
+
+/// Digests what no frame changes; part of `collectors_prepare`.
+void collectors_digest_prepared(CollectorsRun& run);
+
+/// Fills the report's energy, counters and digests from the run.
+void collectors_report(const CollectorsRun& run, Report& report);
+
+}  // namespace pileus

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every array of method `collectors`: its bytes from sizes alone, and the stages it lives in.
+// in: sizes, bounded before preparation or exact after it -> out: rows of the plan's table.
+// docs/report.md, "Memory".
+#pragma once
+#include "src/methods/collectors/collectors.h"
+#include "src/plan/memory_table.h"
+#include "src/world/plan_parts.h"
+
+namespace pileus {
+
+/// All that the bytes depend on. Where an exact number is not known yet it holds an upper bound.
+struct CollectorsSizes {
+    Grid grid{};
+    MediumSource source;
+    std::uint64_t threads = 1, media = 1;
+    std::uint64_t samples = 0, leaves = 0, collectors = 0;
+    std::uint64_t tracking_blocks = 0;  ///< majorants that photons meet
+    std::uint64_t channels = 1, coefficients = 1, lights = 0, slots = 1, ground_cells = 0;
+    std::uint64_t private_sums = 0;  ///< bytes of all threads' own sums
+    std::uint64_t width = 0, height = 0;
+    std::uint64_t planes = 3;           ///< of colour: 3 * (1 + batches)
+    std::uint64_t harmonics = 0;        ///< numbers per node, where nodes hold them
+    std::uint64_t numbers_by_node = 0;  ///< of all nodes, with what fills them up
+    std::uint64_t layers = 4;           ///< of the image
+    std::uint64_t extra_planes = 0;     ///< parts of the light, optical depth
+    std::uint64_t phases = 0;           ///< bytes of tables of phase functions
+    SkyMapBytes sky;
+    std::uint64_t shadow_nodes = 0, source_nodes = 0;
+    bool parts = false;     ///< some of the light is shown alone
+    bool cells = false;     ///< closure "camera": no samples and no tree
+    bool variance = false;  ///< placement "variance"
+    bool rejection = false, paper = false, marched = true, ground = false, depth = false;
+    bool shoots_again = false;  ///< an animation: what tracing needs stays until the end
+};
+
+/// The sizes of a run: bounds before `collectors_prepare` has filled it, exact afterwards.
+CollectorsSizes collectors_sizes(const CollectorsRun& run, const Context& context);
+
+/// Bytes of one thread's own sums, its distance to the next one's among them.
+std::uint64_t bytes_of_sums(const CollectorsSizes& sizes);
+
+/// The table of all arrays, in the order of the stages.
+MemoryTable collectors_memory(const CollectorsSizes& sizes);
+
+}  // namespace pileus

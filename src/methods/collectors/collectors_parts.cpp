@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parts of a collectors picture's light: the sun's, the singly scattered; and the optical depth.
+// in: CollectorsRun after shooting -> out: planes of the layers light, order and optical_depth.
+// docs/formats.md, "Pictures out".
+#include "src/methods/collectors/collectors_display.h"
+#include "src/picture/march_view.h"
+
+namespace pileus {
+namespace {
+
+/// The same light without the sky: the ground then sends back sunlight alone.
+Lighting sun_alone(const Lighting& all) {
+    Lighting sun = all;
+    for (Light& light : sun.lights) {
+        if (light.beam) continue;
+        light.colour =
+            light.map || light.hemisphere <= 0 ? std::array<double, 3>{} : all.ground_sun;
+    }
+    sun.constant = sun.sky = sun.ground_diffuse = {};
+    sun.map = SkyMapView{};
+    return sun;
+}
+
+/// A picture of one part of the light, without batches; `colours` as in collectors_display.
+Status show_part(const Context& context, CollectorsRun& run, const ReconstructInput& lit,
+                 const CollectorColours& colours, Planes& part) {
+    PILEUS_TRY(allocate_planes(lit.camera.width, lit.camera.height, 3, lit.lighting->opaque(),
+                               false, part));
+    PILEUS_TRY(collectors_background(context, run, lit, part));
+    return collectors_display(context, run, lit, colours, 3, part);
+}
+
+Status show_sun(const Context& context, CollectorsRun& run, const ReconstructInput& whole,
+                Planes& planes) {
+    const Lighting light = sun_alone(*whole.lighting);
+    ReconstructInput lit = whole;
+    lit.lighting = &light;
+    lit.batches = 0;
+    CollectorColours colours;
+    if (!shows_harmonics(run)) PILEUS_TRY(reconstruct(lit, colours));
+    Planes part;
+    PILEUS_TRY(show_part(context, run, lit, colours, part));
+    const std::size_t pixels = part.transmittance.size();
+    for (std::size_t i = 0; i < 3 * pixels; ++i)
+        part.colour[i] += part.transmittance[i % pixels] * part.background[i];
+    planes.sun.swap(part.colour);
+    return Status::ok();
+}
+
+/// Sunlight that the media scattered once, straight from the sun.
+Status show_single(const Context& context, CollectorsRun& run, const ReconstructInput& whole,
+                   Planes& planes) {
+    if (!whole.lighting->sunlit) return planes.single.resize(planes.colour.size(), "single");
+    Lighting light = sun_alone(*whole.lighting);
+    ReconstructInput lit = whole;
+    lit.lighting = &light;
+    lit.batches = 0;
+    lit.first_order_alone = true;
+    CollectorColours colours;
+    if (run.deposit.first_order == 1) PILEUS_TRY(reconstruct(lit, colours));
+    Planes part;
+    PILEUS_TRY(show_part(context, run, lit, colours, part));
+    planes.single.swap(part.colour);
+    return Status::ok();
+}
+
+Status show_optical_depth(const Context& context, const CollectorsRun& run,
+                          const ReconstructInput& lit, Planes& planes) {
+    Planes part;
+    PILEUS_TRY(allocate_planes(lit.camera.width, lit.camera.height, 0, lit.lighting->opaque(),
+                               false, part));
+    PILEUS_TRY(march_medium(context, run.medium, run.majorants, *lit.lighting, lit.camera,
+                            {false, true}, part));
+    planes.optical_depth.swap(part.optical_depth);
+    return Status::ok();
+}
+
+}  // namespace
+
+Status collectors_parts(const Context& context, CollectorsRun& run, const ReconstructInput& lit,
+                        Planes& planes) {
+    const OutputSettings& output = run.scene->output;
+    if (output.layer_optical_depth) PILEUS_TRY(show_optical_depth(context, run, lit, planes));
+    if (output.layer_light) PILEUS_TRY(show_sun(context, run, lit, planes));
+    if (output.layer_order) PILEUS_TRY(show_single(context, run, lit, planes));
+    return Status::ok();
+}
+
+}  // namespace pileus

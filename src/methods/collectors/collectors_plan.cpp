@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// Weighs a run before it is prepared and again after: memory, work, bounds of its sums, limits.
+// in: CollectorsRun, outlined or prepared -> out: its plan's figures; kLimit where one is too many.
+// docs/report.md, "Plan"; docs/program.md, "Limits".
+#include "src/methods/collectors/collectors_memory.h"
+#include "src/methods/collectors/prepare/tree.h"
+#include "src/world/majorant/majorant.h"
+
+namespace pileus {
+namespace {
+
+/// The ring, and one generation for each further picture.
+std::uint64_t photons_of(const CollectorsRun& run, const Context& context) {
+    std::uint64_t generation = 0;
+    for (const Light& light : run.lighting.lights) generation += light.photons;
+    return bytes_of(generation, run.generations + context.frames - 1);
+}
+
+/// Bounds of the sums that no picture shows but every report does.
+void bound_ledgers(double photons, const CollectorsRun& run, Plan& plan) {
+    // A photon may die twice, the second time as the ground's missing light.
+    SumBound ledger[] = {deposit_bound("energy of a fate", 2 * photons, 1, 20),
+                         deposit_bound("path of all photons", 2 * photons, 2147483520.0, 0),
+                         deposit_bound("scatterings", photons * double(run.max_events), 1, 0)};
+    for (SumBound& bound : ledger) {
+        bound.allowed = 0x1p63;
+        plan.bounds.push_back(bound);
+    }
+}
+
+Status check_bounds(const CollectorsRun& run) {
+    for (const SumBound& bound : run.plan.bounds)
+        if (!(bound.worst < bound.allowed))
+            return Status::limit(run.scene->file + ": collectors.photons: the sum \"" + bound.sum +
+                                 "\" could overflow 64 bits; take fewer");
+    return Status::ok();
+}
+
+/// Leaves, collectors and blocks: counted after preparation, bounded before.
+void size_prepared(const CollectorsRun& run, const Context& context, CollectorsSizes& s) {
+    const CollectorSettings& settings = run.scene->collectors;
+    if (!run.outlined_only) {
+        s.leaves = run.prepared.leaves.size();
+        s.collectors = run.prepared.collectors.size();
+        s.samples = run.prepared.samples;
+        s.tracking_blocks = run.majorants.tracking.size();
+        return;
+    }
+    s.samples = std::uint64_t(settings.samples);
+    const std::uint64_t most = context.limits[LimitId::kLeaves];
+    if (s.cells)
+        s.leaves = block_total(s.grid, run.camera_cells);
+    else
+        s.leaves = most > 0 ? most : expected_leaves(s.grid, leaf_share(run.medium), s.samples);
+    s.collectors = s.leaves;
+    s.tracking_blocks = most_tracking_blocks(s.grid, settings.local_tracking);
+}
+
+}  // namespace
+
+CollectorsSizes collectors_sizes(const CollectorsRun& run, const Context& context) {
+    const CollectorSettings& settings = run.scene->collectors;
+    CollectorsSizes s;
+    s.grid = run.medium.grid;
+    s.source = run.source;
+    s.threads = std::uint64_t(context.threads);
+    s.media = std::uint64_t(run.medium.count);
+    s.cells = run.camera_cells > 0;
+    s.variance = settings.variance_field;
+    s.rejection = settings.rejection_sampler;
+    s.paper = settings.paper;
+    s.channels = std::uint64_t(run.medium.channels);
+    s.coefficients = std::uint64_t(run.deposit.coefficients);
+    s.lights = run.lighting.lights.size();
+    s.phases = phase_bytes(run.medium);
+    s.sky = sky_map_bytes(run.sky_map);
+    s.slots = collectors_slots(run);
+    s.ground_cells = std::uint64_t(run.ground_map.cells) * std::uint64_t(run.ground_map.cells);
+    s.shoots_again = context.frames > 1;
+    size_prepared(run, context, s);
+    collectors_size_display(run, s);
+    return s;
+}
+
+Status collectors_measure(const Context& context, CollectorsRun& run) {
+    const std::uint64_t photons = photons_of(run, context);
+    PILEUS_TRY(check_limit(context.limits, LimitId::kPhotons, photons, run.scene->file));
+    run.plan.bounds.resize(1);
+    bound_ledgers(double(photons), run, run.plan);
+    PILEUS_TRY(check_bounds(run));
+    CollectorsSizes sizes = collectors_sizes(run, context);
+    run.plan.exact = !run.outlined_only;
+    run.plan.accumulation =
+        plan_accumulation(run.scene->collectors.accumulation,
+                          {sizes.threads, bytes_of_sums(sizes), collectors_memory(sizes).peak(),
+                           context.limits[LimitId::kMemory], run.plan.exact});
+    if (context.kernels->device != nullptr)
+        run.plan.accumulation = {"shared", "all threads of the device add to one set", 0, true};
+    sizes.private_sums = run.plan.accumulation.bytes;
+    run.plan.memory = collectors_memory(sizes);
+    add_solid_rows(*run.scene, context.limits, run.solids, run.plan.memory);
+    PILEUS_TRY(
+        check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), run.scene->file));
+    run.plan.skip(Stage::kPaths);
+    run.plan.work = estimate_work(
+        medium_work(run.medium, run.source.mean_density, double(run.max_events), double(photons)));
+    return check_work(run.plan.work, context.limits, run.scene->file);
+}
+
+namespace {
+
+void report_limits(const CollectorsRun& run, const Context& context, Report& report) {
+    const Scene& scene = *run.scene;
+    const auto& size = scene.camera.resolution;
+    const WorkEstimate& work = run.plan.work;
+    const auto add = [&](LimitId id, std::uint64_t needs, bool known = true) {
+        report.limits.push_back(limit_of(context.limits, id, needs, known));
+    };
+    report.limits.clear();
+    add(LimitId::kVoxels, voxel_count(run.medium.grid));
+    add(LimitId::kSamples, std::uint64_t(scene.collectors.samples));
+    add(LimitId::kPhotons, whole(work.photons));
+    add(LimitId::kPixels, std::uint64_t(size[0]) * std::uint64_t(size[1]));
+    add(LimitId::kFrames, scene.animation.present ? std::uint64_t(scene.animation.frames) : 1);
+    add(LimitId::kMemory, run.plan.memory.peak());
+    add(LimitId::kScatterings, whole(work.scatterings_per_photon), work.known);
+    add(LimitId::kWork, whole(work.scatterings), work.known);
+}
+
+}  // namespace
+
+void collectors_report_plan(const CollectorsRun& run, const Context& context, Report& report) {
+    report_plan(run.plan, report);
+    report_limits(run, context, report);
+}
+
+}  // namespace pileus

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// The picture of a lit collectors run: reconstruct, display, parts, layers.
+// in: CollectorsRun after shooting, a camera -> out: Image.
+// docs/methods.md 3, each image frame, steps 4 and 5; repairs 3 and 4.
+#include "src/base/digest.h"
+#include "src/methods/collectors/collectors_display.h"
+
+namespace pileus {
+
+int collectors_batches(const CollectorsRun& run) {
+    std::uint64_t slots = collectors_slots(run);
+    // Tracing that ended early has left slots without a generation.
+    if (!run.scene->animation.present && run.next_generation > 0 && run.next_generation < slots)
+        slots = run.next_generation;
+    if (!run.scene->output.layer_error || slots < 2) return 0;
+    // An animation's ring may hold more generations than the blender has planes for.
+    return int(slots < kMostBatches ? slots : kMostBatches);
+}
+
+ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const Context& context,
+                                              const CollectorsRun& run) {
+    ReconstructInput in;
+    in.medium = &run.medium;
+    in.lighting = &run.lighting;
+    in.photons = &run.photons;
+    in.collectors = run.prepared.collectors.span();
+    in.shares = run.prepared.shares.span();
+    in.camera = camera;
+    in.deposit = run.deposit;
+    in.closure = run.camera_cells > 0                 ? Closure::kCamera
+                 : run.scene->collectors.lobe_closure ? Closure::kLobe
+                                                      : Closure::kSh;
+    in.window = run.scene->collectors.window;
+    in.batches = collectors_batches(run);
+    in.constant = !is_marched(run);
+    in.threads = context.threads;
+    return in;
+}
+
+Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& run, Image& image) {
+    const Scene& scene = *run.scene;
+    const CameraParams camera = make_camera(scene.camera, orbit_deg, run.medium.low_m);
+    const ReconstructInput in = collectors_reconstruct_input(camera, context, run);
+    CollectorColours colours;
+    if (!shows_harmonics(run)) {
+        const StageClock clock(context, "reconstruct");
+        PILEUS_TRY(reconstruct(in, colours));
+    }
+    const int channels = 3 * (1 + in.batches);
+    Planes planes;
+    PILEUS_TRY(allocate_planes(camera.width, camera.height, channels, run.lighting.opaque(),
+                               scene.output.layer_depth, planes));
+    PILEUS_TRY(collectors_background(context, run, in, planes));
+    PILEUS_TRY(collectors_display(context, run, in, colours, channels, planes));
+    PILEUS_TRY(collectors_ground_noise(context, run, in, planes));
+    PILEUS_TRY(collectors_parts(context, run, in, planes));
+    Report& report = *context.report;
+    report.counters.clear();
+    std::uint64_t clamped = colours.clamped_negative;
+    PILEUS_TRY(make_layers(planes, camera.width, camera.height, channels, scene.output, image,
+                           report, clamped));
+    report.counters.emplace_back("clamped_negative", clamped);
+    report.executed = {{"depth_tests", planes.opaque_depth.size()},
+                       {"depths_stored", planes.half_depth.size()},
+                       {"batches", std::uint64_t(in.batches)},
+                       {"parts_stored", run.medium.parts.size()}};
+    report_solids(run.solids, report);
+    set_image_camera(camera, run.medium.low_m, image);
+    if (shows_harmonics(run)) return Status::ok();
+    Digest digest;
+    digest.floats(colours.colour.span());
+    report.digests.emplace_back("colours", digest.hex());
+    return Status::ok();
+}
+
+}  // namespace pileus

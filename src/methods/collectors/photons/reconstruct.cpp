@@ -1,0 +1,354 @@
+// SPDX-License-Identifier: Apache-2.0
+// See reconstruct.h.
+#include "src/methods/collectors/photons/reconstruct.h"
+
+#include "kernels_cpu/photons/deposit.h"
+#include "platform/threads.h"
+#include "src/base/angles.h"
+
+namespace pileus {
+namespace {
+
+constexpr int kMostNumbers = kMaxBands * kMaxBands + kMaxAxisDegrees + 1;
+using Direction = Vec<float>;
+
+/// What the sinc window multiplies each band by.
+struct Window {
+    float factor[kMaxBands];
+};
+Window band_window(const ReconstructInput& in) {
+    Window w{};
+    for (int l = 0; l < in.deposit.bands; ++l) {
+        w.factor[l] = 1;
+        if (!in.window || l == 0) continue;
+        const double x = double(l) / in.deposit.bands;
+        w.factor[l] = float(sincos_deg(180.0 * x).sine / (3.14159265358979323846 * x));
+    }
+    return w;
+}
+
+/// All media of one collector as one, in one channel: albedo, and whose phase function how much of
+/// the scattered light follows. One medium has weight 1, to the bit.
+struct Mixture {
+    float albedo = 0;
+    float weight[kMostMedia] = {};
+    const Medium* medium = nullptr;
+
+    float moment(int l) const {
+        float sum = 0;
+        for (int i = 0; i < medium->count; ++i)
+            sum += weight[i] * phase_moment(medium->optics[std::size_t(i)].phase, l);
+        return sum;
+    }
+    float density(float one_minus_cos) const {
+        float sum = 0;
+        for (int i = 0; i < medium->count; ++i)
+            sum += weight[i] * phase_density(medium->optics[std::size_t(i)].phase, one_minus_cos);
+        return sum;
+    }
+};
+
+/// The share of a medium is that of the collector's extinction: the light is taken to be the same
+/// all over the leaf, as its colour is.
+Mixture mixture_of(const ReconstructInput& in, std::size_t collector, std::size_t channel) {
+    Mixture mix;
+    mix.medium = in.medium;
+    const std::size_t count = std::size_t(in.medium->count);
+    for (std::size_t i = 0; i < count; ++i) {
+        const float share = count == 1 ? 1.0f : in.shares[collector * count + i];
+        mix.weight[i] = share * in.medium->optics[i].albedo[channel];
+        mix.albedo += mix.weight[i];
+    }
+    for (std::size_t i = 0; i < count && mix.albedo > 0; ++i) mix.weight[i] /= mix.albedo;
+    return mix;
+}
+
+/// Power per steradian and unit light scattered towards `to`, from all bands.
+double sh_power(const ReconstructInput& in, const Window& window, const Mixture& mix,
+                const double* sums, const Direction& to) {
+    float y[kMaxBands * kMaxBands];
+    sh_values(in.deposit.bands, to, y);
+    double power = 0;
+    for (int l = 0, i = 0; l < in.deposit.bands; ++l) {
+        double band = 0;
+        for (int m = -l; m <= l; ++m, ++i) band += sums[i] * double(y[i]);
+        const float moment = in.deposit.mode == kDepositOutgoing ? 1.0f : mix.moment(l);
+        power += band * double(moment * window.factor[l]);
+    }
+    return power;
+}
+
+/// What the degrees beyond the bands add to it, of light spread evenly around the beam's direction
+/// `sun`: sum_l (2l+1)/4pi chi_l m_l P_l(cosine), m_l the sum of P_l over the light.
+double axis_power(const ReconstructInput& in, const Mixture& mix, const double* sums,
+                  const Direction& sun, const Direction& to) {
+    float p[kMaxAxisDegrees];
+    axis_values(in.deposit.bands, in.deposit.axis_degrees, 1.0f - one_minus_cosine(sun, to), p);
+    double power = 0;
+    for (int j = 0; j < in.deposit.axis_degrees; ++j) {
+        const int l = in.deposit.bands + j;
+        const double weight = double(2 * l + 1) * 0.079577471545947667884;  // 1 / 4 pi
+        power += weight * double(mix.moment(l)) * double(p[j]) * sums[j];
+    }
+    return power;
+}
+
+/// The same from flux and mean direction alone: one HG lobe (docs/methods.md 3, closure `lobe`).
+double lobe_power(const ReconstructInput& in, const Mixture& mix, const double* sums,
+                  const Direction& to) {
+    const double flux = sums[0] * 3.5449077018110320546;  // sqrt(4 pi)
+    if (!(flux > 0) || in.deposit.bands < 2) return flux * 0.079577471545947667884;
+    // y_1m is sqrt(3/4pi) times y, z, x.
+    const double scale = 2.0466534158929769770 / flux;
+    const double x = sums[3] * scale, y = sums[1] * scale, z = sums[2] * scale;
+    const double length = __builtin_sqrt(x * x + y * y + z * z);
+    const float mean = length < 0.999 ? float(length) : 0.999f;
+    const float g = in.deposit.mode == kDepositOutgoing ? mean : mean * mix.moment(1);
+    const double safe = length > 1e-9 ? 1.0 / length : 0.0;
+    const float cosine = float((x * double(to.x) + y * double(to.y) + z * double(to.z)) * safe);
+    return flux * double(hg_density(g, 1.0f - cosine));
+}
+
+/// Sums of one set of one light in one slot, per unit of its colour.
+void slot_sums(const ReconstructInput& in, const PhotonSlot& slot, std::size_t light,
+               std::uint64_t set, double* sums) {
+    const int n = in.deposit.coefficients;
+    const std::uint64_t stride = slot.sums.size() / in.lighting->lights.size();
+    const std::int64_t* from = slot.sums.data() + light * stride + set * std::uint64_t(n);
+    const double norm = slot.flux_per_photon_m2[light] /
+                        double(std::uint64_t{1} << in.deposit.places) / double(slot.generations);
+    for (int i = 0; i < n; ++i) sums[i] = double(from[i]) * norm;
+}
+
+/// Light of one light in one slot, scattered towards `to`, per unit of its colour.
+double slot_power(const ReconstructInput& in, const Window& window, const Mixture& mix,
+                  const PhotonSlot& slot, std::size_t light, std::uint64_t set,
+                  const Direction& to) {
+    if (slot.generations == 0) return 0;
+    double sums[kMostNumbers];
+    slot_sums(in, slot, light, set, sums);
+    if (in.closure == Closure::kCamera) return sums[0];
+
+    double power = in.first_order_alone           ? 0
+                   : in.closure == Closure::kLobe ? lobe_power(in, mix, sums, to)
+                                                  : sh_power(in, window, mix, sums, to);
+    if (!in.lighting->lights[light].beam) return power;
+    const Direction sun{slot.sun_travel[0], slot.sun_travel[1], slot.sun_travel[2]};
+    if (!in.first_order_alone)
+        power += axis_power(in, mix, sums + in.deposit.bands * in.deposit.bands, sun, to);
+    if (in.deposit.first_order == 1)
+        power += sums[in.deposit.coefficients - 1] * double(mix.density(one_minus_cosine(sun, to)));
+    return power;
+}
+
+Direction towards_camera(const ReconstructInput& in, const Collector& c) {
+    if (in.camera.orthographic != 0)
+        return {-in.camera.forward[0], -in.camera.forward[1], -in.camera.forward[2]};
+    const Direction d{in.camera.origin[0] - c.centre[0], in.camera.origin[1] - c.centre[1],
+                      in.camera.origin[2] - c.centre[2]};
+    // From inside the collector there is no such direction: any will do.
+    if (!(dot(d, d) > 1e-12f)) return {0, 0, 1};
+    return normalized(d);
+}
+
+/// Slots up to the first that no generation has reached: tracing may have ended early.
+std::size_t filled_slots(const Photons& photons) {
+    std::size_t filled = 0;
+    while (filled < photons.slots.size() && photons.slots[filled].generations > 0) ++filled;
+    return filled;
+}
+
+struct Row {
+    double rgb[3];
+};
+
+/// Colour of collector i from slots [first, last), averaged.
+Row collector_colour(const ReconstructInput& in, const Window& window, std::size_t i,
+                     std::size_t first, std::size_t last) {
+    const Collector& c = in.collectors[i];
+    const Direction to = towards_camera(in, c);
+    const Medium& m = *in.medium;
+    const double depth_m2 = c.mass * double(m.sigma);
+    Mixture mix[3];
+    for (std::size_t ch = 0; ch < std::size_t(m.channels); ++ch) mix[ch] = mixture_of(in, i, ch);
+    // The deposits know the albedos at real collisions, and where several media share a voxel.
+    const bool albedo_done =
+        in.deposit.mode == kDepositOutgoing || (in.deposit.mode == kDepositCamera && m.count > 1);
+    Row row{};
+    double generations = 0;
+    for (std::size_t s = first; s < last; ++s)
+        generations += double(in.photons->slots[s].generations);
+    for (std::size_t s = first; s < last; ++s) {
+        const PhotonSlot& slot = in.photons->slots[s];
+        const double share = generations > 0 ? double(slot.generations) / generations : 0;
+        for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {
+            const auto& colour = in.lighting->lights[l].colour;
+            double power = 0;
+            for (std::size_t ch = 0; ch < 3; ++ch) {
+                if (ch == 0 || m.channels == 3) {
+                    const std::uint64_t set = std::uint64_t(i) * std::uint64_t(m.channels) + ch;
+                    power = slot_power(in, window, mix[ch], slot, l, set, to) * share;
+                    if (!albedo_done) power *= double(mix[ch].albedo);
+                }
+                row.rgb[ch] += power * colour[ch] / depth_m2;
+            }
+        }
+    }
+    return row;
+}
+
+}  // namespace
+
+Status reconstruct(const ReconstructInput& in, CollectorColours& out) {
+    const std::size_t slots = filled_slots(*in.photons), count = in.collectors.size;
+    const std::size_t batches = std::size_t(in.batches), sets = 1 + batches;
+    if (out.colour.size() != 3 * sets * count)
+        PILEUS_TRY(out.colour.resize(3 * sets * count, "collector colours"));
+    const Window window = band_window(in);
+    constexpr std::size_t kPiece = 256;
+    const std::size_t pieces = (count + kPiece - 1) / kPiece;
+    Buffer<std::uint64_t> negative;
+    PILEUS_TRY(negative.resize(pieces, "counters"));
+    parallel_for(in.threads, std::int64_t(pieces), [&](std::int64_t piece, int) {
+        const std::size_t begin = std::size_t(piece) * kPiece;
+        const std::size_t end = begin + kPiece < count ? begin + kPiece : count;
+        for (std::size_t i = begin; i < end; ++i) {
+            for (std::size_t set = 0; set < sets; ++set) {
+                const Row row =
+                    collector_colour(in, window, i, set == 0 ? 0 : (set - 1) * slots / batches,
+                                     set == 0 ? slots : set * slots / batches);
+                for (std::size_t ch = 0; ch < 3; ++ch) {
+                    // The constant part belongs to the radiance that must not be negative.
+                    const double constant = in.lighting->constant[ch];
+                    double v = row.rgb[ch] + constant;
+                    if (set == 0 && v < 0) {
+                        v = 0;
+                        ++negative[std::size_t(piece)];
+                    }
+                    if (!in.constant) v -= constant;
+                    out.colour[(set * 3 + ch) * count + i] = float(v);
+                }
+            }
+        }
+    });
+    out.clamped_negative = 0;
+    for (std::uint64_t n : negative.span()) out.clamped_negative += n;
+    return Status::ok();
+}
+
+int harmonic_sets(const Medium& medium, const Lighting& lighting) {
+    return medium.channels == 1 && lighting.lights.size() < 3 ? int(lighting.lights.size()) : 3;
+}
+
+namespace {
+
+/// Harmonics of collector i: [set][harmonic] into `out`.
+void collector_harmonics(const ReconstructInput& in, const Window& window, std::size_t i,
+                         std::size_t first, std::size_t last, const HarmonicSource& sets,
+                         double* out) {
+    const Medium& m = *in.medium;
+    const int count = sets.bands * sets.bands;
+    const bool by_light = sets.sets < 3;
+    const bool albedo_done = in.deposit.mode == kDepositOutgoing;
+    double generations = 0;
+    for (std::size_t s = first; s < last; ++s)
+        generations += double(in.photons->slots[s].generations);
+    for (int k = 0; k < sets.sets * count; ++k) out[k] = 0;
+    for (std::size_t ch = 0; ch < std::size_t(m.channels == 3 ? 3 : 1); ++ch) {
+        const Mixture mix = mixture_of(in, i, ch);
+        double factor[kMaxBands];
+        for (int l = 0; l < sets.bands; ++l)
+            factor[l] = double(albedo_done ? 1.0f : mix.moment(l) * mix.albedo) *
+                        double(window.factor[l]) / (in.collectors[i].mass * double(m.sigma));
+        for (std::size_t s = first; s < last; ++s) {
+            const PhotonSlot& slot = in.photons->slots[s];
+            if (slot.generations == 0) continue;
+            const double share = double(slot.generations) / generations;
+            for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {
+                double sums[kMostNumbers];
+                slot_sums(in, slot, l, std::uint64_t(i) * std::uint64_t(m.channels) + ch, sums);
+                // Which sets this light feeds, and how brightly.
+                const auto& colour = in.lighting->lights[l].colour;
+                for (std::size_t set = 0; set < std::size_t(sets.sets); ++set) {
+                    if (by_light ? set != l : (m.channels == 3 && set != ch)) continue;
+                    const double power = share * (by_light ? 1.0 : colour[set]);
+                    for (int band = 0, k = 0; band < sets.bands; ++band)
+                        for (int order = -band; order <= band; ++order, ++k)
+                            out[int(set) * count + k] += sums[k] * factor[band] * power;
+                }
+            }
+        }
+    }
+}
+
+}  // namespace
+
+Status reconstruct_harmonics(const ReconstructInput& in, int batch, HarmonicSource& out) {
+    const std::size_t slots = filled_slots(*in.photons), count = in.collectors.size;
+    const std::size_t batches = std::size_t(in.batches);
+    const std::size_t first = batch < 0 ? 0 : std::size_t(batch) * slots / batches;
+    const std::size_t last = batch < 0 ? slots : (std::size_t(batch) + 1) * slots / batches;
+    out.bands = in.deposit.bands;
+    out.sets = harmonic_sets(*in.medium, *in.lighting);
+    for (int s = 0; s < out.sets; ++s)
+        for (std::size_t c = 0; c < 3; ++c)
+            out.colour[s][c] = out.sets < 3 ? float(in.lighting->lights[std::size_t(s)].colour[c])
+                                            : (std::size_t(s) == c ? 1.0f : 0.0f);
+    const std::size_t numbers = std::size_t(out.sets) * std::size_t(out.bands * out.bands);
+    if (out.values.size() != numbers * count)
+        PILEUS_TRY(out.values.resize(numbers * count, "collector colours"));
+    const Window window = band_window(in);
+    constexpr std::size_t kPiece = 256;
+    parallel_for(in.threads, std::int64_t((count + kPiece - 1) / kPiece),
+                 [&](std::int64_t piece, int) {
+                     const std::size_t begin = std::size_t(piece) * kPiece;
+                     const std::size_t end = begin + kPiece < count ? begin + kPiece : count;
+                     double own[3 * kMaxBands * kMaxBands];
+                     for (std::size_t i = begin; i < end; ++i) {
+                         collector_harmonics(in, window, i, first, last, out, own);
+                         for (std::size_t k = 0; k < numbers; ++k)
+                             out.values[k * count + i] = float(own[k]);
+                     }
+                 });
+    return Status::ok();
+}
+
+Status reconstruct_ground(const ReconstructInput& in, const GroundMap& map, int batch,
+                          Buffer<float>& radiance) {
+    const std::size_t cells = std::size_t(map.cells) * std::size_t(map.cells);
+    PILEUS_TRY(radiance.resize(3 * cells, "ground light"));
+    if (cells == 0) return Status::ok();
+    // The same groups of slots as the collectors' batches.
+    const std::size_t slots = in.photons->slots.size(), group = std::size_t(batch);
+    const std::size_t batches = std::size_t(in.batches);
+    const std::size_t first = batch > 0 ? (group - 1) * slots / batches : 0;
+    const std::size_t last = batch > 0 ? group * slots / batches : slots;
+    double generations = 0;
+    for (std::size_t s = first; s < last; ++s)
+        generations += double(in.photons->slots[s].generations);
+    if (!(generations > 0)) return Status::ok();
+    // Irradiance = flux per cell area; a Lambertian ground sends albedo / pi of it back.
+    const double unit = in.lighting->ground_albedo / 3.14159265358979323846 *
+                        double(map.per_metre[0]) * double(map.per_metre[1]) /
+                        (generations * double(std::uint64_t{1} << in.deposit.places));
+    const std::size_t channels = std::size_t(in.medium->channels);
+    for (std::size_t i = 0; i < cells; ++i) {
+        double rgb[3] = {};
+        for (std::size_t s = first; s < last; ++s) {
+            const PhotonSlot& slot = in.photons->slots[s];
+            if (slot.generations == 0) continue;
+            const std::size_t stride = slot.sums.size() / in.lighting->lights.size();
+            for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {
+                const std::int64_t* cell =
+                    slot.sums.data() + (l + 1) * stride - (cells - i) * channels;
+                for (std::size_t c = 0; c < 3; ++c)
+                    rgb[c] += double(cell[channels == 3 ? c : 0]) * slot.flux_per_photon_m2[l] *
+                              in.lighting->lights[l].colour[c];
+            }
+        }
+        for (std::size_t c = 0; c < 3; ++c) radiance[c * cells + i] = float(rgb[c] * unit);
+    }
+    return Status::ok();
+}
+
+}  // namespace pileus

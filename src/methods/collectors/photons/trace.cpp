@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// See trace.h.
+#include "src/methods/collectors/photons/trace.h"
+
+#include "kernels_cpu/core/accumulate.h"
+#include "platform/threads.h"
+#include "src/run/device_launch.h"
+#include "src/world/majorant/majorant.h"
+#include "src/world/solids/solids.h"
+
+namespace pileus {
+namespace {
+
+constexpr std::uint64_t kChunk = 4096;                          // photons per piece of work
+constexpr std::uint64_t kMostPhotons = std::uint64_t{1} << 31;  // per launch
+
+std::uint64_t collector_numbers(const TraceInput& in) {
+    return in.collectors * std::uint64_t(in.medium->channels) *
+           std::uint64_t(in.deposit.coefficients);
+}
+
+/// Whether photons add to the slot's own sums: no other thread does, or all do it atomically.
+bool adds_directly(const TraceInput& in) {
+    return in.threads == 1 || in.shared_sums || in.kernels->device != nullptr;
+}
+
+/// `count` photons of one light that share the high half of their index.
+struct Launch {
+    const TraceInput* in;
+    TraceScratch* scratch;
+    TraceParams params;
+    std::uint64_t count;
+    std::int64_t* total;  ///< the light's sums in the slot
+};
+
+void run_piece(const Launch& launch, std::uint64_t piece, int thread) {
+    const TraceInput& in = *launch.in;
+    const std::uint64_t begin = piece * kChunk;
+    const std::uint64_t end = begin + kChunk < launch.count ? begin + kChunk : launch.count;
+    std::int64_t* sums = launch.total;
+    if (!adds_directly(in))
+        sums = launch.scratch->sums.data() + std::uint64_t(thread) * launch.scratch->stride;
+    const TraceBuffers b{
+        in.collector_of_voxel.data,   sums,
+        sums + collector_numbers(in), &launch.scratch->tallies[std::size_t(thread) * 2],
+        in.medium->parts.data(),      in.threads > 1 && adds_directly(in) ? 1 : 0};
+    in.kernels->trace(launch.params, b, std::uint32_t(begin), std::uint32_t(end));
+}
+
+/// The whole launch at once, a photon per thread of the device.
+Status run_on_device(const Launch& launch) {
+    const TraceInput& in = *launch.in;
+    const TraceBuffers b{in.collector_of_voxel.data,
+                         launch.total,
+                         launch.total + collector_numbers(in),
+                         &launch.scratch->tallies[0],
+                         in.medium->parts.data(),
+                         1};
+    return launch_on_device(*in.kernels->device, launch.params, b, slot_stride(in),
+                            std::uint32_t(launch.count));
+}
+
+Status run_launch(const Launch& launch, int threads) {
+    if (launch.in->kernels->device != nullptr) return run_on_device(launch);
+    const std::uint64_t pieces = (launch.count + kChunk - 1) / kChunk;
+    if (launch.in->shared_sums && !kSharesSums) threads = 1;
+    parallel_for(threads, std::int64_t(pieces), [&](std::int64_t piece, int thread) {
+        run_piece(launch, std::uint64_t(piece), thread);
+    });
+    return Status::ok();
+}
+
+/// Adds one thread's sums to the total and leaves zeros behind.
+void move_sums(std::int64_t* own, std::int64_t* total, std::uint64_t count) {
+    for (std::uint64_t i = 0; i < count; ++i) {
+        total[i] += own[i];
+        own[i] = 0;
+    }
+}
+
+void add_fates(const Fates& from, Fates& to) {
+    const auto* source = reinterpret_cast<const std::int64_t*>(&from);
+    auto* target = reinterpret_cast<std::int64_t*>(&to);
+    for (std::size_t i = 0; i < sizeof(Fates) / sizeof(std::int64_t); ++i) target[i] += source[i];
+}
+
+}  // namespace
+
+TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_t generation) {
+    const Medium& m = *in.medium;
+    TraceParams k{};
+    double diagonal = 0;
+    for (int a = 0; a < 3; ++a) {
+        k.direction[a] = light.travel[std::size_t(a)];
+        k.camera[a] = in.deposit.camera[a];
+        diagonal += m.extent_m[a] * m.extent_m[a];
+    }
+    k.grid = track_grid(m, in.majorants, in.block, in.max_events);
+    k.channels = m.channels;
+    k.media = m.count;
+    for (std::size_t i = 0; i < m.optics.size(); ++i) k.optics[i] = m.optics[i];
+    k.light = light.map ? kLightMap : (light.beam ? kLightBeam : kLightDiffuse);
+    k.map = in.lighting->map;
+    k.hemisphere = light.hemisphere;
+    for (std::size_t f = 0; f < 6; ++f) k.face_cdf[f] = light.face_cdf[f];
+    k.ground = in.lighting->ground ? 1 : 0;
+    k.ground_z = float(in.lighting->ground_z);
+    k.ground_albedo = float(in.lighting->ground_albedo);
+    for (int a = 0; a < 2; ++a) {
+        k.ground_cells[a] = in.ground.cells;
+        k.ground_origin[a] = in.ground.origin[a];
+        k.ground_cells_per_metre[a] = in.ground.per_metre[a];
+    }
+    k.mode = in.collectors == 0 ? kDepositNone : in.deposit.mode;
+    k.bands = in.deposit.bands;
+    k.first_order = in.deposit.first_order;
+    k.axis_degrees = in.deposit.axis_degrees;
+    k.coefficients = in.deposit.coefficients;
+    k.scale = float(std::uint64_t{1} << in.deposit.places);
+    k.path_scale = float(path_units(m) / __builtin_sqrt(diagonal));
+    k.orthographic = in.deposit.orthographic ? 1 : 0;
+    if (in.lighting->solids != nullptr) k.solids = in.lighting->solids->view();
+    const Key shift = make_key(in.seed, light.stream + 16u, std::uint32_t(generation));
+    k.shift[0] = shift.k0;
+    k.shift[1] = shift.k1;
+    return k;
+}
+
+void add_tally(const TraceTally& from, TraceTally& to) {
+    add_fates(from.light, to.light);
+    add_fates(from.shadow, to.shadow);
+    to.photons += from.photons;
+    to.scatterings += from.scatterings;
+    to.tentative += from.tentative;
+    to.crossings += from.crossings;
+    to.path += from.path;
+    to.majorant_violations += from.majorant_violations;
+    to.absorption_tests += from.absorption_tests;
+    to.bounces += from.bounces;
+}
+
+GroundMap make_ground_map(const Medium& medium, const Lighting& lighting) {
+    constexpr int kCells = 40;
+    GroundMap map;
+    if (!lighting.ground || lighting.lights.empty()) return map;
+    map.cells = kCells;
+    const double reach = medium.grid.periodic ? 0 : medium.extent_m[2] - lighting.ground_z;
+    for (int a = 0; a < 2; ++a) {
+        map.origin[a] = float(-reach);
+        map.per_metre[a] = float(kCells / (medium.extent_m[a] + 2 * reach));
+    }
+    return map;
+}
+
+std::uint64_t slot_stride(const TraceInput& in) {
+    return collector_numbers(in) + std::uint64_t(in.ground.cells) * std::uint64_t(in.ground.cells) *
+                                       std::uint64_t(in.medium->channels);
+}
+
+Status prepare_trace(const TraceInput& in, TraceScratch& scratch) {
+    // Neighbouring threads keep 128 bytes apart (unpadded counters cost half the speed).
+    scratch.stride = (slot_stride(in) + 31) / 16 * 16;
+    const std::uint64_t blocks = adds_directly(in) ? 0 : std::uint64_t(in.threads);
+    PILEUS_TRY(scratch.sums.resize(scratch.stride * blocks, "photon sums"));
+    return scratch.tallies.resize(std::uint64_t(in.threads) * 2, "photon tallies");
+}
+
+Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScratch& scratch,
+                        PhotonSlot& slot, std::vector<TraceTally>& tallies) {
+    const std::uint64_t stride = slot_stride(in);
+    for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {
+        const Light& light = in.lighting->lights[l];
+        Launch launch{&in, &scratch, launch_params(in, light, generation), 0,
+                      slot.sums.data() + l * stride};
+        // Split where the photon index passes a multiple of 2^32: its high half is in the key.
+        std::uint64_t index = generation * light.photons, left = light.photons;
+        while (left > 0) {
+            const std::uint64_t room = (std::uint64_t{1} << 32) - (index & 0xffffffffu);
+            launch.count = left < room ? left : room;
+            if (launch.count > kMostPhotons) launch.count = kMostPhotons;
+            launch.params.first_photon = std::uint32_t(index);
+            launch.params.key = make_key(in.seed, light.stream, std::uint32_t(index >> 32));
+            PILEUS_TRY(run_launch(launch, in.threads));
+            index += launch.count;
+            left -= launch.count;
+            launch.params.shift[0] += std::uint32_t(launch.count) * kR2[0];
+            launch.params.shift[1] += std::uint32_t(launch.count) * kR2[1];
+        }
+        for (int t = 0; t < in.threads; ++t) {
+            if (!adds_directly(in))
+                move_sums(scratch.sums.data() + std::uint64_t(t) * scratch.stride, launch.total,
+                          stride);
+            slot.scatterings += scratch.tallies[std::size_t(t) * 2].scatterings;
+            add_tally(scratch.tallies[std::size_t(t) * 2], tallies[l]);
+            scratch.tallies[std::size_t(t) * 2] = TraceTally{};
+        }
+    }
+    ++slot.generations;
+    return Status::ok();
+}
+
+}  // namespace pileus

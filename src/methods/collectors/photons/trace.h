@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// Launches photons: chunks over threads, integer sums of each or of all, reduced exactly.
+// in: medium, lights, a map from voxels to collectors -> out: one slot of sums per batch, ledgers.
+// docs/methods.md 3; the result is a function of (seed, light, photon index) alone.
+#pragma once
+#include <vector>
+
+#include "kernels_cpu/isa/kernels.h"
+#include "src/base/buffer.h"
+#include "src/world/light/lights.h"
+#include "src/world/majorant/majorants.h"
+
+namespace pileus {
+
+/// What is stored of a collision and how.
+struct DepositPlan {
+    std::int32_t mode = kDepositIncident;
+    int bands = 4;
+    int first_order = 0;    ///< see TraceParams
+    int axis_degrees = 0;   ///< see TraceParams
+    int coefficients = 16;  ///< per collector and channel
+    int places = 16;        ///< binary places of the sums
+    float camera[3] = {0, 0, 0};
+    bool orthographic = false;
+};
+
+/// Square cells over the ground around the box in which arriving light is counted.
+struct GroundMap {
+    int cells = 0;         ///< along x and along y; 0: no map
+    float origin[2]{};     ///< m, box-local
+    float per_metre[2]{};  ///< cells per metre
+};
+
+/// A map that reaches out of the box by its height above the ground, or covers one period; none
+/// without a ground.
+GroundMap make_ground_map(const Medium& medium, const Lighting& lighting);
+
+struct TraceInput {
+    const Medium* medium = nullptr;
+    const Lighting* lighting = nullptr;
+    Span<const float> majorants;
+    int block = 1;
+    Span<const std::int32_t> collector_of_voxel;
+    std::uint64_t collectors = 0;
+    DepositPlan deposit;
+    std::uint64_t seed = 0;
+    int threads = 1;
+    const KernelTable* kernels = nullptr;
+    std::uint32_t max_events = 1u << 20;
+    GroundMap ground{};
+    bool shared_sums = false;  ///< all threads add atomically to one set of sums
+};
+
+/// Sums of all lights of one batch: [light], each [collector][channel][coefficient] and then
+/// [ground cell][channel], both with the same binary places, so that one proof bounds them.
+struct PhotonSlot {
+    Buffer<std::int64_t> sums;
+    std::uint64_t generations = 0;           ///< that were added
+    std::int64_t scatterings = 0;            ///< of these generations
+    std::vector<double> flux_per_photon_m2;  ///< per light, for unit radiance or irradiance
+    std::array<float, 3> sun_travel{0, 0, -1};
+};
+
+struct Photons {
+    std::vector<PhotonSlot> slots;
+    std::vector<TraceTally> tallies;  ///< per light
+};
+
+/// Numbers per light in a slot.
+std::uint64_t slot_stride(const TraceInput& in);
+
+/// Scratch of the tracer, allocated once: tallies per thread, and sums per thread where there are
+/// several and they do not share.
+struct TraceScratch {
+    Buffer<std::int64_t> sums;
+    Buffer<TraceTally> tallies;
+    std::uint64_t stride = 0;  ///< numbers per thread, padded to a cache line pair
+};
+Status prepare_trace(const TraceInput& in, TraceScratch& scratch);
+
+/// What a launch of one light's photons of a generation takes; `key`, and the place of the launch
+/// within the generation, are the caller's.
+TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_t generation);
+
+/// Shoots one generation of every light into `slot` and adds to the tallies. Generation numbers
+/// may grow without bound; each has photons of its own.
+Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScratch& scratch,
+                        PhotonSlot& slot, std::vector<TraceTally>& tallies);
+
+/// Units of the ledger's paths per diagonal of the box: 2000 diagonals fit its 32 bits, and 128 000
+/// where light may graze along a periodic medium.
+inline double path_units(const Medium& medium) { return medium.grid.periodic ? 16384 : 1048576; }
+
+/// Adds `from` to `to`, field by field.
+void add_tally(const TraceTally& from, TraceTally& to);
+
+}  // namespace pileus

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// See views.h. Which steps a view needs; collectors_views_draw.cpp draws them.
+// in: a scene -> out: the prepared part of a run, and what its report says.
+// docs/how-it-works.md
+#include "src/methods/collectors/views/views.h"
+
+#include "src/base/digest.h"
+
+namespace pileus {
+namespace {
+
+constexpr const char* kNames[] = {"density-slice", "gradient-slice", "gradient",
+                                  "samples",       "tree",           "leaf-density",
+                                  "collectors",    "photons",        "illumination"};
+
+bool needs_tree(View view) {
+    return view == View::kTree || view == View::kLeafDensity || view == View::kCollectors;
+}
+
+/// Says in the plan what the view needs and what it spares.
+void note_plan(ViewRun& out) {
+    Plan& plan = out.run.plan;
+    const std::string why = std::string("--show ") + kNames[int(out.view)];
+    const auto step = [&](const char* name, bool needed) {
+        if (needed)
+            plan.need(name);
+        else
+            plan.leave_out(name, why.c_str());
+    };
+    const bool tree = needs_tree(out.view), photons = out.view == View::kPhotons;
+    plan = Plan{};
+    step("gradient", !photons && out.view != View::kDensitySlice);
+    step("samples", tree || out.view == View::kSamples);
+    step("tree", tree);
+    step("collectors", tree);
+    step("majorants", photons);
+    plan.leave_out("photons", why.c_str());
+    plan.leave_out("reconstruction", why.c_str());
+    const auto take = [&](const char* name, std::uint64_t bytes) {
+        plan.memory.add(name, Stage::kDensity, Stage::kWrite, bytes);
+    };
+    const Prepared& p = out.run.prepared;
+    take("density", out.run.medium.volume.density.bytes());
+    take("parts of the media", out.run.medium.parts.bytes());
+    take("gradient", out.field.bytes());
+    take("samples", out.samples.samples.bytes());
+    take("leaves", p.leaves.bytes());
+    take("collectors", p.collectors.bytes());
+    take("collector of voxel", p.collector_of_voxel.bytes());
+    take("majorants", out.run.majorants.tracking.bytes() + out.run.majorants.skipping.bytes());
+    plan.exact = true;
+}
+
+Status check_closure(const Scene& scene, View view) {
+    if (!scene.collectors.camera_closure) return Status::ok();
+    const bool missing = view == View::kGradientSlice || view == View::kGradient ||
+                         view == View::kSamples || view == View::kIllumination;
+    if (!missing) return Status::ok();
+    return Status::bad_input(
+        std::string("--show: ") + kNames[int(view)] +
+        ": closure \"camera\" has no such step, allowed: density-slice, "
+        "tree, leaf-density, collectors, photons, or another collectors.closure");
+}
+
+Status prepare_step(View view, const Context& context, ViewRun& out) {
+    CollectorsRun& run = out.run;
+    const CollectorSettings& settings = run.scene->collectors;
+    switch (view) {
+        case View::kDensitySlice:
+            return Status::ok();
+        case View::kGradientSlice:
+        case View::kGradient:
+            return prepare_sample_field(run.medium, settings, context, out.field, out.stats);
+        case View::kSamples:
+            return prepare_sample_set(run.medium, settings, run.scene->seed, context, out.samples);
+        case View::kPhotons:
+            return make_photon_majorants(run.medium, settings.local_tracking, context,
+                                         run.majorants);
+        default:
+            return run.camera_cells > 0
+                       ? prepare_cells(run.medium, run.camera_cells, context, run.prepared)
+                       : prepare_collectors(run.medium, settings, run.scene->seed, context,
+                                            run.prepared);
+    }
+}
+
+}  // namespace
+
+Status find_view(const std::string& name, View& view) {
+    std::string all;
+    for (int i = 0; i < int(sizeof kNames / sizeof kNames[0]); ++i) {
+        all += (i > 0 ? ", " : "") + std::string(kNames[i]);
+        if (name != kNames[i]) continue;
+        view = View(i);
+        return Status::ok();
+    }
+    return Status::bad_input("--show: no such view, \"" + name + "\", allowed: " + all);
+}
+
+Status collectors_view_prepare(const Scene& scene, View view, std::int64_t photons,
+                               const Context& context, ViewRun& out) {
+    PILEUS_TRY(check_closure(scene, view));
+    out.view = view;
+    out.scene = scene;
+    // Colours of billboards hold all light; those of the march leave the sun's first scattering
+    // and the constant sky to the march.
+    out.scene.collectors.billboards = true;
+    out.scene.output.layer_error = false;
+    if (view == View::kIllumination)
+        return collectors_prepare(out.scene, photons, context, out.run);
+    PILEUS_TRY(collectors_load(out.scene, photons, context, out.run));
+    PILEUS_TRY(prepare_step(view, context, out));
+    note_plan(out);
+    return Status::ok();
+}
+
+void collectors_view_report(const ViewRun& out, const Context& context, Report& report) {
+    const CollectorsRun& run = out.run;
+    collectors_report_plan(run, context, report);
+    if (out.view == View::kIllumination) {
+        collectors_report(run, report);
+        return;
+    }
+    const bool drawn = out.view == View::kSamples;
+    report.samples = drawn ? out.samples.samples.size() : run.prepared.samples;
+    report.leaves = run.prepared.leaves.size();
+    report.collectors = run.prepared.collectors.size();
+    report.counters.emplace_back("samples_given_up",
+                                 drawn ? out.samples.given_up : run.prepared.rejected);
+    Digest density;
+    density.floats(run.medium.volume.density.span());
+    report.digests.emplace(report.digests.begin(), "density", density.hex());
+}
+
+}  // namespace pileus

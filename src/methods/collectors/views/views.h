@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures of the steps of method `collectors` instead of its result.
+// in: a scene and the name of a step -> out: an image; later steps do not run.
+// docs/how-it-works.md; Elek 2011, figures 5.1 to 5.7.
+#pragma once
+#include <string>
+
+#include "src/methods/collectors/collectors.h"
+
+namespace pileus {
+
+enum class View {
+    kDensitySlice,
+    kGradientSlice,
+    kGradient,
+    kSamples,
+    kTree,
+    kLeafDensity,
+    kCollectors,
+    kPhotons,
+    kIllumination,
+};
+
+/// Finds a view by its name. kBadInput: no such view; the line lists all names.
+Status find_view(const std::string& name, View& view);
+
+/// Whether a view's colours are light that the scene's exposure applies to.
+inline bool view_is_light(View view) { return view == View::kIllumination; }
+
+/// A run as far as its view needs it.
+struct ViewRun {
+    View view = View::kGradient;
+    Scene scene;  ///< the scene that the view renders: its display has no march
+    CollectorsRun run;
+    SampleSet samples;
+    Buffer<float> field;  ///< what samples are drawn from, per voxel
+    FieldStats stats;
+};
+
+/// Runs the steps up to the view's own; photons are shot by `collectors_shoot` on `out.run` where
+/// the view is kIllumination. `out` must not move afterwards. Errors: those of the steps;
+/// kBadInput for a view of a step that closure "camera" does not have.
+Status collectors_view_prepare(const Scene& scene, View view, std::int64_t photons,
+                               const Context& context, ViewRun& out);
+
+/// Draws the view: channels R G B A, and where a field is shown `value` in its own unit
+/// (density, gradient 1/m, or variance).
+Status collectors_view_show(double orbit_deg, const Context& context, ViewRun& run, Image& image);
+
+/// Fills the report: which steps ran, what was counted.
+void collectors_view_report(const ViewRun& run, const Context& context, Report& report);
+
+}  // namespace pileus

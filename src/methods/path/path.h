@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Method `path`: an unbiased path tracer, the reference that the other methods are measured by.
+// in: a scene -> out: images with their standard error, pass by pass until a budget is met.
+// docs/path.md
+#pragma once
+#include "src/methods/methods.h"
+#include "src/methods/path/trace_paths.h"
+#include "src/picture/layers.h"
+#include "src/plan/plan.h"
+#include "src/world/camera/view.h"
+#include "src/world/majorant/majorants.h"
+#include "src/world/solids/solids.h"
+
+namespace pileus {
+
+/// Everything one run holds. Each frame has a film of its own, made and freed with it.
+struct PathRun : MethodRun {
+    const Scene* scene = nullptr;
+    Budget budget;
+    Medium medium;
+    SkyMap sky_map;
+    Solids solids;
+    MediumSource source;
+    Plan media_plan;  ///< what laying the media on one grid says
+    Plan plan;
+    Lighting lighting;
+    Majorants majorants;
+    bool outlined_only = true;                                 ///< sizes are known, values are not
+    std::vector<std::pair<std::string, std::string>> digests;  ///< of what no frame changes
+
+    CameraParams camera{};
+    std::uint64_t seed = 0;  ///< of the frame
+    Planes planes;
+    Film film;
+    PathScratch scratch;
+    PathTally earlier{};  ///< of what a state file brought
+    PathTally tally{};    ///< of all frames so far
+    bool interrupted = false;
+};
+
+/// The recipe.
+const Method& path_method();
+
+/// What launches of this run's paths read.
+PathInput path_input(const Context& context, const PathRun& run);
+
+/// Whether the film keeps light apart by where it comes from.
+bool path_parts(const OutputSettings& output);
+
+/// Notes what runs and what is left out, and weighs memory and work, as bounds or exactly by what
+/// the run holds. kLimit: more than the limits allow.
+Status path_measure(const Context& context, PathRun& run);
+void path_report_plan(const MethodRun& run, const Context& context, Report& report);
+
+/// Traces a frame's film until its budget is met or the user wants an end. Errors: those of the
+/// state file; kCheckFailed: interrupted before the first sample of every pixel.
+Status path_light(const FrameStep& step, const Context& context, MethodRun& run);
+
+/// The error of the film over the cloud's pixels, of numbers as the image holds them.
+ErrorSum path_error(const PathRun& run);
+
+/// The film as an image; frees it.
+Status path_show(const FrameStep& step, const Context& context, MethodRun& run, Image& image);
+void path_report(const MethodRun& run, Report& report);
+
+}  // namespace pileus

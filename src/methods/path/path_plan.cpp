@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// Weighs a run of the path tracer: what it needs and leaves out, memory, work, limits.
+// in: PathRun, outlined or prepared -> out: its plan; kLimit where something is too much.
+// docs/report.md, "Plan"; docs/path.md
+#include "src/methods/path/path.h"
+#include "src/methods/path/path_blocks.h"
+#include "src/methods/path/path_passes.h"
+#include "src/methods/path/path_state.h"
+#include "src/world/plan_parts.h"
+
+namespace pileus {
+namespace {
+
+constexpr Stage kUnused[] = {
+    Stage::kSamples,     Stage::kTree,       Stage::kCollectors, Stage::kLeafGrid, Stage::kPhotons,
+    Stage::kReconstruct, Stage::kBackground, Stage::kShadow,     Stage::kSplat,    Stage::kDisplay};
+
+bool has_sky(const Lighting& light) {
+    return light.map.columns > 0 || light.sky[0] > 0 || light.sky[1] > 0 || light.sky[2] > 0;
+}
+
+void note_light(const Scene& scene, const PathRun& run, Plan& plan) {
+    const Lighting& light = run.lighting;
+    const bool moves = scene.animation.present && scene.animation.moves_sun;
+    if (light.sunlit || (moves && scene.sun.present))
+        plan.need("flights towards the sun");
+    else
+        plan.leave_out("flights towards the sun",
+                       scene.sun.present ? "below the ground's horizon, or dark" : "no sun");
+    if (light.map.columns > 0)
+        plan.need("flights towards the sky map, weighed against scattering (MIS)");
+    else
+        plan.leave_out("flights towards the sky",
+                       has_sky(light) ? "constant sky: paths that leave find it" : "no sky");
+    if (light.ground)
+        plan.need("bounces off the ground");
+    else
+        plan.leave_out("bounces off the ground", "no ground");
+}
+
+void note_parts(const Scene& scene, const PathRun& run, Plan& plan) {
+    const OutputSettings& output = scene.output;
+    if (path_parts(output))
+        plan.need("parts of the light, apart");
+    else
+        plan.leave_out("parts of the light, apart", "no layer cloud, light or order");
+    if (run.medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
+    if (is_white(run.medium)) plan.leave_out("absorption", "albedo 1");
+    if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
+    if (!output.layer_depth) plan.leave_out("depth of the medium", "no depth layer");
+    if (!output.layer_optical_depth) plan.leave_out("optical depth", "no optical_depth layer");
+    if (!output.layer_error) plan.leave_out("standard error per pixel", "no error layer");
+    if (scene.path.centre) plan.leave_out("rays spread over pixels", "pixel = \"centre\"");
+    if (run.budget.state.empty()) plan.leave_out("state of the tracing", "no --state");
+}
+
+void note_plan(PathRun& run) {
+    const Scene& scene = *run.scene;
+    Plan& plan = run.plan;
+    plan = Plan{};
+    plan.bias = {"path", "none", "docs/path.md"};
+    if (scene.path.max_depth > 0)
+        plan.bias.size = "light scattered more than " + std::to_string(scene.path.max_depth) +
+                         " times is missing";
+    plan.need("majorants");
+    if (scene.camera.flux)
+        plan.leave_out("alpha", "a flat detector: 1 everywhere");
+    else
+        plan.need("alpha, marched through pixel centres");
+    plan.need("paths");
+    note_light(scene, run, plan);
+    note_solids(run.solids, plan);
+    note_parts(scene, run, plan);
+    for (const std::string& what : run.media_plan.needed) plan.needed.push_back(what);
+    for (const LeftOut& l : run.media_plan.left_out) plan.left_out.push_back(l);
+    for (Stage stage : kUnused) plan.skip(stage);
+}
+
+std::uint64_t pixels_of(const Scene& scene) {
+    return std::uint64_t(scene.camera.resolution[0]) * std::uint64_t(scene.camera.resolution[1]);
+}
+
+void weigh_memory(const Context& context, PathRun& run) {
+    const Scene& scene = *run.scene;
+    const OutputSettings& output = scene.output;
+    const Grid& grid = run.medium.grid;
+    const PathInput in = path_input(context, run);
+    const std::uint64_t pixels = pixels_of(scene), kFloat = sizeof(float);
+    const bool again = context.frames > 1;
+    const Stage traced = again ? Stage::kWrite : Stage::kPaths;
+    const SkyMapBytes sky = sky_map_bytes(run.sky_map);
+    MemoryTable t;
+    add_density_rows(grid, run.source, std::uint64_t(run.medium.count), phase_bytes(run.medium),
+                     std::uint64_t(context.threads), sky, t);
+    add_majorant_rows(
+        grid, run.outlined_only ? most_tracking_blocks(grid, true) : run.majorants.tracking.size(),
+        std::uint64_t(context.threads), traced, t);
+
+    // Texels' light, and sums of it along the rows.
+    const std::uint64_t texels =
+        std::uint64_t(run.sky_map.size[0]) * std::uint64_t(run.sky_map.size[1]);
+    t.add("directions to the sky map", Stage::kPaths, Stage::kPaths,
+          bytes_of(8, texels) + 4 * std::uint64_t(run.sky_map.size[1]));
+    t.add("film", Stage::kPaths, Stage::kLayers, film_bytes(in));
+    const int finest = voxel_count(grid) <= kMostSingleVoxels ? 1 : 2;
+    t.add("blocks that flights cross", Stage::kPaths, Stage::kPaths,
+          path_blocks_bytes(grid, run.outlined_only ? finest : run.majorants.block));
+    t.add("path samples", Stage::kPaths, Stage::kPaths, path_scratch_bytes(in));
+    if (!run.budget.state.empty())
+        t.add("state file", Stage::kPaths, Stage::kPaths, path_state_bytes(film_bytes(in)));
+    const std::uint64_t shown = 1u + (output.layer_depth ? 1u : 0u) +
+                                (run.lighting.opaque() ? 1u : 0u) +
+                                (output.layer_optical_depth ? 1u : 0u);
+    t.add("picture planes", Stage::kPaths, Stage::kLayers, bytes_of(kFloat * shown, pixels));
+    const std::uint64_t light = 3u + (output.layer_cloud || output.layer_order ? 3u : 0u) +
+                                (output.layer_light ? 3u : 0u) + (output.layer_order ? 3u : 0u) +
+                                (output.layer_error ? 3u : 0u);
+    t.add("means of the film", Stage::kLayers, Stage::kLayers, bytes_of(kFloat * light, pixels));
+    add_image_rows(std::uint64_t(scene.camera.resolution[0]),
+                   std::uint64_t(scene.camera.resolution[1]),
+                   4 + extra_layers(output, output.layer_error), t);
+    add_solid_rows(scene, context.limits, run.solids, t);
+    run.plan.memory = t;
+    run.plan.exact = !run.outlined_only;
+}
+
+}  // namespace
+
+Status path_measure(const Context& context, PathRun& run) {
+    note_plan(run);
+    weigh_memory(context, run);
+    PILEUS_TRY(
+        check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), run.scene->file));
+    const PassRule rule = pass_rule(run.scene->path, run.budget);
+    // Where an error or a time decides, no more is known than the bound: it is not work to come.
+    const bool open = rule.error > 0 || rule.seconds > 0;
+    const double paths =
+        open ? 0 : double(pixels_of(*run.scene)) * double(rule.most) * double(context.frames);
+    run.plan.work_of = "paths";
+    run.plan.work =
+        estimate_work(medium_work(run.medium, run.source.mean_density, double(1u << 24), paths));
+    return check_work(run.plan.work, context.limits, run.scene->file);
+}
+
+void path_report_plan(const MethodRun& method_run, const Context& context, Report& report) {
+    const PathRun& run = static_cast<const PathRun&>(method_run);
+    const WorkEstimate& work = run.plan.work;
+    report_plan(run.plan, report);
+    report.limits.clear();
+    const auto add = [&](LimitId id, std::uint64_t needs, bool known = true) {
+        report.limits.push_back(limit_of(context.limits, id, needs, known));
+    };
+    const Animation& animation = run.scene->animation;
+    add(LimitId::kVoxels, voxel_count(run.medium.grid));
+    add(LimitId::kPixels, pixels_of(*run.scene));
+    add(LimitId::kFrames, animation.present ? std::uint64_t(animation.frames) : 1);
+    add(LimitId::kMemory, run.plan.memory.peak());
+    add(LimitId::kScatterings, whole(work.scatterings_per_photon), work.known);
+    add(LimitId::kWork, whole(work.scatterings), work.known);
+}
+
+}  // namespace pileus

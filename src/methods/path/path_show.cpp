@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// The picture of a traced film, and what the report tells of it.
+// in: PathRun after tracing -> out: Image, Report.
+// docs/formats.md, "Pictures out"; docs/report.md
+#include "platform/threads.h"
+#include "src/base/digest.h"
+#include "src/methods/path/path.h"
+
+namespace pileus {
+namespace {
+
+/// Means of one part of the film as floats, [channel][pixel].
+Status mean_planes(const Context& context, const Film& film, int part, const char* what,
+                   Buffer<float>& out) {
+    const std::size_t pixels = film.pixels();
+    PILEUS_TRY(out.resize(3 * std::uint64_t(pixels), what));
+    parallel_for(context.threads, film.height, [&](std::int64_t row, int) {
+        const std::size_t first = std::size_t(row) * std::size_t(film.width);
+        for (int c = 0; c < 3; ++c)
+            for (std::size_t i = first; i < first + std::size_t(film.width); ++i)
+                out[std::size_t(c) * pixels + i] = float(film_mean(film, part, c, i));
+    });
+    return Status::ok();
+}
+
+Status error_planes(const Film& film, Buffer<float>& out) {
+    const std::size_t pixels = film.pixels();
+    PILEUS_TRY(out.resize(3 * std::uint64_t(pixels), "error"));
+    for (int c = 0; c < 3; ++c)
+        for (std::size_t i = 0; i < pixels; ++i)
+            out[std::size_t(c) * pixels + i] = float(film_error(film, c, i));
+    return Status::ok();
+}
+
+/// The film as planes; only what a layer shows.
+Status fill_planes(const Context& context, PathRun& run) {
+    const OutputSettings& output = run.scene->output;
+    Planes& p = run.planes;
+    PILEUS_TRY(mean_planes(context, run.film, kPathTotal, "radiance", p.colour));
+    if (output.layer_cloud || output.layer_order)
+        PILEUS_TRY(mean_planes(context, run.film, kPathCloud, "cloud", p.cloud));
+    if (output.layer_light) PILEUS_TRY(mean_planes(context, run.film, kPathSun, "sunlight", p.sun));
+    if (output.layer_order)
+        PILEUS_TRY(mean_planes(context, run.film, kPathSingle, "single scattering", p.single));
+    // One sample has no scatter to tell an error from.
+    if (output.layer_error && run.film.samples >= 2) PILEUS_TRY(error_planes(run.film, p.error));
+    return Status::ok();
+}
+
+std::string film_digest(const Film& film) {
+    Digest d;
+    for (const Buffer<double>* sums : {&film.sum, &film.square})
+        for (double v : sums->span()) {
+            std::uint64_t bits;
+            std::memcpy(&bits, &v, sizeof bits);
+            d.u64(bits);
+        }
+    return d.hex();
+}
+
+/// The report tells the error also where no layer shows it.
+void report_error(const PathRun& run, Report& report) {
+    const ErrorSum sum = path_error(run);
+    report.has_error = run.film.samples >= 2 && sum.count > 0;
+    if (!report.has_error) return;
+    report.mean_relative = sum.mean_relative();
+    report.rmse_estimate = __builtin_sqrt(sum.square / sum.count);
+}
+
+}  // namespace
+
+ErrorSum path_error(const PathRun& run) {
+    ErrorSum sum;
+    for (std::size_t i = 0; i < run.film.pixels(); ++i)
+        sum.add(run.planes.transmittance[i], float(film_error(run.film, 1, i)),
+                float(film_mean(run.film, 0, 1, i)));
+    return sum;
+}
+
+Status path_show(const FrameStep&, const Context& context, MethodRun& method_run, Image& image) {
+    PathRun& run = static_cast<PathRun&>(method_run);
+    Report& report = *context.report;
+    const StageClock clock(context, "layers");
+    report.digests = run.digests;
+    report.digests.emplace_back("film", film_digest(run.film));
+    PILEUS_TRY(fill_planes(context, run));
+    report.counters.clear();
+    std::uint64_t clamped = 0;
+    PILEUS_TRY(make_layers(run.planes, run.film.width, run.film.height, 3, run.scene->output, image,
+                           report, clamped));
+    report_error(run, report);
+    report.counters.emplace_back("clamped_negative", clamped);
+    report.executed = {{"depth_tests", run.planes.opaque_depth.size()},
+                       {"depths_stored", run.planes.half_depth.size()},
+                       {"parts_stored", run.medium.parts.size()},
+                       {"film_parts", std::uint64_t(run.film.parts)}};
+    report_solids(run.solids, report);
+    report.samples_per_pixel = run.film.samples;
+    set_image_camera(run.camera, run.medium.low_m, image);
+    run.planes = Planes{};
+    run.film.sum = Buffer<double>();
+    run.film.square = Buffer<double>();
+    return Status::ok();
+}
+
+void path_report(const MethodRun& method_run, Report& report) {
+    const PathRun& run = static_cast<const PathRun&>(method_run);
+    const PathTally& all = run.tally;
+    report.interrupted = run.interrupted;
+    report.paths = std::uint64_t(all.paths);
+    report.scatterings = std::uint64_t(all.scatterings);
+    report.tentative = std::uint64_t(all.tentative);
+    report.crossings = std::uint64_t(all.crossings);
+    report.shadow_rays = std::uint64_t(all.shadow_rays);
+    report.earlier_paths = std::uint64_t(run.earlier.paths);
+    report.earlier_scatterings = std::uint64_t(run.earlier.scatterings);
+    report.executed.emplace_back("ground_bounces", std::uint64_t(all.bounces));
+    report.executed.emplace_back("shadow_rays", std::uint64_t(all.shadow_rays));
+    report.counters.emplace_back("majorant_violations", std::uint64_t(all.majorant_violations));
+    report.counters.emplace_back("saturated", 0);  // sums are doubles
+    report.counters.emplace_back("terminated", std::uint64_t(all.terminated));
+    report.counters.emplace_back("nan_samples", std::uint64_t(all.nan));
+}
+
+}  // namespace pileus

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: Apache-2.0
+// See path_state.h. Words of 64 bits, little-endian: head, tally, sums, squares, digest of all.
+#include "src/methods/path/path_state.h"
+
+#include "src/base/digest.h"
+#include "src/base/file.h"
+#include "src/world/solids/solids.h"
+
+namespace pileus {
+namespace {
+
+constexpr std::uint64_t kMagic = 0x4d4c494653554c50;  // "PLUSFILM"
+constexpr std::uint64_t kFormat = 1;
+constexpr std::size_t kHeadWords = 7;  // magic, format, digest, width, height, parts, samples
+constexpr std::size_t kTallyWords = sizeof(PathTally) / sizeof(std::int64_t);
+constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 40;
+
+std::uint64_t bits_of(double value) {
+    std::uint64_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    return bits;
+}
+
+std::size_t total_words(const Film& film) {
+    return kHeadWords + kTallyWords + film.sum.size() + film.square.size() + 1;
+}
+
+void put(std::uint64_t word, char* to) {
+    for (int i = 0; i < 8; ++i) to[i] = char(word >> (8 * i) & 255);
+}
+std::uint64_t get(const char* from) {
+    std::uint64_t word = 0;
+    for (int i = 0; i < 8; ++i) word |= std::uint64_t(static_cast<unsigned char>(from[i])) << 8 * i;
+    return word;
+}
+
+/// FNV-1a over words instead of bytes; one changed bit changes it.
+class WordDigest {
+public:
+    std::uint64_t add(std::uint64_t word) { return state_ = (state_ ^ word) * 0x100000001b3ull; }
+    std::uint64_t value() const { return state_; }
+
+private:
+    std::uint64_t state_ = 0xcbf29ce484222325ull;
+};
+
+/// Writes words one behind the other, and their digest at the end.
+struct Writer {
+    char* to;
+    WordDigest digest;
+
+    void word(std::uint64_t w) {
+        put(w, to);
+        to += 8;
+        digest.add(w);
+    }
+};
+
+Status fault(const std::string& path, const std::string& what) {
+    return Status::bad_input(path + ": state: " + what +
+                             ", allowed: the state of this scene with these settings, or a name "
+                             "that is free");
+}
+
+void add_phase(const PhaseParams& phase, Digest& d) {
+    // By what it does: tables behind pointers are part of that.
+    for (int i = 0; i <= 64; ++i) d.f32(phase_density(phase, float(i) / 32.0f));
+    for (int i = 0; i < 64; ++i)
+        d.f32(phase_sample(phase, (float(i) + 0.5f) / 64.0f).one_minus_cos);
+}
+
+void add_medium(const PathInput& in, Digest& d) {
+    const Medium& m = *in.medium;
+    for (int a = 0; a < 3; ++a) {
+        d.u32(std::uint32_t(m.grid.size[a]));
+        d.f32(m.grid.cell_m[a]);
+    }
+    d.f32(m.sigma);
+    d.u32(m.grid.periodic ? 1 : 0);
+    d.u32(std::uint32_t(m.channels));
+    d.u32(std::uint32_t(m.count));
+    for (int i = 0; i < m.count; ++i) {
+        const Optics& optics = m.optics[std::size_t(i)];
+        for (float albedo : optics.albedo) d.f32(albedo);
+        add_phase(optics.phase, d);
+    }
+    d.floats(m.volume.density.span());
+    d.floats(m.parts.span());
+    d.u32(std::uint32_t(in.block));
+    d.floats(in.majorants);
+}
+
+void add_light(const Lighting& light, Digest& d) {
+    d.u32(light.sunlit ? 1 : 0);
+    d.u32(light.ground ? 1 : 0);
+    for (std::size_t c = 0; c < 3; ++c) {
+        d.f32(light.to_sun[c]);
+        d.f32(float(light.sun_irradiance[c]));
+        d.f32(float(light.sky[c]));
+    }
+    d.f32(float(light.ground_z));
+    d.f32(float(light.ground_albedo));
+    const SkyMapView& map = light.map;
+    d.u32(std::uint32_t(map.columns));
+    d.u32(std::uint32_t(map.rows));
+    d.f32(map.turn_of_first);
+    const std::size_t texels = std::size_t(map.columns) * std::size_t(map.rows);
+    if (texels > 0) d.floats({map.radiance, texels * std::size_t(map.planes)});
+}
+
+void add_camera(const CameraParams& c, Digest& d) {
+    for (const float* axis : {c.origin, c.right, c.up, c.forward}) d.floats({axis, 3});
+    d.f32(c.half_width);
+    d.f32(c.half_height);
+    for (std::int32_t v : {c.width, c.height, c.orthographic, c.flux}) d.u32(std::uint32_t(v));
+}
+
+/// The head of a file against the film that it should fill.
+Status check_head(const std::string& path, const char* bytes, std::uint64_t digest,
+                  const Film& film) {
+    const std::uint64_t samples = get(bytes + 48);
+    if (get(bytes) != kMagic) return fault(path, "not a file of this kind");
+    if (get(bytes + 8) != kFormat)
+        return fault(path, "written in form " + std::to_string(get(bytes + 8)) +
+                               ", this version reads " + std::to_string(kFormat));
+    if (get(bytes + 16) != digest || get(bytes + 24) != std::uint64_t(film.width) ||
+        get(bytes + 32) != std::uint64_t(film.height) ||
+        get(bytes + 40) != std::uint64_t(film.parts))
+        return fault(path, "of another scene, seed, layers or version");
+    return samples <= kMostSamples ? Status::ok() : fault(path, "damaged, too many samples");
+}
+
+/// Copies doubles out of the file; false where one is no finite number.
+bool take_doubles(const char* from, Buffer<double>& to) {
+    bool finite = true;
+    for (std::size_t i = 0; i < to.size(); ++i) {
+        const std::uint64_t bits = get(from + 8 * i);
+        std::memcpy(&to[i], &bits, sizeof bits);
+        finite = finite && to[i] - to[i] == 0;
+    }
+    return finite;
+}
+
+Status decode(const std::string& path, const Buffer<char>& bytes, std::uint64_t digest,
+              Film& film) {
+    const std::size_t words = total_words(film);
+    // A file of another kind is named as one before its length is looked at.
+    if (bytes.size() >= 8 && get(bytes.data()) != kMagic)
+        return fault(path, "not a file of this kind");
+    if (bytes.size() >= 8 * kHeadWords) PILEUS_TRY(check_head(path, bytes.data(), digest, film));
+    if (bytes.size() != 8 * words)
+        return fault(path, std::to_string(bytes.size()) + " bytes instead of " +
+                               std::to_string(8 * words) + ", cut or damaged");
+    WordDigest all;
+    for (std::size_t i = 0; i + 1 < words; ++i) all.add(get(bytes.data() + 8 * i));
+    if (all.value() != get(bytes.data() + 8 * (words - 1)))
+        return fault(path, "damaged, its digest does not fit");
+    const char* at = bytes.data() + 8 * kHeadWords;
+    std::int64_t tally[kTallyWords];
+    for (std::size_t i = 0; i < kTallyWords; ++i) tally[i] = std::int64_t(get(at + 8 * i));
+    std::memcpy(&film.tally, tally, sizeof tally);
+    at += 8 * kTallyWords;
+    bool finite = take_doubles(at, film.sum);
+    finite = take_doubles(at + 8 * film.sum.size(), film.square) && finite;
+    if (!finite) return fault(path, "damaged, a sum is no finite number");
+    film.samples = get(bytes.data() + 48);
+    return Status::ok();
+}
+
+void add_solids(const Solids& solids, Digest& d) {
+    for (const SolidTriangle& t : solids.triangles.span()) {
+        for (const auto& corner : t.corner)
+            for (float x : corner) d.f32(x);
+        d.u32(std::uint32_t(t.solid));
+    }
+    d.floats(solids.albedo.span());
+    d.floats(solids.camera_depth.span());
+}
+
+}  // namespace
+
+std::uint64_t path_state_digest(const PathInput& in, const std::string& version) {
+    Digest d;
+    for (char c : version) d.byte(std::uint8_t(c));
+    add_medium(in, d);
+    add_light(*in.lighting, d);
+    if (in.lighting->solids != nullptr) add_solids(*in.lighting->solids, d);
+    add_camera(in.camera, d);
+    d.u64(in.seed);
+    d.u32(std::uint32_t(in.max_depth));
+    d.u32(in.jitter ? 1 : 0);
+    d.u32(in.parts ? 1 : 0);
+    d.u32(in.max_events);
+    return d.value();
+}
+
+std::uint64_t path_state_bytes(std::uint64_t film_bytes) {
+    return film_bytes + 8 * (kHeadWords + kTallyWords + 1);
+}
+
+Status write_path_state(const std::string& path, std::uint64_t digest, const Film& film) {
+    Buffer<char> bytes;
+    PILEUS_TRY(bytes.resize(8 * std::uint64_t(total_words(film)), "state file"));
+    Writer out{bytes.data(), {}};
+    for (std::uint64_t word : {kMagic, kFormat, digest, std::uint64_t(film.width),
+                               std::uint64_t(film.height), std::uint64_t(film.parts), film.samples})
+        out.word(word);
+    std::int64_t tally[kTallyWords];
+    std::memcpy(tally, &film.tally, sizeof tally);
+    for (std::int64_t count : tally) out.word(std::uint64_t(count));
+    for (double v : film.sum.span()) out.word(bits_of(v));
+    for (double v : film.square.span()) out.word(bits_of(v));
+    put(out.digest.value(), out.to);
+    return write_file(path, bytes.span());
+}
+
+Status read_path_state(const std::string& path, std::uint64_t digest, Film& film) {
+    PILEUS_TRY(check_file_name(path));
+    InputFile file;
+    if (file.open(path.c_str()).fault == FileFault::kMissing) return Status::ok();
+    PILEUS_TRY(open_file(path, file));
+    const std::uint64_t expected = 8 * std::uint64_t(total_words(film));
+    Buffer<char> bytes;
+    // A longer file is foreign; one byte more than expected is enough to tell.
+    PILEUS_TRY(read_file_start(path, expected + 1, bytes));
+    return decode(path, bytes, digest, film);
+}
+
+}  // namespace pileus

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// See trace_paths.h.
+#include "src/methods/path/trace_paths.h"
+
+#include "platform/threads.h"
+#include "src/methods/path/path_blocks.h"
+#include "src/run/device_launch.h"
+#include "src/world/majorant/majorants.h"
+#include "src/world/solids/solids.h"
+
+namespace pileus {
+namespace {
+
+constexpr std::uint64_t kPiece = 16384;  // samples per piece of work
+constexpr std::uint64_t kPiecesPerThread = 8;
+
+std::uint64_t smaller(std::uint64_t a, std::uint64_t b) { return a < b ? a : b; }
+
+int parts_of(const PathInput& in) { return in.parts ? kPathParts : 1; }
+
+std::uint64_t film_pixels(const PathInput& in) {
+    return std::uint64_t(in.camera.width) * std::uint64_t(in.camera.height);
+}
+
+/// Sample numbers whose product with the pixels fits 32 bits share a key.
+std::uint64_t samples_per_key(const PathInput& in) {
+    const std::uint64_t pixels = film_pixels(in);
+    return pixels > 0 ? (std::uint64_t{1} << 32) / pixels : 1;
+}
+
+void set_medium(const PathInput& in, Span<const float> blocks, PathParams& k) {
+    const Medium& m = *in.medium;
+    k.grid = track_grid(m, blocks, in.block, in.max_events);
+    for (int a = 0; a < 3; ++a) k.extent[a] = float(m.grid.size[a]) * m.grid.cell_m[a];
+    k.channels = m.channels;
+    k.media = m.count;
+    for (std::size_t i = 0; i < m.optics.size(); ++i) k.optics[i] = m.optics[i];
+    k.parts = m.parts.data();
+}
+
+void set_light(const PathInput& in, const SkySampler& sampler, PathParams& k) {
+    const Lighting& light = *in.lighting;
+    k.sunlit = light.sunlit ? 1 : 0;
+    bool sky_lit = false;
+    for (std::size_t c = 0; c < 3; ++c) {
+        k.to_sun[c] = light.to_sun[c];
+        k.sun[c] = float(light.sun_irradiance[c]);
+        k.sky[c] = float(light.sky[c]);
+        sky_lit |= k.sky[c] > 0;
+    }
+    // A black map has no directions to draw and counts as a black sky.
+    if (light.map.columns > 0 && sampler.weight != nullptr) {
+        k.map = light.map;
+        k.sampler = sampler;
+        sky_lit = true;
+    }
+    k.sky_lit = sky_lit ? 1 : 0;
+    if (light.solids != nullptr) {
+        k.solids = light.solids->view();
+        k.camera_depth = light.solids->camera_depth.data();
+        if (light.solids->coloured()) k.channels = 3;
+    }
+    k.ground = light.ground ? 1 : 0;
+    k.ground_z = float(light.ground_z);
+    k.ground_albedo = float(light.ground_albedo);
+}
+
+PathParams path_params(const PathInput& in, const PathScratch& scratch) {
+    PathParams k{};
+    set_medium(in, scratch.blocks.span(), k);
+    set_light(in, scratch.sky.view, k);
+    k.camera = in.camera;
+    k.jitter = in.jitter ? 1 : 0;
+    k.max_depth = in.max_depth > 0 ? in.max_depth : 0x7fffffff;
+    k.pixels = std::uint32_t(film_pixels(in));
+    k.parts_wanted = in.parts ? 1 : 0;
+    k.light_roulette = in.light_roulette;
+    return k;
+}
+
+/// Traces the samples of a launch, which fit the scratch.
+Status run_launch(const PathInput& in, const PathParams& k, std::uint64_t count,
+                  PathScratch& scratch) {
+    if (in.kernels->device != nullptr)
+        return launch_on_device(*in.kernels->device, k,
+                                {scratch.radiance.data(), scratch.capacity, &scratch.tallies[0]},
+                                std::uint32_t(count));
+    const std::uint64_t pieces = (count + kPiece - 1) / kPiece;
+    parallel_for(in.threads, std::int64_t(pieces), [&](std::int64_t piece, int thread) {
+        const std::uint64_t begin = std::uint64_t(piece) * kPiece;
+        const PathBuffers b{scratch.radiance.data(), scratch.capacity,
+                            &scratch.tallies[std::size_t(thread) * 2]};
+        const auto kernel = in.lighting->solids != nullptr ? in.kernels->trace_paths_solid
+                                                           : in.kernels->trace_paths;
+        kernel(k, b, std::uint32_t(begin), std::uint32_t(smaller(begin + kPiece, count)));
+    });
+    return Status::ok();
+}
+
+/// Adds the samples of a launch to the film, each pixel's one after the other.
+void add_samples(const PathInput& in, const PathParams& k, std::uint64_t count,
+                 const PathScratch& scratch, Film& film) {
+    constexpr std::uint64_t kRun = 1024;
+    const std::uint64_t pixels = count / k.per_pixel;
+    parallel_for(in.threads, std::int64_t((pixels + kRun - 1) / kRun), [&](std::int64_t run, int) {
+        const std::uint64_t first = std::uint64_t(run) * kRun;
+        const std::uint64_t end = smaller(first + kRun, pixels);
+        for (std::size_t c = 0; c < std::size_t(film.parts) * 3; ++c)
+            for (std::uint64_t p = first; p < end; ++p) {
+                const float* from =
+                    scratch.radiance.data() + c * scratch.capacity + p * k.per_pixel;
+                const std::size_t pixel = std::size_t(k.first_pixel + p);
+                double& sum = film.sum[c * film.pixels() + pixel];
+                for (std::uint32_t i = 0; i < k.per_pixel; ++i) sum += double(from[i]);
+                if (c >= 3) continue;
+                double& square = film.square[c * film.pixels() + pixel];
+                for (std::uint32_t i = 0; i < k.per_pixel; ++i)
+                    square += double(from[i]) * double(from[i]);
+            }
+    });
+}
+
+/// Samples [first, first + count) of every pixel; they share a key.
+Status trace_run(const PathInput& in, PathParams& k, std::uint64_t count, PathScratch& scratch,
+                 Film& film) {
+    // As many samples of as few pixels as the scratch holds: neighbours in a lane meet one memory.
+    k.per_pixel = std::uint32_t(smaller(count, scratch.capacity));
+    const std::uint64_t pixels = film_pixels(in), band = scratch.capacity / k.per_pixel;
+    for (std::uint64_t first = 0; first < pixels; first += band) {
+        k.first_pixel = std::uint32_t(first);
+        const std::uint64_t samples = smaller(band, pixels - first) * k.per_pixel;
+        PILEUS_TRY(run_launch(in, k, samples, scratch));
+        add_samples(in, k, samples, scratch, film);
+    }
+    return Status::ok();
+}
+
+}  // namespace
+
+void add_tally(const PathTally& from, PathTally& to) {
+    const auto* source = reinterpret_cast<const std::int64_t*>(&from);
+    auto* target = reinterpret_cast<std::int64_t*>(&to);
+    for (std::size_t i = 0; i < sizeof(PathTally) / sizeof(std::int64_t); ++i)
+        target[i] += source[i];
+}
+
+std::uint64_t film_bytes(const PathInput& in) {
+    return film_pixels(in) * 3 * std::uint64_t(parts_of(in) + 1) * sizeof(double);
+}
+
+std::uint64_t path_scratch_bytes(const PathInput& in) {
+    const std::uint64_t samples = std::uint64_t(in.threads) * kPiecesPerThread * kPiece;
+    return samples * 3 * std::uint64_t(parts_of(in)) * sizeof(float);
+}
+
+Status make_film(const PathInput& in, Film& film) {
+    film.width = in.camera.width;
+    film.height = in.camera.height;
+    film.parts = parts_of(in);
+    film.samples = 0;
+    film.tally = PathTally{};
+    PILEUS_TRY(film.sum.resize(film_pixels(in) * 3 * std::uint64_t(film.parts), "film"));
+    return film.square.resize(film_pixels(in) * 3, "film");
+}
+
+Status prepare_path(const PathInput& in, PathScratch& scratch) {
+    scratch.capacity = std::uint64_t(in.threads) * kPiecesPerThread * kPiece;
+    PILEUS_TRY(scratch.radiance.resize(scratch.capacity * 3 * std::uint64_t(parts_of(in)),
+                                       "path samples"));
+    PILEUS_TRY(scratch.tallies.resize(std::uint64_t(in.threads) * 2, "path tallies"));
+    PILEUS_TRY(make_path_sky(in.lighting->map, scratch.sky));
+    std::int32_t counts[3];
+    block_counts(in.medium->grid, in.block, counts);
+    PILEUS_TRY(path_blocks(in.majorants, counts, in.threads, scratch.blocks));
+    scratch.ready = true;
+    return Status::ok();
+}
+
+Status trace_paths(const PathInput& in, std::uint64_t samples, PathScratch& scratch, Film& film) {
+    if (!scratch.ready) PILEUS_TRY(prepare_path(in, scratch));
+    PathParams k = path_params(in, scratch);
+    const std::uint64_t shared = samples_per_key(in);
+    while (samples > 0) {
+        const std::uint64_t number = film.samples % shared;
+        const std::uint64_t count = smaller(smaller(samples, shared - number), scratch.capacity);
+        k.key = make_key(in.seed, kPathStream, std::uint32_t(film.samples / shared));
+        k.first_sample = std::uint32_t(number);
+        PILEUS_TRY(trace_run(in, k, count, scratch, film));
+        film.samples += count;
+        samples -= count;
+    }
+    for (int t = 0; t < in.threads; ++t) {
+        add_tally(scratch.tallies[std::size_t(t) * 2], film.tally);
+        scratch.tallies[std::size_t(t) * 2] = PathTally{};
+    }
+    return Status::ok();
+}
+
+double film_mean(const Film& film, int part, int channel, std::size_t pixel) {
+    if (film.samples == 0) return 0;
+    const std::size_t plane = std::size_t(part) * 3 + std::size_t(channel);
+    return film.sum[plane * film.pixels() + pixel] / double(film.samples);
+}
+
+double film_error(const Film& film, int channel, std::size_t pixel) {
+    if (film.samples < 2) return 0;
+    const double n = double(film.samples), mean = film_mean(film, 0, channel, pixel);
+    const double square = film.square[std::size_t(channel) * film.pixels() + pixel];
+    const double variance = (square / n - mean * mean) / (n - 1);
+    return variance > 0 ? __builtin_sqrt(variance) : 0;
+}
+
+}  // namespace pileus

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// Launches the path tracer: samples over threads, added up pixel by pixel in their order.
+// in: medium, light, camera, majorants -> out: sums and sums of squares of independent samples.
+// docs/path.md; a sample is a function of (seed, film size, pixel, number) alone.
+#pragma once
+#include <vector>
+
+#include "kernels_cpu/isa/kernels.h"
+#include "src/base/buffer.h"
+#include "src/methods/path/path_sky.h"
+#include "src/world/light/lights.h"
+#include "src/world/majorant/majorant.h"
+
+namespace pileus {
+
+/// Of random numbers; lights have 1 to 3 and 17 to 19, the preparation 8.
+constexpr std::uint32_t kPathStream = 32;
+
+/// A step of a flight across a border is a few additions: smaller blocks than photons have pay.
+constexpr TrackingCosts kPathCosts{1.0, 0.25, 0.25};
+
+struct PathInput {
+    const Medium* medium = nullptr;
+    const Lighting* lighting = nullptr;  ///< of it sun, sky, map and ground; lights are not read
+    Span<const float> majorants;
+    int block = 1;
+    CameraParams camera{};
+    std::uint64_t seed = 0;
+    int threads = 1;
+    const KernelTable* kernels = nullptr;
+    int max_depth = 0;   ///< scatterings after which light is not followed; 0: unlimited
+    bool jitter = true;  ///< rays spread over their pixels; false: through the middles
+    bool parts = false;  ///< also the sun's, the singly scattered and the media's light
+    std::uint32_t max_events = 1u << 24;  ///< draws per path before it is given up
+    /// Shadow rays that bring less than this share of their light, 1/sr, play roulette; 0: all fly.
+    float light_roulette = kLightRoulette;
+};
+
+/// What samples have brought so far. Start with make_film; pixels are row by row from the top.
+struct Film {
+    int width = 0, height = 0;
+    int parts = 1;              ///< groups of three channels: 1, or kPathParts
+    std::uint64_t samples = 0;  ///< per pixel
+    Buffer<double> sum;         ///< [part * 3 + channel][pixel], radiance (flux camera: irradiance)
+    Buffer<double> square;      ///< [channel][pixel], of the samples of the total
+    PathTally tally{};
+
+    std::size_t pixels() const { return std::size_t(width) * std::size_t(height); }
+};
+
+/// Memory of the tracer between calls: samples that are not added up yet, tallies per thread.
+struct PathScratch {
+    Buffer<float> radiance;
+    Buffer<PathTally> tallies;
+    PathSky sky;
+    Buffer<float> blocks;        ///< majorants, and leaps through empty ones
+    std::uint64_t capacity = 0;  ///< samples
+    bool ready = false;
+};
+
+/// An empty film for the input's camera. kLimit: out of memory.
+Status make_film(const PathInput& in, Film& film);
+
+/// Bytes that make_film and prepare_path take.
+std::uint64_t film_bytes(const PathInput& in);
+std::uint64_t path_scratch_bytes(const PathInput& in);
+
+/// Allocates the scratch once, for any number of calls with the same input.
+Status prepare_path(const PathInput& in, PathScratch& scratch);
+
+/// Adds `samples` samples to every pixel, numbers film.samples and up: N and then M are, to the
+/// bit, N + M at once, with any number of threads. Errors: kLimit where memory is missing.
+Status trace_paths(const PathInput& in, std::uint64_t samples, PathScratch& scratch, Film& film);
+
+/// Mean of a part and channel of a pixel; 0 without samples.
+double film_mean(const Film& film, int part, int channel, std::size_t pixel);
+
+/// One standard error of the total's mean, from the scatter of its samples; 0 below two samples.
+double film_error(const Film& film, int channel, std::size_t pixel);
+
+/// Adds `from` to `to`, field by field.
+void add_tally(const PathTally& from, PathTally& to);
+
+}  // namespace pileus

@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+// See march.h.
+#include "src/methods/raymarch/march.h"
+
+#include "kernels_cpu/core/rng.h"
+#include "kernels_cpu/core/vec.h"
+#include "platform/threads.h"
+#include "src/base/angles.h"
+#include "src/picture/march_view.h"
+#include "src/world/phase/forward_share.h"
+
+namespace pileus {
+namespace {
+
+constexpr std::uint32_t kJitterStream = 31;
+
+/// Sum of growth^n over so many steps; large enough where it leaves the range of floats.
+float series_of(double growth, int steps) {
+    double sum = 0, power = 1;
+    for (int n = 0; n < steps && sum < 1e30; ++n) sum += power, power *= growth;
+    return float(sum);
+}
+
+std::int32_t rule_of(RaymarchIntegrator integrator) { return std::int32_t(integrator); }
+
+/// Directions around the sun's, a quarter of half the cone farther off with each of four.
+void set_turns(const RaymarchInput& in, RaymarchLight& light) {
+    constexpr double kGoldenTurn = 360 * 0.38196601125010515180;
+    const auto& s = in.lighting->to_sun;
+    const Vec<float> axis{s[0], s[1], s[2]};
+    light.turns = kLightTurns;
+    for (int i = 0; i < kLightTurns; ++i) {
+        const SineCosine off = sincos_deg(0.125 * in.settings->cone_deg * (i % 4 + 1));
+        const SineCosine around = sincos_deg(kGoldenTurn * i);
+        const Vec<float> d = turned(axis, float(off.cosine), float(off.sine), float(around.cosine),
+                                    float(around.sine));
+        light.direction[i][0] = d.x;
+        light.direction[i][1] = d.y;
+        light.direction[i][2] = d.z;
+    }
+}
+
+void set_jitter(const RaymarchInput& in, StepParams& k) {
+    k.grid_m = float(in.settings->grid_lock_m);
+    k.jitter_share = float(in.settings->jitter_share);
+    k.jitter = std::int32_t(in.settings->jitter);
+    const Key key = make_key(in.seed, kJitterStream, 0);
+    k.key[0] = key.k0;
+    k.key[1] = key.k1;
+}
+
+double kept_of(const RaymarchSettings& s, const Optics& optics) {
+    if (!s.forward) return 0;
+    return s.forward_share >= 0 ? s.forward_share : forward_share(optics.phase, 0.5 * s.cone_deg);
+}
+
+void set_light(const RaymarchInput& in, RaymarchParams& k) {
+    const RaymarchSettings& s = *in.settings;
+    RaymarchLight& light = k.light;
+    light.march = in.march_light ? 1 : 0;
+    if (in.nodes != nullptr) light.nodes = in.nodes->nodes;
+    light.steps = s.light_steps;
+    light.first_m =
+        s.light_steps == 0 ? smallest_cell(in.medium->grid) : float(s.light_first_step_m);
+    light.growth = float(s.light_growth);
+    light.series = s.light_steps > 0 ? series_of(s.light_growth, s.light_steps) : 1.0f;
+    if (s.light_cone) set_turns(in, light);
+    light.powder = std::int32_t(s.powder);
+    light.powder_strength = float(s.powder_strength);
+    light.forward = s.forward ? 1 : 0;
+    light.channels = 1;
+    for (int i = 0; s.forward && i < in.medium->count; ++i) {
+        const Optics& optics = in.medium->optics[std::size_t(i)];
+        const double share = kept_of(s, optics);
+        for (std::size_t c = 0; c < 3; ++c) {
+            light.kept[i][c] = float(share * double(optics.albedo[c]));
+            if (light.kept[i][c] != light.kept[i][0]) light.channels = 3;
+        }
+    }
+}
+
+/// Octaves take albedo and share once more each; their phase functions are Henyey-Greenstein's.
+void set_octaves(const RaymarchInput& in, RaymarchParams& k) {
+    k.light.octaves = octaves_of(*in.settings);
+    for (int i = 0; i < in.medium->count; ++i) {
+        const Optics& optics = in.medium->optics[std::size_t(i)];
+        float g = phase_moment(optics.phase, 1), source[3];
+        for (int c = 0; c < 3; ++c) source[c] = k.sun_source[i][c];
+        for (int n = 1; n < k.light.octaves.count; ++n) {
+            g *= float(in.settings->octave_anisotropy);
+            k.light.octave_g[i][n] = g;
+            for (int c = 0; c < 3; ++c) {
+                source[c] *= optics.albedo[c] * k.light.octaves.share;
+                k.octave_source[i][n][c] = source[c];
+            }
+        }
+    }
+}
+
+void set_media(const RaymarchInput& in, RaymarchParams& k) {
+    const Lighting& lighting = *in.lighting;
+    k.media = in.medium->count;
+    for (int i = 0; i < in.medium->count; ++i) {
+        const Optics& optics = in.medium->optics[std::size_t(i)];
+        k.phase[i] = optics.phase;
+        const float peak = phase_peak(optics.phase);
+        k.phase_scale[i] = in.settings->peak_phase && peak > 0 ? 1.0f / peak : 1.0f;
+        for (std::size_t c = 0; c < 3; ++c) {
+            k.albedo[i][c] = optics.albedo[c];
+            k.sun_source[i][c] = float(lighting.sun_irradiance[c] * double(optics.albedo[c]));
+            if (lighting.sunlit && k.sun_source[i][c] > 0) k.sunlit = 1;
+        }
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+        k.to_sun[c] = lighting.to_sun[c];
+        k.ambient[c] = in.settings->ambient[c];
+    }
+}
+
+void set_levels(const RaymarchInput& in, RaymarchParams& k) {
+    if (in.levels == nullptr) return;
+    for (const DensityLevel& level : *in.levels) {
+        MediumView& v = k.level[k.levels++];
+        v = k.medium;
+        for (int a = 0; a < 3; ++a) {
+            v.size[a] = level.grid.size[a];
+            v.cell[a] = level.grid.cell_m[a];
+        }
+        block_counts(level.grid, in.majorants->skip_block, v.blocks);
+        v.density = level.density.data();
+        v.majorant = level.majorants.data();
+    }
+}
+
+}  // namespace
+
+int raymarch_levels(const RaymarchSettings& s, const CameraParams& camera, const Medium& medium,
+                    double reach_m) {
+    if (!s.detail) return 0;
+    double diagonal = 0;
+    for (double e : medium.extent_m) diagonal += e * e;
+    diagonal = __builtin_sqrt(diagonal);
+    const StepParams k = raymarch_steps(s, camera, medium.grid);
+    double widest = double(k.pixel) * (camera.orthographic != 0 ? 1 : reach_m);
+    const auto at_least = [&](double width) { widest = width > widest ? width : widest; };
+    if (s.steps > 0 && s.spacing == RaymarchSpacing::kUniform) at_least(diagonal / s.steps);
+    // Growing steps may end with any share of the way, a slanted way is longer.
+    if (k.grows != 0) at_least(diagonal);
+    if (s.light_steps > 0) at_least(diagonal);
+    if (medium.grid.periodic) at_least(diagonal);
+    int levels = 0;
+    for (double cell = double(smallest_cell(medium.grid)); cell < widest && levels < kMostLevels;
+         cell *= 2)
+        ++levels;
+    return int(level_grids(medium.grid, levels).size());
+}
+
+Octaves octaves_of(const RaymarchSettings& s) {
+    return {s.many ? s.octaves : 1, float(s.octave_extinction), float(s.octave_share)};
+}
+
+double mean_kept(const RaymarchSettings& s, const Medium& medium) {
+    double sum = 0;
+    for (int i = 0; i < medium.count; ++i) {
+        const Optics& optics = medium.optics[std::size_t(i)];
+        for (float albedo : optics.albedo) sum += kept_of(s, optics) * double(albedo) / 3;
+    }
+    return medium.count > 0 ? sum / medium.count : 0;
+}
+
+float smallest_cell(const Grid& grid) {
+    float smallest = grid.cell_m[0];
+    for (float cell : grid.cell_m) smallest = cell < smallest ? cell : smallest;
+    return smallest;
+}
+
+StepParams raymarch_steps(const RaymarchSettings& s, const CameraParams& camera, const Grid& grid) {
+    StepParams k{};
+    k.most = float(s.steps);
+    k.stretch = s.stretch ? 1 : 0;
+    k.growth = k.series = 1;
+    k.pixel = 2 * camera.half_height / float(camera.height);
+    switch (s.spacing) {
+        case RaymarchSpacing::kUniform:
+            break;
+        case RaymarchSpacing::kVoxel:
+            k.least_m = smallest_cell(grid);
+            // So many that the cell decides, as long as float counts them.
+            if (s.steps > 0) k.most = grid.periodic ? 0x1p17f : 0x1p13f;
+            break;
+        case RaymarchSpacing::kOptimal:
+            if (camera.orthographic != 0) {
+                k.least_m = k.pixel;
+                break;
+            }
+            k.grows = k.by_distance = 1;
+            k.near_m =
+                (s.first_step_m > 0 ? float(s.first_step_m) : 0.5f * smallest_cell(grid)) / k.pixel;
+            break;
+        case RaymarchSpacing::kGeometric:
+            k.least_m = float(s.first_step_m);
+            k.grows = s.growth > 1 ? 1 : 0;
+            k.growth = float(s.growth);
+            k.series = series_of(s.growth, s.steps);
+            break;
+    }
+    return k;
+}
+
+RaymarchParams raymarch_params(const RaymarchInput& in) {
+    RaymarchParams k{};
+    k.medium = make_medium_view(*in.medium, *in.majorants);
+    k.camera = in.camera;
+    k.lattice = in.lattice.every > 0 ? in.lattice
+                                     : PixelLattice{1, {0, 0}, in.camera.width, in.camera.height};
+    k.rule = rule_of(in.settings->integrator);
+    k.step = raymarch_steps(*in.settings, in.camera, in.medium->grid);
+    if (!(in.medium->sigma > 0)) k.step.most = 0;  // nothing to see, and no light was made for it
+    set_jitter(in, k.step);
+    set_levels(in, k);
+    if (in.sky != nullptr) {
+        k.sky.nodes = in.sky->grid;
+        k.sky.sets = in.sky->sets;
+        std::memcpy(k.sky.colour, in.sky->colour, sizeof k.sky.colour);
+    }
+    k.cut = float(in.settings->stop_below);
+    k.visibility = in.visibility_nodes;
+    set_media(in, k);
+    set_light(in, k);
+    set_octaves(in, k);
+    return k;
+}
+
+Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes& planes,
+                        RaymarchTally& tally) {
+    constexpr std::uint32_t kPiece = 4;
+    const StageClock clock(context, "march");
+    const RaymarchParams k = raymarch_params(in);
+    const std::uint32_t rows = std::uint32_t(k.lattice.height);
+    Buffer<std::int64_t> counts;
+    PILEUS_TRY(counts.resize(std::uint64_t(rows) * kRaymarchCounts, "counts"));
+    RaymarchBuffers b{};
+    if (in.nodes != nullptr) b.optical_depth = in.nodes->optical_depth.data();
+    b.visibility = in.visibility;
+    b.opaque_depth = planes.opaque_depth.data();
+    if (in.sky != nullptr) b.sky = in.sky->light.data();
+    if (in.noise != nullptr) b.noise = in.noise->data();
+    b.parts = in.medium->parts.data();
+    b.transmittance = planes.transmittance.data();
+    b.half_depth = planes.half_depth.data();
+    b.colour = planes.colour.data();
+    b.ray_depth = planes.optical_depth.data();
+    b.counts = counts.data();
+    parallel_for(context.threads, (rows + kPiece - 1) / kPiece, [&](std::int64_t piece, int) {
+        const std::uint32_t begin = std::uint32_t(piece) * kPiece;
+        const std::uint32_t end = begin + kPiece < rows ? begin + kPiece : rows;
+        if (in.layer != nullptr)
+            context.kernels->sky->raymarch_rows(k, in.layer->params, b, begin, end);
+        else
+            context.kernels->raymarch_rows(k, b, begin, end);
+    });
+    for (std::size_t row = 0; row < rows; ++row) {
+        const std::int64_t* own = counts.data() + row * kRaymarchCounts;
+        tally.samples += std::uint64_t(own[kCountSamples]);
+        tally.light_samples += std::uint64_t(own[kCountLightSamples]);
+        tally.breaches += std::uint64_t(own[kCountBreaches]);
+    }
+    return Status::ok();
+}
+
+}  // namespace pileus

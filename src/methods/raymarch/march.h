@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// A raymarched picture: the scene's settings become a launch of the kernel.
+// in: a medium, its lights, sunlight on nodes, a camera -> out: planes of pixels, counts.
+// docs/raymarch.md.
+#pragma once
+#include "kernels_cpu/raymarch/raymarch_params.h"
+#include "src/picture/layers.h"
+#include "src/picture/nodes/sky_nodes.h"
+#include "src/picture/nodes/sun_depth.h"
+#include "src/run/context.h"
+#include "src/world/density/sky_field.h"
+#include "src/world/light/lights.h"
+#include "src/world/majorant/density_levels.h"
+#include "src/world/majorant/majorants.h"
+
+namespace pileus {
+
+struct RaymarchInput {
+    const Medium* medium = nullptr;
+    const Majorants* majorants = nullptr;  ///< blocks to skip
+    const Lighting* lighting = nullptr;
+    const RaymarchSettings* settings = nullptr;
+    const SunDepth* nodes = nullptr;
+    NodeGrid visibility_nodes{};
+    const float* visibility = nullptr;  ///< of solid_shadow.h; null: nothing solid
+    const SkyNodes* sky = nullptr;
+    const std::vector<DensityLevel>* levels = nullptr;
+    const SkyField* layer = nullptr;  ///< a sky marched itself, in place of the grid
+    bool march_light = false;
+    const Buffer<float>* noise = nullptr;  ///< tile of make_blue_noise, where jitter asks for it
+    std::uint64_t seed = 0;                ///< of the frame
+    CameraParams camera;
+    PixelLattice lattice{};  ///< the pixels to march; every = 0: all of them
+};
+
+struct RaymarchTally {
+    std::uint64_t samples = 0, light_samples = 0, breaches = 0;
+};
+
+/// Smallest edge of a cell, m.
+float smallest_cell(const Grid& grid);
+
+/// The steps that a scene asks for.
+StepParams raymarch_steps(const RaymarchSettings& settings, const CameraParams& camera,
+                          const Grid& grid);
+
+/// Levels of detail that no step or pixel of a run goes beyond; 0 where cells are never too fine.
+/// The camera is at most `reach_m` away from the medium's far end.
+int raymarch_levels(const RaymarchSettings& settings, const CameraParams& camera,
+                    const Medium& medium, double reach_m);
+
+/// Share of scattered light that forward scattering keeps, over all media and channels.
+double mean_kept(const RaymarchSettings& settings, const Medium& medium);
+
+/// One octave unless scattering = "octaves".
+Octaves octaves_of(const RaymarchSettings& settings);
+
+/// Everything that a launch reads, but for the pointers to planes.
+RaymarchParams raymarch_params(const RaymarchInput& in);
+
+/// Marches into the planes' transmittance, colour and what else they have room for; ends rays at
+/// their opaque depth. kLimit: out of memory.
+/// Planes have the size of the lattice.
+Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes& planes,
+                        RaymarchTally& tally);
+
+}  // namespace pileus

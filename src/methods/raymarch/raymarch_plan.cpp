@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: Apache-2.0
+// Weighs a run of the raymarch: what it needs and leaves out, where sunlight comes from, memory.
+// in: RaymarchRun, outlined or prepared -> out: its plan; kLimit where something is too much.
+// docs/report.md, "Plan"; docs/raymarch.md
+#include "src/methods/raymarch/raymarch.h"
+#include "src/world/plan_parts.h"
+
+namespace pileus {
+namespace {
+
+constexpr Stage kUnused[] = {Stage::kSamples, Stage::kTree,  Stage::kCollectors,  Stage::kLeafGrid,
+                             Stage::kPhotons, Stage::kPaths, Stage::kReconstruct, Stage::kSplat};
+
+std::uint64_t pixels_of(const Scene& scene) {
+    return std::uint64_t(scene.camera.resolution[0]) * std::uint64_t(scene.camera.resolution[1]);
+}
+
+/// Cells that a straight way through the grid crosses, about.
+double cells_across(const Grid& grid) {
+    return (double(grid.size[0]) + double(grid.size[1]) + double(grid.size[2])) / 3;
+}
+
+/// Metres that a camera which turns about its target is away from the medium at most.
+double reach_of(const RaymarchRun& run) {
+    double from_target = 0, target = 0, diagonal = 0;
+    const Camera& c = run.scene->camera;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const double arm = c.position_m[a] - c.target_m[a];
+        const double off = c.target_m[a] - run.medium.low_m[a] - 0.5 * run.medium.extent_m[a];
+        from_target += arm * arm;
+        target += off * off;
+        diagonal += run.medium.extent_m[a] * run.medium.extent_m[a];
+    }
+    return __builtin_sqrt(from_target) + __builtin_sqrt(target) + 0.5 * __builtin_sqrt(diagonal);
+}
+
+/// Marching from every sample, or from every node: what takes fewer samples of the density. About
+/// 64 samples of a ray lie where light still matters; half a way leads out of the medium.
+void choose_light(RaymarchRun& run) {
+    const RaymarchSettings& s = run.scene->raymarch;
+    const Grid& grid = run.medium.grid;
+    run.march_light = s.light == RaymarchLightKind::kMarch || s.light_cone;
+    run.light_why = s.light_cone ? "light_path = \"cone\"" : "as the scene asks";
+    if (s.light_cone || s.light != RaymarchLightKind::kAuto) return;
+    if (run.direct_sky) {
+        run.march_light = true;
+        run.light_why = "the sky is evaluated in place";
+        return;
+    }
+    const double way = 0.5 * cells_across(grid);
+    const double lit = double(s.steps < 64 ? s.steps : 64) * double(pixels_of(*run.scene));
+    const double marched = lit * (s.light_steps > 0 ? double(s.light_steps) : way);
+    const double nodes = double(voxel_count(grid)) * way;
+    run.march_light = marched < nodes;
+    run.light_why = "fewer samples of the density, about " +
+                    std::to_string(std::uint64_t(run.march_light ? marched : nodes)) +
+                    " instead of " +
+                    std::to_string(std::uint64_t(run.march_light ? nodes : marched));
+}
+
+/// What changes the picture's looks and has no physics behind it.
+void note_appearance(const RaymarchSettings& s, Plan& plan) {
+    constexpr const char* kTag = ": appearance, not physics";
+    if (s.powder != RaymarchPowderKind::kNone) plan.need((std::string("powder") + kTag).c_str());
+    if (s.ambient[0] > 0 || s.ambient[1] > 0 || s.ambient[2] > 0)
+        plan.need((std::string("ambient emission") + kTag).c_str());
+    if (s.peak_phase) plan.need((std::string("phase functions over their peak") + kTag).c_str());
+}
+
+bool has_sky(const Lighting& light) {
+    return light.map.columns > 0 || light.sky[0] > 0 || light.sky[1] > 0 || light.sky[2] > 0;
+}
+
+void note_light(const Scene& scene, const RaymarchRun& run, Plan& plan) {
+    const RaymarchSettings& s = scene.raymarch;
+    const bool moves = scene.animation.present && scene.animation.moves_sun;
+    const bool sun = run.lighting.sunlit || (moves && scene.sun.present);
+    if (!sun)
+        plan.leave_out("sunlight",
+                       scene.sun.present ? "below the ground's horizon, or dark" : "no sun");
+    else if (run.march_light)
+        plan.need(("sunlight by a march from each sample: " + run.light_why).c_str());
+    else
+        plan.need(("sunlight from nodes: " + run.light_why).c_str());
+    if (sun && s.forward)
+        plan.need("forward scattering: approximation");
+    else
+        plan.leave_out("forward scattering", sun ? "scattering = \"single\"" : "no sunlight");
+    if (s.many)
+        plan.need("light scattered more than once as octaves of the first: approximation");
+    else
+        plan.leave_out("light scattered more than once", "scattering is not \"octaves\"");
+    if (!has_sky(run.lighting) && !run.lighting.ground)
+        plan.leave_out("skylight in the medium", "no sky, no ground");
+    else if (s.sky_ambient)
+        plan.need("skylight from 24 directions on coarse nodes: approximation");
+    else
+        plan.leave_out("skylight in the medium", "sky_light = \"none\"");
+}
+
+void note_upsampling(const Scene& scene, Plan& plan) {
+    const RaymarchSettings& s = scene.raymarch;
+    if (s.scale > 1) plan.need("pixels between marched ones: approximation");
+    if (s.temporal > 0) plan.need("pixels from the frame before: approximation");
+    if (s.temporal > 0 && !(scene.animation.present && scene.animation.frames > 1))
+        plan.leave_out("pixels from the frame before", "one frame");
+}
+
+void note_plan(RaymarchRun& run) {
+    const Scene& scene = *run.scene;
+    Plan& plan = run.plan;
+    plan = Plan{};
+    plan.bias = {"raymarch", "light scattered more than once is missing or approximate",
+                 "docs/raymarch.md"};
+    if (scene.raymarch.steps > 0) {
+        plan.need(run.direct_sky ? "the sky's noises, evaluated in place" : "majorants");
+        plan.need("marched rays");
+        note_light(scene, run, plan);
+        note_appearance(scene.raymarch, plan);
+    } else {
+        plan.leave_out("marched rays", "steps = 0: the medium is not seen");
+    }
+    if (run.levels > 0)
+        plan.need((std::to_string(run.levels) + " coarser levels of the density").c_str());
+    else
+        plan.leave_out(
+            "coarser levels of the density",
+            scene.raymarch.detail ? "no step or pixel is wider than a cell" : "detail = false");
+    if (scene.raymarch.jitter == RaymarchJitterKind::kNone)
+        plan.leave_out("jitter of samples", "jitter = \"none\"");
+    note_upsampling(scene, plan);
+    if (run.medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
+    note_solids(run.solids, plan);
+    if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
+    if (!scene.output.layer_depth) plan.leave_out("depth of the medium", "no depth layer");
+    if (!scene.output.layer_optical_depth)
+        plan.leave_out("optical depth", "no optical_depth layer");
+    for (const std::string& what : run.media_plan.needed) plan.needed.push_back(what);
+    for (const LeftOut& l : run.media_plan.left_out) plan.left_out.push_back(l);
+    for (Stage stage : kUnused) plan.skip(stage);
+}
+
+void weigh_memory(const Context& context, RaymarchRun& run) {
+    const Scene& scene = *run.scene;
+    const OutputSettings& output = scene.output;
+    const Grid& grid = run.medium.grid;
+    const std::uint64_t pixels = pixels_of(scene), kFloat = sizeof(float);
+    const bool again = context.frames > 1;
+    const Stage last = again ? Stage::kWrite : Stage::kDisplay;
+    MemoryTable t;
+    add_density_rows(grid, run.source, std::uint64_t(run.medium.count), phase_bytes(run.medium),
+                     std::uint64_t(context.threads), sky_map_bytes(run.sky_map), t);
+    if (run.direct_sky) add_sky_rows(scene.media[0].sky, last, t);
+    add_majorant_rows(grid, run.outlined_only ? 1 : run.majorants.tracking.size(),
+                      std::uint64_t(context.threads), last, t);
+    if (!run.march_light && run.lighting.sunlit)
+        t.add("sunlight's optical depth on nodes", Stage::kShadow, last, sun_depth_bytes(grid));
+    for (const Grid& level : level_grids(grid, run.levels)) {
+        int blocks[3];
+        block_counts(level, run.majorants.skip_block, blocks);
+        t.add("coarser density", Stage::kMajorants, last, bytes_of(kFloat, voxel_count(level)));
+        t.add("its blocks", Stage::kMajorants, last,
+              bytes_of(kFloat * std::uint64_t(blocks[0]), std::uint64_t(blocks[1]),
+                       std::uint64_t(blocks[2])));
+    }
+    if (scene.raymarch.sky_ambient) {
+        const std::uint64_t nodes = node_count(sky_node_grid(run.medium));
+        const int sets = sky_node_sets(run.lighting);
+        t.add("skylight on nodes", Stage::kShadow, last,
+              bytes_of(kFloat * std::uint64_t(sets), nodes));
+        if (sets > 0)
+            t.add("optical depths of the sky", Stage::kShadow, Stage::kShadow,
+                  bytes_of(kFloat, nodes));
+    }
+    const std::uint64_t shown = 7u + (output.layer_depth ? 1u : 0u) +
+                                (run.lighting.opaque() ? 1u : 0u) +
+                                (output.layer_optical_depth ? 1u : 0u);
+    t.add("picture planes", Stage::kBackground, Stage::kLayers, bytes_of(kFloat * shown, pixels));
+    if (scene.raymarch.jitter == RaymarchJitterKind::kBlueNoise)
+        t.add("blue noise", Stage::kShadow, last, bytes_of(kFloat, kNoiseTile * kNoiseTile));
+    const bool half = output.layer_depth || scene.raymarch.temporal > 0;
+    t.add("marched pixels", Stage::kDisplay, last,
+          upsample_bytes(scene.raymarch, scene.camera.resolution, run.lighting.opaque(), half,
+                         output.layer_optical_depth));
+    t.add("counts of rows", Stage::kDisplay, Stage::kDisplay,
+          bytes_of(sizeof(std::int64_t) * kRaymarchCounts,
+                   std::uint64_t(scene.camera.resolution[1])));
+    add_image_rows(std::uint64_t(scene.camera.resolution[0]),
+                   std::uint64_t(scene.camera.resolution[1]), 4 + extra_layers(output, false), t);
+    add_solid_rows(scene, context.limits, run.solids, t);
+    if (run.solids.meshes && run.lighting.sunlit)
+        t.add("shadow of solids", Stage::kShadow, last, bytes_of(kFloat, voxel_count(grid)));
+    run.plan.memory = t;
+    run.plan.exact = !run.outlined_only;
+}
+
+}  // namespace
+
+Status raymarch_measure(const Context& context, RaymarchRun& run) {
+    choose_light(run);
+    run.levels =
+        raymarch_levels(run.scene->raymarch, make_camera(run.scene->camera, 0, run.medium.low_m),
+                        run.medium, reach_of(run));
+    note_plan(run);
+    weigh_memory(context, run);
+    return check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), run.scene->file);
+}
+
+void raymarch_report_plan(const MethodRun& method_run, const Context& context, Report& report) {
+    const RaymarchRun& run = static_cast<const RaymarchRun&>(method_run);
+    report_plan(run.plan, report);
+    report.limits.clear();
+    const auto add = [&](LimitId id, std::uint64_t needs) {
+        report.limits.push_back(limit_of(context.limits, id, needs));
+    };
+    const Animation& animation = run.scene->animation;
+    add(LimitId::kVoxels, voxel_count(run.medium.grid));
+    add(LimitId::kPixels, pixels_of(*run.scene));
+    add(LimitId::kFrames, animation.present ? std::uint64_t(animation.frames) : 1);
+    add(LimitId::kMemory, run.plan.memory.peak());
+}
+
+}  // namespace pileus

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// One frame of a raymarch: sunlight, background, march, layers.
+// in: a prepared RaymarchRun -> out: Image, Report.
+// docs/raymarch.md; docs/formats.md, "Pictures out"
+#include "src/base/digest.h"
+#include "src/methods/raymarch/raymarch.h"
+#include "src/picture/background.h"
+#include "src/picture/blue_noise.h"
+#include "src/picture/march_view.h"
+#include "src/picture/nodes/node_grid.h"
+#include "src/picture/nodes/solid_shadow.h"
+
+namespace pileus {
+namespace {
+
+constexpr std::uint64_t kComparedNodes = 1024;
+
+/// Nodes serve every frame of the same sun.
+Status light_nodes(const Context& context, RaymarchRun& run) {
+    if (run.march_light || !run.lighting.sunlit || run.medium.sigma <= 0) return Status::ok();
+    if (!run.nodes.optical_depth.empty() && run.nodes_to_sun == run.lighting.to_sun)
+        return Status::ok();
+    const bool swept = run.scene->raymarch.light == RaymarchLightKind::kBuffer;
+    const auto kind = swept ? SunDepthKind::kSwept : SunDepthKind::kExact;
+    const auto& to_sun = run.lighting.to_sun;
+    PILEUS_TRY(make_sun_depth(context, run.medium, run.majorants, to_sun, kind, run.nodes));
+    // A thousand rays tell what the sweep smears.
+    run.nodes_difference = {};
+    if (run.nodes.swept)
+        PILEUS_TRY(sun_depth_difference(context, run.medium, run.majorants, to_sun, run.nodes,
+                                        kComparedNodes, run.nodes_difference));
+    run.nodes_to_sun = run.lighting.to_sun;
+    return Status::ok();
+}
+
+/// Light of sky and ground changes with the sun alone.
+Status light_sky(const Context& context, const FrameStep& step, RaymarchRun& run) {
+    const Scene& scene = *run.scene;
+    if (!scene.raymarch.sky_ambient || run.medium.sigma <= 0) return Status::ok();
+    if (!step.first && run.sky_to_sun == run.lighting.to_sun) return Status::ok();
+    run.sky_to_sun = run.lighting.to_sun;
+    return make_sky_nodes(context, run.medium, run.majorants, run.lighting,
+                          mean_kept(scene.raymarch, run.medium), octaves_of(scene.raymarch),
+                          run.sky);
+}
+
+/// The shadow of solids, on nodes two voxels apart.
+Status shade_by_solids(const Context& context, RaymarchRun& run) {
+    if (!run.solids.meshes || !run.lighting.sunlit || run.medium.sigma <= 0) return Status::ok();
+    float coarse = 0;
+    for (float cell : run.medium.grid.cell_m) coarse = cell > coarse ? cell : coarse;
+    run.visibility_nodes = make_node_grid(run.medium.grid, run.medium.extent_m, 2 * double(coarse));
+    return solid_visibility(context, run.solids, run.visibility_nodes, run.lighting.to_sun,
+                            run.visibility);
+}
+
+Status fill_background(const Context& context, RaymarchRun& run) {
+    const StageClock clock(context, "background");
+    const Lighting& light = run.lighting;
+    BackgroundParams k{};
+    k.medium = make_medium_view(run.medium, run.majorants);
+    k.camera = run.camera;
+    k.ground = light.ground ? 1 : 0;
+    k.ground_z = float(light.ground_z);
+    for (std::size_t c = 0; c < 3; ++c) {
+        k.sky[c] = float(light.sky[c]);
+        k.ground_diffuse[c] = float(light.ground_diffuse[c]);
+        k.ground_sun[c] = float(light.ground_sun[c]);
+        k.to_sun[c] = light.to_sun[c];
+    }
+    k.sky_map = light.map;
+    const BackgroundBuffers b{nullptr, run.planes.background.data(),
+                              run.planes.opaque_depth.data()};
+    return show_background(context, light, k, b);
+}
+
+}  // namespace
+
+Status raymarch_light(const FrameStep& step, const Context& context, MethodRun& method_run) {
+    RaymarchRun& run = static_cast<RaymarchRun&>(method_run);
+    const Scene& scene = *run.scene;
+    const OutputSettings& output = scene.output;
+    Plan photons;  // speaks of photons alone
+    run.lighting = plan_lighting(scene, run.medium, sun_at(scene, step.frame), photons,
+                                 &run.sky_map, &run.solids);
+    run.camera = make_camera(scene.camera, orbit_at(scene, step.frame), run.medium.low_m);
+    if (scene.raymarch.jitter == RaymarchJitterKind::kBlueNoise && run.noise.empty())
+        PILEUS_TRY(make_blue_noise(run.noise));
+    PILEUS_TRY(light_nodes(context, run));
+    PILEUS_TRY(shade_by_solids(context, run));
+    PILEUS_TRY(light_sky(context, step, run));
+    PILEUS_TRY(allocate_planes(run.camera.width, run.camera.height, 3, run.lighting.opaque(),
+                               output.layer_depth, run.planes));
+    const std::uint64_t pixels = run.planes.transmittance.size();
+    if (output.layer_optical_depth)
+        PILEUS_TRY(run.planes.optical_depth.resize(pixels, "optical depth"));
+    PILEUS_TRY(fill_background(context, run));
+    RaymarchInput in;
+    in.medium = &run.medium;
+    in.majorants = &run.majorants;
+    in.lighting = &run.lighting;
+    in.settings = &scene.raymarch;
+    in.nodes = &run.nodes;
+    in.visibility_nodes = run.visibility_nodes;
+    in.visibility = run.visibility.data();
+    in.sky = &run.sky;
+    in.levels = &run.coarse;
+    in.march_light = run.march_light;
+    in.noise = &run.noise;
+    // Frame f of an animation has the jitter of the seed f further on.
+    in.seed = std::uint64_t(scene.seed) + std::uint64_t(step.frame);
+    in.layer = run.direct_sky ? &run.layer : nullptr;
+    in.camera = run.camera;
+    return upsample_picture(context, in, step.frame, run.upsample, run.planes, run.tally);
+}
+
+Status raymarch_show(const FrameStep&, const Context& context, MethodRun& method_run,
+                     Image& image) {
+    RaymarchRun& run = static_cast<RaymarchRun&>(method_run);
+    Report& report = *context.report;
+    const StageClock clock(context, "layers");
+    report.digests = run.digests;
+    report.counters.clear();
+    std::uint64_t clamped = 0;
+    Digest colours;
+    Status layers;
+    // Neither is short, and neither can be shared by threads.
+    parallel_for(context.threads, 2, [&](std::int64_t piece, int) {
+        if (piece == 0)
+            colours.floats(run.planes.colour.span());
+        else
+            layers = make_layers(run.planes, run.camera.width, run.camera.height, 3,
+                                 run.scene->output, image, report, clamped);
+    });
+    PILEUS_TRY(layers);
+    report.digests.emplace_back("colours", colours.hex());
+    report.counters.emplace_back("clamped_negative", clamped);
+    report.executed = {{"depth_tests", run.planes.opaque_depth.size()},
+                       {"depths_stored", run.planes.half_depth.size()},
+                       {"parts_stored", run.medium.parts.size()}};
+    report_solids(run.solids, report);
+    set_image_camera(run.camera, run.medium.low_m, image);
+    run.planes = Planes{};
+    return Status::ok();
+}
+
+void raymarch_report(const MethodRun& method_run, Report& report) {
+    const RaymarchRun& run = static_cast<const RaymarchRun&>(method_run);
+    report.counters.emplace_back("majorant_violations", 0);  // bounds only say where nothing is
+    report.counters.emplace_back("bound_breaches", run.tally.breaches);
+    report.executed.emplace_back("density_levels", run.coarse.size());
+    report.executed.emplace_back("marched_pixels", run.upsample.marched);
+    report.executed.emplace_back("recalled_pixels", run.upsample.recalled);
+    report.executed.emplace_back("ray_samples", run.tally.samples);
+    report.executed.emplace_back("light_samples", run.tally.light_samples);
+    report.buffer_nodes = run.nodes_difference.nodes;
+    report.buffer_rms = run.nodes_difference.rms;
+    report.buffer_largest = run.nodes_difference.largest;
+    report.buffer_mean = run.nodes_difference.mean;
+}
+
+}  // namespace pileus

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// See sky_medium.h.
+#include "src/methods/raymarch/sky_medium.h"
+
+#include <cmath>
+
+namespace pileus {
+namespace {
+
+/// A layer without bounds has a box around the camera, where floats tell places best.
+MediumSettings placed(const Scene& scene) {
+    MediumSettings settings = scene.media[0];
+    settings.periodic = false;
+    if (settings.has_bounds) return settings;
+    constexpr double kReach = 16000, kSpare = 50;  // a bent layer sinks by 40 m in a corner
+    const Double3& camera = scene.camera.position_m;
+    Double3 low, high;
+    for (std::size_t a = 0; a < 2; ++a) {
+        low[a] = std::floor(camera[a]) - kReach;
+        high[a] = low[a] + 2 * kReach;
+    }
+    low[2] = settings.sky.base_m - kSpare, high[2] = settings.sky.top_m + kSpare;
+    settings.has_bounds = true;
+    settings.bounds_m = {low, high};
+    return settings;
+}
+
+}  // namespace
+
+bool is_direct_sky(const Scene& scene) {
+    return scene.media.size() == 1 && scene.media[0].density == DensityKind::kSky &&
+           scene.media[0].sky.evaluate == SkyEvaluation::kDirect;
+}
+
+Status outline_sky(const Scene& scene, const Limits& limits, Medium& medium, MediumSource& source) {
+    PILEUS_TRY(outline_medium(scene, placed(scene), limits, medium, source));
+    source.noise_bytes = sky_bytes(scene.media[0].sky).making;
+    return Status::ok();
+}
+
+Status load_sky(const Scene& scene, const Context& context, Medium& medium, SkyField& sky) {
+    const MediumSettings& settings = scene.media[0];
+    PILEUS_TRY(load_medium(scene, placed(scene), context.threads, medium, context.kernels, &sky));
+    bound_sky(settings.has_bounds && !settings.periodic ? medium.extent_m : nullptr, sky);
+    // The grid may miss what the noise holds: it must not tell that there is nothing.
+    if (settings.sky.coverage != 0 && !(medium.density_max > 0)) medium.density_max = 1;
+    return Status::ok();
+}
+
+void add_sky_rows(const SkySettings& settings, Stage last, MemoryTable& table) {
+    table.add("noises of the sky in place", Stage::kDensity, last, sky_bytes(settings).kept);
+}
+
+}  // namespace pileus

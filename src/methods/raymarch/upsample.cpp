@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// See upsample.h.
+#include "src/methods/raymarch/upsample.h"
+
+#include "src/picture/march_view.h"
+
+namespace pileus {
+namespace {
+
+std::uint64_t pixels_of(const PixelLattice& g) {
+    return std::uint64_t(g.width) * std::uint64_t(g.height);
+}
+
+Status fit(Buffer<float>& b, std::uint64_t n, const char* name) {
+    return b.size() == n ? Status::ok() : b.resize(n, name);
+}
+
+/// Planes of the marched pixels, with what stands behind each.
+Status outfit(const PixelLattice& g, int width, bool half_depth, const Planes& whole, Planes& few) {
+    const std::uint64_t n = pixels_of(g);
+    PILEUS_TRY(fit(few.transmittance, n, "marched transmittance"));
+    PILEUS_TRY(fit(few.colour, 3 * n, "marched radiance"));
+    PILEUS_TRY(fit(few.half_depth, half_depth ? n : 0, "marched depth"));
+    PILEUS_TRY(fit(few.optical_depth, whole.optical_depth.empty() ? 0 : n, "marched depth"));
+    PILEUS_TRY(fit(few.opaque_depth, whole.opaque_depth.empty() ? 0 : n, "marched opaque depth"));
+    for (std::size_t i = 0; i < few.opaque_depth.size(); ++i) {
+        const std::size_t across = std::size_t(g.width), every = std::size_t(g.every);
+        const std::size_t x = i % across * every + std::size_t(g.first[0]);
+        const std::size_t y = i / across * every + std::size_t(g.first[1]);
+        few.opaque_depth[i] = whole.opaque_depth[y * std::size_t(width) + x];
+    }
+    return Status::ok();
+}
+
+Status fill_in(const Context& context, const RaymarchInput& in, const PixelLattice& lattice,
+               UpsampleMemory& memory, Planes& planes) {
+    constexpr std::uint32_t kPiece = 4;
+    const StageClock clock(context, "upsampling");
+    UpsampleParams k{};
+    k.lattice = lattice;
+    k.rule = std::int32_t(in.settings->upsample);
+    k.camera = in.camera;
+    k.before = memory.camera;
+    k.remembers = memory.ready ? 1 : 0;
+    k.still = std::memcmp(&memory.camera, &in.camera, sizeof in.camera) == 0 &&
+                      memory.to_sun == in.lighting->to_sun
+                  ? 1
+                  : 0;
+    k.medium = make_medium_view(*in.medium, *in.majorants);
+    const std::uint32_t rows = std::uint32_t(in.camera.height);
+    Buffer<std::int64_t> kept;
+    PILEUS_TRY(kept.resize(rows, "counts"));
+    const Planes& few = memory.few;
+    const UpsampleBuffers b{few.transmittance.data(),    few.colour.data(),
+                            few.half_depth.data(),       few.optical_depth.data(),
+                            few.opaque_depth.data(),     planes.opaque_depth.data(),
+                            memory.transmittance.data(), memory.colour.data(),
+                            memory.opaque_depth.data(),  planes.transmittance.data(),
+                            planes.colour.data(),        planes.half_depth.data(),
+                            planes.optical_depth.data(), kept.data()};
+    parallel_for(context.threads, (rows + kPiece - 1) / kPiece, [&](std::int64_t piece, int) {
+        const std::uint32_t begin = std::uint32_t(piece) * kPiece;
+        context.kernels->upsample_rows(k, b, begin, begin + kPiece < rows ? begin + kPiece : rows);
+    });
+    for (std::int64_t n : kept.span()) memory.recalled += std::uint64_t(n);
+    return Status::ok();
+}
+
+Status copy(const Buffer<float>& from, Buffer<float>& to) {
+    PILEUS_TRY(fit(to, from.size(), "frame before"));
+    if (!from.empty()) std::memcpy(to.data(), from.data(), from.size() * sizeof(float));
+    return Status::ok();
+}
+
+Status remember(const RaymarchInput& in, const Planes& planes, UpsampleMemory& memory) {
+    PILEUS_TRY(copy(planes.transmittance, memory.transmittance));
+    PILEUS_TRY(copy(planes.colour, memory.colour));
+    PILEUS_TRY(copy(planes.opaque_depth, memory.opaque_depth));
+    memory.camera = in.camera;
+    memory.to_sun = in.lighting->to_sun;
+    memory.ready = true;
+    return Status::ok();
+}
+
+/// Place of frame n in a cell of two by two, opposite corners first.
+constexpr int kTurnX[4] = {0, 1, 1, 0}, kTurnY[4] = {0, 1, 0, 1};
+
+}  // namespace
+
+PixelLattice upsample_lattice(const RaymarchSettings& s, const CameraParams& camera, int frame,
+                              bool remembers) {
+    PixelLattice g{1, {0, 0}, camera.width, camera.height};
+    if (s.temporal > 0 && remembers) {
+        // Of a cell of four by four the corners of each quarter in turn, opposite ones first.
+        const int coarse = frame % 4, fine = frame / 4 % 4;
+        g.every = s.temporal;
+        g.first[0] = s.temporal == 2 ? kTurnX[coarse] : 2 * kTurnX[coarse] + kTurnX[fine];
+        g.first[1] = s.temporal == 2 ? kTurnY[coarse] : 2 * kTurnY[coarse] + kTurnY[fine];
+    } else if (s.temporal == 0 && s.scale > 1) {
+        g.every = s.scale;
+        g.first[0] = g.first[1] = s.scale / 2;
+    }
+    // A picture smaller than a cell has its first pixel marched.
+    const int size[2] = {camera.width, camera.height};
+    for (int a = 0; a < 2; ++a)
+        if (g.first[a] >= size[a]) g.first[a] = size[a] - 1;
+    g.width = (camera.width - g.first[0] + g.every - 1) / g.every;
+    g.height = (camera.height - g.first[1] + g.every - 1) / g.every;
+    return g;
+}
+
+Status upsample_picture(const Context& context, const RaymarchInput& in, int frame,
+                        UpsampleMemory& memory, Planes& planes, RaymarchTally& tally) {
+    const RaymarchSettings& s = *in.settings;
+    const PixelLattice lattice = upsample_lattice(s, in.camera, frame, memory.ready);
+    memory.marched += pixels_of(lattice);
+    if (lattice.every == 1) {
+        PILEUS_TRY(raymarch_picture(context, in, planes, tally));
+    } else {
+        RaymarchInput thin = in;
+        thin.lattice = lattice;
+        const bool half = s.temporal > 0 || !planes.half_depth.empty();
+        PILEUS_TRY(outfit(lattice, in.camera.width, half, planes, memory.few));
+        PILEUS_TRY(raymarch_picture(context, thin, memory.few, tally));
+        PILEUS_TRY(fill_in(context, in, lattice, memory, planes));
+    }
+    return s.temporal > 0 ? remember(in, planes, memory) : Status::ok();
+}
+
+std::uint64_t upsample_bytes(const RaymarchSettings& s, const std::array<int, 2>& resolution,
+                             bool solid, bool half_depth, bool optical_depth) {
+    const int every = s.temporal > 0 ? s.temporal : s.scale;
+    if (every <= 1) return 0;
+    const auto few = [&](int n) {
+        return (std::uint64_t(n) + std::uint64_t(every) - 1) / std::uint64_t(every);
+    };
+    const std::uint64_t marched = few(resolution[0]) * few(resolution[1]);
+    const std::uint64_t pixels = std::uint64_t(resolution[0]) * std::uint64_t(resolution[1]);
+    const std::uint64_t solids = solid ? 1 : 0;
+    const std::uint64_t planes = 4 + solids + (half_depth ? 1 : 0) + (optical_depth ? 1 : 0);
+    const std::uint64_t before = s.temporal > 0 ? (4 + solids) * pixels : 0;
+    return sizeof(float) * (planes * marched + before) +
+           sizeof(std::int64_t) * std::uint64_t(resolution[1]);
+}
+
+}  // namespace pileus

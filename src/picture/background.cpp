@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// See background.h.
+#include "src/picture/background.h"
+
+#include "src/base/angles.h"
+#include "src/world/solids/solids.h"
+
+namespace pileus {
+namespace {
+
+constexpr double kPiD = 3.14159265358979323846;
+
+/// Adds light of radiance times solid angle `power` from direction `w` to the harmonics of the
+/// irradiance over pi; degrees 0, 1, 2 of the clamped cosine are 1, 2/3, 1/4.
+void add_around(const double (&w)[3], double power, double (&k)[kAroundTerms]) {
+    const double flat = power / (4 * kPiD), bent = 5 * power / (16 * kPiD);
+    k[0] += flat;
+    for (int a = 0; a < 3; ++a) k[1 + a] += 2 * flat * w[a];
+    k[4] += bent * 3 * w[0] * w[1];
+    k[5] += bent * 3 * w[1] * w[2];
+    k[6] += bent * 3 * w[2] * w[0];
+    k[7] += bent * 0.75 * (w[0] * w[0] - w[1] * w[1]);
+    k[8] += bent * 0.25 * (3 * w[2] * w[2] - 1);
+}
+
+/// The texels of a sky map, one after the other.
+void add_map(const SkyMapView& map, int channel, double (&k)[kAroundTerms]) {
+    const std::size_t plane = map.planes == 1 ? 0 : std::size_t(channel);
+    const std::size_t columns = std::size_t(map.columns);
+    const float* texels = map.radiance + plane * std::size_t(map.rows) * columns;
+    const double degrees = 360.0 / double(map.rows_per_turn);
+    for (int row = 0; row < map.rows; ++row) {
+        const double foot = double(map.foot) < row + 1.0 ? double(map.foot) : row + 1.0;
+        const SineCosine high = sincos_deg(row * degrees), low = sincos_deg(foot * degrees);
+        const SineCosine middle = sincos_deg(0.5 * (row + foot) * degrees);
+        const double angle = (high.cosine - low.cosine) * 2 * kPiD / double(columns);
+        for (std::size_t i = 0; i < columns; ++i) {
+            const double turns = (double(i) + 0.5) / double(columns) + double(map.turn_of_first);
+            const SineCosine north = sincos_deg(360.0 * turns);
+            const double w[3] = {middle.sine * north.sine, middle.sine * north.cosine,
+                                 middle.cosine};
+            add_around(w, double(texels[std::size_t(row) * columns + i]) * angle, k);
+        }
+    }
+}
+
+/// Light around a surface: the sky, and below it the ground as the sun and the sky light it.
+void set_around(const Lighting& light, SolidRowsParams& k) {
+    for (int c = 0; c < 3; ++c) {
+        const std::size_t s = std::size_t(c);
+        double sum[kAroundTerms] = {};
+        const double below = light.ground_diffuse[s] + light.ground_sun[s];
+        if (light.map.columns > 0) {
+            add_map(light.map, c, sum);
+        } else {
+            sum[0] = light.ground ? 0.5 * light.sky[s] : light.sky[s];
+            sum[3] = light.ground ? 0.5 * light.sky[s] : 0;
+        }
+        if (light.ground) sum[0] += 0.5 * below, sum[3] -= 0.5 * below;
+        for (int i = 0; i < kAroundTerms; ++i) k.around[c][i] = float(sum[i]);
+        k.sun[c] = float(light.sun_irradiance[s] / kPiD);
+    }
+}
+
+/// Where the image has something nearer, that hides what was found: black, for its owner draws it.
+/// A picture of another size reads the image where its pixels' corners lie.
+void hide(const Solids& solids, const CameraParams& camera, const BackgroundBuffers& b) {
+    const std::size_t width = std::size_t(camera.width), height = std::size_t(camera.height);
+    const std::size_t columns = solids.depth_columns;
+    const std::size_t rows = solids.camera_depth.size() / columns;
+    for (std::size_t i = 0; i < width * height; ++i) {
+        const std::size_t x = i % width * columns / width, y = i / width * rows / height;
+        const float depth = solids.camera_depth[y * columns + x];
+        const float other = b.opaque_depth != nullptr ? b.opaque_depth[i] : __builtin_inff();
+        if (!(depth < __builtin_inff()) || depth > other) continue;
+        if (b.opaque_depth != nullptr) b.opaque_depth[i] = depth;
+        for (std::size_t c = 0; c < 3 && b.colour != nullptr; ++c)
+            b.colour[c * width * height + i] = 0;
+    }
+}
+
+}  // namespace
+
+Status show_background(const Context& context, const Lighting& light, const BackgroundParams& k,
+                       const BackgroundBuffers& b) {
+    const std::uint32_t rows = std::uint32_t(k.camera.height);
+    const Solids* solids = light.solids;
+    if (solids == nullptr || solids->triangles.empty()) {
+        PILEUS_TRY(run_rows(context, context.kernels->background_rows, k, b, rows));
+    } else {
+        SolidRowsParams params{};
+        params.back = k;
+        params.solids = solids->view();
+        if (b.colour != nullptr) set_around(light, params);
+        constexpr std::uint32_t kPiece = 4;
+        const auto kernel = context.kernels->solid_rows;
+        parallel_for(context.threads, (rows + kPiece - 1) / kPiece, [&](std::int64_t piece, int) {
+            const std::uint32_t begin = std::uint32_t(piece) * kPiece;
+            kernel(params, b, begin, begin + kPiece < rows ? begin + kPiece : rows);
+        });
+    }
+    if (solids != nullptr && !solids->camera_depth.empty()) hide(*solids, k.camera, b);
+    return Status::ok();
+}
+
+}  // namespace pileus

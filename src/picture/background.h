@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// What lies behind the media: sky, ground, solid meshes, or what a depth image hides.
+// in: light, camera, solids -> out: radiance and distance per pixel.
+// docs/methods.md 3; docs/solids.md. The one way to these kernels for every method.
+#pragma once
+#include "src/run/context.h"
+#include "src/world/light/lights.h"
+
+namespace pileus {
+
+/// Runs background_rows, or its like with solids, and lays the camera's depth image over the
+/// result. `light` tells the solids and the light around them; `k` the rest.
+Status show_background(const Context& context, const Lighting& light, const BackgroundParams& k,
+                       const BackgroundBuffers& b);
+
+}  // namespace pileus

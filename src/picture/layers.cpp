@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// See layers.h.
+#include "src/picture/layers.h"
+
+namespace pileus {
+namespace {
+
+constexpr const char* kRgb[3] = {"R", "G", "B"};
+
+Status add_channel(Image& image, const std::string& name, Channel*& out) {
+    image.channels.emplace_back();
+    out = &image.channels.back();
+    out->name = name;
+    return out->pixels.resize(std::uint64_t(image.width) * std::uint64_t(image.height),
+                              name.c_str());
+}
+
+Status add_plane(const std::string& name, Span<const float> from, Image& image) {
+    Channel* plane = nullptr;
+    PILEUS_TRY(add_channel(image, name, plane));
+    std::memcpy(plane->pixels.data(), from.data, from.size * sizeof(float));
+    return Status::ok();
+}
+
+/// Three planes [c][pixel] as R, G, B of a layer.
+Status add_three(const char* layer, const float* from, Image& image) {
+    const std::size_t pixels = image.channels[0].pixels.size();
+    for (std::size_t c = 0; c < 3; ++c)
+        PILEUS_TRY(add_plane(std::string(layer) + kRgb[c], {from + c * pixels, pixels}, image));
+    return Status::ok();
+}
+
+/// Channel c of a layer: what `part` leaves of `whole`.
+Status add_rest(const char* layer, std::size_t c, const float* whole, const Buffer<float>& part,
+                Image& image) {
+    Channel* plane = nullptr;
+    PILEUS_TRY(add_channel(image, std::string(layer) + kRgb[c], plane));
+    const std::size_t pixels = plane->pixels.size();
+    for (std::size_t i = 0; i < pixels; ++i) plane->pixels[i] = whole[i] - part[c * pixels + i];
+    return Status::ok();
+}
+
+const float* cloud_light(const Planes& planes) {
+    return planes.cloud.empty() ? planes.colour.data() : planes.cloud.data();
+}
+
+bool finite(float v) { return v - v == 0.0f; }
+
+/// Standard error of the mean over the batches of one channel of one pixel.
+float batch_error(const Planes& p, std::size_t pixels, std::size_t pixel, int channel,
+                  int batches) {
+    double mean = 0, square = 0;
+    for (int b = 1; b <= batches; ++b)
+        mean += double(p.colour[std::size_t(3 * b + channel) * pixels + pixel]);
+    mean /= batches;
+    for (int b = 1; b <= batches; ++b) {
+        const double d = double(p.colour[std::size_t(3 * b + channel) * pixels + pixel]) - mean;
+        square += d * d;
+    }
+    return float(__builtin_sqrt(square / (double(batches) * (batches - 1))));
+}
+
+/// Mean of error/radiance and root mean square error over the cloud's pixels, by green.
+void summarise(const Image& image, const Planes& p, Report& report) {
+    const Channel* error = image.find("error.G");
+    if (error == nullptr) return;
+    ErrorSum sum;
+    for (std::size_t i = 0; i < error->pixels.size(); ++i)
+        sum.add(p.transmittance[i], error->pixels[i], image.channels[1].pixels[i]);
+    if (sum.count == 0) return;
+    report.has_error = true;
+    report.mean_relative = sum.mean_relative();
+    report.rmse_estimate = __builtin_sqrt(sum.square / sum.count);
+}
+
+Status add_radiance(const Planes& planes, Image& image, std::uint64_t& clamped,
+                    std::uint64_t& broken) {
+    const std::size_t pixels = planes.transmittance.size();
+    Channel* plane = nullptr;
+    for (std::size_t c = 0; c < 3; ++c) {
+        PILEUS_TRY(add_channel(image, kRgb[c], plane));
+        for (std::size_t i = 0; i < pixels; ++i) {
+            const std::size_t at = c * pixels + i;
+            float& v = plane->pixels[i];
+            v = planes.colour[at];
+            if (!planes.background.empty()) v += planes.transmittance[i] * planes.background[at];
+            if (!finite(v)) ++broken;
+            if (v < 0) v = 0, ++clamped;
+        }
+    }
+    PILEUS_TRY(add_channel(image, "A", plane));
+    for (std::size_t i = 0; i < pixels; ++i) plane->pixels[i] = 1.0f - planes.transmittance[i];
+    return Status::ok();
+}
+
+/// Metres to half transmittance, or to something solid before it.
+Status add_depth(const Planes& planes, Image& image) {
+    Channel* plane = nullptr;
+    PILEUS_TRY(add_channel(image, "Z", plane));
+    const bool solid = !planes.opaque_depth.empty();
+    for (std::size_t i = 0; i < plane->pixels.size(); ++i)
+        plane->pixels[i] = solid && planes.opaque_depth[i] < planes.half_depth[i]
+                               ? planes.opaque_depth[i]
+                               : planes.half_depth[i];
+    return Status::ok();
+}
+
+Status add_error(const Planes& planes, int batches, Image& image) {
+    if (!planes.error.empty()) return add_three("error.", planes.error.data(), image);
+    Channel* plane = nullptr;
+    for (int c = 0; c < 3; ++c) {
+        PILEUS_TRY(add_channel(image, std::string("error.") + kRgb[c], plane));
+        const std::size_t pixels = plane->pixels.size();
+        for (std::size_t i = 0; i < pixels; ++i)
+            plane->pixels[i] = batch_error(planes, pixels, i, c, batches);
+    }
+    return Status::ok();
+}
+
+}  // namespace
+
+Status allocate_planes(int width, int height, int channels, bool solid, bool depth,
+                       Planes& planes) {
+    const std::uint64_t pixels = std::uint64_t(width) * std::uint64_t(height);
+    const auto fit = [](Buffer<float>& b, std::uint64_t n, const char* name) {
+        return b.size() == n ? Status::ok() : b.resize(n, name);
+    };
+    PILEUS_TRY(fit(planes.transmittance, pixels, "transmittance"));
+    PILEUS_TRY(fit(planes.half_depth, depth ? pixels : 0, "depth"));
+    PILEUS_TRY(fit(planes.opaque_depth, solid ? pixels : 0, "opaque depth"));
+    PILEUS_TRY(fit(planes.background, channels > 0 ? 3 * pixels : 0, "background"));
+    return fit(planes.colour, std::uint64_t(channels) * pixels, "radiance");
+}
+
+std::uint64_t extra_layers(const OutputSettings& output, bool has_error) {
+    return (output.layer_cloud ? 3u : 0u) + (output.layer_depth ? 1u : 0u) +
+           (output.layer_optical_depth ? 1u : 0u) + (output.layer_transmittance ? 1u : 0u) +
+           (output.layer_light ? 6u : 0u) + (output.layer_order ? 6u : 0u) + (has_error ? 3u : 0u);
+}
+
+Status make_layers(const Planes& planes, int width, int height, int channels,
+                   const OutputSettings& output, Image& image, Report& report,
+                   std::uint64_t& clamped) {
+    image.width = width;
+    image.height = height;
+    image.channels.clear();
+    const int batches = channels / 3 - 1;
+    const bool has_error = output.layer_error && (!planes.error.empty() || batches >= 2);
+    image.channels.reserve(4 + std::size_t(extra_layers(output, has_error)));
+    std::uint64_t broken = 0;
+    PILEUS_TRY(add_radiance(planes, image, clamped, broken));
+    if (output.layer_cloud) PILEUS_TRY(add_three("cloud.", cloud_light(planes), image));
+    if (output.layer_depth) PILEUS_TRY(add_depth(planes, image));
+    if (output.layer_optical_depth)
+        PILEUS_TRY(add_plane("tau", planes.optical_depth.span(), image));
+    if (output.layer_transmittance) PILEUS_TRY(add_plane("T", planes.transmittance.span(), image));
+    if (output.layer_light) {
+        PILEUS_TRY(add_three("sun.", planes.sun.data(), image));
+        for (std::size_t c = 0; c < 3; ++c)
+            PILEUS_TRY(add_rest("sky.", c, image.channels[c].pixels.data(), planes.sun, image));
+    }
+    if (output.layer_order) {
+        const std::size_t pixels = planes.transmittance.size();
+        PILEUS_TRY(add_three("single.", planes.single.data(), image));
+        for (std::size_t c = 0; c < 3; ++c)
+            PILEUS_TRY(
+                add_rest("multiple.", c, cloud_light(planes) + c * pixels, planes.single, image));
+    }
+    if (has_error) {
+        PILEUS_TRY(add_error(planes, batches, image));
+        summarise(image, planes, report);
+    }
+    report.counters.emplace_back("nan", broken);
+    return Status::ok();
+}
+
+}  // namespace pileus

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// From composited planes to the layers of an image file.
+// in: light, its parts, transmittance, depths, background -> out: R G B A and the layers asked for.
+// docs/formats.md, "Pictures out".
+#pragma once
+#include "src/base/buffer.h"
+#include "src/base/report.h"
+#include "src/io/images/image.h"
+#include "src/scene/scene.h"
+
+namespace pileus {
+
+/// Planes of one picture, rows from the top. `colour` is [3 * (1 + batches)][pixel]. Those from
+/// `optical_depth` on are empty where no layer shows them or a method has no such thing.
+struct Planes {
+    Buffer<float> transmittance, colour;
+    Buffer<float> half_depth;     ///< empty where no layer shows it
+    Buffer<float> background;     ///< [3][pixel]; empty: `colour` is the light of whole rays
+    Buffer<float> opaque_depth;   ///< [pixel]; infinity for the sky; empty: nothing solid
+    Buffer<float> optical_depth;  ///< [pixel]
+    Buffer<float> cloud;          ///< [3][pixel], the media's light; empty: `colour` is that
+    Buffer<float> sun;            ///< [3][pixel], of R G B what began at the sun
+    Buffer<float> single;         ///< [3][pixel], of the media's light what was scattered once
+    Buffer<float> error;          ///< [3][pixel], one standard error; empty: from the batches
+};
+
+/// Mean of standard error / radiance over the cloud's pixels, by green.
+struct ErrorSum {
+    double relative = 0, square = 0, count = 0;
+
+    void add(float transmittance, float error, float radiance) {
+        if (1.0f - transmittance <= 0.02f) return;
+        const double e = double(error), r = double(radiance);
+        relative += r > 0 ? e / r : 0;
+        square += e * e;
+        count += 1;
+    }
+    /// 0 where there is no such pixel.
+    double mean_relative() const { return count > 0 ? relative / count : 0; }
+};
+
+/// `solid`: something opaque may end rays; `depth`: the layer of depths is wanted. Without channels
+/// of colour there is no background either.
+Status allocate_planes(int width, int height, int channels, bool solid, bool depth, Planes& planes);
+
+/// Layers of the image that are asked for, beside the four that are always there.
+std::uint64_t extra_layers(const OutputSettings& output, bool has_error);
+
+/// Fills the image's channels and the report's error figures; counts pixels that are not finite.
+/// Radiances below zero, noise of the light that the cloud keeps from the ground, become 0 and are
+/// added to `clamped`. sky.* is R G B less sun.*, multiple.* the media's light less single.*.
+Status make_layers(const Planes& planes, int width, int height, int channels,
+                   const OutputSettings& output, Image& image, Report& report,
+                   std::uint64_t& clamped);
+
+}  // namespace pileus

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// See march_view.h.
+#include "src/picture/march_view.h"
+
+#include "src/picture/background.h"
+#include "src/world/majorant/majorant.h"
+
+namespace pileus {
+
+MediumView make_medium_view(const Medium& medium, const Majorants& majorants) {
+    MediumView v{};
+    v.step = medium.grid.cell_m[0];
+    for (int a = 0; a < 3; ++a) {
+        v.size[a] = medium.grid.size[a];
+        v.cell[a] = medium.grid.cell_m[a];
+        v.extent[a] = float(medium.extent_m[a]);
+        v.step = v.cell[a] < v.step ? v.cell[a] : v.step;
+    }
+    block_counts(medium.grid, majorants.skip_block, v.blocks);
+    v.block = float(majorants.skip_block);
+    v.sigma = medium.sigma;
+    v.density = medium.volume.density.data();
+    v.majorant = majorants.skipping.data();
+    v.periodic = medium.grid.periodic ? 1 : 0;
+    return v;
+}
+
+Status march_medium(const Context& context, const Medium& medium, const Majorants& majorants,
+                    const Lighting& lighting, const CameraParams& camera, const MarchWanted& wanted,
+                    Planes& planes) {
+    const StageClock clock(context, "alpha");
+    const std::uint32_t rows = std::uint32_t(camera.height);
+    const std::uint64_t pixels = std::uint64_t(camera.width) * rows;
+    if (wanted.optical_depth) PILEUS_TRY(planes.optical_depth.resize(pixels, "optical depth"));
+    if (lighting.opaque()) {
+        BackgroundParams k{};
+        k.medium = make_medium_view(medium, majorants);
+        k.camera = camera;
+        k.ground = lighting.ground ? 1 : 0;
+        k.ground_z = float(lighting.ground_z);
+        const BackgroundBuffers b{nullptr, nullptr, planes.opaque_depth.data()};
+        PILEUS_TRY(show_background(context, lighting, k, b));
+    }
+    // No planes of colour: the kernel's light is left out, its steps stay.
+    MarchParams k{};
+    k.medium = make_medium_view(medium, majorants);
+    k.camera = camera;
+    for (int a = 0; a < 3; ++a) k.source.size[a] = k.shadow.size[a] = 1;
+    MarchBuffers b{};
+    b.opaque_depth = planes.opaque_depth.data();
+    b.transmittance = planes.transmittance.data();
+    b.half_depth = wanted.half_depth ? planes.half_depth.data() : nullptr;
+    b.ray_depth = planes.optical_depth.data();
+    PILEUS_TRY(run_rows(context, context.kernels->march_rows, k, b, rows));
+    return Status::ok();
+}
+
+}  // namespace pileus

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// A coarse grid of nodes over the medium, on which light is kept.
+// in: the medium's grid, a spacing -> out: how many nodes along each axis, and where.
+// docs/methods.md 3, repair 4.
+#pragma once
+#include "kernels_cpu/display/march_params.h"
+#include "src/world/grid/grid.h"
+
+namespace pileus {
+
+/// Nodes at (i + 1/2) * spacing; per axis the spacing is at least `spacing_m` and at least a voxel.
+NodeGrid make_node_grid(const Grid& grid, const double (&extent_m)[3], double spacing_m);
+
+inline std::uint64_t node_count(const NodeGrid& g) {
+    return std::uint64_t(g.size[0]) * std::uint64_t(g.size[1]) * std::uint64_t(g.size[2]);
+}
+
+}  // namespace pileus

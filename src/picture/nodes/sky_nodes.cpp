@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// See sky_nodes.h.
+// in: a medium and what shines on it from all around -> out: what of it reaches each node.
+// docs/raymarch.md, "Skylight".
+#include "src/picture/nodes/sky_nodes.h"
+
+#include "kernels_cpu/core/math.h"
+#include "kernels_cpu/light/sky_map.h"
+#include "platform/threads.h"
+#include "src/base/angles.h"
+#include "src/picture/march_view.h"
+#include "src/picture/nodes/node_grid.h"
+
+namespace pileus {
+namespace {
+
+constexpr double kNodeBudget = 1u << 15;
+constexpr int kBands = 6, kAround = 4;  // equal parts of the sphere: in height, and around
+constexpr int kParts = kBands * kAround;
+constexpr int kWithin = 16;  // radiances of a map are means of so many squared per part
+
+struct Direction {
+    float d[3];
+};
+
+/// Within part (band, turn), at shares u and v of its height and width.
+Direction direction_in(int part, double u, double v) {
+    const int band = part / kAround, turn = part % kAround;
+    const double z = -1 + 2 * (band + u) / kBands;
+    // Every other band turns by half a part.
+    const double around = 360.0 / kAround * (turn + v + 0.5 * (band % 2));
+    const SineCosine a = sincos_deg(around);
+    const double r = __builtin_sqrt(1 - z * z);
+    return {{float(a.cosine * r), float(a.sine * r), float(z)}};
+}
+
+/// Light of each set from a part of the sphere, as shares of its colour over all parts.
+struct Radiances {
+    double share[3][kParts] = {};
+    double colour[3][3] = {};
+};
+
+void set_constant(const Lighting& light, Radiances& r) {
+    for (int p = 0; p < kParts; ++p) {
+        const bool down = light.ground && p / kAround < kBands / 2;
+        r.share[down ? 1 : 0][p] = 1.0 / kParts;
+    }
+    for (std::size_t c = 0; c < 3; ++c) {
+        r.colour[0][c] = light.sky[c];
+        r.colour[1][c] = light.ground_diffuse[c] + light.ground_sun[c];
+    }
+}
+
+void set_map(const Lighting& light, Radiances& r) {
+    for (int p = 0; p < kParts; ++p) {
+        const bool down = light.ground && p / kAround < kBands / 2;
+        double sum[3] = {};
+        for (int i = 0; i < kWithin * kWithin && !down; ++i) {
+            const Direction a =
+                direction_in(p, (i / kWithin + 0.5) / kWithin, (i % kWithin + 0.5) / kWithin);
+            const Vec<float> seen = map_radiance(light.map, Vec<float>{a.d[0], a.d[1], a.d[2]});
+            const float own[3] = {seen.x, seen.y, seen.z};
+            for (int c = 0; c < 3; ++c) sum[c] += double(own[c]) / (kWithin * kWithin);
+        }
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double ground = light.ground_diffuse[c] + light.ground_sun[c];
+            r.share[c][p] = (down ? ground : sum[c]) / kParts;
+            r.colour[c][c] += r.share[c][p];
+        }
+    }
+    for (int c = 0; c < 3; ++c)
+        for (double& share : r.share[c]) share = r.colour[c][c] > 0 ? share / r.colour[c][c] : 0;
+}
+
+/// Share of a light that comes through an optical depth.
+float seen_through(float tau, const Octaves& o) {
+    float seen = exp_(-tau), share = 1, thinner = 1;
+    for (int n = 1; n < o.count; ++n) {
+        share *= o.share, thinner *= o.extinction;
+        seen += share * exp_(-(tau * thinner));
+    }
+    return seen < 1 ? seen : 1.0f;
+}
+
+}  // namespace
+
+NodeGrid sky_node_grid(const Medium& medium) {
+    const auto& e = medium.extent_m;
+    float coarse = 0;
+    for (float cell : medium.grid.cell_m) coarse = cell > coarse ? cell : coarse;
+    double spacing = 2 * double(coarse);
+    while (e[0] * e[1] * e[2] > spacing * spacing * spacing * kNodeBudget) spacing *= 1.25;
+    return make_node_grid(medium.grid, medium.extent_m, spacing);
+}
+
+int sky_node_sets(const Lighting& light) {
+    if (light.map.columns > 0) return 3;
+    double any = 0;
+    for (double v : light.sky) any += v;
+    for (double v : light.ground_diffuse) any += v;
+    for (double v : light.ground_sun) any += v;
+    return !(any > 0) ? 0 : light.ground ? 2 : 1;
+}
+
+Status make_sky_nodes(const Context& context, const Medium& medium, const Majorants& majorants,
+                      const Lighting& lighting, double kept, const Octaves& octaves,
+                      SkyNodes& out) {
+    const StageClock clock(context, "skylight");
+    out.sets = sky_node_sets(lighting);
+    if (out.sets == 0) return Status::ok();
+    Radiances r;
+    if (lighting.map.columns > 0)
+        set_map(lighting, r);
+    else
+        set_constant(lighting, r);
+    out.grid = sky_node_grid(medium);
+    const std::uint64_t nodes = node_count(out.grid);
+    for (int s = 0; s < 3; ++s)
+        for (int c = 0; c < 3; ++c) out.colour[s][c] = float(r.colour[s][c]);
+    Buffer<float> tau;
+    PILEUS_TRY(tau.resize(nodes, "optical depths of the sky"));
+    PILEUS_TRY(out.light.resize(nodes * std::uint64_t(out.sets), "skylight"));
+    ShadowParams k{};
+    k.medium = make_medium_view(medium, majorants);
+    k.nodes = out.grid;
+    const float left = float(1 - kept);
+    for (int p = 0; p < kParts; ++p) {
+        const Direction a = direction_in(p, 0.5, 0.5);
+        for (int i = 0; i < 3; ++i) k.to_sun[i] = a.d[i];
+        PILEUS_TRY(run_rows(context, context.kernels->shadow_rows, k, ShadowBuffers{tau.data()},
+                            std::uint32_t(out.grid.size[1] * out.grid.size[2])));
+        const std::size_t slice = std::size_t(nodes) / std::size_t(out.grid.size[2]);
+        parallel_for(context.threads, out.grid.size[2], [&](std::int64_t z, int) {
+            for (std::size_t n = std::size_t(z) * slice; n < std::size_t(z + 1) * slice; ++n) {
+                const float seen = seen_through(tau[n] * left, octaves);
+                for (int s = 0; s < out.sets; ++s)
+                    out.light[std::size_t(s) * std::size_t(nodes) + n] +=
+                        float(r.share[s][p]) * seen;
+            }
+        });
+    }
+    return Status::ok();
+}
+
+}  // namespace pileus

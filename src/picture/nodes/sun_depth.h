@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sun's optical depth on nodes: how much medium lies between each voxel and the sun.
+// in: a medium, a direction to the sun -> out: a grid of optical depths, read trilinearly.
+// docs/buffer.md; Maerkl 2018; Elek et al. 2012
+#pragma once
+#include <array>
+
+#include "src/picture/nodes/node_grid.h"
+#include "src/run/context.h"
+#include "src/world/majorant/majorants.h"
+
+namespace pileus {
+
+enum class SunDepthKind {
+    kSwept,  ///< slice by slice away from the sun: O(voxels), thin shadows smear
+    kExact,  ///< a ray for each node, empty space skipped
+};
+
+struct SunDepth {
+    NodeGrid nodes{};             ///< one in the middle of each voxel
+    Buffer<float> optical_depth;  ///< [node]
+    bool swept = false;           ///< false: rays, asked for or needed (see make_sun_depth)
+};
+
+/// Bytes of the optical depths.
+std::uint64_t sun_depth_bytes(const Grid& grid);
+
+/// Fills `out`, whose memory is used again where it fits. `to_sun` is any direction but 0. A
+/// periodic medium under a sun that is lower than one voxel in kMostShift gets rays even where a
+/// sweep was asked for. kLimit: out of memory. Needs kernels of the host.
+Status make_sun_depth(const Context& context, const Medium& medium, const Majorants& majorants,
+                      const std::array<float, 3>& to_sun, SunDepthKind kind, SunDepth& out);
+
+/// How far a depth is from that of rays, over a sparse regular set of its nodes.
+struct SunDepthDifference {
+    std::uint64_t nodes = 0;      ///< compared
+    double rms = 0, largest = 0;  ///< of the transmittance exp(-depth)
+    double mean = 0;              ///< the same, ours minus that of rays: above 0 is too bright
+};
+
+/// Compares at about `wanted` nodes, a ray each. kLimit: out of memory.
+Status sun_depth_difference(const Context& context, const Medium& medium,
+                            const Majorants& majorants, const std::array<float, 3>& to_sun,
+                            const SunDepth& depth, std::uint64_t wanted, SunDepthDifference& out);
+
+}  // namespace pileus

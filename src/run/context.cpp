@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// See context.h.
+#include "src/run/context.h"
+
+#include "platform/clock.h"
+
+namespace pileus {
+
+StageClock::StageClock(const Context& context, const char* stage)
+    : report_(context.report), stage_(stage), wall_(wall_seconds()), cpu_(cpu_seconds()) {
+    context.tell(stage, 0);
+}
+
+StageClock::~StageClock() {
+    const double wall = wall_seconds() - wall_, cpu = cpu_seconds() - cpu_;
+    for (StageTime& s : report_->stages)
+        if (s.name == stage_) {
+            s.wall_s += wall;
+            s.cpu_s += cpu;
+            return;
+        }
+    report_->stages.push_back({stage_, wall, cpu});
+}
+
+}  // namespace pileus

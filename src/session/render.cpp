@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// See render.h. The walk through a method's recipe, frame by frame.
+#include "src/session/render.h"
+
+#include "platform/clock.h"
+#include "platform/fp_mode.h"
+#include "src/io/images/image_file.h"
+#include "src/session/render_views.h"
+#include "src/session/run_context.h"
+
+namespace pileus {
+namespace {
+
+void finish_report(const RunStart& start, Report& report) {
+    report.total_s = wall_seconds() - start.wall_s;
+    report.cpu_s = cpu_seconds() - start.cpu_s;
+    report.peak_bytes = peak_memory_bytes();
+    for (const StageTime& s : report.stages)
+        if (s.name == "photons" || s.name == "paths") {
+            report.tracing_wall_s = s.wall_s;
+            report.tracing_cpu_s = s.cpu_s;
+        }
+}
+
+Status render_pictures(const Scene& scene, const Method& method, const RenderOptions& options,
+                       const Context& context, const Frames& frames, const FrameSink& sink) {
+    const RunStart start;
+    Report& report = *context.report;
+    const std::unique_ptr<MethodRun> run = method.make();
+    PILEUS_TRY(method.prepare(scene, budget_of(options), context, *run));
+    method.report_plan(*run, context, report);
+    for (int frame = frames.first; frame <= frames.last && !report.interrupted; ++frame) {
+        const RunStart frame_start;
+        const FrameStep step{frame, frame == frames.first, frame == frames.last};
+        PILEUS_TRY(method.light(step, context, *run));
+        Image image;
+        report.digests.clear();
+        PILEUS_TRY(method.show(step, context, *run, image));
+        take_hash(image, report);
+        method.report(*run, report);
+        report.frame_wall_s = wall_seconds() - frame_start.wall_s;
+        report.frame_cpu_s = cpu_seconds() - frame_start.cpu_s;
+        PILEUS_TRY(deliver(scene, start, frame, sink, image, report));
+    }
+    return Status::ok();
+}
+
+}  // namespace
+
+RunStart::RunStart() : wall_s(wall_seconds()), cpu_s(cpu_seconds()) {}
+
+void take_hash(const Image& image, Report& report) {
+    report.hash = pixel_hash(image);
+    report.digests.emplace_back("image", report.hash);
+}
+
+Status deliver(const Scene& scene, const RunStart& start, int frame, const FrameSink& sink,
+               Image& image, Report& report) {
+    image.pixel_hash = report.hash;
+    image.scene_text = scene.text;
+    finish_report(start, report);
+    return sink(frame, image, report);
+}
+
+Status render(const Scene& scene, const RenderOptions& options, const FrameSink& sink) {
+    const FpModeGuard guard;
+    Report report;
+    Context context;
+    Frames frames{};
+    const Method* method = nullptr;
+    PILEUS_TRY(make_context(scene, options, context, report));
+    PILEUS_TRY(frames_of(scene, options, frames));
+    PILEUS_TRY(find_method(scene, method));
+    PILEUS_TRY(method->check(scene, budget_of(options)));
+
+    return options.show.empty() ? render_pictures(scene, *method, options, context, frames, sink)
+                                : render_views(scene, options, context, frames, sink);
+}
+
+Status plan_scene(const Scene& scene, const RenderOptions& options, bool exact, Report& report) {
+    const FpModeGuard guard;
+    Context context;
+    Frames frames{};
+    const Method* method = nullptr;
+    PILEUS_TRY(frames_of(scene, options, frames));
+    PILEUS_TRY(make_context(scene, options, context, report));
+    PILEUS_TRY(find_method(scene, method));
+    const Budget budget = budget_of(options);
+    PILEUS_TRY(method->check(scene, budget));
+    const std::unique_ptr<MethodRun> run = method->make();
+    PILEUS_TRY(exact ? method->prepare(scene, budget, context, *run)
+                     : method->outline(scene, budget, context, *run));
+    method->report_plan(*run, context, report);
+    return Status::ok();
+}
+
+}  // namespace pileus

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// One call from a checked scene to pictures: what programs and tests use.
+// in: Scene, options -> out: an Image per frame and a Report.
+// docs/architecture.md, "One way through".
+#pragma once
+#include <functional>
+
+#include "src/base/limits.h"
+#include "src/base/report.h"
+#include "src/io/images/image.h"
+#include "src/scene/scene.h"
+
+namespace pileus {
+
+/// As the build names it: "major.minor.patch".
+extern const char* const kVersion;
+
+struct KernelTable;
+
+struct RenderOptions {
+    int threads = 0;                       ///< 0: all there are
+    std::string isa;                       ///< empty: the widest this machine runs
+    const KernelTable* kernels = nullptr;  ///< where set, instead of `isa`
+    std::int64_t budget_photons = -1;      ///< >= 0: instead of the scene's number
+    std::int64_t budget_samples = -1;      ///< >= 1: paths a pixel, instead of the scene's number
+    double budget_error = 0;               ///< > 0: mean relative standard error to reach
+    double budget_seconds = 0;             ///< > 0: stop tracing after this wall time; whole passes
+    std::string state;          ///< file that keeps a path tracer's progress; empty: none
+    double state_every_s = 60;  ///< between two writings of it while tracing
+    std::string show;  ///< empty: the picture; else a step of the method (docs/how-it-works.md)
+    int first_frame = 0, last_frame = 0;  ///< of the animation, inclusive
+    Limits limits;                        ///< what the scene may ask for; docs/program.md
+    /// Called now and then with a stage's name and the share done of it, 0..1.
+    std::function<void(const char* stage, double share)> progress;
+    /// Asked now and then whether to end with what there is; the report then says `interrupted`.
+    std::function<bool()> interrupted;
+};
+
+/// Called once per frame, in order. The report holds all that is known so far. Returning an
+/// error stops the rendering.
+using FrameSink = std::function<Status(int frame, Image& image, Report& report)>;
+
+/// Renders frames [first_frame, last_frame] (a still scene has frame 0 only) by the scene's
+/// method; after an interrupted one no further frame comes. Errors: kBadInput (scene, files, isa,
+/// show, a budget of another method, a foreign state), kLimit (memory), kIo, kCheckFailed
+/// (interrupted before there was anything to show).
+Status render(const Scene& scene, const RenderOptions& options, const FrameSink& sink);
+
+/// What `render` would do, in the report's plan: needed, left out, bytes, bounds, bias, work. From
+/// sizes alone, so that bytes are upper bounds, or `exact`, after preparing all but the light.
+/// Errors: as render's; the limits are checked first.
+Status plan_scene(const Scene& scene, const RenderOptions& options, bool exact, Report& report);
+
+}  // namespace pileus

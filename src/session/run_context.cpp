@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// See run_context.h.
+#include "src/session/run_context.h"
+
+#include "src/methods/collectors/collectors.h"
+#include "src/methods/path/path.h"
+#include "src/methods/raymarch/raymarch.h"
+#include "src/run/find_kernels.h"
+
+namespace pileus {
+namespace {
+
+constexpr int kMostThreads = 1024;
+
+}  // namespace
+
+Status make_context(const Scene& scene, const RenderOptions& options, Context& context,
+                    Report& report) {
+    context.kernels = options.kernels;
+    if (context.kernels == nullptr) PILEUS_TRY(find_kernels(options.isa, context.kernels));
+    PILEUS_TRY(test_kernels(*context.kernels));
+    if (options.threads < 0 || options.threads > kMostThreads)
+        return Status::bad_input("--threads: out of range, " + std::to_string(options.threads) +
+                                 ", allowed: 0 (all) to " + std::to_string(kMostThreads));
+    context.threads = options.threads > 0 ? options.threads : hardware_threads();
+    context.report = &report;
+    context.progress = options.progress;
+    context.interrupted = options.interrupted;
+    context.limits = options.limits;
+    context.frames = std::uint64_t(options.last_frame - options.first_frame + 1);
+    report.version = kVersion;
+    report.scene = scene.file;
+    report.method = scene.method;
+    report.seed = scene.seed;
+    report.isa = context.kernels->name;
+    report.threads = context.threads;
+    return Status::ok();
+}
+
+Status frames_of(const Scene& scene, const RenderOptions& options, Frames& frames) {
+    frames = {options.first_frame, options.last_frame,
+              scene.animation.present ? scene.animation.frames : 1};
+    if (frames.first >= 0 && frames.first <= frames.last && frames.last < frames.total)
+        return Status::ok();
+    return Status::bad_input("--frames: " + std::to_string(frames.first) + "-" +
+                             std::to_string(frames.last) + ", allowed: within 0-" +
+                             std::to_string(frames.total - 1));
+}
+
+Budget budget_of(const RenderOptions& options) {
+    Budget budget;
+    budget.photons = options.budget_photons;
+    budget.samples = options.budget_samples;
+    budget.error = options.budget_error;
+    budget.seconds = options.budget_seconds;
+    budget.state = options.state;
+    budget.state_every_s = options.state_every_s;
+    return budget;
+}
+
+Status find_method(const Scene& scene, const Method*& method) {
+    const Method* const all[] = {&collectors_method(), &path_method(), &raymarch_method()};
+    std::string names;
+    for (const Method* one : all) {
+        method = one;
+        if (scene.method == one->name) return Status::ok();
+        names += (names.empty() ? "" : ", ") + std::string(one->name);
+    }
+    return Status::bad_input(scene.file + ": method.name: not in this version, \"" + scene.method +
+                             "\", allowed: " + names);
+}
+
+}  // namespace pileus

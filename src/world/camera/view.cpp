@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// See view.h.
+#include "src/world/camera/view.h"
+
+#include "src/base/angles.h"
+
+namespace pileus {
+namespace {
+
+Double3 minus(const Double3& a, const Double3& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+Double3 cross(const Double3& a, const Double3& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+/// A vector whose squares would leave the range of doubles, 2^600 times as long.
+Double3 in_range(const Double3& a) {
+    for (double v : a)
+        if (v > 0x1p-300 || v < -0x1p-300) return a;
+    return {a[0] * 0x1p600, a[1] * 0x1p600, a[2] * 0x1p600};
+}
+Double3 unit(const Double3& v) {
+    const Double3 a = in_range(v);
+    const double s = 1.0 / __builtin_sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+    return {a[0] * s, a[1] * s, a[2] * s};
+}
+void store(const Double3& from, float (&to)[3]) {
+    for (std::size_t i = 0; i < 3; ++i) to[i] = float(from[i]);
+}
+
+}  // namespace
+
+CameraParams make_camera(const Camera& camera, double orbit_deg, const Double3& box_low_m) {
+    const SineCosine turn = sincos_deg(orbit_deg);
+    const Double3 arm = minus(camera.position_m, camera.target_m);
+    const Double3 position{camera.target_m[0] + arm[0] * turn.cosine - arm[1] * turn.sine,
+                           camera.target_m[1] + arm[0] * turn.sine + arm[1] * turn.cosine,
+                           camera.position_m[2]};
+    const Double3 forward = unit(minus(camera.target_m, position));
+    const Double3 right = unit(cross(forward, in_range(camera.up)));
+    const Double3 up = cross(right, forward);
+
+    CameraParams out{};
+    store(minus(position, box_low_m), out.origin);
+    store(forward, out.forward);
+    store(right, out.right);
+    store(up, out.up);
+    out.width = camera.resolution[0];
+    out.height = camera.resolution[1];
+    out.orthographic = camera.orthographic ? 1 : 0;
+    out.flux = camera.flux ? 1 : 0;
+    const SineCosine half = sincos_deg(camera.fov_deg * 0.5);
+    const double height = camera.orthographic ? camera.height_m * 0.5 : half.sine / half.cosine;
+    out.half_height = float(height);
+    out.half_width = float(height * double(out.width) / double(out.height));
+    return out;
+}
+
+void set_image_camera(const CameraParams& camera, const Double3& box_low_m, Image& image) {
+    // Row vectors: [x y z 1] times the matrix; the camera looks along -z, as OpenEXR has it.
+    const float* axes[3] = {camera.right, camera.up, camera.forward};
+    for (std::size_t column = 0; column < 3; ++column) {
+        const double sign = column == 2 ? -1 : 1;
+        double shift = 0;
+        for (std::size_t row = 0; row < 3; ++row) {
+            const double v = sign * double(axes[column][row]);
+            image.world_to_camera[row * 4 + column] = float(v);
+            shift -= v * (double(camera.origin[row]) + box_low_m[row]);
+        }
+        image.world_to_camera[12 + column] = float(shift);
+    }
+    image.world_to_camera[15] = 1;
+
+    // Project to [-1, 1] and divide by the distance in front of the camera (perspective).
+    double to_ndc[4][4] = {};
+    to_ndc[0][0] = 1.0 / double(camera.half_width);
+    to_ndc[1][1] = 1.0 / double(camera.half_height);
+    to_ndc[2][2] = -1;
+    if (camera.orthographic != 0)
+        to_ndc[3][3] = 1;
+    else
+        to_ndc[2][3] = -1;
+    for (std::size_t row = 0; row < 4; ++row)
+        for (std::size_t column = 0; column < 4; ++column) {
+            double sum = 0;
+            for (std::size_t i = 0; i < 4; ++i)
+                sum += double(image.world_to_camera[row * 4 + i]) * to_ndc[i][column];
+            image.world_to_ndc[row * 4 + column] = float(sum);
+        }
+}
+
+}  // namespace pileus

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// The camera's basis in box-local metres, and the matrices that image files carry.
+// in: the scene's camera, the low corner of the box -> out: CameraParams.
+// Made in double with our own sine and cosine, then rounded once.
+#pragma once
+#include "kernels_cpu/core/camera.h"
+#include "src/io/images/image.h"
+#include "src/scene/scene.h"
+
+namespace pileus {
+
+/// `orbit_deg` turns the camera about the vertical axis through its target, counter-clockwise
+/// seen from above.
+CameraParams make_camera(const Camera& camera, double orbit_deg, const Double3& box_low_m);
+
+/// Fills the image's world_to_camera and world_to_ndc (world metres, row vectors).
+void set_image_camera(const CameraParams& camera, const Double3& box_low_m, Image& image);
+
+}  // namespace pileus

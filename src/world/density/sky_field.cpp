@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// See sky_field.h. Offsets are taken within one tile in double, so that a wind may blow for years.
+// in: SkySettings -> out: SkyParams, densities.
+#include "src/world/density/sky_field.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "platform/threads.h"
+
+namespace pileus {
+namespace {
+
+constexpr int kColumns = 8192, kHeights = 32;
+constexpr double kColumnTiles = 64;  // columns are strewn over so many tiles
+constexpr std::uint32_t kWorleySeed = 0x51ed270bu;
+
+NoiseParams noise_params(const SkySettings& settings, const SkyNoise& noise, NoiseKind kind) {
+    NoiseParams p{};
+    p.kind = kind, p.size = settings.size, p.cells = noise.cells;
+    p.octaves = noise.octaves > 0 ? noise.octaves : most_octaves(settings.size, noise.cells);
+    p.gain = float(settings.roughness);
+    p.seed = std::uint32_t(settings.seed) + (kind == kNoiseWorley ? kWorleySeed : 0u);
+    return p;
+}
+
+double within_one(double v) { return v - std::floor(v); }
+
+/// Places a noise in the medium's local metres; `weight` is its share of the blend.
+void place_noise(const SkySettings& settings, const SkyNoise& noise, const Double3& low_m,
+                 double weight, const NoiseTexture& texture, NoiseView& view) {
+    const double tile = noise.tile_m * settings.scale, share = weight * noise.gain / 255;
+    view = texture.view();
+    view.per_m = float(1 / tile);
+    view.share = float(share);
+    view.most = float(share * texture.most * (1 + 1e-6));
+    for (std::size_t a = 0; a < 3; ++a) {
+        const double blown =
+            a < 2 ? std::fmod(settings.wind_m_per_s[a] * settings.time_s, tile) : 0;
+        view.offset[a] = float(within_one(low_m[a] / tile) - within_one(blown / tile));
+    }
+    for (int l = 0; l <= view.last; ++l) view.lost[l] = float(share * share * texture.lost[l]);
+}
+
+/// A whole share of the thickness becomes a ramp's slope; none is a step.
+float slope_of(double share) { return share > 1e-6 ? float(1 / share) : 1e6f; }
+
+double smooth(double t) {
+    const double s = std::min(1.0, std::max(0.0, t));
+    return s * s * (3 - 2 * s);
+}
+
+/// The least lift of each band, a little less than that of its samples: it must be a bound.
+void set_bands(const SkySettings& settings, SkyParams& p) {
+    constexpr int kSamples = 64;
+    for (int band = 0; band < kSkyBands; ++band) {
+        double most = 0;
+        for (int i = 0; i <= kSamples; ++i) {
+            // Half a sample wider on both sides.
+            const double place = (double(i) * (kSamples + 1.0) / kSamples - 0.5) / kSamples;
+            const double share = (band + place) / kSkyBands;
+            const double shape =
+                smooth(share * double(p.rise)) * smooth((1 - share) * double(p.fall));
+            most = std::max(most, shape);
+        }
+        p.least_lift[band] = float(std::max(0.0, settings.rounding * (0.995 - most)));
+    }
+}
+
+void place_layer(const SkySettings& settings, const Double3& low_m, SkyParams& p) {
+    p.middle = float(0.5 * (settings.threshold_low + settings.threshold_high));
+    p.half_width = float(0.5 * (settings.threshold_high - settings.threshold_low));
+    p.low_m = float(settings.base_m);
+    p.height_m = float(settings.top_m - settings.base_m);
+    p.inverse_m = 1.0f / p.height_m;
+    p.rise = slope_of(settings.base_rise), p.fall = slope_of(settings.top_fall);
+    p.rounding = float(settings.rounding);
+    p.base_weight = float(settings.base_density);
+    for (std::size_t a = 0; a < 3; ++a) p.shift_m[a] = float(low_m[a]);
+    p.curvature_per_m = settings.planet_radius_m > 0 ? float(1 / settings.planet_radius_m) : 0.0f;
+    p.empty = settings.coverage == 0 ? 1 : 0;
+    set_bands(settings, p);
+}
+
+/// Moves the ramp so that the asked share of columns reaches its middle: columns strewn over the
+/// layer tell their largest noise, and the middle is its quantile.
+Status cover(const SkySettings& settings, const SkyKernels& kernels, int threads, SkyParams& p) {
+    if (!(settings.coverage > 0)) return Status::ok();
+    Buffer<float> most;
+    PILEUS_TRY(most.resize(kColumns, "columns of a sky"));
+    ColumnParams k{};
+    k.sky = p, k.heights = kHeights;
+    k.reach_m = float(kColumnTiles * settings.scale *
+                      std::max(settings.perlin.tile_m, settings.worley.tile_m));
+    constexpr int kPiece = 256;
+    parallel_for(threads, kColumns / kPiece, [&](std::int64_t piece, int) {
+        const std::uint32_t begin = std::uint32_t(piece) * kPiece;
+        kernels.columns(k, most.data(), begin, begin + kPiece);
+    });
+    std::sort(most.data(), most.data() + kColumns);
+    const double place = (1 - settings.coverage) * (kColumns - 1);
+    const std::size_t below = std::size_t(place);
+    const std::size_t above = std::min(below + 1, std::size_t(kColumns - 1));
+    const double rest = place - double(below);
+    p.middle = float(double(most[below]) * (1 - rest) + double(most[above]) * rest);
+    return Status::ok();
+}
+
+}  // namespace
+
+Status make_sky(const SkySettings& settings, const Double3& low_m, const SkyKernels& kernels,
+                int threads, SkyField& sky) {
+    const auto load = [&](const SkyNoise& noise, NoiseKind kind, NoiseTexture& texture) -> Status {
+        Buffer<std::uint8_t> texels;
+        NoiseOrigin origin;
+        PILEUS_TRY(load_noise(noise_params(settings, noise, kind), cache_folder(), kernels, threads,
+                              texels, origin));
+        ++(origin == NoiseOrigin::kRead ? sky.read : sky.made);
+        return pack_noise(texels, settings.size, threads, texture);
+    };
+    sky.made = sky.read = 0;
+    if (settings.has_perlin()) PILEUS_TRY(load(settings.perlin, kNoisePerlin, sky.perlin));
+    if (settings.has_worley()) PILEUS_TRY(load(settings.worley, kNoiseWorley, sky.worley));
+    SkyParams& p = sky.params;
+    place_layer(settings, low_m, p);
+    place_noise(settings, settings.perlin, low_m, settings.blend, sky.perlin, p.perlin);
+    place_noise(settings, settings.worley, low_m, 1 - settings.blend, sky.worley, p.worley);
+    PILEUS_TRY(cover(settings, kernels, threads, p));
+    sky.threshold_low = double(p.middle) - double(p.half_width);
+    sky.threshold_high = double(p.middle) + double(p.half_width);
+    return Status::ok();
+}
+
+void bound_sky(const double* extent_m, SkyField& sky) {
+    // Farther than any horizon of the Earth's, and than flat layers are of use.
+    constexpr float kReach = 2e6f;
+    sky.params.boxed = extent_m != nullptr ? 1 : 0;
+    for (std::size_t a = 0; a < 3 && extent_m != nullptr; ++a)
+        sky.params.extent_m[a] = float(extent_m[a]);
+    sky.params.reach_m = kReach;
+}
+
+std::array<int, 3> default_sky_size(const MediumSettings& settings) {
+    double edge[3], longest = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+        edge[a] = settings.bounds_m[1][a] - settings.bounds_m[0][a];
+        longest = std::max(longest, edge[a]);
+    }
+    std::array<int, 3> size;
+    for (std::size_t a = 0; a < 3; ++a)
+        size[a] = std::max(3, int(std::ceil(256 * edge[a] / longest - 1e-9)));
+    return size;
+}
+
+Status bake_sky(const MediumSettings& settings, const SkyKernels& kernels, int threads,
+                Volume& volume, SkyField* keep) {
+    SkyField own;
+    SkyField& sky = keep != nullptr ? *keep : own;
+    PILEUS_TRY(make_sky(settings.sky, settings.bounds_m[0], kernels, threads, sky));
+    BakeParams k{};
+    k.sky = sky.params;
+    volume.size = settings.resolution[0] > 0 ? settings.resolution : default_sky_size(settings);
+    std::uint64_t cells = 1;
+    for (std::size_t a = 0; a < 3; ++a) {
+        k.size[a] = volume.size[a];
+        k.cell_m[a] = float((settings.bounds_m[1][a] - settings.bounds_m[0][a]) / volume.size[a]);
+        k.width_m = std::max(k.width_m, k.cell_m[a]);
+        cells *= std::uint64_t(volume.size[a]);
+    }
+    PILEUS_TRY(volume.density.resize(cells, "density"));
+    const std::int64_t rows = std::int64_t(volume.size[1]) * volume.size[2];
+    constexpr std::int64_t kRows = 64;
+    parallel_for(threads, (rows + kRows - 1) / kRows, [&](std::int64_t piece, int) {
+        kernels.bake_rows(k, volume.density.data(), std::uint32_t(piece * kRows),
+                          std::uint32_t(std::min(rows, (piece + 1) * kRows)));
+    });
+    volume.knows_bounds = false;
+    return Status::ok();
+}
+
+SkyBytes sky_bytes(const SkySettings& settings) {
+    const std::uint64_t size = std::uint64_t(settings.size);
+    const std::uint64_t noises =
+        (settings.has_perlin() ? 1u : 0u) + (settings.has_worley() ? 1u : 0u);
+    const std::uint64_t texels = size * size * size;
+    return {noises * noise_texture_bytes(size),
+            std::max(noise_making_bytes(size), texels + noise_packing_bytes(size)) + 4 * kColumns};
+}
+
+}  // namespace pileus

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// See lights.h.
+#include "src/world/light/lights.h"
+
+#include "src/base/angles.h"
+#include "src/world/solids/solids.h"
+
+namespace pileus {
+namespace {
+
+constexpr double kPiD = 3.14159265358979323846;
+
+double magnitude(double v) { return v < 0 ? -v : v; }
+
+/// Size of a colour whose channels may differ in sign: what its noise grows with.
+double strength(const std::array<double, 3>& c) {
+    return magnitude(c[0]) + magnitude(c[1]) + magnitude(c[2]);
+}
+
+/// Area of one face across `axis` through which light enters: none beside a periodic medium.
+double face_area(const Medium& m, int axis) {
+    if (m.grid.periodic && axis < 2) return 0;
+    return m.extent_m[(axis + 1) % 3] * m.extent_m[(axis + 2) % 3];
+}
+
+/// Turns the flux through each face into shares and their sum.
+void set_faces(const double (&flux)[6], Light& light) {
+    double total = 0, sum = 0;
+    for (double f : flux) total += f;
+    light.power_m2 = total;
+    for (std::size_t f = 0; f < 6; ++f) {
+        sum += flux[f];
+        light.face_cdf[f] = total > 0 ? float(sum / total) : 1.0f;
+    }
+    light.face_cdf[5] = 1.0f;
+}
+
+bool any_positive(const std::array<double, 3>& c) { return c[0] > 0 || c[1] > 0 || c[2] > 0; }
+
+/// Unit vector towards the sun.
+std::array<double, 3> sun_direction(const Scene& scene, double elevation_deg) {
+    const SineCosine el = sincos_deg(elevation_deg), az = sincos_deg(scene.sun.azimuth_deg);
+    return {az.sine * el.cosine, az.cosine * el.cosine, el.sine};
+}
+
+void plan_sun(const Scene& scene, const Medium& medium, double elevation_deg, Plan& plan,
+              Lighting& out) {
+    const std::array<double, 3> to_sun = sun_direction(scene, elevation_deg);
+    for (std::size_t c = 0; c < 3; ++c) {
+        out.to_sun[c] = float(to_sun[c]);
+        if (scene.sun.present) out.sun_irradiance[c] = double(scene.sun.irradiance[c]);
+    }
+    out.sunlit = any_positive(out.sun_irradiance);
+    if (out.sunlit && scene.ground.present && to_sun[2] <= 0) {
+        out.sunlit = false;
+        plan.leave_out("sun", "below the ground's horizon");
+    }
+    if (out.sunlit && medium.grid.periodic && to_sun[2] == 0) {
+        out.sunlit = false;
+        plan.leave_out("sun", "exactly at the horizon of a periodic medium: it meets no face");
+    }
+    if (!out.sunlit) out.sun_irradiance = {};
+}
+
+/// Radiance of the unshadowed ground: albedo / pi times what falls on it.
+void plan_ground(const Scene& scene, const Medium& medium, const SkyMap* map, double elevation_deg,
+                 Plan& plan, Lighting& out) {
+    out.ground = scene.ground.present;
+    if (!out.ground) {
+        plan.leave_out("ground bounce", "no ground");
+        return;
+    }
+    const double height = sincos_deg(elevation_deg).sine;
+    out.ground_z = scene.ground.altitude_m - medium.low_m[2];
+    out.ground_albedo = scene.ground.albedo;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const double sky = map != nullptr ? map->ground_irradiance[c] / kPiD : out.sky[c];
+        out.ground_diffuse[c] = out.ground_albedo * sky;
+        out.ground_sun[c] = out.ground_albedo / kPiD * out.sun_irradiance[c] * height;
+    }
+}
+
+void add_light(const char* name, std::uint32_t stream, const std::array<double, 3>& colour,
+               Light light, Lighting& out) {
+    light.name = name;
+    light.stream = stream;
+    light.colour = colour;
+    out.lights.push_back(std::move(light));
+}
+
+}  // namespace
+
+Light diffuse_light(const Medium& medium, int hemisphere) {
+    Light light;
+    light.hemisphere = hemisphere;
+    double flux[6];
+    for (int f = 0; f < 6; ++f) {
+        // Half of what a side face receives comes from each hemisphere; the top face is reached
+        // only by light that travels down, the bottom only by light that travels up.
+        double share = hemisphere == 0 ? 1.0 : 0.5;
+        if (f == 4 && hemisphere != 0) share = hemisphere > 0 ? 1.0 : 0.0;
+        if (f == 5 && hemisphere != 0) share = hemisphere < 0 ? 1.0 : 0.0;
+        flux[f] = kPiD * share * face_area(medium, f / 2);
+    }
+    set_faces(flux, light);
+    return light;
+}
+
+Light beam_light(const Medium& medium, const std::array<double, 3>& travel) {
+    Light light;
+    light.beam = true;
+    double flux[6] = {};
+    for (std::size_t a = 0; a < 3; ++a) {
+        const double area = magnitude(travel[a]) * face_area(medium, int(a));
+        flux[2 * a + (travel[a] > 0 ? 0 : 1)] = area;
+        light.travel[a] = float(travel[a]);
+    }
+    set_faces(flux, light);
+    return light;
+}
+
+Light map_light(const SkyMap& map) {
+    Light light;
+    light.map = true;
+    light.colour = {1, 1, 1};
+    light.power_m2 = map.power_m2;
+    light.face_cdf.fill(1.0f);
+    return light;
+}
+
+void share_photons(std::uint64_t per_generation, std::vector<Light>& lights) {
+    double total = 0;
+    for (const Light& l : lights) total += strength(l.colour) * l.power_m2;
+    for (Light& l : lights) {
+        const double power = strength(l.colour) * l.power_m2;
+        const double share = total > 0 ? power / total : 1.0 / double(lights.size());
+        l.photons = std::uint64_t(double(per_generation) * share + 0.5);
+        if (l.photons == 0 && per_generation > 0) l.photons = 1;
+    }
+}
+
+Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elevation_deg,
+                       Plan& plan, const SkyMap* map, const Solids* solids) {
+    Lighting out;
+    if (solids != nullptr && solids->present()) out.solids = solids;
+    const bool mapped = map != nullptr && map->present();
+    const bool dark = medium.sigma <= 0 || medium.density_max <= 0;
+    if (mapped) out.map = map->view;
+    if (scene.sky.present && !mapped) plan.leave_out("sky map", "constant sky");
+    plan_sun(scene, medium, sun_elevation_deg, plan, out);
+    for (std::size_t c = 0; c < 3; ++c)
+        if (scene.sky.present && !mapped) out.sky[c] = double(scene.sky.radiance[c]);
+    plan_ground(scene, medium, mapped ? map : nullptr, sun_elevation_deg, plan, out);
+    if (medium.grid.periodic) plan.leave_out("side faces", "periodic medium: it has none");
+    if (dark) {
+        plan.leave_out("photons", "no medium to scatter them");
+        return out;
+    }
+    if (out.sunlit) {
+        const std::array<double, 3> to_sun = sun_direction(scene, sun_elevation_deg);
+        Light sun = beam_light(medium, {-to_sun[0], -to_sun[1], -to_sun[2]});
+        add_light("sun", 1, out.sun_irradiance, sun, out);
+    } else if (!scene.sun.present || scene.ground.present == false) {
+        plan.leave_out("sun photons", "no sunlight");
+    }
+
+    // A white medium in a uniform field shows that field everywhere, whatever its shape: take the
+    // sky's radiance out as a constant, and light the cloud from below by what the ground's
+    // radiance differs from it.
+    const bool white = is_white(medium);
+    std::array<double, 3> below{};
+    for (std::size_t c = 0; c < 3; ++c) below[c] = out.ground_diffuse[c] + out.ground_sun[c];
+    if (mapped && map->power_m2 > 0) {
+        add_light("sky", 2, {1, 1, 1}, map_light(*map), out);
+    } else if (white && any_positive(out.sky) && scene.solids.empty()) {
+        out.constant = out.sky;
+        plan.leave_out("sky photons", "constant sky and albedo 1: the furnace identity");
+        for (std::size_t c = 0; c < 3; ++c) below[c] -= out.sky[c];
+    } else if (any_positive(out.sky)) {
+        add_light("sky", 2, out.sky, diffuse_light(medium, out.ground ? -1 : 0), out);
+    } else {
+        plan.leave_out("sky photons", "no sky");
+    }
+    if (out.ground && (below[0] != 0 || below[1] != 0 || below[2] != 0))
+        add_light("ground", 3, below, diffuse_light(medium, 1), out);
+    return out;
+}
+
+}  // namespace pileus

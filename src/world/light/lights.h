@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which lights a scene needs photons from, and how many each.
+// in: sun, sky, ground, medium -> out: a list of lights with power, and what is left out and why.
+// docs/methods.md 3 "Shoot"; docs/collectors.md derives the ground and the furnace identity.
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "src/plan/plan.h"
+#include "src/world/light/sky_map.h"
+#include "src/world/medium/medium.h"
+
+namespace pileus {
+
+struct Solids;
+
+/// A light that shoots photons. Its radiance (diffuse) or irradiance on a plane facing it (beam)
+/// is `colour`; `power_m2` is its flux into the box per unit of that. A sky map has its own
+/// radiances: its colour is 1 and its photons carry shares of their texel's brightest channel.
+struct Light {
+    std::string name;
+    bool beam = false;
+    bool map = false;
+    int hemisphere = 0;  ///< diffuse: 0 all directions, -1 travelling down, +1 travelling up
+    std::array<float, 3> travel{0, 0, -1};
+    std::array<double, 3> colour{};
+    double power_m2 = 0;
+    std::array<float, 6> face_cdf{};
+    std::uint64_t photons = 0;  ///< per generation
+    std::uint32_t stream = 0;   ///< of random numbers; one per kind of light
+};
+
+/// Everything about illumination that is not in the medium.
+struct Lighting {
+    const Solids* solids = nullptr;  ///< what casts shadows and hides; null: nothing does
+    std::vector<Light> lights;
+    std::array<double, 3> constant{};  ///< source everywhere in the medium (furnace identity)
+    bool sunlit = false;
+    std::array<float, 3> to_sun{0, 0, 1};
+    std::array<double, 3> sun_irradiance{};
+    std::array<double, 3> sky{};  ///< radiance of a constant sky
+    SkyMapView map{};             ///< or a map of it
+    bool ground = false;
+    double ground_z = 0;  ///< m, box-local
+    double ground_albedo = 0;
+    std::array<double, 3> ground_diffuse{}, ground_sun{};  ///< radiance of the unshadowed ground
+
+    /// Whether rays may end before the sky.
+    bool opaque() const { return ground || solids != nullptr; }
+};
+
+/// Works out the lights and notes in `plan` what was left out. `map` is the scene's sky map, aimed
+/// at the medium's box; null or empty: a constant sky. `solids`: null or without any: none.
+Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elevation_deg,
+                       Plan& plan, const SkyMap* map = nullptr, const Solids* solids = nullptr);
+
+/// Shares `per_generation` photons among the lights by power; every light with power gets one.
+void share_photons(std::uint64_t per_generation, std::vector<Light>& lights);
+
+/// A diffuse light on the box's faces: all directions, or one hemisphere of travel.
+Light diffuse_light(const Medium& medium, int hemisphere);
+
+/// The light of a sky map that was aimed at the box.
+Light map_light(const SkyMap& map);
+
+/// A beam travelling along `travel` over the box's silhouette.
+Light beam_light(const Medium& medium, const std::array<double, 3>& travel);
+
+}  // namespace pileus

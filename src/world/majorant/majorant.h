@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// A coarse grid of largest densities, so that free flights take long steps through thin air.
+// in: densities -> out: the largest density per block of voxels, and the best size of a block.
+// docs/methods.md 1 (majorant over the trilinear footprint); tools/bench/README.md.
+#pragma once
+#include "src/base/buffer.h"
+#include "src/base/status.h"
+#include "src/world/grid/grid.h"
+
+namespace pileus {
+
+/// Blocks of `block` voxels along each axis that cover the grid; the last may be cut short.
+void block_counts(const Grid& grid, int block, int counts[3]);
+
+/// Largest density of each block and its one-voxel border, which in a periodic grid goes on at the
+/// far face in x and y; x fastest, into `majorants`
+/// (block_counts of them). kLimit: out of memory.
+Status majorant_grid(Span<const float> density, const Grid& grid, int block, int threads,
+                     Buffer<float>& majorants);
+
+/// What one event of tracking costs, in any one unit.
+struct TrackingCosts {
+    double tentative = 1.0;  ///< a tentative collision
+    double crossing = 0.5;   ///< a step across a block's border
+    double empty = 0.5;      ///< the same where the block holds no medium
+};
+
+struct BlockChoice {
+    int block = 0;        ///< the cheapest edge, voxels
+    int candidates = 0;   ///< entries below, rising edges; the last covers the whole grid
+    int edge[7] = {};     ///< voxels
+    double cost[7] = {};  ///< predicted, m^2 times the unit of TrackingCosts
+};
+
+/// Grids with more voxels than this get no blocks of a single voxel.
+constexpr std::uint64_t kMostSingleVoxels = std::uint64_t{1} << 24;
+
+/// Predicts the cost of tracking in uniform diffuse light for blocks of 1, 2, 4 ... 32 voxels and
+/// the whole grid: a block of volume V, surface S and majorant M sees sigma M V tentative
+/// collisions per S/4 crossings. `extinction_per_m` is sigma, at density 1. The smallest cost
+/// wins, on ties the larger block. kLimit: out of memory.
+Status choose_block(Span<const float> density, const Grid& grid, double extinction_per_m,
+                    const TrackingCosts& costs, int threads, BlockChoice& choice);
+
+}  // namespace pileus

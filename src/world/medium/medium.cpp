@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// See medium.h.
+#include "src/world/medium/medium.h"
+
+#include "src/base/file.h"
+#include "src/io/volumes/volume_file.h"
+#include "src/scene/read_scene.h"
+#include "src/world/density/cumulus.h"
+#include "src/world/density/shapes.h"
+#include "src/world/density/sky_field.h"
+#include "src/world/phase/medium_phase.h"
+
+namespace pileus {
+namespace {
+
+Status load_density(const Scene& scene, const MediumSettings& settings, int threads,
+                    const KernelTable* kernels, SkyField* sky, Volume& volume) {
+    if (settings.density == DensityKind::kFile) {
+        const std::string path = scene_path(scene.directory, settings.file);
+        PILEUS_TRY(read_volume(settings, path, volume));
+        if (settings.y_up) PILEUS_TRY(permute_y_up(volume));
+        return Status::ok();
+    }
+    if (settings.density == DensityKind::kSky) {
+        if (kernels == nullptr || kernels->sky == nullptr) kernels = kernel_table(nullptr);
+        return bake_sky(settings, *kernels->sky, threads, volume, sky);
+    }
+    if (settings.density != DensityKind::kCumulus)
+        return make_shape(settings.density, settings.resolution, volume);
+    CumulusSettings cumulus;
+    if (settings.resolution[0] > 0) cumulus.resolution = settings.resolution;
+    cumulus.seed = settings.shape_seed;
+    for (std::size_t a = 0; a < 3; ++a)
+        cumulus.extent_m[a] = settings.bounds_m[1][a] - settings.bounds_m[0][a];
+    return make_cumulus(cumulus, threads, volume);
+}
+
+/// Divides extinctions by the largest, so that densities end at exactly 1 and sigma is the largest
+/// extinction; dark volumes stay as they are.
+void set_peak_to_one(double scale, Medium& medium) {
+    medium.sigma = float(scale * double(medium.density_max));
+    medium.volume.in_extinction = false;
+    if (!(medium.density_max > 0)) return;
+    for (float& value : medium.volume.density.span()) value /= medium.density_max;
+    medium.density_max = 1;
+}
+
+/// Everything about a medium but its values.
+Status place_medium(const Scene& scene, const MediumSettings& settings, const VolumeHead& head,
+                    Medium& out) {
+    if (!settings.has_bounds && !head.knows_bounds)
+        return Status::bad_input(scene.file + ": " + medium_key(scene, settings) +
+                                 ".bounds_m: left out, and the file \"" + settings.file +
+                                 "\" does not know its place");
+    const auto& bounds = settings.has_bounds ? settings.bounds_m : head.bounds_m;
+    out.low_m = bounds[0];
+    out.grid.periodic = settings.periodic;
+    for (std::size_t a = 0; a < 3; ++a) {
+        out.extent_m[a] = bounds[1][a] - bounds[0][a];
+        out.grid.size[a] = head.size[a];
+        out.grid.cell_m[a] = float(out.extent_m[a] / head.size[a]);
+    }
+    // A file's extinction is known only from its values; until then any but none stands for it.
+    const double per_m = settings.extinction_per_m *
+                         (settings.density == DensityKind::kSky ? settings.sky.density : 1);
+    out.sigma = float(head.in_extinction ? settings.extinction_scale : per_m);
+    Optics& optics = out.optics[0];
+    optics.albedo_max = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        optics.albedo[c] = settings.albedo[c];
+        if (optics.albedo[c] > optics.albedo_max) optics.albedo_max = optics.albedo[c];
+    }
+    const bool grey =
+        settings.albedo[0] == settings.albedo[1] && settings.albedo[1] == settings.albedo[2];
+    out.channels = grey ? 1 : 3;
+    PhaseStore store;
+    PILEUS_TRY(load_phase(scene.directory, settings.phase, store, optics.phase));
+    out.phases.clear();
+    if (!store.table.empty()) out.phases.push_back(std::move(store));
+    return Status::ok();
+}
+
+/// Size, place and mean of a density that the program makes.
+void outline_shape(const MediumSettings& settings, VolumeHead& head, MediumSource& source) {
+    source.cumulus = settings.density == DensityKind::kCumulus;
+    const bool given = settings.resolution[0] > 0;
+    if (settings.density == DensityKind::kSky) {
+        const SkyBytes bytes = sky_bytes(settings.sky);
+        head.size = given ? settings.resolution : default_sky_size(settings);
+        source.noise_bytes = bytes.kept + bytes.making;
+        source.mean_density = kSkyMean;
+        return;
+    }
+    head.size = given            ? settings.resolution
+                : source.cumulus ? CumulusSettings().resolution
+                                 : default_shape_size(settings.density);
+    const bool box = settings.density == DensityKind::kUniformBox;
+    source.mean_density = source.cumulus ? kCumulusMean : (box ? 1 : kEllipsoidMean);
+}
+
+/// Checks the file's length, and the size where the scene states it, before the file's own head.
+Status outline_file(const Scene& scene, const MediumSettings& settings, const Limits& limits,
+                    VolumeHead& head, MediumSource& source) {
+    const std::string path = scene_path(scene.directory, settings.file);
+    const bool raw = settings.raw_size[0] > 0;
+    if (raw) PILEUS_TRY(check_voxels(scene.file, settings.raw_size, limits));
+    InputFile file;
+    PILEUS_TRY(open_file(path, file));
+    PILEUS_TRY(check_limit(limits, LimitId::kFile, file.size(), path));
+    // Bare numbers pass through in pieces of 65536; every other form is held whole.
+    constexpr std::uint64_t kPieceBytes = 65536 * sizeof(float);
+    source.reading_bytes = raw ? kPieceBytes : file.size();
+    PILEUS_TRY(read_volume_head(settings, path, head));
+    source.reading_bytes += head.unpacked_bytes;
+    if (settings.y_up) turn_y_up(head.size, head.bounds_m);
+    return Status::ok();
+}
+
+}  // namespace
+
+std::uint64_t phase_bytes(const Medium& medium) {
+    std::uint64_t bytes = 0;
+    for (const PhaseStore& store : medium.phases) bytes += store.bytes();
+    return bytes;
+}
+
+bool is_white(const Medium& medium) {
+    for (int i = 0; i < medium.count; ++i)
+        for (float albedo : medium.optics[std::size_t(i)].albedo)
+            if (albedo != 1) return false;
+    return true;
+}
+
+float phase_peak(const Medium& medium) {
+    float largest = 0;
+    for (int i = 0; i < medium.count; ++i) {
+        const float peak = phase_peak(medium.optics[std::size_t(i)].phase);
+        if (peak > largest) largest = peak;
+    }
+    return largest;
+}
+
+std::string medium_key(const Scene& scene, const MediumSettings& settings) {
+    std::size_t index = 0;
+    while (index < scene.media.size() && &scene.media[index] != &settings) ++index;
+    return "medium." + std::to_string(index);
+}
+
+Status check_voxels(const std::string& where, const std::array<int, 3>& size,
+                    const Limits& limits) {
+    std::uint64_t voxels = 1;
+    for (const int n : size) {
+        PILEUS_TRY(check_limit(limits, LimitId::kSide, std::uint64_t(n), where));
+        voxels *= std::uint64_t(n);
+    }
+    return check_limit(limits, LimitId::kVoxels, voxels, where);
+}
+
+Status outline_medium(const Scene& scene, const MediumSettings& settings, const Limits& limits,
+                      Medium& out, MediumSource& source) {
+    VolumeHead head;
+    source = MediumSource{};
+    if (settings.density == DensityKind::kFile)
+        PILEUS_TRY(outline_file(scene, settings, limits, head, source));
+    else
+        outline_shape(settings, head, source);
+    PILEUS_TRY(check_voxels(scene.file, head.size, limits));
+    if (settings.y_up)
+        source.turned_voxels =
+            std::uint64_t(head.size[0]) * std::uint64_t(head.size[1]) * std::uint64_t(head.size[2]);
+    out.volume.size = head.size;
+    out.volume.in_extinction = head.in_extinction;
+    out.density_max = 1;
+    return place_medium(scene, settings, head, out);
+}
+
+Status load_medium(const Scene& scene, const MediumSettings& settings, int threads, Medium& out,
+                   const KernelTable* kernels, SkyField* sky) {
+    PILEUS_TRY(load_density(scene, settings, threads, kernels, sky, out.volume));
+    VolumeHead head;
+    head.size = out.volume.size;
+    head.knows_bounds = out.volume.knows_bounds;
+    head.bounds_m = out.volume.bounds_m;
+    head.in_extinction = out.volume.in_extinction;
+    PILEUS_TRY(place_medium(scene, settings, head, out));
+    out.density_max = 0;
+    for (float density : out.volume.density.span())
+        if (density > out.density_max) out.density_max = density;
+    if (out.volume.in_extinction) set_peak_to_one(settings.extinction_scale, out);
+    return Status::ok();
+}
+
+double mean_density(const Medium& medium) {
+    double sum = 0;
+    for (const float density : medium.volume.density.span()) sum += double(density);
+    return sum / double(medium.volume.density.size());
+}
+
+}  // namespace pileus

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// A medium ready to be prepared: its grid, where it lies, and its optical properties.
+// in: the scene's words about one medium -> out: plain numbers in kernel units.
+// docs/methods.md 1; mix_media.h lays several on one grid, which then is one of these too.
+#pragma once
+#include "kernels_cpu/isa/kernels.h"
+#include "kernels_cpu/media/optics.h"
+#include "src/base/limits.h"
+#include "src/io/volumes/volume.h"
+#include "src/scene/scene.h"
+#include "src/world/grid/grid.h"
+#include "src/world/phase/phase_table.h"
+
+namespace pileus {
+
+struct SkyField;
+
+struct Medium {
+    Volume volume;
+    Grid grid;
+    Double3 low_m{};      ///< low corner of the box in the world; the origin of box-local metres
+    double extent_m[3];   ///< box edges
+    double detail_m = 0;  ///< length that the preparation's shares are of; 0: the box's diagonal
+    float sigma = 0;      ///< extinction at density 1, 1/m
+    int channels = 1;     ///< 1: achromatic
+    float density_max = 0;
+    int count = 1;  ///< media on this grid, 1..kMostMedia; `volume` holds their sum
+    std::array<Optics, kMostMedia> optics{};
+    Buffer<float> parts;             ///< [medium - 1][voxel]; medium 0 is what is left of the sum
+    std::vector<PhaseStore> phases;  ///< tables that `optics` points into
+};
+
+/// Bytes of all tables of phase functions.
+std::uint64_t phase_bytes(const Medium& medium);
+
+/// Whether no medium absorbs anything.
+bool is_white(const Medium& medium);
+
+/// Largest phase function of all media over all angles, 1/sr.
+float phase_peak(const Medium& medium);
+
+/// "medium.N" of settings that belong to the scene, as its keys are named.
+std::string medium_key(const Scene& scene, const MediumSettings& settings);
+
+/// What is known of a density before its values are there.
+struct MediumSource {
+    std::uint64_t reading_bytes = 0;  ///< of the file, packed and not, in memory while it is read
+    std::uint64_t turned_voxels = 0;  ///< of a file whose y axis points up: a grid more for a while
+    std::uint64_t apart_voxels = 0;   ///< of media that are then laid on one grid
+    std::uint64_t mixing_bytes = 0;   ///< scratch of that
+    std::uint64_t noise_bytes = 0;    ///< of noise volumes, while a sky is put on a grid
+    bool cumulus = false;             ///< made by the program from bubbles
+    double mean_density = -1;         ///< over the box; below 0: known only from the values
+};
+
+/// Mean density of `procedural:cumulus` in its default box, which other boxes come close to.
+constexpr double kCumulusMean = 0.08;
+
+/// The same of `procedural:sky`, which its coverage and its shape move by a factor of several.
+constexpr double kSkyMean = 0.1;
+
+/// kLimit: a side or the product over the limits; `where` opens the line.
+Status check_voxels(const std::string& where, const std::array<int, 3>& size, const Limits& limits);
+
+/// Over the cells of the grid.
+double mean_density(const Medium& medium);
+
+/// Places the medium and learns its size, reading no values: `out` is as load_medium's, but for the
+/// density, and density_max counts as 1. kLimit: a file or grid over the limits, before any memory
+/// is taken; otherwise as load_medium.
+Status outline_medium(const Scene& scene, const MediumSettings& settings, const Limits& limits,
+                      Medium& out, MediumSource& source);
+
+/// Reads or makes the density and places it. A file that holds extinction becomes densities up to 1
+/// (value over largest value) with sigma = extinction_scale times the largest value. Errors: those
+/// of the readers; kBadInput for a file that does not know its place while `bounds_m` is left out.
+/// `kernels`: those to put a sky on its grid; null or a device's: the widest of the host. `sky`, if
+/// given, keeps it.
+Status load_medium(const Scene& scene, const MediumSettings& settings, int threads, Medium& out,
+                   const KernelTable* kernels = nullptr, SkyField* sky = nullptr);
+
+}  // namespace pileus

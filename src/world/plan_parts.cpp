@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+// See plan_parts.h. The bytes of each array are those that the stage named beside it allocates.
+#include "src/world/plan_parts.h"
+
+#include "src/world/density/bubbles.h"
+#include "src/world/majorant/majorant.h"
+
+namespace pileus {
+namespace {
+
+constexpr std::uint64_t kFloat = sizeof(float);
+
+std::uint64_t side(const Grid& grid, int axis) { return std::uint64_t(grid.size[axis]); }
+
+}  // namespace
+
+std::uint64_t block_total(const Grid& grid, int edge) {
+    int n[3];
+    block_counts(grid, edge, n);
+    return std::uint64_t(n[0]) * std::uint64_t(n[1]) * std::uint64_t(n[2]);
+}
+
+std::uint64_t most_tracking_blocks(const Grid& grid, bool local) {
+    if (!local) return 1;
+    return block_total(grid, voxel_count(grid) <= kMostSingleVoxels ? 1 : 2);
+}
+
+SkyMapBytes sky_map_bytes(const SkyMap& map) {
+    // Four channels decoded, and the file, which is hardly larger than its values.
+    return {map.bytes(), 32 * std::uint64_t(map.size[0]) * std::uint64_t(map.size[1])};
+}
+
+/// stages/medium.cpp, stages/mix_media.cpp
+void add_density_rows(const Grid& grid, const MediumSource& source, std::uint64_t media,
+                      std::uint64_t phases, std::uint64_t threads, const SkyMapBytes& sky,
+                      MemoryTable& t) {
+    const std::uint64_t bytes = bytes_of(voxel_count(grid), kFloat);
+    t.add("density", Stage::kDensity, Stage::kWrite, bytes);
+    t.add("phase functions", Stage::kDensity, Stage::kWrite, phases);
+    t.add("sky map", Stage::kDensity, Stage::kWrite, sky.kept);
+    t.add("sky map while it is read", Stage::kDensity, Stage::kDensity, sky.reading);
+    t.add("file while it is read", Stage::kDensity, Stage::kDensity, source.reading_bytes);
+    t.add("density, turned", Stage::kDensity, Stage::kDensity,
+          bytes_of(source.turned_voxels, kFloat));
+    if (media > 1) {
+        t.add("media apart", Stage::kDensity, Stage::kDensity,
+              bytes_of(source.apart_voxels, kFloat));
+        t.add("mixing of media", Stage::kDensity, Stage::kDensity, source.mixing_bytes);
+        t.add("parts of the media", Stage::kDensity, Stage::kWrite, bytes_of(media - 1, bytes));
+    }
+    if (source.noise_bytes > 0)
+        t.add("noises of the sky", Stage::kDensity, Stage::kDensity, source.noise_bytes);
+    if (source.cumulus)
+        t.add("bubbles of the cumulus", Stage::kDensity, Stage::kDensity,
+              kMaxBubbles * (sizeof(Bubble) + 3 * sizeof(std::uint16_t) * threads));
+}
+
+/// stages/prepare_majorant.cpp
+void add_majorant_rows(const Grid& grid, std::uint64_t blocks, std::uint64_t threads, Stage last,
+                       MemoryTable& t) {
+    // The search holds the finest blocks and the next, and is over before the choice is made.
+    const int finest = voxel_count(grid) <= kMostSingleVoxels ? 1 : 2;
+    const std::uint64_t search = block_total(grid, finest) + block_total(grid, 2 * finest);
+    t.add("search for the block size", Stage::kMajorants, Stage::kMajorants, kFloat * search);
+    t.add("rows of the majorants", Stage::kMajorants, Stage::kMajorants,
+          bytes_of(kFloat * threads, side(grid, 0) * side(grid, 1) + side(grid, 0)));
+    t.add("majorants", Stage::kMajorants, last, kFloat * blocks);
+    t.add("blocks to skip", Stage::kMajorants, Stage::kWrite, kFloat * block_total(grid, 4));
+}
+
+/// stages/layers.cpp and the encoders of io: a growing buffer is three times the file at most, and
+/// no file is larger than its raw values but for its head; rows wait in packs of 16.
+void add_image_rows(std::uint64_t width, std::uint64_t height, std::uint64_t layers,
+                    MemoryTable& t) {
+    const std::uint64_t image = bytes_of(kFloat * layers, width, height);
+    t.add("image layers", Stage::kLayers, Stage::kWrite, image);
+    t.add("file being encoded", Stage::kWrite, Stage::kWrite,
+          bytes_of(3, image + (std::uint64_t{1} << 20)));
+    t.add("rows being encoded", Stage::kWrite, Stage::kWrite,
+          bytes_of(3 * 16, width, kFloat * layers));
+}
+
+WorkInput medium_work(const Medium& medium, double mean_density, double max_events,
+                      double photons) {
+    WorkInput in;
+    in.extinction_per_m = double(medium.sigma);
+    in.mean_density = mean_density;
+    for (int a = 0; a < 3; ++a) in.extent_m[a] = medium.extent_m[a];
+    // Of several media the one that keeps photons busy longest stands for all.
+    in.albedo = 0;
+    in.mean_cosine = 1;
+    for (int i = 0; i < medium.count; ++i) {
+        const Optics& optics = medium.optics[std::size_t(i)];
+        const double cosine = double(phase_moment(optics.phase, 1));
+        if (double(optics.albedo_max) > in.albedo) in.albedo = double(optics.albedo_max);
+        if (cosine < in.mean_cosine) in.mean_cosine = cosine;
+    }
+    in.max_events = max_events;
+    in.photons = photons;
+    return in;
+}
+
+Status check_work(const WorkEstimate& work, const Limits& limits, const std::string& where) {
+    if (!work.known || !(work.photons > 0)) return Status::ok();
+    PILEUS_TRY(
+        check_limit(limits, LimitId::kScatterings, whole(work.scatterings_per_photon), where));
+    return check_limit(limits, LimitId::kWork, whole(work.scatterings), where);
+}
+
+void report_plan(const Plan& plan, Report& report) {
+    report.needed = plan.needed;
+    report.left_out.clear();
+    for (const LeftOut& l : plan.left_out) report.left_out.push_back({l.what, l.why});
+    report.bytes.clear();
+    for (const MemoryRow& row : plan.memory.rows())
+        report.bytes.push_back({row.item, row.bytes, stage_name(row.first), stage_name(row.last)});
+    report.stage_bytes.clear();
+    for (std::size_t s = 0; s < kStageCount; ++s)
+        if (plan.runs(Stage(s)))
+            report.stage_bytes.push_back({stage_name(Stage(s)), plan.memory.live(Stage(s))});
+    report.total_bytes = plan.memory.peak();
+    report.exact = plan.exact;
+    report.bounds.clear();
+    for (const SumBound& b : plan.bounds)
+        report.bounds.push_back({b.sum, b.addends, b.largest, b.places, b.worst, b.allowed});
+    const WorkEstimate& work = plan.work;
+    report.work = {work.known,       work.photons, work.scatterings_per_photon,
+                   work.scatterings, work.law,     plan.work_of};
+    report.accumulation = plan.accumulation.kind;
+    report.accumulation_why = plan.accumulation.why;
+    report.bias_of = plan.bias.method;
+    report.bias = plan.bias.size;
+    report.bias_page = plan.bias.page;
+}
+
+ReportLimit limit_of(const Limits& limits, LimitId id, std::uint64_t needs, bool known) {
+    return {limit_row(id).name, known, needs, limits[id]};
+}
+
+std::uint64_t whole(double number) {
+    return number < 0x1p63 ? std::uint64_t(number) : std::uint64_t{1} << 63;
+}
+
+}  // namespace pileus

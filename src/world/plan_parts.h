@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the plans of all methods have in common: memory of density, majorants and picture, work.
+// in: sizes, a medium, a plan -> out: rows of the plan's table, the report's plan, faults.
+// docs/report.md, "Plan", "Memory", "Work".
+#pragma once
+#include "src/plan/plan.h"
+#include "src/run/context.h"
+#include "src/world/light/sky_map.h"
+#include "src/world/medium/medium.h"
+
+namespace pileus {
+
+/// Blocks of `edge` voxels over the grid.
+std::uint64_t block_total(const Grid& grid, int edge);
+
+/// Most tracking blocks that `prepare_majorants` may choose; one where it is not `local`.
+std::uint64_t most_tracking_blocks(const Grid& grid, bool local);
+
+/// Bytes of a scene's sky map, and of its file and picture while they are read.
+struct SkyMapBytes {
+    std::uint64_t kept = 0, reading = 0;
+};
+SkyMapBytes sky_map_bytes(const SkyMap& map);
+
+/// Reading or making the density of so many media on one grid, the bytes of their tables of phase
+/// functions, and the sky map.
+void add_density_rows(const Grid& grid, const MediumSource& source, std::uint64_t media,
+                      std::uint64_t phases, std::uint64_t threads, const SkyMapBytes& sky,
+                      MemoryTable& table);
+
+/// The tracking blocks, their search, and the blocks that marching skips; `last` uses them last.
+void add_majorant_rows(const Grid& grid, std::uint64_t blocks, std::uint64_t threads, Stage last,
+                       MemoryTable& table);
+
+/// An image of so many layers, and its encoding into a file.
+void add_image_rows(std::uint64_t width, std::uint64_t height, std::uint64_t layers,
+                    MemoryTable& table);
+
+/// What the law of the expected work needs of a medium.
+WorkInput medium_work(const Medium& medium, double mean_density, double max_events, double photons);
+
+/// kLimit: more scatterings than the limits allow. `where` opens the line.
+Status check_work(const WorkEstimate& work, const Limits& limits, const std::string& where);
+
+/// Fills the report's plan, but for the limits.
+void report_plan(const Plan& plan, Report& report);
+
+/// A limit for the report.
+ReportLimit limit_of(const Limits& limits, LimitId id, std::uint64_t needs, bool known = true);
+
+/// The largest whole number of 63 bits instead of a larger one.
+std::uint64_t whole(double number);
+
+}  // namespace pileus

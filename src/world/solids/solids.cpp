@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// See solids.h. Meshes: read, turned, placed; solid_tree.cpp sorts them.
+#include "src/world/solids/solids.h"
+
+#include "src/base/angles.h"
+#include "src/base/file.h"
+#include "src/io/meshes/mesh_file.h"
+#include "src/scene/read_scene.h"
+#include "src/world/solids/camera_depth.h"
+
+namespace pileus {
+namespace {
+
+/// Bytes that the reader of meshes takes for each of a file's (measured: docs/solids.md).
+constexpr std::uint64_t kReadingFactor = 12;
+
+struct Axes {
+    double m[3][3];
+};
+
+Axes operator*(const Axes& a, const Axes& b) {
+    Axes out{};
+    for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < 3; ++c)
+            for (int i = 0; i < 3; ++i) out.m[r][c] += a.m[r][i] * b.m[i][c];
+    return out;
+}
+
+/// Axes of the file onto axes of the world: about x, then y, then z.
+Axes turn_of(const SolidSettings& s) {
+    const SineCosine x = sincos_deg(s.rotation_deg[0]), y = sincos_deg(s.rotation_deg[1]),
+                     z = sincos_deg(s.rotation_deg[2]);
+    const Axes about_x{{{1, 0, 0}, {0, x.cosine, -x.sine}, {0, x.sine, x.cosine}}};
+    const Axes about_y{{{y.cosine, 0, y.sine}, {0, 1, 0}, {-y.sine, 0, y.cosine}}};
+    const Axes about_z{{{z.cosine, -z.sine, 0}, {z.sine, z.cosine, 0}, {0, 0, 1}}};
+    const Axes all = about_z * (about_y * about_x);
+    if (!s.y_up) return all;
+    return all * Axes{{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}};
+}
+
+/// Fills the unit normal; false where there is none.
+bool set_normal(SolidTriangle& t) {
+    double u[3], v[3];
+    for (int a = 0; a < 3; ++a) {
+        u[a] = double(t.corner[1][a]) - double(t.corner[0][a]);
+        v[a] = double(t.corner[2][a]) - double(t.corner[0][a]);
+    }
+    const double n[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
+                         u[0] * v[1] - u[1] * v[0]};
+    const double length = __builtin_sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    if (!(length > 0)) return false;
+    for (int a = 0; a < 3; ++a) t.normal[a] = float(n[a] / length);
+    return true;
+}
+
+Status read_all(const Scene& scene, const Context& context, std::vector<Mesh>& meshes) {
+    std::uint64_t sum = 0;
+    for (std::size_t i = 0; i < scene.solids.size(); ++i) {
+        const std::string path = scene_path(scene.directory, scene.solids[i].file);
+        PILEUS_TRY(read_mesh(path, context.limits, meshes[i]));
+        sum += meshes[i].triangles();
+        PILEUS_TRY(check_limit(context.limits, LimitId::kTriangles, sum, path));
+    }
+    return Status::ok();
+}
+
+}  // namespace
+
+Status place_triangles(const SolidSettings& settings, const std::string& name, std::int32_t solid,
+                       const Double3& low_m, Span<const float> corners, std::uint64_t& used,
+                       Solids& solids) {
+    const Axes turn = turn_of(settings);
+    for (std::size_t at = 0; at + 9 <= corners.size; at += 9) {
+        SolidTriangle t{};
+        t.number = std::int32_t(used + solids.degenerate);
+        t.solid = solid;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const float* p = corners.data + at + 3 * i;
+            for (std::size_t r = 0; r < 3; ++r) {
+                const double* m = turn.m[r];
+                const double turned =
+                    m[0] * double(p[0]) + m[1] * double(p[1]) + m[2] * double(p[2]);
+                const double x = turned * settings.scale + (settings.position_m[r] - low_m[r]);
+                if (!(x >= -kMostSolidMetres && x <= kMostSolidMetres))
+                    return Status::bad_input(name + ": mesh: triangle " + std::to_string(at / 9) +
+                                             ": too far away, allowed: within 1e10 m of the media");
+                t.corner[i][r] = float(x);
+            }
+        }
+        if (set_normal(t))
+            solids.triangles[std::size_t(used++)] = t;
+        else
+            ++solids.degenerate;
+    }
+    return Status::ok();
+}
+
+Status outline_solids(const Scene& scene, const Context& context, Solids& solids) {
+    solids = Solids();
+    solids.meshes = !scene.solids.empty();
+    solids.image = !scene.camera.depth.empty();
+    if (solids.present() && context.kernels->device != nullptr)
+        return Status::bad_input(scene.file + ": solid, camera.depth: not on the device " +
+                                 context.kernels->name + " in this version, allowed: --isa auto");
+    PILEUS_TRY(solids.albedo.resize(3 * scene.solids.size(), "colours of solids"));
+    for (std::size_t i = 0; i < solids.albedo.size(); ++i)
+        solids.albedo[i] = scene.solids[i / 3].albedo[i % 3];
+    for (const SolidSettings& settings : scene.solids) {
+        InputFile file;
+        const std::string path = scene_path(scene.directory, settings.file);
+        PILEUS_TRY(open_file(path, file));
+        PILEUS_TRY(check_limit(context.limits, LimitId::kFile, file.size(), path));
+        solids.file_bytes += file.size();
+    }
+    return Status::ok();
+}
+
+Status load_solids(const Scene& scene, const Double3& low_m, const Context& context,
+                   Solids& solids) {
+    if (!solids.present()) return Status::ok();
+    const StageClock clock(context, "solids");
+    PILEUS_TRY(read_camera_depth(scene, solids));
+    if (!solids.meshes) return Status::ok();
+    std::vector<Mesh> meshes(scene.solids.size());
+    PILEUS_TRY(read_all(scene, context, meshes));
+    std::uint64_t sum = 0, used = 0;
+    for (const Mesh& mesh : meshes) sum += mesh.triangles();
+    PILEUS_TRY(solids.triangles.resize(sum, "triangles"));
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        const SolidSettings& settings = scene.solids[i];
+        PILEUS_TRY(place_triangles(settings, scene_path(scene.directory, settings.file),
+                                   std::int32_t(i), low_m, meshes[i].corners.span(), used, solids));
+        meshes[i] = Mesh();
+    }
+    solids.triangles.truncate(std::size_t(used));
+    return build_solid_tree(solids);
+}
+
+void note_solids(const Solids& solids, Plan& plan) {
+    if (solids.meshes)
+        plan.need("solid meshes: rays against triangles");
+    else
+        plan.leave_out("rays against triangles", "no solid");
+    if (solids.image) plan.need("the camera's depth image");
+}
+
+void add_solid_rows(const Scene& scene, const Limits& limits, const Solids& solids,
+                    MemoryTable& table) {
+    // A face takes at least two bytes of a file; the tree has less than two nodes a triangle.
+    const std::uint64_t bound = solids.file_bytes / 2 < limits[LimitId::kTriangles]
+                                    ? solids.file_bytes / 2
+                                    : limits[LimitId::kTriangles];
+    const bool known = !solids.triangles.empty();
+    const std::uint64_t n = known ? solids.triangles.size() : bound;
+    table.add("triangles", Stage::kDensity, Stage::kWrite, bytes_of(n, sizeof(SolidTriangle)));
+    // What sorting needs, and the file as its reader keeps it, go with the stage.
+    table.add("tree of solids", Stage::kDensity, Stage::kWrite, bytes_of(2 * n, sizeof(SolidNode)));
+    table.add(
+        "reading solids", Stage::kDensity, Stage::kDensity,
+        bytes_of(kReadingFactor, solids.file_bytes) + bytes_of(n, sizeof(SolidTriangle) + 64));
+    const std::uint64_t pixels =
+        std::uint64_t(scene.camera.resolution[0]) * std::uint64_t(scene.camera.resolution[1]);
+    table.add("camera depth", Stage::kDensity, Stage::kWrite,
+              solids.image ? pixels * sizeof(float) : 0);
+}
+
+void report_solids(const Solids& solids, Report& report) {
+    if (!solids.present()) return;
+    report.executed.emplace_back("triangles", solids.triangles.size());
+    report.executed.emplace_back("solid_nodes", solids.nodes.size());
+    report.counters.emplace_back("degenerate_triangles", solids.degenerate);
+    if (!solids.image) return;
+    report.counters.emplace_back("depths_not_numbers", solids.broken_depths);
+    report.counters.emplace_back("depths_negative", solids.negative_depths);
+}
+
+}  // namespace pileus

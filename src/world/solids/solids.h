@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Solid things of a scene, ready for rays: meshes under one tree of boxes, the camera's depth
+// image. in: the scene's words, the medium's box -> out: Solids, made once and then read only.
+// docs/solids.md.
+#pragma once
+#include "kernels_cpu/solids/solids_params.h"
+#include "src/base/buffer.h"
+#include "src/base/report.h"
+#include "src/plan/plan.h"
+#include "src/run/context.h"
+#include "src/scene/scene.h"
+
+namespace pileus {
+
+/// Coordinates stay within this of the medium's box, metres.
+constexpr double kMostSolidMetres = 1e10;
+
+struct Solids {
+    bool meshes = false, image = false;  ///< the scene has such; the arrays may not be there yet
+    Buffer<SolidNode> nodes;
+    Buffer<SolidTriangle> triangles;
+    Buffer<float> albedo;          ///< [solid][3]
+    std::uint64_t degenerate = 0;  ///< triangles without an area, left out
+    Buffer<float> camera_depth;    ///< [pixel], m along the ray; infinity: nothing solid
+    std::size_t depth_columns = 0;
+    std::uint64_t broken_depths = 0;    ///< values that were no numbers and count as infinity
+    std::uint64_t negative_depths = 0;  ///< and below 0, which count as 0
+    std::uint64_t file_bytes = 0;       ///< of all meshes
+
+    bool present() const { return meshes || image; }
+    /// Whether any colour is no grey.
+    bool coloured() const {
+        for (std::size_t i = 0; i + 2 < albedo.size(); i += 3)
+            if (albedo[i] != albedo[i + 1] || albedo[i] != albedo[i + 2]) return true;
+        return false;
+    }
+    SolidsView view() const {
+        return {nodes.data(), triangles.data(), albedo.data(), std::int32_t(triangles.size())};
+    }
+};
+
+/// What the scene has, from sizes of files alone. kBadInput: a file that is not there; kLimit.
+Status outline_solids(const Scene& scene, const Context& context, Solids& solids);
+
+/// Reads the scene's meshes and builds the tree over them, in metres from `low_m`; reads the
+/// camera's depth. Errors: those of the readers; kBadInput: too far away, or another size than the
+/// picture's; kLimit: a limit, or out of memory.
+Status load_solids(const Scene& scene, const Double3& low_m, const Context& context,
+                   Solids& solids);
+
+/// Corners of a mesh in metres from `low_m` as triangles of solid number `solid`, those without an
+/// area left out and counted; from triangles[used] on, which there is room for.
+Status place_triangles(const SolidSettings& settings, const std::string& name, std::int32_t solid,
+                       const Double3& low_m, Span<const float> corners, std::uint64_t& used,
+                       Solids& solids);
+
+/// Sorts the triangles under a tree of boxes. kLimit: out of memory.
+Status build_solid_tree(Solids& solids);
+
+/// What the plan says of them; their bytes, bounds where they are not there yet.
+void note_solids(const Solids& solids, Plan& plan);
+void add_solid_rows(const Scene& scene, const Limits& limits, const Solids& solids,
+                    MemoryTable& table);
+void report_solids(const Solids& solids, Report& report);
+
+}  // namespace pileus

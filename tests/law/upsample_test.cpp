@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// Laws of upsampling and reprojection: marched pixels keep their bits, nothing stays nothing, rest
+// becomes exact. in: a small cumulus marched in full and thinned out -> out: equal pixels, bounded
+// errors. docs/upsampling.md
+#include <algorithm>
+#include <cmath>
+
+#include "src/methods/raymarch/raymarch.h"
+#include "tests/support/render_harness.h"
+
+using namespace render_test;
+
+namespace {
+
+using Overrides = std::vector<std::string>;
+
+Overrides marched(const Overrides& more) {
+    Overrides all{"method.name = \"raymarch\"", "camera.resolution = [45, 27]",
+                  "output.layers = [\"radiance\", \"alpha\", \"depth\", \"cloud\"]"};
+    all.insert(all.end(), more.begin(), more.end());
+    return all;
+}
+
+Overrides moving(const char* orbit, const char* sun, int frames) {
+    return {"animation.frames = " + std::to_string(frames),
+            std::string("animation.camera_orbit_deg = ") + orbit,
+            std::string("animation.sun_elevation_deg = ") + sun};
+}
+
+Picture picture(const Overrides& more) {
+    return render_one(scene_from(kSmallCumulus, marched(more)));
+}
+
+/// Mean of (ours - theirs)^2 / (theirs^2 + 0.01^2) over the cloud's pixels, by green.
+double rel_mse(const Picture& ours, const Picture& theirs) {
+    const Channel* a = ours.image.find("G");
+    const Channel* b = theirs.image.find("G");
+    const Channel* alpha = theirs.image.find("A");
+    double sum = 0, count = 0;
+    for (std::size_t i = 0; i < b->pixels.size(); ++i) {
+        if (alpha->pixels[i] < 0.02f) continue;
+        const double off = double(a->pixels[i]) - double(b->pixels[i]), is = double(b->pixels[i]);
+        sum += off * off / (is * is + 1e-4);
+        count += 1;
+    }
+    REQUIRE(count > 100);
+    return sum / count;
+}
+
+}  // namespace
+
+TEST_CASE("Marched pixels of a thinned picture have the bits of the whole one") {
+    const Picture whole = picture({});
+    for (int scale : {2, 4})
+        for (const char* rule : {"depth", "linear", "nearest"}) {
+            const Picture thin = picture({"raymarch.scale = " + std::to_string(scale),
+                                          std::string("raymarch.upsample = \"") + rule + "\""});
+            for (int y = scale / 2; y < 27; y += scale)
+                for (int x = scale / 2; x < 45; x += scale)
+                    for (const char* channel : {"R", "G", "B", "A", "Z", "cloud.R"})
+                        CHECK(thin.at(channel, x, y) == whole.at(channel, x, y));
+        }
+}
+
+TEST_CASE("Where no marched pixel sees cloud the background is exact") {
+    const Picture whole = picture({});
+    const Picture thin = picture({"raymarch.scale = 4"});
+    int clear = 0;
+    for (int y = 0; y < 27; ++y)
+        for (int x = 0; x < 45; ++x) {
+            if (thin.at("A", x, y) != 0 || whole.at("A", x, y) != 0) continue;
+            ++clear;
+            for (const char* channel : {"R", "G", "B"})
+                CHECK(thin.at(channel, x, y) == whole.at(channel, x, y));
+        }
+    CHECK(clear > 200);
+}
+
+TEST_CASE("A view at rest becomes the whole picture, to the bit, whatever was there before") {
+    for (int cell : {2, 4}) {
+        Overrides all = moving("[0, 0]", "[35, 35]", cell * cell + 1);
+        all.push_back("raymarch.temporal = " + std::to_string(cell));
+        const Scene scene = scene_from(kSmallCumulus, marched(all));
+        Report report;
+        Context context;
+        context.kernels = kernel_table(nullptr);
+        context.report = &report;
+        const Method& method = raymarch_method();
+        const std::unique_ptr<MethodRun> made = method.make();
+        RaymarchRun& run = static_cast<RaymarchRun&>(*made);
+        REQUIRE(method.prepare(scene, Budget{}, context, run));
+        REQUIRE(method.light(FrameStep{0, true, false}, context, run));
+        const std::vector<float> whole(run.planes.colour.span().begin(),
+                                       run.planes.colour.span().end());
+        for (float& v : run.upsample.colour.span()) v = 77.0f;
+        for (int frame = 1; frame <= cell * cell; ++frame) {
+            const auto colour = run.planes.colour.span();
+            if (frame > 1) {
+                const bool same = std::equal(whole.begin(), whole.end(), colour.begin());
+                CHECK(!same);  // not before every pixel had its turn
+            }
+            REQUIRE(method.light(FrameStep{frame, false, false}, context, run));
+        }
+        const auto colour = run.planes.colour.span();
+        CHECK(std::equal(whole.begin(), whole.end(), colour.begin()));
+    }
+}
+
+TEST_CASE("What upsampling and reprojection err while the camera and the sun move") {
+    Overrides all = moving("[0, 4]", "[33, 35]", 9);
+    all.push_back("camera.resolution = [120, 72]");
+    RenderOptions options;
+    options.last_frame = 8;
+    const auto last = [&](const char* setting) {
+        Overrides own = all;
+        own.push_back(setting);
+        return render_one(scene_from(kSmallCumulus, marched(own)), options);
+    };
+    const Picture whole = last("raymarch.scale = 1");
+    const auto error_of = [&](const char* setting) {
+        const double error = rel_mse(last(setting), whole);
+        MESSAGE(std::string(setting) << ": relMSE " << error);
+        CHECK(error > 1e-7);  // something was left out
+        return error;
+    };
+    // A picture so small has few pixels inside the cloud: larger ones err less
+    // (docs/upsampling.md).
+    const double half = error_of("raymarch.scale = 2"), quarter = error_of("raymarch.scale = 4");
+    const double two = error_of("raymarch.temporal = 2"), four = error_of("raymarch.temporal = 4");
+    CHECK(half < 0.02);
+    CHECK(quarter < 0.3);
+    CHECK(two < 0.5 * half);
+    CHECK(four < 0.5 * quarter);
+}
+
+TEST_CASE("Any lanes and threads give the same thinned animation") {
+    for (const char* setting : {"raymarch.scale = 2", "raymarch.temporal = 2"}) {
+        Overrides all = moving("[0, 6]", "[30, 33]", 4);
+        all.push_back(setting);
+        const Scene scene = scene_from(kSmallCumulus, marched(all));
+        std::string first;
+        for (int i = 0; const KernelTable* table = kernel_table_at(i); ++i)
+            for (int threads : {1, 3}) {
+                RenderOptions options;
+                options.isa = table->name;
+                options.threads = threads;
+                options.last_frame = 3;
+                const std::string hash = render_one(scene, options).report.hash;
+                if (first.empty()) first = hash;
+                CHECK(hash == first);
+            }
+    }
+}
+
+TEST_CASE("Scales that are none are faults of one line") {
+    for (const Overrides& wrong :
+         {Overrides{"raymarch.scale = 3"}, Overrides{"raymarch.temporal = 1"},
+          Overrides{"raymarch.temporal = 3"},
+          Overrides{"raymarch.temporal = 2", "raymarch.scale = 2"}}) {
+        const Status status =
+            raymarch_method().check(scene_from(kSmallCumulus, marched(wrong)), Budget{});
+        CHECK(status.code == Code::kBadInput);
+        CHECK(status.message.find("allowed: ") != std::string::npos);
+        CHECK(status.message.find('\n') == std::string::npos);
+    }
+}
