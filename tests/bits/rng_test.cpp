@@ -7,8 +7,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <string>
+#include <vector>
 
 #include "src/base/digest.h"
+#include "src/base/random_streams.h"
 #include "tests/support/chi_square.h"
 #include "tests/support/widths.h"
 
@@ -121,6 +124,22 @@ TEST_CASE("photons on both sides of 2^32 draw different words") {
         const auto b = threefry(high.k0, high.k1, photon, 0u);
         CHECK((a.a != b.a || a.b != b.b));
     }
+}
+
+TEST_CASE("streams: names and numbers differ, and the numbers are those of earlier pictures") {
+    const Word kept[] = {1, 2, 3, 8, 17, 18, 19, 31, 32, 0x63756d75u, 0x6e6f6973u};
+    std::vector<Word> numbers;
+    std::vector<std::string> names;
+    for (const RandomStreamRow& row : kRandomStreams) {
+        numbers.push_back(row.number);
+        names.push_back(row.name);
+        CHECK(std::string(row.use) != "");
+    }
+    for (const Word number : kept) CHECK(std::count(numbers.begin(), numbers.end(), number) == 1);
+    std::sort(numbers.begin(), numbers.end());
+    std::sort(names.begin(), names.end());
+    CHECK(std::adjacent_find(numbers.begin(), numbers.end()) == numbers.end());
+    CHECK(std::adjacent_find(names.begin(), names.end()) == names.end());
 }
 
 TEST_CASE("neighbouring counters and streams are independent in pairs") {

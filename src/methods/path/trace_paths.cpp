@@ -3,6 +3,7 @@
 #include "src/methods/path/trace_paths.h"
 
 #include "platform/threads.h"
+#include "src/base/random_streams.h"
 #include "src/methods/path/path_blocks.h"
 #include "src/run/device_launch.h"
 #include "src/world/majorant/majorants.h"

@@ -13,9 +13,6 @@
 
 namespace pileus {
 
-/// Of random numbers; lights have 1 to 3 and 17 to 19, the preparation 8.
-constexpr std::uint32_t kPathStream = 32;
-
 /// A step of a flight across a border is a few additions: smaller blocks than photons have pay.
 constexpr TrackingCosts kPathCosts{1.0, 0.25, 0.25};
 

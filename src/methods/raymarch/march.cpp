@@ -6,13 +6,12 @@
 #include "kernels_cpu/core/vec.h"
 #include "platform/threads.h"
 #include "src/base/angles.h"
+#include "src/base/random_streams.h"
 #include "src/picture/march_view.h"
 #include "src/world/phase/forward_share.h"
 
 namespace pileus {
 namespace {
-
-constexpr std::uint32_t kJitterStream = 31;
 
 /// Sum of growth^n over so many steps; large enough where it leaves the range of floats.
 float series_of(double growth, int steps) {

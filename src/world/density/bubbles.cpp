@@ -6,11 +6,10 @@
 
 #include "kernels_cpu/core/math.h"
 #include "kernels_cpu/core/rng.h"
+#include "src/base/random_streams.h"
 
 namespace pileus {
 namespace {
-
-constexpr std::uint32_t kBubbleStream = 0x63756d75u;
 
 /// Draws numbers one after the other from a counter.
 class Draws {

@@ -9,6 +9,7 @@
 #include "kernels_cpu/core/rng.h"
 #include "kernels_cpu/procedural/noise.h"
 #include "platform/threads.h"
+#include "src/base/random_streams.h"
 #include "src/world/density/bubbles.h"
 
 namespace pileus {
@@ -18,7 +19,6 @@ constexpr int kBlock = 8;                 // cells along a block's edge
 constexpr int kPart = 4;                  // and along the edge of a part of it
 constexpr int kWidth = 4;                 // cells computed side by side
 constexpr std::uint64_t kFirstCloud = 4;  // seed 0 is the cloud a first picture should show
-constexpr std::uint32_t kNoiseStream = 0x6e6f6973u;
 using FF = F<kWidth>;
 
 // Lengths in units of the box's height.
@@ -266,7 +266,7 @@ Status prepare(const CumulusSettings& settings, Field& f) {
     const float height = 1.0f - floor - skin;
     constexpr float kLeast = 0.05f;  // for grids too coarse to leave room
     const std::uint64_t seed = std::uint64_t(settings.seed) + kFirstCloud;
-    f.seed = make_key(seed, kNoiseStream, 0).k0;
+    f.seed = make_key(seed, kDetailStream, 0).k0;
     return grow_bubbles(seed, max_(half_x, kLeast), max_(half_y, kLeast), max_(height, kLeast),
                         f.list);
 }

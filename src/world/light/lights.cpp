@@ -3,6 +3,7 @@
 #include "src/world/light/lights.h"
 
 #include "src/base/angles.h"
+#include "src/base/random_streams.h"
 #include "src/world/solids/solids.h"
 
 namespace pileus {
@@ -159,7 +160,7 @@ Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elev
     if (out.sunlit) {
         const std::array<double, 3> to_sun = sun_direction(scene, sun_elevation_deg);
         Light sun = beam_light(medium, {-to_sun[0], -to_sun[1], -to_sun[2]});
-        add_light("sun", 1, out.sun_irradiance, sun, out);
+        add_light("sun", kSunStream, out.sun_irradiance, sun, out);
     } else if (!scene.sun.present || scene.ground.present == false) {
         plan.leave_out("sun photons", "no sunlight");
     }
@@ -171,18 +172,18 @@ Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elev
     std::array<double, 3> below{};
     for (std::size_t c = 0; c < 3; ++c) below[c] = out.ground_diffuse[c] + out.ground_sun[c];
     if (mapped && map->power_m2 > 0) {
-        add_light("sky", 2, {1, 1, 1}, map_light(*map), out);
+        add_light("sky", kSkyStream, {1, 1, 1}, map_light(*map), out);
     } else if (white && any_positive(out.sky) && scene.solids.empty()) {
         out.constant = out.sky;
         plan.leave_out("sky photons", "constant sky and albedo 1: the furnace identity");
         for (std::size_t c = 0; c < 3; ++c) below[c] -= out.sky[c];
     } else if (any_positive(out.sky)) {
-        add_light("sky", 2, out.sky, diffuse_light(medium, out.ground ? -1 : 0), out);
+        add_light("sky", kSkyStream, out.sky, diffuse_light(medium, out.ground ? -1 : 0), out);
     } else {
         plan.leave_out("sky photons", "no sky");
     }
     if (out.ground && (below[0] != 0 || below[1] != 0 || below[2] != 0))
-        add_light("ground", 3, below, diffuse_light(medium, 1), out);
+        add_light("ground", kGroundStream, below, diffuse_light(medium, 1), out);
     return out;
 }
 

@@ -4,6 +4,7 @@
 
 #include "kernels_cpu/core/accumulate.h"
 #include "platform/threads.h"
+#include "src/base/random_streams.h"
 #include "src/run/device_launch.h"
 #include "src/world/majorant/majorant.h"
 #include "src/world/solids/solids.h"
@@ -120,7 +121,7 @@ TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_
     k.path_scale = float(path_units(m) / __builtin_sqrt(diagonal));
     k.orthographic = in.deposit.orthographic ? 1 : 0;
     if (in.lighting->solids != nullptr) k.solids = in.lighting->solids->view();
-    const Key shift = make_key(in.seed, light.stream + 16u, std::uint32_t(generation));
+    const Key shift = make_key(in.seed, shift_stream(light.stream), std::uint32_t(generation));
     k.shift[0] = shift.k0;
     k.shift[1] = shift.k1;
     return k;

@@ -2,6 +2,7 @@
 // See prepare.h.
 #include "src/methods/collectors/prepare/prepare.h"
 
+#include "src/base/random_streams.h"
 #include "src/methods/collectors/prepare/leaves.h"
 #include "src/methods/collectors/prepare/place_collectors.h"
 #include "src/methods/collectors/prepare/shares.h"
@@ -63,7 +64,7 @@ Status prepare_sample_set(const Medium& medium, const CollectorSettings& setting
     SampleOptions options;
     options.count = std::uint32_t(settings.samples);
     options.seed = std::uint64_t(seed);
-    options.stream = 8;
+    options.stream = kSampleStream;
     return settings.rejection_sampler ? sample_rejection(field.span(), stats, density, medium.grid,
                                                          options, context.threads, set)
                                       : sample_stratified(field.span(), stats, density, medium.grid,

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// Every stream of random numbers: its name, its number, and what draws from it.
+// in: nothing -> out: numbers for make_key (kernels_cpu/core/rng.h), no two of them the same.
+// docs/methods.md 2, "Random numbers". A changed number changes every picture.
+#pragma once
+#include <cstdint>
+
+namespace pileus {
+
+// One row for a stream. A new one takes a number that no other has; the compiler checks it.
+#define PILEUS_RANDOM_STREAMS(ROW)                                    \
+    ROW(kSunStream, 1, "photons of the sun")                          \
+    ROW(kSkyStream, 2, "photons of the sky")                          \
+    ROW(kGroundStream, 3, "photons of the ground")                    \
+    ROW(kSampleStream, 8, "places of the collectors' samples")        \
+    ROW(kSunShiftStream, 17, "shifts of the sun's cells of start")    \
+    ROW(kSkyShiftStream, 18, "shifts of the sky's cells of start")    \
+    ROW(kGroundShiftStream, 19, "shifts of the ground's cells")       \
+    ROW(kJitterStream, 31, "places of a ray's steps in raymarching")  \
+    ROW(kPathStream, 32, "light paths from the camera")               \
+    ROW(kBubbleStream, 0x63756d75, "bubbles of a procedural cumulus") \
+    ROW(kDetailStream, 0x6e6f6973, "detail on a procedural cumulus")
+
+enum RandomStream : std::uint32_t {
+#define PILEUS_ROW(name, number, use) name = number,
+    PILEUS_RANDOM_STREAMS(PILEUS_ROW)
+#undef PILEUS_ROW
+};
+
+struct RandomStreamRow {
+    const char* name;
+    std::uint32_t number;
+    const char* use;
+};
+
+constexpr RandomStreamRow kRandomStreams[] = {
+#define PILEUS_ROW(name, number, use) {#name, number, use},
+    PILEUS_RANDOM_STREAMS(PILEUS_ROW)
+#undef PILEUS_ROW
+};
+
+constexpr bool streams_differ() {
+    constexpr int kCount = sizeof kRandomStreams / sizeof kRandomStreams[0];
+    for (int i = 0; i < kCount; ++i)
+        for (int j = 0; j < i; ++j)
+            if (kRandomStreams[i].number == kRandomStreams[j].number) return false;
+    return true;
+}
+static_assert(streams_differ(), "two streams of random numbers have one number");
+
+/// The stream that shifts the cells in which a light's photons start.
+constexpr std::uint32_t shift_stream(std::uint32_t light) { return light + 16; }
+static_assert(shift_stream(kSunStream) == kSunShiftStream &&
+                  shift_stream(kSkyStream) == kSkyShiftStream &&
+                  shift_stream(kGroundStream) == kGroundShiftStream,
+              "a light's shifts have their own row");
+
+}  // namespace pileus
