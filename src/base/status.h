@@ -4,14 +4,17 @@
 // docs/scene.md lists the form of the lines.
 #pragma once
 #include <string>
-#include <utility>
+
+#include "src/base/printable.h"
 
 namespace pileus {
 
 /// The program's exit status is the value.
 enum class Code : int { kOk = 0, kCheckFailed = 1, kBadInput = 2, kLimit = 3, kIo = 4 };
 
-/// Result of a step that can fail. `message` holds one line per fault, without a final newline.
+/// Result of a step that can fail. `message` holds one line per fault, without a final newline. It
+/// is made by the functions below, which let no control character through but the line feed:
+/// whatever a caller quotes, a terminal can show it.
 struct [[nodiscard]] Status {
     Code code = Code::kOk;
     std::string message;
@@ -19,20 +22,14 @@ struct [[nodiscard]] Status {
     explicit operator bool() const { return code == Code::kOk; }
 
     static Status ok() { return {}; }
-    static Status bad_input(std::string text) { return {Code::kBadInput, std::move(text)}; }
-    static Status limit(std::string text) { return {Code::kLimit, std::move(text)}; }
-    static Status io(std::string text) { return {Code::kIo, std::move(text)}; }
-};
+    static Status bad_input(std::string_view text) { return fault(Code::kBadInput, text); }
+    static Status limit(std::string_view text) { return fault(Code::kLimit, text); }
+    static Status io(std::string_view text) { return fault(Code::kIo, text); }
+    static Status check_failed(std::string_view text) { return fault(Code::kCheckFailed, text); }
 
-/// `text` as one short line that a terminal can show: cut to 300 bytes, control characters as '?'.
-/// For what a message quotes from a file that nobody vouches for.
-inline std::string printable_line(const std::string& text) {
-    constexpr std::size_t kLongest = 300;
-    std::string line = text.substr(0, kLongest);
-    for (char& c : line)
-        if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = '?';
-    return line;
-}
+private:
+    static Status fault(Code code, std::string_view text) { return {code, printable_lines(text)}; }
+};
 
 }  // namespace pileus
 

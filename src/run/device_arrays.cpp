@@ -12,8 +12,8 @@ DeviceArrays::~DeviceArrays() {
 
 void DeviceArrays::fail(const char* what) {
     if (status_)
-        status_ = Status{Code::kIo, std::string("device ") + device_.name + ": " + what +
-                                        " failed: " + device_.fault()};
+        status_ = Status::io(std::string("device ") + device_.name + ": " + what +
+                             " failed: " + device_.fault());
 }
 
 void* DeviceArrays::allocate(std::uint64_t count, std::uint64_t size) {

@@ -37,6 +37,8 @@ bool toml_value(std::string_view text, Node& value) {
 bool scalar_value(std::string_view text, Node& value) {
     if (toml_value(text, value)) return true;
     if (text.find_first_of("[]{}\"'\n") != std::string_view::npos) return false;
+    // A picture keeps its options in its text, which must stay TOML: no control characters there.
+    if (printable(text) != text) return false;
     value = Node();
     value.kind = NodeKind::kText;
     value.text = std::string(text);
@@ -140,7 +142,7 @@ void apply(const std::string& text, const Place& place, Node& root, FaultList& f
     if (!read_value(written, value)) {
         faults.add(place, "",
                    "not a value, " + quote_text(written) +
-                       ", allowed: a TOML value, or a text without quotes");
+                       ", allowed: a TOML value, or a printable text without quotes");
         return;
     }
     std::string walked, fault;

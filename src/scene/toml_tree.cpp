@@ -24,6 +24,8 @@
 
 #include <charconv>
 
+#include "src/base/printable.h"
+
 namespace pileus {
 namespace {
 
@@ -97,21 +99,7 @@ std::string number_text(double value) {
 }
 
 std::string quote_text(std::string_view text) {
-    static const char* const kHex = "0123456789abcdef";
-    std::string shown = "\"";
-    for (std::size_t i = 0; i < text.size(); ++i) {
-        const unsigned char ch = static_cast<unsigned char>(text[i]);
-        // Cut between characters only, so that the message stays valid UTF-8.
-        if (i >= kMaxShown && (ch & 0xC0) != 0x80) return shown + "...\"";
-        if (ch >= 0x20 && ch != 0x7F) {
-            shown += text[i];
-        } else {
-            shown += "\\x";
-            shown += kHex[ch >> 4];
-            shown += kHex[ch & 15];
-        }
-    }
-    return shown + "\"";
+    return '"' + printable(text, kMaxShown, "...") + '"';
 }
 
 std::string value_text(const Node& node) {
@@ -148,9 +136,8 @@ bool parse_toml(std::string_view text, Node& root, SyntaxFault& fault) {
         const Place place = place_of(error.source());
         fault.line = place.line;
         fault.column = place.column;
-        fault.what = std::string(error.description());
-        for (char& ch : fault.what)
-            if (static_cast<unsigned char>(ch) < 0x20) ch = ' ';
+        // The parser escapes some control characters that it quotes, not all.
+        fault.what = printable(error.description());
         return false;
     }
     root = Node();

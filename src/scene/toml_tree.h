@@ -47,7 +47,7 @@ std::string number_text(double value);
 /// A value as one short printable line for messages: at most about 60 bytes, no control characters.
 std::string value_text(const Node& node);
 
-/// `text` in double quotes, cut to about 60 bytes, control characters written as \xNN.
+/// `text` in double quotes and printable, cut to about 60 bytes.
 std::string quote_text(std::string_view text);
 
 struct SyntaxFault {

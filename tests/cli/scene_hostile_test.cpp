@@ -83,6 +83,27 @@ TEST_CASE("characters outside ASCII belong into texts and comments") {
     CHECK(scene.output.report == "\xC3\xAC.json");
 }
 
+TEST_CASE("no control character of a scene reaches a message as it is") {
+    // The parser quotes what it stumbles over, in words of its own.
+    const std::string opening = "seed = 1\n";
+    for (const char* text :
+         {"a = \x7f", "\x7f = 1", "a = \"\x7f\"", "a = '\x1b'", "a = 1\x7f", "[\x7f]",
+          "a = \"\\\x7f\"", "a = \"\xc2\x9b\"", "seed = \"\xc2\x9b\"", "seed = \"\\u007f\"",
+          "\"\\u009b\" = 1", "a = [\x7f]", "a = 0x\x7f", "# \x7f", "a = \xff"}) {
+        CAPTURE(text);
+        Scene scene;
+        const Status status = read_scene_text(opening + text, "s.toml", "", {}, scene);
+        CHECK(status.code == Code::kBadInput);
+        for (std::size_t i = 0; i < status.message.size(); ++i) {
+            const auto byte = static_cast<unsigned char>(status.message[i]);
+            const auto before = static_cast<unsigned char>(i > 0 ? status.message[i - 1] : 0);
+            CHECK_FALSE((byte < 0x20 && byte != '\n'));
+            CHECK(byte != 0x7F);
+            CHECK_FALSE((before == 0xC2 && byte < 0xA0));
+        }
+    }
+}
+
 TEST_CASE("texts at the size limit are refused in good time") {
     refused("a = \"" + repeated("x", kMost));
     refused("seed = " + repeated("9", kMost));

@@ -27,9 +27,9 @@ std::string TextScan::token(std::size_t at, std::size_t end) const {
     for (; at < end && word.size() < kLongest; ++at) {
         if (is_text_space(text_[at])) break;
         if (separator_ != ' ' && text_[at] == separator_) break;
-        word += text_[at] >= ' ' && text_[at] <= '~' ? text_[at] : '?';
+        word += text_[at];
     }
-    return word.empty() ? std::string(1, separator_) : word;
+    return word.empty() ? std::string(1, separator_) : printable(word);
 }
 
 void TextScan::skip(TextRange& range) const {

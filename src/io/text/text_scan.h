@@ -30,10 +30,10 @@ public:
     TextScan(const std::string& file, Span<const char> text, char separator = ' ')
         : file_(file), text_(text), separator_(separator) {}
 
-    /// kBadInput, opened with file:line:column of byte `at`, counted from 1; `what` is cut to 300
-    /// characters, control characters in it become '?'.
+    /// kBadInput, opened with file:line:column of byte `at`, counted from 1; `what` is made
+    /// printable and cut to 300 bytes.
     Status fault(std::size_t at, const std::string& what) const;
-    /// The word at a place, printable and at most 40 characters.
+    /// The word at a place, made printable; of more than 40 bytes the first 40.
     std::string token(std::size_t at, std::size_t end) const;
     /// Passes white space and comments, which run from '#' to the end of their line.
     void skip(TextRange& range) const;
