@@ -63,6 +63,10 @@ public:
     std::size_t size() const { return size_; }
     bool empty() const { return size_ == 0; }
     std::uint64_t bytes() const { return size_ * sizeof(T); }
+    /// Checked in every build: for indices that depend on a file's numbers; see Span.
+    T& at(std::size_t i) { return span().at(i); }
+    const T& at(std::size_t i) const { return span().at(i); }
+    /// Checked in debug builds only: for indices that the program counts by itself, and kernels.
     T& operator[](std::size_t i) {
         assert(i < size_);
         return data_[i];

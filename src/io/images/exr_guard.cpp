@@ -48,7 +48,7 @@ public:
     Status start(bool& many_parts);
     /// Passes one part's attributes.
     Status part(Part& part);
-    bool at_zero() const { return at_ < bytes_.size && bytes_[at_] == 0; }
+    bool at_zero() const { return at_ < bytes_.size && bytes_.at(at_) == 0; }
 
 private:
     Status fault(const std::string& line) const {
@@ -63,7 +63,7 @@ private:
     bool texts_fit(std::size_t at, std::size_t end) const;
     std::uint32_t u32(std::size_t at) const {
         std::uint32_t bits = 0;
-        for (std::size_t i = 4; i-- > 0;) bits = bits << 8 | std::uint8_t(bytes_[at + i]);
+        for (std::size_t i = 4; i-- > 0;) bits = bits << 8 | std::uint8_t(bytes_.at(at + i));
         return bits;
     }
     std::int64_t i32(std::size_t at) const {
@@ -90,8 +90,8 @@ Status Walk::start(bool& many_parts) {
 /// Takes a text that ends with a zero byte.
 Status Walk::word(std::string_view& text) {
     const std::size_t begin = at_;
-    while (at_ < bytes_.size && bytes_[at_] != 0 && at_ - begin <= kLongestName) ++at_;
-    if (at_ >= bytes_.size || bytes_[at_] != 0) return fault("attribute: its name does not end");
+    while (at_ < bytes_.size && bytes_.at(at_) != 0 && at_ - begin <= kLongestName) ++at_;
+    if (at_ >= bytes_.size || bytes_.at(at_) != 0) return fault("attribute: its name does not end");
     text = {bytes_.data + begin, at_ - begin};
     ++at_;
     return Status::ok();
@@ -100,8 +100,8 @@ Status Walk::word(std::string_view& text) {
 /// Each channel is a name, a zero and 16 bytes; an empty name ends the list.
 std::uint64_t Walk::count_channels(std::size_t& at, std::size_t end) const {
     std::uint64_t count = 0;
-    for (; at < end && bytes_[at] != 0; at += 17, ++count)
-        while (at < end && bytes_[at] != 0) ++at;
+    for (; at < end && bytes_.at(at) != 0; at += 17, ++count)
+        while (at < end && bytes_.at(at) != 0) ++at;
     return count;
 }
 
@@ -125,7 +125,7 @@ Status Walk::length_of(std::string_view type, std::size_t length) const {
     if (type == "chlist") {
         std::size_t at = at_;
         (void)count_channels(at, at_ + length);
-        sound = length > 0 && at == at_ + length - 1 && bytes_[at] == 0;
+        sound = length > 0 && at == at_ + length - 1 && bytes_.at(at) == 0;
     }
     if (type == "preview") {
         std::uint64_t pixels = 0, bytes = 0;
@@ -158,7 +158,7 @@ Status Walk::value(std::string_view key, std::size_t length, Part& part) const {
         return fault("deep data, allowed: one value per pixel");
     if (key == "compression" && length == 1) {
         static constexpr std::uint8_t rows[] = {1, 1, 1, 16, 32, 16, 32, 32, 32, 0};
-        const auto kind = std::uint8_t(bytes_[at_]);
+        const auto kind = std::uint8_t(bytes_.at(at_));
         part.packed_rows = kind < 9 ? rows[kind] : 256;
     }
     return Status::ok();

@@ -113,13 +113,14 @@ Status decode_pfm(const std::string& name, Span<const char> bytes, Image& image,
     }
 
     // Rows come from the bottom; a single plane fills all three channels.
+    const Span<const char> values = bytes.part(head.data_at, std::size_t(wanted));
     for (std::size_t c = 0; c < 3; ++c)
         for (std::size_t y = 0; y < height; ++y)
             for (std::size_t x = 0; x < width; ++x) {
                 const std::size_t pixel = (height - 1 - y) * width + x;
                 const std::size_t value = pixel * head.planes + (head.planes == 3 ? c : 0);
-                image.channels[c].pixels[y * width + x] =
-                    get_float(bytes.data + head.data_at + 4 * value, head.big_endian);
+                image.channels[c].pixels.at(y * width + x) =
+                    get_float(values.part(4 * value, 4).data, head.big_endian);
             }
     return Status::ok();
 }

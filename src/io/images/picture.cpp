@@ -105,6 +105,14 @@ void keep(const std::vector<std::pair<int, const char*>>& wanted, Image& image) 
     image.channels.swap(kept);
 }
 
+/// Copies `count` floats; the places come from the windows of a file.
+void copy_part(const Buffer<float>& from, std::int64_t at, std::int64_t count, Buffer<float>& to,
+               std::int64_t to_at) {
+    const Span<const float> taken = from.span().part(std::size_t(at), std::size_t(count));
+    std::copy(taken.begin(), taken.end(),
+              to.span().part(std::size_t(to_at), std::size_t(count)).begin());
+}
+
 int index_of(const Image& image, const char* name) {
     for (std::size_t i = 0; i < image.channels.size(); ++i)
         if (image.channels[i].name == name) return int(i);
@@ -163,9 +171,8 @@ Status fit_display_window(const std::string& name, Image& image, std::uint64_t m
         PILEUS_TRY(fitted.resize(std::uint64_t(window.width) * std::uint64_t(window.height),
                                  "display window"));
         for (std::int64_t y = top; y < bottom && left < right; ++y)
-            std::copy(channel.pixels.data() + y * image.width + left,
-                      channel.pixels.data() + y * image.width + right,
-                      fitted.data() + (y - window.y) * window.width + (left - window.x));
+            copy_part(channel.pixels, y * image.width + left, right - left, fitted,
+                      (y - window.y) * window.width + left - window.x);
         channel.pixels.swap(fitted);
     }
     image.width = int(window.width);

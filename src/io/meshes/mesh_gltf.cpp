@@ -110,7 +110,7 @@ Status Triangles::add_mesh(const aiMesh& from, const Placement& place, Mesh* mes
             if (mesh == nullptr) {
                 continue;
             }
-            float* to = mesh->corners.data() + 9 * count_;
+            float* to = mesh->corners.span().part(std::size_t(9 * count_), 9).data;
             PILEUS_TRY(add_corner(from, face.mIndices[0], place, to));
             PILEUS_TRY(add_corner(from, face.mIndices[i - 1], place, to + 3));
             PILEUS_TRY(add_corner(from, face.mIndices[i], place, to + 6));

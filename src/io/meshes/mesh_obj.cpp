@@ -22,10 +22,10 @@ private:
                is_text_space(text_[line.at + 1]);
     }
     std::uint64_t words(TextRange line) const;
-    Status vertex(TextRange line, float* to) const;
+    Status vertex(TextRange line, Span<float> to) const;
     Status corner(TextRange& line, std::uint64_t vertices, std::uint64_t& index) const;
-    Status face(TextRange line, std::uint64_t vertices, const Buffer<float>& places,
-                float*& to) const;
+    Status face(TextRange line, std::uint64_t vertices, const Buffer<float>& places, Mesh& mesh,
+                std::uint64_t& triangles) const;
 };
 
 /// Words behind the first one.
@@ -36,9 +36,9 @@ std::uint64_t Reader::words(TextRange line) const {
     return count;
 }
 
-Status Reader::vertex(TextRange line, float* to) const {
+Status Reader::vertex(TextRange line, Span<float> to) const {
     ++line.at;
-    for (int a = 0; a < 3; ++a) {
+    for (std::size_t a = 0; a < 3; ++a) {
         skip(line);
         const std::size_t begin = line.at;
         PILEUS_TRY(number(line, "v", to[a]));
@@ -66,8 +66,8 @@ Status Reader::corner(TextRange& line, std::uint64_t vertices, std::uint64_t& in
     return Status::ok();
 }
 
-Status Reader::face(TextRange line, std::uint64_t vertices, const Buffer<float>& places,
-                    float*& to) const {
+Status Reader::face(TextRange line, std::uint64_t vertices, const Buffer<float>& places, Mesh& mesh,
+                    std::uint64_t& triangles) const {
     const std::uint64_t corners = words(line);
     std::uint64_t first = 0, last = 0, next = 0;
     ++line.at;
@@ -75,8 +75,9 @@ Status Reader::face(TextRange line, std::uint64_t vertices, const Buffer<float>&
         PILEUS_TRY(corner(line, vertices, next));
         if (i == 0) first = next;
         if (i < 2) continue;
+        float* to = mesh.corners.span().part(std::size_t(9 * triangles++), 9).data;
         for (std::uint64_t v : {first, last, next})
-            for (std::size_t a = 0; a < 3; ++a) *to++ = places[std::size_t(3 * v) + a];
+            for (std::size_t a = 0; a < 3; ++a) *to++ = places.at(std::size_t(3 * v) + a);
     }
     return Status::ok();
 }
@@ -98,12 +99,12 @@ Status Reader::read(std::uint64_t most_triangles, Mesh& mesh) {
     Buffer<float> places;
     PILEUS_TRY(places.resize(3 * vertices, "vertices"));
     PILEUS_TRY(mesh.corners.resize(9 * triangles, "mesh"));
-    float* to = mesh.corners.data();
-    std::uint64_t known = 0;
+    std::uint64_t known = 0, made = 0;
     rest = {0, text_.size};
     while (next_line(rest, line)) {
-        if (opens(line, 'v')) PILEUS_TRY(vertex(line, places.data() + 3 * known++));
-        if (opens(line, 'f')) PILEUS_TRY(face(line, known, places, to));
+        if (opens(line, 'v'))
+            PILEUS_TRY(vertex(line, places.span().part(std::size_t(3 * known++), 3)));
+        if (opens(line, 'f')) PILEUS_TRY(face(line, known, places, mesh, made));
     }
     return Status::ok();
 }

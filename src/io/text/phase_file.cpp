@@ -57,7 +57,7 @@ Status Reader::node(TextRange line, std::uint64_t index, bool last, PhaseNodes& 
         return fault(begin, "angle: out of range, " + word + ", allowed: number in [0, 180]");
     if (index == 0 && angle > 0)
         return fault(begin, "angle: the first is not 0, " + word + ", allowed: 0 to 180 degrees");
-    if (index > 0 && !(angle > nodes.angle_deg[std::size_t(index) - 1]))
+    if (index > 0 && !(angle > nodes.angle_deg.at(std::size_t(index) - 1)))
         return fault(begin,
                      "angle: not above the one before, " + word + ", allowed: ascending angles");
     if (last && angle < 180)
@@ -71,8 +71,8 @@ Status Reader::node(TextRange line, std::uint64_t index, bool last, PhaseNodes& 
         return fault(
             at, "value: out of range, " + token(at, line.end) + ", allowed: number in [0, 1e+30]");
     PILEUS_TRY(end_of(line, "`angle value` on each line"));
-    nodes.angle_deg[std::size_t(index)] = angle;
-    nodes.value[std::size_t(index)] = value;
+    nodes.angle_deg.at(std::size_t(index)) = angle;
+    nodes.value.at(std::size_t(index)) = value;
     return Status::ok();
 }
 
@@ -85,7 +85,7 @@ Status Reader::table(PhaseNodes& nodes) {
     bool light = false;
     for (std::uint64_t i = 0; next_line(rest, line); ++i) {
         PILEUS_TRY(node(line, i, i + 1 == lines, nodes));
-        light = light || nodes.value[std::size_t(i)] > 0;
+        light = light || nodes.value.at(std::size_t(i)) > 0;
     }
     if (!light)
         return fault(text_.size, "value: all are 0, nothing is scattered, allowed: one above 0");
@@ -106,7 +106,7 @@ Status Reader::moments(Buffer<double>& list) {
             return fault(begin, "moment: out of range, " + token(begin, line.end) +
                                     ", allowed: " + (first ? "1, the first" : "number in [-1, 1]"));
         PILEUS_TRY(end_of(line, "one moment on each line, without 2l+1"));
-        list[std::size_t(i)] = moment;
+        list.at(std::size_t(i)) = moment;
     }
     return Status::ok();
 }

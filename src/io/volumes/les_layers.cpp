@@ -81,14 +81,15 @@ Status lay_on_even_layers(const LayerStack& stack, Volume& volume) {
         const double low = faces.front() + k * step;
         const double high = k + 1 < stack.layers ? low + step : faces.back();
         while (first + 2 < faces.size() && faces[first + 1] <= low) ++first;
-        float* to = laid.data() + std::size_t(k) * plane;
+        const Span<float> to = laid.span().part(std::size_t(k) * plane, plane);
         for (std::size_t cell = 0; cell < plane; ++cell) {
             // Add in doubles, from below: value times the thickness that both layers share.
             double sum = 0;
             for (std::size_t j = first; j + 1 < faces.size() && faces[j] < high; ++j) {
                 const double from = faces[j] > low ? faces[j] : low;
                 const double until = faces[j + 1] < high ? faces[j + 1] : high;
-                if (until > from) sum += (until - from) * double(volume.density[j * plane + cell]);
+                if (until > from)
+                    sum += (until - from) * double(volume.density.at(j * plane + cell));
             }
             to[cell] = float(sum / step);
         }

@@ -208,10 +208,11 @@ Status Reader::row(Fields fields, const Header& header, Volume& volume) const {
     PILEUS_TRY(close(fields, "row"));
     const std::uint64_t nx = std::uint64_t(header.size[0]), ny = std::uint64_t(header.size[1]);
     const std::uint64_t index = (place[2] * ny + place[1]) * nx + place[0];
-    if (volume.density[std::size_t(index)] >= 0)
+    float& voxel = volume.density.at(std::size_t(index));
+    if (voxel >= 0)
         return fault(begin,
                      "row: given twice, " + voxel_name(volume.size, index) + ", allowed: once");
-    volume.density[std::size_t(index)] = value;
+    voxel = value;
     return Status::ok();
 }
 
@@ -246,7 +247,7 @@ Status Reader::rows(const Header& header, Volume& volume) const {
     Fields fields;
     while (next_line(rest, fields.range)) PILEUS_TRY(row(fields, header, volume));
     for (std::uint64_t i = 0; i < cells; ++i) {
-        float& value = volume.density[std::size_t(i)];
+        float& value = volume.density.at(std::size_t(i));
         if (value >= 0) continue;
         if (!header.sparse)
             return fault(text_.size, "row: missing, " + voxel_name(volume.size, i) +

@@ -215,7 +215,7 @@ Status Reader::densities(const Grid& grid, Volume& volume) {
         if (!(value >= 0.0f && value <= 3.402823466e38f))
             return fault(at, "float density: " + voxel_name(volume.size, count) + ", " +
                                  token(at, list.end) + ", allowed: a finite number >= 0");
-        if (count < room) volume.density[std::size_t(count)] = value;
+        if (count < room) volume.density.at(std::size_t(count)) = value;
     }
     if (count != wanted) return wrong_count(grid, count);
     volume.knows_bounds = grid.has_point[0];

@@ -54,7 +54,7 @@ Status decode_values(const std::string& name, const unsigned char* from, RawType
             return Status::bad_input(name + ": density: " + voxel_name(volume.size, first + i) +
                                      ", " + std::to_string(value) +
                                      ", allowed: a finite number >= 0");
-        volume.density[std::size_t(first + i)] = value;
+        volume.density.at(std::size_t(first + i)) = value;
     }
     return Status::ok();
 }

@@ -115,55 +115,59 @@ void add_camera(const CameraParams& c, Digest& d) {
     for (std::int32_t v : {c.width, c.height, c.orthographic, c.flux}) d.u32(std::uint32_t(v));
 }
 
+/// Word `i` of a file, whose length is a multiple of eight bytes.
+std::uint64_t word_at(Span<const char> bytes, std::size_t i) {
+    return get(bytes.part(8 * i, 8).data);
+}
+
 /// The head of a file against the film that it should fill.
-Status check_head(const std::string& path, const char* bytes, std::uint64_t digest,
+Status check_head(const std::string& path, Span<const char> bytes, std::uint64_t digest,
                   const Film& film) {
-    const std::uint64_t samples = get(bytes + 48);
-    if (get(bytes) != kMagic) return fault(path, "not a file of this kind");
-    if (get(bytes + 8) != kFormat)
-        return fault(path, "written in form " + std::to_string(get(bytes + 8)) +
+    const std::uint64_t samples = word_at(bytes, 6);
+    if (word_at(bytes, 0) != kMagic) return fault(path, "not a file of this kind");
+    if (word_at(bytes, 1) != kFormat)
+        return fault(path, "written in form " + std::to_string(word_at(bytes, 1)) +
                                ", this version reads " + std::to_string(kFormat));
-    if (get(bytes + 16) != digest || get(bytes + 24) != std::uint64_t(film.width) ||
-        get(bytes + 32) != std::uint64_t(film.height) ||
-        get(bytes + 40) != std::uint64_t(film.parts))
+    if (word_at(bytes, 2) != digest || word_at(bytes, 3) != std::uint64_t(film.width) ||
+        word_at(bytes, 4) != std::uint64_t(film.height) ||
+        word_at(bytes, 5) != std::uint64_t(film.parts))
         return fault(path, "of another scene, seed, layers or version");
     return samples <= kMostSamples ? Status::ok() : fault(path, "damaged, too many samples");
 }
 
-/// Copies doubles out of the file; false where one is no finite number.
-bool take_doubles(const char* from, Buffer<double>& to) {
+/// Copies doubles out of the file, from word `first` on; false where one is no finite number.
+bool take_doubles(Span<const char> bytes, std::size_t first, Buffer<double>& to) {
     bool finite = true;
     for (std::size_t i = 0; i < to.size(); ++i) {
-        const std::uint64_t bits = get(from + 8 * i);
+        const std::uint64_t bits = word_at(bytes, first + i);
         std::memcpy(&to[i], &bits, sizeof bits);
         finite = finite && to[i] - to[i] == 0;
     }
     return finite;
 }
 
-Status decode(const std::string& path, const Buffer<char>& bytes, std::uint64_t digest,
-              Film& film) {
+Status decode(const std::string& path, Span<const char> bytes, std::uint64_t digest, Film& film) {
     const std::size_t words = total_words(film);
     // A file of another kind is named as one before its length is looked at.
-    if (bytes.size() >= 8 && get(bytes.data()) != kMagic)
+    if (bytes.size >= 8 && word_at(bytes, 0) != kMagic)
         return fault(path, "not a file of this kind");
-    if (bytes.size() >= 8 * kHeadWords) PILEUS_TRY(check_head(path, bytes.data(), digest, film));
-    if (bytes.size() != 8 * words)
-        return fault(path, std::to_string(bytes.size()) + " bytes instead of " +
+    if (bytes.size >= 8 * kHeadWords) PILEUS_TRY(check_head(path, bytes, digest, film));
+    if (bytes.size != 8 * words)
+        return fault(path, std::to_string(bytes.size) + " bytes instead of " +
                                std::to_string(8 * words) + ", cut or damaged");
     WordDigest all;
-    for (std::size_t i = 0; i + 1 < words; ++i) all.add(get(bytes.data() + 8 * i));
-    if (all.value() != get(bytes.data() + 8 * (words - 1)))
+    for (std::size_t i = 0; i + 1 < words; ++i) all.add(word_at(bytes, i));
+    if (all.value() != word_at(bytes, words - 1))
         return fault(path, "damaged, its digest does not fit");
-    const char* at = bytes.data() + 8 * kHeadWords;
     std::int64_t tally[kTallyWords];
-    for (std::size_t i = 0; i < kTallyWords; ++i) tally[i] = std::int64_t(get(at + 8 * i));
+    for (std::size_t i = 0; i < kTallyWords; ++i)
+        tally[i] = std::int64_t(word_at(bytes, kHeadWords + i));
     std::memcpy(&film.tally, tally, sizeof tally);
-    at += 8 * kTallyWords;
-    bool finite = take_doubles(at, film.sum);
-    finite = take_doubles(at + 8 * film.sum.size(), film.square) && finite;
+    const std::size_t sums = kHeadWords + kTallyWords;
+    bool finite = take_doubles(bytes, sums, film.sum);
+    finite = take_doubles(bytes, sums + film.sum.size(), film.square) && finite;
     if (!finite) return fault(path, "damaged, a sum is no finite number");
-    film.samples = get(bytes.data() + 48);
+    film.samples = word_at(bytes, 6);
     return Status::ok();
 }
 
@@ -223,7 +227,7 @@ Status read_path_state(const std::string& path, std::uint64_t digest, Film& film
     Buffer<char> bytes;
     // A longer file is foreign; one byte more than expected is enough to tell.
     PILEUS_TRY(read_file_start(path, expected + 1, bytes));
-    return decode(path, bytes, digest, film);
+    return decode(path, bytes.span(), digest, film);
 }
 
 }  // namespace pileus

@@ -14,7 +14,7 @@ namespace {
 /// Copies the first `rows` rows of a channel, scaled; the first value that is no radiance is a
 /// fault.
 Status take_plane(const std::string& name, const Image& image, const Channel& from, int rows,
-                  double scale, float* to) {
+                  double scale, Span<float> to) {
     const std::size_t width = std::size_t(image.width);
     for (std::size_t i = 0; i < from.pixels.size(); ++i) {
         const float v = from.pixels[i];
@@ -25,7 +25,7 @@ Status take_plane(const std::string& name, const Image& image, const Channel& fr
                                      ": no radiance, " + number_text(double(v)) +
                                      ", allowed: 0 to 1e30 after sky.map_scale");
         if (i / width < std::size_t(rows))
-            to[i] = scaled < kLeastSkyRadiance ? 0.0f : float(scaled);
+            to.at(i) = scaled < kLeastSkyRadiance ? 0.0f : float(scaled);
     }
     return Status::ok();
 }
@@ -48,8 +48,8 @@ Status make_sky_map(const std::string& name, const Image& image, const Sky& sky,
     const std::size_t plane = std::size_t(rows) * std::size_t(image.width);
     PILEUS_TRY(map.radiance.resize(3 * plane, "sky map"));
     for (std::size_t c = 0; c < 3; ++c)
-        PILEUS_TRY(
-            take_plane(name, image, *rgb[c], rows, sky.map_scale, map.radiance.data() + c * plane));
+        PILEUS_TRY(take_plane(name, image, *rgb[c], rows, sky.map_scale,
+                              map.radiance.span().part(c * plane, plane)));
     // Three equal planes are one.
     float* first = map.radiance.data();
     const bool grey = std::memcmp(first, first + plane, plane * sizeof(float)) == 0 &&

@@ -181,8 +181,8 @@ Status unpack_nvdb_grid(ByteCursor& in, const NvdbGrid& grid, Buffer<char>& room
     PILEUS_TRY(room.resize(grid.size, "NanoVDB grid"));
     for (std::uint64_t done = 0; done < grid.size;) {
         const std::uint64_t chunk = blosc ? std::min(grid.size - done, kChunk) : grid.size;
-        PILEUS_TRY(
-            unpack_block(in, blosc, reinterpret_cast<unsigned char*>(room.data()) + done, chunk));
+        char* to = room.span().part(std::size_t(done), std::size_t(chunk)).data;
+        PILEUS_TRY(unpack_block(in, blosc, reinterpret_cast<unsigned char*>(to), chunk));
         done += chunk;
     }
     if (in.left() > 0)

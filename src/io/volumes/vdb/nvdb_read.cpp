@@ -41,7 +41,7 @@ public:
     Status tree();
 
 private:
-    using Bytes = const unsigned char*;
+    using Bytes = Span<const unsigned char>;
 
     /// Hands out a part of the grid at `at`, which must be within and in step with the others.
     Status part(std::uint64_t at, std::uint64_t size, const char* what, Bytes& from) {
@@ -51,7 +51,8 @@ private:
                              ", allowed: multiples of 32, " + std::to_string(size) +
                              " bytes or more before " + std::to_string(whole_));
         PILEUS_TRY(in_.window(at, whole_, what));
-        return in_.take(size, what, from);
+        from.size = std::size_t(size);
+        return in_.take(size, what, from.data);
     }
     /// No more nodes than the tree states, so that a child that is shared cannot keep us busy.
     Status count_node(unsigned level) {
@@ -59,8 +60,12 @@ private:
         return in_.fault(std::string(kNodes[level]) +
                          ": more than the tree states, allowed: " + std::to_string(nodes_[level]));
     }
-    Status tile(const VdbPlace& at, std::int64_t side, Bytes value) {
-        const float number = vdb_number(value, layout_.value_bytes);
+    float number_at(Bytes from, std::size_t at, unsigned bytes) const {
+        return vdb_number(from.part(at, bytes).data, bytes);
+    }
+    /// The value stands `value` bytes into the part.
+    Status tile(const VdbPlace& at, std::int64_t side, Bytes from, std::size_t value) {
+        const float number = number_at(from, value, layout_.value_bytes);
         if (volume_ == nullptr) {
             box_.add_tile(at, side);
             return check_vdb_value(in_, at, number);
@@ -83,9 +88,9 @@ private:
     std::uint32_t nodes_[3] = {0, 0, 0}, seen_[3] = {0, 0, 0};  // leaves, lower, upper
 };
 
-std::uint64_t little_endian(const unsigned char* from) {
+std::uint64_t little_endian(Span<const unsigned char> from, std::size_t at) {
     std::uint64_t bits = 0;
-    for (unsigned i = 8; i-- > 0;) bits = bits << 8 | from[i];
+    for (unsigned i = 8; i-- > 0;) bits = bits << 8 | from.at(at + i);
     return bits;
 }
 
@@ -106,10 +111,10 @@ Status Walk::tree() {
 
 Status Walk::root(std::uint64_t at) {
     constexpr std::uint64_t kCountAt = 24;
-    Bytes head = nullptr, table = nullptr;
+    Bytes head, table;
     std::uint32_t tiles = 0;
     PILEUS_TRY(part(at, layout_.root_bytes, "root", head));
-    const float background = vdb_number(head + layout_.background, layout_.value_bytes);
+    const float background = number_at(head, layout_.background, layout_.value_bytes);
     if (background != 0.0f)
         return in_.fault("background: " + std::to_string(background) +
                          ", allowed: 0 (nothing outside the cloud)");
@@ -120,19 +125,20 @@ Status Walk::root(std::uint64_t at) {
     // The order is free, but a place that came twice would be filled twice.
     Buffer<std::uint64_t> keys;
     PILEUS_TRY(keys.resize(tiles, "NanoVDB root"));
-    for (std::uint32_t i = 0; i < tiles; ++i) keys[i] = little_endian(table + i * kRootTileBytes);
+    for (std::uint32_t i = 0; i < tiles; ++i) keys.at(i) = little_endian(table, i * kRootTileBytes);
     const auto from = keys.span().begin(), to = keys.span().end();
     std::sort(from, to);
     if (std::adjacent_find(from, to) != to)
         return in_.fault("tiles of the root: a place comes twice, allowed: once");
-    for (std::uint32_t i = 0; i < tiles; ++i) PILEUS_TRY(root_tile(at, table + i * kRootTileBytes));
+    for (std::uint32_t i = 0; i < tiles; ++i)
+        PILEUS_TRY(root_tile(at, table.part(i * kRootTileBytes, kRootTileBytes)));
     return Status::ok();
 }
 
 /// A key holds x, y and z in 21 bits each, as unsigned multiples of 4096.
 Status Walk::root_tile(std::uint64_t root, Bytes from) {
     constexpr std::int64_t kHalf = std::int64_t{1} << 19;
-    const std::uint64_t key = little_endian(from), child = little_endian(from + 8);
+    const std::uint64_t key = little_endian(from, 0), child = little_endian(from, 8);
     VdbPlace origin;
     for (std::size_t a = 0; a < 3; ++a) {
         const std::int64_t field = std::int64_t(key >> (42 - 21 * a) & 0x1fffff);
@@ -141,46 +147,47 @@ Status Walk::root_tile(std::uint64_t root, Bytes from) {
         origin[a] = (field < kHalf ? field : field - 2 * kHalf) * kRootSide;
     }
     if (child != 0) return node<Upper>(root + child, origin);
-    const bool active = (from[16] | from[17] | from[18] | from[19]) != 0;
-    return active ? tile(origin, kRootSide, from + layout_.tile_value) : Status::ok();
+    const bool active = (from.at(16) | from.at(17) | from.at(18) | from.at(19)) != 0;
+    return active ? tile(origin, kRootSide, from, layout_.tile_value) : Status::ok();
 }
 
 template <class T>
 Status Walk::node(std::uint64_t at, const VdbPlace& origin) {
     constexpr unsigned kLevel = T::child == 7 ? 2 : 1, kLow = (1u << T::log) - 1;
-    Bytes from = nullptr;
+    Bytes from;
     PILEUS_TRY(count_node(kLevel));
     PILEUS_TRY(part(at, T::values_at + 8 * T::entries, kNodes[kLevel], from));
-    const Bytes active = from + T::mask_at, children = active + T::mask_bytes;
+    const unsigned char* active = from.part(T::mask_at, T::mask_bytes).data;
+    const unsigned char* children = from.part(T::mask_at + T::mask_bytes, T::mask_bytes).data;
     for (unsigned n = 0; n < T::entries; ++n) {
-        const Bytes entry = from + T::values_at + 8 * n;
+        const std::size_t entry = T::values_at + 8 * n;
         const VdbPlace place{origin[0] + (std::int64_t(n >> (2 * T::log)) << T::child),
                              origin[1] + (std::int64_t(n >> T::log & kLow) << T::child),
                              origin[2] + (std::int64_t(n & kLow) << T::child)};
         if (vdb_mask_on(children, n)) {
-            const std::uint64_t child = at + little_endian(entry);
+            const std::uint64_t child = at + little_endian(from, entry);
             if constexpr (kLevel == 2)
                 PILEUS_TRY(node<Lower>(child, place));
             else
                 PILEUS_TRY(leaf(child, place));
         } else if (vdb_mask_on(active, n)) {
-            PILEUS_TRY(tile(place, std::int64_t{1} << T::child, entry));
+            PILEUS_TRY(tile(place, std::int64_t{1} << T::child, from, entry));
         }
     }
     return Status::ok();
 }
 
 Status Walk::leaf(std::uint64_t at, const VdbPlace& origin) {
-    Bytes from = nullptr;
+    Bytes from;
     PILEUS_TRY(count_node(0));
     PILEUS_TRY(part(at, layout_.leaf_values, kNodes[0], from));
-    const unsigned log = from[kLeafFlagsAt] >> 5;
+    const unsigned log = from.at(kLeafFlagsAt) >> 5;
     if (layout_.own_bits && log > 4)
         return in_.fault("leaf: 2^" + std::to_string(log) + " bits a voxel, allowed: 1 to 16");
     const unsigned bits = layout_.own_bits ? 1u << log : layout_.code_bits;
     const unsigned stored = bits > 0 ? bits : 8 * layout_.value_bytes;
     PILEUS_TRY(part(at, layout_.leaf_values + kLeafVoxels / 8 * stored, kNodes[0], from));
-    const Bytes mask = from + kLeafMaskAt;
+    const unsigned char* mask = from.part(kLeafMaskAt, kLeafVoxels / 8).data;
     if (volume_ == nullptr) {
         box_.add_leaf(origin, mask);
         return Status::ok();
@@ -190,20 +197,21 @@ Status Walk::leaf(std::uint64_t at, const VdbPlace& origin) {
         const VdbPlace place{origin[0] + (n >> 6), origin[1] + (n >> 3 & 7), origin[2] + (n & 7)};
         const float value = voxel(from, bits, n);
         PILEUS_TRY(check_vdb_value(in_, place, value));
-        volume_->density[box_.index(place)] = value;
+        volume_->density.at(box_.index(place)) = value;
     }
     return Status::ok();
 }
 
 /// A whole number, or a code between the leaf's least and largest value.
 float Walk::voxel(Bytes leaf, unsigned bits, unsigned n) const {
-    const Bytes values = leaf + layout_.leaf_values;
-    if (bits == 0) return vdb_number(values + n * layout_.value_bytes, layout_.value_bytes);
-    const Bytes first = values + n * bits / 8;
-    const unsigned word = bits == 16 ? first[0] | unsigned(first[1]) << 8 : first[0];
+    if (bits == 0)
+        return number_at(leaf, layout_.leaf_values + n * layout_.value_bytes, layout_.value_bytes);
+    const std::size_t first = layout_.leaf_values + n * bits / 8;
+    const unsigned word =
+        bits == 16 ? leaf.at(first) | unsigned(leaf.at(first + 1)) << 8 : leaf.at(first);
     const unsigned code = word >> (n * bits % 8) & ((1u << bits) - 1);
-    const float least = vdb_number(leaf + kLeafMinimumAt, 4);
-    return float(code) * vdb_number(leaf + kLeafMinimumAt + 4, 4) + least;
+    const float least = number_at(leaf, kLeafMinimumAt, 4);
+    return float(code) * number_at(leaf, kLeafMinimumAt + 4, 4) + least;
 }
 
 /// A grid, its bytes, and what both passes need of it.

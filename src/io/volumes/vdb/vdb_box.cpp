@@ -50,8 +50,8 @@ std::size_t VdbBox::index(const VdbPlace& at) const {
 void VdbBox::fill_tile(const VdbPlace& at, std::int64_t side, float value, Volume& volume) const {
     for (std::int64_t z = at[2]; z < at[2] + side; ++z)
         for (std::int64_t y = at[1]; y < at[1] + side; ++y) {
-            float* row = volume.density.data() + index({at[0], y, z});
-            for (std::int64_t x = 0; x < side; ++x) row[x] = value;
+            const std::size_t row = index({at[0], y, z});
+            for (float& voxel : volume.density.span().part(row, std::size_t(side))) voxel = value;
         }
 }
 

@@ -54,7 +54,7 @@ public:
             if (!vdb_mask_on(mask, n)) continue;
             const Place at{origin[0] + (n >> 6), origin[1] + (n >> 3 & 7), origin[2] + (n & 7)};
             PILEUS_TRY(check_vdb_value(in_, at, unpack_.at(n)));
-            volume_.density[box_.index(at)] = unpack_.at(n);
+            volume_.density.at(box_.index(at)) = unpack_.at(n);
         }
         return Status::ok();
     }

@@ -106,34 +106,39 @@ Status VdbValues::read(ByteCursor& in, const unsigned char* mask, unsigned entri
 
     const bool active_only = (compression_ & kVdbActiveMask) != 0 && flag != kAllValues;
     const unsigned count = active_only ? vdb_mask_count(mask, entries) : entries;
-    const unsigned char* from = nullptr;
+    Span<const unsigned char> from;
     if (count > 0 || stored_bytes_ == value_bytes_)
         PILEUS_TRY(block(in, std::uint64_t(count) * stored_bytes_, from));
 
     for (unsigned entry = 0, next = 0; entry < entries; ++entry) {
         const bool active = vdb_mask_on(mask, entry);
-        values_[entry] = active ? vdb_number(from + next * stored_bytes_, stored_bytes_) : 0.0f;
+        values_.at(entry) = 0;
+        if (active)
+            values_.at(entry) = vdb_number(
+                from.part(std::size_t(next) * stored_bytes_, stored_bytes_).data, stored_bytes_);
         next += active || !active_only ? 1 : 0;
     }
     return Status::ok();
 }
 
 /// A length stands before a block that may be packed; not above 0 it says that it is not.
-Status VdbValues::block(ByteCursor& in, std::uint64_t bytes, const unsigned char*& from) {
-    if ((compression_ & (kVdbZip | kVdbBlosc)) == 0) return in.take(bytes, "values", from);
+Status VdbValues::block(ByteCursor& in, std::uint64_t bytes, Span<const unsigned char>& from) {
+    from.size = std::size_t(bytes);
+    if ((compression_ & (kVdbZip | kVdbBlosc)) == 0) return in.take(bytes, "values", from.data);
     std::uint64_t bits = 0;
     PILEUS_TRY(in.u64("length of values", bits));
     const bool packed = bits != 0 && bits >> 63 == 0;
     if (!packed && 0 - bits != bytes)
         return in.fault("length of values: " + std::to_string(0 - bits) + ", allowed: exactly " +
                         std::to_string(bytes));
-    if (!packed) return in.take(bytes, "values", from);
-    PILEUS_TRY(in.take(bits, "packed values", from));
+    if (!packed) return in.take(bytes, "values", from.data);
+    PILEUS_TRY(in.take(bits, "packed values", from.data));
     // Blosc packs no value at all into a header of its own; there is nothing to unpack.
     if (bytes == 0) return Status::ok();
     const bool blosc = (compression_ & kVdbBlosc) != 0;
-    PILEUS_TRY(vdb_inflate(in, blosc, from, bits, unpacked_.data(), bytes));
-    from = unpacked_.data();
+    const Span<unsigned char> room = unpacked_.span().part(0, std::size_t(bytes));
+    PILEUS_TRY(vdb_inflate(in, blosc, from.data, bits, room.data, bytes));
+    from = room;
     return Status::ok();
 }
 

@@ -27,13 +27,13 @@ public:
     /// Reads the values of a node with `entries` entries, of which `mask` are active; what at()
     /// gives for the others is 0.
     Status read(ByteCursor& in, const unsigned char* mask, unsigned entries);
-    float at(unsigned entry) const { return values_[entry]; }
+    float at(unsigned entry) const { return values_.at(entry); }
 
     /// One number as it stands in tiles and backgrounds, never half.
     Status single(ByteCursor& in, const char* what, float& value) const;
 
 private:
-    Status block(ByteCursor& in, std::uint64_t bytes, const unsigned char*& from);
+    Status block(ByteCursor& in, std::uint64_t bytes, Span<const unsigned char>& from);
 
     unsigned compression_ = 0, stored_bytes_ = 4, value_bytes_ = 4;
     Buffer<unsigned char> unpacked_;
