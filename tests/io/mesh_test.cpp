@@ -53,6 +53,27 @@ TEST_CASE("mesh: obj and ply, polygons as fans") {
     for (std::size_t i = 0; i < 18; ++i) CHECK(mesh.corners[i] == expected[i]);
 }
 
+TEST_CASE("mesh: a ply that states an element twice is refused before anything is read of it") {
+    // Room for one vertex by the last count, values for two million by the first.
+    std::string text =
+        "ply\nformat binary_little_endian 1.0\nelement vertex 2000000\n"
+        "property float x\nproperty float y\nproperty float z\n"
+        "element vertex 1\nproperty float x\nend_header\n";
+    text.append(12 * 2'000'000, 'A');
+    Mesh mesh;
+    CHECK(decode(text, ".ply", mesh).message ==
+          "m.ply:7:8: element vertex: given twice, allowed: once");
+    const std::string face = "element face 1\nproperty list uchar int vertex_indices\n";
+    text = kPly;
+    text.insert(text.find("end_header"), face);
+    CHECK(decode(text, ".ply", mesh).message ==
+          "m.ply:9:8: element face: given twice, allowed: once");
+    text = "ply\nformat ascii 1.0\n";
+    for (int i = 0; i < 300; ++i) text += "element e" + std::to_string(i) + " 0\n";
+    CHECK(decode(text + "end_header\n", ".ply", mesh).message ==
+          "m.ply:259:8: element e256: too many elements, allowed: up to 256");
+}
+
 TEST_CASE("mesh: binary ply of both byte orders, other elements and properties passed over") {
     for (bool big : {false, true}) {
         std::string text = "ply\nformat binary_" + std::string(big ? "big" : "little") +

@@ -24,6 +24,9 @@ struct Property {
     std::string name;
     Type type = Type::kNone, count = Type::kNone;  ///< `count` of a list
 };
+/// Files have two or three kinds of elements, with a name each.
+constexpr std::size_t kMostElements = 256;
+
 struct Element {
     std::string name;
     std::uint64_t count = 0;
@@ -88,7 +91,15 @@ Status Reader::format(TextRange line) {
 
 Status Reader::element(TextRange line) {
     Element e;
+    const std::size_t key = line.at;
     e.name = word(line);
+    // Two counts of one element would size the same array twice.
+    for (const Element& other : elements_)
+        if (other.name == e.name)
+            return fault(key, "element " + e.name + ": given twice, allowed: once");
+    if (elements_.size() == kMostElements)
+        return fault(key, "element " + e.name + ": too many elements, allowed: up to " +
+                              std::to_string(kMostElements));
     skip(line);
     std::int64_t count = 0;
     const std::size_t begin = line.at;
@@ -200,10 +211,10 @@ Status Reader::list(const Property& p, bool faces, std::uint64_t& triangles,
         PILEUS_TRY(index(p.type, vertices(), next));
         if (i == 0) first = next;
         if (i < 2) continue;
-        if (mesh != nullptr && places.size() == 3 * vertices()) {
-            float* to = mesh->corners.data() + 9 * triangles;
+        if (mesh != nullptr) {
+            float* to = mesh->corners.span().part(std::size_t(9 * triangles), 9).data;
             for (std::uint64_t v : {first, last, next})
-                for (std::size_t a = 0; a < 3; ++a) *to++ = places[std::size_t(3 * v) + a];
+                for (std::size_t a = 0; a < 3; ++a) *to++ = places.at(std::size_t(3 * v) + a);
         }
         ++triangles;
     }
@@ -229,7 +240,7 @@ Status Reader::item(const Element& e, std::uint64_t number, std::uint64_t& trian
                 return fault(begin,
                              "vertex: not a number or out of range, allowed: number in "
                              "[-1e12, 1e12]");
-            places[std::size_t(3 * number) + a] = float(v);
+            places.at(std::size_t(3 * number) + a) = float(v);
         }
     }
     return Status::ok();
