@@ -45,11 +45,10 @@ const KeyRow kRows[] = {
                   for (std::size_t i = 0; i < 2; ++i)
                       t.scene.camera.resolution[i] = static_cast<int>(integer_of(n.children[i]));
               }),
-    plain_key(
-        KeyKind::kText, "camera.depth", "",
-        "image of the distance to solid things, .exr (channel Z, or its first) or .pfm, of the "
-        "picture's size; what lies behind is left out, and black",
-        nullptr),
+    plain_key(KeyKind::kText, "camera.depth", "",
+              "image of the distance to solid things, .exr (channel Z, or its only one) or grey "
+              ".pfm, of the picture's size; what lies behind is left out, and black",
+              nullptr),
     choice_key(KeyKind::kText, "camera.depth_kind", "\"distance\"", "distance|z", nullptr,
                "its values: along each pixel's ray, or along the view's axis",
                [](const Node& n, KeyTarget t) { t.scene.camera.depth_on_axis = n.text == "z"; }),

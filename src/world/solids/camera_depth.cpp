@@ -2,6 +2,9 @@
 // See camera_depth.h.
 #include "src/world/solids/camera_depth.h"
 
+#include <cstring>
+
+#include "src/base/file.h"
 #include "src/io/images/image_file.h"
 #include "src/scene/read_scene.h"
 #include "src/world/camera/view.h"
@@ -17,6 +20,30 @@ double slant(const CameraParams& camera, std::size_t x, std::size_t y) {
     return __builtin_sqrt(1 + sx * sx + sy * sy);
 }
 
+/// The plane of distances: Z, or the only one there is. Any other choice would be a guess.
+Status find_depth(const std::string& name, const Image& image, const Channel*& z) {
+    z = image.find("Z");
+    if (z == nullptr && image.channels.size() == 1) z = &image.channels[0];
+    if (z != nullptr) return Status::ok();
+    std::string list;
+    for (const Channel& channel : image.channels) list += (list.empty() ? "" : ", ") + channel.name;
+    return Status::bad_input(name + ": depth: no channel Z among " +
+                             (list.empty() ? "none" : printable_line(list)) +
+                             ", allowed: Z, or a single channel of any name");
+}
+
+/// A .pfm has no names: its one plane comes as R G B, and so does a grey picture in colours.
+Status keep_one_plane(const std::string& name, Image& image) {
+    const Buffer<float>& first = image.channels.front().pixels;
+    for (const Channel& other : image.channels)
+        if (other.pixels.size() != first.size() ||
+            std::memcmp(other.pixels.data(), first.data(), first.bytes()) != 0)
+            return Status::bad_input(name +
+                                     ": depth: colours, R G B differ, allowed: one value a pixel");
+    image.channels.resize(1);
+    return Status::ok();
+}
+
 }  // namespace
 
 Status take_camera_depth(const Camera& camera, const std::string& name, const Image& image,
@@ -26,16 +53,15 @@ Status take_camera_depth(const Camera& camera, const std::string& name, const Im
                                  " x " + std::to_string(image.height) +
                                  ", allowed: " + std::to_string(camera.resolution[0]) + " x " +
                                  std::to_string(camera.resolution[1]) + ", camera.resolution");
-    if (image.channels.empty())
-        return Status::bad_input(name + ": depth: no channel, allowed: Z, or any");
-    const Channel* z = image.find("Z");
-    if (z == nullptr) z = &image.channels[0];
+    const Channel* z = nullptr;
+    PILEUS_TRY(find_depth(name, image, z));
     const CameraParams view = make_camera(camera, 0, {});
     const std::size_t width = std::size_t(image.width);
-    PILEUS_TRY(solids.camera_depth.resize(z->pixels.size(), "camera depth"));
+    const std::size_t pixels = width * std::size_t(image.height);
+    PILEUS_TRY(solids.camera_depth.resize(pixels, "camera depth"));
     solids.depth_columns = width;
-    for (std::size_t i = 0; i < z->pixels.size(); ++i) {
-        double metres = double(z->pixels[i]) * camera.depth_scale;
+    for (std::size_t i = 0; i < pixels; ++i) {
+        double metres = double(z->pixels.at(i)) * camera.depth_scale;
         if (camera.depth_on_axis) metres *= slant(view, i % width, i / width);
         if (!(metres == metres)) {
             metres = double(__builtin_inff());
@@ -56,6 +82,7 @@ Status read_camera_depth(const Scene& scene, Solids& solids) {
     const std::string path = scene_path(scene.directory, scene.camera.depth);
     Image image;
     PILEUS_TRY(read_image(path, image));
+    if (file_extension(path) == ".pfm") PILEUS_TRY(keep_one_plane(path, image));
     return take_camera_depth(scene.camera, path, image, solids);
 }
 

@@ -9,7 +9,7 @@
 namespace pileus {
 
 /// Fills solids.camera_depth from the scene's image, if it has one. kBadInput: no such file, no
-/// channel, another size than the picture's.
+/// channel Z among several, colours in a .pfm, another size than the picture's.
 Status read_camera_depth(const Scene& scene, Solids& solids);
 
 /// The same from a picture in memory; `name` opens the messages.
