@@ -100,6 +100,16 @@ TEST_CASE("each fault is a line with its place, key, value and what is allowed")
     CHECK(holds(faults("title = \"T\"", "title = "), "study.toml:1"));
 }
 
+TEST_CASE("numbers that no integer holds are refused and left alone") {
+    for (const char* wild : {"1e300", "-1e300", "inf", "nan", "-1", "9223372036854775807"}) {
+        const std::string seeds = std::string("seeds = ") + wild;
+        const std::string first = std::string("first_seed = ") + wild;
+        CHECK(holds(faults("seeds = 4", seeds), "study.toml:2:9: seeds: "));
+        CHECK(holds(faults("first_seed = 9", first), "study.toml:3:14: first_seed: "));
+        CHECK(holds(faults("first_seed = 77", first), "reference.first_seed: "));
+    }
+}
+
 TEST_CASE("a study without scenes, methods and reference lacks all three") {
     Study study;
     const Status status = read("", study);

@@ -20,6 +20,7 @@ namespace {
 
 constexpr std::size_t kMostTables = 64;
 constexpr std::size_t kMostCurves = 64;
+constexpr double kMostSeed = 0x1p62;
 
 /// A node that has the kind its row asks for; null after a fault or where it is not given.
 const Node* text_at(const Node& table, const char* key) {
@@ -39,6 +40,14 @@ void append_texts(const Node& table, const char* key, std::vector<std::string>& 
         if (child.is_text()) texts.push_back(child.text);
 }
 
+/// A number from 0 to `most`; the key's own check has told of any other, which is left alone here,
+/// since it may not fit an integer.
+void take_integer(const Node& table, const char* key, double most, std::int64_t& value) {
+    const Node* node = table.find(key);
+    if (node == nullptr || !node->is_number()) return;
+    if (number_of(*node) >= 0 && number_of(*node) <= most) value = integer_of(*node);
+}
+
 bool is_name(const std::string& text) {
     for (char c : text)
         if (!((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_' || c == '-'))
@@ -54,10 +63,10 @@ public:
     void read(const Node& root) {
         check_study_table(study_top_table(), root, "", faults_);
         study_.title = text_of(root, "title", std::filesystem::path(study_.file).stem().string());
-        const Node* seeds = root.find("seeds");
-        if (seeds != nullptr && seeds->is_number()) study_.seeds = int(number_of(*seeds));
-        const Node* first = root.find("first_seed");
-        if (first != nullptr && first->is_number()) study_.first_seed = integer_of(*first);
+        std::int64_t seeds = study_.seeds;
+        take_integer(root, "seeds", 64, seeds);
+        study_.seeds = int(seeds);
+        take_integer(root, "first_seed", kMostSeed, study_.first_seed);
         const Node* targets = root.find("targets");
         if (targets != nullptr && targets->is_array() && targets->children.size() == 2)
             study_.targets = number2_of(*targets);
@@ -103,9 +112,7 @@ private:
         study_.reference.budget = text_of(node, "budget", "");
         if (const Node* budget = text_at(node, "budget"))
             check_budget(*budget, "reference.budget", nullptr);
-        const Node* first = node.find("first_seed");
-        if (first != nullptr && first->is_number())
-            study_.reference.first_seed = integer_of(*first);
+        take_integer(node, "first_seed", kMostSeed, study_.reference.first_seed);
     }
 
     void check_budget(const Node& node, const std::string& path, std::string* kind_of_all) {
