@@ -86,11 +86,11 @@ TEST_CASE("characters outside ASCII belong into texts and comments") {
 TEST_CASE("no control character of a scene reaches a message as it is") {
     // The parser quotes what it stumbles over, in words of its own.
     const std::string opening = "seed = 1\n";
-    for (const char* text :
-         {"a = \x7f", "\x7f = 1", "a = \"\x7f\"", "a = '\x1b'", "a = 1\x7f", "[\x7f]",
-          "a = \"\\\x7f\"", "a = \"\xc2\x9b\"", "seed = \"\xc2\x9b\"", "seed = \"\\u007f\"",
-          "\"\\u009b\" = 1", "a = [\x7f]", "a = 0x\x7f", "# \x7f", "a = \xff"}) {
-        CAPTURE(text);
+    for (const char* text : {"a = \x7f", "a = tr\x7f", "a = [i\x7f]", "\x7f = 1", "a = \"\x7f\"",
+                             "a = '\x1b'", "a = 1\x7f", "[\x7f]", "a = \"\\\x7f\"",
+                             "a = \"\xc2\x9b\"", "seed = \"\xc2\x9b\"", "seed = \"\\u007f\"",
+                             "\"\\u009b\" = 1", "a = [\x7f]", "a = 0x\x7f", "# \x7f", "a = \xff"}) {
+        CAPTURE(std::string(text));
         Scene scene;
         const Status status = read_scene_text(opening + text, "s.toml", "", {}, scene);
         CHECK(status.code == Code::kBadInput);
@@ -102,6 +102,12 @@ TEST_CASE("no control character of a scene reaches a message as it is") {
             CHECK_FALSE((before == 0xC2 && byte < 0xA0));
         }
     }
+}
+
+TEST_CASE("a control character that the parser quotes is escaped") {
+    Scene scene;
+    CHECK(read_scene_text("a = tr\x7f", "s.toml", "", {}, scene).message ==
+          "s.toml:1:7: not TOML, Error while parsing boolean: expected 'true', saw 'tr\\x7f'");
 }
 
 TEST_CASE("texts at the size limit are refused in good time") {

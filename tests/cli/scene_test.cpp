@@ -17,10 +17,12 @@
 #include "src/scene/check_keys.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/scene_keys.h"
+#include "tests/scene_dump.h"
 
 namespace {
 
 using namespace pileus;
+using test::dump;
 
 const std::string kCamera = "[camera]\nposition_m = [0, -9, 5]\ntarget_m = [0, 0, 5]\n";
 
@@ -36,86 +38,6 @@ std::string file_text(const std::string& path) {
     std::stringstream text;
     text << file.rdbuf();
     return text.str();
-}
-
-template <class List>
-void dump_list(std::ostream& s, const List& list) {
-    for (const auto& v : list) s << v << ' ';
-}
-
-void dump_medium(std::ostream& s, const MediumSettings& m) {
-    s << int(m.density) << ' ' << m.file << ' ' << m.format << ' ' << m.grid << ' '
-      << int(m.raw_type) << ' ';
-    dump_list(s, m.raw_size);
-    s << m.raw_big_endian << ' ' << m.has_bounds << ' ';
-    for (const Double3& corner : m.bounds_m) dump_list(s, corner);
-    dump_list(s, m.resolution);
-    s << m.shape_seed << ' ' << m.extinction_per_m << ' ' << m.extinction_scale << ' ';
-    dump_list(s, m.albedo);
-    const PhaseSettings& p = m.phase;
-    s << int(p.kind) << ' ' << p.g << ' ' << p.g1 << ' ' << p.g2 << ' ' << p.weight << ' ';
-    s << p.droplet_diameter_um << ' ' << p.effective_radius_um << ' ';
-    s << m.y_up << '\n';
-}
-
-void dump_raymarch(std::ostringstream& s, const RaymarchSettings& r) {
-    s << int(r.integrator) << ' ' << r.steps << ' ' << int(r.spacing) << ' ' << r.first_step_m
-      << ' ' << r.growth << ' ' << r.stretch << r.forward << ' ' << r.cone_deg << ' '
-      << r.forward_share << ' ' << int(r.light) << ' ' << r.light_steps << ' '
-      << r.light_first_step_m << ' ' << r.light_growth << ' ' << int(r.powder) << ' '
-      << r.powder_strength << ' ' << r.many << r.octaves << ' ' << r.octave_extinction << ' '
-      << r.octave_share << ' ' << r.octave_anisotropy << ' ';
-    dump_list(s, r.ambient);
-    s << r.sky_ambient << r.detail << r.light_cone << int(r.jitter) << ' ' << r.jitter_share << ' '
-      << r.grid_lock_m << ' ';
-    s << r.stop_below << ' ' << r.peak_phase << ' ' << r.scale << int(r.upsample) << r.temporal
-      << '\n';
-}
-
-/// Every value of a scene but its text and names: two scenes with equal dumps are equal.
-std::string dump(const Scene& scene) {
-    std::ostringstream s;
-    s.precision(17);
-    const Camera& c = scene.camera;
-    s << scene.seed << '\n';
-    for (const Double3& v : {c.position_m, c.target_m, c.up}) dump_list(s, v);
-    s << c.orthographic << ' ' << c.fov_deg << ' ' << c.height_m << ' ';
-    dump_list(s, c.resolution);
-    s << '\n' << scene.sun.present << ' ' << scene.sun.azimuth_deg << ' ';
-    s << scene.sun.elevation_deg << ' ';
-    dump_list(s, scene.sun.irradiance);
-    s << '\n' << scene.sky.present << ' ';
-    dump_list(s, scene.sky.radiance);
-    s << scene.sky.map << ' ' << scene.sky.map_scale << ' ' << scene.sky.map_rotation_deg;
-    const Ground& g = scene.ground;
-    s << '\n' << g.present << ' ' << g.altitude_m << ' ' << g.albedo << '\n';
-    for (const SolidSettings& solid : scene.solids) {
-        s << solid.file << ' ' << solid.scale << ' ' << solid.y_up << ' ';
-        dump_list(s, solid.albedo);
-        dump_list(s, solid.position_m);
-        dump_list(s, solid.rotation_deg);
-        s << '\n';
-    }
-    for (const MediumSettings& medium : scene.media) dump_medium(s, medium);
-    const CollectorSettings& k = scene.collectors;
-    s << scene.method << ' ' << k.photons << ' ' << k.generations << ' ' << k.bands << ' ';
-    s << k.samples << ' ' << k.local_tracking << k.lobe_closure << k.paper << k.billboards;
-    s << k.rejection_sampler << k.variance_field << ' ' << k.variance_radius << ' ';
-    s << k.density_range << ' ' << k.influence_radius << ' ' << k.radius_factor << ' ';
-    s << k.axis_degrees << ' ' << k.first_order_split << k.window << k.camera_closure
-      << int(k.accumulation) << int(k.compositor) << ' ' << k.cell_voxels << '\n'
-      << scene.path.samples_per_pixel << ' ' << scene.path.max_depth << scene.path.centre << ' '
-      << scene.path.target_error << ' ' << scene.path.max_samples_per_pixel << '\n';
-    dump_raymarch(s, scene.raymarch);
-    const OutputSettings& o = scene.output;
-    dump_list(s, o.files);
-    s << o.report << ' ' << o.layer_depth << o.layer_error << o.layer_cloud << o.layer_optical_depth
-      << o.layer_transmittance << o.layer_light << o.layer_order << '\n';
-    const Animation& a = scene.animation;
-    s << a.present << ' ' << a.frames << ' ' << a.moves_camera << a.moves_sun << ' ';
-    dump_list(s, a.camera_orbit_deg);
-    dump_list(s, a.sun_elevation_deg);
-    return s.str();
 }
 
 const char* const kEveryKey = R"(
@@ -254,27 +176,41 @@ sun_elevation_deg = [35, 5]
 
 TEST_CASE("every key of a full scene reaches its field") {
     const Scene scene = good(kEveryKey);
-    CHECK(
-        dump(scene) ==
-        "9223372036854775807\n"
-        "1 -2.5 3 4 5 6 0 1 0 1 40 77 16 9 \n"
-        "1 120 35 2 3 4 \n"
-        "1 0 0 0 a.PFM 2 -20\n"
-        "1 -10 0.5\n"
-        "a.ply 4 1 0.25 0.5 0.75 1 2 3 5 6 7 \n"
-        "0    2 0 0 0 0 1 0 0 0 1 2 3 3 4 5 8 0.050000000000000003 1 0.10000000149011612 "
-        "0.20000000298023224 0.30000001192092896 2 -1 0 0 1 0 0 0\n"
-        "4 a.dat raw  1 7 8 9 1 1 0 0 0 1 1 1 0 0 0 0 1000000000000 1 1 1 1 3 0 1 -0.5 0.75 0 0 1\n"
-        "4 b.txt pbrt  2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 1 0 0 0 1 0 0 0\n"
-        "4 c.txt les  2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 2.5 1 1 1 4 0 0 0 1 20.5 0 0\n"
-        "4 c.vdb openvdb smoke 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 1 5 0 0 0 1 0 "
-        "10.699999999999999 0\n"
-        "4 d.vdb openvdb fog 2 0 0 0 0 0 0 0 0 0 0 0 0 0 0 0 1 1 1 1 1 5 0 0 0 1 0 4.5 0\n"
-        "collectors 2000000 7 5 11 011001 3 0.5 1 2 3 11020 4\n"
-        "5 61 0.5 7\n"
-        "3 31 3 1.5 1.25 11 50 0.5 2 4 2.5 3 3 0.25 03 0.25 0.75 0.5 1 2 3 0112 0.75 8 0.5 1 422\n"
-        "x.exr y.pfm r.json 1111111\n"
-        "1 12 11 0 90 35 5 ");
+    // No medium of this scene is a sky: sky/keys_test.
+    const std::string sky = dump(SkySettings());
+    const std::string expected =
+        R"({9223372036854775807 {[1 -2.5 3 ] [4 5 6 ] [0 1 0 ] 1 0 40 77 [16 9 ] "" 0 1 }
+{1 120 35 [2 3 4 ] }
+{1 [0 0 0 ] "a.PFM" 2 -20 }
+{1 -10 0.5 }
+[{"a.ply" [0.25 0.5 0.75 ] [1 2 3 ] [5 6 7 ] 4 1 }
+] [{0 "" "" "" 2 [0 0 0 ] 0 1 [[0 0 0 ] [1 2 3 ] ] [3 4 5 ] 8 )" +
+        sky +
+        R"(0.050000000000000003 1 [0.10000000149011612 0.20000000298023224 0.30000001192092896 ] {2 -1 0 0 1 0 0 "" }
+0 0 }
+{4 "a.dat" "raw" "" 1 [7 8 9 ] 1 1 [[0 0 0 ] [1 1 1 ] ] [0 0 0 ] 0 )" +
+        sky + R"(1000000000000 1 [1 1 1 ] {3 0 1 -0.5 0.75 0 0 "" }
+0 1 }
+{4 "b.txt" "pbrt" "" 2 [0 0 0 ] 0 0 [[0 0 0 ] [0 0 0 ] ] [0 0 0 ] 0 )" +
+        sky + R"(0 1 [1 1 1 ] {1 0 0 0 1 0 0 "" }
+0 0 }
+{4 "c.txt" "les" "" 2 [0 0 0 ] 0 0 [[0 0 0 ] [0 0 0 ] ] [0 0 0 ] 0 )" +
+        sky + R"(0 2.5 [1 1 1 ] {4 0 0 0 1 20.5 0 "" }
+0 0 }
+{4 "c.vdb" "openvdb" "smoke" 2 [0 0 0 ] 0 0 [[0 0 0 ] [0 0 0 ] ] [0 0 0 ] 0 )" +
+        sky + R"(1 1 [1 1 1 ] {5 0 0 0 1 0 10.699999999999999 "" }
+0 0 }
+{4 "d.vdb" "openvdb" "fog" 2 [0 0 0 ] 0 0 [[0 0 0 ] [0 0 0 ] ] [0 0 0 ] 0 )" +
+        sky + R"(1 1 [1 1 1 ] {5 0 0 0 1 0 4.5 "" }
+0 0 }
+] "collectors" {2000000 7 5 11 0 1 0 4 1 0 0 0 1 3 0.5 1 2 3 1 1 2 }
+{5 6 1 0.5 7 }
+{3 31 3 1.5 1.25 1 1 0 3 0.25 0.75 0.5 50 0.5 2 4 2.5 3 0 1 1 2 0.75 8 3 0.25 [1 2 3 ] 0.5 4 2 2 1 }
+{["x.exr" "y.pfm" ] "r.json" 1 1 1 1 1 1 1 }
+{1 12 [0 90 ] [35 5 ] 1 1 }
+}
+)";
+    CHECK(dump(scene) == expected);
     CHECK(scene.text == kEveryKey);
     CHECK(scene.file == "s.toml");
     CHECK(scene.directory == "dir");

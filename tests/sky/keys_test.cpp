@@ -8,8 +8,10 @@
 
 #include "src/scene/check_keys.h"
 #include "src/scene/read_scene.h"
+#include "tests/scene_dump.h"
 
 using namespace pileus;
+using test::dump;
 
 namespace {
 
@@ -48,29 +50,16 @@ roughness = 0.3125
 evaluate = "grid"
 )";
 
-std::string dump(const SkySettings& s) {
-    std::string text = s.type;
-    const auto add = [&](double v) { text += " " + number_text(v); };
-    for (const SkyNoise* n : {&s.perlin, &s.worley})
-        add(n->tile_m), add(n->gain), add(n->cells), add(n->octaves);
-    for (double v : {s.scale,           s.blend,           s.roughness,      double(s.size),
-                     double(s.seed),    s.threshold_low,   s.threshold_high, s.density,
-                     s.coverage,        s.base_m,          s.top_m,          s.base_rise,
-                     s.top_fall,        s.rounding,        s.base_density,   s.planet_radius_m,
-                     s.wind_m_per_s[0], s.wind_m_per_s[1], s.time_s,         double(s.evaluate)})
-        add(v);
-    return text;
-}
-
 }  // namespace
 
 TEST_CASE("every key of a sky reaches its field") {
     Scene scene;
     const Status status = read_scene_text(kEveryKey, "s.toml", "", {}, scene);
     REQUIRE_MESSAGE(status, status.message);
-    CHECK(dump(scene.media[0].sky) ==
-          "stratus 101 2 9 2 102 3 10 2 1.5 0.25 0.3125 64 8 0.125 0.375 4 0.75 500 600 0.0625 "
-          "0.1875 0.5 0.875 6e+06 5 -6 7 1");
+    CHECK(
+        dump(scene.media[0].sky) ==
+        "{\"stratus\" {101 2 9 2 }\n{102 3 10 2 }\n1.5 0.25 0.3125 64 8 0.125 0.375 4 0.75 500 600 "
+        "0.0625 0.1875 0.5 0.875 6000000 [5 -6 ] 7 1 }\n");
     const std::string text = kEveryKey;
     for (const KeyRow& row : sky_keys()) {
         const std::string name = std::string(row.path).substr(sizeof "medium.N.sky." - 1);
