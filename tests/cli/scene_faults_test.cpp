@@ -411,7 +411,7 @@ TEST_CASE("faults of overrides name the option") {
         {"a..b=1", "--set a..b=1: not an override, \"a..b=1\", allowed: key.path=value"},
         {"camera.fov_deg=[1",
          "--set camera.fov_deg=[1: not a value, \"[1\", allowed: a TOML "
-         "value, or a text without quotes"},
+         "value, or a printable text without quotes"},
         {"medium.2.albedo=0.5",
          "--set medium.2.albedo=0.5: medium.2: no such element, 2, "
          "allowed: 0 to 1"},
@@ -424,8 +424,13 @@ TEST_CASE("faults of overrides name the option") {
          "\"uniform:box\", allowed: a table or list"},
         {"camera.fov_deg=1\nseed = 3",
          "--set camera.fov_deg=1\\x0aseed = 3: not a value, "
-         "\"1\\x0aseed = 3\", allowed: a TOML value, or a text "
-         "without quotes"},
+         "\"1\\x0aseed = 3\", allowed: a TOML value, or a "
+         "printable text without quotes"},
+        // The text that a picture stores would be no TOML with this behind its "# --set".
+        {"output.report=a\x7f.json",
+         "--set output.report=a\\x7f.json: not a value, \"a\\x7f.json\", allowed: a TOML value, or "
+         "a "
+         "printable text without quotes"},
         {"method.name=particles",
          "--set method.name=particles: method.name: not in this version, \"particles\", "
          "allowed: collectors, path, raymarch"},
