@@ -17,7 +17,7 @@
 #include "src/scene/check_keys.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/scene_keys.h"
-#include "tests/scene_dump.h"
+#include "tests/support/scene_dump.h"
 
 namespace {
 

@@ -6,7 +6,7 @@
 
 #include "src/scene/read_scene.h"
 #include "tests/fuzz/target.h"
-#include "tests/scene_dump.h"
+#include "tests/support/scene_dump.h"
 
 namespace {
 

@@ -2,8 +2,8 @@
 // Fuzz target: studies.
 // in: bytes as a study file -> out: a checked study, or lines that all name the file and a place.
 // docs/study.md, "The file"
-#include "src/study/study_file.h"
 #include "tests/fuzz/target.h"
+#include "tools/study/study_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     const std::string text(reinterpret_cast<const char*>(data), size);

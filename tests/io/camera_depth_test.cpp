@@ -2,11 +2,11 @@
 // Depth images: which channel counts, and what is refused.
 // in: pictures in memory and on disk -> out: distances, or one line.
 // docs/solids.md, "A depth image"
-#include "src/stages/camera_depth.h"
+#include "src/world/solids/camera_depth.h"
 
 #include <doctest/doctest.h>
 
-#include "src/io/image_file.h"
+#include "src/io/images/image_file.h"
 #include "tests/io/temp_folder.h"
 
 using namespace pileus;

@@ -8,7 +8,7 @@
 
 #include "src/scene/check_keys.h"
 #include "src/scene/read_scene.h"
-#include "tests/scene_dump.h"
+#include "tests/support/scene_dump.h"
 
 using namespace pileus;
 using test::dump;
