@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Compiles kernels_cpu/isa/isa*.cpp once per instruction set the compiler knows.
 # in: PILEUS_X86, PILEUS_KERNELS -> out: PILEUS_ISA_OBJECTS, PILEUS_ISA_DEFINITIONS, PILEUS_ISA_NAMES
-# kernels_cpu/isa/dispatch.cpp reads PILEUS_HAVE_<ISA> and chooses when the program starts.
+# kernels_cpu/isa/dispatch.cpp reads PILEUS_HAVE_<ISA> and chooses when the program starts;
+# pileus_widest_isa(NAME) tells the widest that the machine at hand can run.
 include(CheckCXXCompilerFlag)
 set(CMAKE_REQUIRED_QUIET ON)
 set(PILEUS_ISA_OBJECTS)
@@ -53,3 +54,28 @@ if(PILEUS_X86)
 else()
     pileus_add_isa(vec4 4)
 endif()
+
+function(pileus_widest_isa result)
+    set(flags "")
+    if(NOT CMAKE_CROSSCOMPILING AND EXISTS /proc/cpuinfo)
+        file(STRINGS /proc/cpuinfo flags REGEX "^flags" LIMIT_COUNT 1)
+    endif()
+    # Each row: a name and what dispatch.cpp asks for; the last that can run is the widest.
+    foreach(row "scalar" "sse2" "vec4" "avx2 avx2" "avx512 avx512f avx512vl avx512dq avx512bw")
+        separate_arguments(row)
+        list(POP_FRONT row name)
+        if(NOT name IN_LIST PILEUS_ISA_NAMES)
+            continue()
+        endif()
+        set(runs yes)
+        foreach(flag IN LISTS row)
+            if(NOT flags MATCHES " ${flag}( |$)")
+                set(runs no)
+            endif()
+        endforeach()
+        if(runs)
+            set(widest ${name})
+        endif()
+    endforeach()
+    set(${result} ${widest} PARENT_SCOPE)
+endfunction()

@@ -5,7 +5,9 @@
 
 namespace pileus {
 
+#ifdef PILEUS_HAVE_SCALAR
 extern const KernelTable kernel_table_scalar;
+#endif
 #ifdef PILEUS_HAVE_VEC4
 extern const KernelTable kernel_table_vec4;
 #endif
@@ -30,8 +32,11 @@ bool same(const char* a, const char* b) {
 }  // namespace
 
 const KernelTable* kernel_table_at(int i) {
-    const KernelTable* runnable[5] = {&kernel_table_scalar};
-    int count = 1;
+    const KernelTable* runnable[6] = {};
+    int count = 0;
+#ifdef PILEUS_HAVE_SCALAR
+    runnable[count++] = &kernel_table_scalar;
+#endif
 #ifdef PILEUS_HAVE_VEC4
     runnable[count++] = &kernel_table_vec4;
 #endif
