@@ -11,6 +11,7 @@
 #include <cerrno>
 #include <string>
 
+#include "platform/file_identity.h"
 #include "platform/new_file.h"
 
 namespace pileus {
@@ -83,12 +84,15 @@ FileResult replace_file(const char* path, const void* data, std::size_t bytes) {
     return result;
 }
 
-FileResult check_replaceable(const char* path) {
+FileResult check_replaceable(const char* name) {
     struct stat facts;
-    if (::stat(path, &facts) == 0) {
+    std::string path;
+    const FileResult followed = follow_links(name, path);
+    if (!followed) return followed;
+    if (::stat(path.c_str(), &facts) == 0) {
         if (S_ISDIR(facts.st_mode)) return {FileFault::kDirectory, EISDIR};
         if (!S_ISREG(facts.st_mode))
-            return ::access(path, W_OK) == 0 ? FileResult{} : system_fault();
+            return ::access(path.c_str(), W_OK) == 0 ? FileResult{} : system_fault();
     }
 
     // Climb to a folder that is there; what lies below it would be made.

@@ -10,7 +10,8 @@
 
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
+
+#include "platform/file_identity.h"
 
 namespace pileus {
 
@@ -29,15 +30,6 @@ FileResult write_all(int descriptor, const char* data, std::size_t bytes) {
         data += written;
         bytes -= std::size_t(written);
     }
-    return {};
-}
-
-/// Follows links to an existing file, so that the link itself survives the renaming.
-FileResult follow_links(const char* path, std::string& target) {
-    char* resolved = ::realpath(path, nullptr);
-    if (resolved == nullptr && errno == ENOMEM) return system_fault();
-    target = resolved != nullptr ? resolved : path;
-    std::free(resolved);
     return {};
 }
 
@@ -62,6 +54,16 @@ bool exchange(const char* a, const char* b) {
     errno = EINVAL;
     return false;
 #endif
+}
+
+/// Gives a file without bytes the owner and the permissions of the one that it will replace. A
+/// file system without them, or an owner that is not ours to give, is no fault.
+void keep_owner(int descriptor, const struct stat& older) {
+    struct stat now;
+    if (::fstat(descriptor, &now) != 0) return;
+    if (now.st_uid != older.st_uid || now.st_gid != older.st_gid)
+        (void)!::fchown(descriptor, older.st_uid, older.st_gid);
+    (void)!::fchmod(descriptor, older.st_mode & 0777);
 }
 
 std::string folder_of(const std::string& path) {
@@ -100,23 +102,25 @@ void NewFile::next_hidden_name(int attempt) {
 }
 
 FileResult NewFile::begin(const char* path) {
-    make_folders(path);
+    // Replace what a link leads to, so that the link itself survives the renaming.
+    FileResult result = follow_links(path, target_);
+    if (!result) return result;
+    make_folders(target_);
     struct stat facts;
     // Never rename over something that is not a plain file: that would destroy a device node.
-    if (::stat(path, &facts) == 0) {
-        if (S_ISDIR(facts.st_mode)) return {FileFault::kDirectory, EISDIR};
-        device_ = !S_ISREG(facts.st_mode);
-    }
+    const bool older = ::stat(target_.c_str(), &facts) == 0;
+    if (older && S_ISDIR(facts.st_mode)) return {FileFault::kDirectory, EISDIR};
+    device_ = older && !S_ISREG(facts.st_mode);
     if (device_) {
         descriptor_ = ::open(path, O_WRONLY | O_CLOEXEC);
         return descriptor_ >= 0 ? FileResult{} : system_fault();
     }
-    FileResult result = follow_links(path, target_);
-    if (!result) return result;
     const std::string folder = folder_of(target_);
     hidden_ = folder + "/.pileus-" + std::to_string(::getpid()) + "-00.tmp";
     descriptor_ = open_unnamed(folder);
-    return descriptor_ >= 0 ? FileResult{} : open_hidden();
+    if (descriptor_ < 0) result = open_hidden();
+    if (result && older) keep_owner(descriptor_, facts);
+    return result;
 }
 
 FileResult NewFile::open_hidden() {

@@ -22,8 +22,9 @@ public:
     NewFile& operator=(const NewFile&) = delete;
     ~NewFile();
 
-    /// Makes missing parent folders. A symbolic link keeps pointing where it does; a device or a
-    /// pipe is opened as it is.
+    /// Makes missing parent folders. A symbolic link keeps pointing where it does, and what it
+    /// points to is replaced or made; a device or a pipe is opened as it is. A new file takes owner
+    /// and permissions of the one it replaces.
     FileResult begin(const char* path);
     /// All of the file's bytes, brought to the disk.
     FileResult write(const void* data, std::size_t bytes);

@@ -6,6 +6,7 @@
 
 #include <doctest/doctest.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 
 #include <csignal>
 
@@ -115,6 +116,42 @@ TEST_CASE("file: writing through a symbolic link keeps the link") {
     REQUIRE(write_file(folder.path("link"), bytes_of("new")));
     CHECK(folder.get("real") == "new");
     CHECK(std::filesystem::is_symlink(folder.path("link")));
+}
+
+TEST_CASE("file: a link that leads nowhere gets the file that it names") {
+    const test::TempFolder folder;
+    namespace fs = std::filesystem;
+    fs::create_symlink("made/real", folder.path("link"));
+    fs::create_symlink("link", folder.path("far"));
+    CHECK(can_write_file(folder.path("far")));
+    REQUIRE(write_file(folder.path("far"), bytes_of("new")));
+    CHECK(fs::is_symlink(folder.path("link")));
+    CHECK(fs::is_symlink(folder.path("far")));
+    CHECK(folder.get("made/real") == "new");
+    CHECK(folder.entries() == 4);
+    // A ring of links leads to no file.
+    fs::create_symlink("b", folder.path("a"));
+    fs::create_symlink("a", folder.path("b"));
+    CHECK(can_write_file(folder.path("a")).code == Code::kIo);
+    CHECK(write_file(folder.path("a"), bytes_of("new")).code == Code::kIo);
+    CHECK(fs::is_symlink(folder.path("a")));
+}
+
+TEST_CASE("file: a file that is written again keeps its permissions") {
+    const test::TempFolder folder;
+    namespace fs = std::filesystem;
+    for (const int mode : {0600, 0640, 0666, 0755}) {
+        const std::string path = folder.put("kept", "old");
+        fs::permissions(path, fs::perms(mode));
+        REQUIRE(write_file(path, bytes_of("new")));
+        CHECK(int(fs::status(path).permissions()) == mode);
+        CHECK(folder.get("kept") == "new");
+    }
+    // A new file has what the process gives to new files.
+    const mode_t before = umask(027);
+    REQUIRE(write_file(folder.path("fresh"), bytes_of("new")));
+    umask(before);
+    CHECK(int(fs::status(folder.path("fresh")).permissions()) == 0640);
 }
 
 TEST_CASE("file: extension") {
