@@ -12,6 +12,7 @@
 #include "src/base/file.h"
 #include "src/io/images/image_file.h"
 #include "tests/cli/run_program.h"
+#include "tests/io/test_image.h"
 
 using namespace pileus;
 using namespace pileus::test;
@@ -90,6 +91,65 @@ TEST_CASE("a study is made, is made again from what is there, and mends what is 
     const Outcome mended = folder.run("study study.toml -o out --threads 1", kNoData);
     CHECK(mended.exit_status == 0);
     CHECK(count_of(mended.errors, " left\n") == 2);
+}
+
+TEST_CASE("a run's name changes with every file that it reads") {
+    const ProgramFolder folder;
+    const TempFolder& files = folder.files();
+    Image image = make_image(16, 9);
+    const auto put_image = [&](const std::string& name, float value) {
+        for (std::size_t c = 0; c < 3; ++c)
+            for (float& v : image.channels[c].pixels.span()) v = value;
+        REQUIRE(write_image(image, files.path(name), {}));
+    };
+    const auto put_mesh = [&](const std::string& name, const char* corner) {
+        files.put(name, std::string("v 0 0 0\nv 1 0 0\nv ") + corner + "\nf 1 2 3\n");
+    };
+    put_image("depth.pfm", 400);
+    put_image("sky.pfm", 1);
+    put_mesh("mesh.obj", "0 1 0");
+    files.put("phase.txt", "0 1\n180 1\n");
+    files.put("other.txt", "0 1\n180 1\n");
+    files.put("s.toml", std::string(small_scene()) +
+                            "[sky]\nmap = \"sky.pfm\"\n[[solid]]\nfile = "
+                            "\"mesh.obj\"\n");
+    files.put("files.toml",
+              "seeds = 1\n[reference]\nbudget = \"photons=2000\"\n[[scene]]\nname = \"box\"\n"
+              "file = \"s.toml\"\nset = [\"camera.depth=depth.pfm\", "
+              "\"medium.0.phase={type='table',file='phase.txt'}\"]\n"
+              "[[method]]\nname = \"m\"\nbudgets = [\"photons=500\"]\n"
+              "[[method]]\nname = \"o\"\nset = [\"medium.0.phase.file=other.txt\"]\n"
+              "budgets = [\"photons=500\"]\n");
+    const auto digests = [&] {
+        const Outcome list = folder.run("study files.toml --list --threads 1");
+        REQUIRE_MESSAGE(list.exit_status == 0, list.errors);
+        std::vector<std::string> names;
+        for (std::size_t at = 0; at < list.output.size(); at = list.output.find('\n', at) + 1)
+            names.push_back(list.output.substr(at, 16));
+        return names;
+    };
+    std::vector<std::string> before = digests();
+    REQUIRE(before.size() == 4);  // two halves, m, o
+    CHECK(digests() == before);
+    // `changed`: how many of the four runs read the file.
+    const auto expect = [&](const char* file, int changed) {
+        CAPTURE(file);
+        const std::vector<std::string> after = digests();
+        int others = 0;
+        for (std::size_t i = 0; i < 4; ++i) others += after[i] != before[i] ? 1 : 0;
+        CHECK(others == changed);
+        before = after;
+    };
+    put_mesh("mesh.obj", "0 2 0");
+    expect("mesh.obj", 4);
+    put_image("depth.pfm", 500);
+    expect("depth.pfm", 4);
+    put_image("sky.pfm", 2);
+    expect("sky.pfm", 4);
+    files.put("phase.txt", "0 2\n180 1\n");
+    expect("phase.txt", 3);
+    files.put("other.txt", "0 2\n180 1\n");
+    expect("other.txt", 1);
 }
 
 TEST_CASE("an interrupt leaves whole runs, and the same command goes on") {

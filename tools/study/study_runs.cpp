@@ -5,12 +5,13 @@
 #include "tools/study/study_runs.h"
 
 #include <algorithm>
+#include <map>
 
 #include "platform/process.h"
 #include "src/base/digest.h"
 #include "src/base/file.h"
-#include "src/scene/read_scene.h"
 #include "src/scene/toml_tree.h"
+#include "src/study/study_files.h"
 
 namespace pileus {
 
@@ -28,25 +29,6 @@ Status add_file(const std::string& path, Digest& digest) {
     PILEUS_TRY(read_whole_file(path, kMostFileBytes, bytes));
     digest.u64(bytes.size());
     for (char c : bytes.span()) digest.byte(static_cast<std::uint8_t>(c));
-    return Status::ok();
-}
-
-/// The scene's text and all bytes that it reads: a changed volume makes other pictures.
-Status scene_digest(const StudyScene& scene, std::string& hex) {
-    Scene read;
-    PILEUS_TRY(read_scene_file(scene.file, scene.sets, read));
-    if (read.animation.present && read.animation.frames > 1)
-        return Status::bad_input(scene.file +
-                                 ": animation.frames: a study compares single pictures, " +
-                                 std::to_string(read.animation.frames) + ", allowed: 1");
-    Digest digest;
-    add_text(read.text, digest);
-    for (const MediumSettings& medium : read.media)
-        if (medium.density == DensityKind::kFile)
-            PILEUS_TRY(add_file(scene_path(read.directory, medium.file), digest));
-    if (!read.sky.map.empty())
-        PILEUS_TRY(add_file(scene_path(read.directory, read.sky.map), digest));
-    hex = digest.hex();
     return Status::ok();
 }
 
@@ -100,15 +82,15 @@ public:
         for (std::size_t i = 0; i < study_.scenes.size(); ++i) {
             const StudyScene& scene = study_.scenes[i];
             if (!scene.skipped.empty() || !is_wanted(scene.name, options_.only_scenes)) continue;
-            PILEUS_TRY(scene_digest(scene, scene_));
-            for (int half = 0; half < 2; ++half) add_reference(int(i), half);
-            for (int repeat = 0; repeat < study_.seeds; ++repeat) add_repeat(int(i), repeat);
+            for (int half = 0; half < 2; ++half) PILEUS_TRY(add_reference(int(i), half));
+            for (int repeat = 0; repeat < study_.seeds; ++repeat)
+                PILEUS_TRY(add_repeat(int(i), repeat));
         }
-        return Status::ok();
+        return files_.check_outputs(study_, options_, runs_);
     }
 
 private:
-    void add_repeat(int scene, int repeat) {
+    Status add_repeat(int scene, int repeat) {
         std::size_t most = 0;
         for (const StudyCurve& curve : study_.curves) most = std::max(most, curve.budgets.size());
         for (std::size_t b = 0; b < most; ++b)
@@ -117,11 +99,13 @@ private:
                 const bool wanted =
                     is_wanted(study_.scenes[std::size_t(scene)].name, curve.scenes) &&
                     is_curve_wanted(curve.name, options_.only_methods);
-                if (wanted && b < curve.budgets.size()) add_run(scene, int(c), int(b), repeat);
+                if (wanted && b < curve.budgets.size())
+                    PILEUS_TRY(add_run(scene, int(c), int(b), repeat));
             }
+        return Status::ok();
     }
 
-    void add_run(int scene, int curve, int budget, int repeat) {
+    Status add_run(int scene, int curve, int budget, int repeat) {
         const StudyCurve& of = study_.curves[std::size_t(curve)];
         StudyRun run;
         run.scene = scene;
@@ -129,15 +113,16 @@ private:
         run.budget = budget;
         run.repeat = repeat;
         run.seed = study_.first_seed + repeat;
-        finish(run, of.sets, of.budgets[std::size_t(budget)], options_.folder + "/runs/", machine_);
+        return finish(run, of.sets, of.budgets[std::size_t(budget)], options_.folder + "/runs/",
+                      machine_);
     }
 
-    void add_reference(int scene, int half) {
+    Status add_reference(int scene, int half) {
         StudyRun run;
         run.scene = scene;
         run.repeat = half;
         run.seed = study_.reference.first_seed + half;
-        finish(
+        return finish(
             run, study_.reference.sets, study_.scenes[std::size_t(scene)].reference_budget,
             (options_.references.empty() ? options_.folder + "/references" : options_.references) +
                 "/",
@@ -145,8 +130,8 @@ private:
     }
 
     /// `made_by` is the program and machine, or the version alone where time does not matter.
-    void finish(StudyRun& run, const std::vector<std::string>& sets, const std::string& budget,
-                const std::string& folder, const std::string& made_by) {
+    Status finish(StudyRun& run, const std::vector<std::string>& sets, const std::string& budget,
+                  const std::string& folder, const std::string& made_by) {
         const StudyScene& scene = study_.scenes[std::size_t(run.scene)];
         std::string kind;
         (void)split_budget(budget, kind, run.amount);
@@ -164,8 +149,11 @@ private:
              {std::string("--budget"), budget, std::string("--seed"), std::to_string(run.seed)})
             run.words.push_back(word);
 
+        // The settings too may name files.
+        std::string& read = digests_[{run.scene, run.curve}];
+        if (read.empty()) PILEUS_TRY(files_.digest_scene(scene.file, all, read));
         Digest digest;
-        add_text(scene_, digest);
+        add_text(read, digest);
         add_text(made_by, digest);
         if (!run.is_reference()) add_text(options_.isa, digest);
         for (std::size_t i = 2; i < run.words.size(); ++i) add_text(run.words[i], digest);
@@ -181,12 +169,15 @@ private:
             run.words.push_back(options_.isa);
         }
         runs_.push_back(std::move(run));
+        return Status::ok();
     }
 
     const Study& study_;
     const StudyOptions& options_;
     std::vector<StudyRun>& runs_;
-    std::string machine_, scene_;
+    StudyFiles files_;
+    std::map<std::pair<int, int>, std::string> digests_;  ///< of a scene under a curve's settings
+    std::string machine_;
 };
 
 }  // namespace

@@ -49,7 +49,8 @@ struct RunRecord {
 
 /// Lists the runs: for each scene its two halves, then seed by seed every budget of every curve,
 /// so that a slow minute of the machine meets all of them. Skipped scenes have none. Errors:
-/// kBadInput (a name in `only_...` that is not there), those of reading scenes and their files.
+/// kBadInput (a name in `only_...` that is not there, an output that is a file which is read),
+/// those of reading scenes and their files.
 Status list_runs(const Study& study, const StudyOptions& options, std::vector<StudyRun>& runs);
 
 /// Reads what an earlier study left of this run: true where record and picture are whole.

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// See scene_files.h. Of a .gltf only the names of its buffers are looked at.
+// in: a scene; JSON that nobody has checked -> out: paths.
+// glTF 2.0, section 3.6.1 (buffers)
+#define JSON_NOEXCEPTION 1
+#include "src/io/scene_files.h"
+
+#include <nlohmann/json.hpp>
+
+#include "src/base/file.h"
+#include "src/scene/read_scene.h"
+
+namespace pileus {
+
+namespace {
+
+constexpr std::uint64_t kMostText = std::uint64_t{1} << 28;
+
+/// Files beside a .gltf; none where it cannot be read, which its reader will say.
+void add_buffers(const std::string& path, std::vector<std::string>& files) {
+    Buffer<char> text;
+    if (!read_whole_file(path, kMostText, text)) return;
+    // Keep the buffers alone: whatever else the text holds takes no memory.
+    using Json = nlohmann::json;
+    const auto wanted = [](int depth, Json::parse_event_t event, Json& parsed) {
+        return depth <= 3 &&
+               !(depth == 1 && event == Json::parse_event_t::key && parsed != "buffers");
+    };
+    const Json json = Json::parse(text.data(), text.data() + text.size(), wanted, false);
+    if (!json.is_object() || !json.contains("buffers") || !json["buffers"].is_array()) return;
+    const std::size_t slash = path.rfind('/');
+    const std::string folder = slash == std::string::npos ? "" : path.substr(0, slash + 1);
+    for (const Json& buffer : json["buffers"]) {
+        if (!buffer.is_object() || !buffer.contains("uri") || !buffer["uri"].is_string()) continue;
+        const std::string uri = buffer["uri"].get<std::string>();
+        if (uri.compare(0, 5, "data:") != 0) files.push_back(scene_path(folder, uri));
+    }
+}
+
+}  // namespace
+
+std::vector<std::string> scene_files(const Scene& scene) {
+    std::vector<std::string> files;
+    const auto add = [&](const std::string& file) {
+        if (!file.empty()) files.push_back(scene_path(scene.directory, file));
+    };
+    for (const MediumSettings& medium : scene.media) {
+        add(medium.file);
+        add(medium.phase.file);
+    }
+    add(scene.sky.map);
+    for (const SolidSettings& solid : scene.solids) {
+        add(solid.file);
+        if (file_extension(solid.file) == ".gltf") add_buffers(std::string(files.back()), files);
+    }
+    add(scene.camera.depth);
+    return files;
+}
+
+}  // namespace pileus
