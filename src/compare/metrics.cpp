@@ -81,7 +81,9 @@ void add_errors(const PicturePair& pair, double epsilon, Metrics& m) {
     m.relmse_raw = ratio.value() / values;
     m.relmse_own_noise = noise_a.value() / values;
     m.relmse_reference_noise = noise_r.value() / values;
-    m.relmse = m.relmse_raw - m.relmse_reference_noise;
+    // A picture that is the reference shares its noise: nothing of it is in the difference.
+    m.identical = !(m.largest > 0);
+    m.relmse = m.identical ? 0 : m.relmse_raw - m.relmse_reference_noise;
 }
 
 /// The standard error of the bias between two laws: independent pixels, and all in step.

@@ -29,12 +29,15 @@ struct Metrics {
     std::uint64_t not_finite = 0;    ///< alpha above the least, but not finite in one or both
     bool has_alpha = false;          ///< whether the reference has one
     bool has_error_a = false, has_error_reference = false;
+    bool identical = false;  ///< no counted value differs: then no noise is taken off
 
     double mean_a = 0, mean_reference = 0;
-    double rmse = 0;                    ///< sqrt(mean d^2), noise of both included
-    double relmse_raw = 0;              ///< mean d^2/(r^2 + eps)
-    double relmse_trimmed = 0;          ///< the same without the largest 0.1 % of the terms
-    double relmse = 0;                  ///< relmse_raw - relmse_reference_noise; can be negative
+    double rmse = 0;            ///< sqrt(mean d^2), noise of both included
+    double relmse_raw = 0;      ///< mean d^2/(r^2 + eps)
+    double relmse_trimmed = 0;  ///< the same without the largest 0.1 % of the terms
+    /// relmse_raw - relmse_reference_noise; can be negative. 0 for identical pictures, whose noise
+    /// is the same.
+    double relmse = 0;
     double relmse_reference_noise = 0;  ///< mean se_r^2/(r^2 + eps); 0 where not known
     double relmse_own_noise = 0;        ///< mean se_a^2/(r^2 + eps); 0 where not known
     double largest = 0;                 ///< max |d|

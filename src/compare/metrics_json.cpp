@@ -54,7 +54,9 @@ std::string counted_text(const ComparisonText& text, const Metrics& m) {
 
 std::string relmse_lines(const ComparisonText& text, const Metrics& m) {
     std::string how = "the reference's noise is not known and still in it";
-    if (m.has_error_reference)
+    if (m.identical)
+        how = "the counted pixels are the same, their noise too";
+    else if (m.has_error_reference)
         how = fmt::format("{:.5g} less {:.5g}, the reference's noise by {}", m.relmse_raw,
                           m.relmse_reference_noise, text.halves ? "two halves" : "its error layer");
     std::string lines = line("relMSE", fmt::format("{:.5g}  ({})", m.relmse, how));
@@ -89,6 +91,7 @@ std::string metrics_json(const ComparisonText& text, const Metrics& m, const Fli
         {"pixels", m.pixels},
         {"cloud_pixels", m.cloud_pixels},
         {"not_finite", m.not_finite},
+        {"identical", m.identical},
         {"alpha", m.has_alpha},
         {"alpha_least", text.alpha_least},
         {"rmse", m.rmse},

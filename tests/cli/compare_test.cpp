@@ -4,6 +4,7 @@
 // docs/compare.md
 #include <nlohmann/json.hpp>
 
+#include "src/compare/metrics.h"
 #include "src/io/images/image_file.h"
 #include "tests/cli/run_program.h"
 #include "tests/io/test_image.h"
@@ -11,6 +12,7 @@
 using namespace pileus;
 using nlohmann::json;
 using test::holds;
+using test::line_count;
 using test::Outcome;
 using test::ProgramFolder;
 using Names = std::vector<std::string>;
@@ -72,6 +74,74 @@ TEST_CASE("compare: two halves are the reference") {
     CHECK(figures["relmse"].get<double>() < -0.003);
     CHECK(figures["halves"] == true);
     CHECK(figures["z"].is_null());
+}
+
+TEST_CASE("compare: halves give the figures of the library, over a smooth reference") {
+    ProgramFolder folder;
+    Image pictures[3];
+    const char* const names[3] = {"a.pfm", "b.pfm", "c.pfm"};
+    for (std::size_t n = 0; n < 3; ++n) {
+        pictures[n] = test::make_image(12, 9);
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t i = 0; i < 108; ++i)
+                pictures[n].channels[c].pixels[i] =
+                    1 + 0.5f * float((i * (7 + 4 * n) + 5 * c) % 13) / 13;
+        REQUIRE(write_image(pictures[n], folder.files().path(names[n]), {}));
+        REQUIRE(read_image(folder.files().path(names[n]), pictures[n]));
+    }
+    Metrics metrics;
+    REQUIRE(compare_with_halves(pictures[0], pictures[1], pictures[2], {}, metrics));
+    const Outcome outcome = folder.run("compare a.pfm b.pfm --half c.pfm --no-flip --json");
+    REQUIRE_MESSAGE(outcome.exit_status == 0, outcome.errors);
+    CHECK(json::parse(outcome.output)["relmse"] == metrics.relmse);
+}
+
+TEST_CASE("compare: a picture and itself, error layers and all") {
+    ProgramFolder folder;
+    if (!can_write_image("a.exr")) {
+        MESSAGE("skipped: EXR is left out of this build");
+        return;
+    }
+    REQUIRE(folder.run("render s.toml -o a.exr --set 'output.layers=[\"error\"]'").exit_status ==
+            0);
+    const Outcome json_text = folder.run("compare a.exr a.exr --json --max-relmse 0");
+    REQUIRE_MESSAGE(json_text.exit_status == 0, json_text.errors);
+    const json figures = json::parse(json_text.output);
+    CHECK(figures["identical"] == true);
+    CHECK(figures["relmse_reference_noise"].get<double>() > 0);
+    CHECK(figures["relmse"] == 0.0);
+    CHECK(holds(folder.run("compare a.exr a.exr").output, "relMSE         0  (the counted pixels"));
+}
+
+TEST_CASE("compare: radiance and what a display shows of it are told apart") {
+    ProgramFolder folder;
+    if (!can_write_image("a.exr") || !can_write_image("a.png")) {
+        MESSAGE("skipped: EXR or PNG is left out of this build");
+        return;
+    }
+    REQUIRE(folder.run("render s.toml -o a.exr a.png").exit_status == 0);
+    REQUIRE(folder.run("render s.toml -o b.png --exposure auto").exit_status == 0);
+    for (const char* files : {"a.exr a.png", "a.png a.exr", "a.png b.png --half a.exr"}) {
+        const Outcome mixed = folder.run(std::string("compare --difference d.pfm ") + files);
+        CHECK(mixed.exit_status == 2);
+        CHECK_MESSAGE(holds(mixed.errors, ".png: values: light of a display, while a.exr holds"),
+                      mixed.errors);
+        CHECK(line_count(mixed.errors) == 1);
+        CHECK(mixed.output == "");
+    }
+    CHECK(folder.left() == Names{"a.exr", "a.png", "b.png"});
+    // Shown alike, they are the same; at another exposure they are not.
+    for (const char* files :
+         {"a.exr a.png --exposure 0", "a.png a.exr --exposure 0", "a.exr b.png --exposure auto"}) {
+        const Outcome same = folder.run(std::string("compare --json ") + files);
+        REQUIRE_MESSAGE(same.exit_status == 0, same.errors);
+        CHECK(json::parse(same.output)["identical"] == true);
+        CHECK(json::parse(same.output)["flip"]["exposures"] == 1);
+    }
+    const Outcome brighter = folder.run("compare a.exr a.png --exposure 1 --json");
+    CHECK(json::parse(brighter.output)["bias"].get<double>() > 0);
+    CHECK(json::parse(brighter.output)["a"]["read_as"] == "shown at exposure 1");
+    CHECK(folder.run("compare a.exr a.png --exposure x").exit_status == 2);
 }
 
 TEST_CASE("compare: limits decide the exit status, one line each") {

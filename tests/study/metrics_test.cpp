@@ -87,6 +87,25 @@ TEST_CASE("metrics: a picture against itself is zero everywhere") {
     CHECK(m.z_count == 1200);
 }
 
+TEST_CASE("metrics: identical pictures with error layers differ by exactly nothing") {
+    const Image a = noisy(16, 0.1, 1);
+    const Metrics m = compare(a, a);
+    CHECK(m.has_error_reference);
+    CHECK(m.relmse_reference_noise > 0);
+    CHECK(m.identical);
+    CHECK(m.relmse == 0);
+    CHECK_FALSE(std::signbit(m.relmse));
+    // One value more, and the noise counts again.
+    Image b = noisy(16, 0.1, 1);
+    b.channels[0].pixels[7] *= 1.0001f;
+    const Metrics other = compare(b, a);
+    CHECK_FALSE(other.identical);
+    CHECK(other.relmse < 0);
+    Metrics halves;
+    REQUIRE(compare_with_halves(a, a, a, {}, halves));
+    CHECK(halves.relmse == 0);
+}
+
 TEST_CASE("metrics: percentiles by nearest rank, and what trimming leaves") {
     // |d| = 1..1000 eighths in shuffled order, one channel each side by side: 3000 values.
     const Image r = make_picture(50, 20, {"Y"}, [](int, int, int) { return 1024.0; });

@@ -4,11 +4,11 @@
 // over a limit. docs/compare.md
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 
 #include "src/base/file.h"
+#include "src/base/output_check.h"
 #include "src/compare/difference.h"
 #include "src/compare/metrics_json.h"
 #include "src/io/images/picture.h"
@@ -24,7 +24,7 @@ namespace {
 /// As typed.
 struct CompareArguments {
     std::string a, reference, half, layer;
-    std::optional<std::string> reference_layer, alpha, range, threads, tone, density;
+    std::optional<std::string> reference_layer, alpha, range, threads, tone, density, exposure;
     std::optional<std::string> difference, z_map, flip;
     std::optional<std::string> max_relmse, max_rmse, max_abs, max_bias, max_flip;
     std::optional<std::string> significance;
@@ -42,6 +42,7 @@ struct Limit {
 struct Settings {
     MetricOptions metrics;
     FlipOptions flip;
+    ToneSettings exposure;
     double range = 0;  ///< 0: by the percentile
     std::vector<Limit> limits;
 };
@@ -77,6 +78,8 @@ Status read_settings(const CompareArguments& arguments, Settings& settings) {
         add_fault(
             read_number("--alpha-least", *arguments.alpha, 0, 1, settings.metrics.alpha_least),
             faults);
+    if (arguments.exposure)
+        add_fault(read_exposure("--exposure", *arguments.exposure, settings.exposure), faults);
     if (arguments.all) settings.metrics.alpha_least = -1;
     if (arguments.range)
         add_fault(read_number("--range", *arguments.range, 1e-30, 1e30, settings.range), faults);
@@ -98,26 +101,19 @@ Status read_settings(const CompareArguments& arguments, Settings& settings) {
 /// Refuses what could not be written or would overwrite what is read, before the work is done.
 Status check_outputs(const CompareArguments& arguments) {
     Status faults;
-    std::vector<std::string> seen;
+    OutputCheck check;
+    for (const std::string& in : {arguments.a, arguments.reference, arguments.half})
+        check.reads(in, "a picture to compare");
     for (const auto* output : {&arguments.difference, &arguments.z_map, &arguments.flip}) {
         if (!*output) continue;
         const std::string& path = **output;
         const Status name = check_file_name(path);
         add_fault(name, faults);
         if (!name) continue;
+        add_fault(check.writes(path), faults);
         const Status format = can_write_image(path);
         add_fault(format, faults);
         if (format) add_fault(can_write_file(path), faults);
-        std::error_code ignored;
-        for (const std::string& in : {arguments.a, arguments.reference, arguments.half})
-            if (!in.empty() && std::filesystem::equivalent(path, in, ignored))
-                add_fault(Status::bad_input(path + ": output: is a picture to compare, allowed: "
-                                                   "another"),
-                          faults);
-        for (const std::string& other : seen)
-            if (other == path)
-                add_fault(Status::bad_input(path + ": output: named twice, allowed: once"), faults);
-        seen.push_back(path);
     }
     return faults;
 }
@@ -183,20 +179,45 @@ Status check_limits(const std::string& file, const Settings& settings, const Met
     return faults;
 }
 
-/// The two pictures, of one size; the second perhaps the mean of two halves.
-Status read_pictures(const CompareArguments& arguments, Image& a, Image& reference,
-                     ComparisonText& text) {
+/// A picture as it is to be compared: as it is in the file, or as a display shows it.
+Status read_one(const CompareArguments& arguments, const Settings& settings,
+                const std::string& file, const std::string& layer, Image& image,
+                std::string& said) {
+    PILEUS_TRY(read_picture(file, layer, image, said));
+    if (!arguments.exposure || image.display_colours) return Status::ok();
+    said += (said.empty() ? "" : ", ") + ("shown at exposure " + *arguments.exposure);
+    return develop_image(settings.exposure, image);
+}
+
+/// kBadInput where one holds radiance and the other what a display shows of it.
+Status check_same_kind(const std::string& name, const Image& image, const std::string& other_name,
+                       const Image& other) {
+    if (image.display_colours == other.display_colours) return Status::ok();
+    const std::string& shown = image.display_colours ? name : other_name;
+    const std::string& light = image.display_colours ? other_name : name;
+    return Status::bad_input(shown + ": values: light of a display, while " + light +
+                             " holds radiance, allowed: two files of one kind, or --exposure "
+                             "STOPS|auto to compare what a display shows");
+}
+
+/// The two pictures, of one size; the second perhaps the mean of two halves, which stay.
+Status read_pictures(const CompareArguments& arguments, const Settings& settings, Image& a,
+                     Image& reference, Image (&halves)[2], ComparisonText& text) {
     const std::string& layer = arguments.layer;
     const std::string other = arguments.reference_layer.value_or(layer);
-    PILEUS_TRY(read_picture(arguments.a, layer, a, text.said_a));
-    PILEUS_TRY(read_picture(arguments.reference, other, reference, text.said_reference));
+    PILEUS_TRY(read_one(arguments, settings, arguments.a, layer, a, text.said_a));
+    PILEUS_TRY(
+        read_one(arguments, settings, arguments.reference, other, reference, text.said_reference));
+    PILEUS_TRY(check_same_kind(arguments.a, a, arguments.reference, reference));
     if (!arguments.half.empty()) {
-        Image first, second;
+        Image &first = halves[0], &second = halves[1];
         std::string said;
         std::swap(first, reference);
-        PILEUS_TRY(read_picture(arguments.half, other, second, said));
+        PILEUS_TRY(read_one(arguments, settings, arguments.half, other, second, said));
+        PILEUS_TRY(check_same_kind(arguments.half, second, arguments.reference, first));
         PILEUS_TRY(check_same_size(arguments.half.c_str(), second, first));
         PILEUS_TRY(merge_halves(first, second, reference));
+        reference.display_colours = first.display_colours;
         text.halves = true;
     }
     PILEUS_TRY(check_same_size(arguments.a.c_str(), a, reference));
@@ -220,14 +241,13 @@ Status run_compare(const CompareArguments& arguments) {
         add_fault(check_file_name(file), faults);
     PILEUS_TRY(faults);
 
-    Image a, reference;
+    Image a, reference, halves[2];
     ComparisonText text;
-    PILEUS_TRY(read_pictures(arguments, a, reference, text));
+    PILEUS_TRY(read_pictures(arguments, settings, a, reference, halves, text));
     text.alpha_least = settings.metrics.alpha_least;
     Metrics metrics;
-    PILEUS_TRY(compare_images(a, reference, settings.metrics, metrics));
-    // One difference of halves is no estimate of a pixel's own error.
-    if (text.halves) metrics.z_count = metrics.z_unknown = 0;
+    PILEUS_TRY(text.halves ? compare_with_halves(a, halves[0], halves[1], settings.metrics, metrics)
+                           : compare_images(a, reference, settings.metrics, metrics));
     FlipResult flip_result;
     settings.flip.hdr = !(a.display_colours && reference.display_colours);
     if (!arguments.no_flip) {
@@ -278,6 +298,11 @@ void add_choices(CLI::App& command, CompareArguments& arguments) {
                     "Layer of the reference; left out: that of --layer")
         ->type_name("NAME");
     command
+        .add_option("--exposure", arguments.exposure,
+                    "Compare pictures of radiance as a display shows them: stops, or auto; left "
+                    "out: as they are, and never with a .png")
+        ->type_name("STOPS|auto");
+    command
         .add_option("--alpha-least", arguments.alpha,
                     "Pixels count whose alpha in the reference is above this; left out: 0.02")
         ->type_name("X");
@@ -316,6 +341,8 @@ void add_compare(CLI::App& app, Chosen& chosen) {
                      "Of --welch: chance of finding a difference where there is none; left out: "
                      "6.8e-6")
         ->type_name("P");
+    command->footer(help_example(
+        "pileus compare cloud.exr reference.exr --difference difference.png --max-relmse 0.01"));
     command->callback(
         [arguments, &chosen] { chosen = [arguments] { return run_compare(*arguments); }; });
 }

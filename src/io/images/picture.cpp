@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "src/base/file.h"
+#include "src/io/srgb.h"
 
 namespace pileus {
 
@@ -201,6 +202,27 @@ Status read_picture(const std::string& path, const std::string& layer, Image& im
     if (image.width != width || image.height != height)
         said += (said.empty() ? "" : ", ") + std::to_string(width) + " x " +
                 std::to_string(height) + " pixels laid into the display window";
+    return Status::ok();
+}
+
+Status develop_image(const ToneSettings& tone, Image& image) {
+    if (image.display_colours) return Status::ok();
+    Buffer<std::uint8_t> rgb;
+    PILEUS_TRY(tone_map_8bit(image, tone, rgb));
+    float light[256];
+    for (int code = 0; code < 256; ++code) light[code] = float(linear_of_srgb(code / 255.0));
+    std::vector<Channel> channels(3);
+    const char* const names[3] = {"R", "G", "B"};
+    for (std::size_t c = 0; c < 3; ++c) {
+        channels[c].name = names[c];
+        PILEUS_TRY(channels[c].pixels.resize(rgb.size() / 3, "developed picture"));
+        for (std::size_t i = 0; i < rgb.size() / 3; ++i)
+            channels[c].pixels[i] = light[rgb[3 * i + c]];
+    }
+    for (Channel& channel : image.channels)
+        if (channel.name == "A") channels.push_back(std::move(channel));
+    image.channels = std::move(channels);
+    image.display_colours = true;
     return Status::ok();
 }
 

@@ -31,4 +31,9 @@ Status fit_display_window(const std::string& name, Image& image,
 Status read_picture(const std::string& path, const std::string& layer, Image& image,
                     std::string& said);
 
+/// Makes of a picture of radiance what its .png would be read as: R G B are the light of a display,
+/// `display_colours` is set, A stays, all other channels go. A picture of display colours stays as
+/// it is. kBadInput: no colours; kLimit: memory.
+Status develop_image(const ToneSettings& tone, Image& image);
+
 }  // namespace pileus
