@@ -84,6 +84,10 @@ Status read_file_start(const std::string& path, std::uint64_t most_bytes, Buffer
 }
 
 Status can_write_file(const std::string& path) {
+    if (path == "-")
+        return Status::bad_input(
+            "-: output: only a report goes to the standard output, allowed: ./- for a file of that "
+            "name");
     PILEUS_TRY(check_new_name(path));
     const FileResult result = check_replaceable(path.c_str());
     return result ? Status::ok() : write_fault(path, result);

@@ -200,12 +200,27 @@ TEST_CASE("program: version and help go to the standard output, exit 0") {
     const Outcome version = folder.run("--version");
     CHECK(version.exit_status == 0);
     CHECK(version.output == std::string("pileus ") + kVersion + "\n");
-    for (const char* arguments :
-         {"-h", "--help", "render -h", "plan -h", "hash -h", "info -h", "convert -h"}) {
-        CAPTURE(arguments);
-        const Outcome help = folder.run(arguments);
+    CHECK(folder.run("-h").output == folder.run("--help").output);
+    CHECK(holds(folder.run("--help").output, "Usage: pileus"));
+    CHECK(holds(folder.run("--help").output, "Example:\n  pileus render "));
+    for (const char* name :
+         {"render", "plan", "follow", "compare", "study", "hash", "info", "convert"}) {
+        CAPTURE(name);
+        const Outcome help = folder.run(name + std::string(" --help"));
         CHECK(help.exit_status == 0);
         CHECK(holds(help.output, "Usage: pileus"));
+        CHECK(holds(help.output, std::string("Example:\n  pileus ") + name + " "));
         CHECK(help.errors == "");
     }
+    // The help names the views that an unknown one is answered with.
+    const std::string fault = folder.run("render s.toml --show none").errors;
+    const std::string mark = "allowed: ";
+    std::string views = fault.substr(fault.find(mark) + mark.size());
+    views.pop_back();
+    std::string help = folder.run("render --help").output;
+    help.erase(
+        std::remove_if(help.begin(), help.end(), [](char c) { return c == ' ' || c == '\n'; }),
+        help.end());
+    views.erase(std::remove(views.begin(), views.end(), ' '), views.end());
+    CHECK_MESSAGE(holds(help, views), views);
 }

@@ -154,6 +154,30 @@ TEST_CASE("render: -o replaces the scene's files, and may stand before the scene
     CHECK(folder.left() == Names{"o.toml", "own.json", "own.pfm"});
     REQUIRE(folder.run("render -o a.pfm b.ppm o.toml --report r.json").exit_status == 0);
     CHECK(folder.left() == Names{"a.pfm", "b.ppm", "o.toml", "own.json", "own.pfm", "r.json"});
+    // The scene's report is that of the scene's pictures: -o leaves it alone, too.
+    folder.files().put("own.json", "older");
+    const Outcome other = folder.run("render o.toml -o a.pfm --quiet");
+    REQUIRE(other.exit_status == 0);
+    CHECK(line_count(other.output) == 1);
+    CHECK(folder.files().get("own.json") == "older");
+}
+
+TEST_CASE("render: a report named - goes to the standard output, alone") {
+    const ProgramFolder folder;
+    const Outcome outcome = folder.run("render s.toml -o a.pfm --report -");
+    REQUIRE_MESSAGE(outcome.exit_status == 0, outcome.errors);
+    CHECK(folder.left() == Names{"a.pfm"});
+    const json report = json::parse(outcome.output);
+    CHECK(report["hash"] == first_word(folder.run("render s.toml -o a.pfm").output));
+    // Elsewhere the name is refused, and ./- is a file of that name.
+    for (const char* option : {"-o b.pfm --state - --set method.name=path", "--blocks -"}) {
+        const Outcome refused = folder.run(std::string("render s.toml ") + option);
+        CHECK(refused.exit_status == 2);
+        CHECK_MESSAGE(holds(refused.errors, "-: output: only a report"), refused.errors);
+    }
+    CHECK(folder.left() == Names{"a.pfm"});
+    REQUIRE(folder.run("render s.toml --report ./-").exit_status == 0);
+    CHECK(folder.left() == Names{"-", "a.pfm"});
 }
 
 TEST_CASE("render: frames are numbered, also one by one, and repeat the whole's pictures") {
@@ -204,6 +228,12 @@ TEST_CASE("info: the program, a scene, a picture and a grid") {
         CHECK_MESSAGE(holds(program.output, part), program.output);
 
     CHECK(holds(folder.run("info s.toml").output, "16 x 9, perspective"));
+    folder.files().put("sky.toml",
+                       "[camera]\nposition_m = [0, 0, 0]\ntarget_m = [1, 0, 0]\n[sun]\n"
+                       "[[medium]]\ndensity = \"procedural:sky\"\n"
+                       "bounds_m = [[0, 0, 500], [4000, 4000, 2000]]\n"
+                       "[medium.sky]\ntype = \"stratus\"\n");
+    CHECK(holds(folder.run("info sky.toml").output, " procedural:sky, type stratus, extinction"));
     REQUIRE(write_image(grey_image(), folder.files().path("p.pfm"), {}));
     const Outcome picture = folder.run("info p.pfm");
     CHECK(holds(picture.output, "3 x 2"));

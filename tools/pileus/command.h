@@ -24,6 +24,9 @@ void add_info(CLI::App& app, Chosen& chosen);
 void add_convert(CLI::App& app, Chosen& chosen);
 void add_study(CLI::App& app, Chosen& chosen);
 
+/// The end of a subcommand's help.
+inline std::string help_example(const std::string& line) { return "Example:\n  " + line; }
+
 /// Writes `text` to the standard output at once; a full disk or a closed pipe: kIo.
 Status print(const std::string& text);
 

@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "src/base/file.h"
+#include "src/base/output_check.h"
 #include "src/io/volumes/vdb/vdb_file.h"
 #include "src/scene/toml_tree.h"
 #include "tools/pileus/command.h"
@@ -77,6 +78,10 @@ Status run_convert(const ConvertArguments& arguments) {
     medium.grid = arguments.grid;
     RawType type;
     PILEUS_TRY(read_raw_type(arguments.raw, type));
+    OutputCheck check;
+    check.reads(arguments.from, "the grid that is read");
+    PILEUS_TRY(check.writes(arguments.to));
+    PILEUS_TRY(can_write_file(arguments.to));
     if (from_raw) PILEUS_TRY(read_raw_facts(arguments.from, arguments.raw, medium));
     Volume volume;
     PILEUS_TRY(read_volume(medium, arguments.from, volume));
@@ -103,6 +108,7 @@ void add_convert(CLI::App& app, Chosen& chosen) {
         ->type_name("NAME");
     command->add_flag("--y-up", arguments->y_up, "Turn a grid whose y axis points up to z up");
     add_raw_options(*command, arguments->raw);
+    command->footer(help_example("pileus convert cloud.vdb cloud.raw --type uint16"));
     command->callback(
         [arguments, &chosen] { chosen = [arguments] { return run_convert(*arguments); }; });
 }

@@ -58,7 +58,7 @@ Status run_follow(const FollowArguments& arguments) {
 void add_follow(CLI::App& app, Chosen& chosen) {
     CLI::App* command = app.add_subcommand("follow", "Print the way of one photon");
     const auto arguments = std::make_shared<FollowArguments>();
-    add_scene_options(*command, arguments->scene);
+    add_scene_options(*command, arguments->scene, "pileus follow cloud.toml --photon 3");
     command->add_option("--photon", arguments->photon, "Its number, from 0")->type_name("N");
     command->add_option("--light", arguments->light, "Number of its light, from 0")->type_name("N");
     command->callback(

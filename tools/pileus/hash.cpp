@@ -27,6 +27,7 @@ void add_hash(CLI::App& app, Chosen& chosen) {
     const auto file = std::make_shared<std::string>(), layer = std::make_shared<std::string>();
     command->add_option("file", *file, "An .exr, .pfm or .png file")->required()->type_name("FILE");
     command->add_option("--layer", *layer, "Layer of the file")->type_name("NAME");
+    command->footer(help_example("pileus hash cloud.exr --layer cloud"));
     command->callback([=, &chosen] { chosen = [=] { return run_hash(*file, *layer); }; });
 }
 

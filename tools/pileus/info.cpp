@@ -105,6 +105,7 @@ void add_info(CLI::App& app, Chosen& chosen) {
         ->type_name("NAME");
     command->add_flag("--phase", arguments->phase, "The file is a table of a phase function");
     add_raw_options(*command, arguments->raw);
+    command->footer(help_example("pileus info cloud.vdb --grid density"));
     command->callback(
         [arguments, &chosen] { chosen = [arguments] { return run_info(*arguments); }; });
 }

@@ -44,7 +44,7 @@ std::string range_text(const Range& range) {
     return text;
 }
 
-const char* density_name(const MediumSettings& medium) {
+std::string density_name(const MediumSettings& medium) {
     switch (medium.density) {
         case DensityKind::kCumulus:
             return "procedural:cumulus";
@@ -54,9 +54,12 @@ const char* density_name(const MediumSettings& medium) {
             return "uniform:sphere";
         case DensityKind::kUniformEllipsoid:
             return "uniform:ellipsoid";
-        default:
-            return medium.file.c_str();
+        case DensityKind::kSky:
+            return "procedural:sky, type " + medium.sky.type;
+        case DensityKind::kFile:
+            return medium.file;
     }
+    return "";
 }
 
 std::string extinction_text(const MediumSettings& medium) {

@@ -91,6 +91,7 @@ int run(int count, char** words) {
     Chosen chosen;
     app.set_version_flag("--version", std::string("pileus ") + kVersion);
     app.require_subcommand(1);
+    app.footer(help_example("pileus render cloud.toml -o cloud.png"));
     add_render(app, chosen);
     add_plan(app, chosen);
     add_follow(app, chosen);

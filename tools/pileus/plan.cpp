@@ -103,7 +103,8 @@ void add_plan(CLI::App& app, Chosen& chosen) {
     CLI::App* command =
         app.add_subcommand("plan", "Say what a rendering needs, from sizes, without its values");
     const auto arguments = std::make_shared<PlanArguments>();
-    add_scene_options(*command, arguments->scene);
+    add_scene_options(*command, arguments->scene,
+                      "pileus plan cloud.toml --budget photons=1000000");
     command->add_flag("--json", arguments->json, "Print JSON");
     command->add_flag("--exact", arguments->exact,
                       "Read the values and prepare everything but the photons: exact bytes");

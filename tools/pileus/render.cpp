@@ -6,11 +6,13 @@
 
 #include <filesystem>
 #include <memory>
-#include <set>
 
 #include "platform/clock.h"
 #include "platform/interrupt.h"
 #include "src/base/file.h"
+#include "src/base/output_check.h"
+#include "src/io/scene_files.h"
+#include "src/io/text/report_json.h"
 #include "src/methods/collectors/views/views.h"
 #include "src/scene/read_scene.h"
 #include "tools/pileus/block_files.h"
@@ -24,8 +26,6 @@ namespace pileus {
 
 namespace {
 
-constexpr double kMostStops = 64;
-
 struct RenderArguments {
     SceneArguments scene;
     std::vector<std::string> files;
@@ -38,6 +38,7 @@ struct RenderArguments {
 struct Outputs {
     std::vector<std::string> files;
     std::string report;
+    bool report_printed = false;  ///< --report -: on the standard output, and nothing else there
     ToneSettings tone;
     BlockSettings blocks;
     bool numbered = false;  ///< the scene has several frames, so names carry the frame's number
@@ -45,17 +46,6 @@ struct Outputs {
 
 std::string frame_path(const std::string& path, int frame, bool numbered) {
     return numbered ? numbered_path(path, frame) : path;
-}
-
-Status read_tone(const RenderArguments& arguments, ToneSettings& tone) {
-    if (!arguments.exposure) return Status::ok();
-    tone.automatic = *arguments.exposure == "auto";
-    if (tone.automatic) return Status::ok();
-    double stops = 0;
-    Status status = read_number("--exposure", *arguments.exposure, -kMostStops, kMostStops, stops);
-    if (!status) status.message += ", or auto";
-    tone.stops = float(stops);
-    return status;
 }
 
 Status read_state(const RenderArguments& arguments, RenderOptions& options) {
@@ -70,28 +60,46 @@ Status read_state(const RenderArguments& arguments, RenderOptions& options) {
                        options.state_every_s);
 }
 
-/// Finds what would make writing fail before the work is done.
-Status check_outputs(const Outputs& outputs, const std::string& scene, const std::string& state,
-                     int frame) {
+/// Refuses to write over what is read, or two outputs into one file, in any of the frames.
+Status check_names(const std::vector<std::string>& all, bool numbered, const Scene& scene,
+                   const RenderOptions& options) {
+    OutputCheck check;
     Status faults;
-    std::set<std::string> paths;
+    check.reads(scene.file, "the scene itself");
+    for (const std::string& file : scene_files(scene))
+        check.reads(file, "a file that the scene reads");
+    for (int frame = options.first_frame; frame <= options.last_frame && faults; ++frame)
+        for (const std::string& name : all) {
+            const std::string path = frame_path(name, frame, numbered);
+            // Names of files that are not there yet clash in all frames or in none.
+            std::error_code ignored;
+            const bool there = std::filesystem::exists(
+                std::filesystem::symlink_status(std::filesystem::path(path), ignored));
+            if (frame == options.first_frame || there) add_fault(check.writes(path), faults);
+        }
+    return faults;
+}
+
+/// Finds what would make writing fail before the work is done.
+Status check_outputs(const Outputs& outputs, const Scene& scene, const RenderOptions& options) {
+    Status faults;
     std::vector<std::string> all = outputs.files;
     if (!outputs.report.empty()) all.push_back(outputs.report);
-    if (!state.empty()) all.push_back(state);
+    if (!options.state.empty()) all.push_back(options.state);
+    std::vector<std::string> sound;
+    for (const std::string& name : all) {
+        const Status status = name.empty() ? Status::ok() : check_file_name(name);
+        add_fault(status ? status : Status::io(status.message), faults);
+        if (status) sound.push_back(name);
+    }
+    add_fault(check_names(sound, outputs.numbered, scene, options), faults);
+    PILEUS_TRY(faults);
     for (std::size_t i = 0; i < all.size(); ++i) {
-        const std::string path = frame_path(all[i], frame, outputs.numbered);
-        const Status name = all[i].empty() ? Status::ok() : check_file_name(all[i]);
-        add_fault(name.code == Code::kOk ? name : Status::io(name.message), faults);
-        if (!name) continue;
-        std::error_code ignored;
-        if (std::filesystem::equivalent(path, scene, ignored))
-            add_fault(Status::bad_input(path + ": output: is the scene itself, allowed: another"),
-                      faults);
-        if (!paths.insert(all[i]).second)
-            add_fault(Status::bad_input(all[i] + ": output: named twice, allowed: once"), faults);
         const Status format = i < outputs.files.size() ? can_write_image(all[i]) : Status::ok();
         add_fault(format, faults);
-        if (format) add_fault(can_write_file(path), faults);
+        if (format)
+            add_fault(can_write_file(frame_path(all[i], options.first_frame, outputs.numbered)),
+                      faults);
     }
     return faults;
 }
@@ -120,7 +128,8 @@ Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOpti
                       faults);
         options.show = *arguments.show;
     }
-    add_fault(read_tone(arguments, outputs.tone), faults);
+    if (arguments.exposure)
+        add_fault(read_exposure("--exposure", *arguments.exposure, outputs.tone), faults);
     add_fault(read_state(arguments, options), faults);
     add_fault(read_block_arguments(arguments.blocks, outputs.blocks), faults);
     add_fault(read_scene_options(arguments.scene, scene, options), faults);
@@ -133,23 +142,26 @@ Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOpti
     outputs.numbered = frames > 1;
     // Blocks are all that such a run writes.
     if (!outputs.blocks.file.empty()) {
-        if (arguments.files.empty() && !arguments.report) return Status::ok();
-        return Status::bad_input("--blocks: together with -o or --report, allowed: without");
+        if (!arguments.files.empty() || arguments.report)
+            return Status::bad_input("--blocks: together with -o or --report, allowed: without");
+        return check_names({outputs.blocks.file}, false, scene, options);
     }
     // Names on the command line start at the working directory, those in a scene at its folder.
     outputs.files = arguments.files;
     if (outputs.files.empty())
         for (const std::string& file : scene.output.files)
             outputs.files.push_back(scene_path(scene.directory, file));
-    if (arguments.report)
-        outputs.report = *arguments.report;
-    else if (!scene.output.report.empty())
+    // -o stands for all that the scene would write: its report is of another picture.
+    const bool own_report = arguments.files.empty() && !scene.output.report.empty();
+    outputs.report_printed = arguments.report && *arguments.report == "-";
+    if (arguments.report && !outputs.report_printed) outputs.report = *arguments.report;
+    if (!arguments.report && own_report)
         outputs.report = scene_path(scene.directory, scene.output.report);
-    if (outputs.files.empty() && outputs.report.empty())
+    if (outputs.files.empty() && outputs.report.empty() && !outputs.report_printed)
         return Status::bad_input(scene.file +
                                  ": output.files: no output, allowed: -o FILE, --report FILE or "
                                  "output.files in the scene");
-    return check_outputs(outputs, arguments.scene.scene, options.state, options.first_frame);
+    return check_outputs(outputs, scene, options);
 }
 
 Status write_frame(const Outputs& outputs, int frame, const Image& image, const Report& report) {
@@ -166,7 +178,7 @@ Status write_frame(const Outputs& outputs, int frame, const Image& image, const 
         lines += fmt::format("{:16} {}\n", "report", path);
     }
     PILEUS_TRY(set.commit());
-    PILEUS_TRY(print(lines));
+    PILEUS_TRY(print(outputs.report_printed ? report_json(report) : lines));
     set.keep();
     return Status::ok();
 }
@@ -210,7 +222,7 @@ Status run_render(RenderArguments& arguments) {
         });
     progress.clear();
     PILEUS_TRY(status);
-    if (!arguments.quiet)
+    if (!arguments.quiet && !outputs.report_printed)
         PILEUS_TRY(print(fmt::format("{:16} {:.3f} s\n", "total", wall_seconds() - start)));
     return {Code::kOk, ended};
 }
@@ -220,12 +232,18 @@ Status run_render(RenderArguments& arguments) {
 void add_render(CLI::App& app, Chosen& chosen) {
     CLI::App* command = app.add_subcommand("render", "Render a scene to pictures and a report");
     const auto arguments = std::make_shared<RenderArguments>();
-    add_scene_options(*command, arguments->scene);
+    add_scene_options(*command, arguments->scene,
+                      "pileus render cloud.toml -o cloud.exr cloud.png --report cloud.json "
+                      "--set sun.elevation_deg=10");
     command
-        ->add_option("-o,--output", arguments->files,
-                     ".exr .png .pfm or .ppm, instead of the scene's output.files")
+        ->add_option(
+            "-o,--output", arguments->files,
+            ".exr .png .pfm or .ppm, instead of the scene's output.files and output.report")
         ->type_name("FILE");
-    command->add_option("--report", arguments->report, "JSON report to write")->type_name("FILE");
+    command
+        ->add_option("--report", arguments->report,
+                     "JSON report to write; - for the standard output")
+        ->type_name("FILE");
     command
         ->add_option("--frames", arguments->frames, "Frames of an animation, from 0; left out: all")
         ->type_name("A-B");
@@ -235,8 +253,7 @@ void add_render(CLI::App& app, Chosen& chosen) {
         ->type_name("STOPS|auto");
     command
         ->add_option("--show", arguments->show,
-                     "A step of the method instead of its picture: gradient, samples, tree, "
-                     "leaf-density, collectors, photons, illumination")
+                     "A step of the method instead of its picture: " + view_names())
         ->type_name("VIEW");
     command
         ->add_option("--state", arguments->state,

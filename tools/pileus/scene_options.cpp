@@ -10,6 +10,8 @@
 #include "src/run/find_kernels.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/toml_tree.h"
+#include "src/run/find_kernels.h"
+#include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
 
 namespace pileus {
@@ -46,7 +48,7 @@ Status read_budget(const std::string& text, RenderOptions& options, std::int64_t
 
 }  // namespace
 
-void add_scene_options(CLI::App& command, SceneArguments& arguments) {
+void add_scene_options(CLI::App& command, SceneArguments& arguments, const std::string& example) {
     command.add_option("scene", arguments.scene, "The scene file")->type_name("SCENE.toml");
     command
         .add_option("--set", arguments.sets,
@@ -60,7 +62,8 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
         ->type_name("NAME");
     command
         .add_option("--budget", arguments.budgets,
-                    "photons=N (collectors), samples=N for each pixel (path) or steps=N of a ray "
+                    "photons=N (collectors), samples=N for each pixel "
+                    "(path) or steps=N of a ray "
                     "(raymarch) instead of the scene's number; error=E (path) ends at a mean "
                     "relative standard error; "
                     "seconds=S ends tracing after that time, between two passes; may be repeated: "
@@ -73,7 +76,8 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments) {
                     "listed below")
         ->allow_extra_args(false)
         ->type_name("NAME=N");
-    command.footer("Limits, by default (and at most):\n" + describe_limits());
+    command.footer(help_example(example) + "\n\nLimits, by default (and at most):\n" +
+                   describe_limits());
 }
 
 Status read_scene_options(const SceneArguments& arguments, Scene& scene, RenderOptions& options) {

@@ -19,8 +19,9 @@ struct SceneArguments {
     std::vector<std::string> sets, budgets, limits;
 };
 
-/// Adds SCENE --set --threads --seed --isa --budget --limit to a subcommand.
-void add_scene_options(CLI::App& command, SceneArguments& arguments);
+/// Adds SCENE --set --threads --seed --isa --budget --limit to a subcommand; its help ends with the
+/// example and the limits.
+void add_scene_options(CLI::App& command, SceneArguments& arguments, const std::string& example);
 
 /// Checks all options, reads the scene and applies overrides and seed. Faults: one line each,
 /// those of the options first; kBadInput, or what reading the scene gave.

@@ -152,6 +152,7 @@ void add_study(CLI::App& app, Chosen& chosen) {
         ->type_name("NAME");
     command->add_flag("--list", arguments->list, "Print the runs and make none");
     command->add_flag("-q,--quiet", arguments->quiet, "No progress");
+    command->footer(help_example("pileus study study.toml -o out/study --threads 4"));
     command->callback(
         [arguments, &chosen] { chosen = [arguments] { return run_study(*arguments); }; });
 }

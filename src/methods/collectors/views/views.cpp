@@ -86,15 +86,19 @@ Status prepare_step(View view, const Context& context, ViewRun& out) {
 
 }  // namespace
 
-Status find_view(const std::string& name, View& view) {
+std::string view_names() {
     std::string all;
+    for (const char* name : kNames) all += (all.empty() ? "" : ", ") + std::string(name);
+    return all;
+}
+
+Status find_view(const std::string& name, View& view) {
     for (int i = 0; i < int(sizeof kNames / sizeof kNames[0]); ++i) {
-        all += (i > 0 ? ", " : "") + std::string(kNames[i]);
         if (name != kNames[i]) continue;
         view = View(i);
         return Status::ok();
     }
-    return Status::bad_input("--show: no such view, \"" + name + "\", allowed: " + all);
+    return Status::bad_input("--show: no such view, \"" + name + "\", allowed: " + view_names());
 }
 
 Status collectors_view_prepare(const Scene& scene, View view, std::int64_t photons,

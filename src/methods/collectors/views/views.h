@@ -21,6 +21,9 @@ enum class View {
     kIllumination,
 };
 
+/// The names of all views, parted by ", ".
+std::string view_names();
+
 /// Finds a view by its name. kBadInput: no such view; the line lists all names.
 Status find_view(const std::string& name, View& view);
 
