@@ -3,8 +3,8 @@
 // in: PILEUS_PROGRAM, files under several names -> out: pass or fail.
 // docs/program.md, "What is never overwritten"
 #include "src/base/output_check.h"
-#include "src/io/image_file.h"
-#include "src/io/scene_files.h"
+#include "src/io/images/image_file.h"
+#include "src/io/text/scene_files.h"
 #include "src/scene/read_scene.h"
 #include "tests/cli/run_program.h"
 #include "tests/io/test_image.h"

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "src/base/status.h"
-#include "src/io/image_file.h"
+#include "src/io/images/image_file.h"
 
 namespace pileus {
 

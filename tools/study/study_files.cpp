@@ -2,12 +2,12 @@
 // See study_files.h.
 // in: scenes -> out: digests; names of outputs -> out: clashes.
 // docs/study.md, "Runs"
-#include "src/study/study_files.h"
+#include "tools/study/study_files.h"
 
 #include "src/base/digest.h"
 #include "src/base/file.h"
 #include "src/base/output_check.h"
-#include "src/io/scene_files.h"
+#include "src/io/text/scene_files.h"
 #include "src/scene/read_scene.h"
 
 namespace pileus {

@@ -8,8 +8,8 @@
 #include <string>
 #include <vector>
 
-#include "src/study/study_file.h"
-#include "src/study/study_runs.h"
+#include "tools/study/study_file.h"
+#include "tools/study/study_runs.h"
 
 namespace pileus {
 

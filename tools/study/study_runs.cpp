@@ -11,7 +11,7 @@
 #include "src/base/digest.h"
 #include "src/base/file.h"
 #include "src/scene/toml_tree.h"
-#include "src/study/study_files.h"
+#include "tools/study/study_files.h"
 
 namespace pileus {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "src/base/file.h"
-#include "src/io/srgb.h"
+#include "src/io/images/srgb.h"
 
 namespace pileus {
 
