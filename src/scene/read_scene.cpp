@@ -9,8 +9,8 @@
 
 #include "platform/fp_mode.h"
 #include "src/base/file.h"
-#include "src/scene/check_keys.h"
-#include "src/scene/overrides.h"
+#include "src/scene/checks/check_keys.h"
+#include "src/scene/toml/overrides.h"
 
 namespace pileus {
 namespace {

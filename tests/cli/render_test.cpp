@@ -140,6 +140,9 @@ TEST_CASE("render: options change what they name and nothing else") {
     const std::string plain = hash("");
     CHECK(hash("--threads 1 --isa scalar --exposure 2 --quiet") == plain);
     CHECK(hash("--threads 3 --budget photons=1000 --budget seconds=3600") == plain);
+    // Numbers as scenes write them.
+    CHECK(hash("--budget photons=1e3") == plain);
+    CHECK(hash("--budget photons=1_000 --budget seconds=3_600") == plain);
     CHECK(hash("--seed 8") != plain);
     CHECK(hash("--seed 8") == hash("--set seed=8"));
     CHECK(hash("--budget photons=2000") == hash("--set collectors.photons=2000"));

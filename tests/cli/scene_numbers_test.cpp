@@ -10,7 +10,7 @@
 
 #include "kernels_cpu/core/camera.h"
 #include "src/scene/read_scene.h"
-#include "src/scene/scene_keys.h"
+#include "src/scene/keys/all_keys.h"
 #include "src/world/camera/view.h"
 
 using namespace pileus;
@@ -63,7 +63,7 @@ Status read(const std::vector<std::string>& overrides, Scene& scene) {
 TEST_CASE("numbers: NaN, infinities and 1e400 are refused at every key and every place of it") {
     int tried = 0;
     for (const KeyRow* row : all_scene_keys()) {
-        const int count = numbers_of(row->kind);
+        const int count = numbers_of(row->kind());
         std::string path = row->path;
         const std::size_t n = path.find(".N.");
         if (n != std::string::npos) path.replace(n, 3, ".0.");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sound scenes give the values they state; defaults, overrides, documentation and limits hold.
-// in: scene texts, assets/scenes, docs/scene.md -> out: fields of Scene.
+// Sound scenes give the values they state; defaults, overrides and limits hold.
+// in: scene texts, assets/scenes -> out: fields of Scene.
 // docs/scene.md.
 #include "src/scene/scene.h"
 
@@ -10,19 +10,15 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
-#include <set>
-#include <sstream>
 #include <string>
 
-#include "src/scene/check_keys.h"
+#include "src/scene/checks/check_keys.h"
+#include "src/scene/keys/all_keys.h"
 #include "src/scene/read_scene.h"
-#include "src/scene/scene_keys.h"
-#include "tests/support/scene_dump.h"
 
 namespace {
 
 using namespace pileus;
-using test::dump;
 
 const std::string kCamera = "[camera]\nposition_m = [0, -9, 5]\ntarget_m = [0, 0, 5]\n";
 
@@ -33,255 +29,94 @@ Scene good(const std::string& text, const std::vector<std::string>& overrides = 
     return scene;
 }
 
-std::string file_text(const std::string& path) {
-    std::ifstream file(path, std::ios::binary);
-    std::stringstream text;
-    text << file.rdbuf();
-    return text.str();
-}
-
-const char* const kEveryKey = R"(
+const char* const kFullScene = R"(
 seed = 9_223_372_036_854_775_807
 [camera]
 position_m = [1, -2.5, 3]
 target_m = [4, 5, 6]
-up = [0, 1, 0]
 projection = "orthographic"
 height_m = 77
 resolution = [16, 9]
 [sun]
-azimuth_deg = 120
-elevation_deg = 35
 irradiance = [2, 3, 4]
 [sky]
 map = "a.PFM"
-map_scale = 2
 map_rotation_deg = -20
-[ground]
-altitude_m = -10
-albedo = 0.5
-[[solid]]
-file = "a.ply"
-albedo = [0.25, 0.5, 0.75]
-position_m = [1, 2, 3]
-scale = 4
-rotation_deg = [5, 6, 7]
-y_up = true
 [[medium]]
 density = "procedural:cumulus"
 bounds_m = [[0, 0, 0], [1, 2, 3]]
-resolution = [3, 4, 5]
-shape_seed = 8
 extinction_per_m = 0.05
-albedo = [0.1, 0.2, 0.3]
 phase = { type = "henyey-greenstein", g = -1 }
-boundary = "open"
-y_up = false
 [[medium]]
 density = { file = "a.dat", type = "uint16", size = [7, 8, 9], endian = "big" }
 bounds_m = [[0, 0, 0], [1, 1, 1]]
 extinction_per_m = 1e12
-phase = { type = "two-lobe", g1 = 1, g2 = -0.5, weight = 0.75 }
-y_up = true
-[[medium]]
-density = "b.txt"
-format = "pbrt"
-extinction_per_m = 0
-phase = { type = "rayleigh" }
-[[medium]]
-density = "c.txt"
-extinction_scale = 2.5
-phase = { type = "hg-draine", droplet_diameter_um = 20.5 }
-[[medium]]
-density = "c.vdb"
-grid = "smoke"
-extinction_per_m = 1
-phase = { type = "cloud", cloud = "fog" }
 [[medium]]
 density = { file = "d.vdb", grid = "fog" }
 extinction_per_m = 1
-phase = { type = "cloud", effective_radius_um = 4.5 }
-[method]
-name = "collectors"
+phase = { type = "cloud", cloud = "fog" }
 [collectors]
 photons = 2e6
-generations = 7
-bands = 5
-axis_degrees = 3
-samples = 11
 tracking = "global"
 closure = "lobe"
-cell_voxels = 4
-variant = "paper"
-display = "march"
-sampler = "stratified"
-placement = "variance"
-variance_radius = 3
-density_range = 0.5
-influence_radius = 1
-radius_factor = 2
-first_order_split = true
-window = true
-accumulation = "shared"
-compositor = "builtin"
-[path]
-samples_per_pixel = 5
-max_depth = 6
-pixel = "centre"
-target_error = 0.5
-max_samples_per_pixel = 7
 [raymarch]
-integrator = "simpson"
-steps = 31
-spacing = "geometric"
-first_step_m = 1.5
-growth = 1.25
-occlusion = "stretch"
-scattering = "forward"
-cone_deg = 50
-forward_share = 0.5
-octaves = 3
-octave_extinction = 0.25
-octave_share = 0.75
-octave_anisotropy = 0.5
-light = "buffer"
-light_steps = 4
-light_first_step_m = 2.5
-light_growth = 3
-sky_light = "none"
-detail = true
-light_path = "cone"
-jitter = "blue-noise"
-jitter_share = 0.75
-grid_lock_m = 8
-powder = "directional"
-powder_strength = 0.25
-ambient = [1, 2, 3]
-stop_below = 0.5
-scale = 4
-upsample = "nearest"
-temporal = 2
-phase = "peak"
+scattering = "octaves"
 [photon-grid]
 anything = { goes = [1, 2] }
 [output]
 files = ["x.exr", "y.pfm"]
-report = "r.json"
-layers = ["radiance", "depth", "error", "cloud", "optical_depth", "transmittance", "light", "order"]
+layers = ["radiance", "depth", "order"]
 [animation]
 frames = 12
 camera_orbit_deg = [0, 90]
-sun_elevation_deg = [35, 5]
 )";
-
-TEST_CASE("every key of a full scene reaches its field") {
-    const Scene scene = good(kEveryKey);
-    // No medium of this scene is a sky: sky/keys_test.
-    const std::string sky = dump(SkySettings());
-    const std::string expected =
-        R"({9223372036854775807 {[1 -2.5 3 ] [4 5 6 ] [0 1 0 ] 1 0 40 77 [16 9 ] "" 0 1 }
-{1 120 35 [2 3 4 ] }
-{1 [0 0 0 ] "a.PFM" 2 -20 }
-{1 -10 0.5 }
-[{"a.ply" [0.25 0.5 0.75 ] [1 2 3 ] [5 6 7 ] 4 1 }
-] [{0 "" "" "" 2 [0 0 0 ] 0 1 [[0 0 0 ] [1 2 3 ] ] [3 4 5 ] 8 )" +
-        sky +
-        R"(0.050000000000000003 1 [0.10000000149011612 0.20000000298023224 0.30000001192092896 ] {2 -1 0 0 1 0 0 "" }
-0 0 }
-{4 "a.dat" "raw" "" 1 [7 8 9 ] 1 1 [[0 0 0 ] [1 1 1 ] ] [0 0 0 ] 0 )" +
-        sky + R"(1000000000000 1 [1 1 1 ] {3 0 1 -0.5 0.75 0 0 "" }
-0 1 }
-{4 "b.txt" "pbrt" "" 2 [0 0 0 ] 0 0 [[0 0 0 ] [0 0 0 ] ] [0 0 0 ] 0 )" +
-        sky + R"(0 1 [1 1 1 ] {1 0 0 0 1 0 0 "" }
-0 0 }
-{4 "c.txt" "les" "" 2 [0 0 0 ] 0 0 [[0 0 0 ] [0 0 0 ] ] [0 0 0 ] 0 )" +
-        sky + R"(0 2.5 [1 1 1 ] {4 0 0 0 1 20.5 0 "" }
-0 0 }
-{4 "c.vdb" "openvdb" "smoke" 2 [0 0 0 ] 0 0 [[0 0 0 ] [0 0 0 ] ] [0 0 0 ] 0 )" +
-        sky + R"(1 1 [1 1 1 ] {5 0 0 0 1 0 10.699999999999999 "" }
-0 0 }
-{4 "d.vdb" "openvdb" "fog" 2 [0 0 0 ] 0 0 [[0 0 0 ] [0 0 0 ] ] [0 0 0 ] 0 )" +
-        sky + R"(1 1 [1 1 1 ] {5 0 0 0 1 0 4.5 "" }
-0 0 }
-] "collectors" {2000000 7 5 11 0 1 0 4 1 0 0 0 1 3 0.5 1 2 3 1 1 2 }
-{5 6 1 0.5 7 }
-{3 31 3 1.5 1.25 1 1 0 3 0.25 0.75 0.5 50 0.5 2 4 2.5 3 0 1 1 2 0.75 8 3 0.25 [1 2 3 ] 0.5 4 2 2 1 }
-{["x.exr" "y.pfm" ] "r.json" 1 1 1 1 1 1 1 }
-{1 12 [0 90 ] [35 5 ] 1 1 }
-}
-)";
-    CHECK(dump(scene) == expected);
-    CHECK(scene.text == kEveryKey);
-    CHECK(scene.file == "s.toml");
-    CHECK(scene.directory == "dir");
-    const Scene deep = good(kCamera + "depth = \"d.exr\"\ndepth_kind = \"z\"\ndepth_scale = 0.5\n");
-    CHECK(deep.camera.depth == "d.exr");
-    CHECK(deep.camera.depth_on_axis);
-    CHECK(deep.camera.depth_scale == 0.5);
-    const Scene gltf = good(kCamera + "[[solid]]\nfile = \"a.GLB\"\n");
-    CHECK(gltf.solids[0].y_up);
-    const Scene even = good(kCamera + "[sky]\nradiance = 0.25\n");
-    CHECK(even.sky.radiance == Float3{0.25f, 0.25f, 0.25f});
-    CHECK(even.sky.map.empty());
-}
-
-TEST_CASE("the full scene holds every key that sets something") {
-    Node root;
-    SyntaxFault fault;
-    REQUIRE(parse_toml(kEveryKey, root, fault));
-    Scene scene;
-    FaultList faults("s.toml", {});
-    SceneCheck check{scene, root, faults, {}};
-    check_keys(check);
-    // Excluded by the orthographic view, by the map and by the moving camera.
-    std::set<std::string> seen{"camera.fov_deg", "sky.radiance", "camera.depth_kind",
-                               "camera.depth_scale"};
-    // Those of a procedural sky: sky/keys_test.
-    for (const KeyRow& row : sky_keys()) seen.insert(row.path);
-    for (const auto& [path, found] : check.found) {
-        std::string pattern = path;
-        if (pattern.compare(0, 7, "medium.") == 0) pattern.replace(7, 1, "N");
-        if (pattern.compare(0, 6, "solid.") == 0) pattern.replace(6, 1, "N");
-        seen.insert(pattern);
-    }
-    for (const KeyRow* row : all_scene_keys())
-        if (row->set != nullptr) CHECK_MESSAGE(seen.count(row->path) == 1, row->path);
-}
-
-TEST_CASE("the defaults of the key table are those of the structs") {
-    int compared = 0;
-    for (const KeyRow* row : all_scene_keys()) {
-        const std::string fallback = row->fallback;
-        if (row->set == nullptr || fallback.empty() || fallback == kRequired) continue;
-        CAPTURE(row->path);
-        Node root;
-        SyntaxFault fault;
-        REQUIRE(parse_toml("v = " + fallback, root, fault));
-        FaultList faults("table", {});
-        CHECK(check_value(*row, root.children[0], row->path, faults));
-        Scene scene, untouched;
-        MediumSettings medium;
-        SolidSettings solid;
-        row->set(root.children[0], {scene, medium, solid});
-        scene.media.push_back(medium);
-        scene.solids.push_back(solid);
-        untouched.media.emplace_back();
-        untouched.solids.emplace_back();
-        CHECK(dump(scene) == dump(untouched));
-        ++compared;
-    }
-    CHECK(compared > 30);
-}
 
 TEST_CASE("a small scene has the defaults, and absent tables are absent") {
     const Scene scene = good(kCamera);
     Scene expected;
     expected.camera.position_m = {0, -9, 5};
     expected.camera.target_m = {0, 0, 5};
-    CHECK(dump(scene) == dump(expected));
+    CHECK(dump_scene(scene) == dump_scene(expected));
     CHECK_FALSE(scene.sun.present);
     CHECK_FALSE(scene.ground.present);
     CHECK(good(kCamera + "[sun]\n[sky]\n[ground]\n[animation]\n").sun.present);
+}
+
+TEST_CASE("a full scene gives what it says, colours in both forms, and what a file brings") {
+    const Scene scene = good(kFullScene);
+    CHECK(scene.text == kFullScene);
+    CHECK(scene.file == "s.toml");
+    CHECK(scene.directory == "dir");
+    CHECK(scene.camera.orthographic);
+    CHECK_FALSE(scene.camera.flux);
+    CHECK(scene.camera.height_m == 77);
+    CHECK(scene.camera.resolution == std::array<int, 2>{16, 9});
+    CHECK(scene.sun.irradiance == Float3{2, 3, 4});
+    CHECK(scene.sky.map == "a.PFM");
+    CHECK(scene.sky.map_rotation_deg == -20);
+    REQUIRE(scene.media.size() == 3);
+    CHECK(scene.media[0].phase.kind == PhaseKind::kHenyeyGreenstein);
+    CHECK(scene.media[0].phase.g == -1);
+    CHECK(scene.media[1].density == DensityKind::kFile);
+    CHECK(scene.media[1].file == "a.dat");
+    CHECK(scene.media[1].format == "raw");
+    CHECK(scene.media[1].raw_type == RawType::kUint16);
+    CHECK(scene.media[1].raw_big_endian);
+    CHECK(scene.media[2].format == "openvdb");
+    CHECK(scene.media[2].grid == "fog");
+    CHECK(scene.media[2].phase.kind == PhaseKind::kCloud);
+    CHECK(scene.media[2].phase.effective_radius_um == 10.7);
+    CHECK(scene.collectors.photons == 2000000);
+    CHECK_FALSE(scene.collectors.local_tracking);
+    CHECK(scene.collectors.lobe_closure);
+    CHECK_FALSE(scene.collectors.camera_closure);
+    CHECK(scene.raymarch.many);
+    CHECK(scene.output.layer_order);
+    CHECK(scene.output.files == std::vector<std::string>{"x.exr", "y.pfm"});
+    CHECK(scene.animation.moves_camera);
+    CHECK_FALSE(scene.animation.moves_sun);
+    CHECK(good(kCamera + "[[solid]]\nfile = \"a.GLB\"\n").solids[0].y_up);
+    CHECK(good(kCamera + "[sky]\nradiance = 0.25\n").sky.radiance == Float3{0.25f, 0.25f, 0.25f});
 }
 
 TEST_CASE("the paper's variant changes three defaults, only where the keys are not given") {
@@ -399,25 +234,6 @@ TEST_CASE("the scenes in assets are sound") {
         CHECK(scene.media[0].extinction_scale == 1);
     }
     if (before == nullptr) unsetenv("PILEUS_DATA_DIR");
-}
-
-TEST_CASE("docs/scene.md holds the key table as it is, and its example is sound") {
-    const std::string text = file_text("docs/scene.md");
-    const std::string begin = "<!-- keys: begin -->\n", end = "<!-- keys: end -->";
-    const std::size_t from = text.find(begin), to = text.find(end);
-    REQUIRE(from != std::string::npos);
-    REQUIRE(to != std::string::npos);
-    CHECK(text.substr(from + begin.size(), to - from - begin.size()) == describe_keys_markdown());
-    std::set<std::string> paths;
-    for (const KeyRow* row : all_scene_keys()) {
-        CHECK_MESSAGE(paths.insert(row->path).second, row->path);
-        const std::string mark = std::string("| `") + row->path + "` |";
-        CHECK_MESSAGE(text.find(mark) != std::string::npos, row->path);
-    }
-    const std::size_t example = text.find("```toml\n");
-    REQUIRE(example != std::string::npos);
-    const std::size_t start = example + 8;
-    good(text.substr(start, text.find("```", start) - start));
 }
 
 }  // namespace

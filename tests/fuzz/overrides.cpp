@@ -4,9 +4,9 @@
 // lines that name the option or a place of the file. docs/scene.md, section Overrides
 #include <algorithm>
 
+#include "src/scene/keys/all_keys.h"
 #include "src/scene/read_scene.h"
 #include "tests/fuzz/target.h"
-#include "tests/support/scene_dump.h"
 
 namespace {
 
@@ -40,7 +40,7 @@ void check_text(const Scene& scene, const std::vector<std::string>& options) {
     fuzz::require(bool(read_scene_text(scene.text, "s.toml", "", {}, plain)),
                   "the text with its options as comments is a scene");
     fuzz::require(bool(read_scene_text(kScene, "s.toml", "", {}, bare)), "so is it without");
-    fuzz::require(test::dump(plain) == test::dump(bare), "comments set nothing");
+    fuzz::require(dump_scene(plain) == dump_scene(bare), "comments set nothing");
 }
 
 /// The options out of the text's comments make the same scene again.
@@ -57,7 +57,7 @@ void check_again(const Scene& scene, std::size_t count) {
     Scene again;
     fuzz::require(bool(read_scene_text(kScene, "s.toml", "", options, again)),
                   "the options of the text are sound");
-    fuzz::require(test::dump(again) == test::dump(scene), "they make the same scene");
+    fuzz::require(dump_scene(again) == dump_scene(scene), "they make the same scene");
 }
 
 }  // namespace

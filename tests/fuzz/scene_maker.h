@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <string>
 
-#include "src/scene/toml_tree.h"
+#include "src/scene/toml/toml_tree.h"
 
 namespace fuzz {
 

@@ -7,7 +7,7 @@
 #include <doctest/doctest.h>
 
 #include "src/base/status.h"
-#include "src/scene/toml_tree.h"
+#include "src/scene/toml/toml_tree.h"
 
 using namespace pileus;
 

@@ -9,7 +9,7 @@
 #include "src/base/file.h"
 #include "src/base/output_check.h"
 #include "src/io/volumes/vdb/vdb_file.h"
-#include "src/scene/toml_tree.h"
+#include "src/scene/toml/toml_tree.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/info.h"
 #include "tools/pileus/raw_options.h"

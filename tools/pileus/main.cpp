@@ -11,7 +11,7 @@
 #include <new>
 
 #include "platform/fp_mode.h"
-#include "src/scene/toml_tree.h"
+#include "src/scene/toml/toml_tree.h"
 #include "src/session/render.h"
 #include "tools/pileus/command.h"
 

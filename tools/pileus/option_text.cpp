@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads numbers with std::from_chars, which knows no locale.
+// Reads numbers as scenes do: in the same forms, in every locale.
 // in: texts of options -> out: see option_text.h.
 // docs/program.md
 #include "tools/pileus/option_text.h"
@@ -8,7 +8,7 @@
 
 #include <charconv>
 
-#include "src/scene/toml_tree.h"
+#include "src/scene/keys/key_value.h"
 
 namespace pileus {
 
@@ -21,12 +21,40 @@ bool parse(const std::string& text, Number& value) {
     return r.ec == std::errc() && r.ptr == end;
 }
 
+/// A number in any form that a scene takes: 5_000_000, 5e6.
+bool parse_toml_number(const std::string& text, Node& value) {
+    Node root;
+    SyntaxFault ignored;
+    if (text.find_first_of("\n\r") != std::string::npos) return false;
+    if (!parse_toml("v = " + text, root, ignored) || root.children.size() != 1) return false;
+    value = root.children[0];
+    return value.is_number();
+}
+
+bool parse_integer(const std::string& text, std::int64_t& value) {
+    if (parse(text, value)) return true;
+    Node node;
+    if (!parse_toml_number(text, node)) return false;
+    const double number = number_of(node);
+    const bool exact = node.kind == NodeKind::kInteger || (number > -0x1p53 && number < 0x1p53);
+    if (exact) value = integer_of(node);
+    return exact && double(value) == number;
+}
+
+bool parse_number(const std::string& text, double& value) {
+    if (parse(text, value)) return true;
+    Node node;
+    if (!parse_toml_number(text, node)) return false;
+    value = number_of(node);
+    return true;
+}
+
 }  // namespace
 
 Status read_integer(const char* option, const std::string& text, std::int64_t low,
                     std::int64_t high, std::int64_t& value) {
     std::int64_t read = 0;
-    if (parse(text, read) && read >= low && read <= high) {
+    if (parse_integer(text, read) && read >= low && read <= high) {
         value = read;
         return Status::ok();
     }
@@ -37,7 +65,7 @@ Status read_integer(const char* option, const std::string& text, std::int64_t lo
 Status read_number(const char* option, const std::string& text, double low, double high,
                    double& value) {
     double read = 0;
-    if (parse(text, read) && read >= low && read <= high) {
+    if (parse_number(text, read) && read >= low && read <= high) {
         value = read;
         return Status::ok();
     }

@@ -13,11 +13,12 @@ namespace pileus {
 
 constexpr std::int64_t kMostThreads = 1024;  ///< of option --threads
 
-/// A whole number in decimal digits within [low, high]; else kBadInput.
+/// A whole number within [low, high], in any form that a scene takes: 5000000, 5_000_000, 5e6; else
+/// kBadInput.
 Status read_integer(const char* option, const std::string& text, std::int64_t low,
                     std::int64_t high, std::int64_t& value);
 
-/// A finite number within [low, high]; else kBadInput.
+/// A finite number within [low, high], in the same forms; else kBadInput.
 Status read_number(const char* option, const std::string& text, double low, double high,
                    double& value);
 

@@ -4,7 +4,7 @@
 // docs/program.md
 #include "tools/pileus/raw_options.h"
 
-#include "src/scene/toml_tree.h"
+#include "src/scene/toml/toml_tree.h"
 #include "tools/pileus/option_text.h"
 
 namespace pileus {

@@ -9,7 +9,7 @@
 
 #include "src/run/find_kernels.h"
 #include "src/scene/read_scene.h"
-#include "src/scene/toml_tree.h"
+#include "src/scene/toml/toml_tree.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
 

@@ -4,7 +4,7 @@
 // docs/study.md, "The file"
 #include "tools/study/study_keys.h"
 
-#include "src/scene/check_keys.h"
+#include "src/scene/checks/check_keys.h"
 #include "tools/study/study_file.h"
 
 namespace pileus {
@@ -14,49 +14,46 @@ namespace {
 constexpr double kMost = 0x1p62;
 
 const KeyRow kTop[] = {
-    plain_key(KeyKind::kText, "title", "", "heading of the page; left out: the file's name",
-              nullptr),
-    range_key(KeyKind::kInteger, "seeds", "", "3", {1, 64, false, false},
-              "times that every picture is made, each with a seed of its own; 3 and more tell bias "
-              "and noise apart with a standard error",
-              nullptr),
-    range_key(KeyKind::kInteger, "first_seed", "", "1", {0, kMost, false, false},
-              "the first of them; the others follow", nullptr),
-    range_key(KeyKind::kNumber2, "targets", "", "[0.01, 0.001]", {0, 1, true, false},
-              "the two errors (relMSE) for which the time is asked", nullptr),
+    {"title", KeyKind::kText, any(), "", "heading of the page; left out: the file's name", kNone},
+    {"seeds", KeyKind::kInteger, from_to(1, 64), "",
+     "times that every picture is made, each with a seed of its own; 3 and more tell bias "
+     "and noise apart with a standard error",
+     "3"},
+    {"first_seed", KeyKind::kInteger, from_to(0, kMost), "", "the first of them; the others follow",
+     "1"},
+    {"targets", KeyKind::kNumber2, above(0, 1), "",
+     "the two errors (relMSE) for which the time is asked", "[0.01, 0.001]"},
 };
 
 const KeyRow kReference[] = {
-    plain_key(KeyKind::kTexts, "set", "[]", "settings of the reference, as after `--set`", nullptr),
-    plain_key(KeyKind::kText, "budget", kRequired,
-              "of each of its two halves, as after `--budget`: `samples=256`", nullptr),
-    range_key(KeyKind::kInteger, "first_seed", "", "1_000_001", {0, kMost, false, false},
-              "seed of the first half; the second has the next one", nullptr),
+    {"set", KeyKind::kTexts, any(), "", "settings of the reference, as after `--set`", "[]"},
+    {"budget", KeyKind::kText, any(), "",
+     "of each of its two halves, as after `--budget`: `samples=256`", kRequired},
+    {"first_seed", KeyKind::kInteger, from_to(0, kMost), "",
+     "seed of the first half; the second has the next one", "1_000_001"},
 };
 
 const KeyRow kScene[] = {
-    plain_key(KeyKind::kText, "name", kRequired, "short name: a-z 0-9 _ -", nullptr),
-    plain_key(KeyKind::kText, "title", "", "in words; left out: the name", nullptr),
-    plain_key(KeyKind::kText, "file", kRequired, "scene file, relative to the study's folder",
-              nullptr),
-    plain_key(KeyKind::kTexts, "set", "[]", "changes to the scene, as after `--set`", nullptr),
-    plain_key(KeyKind::kText, "reference_budget", "", "instead of the reference's own", nullptr),
+    {"name", KeyKind::kText, any(), "", "short name: a-z 0-9 _ -", kRequired},
+    {"title", KeyKind::kText, any(), "", "in words; left out: the name", kNone},
+    {"file", KeyKind::kText, any(), "", "scene file, relative to the study's folder", kRequired},
+    {"set", KeyKind::kTexts, any(), "", "changes to the scene, as after `--set`", "[]"},
+    {"reference_budget", KeyKind::kText, any(), "", "instead of the reference's own", kNone},
 };
 
 const KeyRow kMethod[] = {
-    plain_key(KeyKind::kText, "name", kRequired, "short name: a-z 0-9 _ -", nullptr),
-    plain_key(KeyKind::kText, "title", "", "in words; left out: the name", nullptr),
-    plain_key(KeyKind::kTexts, "set", "[]", "the method and its settings, as after `--set`",
-              nullptr),
-    plain_key(KeyKind::kTexts, "budgets", kRequired,
-              "growing amounts of work, as after `--budget`, all of one kind", nullptr),
-    plain_key(KeyKind::kTexts, "scenes", "", "names of the scenes; left out: all", nullptr),
+    {"name", KeyKind::kText, any(), "", "short name: a-z 0-9 _ -", kRequired},
+    {"title", KeyKind::kText, any(), "", "in words; left out: the name", kNone},
+    {"set", KeyKind::kTexts, any(), "", "the method and its settings, as after `--set`", "[]"},
+    {"budgets", KeyKind::kTexts, any(), "",
+     "growing amounts of work, as after `--budget`, all of one kind", kRequired},
+    {"scenes", KeyKind::kTexts, any(), "", "names of the scenes; left out: all", kNone},
 };
 
 const KeyRow kSetting[] = {
-    plain_key(KeyKind::kText, "name", kRequired, "short name: a-z 0-9 _ -", nullptr),
-    plain_key(KeyKind::kText, "title", "", "in words; left out: the name", nullptr),
-    plain_key(KeyKind::kTexts, "set", "[]", "further settings, after those of the method", nullptr),
+    {"name", KeyKind::kText, any(), "", "short name: a-z 0-9 _ -", kRequired},
+    {"title", KeyKind::kText, any(), "", "in words; left out: the name", kNone},
+    {"set", KeyKind::kTexts, any(), "", "further settings, after those of the method", "[]"},
 };
 
 template <std::size_t N>
@@ -115,7 +112,7 @@ void check_study_table(const StudyTable& table, const Node& node, const std::str
             add_unknown(table, child, path, faults);
     }
     for (const KeyRow& row : table.rows)
-        if (std::string_view(row.fallback) == kRequired && node.find(row.path) == nullptr)
+        if (row.required() && node.find(row.path) == nullptr)
             faults.add(node.at, study_path(path, row.path),
                        "missing, nothing, allowed: " + allowed_text(row));
 }

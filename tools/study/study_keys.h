@@ -5,8 +5,8 @@
 #pragma once
 #include <string>
 
-#include "src/scene/fault_list.h"
-#include "src/scene/scene_keys.h"
+#include "src/scene/checks/fault_list.h"
+#include "src/scene/keys/all_keys.h"
 
 namespace pileus {
 

@@ -10,7 +10,7 @@
 #include "platform/process.h"
 #include "src/base/digest.h"
 #include "src/base/file.h"
-#include "src/scene/toml_tree.h"
+#include "src/scene/toml/toml_tree.h"
 #include "tools/study/study_files.h"
 
 namespace pileus {

@@ -6,7 +6,7 @@
 
 #include "src/io/images/image_file.h"
 #include "src/scene/read_scene.h"
-#include "src/scene/toml_tree.h"
+#include "src/scene/toml/toml_tree.h"
 
 namespace pileus {
 namespace {

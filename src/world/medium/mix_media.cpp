@@ -9,7 +9,7 @@
 #include "platform/threads.h"
 #include "src/base/powers.h"
 #include "src/io/volumes/volume_file.h"
-#include "src/scene/toml_tree.h"
+#include "src/scene/toml/toml_tree.h"
 #include "src/world/grid/mix_weights.h"
 
 namespace pileus {

@@ -10,7 +10,7 @@
 #include "src/io/volumes/vdb/vdb_box.h"
 #include "src/io/volumes/vdb/vdb_grid.h"
 #include "src/io/volumes/vdb/vdb_values.h"
-#include "src/scene/toml_tree.h"
+#include "src/scene/toml/toml_tree.h"
 
 namespace pileus {
 

@@ -4,7 +4,7 @@
 // OpenVDB 10.0.1, openvdb/io/Archive.cc and openvdb/math/Maps.h; docs/formats.md
 #include "src/io/volumes/vdb/vdb_grid.h"
 
-#include "src/scene/toml_tree.h"
+#include "src/scene/toml/toml_tree.h"
 
 namespace pileus {
 

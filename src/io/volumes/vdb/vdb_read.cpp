@@ -5,7 +5,7 @@
 #include "src/base/file.h"
 #include "src/io/volumes/vdb/vdb_file.h"
 #include "src/io/volumes/vdb/vdb_tree.h"
-#include "src/scene/toml_tree.h"
+#include "src/scene/toml/toml_tree.h"
 
 namespace pileus {
 

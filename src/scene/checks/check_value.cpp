@@ -2,12 +2,19 @@
 // Checks the type, size and range of one value.
 // in: a row of the key table and a node -> out: true, or a fault that says what is allowed.
 // docs/scene.md, section Messages.
-#include "src/scene/check_keys.h"
+#include "src/scene/checks/check_keys.h"
 
 namespace pileus {
 namespace {
 
 constexpr std::size_t kMaxTexts = 16;
+
+/// Texts that begin so name no files.
+bool is_shape(std::string_view text) {
+    for (std::string_view start : {"procedural:", "uniform:"})
+        if (text.substr(0, start.size()) == start) return true;
+    return false;
+}
 
 struct ValueCheck {
     const KeyRow& row;
@@ -25,7 +32,7 @@ struct ValueCheck {
         const double value = number_of(node);
         // Refuse NaN and the infinities apart from the range: no comparison holds for NaN.
         if (!(value - value == 0)) return fault(node, "not finite");
-        const KeyRange& r = row.range;
+        const KeyRange& r = row.allowed.range;
         const bool low = r.low_open ? value > r.low : value >= r.low;
         const bool high = r.high_open ? value < r.high : value <= r.high;
         return (low && high) || fault(node, "out of range");
@@ -70,13 +77,13 @@ struct ValueCheck {
         if (!node.is_text()) return fault(node, "wrong type");
         // A null byte would cut a file name short without a word.
         if (node.text.find('\0') != std::string::npos) return fault(node, "null byte in text");
-        if (row.choices == nullptr) return true;
-        for (std::string_view choice : split_list(row.choices))
-            if (node.text == choice) return true;
-        if (row.later != nullptr)
-            for (std::string_view later : split_list(row.later))
-                if (node.text == later) return fault(node, "not in this version");
-        return fault(node, "unknown value");
+        const Allowed& allowed = row.allowed;
+        if (allowed.choices == nullptr || place_in(allowed.choices, node.text) >= 0) return true;
+        // A density that is none of the names is the path of a file.
+        if (row.kind() == KeyKind::kDensity)
+            return !is_shape(node.text) || fault(node, "unknown value");
+        const bool later = allowed.later != nullptr && place_in(allowed.later, node.text) >= 0;
+        return fault(node, later ? "not in this version" : "unknown value");
     }
 
     bool texts(const Node& node) const {
@@ -97,7 +104,7 @@ struct ValueCheck {
 
 bool check_value(const KeyRow& row, const Node& node, const std::string& path, FaultList& faults) {
     const ValueCheck check{row, path, faults};
-    switch (row.kind) {
+    switch (row.kind()) {
         case KeyKind::kBool:
             return node.kind == NodeKind::kBool || check.fault(node, "wrong type");
         case KeyKind::kInteger:
@@ -117,6 +124,7 @@ bool check_value(const KeyRow& row, const Node& node, const std::string& path, F
         case KeyKind::kBounds:
             return check.bounds(node);
         case KeyKind::kText:
+        case KeyKind::kChoice:
             return check.text(node);
         case KeyKind::kTexts:
             return check.texts(node);

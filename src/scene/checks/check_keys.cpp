@@ -2,7 +2,7 @@
 // Walks a scene's tree beside the key table.
 // in: tree -> out: set fields of the Scene; faults for unknown, missing, ill-typed and wild keys.
 // Levenshtein 1966 for the distance between names.
-#include "src/scene/check_keys.h"
+#include "src/scene/checks/check_keys.h"
 
 #include <algorithm>
 
@@ -26,6 +26,17 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
         }
     }
     return row[b.size()];
+}
+
+/// A name without the unit that ends it: "fov" of "fov_deg", "height" of "height_km".
+std::string_view without_unit(std::string_view name) {
+    // Longer ones first; those that no key has are what users write instead.
+    for (const std::string_view unit :
+         {"_m_per_s", "_per_km", "_per_m", "_degrees", "_degree", "_radians", "_rad", "_deg",
+          "_metres", "_meters", "_km", "_cm", "_mm", "_um", "_nm", "_m", "_s"})
+        if (name.size() > unit.size() && name.substr(name.size() - unit.size()) == unit)
+            return name.substr(0, name.size() - unit.size());
+    return name;
 }
 
 std::string joined(const std::string& path, const std::string& key) {
@@ -64,9 +75,9 @@ private:
             const bool valid = check_value(*row, child, path, check_.faults);
             check_.found[path] = {&child, valid};
             if (!valid) return;
-            if (row->kind == KeyKind::kDensity && child.is_table())
+            if (row->kind() == KeyKind::kDensity && child.is_table())
                 table(child, path, pattern, medium);
-            if (row->set != nullptr) row->set(child, {check_.scene, medium, *solid_});
+            set_value(*row, {check_.scene, medium, *solid_}, child);
         } else if (pattern == "medium") {
             list(child, pattern, check_.scene.media, [&](const Node& table_node, std::size_t i) {
                 table(table_node, "medium." + std::to_string(i), "medium.N", check_.scene.media[i]);
@@ -143,12 +154,14 @@ private:
         check_.faults.add(child.key_at, path, text);
     }
 
-    /// The full path of a key of this name in another table; empty if there is none.
+    /// The full path of a key of this name in another table, its unit aside; empty if none.
     std::string other_table(const std::string& key) const {
         for (const KeyRow* row : rows_) {
-            std::string path = row->path;
+            const std::string_view path = row->path;
             const std::size_t dot = path.rfind('.');
-            if (dot != std::string::npos && path.substr(dot + 1) == key) return path;
+            if (dot != std::string_view::npos &&
+                without_unit(path.substr(dot + 1)) == without_unit(key))
+                return row->path;
         }
         return "";
     }
@@ -157,7 +170,7 @@ private:
         const std::string start = pattern.empty() ? "" : pattern + ".";
         for (const KeyRow* row : rows_) {
             const std::string_view full = row->path;
-            if (std::string_view(row->fallback) != kRequired) continue;
+            if (!row->required()) continue;
             if (full.substr(0, start.size()) != start) continue;
             const std::string name(full.substr(start.size()));
             if (name.find('.') != std::string::npos || node.find(name) != nullptr) continue;
@@ -189,7 +202,9 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
     std::size_t best = std::max<std::size_t>(2, name.size() / 3) + 1;
     std::string nearest;
     for (const std::string& candidate : names) {
-        const std::size_t distance = edit_distance(name, candidate);
+        const std::size_t distance =
+            std::min(edit_distance(name, candidate),
+                     edit_distance(without_unit(name), without_unit(candidate)));
         // A name that would have to be rewritten altogether is no suggestion.
         if (distance < best && distance < name.size()) {
             best = distance;

@@ -2,7 +2,7 @@
 // Puts the collected faults into the order of the text and into one message.
 // in: faults in the order of checking -> out: Status::bad_input, one line per fault.
 // docs/scene.md, section Messages.
-#include "src/scene/fault_list.h"
+#include "src/scene/checks/fault_list.h"
 
 #include <algorithm>
 #include <tuple>

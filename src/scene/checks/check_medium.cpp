@@ -4,7 +4,7 @@
 // docs/scene.md, section Media.
 #include <algorithm>
 
-#include "src/scene/check_keys.h"
+#include "src/scene/checks/check_keys.h"
 #include "src/scene/volume_format.h"
 
 namespace pileus {
@@ -12,13 +12,6 @@ namespace {
 
 // A procedural cloud keeps its outermost layer of cells empty.
 constexpr int kLeastCells = 3;
-constexpr const char* kDensities =
-    "procedural:cumulus, procedural:sky, uniform:box, uniform:sphere, uniform:ellipsoid, the path "
-    "of a file";
-
-bool starts_with(const std::string& text, std::string_view start) {
-    return std::string_view(text).substr(0, start.size()) == start;
-}
 
 bool ends_with(const std::string& text, std::string_view end) {
     return text.size() >= end.size() &&
@@ -55,37 +48,18 @@ private:
         check_.faults.add(node.at, path_ + key, text);
     }
 
+    /// The row has set the kind of density and the path; this sees to the path.
     bool set_density(const Node& node) {
-        if (node.is_table()) {
-            const Node* file = check_.valid_key(path_ + "density.file");
-            medium_.density = DensityKind::kFile;
-            return file != nullptr && set_file(*file, "density.file");
-        }
-        if (node.text == "procedural:cumulus") {
-            medium_.density = DensityKind::kCumulus;
-        } else if (node.text == "procedural:sky") {
-            medium_.density = DensityKind::kSky;
-        } else if (node.text == "uniform:box") {
-            medium_.density = DensityKind::kUniformBox;
-        } else if (node.text == "uniform:sphere") {
-            medium_.density = DensityKind::kUniformSphere;
-        } else if (node.text == "uniform:ellipsoid") {
-            medium_.density = DensityKind::kUniformEllipsoid;
-        } else if (starts_with(node.text, "procedural:") || starts_with(node.text, "uniform:")) {
-            fault(node, "density",
-                  "unknown value, " + value_text(node) + ", allowed: " + kDensities);
-            return false;
-        } else {
-            medium_.density = DensityKind::kFile;
-            return set_file(node, "density");
-        }
-        return true;
+        if (medium_.density != DensityKind::kFile) return true;
+        if (!node.is_table()) return set_file(node, "density");
+        const Node* file = check_.valid_key(path_ + "density.file");
+        return file != nullptr && set_file(*file, "density.file");
     }
 
     bool set_file(const Node& node, const char* key) {
         if (!node.text.empty())
             return check_path(check_, node, (path_ + key).c_str(), medium_.file);
-        fault(node, key, std::string("empty, \"\", allowed: ") + kDensities);
+        fault(node, key, "empty, \"\", allowed: the path of a file");
         return false;
     }
 
@@ -136,10 +110,14 @@ private:
             return;
         }
         const bool later = ends_with(medium_.file, ".nc");
+        // Bare numbers are told by no ending, only by what the scene says of them.
         fault(density, "density",
               std::string(later ? "not in this version, " : "unknown kind of file, ") +
-                  quote_text(medium_.file) + ", allowed: " + volume_format_extensions() +
-                  ", or the key format = \"pbrt\"");
+                  quote_text(medium_.file) + ", allowed: a name that ends in " +
+                  volume_format_extensions() + "; or beside it the key format, one of " +
+                  volume_format_names() +
+                  "; or density = { file = \"...\", type = \"float32\", size = [nx, ny, nz] } "
+                  "for a raw file");
     }
 
     /// A kind of cloud brings its extinction and its phase function.

@@ -7,8 +7,8 @@
 #include <string>
 #include <string_view>
 
-#include "src/scene/fault_list.h"
-#include "src/scene/scene_keys.h"
+#include "src/scene/checks/fault_list.h"
+#include "src/scene/keys/all_keys.h"
 
 namespace pileus {
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads the key table: all rows together, their ranges in words, and the tables of docs/scene.md.
-// in: rows -> out: texts for messages and documentation, conversions for the setters.
+// Rows in words: what they allow, their defaults, the tables of docs/scene.md; values of fields.
+// in: rows -> out: texts for messages and documentation, nodes.
 // docs/scene.md.
-#include "src/scene/scene_keys.h"
+#include "src/scene/checks/check_keys.h"
+#include "src/scene/keys/all_keys.h"
 
 namespace pileus {
 namespace {
@@ -31,7 +32,7 @@ std::string choices_text(const char* choices) {
 /// "camera" of "camera.fov_deg", "medium.N" of "medium.N.density.size"; empty at the top.
 std::string section_of(const KeyRow& row) {
     const std::string path = row.path;
-    if (row.kind == KeyKind::kTable) return "other";
+    if (row.kind() == KeyKind::kTable) return "other";
     if (path.compare(0, 13, "medium.N.sky.") == 0) return "medium.N.sky";
     if (path.compare(0, 9, "medium.N.") == 0) return "medium.N";
     if (path.compare(0, 8, "solid.N.") == 0) return "solid.N";
@@ -48,23 +49,27 @@ std::string heading_of(const std::string& section) {
 }
 
 std::string row_markdown(const KeyRow& row) {
-    const std::string fallback = row.fallback;
+    const std::string fallback = default_text(row);
     std::string text = std::string("| `") + row.path + "` | ";
-    text += row.kind == KeyKind::kLater ? "not in this version" : allowed_text(row);
+    text += row.kind() == KeyKind::kLater ? "not in this version" : allowed_text(row);
     text += std::string(" | ") + row.unit + " | ";
-    text += fallback == kRequired || fallback.empty() ? fallback : "`" + fallback + "`";
+    text += row.required() || fallback.empty() ? fallback : "`" + fallback + "`";
     text += std::string(" | ") + row.help;
-    if (row.later != nullptr) {
-        text += "; not in this version: ";
-        std::string names;
-        for (std::string_view name : split_list(row.later)) {
-            bool now = false;
-            for (std::string_view choice : split_list(row.choices)) now = now || choice == name;
-            if (!now) names += (names.empty() ? "" : ", ") + std::string(name);
-        }
-        text += names;
-    }
+    if (row.allowed.later != nullptr)
+        text += "; not in this version: " + choices_text(row.allowed.later);
     return text + " |\n";
+}
+
+/// Long numbers in groups of three digits, one colour for three equal ones.
+std::string short_toml(const KeyRow& row, const Node& node) {
+    const auto& parts = node.children;
+    if (row.kind() == KeyKind::kColor && toml_text(parts[0]) == toml_text(parts[1]) &&
+        toml_text(parts[1]) == toml_text(parts[2]))
+        return toml_text(parts[0]);
+    std::string text = toml_text(node);
+    if (node.kind == NodeKind::kInteger && text.size() > 4)
+        for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, "_");
+    return text;
 }
 
 }  // namespace
@@ -80,21 +85,41 @@ std::vector<std::string_view> split_list(const char* list) {
     }
 }
 
-std::vector<const KeyRow*> all_scene_keys() {
-    std::vector<const KeyRow*> rows;
-    for (const KeyRow& row : view_keys()) rows.push_back(&row);
-    for (const KeyRow& row : solid_keys()) rows.push_back(&row);
-    for (const KeyRow& row : medium_keys()) rows.push_back(&row);
-    for (const KeyRow& row : sky_keys()) rows.push_back(&row);
-    for (const KeyRow& row : method_keys()) rows.push_back(&row);
-    for (const KeyRow& row : raymarch_keys()) rows.push_back(&row);
-    for (const KeyRow& row : output_keys()) rows.push_back(&row);
-    return rows;
+int place_in(const char* list, std::string_view text) {
+    int place = 0;
+    for (std::string_view part : split_list(list)) {
+        if (part == text) return place;
+        ++place;
+    }
+    return -1;
+}
+
+Node value_of(const KeyRow& row, const KeySource& source) {
+    if (row.field.get == nullptr) return no_value();
+    const Node value = row.field.get(source);
+    if (row.kind() != KeyKind::kChoice || !has_value(value)) return value;
+    const std::vector<std::string_view> names = split_list(row.allowed.choices);
+    const std::size_t place =
+        value.kind == NodeKind::kBool ? std::size_t(value.flag) : std::size_t(value.integer);
+    return place < names.size() ? node_of(std::string(names[place])) : value;
+}
+
+Node default_value(const KeyRow& row) {
+    return value_of(row, {Scene(), MediumSettings(), SolidSettings()});
+}
+
+void set_value(const KeyRow& row, const KeyTarget& target, const Node& node) {
+    if (row.field.set == nullptr) return;
+    if (row.kind() != KeyKind::kChoice) return row.field.set(target, node);
+    Node place = node_of(place_in(row.allowed.choices, node.text));
+    place.flag = place.integer > 0;
+    row.field.set(target, place);
 }
 
 std::string allowed_text(const KeyRow& row) {
-    const std::string range = " in " + range_text(row.range);
-    switch (row.kind) {
+    const std::string range = " in " + range_text(row.allowed.range);
+    const char* choices = row.allowed.choices;
+    switch (row.kind()) {
         case KeyKind::kBool:
             return "true, false";
         case KeyKind::kInteger:
@@ -114,18 +139,28 @@ std::string allowed_text(const KeyRow& row) {
         case KeyKind::kBounds:
             return "[[x, y, z], [x, y, z]]" + range + ", first below second";
         case KeyKind::kText:
-            return row.choices == nullptr ? "text" : choices_text(row.choices);
+        case KeyKind::kChoice:
+            return choices == nullptr ? "text" : choices_text(choices);
         case KeyKind::kTexts:
-            return row.choices == nullptr ? "list of up to 16 texts"
-                                          : "list of " + choices_text(row.choices);
+            return choices == nullptr ? "list of up to 16 texts"
+                                      : "list of " + choices_text(choices);
         case KeyKind::kDensity:
-            return "text or table";
+            return choices_text(choices) + ", the path of a file, or a table";
         case KeyKind::kTable:
             return "table";
         case KeyKind::kLater:
             break;
     }
     return "nothing";
+}
+
+std::string default_text(const KeyRow& row) {
+    if (row.fallback != nullptr) return row.fallback;
+    const Node value = default_value(row);
+    FaultList none("", {});
+    // A field begins with what its key does not allow where leaving it out says something else.
+    if (!has_value(value) || !check_value(row, value, "", none)) return "";
+    return short_toml(row, value);
 }
 
 std::string describe_keys_markdown() {
@@ -142,31 +177,6 @@ std::string describe_keys_markdown() {
         text += row_markdown(*row);
     }
     return text;
-}
-
-std::int64_t integer_of(const Node& node) {
-    return node.kind == NodeKind::kInteger ? node.integer : static_cast<std::int64_t>(node.number);
-}
-
-std::array<double, 3> number3_of(const Node& node) {
-    return {number_of(node.children[0]), number_of(node.children[1]), number_of(node.children[2])};
-}
-
-std::array<double, 2> number2_of(const Node& node) {
-    return {number_of(node.children[0]), number_of(node.children[1])};
-}
-
-std::array<float, 3> color_of(const Node& node) {
-    std::array<float, 3> color{};
-    for (std::size_t i = 0; i < 3; ++i)
-        color[i] = static_cast<float>(number_of(node.is_array() ? node.children[i] : node));
-    return color;
-}
-
-bool texts_hold(const Node& node, std::string_view text) {
-    for (const Node& child : node.children)
-        if (child.text == text) return true;
-    return false;
 }
 
 }  // namespace pileus

@@ -2,7 +2,7 @@
 // Laws between the keys of solid things: meshes, and the camera's image of their distance.
 // in: keys that passed their own checks -> out: paths and defaults of the Scene; faults.
 // docs/scene.md; docs/solids.md.
-#include "src/scene/check_keys.h"
+#include "src/scene/checks/check_keys.h"
 
 namespace pileus {
 namespace {

@@ -2,7 +2,7 @@
 // Turns TOML into our own tree; the only file that touches the toml++ library.
 // in: untrusted text -> out: nodes with line and column, or the first syntax fault.
 // TOML 1.0 (https://toml.io/en/v1.0.0); toml++ 3.3, header only, without exceptions.
-#include "src/scene/toml_tree.h"
+#include "src/scene/toml/toml_tree.h"
 
 #define TOML_EXCEPTIONS 0
 #define TOML_HEADER_ONLY 1

@@ -4,7 +4,7 @@
 // docs/skies.md, "Keys" and "Kinds of clouds".
 #include <cmath>
 
-#include "src/scene/check_keys.h"
+#include "src/scene/checks/check_keys.h"
 
 namespace pileus {
 namespace {

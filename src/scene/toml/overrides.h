@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "src/scene/fault_list.h"
+#include "src/scene/checks/fault_list.h"
 
 namespace pileus {
 

@@ -4,7 +4,7 @@
 // docs/scene.md.
 #include <cmath>
 
-#include "src/scene/check_keys.h"
+#include "src/scene/checks/check_keys.h"
 
 namespace pileus {
 namespace {

@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "src/scene/check_keys.h"
+#include "src/scene/checks/check_keys.h"
 
 namespace pileus {
 

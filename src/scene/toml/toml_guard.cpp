@@ -2,7 +2,7 @@
 // Refuses scene text that a TOML parser may stumble over: deep nesting, stray characters.
 // in: untrusted text -> out: fine, or the place of the first such fault.
 // TOML 1.0, sections Spec, Keys, String and Table; limits in docs/scene.md.
-#include "src/scene/toml_tree.h"
+#include "src/scene/toml/toml_tree.h"
 
 namespace pileus {
 namespace {

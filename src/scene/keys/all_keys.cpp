@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// See all_keys.h.
+// in: the rows of each table -> out: all rows; every value of a scene as text.
+// docs/scene.md.
+#include "src/scene/keys/all_keys.h"
+
+namespace pileus {
+namespace {
+
+/// "medium.N.albedo" with the index in place of N.
+std::string path_at(const char* path, std::size_t index) {
+    std::string text = path;
+    return text.replace(text.find(".N.") + 1, 1, std::to_string(index));
+}
+
+bool begins_with(const char* path, std::string_view start) {
+    return std::string_view(path).substr(0, start.size()) == start;
+}
+
+}  // namespace
+
+std::vector<const KeyRow*> all_scene_keys() {
+    std::vector<Span<const KeyRow>> tables{view_keys(), solid_keys(), medium_keys(), sky_keys(),
+                                           method_keys()};
+    for (const MethodKeys& method : all_methods())
+        if (method.rows != nullptr) tables.push_back(method.rows());
+    tables.push_back(later_keys());
+    tables.push_back(output_keys());
+    std::vector<const KeyRow*> rows;
+    for (const Span<const KeyRow>& table : tables)
+        for (const KeyRow& row : table) rows.push_back(&row);
+    return rows;
+}
+
+void for_each_key(const Scene& scene, const KeyVisit& visit) {
+    const MediumSettings no_medium;
+    const SolidSettings no_solid;
+    for (const KeyRow* row : all_scene_keys()) {
+        if (row->field.get == nullptr) continue;
+        if (begins_with(row->path, "medium.N."))
+            for (std::size_t i = 0; i < scene.media.size(); ++i)
+                visit(*row, path_at(row->path, i), {scene, scene.media[i], no_solid});
+        else if (begins_with(row->path, "solid.N."))
+            for (std::size_t i = 0; i < scene.solids.size(); ++i)
+                visit(*row, path_at(row->path, i), {scene, no_medium, scene.solids[i]});
+        else
+            visit(*row, row->path, {scene, no_medium, no_solid});
+    }
+}
+
+std::string dump_scene(const Scene& scene) {
+    std::string text;
+    const auto add = [&](const std::string& path, const Node& value) {
+        text += path + " = " + toml_text(value) + '\n';
+    };
+    // These tables mean something by being there.
+    add("sun", node_of(scene.sun.present));
+    add("sky", node_of(scene.sky.present));
+    add("ground", node_of(scene.ground.present));
+    add("animation", node_of(scene.animation.present));
+    for_each_key(scene, [&](const KeyRow& row, const std::string& path, const KeySource& source) {
+        add(path, value_of(row, source));
+    });
+    return text;
+}
+
+}  // namespace pileus

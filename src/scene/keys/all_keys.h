@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// All keys that a scene may hold, table by table, and what is made from them.
+// in: the rows of the files beside this one -> out: lists, dumps, tables for the documentation.
+// docs/scene.md is made from these rows.
+#pragma once
+#include <functional>
+
+#include "src/base/span.h"
+#include "src/scene/keys/key_row.h"
+
+namespace pileus {
+
+Span<const KeyRow> view_keys();        // seed, camera, sun, sky, ground
+Span<const KeyRow> solid_keys();       // solid
+Span<const KeyRow> medium_keys();      // medium
+Span<const KeyRow> sky_keys();         // medium.sky
+Span<const KeyRow> method_keys();      // method
+Span<const KeyRow> collectors_keys();  // collectors
+Span<const KeyRow> path_keys();        // path
+Span<const KeyRow> raymarch_keys();    // raymarch
+Span<const KeyRow> later_keys();       // tables of later methods
+Span<const KeyRow> output_keys();      // output, animation
+
+/// A method that a scene may name, and the rows of its table; null: not in this version.
+struct MethodKeys {
+    const char* name;
+    Span<const KeyRow> (*rows)();
+};
+Span<const MethodKeys> all_methods();
+
+/// All rows in the order of the documentation.
+std::vector<const KeyRow*> all_scene_keys();
+
+/// Calls `visit` for every row that has a field, in every medium and solid, with its path
+/// ("medium.0.albedo") and where its value stands.
+using KeyVisit = std::function<void(const KeyRow&, const std::string& path, const KeySource&)>;
+void for_each_key(const Scene& scene, const KeyVisit& visit);
+
+/// Every value of a scene, a line `path = value` each, as TOML writes it; "nothing" where there is
+/// none. Scenes with equal dumps are equal but for their text, file and directory.
+std::string dump_scene(const Scene& scene);
+
+/// The tables of docs/scene.md as Markdown, one for each section of a scene.
+std::string describe_keys_markdown();
+
+}  // namespace pileus

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys of method `collectors`.
+// in: checked values <-> out: fields of CollectorSettings.
+// docs/scene.md; docs/collectors.md says what they do.
+#include "src/scene/keys/all_keys.h"
+
+namespace pileus {
+namespace {
+
+template <auto... Members>
+constexpr KeyField collectors = field<&Scene::collectors, Members...>;
+
+constexpr KeyField kTracking{
+    KeyKind::kChoice,
+    [](const KeySource& s) { return node_of(!s.scene.collectors.local_tracking); },
+    [](const KeyTarget& t, const Node& n) { t.scene.collectors.local_tracking = !n.flag; }};
+
+constexpr KeyField kClosure{KeyKind::kChoice,
+                            [](const KeySource& s) {
+                                const CollectorSettings& c = s.scene.collectors;
+                                return node_of(c.camera_closure ? 2 : int(c.lobe_closure));
+                            },
+                            [](const KeyTarget& t, const Node& n) {
+                                t.scene.collectors.lobe_closure = n.integer == 1;
+                                t.scene.collectors.camera_closure = n.integer == 2;
+                            }};
+
+constexpr KeyRow kRows[] = {
+    {"collectors.photons", collectors<&CollectorSettings::photons>, from_to(0, 0x1p40), "",
+     "over the whole ring of generations"},
+    {"collectors.generations", collectors<&CollectorSettings::generations>, from_to(1, 1000), "",
+     "length of the ring; one generation shoots photons / generations"},
+    {"collectors.bands", collectors<&CollectorSettings::bands>, from_to(1, 8), "",
+     "bands of spherical harmonics that a collector keeps"},
+    {"collectors.axis_degrees", collectors<&CollectorSettings::axis_degrees>, from_to(0, 16), "",
+     "degrees beyond the bands that a collector keeps of the light around the sun's "
+     "direction, up to degree 15; closure `sh` and variant `best` only"},
+    {"collectors.samples", collectors<&CollectorSettings::samples>, from_to(1, 10000000), "",
+     "points from which the collectors are grown"},
+    {"collectors.tracking", kTracking, one_of("local|global"), "",
+     "majorant of the free flights: one per block of cells, or one for all"},
+    {"collectors.closure", kClosure, one_of("sh|lobe|camera"), "",
+     "how the light is read: all bands, one lobe from flux and mean direction, or cells lit "
+     "towards a fixed camera"},
+    {"collectors.cell_voxels", collectors<&CollectorSettings::cell_voxels>, from_to(1, 64), "cells",
+     "edge of a cell of closure `camera`, in cells of the density"},
+    {"collectors.variant", collectors<&CollectorSettings::paper>, one_of("best|paper"), "",
+     "`paper`: the method as first published; then display, sampler and "
+     "first_order_split have the defaults \"billboards\", \"rejection\" and false"},
+    {"collectors.display", collectors<&CollectorSettings::billboards>, one_of("march|billboards"),
+     "", "how the lit collectors become a picture"},
+    {"collectors.compositor", collectors<&CollectorSettings::compositor>,
+     one_of("builtin|osmesa|egl"), "",
+     "who blends billboards: pileus, or OpenGL by a foreign library, to compare; its "
+     "pictures agree to a tolerance and have no promised bits"},
+    {"collectors.sampler", collectors<&CollectorSettings::rejection_sampler>,
+     one_of("stratified|rejection"), "", "how the sample points are drawn"},
+    {"collectors.placement", collectors<&CollectorSettings::variance_field>,
+     one_of("gradient|variance"), "", "what the density of sample points follows"},
+    {"collectors.variance_radius", collectors<&CollectorSettings::variance_radius>, from_to(1, 8),
+     "cells", "half width of the neighbourhood whose variance is taken"},
+    {"collectors.density_range", collectors<&CollectorSettings::density_range>, from_to(0, 1), "",
+     "a node whose densities differ by less is split no further"},
+    {"collectors.influence_radius", collectors<&CollectorSettings::influence_radius>, above(0, 1),
+     "diagonals",
+     "radius of influence of a sample, as a share of the box's "
+     "diagonal"},
+    {"collectors.radius_factor", collectors<&CollectorSettings::radius_factor>, from_to(1, 3), "",
+     "radius of a billboard over its collector's; variant `best` only"},
+    {"collectors.first_order_split", collectors<&CollectorSettings::first_order_split>, any(), "",
+     "true: light straight from the sun is kept apart, with its exact direction"},
+    {"collectors.window", collectors<&CollectorSettings::window>, any(), "",
+     "true: damps the higher bands against ringing"},
+    {"collectors.accumulation", collectors<&CollectorSettings::accumulation>,
+     one_of("auto|private|shared"), "",
+     "sums per thread, or one set that all threads add to atomically, slower but "
+     "smaller; `auto`: per thread up to a quarter of the limit of memory. The same "
+     "bits either way"},
+};
+
+}  // namespace
+
+Span<const KeyRow> collectors_keys() { return {kRows, sizeof kRows / sizeof kRows[0]}; }
+
+}  // namespace pileus

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys of one scattering medium: its density, optics and phase function.
+// in: checked values <-> out: fields of MediumSettings and PhaseSettings.
+// docs/scene.md; Henyey and Greenstein 1941 for g.
+#include "src/scene/keys/all_keys.h"
+
+namespace pileus {
+namespace {
+
+template <auto... Members>
+constexpr KeyField medium = field<Members...>;
+template <auto... Members>
+constexpr KeyField phase = field<&MediumSettings::phase, Members...>;
+
+/// In the order of PhaseKind.
+constexpr const char* kPhases =
+    "isotropic|rayleigh|henyey-greenstein|two-lobe|hg-draine|cloud|table|moments";
+
+/// Kinds of water clouds and their effective radii, um (docs/phase.md, "Kinds of clouds").
+constexpr const char* kClouds =
+    "cumulus-clean|cumulus-polluted|cumulus-maritime|stratus-continental|stratus-maritime|fog";
+constexpr double kCloudRadius[] = {5.77, 4, 12.68, 7.33, 11.3, 10.7};
+
+constexpr KeyField kCloud{KeyKind::kChoice, [](const KeySource&) { return no_value(); },
+                          [](const KeyTarget& t, const Node& n) {
+                              t.medium.phase.effective_radius_um = kCloudRadius[n.integer];
+                          }};
+
+/// Densities that are no file.
+struct DensityName {
+    const char* name;
+    DensityKind kind;
+};
+constexpr DensityName kDensityNames[] = {{"procedural:cumulus", DensityKind::kCumulus},
+                                         {"procedural:sky", DensityKind::kSky},
+                                         {"uniform:box", DensityKind::kUniformBox},
+                                         {"uniform:sphere", DensityKind::kUniformSphere},
+                                         {"uniform:ellipsoid", DensityKind::kUniformEllipsoid}};
+constexpr const char* kDensities =
+    "procedural:cumulus|procedural:sky|uniform:box|uniform:sphere|uniform:ellipsoid";
+
+/// A name or a path; a table is read key by key.
+constexpr KeyField kDensity{KeyKind::kDensity,
+                            [](const KeySource& s) {
+                                for (const DensityName& density : kDensityNames)
+                                    if (density.kind == s.medium.density)
+                                        return node_of(std::string(density.name));
+                                return node_of(s.medium.file);
+                            },
+                            [](const KeyTarget& t, const Node& n) {
+                                if (!n.is_text()) return;
+                                t.medium.density = DensityKind::kFile;
+                                for (const DensityName& density : kDensityNames)
+                                    if (density.name == n.text) t.medium.density = density.kind;
+                                if (t.medium.density == DensityKind::kFile) t.medium.file = n.text;
+                            }};
+constexpr KeyField kDensityFile{KeyKind::kText, [](const KeySource&) { return no_value(); },
+                                [](const KeyTarget& t, const Node& n) {
+                                    t.medium.density = DensityKind::kFile;
+                                    t.medium.file = n.text;
+                                }};
+/// Another way to say `grid`.
+constexpr KeyField kDensityGrid{KeyKind::kText, [](const KeySource&) { return no_value(); },
+                                [](const KeyTarget& t, const Node& n) { t.medium.grid = n.text; }};
+
+constexpr KeyField kBounds{KeyKind::kBounds,
+                           [](const KeySource& s) {
+                               return s.medium.has_bounds ? node_of(s.medium.bounds_m) : no_value();
+                           },
+                           [](const KeyTarget& t, const Node& n) {
+                               t.medium.has_bounds = true;
+                               take(n, t.medium.bounds_m);
+                           }};
+
+constexpr KeyRow kRows[] = {
+    {"medium.N.density", kDensity, one_of(kDensities), "",
+     "`procedural:cumulus`, `procedural:sky`, `uniform:box`, `uniform:sphere`, "
+     "`uniform:ellipsoid` (filling "
+     "bounds_m), the path of a file, or a table for a raw, OpenVDB or NanoVDB file",
+     kRequired},
+    {"medium.N.density.file", kDensityFile, any(), "",
+     "path of the file, relative to the scene file; `${PILEUS_DATA_DIR}` may stand at "
+     "its front",
+     kRequired},
+    {"medium.N.density.type", medium<&MediumSettings::raw_type>, one_of("uint8|uint16|float32"), "",
+     "type of the raw numbers; integers are scaled to 0..1; required for raw", kNone},
+    {"medium.N.density.size", medium<&MediumSettings::raw_size>, from_to(1, 4096), "cells",
+     "cells along x, y, z of the raw file, x fastest; required for raw", kNone},
+    {"medium.N.density.endian", medium<&MediumSettings::raw_big_endian>, one_of("little|big"), "",
+     "byte order of the raw file"},
+    {"medium.N.density.grid", kDensityGrid, any(), "",
+     "the same as `grid` beside it: name of the grid in an OpenVDB or NanoVDB file", kNone},
+    {"medium.N.format", medium<&MediumSettings::format>,
+     one_of("pbrt|raw|vol|les|openvdb|nanovdb", "netcdf"), "",
+     "kind of the file; left out: told by the end of its name", kNone},
+    {"medium.N.grid", medium<&MediumSettings::grid>, any(), "",
+     "name of the grid in an OpenVDB or NanoVDB file; left out: the first of floats that is "
+     "no level set",
+     kNone},
+    {"medium.N.bounds_m", kBounds, from_to(-1e9, 1e9), "m",
+     "lowest and highest corner of the medium's box; may be left out for files that know "
+     "their place, and wins where given",
+     kNone},
+    {"medium.N.resolution", medium<&MediumSettings::resolution>, from_to(1, 4096), "cells",
+     "cells along x, y, z; procedural and uniform only; left out: a suitable number", kNone},
+    {"medium.N.shape_seed", medium<&MediumSettings::shape_seed>, from_to(0, 0x1p63), "",
+     "another procedural cloud for each number"},
+    {"medium.N.extinction_per_m", medium<&MediumSettings::extinction_per_m>, from_to(0, 1e12),
+     "1/m",
+     "extinction coefficient where the density is 1; required, but for files that hold "
+     "extinction (les)",
+     kNone},
+    {"medium.N.extinction_scale", medium<&MediumSettings::extinction_scale>, from_to(0, 1e12), "",
+     "factor on the values of a file that holds extinction in 1/m (les), for no others"},
+    {"medium.N.albedo", medium<&MediumSettings::albedo>, from_to(0, 1), "",
+     "share of the extinction that scatters; the rest is absorbed"},
+    {"medium.N.phase.type", phase<&PhaseSettings::kind>, one_of(kPhases), "",
+     "phase function; a medium without `phase` scatters alike in all directions", kRequired},
+    {"medium.N.phase.g", phase<&PhaseSettings::g>, from_to(-1, 1), "",
+     "mean cosine of henyey-greenstein, required there; 1 is straight on", kNone},
+    {"medium.N.phase.g1", phase<&PhaseSettings::g1>, from_to(-1, 1), "",
+     "mean cosine of the first of two lobes, required there", kNone},
+    {"medium.N.phase.g2", phase<&PhaseSettings::g2>, from_to(-1, 1), "",
+     "mean cosine of the second of two lobes, required there", kNone},
+    {"medium.N.phase.weight", phase<&PhaseSettings::weight>, from_to(0, 1), "",
+     "share of the first of two lobes, required there", kNone},
+    {"medium.N.phase.droplet_diameter_um", phase<&PhaseSettings::droplet_diameter_um>,
+     from_to(5, 50), "um", "diameter of the droplets of hg-draine, required there", kNone},
+    {"medium.N.phase.effective_radius_um", phase<&PhaseSettings::effective_radius_um>,
+     from_to(4, 20), "um",
+     "effective radius of the droplets of a cloud; this or `phase.cloud` is required there", kNone},
+    {"medium.N.phase.cloud", kCloud, one_of(kClouds), "",
+     "kind of cloud, which sets the effective radius (docs/phase.md)", kNone},
+    {"medium.N.phase.file", phase<&PhaseSettings::file>, any(), "",
+     "path of a table of angles and values, or of Legendre moments, relative to the scene "
+     "file; required by both",
+     kNone},
+    {"medium.N.boundary", medium<&MediumSettings::periodic>, one_of("open|periodic"), "",
+     "what lies beside the box: nothing, or the same again without end along x and y; "
+     "periodic for all media of a scene, with one box in x and y, or for none"},
+    {"medium.N.y_up", medium<&MediumSettings::y_up>, any(), "",
+     "true: the file's y axis points up; files only"},
+};
+
+}  // namespace
+
+Span<const KeyRow> medium_keys() { return {kRows, sizeof kRows / sizeof kRows[0]}; }
+
+}  // namespace pileus

@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys of method `raymarch`.
+// in: checked values <-> out: fields of RaymarchSettings.
+// docs/scene.md; docs/raymarch.md says what each costs.
+#include "src/scene/keys/all_keys.h"
+
+namespace pileus {
+namespace {
+
+template <auto... Members>
+constexpr KeyField raymarch = field<&Scene::raymarch, Members...>;
+
+constexpr KeyField kScattering{
+    KeyKind::kChoice,
+    [](const KeySource& s) {
+        return node_of(s.scene.raymarch.many ? 2 : int(s.scene.raymarch.forward));
+    },
+    [](const KeyTarget& t, const Node& n) {
+        t.scene.raymarch.forward = n.integer == 1;
+        t.scene.raymarch.many = n.integer == 2;
+    }};
+
+constexpr KeyRow kRows[] = {
+    {"raymarch.integrator", raymarch<&RaymarchSettings::integrator>,
+     one_of("closed|riemann|trapezoid|simpson|simpson38"), "",
+     "how the light along a ray is added up; `closed`: each step exactly, as if its "
+     "middle's density and light filled it"},
+    {"raymarch.steps", raymarch<&RaymarchSettings::steps>, from_to(0, 65536), "",
+     "most steps of a ray through the medium, one sample each; 0: the medium is not seen"},
+    {"raymarch.spacing", raymarch<&RaymarchSettings::spacing>,
+     one_of("uniform|voxel|optimal|geometric"), "",
+     "`uniform`: all steps of a ray alike; `voxel`: each as long as a cell, however many; "
+     "`optimal`: as long as a pixel is wide there; `geometric`: growing from one to the "
+     "next"},
+    {"raymarch.first_step_m", raymarch<&RaymarchSettings::first_step_m>, from_to(0, 1e9), "m",
+     "spacing `geometric`: the least first step; `optimal`: steps near the camera are no "
+     "shorter; 0: what `steps` need to reach through the medium, half a cell"},
+    {"raymarch.growth", raymarch<&RaymarchSettings::growth>, from_to(1, 2), "",
+     "spacing `geometric`: length of a step over that of the one before"},
+    {"raymarch.occlusion", raymarch<&RaymarchSettings::stretch>, one_of("cut|stretch"), "",
+     "before something solid the last step ends at it, or all steps shrink, which shows "
+     "its shape through opaque cloud; the latter only to compare"},
+    {"raymarch.scattering", kScattering, one_of("single|forward|octaves"), "",
+     "sunlight scattered once; or what stays within a cone goes on as sunlight; or many "
+     "scatterings as weaker and weaker copies of the first"},
+    {"raymarch.octaves", raymarch<&RaymarchSettings::octaves>, from_to(1, 8), "",
+     "scattering `octaves`: number of copies"},
+    {"raymarch.octave_extinction", raymarch<&RaymarchSettings::octave_extinction>, from_to(0, 1),
+     "", "extinction of a copy over that of the one before"},
+    {"raymarch.octave_share", raymarch<&RaymarchSettings::octave_share>, from_to(0, 1), "",
+     "light of a copy over that of the one before"},
+    {"raymarch.octave_anisotropy", raymarch<&RaymarchSettings::octave_anisotropy>, from_to(0, 1),
+     "", "mean cosine of a copy over that of the one before"},
+    {"raymarch.cone_deg", raymarch<&RaymarchSettings::cone_deg>, from_to(0, 360), "deg",
+     "angle of that cone at its apex"},
+    {"raymarch.forward_share", raymarch<&RaymarchSettings::forward_share>, from_to(0, 1), "",
+     "share of scattered light that stays within the cone; left out: that of the phase "
+     "function",
+     kNone},
+    {"raymarch.light", raymarch<&RaymarchSettings::light>, one_of("auto|march|buffer|buffer-exact"),
+     "",
+     "sunlight by a march from each sample, or from nodes made before: swept from slice to "
+     "slice, or by exact rays; `auto`: what costs less of march and buffer-exact"},
+    {"raymarch.light_steps", raymarch<&RaymarchSettings::light_steps>, from_to(0, 65536), "",
+     "steps of a march towards the sun; 0: as many of a cell's length as the way takes"},
+    {"raymarch.light_first_step_m", raymarch<&RaymarchSettings::light_first_step_m>,
+     from_to(0, 1e9), "m",
+     "first of light_steps; what lies behind the last is not seen; 0: they share the way "
+     "out of the medium"},
+    {"raymarch.light_growth", raymarch<&RaymarchSettings::light_growth>, from_to(1, 16), "",
+     "length of one of light_steps over that of the one before"},
+    {"raymarch.light_path", raymarch<&RaymarchSettings::light_cone>, one_of("straight|cone"), "",
+     "`cone`: steps of a march towards the sun turn off by a quarter to all of half "
+     "cone_deg, one after the other; softens shades"},
+    {"raymarch.sky_light", raymarch<&RaymarchSettings::sky_ambient>, one_of("none|ambient"), "",
+     "light of sky and ground in the medium: none, or what reaches coarse nodes from 24 "
+     "directions, scattered alike everywhere; approximation"},
+    {"raymarch.detail", raymarch<&RaymarchSettings::detail>, any(), "",
+     "true: where steps or pixels are wider than cells, coarser densities are marched"},
+    {"raymarch.jitter", raymarch<&RaymarchSettings::jitter>, one_of("none|hash|blue-noise"), "",
+     "rays begin up to a panel before the medium, each pixel's by a number of its own: "
+     "noise instead of bands"},
+    {"raymarch.jitter_share", raymarch<&RaymarchSettings::jitter_share>, from_to(0, 1), "panels",
+     "how far before, at most"},
+    {"raymarch.grid_lock_m", raymarch<&RaymarchSettings::grid_lock_m>, from_to(0, 1e9), "m",
+     "steps begin at planes across the view that stay where they are while the camera "
+     "moves, so far apart: less boiling in animations of spacing `voxel`; 0: none"},
+    {"raymarch.powder", raymarch<&RaymarchSettings::powder>,
+     one_of("none|powder|beer-powder|directional"), "",
+     "darkens where little lies before the sun; appearance, not physics"},
+    {"raymarch.powder_strength", raymarch<&RaymarchSettings::powder_strength>, from_to(0, 1e6), "",
+     "factor on the optical depth in `powder`"},
+    {"raymarch.ambient", raymarch<&RaymarchSettings::ambient>, from_to(0, 1e12), "",
+     "radiance of an opaque medium without other light: emission in proportion to the "
+     "density; appearance, not physics"},
+    {"raymarch.stop_below", raymarch<&RaymarchSettings::stop_below>, from_to(0, 1), "",
+     "a ray ends where less of what lies behind is seen"},
+    {"raymarch.scale", raymarch<&RaymarchSettings::scale>, from_to(1, 4), "",
+     "1, 2 or 4: one pixel of so many along x and y is marched, the others are filled in"},
+    {"raymarch.upsample", raymarch<&RaymarchSettings::upsample>, one_of("depth|linear|nearest"), "",
+     "how pixels between marched ones are filled in; `depth` minds what stands behind"},
+    {"raymarch.temporal", raymarch<&RaymarchSettings::temporal>, from_to(0, 4), "",
+     "2 or 4: each frame marches one pixel of so many along x and y, in turn; the others "
+     "come from the frame before; 0: frames know nothing of one another"},
+    {"raymarch.phase", raymarch<&RaymarchSettings::peak_phase>, one_of("physical|peak"), "",
+     "`peak`: phase functions over their largest value; appearance, not physics"},
+};
+
+}  // namespace
+
+Span<const KeyRow> raymarch_keys() { return {kRows, sizeof kRows / sizeof kRows[0]}; }
+
+}  // namespace pileus

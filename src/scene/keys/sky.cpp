@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys of procedural skies.
+// in: checked values <-> out: fields of SkySettings.
+// docs/skies.md; Palenik 2016, section 5.1 "Shader parameters".
+#include "src/scene/keys/all_keys.h"
+
+namespace pileus {
+namespace {
+
+template <auto... Members>
+constexpr KeyField sky = field<&MediumSettings::sky, Members...>;
+
+/// Both noises have as many.
+constexpr KeyField kOctaves{KeyKind::kInteger,
+                            [](const KeySource& s) { return node_of(s.medium.sky.perlin.octaves); },
+                            [](const KeyTarget& t, const Node& n) {
+                                take(n, t.medium.sky.perlin.octaves);
+                                take(n, t.medium.sky.worley.octaves);
+                            }};
+
+constexpr KeyRow kRows[] = {
+    {"medium.N.sky.type", sky<&SkySettings::type>, one_of(kSkyTypes), "",
+     "kind of cloud: sets what is left out of this table, and extinction and phase function where "
+     "these are left out (docs/skies.md)"},
+    {"medium.N.sky.perlin_m", sky<&SkySettings::perlin, &SkyNoise::tile_m>, above(0, 1e9), "m",
+     "length after which the Perlin noise repeats", kNone},
+    {"medium.N.sky.worley_m", sky<&SkySettings::worley, &SkyNoise::tile_m>, above(0, 1e9), "m",
+     "length after which the Worley noise repeats", kNone},
+    {"medium.N.sky.scale", sky<&SkySettings::scale>, above(0, 1e6), "", "factor on both lengths"},
+    {"medium.N.sky.blend", sky<&SkySettings::blend>, from_to(0, 1), "",
+     "1: Perlin noise alone, 0: Worley noise alone", kNone},
+    {"medium.N.sky.gain_perlin", sky<&SkySettings::perlin, &SkyNoise::gain>, from_to(0, 100), "",
+     "factor on the Perlin noise"},
+    {"medium.N.sky.gain_worley", sky<&SkySettings::worley, &SkyNoise::gain>, from_to(0, 100), "",
+     "factor on the Worley noise"},
+    {"medium.N.sky.threshold_low", sky<&SkySettings::threshold_low>, from_to(-4, 5), "",
+     "noise below it is no cloud (Palenik's A); the noise has mean 0.5 and deviation "
+     "1/7 before blending",
+     kNone},
+    {"medium.N.sky.threshold_high", sky<&SkySettings::threshold_high>, from_to(-4, 5), "",
+     "noise above it has density 1 (Palenik's B)", kNone},
+    {"medium.N.sky.coverage", sky<&SkySettings::coverage>, from_to(0, 1), "",
+     "share of the sky that clouds cover, seen straight up: moves both thresholds; 0 is no "
+     "cloud at all; left out for custom, or with a threshold given: they stay",
+     kNone},
+    {"medium.N.sky.density", sky<&SkySettings::density>, from_to(0, 1e9), "",
+     "factor on the extinction"},
+    {"medium.N.sky.base_m", sky<&SkySettings::base_m>, from_to(-1e6, 1e9), "m",
+     "altitude of the layer's base", kNone},
+    {"medium.N.sky.top_m", sky<&SkySettings::top_m>, from_to(-1e6, 1e9), "m",
+     "altitude of the layer's top", kNone},
+    {"medium.N.sky.base_rise", sky<&SkySettings::base_rise>, from_to(0, 1), "",
+     "share of the thickness over which clouds widen above the base", kNone},
+    {"medium.N.sky.top_fall", sky<&SkySettings::top_fall>, from_to(0, 1), "",
+     "share of the thickness over which clouds narrow below the top", kNone},
+    {"medium.N.sky.rounding", sky<&SkySettings::rounding>, from_to(0, 10), "",
+     "how much the noise is lowered at base and top; 0: the layer cuts clouds off", kNone},
+    {"medium.N.sky.base_density", sky<&SkySettings::base_density>, from_to(0, 1), "",
+     "density at the base over that at the top, linear between", kNone},
+    {"medium.N.sky.planet_radius_m", sky<&SkySettings::planet_radius_m>, from_to(0, 1e12), "m",
+     "bends the layer around a planet below the origin, for the Earth 6.371e6; 0: flat"},
+    {"medium.N.sky.wind_m_per_s", sky<&SkySettings::wind_m_per_s>, from_to(-1000, 1000), "m/s",
+     "speed of the clouds towards east and north"},
+    {"medium.N.sky.time_s", sky<&SkySettings::time_s>, from_to(-1e12, 1e12), "s",
+     "how long the wind has blown"},
+    {"medium.N.sky.seed", sky<&SkySettings::seed>, from_to(0, 0x1p32 - 1), "",
+     "another sky for each number"},
+    {"medium.N.sky.size", sky<&SkySettings::size>, from_to(16, 512), "texels",
+     "texels along each noise's tile: a power of two"},
+    {"medium.N.sky.perlin_cells", sky<&SkySettings::perlin, &SkyNoise::cells>, from_to(1, 256), "",
+     "coarsest lumps of the Perlin noise along its tile"},
+    {"medium.N.sky.worley_cells", sky<&SkySettings::worley, &SkyNoise::cells>, from_to(1, 256), "",
+     "coarsest lumps of the Worley noise along its tile"},
+    {"medium.N.sky.octaves", kOctaves, from_to(0, 10), "",
+     "octaves of both noises; 0: down to four texels per lump"},
+    {"medium.N.sky.roughness", sky<&SkySettings::roughness>, from_to(0, 1), "",
+     "size of an octave over that of the next coarser one"},
+    {"medium.N.sky.evaluate", sky<&SkySettings::evaluate>, one_of("auto|grid|direct"), "",
+     "`grid`: densities of `resolution` cells in the box; `direct`: the noise itself, by "
+     "`raymarch` alone; `auto`: direct where that can be"},
+};
+
+}  // namespace
+
+Span<const KeyRow> sky_keys() { return {kRows, sizeof kRows / sizeof kRows[0]}; }
+
+}  // namespace pileus

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys of what surrounds the cloud: seed, camera, sun, sky and ground.
+// in: checked values <-> out: fields of Scene, Camera, Sun, Sky, Ground.
+// docs/scene.md.
+#include "src/scene/keys/all_keys.h"
+
+namespace pileus {
+namespace {
+
+template <auto... Members>
+constexpr KeyField camera = field<&Scene::camera, Members...>;
+template <auto... Members>
+constexpr KeyField sun = field<&Scene::sun, Members...>;
+template <auto... Members>
+constexpr KeyField sky = field<&Scene::sky, Members...>;
+template <auto... Members>
+constexpr KeyField ground = field<&Scene::ground, Members...>;
+
+/// Two flags: parallel rays, and none at all.
+constexpr KeyField kProjection{
+    KeyKind::kChoice,
+    [](const KeySource& s) {
+        return node_of(s.scene.camera.flux ? 2 : int(s.scene.camera.orthographic));
+    },
+    [](const KeyTarget& t, const Node& n) {
+        t.scene.camera.orthographic = n.integer > 0;
+        t.scene.camera.flux = n.integer == 2;
+    }};
+
+constexpr KeyRow kRows[] = {
+    {"seed", field<&Scene::seed>, from_to(0, 0x1p63), "",
+     "chooses the random numbers; the same seed gives the same picture, bit for bit"},
+    {"camera.position_m", camera<&Camera::position_m>, from_to(-1e9, 1e9), "m",
+     "where the camera stands; x to the east, y to the north, z up", kRequired},
+    {"camera.target_m", camera<&Camera::target_m>, from_to(-1e9, 1e9), "m",
+     "a point in the middle of the picture; not the position", kRequired},
+    {"camera.up", camera<&Camera::up>, from_to(-1e9, 1e9), "",
+     "a direction that points up in the picture; not along the view"},
+    {"camera.projection", kProjection, one_of("perspective|orthographic|flux"), "",
+     "how space is mapped to the picture; `flux`, method `path` only: pixels tile a flat "
+     "detector through position_m that faces target_m, and show its irradiance"},
+    {"camera.fov_deg", camera<&Camera::fov_deg>, between(0, 180), "deg",
+     "vertical field of view; perspective only"},
+    {"camera.height_m", camera<&Camera::height_m>, above(0, 1e9), "m",
+     "height of the picture in space; orthographic and flux only"},
+    {"camera.resolution", camera<&Camera::resolution>, from_to(1, 16384), "pixels",
+     "width and height of the picture"},
+    {"camera.depth", camera<&Camera::depth>, any(), "",
+     "image of the distance to solid things, .exr (channel Z, or its only one) or grey .pfm, of "
+     "the picture's size; what lies behind is left out, and black",
+     kNone},
+    {"camera.depth_kind", camera<&Camera::depth_on_axis>, one_of("distance|z"), "",
+     "its values: along each pixel's ray, or along the view's axis"},
+    {"camera.depth_scale", camera<&Camera::depth_scale>, above(0, 1e9), "m",
+     "metres per unit of its values"},
+    {"sun.azimuth_deg", sun<&Sun::azimuth_deg>, from_to(-360, 360), "deg",
+     "where the sun stands, from north (+y) towards east (+x)"},
+    {"sun.elevation_deg", sun<&Sun::elevation_deg>, from_to(-90, 90), "deg",
+     "how high the sun stands over the horizon"},
+    {"sun.irradiance", sun<&Sun::irradiance>, from_to(0, 1e12), "any",
+     "on a plane facing the sun; radiances come out in its unit"},
+    {"sky.radiance", sky<&Sky::radiance>, from_to(0, 1e12), "sun's per sr",
+     "of a constant sky: the full sphere, or the upper half where there is a ground"},
+    {"sky.map", sky<&Sky::map>, any(), "",
+     "latitude-longitude image of the sky's radiance, .exr or .pfm, in place of radiance; "
+     "relative to the scene file, `${PILEUS_DATA_DIR}` may stand at its front",
+     kNone},
+    {"sky.map_scale", sky<&Sky::map_scale>, from_to(0, 1e12), "", "factor on the map's values"},
+    {"sky.map_rotation_deg", sky<&Sky::map_rotation_deg>, from_to(-360, 360), "deg",
+     "turns the map about the vertical, from north towards east; at 0 its middle column "
+     "stands in the north (+y)"},
+    {"sky.model", KeyKind::kLater, any(), "", "a computed sky", kNone},
+    {"ground.altitude_m", ground<&Ground::altitude_m>, from_to(-1e9, 1e9), "m",
+     "height of the level ground; every medium and the camera stand above it"},
+    {"ground.albedo", ground<&Ground::albedo>, from_to(0, 1), "",
+     "share of the light that the ground sends back, alike in all directions"},
+};
+
+}  // namespace
+
+Span<const KeyRow> view_keys() { return {kRows, sizeof kRows / sizeof kRows[0]}; }
+
+}  // namespace pileus
