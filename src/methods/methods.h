@@ -16,6 +16,7 @@ namespace pileus {
 struct Budget {
     std::int64_t photons = -1;  ///< >= 0: so many
     std::int64_t samples = -1;  ///< >= 1: so many for each pixel
+    std::int64_t steps = -1;    ///< >= 0: so many of a ray
     double error = 0;           ///< > 0: the mean relative standard error to reach
     double seconds = 0;         ///< > 0: wall time; chooses only a whole number of passes
     std::string state;          ///< file that keeps progress; empty: none

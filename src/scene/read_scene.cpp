@@ -68,10 +68,12 @@ Status read_scene_text(const std::string& text, const std::string& name,
     }
     apply_overrides(overrides, root, faults);
     Scene scene;
-    SceneCheck check{scene, root, faults, {}};
-    check_keys(check);
-    check_scene(check);
+    SceneCheck check{scene, faults, true, {}};
+    check_keys(root, check);
+    check_laws(check);
     PILEUS_TRY(faults.status());
+    for (const auto& [key, found] : check.found)
+        scene.places[key] = faults.place_text(found.node->at);
     // What was set from outside belongs to the scene: the text must make the picture again.
     scene.text = text;
     for (const std::string& setting : overrides) scene.text += "\n# --set " + setting;
@@ -79,6 +81,28 @@ Status read_scene_text(const std::string& text, const std::string& name,
     scene.directory = directory;
     out = std::move(scene);
     return Status::ok();
+}
+
+Status check_scene(const Scene& scene) {
+    // The laws work on a scene of their own.
+    Scene checked = scene;
+    FaultList faults(scene.file.empty() ? "scene" : scene.file, {});
+    std::vector<std::unique_ptr<Node>> values;
+    SceneCheck check{checked, faults, false, {}};
+    check_fields(values, check);
+    check_laws(check);
+    return faults.status();
+}
+
+Status at_key(const Scene& scene, const std::string& key, Status status) {
+    if (status) return status;
+    // The path of a file may stand in a table of its own.
+    auto place = scene.places.find(key + ".file");
+    if (place == scene.places.end()) place = scene.places.find(key);
+    const bool known = place != scene.places.end();
+    const std::string start = known ? place->second + ": " + place->first : key;
+    status.message = start + ": " + status.message;
+    return status;
 }
 
 Status read_scene_file(const std::string& path, const std::vector<std::string>& overrides,

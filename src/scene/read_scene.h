@@ -26,6 +26,16 @@ Status read_scene_text(const std::string& text, const std::string& name,
                        const std::string& directory, const std::vector<std::string>& overrides,
                        Scene& out);
 
+/// Checks a scene that a program has filled in as one that was read: every value by its row, then
+/// the laws between them; a key with its default counts as left out. Such a scene holds what
+/// reading would have filled in: of a kind of cloud, of the paper's variant. kBadInput, one line
+/// `file: key: what, value, allowed` for each fault.
+Status check_scene(const Scene& scene);
+
+/// A fault of what `key` names, such as a file that is not there: begins with the key and where it
+/// stands, "s.toml:12:11: medium.0.density: cloud.vdb: ...". Passes a sound status on.
+Status at_key(const Scene& scene, const std::string& key, Status status);
+
 /// A path from a scene, relative to `directory` unless it is absolute or `directory` is empty.
 std::string scene_path(const std::string& directory, const std::string& file);
 

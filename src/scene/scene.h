@@ -4,6 +4,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -205,9 +206,10 @@ struct Scene {
     RaymarchSettings raymarch;
     OutputSettings output;
     Animation animation;
-    std::string text;       ///< the file's own text
-    std::string file;       ///< name for messages
-    std::string directory;  ///< paths in the scene are relative to it
+    std::string text;                           ///< the file's own text
+    std::string file;                           ///< name for messages
+    std::string directory;                      ///< paths in the scene are relative to it
+    std::map<std::string, std::string> places;  ///< of its keys, "file:line:column", for messages
 };
 
 }  // namespace pileus

@@ -23,6 +23,7 @@ struct RenderOptions {
     const KernelTable* kernels = nullptr;  ///< where set, instead of `isa`
     std::int64_t budget_photons = -1;      ///< >= 0: instead of the scene's number
     std::int64_t budget_samples = -1;      ///< >= 1: paths a pixel, instead of the scene's number
+    std::int64_t budget_steps = -1;        ///< >= 0: steps of a ray, instead of the scene's number
     double budget_error = 0;               ///< > 0: mean relative standard error to reach
     double budget_seconds = 0;             ///< > 0: stop tracing after this wall time; whole passes
     std::string state;          ///< file that keeps a path tracer's progress; empty: none

@@ -51,6 +51,7 @@ Budget budget_of(const RenderOptions& options) {
     Budget budget;
     budget.photons = options.budget_photons;
     budget.samples = options.budget_samples;
+    budget.steps = options.budget_steps;
     budget.error = options.budget_error;
     budget.seconds = options.budget_seconds;
     budget.state = options.state;

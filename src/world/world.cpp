@@ -22,9 +22,10 @@ Status read_sky_map(const Scene& scene, const Context& context, SkyMap& map) {
     const StageClock clock(context, "sky map");
     InputFile file;
     const std::string path = scene_path(scene.directory, scene.sky.map);
-    PILEUS_TRY(open_file(path, file));
-    PILEUS_TRY(check_limit(context.limits, LimitId::kFile, file.size(), path));
-    return load_sky_map(scene, map);
+    PILEUS_TRY(at_key(scene, "sky.map", open_file(path, file)));
+    PILEUS_TRY(
+        at_key(scene, "sky.map", check_limit(context.limits, LimitId::kFile, file.size(), path)));
+    return at_key(scene, "sky.map", load_sky_map(scene, map));
 }
 
 }  // namespace pileus

@@ -246,6 +246,38 @@ TEST_CASE("bad inputs: volumes that are not what they say") {
     for (const Case& row : rows) check_case(row, prepare);
 }
 
+TEST_CASE("bad inputs: a file that is not there is told at the key that names it") {
+    const struct {
+        std::string lines;
+        const char* arguments;
+        const char* fault;
+    } rows[] = {
+        {"[[medium]]\nextinction_per_m = 1\ndensity = \"no.vdb\"\n", "",
+         "a.toml:6:11: medium.0.density: no.vdb: cannot read: no such file\n"},
+        {kBox + "[[medium]]\nbounds_m = [[0, 0, 0], [9, 9, 9]]\nextinction_per_m = 1\n"
+                "density = { type = \"uint8\", size = [1, 1, 1], file = \"no.raw\" }\n",
+         "", "a.toml:11:54: medium.1.density.file: no.raw: cannot read: no such file\n"},
+        {kBox + "phase = { type = \"table\", file = \"no.txt\" }\n", "",
+         "a.toml:8:34: medium.0.phase.file: no.txt: cannot read: no such file\n"},
+        {"[sky]\nmap = \"no.exr\"\n", "",
+         "a.toml:5:7: sky.map: no.exr: cannot read: no such file\n"},
+        {"[[solid]]\nfile = \"no.ply\"\n", "",
+         "a.toml:5:8: solid.0.file: no.ply: cannot read: no such file\n"},
+        {"depth = \"no.pfm\"\n" + kBox, "",
+         "a.toml:4:9: camera.depth: no.pfm: cannot read: no such file\n"},
+        {kBox, "--set medium.0.density=no.vol",
+         "--set medium.0.density=no.vol: medium.0.density: no.vol: cannot read: no such file\n"},
+    };
+    for (const auto& row : rows) {
+        const ProgramFolder folder;
+        folder.files().put("a.toml", kCamera + row.lines);
+        const Outcome outcome =
+            folder.run("render a.toml -o a.pfm --quiet " + std::string(row.arguments));
+        CHECK(outcome.exit_status == 2);
+        CHECK(outcome.errors == row.fault);
+    }
+}
+
 TEST_CASE("bad inputs: places that cannot be written or read") {
     const auto prepare = [](const TempFolder& files) {
         files.put("file", "");

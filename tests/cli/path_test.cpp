@@ -206,6 +206,8 @@ TEST_CASE("path: what belongs to other methods is one line") {
     };
     fault("render s.toml -o a.pfm --budget photons=9" + std::string(kPath),
           "--budget photons: not for method path, allowed: samples=N, error=E, seconds=S");
+    fault("render s.toml -o a.pfm --budget steps=9" + std::string(kPath),
+          "--budget steps: not for method path, allowed: samples=N, error=E, seconds=S");
     fault("render s.toml -o a.pfm --show tree" + std::string(kPath), "--show: not for method path");
     fault("follow s.toml" + std::string(" --set method.name=path"), "follow: not for method path");
     fault("render s.toml -o a.pfm --state s.toml" + std::string(kPath), "is the scene itself");

@@ -101,7 +101,7 @@ TEST_CASE("program: a wrong value names its option and what is allowed, exit 2")
          "--budget samples: not for method collectors"},
         {"render s.toml -o a.pfm --budget paths=9", 2, "--budget: unknown kind, \"paths=9\""},
         {"render s.toml -o a.pfm --budget steps=9", 2,
-         "--budget steps: not for method collectors, allowed: method raymarch"},
+         "--budget steps: not for method collectors, allowed: photons=N, seconds=S"},
         {"render s.toml -o a.pfm --set method.name=raymarch --budget steps=65537", 2,
          "--budget steps: "},
         {"render s.toml -o a.pfm --budget samples=0", 2, "--budget samples: "},

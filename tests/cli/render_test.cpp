@@ -147,6 +147,9 @@ TEST_CASE("render: options change what they name and nothing else") {
     CHECK(hash("--seed 8") == hash("--set seed=8"));
     CHECK(hash("--budget photons=2000") == hash("--set collectors.photons=2000"));
     CHECK(hash("--budget photons=2000") != plain);
+    const std::string march = "--set method.name=raymarch ";
+    CHECK(hash(march + "--budget steps=3") == hash(march + "--set raymarch.steps=3"));
+    CHECK(hash(march + "--budget steps=3") != hash(march));
 }
 
 TEST_CASE("render: -o replaces the scene's files, and may stand before the scene") {

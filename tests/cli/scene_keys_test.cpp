@@ -31,13 +31,13 @@ struct OneKey {
     Node root;
     Scene scene;
     FaultList faults{"s.toml", {"set"}};
-    SceneCheck check{scene, root, faults, {}};
+    SceneCheck check{scene, faults, true, {}};
 
     explicit OneKey(const std::string& setting) {
         SyntaxFault fault;
         REQUIRE(parse_toml("[[medium]]\n[[solid]]\n", root, fault));
         if (!setting.empty()) apply_overrides({setting}, root, faults);
-        check_keys(check);
+        check_keys(root, check);
     }
 };
 

@@ -9,8 +9,8 @@
 #include <string>
 
 #include "kernels_cpu/core/camera.h"
-#include "src/scene/read_scene.h"
 #include "src/scene/keys/all_keys.h"
+#include "src/scene/read_scene.h"
 #include "src/world/camera/view.h"
 
 using namespace pileus;

@@ -27,8 +27,7 @@ Status check_isa(const std::string& name) {
     return find_kernels(name, kernels);
 }
 
-/// `steps` stays as it is where the budget is of another kind.
-Status read_budget(const std::string& text, RenderOptions& options, std::int64_t& steps) {
+Status read_budget(const std::string& text, RenderOptions& options) {
     const std::size_t equals = text.find('=');
     const std::string kind = text.substr(0, equals);
     const std::string amount = equals == std::string::npos ? "" : text.substr(equals + 1);
@@ -40,7 +39,8 @@ Status read_budget(const std::string& text, RenderOptions& options, std::int64_t
         return read_integer("--budget samples", amount, 1, kMostSamples, options.budget_samples);
     if (kind == "error")
         return read_number("--budget error", amount, 1e-6, 1, options.budget_error);
-    if (kind == "steps") return read_integer("--budget steps", amount, 0, kMostSteps, steps);
+    if (kind == "steps")
+        return read_integer("--budget steps", amount, 0, kMostSteps, options.budget_steps);
     return Status::bad_input("--budget: unknown kind, " + quote_text(text) +
                              ", allowed: photons=N, samples=N, steps=N, error=E, seconds=S");
 }
@@ -88,9 +88,8 @@ Status read_scene_options(const SceneArguments& arguments, Scene& scene, RenderO
     }
     if (arguments.isa) add_fault(check_isa(*arguments.isa), faults);
     options.isa = arguments.isa.value_or("");
-    std::int64_t steps = -1;
     for (const std::string& budget : arguments.budgets)
-        add_fault(read_budget(budget, options, steps), faults);
+        add_fault(read_budget(budget, options), faults);
     for (const std::string& limit : arguments.limits)
         add_fault(set_limit(limit, options.limits), faults);
     std::int64_t seed = 0;
@@ -101,10 +100,6 @@ Status read_scene_options(const SceneArguments& arguments, Scene& scene, RenderO
               faults);
     PILEUS_TRY(faults);
     if (arguments.seed) scene.seed = seed;
-    if (steps >= 0 && scene.method != "raymarch")
-        return Status::bad_input("--budget steps: not for method " + scene.method +
-                                 ", allowed: method raymarch");
-    if (steps >= 0) scene.raymarch.steps = int(steps);
     return Status::ok();
 }
 

@@ -21,6 +21,7 @@ std::unique_ptr<MethodRun> make() { return std::make_unique<Run>(); }
 Status check(const Scene& scene, const Budget& budget) {
     constexpr const char* kAllowed = "photons=N, seconds=S";
     if (budget.samples >= 0) return unknown_budget("--budget samples", scene.method, kAllowed);
+    if (budget.steps >= 0) return unknown_budget("--budget steps", scene.method, kAllowed);
     if (budget.error > 0) return unknown_budget("--budget error", scene.method, kAllowed);
     if (!budget.state.empty())
         return unknown_budget("--state", scene.method, "method.name = \"path\"");

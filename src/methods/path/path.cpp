@@ -15,8 +15,9 @@ PathRun& own(MethodRun& run) { return static_cast<PathRun&>(run); }
 std::unique_ptr<MethodRun> make() { return std::make_unique<PathRun>(); }
 
 Status check(const Scene& scene, const Budget& budget) {
-    if (budget.photons >= 0)
-        return unknown_budget("--budget photons", scene.method, "samples=N, error=E, seconds=S");
+    constexpr const char* kAllowed = "samples=N, error=E, seconds=S";
+    if (budget.photons >= 0) return unknown_budget("--budget photons", scene.method, kAllowed);
+    if (budget.steps >= 0) return unknown_budget("--budget steps", scene.method, kAllowed);
     const OutputSettings& output = scene.output;
     if (scene.camera.flux &&
         (output.layer_depth || output.layer_optical_depth || output.layer_transmittance))

@@ -63,9 +63,12 @@ void light_world(const Scene& scene, double sun_elevation_deg, RaymarchRun& run)
         plan_lighting(scene, run.medium, sun_elevation_deg, photons, &run.sky_map, &run.solids);
 }
 
-Status outline(const Scene& scene, const Budget&, const Context& context, MethodRun& method_run) {
+Status outline(const Scene& scene, const Budget& budget, const Context& context,
+               MethodRun& method_run) {
     RaymarchRun& run = own(method_run);
     run.scene = &scene;
+    run.settings = scene.raymarch;
+    if (budget.steps >= 0) run.settings.steps = int(budget.steps);
     if (context.kernels->device != nullptr)
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
                                  "\": method raymarch runs on the host alone, allowed: another, or "

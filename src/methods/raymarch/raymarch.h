@@ -17,6 +17,7 @@ namespace pileus {
 /// Everything one run holds. Each frame has planes of its own, made and freed with it.
 struct RaymarchRun : MethodRun {
     const Scene* scene = nullptr;
+    RaymarchSettings settings;  ///< the scene's, with the steps of the budget
     Medium medium;
     bool direct_sky = false;  ///< the medium is `layer`, evaluated in place
     SkyField layer;

@@ -37,7 +37,7 @@ double reach_of(const RaymarchRun& run) {
 /// Marching from every sample, or from every node: what takes fewer samples of the density. About
 /// 64 samples of a ray lie where light still matters; half a way leads out of the medium.
 void choose_light(RaymarchRun& run) {
-    const RaymarchSettings& s = run.scene->raymarch;
+    const RaymarchSettings& s = run.settings;
     const Grid& grid = run.medium.grid;
     run.march_light = s.light == RaymarchLightKind::kMarch || s.light_cone;
     run.light_why = s.light_cone ? "light_path = \"cone\"" : "as the scene asks";
@@ -72,7 +72,7 @@ bool has_sky(const Lighting& light) {
 }
 
 void note_light(const Scene& scene, const RaymarchRun& run, Plan& plan) {
-    const RaymarchSettings& s = scene.raymarch;
+    const RaymarchSettings& s = run.settings;
     const bool moves = scene.animation.present && scene.animation.moves_sun;
     const bool sun = run.lighting.sunlit || (moves && scene.sun.present);
     if (!sun)
@@ -112,11 +112,11 @@ void note_plan(RaymarchRun& run) {
     plan = Plan{};
     plan.bias = {"raymarch", "light scattered more than once is missing or approximate",
                  "docs/raymarch.md"};
-    if (scene.raymarch.steps > 0) {
+    if (run.settings.steps > 0) {
         plan.need(run.direct_sky ? "the sky's noises, evaluated in place" : "majorants");
         plan.need("marched rays");
         note_light(scene, run, plan);
-        note_appearance(scene.raymarch, plan);
+        note_appearance(run.settings, plan);
     } else {
         plan.leave_out("marched rays", "steps = 0: the medium is not seen");
     }
@@ -125,8 +125,8 @@ void note_plan(RaymarchRun& run) {
     else
         plan.leave_out(
             "coarser levels of the density",
-            scene.raymarch.detail ? "no step or pixel is wider than a cell" : "detail = false");
-    if (scene.raymarch.jitter == RaymarchJitterKind::kNone)
+            run.settings.detail ? "no step or pixel is wider than a cell" : "detail = false");
+    if (run.settings.jitter == RaymarchJitterKind::kNone)
         plan.leave_out("jitter of samples", "jitter = \"none\"");
     note_upsampling(scene, plan);
     if (run.medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
@@ -163,7 +163,7 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
               bytes_of(kFloat * std::uint64_t(blocks[0]), std::uint64_t(blocks[1]),
                        std::uint64_t(blocks[2])));
     }
-    if (scene.raymarch.sky_ambient) {
+    if (run.settings.sky_ambient) {
         const std::uint64_t nodes = node_count(sky_node_grid(run.medium));
         const int sets = sky_node_sets(run.lighting);
         t.add("skylight on nodes", Stage::kShadow, last,
@@ -176,11 +176,11 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
                                 (run.lighting.opaque() ? 1u : 0u) +
                                 (output.layer_optical_depth ? 1u : 0u);
     t.add("picture planes", Stage::kBackground, Stage::kLayers, bytes_of(kFloat * shown, pixels));
-    if (scene.raymarch.jitter == RaymarchJitterKind::kBlueNoise)
+    if (run.settings.jitter == RaymarchJitterKind::kBlueNoise)
         t.add("blue noise", Stage::kShadow, last, bytes_of(kFloat, kNoiseTile * kNoiseTile));
-    const bool half = output.layer_depth || scene.raymarch.temporal > 0;
+    const bool half = output.layer_depth || run.settings.temporal > 0;
     t.add("marched pixels", Stage::kDisplay, last,
-          upsample_bytes(scene.raymarch, scene.camera.resolution, run.lighting.opaque(), half,
+          upsample_bytes(run.settings, scene.camera.resolution, run.lighting.opaque(), half,
                          output.layer_optical_depth));
     t.add("counts of rows", Stage::kDisplay, Stage::kDisplay,
           bytes_of(sizeof(std::int64_t) * kRaymarchCounts,
@@ -198,9 +198,8 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
 
 Status raymarch_measure(const Context& context, RaymarchRun& run) {
     choose_light(run);
-    run.levels =
-        raymarch_levels(run.scene->raymarch, make_camera(run.scene->camera, 0, run.medium.low_m),
-                        run.medium, reach_of(run));
+    run.levels = raymarch_levels(run.settings, make_camera(run.scene->camera, 0, run.medium.low_m),
+                                 run.medium, reach_of(run));
     note_plan(run);
     weigh_memory(context, run);
     return check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), run.scene->file);

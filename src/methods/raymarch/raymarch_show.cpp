@@ -20,7 +20,7 @@ Status light_nodes(const Context& context, RaymarchRun& run) {
     if (run.march_light || !run.lighting.sunlit || run.medium.sigma <= 0) return Status::ok();
     if (!run.nodes.optical_depth.empty() && run.nodes_to_sun == run.lighting.to_sun)
         return Status::ok();
-    const bool swept = run.scene->raymarch.light == RaymarchLightKind::kBuffer;
+    const bool swept = run.settings.light == RaymarchLightKind::kBuffer;
     const auto kind = swept ? SunDepthKind::kSwept : SunDepthKind::kExact;
     const auto& to_sun = run.lighting.to_sun;
     PILEUS_TRY(make_sun_depth(context, run.medium, run.majorants, to_sun, kind, run.nodes));
@@ -35,13 +35,11 @@ Status light_nodes(const Context& context, RaymarchRun& run) {
 
 /// Light of sky and ground changes with the sun alone.
 Status light_sky(const Context& context, const FrameStep& step, RaymarchRun& run) {
-    const Scene& scene = *run.scene;
-    if (!scene.raymarch.sky_ambient || run.medium.sigma <= 0) return Status::ok();
+    if (!run.settings.sky_ambient || run.medium.sigma <= 0) return Status::ok();
     if (!step.first && run.sky_to_sun == run.lighting.to_sun) return Status::ok();
     run.sky_to_sun = run.lighting.to_sun;
     return make_sky_nodes(context, run.medium, run.majorants, run.lighting,
-                          mean_kept(scene.raymarch, run.medium), octaves_of(scene.raymarch),
-                          run.sky);
+                          mean_kept(run.settings, run.medium), octaves_of(run.settings), run.sky);
 }
 
 /// The shadow of solids, on nodes two voxels apart.
@@ -84,7 +82,7 @@ Status raymarch_light(const FrameStep& step, const Context& context, MethodRun& 
     run.lighting = plan_lighting(scene, run.medium, sun_at(scene, step.frame), photons,
                                  &run.sky_map, &run.solids);
     run.camera = make_camera(scene.camera, orbit_at(scene, step.frame), run.medium.low_m);
-    if (scene.raymarch.jitter == RaymarchJitterKind::kBlueNoise && run.noise.empty())
+    if (run.settings.jitter == RaymarchJitterKind::kBlueNoise && run.noise.empty())
         PILEUS_TRY(make_blue_noise(run.noise));
     PILEUS_TRY(light_nodes(context, run));
     PILEUS_TRY(shade_by_solids(context, run));
@@ -99,7 +97,7 @@ Status raymarch_light(const FrameStep& step, const Context& context, MethodRun& 
     in.medium = &run.medium;
     in.majorants = &run.majorants;
     in.lighting = &run.lighting;
-    in.settings = &scene.raymarch;
+    in.settings = &run.settings;
     in.nodes = &run.nodes;
     in.visibility_nodes = run.visibility_nodes;
     in.visibility = run.visibility.data();

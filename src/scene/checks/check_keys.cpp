@@ -112,7 +112,10 @@ private:
             return;
         }
         settings.resize(node.children.size());
-        for (std::size_t i = 0; i < node.children.size(); ++i) each(node.children[i], i);
+        for (std::size_t i = 0; i < node.children.size(); ++i) {
+            check_.found[name + "." + std::to_string(i)] = {&node.children[i], true};
+            each(node.children[i], i);
+        }
     }
 
     const KeyRow* row_of(const std::string& pattern) const {
@@ -189,12 +192,12 @@ private:
 
 const Node* SceneCheck::key(const std::string& path) const {
     const auto it = found.find(path);
-    return it == found.end() ? nullptr : it->second.node;
+    return it == found.end() || !it->second.given ? nullptr : it->second.node;
 }
 
 const Node* SceneCheck::valid_key(const std::string& path) const {
     const auto it = found.find(path);
-    return it == found.end() || !it->second.valid ? nullptr : it->second.node;
+    return it == found.end() || !it->second.valid ? nullptr : key(path);
 }
 
 std::string nearest_name(std::string_view name, const std::vector<std::string>& names) {
@@ -214,12 +217,12 @@ std::string nearest_name(std::string_view name, const std::vector<std::string>& 
     return nearest;
 }
 
-void check_keys(SceneCheck& check) {
+void check_keys(const Node& root, SceneCheck& check) {
     Walker walker(check);
     MediumSettings nowhere;
-    walker.table(check.root, "", "", nowhere);
+    walker.table(root, "", "", nowhere);
     // A scene needs a camera: an absent table lacks the same keys as an empty one.
-    if (check.root.find("camera") == nullptr) walker.table(Node(), "camera", "camera", nowhere);
+    if (root.find("camera") == nullptr) walker.table(Node(), "camera", "camera", nowhere);
 }
 
 }  // namespace pileus

@@ -4,6 +4,7 @@
 // docs/scene.md, sections Keys and Messages.
 #pragma once
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 
@@ -12,26 +13,34 @@
 
 namespace pileus {
 
-/// A key found in the scene under its full path, such as "medium.0.albedo".
+/// A key of the scene under its full path, such as "medium.0.albedo".
 struct FoundKey {
     const Node* node = nullptr;
     bool valid = false;  ///< type and range are as its row asks
+    bool given = true;   ///< false: a value of a struct that is its default
 };
 
-/// What the checks share. `found` is ordered by path and points into the tree.
+/// What the checks share, whether a file was read or a program filled in the struct. `found` is
+/// ordered by path and points at nodes that outlive the check.
 struct SceneCheck {
     Scene& scene;
-    const Node& root;
     FaultList& faults;
+    bool written = true;  ///< a text was read: what it leaves out is filled in
     std::map<std::string, FoundKey> found;
 
-    /// The node under a full path, or null; `valid_key` also asks that it passed its own check.
+    /// The node under a full path where it is given, or null; `valid_key` also asks that it passed
+    /// its own check. `lacks`: there is no value, not even a default.
     const Node* key(const std::string& path) const;
     const Node* valid_key(const std::string& path) const;
+    bool lacks(const std::string& path) const { return found.find(path) == found.end(); }
 };
 
 /// Walks the tree: unknown and missing keys, types, ranges; calls the setters of sound values.
-void check_keys(SceneCheck& check);
+void check_keys(const Node& root, SceneCheck& check);
+
+/// Takes the values of check.scene for what was written: their ranges, by the rows. `values` holds
+/// the nodes.
+void check_fields(std::vector<std::unique_ptr<Node>>& values, SceneCheck& check);
 
 /// Takes over the path of a file to read, with the folder of the environment variable in place of
 /// `${PILEUS_DATA_DIR}` at its front. Returns false after adding a fault.
@@ -45,8 +54,8 @@ void check_solids(SceneCheck& check);
 /// Laws between the keys of a procedural sky; fills in what its type brings.
 void check_sky(SceneCheck& check, std::size_t index);
 
-/// Laws between all other keys, and defaults that depend on other keys.
-void check_scene(SceneCheck& check);
+/// Laws between all keys, and where a text was read defaults that depend on other keys.
+void check_laws(SceneCheck& check);
 
 /// Checks one value against its row. Returns false after adding a fault for it.
 bool check_value(const KeyRow& row, const Node& node, const std::string& path, FaultList& faults);

@@ -23,7 +23,6 @@ public:
     MediumCheck(SceneCheck& check, std::size_t index)
         : check_(check),
           medium_(check.scene.media[index]),
-          table_(check.root.find("medium")->children[index]),
           index_(index),
           path_("medium." + std::to_string(index) + ".") {}
 
@@ -71,7 +70,7 @@ private:
                 fault(*node, key, "not for a file, " + value_text(*node) + ", allowed: left out");
         if (medium_.format == "raw") {
             for (const char* key : {"density.type", "density.size"})
-                if (check_.key(path_ + key) == nullptr)
+                if (check_.lacks(path_ + key))
                     fault(density, key,
                           "missing, nothing, allowed: density = { file = \"...\", "
                           "type = \"float32\", size = [nx, ny, nz] }");
@@ -143,8 +142,9 @@ private:
                   "for files that hold extinction only, " + value_text(*scale) +
                       ", allowed: left out, and the key extinction_per_m");
         const bool known = medium_.density == DensityKind::kSky && medium_.extinction_per_m > 0;
-        if (!physical && per_m == nullptr && !known)
-            fault(table_, "extinction_per_m", "missing, nothing, allowed: number in [0, 1e+12]");
+        if (!physical && check_.lacks(path_ + "extinction_per_m") && !known)
+            fault(*check_.key(path_.substr(0, path_.size() - 1)), "extinction_per_m",
+                  "missing, nothing, allowed: number in [0, 1e+12]");
     }
 
     void shape_keys(const Node& density) {
@@ -170,7 +170,7 @@ private:
     }
 
     void need_bounds(const Node& density) {
-        if (check_.key(path_ + "bounds_m") == nullptr)
+        if (check_.lacks(path_ + "bounds_m"))
             fault(density, "bounds_m",
                   "missing, nothing, allowed: [[x, y, z], [x, y, z]], the "
                   "lowest and highest corner in metres");
@@ -213,7 +213,7 @@ private:
 
     void phase_key(const Node& type, const char* key, bool wanted, const char* what = "a number") {
         const Node* node = check_.key(path_ + key);
-        if (wanted && node == nullptr)
+        if (wanted && check_.lacks(path_ + key))
             fault(type, key,
                   std::string("missing, nothing, allowed: ") + what + ", required by " +
                       value_text(type));
@@ -235,7 +235,6 @@ private:
 
     SceneCheck& check_;
     MediumSettings& medium_;
-    const Node& table_;
     std::size_t index_;
     std::string path_;
 };

@@ -164,18 +164,20 @@ void check_compositor(SceneCheck& check) {
 
 }  // namespace
 
-void check_scene(SceneCheck& check) {
+void check_laws(SceneCheck& check) {
     Scene& scene = check.scene;
-    scene.sun.present = check.key("sun") != nullptr;
-    scene.sky.present = check.key("sky") != nullptr;
-    scene.ground.present = check.key("ground") != nullptr;
-    scene.animation.present = check.key("animation") != nullptr;
+    if (check.written) {
+        scene.sun.present = check.key("sun") != nullptr;
+        scene.sky.present = check.key("sky") != nullptr;
+        scene.ground.present = check.key("ground") != nullptr;
+        scene.animation.present = check.key("animation") != nullptr;
+        fill_paper_defaults(check);
+    }
     check_camera(check);
     check_ground(check);
     check_sky(check);
     check_output(check);
     check_animation(check);
-    fill_paper_defaults(check);
     for (std::size_t i = 0; i < scene.media.size(); ++i) check_medium(check, i);
     check_periodic(check);
     check_compositor(check);

@@ -18,7 +18,7 @@ public:
           path_("medium." + std::to_string(index) + ".") {}
 
     void run() {
-        fill_in();
+        if (check_.written) fill_in();
         thresholds();
         layer();
         sizes();
@@ -84,6 +84,11 @@ private:
     }
 
     void sizes() {
+        // Kinds of clouds bring them; a struct may lack them.
+        if (sky_.has_perlin() && check_.lacks(path_ + "sky.perlin_m") && !check_.written)
+            fault("perlin_m", "missing, nothing, allowed: number above 0");
+        if (sky_.has_worley() && check_.lacks(path_ + "sky.worley_m") && !check_.written)
+            fault("worley_m", "missing, nothing, allowed: number above 0");
         if ((sky_.size & (sky_.size - 1)) != 0)
             fault("size", "not a power of two, " + std::to_string(sky_.size) +
                               ", allowed: 16, 32, 64, 128, 256, 512");

@@ -35,7 +35,7 @@ void check_solid(SceneCheck& check, std::size_t index) {
             file->at, path + "file",
             "unknown kind of mesh, " + value_text(*file) + ", allowed: .obj, .ply, .gltf, .glb");
     if (!gltf) return;
-    conflict(check, path + "y_up", "glTF, whose y axis always points up");
+    if (check.written) conflict(check, path + "y_up", "glTF, whose y axis always points up");
     solid.y_up = true;
 }
 

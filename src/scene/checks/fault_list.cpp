@@ -14,17 +14,18 @@ void FaultList::add(const Place& at, const std::string& key, const std::string& 
         ++not_listed_;
         return;
     }
-    std::string line = prefix(at) + ": ";
+    std::string line = place_text(at) + ": ";
     if (!key.empty()) line += key + ": ";
     faults_.push_back({at, line + text});
 }
 
-std::string FaultList::prefix(const Place& at) const {
+std::string FaultList::place_text(const Place& at) const {
     if (at.override_index >= 0) {
         const std::string shown =
             quote_text(overrides_[static_cast<std::size_t>(at.override_index)]);
         return "--set " + shown.substr(1, shown.size() - 2);
     }
+    if (at.line == 0) return file_;
     return file_ + ":" + std::to_string(at.line) + ":" + std::to_string(at.column);
 }
 

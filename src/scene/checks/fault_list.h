@@ -24,6 +24,9 @@ public:
     bool empty() const { return faults_.empty(); }
     bool full() const { return faults_.size() >= kMaxListed; }
 
+    /// "file:line:column", "--set ...", or the file alone where there is no line.
+    std::string place_text(const Place& at) const;
+
     /// ok, or kBadInput with the lines sorted by place: the file first, then the overrides.
     Status status() const;
 
@@ -33,8 +36,6 @@ private:
         Place at;
         std::string line;
     };
-    std::string prefix(const Place& at) const;
-
     std::string file_;
     std::vector<std::string> overrides_;
     std::vector<Fault> faults_;

@@ -11,11 +11,6 @@ namespace {
 
 constexpr std::size_t kMaxSegments = 16;
 
-void mark(Node& node, const Place& place) {
-    node.at = node.key_at = place;
-    for (Node& child : node.children) mark(child, place);
-}
-
 std::string_view trimmed(std::string_view text) {
     while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
     while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
@@ -90,7 +85,7 @@ Node* element(Node& array, const std::string& segment, bool may_grow, const Plac
     const std::size_t size = array.children.size();
     if (number && index == size && may_grow) {
         array.children.emplace_back();
-        mark(array.children.back(), place);
+        put_at(array.children.back(), place);
     }
     if (number && index < array.children.size()) return &array.children[index];
     const std::size_t allowed = size + (may_grow ? 1 : 0);
@@ -122,7 +117,7 @@ Node* descend(Node& root, const std::vector<std::string>& path, const Place& pla
             child = &node->children.back();
             child->key = path[i];
             if (i == 0 && is_list(path[0])) child->kind = NodeKind::kArray;
-            mark(*child, place);
+            put_at(*child, place);
         }
         node = child;
     }
@@ -153,7 +148,7 @@ void apply(const std::string& text, const Place& place, Node& root, FaultList& f
     }
     // Faults of the new value are faults of the option, whatever the file said there.
     value.key = node->key;
-    mark(value, place);
+    put_at(value, place);
     *node = std::move(value);
 }
 

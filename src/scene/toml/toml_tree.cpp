@@ -88,6 +88,11 @@ Node* Node::find(std::string_view name) {
     return const_cast<Node*>(static_cast<const Node*>(this)->find(name));
 }
 
+void put_at(Node& node, const Place& place) {
+    node.at = node.key_at = place;
+    for (Node& child : node.children) put_at(child, place);
+}
+
 double number_of(const Node& node) {
     return node.kind == NodeKind::kInteger ? static_cast<double>(node.integer) : node.number;
 }

@@ -12,8 +12,8 @@ namespace pileus {
 
 /// Where a value was written: in the scene file, or in the override with that index.
 struct Place {
-    int override_index = -1;  ///< -1: the scene file
-    int line = 1, column = 1;
+    int override_index = -1;   ///< -1: the scene file
+    int line = 1, column = 1;  ///< line 0: nowhere
 };
 
 enum class NodeKind { kTable, kArray, kText, kInteger, kNumber, kBool, kOther };
@@ -37,6 +37,9 @@ struct Node {
     const Node* find(std::string_view name) const;
     Node* find(std::string_view name);
 };
+
+/// Puts a node and all that it holds at one place.
+void put_at(Node& node, const Place& place);
 
 /// The number in a kNumber or kInteger node.
 double number_of(const Node& node);

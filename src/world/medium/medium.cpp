@@ -13,11 +13,16 @@
 namespace pileus {
 namespace {
 
+std::string density_key(const Scene& scene, const MediumSettings& settings) {
+    return medium_key(scene, settings) + ".density";
+}
+
 Status load_density(const Scene& scene, const MediumSettings& settings, int threads,
                     const KernelTable* kernels, SkyField* sky, Volume& volume) {
     if (settings.density == DensityKind::kFile) {
         const std::string path = scene_path(scene.directory, settings.file);
-        PILEUS_TRY(read_volume(settings, path, volume));
+        PILEUS_TRY(
+            at_key(scene, density_key(scene, settings), read_volume(settings, path, volume)));
         if (settings.y_up) PILEUS_TRY(permute_y_up(volume));
         return Status::ok();
     }
@@ -74,7 +79,8 @@ Status place_medium(const Scene& scene, const MediumSettings& settings, const Vo
         settings.albedo[0] == settings.albedo[1] && settings.albedo[1] == settings.albedo[2];
     out.channels = grey ? 1 : 3;
     PhaseStore store;
-    PILEUS_TRY(load_phase(scene.directory, settings.phase, store, optics.phase));
+    PILEUS_TRY(at_key(scene, medium_key(scene, settings) + ".phase.file",
+                      load_phase(scene.directory, settings.phase, store, optics.phase)));
     out.phases.clear();
     if (!store.table.empty()) out.phases.push_back(std::move(store));
     return Status::ok();
@@ -105,12 +111,13 @@ Status outline_file(const Scene& scene, const MediumSettings& settings, const Li
     const bool raw = settings.raw_size[0] > 0;
     if (raw) PILEUS_TRY(check_voxels(scene.file, settings.raw_size, limits));
     InputFile file;
-    PILEUS_TRY(open_file(path, file));
-    PILEUS_TRY(check_limit(limits, LimitId::kFile, file.size(), path));
+    const std::string key = density_key(scene, settings);
+    PILEUS_TRY(at_key(scene, key, open_file(path, file)));
+    PILEUS_TRY(at_key(scene, key, check_limit(limits, LimitId::kFile, file.size(), path)));
     // Bare numbers pass through in pieces of 65536; every other form is held whole.
     constexpr std::uint64_t kPieceBytes = 65536 * sizeof(float);
     source.reading_bytes = raw ? kPieceBytes : file.size();
-    PILEUS_TRY(read_volume_head(settings, path, head));
+    PILEUS_TRY(at_key(scene, key, read_volume_head(settings, path, head)));
     source.reading_bytes += head.unpacked_bytes;
     if (settings.y_up) turn_y_up(head.size, head.bounds_m);
     return Status::ok();

@@ -81,9 +81,10 @@ Status read_camera_depth(const Scene& scene, Solids& solids) {
     if (!solids.image) return Status::ok();
     const std::string path = scene_path(scene.directory, scene.camera.depth);
     Image image;
-    PILEUS_TRY(read_image(path, image));
-    if (file_extension(path) == ".pfm") PILEUS_TRY(keep_one_plane(path, image));
-    return take_camera_depth(scene.camera, path, image, solids);
+    PILEUS_TRY(at_key(scene, "camera.depth", read_image(path, image)));
+    if (file_extension(path) == ".pfm")
+        PILEUS_TRY(at_key(scene, "camera.depth", keep_one_plane(path, image)));
+    return at_key(scene, "camera.depth", take_camera_depth(scene.camera, path, image, solids));
 }
 
 }  // namespace pileus

@@ -53,13 +53,16 @@ bool set_normal(SolidTriangle& t) {
     return true;
 }
 
+std::string file_key(std::size_t solid) { return "solid." + std::to_string(solid) + ".file"; }
+
 Status read_all(const Scene& scene, const Context& context, std::vector<Mesh>& meshes) {
     std::uint64_t sum = 0;
     for (std::size_t i = 0; i < scene.solids.size(); ++i) {
         const std::string path = scene_path(scene.directory, scene.solids[i].file);
-        PILEUS_TRY(read_mesh(path, context.limits, meshes[i]));
+        PILEUS_TRY(at_key(scene, file_key(i), read_mesh(path, context.limits, meshes[i])));
         sum += meshes[i].triangles();
-        PILEUS_TRY(check_limit(context.limits, LimitId::kTriangles, sum, path));
+        PILEUS_TRY(at_key(scene, file_key(i),
+                          check_limit(context.limits, LimitId::kTriangles, sum, path)));
     }
     return Status::ok();
 }
@@ -105,11 +108,12 @@ Status outline_solids(const Scene& scene, const Context& context, Solids& solids
     PILEUS_TRY(solids.albedo.resize(3 * scene.solids.size(), "colours of solids"));
     for (std::size_t i = 0; i < solids.albedo.size(); ++i)
         solids.albedo[i] = scene.solids[i / 3].albedo[i % 3];
-    for (const SolidSettings& settings : scene.solids) {
+    for (std::size_t i = 0; i < scene.solids.size(); ++i) {
         InputFile file;
-        const std::string path = scene_path(scene.directory, settings.file);
-        PILEUS_TRY(open_file(path, file));
-        PILEUS_TRY(check_limit(context.limits, LimitId::kFile, file.size(), path));
+        const std::string path = scene_path(scene.directory, scene.solids[i].file);
+        PILEUS_TRY(at_key(scene, file_key(i), open_file(path, file)));
+        PILEUS_TRY(at_key(scene, file_key(i),
+                          check_limit(context.limits, LimitId::kFile, file.size(), path)));
         solids.file_bytes += file.size();
     }
     return Status::ok();
@@ -128,8 +132,10 @@ Status load_solids(const Scene& scene, const Double3& low_m, const Context& cont
     PILEUS_TRY(solids.triangles.resize(sum, "triangles"));
     for (std::size_t i = 0; i < meshes.size(); ++i) {
         const SolidSettings& settings = scene.solids[i];
-        PILEUS_TRY(place_triangles(settings, scene_path(scene.directory, settings.file),
-                                   std::int32_t(i), low_m, meshes[i].corners.span(), used, solids));
+        PILEUS_TRY(at_key(
+            scene, file_key(i),
+            place_triangles(settings, scene_path(scene.directory, settings.file), std::int32_t(i),
+                            low_m, meshes[i].corners.span(), used, solids)));
         meshes[i] = Mesh();
     }
     solids.triangles.truncate(std::size_t(used));

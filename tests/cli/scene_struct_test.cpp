@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// A scene that a program has filled in passes the checks of one that was read, with the same words.
+// in: structs -> out: the lines of their faults.
+// docs/scene.md, section Messages.
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <limits>
+#include <string>
+
+#include "src/scene/keys/all_keys.h"
+#include "src/scene/read_scene.h"
+
+namespace {
+
+using namespace pileus;
+
+/// One of everything, sound.
+Scene whole_scene() {
+    Scene scene;
+    scene.media.emplace_back();
+    scene.media[0].density = DensityKind::kUniformBox;
+    scene.media[0].has_bounds = true;
+    scene.media[0].bounds_m = {Double3{0, 0, 0}, Double3{1, 1, 1}};
+    scene.media[0].extinction_per_m = 1;
+    scene.solids.emplace_back();
+    scene.solids[0].file = "a.ply";
+    return scene;
+}
+
+/// A number just outside the row's range, in the shape of its kind; nothing for other kinds.
+Node beyond(const KeyRow& row, bool high) {
+    const KeyRange& r = row.allowed.range;
+    const bool whole = row.kind() == KeyKind::kInteger || row.kind() == KeyKind::kInteger2 ||
+                       row.kind() == KeyKind::kInteger3;
+    const double wrong = high ? r.high + std::fmax(1.0, std::fabs(r.high) * 1e-6) : r.low - 2;
+    if (whole && std::fabs(wrong) > 2147483647.0) return no_value();
+    const Node one = whole ? node_of(std::int64_t(wrong)) : node_of(wrong);
+    Node list;
+    list.kind = NodeKind::kArray;
+    switch (row.kind()) {
+        case KeyKind::kInteger:
+        case KeyKind::kNumber:
+            return one;
+        case KeyKind::kInteger2:
+        case KeyKind::kNumber2:
+            list.children = {one, one};
+            return list;
+        case KeyKind::kInteger3:
+        case KeyKind::kNumber3:
+        case KeyKind::kColor:
+            list.children = {one, one, one};
+            return list;
+        default:
+            return no_value();
+    }
+}
+
+TEST_CASE("structs: each number beyond its row's range is a fault that names the key") {
+    int tried = 0;
+    for (const KeyRow* row : all_scene_keys()) {
+        for (const bool high : {false, true}) {
+            const Node wrong = beyond(*row, high);
+            if (!has_value(wrong) || row->field.set == nullptr) continue;
+            Scene scene = whole_scene();
+            set_value(*row, {scene, scene.media[0], scene.solids[0]}, wrong);
+            std::string path = row->path;
+            const std::size_t n = path.find(".N.");
+            if (n != std::string::npos) path.replace(n + 1, 1, "0");
+            CAPTURE(path);
+            const Status status = check_scene(scene);
+            CHECK(status.code == Code::kBadInput);
+            CHECK_MESSAGE(
+                status.message.find("scene: " + path + ": out of range, ") != std::string::npos,
+                status.message);
+            CHECK(status.message.find("allowed: " + allowed_text(*row)) != std::string::npos);
+            ++tried;
+        }
+    }
+    CHECK(tried > 150);
+}
+
+TEST_CASE("structs: laws between keys speak as they do of a file") {
+    const auto fault = [](void (*spoil)(Scene&)) {
+        Scene scene = whole_scene();
+        spoil(scene);
+        return check_scene(scene).message;
+    };
+    CHECK(fault([](Scene&) {}) == "");
+    CHECK(bool(check_scene(Scene())));
+    CHECK(fault([](Scene& s) { s.camera.target_m = s.camera.position_m; }) ==
+          "scene: camera.target_m: same as position_m, [0, -3000, 600], allowed: any other point");
+    CHECK(fault([](Scene& s) {
+              s.file = "host";
+              s.camera.orthographic = true;
+              s.camera.fov_deg = 30;
+          }) ==
+          "host: camera.fov_deg: conflicts with projection \"orthographic\", 30, allowed: left "
+          "out");
+    CHECK(fault([](Scene& s) { s.media[0].has_bounds = false; }) ==
+          "scene: medium.0.bounds_m: missing, nothing, allowed: [[x, y, z], [x, y, z]], the lowest "
+          "and highest corner in metres");
+    CHECK(
+        fault([](Scene& s) { s.media[0].phase.kind = PhaseKind::kHgDraine; }) ==
+        "scene: medium.0.phase.droplet_diameter_um: missing, nothing, allowed: a number, required "
+        "by \"hg-draine\"");
+    // A g of 0 may be meant.
+    CHECK(fault([](Scene& s) { s.media[0].phase.kind = PhaseKind::kHenyeyGreenstein; }) == "");
+    CHECK(fault([](Scene& s) { s.media[0].density = DensityKind::kFile; }) ==
+          "scene: medium.0.density: empty, \"\", allowed: the path of a file");
+    CHECK(fault([](Scene& s) {
+              s.media[0].density = DensityKind::kFile;
+              s.media[0].file = "a.raw";
+              s.media[0].format = "raw";
+          }) ==
+          "scene: medium.0.density.size: missing, nothing, allowed: density = { file = \"...\", "
+          "type = \"float32\", size = [nx, ny, nz] }");
+    CHECK(fault([](Scene& s) { s.method = "radiosity"; }) ==
+          "scene: method.name: unknown value, \"radiosity\", allowed: collectors, path, raymarch");
+    CHECK(fault([](Scene& s) { s.sun.elevation_deg = std::nan(""); }) ==
+          "scene: sun.elevation_deg: not finite, nan, allowed: number in [-90, 90]");
+    CHECK(fault([](Scene& s) { s.output.files = {"a.jpg"}; }) ==
+          "scene: output.files: unknown kind of picture, \"a.jpg\", allowed: .exr, .png, .pfm");
+}
+
+TEST_CASE("structs: what reading leaves behind is sound") {
+    const char* before = std::getenv("PILEUS_DATA_DIR");
+    if (before == nullptr) setenv("PILEUS_DATA_DIR", "/data", 1);
+    for (const char* name : {"cumulus", "smoke_day", "rico", "stratocumulus", "vdb_cloud"}) {
+        CAPTURE(name);
+        Scene scene;
+        const Status read =
+            read_scene_file("assets/scenes/" + std::string(name) + ".toml", {}, scene);
+        REQUIRE_MESSAGE(bool(read), read.message);
+        const Status status = check_scene(scene);
+        CHECK_MESSAGE(bool(status), status.message);
+        CHECK(scene.places.at("camera.position_m").find(scene.file + ":") == 0);
+    }
+    if (before == nullptr) unsetenv("PILEUS_DATA_DIR");
+}
+
+}  // namespace
