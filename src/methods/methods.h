@@ -37,10 +37,10 @@ struct MethodRun {
     virtual ~MethodRun() = default;
 };
 
-/// A recipe. Functions are called from the top down, `light` to `report` once for each frame; a
-/// null one is not needed. The scene and the context outlive the run.
+/// A recipe. Functions are called from the top down, `light` to `report` once for each frame. The
+/// scene and the context outlive the run.
 struct Method {
-    const char* name;
+    const char* name;  ///< of a view: as `--show` names it
     std::unique_ptr<MethodRun> (*make)();
     /// kBadInput: a budget that the method does not know, or a scene that it cannot render.
     Status (*check)(const Scene&, const Budget&);
@@ -53,6 +53,7 @@ struct Method {
     Status (*light)(const FrameStep&, const Context&, MethodRun&);
     Status (*show)(const FrameStep&, const Context&, MethodRun&, Image&);
     void (*report)(const MethodRun&, Report&);
+    bool shows_light = true;  ///< colours are light, which an exposure applies to
 };
 
 inline double share_of_frame(const Animation& a, int frame) {

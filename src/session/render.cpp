@@ -5,11 +5,15 @@
 #include "platform/clock.h"
 #include "platform/fp_mode.h"
 #include "src/io/images/image_file.h"
-#include "src/session/render_views.h"
 #include "src/session/run_context.h"
 
 namespace pileus {
 namespace {
+
+/// The clocks when rendering began.
+struct RunStart {
+    double wall_s = wall_seconds(), cpu_s = cpu_seconds();
+};
 
 void finish_report(const RunStart& start, Report& report) {
     report.total_s = wall_seconds() - start.wall_s;
@@ -22,8 +26,23 @@ void finish_report(const RunStart& start, Report& report) {
         }
 }
 
-Status render_pictures(const Scene& scene, const Method& method, const RenderOptions& options,
-                       const Context& context, const Frames& frames, const FrameSink& sink) {
+/// Names the picture by its bits before anything else is written about it.
+void take_hash(const Image& image, Report& report) {
+    report.hash = pixel_hash(image);
+    report.digests.emplace_back("image", report.hash);
+}
+
+/// Completes a frame's picture and report, and hands both over.
+Status deliver(const Scene& scene, const RunStart& start, int frame, const FrameSink& sink,
+               Image& image, Report& report) {
+    image.pixel_hash = report.hash;
+    image.scene_text = scene.text;
+    finish_report(start, report);
+    return sink(frame, image, report);
+}
+
+Status render_frames(const Scene& scene, const Method& method, const RenderOptions& options,
+                     const Context& context, const Frames& frames, const FrameSink& sink) {
     const RunStart start;
     Report& report = *context.report;
     const std::unique_ptr<MethodRun> run = method.make();
@@ -47,21 +66,6 @@ Status render_pictures(const Scene& scene, const Method& method, const RenderOpt
 
 }  // namespace
 
-RunStart::RunStart() : wall_s(wall_seconds()), cpu_s(cpu_seconds()) {}
-
-void take_hash(const Image& image, Report& report) {
-    report.hash = pixel_hash(image);
-    report.digests.emplace_back("image", report.hash);
-}
-
-Status deliver(const Scene& scene, const RunStart& start, int frame, const FrameSink& sink,
-               Image& image, Report& report) {
-    image.pixel_hash = report.hash;
-    image.scene_text = scene.text;
-    finish_report(start, report);
-    return sink(frame, image, report);
-}
-
 Status render(const Scene& scene, const RenderOptions& options, const FrameSink& sink) {
     const FpModeGuard guard;
     Report report;
@@ -73,8 +77,8 @@ Status render(const Scene& scene, const RenderOptions& options, const FrameSink&
     PILEUS_TRY(find_method(scene, method));
     PILEUS_TRY(method->check(scene, budget_of(options)));
 
-    return options.show.empty() ? render_pictures(scene, *method, options, context, frames, sink)
-                                : render_views(scene, options, context, frames, sink);
+    if (!options.show.empty()) PILEUS_TRY(find_view(scene.method, options.show, method));
+    return render_frames(scene, *method, options, context, frames, sink);
 }
 
 Status plan_scene(const Scene& scene, const RenderOptions& options, bool exact, Report& report) {

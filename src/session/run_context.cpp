@@ -2,9 +2,6 @@
 // See run_context.h.
 #include "src/session/run_context.h"
 
-#include "src/methods/collectors/collectors.h"
-#include "src/methods/path/path.h"
-#include "src/methods/raymarch/raymarch.h"
 #include "src/run/find_kernels.h"
 
 namespace pileus {
@@ -57,18 +54,6 @@ Budget budget_of(const RenderOptions& options) {
     budget.state = options.state;
     budget.state_every_s = options.state_every_s;
     return budget;
-}
-
-Status find_method(const Scene& scene, const Method*& method) {
-    const Method* const all[] = {&collectors_method(), &path_method(), &raymarch_method()};
-    std::string names;
-    for (const Method* one : all) {
-        method = one;
-        if (scene.method == one->name) return Status::ok();
-        names += (names.empty() ? "" : ", ") + std::string(one->name);
-    }
-    return Status::bad_input(scene.file + ": method.name: not in this version, \"" + scene.method +
-                             "\", allowed: " + names);
 }
 
 }  // namespace pileus

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the calls of the API begin with: the context, the method, the budget and the frames.
+// What the calls of the API begin with: the context, the budget and the frames.
 // in: Scene, RenderOptions -> out: checked structs for the methods.
 // docs/architecture.md, "One way through".
 #pragma once
-#include "src/methods/methods.h"
+#include "src/methods/registry.h"
 #include "src/session/render.h"
 
 namespace pileus {
@@ -21,8 +21,5 @@ Status make_context(const Scene& scene, const RenderOptions& options, Context& c
 Status frames_of(const Scene& scene, const RenderOptions& options, Frames& frames);
 
 Budget budget_of(const RenderOptions& options);
-
-/// The recipe of the scene's method; kBadInput where this version has none.
-Status find_method(const Scene& scene, const Method*& method);
 
 }  // namespace pileus

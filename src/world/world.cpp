@@ -2,11 +2,17 @@
 // See world.h.
 #include "src/world/world.h"
 
+#include "src/base/digest.h"
 #include "src/base/file.h"
+#include "src/plan/scene_limits.h"
 #include "src/scene/read_scene.h"
+#include "src/world/medium/mix_media.h"
+#include "src/world/medium/sky_medium.h"
 
 namespace pileus {
+namespace {
 
+/// A scene without media still has a sky and a ground to show.
 Status empty_medium(const Scene& scene, Medium& medium) {
     medium.low_m = scene.camera.target_m;
     for (std::size_t a = 0; a < 3; ++a) {
@@ -17,6 +23,25 @@ Status empty_medium(const Scene& scene, Medium& medium) {
     return medium.volume.density.resize(1, "density");
 }
 
+Status outline_medium_of(const Scene& scene, const Context& context, World& world) {
+    if (scene.media.empty()) return empty_medium(scene, world.medium);
+    if (world.direct_sky) return outline_sky(scene, context.limits, world.medium, world.source);
+    return outline_media(scene, context.limits, std::uint64_t(context.threads), world.media_plan,
+                         world.medium, world.source);
+}
+
+Status load_medium_of(const Scene& scene, const Context& context, World& world) {
+    if (scene.media.empty()) return Status::ok();
+    const StageClock clock(context, "density");
+    world.media_plan = Plan{};
+    if (world.direct_sky) return load_sky(scene, context, world.medium, world.layer);
+    PILEUS_TRY(load_media(scene, context.limits, context.threads, world.media_plan, world.medium,
+                          context.kernels));
+    world.source.mean_density = mean_density(world.medium);
+    return Status::ok();
+}
+
+/// Lights, and with them the plan, depend on the map's colours, so that it is read at once.
 Status read_sky_map(const Scene& scene, const Context& context, SkyMap& map) {
     if (scene.sky.map.empty()) return Status::ok();
     const StageClock clock(context, "sky map");
@@ -26,6 +51,35 @@ Status read_sky_map(const Scene& scene, const Context& context, SkyMap& map) {
     PILEUS_TRY(
         at_key(scene, "sky.map", check_limit(context.limits, LimitId::kFile, file.size(), path)));
     return at_key(scene, "sky.map", load_sky_map(scene, map));
+}
+
+}  // namespace
+
+Status outline_world(const Scene& scene, SkyUse use, const Context& context, World& world) {
+    PILEUS_TRY(check_scene_limits(scene, context.limits));
+    PILEUS_TRY(outline_solids(scene, context, world.solids));
+    world.direct_sky = use == SkyUse::kInPlace && is_direct_sky(scene);
+    PILEUS_TRY(outline_medium_of(scene, context, world));
+    return read_sky_map(scene, context, world.sky_map);
+}
+
+Status load_world(const Scene& scene, const Context& context, World& world) {
+    PILEUS_TRY(load_medium_of(scene, context, world));
+    return load_solids(scene, world.medium.low_m, context, world.solids);
+}
+
+Lighting light_world(const Scene& scene, double sun_elevation_deg, const World& world, Plan& plan) {
+    return plan_lighting(scene, world.medium, sun_elevation_deg, plan, &world.sky_map,
+                         &world.solids);
+}
+
+std::string density_digest(const World& world) {
+    Digest digest;
+    digest.floats(world.medium.volume.density.span());
+    for (const NoiseTexture* noise : {&world.layer.perlin, &world.layer.worley})
+        for (const std::int32_t word : noise->words.span()) digest.u32(std::uint32_t(word));
+    if (world.medium.count > 1) digest.floats(world.medium.parts.span());
+    return digest.hex();
 }
 
 }  // namespace pileus

@@ -1,19 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every method begins with: the scene's sky map, and a medium where there is none.
-// in: a checked scene -> out: SkyMap; a box without anything in it.
+// All of a scene that no method owns: its media on one grid, its sky map, its solids.
+// in: a checked scene -> out: World, from sizes alone or with its values.
 // docs/architecture.md, "One way through".
 #pragma once
 #include "src/run/context.h"
+#include "src/world/density/sky_field.h"
+#include "src/world/light/lights.h"
 #include "src/world/light/sky_map.h"
 #include "src/world/medium/medium.h"
+#include "src/world/solids/solids.h"
 
 namespace pileus {
 
-/// A scene without media still has a sky and a ground to show. kLimit: out of memory.
-Status empty_medium(const Scene& scene, Medium& medium);
+/// Made once; depends on neither method, camera nor the sun's place.
+struct World {
+    Medium medium;  ///< all media on one grid; a voxel of nothing for a scene without any
+    MediumSource source;
+    Plan media_plan;          ///< what laying the media on one grid says
+    bool direct_sky = false;  ///< the medium is `layer`, evaluated in place
+    SkyField layer;
+    SkyMap sky_map;
+    Solids solids;
+};
 
-/// Reads the scene's sky map, if it has one: lights, and with them the plan, depend on its colours.
-/// Errors: those of opening the file and of load_sky_map; kLimit: a file over the limit.
-Status read_sky_map(const Scene& scene, const Context& context, SkyMap& map);
+/// Whether a method evaluates a procedural sky in place, or has every medium on a grid.
+enum class SkyUse { kOnGrid, kInPlace };
+
+/// What the scene's sizes tell, reading no values of media: limits, places, sky map, solids.
+/// Errors: kLimit: a limit; kBadInput, kIo: a file that is missing or wrong.
+Status outline_world(const Scene& scene, SkyUse use, const Context& context, World& world);
+
+/// Reads or makes all values of an outlined world. Errors: those of the readers; kLimit: memory.
+Status load_world(const Scene& scene, const Context& context, World& world);
+
+/// The lights for a sun at this elevation; what they say of photons goes to `plan`.
+Lighting light_world(const Scene& scene, double sun_elevation_deg, const World& world, Plan& plan);
+
+/// Digest of every density, and of each medium's part where there are several.
+std::string density_digest(const World& world);
 
 }  // namespace pileus

@@ -13,7 +13,7 @@
 #include "src/base/output_check.h"
 #include "src/io/text/report_json.h"
 #include "src/io/text/scene_files.h"
-#include "src/methods/collectors/views/views.h"
+#include "src/methods/registry.h"
 #include "src/scene/read_scene.h"
 #include "tools/pileus/block_files.h"
 #include "tools/pileus/command.h"
@@ -120,9 +120,9 @@ Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOpti
                       Outputs& outputs) {
     Status faults;
     if (arguments.show) {
-        View view{};
-        add_fault(find_view(*arguments.show, view), faults);
-        if (arguments.exposure && !view_is_light(view))
+        const Method* view = nullptr;
+        add_fault(find_view("", *arguments.show, view), faults);
+        if (arguments.exposure && view != nullptr && !view->shows_light)
             add_fault(Status::bad_input("--exposure: a view's colours are no light, allowed: leave "
                                         "it out, or --show illumination"),
                       faults);

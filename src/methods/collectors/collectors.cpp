@@ -3,9 +3,6 @@
 #include "src/methods/collectors/collectors.h"
 
 #include "src/methods/collectors/billboards/gl_billboards.h"
-#include "src/plan/scene_limits.h"
-#include "src/world/medium/mix_media.h"
-#include "src/world/world.h"
 
 namespace pileus {
 namespace {
@@ -24,7 +21,7 @@ bool wants_error(const Scene& scene) { return scene.output.layer_error; }
 
 /// Where deposits of the phase function look: the camera, or back along its parallel rays.
 void aim_deposit(const Scene& scene, CollectorsRun& run) {
-    const CameraParams camera = make_camera(scene.camera, 0, run.medium.low_m);
+    const CameraParams camera = make_camera(scene.camera, 0, run.world.medium.low_m);
     run.deposit.orthographic = scene.camera.orthographic;
     for (int a = 0; a < 3; ++a)
         run.deposit.camera[a] = scene.camera.orthographic ? -camera.forward[a] : camera.origin[a];
@@ -59,9 +56,9 @@ int axis_degrees(const CollectorSettings& c, const CollectorsRun& run) {
     // Moments of tables end at a degree of their own.
     const int most = kPhaseMoments - c.bands;
     for (int n = c.axis_degrees < most ? c.axis_degrees : most; n > 0; --n)
-        for (int i = 0; i < run.medium.count; ++i) {
+        for (int i = 0; i < run.world.medium.count; ++i) {
             const float chi =
-                phase_moment(run.medium.optics[std::size_t(i)].phase, c.bands + n - 1);
+                phase_moment(run.world.medium.optics[std::size_t(i)].phase, c.bands + n - 1);
             if (chi > kNothing || chi < -kNothing) return n;
         }
     return 0;
@@ -70,7 +67,7 @@ int axis_degrees(const CollectorSettings& c, const CollectorsRun& run) {
 /// First-order coefficients are 1; P_l exceeds 1 by its rounding alone; |y| stays below 1.1 for 8
 /// bands; else the phase function's peak.
 double largest_deposit(const CollectorsRun& run) {
-    const double peak = double(phase_peak(run.medium));
+    const double peak = double(phase_peak(run.world.medium));
     if (run.deposit.mode == kDepositCamera && peak > 1) return peak;
     return run.deposit.bands > 6 ? 1.1 : run.deposit.axis_degrees > 0 ? 1.01 : 1;
 }
@@ -132,25 +129,26 @@ void note_plan(const Scene& scene, CollectorsRun& run) {
     plan.need("majorants");
     for (const Light& l : run.lighting.lights) plan.need(("photons from the " + l.name).c_str());
     plan.need(is_marched(run) ? "marched display" : "billboards");
-    if (run.medium.channels == 1)
+    if (run.world.medium.channels == 1)
         plan.leave_out("coefficients per colour channel", "achromatic medium: one set per light");
-    if (is_white(run.medium)) plan.leave_out("absorption", "albedo 1");
-    note_solids(run.solids, plan);
+    if (is_white(run.world.medium)) plan.leave_out("absorption", "albedo 1");
+    note_solids(run.world.solids, plan);
     if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
     if (!scene.output.layer_depth) plan.leave_out("depth of the medium", "no depth layer");
     if (!scene.output.layer_error) plan.leave_out("batches and second moments", "no error layer");
     if (!scene.collectors.billboards) plan.leave_out("billboards", "display = \"march\"");
-    for (const std::string& what : run.media_plan.needed) plan.needed.push_back(what);
-    for (const LeftOut& l : run.media_plan.left_out) plan.left_out.push_back(l);
+    for (const std::string& what : run.world.media_plan.needed) plan.needed.push_back(what);
+    for (const LeftOut& l : run.world.media_plan.left_out) plan.left_out.push_back(l);
 }
 
 /// Aims the sky map at the medium's box. A coloured one asks for a set of sums per colour channel,
 /// as its photons differ in colour.
 Status aim_map(CollectorsRun& run) {
-    if (!run.sky_map.present()) return Status::ok();
-    PILEUS_TRY(aim_sky_map(run.medium.extent_m, run.medium.grid.periodic, run.sky_map));
-    if (run.sky_map.view.planes == 3 && run.medium.channels == 1) {
-        run.medium.channels = 3;
+    if (!run.world.sky_map.present()) return Status::ok();
+    PILEUS_TRY(
+        aim_sky_map(run.world.medium.extent_m, run.world.medium.grid.periodic, run.world.sky_map));
+    if (run.world.sky_map.view.planes == 3 && run.world.medium.channels == 1) {
+        run.world.medium.channels = 3;
         run.plan.need("coefficients per colour channel: coloured sky map");
     }
     return Status::ok();
@@ -158,8 +156,8 @@ Status aim_map(CollectorsRun& run) {
 
 /// Coloured solids tell the channels of a photon apart as well.
 void tell_colours(CollectorsRun& run) {
-    if (!run.solids.coloured() || run.medium.channels == 3) return;
-    run.medium.channels = 3;
+    if (!run.world.solids.coloured() || run.world.medium.channels == 3) return;
+    run.world.medium.channels = 3;
     run.plan.need("coefficients per colour channel: coloured solids");
 }
 
@@ -174,20 +172,26 @@ Status choose_light(const Scene& scene, std::int64_t photons, CollectorsRun& run
     if (photons >= 0 && std::uint64_t(photons) < run.generations)
         run.generations = photons > 0 ? std::uint64_t(photons) : 1;
     run.sun_elevation_deg = first_elevation(scene);
-    run.lighting = plan_lighting(scene, run.medium, run.sun_elevation_deg, run.plan, &run.sky_map,
-                                 &run.solids);
+    run.lighting = light_world(scene, run.sun_elevation_deg, run.world, run.plan);
     share_photons(std::uint64_t(photons) / run.generations, run.lighting.lights);
     run.light_photons.clear();
     for (const Light& l : run.lighting.lights) run.light_photons.push_back(l.photons);
-    run.ground_map = make_ground_map(run.medium, run.lighting);
+    run.ground_map = make_ground_map(run.world.medium, run.lighting);
     return plan_deposit(scene, run);
+}
+
+/// What runs for the world as it is known now, and whether it is within the limits.
+Status weigh(const Scene& scene, std::int64_t photons, const Context& context, CollectorsRun& run) {
+    PILEUS_TRY(choose_light(scene, photons, run));
+    note_plan(scene, run);
+    return collectors_measure(context, run);
 }
 
 }  // namespace
 
 TraceInput collectors_trace_input(const Context& context, const CollectorsRun& run) {
     TraceInput in;
-    in.medium = &run.medium;
+    in.medium = &run.world.medium;
     in.lighting = &run.lighting;
     in.majorants = run.majorants.tracking.span();
     in.block = run.majorants.block;
@@ -218,31 +222,16 @@ Status collectors_outline(const Scene& scene, std::int64_t photons, const Contex
                                      "camera, but animation.camera_orbit_deg moves it");
         run.camera_cells = scene.collectors.cell_voxels;
     }
-    PILEUS_TRY(check_scene_limits(scene, context.limits));
-    PILEUS_TRY(outline_solids(scene, context, run.solids));
-    PILEUS_TRY(scene.media.empty()
-                   ? empty_medium(scene, run.medium)
-                   : outline_media(scene, context.limits, std::uint64_t(context.threads),
-                                   run.media_plan, run.medium, run.source));
-    PILEUS_TRY(read_sky_map(scene, context, run.sky_map));
-    PILEUS_TRY(choose_light(scene, photons, run));
-    note_plan(scene, run);
-    return collectors_measure(context, run);
+    PILEUS_TRY(outline_world(scene, SkyUse::kOnGrid, context, run.world));
+    return weigh(scene, photons, context, run);
 }
 
 Status collectors_load(const Scene& scene, std::int64_t photons, const Context& context,
                        CollectorsRun& run) {
     PILEUS_TRY(collectors_outline(scene, photons, context, run));
-    if (!scene.media.empty()) {
-        const StageClock clock(context, "density");
-        run.media_plan = Plan{};
-        PILEUS_TRY(load_media(scene, context.limits, context.threads, run.media_plan, run.medium,
-                              context.kernels));
-        run.source.mean_density = mean_density(run.medium);
-    }
-    PILEUS_TRY(load_solids(scene, run.medium.low_m, context, run.solids));
+    PILEUS_TRY(load_world(scene, context, run.world));
     // The values may show that there is no medium, or more of it than sizes tell.
-    return choose_light(scene, photons, run);
+    return weigh(scene, photons, context, run);
 }
 
 Status collectors_prepare(const Scene& scene, std::int64_t photons, const Context& context,
@@ -253,14 +242,12 @@ Status collectors_prepare(const Scene& scene, std::int64_t photons, const Contex
         PILEUS_TRY(open_gl_blender(scene.collectors.compositor, blender));
     }
     PILEUS_TRY(collectors_load(scene, photons, context, run));
-    note_plan(scene, run);
-    PILEUS_TRY(collectors_measure(context, run));
-    PILEUS_TRY(
-        run.camera_cells > 0
-            ? prepare_cells(run.medium, run.camera_cells, context, run.prepared)
-            : prepare_collectors(run.medium, scene.collectors, scene.seed, context, run.prepared));
-    PILEUS_TRY(
-        make_photon_majorants(run.medium, scene.collectors.local_tracking, context, run.majorants));
+    PILEUS_TRY(run.camera_cells > 0
+                   ? prepare_cells(run.world.medium, run.camera_cells, context, run.prepared)
+                   : prepare_collectors(run.world.medium, scene.collectors, scene.seed, context,
+                                        run.prepared));
+    PILEUS_TRY(make_photon_majorants(run.world.medium, scene.collectors.local_tracking, context,
+                                     run.majorants));
     run.outlined_only = false;
     PILEUS_TRY(collectors_measure(context, run));
     PILEUS_TRY(allocate_photons(context, run));
@@ -278,8 +265,7 @@ Status collectors_set_sun(double elevation_deg, const Context&, CollectorsRun& r
     if (elevation_deg == run.sun_elevation_deg) return Status::ok();
     Plan ignored;
     const std::vector<Light> before = run.lighting.lights;
-    Lighting next =
-        plan_lighting(*run.scene, run.medium, elevation_deg, ignored, &run.sky_map, &run.solids);
+    Lighting next = light_world(*run.scene, elevation_deg, run.world, ignored);
     // The set of lights is the ring's layout: a light that has set keeps its place and shoots no
     // photons; those of its day stay in the ring until they leave it.
     std::vector<Light> lights = before;

@@ -9,7 +9,7 @@
 #include "src/methods/methods.h"
 #include "src/plan/plan.h"
 #include "src/world/camera/view.h"
-#include "src/world/solids/solids.h"
+#include "src/world/world.h"
 
 namespace pileus {
 
@@ -22,11 +22,7 @@ const Method& collectors_method();
 /// Everything one run holds; made by `prepare`, lit by `shoot`, read by `show`.
 struct CollectorsRun {
     const Scene* scene = nullptr;
-    Medium medium;
-    SkyMap sky_map;
-    Solids solids;
-    MediumSource source;
-    Plan media_plan;  ///< what laying the media on one grid says
+    World world;
     Plan plan;
     Lighting lighting;
     std::vector<std::uint64_t> light_photons;  ///< per light and generation while it is up
@@ -57,7 +53,7 @@ inline bool is_marched(const CollectorsRun& run) {
 /// Whether the display keeps what each collector scatters into every direction: a perspective view
 /// of a periodic medium shows each from many sides.
 inline bool shows_harmonics(const CollectorsRun& run) {
-    return is_marched(run) && run.medium.grid.periodic && !run.scene->camera.orthographic;
+    return is_marched(run) && run.world.medium.grid.periodic && !run.scene->camera.orthographic;
 }
 
 /// Slots of the photon map: the generations of an animation's ring, or batches for the error.

@@ -20,7 +20,7 @@ int collectors_batches(const CollectorsRun& run) {
 ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const Context& context,
                                               const CollectorsRun& run) {
     ReconstructInput in;
-    in.medium = &run.medium;
+    in.medium = &run.world.medium;
     in.lighting = &run.lighting;
     in.photons = &run.photons;
     in.collectors = run.prepared.collectors.span();
@@ -39,7 +39,7 @@ ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const 
 
 Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& run, Image& image) {
     const Scene& scene = *run.scene;
-    const CameraParams camera = make_camera(scene.camera, orbit_deg, run.medium.low_m);
+    const CameraParams camera = make_camera(scene.camera, orbit_deg, run.world.medium.low_m);
     const ReconstructInput in = collectors_reconstruct_input(camera, context, run);
     CollectorColours colours;
     if (!shows_harmonics(run)) {
@@ -63,9 +63,9 @@ Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& 
     report.executed = {{"depth_tests", planes.opaque_depth.size()},
                        {"depths_stored", planes.half_depth.size()},
                        {"batches", std::uint64_t(in.batches)},
-                       {"parts_stored", run.medium.parts.size()}};
-    report_solids(run.solids, report);
-    set_image_camera(camera, run.medium.low_m, image);
+                       {"parts_stored", run.world.medium.parts.size()}};
+    report_solids(run.world.solids, report);
+    set_image_camera(camera, run.world.medium.low_m, image);
     if (shows_harmonics(run)) return Status::ok();
     Digest digest;
     digest.floats(colours.colour.span());

@@ -9,7 +9,7 @@
 #include "src/plan/plan.h"
 #include "src/world/camera/view.h"
 #include "src/world/majorant/majorants.h"
-#include "src/world/solids/solids.h"
+#include "src/world/world.h"
 
 namespace pileus {
 
@@ -17,11 +17,7 @@ namespace pileus {
 struct PathRun : MethodRun {
     const Scene* scene = nullptr;
     Budget budget;
-    Medium medium;
-    SkyMap sky_map;
-    Solids solids;
-    MediumSource source;
-    Plan media_plan;  ///< what laying the media on one grid says
+    World world;
     Plan plan;
     Lighting lighting;
     Majorants majorants;

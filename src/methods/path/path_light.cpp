@@ -19,7 +19,7 @@ Status make_alpha(const Context& context, PathRun& run) {
                                output.layer_depth, run.planes));
     if (run.camera.flux != 0) return Status::ok();  // alpha 1: all pixels are measured
     const MarchWanted wanted{output.layer_depth, output.layer_optical_depth};
-    return march_medium(context, run.medium, run.majorants, run.lighting, run.camera, wanted,
+    return march_medium(context, run.world.medium, run.majorants, run.lighting, run.camera, wanted,
                         run.planes);
 }
 

@@ -92,11 +92,11 @@ Status path_show(const FrameStep&, const Context& context, MethodRun& method_run
     report.counters.emplace_back("clamped_negative", clamped);
     report.executed = {{"depth_tests", run.planes.opaque_depth.size()},
                        {"depths_stored", run.planes.half_depth.size()},
-                       {"parts_stored", run.medium.parts.size()},
+                       {"parts_stored", run.world.medium.parts.size()},
                        {"film_parts", std::uint64_t(run.film.parts)}};
-    report_solids(run.solids, report);
+    report_solids(run.world.solids, report);
     report.samples_per_pixel = run.film.samples;
-    set_image_camera(run.camera, run.medium.low_m, image);
+    set_image_camera(run.camera, run.world.medium.low_m, image);
     run.planes = Planes{};
     run.film.sum = Buffer<double>();
     run.film.square = Buffer<double>();

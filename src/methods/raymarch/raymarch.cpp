@@ -4,11 +4,6 @@
 // docs/raymarch.md
 #include "src/methods/raymarch/raymarch.h"
 
-#include "src/base/digest.h"
-#include "src/plan/scene_limits.h"
-#include "src/world/medium/mix_media.h"
-#include "src/world/world.h"
-
 namespace pileus {
 namespace {
 
@@ -57,10 +52,9 @@ Status check(const Scene& scene, const Budget& budget) {
     return Status::ok();
 }
 
-void light_world(const Scene& scene, double sun_elevation_deg, RaymarchRun& run) {
+void choose_light(double sun_elevation_deg, RaymarchRun& run) {
     Plan photons;  // speaks of photons alone
-    run.lighting =
-        plan_lighting(scene, run.medium, sun_elevation_deg, photons, &run.sky_map, &run.solids);
+    run.lighting = light_world(*run.scene, sun_elevation_deg, run.world, photons);
 }
 
 Status outline(const Scene& scene, const Budget& budget, const Context& context,
@@ -73,16 +67,8 @@ Status outline(const Scene& scene, const Budget& budget, const Context& context,
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
                                  "\": method raymarch runs on the host alone, allowed: another, or "
                                  "another method");
-    PILEUS_TRY(check_scene_limits(scene, context.limits));
-    PILEUS_TRY(outline_solids(scene, context, run.solids));
-    run.direct_sky = is_direct_sky(scene);
-    PILEUS_TRY(scene.media.empty() ? empty_medium(scene, run.medium)
-               : run.direct_sky
-                   ? outline_sky(scene, context.limits, run.medium, run.source)
-                   : outline_media(scene, context.limits, std::uint64_t(context.threads),
-                                   run.media_plan, run.medium, run.source));
-    PILEUS_TRY(read_sky_map(scene, context, run.sky_map));
-    light_world(scene, sun_at(scene, 0), run);
+    PILEUS_TRY(outline_world(scene, SkyUse::kInPlace, context, run.world));
+    choose_light(sun_at(scene, 0), run);
     return raymarch_measure(context, run);
 }
 
@@ -90,28 +76,15 @@ Status prepare(const Scene& scene, const Budget& budget, const Context& context,
                MethodRun& method_run) {
     RaymarchRun& run = own(method_run);
     PILEUS_TRY(outline(scene, budget, context, run));
-    if (!scene.media.empty()) {
-        const StageClock clock(context, "density");
-        run.media_plan = Plan{};
-        PILEUS_TRY(run.direct_sky ? load_sky(scene, context, run.medium, run.layer)
-                                  : load_media(scene, context.limits, context.threads,
-                                               run.media_plan, run.medium, context.kernels));
-        if (!run.direct_sky) run.source.mean_density = mean_density(run.medium);
-    }
-    PILEUS_TRY(load_solids(scene, run.medium.low_m, context, run.solids));
+    PILEUS_TRY(load_world(scene, context, run.world));
     // The values may show that there is no medium.
-    light_world(scene, sun_at(scene, 0), run);
-    PILEUS_TRY(make_majorants(run.medium, false, context, run.majorants));
+    choose_light(sun_at(scene, 0), run);
+    PILEUS_TRY(make_majorants(run.world.medium, false, context, run.majorants));
     run.outlined_only = false;
-    PILEUS_TRY(
-        make_density_levels(run.medium, run.levels, run.majorants.skip_block, context, run.coarse));
+    PILEUS_TRY(make_density_levels(run.world.medium, run.levels, run.majorants.skip_block, context,
+                                   run.coarse));
     PILEUS_TRY(raymarch_measure(context, run));
-    Digest density;
-    density.floats(run.medium.volume.density.span());
-    for (const NoiseTexture* noise : {&run.layer.perlin, &run.layer.worley})
-        for (const std::int32_t word : noise->words.span()) density.u32(std::uint32_t(word));
-    if (run.medium.count > 1) density.floats(run.medium.parts.span());
-    run.digests = {{"density", density.hex()}};
+    run.digests = {{"density", density_digest(run.world)}};
     return Status::ok();
 }
 

@@ -5,12 +5,11 @@
 #pragma once
 #include "src/methods/methods.h"
 #include "src/methods/raymarch/march.h"
-#include "src/methods/raymarch/sky_medium.h"
 #include "src/methods/raymarch/upsample.h"
 #include "src/plan/plan.h"
 #include "src/world/camera/view.h"
 #include "src/world/majorant/majorants.h"
-#include "src/world/solids/solids.h"
+#include "src/world/world.h"
 
 namespace pileus {
 
@@ -18,15 +17,9 @@ namespace pileus {
 struct RaymarchRun : MethodRun {
     const Scene* scene = nullptr;
     RaymarchSettings settings;  ///< the scene's, with the steps of the budget
-    Medium medium;
-    bool direct_sky = false;  ///< the medium is `layer`, evaluated in place
-    SkyField layer;
-    SkyMap sky_map;
-    Solids solids;
+    World world;
     Buffer<float> visibility;  ///< what solids leave of the sun, on nodes; empty without solids
     NodeGrid visibility_nodes{};
-    MediumSource source;
-    Plan media_plan;  ///< what laying the media on one grid says
     Plan plan;
     Lighting lighting;
     Majorants majorants;

@@ -9,9 +9,10 @@
 namespace pileus {
 namespace {
 
-constexpr const char* kNames[] = {"density-slice", "gradient-slice", "gradient",
-                                  "samples",       "tree",           "leaf-density",
-                                  "collectors",    "photons",        "illumination"};
+const char* name_of(View view) {
+    int count = 0;
+    return collectors_views(count)[int(view)].name;
+}
 
 bool needs_tree(View view) {
     return view == View::kTree || view == View::kLeafDensity || view == View::kCollectors;
@@ -20,7 +21,7 @@ bool needs_tree(View view) {
 /// Says in the plan what the view needs and what it spares.
 void note_plan(ViewRun& out) {
     Plan& plan = out.run.plan;
-    const std::string why = std::string("--show ") + kNames[int(out.view)];
+    const std::string why = std::string("--show ") + name_of(out.view);
     const auto step = [&](const char* name, bool needed) {
         if (needed)
             plan.need(name);
@@ -40,8 +41,8 @@ void note_plan(ViewRun& out) {
         plan.memory.add(name, Stage::kDensity, Stage::kWrite, bytes);
     };
     const Prepared& p = out.run.prepared;
-    take("density", out.run.medium.volume.density.bytes());
-    take("parts of the media", out.run.medium.parts.bytes());
+    take("density", out.run.world.medium.volume.density.bytes());
+    take("parts of the media", out.run.world.medium.parts.bytes());
     take("gradient", out.field.bytes());
     take("samples", out.samples.samples.bytes());
     take("leaves", p.leaves.bytes());
@@ -57,7 +58,7 @@ Status check_closure(const Scene& scene, View view) {
                          view == View::kSamples || view == View::kIllumination;
     if (!missing) return Status::ok();
     return Status::bad_input(
-        std::string("--show: ") + kNames[int(view)] +
+        std::string("--show: ") + name_of(view) +
         ": closure \"camera\" has no such step, allowed: density-slice, "
         "tree, leaf-density, collectors, photons, or another collectors.closure");
 }
@@ -70,36 +71,22 @@ Status prepare_step(View view, const Context& context, ViewRun& out) {
             return Status::ok();
         case View::kGradientSlice:
         case View::kGradient:
-            return prepare_sample_field(run.medium, settings, context, out.field, out.stats);
+            return prepare_sample_field(run.world.medium, settings, context, out.field, out.stats);
         case View::kSamples:
-            return prepare_sample_set(run.medium, settings, run.scene->seed, context, out.samples);
+            return prepare_sample_set(run.world.medium, settings, run.scene->seed, context,
+                                      out.samples);
         case View::kPhotons:
-            return make_photon_majorants(run.medium, settings.local_tracking, context,
+            return make_photon_majorants(run.world.medium, settings.local_tracking, context,
                                          run.majorants);
         default:
             return run.camera_cells > 0
-                       ? prepare_cells(run.medium, run.camera_cells, context, run.prepared)
-                       : prepare_collectors(run.medium, settings, run.scene->seed, context,
+                       ? prepare_cells(run.world.medium, run.camera_cells, context, run.prepared)
+                       : prepare_collectors(run.world.medium, settings, run.scene->seed, context,
                                             run.prepared);
     }
 }
 
 }  // namespace
-
-std::string view_names() {
-    std::string all;
-    for (const char* name : kNames) all += (all.empty() ? "" : ", ") + std::string(name);
-    return all;
-}
-
-Status find_view(const std::string& name, View& view) {
-    for (int i = 0; i < int(sizeof kNames / sizeof kNames[0]); ++i) {
-        if (name != kNames[i]) continue;
-        view = View(i);
-        return Status::ok();
-    }
-    return Status::bad_input("--show: no such view, \"" + name + "\", allowed: " + view_names());
-}
 
 Status collectors_view_prepare(const Scene& scene, View view, std::int64_t photons,
                                const Context& context, ViewRun& out) {
@@ -118,9 +105,8 @@ Status collectors_view_prepare(const Scene& scene, View view, std::int64_t photo
     return Status::ok();
 }
 
-void collectors_view_report(const ViewRun& out, const Context& context, Report& report) {
+void collectors_view_report(const ViewRun& out, Report& report) {
     const CollectorsRun& run = out.run;
-    collectors_report_plan(run, context, report);
     if (out.view == View::kIllumination) {
         collectors_report(run, report);
         return;
@@ -132,7 +118,7 @@ void collectors_view_report(const ViewRun& out, const Context& context, Report& 
     report.counters.emplace_back("samples_given_up",
                                  drawn ? out.samples.given_up : run.prepared.rejected);
     Digest density;
-    density.floats(run.medium.volume.density.span());
+    density.floats(run.world.medium.volume.density.span());
     report.digests.emplace(report.digests.begin(), "density", density.hex());
 }
 

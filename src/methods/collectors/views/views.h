@@ -21,18 +21,19 @@ enum class View {
     kIllumination,
 };
 
-/// The names of all views, parted by ", ".
-std::string view_names();
-
-/// Finds a view by its name. kBadInput: no such view; the line lists all names.
-Status find_view(const std::string& name, View& view);
+/// One recipe for each view, in the order of View; `collectors_method().views`.
+const Method* collectors_views(int& count);
 
 /// Whether a view's colours are light that the scene's exposure applies to.
-inline bool view_is_light(View view) { return view == View::kIllumination; }
+constexpr bool view_is_light(View view) { return view == View::kIllumination; }
 
 /// A run as far as its view needs it.
-struct ViewRun {
+struct ViewRun : MethodRun {
+    ViewRun() = default;
+    explicit ViewRun(View v) : view(v) {}
+
     View view = View::kGradient;
+    Budget budget;
     Scene scene;  ///< the scene that the view renders: its display has no march
     CollectorsRun run;
     SampleSet samples;
@@ -50,7 +51,7 @@ Status collectors_view_prepare(const Scene& scene, View view, std::int64_t photo
 /// (density, gradient 1/m, or variance).
 Status collectors_view_show(double orbit_deg, const Context& context, ViewRun& run, Image& image);
 
-/// Fills the report: which steps ran, what was counted.
-void collectors_view_report(const ViewRun& run, const Context& context, Report& report);
+/// Fills the report: what was counted.
+void collectors_view_report(const ViewRun& run, Report& report);
 
 }  // namespace pileus

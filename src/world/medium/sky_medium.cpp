@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // See sky_medium.h.
-#include "src/methods/raymarch/sky_medium.h"
+#include "src/world/medium/sky_medium.h"
 
 #include <cmath>
 

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Each view as a recipe, so that views go through the same loop over frames as pictures.
+// in: View -> out: Method.
+// docs/how-it-works.md
+#include "src/methods/collectors/views/views.h"
+
+namespace pileus {
+namespace {
+
+ViewRun& own(MethodRun& run) { return static_cast<ViewRun&>(run); }
+const ViewRun& own(const MethodRun& run) { return static_cast<const ViewRun&>(run); }
+
+template <View kView>
+std::unique_ptr<MethodRun> make() {
+    return std::make_unique<ViewRun>(kView);
+}
+
+Status check(const Scene& scene, const Budget& budget) {
+    return collectors_method().check(scene, budget);
+}
+
+Status prepare(const Scene& scene, const Budget& budget, const Context& context, MethodRun& run) {
+    own(run).budget = budget;
+    return collectors_view_prepare(scene, own(run).view, collectors_photons(scene, budget), context,
+                                   own(run));
+}
+
+void report_plan(const MethodRun& run, const Context& context, Report& report) {
+    collectors_report_plan(own(run).run, context, report);
+}
+
+/// Only the light of collectors needs photons that stay.
+Status light(const FrameStep& step, const Context& context, MethodRun& run) {
+    if (own(run).view != View::kIllumination) return Status::ok();
+    return collectors_light(own(run).budget, step, context, own(run).run);
+}
+
+Status show(const FrameStep& step, const Context& context, MethodRun& run, Image& image) {
+    return collectors_view_show(orbit_at(own(run).scene, step.frame), context, own(run), image);
+}
+
+void report(const MethodRun& run, Report& out) { collectors_view_report(own(run), out); }
+
+template <View kView>
+constexpr Method recipe(const char* name) {
+    return {name,        make<kView>, check, nullptr, prepare,
+            report_plan, light,       show,  report,  view_is_light(kView)};
+}
+
+}  // namespace
+
+const Method* collectors_views(int& count) {
+    static constexpr Method all[] = {recipe<View::kDensitySlice>("density-slice"),
+                                     recipe<View::kGradientSlice>("gradient-slice"),
+                                     recipe<View::kGradient>("gradient"),
+                                     recipe<View::kSamples>("samples"),
+                                     recipe<View::kTree>("tree"),
+                                     recipe<View::kLeafDensity>("leaf-density"),
+                                     recipe<View::kCollectors>("collectors"),
+                                     recipe<View::kPhotons>("photons"),
+                                     recipe<View::kIllumination>("illumination")};
+    count = int(sizeof all / sizeof all[0]);
+    return all;
+}
+
+}  // namespace pileus

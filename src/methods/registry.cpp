@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+// See registry.h.
+#include "src/methods/registry.h"
+
+#include "src/methods/collectors/collectors.h"
+#include "src/methods/collectors/views/views.h"
+#include "src/methods/path/path.h"
+#include "src/methods/raymarch/raymarch.h"
+
+namespace pileus {
+namespace {
+
+void append(const std::string& name, std::string& names) {
+    names += (names.empty() ? "" : ", ") + name;
+}
+
+std::string names_of_views(const MethodRow& row) {
+    std::string names;
+    for (int i = 0; i < row.view_count; ++i) append(row.views[i].name, names);
+    return names;
+}
+
+}  // namespace
+
+std::vector<MethodRow> all_methods() {
+    MethodRow collectors{&collectors_method()};
+    collectors.views = collectors_views(collectors.view_count);
+    return {collectors, {&path_method()}, {&raymarch_method()}};
+}
+
+Status find_method(const Scene& scene, const Method*& method) {
+    std::string names;
+    for (const MethodRow& row : all_methods()) {
+        method = row.method;
+        if (scene.method == method->name) return Status::ok();
+        append(method->name, names);
+    }
+    return Status::bad_input(scene.file + ": method.name: not in this version, \"" + scene.method +
+                             "\", allowed: " + names);
+}
+
+Status find_view(const std::string& method, const std::string& name, const Method*& view) {
+    std::string with_views, views;
+    for (const MethodRow& row : all_methods()) {
+        if (row.view_count == 0) continue;
+        append(row.method->name, with_views);
+        if (!method.empty() && method != row.method->name) continue;
+        append(names_of_views(row), views);
+        for (int i = 0; i < row.view_count; ++i) {
+            view = &row.views[i];
+            if (name == view->name) return Status::ok();
+        }
+    }
+    if (views.empty())
+        return Status::bad_input("--show: not for method " + method +
+                                 ", allowed: method.name = \"" + with_views + "\"");
+    return Status::bad_input("--show: no such view, \"" + name + "\", allowed: " + views);
+}
+
+std::string view_names() {
+    std::string names;
+    for (const MethodRow& row : all_methods())
+        if (row.view_count > 0) append(names_of_views(row), names);
+    return names;
+}
+
+}  // namespace pileus

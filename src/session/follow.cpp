@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// See follow.h.
+#include "src/session/follow.h"
+
+#include "platform/fp_mode.h"
+#include "src/methods/collectors/views/views.h"
+#include "src/session/run_context.h"
+
+namespace pileus {
+
+Status follow(const Scene& scene, const RenderOptions& options, int light, std::uint32_t number,
+              PhotonWay& way) {
+    const FpModeGuard guard;
+    Report report;
+    Context context;
+    if (scene.method != "collectors")
+        return Status::bad_input("follow: not for method " + scene.method +
+                                 ", allowed: method.name = \"collectors\"");
+    PILEUS_TRY(make_context(scene, options, context, report));
+    ViewRun view;
+    PILEUS_TRY(collectors_view_prepare(
+        scene, View::kPhotons, collectors_photons(scene, budget_of(options)), context, view));
+    const std::vector<Light>& lights = view.run.lighting.lights;
+    if (light < 0 || std::size_t(light) >= lights.size())
+        return Status::bad_input("--light: no such light, " + std::to_string(light) +
+                                 ", allowed: less than " + std::to_string(lights.size()));
+    const Light& chosen = lights[std::size_t(light)];
+    if (number >= chosen.photons)
+        return Status::bad_input("--photon: not in the first generation of the " + chosen.name +
+                                 ", " + std::to_string(number) + ", allowed: less than " +
+                                 std::to_string(chosen.photons));
+    way.light = chosen.name;
+    follow_photon(collectors_trace_input(context, view.run), chosen, number, kMostWayPoints,
+                  way.points);
+    for (PathPoint& p : way.points)
+        for (std::size_t a = 0; a < 3; ++a)
+            p.at_m[a] = float(double(p.at_m[a]) + view.run.world.medium.low_m[a]);
+    return Status::ok();
+}
+
+}  // namespace pileus
