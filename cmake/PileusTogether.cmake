@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Compiles files that read the same large headers as one, which takes a third of the time.
-# in: a target -> out: its files that include fmt or nlohmann/json, in two pieces for two processors
+# in: a target, a number of pieces -> out: its files that include fmt or nlohmann/json, in so many pieces
 # Their names without linkage must differ from one another: a clash is an error of the compiler.
-function(pileus_compile_together target)
+function(pileus_compile_together target pieces)
     get_target_property(sources ${target} SOURCES)
     set(number 0)
     foreach(source IN LISTS sources)
@@ -11,7 +11,7 @@ function(pileus_compile_together target)
         endif()
         file(STRINGS "${source}" found REGEX "^#include <(fmt|nlohmann)/" LIMIT_COUNT 1)
         if(found)
-            math(EXPR piece "${number} % 2")
+            math(EXPR piece "${number} % ${pieces}")
             math(EXPR number "${number} + 1")
             set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${target}_${piece}")
         endif()

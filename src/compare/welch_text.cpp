@@ -12,6 +12,8 @@
 namespace pileus {
 namespace {
 
+using Json = nlohmann::ordered_json;
+
 constexpr const char* kChannels[3] = {"R", "G", "B"};
 
 }  // namespace
@@ -42,7 +44,6 @@ std::string welch_lines(const std::string& a, const std::string& b, const WelchR
 }
 
 std::string welch_json(const std::string& a, const std::string& b, const WelchResult& r) {
-    using Json = nlohmann::ordered_json;
     Json channels = Json::object();
     for (int c = 0; c < 3; ++c) {
         const WelchPicture& p = r.picture[c];
