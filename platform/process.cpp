@@ -33,6 +33,7 @@ double seconds(const timeval& t) { return double(t.tv_sec) + 1e-6 * double(t.tv_
 int start(const std::vector<std::string>& words, const InterruptHold& hold, const int (&pipe_)[2],
           pid_t& child) {
     std::vector<char*> arguments;
+    arguments.reserve(words.size() + 1);
     for (const std::string& word : words) arguments.push_back(const_cast<char*>(word.c_str()));
     arguments.push_back(nullptr);
     posix_spawn_file_actions_t files;

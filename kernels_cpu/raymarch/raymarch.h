@@ -75,7 +75,7 @@ PILEUS_FN F<W> start_before(const RaymarchParams& k, const RaymarchBuffers& b, I
     T u{};
     if (k.step.jitter == kJitterHash) {
         const auto pixel = reinterpret<U<W>>(row * k.camera.width + column);
-        u = uniform(threefry(k.step.key[0], k.step.key[1], pixel, pixel ^ pixel).a);
+        u = uniform(threefry(k.step.key[0], k.step.key[1], pixel, U<W>{}).a);
     } else {
         const I<W> x = (column + std::int32_t(k.step.key[0])) & (kNoiseTile - 1);
         const I<W> y = (row + std::int32_t(k.step.key[1])) & (kNoiseTile - 1);

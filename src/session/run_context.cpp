@@ -24,7 +24,7 @@ Status make_context(const Scene& scene, const RenderOptions& options, Context& c
     context.progress = options.progress;
     context.interrupted = options.interrupted;
     context.limits = options.limits;
-    context.frames = std::uint64_t(options.last_frame - options.first_frame + 1);
+    context.frames = std::uint64_t(options.last_frame) - std::uint64_t(options.first_frame) + 1;
     report.version = kVersion;
     report.scene = scene.file;
     report.method = scene.method;

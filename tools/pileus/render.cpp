@@ -208,7 +208,7 @@ Status run_render(RenderArguments& arguments) {
     catch_interrupts();
     options.interrupted = interrupt_asked;
     if (!outputs.blocks.file.empty()) {
-        const Status status = render_blocks(scene, options, outputs.blocks);
+        Status status = render_blocks(scene, options, outputs.blocks);
         progress.clear();
         return status;
     }

@@ -41,7 +41,7 @@ public:
             if (find(int(s), -1, 0, 0) == nullptr) continue;
             SceneResult one;
             one.scene = int(s);
-            const Status status = measure_scene(one);
+            Status status = measure_scene(one);
             if (status.code == Code::kLimit) return status;
             if (!status) one.fault = status.message;
             result_.scenes.push_back(std::move(one));

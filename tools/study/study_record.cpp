@@ -26,10 +26,12 @@ bool read_json(const std::string& path, Json& json) {
 
 /// A member of an object by one or two names; null where any is missing.
 const Json* member(const Json& json, const char* first, const char* second = nullptr) {
-    const auto found = json.find(first);
-    if (found == json.end()) return nullptr;
-    if (second == nullptr) return &*found;
-    return found->is_object() ? member(*found, second) : nullptr;
+    const auto outer = json.find(first);
+    if (outer == json.end()) return nullptr;
+    if (second == nullptr) return &*outer;
+    if (!outer->is_object()) return nullptr;
+    const auto inner = outer->find(second);
+    return inner != outer->end() ? &*inner : nullptr;
 }
 
 double number_at(const Json& json, const char* first, const char* second = nullptr) {

@@ -178,7 +178,7 @@ Status decode_gltf(const std::string& name, bool binary, Span<const char> bytes,
     if (scene == nullptr)
         return Status::bad_input(name + ": mesh: cannot be read, " +
                                  printable_line(library.error()) + ", allowed: a whole glTF file");
-    const Status status = take_triangles(name, *scene, most_triangles, mesh);
+    Status status = take_triangles(name, *scene, most_triangles, mesh);
     library.release(scene);
     return status;
 }

@@ -55,13 +55,13 @@ public:
     Status u64(const char* what, std::uint64_t& value) { return number(what, 8, value); }
     Status i32(const char* what, std::int32_t& value) {
         std::uint32_t bits = 0;
-        const Status status = u32(what, bits);
+        Status status = u32(what, bits);
         std::memcpy(&value, &bits, 4);
         return status;
     }
     Status f64(const char* what, double& value) {
         std::uint64_t bits = 0;
-        const Status status = u64(what, bits);
+        Status status = u64(what, bits);
         std::memcpy(&value, &bits, 8);
         return status;
     }

@@ -158,7 +158,7 @@ Status show_marched(const Context& context, CollectorsRun& run, const Reconstruc
 Status gather_by_node(const Context& context, const HarmonicSource& lit, const MarchParams& k,
                       Span<const float> planes, Buffer<float>& by_node) {
     const std::size_t nodes = std::size_t(node_count(k.source)),
-                      own = std::size_t(k.bands * k.bands);
+                      own = std::size_t(k.bands) * std::size_t(k.bands);
     const std::size_t stored = std::size_t(k.harmonics), sets = std::size_t(lit.sets);
     if (by_node.size() != nodes * sets * stored)
         PILEUS_TRY(by_node.resize(nodes * sets * stored, "source by node"));
