@@ -22,7 +22,7 @@ std::string names_of_views(const MethodRow& row) {
 
 }  // namespace
 
-std::vector<MethodRow> all_methods() {
+std::vector<MethodRow> method_rows() {
     MethodRow collectors{&collectors_method()};
     collectors.views = collectors_views(collectors.view_count);
     return {collectors, {&path_method()}, {&raymarch_method()}};
@@ -30,7 +30,7 @@ std::vector<MethodRow> all_methods() {
 
 Status find_method(const Scene& scene, const Method*& method) {
     std::string names;
-    for (const MethodRow& row : all_methods()) {
+    for (const MethodRow& row : method_rows()) {
         method = row.method;
         if (scene.method == method->name) return Status::ok();
         append(method->name, names);
@@ -41,7 +41,7 @@ Status find_method(const Scene& scene, const Method*& method) {
 
 Status find_view(const std::string& method, const std::string& name, const Method*& view) {
     std::string with_views, views;
-    for (const MethodRow& row : all_methods()) {
+    for (const MethodRow& row : method_rows()) {
         if (row.view_count == 0) continue;
         append(row.method->name, with_views);
         if (!method.empty() && method != row.method->name) continue;
@@ -59,7 +59,7 @@ Status find_view(const std::string& method, const std::string& name, const Metho
 
 std::string view_names() {
     std::string names;
-    for (const MethodRow& row : all_methods())
+    for (const MethodRow& row : method_rows())
         if (row.view_count > 0) append(names_of_views(row), names);
     return names;
 }

@@ -17,7 +17,7 @@ struct MethodRow {
 };
 
 /// Every method of this version.
-std::vector<MethodRow> all_methods();
+std::vector<MethodRow> method_rows();
 
 /// The recipe of the scene's method. kBadInput: not in this version.
 Status find_method(const Scene& scene, const Method*& method);
