@@ -21,16 +21,16 @@ void add_buffers(const std::string& path, std::vector<std::string>& files) {
     Buffer<char> text;
     if (!read_whole_file(path, kMostText, text)) return;
     // Keep the buffers alone: whatever else the text holds takes no memory.
-    using Json = nlohmann::json;
-    const auto wanted = [](int depth, Json::parse_event_t event, Json& parsed) {
+    using PlainJson = nlohmann::json;
+    const auto wanted = [](int depth, PlainJson::parse_event_t event, PlainJson& parsed) {
         return depth <= 3 &&
-               !(depth == 1 && event == Json::parse_event_t::key && parsed != "buffers");
+               !(depth == 1 && event == PlainJson::parse_event_t::key && parsed != "buffers");
     };
-    const Json json = Json::parse(text.data(), text.data() + text.size(), wanted, false);
+    const PlainJson json = PlainJson::parse(text.data(), text.data() + text.size(), wanted, false);
     if (!json.is_object() || !json.contains("buffers") || !json["buffers"].is_array()) return;
     const std::size_t slash = path.rfind('/');
     const std::string folder = slash == std::string::npos ? "" : path.substr(0, slash + 1);
-    for (const Json& buffer : json["buffers"]) {
+    for (const PlainJson& buffer : json["buffers"]) {
         if (!buffer.is_object() || !buffer.contains("uri") || !buffer["uri"].is_string()) continue;
         const std::string uri = buffer["uri"].get<std::string>();
         if (uri.compare(0, 5, "data:") != 0) files.push_back(scene_path(folder, uri));
