@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the kernels of procedural skies need: noise volumes, their packed levels, the cloud layer.
-// in: a scene's sky -> out: the layout of a launch. Filled by src/volume and src/stages/sky_field.
+// in: a scene's sky -> out: the layout of a launch. Filled by src/world/density.
 // docs/skies.md; Palenik 2016, section 5.1.
 #pragma once
 #include <cstdint>
