@@ -65,6 +65,7 @@ TEST_CASE("exr: round trip is bit-equal, attributes included") {
     }
     CHECK(read.world_to_camera == image.world_to_camera);
     CHECK(read.world_to_ndc == image.world_to_ndc);
+    CHECK(read.screen_window_width == 0.75f);
     CHECK(read.scene_text == image.scene_text);
     CHECK(read.pixel_hash == image.pixel_hash);
     CHECK(pixel_hash(read) == image.pixel_hash);

@@ -33,6 +33,7 @@ inline Image make_image(int width, int height) {
         image.world_to_camera[i] = float(i);
         image.world_to_ndc[i] = float(i) * 0.5f;
     }
+    image.screen_window_width = 0.75f;
     image.scene_text = "seed = 7\n";
     image.pixel_hash = pixel_hash(image);
     return image;

@@ -97,6 +97,7 @@ Imf::Header make_header(const Image& image) {
     Imf::Header header(image.width, image.height);
     header.compression() = Imf::ZIP_COMPRESSION;
     header.zipCompressionLevel() = 4;
+    header.screenWindowWidth() = image.screen_window_width;
     Imf::addChromaticities(header, rec709());
     Imf::addWorldToCamera(header, to_matrix(image.world_to_camera));
     Imf::addWorldToNDC(header, to_matrix(image.world_to_ndc));
@@ -124,6 +125,7 @@ void read_attributes(const Imf::Header& header, Image& image) {
     if (Imf::hasWorldToCamera(header))
         image.world_to_camera = from_matrix(Imf::worldToCamera(header));
     if (Imf::hasWorldToNDC(header)) image.world_to_ndc = from_matrix(Imf::worldToNDC(header));
+    image.screen_window_width = header.screenWindowWidth();
     const auto* scene = header.findTypedAttribute<Imf::StringAttribute>("pileus.scene");
     const auto* hash = header.findTypedAttribute<Imf::StringAttribute>("pileus.pixelHash");
     if (scene != nullptr) image.scene_text = scene->value();

@@ -27,6 +27,7 @@ struct Image {
     std::vector<Channel> channels;
     std::array<float, 16> world_to_camera{};  ///< row-major, OpenEXR's row-vector convention
     std::array<float, 16> world_to_ndc{};
+    float screen_window_width = 1;  ///< of the picture, 1 in front of the camera
     /// R G B are linear light of a display, 0..1, not radiance: 8-bit files hold them as they are,
     /// without exposure and curve.
     bool display_colours = false;

@@ -57,36 +57,36 @@ CameraParams make_camera(const Camera& camera, double orbit_deg, const Double3& 
 }
 
 void set_image_camera(const CameraParams& camera, const Double3& box_low_m, Image& image) {
-    // Row vectors: [x y z 1] times the matrix; the camera looks along -z, as OpenEXR has it.
+    // Row vectors: [x y z 1] times the matrix. OpenEXR's camera looks along +z, x to the right and
+    // y up.
     const float* axes[3] = {camera.right, camera.up, camera.forward};
-    for (std::size_t column = 0; column < 3; ++column) {
-        const double sign = column == 2 ? -1 : 1;
-        double shift = 0;
+    double to_camera[4][4] = {};
+    to_camera[3][3] = 1;
+    for (std::size_t column = 0; column < 3; ++column)
         for (std::size_t row = 0; row < 3; ++row) {
-            const double v = sign * double(axes[column][row]);
-            image.world_to_camera[row * 4 + column] = float(v);
-            shift -= v * (double(camera.origin[row]) + box_low_m[row]);
+            const double v = double(axes[column][row]);
+            to_camera[row][column] = v;
+            to_camera[3][column] -= v * (double(camera.origin[row]) + box_low_m[row]);
         }
-        image.world_to_camera[12 + column] = float(shift);
-    }
-    image.world_to_camera[15] = 1;
 
-    // Project to [-1, 1] and divide by the distance in front of the camera (perspective).
+    // Its device coordinates go from 0 to 1, from the left and from the top. In a perspective the
+    // fourth one is the distance in front of the camera, by which the others are divided; the third
+    // becomes 1 - 1/z, so that the matrix has an inverse.
     double to_ndc[4][4] = {};
-    to_ndc[0][0] = 1.0 / double(camera.half_width);
-    to_ndc[1][1] = 1.0 / double(camera.half_height);
-    to_ndc[2][2] = -1;
-    if (camera.orthographic != 0)
-        to_ndc[3][3] = 1;
-    else
-        to_ndc[2][3] = -1;
+    const std::size_t last = camera.orthographic != 0 ? 3 : 2;
+    to_ndc[0][0] = 0.5 / double(camera.half_width);
+    to_ndc[1][1] = -0.5 / double(camera.half_height);
+    to_ndc[2][2] = to_ndc[last][3] = 1;
+    to_ndc[last][0] = to_ndc[last][1] = 0.5;
+    if (camera.orthographic == 0) to_ndc[3][2] = -1;
     for (std::size_t row = 0; row < 4; ++row)
         for (std::size_t column = 0; column < 4; ++column) {
             double sum = 0;
-            for (std::size_t i = 0; i < 4; ++i)
-                sum += double(image.world_to_camera[row * 4 + i]) * to_ndc[i][column];
+            for (std::size_t i = 0; i < 4; ++i) sum += to_camera[row][i] * to_ndc[i][column];
+            image.world_to_camera[row * 4 + column] = float(to_camera[row][column]);
             image.world_to_ndc[row * 4 + column] = float(sum);
         }
+    image.screen_window_width = 2 * camera.half_width;
 }
 
 }  // namespace pileus

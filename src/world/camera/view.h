@@ -13,7 +13,8 @@ namespace pileus {
 /// seen from above.
 CameraParams make_camera(const Camera& camera, double orbit_deg, const Double3& box_low_m);
 
-/// Fills the image's world_to_camera and world_to_ndc (world metres, row vectors).
+/// Fills the image's world_to_camera, world_to_ndc (world metres, row vectors) and
+/// screen_window_width, as OpenEXR's standard attributes have them: docs/formats.md.
 void set_image_camera(const CameraParams& camera, const Double3& box_low_m, Image& image);
 
 }  // namespace pileus
