@@ -54,8 +54,8 @@ Status field_stats(Span<const float> density, Span<const float> field, const Gri
         sums_abreast(field.data + std::size_t(first) * slice, slice, slice, count, sums);
         for (int s = 0; s < count; ++s) {
             const std::size_t begin = std::size_t(first + s) * slice;
-            slices[std::size_t(first + s)] = {largest(field.data + begin, slice), sums[s],
-                                              largest(density.data + begin, slice)};
+            slices[std::size_t(first) + std::size_t(s)] = {
+                largest(field.data + begin, slice), sums[s], largest(density.data + begin, slice)};
         }
     });
     stats = FieldStats{};
