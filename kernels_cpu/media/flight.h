@@ -11,6 +11,9 @@ namespace pileus {
 /// Bound of the ring of blocks around the grid (src/methods/path/path_blocks.h).
 constexpr float kBoundOut = -0x1p20f;
 
+/// Least |component| of a direction that counts; safe_inverse holds on to the same.
+constexpr float kLeastAlong = 1e-18f;
+
 inline namespace PILEUS_ISA {
 
 /// A ray under way: it stands `t` metres from where it began.
@@ -22,12 +25,21 @@ struct Flight {
     F<W> tau;                  // optical depth to go
     F<W> bound;                // of the block: majorant, or minus the blocks a leap clears
     F<W> lift;                 // what rounding took from the height, voxels; periodic grids only
+    I<W> wraps;                // times that it left a side of a periodic grid
     I<W> block;                // in the grid with its ring
 };
+
+/// Along an axis that a direction does not really follow it is +0: its speed, the planes ahead and
+/// the way out are told by one sign, which rounding to -0 would take from some of them.
+template <class T>
+PILEUS_FN T one_zero(T d) {
+    return select(abs_(d) < kLeastAlong, T{}, d);
+}
 
 /// Point the lanes of `m` along `d`.
 template <int W>
 PILEUS_FN void aim_flight(Flight<W>& s, const TrackGrid& k, M<W> m, Vec<F<W>> d) {
+    d = {one_zero(d.x), one_zero(d.y), one_zero(d.z)};
     if (k.periodic != 0) d.z = copysign_(max_(abs_(d.z), all<F<W>>(kLeastSlope)), d.z);
     s.d = {select(m, d.x, s.d.x), select(m, d.y, s.d.y), select(m, d.z, s.d.z)};
 }
@@ -76,18 +88,29 @@ PILEUS_FN Vec<F<W>> place_of(const Flight<W>& s) {
     return {s.from.x + s.speed.x * s.t, s.from.y + s.speed.y * s.t, s.from.z + s.speed.z * s.t};
 }
 
+/// How often the flattest flight can leave the sides of a periodic grid before its top.
+PILEUS_FN std::int32_t most_wraps(const TrackGrid& k) {
+    const auto edge = [&](int a) { return float(k.size[a]) * k.cell[a]; };
+    const float most = edge(2) * (1.0f / kLeastSlope) * (1.0f / edge(0) + 1.0f / edge(1));
+    return std::int32_t(min_(most, 0x1p30f)) + 4;
+}
+
 /// Lanes of `m` stand on a face of a periodic grid: those that left through a side go on from the
-/// far one. Returns the others, which are out.
+/// far one, unless they did so more often than any flight can: these are `lost`. Returns the
+/// others and the lost ones, which are out.
 template <int W>
-PILEUS_FN M<W> wrap_flights(Flight<W>& s, const TrackGrid& k, M<W> m) {
+PILEUS_FN M<W> wrap_flights(Flight<W>& s, const TrackGrid& k, M<W> m, M<W>& lost) {
     using T = F<W>;
     const auto ahead = [&](T at, T d, int a) {
         return face_ahead(at, k.cell[a] * safe_inverse(d), k, a);
     };
     const T x = ahead(s.from.x, s.d.x, 0), y = ahead(s.from.y, s.d.y, 1);
     const T z = ahead(s.from.z, s.d.z, 2), first = min_(x, y);
-    const M<W> side = m & (first < z);
+    M<W> side = m & (first < z);
     if (!any(side)) return m;
+    s.wraps = select(side, s.wraps + 1, s.wraps);
+    lost = side & (s.wraps > most_wraps(k));
+    side = side & lnot(lost);
     // Thousands of periods make as many flights: carry what rounding takes of the climb.
     const T climb = s.speed.z * s.t + s.lift;
     const T height = min_(max_(s.from.z + climb, T{}), all<T>(float(k.size[2])));
@@ -102,10 +125,10 @@ PILEUS_FN M<W> wrap_flights(Flight<W>& s, const TrackGrid& k, M<W> m) {
 }
 
 /// What a step met: a tentative collision (hits) or a border of blocks (hops), which may be a way
-/// out of the box.
+/// out of the box, and of these where the flight was given up (lost).
 template <int W>
 struct Step {
-    M<W> hits, hops, out;
+    M<W> hits, hops, out, lost;
 };
 
 /// Enter the blocks behind `border`, metres, in the lanes of `hops`.
@@ -152,7 +175,8 @@ PILEUS_FN Step<W> step_flight(Flight<W>& s, const TrackGrid& k, M<W> active) {
     Step<W> m;
     m.hits = active & (s.tau < depth);
     m.hops = active & lnot(m.hits);
-    m.out = m.hops & (border >= s.exit);
+    m.lost = active & lnot(active);
+    m.out = m.hops & lnot(border < s.exit);  // a way that is no number ends here
     s.t = select(m.hits, s.t + s.tau / sigma_t, select(m.hops, border, s.t));
     if (!any(m.hops)) return m;
     s.tau = select(m.hops, s.tau - depth, s.tau);
@@ -160,7 +184,7 @@ PILEUS_FN Step<W> step_flight(Flight<W>& s, const TrackGrid& k, M<W> active) {
     const M<W> in = m.hops & lnot(m.out);
     s.bound = select(in, gather(k.majorant, select(in, s.block, I<W>{})), s.bound);
     m.out = m.out | (in & (s.bound <= kBoundOut));
-    if (k.periodic != 0 && any(m.out)) m.out = wrap_flights(s, k, m.out);
+    if (k.periodic != 0 && any(m.out)) m.out = wrap_flights(s, k, m.out, m.lost);
     return m;
 }
 

@@ -65,6 +65,7 @@ PILEUS_FN void advance_paths(PathGroup<W, NC, S>& g, const PathParams& k, const 
         const Step<W> m = step_flight(s, k.grid, flying);
         g.hits = g.hits | m.hits;
         b.tally->crossings += count_bits(bits_of(m.hops));
+        if (any(m.lost)) b.tally->terminated += count_bits(bits_of(m.lost));
         s.out = s.out | (m.out & path);
         s.lit = s.lit | (m.out & lnot(path));
         flying = m.hops & lnot(m.out);

@@ -151,6 +151,7 @@ PILEUS_FN M<W> send_flights(Flight<W>& w, const PathParams& k, M<W> m, const Vec
     }
     const F<W> middle = all<F<W>>(0.5f);
     w.lift = select(m, F<W>{}, w.lift);
+    w.wraps = select(m, I<W>{}, w.wraps);
     begin_flight(w, k.grid, hit,
                  {select(hit, p.x, middle), select(hit, p.y, middle), select(hit, p.z, middle)});
     return m & lnot(hit);

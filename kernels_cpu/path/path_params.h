@@ -65,8 +65,8 @@ struct PathTally {
     std::int64_t tentative, crossings;         ///< of both kinds of flight
     std::int64_t shadow_rays;                  ///< flights towards lights, sun and map
     std::int64_t shadow_tentative;             ///< tentative collisions on them
-    std::int64_t terminated;                   ///< paths given up after max_events draws
-    std::int64_t nan;                          ///< samples that were no finite number, stored as 0
+    std::int64_t terminated;  ///< paths given up after max_events draws, flights that would not end
+    std::int64_t nan;         ///< samples that were no finite number, stored as 0
     std::int64_t majorant_violations;
 };
 

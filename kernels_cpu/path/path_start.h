@@ -55,6 +55,7 @@ PILEUS_FN M<W> leap_to_medium(Flight<W>& s, const PathParams& k, PathTally& tall
     for (m = m & (s.bound <= 0.0f); any(m); m = m & (s.bound <= 0.0f)) {
         const Step<W> step = step_flight(s, k.grid, m);
         tally.crossings += count_bits(bits_of(step.hops));
+        if (any(step.lost)) tally.terminated += count_bits(bits_of(step.lost));
         out = out | step.out;
         m = m & lnot(step.out);
     }
@@ -165,6 +166,7 @@ PILEUS_FN void hand_over(PathLanes<W, NC, S>& s, int to, const FreshPaths<W, S>&
     move3(s.plane, w.plane), move3(s.gap, w.gap), move3(s.vertex, f.origin);
     move(s.t, w.t), move(s.exit, w.exit), move(s.tau, w.tau);
     move(s.bound, w.bound), move(s.lift, w.lift), move(s.block, w.block);
+    move(s.wraps, w.wraps);
     move(s.number, f.number), move(s.sample, f.sample);
     if constexpr (S) move(s.wall, f.wall), move(s.piece, f.piece);
 }

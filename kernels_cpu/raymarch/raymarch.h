@@ -49,9 +49,14 @@ PILEUS_FN void march_lattice(const RayMarch<T, Field>& r, const Lattice<T>& latt
                 min_(lattice_step(lattice, look + ahead.rest) * (1.0f / steps), all<T>(1e6f))));
             next = select(empty, max_(whole * steps, next), next);
         }
+        const T before = n;
         n = next;
         from = max_(lattice_place(lattice, n), low);
         alive = alive & (from < high) & (to < high) & (sum.transmittance >= r.k.cut);
+        // Whole numbers end at 2^24: a ray that needs more steps is cut short.
+        const auto stuck = alive & lnot(before < n);
+        if (any(stuck)) r.counts[kCountCut] += count_bits(bits_of(stuck));
+        alive = alive & lnot(stuck);
     }
 }
 

@@ -125,6 +125,7 @@ enum RaymarchCount {
     kCountSamples = 0,       ///< densities read along rays
     kCountLightSamples = 1,  ///< densities read towards the sun
     kCountBreaches = 2,      ///< pixels whose sum exceeded its own bound
+    kCountCut = 3,           ///< rays that were given up before their end
     kRaymarchCounts = 4,
 };
 

@@ -34,7 +34,7 @@ struct RaymarchInput {
 };
 
 struct RaymarchTally {
-    std::uint64_t samples = 0, light_samples = 0, breaches = 0;
+    std::uint64_t samples = 0, light_samples = 0, breaches = 0, cut = 0;
 };
 
 /// Smallest edge of a cell, m.
