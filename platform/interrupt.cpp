@@ -1,16 +1,32 @@
 // SPDX-License-Identifier: Apache-2.0
-// See interrupt.h. The library's one writable global: a signal has no other way to be told.
+// See interrupt.h. The library's only writable globals: a signal has no other way to be told.
 #include "platform/interrupt.h"
 
 #include <signal.h>
+#include <string.h>
+#include <unistd.h>
+
+#include <cstddef>
 
 namespace pileus {
 
 namespace {
 
-volatile sig_atomic_t interrupt_flag = 0;
+constexpr std::size_t kMostWords = 120;
 
-void on_signal(int) { interrupt_flag = 1; }
+volatile sig_atomic_t interrupt_flag = 0;
+volatile sig_atomic_t held = 0;
+char line[kMostWords + 1];
+std::size_t line_size = 0;
+int status_of_end = 1;
+
+/// Calls nothing that a signal may not call.
+void on_signal(int) {
+    interrupt_flag = 1;
+    if (held != 0) return;
+    (void)!write(STDERR_FILENO, line, line_size);
+    _exit(status_of_end);
+}
 
 void catch_one(int number) {
     struct sigaction before;
@@ -25,10 +41,16 @@ void catch_one(int number) {
 
 }  // namespace
 
-void catch_interrupts() {
+void catch_interrupts(const char* last_words, int exit_status) {
+    line_size = strnlen(last_words, kMostWords);
+    memcpy(line, last_words, line_size);
+    line[line_size++] = '\n';
+    status_of_end = exit_status;
     catch_one(SIGINT);
     catch_one(SIGTERM);
 }
+
+void hold_interrupts(bool hold) { held = hold ? 1 : 0; }
 
 bool interrupt_asked() { return interrupt_flag != 0; }
 

@@ -84,6 +84,8 @@ struct Report {
     std::uint64_t photons = 0, generations = 0, scatterings = 0, tentative = 0, crossings = 0;
     std::uint64_t leaves = 0, collectors = 0, samples = 0;
     std::uint64_t paths = 0, samples_per_pixel = 0, shadow_rays = 0;  ///< of method `path`
+    std::uint64_t ahead_pixels = 0, ahead_samples = 0;   ///< the first pixels have so many more
+    std::uint64_t ring_generations = 0, ring_whole = 0;  ///< an animation's ring; 0: none
     std::uint64_t earlier_paths = 0, earlier_scatterings = 0;  ///< of these, from a state file
     bool interrupted = false;  ///< the user ended the run before its budget
     double tracing_cpu_s = 0, tracing_wall_s = 0;
@@ -96,6 +98,7 @@ struct Report {
     bool has_error = false;
     double mean_relative = 0, rmse_estimate = 0;  ///< over pixels with A > 0.02
 
+    std::vector<std::string> warnings;  ///< a line for each: what makes the picture doubtful
     std::vector<std::pair<std::string, std::uint64_t>> counters;
     std::vector<std::pair<std::string, std::uint64_t>> executed;  ///< 0: left out, and truly so
     std::vector<std::pair<std::string, std::string>> digests;     ///< stage -> 16 hex digits

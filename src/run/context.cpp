@@ -6,6 +6,13 @@
 
 namespace pileus {
 
+std::function<bool()> patient_stop(const Context& context) {
+    if (!context.interrupted) return {};
+    const double since = wall_seconds();
+    return
+        [&context, since] { return wall_seconds() - since > kPatienceSeconds && context.stop(); };
+}
+
 StageClock::StageClock(const Context& context, const char* stage)
     : report_(context.report), stage_(stage), wall_(wall_seconds()), cpu_(cpu_seconds()) {
     context.tell(stage, 0);

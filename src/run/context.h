@@ -18,12 +18,30 @@ struct Context {
     std::uint64_t frames = 1;  ///< pictures of this run
     std::function<void(const char* stage, double share)> progress;
     std::function<bool()> interrupted;  ///< whether the user wants an end
+    std::function<void(bool)> holding;  ///< told whether an end now would lose light
 
     bool stop() const { return interrupted && interrupted(); }
+    void hold(bool light) const {
+        if (holding) holding(light);
+    }
     void tell(const char* stage, double share) const {
         if (progress) progress(stage, share);
     }
 };
+
+/// Pieces [0, pieces) of work over the threads, function(piece, thread), until `ended()` says so:
+/// the calling thread asks before all and between its pieces, the others end after theirs. An empty
+/// function never ends. Returns whether all pieces ran.
+template <class Function>
+bool run_until(int threads, std::int64_t pieces, const std::function<bool()>& ended,
+               Function function);
+
+/// How long a piece of a picture may run before it is ended within, seconds: a shorter one is
+/// finished, so that the picture is one of whole passes.
+constexpr double kPatienceSeconds = 1.0;
+
+/// context.stop(), but only once `kPatienceSeconds` have passed since now.
+std::function<bool()> patient_stop(const Context& context);
 
 /// Adds the time of its scope to the stage of that name.
 class StageClock {
@@ -47,10 +65,29 @@ Status run_rows(const Context& context, Kernel kernel, const Params& params, con
 
 }  // namespace pileus
 
+#include <atomic>
+
 #include "platform/threads.h"
 #include "src/run/device_launch.h"
 
 namespace pileus {
+
+template <class Function>
+bool run_until(int threads, std::int64_t pieces, const std::function<bool()>& ended,
+               Function function) {
+    if (!ended) {
+        parallel_for(threads, pieces, function);
+        return true;
+    }
+    if (ended()) return false;
+    std::atomic<bool> end{false};
+    parallel_for(threads, pieces, [&](std::int64_t piece, int thread) {
+        // Thread 0 is the caller: what it calls back need not be ready for several threads.
+        if (thread == 0 && !end.load() && ended()) end.store(true);
+        if (!end.load()) function(piece, thread);
+    });
+    return !end.load();
+}
 
 template <class Kernel, class Params, class Buffers>
 Status run_rows(const Context& context, Kernel kernel, const Params& params, const Buffers& buffers,

@@ -6,6 +6,7 @@
 #include "platform/fp_mode.h"
 #include "src/io/images/image_file.h"
 #include "src/session/run_context.h"
+#include "src/session/warnings.h"
 
 namespace pileus {
 namespace {
@@ -57,9 +58,12 @@ Status render_frames(const Scene& scene, const Method& method, const RenderOptio
         PILEUS_TRY(method.show(step, context, *run, image));
         take_hash(image, report);
         method.report(*run, report);
+        find_warnings(scene, image, report);
         report.frame_wall_s = wall_seconds() - frame_start.wall_s;
         report.frame_cpu_s = cpu_seconds() - frame_start.cpu_s;
+        context.hold(true);
         PILEUS_TRY(deliver(scene, start, frame, sink, image, report));
+        context.hold(false);
     }
     return Status::ok();
 }

@@ -35,6 +35,9 @@ struct RenderOptions {
     std::function<void(const char* stage, double share)> progress;
     /// Asked now and then whether to end with what there is; the report then says `interrupted`.
     std::function<bool()> interrupted;
+    /// Told true before light is traced or files are written, which an end now would lose, and
+    /// false once the frame's files are there. At all other times a program may simply end.
+    std::function<void(bool)> holding;
 };
 
 /// Called once per frame, in order. The report holds all that is known so far. Returning an

@@ -23,6 +23,7 @@ Status make_context(const Scene& scene, const RenderOptions& options, Context& c
     context.report = &report;
     context.progress = options.progress;
     context.interrupted = options.interrupted;
+    context.holding = options.holding;
     context.limits = options.limits;
     context.frames = std::uint64_t(options.last_frame) - std::uint64_t(options.first_frame) + 1;
     report.version = kVersion;

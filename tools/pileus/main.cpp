@@ -75,6 +75,19 @@ Status check_command(int count, char** words) {
     ::_exit(int(Code::kLimit));
 }
 
+/// Threads that wait by looking again and again take the processors that other programs need, and
+/// ours wait often. The library of threads reads this from the environment before `main`: begin
+/// anew with it, unless the user has chosen. Where that fails, all goes on a little worse.
+void wait_passively(char** words) {
+#ifdef _OPENMP
+    if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr)
+        return;
+    if (::setenv("OMP_WAIT_POLICY", "passive", 0) == 0) (void)::execv("/proc/self/exe", words);
+#else
+    (void)words;
+#endif
+}
+
 /// Set once the exit status is ours.
 bool finished = false;
 
@@ -116,6 +129,7 @@ int run(int count, char** words) {
 }  // namespace pileus
 
 int main(int count, char** words) {
+    pileus::wait_passively(words);
     std::set_new_handler(pileus::on_no_memory);
     (void)std::atexit(pileus::on_exit);
     // A reader that went away is a failed write like any other: files of the frame are taken back.

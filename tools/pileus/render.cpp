@@ -31,7 +31,7 @@ struct RenderArguments {
     std::vector<std::string> files;
     std::optional<std::string> report, frames, exposure, show, state, state_every;
     BlockArguments blocks;
-    bool quiet = false;
+    bool quiet = false, strict = false;
 };
 
 /// Everything a frame needs to be written.
@@ -192,6 +192,13 @@ std::string interrupted_line(int frame, bool numbered, const Report& report) {
                        report.photons);
 }
 
+/// Says each warning once, whatever frame has it; returns whether there are any.
+bool tell_warnings(const Report& report, std::set<std::string>& told) {
+    for (const std::string& warning : report.warnings)
+        if (told.insert(warning).second) std::fprintf(stderr, "warning: %s\n", warning.c_str());
+    return !report.warnings.empty();
+}
+
 Status run_render(RenderArguments& arguments) {
     const double start = wall_seconds();
     Scene scene;
@@ -205,8 +212,12 @@ Status run_render(RenderArguments& arguments) {
         progress.tell(stage, share);
     };
     std::string ended;
-    catch_interrupts();
+    std::set<std::string> told;
+    bool doubtful = false;
+    catch_interrupts("interrupted before there was anything to keep; no file written",
+                     int(Code::kCheckFailed));
     options.interrupted = interrupt_asked;
+    options.holding = hold_interrupts;
     if (!outputs.blocks.file.empty()) {
         Status status = render_blocks(scene, options, outputs.blocks);
         progress.clear();
@@ -218,13 +229,16 @@ Status run_render(RenderArguments& arguments) {
             if (image.pixel_hash.empty()) image.pixel_hash = pixel_hash(image);
             if (report.hash.empty()) report.hash = image.pixel_hash;
             if (report.interrupted) ended = interrupted_line(frame, outputs.numbered, report);
-            return write_frame(outputs, frame, image, report);
+            PILEUS_TRY(write_frame(outputs, frame, image, report));
+            doubtful = tell_warnings(report, told) || doubtful;
+            return Status::ok();
         });
     progress.clear();
     PILEUS_TRY(status);
+    hold_interrupts(true);
     if (!arguments.quiet && !outputs.report_printed)
         PILEUS_TRY(print(fmt::format("{:16} {:.3f} s\n", "total", wall_seconds() - start)));
-    return {Code::kOk, ended};
+    return {doubtful && arguments.strict ? Code::kCheckFailed : Code::kOk, ended};
 }
 
 }  // namespace
@@ -274,6 +288,8 @@ void add_render(CLI::App& app, Chosen& chosen) {
         ->type_name("N");
     command->add_option("--block-side", arguments->blocks.side, "Pixels; left out: 8")
         ->type_name("N");
+    command->add_flag("--strict", arguments->strict,
+                      "Exit status 1 where a picture has warnings; it is written all the same");
     command->add_flag("-q,--quiet", arguments->quiet, "No progress and no total");
     command->callback(
         [arguments, &chosen] { chosen = [arguments] { return run_render(*arguments); }; });

@@ -138,6 +138,16 @@ Json error_of(const Report& report) {
     return {{"mean_relative", report.mean_relative}, {"rmse_estimate", report.rmse_estimate}};
 }
 
+Json ahead_of(const Report& report) {
+    if (report.ahead_pixels == 0) return nullptr;
+    return {{"pixels", report.ahead_pixels}, {"samples", report.ahead_samples}};
+}
+
+Json ring_of(const Report& report) {
+    if (report.ring_whole == 0) return nullptr;
+    return {{"generations", report.ring_generations}, {"whole", report.ring_whole}};
+}
+
 Json light_of(const Report& report) {
     Json difference;
     if (report.buffer_nodes > 0)
@@ -180,6 +190,8 @@ std::string report_json(const Report& report) {
     json["generations"] = report.generations;
     json["paths"] = report.paths;
     json["samples_per_pixel"] = report.samples_per_pixel;
+    json["ahead"] = ahead_of(report);
+    json["ring"] = ring_of(report);
     json["scatterings"] = report.scatterings;
     json["tentative"] = report.tentative;
     json["crossings"] = report.crossings;
@@ -196,6 +208,7 @@ std::string report_json(const Report& report) {
     json["energy"] = energy_of(report);
     json["error"] = error_of(report);
     json["light"] = light_of(report);
+    json["warnings"] = report.warnings;
     json["counters"] = object_of(report.counters);
     json["executed"] = object_of(report.executed);
     json["digests"] = object_of(report.digests);

@@ -285,9 +285,11 @@ Status collectors_set_sun(double elevation_deg, const Context&, CollectorsRun& r
 }
 
 Status collectors_shoot(const Context& context, CollectorsRun& run) {
-    const TraceInput in = collectors_trace_input(context, run);
+    TraceInput in = collectors_trace_input(context, run);
+    in.ended = patient_stop(context);
     PhotonSlot& slot =
-        run.photons.slots[std::size_t(run.next_generation % run.photons.slots.size())];
+        run.photons
+            .slots[std::size_t((run.next_generation - run.ring_first) % run.photons.slots.size())];
     // In an animation each generation has a slot of its own: the oldest gives way, exactly.
     const bool ring = run.photons.slots.size() == run.generations && run.scene->animation.present;
     if (ring && slot.generations > 0) {
@@ -300,8 +302,10 @@ Status collectors_shoot(const Context& context, CollectorsRun& run) {
         slot.flux_per_photon_m2.push_back(l.photons > 0 ? l.power_m2 / double(l.photons) : 0);
         if (l.beam) slot.sun_travel = l.travel;
     }
+    const std::uint64_t before = slot.generations;
     PILEUS_TRY(trace_generation(in, run.next_generation, run.scratch, slot, run.photons.tallies));
-    ++run.next_generation;
+    run.interrupted = slot.generations == before;
+    if (!run.interrupted) ++run.next_generation;
     return Status::ok();
 }
 

@@ -36,6 +36,7 @@ struct CollectorsRun {
     std::vector<std::pair<std::string, std::string>> digests;  ///< of the prepared stages
     TraceScratch scratch;
     std::uint64_t next_generation = 0, generations = 1;
+    std::uint64_t ring_first = 0;  ///< generation in the first slot of a ring that time cut short
     std::uint32_t max_events = 1u << 20;
     NodeGrid shadow_nodes{};
     Buffer<float> shadow;      ///< optical depth to the sun per node
@@ -79,7 +80,8 @@ Status collectors_prepare(const Scene& scene, std::int64_t photons, const Contex
 /// Moves the sun; generations already shot keep the sun they were shot under.
 Status collectors_set_sun(double elevation_deg, const Context& context, CollectorsRun& run);
 
-/// Shoots one generation into its slot of the ring, replacing the oldest where it is full.
+/// Shoots one generation into its slot of the ring, replacing the oldest where it is full; sets
+/// run.interrupted where the user ended it within.
 Status collectors_shoot(const Context& context, CollectorsRun& run);
 
 /// Reconstructs and composites one picture.

@@ -2,6 +2,8 @@
 // Method `collectors` as a recipe: which of its functions a frame calls.
 // in: scene, budget, frames -> out: generations shot, pictures.
 // docs/collectors.md
+#include <algorithm>
+
 #include "platform/clock.h"
 #include "src/methods/collectors/collectors.h"
 
@@ -63,16 +65,20 @@ Status show(const FrameStep& step, const Context& context, MethodRun& run, Image
 
 void report(const MethodRun& run, Report& out) { collectors_report(own(run).collectors, out); }
 
-Status shoot(const Budget& budget, const Context& context, CollectorsRun& run,
-             std::uint64_t count) {
+/// Up to `count` generations, fewer where the time is up or the user wants an end. `aim` does what
+/// the next one asks for first.
+template <class Aim>
+Status shoot(const Budget& budget, const Context& context, CollectorsRun& run, std::uint64_t count,
+             Aim aim) {
     const StageClock clock(context, "photons");
     const double start = wall_seconds();
+    context.hold(true);
     for (std::uint64_t g = 0; g < count; ++g) {
-        if (context.stop()) {
-            run.interrupted = true;
-            break;
-        }
+        run.interrupted = context.stop();
+        if (run.interrupted) break;
+        PILEUS_TRY(aim());
         PILEUS_TRY(collectors_shoot(context, run));
+        if (run.interrupted) break;
         context.tell("photons", double(g + 1) / double(count));
         // Time only chooses a whole number of generations, which the report records.
         if (budget.seconds > 0 && wall_seconds() - start >= budget.seconds) break;
@@ -84,11 +90,30 @@ Status interrupted(const char* what) {
     return {Code::kCheckFailed, std::string("interrupted before ") + what + "; no file written"};
 }
 
-/// The ring of an animation is whole or nothing.
-Status shoot_one(const Budget& budget, const Context& context, CollectorsRun& run) {
-    PILEUS_TRY(shoot(budget, context, run, 1));
+/// The ring of an animation is whole, or as far as the time went.
+Status ring_state(const CollectorsRun& run) {
     return run.interrupted ? interrupted("the frame's ring of generations was whole")
                            : Status::ok();
+}
+
+/// Fills the ring of the first frame that is asked for. Frame f has generations f .. f + p - 1.
+Status fill_ring(const Budget& budget, int frame, const Context& context, CollectorsRun& run) {
+    run.next_generation = std::uint64_t(frame);
+    PILEUS_TRY(shoot(budget, context, run, run.generations, [&] {
+        // Generation g >= p was shot for frame g - p + 1; those before it under frame 0's sun.
+        const std::uint64_t g = run.next_generation;
+        const int shown = g < run.generations ? 0 : int(g - run.generations + 1);
+        return collectors_set_sun(sun_at(*run.scene, shown), context, run);
+    }));
+    // Time cut it short: what there is begins at the first slot, so that no gap lies before it.
+    std::vector<PhotonSlot>& slots = run.photons.slots;
+    if (run.next_generation - std::uint64_t(frame) < slots.size()) {
+        run.ring_first = std::uint64_t(frame);
+        std::rotate(slots.begin(), slots.begin() + std::ptrdiff_t(run.ring_first % slots.size()),
+                    slots.end());
+        PILEUS_TRY(collectors_set_sun(sun_at(*run.scene, frame), context, run));
+    }
+    return ring_state(run);
 }
 
 }  // namespace
@@ -102,24 +127,15 @@ std::int64_t collectors_photons(const Scene& scene, const Budget& budget) {
 Status collectors_light(const Budget& budget, const FrameStep& step, const Context& context,
                         CollectorsRun& run) {
     const Scene& scene = *run.scene;
+    const auto nothing = [] { return Status::ok(); };
     if (!step.first) {
         PILEUS_TRY(collectors_set_sun(sun_at(scene, step.frame), context, run));
-        return shoot_one(budget, context, run);
+        PILEUS_TRY(shoot(budget, context, run, 1, nothing));
+        return ring_state(run);
     }
-    if (!scene.animation.present) {
-        PILEUS_TRY(shoot(budget, context, run, run.generations));
-        return run.next_generation > 0 ? Status::ok() : interrupted("the first generation");
-    }
-    run.next_generation = std::uint64_t(step.frame);
-    const std::uint64_t last = run.next_generation + run.generations;
-    while (run.next_generation < last) {
-        // Generation g >= p was shot for frame g - p + 1; those before it under frame 0's sun.
-        const std::uint64_t g = run.next_generation;
-        const int shown = g < run.generations ? 0 : int(g - run.generations + 1);
-        PILEUS_TRY(collectors_set_sun(sun_at(scene, shown), context, run));
-        PILEUS_TRY(shoot_one(budget, context, run));
-    }
-    return Status::ok();
+    if (scene.animation.present) return fill_ring(budget, step.frame, context, run);
+    PILEUS_TRY(shoot(budget, context, run, run.generations, nothing));
+    return run.next_generation > 0 ? Status::ok() : interrupted("the first generation");
 }
 
 const Method& collectors_method() {

@@ -42,6 +42,13 @@ EnergyRow energy_row(const std::string& light, const Fates& f) {
     return row;
 }
 
+/// Photons that a fate stands for, in the channel that has most of it.
+std::uint64_t photons_in(const std::int64_t (&fate)[3]) {
+    std::int64_t most = 0;
+    for (const std::int64_t quanta : fate) most = quanta > most ? quanta : most;
+    return std::uint64_t((most + kPhotonQuanta - 1) / kPhotonQuanta);
+}
+
 std::string leaf_digest(const CollectorsRun& run) {
     Digest d;
     for (const Leaf& leaf : run.prepared.leaves.span())
@@ -88,6 +95,12 @@ void collectors_report(const CollectorsRun& run, Report& report) {
     report.collectors = run.prepared.collectors.size();
     report.generations = run.next_generation;
     report.interrupted = run.interrupted;
+    report.ring_generations = report.ring_whole = 0;
+    if (run.scene->animation.present && run.photons.slots.size() == run.generations) {
+        report.ring_whole = run.generations;
+        for (const PhotonSlot& slot : run.photons.slots)
+            report.ring_generations += slot.generations > 0 ? 1 : 0;
+    }
     report.energy.clear();
     TraceTally all{};
     for (std::size_t l = 0; l < run.photons.tallies.size(); ++l) {
@@ -112,6 +125,7 @@ void collectors_report(const CollectorsRun& run, Report& report) {
     report.executed.emplace_back("coefficients", coefficients_of(run));
     report.counters.emplace_back("majorant_violations", std::uint64_t(all.majorant_violations));
     report.counters.emplace_back("saturated", 0);  // fixed_point_places proves it
+    report.counters.emplace_back("terminated", photons_in(all.light.terminated));
     report.counters.emplace_back("samples_given_up", run.prepared.rejected);
     report.digests.insert(report.digests.begin(), {"photons", photon_digest(run)});
     report.digests.insert(report.digests.begin(), run.digests.begin(), run.digests.end());

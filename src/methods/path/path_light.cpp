@@ -53,9 +53,10 @@ struct Keeper {
 };
 
 /// Passes until the rule is met or the user wants an end.
-Status trace_passes(const PassRule& rule, const Context& context, const PathInput& in,
-                    Keeper& keeper, PathRun& run) {
+Status trace_passes(const PassRule& rule, const Context& context, PathInput in, Keeper& keeper,
+                    PathRun& run) {
     const StageClock clock(context, "paths");
+    context.hold(true);
     const double start = wall_seconds();
     std::uint64_t last = 0;
     double last_s = 0;
@@ -70,6 +71,7 @@ Status trace_passes(const PassRule& rule, const Context& context, const PathInpu
         }
         const std::uint64_t count =
             pass_samples(rule, run.film.samples, last, last_s, rule.seconds - spent_s);
+        in.ended = patient_stop(context);
         PILEUS_TRY(trace_paths(in, count, run.scratch, run.film));
         last = count;
         last_s = wall_seconds() - start - spent_s;
@@ -85,8 +87,9 @@ Status resume(const PassRule& rule, const Keeper& keeper, PathRun& run) {
     PILEUS_TRY(can_write_file(keeper.path));
     PILEUS_TRY(read_path_state(keeper.path, keeper.digest, run.film));
     add_tally(run.film.tally, run.earlier);
-    if (run.film.samples <= rule.most) return Status::ok();
-    return Status::bad_input(keeper.path + ": state: holds " + std::to_string(run.film.samples) +
+    const std::uint64_t samples = run.film.samples + run.film.ahead_samples;
+    if (samples <= rule.most) return Status::ok();
+    return Status::bad_input(keeper.path + ": state: holds " + std::to_string(samples) +
                              " samples per pixel, " + std::to_string(rule.most) +
                              " asked for, allowed: as many or more, or another file");
 }
@@ -108,9 +111,14 @@ Status path_light(const FrameStep& step, const Context& context, MethodRun& meth
     PILEUS_TRY(prepare_path(in, run.scratch));
 
     PILEUS_TRY(trace_passes(rule, context, in, keeper, run));
-    if (run.film.samples == 0)
+    if (run.film.samples == 0) {
+        const bool keeps = !keeper.path.empty() && run.film.ahead > 0;
+        if (keeps) PILEUS_TRY(keeper.save(run.film));
         return {Code::kCheckFailed,
-                "interrupted before the first sample of every pixel; no file written"};
+                "interrupted before the first sample of every pixel; " +
+                    (keeps ? "no picture written, progress kept in " + keeper.path
+                           : std::string("no file written"))};
+    }
     PILEUS_TRY(keeper.save(run.film));
     run.scratch = PathScratch{};
     add_tally(run.film.tally, run.tally);

@@ -96,6 +96,8 @@ Status path_show(const FrameStep&, const Context& context, MethodRun& method_run
                        {"film_parts", std::uint64_t(run.film.parts)}};
     report_solids(run.world.solids, report);
     report.samples_per_pixel = run.film.samples;
+    report.ahead_pixels = run.film.ahead;
+    report.ahead_samples = run.film.ahead > 0 ? run.film.ahead_samples : 0;
     set_image_camera(run.camera, run.world.medium.low_m, image);
     run.planes = Planes{};
     run.film.sum = Buffer<double>();

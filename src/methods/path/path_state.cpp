@@ -10,8 +10,9 @@ namespace pileus {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x4d4c494653554c50;  // "PLUSFILM"
-constexpr std::uint64_t kFormat = 1;
-constexpr std::size_t kHeadWords = 7;  // magic, format, digest, width, height, parts, samples
+constexpr std::uint64_t kFormat = 2;
+// Magic, format, digest, width, height, parts, samples, pixels ahead and by how many samples.
+constexpr std::size_t kHeadWords = 9;
 constexpr std::size_t kTallyWords = sizeof(PathTally) / sizeof(std::int64_t);
 constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 40;
 
@@ -132,6 +133,9 @@ Status check_head(const std::string& path, Span<const char> bytes, std::uint64_t
         word_at(bytes, 4) != std::uint64_t(film.height) ||
         word_at(bytes, 5) != std::uint64_t(film.parts))
         return fault(path, "of another scene, seed, layers or version");
+    const std::uint64_t ahead = word_at(bytes, 7), more = word_at(bytes, 8);
+    if (ahead > 0 && (ahead >= film.pixels() || more == 0 || more > 0xffffffffu / film.pixels()))
+        return fault(path, "damaged, a pass that cannot be");
     return samples <= kMostSamples ? Status::ok() : fault(path, "damaged, too many samples");
 }
 
@@ -168,6 +172,8 @@ Status decode(const std::string& path, Span<const char> bytes, std::uint64_t dig
     finite = take_doubles(bytes, sums + film.sum.size(), film.square) && finite;
     if (!finite) return fault(path, "damaged, a sum is no finite number");
     film.samples = word_at(bytes, 6);
+    film.ahead = word_at(bytes, 7);
+    film.ahead_samples = film.ahead > 0 ? word_at(bytes, 8) : 0;
     return Status::ok();
 }
 
@@ -206,8 +212,9 @@ Status write_path_state(const std::string& path, std::uint64_t digest, const Fil
     Buffer<char> bytes;
     PILEUS_TRY(bytes.resize(8 * std::uint64_t(total_words(film)), "state file"));
     Writer out{bytes.data(), {}};
-    for (std::uint64_t word : {kMagic, kFormat, digest, std::uint64_t(film.width),
-                               std::uint64_t(film.height), std::uint64_t(film.parts), film.samples})
+    for (std::uint64_t word :
+         {kMagic, kFormat, digest, std::uint64_t(film.width), std::uint64_t(film.height),
+          std::uint64_t(film.parts), film.samples, film.ahead, film.ahead_samples})
         out.word(word);
     std::int64_t tally[kTallyWords];
     std::memcpy(tally, &film.tally, sizeof tally);

@@ -5,6 +5,7 @@
 #include "platform/threads.h"
 #include "src/base/random_streams.h"
 #include "src/methods/path/path_blocks.h"
+#include "src/run/context.h"
 #include "src/run/device_launch.h"
 #include "src/world/majorant/majorants.h"
 #include "src/world/solids/solids.h"
@@ -79,15 +80,17 @@ PathParams path_params(const PathInput& in, const PathScratch& scratch) {
     return k;
 }
 
-/// Traces the samples of a launch, which fit the scratch.
+/// Traces the samples of a launch, which fit the scratch. `ended`: not all of them, because `in`
+/// said so.
 Status run_launch(const PathInput& in, const PathParams& k, std::uint64_t count,
-                  PathScratch& scratch) {
+                  const std::function<bool()>& ask, PathScratch& scratch, bool& ended) {
+    ended = false;
     if (in.kernels->device != nullptr)
         return launch_on_device(*in.kernels->device, k,
                                 {scratch.radiance.data(), scratch.capacity, &scratch.tallies[0]},
                                 std::uint32_t(count));
     const std::uint64_t pieces = (count + kPiece - 1) / kPiece;
-    parallel_for(in.threads, std::int64_t(pieces), [&](std::int64_t piece, int thread) {
+    ended = !run_until(in.threads, std::int64_t(pieces), ask, [&](std::int64_t piece, int thread) {
         const std::uint64_t begin = std::uint64_t(piece) * kPiece;
         const PathBuffers b{scratch.radiance.data(), scratch.capacity,
                             &scratch.tallies[std::size_t(thread) * 2]};
@@ -121,17 +124,37 @@ void add_samples(const PathInput& in, const PathParams& k, std::uint64_t count,
     });
 }
 
-/// Samples [first, first + count) of every pixel; they share a key.
-Status trace_run(const PathInput& in, PathParams& k, std::uint64_t count, PathScratch& scratch,
-                 Film& film) {
+/// Moves the threads' tallies into the film's, or forgets them.
+void take_tallies(const PathInput& in, bool count, PathScratch& scratch, Film& film) {
+    for (int t = 0; t < in.threads; ++t) {
+        PathTally& own = scratch.tallies[std::size_t(t) * 2];
+        if (count) add_tally(own, film.tally);
+        own = PathTally{};
+    }
+}
+
+/// The pass that the film is in, from pixel film.ahead on: film.ahead_samples samples of every
+/// pixel, from number k.first_sample on; they share a key. film.ahead is where it came to.
+Status trace_run(const PathInput& in, PathParams& k, PathScratch& scratch, Film& film) {
     // As many samples of as few pixels as the scratch holds: neighbours in a lane meet one memory.
-    k.per_pixel = std::uint32_t(smaller(count, scratch.capacity));
-    const std::uint64_t pixels = film_pixels(in), band = scratch.capacity / k.per_pixel;
-    for (std::uint64_t first = 0; first < pixels; first += band) {
-        k.first_pixel = std::uint32_t(first);
-        const std::uint64_t samples = smaller(band, pixels - first) * k.per_pixel;
-        PILEUS_TRY(run_launch(in, k, samples, scratch));
-        add_samples(in, k, samples, scratch, film);
+    const std::uint64_t count = film.ahead_samples, pixels = film_pixels(in);
+    const std::uint64_t number = k.first_sample, most = smaller(count, scratch.capacity);
+    const std::uint64_t band = scratch.capacity / most;
+    // Pixels whose samples take several launches are finished.
+    const std::function<bool()> ask = most == count ? in.ended : std::function<bool()>{};
+    while (film.ahead < pixels) {
+        k.first_pixel = std::uint32_t(film.ahead);
+        const std::uint64_t here = smaller(band, pixels - film.ahead);
+        for (std::uint64_t done = 0; done < count; done += most) {
+            k.first_sample = std::uint32_t(number + done);
+            k.per_pixel = std::uint32_t(smaller(most, count - done));
+            bool ended = false;
+            PILEUS_TRY(run_launch(in, k, here * k.per_pixel, ask, scratch, ended));
+            take_tallies(in, !ended, scratch, film);
+            if (ended) return Status::ok();
+            add_samples(in, k, here * k.per_pixel, scratch, film);
+        }
+        film.ahead += here;
     }
     return Status::ok();
 }
@@ -158,7 +181,7 @@ Status make_film(const PathInput& in, Film& film) {
     film.width = in.camera.width;
     film.height = in.camera.height;
     film.parts = parts_of(in);
-    film.samples = 0;
+    film.samples = film.ahead = film.ahead_samples = 0;
     film.tally = PathTally{};
     PILEUS_TRY(film.sum.resize(film_pixels(in) * 3 * std::uint64_t(film.parts), "film"));
     return film.square.resize(film_pixels(in) * 3, "film");
@@ -183,29 +206,29 @@ Status trace_paths(const PathInput& in, std::uint64_t samples, PathScratch& scra
     const std::uint64_t shared = samples_per_key(in);
     while (samples > 0) {
         const std::uint64_t number = film.samples % shared;
-        const std::uint64_t count = smaller(smaller(samples, shared - number), scratch.capacity);
+        if (film.ahead == 0)
+            film.ahead_samples = smaller(smaller(samples, shared - number), scratch.capacity);
         k.key = make_key(in.seed, kPathStream, std::uint32_t(film.samples / shared));
         k.first_sample = std::uint32_t(number);
-        PILEUS_TRY(trace_run(in, k, count, scratch, film));
-        film.samples += count;
-        samples -= count;
-    }
-    for (int t = 0; t < in.threads; ++t) {
-        add_tally(scratch.tallies[std::size_t(t) * 2], film.tally);
-        scratch.tallies[std::size_t(t) * 2] = PathTally{};
+        PILEUS_TRY(trace_run(in, k, scratch, film));
+        if (film.ahead < film_pixels(in)) return Status::ok();
+        samples -= smaller(samples, film.ahead_samples);
+        film.samples += film.ahead_samples;
+        film.ahead = film.ahead_samples = 0;
     }
     return Status::ok();
 }
 
 double film_mean(const Film& film, int part, int channel, std::size_t pixel) {
-    if (film.samples == 0) return 0;
+    const std::uint64_t samples = film.samples_of(pixel);
+    if (samples == 0) return 0;
     const std::size_t plane = std::size_t(part) * 3 + std::size_t(channel);
-    return film.sum[plane * film.pixels() + pixel] / double(film.samples);
+    return film.sum[plane * film.pixels() + pixel] / double(samples);
 }
 
 double film_error(const Film& film, int channel, std::size_t pixel) {
-    if (film.samples < 2) return 0;
-    const double n = double(film.samples), mean = film_mean(film, 0, channel, pixel);
+    if (film.samples_of(pixel) < 2) return 0;
+    const double n = double(film.samples_of(pixel)), mean = film_mean(film, 0, channel, pixel);
     const double square = film.square[std::size_t(channel) * film.pixels() + pixel];
     const double variance = (square / n - mean * mean) / (n - 1);
     return variance > 0 ? __builtin_sqrt(variance) : 0;

@@ -3,6 +3,7 @@
 // in: medium, light, camera, majorants -> out: sums and sums of squares of independent samples.
 // docs/path.md; a sample is a function of (seed, film size, pixel, number) alone.
 #pragma once
+#include <functional>
 #include <vector>
 
 #include "kernels_cpu/isa/kernels.h"
@@ -31,6 +32,7 @@ struct PathInput {
     std::uint32_t max_events = 1u << 24;  ///< draws per path before it is given up
     /// Shadow rays that bring less than this share of their light, 1/sr, play roulette; 0: all fly.
     float light_roulette = kLightRoulette;
+    std::function<bool()> ended{};  ///< asked between pieces of work whether to end there
 };
 
 /// What samples have brought so far. Start with make_film; pixels are row by row from the top.
@@ -38,11 +40,16 @@ struct Film {
     int width = 0, height = 0;
     int parts = 1;              ///< groups of three channels: 1, or kPathParts
     std::uint64_t samples = 0;  ///< per pixel
-    Buffer<double> sum;         ///< [part * 3 + channel][pixel], radiance (flux camera: irradiance)
-    Buffer<double> square;      ///< [channel][pixel], of the samples of the total
+    /// Of a pass that was ended within: pixels [0, ahead) have `ahead_samples` more.
+    std::uint64_t ahead = 0, ahead_samples = 0;
+    Buffer<double> sum;     ///< [part * 3 + channel][pixel], radiance (flux camera: irradiance)
+    Buffer<double> square;  ///< [channel][pixel], of the samples of the total
     PathTally tally{};
 
     std::size_t pixels() const { return std::size_t(width) * std::size_t(height); }
+    std::uint64_t samples_of(std::size_t pixel) const {
+        return pixel < ahead ? samples + ahead_samples : samples;
+    }
 };
 
 /// Memory of the tracer between calls: samples that are not added up yet, tallies per thread.
@@ -66,7 +73,9 @@ std::uint64_t path_scratch_bytes(const PathInput& in);
 Status prepare_path(const PathInput& in, PathScratch& scratch);
 
 /// Adds `samples` samples to every pixel, numbers film.samples and up: N and then M are, to the
-/// bit, N + M at once, with any number of threads. Errors: kLimit where memory is missing.
+/// bit, N + M at once, with any number of threads. A pass that was ended within is finished first,
+/// and its samples count. Where `in.ended` ends it, film.ahead says how far the last pass came.
+/// Errors: kLimit where memory is missing.
 Status trace_paths(const PathInput& in, std::uint64_t samples, PathScratch& scratch, Film& film);
 
 /// Mean of a part and channel of a pixel; 0 without samples.

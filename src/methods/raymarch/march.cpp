@@ -250,19 +250,22 @@ Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes&
     b.colour = planes.colour.data();
     b.ray_depth = planes.optical_depth.data();
     b.counts = counts.data();
-    parallel_for(context.threads, (rows + kPiece - 1) / kPiece, [&](std::int64_t piece, int) {
+    const auto march = [&](std::int64_t piece, int) {
         const std::uint32_t begin = std::uint32_t(piece) * kPiece;
         const std::uint32_t end = begin + kPiece < rows ? begin + kPiece : rows;
         if (in.layer != nullptr)
             context.kernels->sky->raymarch_rows(k, in.layer->params, b, begin, end);
         else
             context.kernels->raymarch_rows(k, b, begin, end);
-    });
+    };
+    if (!run_until(context.threads, (rows + kPiece - 1) / kPiece, context.interrupted, march))
+        return {Code::kCheckFailed, "interrupted before the picture was whole; no file written"};
     for (std::size_t row = 0; row < rows; ++row) {
         const std::int64_t* own = counts.data() + row * kRaymarchCounts;
         tally.samples += std::uint64_t(own[kCountSamples]);
         tally.light_samples += std::uint64_t(own[kCountLightSamples]);
         tally.breaches += std::uint64_t(own[kCountBreaches]);
+        tally.cut += std::uint64_t(own[kCountCut]);
     }
     return Status::ok();
 }

@@ -148,6 +148,7 @@ void raymarch_report(const MethodRun& method_run, Report& report) {
     const RaymarchRun& run = static_cast<const RaymarchRun&>(method_run);
     report.counters.emplace_back("majorant_violations", 0);  // bounds only say where nothing is
     report.counters.emplace_back("bound_breaches", run.tally.breaches);
+    report.counters.emplace_back("rays_cut", run.tally.cut);
     report.executed.emplace_back("density_levels", run.coarse.size());
     report.executed.emplace_back("marched_pixels", run.upsample.marched);
     report.executed.emplace_back("recalled_pixels", run.upsample.recalled);

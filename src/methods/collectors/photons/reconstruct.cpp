@@ -116,7 +116,7 @@ void slot_sums(const ReconstructInput& in, const PhotonSlot& slot, std::size_t l
     const std::uint64_t stride = slot.sums.size() / in.lighting->lights.size();
     const std::int64_t* from = slot.sums.data() + light * stride + set * std::uint64_t(n);
     const double norm = slot.flux_per_photon_m2[light] /
-                        double(std::uint64_t{1} << in.deposit.places) / double(slot.generations);
+                        double(std::uint64_t{1} << in.deposit.places) / slot.generations_of(light);
     for (int i = 0; i < n; ++i) sums[i] = double(from[i]) * norm;
 }
 
@@ -327,6 +327,15 @@ Status reconstruct_ground(const ReconstructInput& in, const GroundMap& map, int 
     for (std::size_t s = first; s < last; ++s)
         generations += double(in.photons->slots[s].generations);
     if (!(generations > 0)) return Status::ok();
+    // What a generation that was ended within has brought counts for the lights that it reached.
+    std::vector<double> whole;
+    for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {
+        double shot = 0;
+        for (std::size_t s = first; s < last; ++s)
+            if (in.photons->slots[s].generations > 0)
+                shot += in.photons->slots[s].generations_of(l);
+        whole.push_back(generations / shot);
+    }
     // Irradiance = flux per cell area; a Lambertian ground sends albedo / pi of it back.
     const double unit = in.lighting->ground_albedo / 3.14159265358979323846 *
                         double(map.per_metre[0]) * double(map.per_metre[1]) /
@@ -343,7 +352,7 @@ Status reconstruct_ground(const ReconstructInput& in, const GroundMap& map, int 
                     slot.sums.data() + (l + 1) * stride - (cells - i) * channels;
                 for (std::size_t c = 0; c < 3; ++c)
                     rgb[c] += double(cell[channels == 3 ? c : 0]) * slot.flux_per_photon_m2[l] *
-                              in.lighting->lights[l].colour[c];
+                              in.lighting->lights[l].colour[c] * whole[l];
             }
         }
         for (std::size_t c = 0; c < 3; ++c) radiance[c * cells + i] = float(rgb[c] * unit);

@@ -5,6 +5,7 @@
 #include "kernels_cpu/core/accumulate.h"
 #include "platform/threads.h"
 #include "src/base/random_streams.h"
+#include "src/run/context.h"
 #include "src/run/device_launch.h"
 #include "src/world/majorant/majorant.h"
 #include "src/world/solids/solids.h"
@@ -61,13 +62,14 @@ Status run_on_device(const Launch& launch) {
                             std::uint32_t(launch.count));
 }
 
-Status run_launch(const Launch& launch, int threads) {
+/// `ended`: not all photons ran, because the input said so.
+Status run_launch(const Launch& launch, int threads, bool& ended) {
     if (launch.in->kernels->device != nullptr) return run_on_device(launch);
     const std::uint64_t pieces = (launch.count + kChunk - 1) / kChunk;
     if (launch.in->shared_sums && !kSharesSums) threads = 1;
-    parallel_for(threads, std::int64_t(pieces), [&](std::int64_t piece, int thread) {
-        run_piece(launch, std::uint64_t(piece), thread);
-    });
+    ended = !run_until(
+        threads, std::int64_t(pieces), launch.in->ended,
+        [&](std::int64_t piece, int thread) { run_piece(launch, std::uint64_t(piece), thread); });
     return Status::ok();
 }
 
@@ -169,19 +171,22 @@ Status prepare_trace(const TraceInput& in, TraceScratch& scratch) {
 Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScratch& scratch,
                         PhotonSlot& slot, std::vector<TraceTally>& tallies) {
     const std::uint64_t stride = slot_stride(in);
-    for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {
+    std::vector<double> parts;
+    bool ended = false;
+    for (std::size_t l = 0; l < in.lighting->lights.size() && !ended; ++l) {
         const Light& light = in.lighting->lights[l];
         Launch launch{&in, &scratch, launch_params(in, light, generation), 0,
                       slot.sums.data() + l * stride};
         // Split where the photon index passes a multiple of 2^32: its high half is in the key.
         std::uint64_t index = generation * light.photons, left = light.photons;
-        while (left > 0) {
+        std::int64_t photons = 0;
+        while (left > 0 && !ended) {
             const std::uint64_t room = (std::uint64_t{1} << 32) - (index & 0xffffffffu);
             launch.count = left < room ? left : room;
             if (launch.count > kMostPhotons) launch.count = kMostPhotons;
             launch.params.first_photon = std::uint32_t(index);
             launch.params.key = make_key(in.seed, light.stream, std::uint32_t(index >> 32));
-            PILEUS_TRY(run_launch(launch, in.threads));
+            PILEUS_TRY(run_launch(launch, in.threads, ended));
             index += launch.count;
             left -= launch.count;
             launch.params.shift[0] += std::uint32_t(launch.count) * kR2[0];
@@ -192,11 +197,18 @@ Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScr
                 move_sums(scratch.sums.data() + std::uint64_t(t) * scratch.stride, launch.total,
                           stride);
             slot.scatterings += scratch.tallies[std::size_t(t) * 2].scatterings;
+            photons += scratch.tallies[std::size_t(t) * 2].photons;
             add_tally(scratch.tallies[std::size_t(t) * 2], tallies[l]);
             scratch.tallies[std::size_t(t) * 2] = TraceTally{};
         }
+        parts.push_back(light.photons > 0 ? double(photons) / double(light.photons) : 1.0);
     }
-    ++slot.generations;
+    if (ended) {
+        parts.resize(in.lighting->lights.size(), 0.0);
+        slot.parts = parts;
+    } else {
+        ++slot.generations;
+    }
     return Status::ok();
 }
 

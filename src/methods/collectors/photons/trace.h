@@ -3,6 +3,7 @@
 // in: medium, lights, a map from voxels to collectors -> out: one slot of sums per batch, ledgers.
 // docs/methods.md 3; the result is a function of (seed, light, photon index) alone.
 #pragma once
+#include <functional>
 #include <vector>
 
 #include "kernels_cpu/isa/kernels.h"
@@ -48,7 +49,8 @@ struct TraceInput {
     const KernelTable* kernels = nullptr;
     std::uint32_t max_events = 1u << 20;
     GroundMap ground{};
-    bool shared_sums = false;  ///< all threads add atomically to one set of sums
+    bool shared_sums = false;       ///< all threads add atomically to one set of sums
+    std::function<bool()> ended{};  ///< asked between pieces of work whether to end there
 };
 
 /// Sums of all lights of one batch: [light], each [collector][channel][coefficient] and then
@@ -59,6 +61,12 @@ struct PhotonSlot {
     std::int64_t scatterings = 0;            ///< of these generations
     std::vector<double> flux_per_photon_m2;  ///< per light, for unit radiance or irradiance
     std::array<float, 3> sun_travel{0, 0, -1};
+    std::vector<double> parts;  ///< per light, of a generation that was ended within; empty: none
+
+    /// Generations of a light, parts of one included.
+    double generations_of(std::size_t light) const {
+        return double(generations) + (parts.empty() ? 0.0 : parts[light]);
+    }
 };
 
 struct Photons {
@@ -83,7 +91,8 @@ Status prepare_trace(const TraceInput& in, TraceScratch& scratch);
 TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_t generation);
 
 /// Shoots one generation of every light into `slot` and adds to the tallies. Generation numbers
-/// may grow without bound; each has photons of its own.
+/// may grow without bound; each has photons of its own. Where `in.ended` ends it, it does not
+/// count: slot.parts says how much of it each light has shot.
 Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScratch& scratch,
                         PhotonSlot& slot, std::vector<TraceTally>& tallies);
 

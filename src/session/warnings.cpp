@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// See warnings.h.
+#include "src/api/warnings.h"
+
+namespace pileus {
+namespace {
+
+constexpr Accident kAccidents[] = {
+    {"majorant_violations", "extinctions above their bound, so that light is too bright or dark"},
+    {"saturated", "sums held at their largest value, so that light is missing"},
+    {"terminated", "photons, paths or flights given up by a limit, so that light is missing"},
+    {"nan", "numbers of the picture that were none, written as 0"},
+    {"nan_samples", "samples that were no finite number and count as 0"},
+    {"samples_given_up", "sample points of collectors that found no place in the medium"},
+    {"bound_breaches", "pixels brighter than their light allows, scaled down to it"},
+    {"rays_cut", "rays given up before their end, so that the medium's far side is missing"},
+};
+
+/// Whether the picture has an alpha and it is 0 everywhere.
+bool shows_nothing(const Image& image) {
+    const Channel* alpha = image.find("A");
+    if (alpha == nullptr) return false;
+    for (const float a : alpha->pixels.span())
+        if (a != 0.0f) return false;
+    return true;
+}
+
+}  // namespace
+
+Span<const Accident> accidents() { return {kAccidents, sizeof kAccidents / sizeof kAccidents[0]}; }
+
+void find_warnings(const Scene& scene, const Image& image, Report& report) {
+    report.warnings.clear();
+    for (const auto& counter : report.counters)
+        for (const Accident& accident : accidents())
+            if (counter.second > 0 && counter.first == accident.counter)
+                report.warnings.push_back("counters." + counter.first + ": " +
+                                          std::to_string(counter.second) + " " + accident.meaning);
+    if (!scene.media.empty() && shows_nothing(image))
+        report.warnings.push_back(
+            scene.file +
+            ": no ray meets the medium, or it is too thin to be seen: does the camera look at its "
+            "bounds_m, and are all lengths in metres?");
+}
+
+}  // namespace pileus

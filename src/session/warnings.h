@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// What makes a finished picture doubtful, in lines for a person.
+// in: a picture and the report of its run -> out: the report's warnings.
+// docs/report.md, "Accidents"
+#pragma once
+#include "src/base/report.h"
+#include "src/base/span.h"
+#include "src/io/image.h"
+#include "src/scene/scene.h"
+
+namespace pileus {
+
+/// A counter that is 0 in every sound run.
+struct Accident {
+    const char* counter;
+    const char* meaning;
+};
+
+/// All of them; a constant table. Counters that are not in it merely count.
+Span<const Accident> accidents();
+
+/// Sets report.warnings: one line for each accident that happened, and one where a scene has media
+/// that no pixel shows.
+void find_warnings(const Scene& scene, const Image& image, Report& report);
+
+}  // namespace pileus

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+// Pictures that are doubtful say so: accidents that were counted, media that no ray meets.
+// in: reports and small scenes -> out: lines of warning.
+// docs/report.md, "Accidents"
+#include "src/api/warnings.h"
+
+#include <set>
+
+#include "tests/stiff/stiff_scene.h"
+
+using namespace stiff_test;
+
+namespace {
+
+Scene by_method(const char* method, Keys keys) {
+    keys.push_back(std::string("method.name=") + method);
+    keys.push_back("path.samples_per_pixel=2");
+    return bent_scene(keys);
+}
+
+bool unseen(const Picture& p) {
+    for (const std::string& warning : p.report.warnings)
+        if (warning.find("no ray meets the medium") != std::string::npos) return true;
+    return false;
+}
+
+}  // namespace
+
+TEST_CASE("each accident has a line with its number, other counters have none") {
+    Image image;
+    for (const Accident& accident : accidents()) {
+        Report report;
+        report.counters = {{accident.counter, 3}, {"clamped_negative", 5}};
+        find_warnings(Scene{}, image, report);
+        REQUIRE(report.warnings.size() == 1);
+        CHECK(report.warnings[0] ==
+              "counters." + std::string(accident.counter) + ": 3 " + accident.meaning);
+        report.counters = {{accident.counter, 0}, {"degenerate_triangles", 2}};
+        find_warnings(Scene{}, image, report);
+        CHECK(report.warnings.empty());
+    }
+}
+
+TEST_CASE("every method reports the accidents that can happen to it") {
+    std::set<std::string> met;
+    for (const char* method : {"path", "collectors", "raymarch"}) {
+        const Picture p = render_sound(by_method(method, {}));
+        for (const auto& counter : p.report.counters)
+            for (const Accident& accident : accidents())
+                if (counter.first == accident.counter) {
+                    met.insert(counter.first);
+                    CHECK(counter.second == 0);
+                }
+        CHECK(p.report.warnings.empty());
+    }
+    for (const Accident& accident : accidents()) {
+        CAPTURE(std::string(accident.counter));
+        CHECK(met.count(accident.counter) == 1);
+    }
+}
+
+TEST_CASE("a medium that no ray meets is a warning in every method") {
+    const Keys away = {"camera.target_m=[0,-6000,1100]"};
+    // Bounds in kilometres where metres are meant.
+    const Keys tiny = {"medium.0.bounds_m=[[-0.8,-0.8,0.6],[0.8,0.8,1.7]]"};
+    for (const char* method : {"path", "collectors", "raymarch"}) {
+        CAPTURE(method);
+        CHECK(unseen(render_sound(by_method(method, away))));
+        CHECK(unseen(render_sound(by_method(method, tiny))));
+        CHECK_FALSE(unseen(render_sound(by_method(method, {}))));
+    }
+}
