@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // See warnings.h.
-#include "src/api/warnings.h"
+#include "src/session/warnings.h"
 
 namespace pileus {
 namespace {

@@ -5,7 +5,7 @@
 #pragma once
 #include "src/base/report.h"
 #include "src/base/span.h"
-#include "src/io/image.h"
+#include "src/io/images/image.h"
 #include "src/scene/scene.h"
 
 namespace pileus {

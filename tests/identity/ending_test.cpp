@@ -4,10 +4,10 @@
 // docs/program.md, "Interrupting" and "Budgets"
 #include <memory>
 
-#include "src/methods/path_state.h"
+#include "src/methods/path/path_state.h"
 #include "tests/io/temp_folder.h"
-#include "tests/path_harness.h"
-#include "tests/render_harness.h"
+#include "tests/support/path_harness.h"
+#include "tests/support/render_harness.h"
 
 using namespace path_test;
 using render_test::kSmallCumulus;

@@ -2,13 +2,13 @@
 // Flights along the axes: from faces of voxels, blocks and the grid, with zeros of either sign.
 // in: small grids of blocks -> out: every block on the way holds the place, and the way ends.
 // docs/path.md, "Flight"
-#include "kernels_cpu/flight.h"
+#include "kernels_cpu/media/flight.h"
 
 #include <doctest/doctest.h>
 
 #include <limits>
 
-#include "src/stages/path_blocks.h"
+#include "src/methods/path/path_blocks.h"
 
 namespace {
 

@@ -2,7 +2,7 @@
 // Suns on the axes and views along them, rays in the faces of voxels: every method and boundary.
 // in: one small cloud on uneven grids -> out: pictures without accidents, as beside the axis.
 // docs/testing.md, "Stiff cases"
-#include "src/api/warnings.h"
+#include "src/session/warnings.h"
 #include "tests/stiff/stiff_scene.h"
 
 using namespace stiff_test;

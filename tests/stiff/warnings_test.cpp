@@ -2,7 +2,7 @@
 // Pictures that are doubtful say so: accidents that were counted, media that no ray meets.
 // in: reports and small scenes -> out: lines of warning.
 // docs/report.md, "Accidents"
-#include "src/api/warnings.h"
+#include "src/session/warnings.h"
 
 #include <set>
 
