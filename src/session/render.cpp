@@ -58,7 +58,7 @@ Status render_frames(const Scene& scene, const Method& method, const RenderOptio
         PILEUS_TRY(method.show(step, context, *run, image));
         take_hash(image, report);
         method.report(*run, report);
-        find_warnings(scene, image, report);
+        if (options.show.empty()) find_warnings(scene, image, report);
         report.frame_wall_s = wall_seconds() - frame_start.wall_s;
         report.frame_cpu_s = cpu_seconds() - frame_start.cpu_s;
         context.hold(true);
