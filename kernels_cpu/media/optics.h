@@ -15,7 +15,7 @@ constexpr int kMostMedia = 8;
 struct Optics {
     float albedo[3] = {1, 1, 1};  ///< per channel; only [0] counts when channels = 1
     float albedo_max = 1;         ///< survival probability of a collision
-    PhaseParams phase = {kPhaseHg, 0, 0, 1};
+    PhaseParams phase;
 };
 
 inline namespace PILEUS_ISA {

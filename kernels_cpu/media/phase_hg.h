@@ -3,15 +3,10 @@
 // in: one uniform in (0,1) or 1-cos(theta) -> out: 1-cos and sin of the turn, or density in 1/sr.
 // docs/phase.md: without cancellation for any g; carries 1-cos(theta), not cos(theta).
 #pragma once
-#include "kernels_cpu/core/math.h"
+#include "kernels_cpu/media/phase_params.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
-
-template <class T>
-struct Turn {
-    T one_minus_cos, sine;
-};
 
 /// HG for any |g| <= 1, u in (0,1); u -> 0 is forward for g > 0. 1-cos in [0, 2], error <= 4.5e-7
 /// absolute and relative; sine in [0, 1], error <= 4.5e-7 relative.
@@ -50,6 +45,22 @@ PILEUS_FN float hg_moment(float g, int l) {
     for (int i = 0; i < l; ++i) power = power * g;
     return power;
 }
+
+/// Reads g1, the mean cosine.
+struct HgPhase {
+    template <class T>
+    PILEUS_FN Turn<T> sample(const PhaseParams& p, T u) {
+        return hg_sample(all<T>(p.g1), u);
+    }
+
+    template <class T>
+    PILEUS_FN T density(const PhaseParams& p, T one_minus_cos) {
+        return hg_density(all<T>(p.g1), one_minus_cos);
+    }
+
+    PILEUS_FN float peak(const PhaseParams& p) { return peak_at_ends<HgPhase>(p); }
+    PILEUS_FN float moment(const PhaseParams& p, int l) { return hg_moment(p.g1, l); }
+};
 
 }  // namespace PILEUS_ISA
 }  // namespace pileus

@@ -3,7 +3,7 @@
 // in: the table's arrays, one uniform or 1-cos -> out: a turn, or density in 1/sr.
 // docs/phase.md, "Tables": both use the same function; each cell inverts its quadratic share.
 #pragma once
-#include "kernels_cpu/media/phase_hg.h"
+#include "kernels_cpu/media/phase_params.h"
 
 namespace pileus {
 
@@ -93,6 +93,21 @@ PILEUS_FN T table_density(const PhaseTable& t, T one_minus_cos) {
     // Rounding must not lead above both ends: the peak bounds sums.
     return min_((1.0f - f) * a + f * b, max_(a, b));
 }
+
+struct TablePhase {
+    template <class T>
+    PILEUS_FN Turn<T> sample(const PhaseParams& p, T u) {
+        return table_sample(*p.table, u);
+    }
+
+    template <class T>
+    PILEUS_FN T density(const PhaseParams& p, T one_minus_cos) {
+        return table_density(*p.table, one_minus_cos);
+    }
+
+    PILEUS_FN float peak(const PhaseParams& p) { return p.table->peak; }
+    PILEUS_FN float moment(const PhaseParams& p, int l) { return p.table->moment[l]; }
+};
 
 }  // namespace PILEUS_ISA
 }  // namespace pileus
