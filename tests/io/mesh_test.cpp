@@ -74,6 +74,15 @@ TEST_CASE("mesh: a ply that states an element twice is refused before anything i
           "m.ply:259:8: element e256: too many elements, allowed: up to 256");
 }
 
+TEST_CASE("mesh: ply vertices have all three numbers of a place") {
+    Mesh mesh;
+    CHECK(decode("ply\nformat ascii 1.0\nelement vertex 3\nproperty float x\nproperty float z\n"
+                 "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
+                 "0 0\n1 0\n1 1\n3 0 1 2\n",
+                 ".ply", mesh)
+              .message == "m.ply:9:1: element vertex: no property y, allowed: x, y and z");
+}
+
 TEST_CASE("mesh: binary ply of both byte orders, other elements and properties passed over") {
     for (bool big : {false, true}) {
         std::string text = "ply\nformat binary_" + std::string(big ? "big" : "little") +

@@ -47,6 +47,7 @@ private:
     std::string word(TextRange& line) const;
     Status type(TextRange& line, Type& out) const;
     Status format(TextRange line);
+    Status check_vertices() const;
     Status element(TextRange line);
     Status property(TextRange line);
     Status value(Type type, double& out);
@@ -145,6 +146,20 @@ Status Reader::header() {
         if (key == "end_header") break;
     }
     body_ = at;
+    return check_vertices();
+}
+
+/// A corner without one of its numbers would stand somewhere that no one chose.
+Status Reader::check_vertices() const {
+    for (const Element& e : elements_)
+        for (const char* axis : {"x", "y", "z"}) {
+            if (e.name != "vertex" || e.count == 0) continue;
+            bool found = false;
+            for (const Property& p : e.properties) found |= p.name == axis;
+            if (!found)
+                return fault(body_, std::string("element vertex: no property ") + axis +
+                                        ", allowed: x, y and z");
+        }
     return Status::ok();
 }
 
