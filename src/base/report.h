@@ -63,6 +63,9 @@ struct Report {
     std::string version, scene, method, isa, hash;
     int threads = 1;
     std::int64_t seed = 0;
+    int frame = 0, first_frame = 0;      ///< of the animation, and where this run began
+    std::string budget, show;            ///< options of the run; empty: none
+    std::vector<std::string> overrides;  ///< texts of its --set options
 
     std::vector<std::string> needed;
     std::vector<ReportLeftOut> left_out;

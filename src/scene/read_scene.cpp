@@ -77,6 +77,7 @@ Status read_scene_text(const std::string& text, const std::string& name,
     // What was set from outside belongs to the scene: the text must make the picture again.
     scene.text = text;
     for (const std::string& setting : overrides) scene.text += "\n# --set " + setting;
+    scene.overrides = overrides;
     scene.file = name;
     scene.directory = directory;
     out = std::move(scene);

@@ -206,6 +206,7 @@ struct Scene {
     RaymarchSettings raymarch;
     OutputSettings output;
     Animation animation;
+    std::vector<std::string> overrides;         ///< texts of the --set options
     std::string text;                           ///< the file's own text
     std::string file;                           ///< name for messages
     std::string directory;                      ///< paths in the scene are relative to it

@@ -33,11 +33,33 @@ void take_hash(const Image& image, Report& report) {
     report.digests.emplace_back("image", report.hash);
 }
 
+/// What another run needs, beside the scene's text, to make the same picture. Nothing of the
+/// machine.
+void note_origin(const Report& report, Image& image) {
+    const auto add = [&](const std::string& name, const std::string& text) {
+        if (!text.empty()) image.origin.emplace_back(name, text);
+    };
+    add("version", report.version);
+    add("method", report.method);
+    add("seed", std::to_string(report.seed));
+    add("frame", std::to_string(report.frame));
+    add("firstFrame", std::to_string(report.first_frame));
+    add("budget", report.budget);
+    add("show", report.show);
+    if (report.generations > 0) add("generations", std::to_string(report.generations));
+    if (report.samples_per_pixel > 0)
+        add("samplesPerPixel", std::to_string(report.samples_per_pixel));
+    for (std::size_t i = 0; i < report.overrides.size(); ++i)
+        add("override." + std::to_string(i), report.overrides[i]);
+}
+
 /// Completes a frame's picture and report, and hands both over.
 Status deliver(const Scene& scene, const RunStart& start, int frame, const FrameSink& sink,
                Image& image, Report& report) {
     image.pixel_hash = report.hash;
     image.scene_text = scene.text;
+    report.frame = frame;
+    note_origin(report, image);
     finish_report(start, report);
     return sink(frame, image, report);
 }

@@ -65,5 +65,5 @@ TEST_CASE("camera depth: a .pfm is grey") {
     depth.channels[2].pixels[0] = 6;
     REQUIRE(write_image(depth, path, ToneSettings()));
     CHECK(read_camera_depth(scene, solids).message ==
-          path + ": depth: colours, R G B differ, allowed: one value a pixel");
+          "camera.depth: " + path + ": depth: colours, R G B differ, allowed: one value a pixel");
 }

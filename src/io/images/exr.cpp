@@ -20,6 +20,7 @@
 #include <exception>
 #include <new>
 #include <stdexcept>
+#include <string_view>
 #endif
 
 namespace pileus {
@@ -76,6 +77,9 @@ private:
     std::size_t at_ = 0;
 };
 
+/// What names of our own attributes begin with.
+constexpr std::string_view kOurs = "pileus.";
+
 /// Rec. 709 primaries and white point D65.
 Imf::Chromaticities rec709() {
     return {{0.64f, 0.33f}, {0.30f, 0.60f}, {0.15f, 0.06f}, {0.3127f, 0.3290f}};
@@ -103,6 +107,8 @@ Imf::Header make_header(const Image& image) {
     Imf::addWorldToNDC(header, to_matrix(image.world_to_ndc));
     header.insert("pileus.scene", Imf::StringAttribute(image.scene_text));
     header.insert("pileus.pixelHash", Imf::StringAttribute(image.pixel_hash));
+    for (const auto& [name, text] : image.origin)
+        header.insert(std::string(kOurs) + name, Imf::StringAttribute(text));
     for (const Channel& channel : image.channels)
         header.channels().insert(channel.name, Imf::Channel(Imf::FLOAT));
     return header;
@@ -130,6 +136,14 @@ void read_attributes(const Imf::Header& header, Image& image) {
     const auto* hash = header.findTypedAttribute<Imf::StringAttribute>("pileus.pixelHash");
     if (scene != nullptr) image.scene_text = scene->value();
     if (hash != nullptr) image.pixel_hash = hash->value();
+    for (auto a = header.begin(); a != header.end(); ++a) {
+        const std::string name = a.name();
+        const auto* text = dynamic_cast<const Imf::StringAttribute*>(&a.attribute());
+        if (text == nullptr || text == scene || text == hash ||
+            name.compare(0, kOurs.size(), kOurs))
+            continue;
+        image.origin.emplace_back(name.substr(kOurs.size()), text->value());
+    }
 }
 
 /// Refuses what a small file can claim but not hold.

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "src/base/buffer.h"
@@ -32,6 +33,8 @@ struct Image {
     /// without exposure and curve.
     bool display_colours = false;
     std::string scene_text;  ///< the scene's own text, stored in the file
+    /// What else made the picture, name and text, stored as "pileus.NAME"; docs/formats.md.
+    std::vector<std::pair<std::string, std::string>> origin;
     std::string pixel_hash;  ///< 16 hex digits
 
     const Channel* find(const char* name) const {

@@ -173,6 +173,7 @@ void add_head(const Report& report, Json& json) {
     json["isa"] = report.isa;
     json["threads"] = report.threads;
     json["seed"] = report.seed;
+    json["overrides"] = report.overrides;
 }
 
 }  // namespace
@@ -180,6 +181,10 @@ void add_head(const Report& report, Json& json) {
 std::string report_json(const Report& report) {
     Json json;
     add_head(report, json);
+    json["frame"] = report.frame;
+    json["first_frame"] = report.first_frame;
+    json["budget"] = report.budget;
+    json["show"] = report.show;
     json["hash"] = report.hash;
     json["plan"] = plan_of(report);
     json["memory"] = {{"peak_bytes", report.peak_bytes}};
