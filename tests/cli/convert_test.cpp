@@ -73,7 +73,7 @@ TEST_CASE("convert: each fault is one line, and no file is left") {
         int exit_status;
     };
     const Row rows[] = {
-        {"a.pbrt b.pbrt", "b.pbrt: extension: unknown, \".pbrt\", allowed: .vdb .raw", 2},
+        {"a.pbrt b.pbrt", "b.pbrt: extension: unknown, \".pbrt\", allowed: .raw .vdb", 2},
         {"a.raw b.raw", "b.raw: both files are raw, allowed: one of them", 2},
         {"a.raw b.vdb", "a.raw: --size: missing", 2},
         {"a.pbrt b.raw --size 1 1 1", "--size: for a .raw file that is read", 2},

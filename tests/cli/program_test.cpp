@@ -60,7 +60,7 @@ TEST_CASE("program: wrong usage is one line and exit 2") {
          "convert"},
         {"--loud render s.toml", 2, "unknown option before the subcommand, \"--loud\""},
         {"compare a.exr b.exr", 2, "a.exr: cannot read: no such file"},
-        {"convert a.exr b.png", 2, "b.png: extension: unknown, \".png\", allowed: .vdb .raw"},
+        {"convert a.exr b.png", 2, "b.png: extension: unknown, \".png\", allowed: .raw .vdb"},
         {"view s.toml", 2, "pileus view: not in this version"},
         {"render s.toml -o a.pfm --loud", 2, "--loud, allowed: see pileus render --help"},
         {"render s.toml t.toml -o a.pfm", 2, "t.toml, allowed: see pileus render --help"},

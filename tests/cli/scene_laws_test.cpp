@@ -74,7 +74,7 @@ TEST_CASE("keys that do not go together") {
          "allowed: left out"},
         {kCamera + "[output]\nfiles = [\"a.png\", \"b.jpg\"]\n",
          "s.toml:5:19: output.files: unknown kind of picture, \"b.jpg\", allowed: .exr, .png, "
-         ".pfm"},
+         ".pfm, .ppm"},
         {kCamera + "[output]\nfiles = [\"a.png\", \"a.png\"]\n",
          "s.toml:5:19: output.files: given twice, \"a.png\", allowed: list of up to 16 texts"},
         {kCamera + "[output]\nlayers = [\"depht\"]\n",

@@ -12,6 +12,7 @@
 #include "src/compare/difference.h"
 #include "src/compare/metrics_json.h"
 #include "src/io/images/picture.h"
+#include "src/scene/rows/picture_format.h"
 #include "tools/pileus/block_files.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
@@ -119,8 +120,8 @@ Status check_outputs(const CompareArguments& arguments) {
 }
 
 bool shows_colours(const std::string& path) {
-    const std::string extension = file_extension(path);
-    return extension == ".png" || extension == ".ppm";
+    const PictureFormat* format = picture_format_of(path);
+    return format != nullptr && !format->radiance;
 }
 
 /// Values for formats of light, colours for pictures of 8 bits.
@@ -266,7 +267,7 @@ Status run_compare(const CompareArguments& arguments) {
 }
 
 void add_files(CLI::App& command, CompareArguments& arguments) {
-    command.add_option("a", arguments.a, "The picture: .exr .pfm or .png")
+    command.add_option("a", arguments.a, "The picture: " + picture_extensions(is_read))
         ->required()
         ->type_name("FILE");
     command.add_option("reference", arguments.reference, "What it is measured against")

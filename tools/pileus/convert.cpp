@@ -8,7 +8,7 @@
 
 #include "src/base/file.h"
 #include "src/base/output_check.h"
-#include "src/io/volumes/vdb/vdb_file.h"
+#include "src/scene/rows/volume_format.h"
 #include "src/scene/toml/toml_tree.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/info.h"
@@ -26,12 +26,14 @@ struct ConvertArguments {
 
 /// The raw options describe whichever of the two files is raw, so only one may be.
 Status check_files(const ConvertArguments& arguments, bool& from_raw, bool& to_raw) {
-    const std::string extension = file_extension(arguments.to);
-    from_raw = file_extension(arguments.from) == ".raw";
-    to_raw = extension == ".raw";
-    if (!to_raw && extension != ".vdb")
-        return Status::bad_input(arguments.to + ": extension: unknown, " + quote_text(extension) +
-                                 ", allowed: .vdb .raw");
+    const VolumeFormat *from = volume_format_of(arguments.from),
+                       *to = volume_format_of(arguments.to);
+    from_raw = from != nullptr && from->bare;
+    to_raw = to != nullptr && to->bare;
+    if (to == nullptr || to->write == nullptr)
+        return Status::bad_input(arguments.to + ": extension: unknown, " +
+                                 quote_text(file_extension(arguments.to)) +
+                                 ", allowed: " + volume_format_extensions(true, " "));
     if (from_raw && to_raw)
         return Status::bad_input(arguments.to + ": both files are raw, allowed: one of them");
     if (to_raw && !arguments.raw.size.empty())
@@ -39,11 +41,11 @@ Status check_files(const ConvertArguments& arguments, bool& from_raw, bool& to_r
     return Status::ok();
 }
 
-Status write_grid(const ConvertArguments& arguments, bool raw, const Volume& volume) {
-    if (!raw) return write_vdb_volume(arguments.to, volume);
-    RawType type = RawType::kFloat32;
-    PILEUS_TRY(read_raw_type(arguments.raw, type));
-    return write_raw_volume(arguments.to, type, arguments.raw.big_endian, volume);
+Status write_grid(const ConvertArguments& arguments, const Volume& volume) {
+    MediumSettings form;
+    form.raw_big_endian = arguments.raw.big_endian;
+    PILEUS_TRY(read_raw_type(arguments.raw, form.raw_type));
+    return volume_format_of(arguments.to)->write(form, arguments.to, volume);
 }
 
 /// The keys of a scene's medium that reads the new file; a comment where a number changed meaning.
@@ -86,7 +88,7 @@ Status run_convert(const ConvertArguments& arguments) {
     Volume volume;
     PILEUS_TRY(read_volume(medium, arguments.from, volume));
     if (arguments.y_up) PILEUS_TRY(permute_y_up(volume));
-    PILEUS_TRY(write_grid(arguments, to_raw, volume));
+    PILEUS_TRY(write_grid(arguments, volume));
 
     std::string lines = info_line("grid", arguments.to);
     lines += size_lines(volume.size, volume.knows_bounds, volume.bounds_m);
@@ -98,13 +100,16 @@ Status run_convert(const ConvertArguments& arguments) {
 void add_convert(CLI::App& app, Chosen& chosen) {
     CLI::App* command = app.add_subcommand("convert", "Write a density grid in another format");
     const auto arguments = std::make_shared<ConvertArguments>();
-    command->add_option("in", arguments->from, "A .pbrt, .vdb, .nvdb or .raw file")
+    command->add_option("in", arguments->from, "A file: " + volume_format_extensions())
         ->required()
         ->type_name("IN");
-    command->add_option("out", arguments->to, "The .vdb or .raw file to write")
+    command
+        ->add_option("out", arguments->to, "The file to write: " + volume_format_extensions(true))
         ->required()
         ->type_name("OUT");
-    command->add_option("--grid", arguments->grid, "Name of the grid of a .vdb or .nvdb file")
+    command
+        ->add_option("--grid", arguments->grid,
+                     "Name of the grid of a " + grid_format_extensions() + " file")
         ->type_name("NAME");
     command->add_flag("--y-up", arguments->y_up, "Turn a grid whose y axis points up to z up");
     add_raw_options(*command, arguments->raw);

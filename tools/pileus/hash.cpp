@@ -6,6 +6,7 @@
 
 #include "src/base/file.h"
 #include "src/io/images/picture.h"
+#include "src/scene/rows/picture_format.h"
 #include "tools/pileus/command.h"
 
 namespace pileus {
@@ -25,7 +26,9 @@ Status run_hash(const std::string& file, const std::string& layer) {
 void add_hash(CLI::App& app, Chosen& chosen) {
     CLI::App* command = app.add_subcommand("hash", "Print the pixel hash of a picture");
     const auto file = std::make_shared<std::string>(), layer = std::make_shared<std::string>();
-    command->add_option("file", *file, "An .exr, .pfm or .png file")->required()->type_name("FILE");
+    command->add_option("file", *file, "A picture: " + picture_extensions(is_read))
+        ->required()
+        ->type_name("FILE");
     command->add_option("--layer", *layer, "Layer of the file")->type_name("NAME");
     command->footer(help_example("pileus hash cloud.exr --layer cloud"));
     command->callback([=, &chosen] { chosen = [=] { return run_hash(*file, *layer); }; });

@@ -14,7 +14,9 @@
 #include "src/base/file.h"
 #include "src/io/images/image_file.h"
 #include "src/io/volumes/vdb/vdb_file.h"
-#include "src/scene/volume_format.h"
+#include "src/scene/rows/mesh_format.h"
+#include "src/scene/rows/picture_format.h"
+#include "src/scene/rows/volume_format.h"
 #include "src/session/render.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/raw_options.h"
@@ -58,14 +60,21 @@ std::string device_text() {
 
 /// The formats that depend on a library tell whether it was built in.
 std::string library_text() {
-    const std::string exr = can_write_image("x.exr") ? "OpenEXR yes" : "OpenEXR no";
-    return exr + (can_write_image("x.png") ? ", PNG yes" : ", PNG no") + ", " + vdb_library_text();
+    std::string text;
+    for (const PictureFormat& format : picture_formats()) {
+        if (format.library == nullptr) continue;
+        text += std::string(format.title) + (format.built ? " yes, " : " no, ");
+    }
+    return text + vdb_library_text();
 }
 
 std::string program_lines() {
     return info_line("version", kVersion) + info_line("compiler", compiler_text()) +
            info_line("isa", isa_text()) + info_line("threads", fmt::to_string(hardware_threads())) +
-           info_line("device", device_text()) + info_line("libraries", library_text());
+           info_line("device", device_text()) + info_line("libraries", library_text()) +
+           info_line("volumes", volume_format_extensions()) +
+           info_line("pictures", picture_extensions(is_written)) +
+           info_line("meshes", mesh_extensions());
 }
 
 Status run_info(const InfoArguments& arguments) {
@@ -75,21 +84,24 @@ Status run_info(const InfoArguments& arguments) {
     if (arguments.file.empty()) return print(program_lines());
     PILEUS_TRY(check_file_name(arguments.file));
     const std::string extension = file_extension(arguments.file);
+    const PictureFormat* picture = picture_format_of(arguments.file);
+    const VolumeFormat* volume = volume_format_of(arguments.file);
     std::string lines;
     MediumSettings medium;
     if (arguments.phase) {
         PILEUS_TRY(phase_lines(arguments.file, lines));
     } else if (extension == ".toml") {
         PILEUS_TRY(scene_lines(arguments.file, lines));
-    } else if (extension == ".exr" || extension == ".pfm") {
+    } else if (picture != nullptr && is_radiance(*picture)) {
         PILEUS_TRY(image_lines(arguments.file, lines));
-    } else if (volume_format_of(arguments.file) != nullptr) {
+    } else if (volume != nullptr) {
         medium.grid = arguments.grid;
-        if (extension == ".raw") PILEUS_TRY(read_raw_facts(arguments.file, arguments.raw, medium));
+        if (volume->bare) PILEUS_TRY(read_raw_facts(arguments.file, arguments.raw, medium));
         PILEUS_TRY(volume_lines(arguments.file, medium, lines));
     } else {
         return Status::bad_input(arguments.file + ": extension: unknown, \"" + extension +
-                                 "\", allowed: .toml, .exr, .pfm, " + volume_format_extensions());
+                                 "\", allowed: .toml, " + picture_extensions(is_radiance) + ", " +
+                                 volume_format_extensions());
     }
     return print(lines);
 }
@@ -101,7 +113,9 @@ void add_info(CLI::App& app, Chosen& chosen) {
     const auto arguments = std::make_shared<InfoArguments>();
     command->add_option("file", arguments->file, "A scene, picture or density grid")
         ->type_name("FILE");
-    command->add_option("--grid", arguments->grid, "Name of the grid of a .vdb or .nvdb file")
+    command
+        ->add_option("--grid", arguments->grid,
+                     "Name of the grid of a " + grid_format_extensions() + " file")
         ->type_name("NAME");
     command->add_flag("--phase", arguments->phase, "The file is a table of a phase function");
     add_raw_options(*command, arguments->raw);

@@ -6,7 +6,7 @@
 
 #include "src/io/images/image_file.h"
 #include "src/scene/read_scene.h"
-#include "src/scene/volume_format.h"
+#include "src/scene/rows/volume_format.h"
 #include "src/world/phase/phase_table.h"
 #include "tools/pileus/info.h"
 

@@ -15,6 +15,7 @@
 #include "src/io/text/scene_files.h"
 #include "src/methods/registry.h"
 #include "src/scene/read_scene.h"
+#include "src/scene/rows/picture_format.h"
 #include "tools/pileus/block_files.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
@@ -250,9 +251,9 @@ void add_render(CLI::App& app, Chosen& chosen) {
                       "pileus render cloud.toml -o cloud.exr cloud.png --report cloud.json "
                       "--set sun.elevation_deg=10");
     command
-        ->add_option(
-            "-o,--output", arguments->files,
-            ".exr .png .pfm or .ppm, instead of the scene's output.files and output.report")
+        ->add_option("-o,--output", arguments->files,
+                     picture_extensions(is_written) +
+                         ", instead of the scene's output.files and output.report")
         ->type_name("FILE");
     command
         ->add_option("--report", arguments->report,

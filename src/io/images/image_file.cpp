@@ -6,6 +6,7 @@
 
 #include "src/base/digest.h"
 #include "src/base/file.h"
+#include "src/scene/rows/picture_format.h"
 
 namespace pileus {
 
@@ -19,6 +20,8 @@ Status in_file(const std::string& path, Status status) {
     return status;
 }
 
+}  // namespace
+
 Status encode_ppm(int width, int height, Span<const std::uint8_t> rgb, Buffer<char>& bytes) {
     const std::string head =
         "P6\n" + std::to_string(width) + ' ' + std::to_string(height) + "\n255\n";
@@ -27,19 +30,6 @@ Status encode_ppm(int width, int height, Span<const std::uint8_t> rgb, Buffer<ch
     std::memcpy(bytes.data() + head.size(), rgb.data, rgb.size);
     return Status::ok();
 }
-
-Status encode(const Image& image, const std::string& extension, const ToneSettings& tone,
-              Buffer<char>& bytes) {
-    PILEUS_TRY(check_image(image));
-    if (extension == ".exr") return encode_exr(image, bytes);
-    if (extension == ".pfm") return encode_pfm(image, bytes);
-    Buffer<std::uint8_t> rgb;
-    PILEUS_TRY(tone_map_8bit(image, tone, rgb));
-    if (extension == ".png") return encode_png(image.width, image.height, rgb.span(), bytes);
-    return encode_ppm(image.width, image.height, rgb.span(), bytes);
-}
-
-}  // namespace
 
 Status check_image_size(const std::string& where, std::int64_t width, std::int64_t height,
                         std::uint64_t most_pixels) {
@@ -89,30 +79,23 @@ Status color_channels(const Image& image, const Channel* (&rgb)[3]) {
 }
 
 Status can_write_image(const std::string& path) {
-    const std::string extension = file_extension(path);
-    if (extension == ".pfm" || extension == ".ppm") return Status::ok();
-    if (extension != ".exr" && extension != ".png")
-        return Status::bad_input(path + ": extension: unknown, \"" + extension +
-                                 "\", allowed: .exr .png .pfm .ppm");
-#ifndef PILEUS_WITH_OPENEXR
-    if (extension == ".exr")
-        return Status::bad_input(path +
-                                 ": extension: .exr left out of this build, allowed: .pfm, "
-                                 "or configure with -DPILEUS_OPENEXR=ON");
-#endif
-#ifndef PILEUS_WITH_PNG
-    if (extension == ".png")
-        return Status::bad_input(path +
-                                 ": extension: .png left out of this build, allowed: .ppm, "
-                                 "or configure with -DPILEUS_PNG=ON");
-#endif
-    return Status::ok();
+    const PictureFormat* format = picture_format_of(path);
+    if (format == nullptr || !is_written(*format))
+        return Status::bad_input(path + ": extension: unknown, \"" + file_extension(path) +
+                                 "\", allowed: " + picture_extensions(is_written, " "));
+    if (format->built) return Status::ok();
+    return Status::bad_input(
+        path + ": extension: " + format->extension +
+        " left out of this build, allowed: .pfm or .ppm, or configure with -D" + format->library +
+        "=ON");
 }
 
 Status encode_image(const Image& image, const std::string& path, const ToneSettings& tone,
                     Buffer<char>& bytes) {
     PILEUS_TRY(can_write_image(path));
-    return in_file(path, encode(image, file_extension(path), tone, bytes));
+    Status status = check_image(image);
+    if (status) status = picture_format_of(path)->encode(image, tone, bytes);
+    return in_file(path, status);
 }
 
 Status write_image(const Image& image, const std::string& path, const ToneSettings& tone) {
@@ -122,16 +105,20 @@ Status write_image(const Image& image, const std::string& path, const ToneSettin
 }
 
 Status read_image(const std::string& path, Image& image, std::uint64_t most_pixels) {
-    const std::string extension = file_extension(path);
-    if (extension != ".exr" && extension != ".pfm")
-        return Status::bad_input(path + ": extension: unknown, \"" + extension +
-                                 "\", allowed: .exr .pfm");
-    if (extension == ".exr") PILEUS_TRY(can_write_image(path));
+    const PictureFormat* format = picture_format_of(path);
+    if (format == nullptr || !is_radiance(*format))
+        return Status::bad_input(path + ": extension: unknown, \"" + file_extension(path) +
+                                 "\", allowed: " + picture_extensions(is_radiance, " "));
+    return decode_image(*format, path, image, most_pixels);
+}
+
+Status decode_image(const PictureFormat& format, const std::string& path, Image& image,
+                    std::uint64_t most_pixels) {
+    if (!format.built) PILEUS_TRY(can_write_image(path));
     image = Image();
     Buffer<char> bytes;
     PILEUS_TRY(read_whole_file(path, kMaxFileBytes, bytes));
-    return extension == ".exr" ? decode_exr(path, bytes.span(), image, most_pixels)
-                               : decode_pfm(path, bytes.span(), image, most_pixels);
+    return format.decode(path, bytes.span(), image, most_pixels);
 }
 
 std::string pixel_hash(const Image& image) {

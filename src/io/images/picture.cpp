@@ -7,14 +7,12 @@
 #include <algorithm>
 #include <vector>
 
-#include "src/base/file.h"
 #include "src/io/images/srgb.h"
+#include "src/scene/rows/picture_format.h"
 
 namespace pileus {
 
 namespace {
-
-constexpr std::uint64_t kMaxFileBytes = std::uint64_t{1} << 34;
 
 std::string lower(std::string text) {
     for (char& c : text)
@@ -184,11 +182,9 @@ Status fit_display_window(const std::string& name, Image& image, std::uint64_t m
 
 Status read_picture(const std::string& path, const std::string& layer, Image& image,
                     std::string& said) {
-    if (file_extension(path) == ".png") {
-        Buffer<char> bytes;
-        image = Image();
-        PILEUS_TRY(read_whole_file(path, kMaxFileBytes, bytes));
-        PILEUS_TRY(decode_png(path, bytes.span(), image));
+    const PictureFormat* format = picture_format_of(path);
+    if (format != nullptr && is_read(*format) && !format->radiance) {
+        PILEUS_TRY(decode_image(*format, path, image, kMaxImagePixels));
         said = "light of a display";
     } else {
         PILEUS_TRY(read_image(path, image));

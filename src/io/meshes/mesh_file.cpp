@@ -3,6 +3,7 @@
 #include "src/io/meshes/mesh_file.h"
 
 #include "src/base/file.h"
+#include "src/scene/rows/mesh_format.h"
 
 namespace pileus {
 
@@ -16,12 +17,10 @@ Status check_triangles(const std::string& name, std::uint64_t triangles, std::ui
 
 Status decode_mesh(const std::string& name, const std::string& extension, Span<const char> bytes,
                    std::uint64_t most_triangles, Mesh& mesh) {
-    if (extension == ".obj") return decode_obj(name, bytes, most_triangles, mesh);
-    if (extension == ".ply") return decode_ply(name, bytes, most_triangles, mesh);
-    if (extension == ".gltf" || extension == ".glb")
-        return decode_gltf(name, extension == ".glb", bytes, most_triangles, mesh);
+    const MeshFormat* format = mesh_format_of(extension);
+    if (format != nullptr) return format->decode(name, bytes, most_triangles, mesh);
     return Status::bad_input(name + ": mesh: unknown kind of file, " + extension +
-                             ", allowed: .obj, .ply, .gltf, .glb");
+                             ", allowed: " + mesh_extensions());
 }
 
 Status read_mesh(const std::string& path, const Limits& limits, Mesh& mesh) {

@@ -5,11 +5,7 @@
 #include "src/io/volumes/volume_file.h"
 
 #include "src/base/file.h"
-#include "src/io/volumes/les_volume.h"
-#include "src/io/volumes/vdb/nvdb_file.h"
-#include "src/io/volumes/vdb/vdb_file.h"
-#include "src/io/volumes/vol_volume.h"
-#include "src/scene/volume_format.h"
+#include "src/scene/rows/volume_format.h"
 
 namespace pileus {
 
@@ -61,43 +57,28 @@ Status permute_y_up(Volume& volume) {
 
 namespace {
 
-/// The format's name by the medium's word or else the path's extension; kBadInput if unknown.
-Status find_format(const MediumSettings& medium, const std::string& path, std::string& format) {
-    const VolumeFormat* found =
-        medium.format.empty() ? volume_format_of(path) : volume_format_named(medium.format);
-    if (found != nullptr) {
-        format = found->name;
-        return Status::ok();
-    }
-    format = medium.format.empty() ? file_extension(path) : medium.format;
-    return Status::bad_input(path + ": format: unknown, \"" + format +
+/// The row by the medium's word or else the path's extension; kBadInput if unknown.
+Status find_format(const MediumSettings& medium, const std::string& path,
+                   const VolumeFormat*& format) {
+    format = medium.format.empty() ? volume_format_of(path) : volume_format_named(medium.format);
+    if (format != nullptr) return Status::ok();
+    const std::string word = medium.format.empty() ? file_extension(path) : medium.format;
+    return Status::bad_input(path + ": format: unknown, \"" + word +
                              "\", allowed: " + volume_format_names());
 }
 
 }  // namespace
 
 Status read_volume(const MediumSettings& medium, const std::string& path, Volume& volume) {
-    std::string format;
+    const VolumeFormat* format = nullptr;
     PILEUS_TRY(find_format(medium, path, format));
-    if (format == "les") return read_les_volume(path, volume);
-    if (format == "vol") return read_vol_volume(path, volume);
-    if (format == "openvdb") return read_vdb_volume(path, medium.grid, volume);
-    if (format == "nanovdb") return read_nvdb_volume(path, medium.grid, volume);
-    if (format == "raw")
-        return read_raw_volume(path, medium.raw_type, medium.raw_size, medium.raw_big_endian,
-                               volume);
-    return read_pbrt_volume(path, volume);
+    return format->read(medium, path, volume);
 }
 
 Status read_volume_head(const MediumSettings& medium, const std::string& path, VolumeHead& head) {
-    std::string format;
+    const VolumeFormat* format = nullptr;
     PILEUS_TRY(find_format(medium, path, format));
-    if (format == "les") return read_les_head(path, head);
-    if (format == "vol") return read_vol_head(path, head);
-    if (format == "openvdb") return read_vdb_head(path, medium.grid, head);
-    if (format == "nanovdb") return read_nvdb_head(path, medium.grid, head);
-    if (format == "raw") return read_raw_head(path, medium.raw_type, medium.raw_size, head);
-    return read_pbrt_head(path, head);
+    return format->read_head(medium, path, head);
 }
 
 }  // namespace pileus

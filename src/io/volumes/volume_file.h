@@ -17,9 +17,9 @@ constexpr int kMaxVolumeSide = 4096;
 constexpr std::uint64_t kMaxVolumeCells = std::uint64_t{1} << 31;
 
 /// Reads `path` (already resolved) as medium.format says, or by extension (volume_format_of in
-/// src/scene/volume_format.h). Axes and box stay as in the file: the caller turns a y-up grid with
-/// permute_y_up and lets a box given in the scene win. Bad settings or contents: kBadInput; more
-/// cells or memory than allowed: kLimit; failed half way: kIo. `volume` is unspecified after a
+/// src/scene/rows/volume_format.h). Axes and box stay as in the file: the caller turns a y-up grid
+/// with permute_y_up and lets a box given in the scene win. Bad settings or contents: kBadInput;
+/// more cells or memory than allowed: kLimit; failed half way: kIo. `volume` is unspecified after a
 /// fault.
 Status read_volume(const MediumSettings& medium, const std::string& path, Volume& volume);
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "src/scene/checks/check_keys.h"
-#include "src/scene/volume_format.h"
+#include "src/scene/rows/volume_format.h"
 
 namespace pileus {
 namespace {
@@ -68,7 +68,8 @@ private:
         for (const char* key : {"resolution", "shape_seed"})
             if (const Node* node = check_.key(path_ + key))
                 fault(*node, key, "not for a file, " + value_text(*node) + ", allowed: left out");
-        if (medium_.format == "raw") {
+        const VolumeFormat* format = volume_format_named(medium_.format);
+        if (format != nullptr && format->bare) {
             for (const char* key : {"density.type", "density.size"})
                 if (check_.lacks(path_ + key))
                     fault(density, key,
@@ -87,10 +88,11 @@ private:
     void grid_name() {
         const Node* beside = check_.valid_key(path_ + "grid");
         const Node* within = check_.valid_key(path_ + "density.grid");
+        const VolumeFormat* format = volume_format_named(medium_.format);
         for (const Node* node : {beside, within})
-            if (node != nullptr && medium_.format != "openvdb" && medium_.format != "nanovdb")
+            if (node != nullptr && (format == nullptr || !format->has_grids))
                 fault(*node, node == beside ? "grid" : "density.grid",
-                      "for OpenVDB and NanoVDB files only, " + value_text(*node) +
+                      "for " + grid_format_titles() + " files only, " + value_text(*node) +
                           ", allowed: left out");
         if (beside != nullptr && within != nullptr)
             fault(*within, "density.grid",

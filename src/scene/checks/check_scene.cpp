@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "src/scene/checks/check_keys.h"
+#include "src/scene/rows/picture_format.h"
 
 namespace pileus {
 namespace {
@@ -88,13 +89,11 @@ void check_sky(SceneCheck& check) {
     conflict(check, "sky.radiance", "sky.map");
     if (map == nullptr || !check_path(check, *map, "sky.map", check.scene.sky.map)) return;
     const std::string& name = map->text;
-    const std::size_t dot = name.rfind('.');
-    std::string end = dot == std::string::npos ? "" : name.substr(dot);
-    for (char& c : end)
-        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-    if (end != ".exr" && end != ".pfm")
+    const PictureFormat* format = picture_format_of(name);
+    if (format == nullptr || !is_radiance(*format))
         check.faults.add(map->at, "sky.map",
-                         "unknown kind of picture, " + quote_text(name) + ", allowed: .exr, .pfm");
+                         "unknown kind of picture, " + quote_text(name) +
+                             ", allowed: " + picture_extensions(is_radiance));
 }
 
 void check_output(SceneCheck& check) {
@@ -102,12 +101,11 @@ void check_output(SceneCheck& check) {
     if (files == nullptr) return;
     for (const Node& file : files->children) {
         const std::string& name = file.text;
-        const std::size_t dot = name.rfind('.');
-        const std::string end = dot == std::string::npos ? "" : name.substr(dot);
-        if (end != ".exr" && end != ".png" && end != ".pfm")
-            check.faults.add(
-                file.at, "output.files",
-                "unknown kind of picture, " + quote_text(name) + ", allowed: .exr, .png, .pfm");
+        const PictureFormat* format = picture_format_of(name);
+        if (format == nullptr || !is_written(*format))
+            check.faults.add(file.at, "output.files",
+                             "unknown kind of picture, " + quote_text(name) +
+                                 ", allowed: " + picture_extensions(is_written));
     }
 }
 

@@ -3,18 +3,11 @@
 // in: keys that passed their own checks -> out: paths and defaults of the Scene; faults.
 // docs/scene.md; docs/solids.md.
 #include "src/scene/checks/check_keys.h"
+#include "src/scene/rows/mesh_format.h"
+#include "src/scene/rows/picture_format.h"
 
 namespace pileus {
 namespace {
-
-/// What follows the last point of a name, in lower case.
-std::string extension_of(const std::string& name) {
-    const std::size_t dot = name.rfind('.');
-    std::string end = dot == std::string::npos ? "" : name.substr(dot);
-    for (char& c : end)
-        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-    return end;
-}
 
 void conflict(SceneCheck& check, const std::string& key, const char* with) {
     if (const Node* node = check.key(key))
@@ -28,13 +21,12 @@ void check_solid(SceneCheck& check, std::size_t index) {
     const std::string path = "solid." + std::to_string(index) + ".";
     const Node* file = check.valid_key(path + "file");
     if (file == nullptr || !check_path(check, *file, (path + "file").c_str(), solid.file)) return;
-    const std::string end = extension_of(solid.file);
-    const bool gltf = end == ".gltf" || end == ".glb";
-    if (!gltf && end != ".obj" && end != ".ply")
+    const MeshFormat* format = mesh_format_of(solid.file);
+    if (format == nullptr)
         check.faults.add(
             file->at, path + "file",
-            "unknown kind of mesh, " + value_text(*file) + ", allowed: .obj, .ply, .gltf, .glb");
-    if (!gltf) return;
+            "unknown kind of mesh, " + value_text(*file) + ", allowed: " + mesh_extensions());
+    if (format == nullptr || !format->y_up) return;
     if (check.written) conflict(check, path + "y_up", "glTF, whose y axis always points up");
     solid.y_up = true;
 }
@@ -51,10 +43,11 @@ void check_depth(SceneCheck& check) {
         conflict(check, "animation.camera_orbit_deg", "camera.depth, which one camera sees");
     const Node* file = check.valid_key("camera.depth");
     if (file == nullptr || !check_path(check, *file, "camera.depth", camera.depth)) return;
-    const std::string end = extension_of(camera.depth);
-    if (end != ".exr" && end != ".pfm")
+    const PictureFormat* format = picture_format_of(camera.depth);
+    if (format == nullptr || !is_radiance(*format))
         check.faults.add(file->at, "camera.depth",
-                         "unknown kind of picture, " + value_text(*file) + ", allowed: .exr, .pfm");
+                         "unknown kind of picture, " + value_text(*file) +
+                             ", allowed: " + picture_extensions(is_radiance));
 }
 
 }  // namespace
