@@ -63,6 +63,15 @@ TEST_CASE("convert: from one format to the next and back") {
     CHECK(first.output.substr(0, 16) == second.output.substr(0, 16));
 }
 
+TEST_CASE("convert: the scene's line holds the whole path, however long") {
+    const ProgramFolder folder;
+    folder.files().put("a.pbrt", kGrid);
+    const std::string name = std::string(90, 'n') + ".vdb";
+    const Outcome outcome = folder.run("convert a.pbrt " + name);
+    CHECK(outcome.exit_status == 0);
+    CHECK(holds(outcome.output, "\ndensity = \"" + name + "\"\n"));
+}
+
 TEST_CASE("convert: each fault is one line, and no file is left") {
     const ProgramFolder folder;
     folder.files().put("a.pbrt", kGrid);

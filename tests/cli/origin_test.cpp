@@ -34,7 +34,7 @@ TEST_CASE("a picture and its report hold version, seed, frame, budget and overri
     Image image;
     REQUIRE(read_image(folder.files().path(name), image));
     const std::map<std::string, std::string> origin = origin_of(image);
-    const auto report = nlohmann::json::parse(folder.files().get("r.json"));
+    const auto report = nlohmann::json::parse(folder.files().get(folder.left()[1]));
     CHECK(origin.at("version") == report["version"].get<std::string>());
     CHECK(origin.at("method") == "collectors");
     CHECK(origin.at("seed") == "11");

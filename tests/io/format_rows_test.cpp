@@ -73,7 +73,7 @@ TEST_CASE("format rows: an extension means one format, and the documents name it
             CHECK(std::string(row->allowed.choices) == volume_format_choices());
     CHECK(volume_format_of("a.exr") == nullptr);
     CHECK(picture_format_of("a") == nullptr);
-    CHECK(mesh_format_of(".OBJ") == mesh_format_of("x.obj"));
+    CHECK(mesh_format_of("Y.OBJ") == mesh_format_of("x.obj"));
 }
 
 TEST_CASE("format rows: what a row writes it reads again") {

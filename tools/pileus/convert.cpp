@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "src/base/file.h"
 #include "src/base/output_check.h"
@@ -48,6 +49,11 @@ Status write_grid(const ConvertArguments& arguments, const Volume& volume) {
     return volume_format_of(arguments.to)->write(form, arguments.to, volume);
 }
 
+/// A text as a scene holds it, whole: TOML takes the escapes of JSON.
+std::string toml_text(const std::string& text) {
+    return nlohmann::json(text).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
+}
+
 /// The keys of a scene's medium that reads the new file; a comment where a number changed meaning.
 std::string scene_text(const ConvertArguments& arguments, bool raw, const Volume& volume) {
     const auto& n = volume.size;
@@ -57,13 +63,13 @@ std::string scene_text(const ConvertArguments& arguments, bool raw, const Volume
     const double scale = raw && known ? raw_scale(volume, type) : 1.0;
     if (raw) {
         text = fmt::format("density = {{ file = {}, type = \"{}\", size = [{}, {}, {}]{} }}\n",
-                           quote_text(arguments.to), arguments.raw.type, n[0], n[1], n[2],
+                           toml_text(arguments.to), arguments.raw.type, n[0], n[1], n[2],
                            arguments.raw.big_endian ? ", endian = \"big\"" : "");
         if (scale != 1.0 && !volume.in_extinction)
             text += fmt::format("# densities were divided by {}: multiply extinction_per_m by it\n",
                                 scale);
     } else {
-        text = fmt::format("density = {}\n", quote_text(arguments.to));
+        text = fmt::format("density = {}\n", toml_text(arguments.to));
     }
     if (volume.in_extinction) text += fmt::format("extinction_per_m = {}\n", scale);
     const auto& b = volume.bounds_m;

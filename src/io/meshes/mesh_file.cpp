@@ -17,7 +17,7 @@ Status check_triangles(const std::string& name, std::uint64_t triangles, std::ui
 
 Status decode_mesh(const std::string& name, const std::string& extension, Span<const char> bytes,
                    std::uint64_t most_triangles, Mesh& mesh) {
-    const MeshFormat* format = mesh_format_of(extension);
+    const MeshFormat* format = mesh_format_of("mesh" + extension);
     if (format != nullptr) return format->decode(name, bytes, most_triangles, mesh);
     return Status::bad_input(name + ": mesh: unknown kind of file, " + extension +
                              ", allowed: " + mesh_extensions());
