@@ -71,7 +71,7 @@ void first_pattern(Pattern& p, int count) {
 
 Status make_blue_noise(Buffer<float>& tile) {
     constexpr int kFirst = kPixels / 10;
-    PILEUS_TRY(tile.resize(kPixels, "blue noise"));
+    PILEUS_TRY(allocate(arrays::blue_noise(Stage::kWrite), tile));
     Buffer<Pattern> patterns;
     PILEUS_TRY(patterns.resize(2, "patterns of noise"));
     Pattern &start = patterns[0], &p = patterns[1];

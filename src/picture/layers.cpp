@@ -122,14 +122,14 @@ Status add_error(const Planes& planes, int batches, Image& image) {
 Status allocate_planes(int width, int height, int channels, bool solid, bool depth,
                        Planes& planes) {
     const std::uint64_t pixels = std::uint64_t(width) * std::uint64_t(height);
-    const auto fit = [](Buffer<float>& b, std::uint64_t n, const char* name) {
-        return b.size() == n ? Status::ok() : b.resize(n, name);
+    const auto fit = [&](std::uint64_t numbers, Buffer<float>& b) {
+        return allocate_once(arrays::picture_planes(numbers, pixels), b);
     };
-    PILEUS_TRY(fit(planes.transmittance, pixels, "transmittance"));
-    PILEUS_TRY(fit(planes.half_depth, depth ? pixels : 0, "depth"));
-    PILEUS_TRY(fit(planes.opaque_depth, solid ? pixels : 0, "opaque depth"));
-    PILEUS_TRY(fit(planes.background, channels > 0 ? 3 * pixels : 0, "background"));
-    return fit(planes.colour, std::uint64_t(channels) * pixels, "radiance");
+    PILEUS_TRY(fit(1, planes.transmittance));
+    PILEUS_TRY(fit(depth ? 1 : 0, planes.half_depth));
+    PILEUS_TRY(fit(solid ? 1 : 0, planes.opaque_depth));
+    PILEUS_TRY(fit(channels > 0 ? 3 : 0, planes.background));
+    return fit(std::uint64_t(channels), planes.colour);
 }
 
 std::uint64_t extra_layers(const OutputSettings& output, bool has_error) {

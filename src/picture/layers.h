@@ -6,6 +6,7 @@
 #include "src/base/buffer.h"
 #include "src/base/report.h"
 #include "src/io/images/image.h"
+#include "src/plan/array.h"
 #include "src/scene/scene.h"
 
 namespace pileus {
@@ -38,6 +39,21 @@ struct ErrorSum {
     /// 0 where there is no such pixel.
     double mean_relative() const { return count > 0 ? relative / count : 0; }
 };
+
+/// Numbers per pixel that allocate_planes makes room for.
+inline std::uint64_t plane_count(std::uint64_t channels, bool solid, bool depth) {
+    return 1 + channels + (channels > 0 ? 3u : 0u) + (solid ? 1u : 0u) + (depth ? 1u : 0u);
+}
+
+namespace arrays {
+
+/// So many numbers for each pixel, from the stage that begins the picture on.
+inline Array<float> picture_planes(std::uint64_t numbers, std::uint64_t pixels,
+                                   Stage first = Stage::kBackground) {
+    return {"picture planes", bytes_of(numbers, pixels), first, Stage::kLayers};
+}
+
+}  // namespace arrays
 
 /// `solid`: something opaque may end rays; `depth`: the layer of depths is wanted. Without channels
 /// of colour there is no background either.

@@ -31,7 +31,8 @@ Status march_medium(const Context& context, const Medium& medium, const Majorant
     const StageClock clock(context, "alpha");
     const std::uint32_t rows = std::uint32_t(camera.height);
     const std::uint64_t pixels = std::uint64_t(camera.width) * rows;
-    if (wanted.optical_depth) PILEUS_TRY(planes.optical_depth.resize(pixels, "optical depth"));
+    if (wanted.optical_depth)
+        PILEUS_TRY(allocate(arrays::picture_planes(1, pixels), planes.optical_depth));
     if (lighting.opaque()) {
         BackgroundParams k{};
         k.medium = make_medium_view(medium, majorants);

@@ -37,4 +37,9 @@ std::uint64_t bytes_of(std::uint64_t a, std::uint64_t b, std::uint64_t c) {
     return product;
 }
 
+std::uint64_t sum_of_bytes(std::uint64_t a, std::uint64_t b) {
+    std::uint64_t sum = 0;
+    return __builtin_add_overflow(a, b, &sum) ? ~std::uint64_t{0} : sum;
+}
+
 }  // namespace pileus

@@ -60,4 +60,7 @@ private:
 /// a * b * c for sizes that may be bounds of anything: the largest number instead of a wrong one.
 std::uint64_t bytes_of(std::uint64_t a, std::uint64_t b, std::uint64_t c = 1);
 
+/// a + b, likewise.
+std::uint64_t sum_of_bytes(std::uint64_t a, std::uint64_t b);
+
 }  // namespace pileus

@@ -1,24 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// See plan_parts.h. The bytes of each array are those that the stage named beside it allocates.
+// See plan_parts.h. Rows without a declaration are bounds of what a reader or writer takes.
 #include "src/world/plan_parts.h"
 
 #include "src/world/density/bubbles.h"
-#include "src/world/majorant/majorant.h"
 
 namespace pileus {
 namespace {
 
 constexpr std::uint64_t kFloat = sizeof(float);
 
-std::uint64_t side(const Grid& grid, int axis) { return std::uint64_t(grid.size[axis]); }
-
 }  // namespace
-
-std::uint64_t block_total(const Grid& grid, int edge) {
-    int n[3];
-    block_counts(grid, edge, n);
-    return std::uint64_t(n[0]) * std::uint64_t(n[1]) * std::uint64_t(n[2]);
-}
 
 std::uint64_t most_tracking_blocks(const Grid& grid, bool local) {
     if (!local) return 1;
@@ -34,8 +25,7 @@ SkyMapBytes sky_map_bytes(const SkyMap& map) {
 void add_density_rows(const Grid& grid, const MediumSource& source, std::uint64_t media,
                       std::uint64_t phases, std::uint64_t threads, const SkyMapBytes& sky,
                       MemoryTable& t) {
-    const std::uint64_t bytes = bytes_of(voxel_count(grid), kFloat);
-    t.add("density", Stage::kDensity, Stage::kWrite, bytes);
+    add(t, arrays::density(grid));
     t.add("phase functions", Stage::kDensity, Stage::kWrite, phases);
     t.add("sky map", Stage::kDensity, Stage::kWrite, sky.kept);
     t.add("sky map while it is read", Stage::kDensity, Stage::kDensity, sky.reading);
@@ -46,7 +36,7 @@ void add_density_rows(const Grid& grid, const MediumSource& source, std::uint64_
         t.add("media apart", Stage::kDensity, Stage::kDensity,
               bytes_of(source.apart_voxels, kFloat));
         t.add("mixing of media", Stage::kDensity, Stage::kDensity, source.mixing_bytes);
-        t.add("parts of the media", Stage::kDensity, Stage::kWrite, bytes_of(media - 1, bytes));
+        add(t, arrays::media_parts(grid, media));
     }
     if (source.noise_bytes > 0)
         t.add("noises of the sky", Stage::kDensity, Stage::kDensity, source.noise_bytes);
@@ -60,12 +50,13 @@ void add_majorant_rows(const Grid& grid, std::uint64_t blocks, std::uint64_t thr
                        MemoryTable& t) {
     // The search holds the finest blocks and the next, and is over before the choice is made.
     const int finest = voxel_count(grid) <= kMostSingleVoxels ? 1 : 2;
-    const std::uint64_t search = block_total(grid, finest) + block_total(grid, 2 * finest);
-    t.add("search for the block size", Stage::kMajorants, Stage::kMajorants, kFloat * search);
-    t.add("rows of the majorants", Stage::kMajorants, Stage::kMajorants,
-          bytes_of(kFloat * threads, side(grid, 0) * side(grid, 1) + side(grid, 0)));
-    t.add("majorants", Stage::kMajorants, last, kFloat * blocks);
-    t.add("blocks to skip", Stage::kMajorants, Stage::kWrite, kFloat * block_total(grid, 4));
+    add(t,
+        renamed(arrays::block_maxima(grid, finest), "search for the block size", Stage::kMajorants,
+                Stage::kMajorants),
+        arrays::block_maxima(grid, 2 * finest));
+    add(t, arrays::majorant_rows(grid, threads));
+    add(t, arrays::majorants(blocks, last));
+    add(t, arrays::blocks_to_skip(grid));
 }
 
 /// stages/layers.cpp and the encoders of io: a growing buffer is three times the file at most, and

@@ -6,12 +6,10 @@
 #include "src/plan/plan.h"
 #include "src/run/context.h"
 #include "src/world/light/sky_map.h"
+#include "src/world/majorant/majorant.h"
 #include "src/world/medium/medium.h"
 
 namespace pileus {
-
-/// Blocks of `edge` voxels over the grid.
-std::uint64_t block_total(const Grid& grid, int edge);
 
 /// Most tracking blocks that `prepare_majorants` may choose; one where it is not `local`.
 std::uint64_t most_tracking_blocks(const Grid& grid, bool local);

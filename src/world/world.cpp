@@ -20,7 +20,7 @@ Status empty_medium(const Scene& scene, Medium& medium) {
         medium.volume.size[a] = medium.grid.size[a] = 1;
         medium.grid.cell_m[a] = 1;
     }
-    return medium.volume.density.resize(1, "density");
+    return allocate(arrays::density(medium.grid), medium.volume.density);
 }
 
 Status outline_medium_of(const Scene& scene, const Context& context, World& world) {

@@ -116,8 +116,8 @@ Status allocate_photons(const Context& context, CollectorsRun& run) {
     PILEUS_TRY(prepare_trace(in, run.scratch));
     run.photons.tallies.assign(run.lighting.lights.size(), TraceTally{});
     run.photons.slots.resize(std::size_t(collectors_slots(run)));
-    const std::uint64_t numbers = slot_stride(in) * run.lighting.lights.size();
-    for (PhotonSlot& slot : run.photons.slots) PILEUS_TRY(slot.sums.resize(numbers, "photon map"));
+    const auto sums = arrays::photon_slot(slot_size(in), run.lighting.lights.size());
+    for (PhotonSlot& slot : run.photons.slots) PILEUS_TRY(allocate(sums, slot.sums));
     return Status::ok();
 }
 

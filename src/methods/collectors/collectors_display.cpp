@@ -4,6 +4,7 @@
 // docs/methods.md 3, each image frame, steps 4 and 5; repairs 3 and 4.
 #include "src/methods/collectors/collectors_display.h"
 
+#include "src/methods/collectors/billboards/billboard_spheres.h"
 #include "src/methods/collectors/billboards/gl_billboards.h"
 #include "src/methods/collectors/collectors_memory.h"
 #include "src/methods/collectors/photons/source_grid.h"
@@ -50,7 +51,7 @@ Status make_shadow(const Context& context, CollectorsRun& run) {
         return Status::ok();
     const StageClock clock(context, "shadow");
     run.shadow_nodes = shadow_grid(run);
-    PILEUS_TRY(run.shadow.resize(node_count(run.shadow_nodes), "shadow"));
+    PILEUS_TRY(allocate(arrays::shadow(node_count(run.shadow_nodes), Stage::kShadow), run.shadow));
     ShadowParams k{};
     k.medium = view_of(run);
     k.nodes = run.shadow_nodes;
@@ -147,7 +148,7 @@ Status show_marched(const Context& context, CollectorsRun& run, const Reconstruc
     Buffer<float> source;
     if (colours.colour.empty()) {
         k.source = NodeGrid{{1, 1, 1}, {0, 0, 0}};
-        PILEUS_TRY(source.resize(std::uint64_t(channels), "source grid"));
+        PILEUS_TRY(allocate(arrays::source_grid(std::uint64_t(channels), 1), source));
     } else {
         PILEUS_TRY(splat(context, run, colours.colour.span(), channels, k.source, source));
     }
@@ -160,8 +161,7 @@ Status gather_by_node(const Context& context, const HarmonicSource& lit, const M
     const std::size_t nodes = std::size_t(node_count(k.source)),
                       own = std::size_t(k.bands) * std::size_t(k.bands);
     const std::size_t stored = std::size_t(k.harmonics), sets = std::size_t(lit.sets);
-    if (by_node.size() != nodes * sets * stored)
-        PILEUS_TRY(by_node.resize(nodes * sets * stored, "source by node"));
+    PILEUS_TRY(allocate_once(arrays::source_by_node(nodes * sets * stored), by_node));
     const std::size_t slice = nodes / std::size_t(k.source.size[2]);
     parallel_for(context.threads, k.source.size[2], [&](std::int64_t z, int) {
         for (std::size_t n = std::size_t(z) * slice; n < (std::size_t(z) + 1) * slice; ++n)
@@ -271,7 +271,7 @@ Status collectors_ground_noise(const Context& context, const CollectorsRun& run,
     alone.lighting = &scattered;
     const std::size_t pixels = planes.transmittance.size();
     Planes part;
-    PILEUS_TRY(part.background.resize(3 * pixels, "ground light of a batch"));
+    PILEUS_TRY(allocate(arrays::batch_background(pixels), part.background));
     for (int b = 1; b <= lit.batches; ++b) {
         PILEUS_TRY(fill_background(context, run, alone, b, part));
         float* colour = planes.colour.data() + std::size_t(3 * b) * pixels;
@@ -295,7 +295,7 @@ Status collectors_billboards(const Context& context, const CollectorsRun& run,
     const StageClock clock(context, "blend");
     const std::size_t n = run.prepared.collectors.size();
     Buffer<float> spheres;
-    PILEUS_TRY(spheres.resize(5 * n, "billboards"));
+    PILEUS_TRY(allocate(arrays::billboard_numbers(n), spheres));
     for (std::size_t i = 0; i < n; ++i) {
         const Collector& c = run.prepared.collectors[i];
         for (std::size_t a = 0; a < 3; ++a) spheres[a * n + i] = c.centre[a];

@@ -8,6 +8,19 @@
 
 namespace pileus {
 
+namespace arrays {
+
+/// Optical depths towards the sun, from the first stage that shows or, in animations, shoots.
+inline Array<float> shadow(std::uint64_t nodes, Stage first) {
+    return {"shadow", nodes, first, Stage::kWrite};
+}
+/// With the ground's light of the batch beside it.
+inline Array<float> batch_background(std::uint64_t pixels) {
+    return {"ground light of a batch", bytes_of(3, pixels), Stage::kLayers, Stage::kLayers};
+}
+
+}  // namespace arrays
+
 /// Batches of generations that this run's error is made from; 0: none.
 int collectors_batches(const CollectorsRun& run);
 

@@ -50,7 +50,8 @@ Status show_sun(const Context& context, CollectorsRun& run, const ReconstructInp
 /// Sunlight that the media scattered once, straight from the sun.
 Status show_single(const Context& context, CollectorsRun& run, const ReconstructInput& whole,
                    Planes& planes) {
-    if (!whole.lighting->sunlit) return planes.single.resize(planes.colour.size(), "single");
+    if (!whole.lighting->sunlit)
+        return allocate(arrays::picture_planes(1, planes.colour.size()), planes.single);
     Lighting light = sun_alone(*whole.lighting);
     ReconstructInput lit = whole;
     lit.lighting = &light;

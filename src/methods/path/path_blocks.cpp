@@ -22,18 +22,22 @@ struct Ringed {
     }
 };
 
+Array<float> ringed_blocks(const Ringed& g) {
+    return {"blocks that flights cross", g.total(), Stage::kPaths, Stage::kPaths};
+}
+
 }  // namespace
 
-std::uint64_t path_blocks_bytes(const Grid& grid, int block) {
+Array<float> arrays::path_blocks(const Grid& grid, int block) {
     std::int32_t counts[3];
     block_counts(grid, block, counts);
-    return sizeof(float) * Ringed(counts).total();
+    return ringed_blocks(Ringed(counts));
 }
 
 Status path_blocks(Span<const float> majorants, const std::int32_t counts[3], int threads,
                    Buffer<float>& out) {
     const Ringed g(counts);
-    PILEUS_TRY(out.resize(g.total(), "path blocks"));
+    PILEUS_TRY(allocate(ringed_blocks(g), out));
     const std::size_t nx = std::size_t(g.size[0]), ny = std::size_t(g.size[1]);
     const std::size_t nz = std::size_t(g.size[2]);
     std::size_t from = 0;

@@ -85,7 +85,7 @@ void weigh_memory(const Context& context, PathRun& run) {
     const OutputSettings& output = scene.output;
     const Grid& grid = run.world.medium.grid;
     const PathInput in = path_input(context, run);
-    const std::uint64_t pixels = pixels_of(scene), kFloat = sizeof(float);
+    const std::uint64_t pixels = pixels_of(scene);
     const bool again = context.frames > 1;
     const Stage traced = again ? Stage::kWrite : Stage::kPaths;
     const SkyMapBytes sky = sky_map_bytes(run.world.sky_map);
@@ -96,26 +96,26 @@ void weigh_memory(const Context& context, PathRun& run) {
         grid, run.outlined_only ? most_tracking_blocks(grid, true) : run.majorants.tracking.size(),
         std::uint64_t(context.threads), traced, t);
 
-    // Texels' light, and sums of it along the rows.
-    const std::uint64_t texels =
-        std::uint64_t(run.world.sky_map.size[0]) * std::uint64_t(run.world.sky_map.size[1]);
-    t.add("directions to the sky map", Stage::kPaths, Stage::kPaths,
-          bytes_of(8, texels) + 4 * std::uint64_t(run.world.sky_map.size[1]));
-    t.add("film", Stage::kPaths, Stage::kLayers, film_bytes(in));
+    // All rows of the map, of which a ground leaves the upper ones.
+    const std::uint64_t columns = std::uint64_t(run.world.sky_map.size[0]),
+                        rows = std::uint64_t(run.world.sky_map.size[1]);
+    add(t, arrays::path_sky_weight(rows, columns), arrays::path_sky_columns(rows, columns),
+        arrays::path_sky_rows(rows));
+    const auto sums = arrays::film_sums(in), squares = arrays::film_squares(in);
+    add(t, sums, squares);
     const int finest = voxel_count(grid) <= kMostSingleVoxels ? 1 : 2;
-    t.add("blocks that flights cross", Stage::kPaths, Stage::kPaths,
-          path_blocks_bytes(grid, run.outlined_only ? finest : run.majorants.block));
-    t.add("path samples", Stage::kPaths, Stage::kPaths, path_scratch_bytes(in));
+    add(t, arrays::path_blocks(grid, run.outlined_only ? finest : run.majorants.block));
+    add(t, arrays::path_samples(in));
     if (!run.budget.state.empty())
-        t.add("state file", Stage::kPaths, Stage::kPaths, path_state_bytes(film_bytes(in)));
-    const std::uint64_t shown = 1u + (output.layer_depth ? 1u : 0u) +
-                                (run.lighting.opaque() ? 1u : 0u) +
+        t.add("state file", Stage::kPaths, Stage::kPaths,
+              path_state_bytes(sums.bytes() + squares.bytes()));
+    const std::uint64_t shown = plane_count(0, run.lighting.opaque(), output.layer_depth) +
                                 (output.layer_optical_depth ? 1u : 0u);
-    t.add("picture planes", Stage::kPaths, Stage::kLayers, bytes_of(kFloat * shown, pixels));
+    add(t, arrays::picture_planes(shown, pixels, Stage::kPaths));
     const std::uint64_t light = 3u + (output.layer_cloud || output.layer_order ? 3u : 0u) +
                                 (output.layer_light ? 3u : 0u) + (output.layer_order ? 3u : 0u) +
                                 (output.layer_error ? 3u : 0u);
-    t.add("means of the film", Stage::kLayers, Stage::kLayers, bytes_of(kFloat * light, pixels));
+    add(t, arrays::film_means(light, pixels));
     add_image_rows(std::uint64_t(scene.camera.resolution[0]),
                    std::uint64_t(scene.camera.resolution[1]),
                    4 + extra_layers(output, output.layer_error), t);

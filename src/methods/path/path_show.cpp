@@ -10,10 +10,9 @@ namespace pileus {
 namespace {
 
 /// Means of one part of the film as floats, [channel][pixel].
-Status mean_planes(const Context& context, const Film& film, int part, const char* what,
-                   Buffer<float>& out) {
+Status mean_planes(const Context& context, const Film& film, int part, Buffer<float>& out) {
     const std::size_t pixels = film.pixels();
-    PILEUS_TRY(out.resize(3 * std::uint64_t(pixels), what));
+    PILEUS_TRY(allocate(arrays::film_means(3, pixels), out));
     parallel_for(context.threads, film.height, [&](std::int64_t row, int) {
         const std::size_t first = std::size_t(row) * std::size_t(film.width);
         for (int c = 0; c < 3; ++c)
@@ -25,7 +24,7 @@ Status mean_planes(const Context& context, const Film& film, int part, const cha
 
 Status error_planes(const Film& film, Buffer<float>& out) {
     const std::size_t pixels = film.pixels();
-    PILEUS_TRY(out.resize(3 * std::uint64_t(pixels), "error"));
+    PILEUS_TRY(allocate(arrays::film_means(3, pixels), out));
     for (int c = 0; c < 3; ++c)
         for (std::size_t i = 0; i < pixels; ++i)
             out[std::size_t(c) * pixels + i] = float(film_error(film, c, i));
@@ -36,12 +35,11 @@ Status error_planes(const Film& film, Buffer<float>& out) {
 Status fill_planes(const Context& context, PathRun& run) {
     const OutputSettings& output = run.scene->output;
     Planes& p = run.planes;
-    PILEUS_TRY(mean_planes(context, run.film, kPathTotal, "radiance", p.colour));
+    PILEUS_TRY(mean_planes(context, run.film, kPathTotal, p.colour));
     if (output.layer_cloud || output.layer_order)
-        PILEUS_TRY(mean_planes(context, run.film, kPathCloud, "cloud", p.cloud));
-    if (output.layer_light) PILEUS_TRY(mean_planes(context, run.film, kPathSun, "sunlight", p.sun));
-    if (output.layer_order)
-        PILEUS_TRY(mean_planes(context, run.film, kPathSingle, "single scattering", p.single));
+        PILEUS_TRY(mean_planes(context, run.film, kPathCloud, p.cloud));
+    if (output.layer_light) PILEUS_TRY(mean_planes(context, run.film, kPathSun, p.sun));
+    if (output.layer_order) PILEUS_TRY(mean_planes(context, run.film, kPathSingle, p.single));
     // One sample has no scatter to tell an error from.
     if (output.layer_error && run.film.samples >= 2) PILEUS_TRY(error_planes(run.film, p.error));
     return Status::ok();

@@ -38,9 +38,9 @@ Status make_path_sky(const SkyMapView& map, PathSky& out) {
     out.view = SkySampler{};
     if (rows == 0 || columns == 0) return Status::ok();
     Buffer<double> power, of_row;
-    PILEUS_TRY(out.weight.resize(rows * columns, "path sky"));
-    PILEUS_TRY(out.row_cdf.resize(rows, "path sky"));
-    PILEUS_TRY(out.column_cdf.resize(rows * columns, "path sky"));
+    PILEUS_TRY(allocate(arrays::path_sky_weight(rows, columns), out.weight));
+    PILEUS_TRY(allocate(arrays::path_sky_rows(rows), out.row_cdf));
+    PILEUS_TRY(allocate(arrays::path_sky_columns(rows, columns), out.column_cdf));
     PILEUS_TRY(power.resize(columns, "path sky"));
     PILEUS_TRY(of_row.resize(rows, "path sky"));
     for (std::size_t i = 0; i < rows; ++i) {

@@ -4,7 +4,7 @@
 // docs/path.md, "Sky maps"
 #pragma once
 #include "kernels_cpu/light/sky_sample.h"
-#include "src/base/buffer.h"
+#include "src/plan/array.h"
 
 namespace pileus {
 
@@ -16,6 +16,21 @@ struct PathSky {
 
     std::uint64_t bytes() const { return weight.bytes() + row_cdf.bytes() + column_cdf.bytes(); }
 };
+
+namespace arrays {
+
+/// Texels' light, and sums of it along the rows; and sums of the rows.
+inline Array<float> path_sky_weight(std::uint64_t rows, std::uint64_t columns) {
+    return {"directions to the sky map", rows * columns, Stage::kPaths, Stage::kPaths};
+}
+inline Array<std::int32_t> path_sky_columns(std::uint64_t rows, std::uint64_t columns) {
+    return {"directions to the sky map", rows * columns, Stage::kPaths, Stage::kPaths};
+}
+inline Array<std::int32_t> path_sky_rows(std::uint64_t rows) {
+    return {"directions to the sky map", rows, Stage::kPaths, Stage::kPaths};
+}
+
+}  // namespace arrays
 
 /// Fills the tables for a map that shines somewhere; a black one is left without (no weight).
 /// kLimit: out of memory.

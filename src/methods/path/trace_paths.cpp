@@ -24,6 +24,10 @@ std::uint64_t film_pixels(const PathInput& in) {
     return std::uint64_t(in.camera.width) * std::uint64_t(in.camera.height);
 }
 
+std::uint64_t scratch_samples(const PathInput& in) {
+    return std::uint64_t(in.threads) * kPiecesPerThread * kPiece;
+}
+
 /// Sample numbers whose product with the pixels fits 32 bits share a key.
 std::uint64_t samples_per_key(const PathInput& in) {
     const std::uint64_t pixels = film_pixels(in);
@@ -168,13 +172,18 @@ void add_tally(const PathTally& from, PathTally& to) {
         target[i] += source[i];
 }
 
-std::uint64_t film_bytes(const PathInput& in) {
-    return film_pixels(in) * 3 * std::uint64_t(parts_of(in) + 1) * sizeof(double);
+Array<double> arrays::film_sums(const PathInput& in) {
+    return {"film", film_pixels(in) * 3 * std::uint64_t(parts_of(in)), Stage::kPaths,
+            Stage::kLayers};
 }
 
-std::uint64_t path_scratch_bytes(const PathInput& in) {
-    const std::uint64_t samples = std::uint64_t(in.threads) * kPiecesPerThread * kPiece;
-    return samples * 3 * std::uint64_t(parts_of(in)) * sizeof(float);
+Array<double> arrays::film_squares(const PathInput& in) {
+    return {"film", film_pixels(in) * 3, Stage::kPaths, Stage::kLayers};
+}
+
+Array<float> arrays::path_samples(const PathInput& in) {
+    return {"path samples", scratch_samples(in) * 3 * std::uint64_t(parts_of(in)), Stage::kPaths,
+            Stage::kPaths};
 }
 
 Status make_film(const PathInput& in, Film& film) {
@@ -183,14 +192,13 @@ Status make_film(const PathInput& in, Film& film) {
     film.parts = parts_of(in);
     film.samples = film.ahead = film.ahead_samples = 0;
     film.tally = PathTally{};
-    PILEUS_TRY(film.sum.resize(film_pixels(in) * 3 * std::uint64_t(film.parts), "film"));
-    return film.square.resize(film_pixels(in) * 3, "film");
+    PILEUS_TRY(allocate(arrays::film_sums(in), film.sum));
+    return allocate(arrays::film_squares(in), film.square);
 }
 
 Status prepare_path(const PathInput& in, PathScratch& scratch) {
-    scratch.capacity = std::uint64_t(in.threads) * kPiecesPerThread * kPiece;
-    PILEUS_TRY(scratch.radiance.resize(scratch.capacity * 3 * std::uint64_t(parts_of(in)),
-                                       "path samples"));
+    scratch.capacity = scratch_samples(in);
+    PILEUS_TRY(allocate(arrays::path_samples(in), scratch.radiance));
     PILEUS_TRY(scratch.tallies.resize(std::uint64_t(in.threads) * 2, "path tallies"));
     PILEUS_TRY(make_path_sky(in.lighting->map, scratch.sky));
     std::int32_t counts[3];

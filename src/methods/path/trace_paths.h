@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "kernels_cpu/isa/kernels.h"
-#include "src/base/buffer.h"
 #include "src/methods/path/path_sky.h"
 #include "src/world/light/lights.h"
 #include "src/world/majorant/majorant.h"
@@ -65,9 +64,19 @@ struct PathScratch {
 /// An empty film for the input's camera. kLimit: out of memory.
 Status make_film(const PathInput& in, Film& film);
 
-/// Bytes that make_film and prepare_path take.
-std::uint64_t film_bytes(const PathInput& in);
-std::uint64_t path_scratch_bytes(const PathInput& in);
+namespace arrays {
+
+/// Sums of every part's channels, and of the squares of the whole light's.
+Array<double> film_sums(const PathInput& in);
+Array<double> film_squares(const PathInput& in);
+/// Samples of all threads that are not added up yet.
+Array<float> path_samples(const PathInput& in);
+/// Means of so many channels of the film, while they become an image.
+inline Array<float> film_means(std::uint64_t channels, std::uint64_t pixels) {
+    return {"means of the film", bytes_of(channels, pixels), Stage::kLayers, Stage::kLayers};
+}
+
+}  // namespace arrays
 
 /// Allocates the scratch once, for any number of calls with the same input.
 Status prepare_path(const PathInput& in, PathScratch& scratch);

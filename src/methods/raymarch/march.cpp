@@ -237,7 +237,7 @@ Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes&
     const RaymarchParams k = raymarch_params(in);
     const std::uint32_t rows = std::uint32_t(k.lattice.height);
     Buffer<std::int64_t> counts;
-    PILEUS_TRY(counts.resize(std::uint64_t(rows) * kRaymarchCounts, "counts"));
+    PILEUS_TRY(allocate(arrays::raymarch_counts(rows), counts));
     RaymarchBuffers b{};
     if (in.nodes != nullptr) b.optical_depth = in.nodes->optical_depth.data();
     b.visibility = in.visibility;

@@ -15,6 +15,15 @@
 
 namespace pileus {
 
+namespace arrays {
+
+/// What each row of a picture counted.
+inline Array<std::int64_t> raymarch_counts(std::uint64_t rows) {
+    return {"counts of rows", bytes_of(kRaymarchCounts, rows), Stage::kDisplay, Stage::kDisplay};
+}
+
+}  // namespace arrays
+
 struct RaymarchInput {
     const Medium* medium = nullptr;
     const Majorants* majorants = nullptr;  ///< blocks to skip

@@ -3,6 +3,7 @@
 // in: RaymarchRun, outlined or prepared -> out: its plan; kLimit where something is too much.
 // docs/report.md, "Plan"; docs/raymarch.md
 #include "src/methods/raymarch/raymarch.h"
+#include "src/picture/blue_noise.h"
 #include "src/world/medium/sky_medium.h"
 #include "src/world/plan_parts.h"
 
@@ -156,38 +157,25 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
     if (run.world.direct_sky) add_sky_rows(scene.media[0].sky, last, t);
     add_majorant_rows(grid, run.outlined_only ? 1 : run.majorants.tracking.size(),
                       std::uint64_t(context.threads), last, t);
-    if (!run.march_light && run.lighting.sunlit)
-        t.add("sunlight's optical depth on nodes", Stage::kShadow, last, sun_depth_bytes(grid));
+    if (!run.march_light && run.lighting.sunlit) add(t, arrays::sun_depth(grid, last));
     for (const Grid& level : level_grids(grid, run.levels)) {
-        int blocks[3];
-        block_counts(level, run.majorants.skip_block, blocks);
-        t.add("coarser density", Stage::kMajorants, last, bytes_of(kFloat, voxel_count(level)));
-        t.add("its blocks", Stage::kMajorants, last,
-              bytes_of(kFloat * std::uint64_t(blocks[0]), std::uint64_t(blocks[1]),
-                       std::uint64_t(blocks[2])));
+        add(t, arrays::coarse_density(level, last));
+        add(t, arrays::coarse_blocks(level, last));
     }
     if (run.settings.sky_ambient) {
         const std::uint64_t nodes = node_count(sky_node_grid(run.world.medium));
         const int sets = sky_node_sets(run.lighting);
-        t.add("skylight on nodes", Stage::kShadow, last,
-              bytes_of(kFloat * std::uint64_t(sets), nodes));
-        if (sets > 0)
-            t.add("optical depths of the sky", Stage::kShadow, Stage::kShadow,
-                  bytes_of(kFloat, nodes));
+        add(t, arrays::sky_light(nodes, sets, last));
+        if (sets > 0) add(t, arrays::sky_depths(nodes));
     }
-    const std::uint64_t shown = 7u + (output.layer_depth ? 1u : 0u) +
-                                (run.lighting.opaque() ? 1u : 0u) +
+    const std::uint64_t shown = plane_count(3, run.lighting.opaque(), output.layer_depth) +
                                 (output.layer_optical_depth ? 1u : 0u);
-    t.add("picture planes", Stage::kBackground, Stage::kLayers, bytes_of(kFloat * shown, pixels));
-    if (run.settings.jitter == RaymarchJitterKind::kBlueNoise)
-        t.add("blue noise", Stage::kShadow, last, bytes_of(kFloat, kNoiseTile * kNoiseTile));
+    add(t, arrays::picture_planes(shown, pixels));
+    if (run.settings.jitter == RaymarchJitterKind::kBlueNoise) add(t, arrays::blue_noise(last));
     const bool half = output.layer_depth || run.settings.temporal > 0;
-    t.add("marched pixels", Stage::kDisplay, last,
-          upsample_bytes(run.settings, scene.camera.resolution, run.lighting.opaque(), half,
-                         output.layer_optical_depth));
-    t.add("counts of rows", Stage::kDisplay, Stage::kDisplay,
-          bytes_of(sizeof(std::int64_t) * kRaymarchCounts,
-                   std::uint64_t(scene.camera.resolution[1])));
+    add_upsample_row(run.settings, scene.camera.resolution, run.lighting.opaque(), half,
+                     output.layer_optical_depth, last, t);
+    add(t, arrays::raymarch_counts(std::uint64_t(scene.camera.resolution[1])));
     add_image_rows(std::uint64_t(scene.camera.resolution[0]),
                    std::uint64_t(scene.camera.resolution[1]), 4 + extra_layers(output, false), t);
     add_solid_rows(scene, context.limits, run.world.solids, t);

@@ -93,7 +93,7 @@ Status raymarch_light(const FrameStep& step, const Context& context, MethodRun& 
                                output.layer_depth, run.planes));
     const std::uint64_t pixels = run.planes.transmittance.size();
     if (output.layer_optical_depth)
-        PILEUS_TRY(run.planes.optical_depth.resize(pixels, "optical depth"));
+        PILEUS_TRY(allocate(arrays::picture_planes(1, pixels), run.planes.optical_depth));
     PILEUS_TRY(fill_background(context, run));
     RaymarchInput in;
     in.medium = &run.world.medium;

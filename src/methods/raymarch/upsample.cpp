@@ -11,18 +11,23 @@ std::uint64_t pixels_of(const PixelLattice& g) {
     return std::uint64_t(g.width) * std::uint64_t(g.height);
 }
 
-Status fit(Buffer<float>& b, std::uint64_t n, const char* name) {
-    return b.size() == n ? Status::ok() : b.resize(n, name);
+/// So many numbers for each of `pixels`: marched ones, or those of the frame before.
+Array<float> marched(std::uint64_t numbers, std::uint64_t pixels, Stage last = Stage::kWrite) {
+    return {"marched pixels", bytes_of(numbers, pixels), Stage::kDisplay, last};
+}
+
+Array<std::int64_t> recalled_counts(std::uint64_t rows) {
+    return {"marched pixels", rows, Stage::kDisplay, Stage::kDisplay};
 }
 
 /// Planes of the marched pixels, with what stands behind each.
 Status outfit(const PixelLattice& g, int width, bool half_depth, const Planes& whole, Planes& few) {
     const std::uint64_t n = pixels_of(g);
-    PILEUS_TRY(fit(few.transmittance, n, "marched transmittance"));
-    PILEUS_TRY(fit(few.colour, 3 * n, "marched radiance"));
-    PILEUS_TRY(fit(few.half_depth, half_depth ? n : 0, "marched depth"));
-    PILEUS_TRY(fit(few.optical_depth, whole.optical_depth.empty() ? 0 : n, "marched depth"));
-    PILEUS_TRY(fit(few.opaque_depth, whole.opaque_depth.empty() ? 0 : n, "marched opaque depth"));
+    PILEUS_TRY(allocate_once(marched(1, n), few.transmittance));
+    PILEUS_TRY(allocate_once(marched(3, n), few.colour));
+    PILEUS_TRY(allocate_once(marched(half_depth ? 1 : 0, n), few.half_depth));
+    PILEUS_TRY(allocate_once(marched(whole.optical_depth.empty() ? 0 : 1, n), few.optical_depth));
+    PILEUS_TRY(allocate_once(marched(whole.opaque_depth.empty() ? 0 : 1, n), few.opaque_depth));
     for (std::size_t i = 0; i < few.opaque_depth.size(); ++i) {
         const std::size_t across = std::size_t(g.width), every = std::size_t(g.every);
         const std::size_t x = i % across * every + std::size_t(g.first[0]);
@@ -49,7 +54,7 @@ Status fill_in(const Context& context, const RaymarchInput& in, const PixelLatti
     k.medium = make_medium_view(*in.medium, *in.majorants);
     const std::uint32_t rows = std::uint32_t(in.camera.height);
     Buffer<std::int64_t> kept;
-    PILEUS_TRY(kept.resize(rows, "counts"));
+    PILEUS_TRY(allocate(recalled_counts(rows), kept));
     const Planes& few = memory.few;
     const UpsampleBuffers b{few.transmittance.data(),    few.colour.data(),
                             few.half_depth.data(),       few.optical_depth.data(),
@@ -67,7 +72,7 @@ Status fill_in(const Context& context, const RaymarchInput& in, const PixelLatti
 }
 
 Status copy(const Buffer<float>& from, Buffer<float>& to) {
-    PILEUS_TRY(fit(to, from.size(), "frame before"));
+    PILEUS_TRY(allocate_once(marched(1, from.size()), to));
     if (!from.empty()) std::memcpy(to.data(), from.data(), from.size() * sizeof(float));
     return Status::ok();
 }
@@ -127,20 +132,20 @@ Status upsample_picture(const Context& context, const RaymarchInput& in, int fra
     return s.temporal > 0 ? remember(in, planes, memory) : Status::ok();
 }
 
-std::uint64_t upsample_bytes(const RaymarchSettings& s, const std::array<int, 2>& resolution,
-                             bool solid, bool half_depth, bool optical_depth) {
+void add_upsample_row(const RaymarchSettings& s, const std::array<int, 2>& resolution, bool solid,
+                      bool half_depth, bool optical_depth, Stage last, MemoryTable& table) {
     const int every = s.temporal > 0 ? s.temporal : s.scale;
-    if (every <= 1) return 0;
+    if (every <= 1) return;
     const auto few = [&](int n) {
         return (std::uint64_t(n) + std::uint64_t(every) - 1) / std::uint64_t(every);
     };
-    const std::uint64_t marched = few(resolution[0]) * few(resolution[1]);
+    const std::uint64_t thin = few(resolution[0]) * few(resolution[1]);
     const std::uint64_t pixels = std::uint64_t(resolution[0]) * std::uint64_t(resolution[1]);
     const std::uint64_t solids = solid ? 1 : 0;
     const std::uint64_t planes = 4 + solids + (half_depth ? 1 : 0) + (optical_depth ? 1 : 0);
-    const std::uint64_t before = s.temporal > 0 ? (4 + solids) * pixels : 0;
-    return sizeof(float) * (planes * marched + before) +
-           sizeof(std::int64_t) * std::uint64_t(resolution[1]);
+    const std::uint64_t before = s.temporal > 0 ? 4 + solids : 0;
+    add(table, marched(planes, thin, last), marched(before, pixels, last),
+        recalled_counts(std::uint64_t(resolution[1])));
 }
 
 }  // namespace pileus

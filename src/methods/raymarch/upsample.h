@@ -26,8 +26,9 @@ PixelLattice upsample_lattice(const RaymarchSettings& settings, const CameraPara
 Status upsample_picture(const Context& context, const RaymarchInput& in, int frame,
                         UpsampleMemory& memory, Planes& planes, RaymarchTally& tally);
 
-/// Bytes of UpsampleMemory.
-std::uint64_t upsample_bytes(const RaymarchSettings& settings, const std::array<int, 2>& resolution,
-                             bool solid, bool half_depth, bool optical_depth);
+/// UpsampleMemory and the counts beside it; `last` uses them last.
+void add_upsample_row(const RaymarchSettings& settings, const std::array<int, 2>& resolution,
+                      bool solid, bool half_depth, bool optical_depth, Stage last,
+                      MemoryTable& table);
 
 }  // namespace pileus

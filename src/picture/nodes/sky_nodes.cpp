@@ -118,8 +118,8 @@ Status make_sky_nodes(const Context& context, const Medium& medium, const Majora
     for (int s = 0; s < 3; ++s)
         for (int c = 0; c < 3; ++c) out.colour[s][c] = float(r.colour[s][c]);
     Buffer<float> tau;
-    PILEUS_TRY(tau.resize(nodes, "optical depths of the sky"));
-    PILEUS_TRY(out.light.resize(nodes * std::uint64_t(out.sets), "skylight"));
+    PILEUS_TRY(allocate(arrays::sky_depths(nodes), tau));
+    PILEUS_TRY(allocate(arrays::sky_light(nodes, out.sets, Stage::kWrite), out.light));
     ShadowParams k{};
     k.medium = make_medium_view(medium, majorants);
     k.nodes = out.grid;

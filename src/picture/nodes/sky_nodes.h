@@ -4,6 +4,7 @@
 // docs/raymarch.md, "Skylight".
 #pragma once
 #include "kernels_cpu/raymarch/raymarch_params.h"
+#include "src/plan/array.h"
 #include "src/run/context.h"
 #include "src/world/light/lights.h"
 #include "src/world/majorant/majorants.h"
@@ -22,6 +23,19 @@ struct SkyNodes {
 /// are one each, a map has one for each channel with the ground in it.
 NodeGrid sky_node_grid(const Medium& medium);
 int sky_node_sets(const Lighting& lighting);
+
+namespace arrays {
+
+/// Of each set; `last` marches.
+inline Array<float> sky_light(std::uint64_t nodes, int sets, Stage last) {
+    return {"skylight on nodes", bytes_of(nodes, std::uint64_t(sets)), Stage::kShadow, last};
+}
+/// Towards one direction after the other.
+inline Array<float> sky_depths(std::uint64_t nodes) {
+    return {"optical depths of the sky", nodes, Stage::kShadow, Stage::kShadow};
+}
+
+}  // namespace arrays
 
 /// Light from directions all around, each weakened by what it passes; forward scattering keeps
 /// `kept` of what is scattered; octaves add up, to no more than there is. kLimit: out of memory.

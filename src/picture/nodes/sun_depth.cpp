@@ -103,8 +103,6 @@ std::size_t fine_node(const NodeGrid& fine, const SparseNodes& s, std::size_t i)
 
 }  // namespace
 
-std::uint64_t sun_depth_bytes(const Grid& grid) { return 4 * std::uint64_t(voxel_count(grid)); }
-
 Status make_sun_depth(const Context& context, const Medium& medium, const Majorants& majorants,
                       const std::array<float, 3>& to_sun, SunDepthKind kind, SunDepth& out) {
     const StageClock clock(context, "shadow");
@@ -113,8 +111,7 @@ Status make_sun_depth(const Context& context, const Medium& medium, const Majora
         out.nodes.size[a] = medium.grid.size[a];
         out.nodes.per_metre[a] = float(medium.grid.size[a] / medium.extent_m[a]);
     }
-    if (out.optical_depth.size() != node_count(out.nodes))
-        PILEUS_TRY(out.optical_depth.resize(node_count(out.nodes), "sun depth"));
+    PILEUS_TRY(allocate_once(arrays::sun_depth(medium.grid, Stage::kWrite), out.optical_depth));
     out.swept =
         kind == SunDepthKind::kSwept && sweep(context, medium, to_sun, out.optical_depth.data());
     if (out.swept) return Status::ok();

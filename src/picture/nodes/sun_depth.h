@@ -6,6 +6,7 @@
 #include <array>
 
 #include "src/picture/nodes/node_grid.h"
+#include "src/plan/array.h"
 #include "src/run/context.h"
 #include "src/world/majorant/majorants.h"
 
@@ -22,8 +23,14 @@ struct SunDepth {
     bool swept = false;           ///< false: rays, asked for or needed (see make_sun_depth)
 };
 
-/// Bytes of the optical depths.
-std::uint64_t sun_depth_bytes(const Grid& grid);
+namespace arrays {
+
+/// A node for each voxel; `last` marches.
+inline Array<float> sun_depth(const Grid& grid, Stage last) {
+    return {"sunlight's optical depth on nodes", voxel_count(grid), Stage::kShadow, last};
+}
+
+}  // namespace arrays
 
 /// Fills `out`, whose memory is used again where it fits. `to_sun` is any direction but 0. A
 /// periodic medium under a sun that is lower than one voxel in kMostShift gets rays even where a

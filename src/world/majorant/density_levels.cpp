@@ -56,7 +56,7 @@ Status make_density_levels(const Medium& medium, int levels, int block, const Co
         out.emplace_back();
         DensityLevel& level = out.back();
         level.grid = to;
-        PILEUS_TRY(level.density.resize(voxel_count(to), "density level"));
+        PILEUS_TRY(allocate(arrays::coarse_density(to, Stage::kWrite), level.density));
         parallel_for(context.threads, to.size[2], [&](std::int64_t z, int) {
             halve_slice(fine, from, to, int(z), level.density.span());
         });

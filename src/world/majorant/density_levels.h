@@ -20,6 +20,18 @@ struct DensityLevel {
 /// grid has an odd number of cells, which would not meet itself.
 std::vector<Grid> level_grids(const Grid& grid, int levels);
 
+namespace arrays {
+
+/// Of one level; `last` marches.
+inline Array<float> coarse_density(const Grid& level, Stage last) {
+    return {"coarser density", voxel_count(level), Stage::kMajorants, last};
+}
+inline Array<float> coarse_blocks(const Grid& level, Stage last) {
+    return renamed(block_maxima(level, kSkipBlock), "its blocks", Stage::kMajorants, last);
+}
+
+}  // namespace arrays
+
 /// Makes them. kLimit: out of memory.
 Status make_density_levels(const Medium& medium, int levels, int block, const Context& context,
                            std::vector<DensityLevel>& out);

@@ -114,8 +114,7 @@ Status halve(const Grid& grid, int block, Span<const float> fine, int threads,
     int from[3], to[3];
     block_counts(grid, block, from);
     block_counts(grid, 2 * block, to);
-    PILEUS_TRY(coarse.resize(std::uint64_t(to[0]) * std::uint64_t(to[1]) * std::uint64_t(to[2]),
-                             "majorants"));
+    PILEUS_TRY(allocate(arrays::block_maxima(grid, 2 * block), coarse));
     const std::size_t nx = std::size_t(to[0]), mx = std::size_t(from[0]);
     parallel_for(threads, to[2], [&](std::int64_t z, int) {
         for (int k = 2 * int(z); k < std::min(2 * int(z) + 2, from[2]); ++k)
@@ -138,6 +137,12 @@ void block_counts(const Grid& grid, int block, int counts[3]) {
     for (int a = 0; a < 3; ++a) counts[a] = (grid.size[a] - 1) / block + 1;
 }
 
+std::uint64_t block_total(const Grid& grid, int block) {
+    int n[3];
+    block_counts(grid, block, n);
+    return std::uint64_t(n[0]) * std::uint64_t(n[1]) * std::uint64_t(n[2]);
+}
+
 Status majorant_grid(Span<const float> density, const Grid& grid, int block, int threads,
                      Buffer<float>& majorants) {
     assert(density.size == voxel_count(grid));
@@ -145,11 +150,10 @@ Status majorant_grid(Span<const float> density, const Grid& grid, int block, int
     block_counts(grid, block, n);
     const std::size_t nx = std::size_t(grid.size[0]), ny = std::size_t(grid.size[1]);
     const std::size_t scratch = nx * ny + nx;
-    const int workers = threads > 1 ? threads : 1;
+    const std::uint64_t workers = threads > 1 ? std::uint64_t(threads) : 1;
     Buffer<float> columns;
-    PILEUS_TRY(columns.resize(scratch * std::uint64_t(workers), "majorants: scratch"));
-    PILEUS_TRY(majorants.resize(std::uint64_t(n[0]) * std::uint64_t(n[1]) * std::uint64_t(n[2]),
-                                "majorants"));
+    PILEUS_TRY(allocate(arrays::majorant_rows(grid, workers), columns));
+    PILEUS_TRY(allocate(arrays::block_maxima(grid, block), majorants));
     parallel_for(threads, n[2], [&](std::int64_t bz, int thread) {
         float* slice = columns.data() + scratch * std::size_t(thread);
         float* row = slice + nx * ny;

@@ -5,12 +5,42 @@
 #pragma once
 #include "src/base/buffer.h"
 #include "src/base/status.h"
+#include "src/plan/array.h"
 #include "src/world/grid/grid.h"
 
 namespace pileus {
 
 /// Blocks of `block` voxels along each axis that cover the grid; the last may be cut short.
 void block_counts(const Grid& grid, int block, int counts[3]);
+
+/// All of them.
+std::uint64_t block_total(const Grid& grid, int block);
+
+/// Edge of the blocks that marches skip by, voxels.
+constexpr int kSkipBlock = 4;
+
+namespace arrays {
+
+/// A number for each block.
+inline Array<float> block_maxima(const Grid& grid, int block) {
+    return {"majorants", block_total(grid, block), Stage::kMajorants, Stage::kWrite};
+}
+/// Those that flights track by; `last` traces. Their number is bounded before they are made.
+inline Array<float> majorants(std::uint64_t blocks, Stage last) {
+    return {"majorants", blocks, Stage::kMajorants, last};
+}
+inline Array<float> blocks_to_skip(const Grid& grid) {
+    return renamed(block_maxima(grid, kSkipBlock), "blocks to skip", Stage::kMajorants,
+                   Stage::kWrite);
+}
+/// The largest of a slice's columns, and of its rows, per thread.
+inline Array<float> majorant_rows(const Grid& grid, std::uint64_t threads) {
+    const std::uint64_t nx = std::uint64_t(grid.size[0]), ny = std::uint64_t(grid.size[1]);
+    return {"rows of the majorants", bytes_of(nx * ny + nx, threads), Stage::kMajorants,
+            Stage::kMajorants};
+}
+
+}  // namespace arrays
 
 /// Largest density of each block and its one-voxel border, which in a periodic grid goes on at the
 /// far face in x and y; x fastest, into `majorants`

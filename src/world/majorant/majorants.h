@@ -11,10 +11,10 @@
 namespace pileus {
 
 struct Majorants {
-    Buffer<float> tracking;  ///< per tracking block
-    int block = 1;           ///< edge of a tracking block, voxels
-    Buffer<float> skipping;  ///< per block of the marching kernels
-    int skip_block = 4;      ///< its edge, voxels
+    Buffer<float> tracking;       ///< per tracking block
+    int block = 1;                ///< edge of a tracking block, voxels
+    Buffer<float> skipping;       ///< per block of the marching kernels
+    int skip_block = kSkipBlock;  ///< its edge, voxels
 };
 
 /// The tracking blocks and the skipping blocks; `costs` of tracking choose the former. Not `local`:

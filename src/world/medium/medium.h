@@ -7,6 +7,7 @@
 #include "kernels_cpu/media/optics.h"
 #include "src/base/limits.h"
 #include "src/io/volumes/volume.h"
+#include "src/plan/array.h"
 #include "src/scene/scene.h"
 #include "src/world/grid/grid.h"
 #include "src/world/phase/phase_table.h"
@@ -29,6 +30,20 @@ struct Medium {
     Buffer<float> parts;             ///< [medium - 1][voxel]; medium 0 is what is left of the sum
     std::vector<PhaseStore> phases;  ///< tables that `optics` points into
 };
+
+namespace arrays {
+
+/// The sum of all media.
+inline Array<float> density(const Grid& grid) {
+    return {"density", voxel_count(grid), Stage::kDensity, Stage::kWrite};
+}
+/// Each medium but the first, apart.
+inline Array<float> media_parts(const Grid& grid, std::uint64_t media) {
+    return {"parts of the media", bytes_of(media - 1, voxel_count(grid)), Stage::kDensity,
+            Stage::kWrite};
+}
+
+}  // namespace arrays
 
 /// Bytes of all tables of phase functions.
 std::uint64_t phase_bytes(const Medium& medium);

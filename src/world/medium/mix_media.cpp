@@ -230,9 +230,8 @@ Status mix_media(std::vector<Medium>& media, const MixGrid& grid, int threads, M
     }
     const MixBox& box = grid.box;
     join_media(media, box, out);
-    const std::size_t voxels = voxel_count(out.grid);
-    PILEUS_TRY(out.volume.density.resize(voxels, "density"));
-    PILEUS_TRY(out.parts.resize((media.size() - 1) * std::uint64_t(voxels), "parts of the media"));
+    PILEUS_TRY(allocate(arrays::density(out.grid), out.volume.density));
+    PILEUS_TRY(allocate(arrays::media_parts(out.grid, media.size()), out.parts));
     // Without any extinction there is nothing to add up.
     if (out.sigma > 0) PILEUS_TRY(add_layers(media, box, threads, out));
     for (float density : out.volume.density.span())

@@ -153,17 +153,15 @@ std::uint32_t project(const BillboardScene& scene, const CameraParams& c, std::u
     return sortable(c.orthographic != 0 ? s.z : std::sqrt(x * x + y * y + z * z));
 }
 
-struct SortItem {
-    std::uint32_t key, place;
-};
-
 /// Radix sort by key, stable: equal keys keep the order of their index.
-void sort_items(Buffer<SortItem>& items, Buffer<SortItem>& other) {
+void sort_items(Buffer<BillboardDistance>& items, Buffer<BillboardDistance>& other) {
     for (int shift = 0; shift < 32; shift += 8) {
         std::uint32_t start[257] = {};
-        for (const SortItem& item : items.span()) ++start[((item.key >> shift) & 255u) + 1];
+        for (const BillboardDistance& item : items.span())
+            ++start[((item.key >> shift) & 255u) + 1];
         for (int k = 0; k < 256; ++k) start[k + 1] += start[k];
-        for (const SortItem& item : items.span()) other[start[(item.key >> shift) & 255u]++] = item;
+        for (const BillboardDistance& item : items.span())
+            other[start[(item.key >> shift) & 255u]++] = item;
         items.swap(other);
     }
 }
@@ -192,11 +190,11 @@ void for_tiles(const BlendParams& p, const BlendSphere& s, Function&& function) 
 
 Status project_billboards(const BillboardScene& scene, const CameraParams& camera, int threads,
                           BillboardLists& lists) {
-    Buffer<SortItem> items, other;
-    PILEUS_TRY(lists.spheres.resize(scene.count, "billboards"));
-    PILEUS_TRY(items.resize(scene.count, "order of billboards"));
-    PILEUS_TRY(other.resize(scene.count, "order of billboards"));
-    PILEUS_TRY(lists.order.resize(scene.count, "order of billboards"));
+    Buffer<BillboardDistance> items, other;
+    PILEUS_TRY(allocate(arrays::billboard_spheres(scene.count), lists.spheres));
+    PILEUS_TRY(allocate(arrays::billboard_distances(scene.count), items));
+    PILEUS_TRY(allocate(arrays::billboard_distances(scene.count), other));
+    PILEUS_TRY(allocate(arrays::billboard_order(scene.count), lists.order));
 
     // Look at each sphere from the camera, some thousands at a time.
     constexpr std::int64_t kPiece = 4096;
@@ -217,15 +215,15 @@ Status project_billboards(const BillboardScene& scene, const CameraParams& camer
 
 Status bin_billboards(const BlendParams& params, std::uint32_t tiles, BillboardLists& lists) {
     // Count first, so that the lists lie one after the other without gaps.
-    PILEUS_TRY(lists.tile_begin.resize(std::uint64_t(tiles) + 1, "tiles"));
+    PILEUS_TRY(allocate(arrays::tile_begin(tiles), lists.tile_begin));
     for (const BlendSphere& s : lists.spheres.span())
         for_tiles(params, s, [&](std::size_t tile) { ++lists.tile_begin[tile + 1]; });
     for (std::size_t i = 0; i < tiles; ++i) lists.tile_begin[i + 1] += lists.tile_begin[i];
 
     // Fill in the order of the spheres, so that each list is in that order too.
     Buffer<std::uint64_t> next;
-    PILEUS_TRY(next.resize(tiles, "tiles"));
-    PILEUS_TRY(lists.tile_spheres.resize(lists.tile_begin[tiles], "billboards of tiles"));
+    PILEUS_TRY(allocate(arrays::tile_begin(tiles), next));
+    PILEUS_TRY(allocate(arrays::billboards_of_tiles(lists.tile_begin[tiles]), lists.tile_spheres));
     for (std::size_t i = 0; i < tiles; ++i) next[i] = lists.tile_begin[i];
     for (const std::uint32_t i : lists.order.span())
         for_tiles(params, lists.spheres[i],

@@ -202,8 +202,7 @@ Row collector_colour(const ReconstructInput& in, const Window& window, std::size
 Status reconstruct(const ReconstructInput& in, CollectorColours& out) {
     const std::size_t slots = filled_slots(*in.photons), count = in.collectors.size;
     const std::size_t batches = std::size_t(in.batches), sets = 1 + batches;
-    if (out.colour.size() != 3 * sets * count)
-        PILEUS_TRY(out.colour.resize(3 * sets * count, "collector colours"));
+    PILEUS_TRY(allocate_once(arrays::collector_colours(3 * sets, count), out.colour));
     const Window window = band_window(in);
     constexpr std::size_t kPiece = 256;
     const std::size_t pieces = (count + kPiece - 1) / kPiece;
@@ -295,8 +294,7 @@ Status reconstruct_harmonics(const ReconstructInput& in, int batch, HarmonicSour
             out.colour[s][c] = out.sets < 3 ? float(in.lighting->lights[std::size_t(s)].colour[c])
                                             : (std::size_t(s) == c ? 1.0f : 0.0f);
     const std::size_t numbers = std::size_t(out.sets) * std::size_t(out.bands * out.bands);
-    if (out.values.size() != numbers * count)
-        PILEUS_TRY(out.values.resize(numbers * count, "collector colours"));
+    PILEUS_TRY(allocate_once(arrays::collector_colours(numbers, count), out.values));
     const Window window = band_window(in);
     constexpr std::size_t kPiece = 256;
     parallel_for(in.threads, std::int64_t((count + kPiece - 1) / kPiece),
@@ -316,7 +314,7 @@ Status reconstruct_harmonics(const ReconstructInput& in, int batch, HarmonicSour
 Status reconstruct_ground(const ReconstructInput& in, const GroundMap& map, int batch,
                           Buffer<float>& radiance) {
     const std::size_t cells = std::size_t(map.cells) * std::size_t(map.cells);
-    PILEUS_TRY(radiance.resize(3 * cells, "ground light"));
+    PILEUS_TRY(allocate(arrays::ground_light(cells), radiance));
     if (cells == 0) return Status::ok();
     // The same groups of slots as the collectors' batches.
     const std::size_t slots = in.photons->slots.size(), group = std::size_t(batch);

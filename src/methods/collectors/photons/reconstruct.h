@@ -31,6 +31,20 @@ struct CollectorColours {
     std::uint64_t clamped_negative = 0;
 };
 
+namespace arrays {
+
+/// So many numbers for each collector.
+inline Array<float> collector_colours(std::uint64_t numbers, std::uint64_t collectors) {
+    return {"collector colours", bytes_of(numbers, collectors), Stage::kReconstruct,
+            Stage::kLayers};
+}
+/// Three channels of what the ground sends back.
+inline Array<float> ground_light(std::uint64_t cells) {
+    return {"ground map", bytes_of(3, cells), Stage::kBackground, Stage::kBackground};
+}
+
+}  // namespace arrays
+
 /// Every colour is finite and >= 0; negative ones are clamped and counted (batches are not
 /// clamped: their spread is what matters). kLimit: out of memory.
 Status reconstruct(const ReconstructInput& in, CollectorColours& out);

@@ -99,8 +99,8 @@ Status make_pyramid(const NodeGrid& g, int channels, Pyramid& p) {
     p.channels = channels;
     p.levels = pyramid_levels(g, channels);
     const std::uint64_t nodes = source_nodes(g);
-    PILEUS_TRY(p.weights.resize(nodes, "source weights"));
-    return p.source.resize(nodes * std::uint64_t(channels), "source grid");
+    PILEUS_TRY(allocate(arrays::source_weights(nodes), p.weights));
+    return allocate(arrays::source_grid(std::uint64_t(channels), nodes), p.source);
 }
 
 /// Adds the eight children of each node of `up` in slice z.

@@ -7,11 +7,28 @@
 #include "src/base/status.h"
 #include "src/methods/collectors/prepare/prepared.h"
 #include "src/picture/nodes/node_grid.h"
+#include "src/plan/array.h"
 
 namespace pileus {
 
 /// Nodes of the grid and of all coarser levels that `splat_colours` keeps behind it.
 std::uint64_t source_nodes(const NodeGrid& g);
+
+namespace arrays {
+
+/// So many numbers for each of source_nodes().
+inline Array<float> source_grid(std::uint64_t numbers, std::uint64_t nodes) {
+    return {"source grid", bytes_of(numbers, nodes), Stage::kSplat, Stage::kDisplay};
+}
+inline Array<float> source_weights(std::uint64_t nodes) {
+    return {"source weights", nodes, Stage::kSplat, Stage::kSplat};
+}
+/// The same light as kernels read it: one node's numbers after the other.
+inline Array<float> source_by_node(std::uint64_t numbers) {
+    return {"source by node", numbers, Stage::kSplat, Stage::kDisplay};
+}
+
+}  // namespace arrays
 
 struct SplatOptions {
     float radius_factor = 1.2f;  ///< ball over the collector's radius

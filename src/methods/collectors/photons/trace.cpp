@@ -155,17 +155,19 @@ GroundMap make_ground_map(const Medium& medium, const Lighting& lighting) {
     return map;
 }
 
-std::uint64_t slot_stride(const TraceInput& in) {
-    return collector_numbers(in) + std::uint64_t(in.ground.cells) * std::uint64_t(in.ground.cells) *
-                                       std::uint64_t(in.medium->channels);
+SlotSize slot_size(const TraceInput& in) {
+    return {in.collectors, std::uint64_t(in.medium->channels),
+            std::uint64_t(in.deposit.coefficients),
+            std::uint64_t(in.ground.cells) * std::uint64_t(in.ground.cells)};
 }
 
 Status prepare_trace(const TraceInput& in, TraceScratch& scratch) {
     // Neighbouring threads keep 128 bytes apart (unpadded counters cost half the speed).
     scratch.stride = (slot_stride(in) + 31) / 16 * 16;
     const std::uint64_t blocks = adds_directly(in) ? 0 : std::uint64_t(in.threads);
-    PILEUS_TRY(scratch.sums.resize(scratch.stride * blocks, "photon sums"));
-    return scratch.tallies.resize(std::uint64_t(in.threads) * 2, "photon tallies");
+    PILEUS_TRY(allocate(arrays::photon_sums(scratch.stride, blocks, Stage::kWrite), scratch.sums));
+    return allocate(arrays::photon_tallies(std::uint64_t(in.threads), Stage::kWrite),
+                    scratch.tallies);
 }
 
 Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScratch& scratch,

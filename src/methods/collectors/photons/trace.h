@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "kernels_cpu/isa/kernels.h"
-#include "src/base/buffer.h"
+#include "src/plan/array.h"
 #include "src/world/light/lights.h"
 #include "src/world/majorant/majorants.h"
 
@@ -74,8 +74,36 @@ struct Photons {
     std::vector<TraceTally> tallies;  ///< per light
 };
 
+/// How many numbers a light has in a slot.
+struct SlotSize {
+    std::uint64_t collectors = 0, channels = 1, coefficients = 1, ground_cells = 0;
+
+    std::uint64_t numbers() const {
+        return sum_of_bytes(bytes_of(collectors, channels, coefficients), ground_cells * channels);
+    }
+};
+SlotSize slot_size(const TraceInput& in);
+
 /// Numbers per light in a slot.
-std::uint64_t slot_stride(const TraceInput& in);
+inline std::uint64_t slot_stride(const TraceInput& in) { return slot_size(in).numbers(); }
+
+namespace arrays {
+
+/// One slot.
+inline Array<std::int64_t> photon_slot(const SlotSize& size, std::uint64_t lights) {
+    return {"photon map", bytes_of(size.numbers(), lights), Stage::kPhotons, Stage::kWrite};
+}
+/// Every thread has two, a cache line pair apart; `last` traces.
+inline Array<TraceTally> photon_tallies(std::uint64_t threads, Stage last) {
+    return {"photon tallies per thread", bytes_of(2, threads), Stage::kPhotons, last};
+}
+/// Sums of all threads that have their own. The plan bounds them by bytes_of_sums, which it knows
+/// before the stride.
+inline Array<std::int64_t> photon_sums(std::uint64_t stride, std::uint64_t threads, Stage last) {
+    return {"photon sums per thread", bytes_of(stride, threads), Stage::kPhotons, last};
+}
+
+}  // namespace arrays
 
 /// Scratch of the tracer, allocated once: tallies per thread, and sums per thread where there are
 /// several and they do not share.

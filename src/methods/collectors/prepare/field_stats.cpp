@@ -47,7 +47,7 @@ Status field_stats(Span<const float> density, Span<const float> field, const Gri
     const int nz = grid.size[2];
     const std::size_t slice = voxel_count(grid) / std::size_t(nz);
     Buffer<FieldStats> slices;
-    PILEUS_TRY(slices.resize(std::uint64_t(nz), "statistics of the sampled field"));
+    PILEUS_TRY(allocate(arrays::slice_stats(grid), slices));
     parallel_for(threads, (nz + kAbreast - 1) / kAbreast, [&](std::int64_t piece, int) {
         const int first = int(piece) * kAbreast, count = std::min(kAbreast, nz - first);
         double sums[kAbreast];

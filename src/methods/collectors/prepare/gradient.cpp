@@ -38,7 +38,7 @@ Status gradient_magnitude(Span<const float> density, const Grid& grid, int threa
     assert(density.size == voxel_count(grid) && field.size == density.size);
     const int nx = grid.size[0], ny = grid.size[1], nz = grid.size[2];
     Buffer<float> nothing;
-    PILEUS_TRY(nothing.resize(std::uint64_t(nx), "gradient: an empty row"));
+    PILEUS_TRY(allocate(arrays::empty_row(grid), nothing));
     float per_2h[3];
     for (int a = 0; a < 3; ++a) per_2h[a] = 0.5f / grid.cell_m[a];
     parallel_for(threads, nz, [&](std::int64_t slice, int) {

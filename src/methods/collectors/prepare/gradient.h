@@ -5,6 +5,7 @@
 #pragma once
 #include "src/base/span.h"
 #include "src/base/status.h"
+#include "src/plan/array.h"
 #include "src/world/grid/grid.h"
 
 namespace pileus {
@@ -16,6 +17,40 @@ struct FieldStats {
 };
 
 constexpr int kMaxVarianceRadius = 8;
+
+/// Sums of a voxel's neighbours: of their levels of density, and of the squares of these.
+struct VarianceSums {
+    std::int64_t first, second;
+};
+
+namespace arrays {
+
+/// The weight of every voxel, by gradient or by variance.
+inline Array<float> gradient_field(const Grid& grid) {
+    return {"gradient field", voxel_count(grid), Stage::kSamples, Stage::kSamples};
+}
+/// What lies beyond the box.
+inline Array<float> empty_row(const Grid& grid) {
+    return {"empty row", std::uint64_t(grid.size[0]), Stage::kSamples, Stage::kSamples};
+}
+inline Array<FieldStats> slice_stats(const Grid& grid) {
+    return {"statistics of the sampled field", std::uint64_t(grid.size[2]), Stage::kSamples,
+            Stage::kSamples};
+}
+/// Sums per voxel, and per thread those of a slice and of a row.
+inline Array<VarianceSums> variance_sums(const Grid& grid) {
+    return {"sums of the variance", voxel_count(grid), Stage::kSamples, Stage::kSamples};
+}
+inline Array<VarianceSums> variance_slices(const Grid& grid, std::uint64_t threads) {
+    const std::uint64_t slice = std::uint64_t(grid.size[0]) * std::uint64_t(grid.size[1]);
+    return {"sums of the variance", slice * threads, Stage::kSamples, Stage::kSamples};
+}
+inline Array<VarianceSums> variance_rows(const Grid& grid, std::uint64_t threads) {
+    return {"sums of the variance", std::uint64_t(grid.size[0]) * threads, Stage::kSamples,
+            Stage::kSamples};
+}
+
+}  // namespace arrays
 
 /// |grad rho| at each voxel's centre by central differences over one voxel, 1/m; the density
 /// outside the box is zero. `field` holds one float per voxel. kLimit: out of memory.

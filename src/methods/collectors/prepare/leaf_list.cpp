@@ -68,8 +68,8 @@ Status LeafList::append(const VoxelBox& box) {
     if (count_ == leaves_.size()) {
         Buffer<Leaf> larger;
         const std::size_t wanted = std::max<std::size_t>(1024, 2 * count_);
-        PILEUS_TRY(
-            larger.resize(std::min<std::uint64_t>(wanted, options_.max_leaves), "kD-tree: leaves"));
+        PILEUS_TRY(allocate(
+            arrays::growing_leaves(std::min<std::uint64_t>(wanted, options_.max_leaves)), larger));
         std::copy(leaves_.data(), leaves_.data() + count_, larger.data());
         leaves_.swap(larger);
     }
@@ -147,7 +147,7 @@ Status LeafList::add_with_samples(VoxelBox box, const SampleBounds& bounds) {
 }
 
 Status LeafList::take(Buffer<Leaf>& leaves) {
-    PILEUS_TRY(leaves.resize(count_, "kD-tree: leaves"));
+    PILEUS_TRY(allocate(arrays::leaves(count_), leaves));
     std::copy(leaves_.data(), leaves_.data() + count_, leaves.data());
     leaves_ = Buffer<Leaf>();
     count_ = 0;

@@ -17,6 +17,16 @@ struct SampleBounds {
     float lo[3], hi[3];
 };
 
+namespace arrays {
+
+/// The list while it grows: `room` leaves. Together with the smaller one that it takes over, and
+/// then with the finished leaves, it is within room for twice the leaves and 1024 more.
+inline Array<Leaf> growing_leaves(std::uint64_t room) {
+    return {"growing list of leaves", room, Stage::kTree, Stage::kTree};
+}
+
+}  // namespace arrays
+
 class LeafList {
 public:
     LeafList(Span<const float> density, const Grid& grid, const TreeOptions& options)

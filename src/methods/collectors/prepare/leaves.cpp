@@ -77,7 +77,7 @@ Status measure_leaves(Span<const float> density, const Grid& grid, int threads, 
     assert(density.size == voxel_count(grid) && moments.size == leaves.size);
     const std::size_t nx = std::size_t(grid.size[0]);
     Buffer<double> rows;
-    PILEUS_TRY(rows.resize(nx * std::uint64_t(threads > 1 ? threads : 1), "leaves: voxel masses"));
+    PILEUS_TRY(allocate(arrays::row_masses(grid, threads > 1 ? std::uint64_t(threads) : 1), rows));
     for_each_leaf(threads, leaves.size, [&](std::size_t l, int thread) {
         moments[l] = LeafMoments{};
         measure(density, grid, rows.data() + nx * std::size_t(thread), leaves[l], moments[l]);

@@ -16,18 +16,14 @@ namespace {
 constexpr double kPiExact = 3.14159265358979323846;
 constexpr std::size_t kChunk = 32;
 
-struct Centroid {
-    double sum[3], weight;
-};
-
 /// Adds up the samples of each leaf in the order of the samples.
 void sum_samples(Span<const Sample> samples, const Grid& grid,
-                 Span<const std::int32_t> leaf_of_voxel, Span<Centroid> sums) {
+                 Span<const std::int32_t> leaf_of_voxel, Span<SampleCentroid> sums) {
     for (const Sample& s : samples) {
         int voxel[3];
         for (int a = 0; a < 3; ++a) voxel[a] = std::min(int(s.x[a]), grid.size[a] - 1);
         const std::size_t v = voxel_index(grid, voxel[0], voxel[1], voxel[2]);
-        Centroid& c = sums[std::size_t(leaf_of_voxel[v])];
+        SampleCentroid& c = sums[std::size_t(leaf_of_voxel[v])];
         for (int a = 0; a < 3; ++a) c.sum[a] += double(s.x[a]);
         c.weight += 1.0;
     }
@@ -48,7 +44,7 @@ void finish(Collector& c, const Grid& grid, const double centre[3], const double
     c.extinction = float(c.mass / (4.0 / 3.0 * kPiExact * R * R * R));
 }
 
-void place_paper(Collector& c, const Leaf& leaf, const Centroid& samples, const Grid& grid) {
+void place_paper(Collector& c, const Leaf& leaf, const SampleCentroid& samples, const Grid& grid) {
     double centre[3], edge[3];
     for (int a = 0; a < 3; ++a) {
         edge[a] = double(leaf.hi[a] - leaf.lo[a]);
@@ -79,10 +75,10 @@ Status place_collectors(const CollectorOptions& options, Span<const LeafMoments>
     // Number the leaves that take part.
     std::size_t count = 0;
     for (Leaf& leaf : leaves) leaf.collector = leaf.mass > 0 ? std::int32_t(count++) : -1;
-    PILEUS_TRY(collectors.resize(count, "collectors"));
-    Buffer<Centroid> sums;
+    PILEUS_TRY(allocate(arrays::collectors(count), collectors));
+    Buffer<SampleCentroid> sums;
     if (options.paper) {
-        PILEUS_TRY(sums.resize(leaves.size, "collectors: centroids of samples"));
+        PILEUS_TRY(allocate(arrays::sample_centroids(leaves.size), sums));
         sum_samples(samples, grid, leaf_of_voxel, sums.span());
     }
     const std::int64_t pieces = std::int64_t((leaves.size + kChunk - 1) / kChunk);

@@ -14,6 +14,23 @@ struct CollectorOptions {
     float radius_factor = 1.35f;  ///< R/r of the other variant; [1, 3]
 };
 
+/// Of the samples in a leaf.
+struct SampleCentroid {
+    double sum[3], weight;
+};
+
+namespace arrays {
+
+inline Array<Collector> collectors(std::uint64_t count) {
+    return {"collectors", count, Stage::kCollectors, Stage::kWrite};
+}
+/// Only for `paper`.
+inline Array<SampleCentroid> sample_centroids(std::uint64_t leaves) {
+    return {"centroids of samples", leaves, Stage::kLeafGrid, Stage::kLeafGrid};
+}
+
+}  // namespace arrays
+
 /// Places a collector in every leaf of positive mass, in the order of the leaves, and sets
 /// Leaf::collector. `paper`: centre = centroid of the leaf's samples (the leaf's centre where it
 /// has none), r from the leaf's edges, R = 2r. Otherwise: the leaf is cropped to its voxels of

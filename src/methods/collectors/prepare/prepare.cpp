@@ -23,12 +23,12 @@ Status finish_leaves(const Medium& medium, const CollectorOptions& options,
     const StageClock clock(context, "collectors");
     const Span<const float> density = medium.volume.density.span();
     Buffer<LeafMoments> moments;
-    PILEUS_TRY(moments.resize(out.leaves.size(), "moments of leaves"));
+    PILEUS_TRY(allocate(arrays::leaf_moments(out.leaves.size()), moments));
     PILEUS_TRY(
         measure_leaves(density, medium.grid, context.threads, out.leaves.span(), moments.span()));
     // Only Elek's centroids ask for the leaf of a voxel.
     Buffer<std::int32_t>& of_voxel = out.collector_of_voxel;
-    PILEUS_TRY(of_voxel.resize(voxel_count(medium.grid), "collector of voxel"));
+    PILEUS_TRY(allocate(arrays::collector_of_voxel(medium.grid, Stage::kWrite), of_voxel));
     const auto label = [&](LeafLabel which) {
         fill_leaf_grid(out.leaves.span(), medium.grid, context.threads, which, of_voxel.span());
     };
@@ -47,7 +47,7 @@ Status prepare_sample_field(const Medium& medium, const CollectorSettings& setti
                             const Context& context, Buffer<float>& field, FieldStats& stats) {
     const StageClock clock(context, "gradient");
     const Span<const float> density = medium.volume.density.span();
-    PILEUS_TRY(field.resize(density.size, "gradient field"));
+    PILEUS_TRY(allocate(arrays::gradient_field(medium.grid), field));
     return settings.variance_field
                ? local_variance(density, medium.grid, settings.variance_radius, context.threads,
                                 field.span(), stats)
@@ -102,8 +102,8 @@ Status prepare_cells(const Medium& medium, int edge, const Context& context, Pre
     const Grid& g = medium.grid;
     int n[3];
     for (int a = 0; a < 3; ++a) n[a] = (g.size[a] + edge - 1) / edge;
-    PILEUS_TRY(out.leaves.resize(std::uint64_t(n[0]) * std::uint64_t(n[1]) * std::uint64_t(n[2]),
-                                 "cells"));
+    const std::uint64_t cells = std::uint64_t(n[0]) * std::uint64_t(n[1]) * std::uint64_t(n[2]);
+    PILEUS_TRY(allocate(arrays::leaves(cells), out.leaves));
     std::size_t at = 0;
     for (int z = 0; z < n[2]; ++z)
         for (int y = 0; y < n[1]; ++y)

@@ -42,7 +42,7 @@ Status cumulate_rows(Span<const float> field, const Grid& grid, int threads,
                      Buffer<double>& start) {
     const std::size_t nx = std::size_t(grid.size[0]), rows = voxel_count(grid) / nx;
     const std::size_t per_slice = std::size_t(grid.size[1]);
-    PILEUS_TRY(start.resize(rows + 1, "sampler: cumulative sums"));
+    PILEUS_TRY(allocate(arrays::row_sums(grid), start));
     parallel_for(threads, grid.size[2], [&](std::int64_t k, int) {
         const std::size_t begin = std::size_t(k) * per_slice, end = begin + per_slice;
         for (std::size_t r = begin; r < end; r += kAbreast)
@@ -106,7 +106,7 @@ Status sample_stratified(Span<const float> field, const FieldStats& stats,
     if (!(stats.sum > 0) || options.count == 0) return Status::ok();
     Buffer<double> start;
     PILEUS_TRY(cumulate_rows(field, grid, threads, start));
-    PILEUS_TRY(out.samples.resize(options.count, "sampler: samples"));
+    PILEUS_TRY(allocate(arrays::samples(options.count), out.samples));
     out.tries = options.count;
     const Key key = make_key(options.seed, options.stream, options.high);
     const double total = start[start.size() - 1], share = total / double(options.count);
@@ -133,8 +133,8 @@ Status sample_rejection(Span<const float> field, const FieldStats& stats, Span<c
     if (!(stats.max > 0.0f) || options.count == 0) return Status::ok();
     Buffer<Sample> found;
     Buffer<std::uint32_t> tries;
-    PILEUS_TRY(found.resize(options.count, "sampler: samples"));
-    PILEUS_TRY(tries.resize(options.count, "sampler: tries"));
+    PILEUS_TRY(allocate(arrays::drawn_samples(options.count), found));
+    PILEUS_TRY(allocate(arrays::sample_tries(options.count), tries));
     const Key key = make_key(options.seed, options.stream, options.high);
     const std::uint32_t limit = std::min(options.max_tries, 0x7fffffffu);
     const auto draw = [&](std::uint32_t s) {
@@ -168,7 +168,7 @@ Status sample_rejection(Span<const float> field, const FieldStats& stats, Span<c
         if (found[s].density >= 0.0f) found[kept++] = found[s];
     }
     out.given_up = options.count - kept;
-    PILEUS_TRY(out.samples.resize(kept, "sampler: samples"));
+    PILEUS_TRY(allocate(arrays::samples(kept), out.samples));
     std::copy(found.data(), found.data() + kept, out.samples.data());
     return Status::ok();
 }

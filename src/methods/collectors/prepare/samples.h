@@ -23,6 +23,26 @@ struct SampleSet {
     std::uint64_t given_up = 0;  ///< samples that no try hit (rejection only)
 };
 
+namespace arrays {
+
+/// Sums of all rows before each row of the field, and the whole sum.
+inline Array<double> row_sums(const Grid& grid) {
+    return {"cumulative sums", std::uint64_t(grid.size[1]) * std::uint64_t(grid.size[2]) + 1,
+            Stage::kSamples, Stage::kSamples};
+}
+inline Array<Sample> samples(std::uint64_t count) {
+    return {"samples", count, Stage::kSamples, Stage::kLeafGrid};
+}
+/// Rejection: the samples before the gaps are closed, and the tries of each.
+inline Array<Sample> drawn_samples(std::uint64_t count) {
+    return {"samples being drawn", count, Stage::kSamples, Stage::kSamples};
+}
+inline Array<std::uint32_t> sample_tries(std::uint64_t count) {
+    return {"samples being drawn", count, Stage::kSamples, Stage::kSamples};
+}
+
+}  // namespace arrays
+
 /// One sample per equal share of the field's integral, by the exact inverse of its cumulative
 /// sum in storage order; uniform within a voxel. Time is bounded. kLimit: out of memory.
 Status sample_stratified(Span<const float> field, const FieldStats& stats,

@@ -27,8 +27,8 @@ Status measure_shares(const Medium& medium, Span<const Leaf> leaves,
     const std::size_t voxels = voxel_count(medium.grid), media = std::size_t(medium.count);
     assert(medium.parts.size() == (media - 1) * voxels);
     Buffer<double> masses;
-    PILEUS_TRY(masses.resize(voxels, "voxel masses of a part"));
-    PILEUS_TRY(shares.resize(collectors.size * media, "shares of the media"));
+    PILEUS_TRY(allocate(arrays::part_masses(medium.grid), masses));
+    PILEUS_TRY(allocate(arrays::shares(collectors.size, media), shares));
     for (std::size_t c = 0; c < collectors.size; ++c) shares[c * media] = 1;
     for (std::size_t i = 1; i < media; ++i) {
         const Span<const float> part{medium.parts.data() + (i - 1) * voxels, voxels};

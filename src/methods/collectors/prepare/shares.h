@@ -4,10 +4,22 @@
 // docs/methods.md 2, "Several media".
 #pragma once
 #include "src/methods/collectors/prepare/prepared.h"
+#include "src/plan/array.h"
 #include "src/world/grid/grid.h"
 #include "src/world/medium/medium.h"
 
 namespace pileus {
+
+namespace arrays {
+
+inline Array<double> part_masses(const Grid& grid) {
+    return {"voxel masses of a part", voxel_count(grid), Stage::kLeafGrid, Stage::kLeafGrid};
+}
+inline Array<float> shares(std::uint64_t collectors, std::uint64_t media) {
+    return {"shares of the media", bytes_of(collectors, media), Stage::kLeafGrid, Stage::kWrite};
+}
+
+}  // namespace arrays
 
 /// Fills `shares`: [collector][medium], in [0, 1], adding up to 1 but for rounding. Takes 8 bytes a
 /// voxel meanwhile. kLimit: out of memory.

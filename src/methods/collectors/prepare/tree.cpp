@@ -31,6 +31,24 @@ struct SortKey {
     std::uint32_t bits, sample;
 };
 
+template <class T>
+Array<T> sorted_list(std::uint64_t count) {
+    return {"sorted lists of samples", count, Stage::kTree, Stage::kTree};
+}
+
+/// Two for each axis: radix sort moves from one to the other.
+Array<SortKey> sort_keys(std::uint64_t samples) {
+    return sorted_list<SortKey>(bytes_of(2, samples));
+}
+
+/// A split shortens one edge by a voxel or more, so depth is bounded by the sum of the edges; the
+/// walk keeps one waiting half per level.
+Array<Node> node_stack(const Grid& grid) {
+    std::uint64_t depth = 2;
+    for (int n : grid.size) depth += std::uint64_t(n);
+    return {"stack of the tree", depth, Stage::kTree, Stage::kTree};
+}
+
 /// Lists the samples by coordinate, then by index: by the bits of the coordinate, which rise with
 /// any number >= 0, eleven at a time from the lowest. `keys` has room for 2 `count`.
 void sort_axis(const float* x, std::uint32_t count, SortKey* keys, std::uint32_t* order) {
@@ -76,13 +94,13 @@ Status SampleLists::sort(Span<const Sample> samples, int threads) {
     if (samples.size > 0x7fffffffu) return Status::limit("kD-tree: more than 2147483647 samples");
     count_ = std::uint32_t(samples.size);
     Buffer<SortKey> keys[3];
-    PILEUS_TRY(density_.resize(count_, "kD-tree: densities of samples"));
-    PILEUS_TRY(scratch_.resize(count_, "kD-tree: scratch"));
-    PILEUS_TRY(upper_.resize(count_, "kD-tree: sides"));
+    PILEUS_TRY(allocate(sorted_list<float>(count_), density_));
+    PILEUS_TRY(allocate(sorted_list<std::uint32_t>(count_), scratch_));
+    PILEUS_TRY(allocate(sorted_list<std::uint8_t>(count_), upper_));
     for (int a = 0; a < 3; ++a) {
-        PILEUS_TRY(x_[a].resize(count_, "kD-tree: coordinates"));
-        PILEUS_TRY(order_[a].resize(count_, "kD-tree: sorted samples"));
-        PILEUS_TRY(keys[a].resize(2 * std::uint64_t(count_), "kD-tree: sort keys"));
+        PILEUS_TRY(allocate(sorted_list<float>(count_), x_[a]));
+        PILEUS_TRY(allocate(sorted_list<std::uint32_t>(count_), order_[a]));
+        PILEUS_TRY(allocate(sort_keys(count_), keys[a]));
     }
     for (std::uint32_t s = 0; s < count_; ++s) density_[s] = samples[s].density;
     parallel_for(threads, 3, [&](std::int64_t a, int) {
@@ -186,12 +204,8 @@ void SampleLists::partition(const Node& node, const Split& split) {
 }
 
 Status SampleLists::build(const Grid& grid, float density_range, LeafList& leaves) {
-    // A split shortens one edge by a voxel or more, so depth is bounded by the sum of the edges;
-    // the walk keeps one waiting half per level.
     Buffer<Node> stack;
-    PILEUS_TRY(stack.resize(
-        std::uint64_t(grid.size[0]) + std::uint64_t(grid.size[1]) + std::uint64_t(grid.size[2]) + 2,
-        "kD-tree: stack"));
+    PILEUS_TRY(allocate(node_stack(grid), stack));
     std::size_t waiting = 0;
     stack[waiting++] = {{{0, 0, 0}, {grid.size[0], grid.size[1], grid.size[2]}}, 0, count_};
     while (waiting > 0) {
@@ -214,6 +228,16 @@ Status SampleLists::build(const Grid& grid, float density_range, LeafList& leave
 }
 
 }  // namespace
+
+void add_tree_rows(const Grid& grid, std::uint64_t samples, std::uint64_t leaves,
+                   MemoryTable& table) {
+    // Three lists of coordinates, indices and keys; densities, scratch and sides once.
+    add(table, several(4, sorted_list<float>(samples)),
+        several(4, sorted_list<std::uint32_t>(samples)), several(3, sort_keys(samples)),
+        sorted_list<std::uint8_t>(samples));
+    add(table, arrays::growing_leaves(2 * leaves + 1024));
+    add(table, node_stack(grid));
+}
 
 Status build_tree(Span<const Sample> samples, Span<const float> density, const Grid& grid,
                   const TreeOptions& options, int threads, Buffer<Leaf>& leaves) {

@@ -8,6 +8,7 @@
 #include "src/base/buffer.h"
 #include "src/base/status.h"
 #include "src/methods/collectors/prepare/prepared.h"
+#include "src/plan/array.h"
 #include "src/world/grid/grid.h"
 
 namespace pileus {
@@ -19,6 +20,18 @@ struct TreeOptions {
     std::uint64_t max_leaves = 0x7fffffff;
     std::string where = "kD-tree";  ///< opens the line about too many leaves
 };
+
+namespace arrays {
+
+inline Array<Leaf> leaves(std::uint64_t count) {
+    return {"leaves", count, Stage::kTree, Stage::kWrite};
+}
+
+}  // namespace arrays
+
+/// What the tree takes while it is built, for so many samples and at most so many leaves.
+void add_tree_rows(const Grid& grid, std::uint64_t samples, std::uint64_t leaves,
+                   MemoryTable& table);
 
 /// Longest leaf allowed on each axis so that no leaf spans more than `share` of the box's diagonal
 /// (docs/methods.md 3 resolves the light inside uniform regions this way). At least one voxel.

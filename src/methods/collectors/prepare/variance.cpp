@@ -13,9 +13,7 @@ namespace {
 constexpr float kLevels = 262144.0f;  // 2^18: count^2 * level^2 < 2^61 for 17^3 voxels
 constexpr float kSmallest = 1e-30f;   // below it the scale of the levels would overflow
 
-struct Sums {
-    std::int64_t first, second;  ///< of the levels and of their squares
-};
+using Sums = VarianceSums;
 
 struct Variance {
     Span<const float> density;
@@ -97,13 +95,13 @@ Status local_variance(Span<const float> density, const Grid& grid, int radius, i
     for (float& f : field) f = 0.0f;
     if (!(stats.density_max > kSmallest)) return field_stats(density, field, grid, threads, stats);
 
-    const int workers = threads > 1 ? threads : 1;
+    const std::uint64_t workers = threads > 1 ? std::uint64_t(threads) : 1;
     const std::size_t nx = std::size_t(grid.size[0]);
     const std::size_t slice = nx * std::size_t(grid.size[1]);
     Buffer<Sums> boxes, rows, windows;
-    PILEUS_TRY(boxes.resize(density.size, "local variance: sums per voxel"));
-    PILEUS_TRY(rows.resize(slice * std::uint64_t(workers), "local variance: sums per slice"));
-    PILEUS_TRY(windows.resize(nx * std::uint64_t(workers), "local variance: sums per row"));
+    PILEUS_TRY(allocate(arrays::variance_sums(grid), boxes));
+    PILEUS_TRY(allocate(arrays::variance_slices(grid, workers), rows));
+    PILEUS_TRY(allocate(arrays::variance_rows(grid, workers), windows));
     const Variance v{density, grid, radius, kLevels / stats.density_max, boxes.span(), field};
     parallel_for(threads, grid.size[2], [&](std::int64_t k, int thread) {
         v.sum_slice(int(k), rows.data() + slice * std::size_t(thread),

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: Apache-2.0
+// The plan's exact bytes are those of the buffers that a run holds, method by method.
+// in: two small scenes a method, prepared -> out: each planned row against its buffers.
+// docs/contributing.md, "Add an array"
+#include <map>
+
+#include "src/methods/collectors/collectors_memory.h"
+#include "src/methods/collectors/prepare/leaves.h"
+#include "src/methods/path/path.h"
+#include "src/methods/path/path_sky.h"
+#include "src/methods/raymarch/raymarch.h"
+#include "tests/support/render_harness.h"
+
+using namespace render_test;
+
+namespace {
+
+using Bytes = std::map<std::string, std::uint64_t>;
+
+/// Two media on one grid: their parts and shares are arrays, too.
+constexpr const char* kTwoMedia = R"(
+seed = 2
+[camera]
+position_m = [0, -300, 60]
+target_m = [0, 0, 60]
+resolution = [20, 12]
+[sun]
+elevation_deg = 40
+[sky]
+radiance = [0.1, 0.2, 0.3]
+[[medium]]
+density = "uniform:sphere"
+resolution = [12, 10, 14]
+bounds_m = [[-50, -50, 10], [50, 50, 110]]
+extinction_per_m = 0.05
+albedo = 0.9
+[[medium]]
+density = "uniform:box"
+resolution = [6, 6, 6]
+bounds_m = [[-30, -30, 10], [30, 30, 60]]
+extinction_per_m = 0.02
+albedo = 1
+[collectors]
+photons = 4000
+generations = 4
+samples = 400
+[output]
+layers = ["radiance", "alpha", "depth", "optical_depth"]
+)";
+
+struct Fixture {
+    Scene scene;
+    Report report;
+    Context context;
+
+    Fixture(const Fixture&) = delete;
+    Fixture(const char* text, const char* method, const std::vector<std::string>& overrides = {}) {
+        std::vector<std::string> all = overrides;
+        all.push_back(std::string("method.name = \"") + method + "\"");
+        scene = scene_from(text, all);
+        context.kernels = kernel_table(nullptr);
+        context.threads = 2;
+        context.report = &report;
+    }
+};
+
+/// Every row that lives in `stage` has the bytes of its buffers, and every buffer has a row.
+void check_rows(const MemoryTable& table, Stage stage, Bytes held) {
+    Bytes planned;
+    for (const MemoryRow& row : table.rows())
+        if (row.first <= stage && stage <= row.last) planned[row.item] += row.bytes;
+    for (const auto& [item, bytes] : planned) {
+        CAPTURE(item);
+        CHECK(held.count(item) == 1);
+        CHECK(bytes == held[item]);
+        held.erase(item);
+    }
+    for (const auto& [item, bytes] : held) {
+        CAPTURE(item);
+        CHECK(bytes == 0);
+    }
+}
+
+Bytes held_by(const World& world, const Majorants& majorants) {
+    return {{"density", world.medium.volume.density.bytes()},
+            {"parts of the media", world.medium.parts.bytes()},
+            {"phase functions", phase_bytes(world.medium)},
+            {"sky map", world.sky_map.bytes()},
+            {"majorants", majorants.tracking.bytes()},
+            {"blocks to skip", majorants.skipping.bytes()}};
+}
+
+std::uint64_t bytes_held(const Planes& p) {
+    return p.transmittance.bytes() + p.colour.bytes() + p.half_depth.bytes() +
+           p.background.bytes() + p.opaque_depth.bytes() + p.optical_depth.bytes();
+}
+
+void check_collectors(const Fixture& f) {
+    CollectorsRun run;
+    const Status status = collectors_prepare(f.scene, 4000, f.context, run);
+    REQUIRE_MESSAGE(status, status.message);
+    REQUIRE(run.plan.exact);
+    Bytes held = held_by(run.world, run.majorants);
+    held["leaves"] = run.prepared.leaves.bytes();
+    held["collector of voxel"] = run.prepared.collector_of_voxel.bytes();
+    held["collectors"] = run.prepared.collectors.bytes();
+    held["shares of the media"] = run.prepared.shares.bytes();
+    for (const PhotonSlot& slot : run.photons.slots) held["photon map"] += slot.sums.bytes();
+    held["photon tallies per thread"] = run.scratch.tallies.bytes();
+    // A bound: up to 256 bytes keep each thread's sums apart from the next one's.
+    const std::uint64_t sums = run.scratch.sums.bytes(), bound = run.plan.accumulation.bytes;
+    CHECK(sums <= bound);
+    CHECK(bound <= sums + 2 * 256);
+    held["photon sums per thread"] = bound;
+    check_rows(run.plan.memory, Stage::kPhotons, held);
+}
+
+void check_path(const Fixture& f) {
+    PathRun run;
+    Budget budget;
+    budget.samples = 2;
+    const Method& method = path_method();
+    REQUIRE(method.prepare(f.scene, budget, f.context, run));
+    REQUIRE(run.plan.exact);
+    REQUIRE(method.light(FrameStep{}, f.context, run));
+    // Light has freed its scratch: make it once more.
+    REQUIRE(prepare_path(path_input(f.context, run), run.scratch));
+    Bytes held = held_by(run.world, run.majorants);
+    held["directions to the sky map"] = run.scratch.sky.bytes();
+    held["film"] = run.film.sum.bytes() + run.film.square.bytes();
+    held["blocks that flights cross"] = run.scratch.blocks.bytes();
+    held["path samples"] = run.scratch.radiance.bytes();
+    held["picture planes"] = bytes_held(run.planes);
+    check_rows(run.plan.memory, Stage::kPaths, held);
+}
+
+void check_raymarch(const Fixture& f) {
+    RaymarchRun run;
+    const Method& method = raymarch_method();
+    REQUIRE(method.prepare(f.scene, Budget{}, f.context, run));
+    REQUIRE(run.plan.exact);
+    REQUIRE(method.light(FrameStep{}, f.context, run));
+    Bytes held = held_by(run.world, run.majorants);
+    held["sunlight's optical depth on nodes"] = run.nodes.optical_depth.bytes();
+    held["skylight on nodes"] = run.sky.light.bytes();
+    held["blue noise"] = run.noise.bytes();
+    for (const DensityLevel& level : run.coarse) {
+        held["coarser density"] += level.density.bytes();
+        held["its blocks"] += level.majorants.bytes();
+    }
+    held["picture planes"] = bytes_held(run.planes);
+    const std::uint64_t rows = std::uint64_t(f.scene.camera.resolution[1]);
+    // Freed with the march: a count of 64 bits of each kind for a row.
+    held["counts of rows"] = 8 * rows * std::uint64_t(kRaymarchCounts);
+    const bool thin = f.scene.raymarch.scale > 1;
+    held["marched pixels"] = bytes_held(run.upsample.few) + (thin ? 8 * rows : 0);
+    check_rows(run.plan.memory, Stage::kDisplay, held);
+}
+
+}  // namespace
+
+TEST_CASE("arrays: what collectors hold once they are prepared is what the plan says") {
+    check_collectors({kSmallCumulus, "collectors"});
+    check_collectors({kTwoMedia, "collectors"});
+}
+
+TEST_CASE("arrays: what path holds while it traces is what the plan says") {
+    check_path({kSmallCumulus, "path", {"output.layers = [\"radiance\", \"light\", \"depth\"]"}});
+    check_path({kTwoMedia, "path"});
+}
+
+TEST_CASE("arrays: what raymarch holds while it marches is what the plan says") {
+    const char* const layers = "output.layers = [\"radiance\", \"alpha\", \"depth\"]";
+    check_raymarch({kSmallCumulus,
+                    "raymarch",
+                    {layers, "raymarch.light = \"buffer\"", "raymarch.jitter = \"blue-noise\"",
+                     "raymarch.detail = true", "raymarch.steps = 4"}});
+    check_raymarch({kTwoMedia, "raymarch", {"raymarch.scale = 2"}});
+}
+
+TEST_CASE("arrays: the bytes of collectors by their definition, those of scratch, too") {
+    CollectorsSizes s;
+    s.grid.size[0] = 5, s.grid.size[1] = 7, s.grid.size[2] = 11;
+    s.threads = 3, s.media = 2, s.samples = 100, s.leaves = 40, s.collectors = 30;
+    s.variance = s.rejection = s.paper = true;
+    s.marched = false, s.width = 20, s.height = 10;
+    s.channels = 3, s.coefficients = 16, s.lights = 2, s.slots = 4, s.ground_cells = 9;
+    s.tracking_blocks = 6, s.shadow_nodes = 13;
+    const MemoryTable table = collectors_memory(s);
+    Bytes planned;
+    for (const MemoryRow& row : table.rows()) planned[row.item] += row.bytes;
+    const std::uint64_t voxels = 5 * 7 * 11;
+    CHECK(planned["density"] == 4 * voxels);
+    CHECK(planned["parts of the media"] == 4 * voxels);
+    CHECK(planned["gradient field"] == 4 * voxels);
+    // Two sums of 64 bits: per voxel, and for each thread of a slice and a row.
+    CHECK(planned["sums of the variance"] == 16 * (voxels + 3 * (5 * 7 + 5)));
+    CHECK(planned["samples"] == 16 * 100);
+    CHECK(planned["samples being drawn"] == (16 + 4) * 100);
+    // Per axis a coordinate, an index and two keys; a density, scratch and a side.
+    CHECK(planned["sorted lists of samples"] == (3 * (4 + 4 + 2 * 8) + 4 + 4 + 1) * 100);
+    CHECK(planned["growing list of leaves"] == sizeof(Leaf) * (2 * 40 + 1024));
+    CHECK(planned["stack of the tree"] == 32 * (5 + 7 + 11 + 2));
+    CHECK(planned["leaves"] == sizeof(Leaf) * 40);
+    CHECK(planned["collectors"] == sizeof(Collector) * 30);
+    CHECK(planned["collector of voxel"] == 4 * voxels);
+    CHECK(planned["photon map"] == 8 * 2 * 4 * 3 * (30 * 16 + 9));
+    CHECK(planned["photon tallies per thread"] == 2 * 3 * sizeof(TraceTally));
+    CHECK(planned["ground map"] == 4 * 3 * 9);
+    CHECK(planned["shadow"] == 4 * 13);
+    CHECK(planned["majorants"] == 4 * 6);
+    CHECK(planned["moments of leaves"] == sizeof(LeafMoments) * 40 + 8 * 5 * 3);
+    CHECK(planned["voxel masses of a part"] == 8 * voxels);
+    CHECK(planned["shares of the media"] == 4 * 2 * 30);
+    CHECK(planned["centroids of samples"] == 32 * 40);
+    CHECK(planned["collector colours"] == 4 * 3 * 30);
+    CHECK(planned["picture planes"] == 4 * (3 + 1 + 3) * 20 * 10);
+    CHECK(planned["rows of the majorants"] == 4 * 3 * (5 * 7 + 5));
+    CHECK(planned["blocks to skip"] == 4 * (2 * 2 * 3));
+    CHECK(planned["billboards"] == (5 * 4 + sizeof(BlendSphere) + 4 + 2 * 8) * 30);
+}
+
+TEST_CASE("arrays: one declaration gives the plan's row and the buffer, and no product wraps") {
+    const Array<double> array{"sums", 12, Stage::kTree, Stage::kPhotons};
+    const Array<float> beside{"beside", 3, Stage::kDensity, Stage::kWrite};
+    MemoryTable table;
+    add(table, array, beside);
+    add(table, several(4, array));
+    add(table, renamed(array, "others", Stage::kSplat, Stage::kLayers));
+    add(table, Array<float>{"nothing", 0, Stage::kTree, Stage::kTree});
+    REQUIRE(table.rows().size() == 3);
+    CHECK(table.rows()[0].item == "sums");
+    CHECK(table.rows()[0].first == Stage::kTree);
+    CHECK(table.rows()[0].last == Stage::kPhotons);
+    CHECK(table.rows()[0].bytes == 12 * 8 + 3 * 4);
+    CHECK(table.rows()[1].bytes == 4 * 12 * 8);
+    CHECK(table.rows()[2].item == "others");
+    CHECK(table.rows()[2].first == Stage::kSplat);
+
+    Buffer<double> buffer;
+    REQUIRE(allocate(array, buffer));
+    CHECK(buffer.bytes() == array.bytes());
+    buffer[0] = 5;
+    REQUIRE(allocate_once(array, buffer));
+    CHECK(buffer[0] == 5);
+    REQUIRE(allocate(array, buffer));
+    CHECK(buffer[0] == 0);
+
+    constexpr std::uint64_t kMost = ~std::uint64_t{0};
+    const Array<double> huge{"huge", kMost / 4};
+    CHECK(huge.bytes() == kMost);
+    CHECK(several(8, huge).count == kMost);
+    MemoryTable most;
+    add(most, huge, beside);
+    CHECK(most.rows()[0].bytes == kMost);
+    const Status refused = allocate(huge, buffer);
+    CHECK(refused.code == Code::kLimit);
+    CHECK(refused.message.rfind("huge: ", 0) == 0);
+}
