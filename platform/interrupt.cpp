@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// See interrupt.h. The library's only writable globals: a signal has no other way to be told.
+// See interrupt.h. The library's only writable global: a signal has no other way to be told.
 #include "platform/interrupt.h"
 
 #include <signal.h>
@@ -14,18 +14,19 @@ namespace {
 
 constexpr std::size_t kMostWords = 120;
 
-volatile sig_atomic_t interrupt_flag = 0;
-volatile sig_atomic_t held = 0;
-char line[kMostWords + 1];
-std::size_t line_size = 0;
-int status_of_end = 1;
+struct {
+    volatile sig_atomic_t asked, held;
+    char line[kMostWords + 1];
+    std::size_t line_size;
+    int exit_status;
+} interrupt_state;
 
 /// Calls nothing that a signal may not call.
 void on_signal(int) {
-    interrupt_flag = 1;
-    if (held != 0) return;
-    (void)!write(STDERR_FILENO, line, line_size);
-    _exit(status_of_end);
+    interrupt_state.asked = 1;
+    if (interrupt_state.held != 0) return;
+    (void)!write(STDERR_FILENO, interrupt_state.line, interrupt_state.line_size);
+    _exit(interrupt_state.exit_status);
 }
 
 void catch_one(int number) {
@@ -42,16 +43,17 @@ void catch_one(int number) {
 }  // namespace
 
 void catch_interrupts(const char* last_words, int exit_status) {
-    line_size = strnlen(last_words, kMostWords);
-    memcpy(line, last_words, line_size);
-    line[line_size++] = '\n';
-    status_of_end = exit_status;
+    auto& s = interrupt_state;
+    s.line_size = strnlen(last_words, kMostWords);
+    memcpy(s.line, last_words, s.line_size);
+    s.line[s.line_size++] = '\n';
+    s.exit_status = exit_status;
     catch_one(SIGINT);
     catch_one(SIGTERM);
 }
 
-void hold_interrupts(bool hold) { held = hold ? 1 : 0; }
+void hold_interrupts(bool hold) { interrupt_state.held = hold ? 1 : 0; }
 
-bool interrupt_asked() { return interrupt_flag != 0; }
+bool interrupt_asked() { return interrupt_state.asked != 0; }
 
 }  // namespace pileus

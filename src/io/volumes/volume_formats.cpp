@@ -106,13 +106,10 @@ std::string volume_format_names() {
     return list;
 }
 
-const char* volume_format_choices() {
-    static const std::string choices = [] {
-        std::string list;
-        for (const VolumeFormat& format : kFormats) append(list, "|", format.name);
-        return list;
-    }();
-    return choices.c_str();
+std::string volume_format_choices() {
+    std::string list;
+    for (const VolumeFormat& format : kFormats) append(list, "|", format.name);
+    return list;
 }
 
 std::string volume_format_extensions(bool written, const char* between) {

@@ -38,7 +38,7 @@ const VolumeFormat* volume_format_of(const std::string& path);
 
 /// "\"pbrt\", \"raw\", ...", for messages; the same parted by '|' for the table of keys.
 std::string volume_format_names();
-const char* volume_format_choices();
+std::string volume_format_choices();
 
 /// ".pbrt, .raw, ..." of all, or of those that can be written.
 std::string volume_format_extensions(bool written = false, const char* between = ", ");
