@@ -22,8 +22,7 @@ bool begins_with(const char* path, std::string_view start) {
 std::vector<const KeyRow*> all_scene_keys() {
     std::vector<Span<const KeyRow>> tables{view_keys(), solid_keys(), medium_keys(), sky_keys(),
                                            method_keys()};
-    for (const MethodKeys& method : all_methods())
-        if (method.rows != nullptr) tables.push_back(method.rows());
+    for (const MethodKeys& method : all_methods()) tables.push_back(method.rows());
     tables.push_back(later_keys());
     tables.push_back(output_keys());
     std::vector<const KeyRow*> rows;

@@ -21,7 +21,7 @@ Span<const KeyRow> raymarch_keys();    // raymarch
 Span<const KeyRow> later_keys();       // tables of later methods
 Span<const KeyRow> output_keys();      // output, animation
 
-/// A method that a scene may name, and the rows of its table; null: not in this version.
+/// A method that a scene may name, and the rows of its table.
 struct MethodKeys {
     const char* name;
     Span<const KeyRow> (*rows)();

@@ -54,31 +54,31 @@ struct KeyField {
 namespace key_field {
 
 template <class Value>
-constexpr KeyKind kKind = KeyKind::kChoice;  // enumerations
+inline constexpr KeyKind kKind = KeyKind::kChoice;  // enumerations
 template <>
-constexpr KeyKind kKind<bool> = KeyKind::kBool;
+inline constexpr KeyKind kKind<bool> = KeyKind::kBool;
 template <>
-constexpr KeyKind kKind<int> = KeyKind::kInteger;
+inline constexpr KeyKind kKind<int> = KeyKind::kInteger;
 template <>
-constexpr KeyKind kKind<std::int64_t> = KeyKind::kInteger;
+inline constexpr KeyKind kKind<std::int64_t> = KeyKind::kInteger;
 template <>
-constexpr KeyKind kKind<std::array<int, 2>> = KeyKind::kInteger2;
+inline constexpr KeyKind kKind<std::array<int, 2>> = KeyKind::kInteger2;
 template <>
-constexpr KeyKind kKind<std::array<int, 3>> = KeyKind::kInteger3;
+inline constexpr KeyKind kKind<std::array<int, 3>> = KeyKind::kInteger3;
 template <>
-constexpr KeyKind kKind<double> = KeyKind::kNumber;
+inline constexpr KeyKind kKind<double> = KeyKind::kNumber;
 template <>
-constexpr KeyKind kKind<std::array<double, 2>> = KeyKind::kNumber2;
+inline constexpr KeyKind kKind<std::array<double, 2>> = KeyKind::kNumber2;
 template <>
-constexpr KeyKind kKind<Double3> = KeyKind::kNumber3;
+inline constexpr KeyKind kKind<Double3> = KeyKind::kNumber3;
 template <>
-constexpr KeyKind kKind<Float3> = KeyKind::kColor;
+inline constexpr KeyKind kKind<Float3> = KeyKind::kColor;
 template <>
-constexpr KeyKind kKind<std::array<Double3, 2>> = KeyKind::kBounds;
+inline constexpr KeyKind kKind<std::array<Double3, 2>> = KeyKind::kBounds;
 template <>
-constexpr KeyKind kKind<std::string> = KeyKind::kText;
+inline constexpr KeyKind kKind<std::string> = KeyKind::kText;
 template <>
-constexpr KeyKind kKind<std::vector<std::string>> = KeyKind::kTexts;
+inline constexpr KeyKind kKind<std::vector<std::string>> = KeyKind::kTexts;
 
 template <class Places>
 auto& root(const Places& places, const Scene*) {

@@ -11,42 +11,37 @@ namespace pileus {
 namespace {
 
 constexpr MethodKeys kMethods[] = {
-    {"collectors", collectors_keys}, {"path", path_keys},      {"raymarch", raymarch_keys},
-    {"optical-depth", nullptr},      {"photon-grid", nullptr}, {"particles", nullptr},
-};
+    {"collectors", collectors_keys}, {"path", path_keys}, {"raymarch", raymarch_keys}};
 
-/// Names of the methods of this version, or of the others, parted by '|'.
+/// Methods that the format names and this version has not: their tables are left alone.
+constexpr const char* kLater[] = {"optical-depth", "photon-grid", "particles"};
+constexpr std::size_t kLaterCount = sizeof kLater / sizeof kLater[0];
+
+/// Names parted by '|'.
 struct Names {
     char text[128] = {};
-};
-constexpr Names names_of(bool now) {
-    Names names;
     int end = 0;
-    for (const MethodKeys& method : kMethods) {
-        if ((method.rows != nullptr) != now) continue;
-        if (end > 0) names.text[end++] = '|';
-        for (const char* c = method.name; *c != 0; ++c) names.text[end++] = *c;
+
+    constexpr void add(const char* name) {
+        if (end > 0) text[end++] = '|';
+        for (const char* c = name; *c != 0; ++c) text[end++] = *c;
     }
+};
+constexpr Names names_now() {
+    Names names;
+    for (const MethodKeys& method : kMethods) names.add(method.name);
     return names;
 }
-constexpr Names kNow = names_of(true), kLater = names_of(false);
-
-constexpr std::size_t later_count() {
-    std::size_t count = 0;
-    for (const MethodKeys& method : kMethods) count += method.rows == nullptr ? 1 : 0;
-    return count;
+constexpr Names names_later() {
+    Names names;
+    for (const char* name : kLater) names.add(name);
+    return names;
 }
+constexpr Names kNowText = names_now(), kLaterText = names_later();
 
-constexpr const char* later_name(std::size_t place) {
-    for (const MethodKeys& method : kMethods)
-        if (method.rows == nullptr && place-- == 0) return method.name;
-    return nullptr;
-}
-
-/// The table of each later method is left alone.
 template <std::size_t... kPlaces>
 constexpr std::array<KeyRow, sizeof...(kPlaces)> later_rows(std::index_sequence<kPlaces...>) {
-    return {{KeyRow{later_name(kPlaces), KeyKind::kTable, any(), "", "settings of a later method",
+    return {{KeyRow{kLater[kPlaces], KeyKind::kTable, any(), "", "settings of a later method",
                     kNone}...}};
 }
 
@@ -56,14 +51,14 @@ Span<const MethodKeys> all_methods() { return {kMethods, sizeof kMethods / sizeo
 
 Span<const KeyRow> method_keys() {
     static constexpr KeyRow row{"method.name", field<&Scene::method>,
-                                one_of(kNow.text, kLater.text), "",
+                                one_of(kNowText.text, kLaterText.text), "",
                                 "how the light is computed; each method has a table of its own "
                                 "name, and the tables of other methods are left alone"};
     return {&row, 1};
 }
 
 Span<const KeyRow> later_keys() {
-    static constexpr auto rows = later_rows(std::make_index_sequence<later_count()>());
+    static constexpr auto rows = later_rows(std::make_index_sequence<kLaterCount>());
     return {rows.data(), rows.size()};
 }
 
