@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 
 #include "tests/cli/run_program.h"
+#include "tests/support/sanitized.h"
 
 using namespace pileus;
 using nlohmann::json;
@@ -107,12 +108,6 @@ TEST_CASE("limits: help and the manual list every one with its default") {
 
 namespace {
 
-#if defined(__SANITIZE_ADDRESS__)
-constexpr bool kSanitized = true;
-#else
-constexpr bool kSanitized = false;
-#endif
-
 /// A file of even noise, which no tree divides well and no compression makes smaller.
 std::string noise(std::size_t count) {
     std::string bytes(count, '\0');
@@ -161,7 +156,7 @@ TEST_CASE("memory: the process stays within the plan's bound, and the bound near
              peak / 1048576, " MiB");
         CHECK(exact <= bound);
         // The sanitizers' own memory is no part of any plan.
-        if (!kSanitized) {
+        if (!test::kSanitized) {
             CHECK(peak <= 1.05 * bound + kProgram);
             CHECK(peak <= 1.05 * exact + kProgram);
             CHECK(bound <= c.most_over_peak * peak);
