@@ -21,7 +21,7 @@ SkyMapBytes sky_map_bytes(const SkyMap& map) {
     return {map.bytes(), 32 * std::uint64_t(map.size[0]) * std::uint64_t(map.size[1])};
 }
 
-/// stages/medium.cpp, stages/mix_media.cpp
+/// src/world/medium
 void add_density_rows(const Grid& grid, const MediumSource& source, std::uint64_t media,
                       std::uint64_t phases, std::uint64_t threads, const SkyMapBytes& sky,
                       MemoryTable& t) {
@@ -45,7 +45,7 @@ void add_density_rows(const Grid& grid, const MediumSource& source, std::uint64_
               kMaxBubbles * (sizeof(Bubble) + 3 * sizeof(std::uint16_t) * threads));
 }
 
-/// stages/prepare_majorant.cpp
+/// src/world/majorant/majorant.cpp
 void add_majorant_rows(const Grid& grid, std::uint64_t blocks, std::uint64_t threads, Stage last,
                        MemoryTable& t) {
     // The search holds the finest blocks and the next, and is over before the choice is made.
@@ -59,8 +59,8 @@ void add_majorant_rows(const Grid& grid, std::uint64_t blocks, std::uint64_t thr
     add(t, arrays::blocks_to_skip(grid));
 }
 
-/// stages/layers.cpp and the encoders of io: a growing buffer is three times the file at most, and
-/// no file is larger than its raw values but for its head; rows wait in packs of 16.
+/// src/picture/layers.cpp and the encoders of io: a growing buffer is three times the file at most,
+/// and no file is larger than its raw values but for its head; rows wait in packs of 16.
 void add_image_rows(std::uint64_t width, std::uint64_t height, std::uint64_t layers,
                     MemoryTable& t) {
     const std::uint64_t image = bytes_of(kFloat * layers, width, height);

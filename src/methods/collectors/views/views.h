@@ -21,7 +21,7 @@ enum class View {
     kIllumination,
 };
 
-/// One recipe for each view, in the order of View; `collectors_method().views`.
+/// One recipe for each view, in the order of View; src/methods/registry.cpp lists them.
 const Method* collectors_views(int& count);
 
 /// Whether a view's colours are light that the scene's exposure applies to.
