@@ -2,7 +2,10 @@
 // See threads.h.
 #include "platform/threads.h"
 
+#include <atomic>
+
 #include "platform/fp_mode.h"
+#include "platform/memory.h"
 
 #ifdef _OPENMP
 #include <omp.h>
@@ -18,12 +21,48 @@ int hardware_threads() {
 #endif
 }
 
+namespace {
+
+/// Pieces that a host's threads take one after the other.
+struct SharedPieces {
+    std::int64_t pieces;
+    void* context;
+    WorkFunction work;
+    Host host;
+    std::atomic<std::int64_t> next{0};
+};
+
+void take_pieces(void* data, std::uint32_t index) {
+    SharedPieces& shared = *static_cast<SharedPieces*>(data);
+    const FpModeGuard guard;
+    const HostGuard lent(shared.host);
+    for (;;) {
+        const std::int64_t piece = shared.next.fetch_add(1, std::memory_order_relaxed);
+        if (piece >= shared.pieces) return;
+        shared.work(shared.context, piece, int(index));
+    }
+}
+
+void run_on_host(const Executor& executor, int threads, std::int64_t pieces, void* context,
+                 WorkFunction work, const Host& host) {
+    SharedPieces shared{pieces, context, work, host};
+    executor.run(executor.user, std::uint32_t(threads), take_pieces, &shared);
+}
+
+}  // namespace
+
 void parallel_pieces(int threads, std::int64_t pieces, void* context, WorkFunction work) {
+    const Host host = current_host();
+    if (host.executor != nullptr && threads > 1 && pieces > 1) {
+        run_on_host(*host.executor, threads, pieces, context, work, host);
+        return;
+    }
 #ifdef _OPENMP
     if (threads > 1 && pieces > 1) {
 #pragma omp parallel num_threads(threads)
         {
             const FpModeGuard guard;
+            const HostGuard lent(host);
 #pragma omp for schedule(dynamic, 1)
             for (std::int64_t piece = 0; piece < pieces; ++piece)
                 work(context, piece, omp_get_thread_num());

@@ -15,6 +15,7 @@ struct CameraParams {
     std::int32_t width, height, orthographic;
     std::int32_t flux =
         0;  ///< 1: a flat detector (orthographic too), rays over its front half space
+    float shift_x = 0, shift_y = 0;  ///< of the image plane's middle, right and up, as half_width
 };
 
 inline namespace PILEUS_ISA {
@@ -27,8 +28,9 @@ struct Ray {
 /// Ray of pixel (x, y), y = 0 at the top; x and y are whole numbers held in lanes.
 template <class T>
 PILEUS_FN Ray<T> camera_ray(const CameraParams& c, T x, T y) {
-    const T sx = ((x + 0.5f) * (2.0f / float(c.width)) - 1.0f) * c.half_width;
-    const T sy = (1.0f - (y + 0.5f) * (2.0f / float(c.height))) * c.half_height;
+    const T sx = ((x + 0.5f) * (2.0f / float(c.width)) - 1.0f) * c.half_width + c.shift_x;
+    const T sy =
+        (1.0f - (y + 0.5f) * (2.0f / float(c.height))) * c.half_height + c.shift_y;
     const Vec<T> offset{c.right[0] * sx + c.up[0] * sy, c.right[1] * sx + c.up[1] * sy,
                         c.right[2] * sx + c.up[2] * sy};
     const Vec<T> o{all<T>(c.origin[0]), all<T>(c.origin[1]), all<T>(c.origin[2])};

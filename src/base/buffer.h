@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Owned array whose allocation can fail with a Status instead of an exception.
-// in: a count -> out: zeroed, 64-byte aligned memory, freed with its owner.
+// in: a count -> out: zeroed, 64-byte aligned memory of the host (platform/memory.h), freed with its
+// owner.
 #pragma once
 #include <cstdint>
-#include <cstdlib>
 #include <cstring>
 #include <type_traits>
 #include <utility>
 
+#include "platform/memory.h"
 #include "src/base/span.h"
 #include "src/base/status.h"
 
@@ -31,11 +32,11 @@ public:
         swap(other);
         return *this;
     }
-    ~Buffer() { std::free(data_); }
+    ~Buffer() { give_memory(data_, from_); }
 
     /// Replaces the contents by `count` zeroed elements. `what` names the array in the error line.
     Status resize(std::uint64_t count, const char* what) {
-        std::free(data_);
+        give_memory(data_, from_);
         data_ = nullptr;
         size_ = 0;
         std::uint64_t bytes = 0;
@@ -43,7 +44,7 @@ public:
             return Status::limit(std::string(what) + ": more memory than can be addressed");
         if (count == 0) return Status::ok();
         const std::uint64_t rounded = (bytes + 63) / 64 * 64;
-        data_ = static_cast<T*>(std::aligned_alloc(64, static_cast<std::size_t>(rounded)));
+        data_ = static_cast<T*>(take_memory(static_cast<std::size_t>(rounded), from_));
         if (data_ == nullptr)
             return Status::limit(std::string(what) + ": out of memory, " + std::to_string(bytes) +
                                  " bytes asked for");
@@ -80,12 +81,14 @@ public:
     void swap(Buffer& other) noexcept {
         std::swap(data_, other.data_);
         std::swap(size_, other.size_);
+        std::swap(from_, other.from_);
     }
 
 private:
     static constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 46;
     T* data_ = nullptr;
     std::size_t size_ = 0;
+    const Allocator* from_ = nullptr;  ///< that the memory goes back to
 };
 
 }  // namespace pileus

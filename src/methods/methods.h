@@ -9,6 +9,7 @@
 #include "src/io/images/image.h"
 #include "src/run/context.h"
 #include "src/scene/scene.h"
+#include "src/world/world.h"
 
 namespace pileus {
 
@@ -29,32 +30,72 @@ struct FrameStep {
     bool first = true, last = true;
 };
 
-/// What a method keeps between its functions; each derives its own.
+/// What a method keeps between its functions; each derives its own. What all have is here.
 struct MethodRun {
+    const Scene* scene = nullptr;
+    Budget budget;
+    std::shared_ptr<const World> world;  ///< outlined before `outline`, loaded before `prepare`
+    Surroundings around;                 ///< likewise
+    Plan plan;
+    Lighting lighting;
+    bool outlined_only = true;                                 ///< sizes are known, values are not
+    std::vector<std::pair<std::string, std::string>> digests;  ///< of what no frame changes
+
     MethodRun() = default;
     MethodRun(const MethodRun&) = delete;
     MethodRun& operator=(const MethodRun&) = delete;
     virtual ~MethodRun() = default;
 };
 
+/// Light that a session has traced and may trace.
+struct LightUnits {
+    const char* unit = "";           ///< of what a step counts: "generation", "sample"
+    std::uint64_t whole = 0;         ///< units that a first picture should have
+    std::uint64_t unit_photons = 0;  ///< photons or paths of one
+    std::uint64_t held = 0;          ///< units that the next picture shows
+    std::uint32_t prepared = 1;      ///< times that the sums were laid out
+};
+
+struct Planes;
+
+/// How a method lives in a session, where a host moves the camera and the lights of the run's scene.
+struct LiveMethod {
+    /// Takes them up as they are now. `anew`: the sky map is another one.
+    Status (*aim)(int frame, bool anew, const Context&, MethodRun&);
+    /// Traces so many whole units, fewer where the context stops it.
+    Status (*advance)(std::uint64_t units, const Context&, MethodRun&, std::uint64_t& done);
+    LightUnits (*units)(const MethodRun&);
+    /// The picture as it is lit now; the run keeps the planes.
+    Status (*compose)(const FrameStep&, const Context&, MethodRun&, const Planes*&);
+};
+
 /// A recipe. Functions are called from the top down, `light` to `report` once for each frame. The
 /// scene and the context outlive the run.
 struct Method {
     const char* name;  ///< of a view: as `--show` names it
+    SkyUse sky;        ///< what it asks of its world
     std::unique_ptr<MethodRun> (*make)();
     /// kBadInput: a budget that the method does not know, or a scene that it cannot render.
     Status (*check)(const Scene&, const Budget&);
     /// Sizes and the plan, reading no values.
-    Status (*outline)(const Scene&, const Budget&, const Context&, MethodRun&);
-    /// Instead of `outline`: all that comes before light.
-    Status (*prepare)(const Scene&, const Budget&, const Context&, MethodRun&);
+    Status (*outline)(const Context&, MethodRun&);
+    /// All that comes before light.
+    Status (*prepare)(const Context&, MethodRun&);
     void (*report_plan)(const MethodRun&, const Context&, Report&);
     /// Traces for one frame. kCheckFailed: interrupted before there is anything to show.
     Status (*light)(const FrameStep&, const Context&, MethodRun&);
     Status (*show)(const FrameStep&, const Context&, MethodRun&, Image&);
     void (*report)(const MethodRun&, Report&);
-    bool shows_light = true;  ///< colours are light, which an exposure applies to
+    const LiveMethod* live = nullptr;  ///< null: in no session of a host
+    bool shows_light = true;           ///< colours are light, which an exposure applies to
 };
+
+/// Fills a new run by the method's recipe: world and surroundings, then its own. `exact` false: as
+/// far as sizes tell. `world`: a loaded one to share, or null for its own. Errors: those of the
+/// readers and of the recipe.
+Status open_run(const Method& method, const Scene& scene, const Budget& budget,
+                const Context& context, bool exact, std::shared_ptr<const World> world,
+                MethodRun& run);
 
 inline double share_of_frame(const Animation& a, int frame) {
     return a.frames > 1 ? double(frame) / (a.frames - 1) : 0.0;

@@ -3,6 +3,7 @@
 #include "src/picture/background.h"
 
 #include "src/base/angles.h"
+#include "src/world/solids/camera_depth.h"
 #include "src/world/solids/solids.h"
 
 namespace pileus {
@@ -64,13 +65,13 @@ void set_around(const Lighting& light, SolidRowsParams& k) {
 
 /// Where the image has something nearer, that hides what was found: black, for its owner draws it.
 /// A picture of another size reads the image where its pixels' corners lie.
-void hide(const Solids& solids, const CameraParams& camera, const BackgroundBuffers& b) {
+void hide(const CameraDepth& from, const CameraParams& camera, const BackgroundBuffers& b) {
     const std::size_t width = std::size_t(camera.width), height = std::size_t(camera.height);
-    const std::size_t columns = solids.depth_columns;
-    const std::size_t rows = solids.camera_depth.size() / columns;
+    const std::size_t columns = from.columns;
+    const std::size_t rows = from.metres.size() / columns;
     for (std::size_t i = 0; i < width * height; ++i) {
         const std::size_t x = i % width * columns / width, y = i / width * rows / height;
-        const float depth = solids.camera_depth[y * columns + x];
+        const float depth = from.metres[y * columns + x];
         const float other = b.opaque_depth != nullptr ? b.opaque_depth[i] : __builtin_inff();
         if (!(depth < __builtin_inff()) || depth > other) continue;
         if (b.opaque_depth != nullptr) b.opaque_depth[i] = depth;
@@ -99,7 +100,7 @@ Status show_background(const Context& context, const Lighting& light, const Back
             kernel(params, b, begin, begin + kPiece < rows ? begin + kPiece : rows);
         });
     }
-    if (solids != nullptr && !solids->camera_depth.empty()) hide(*solids, k.camera, b);
+    if (light.depth != nullptr && !light.depth->metres.empty()) hide(*light.depth, k.camera, b);
     return Status::ok();
 }
 

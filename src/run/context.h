@@ -16,6 +16,7 @@ struct Context {
     Report* report = nullptr;
     Limits limits;
     std::uint64_t frames = 1;  ///< pictures of this run
+    bool digests = true;       ///< of what a picture is made from go to the report
     std::function<void(const char* stage, double share)> progress;
     std::function<bool()> interrupted;  ///< whether the user wants an end
     std::function<void(bool)> holding;  ///< told whether an end now would lose light

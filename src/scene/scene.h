@@ -15,6 +15,16 @@ namespace pileus {
 using Double3 = std::array<double, 3>;
 using Float3 = std::array<float, 3>;
 
+/// The image plane of a host's projection, at distance 1, or in metres of parallel rays.
+struct Frustum {
+    double half_width = 0, half_height = 0;  ///< > 0
+    double shift_x = 0, shift_y = 0;         ///< of its middle, to the right and up
+    bool operator==(const Frustum& o) const {
+        return half_width == o.half_width && half_height == o.half_height &&
+               shift_x == o.shift_x && shift_y == o.shift_y;
+    }
+};
+
 struct Camera {
     Double3 position_m{0, -3000, 600}, target_m{0, 0, 900}, up{0, 0, 1};
     bool orthographic = false;  ///< parallel rays, or none at all (flux)
@@ -22,6 +32,8 @@ struct Camera {
     double fov_deg = 40;        ///< vertical, perspective only; in (0, 180)
     double height_m = 2000;     ///< orthographic and flux; > 0
     std::array<int, 2> resolution{960, 540};
+    bool has_frustum = false;  ///< a session's: instead of fov_deg and height_m
+    Frustum frustum;
     std::string depth;           ///< image of the way to solid things; empty: none
     bool depth_on_axis = false;  ///< depth_kind = "z": along the view's axis, not along each ray
     double depth_scale = 1;      ///< metres per unit of its values; > 0

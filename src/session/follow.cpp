@@ -17,10 +17,11 @@ Status follow(const Scene& scene, const RenderOptions& options, int light, std::
         return Status::bad_input("follow: not for method " + scene.method +
                                  ", allowed: method.name = \"collectors\"");
     PILEUS_TRY(make_context(scene, options, context, report));
-    ViewRun view;
-    PILEUS_TRY(collectors_view_prepare(
-        scene, View::kPhotons, collectors_photons(scene, budget_of(options)), context, view));
-    const std::vector<Light>& lights = view.run.lighting.lights;
+    const Method* method = nullptr;
+    PILEUS_TRY(find_view(scene.method, "photons", method));
+    ViewRun view(View::kPhotons);
+    PILEUS_TRY(open_run(*method, scene, budget_of(options), context, true, nullptr, view));
+    const std::vector<Light>& lights = view.lighting.lights;
     if (light < 0 || std::size_t(light) >= lights.size())
         return Status::bad_input("--light: no such light, " + std::to_string(light) +
                                  ", allowed: less than " + std::to_string(lights.size()));
@@ -30,11 +31,11 @@ Status follow(const Scene& scene, const RenderOptions& options, int light, std::
                                  ", " + std::to_string(number) + ", allowed: less than " +
                                  std::to_string(chosen.photons));
     way.light = chosen.name;
-    follow_photon(collectors_trace_input(context, view.run), chosen, number, kMostWayPoints,
+    follow_photon(collectors_trace_input(context, view), chosen, number, kMostWayPoints,
                   way.points);
     for (PathPoint& p : way.points)
         for (std::size_t a = 0; a < 3; ++a)
-            p.at_m[a] = float(double(p.at_m[a]) + view.run.world.medium.low_m[a]);
+            p.at_m[a] = float(double(p.at_m[a]) + view.world->medium.low_m[a]);
     return Status::ok();
 }
 

@@ -6,6 +6,7 @@
 #include "platform/fp_mode.h"
 #include "src/io/images/image_file.h"
 #include "src/session/run_context.h"
+#include "src/session/session.h"
 #include "src/session/warnings.h"
 
 namespace pileus {
@@ -64,63 +65,40 @@ Status deliver(const Scene& scene, const RunStart& start, int frame, const Frame
     return sink(frame, image, report);
 }
 
-Status render_frames(const Scene& scene, const Method& method, const RenderOptions& options,
-                     const Context& context, const Frames& frames, const FrameSink& sink) {
-    const RunStart start;
-    Report& report = *context.report;
-    const std::unique_ptr<MethodRun> run = method.make();
-    PILEUS_TRY(method.prepare(scene, budget_of(options), context, *run));
-    method.report_plan(*run, context, report);
-    for (int frame = frames.first; frame <= frames.last && !report.interrupted; ++frame) {
-        const RunStart frame_start;
-        const FrameStep step{frame, frame == frames.first, frame == frames.last};
-        PILEUS_TRY(method.light(step, context, *run));
-        Image image;
-        report.digests.clear();
-        PILEUS_TRY(method.show(step, context, *run, image));
-        take_hash(image, report);
-        method.report(*run, report);
-        if (options.show.empty()) find_warnings(scene, image, report);
-        report.frame_wall_s = wall_seconds() - frame_start.wall_s;
-        report.frame_cpu_s = cpu_seconds() - frame_start.cpu_s;
-        context.hold(true);
-        PILEUS_TRY(deliver(scene, start, frame, sink, image, report));
-        context.hold(false);
-    }
-    return Status::ok();
-}
-
 }  // namespace
 
 Status render(const Scene& scene, const RenderOptions& options, const FrameSink& sink) {
     const FpModeGuard guard;
-    Report report;
-    Context context;
+    const RunStart start;
     Frames frames{};
-    const Method* method = nullptr;
-    PILEUS_TRY(make_context(scene, options, context, report));
     PILEUS_TRY(frames_of(scene, options, frames));
-    PILEUS_TRY(find_method(scene, method));
-    PILEUS_TRY(method->check(scene, budget_of(options)));
-
-    if (!options.show.empty()) PILEUS_TRY(find_view(scene.method, options.show, method));
-    return render_frames(scene, *method, options, context, frames, sink);
+    Session session;
+    PILEUS_TRY(session.open(scene, options, SessionKind::kAnimation, true, nullptr));
+    Report& report = session.report();
+    for (int frame = frames.first; frame <= frames.last && !report.interrupted; ++frame) {
+        const RunStart frame_start;
+        Image image;
+        PILEUS_TRY(
+            session.render_image({frame, frame == frames.first, frame == frames.last}, image));
+        take_hash(image, report);
+        session.finish_report();
+        if (options.show.empty()) find_warnings(scene, image, report);
+        report.frame_wall_s = wall_seconds() - frame_start.wall_s;
+        report.frame_cpu_s = cpu_seconds() - frame_start.cpu_s;
+        if (options.holding) options.holding(true);
+        PILEUS_TRY(deliver(scene, start, frame, sink, image, report));
+        if (options.holding) options.holding(false);
+    }
+    return Status::ok();
 }
 
 Status plan_scene(const Scene& scene, const RenderOptions& options, bool exact, Report& report) {
     const FpModeGuard guard;
-    Context context;
     Frames frames{};
-    const Method* method = nullptr;
     PILEUS_TRY(frames_of(scene, options, frames));
-    PILEUS_TRY(make_context(scene, options, context, report));
-    PILEUS_TRY(find_method(scene, method));
-    const Budget budget = budget_of(options);
-    PILEUS_TRY(method->check(scene, budget));
-    const std::unique_ptr<MethodRun> run = method->make();
-    PILEUS_TRY(exact ? method->prepare(scene, budget, context, *run)
-                     : method->outline(scene, budget, context, *run));
-    method->report_plan(*run, context, report);
+    Session session;
+    PILEUS_TRY(session.open(scene, options, SessionKind::kAnimation, exact, nullptr));
+    report = session.report();
     return Status::ok();
 }
 

@@ -59,8 +59,7 @@ Status outline_world(const Scene& scene, SkyUse use, const Context& context, Wor
     PILEUS_TRY(check_scene_limits(scene, context.limits));
     PILEUS_TRY(outline_solids(scene, context, world.solids));
     world.direct_sky = use == SkyUse::kInPlace && is_direct_sky(scene);
-    PILEUS_TRY(outline_medium_of(scene, context, world));
-    return read_sky_map(scene, context, world.sky_map);
+    return outline_medium_of(scene, context, world);
 }
 
 Status load_world(const Scene& scene, const Context& context, World& world) {
@@ -68,9 +67,19 @@ Status load_world(const Scene& scene, const Context& context, World& world) {
     return load_solids(scene, world.medium.low_m, context, world.solids);
 }
 
-Lighting light_world(const Scene& scene, double sun_elevation_deg, const World& world, Plan& plan) {
-    return plan_lighting(scene, world.medium, sun_elevation_deg, plan, &world.sky_map,
-                         &world.solids);
+Status outline_surroundings(const Scene& scene, const Context& context, Surroundings& around) {
+    PILEUS_TRY(outline_camera_depth(scene, context, around.depth));
+    return read_sky_map(scene, context, around.sky_map);
+}
+
+Status load_surroundings(const Scene& scene, const Context& context, Surroundings& around) {
+    return read_camera_depth(scene, context, around.depth);
+}
+
+Lighting light_world(const Scene& scene, double sun_elevation_deg, const World& world,
+                     const Surroundings& around, Plan& plan) {
+    return plan_lighting(scene, world.medium, sun_elevation_deg, plan, &around.sky_map,
+                         &world.solids, &around.depth);
 }
 
 std::string density_digest(const World& world) {

@@ -8,33 +8,48 @@
 #include "src/world/light/lights.h"
 #include "src/world/light/sky_map.h"
 #include "src/world/medium/medium.h"
+#include "src/world/solids/camera_depth.h"
 #include "src/world/solids/solids.h"
 
 namespace pileus {
 
-/// Made once; depends on neither method, camera nor the sun's place.
+/// Made once, then read only and shared; depends on neither camera nor light, and of methods only
+/// on whether they evaluate a procedural sky in place.
 struct World {
     Medium medium;  ///< all media on one grid; a voxel of nothing for a scene without any
     MediumSource source;
     Plan media_plan;          ///< what laying the media on one grid says
     bool direct_sky = false;  ///< the medium is `layer`, evaluated in place
     SkyField layer;
-    SkyMap sky_map;
     Solids solids;
+};
+
+/// What is seen of a world through one camera and under one sky: each run has its own.
+struct Surroundings {
+    SkyMap sky_map;
+    CameraDepth depth;
 };
 
 /// Whether a method evaluates a procedural sky in place, or has every medium on a grid.
 enum class SkyUse { kOnGrid, kInPlace };
 
-/// What the scene's sizes tell, reading no values of media: limits, places, sky map, solids.
+/// What the scene's sizes tell, reading no values of media: limits, places, solids.
 /// Errors: kLimit: a limit; kBadInput, kIo: a file that is missing or wrong.
 Status outline_world(const Scene& scene, SkyUse use, const Context& context, World& world);
 
 /// Reads or makes all values of an outlined world. Errors: those of the readers; kLimit: memory.
 Status load_world(const Scene& scene, const Context& context, World& world);
 
-/// The lights for a sun at this elevation; what they say of photons goes to `plan`.
-Lighting light_world(const Scene& scene, double sun_elevation_deg, const World& world, Plan& plan);
+/// The same of what surrounds it: the sky map is read at once, as the lights depend on its colours.
+Status outline_surroundings(const Scene& scene, const Context& context, Surroundings& around);
+
+/// Reads the rest.
+Status load_surroundings(const Scene& scene, const Context& context, Surroundings& around);
+
+/// The lights for a sun at this elevation; what they say of photons goes to `plan`. The result
+/// points into `world` and `around`.
+Lighting light_world(const Scene& scene, double sun_elevation_deg, const World& world,
+                     const Surroundings& around, Plan& plan);
 
 /// Digest of every density, and of each medium's part where there are several.
 std::string density_digest(const World& world);

@@ -81,11 +81,12 @@ void check_rows(const MemoryTable& table, Stage stage, Bytes held) {
     }
 }
 
-Bytes held_by(const World& world, const Majorants& majorants) {
+Bytes held_by(const MethodRun& run, const Majorants& majorants) {
+    const World& world = *run.world;
     return {{"density", world.medium.volume.density.bytes()},
             {"parts of the media", world.medium.parts.bytes()},
             {"phase functions", phase_bytes(world.medium)},
-            {"sky map", world.sky_map.bytes()},
+            {"sky map", run.around.sky_map.bytes()},
             {"majorants", majorants.tracking.bytes()},
             {"blocks to skip", majorants.skipping.bytes()}};
 }
@@ -97,10 +98,13 @@ std::uint64_t bytes_held(const Planes& p) {
 
 void check_collectors(const Fixture& f) {
     CollectorsRun run;
-    const Status status = collectors_prepare(f.scene, 4000, f.context, run);
+    Budget budget;
+    budget.photons = 4000;
+    const Status status =
+        open_run(collectors_method(), f.scene, budget, f.context, true, nullptr, run);
     REQUIRE_MESSAGE(status, status.message);
     REQUIRE(run.plan.exact);
-    Bytes held = held_by(run.world, run.majorants);
+    Bytes held = held_by(run, run.majorants);
     held["leaves"] = run.prepared.leaves.bytes();
     held["collector of voxel"] = run.prepared.collector_of_voxel.bytes();
     held["collectors"] = run.prepared.collectors.bytes();
@@ -120,12 +124,12 @@ void check_path(const Fixture& f) {
     Budget budget;
     budget.samples = 2;
     const Method& method = path_method();
-    REQUIRE(method.prepare(f.scene, budget, f.context, run));
+    REQUIRE(open_run(method, f.scene, budget, f.context, true, nullptr, run));
     REQUIRE(run.plan.exact);
     REQUIRE(method.light(FrameStep{}, f.context, run));
     // Light has freed its scratch: make it once more.
     REQUIRE(prepare_path(path_input(f.context, run), run.scratch));
-    Bytes held = held_by(run.world, run.majorants);
+    Bytes held = held_by(run, run.majorants);
     held["directions to the sky map"] = run.scratch.sky.bytes();
     held["film"] = run.film.sum.bytes() + run.film.square.bytes();
     held["blocks that flights cross"] = run.scratch.blocks.bytes();
@@ -137,10 +141,10 @@ void check_path(const Fixture& f) {
 void check_raymarch(const Fixture& f) {
     RaymarchRun run;
     const Method& method = raymarch_method();
-    REQUIRE(method.prepare(f.scene, Budget{}, f.context, run));
+    REQUIRE(open_run(method, f.scene, {}, f.context, true, nullptr, run));
     REQUIRE(run.plan.exact);
     REQUIRE(method.light(FrameStep{}, f.context, run));
-    Bytes held = held_by(run.world, run.majorants);
+    Bytes held = held_by(run, run.majorants);
     held["sunlight's optical depth on nodes"] = run.nodes.optical_depth.bytes();
     held["skylight on nodes"] = run.sky.light.bytes();
     held["blue noise"] = run.noise.bytes();

@@ -16,7 +16,7 @@ TEST_CASE("camera depth: Z, or the only channel; never a guess among several") {
     camera.position_m = {0, 0, 0};
     camera.target_m = {0, 1, 0};
     camera.resolution = {1, 1};
-    const auto depth_of = [&](const std::vector<const char*>& names, Solids& solids) {
+    const auto depth_of = [&](const std::vector<const char*>& names, CameraDepth& depth) {
         Image image;
         image.width = image.height = 1;
         for (std::size_t i = 0; i < names.size(); ++i) {
@@ -25,22 +25,22 @@ TEST_CASE("camera depth: Z, or the only channel; never a guess among several") {
             REQUIRE(image.channels.back().pixels.resize(1, "depth"));
             image.channels.back().pixels[0] = float(i + 1);
         }
-        return take_camera_depth(camera, "d.exr", image, solids);
+        return take_camera_depth(camera, "d.exr", image, depth);
     };
-    Solids solids;
+    CameraDepth depth;
     for (const char* name : {"Z", "Y", "R", "depth.V"}) {
-        REQUIRE(depth_of({name}, solids));
-        CHECK(solids.camera_depth[0] == 1.0f);
+        REQUIRE(depth_of({name}, depth));
+        CHECK(depth.metres[0] == 1.0f);
     }
-    REQUIRE(depth_of({"A", "B", "Z"}, solids));
-    CHECK(solids.camera_depth[0] == 3.0f);
+    REQUIRE(depth_of({"A", "B", "Z"}, depth));
+    CHECK(depth.metres[0] == 3.0f);
     const std::string allowed = ", allowed: Z, or a single channel of any name";
-    CHECK(depth_of({"A", "B", "G", "R"}, solids).message ==
+    CHECK(depth_of({"A", "B", "G", "R"}, depth).message ==
           "d.exr: depth: no channel Z among A, B, G, R" + allowed);
-    CHECK(depth_of({"A", "Y"}, solids).code == Code::kBadInput);
-    CHECK(depth_of({"z", "\x1b[31m"}, solids).message ==
+    CHECK(depth_of({"A", "Y"}, depth).code == Code::kBadInput);
+    CHECK(depth_of({"z", "\x1b[31m"}, depth).message ==
           "d.exr: depth: no channel Z among z, \\x1b[31m" + allowed);
-    CHECK(depth_of({}, solids).message == "d.exr: depth: no channel Z among none" + allowed);
+    CHECK(depth_of({}, depth).message == "d.exr: depth: no channel Z among none" + allowed);
 }
 
 TEST_CASE("camera depth: a .pfm is grey") {
@@ -57,13 +57,15 @@ TEST_CASE("camera depth: a .pfm is grey") {
     Scene scene;
     scene.camera.resolution = {1, 1};
     scene.camera.depth = path;
-    Solids solids;
-    solids.image = true;
+    CameraDepth read;
+    Report report;
+    Context context;
+    context.report = &report;
     REQUIRE(write_image(depth, path, ToneSettings()));
-    REQUIRE(read_camera_depth(scene, solids));
-    CHECK(solids.camera_depth[0] == 5.0f);
+    REQUIRE(read_camera_depth(scene, context, read));
+    CHECK(read.metres[0] == 5.0f);
     depth.channels[2].pixels[0] = 6;
     REQUIRE(write_image(depth, path, ToneSettings()));
-    CHECK(read_camera_depth(scene, solids).message ==
+    CHECK(read_camera_depth(scene, context, read).message ==
           "camera.depth: " + path + ": depth: colours, R G B differ, allowed: one value a pixel");
 }

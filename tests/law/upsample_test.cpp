@@ -88,7 +88,7 @@ TEST_CASE("A view at rest becomes the whole picture, to the bit, whatever was th
         const Method& method = raymarch_method();
         const std::unique_ptr<MethodRun> made = method.make();
         RaymarchRun& run = static_cast<RaymarchRun&>(*made);
-        REQUIRE(method.prepare(scene, Budget{}, context, run));
+        REQUIRE(open_run(method, scene, {}, context, true, nullptr, run));
         REQUIRE(method.light(FrameStep{0, true, false}, context, run));
         const std::vector<float> whole(run.planes.colour.span().begin(),
                                        run.planes.colour.span().end());

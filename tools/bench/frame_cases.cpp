@@ -44,7 +44,7 @@ ReadyScene* lit(benchmark::State& state, Bench& bench, const FrameCase& which) {
 
 /// Samples in blocks that hold anything, until a ray is opaque: of every sixteenth pixel, times 16.
 std::uint64_t marched_samples(const CollectorsRun& run, const CameraParams& camera) {
-    const MediumView m = make_medium_view(run.world.medium, run.majorants);
+    const MediumView m = make_medium_view(run.world->medium, run.majorants);
     std::uint64_t samples = 0;
     for (int y = 0; y < camera.height; y += 4)
         for (int x = 0; x < camera.width; x += 4) {
@@ -75,7 +75,7 @@ double floor_ms(const FrameCase& which, const KernelTable* kernels, const ReadyS
     const LaneFloors* floors = lane_floors(kernels->name);
     const CollectorsRun& run = p.run;
     if (floors == nullptr || (which.name[0] != 'm' && which.name[0] != 'r')) return 0;
-    const CameraParams camera = make_camera(p.scene.camera, 0, run.world.medium.low_m);
+    const CameraParams camera = make_camera(p.scene.camera, 0, run.world->medium.low_m);
     const auto grid = [](const int(&n)[3], const float* values) {
         return FloorGrid{{n[0], n[1], n[2]}, values};
     };
@@ -83,7 +83,7 @@ double floor_ms(const FrameCase& which, const KernelTable* kernels, const ReadyS
     const std::vector<float> source(3 * run.shadow.size(), 0.25f);
     const MarchFloorWork march{
         which.name[0] == 'm' ? marched_samples(run, camera) : 0,
-        grid(run.world.medium.grid.size, run.world.medium.volume.density.data()),
+        grid(run.world->medium.grid.size, run.world->medium.volume.density.data()),
         grid(nodes.size, run.shadow.data()), grid(nodes.size, source.data()), kPixelVoxels};
     const Buffer<std::int64_t>& sums = run.photons.slots[0].sums;
     const std::uint64_t numbers = std::uint64_t(run.deposit.coefficients);

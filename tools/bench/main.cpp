@@ -63,8 +63,8 @@ std::unique_ptr<ReadyScene> Bench::fresh(benchmark::State& state, const std::str
     made->context.threads = hardware_threads();
     made->context.report = &made->report;
     if (!read(state, name, overrides, made->scene)) return nullptr;
-    if (!passed(state, collectors_prepare(made->scene, made->scene.collectors.photons,
-                                          made->context, made->run)))
+    if (!passed(state, open_run(collectors_method(), made->scene, {}, made->context, true, nullptr,
+                                made->run)))
         return nullptr;
     return made;
 }

@@ -39,9 +39,9 @@ FloorWork floor_work(const CollectorsRun& run) {
     work.tentative = std::uint32_t(t.tentative);
     work.scatterings = std::uint32_t(t.scatterings);
     work.crossings = std::uint32_t(t.crossings);
-    work.voxels = std::uint32_t(run.world.medium.volume.density.size());
+    work.voxels = std::uint32_t(run.world->medium.volume.density.size());
     work.blocks = std::uint32_t(run.majorants.tracking.size());
-    work.density = run.world.medium.volume.density.data();
+    work.density = run.world->medium.volume.density.data();
     work.majorant = run.majorants.tracking.data();
     work.collector = run.prepared.collector_of_voxel.data();
     return work;

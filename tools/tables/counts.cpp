@@ -76,7 +76,7 @@ Status ready(const char* display, Scene& scene, Piece& p) {
                                                 std::string("collectors.display=") + display};
     PILEUS_TRY(read_scene_file(kScene, overrides, scene));
     p.scene = &scene;
-    return collectors_prepare(scene, scene.collectors.photons, p.context, *p.run);
+    return open_run(collectors_method(), scene, {}, p.context, true, nullptr, *p.run);
 }
 
 Status count_piece(const char* name, const char* isa, void (*work)(Piece&), Piece& p) {

@@ -21,7 +21,7 @@ bool wants_error(const Scene& scene) { return scene.output.layer_error; }
 
 /// Where deposits of the phase function look: the camera, or back along its parallel rays.
 void aim_deposit(const Scene& scene, CollectorsRun& run) {
-    const CameraParams camera = make_camera(scene.camera, 0, run.world.medium.low_m);
+    const CameraParams camera = make_camera(scene.camera, 0, run.world->medium.low_m);
     run.deposit.orthographic = scene.camera.orthographic;
     for (int a = 0; a < 3; ++a)
         run.deposit.camera[a] = scene.camera.orthographic ? -camera.forward[a] : camera.origin[a];
@@ -56,9 +56,9 @@ int axis_degrees(const CollectorSettings& c, const CollectorsRun& run) {
     // Moments of tables end at a degree of their own.
     const int most = kPhaseMoments - c.bands;
     for (int n = c.axis_degrees < most ? c.axis_degrees : most; n > 0; --n)
-        for (int i = 0; i < run.world.medium.count; ++i) {
+        for (int i = 0; i < run.world->medium.count; ++i) {
             const float chi =
-                phase_moment(run.world.medium.optics[std::size_t(i)].phase, c.bands + n - 1);
+                phase_moment(run.world->medium.optics[std::size_t(i)].phase, c.bands + n - 1);
             if (chi > kNothing || chi < -kNothing) return n;
         }
     return 0;
@@ -67,7 +67,7 @@ int axis_degrees(const CollectorSettings& c, const CollectorsRun& run) {
 /// First-order coefficients are 1; P_l exceeds 1 by its rounding alone; |y| stays below 1.1 for 8
 /// bands; else the phase function's peak.
 double largest_deposit(const CollectorsRun& run) {
-    const double peak = double(phase_peak(run.world.medium));
+    const double peak = double(phase_peak(run.world->medium));
     if (run.deposit.mode == kDepositCamera && peak > 1) return peak;
     return run.deposit.bands > 6 ? 1.1 : run.deposit.axis_degrees > 0 ? 1.01 : 1;
 }
@@ -111,10 +111,14 @@ Status plan_deposit(const Scene& scene, CollectorsRun& run) {
     return Status::ok();
 }
 
+/// Empty sums; what was shot before is forgotten.
 Status allocate_photons(const Context& context, CollectorsRun& run) {
+    ++run.layouts;
+    run.ring_first = run.next_generation;
     const TraceInput in = collectors_trace_input(context, run);
     PILEUS_TRY(prepare_trace(in, run.scratch));
     run.photons.tallies.assign(run.lighting.lights.size(), TraceTally{});
+    run.photons.slots.clear();
     run.photons.slots.resize(std::size_t(collectors_slots(run)));
     const auto sums = arrays::photon_slot(slot_size(in), run.lighting.lights.size());
     for (PhotonSlot& slot : run.photons.slots) PILEUS_TRY(allocate(sums, slot.sums));
@@ -129,26 +133,26 @@ void note_plan(const Scene& scene, CollectorsRun& run) {
     plan.need("majorants");
     for (const Light& l : run.lighting.lights) plan.need(("photons from the " + l.name).c_str());
     plan.need(is_marched(run) ? "marched display" : "billboards");
-    if (run.world.medium.channels == 1)
+    if (run.deposit.channels == 1)
         plan.leave_out("coefficients per colour channel", "achromatic medium: one set per light");
-    if (is_white(run.world.medium)) plan.leave_out("absorption", "albedo 1");
-    note_solids(run.world.solids, plan);
+    if (is_white(run.world->medium)) plan.leave_out("absorption", "albedo 1");
+    note_solids(run.world->solids, run.around.depth, plan);
     if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
     if (!scene.output.layer_depth) plan.leave_out("depth of the medium", "no depth layer");
     if (!scene.output.layer_error) plan.leave_out("batches and second moments", "no error layer");
     if (!scene.collectors.billboards) plan.leave_out("billboards", "display = \"march\"");
-    for (const std::string& what : run.world.media_plan.needed) plan.needed.push_back(what);
-    for (const LeftOut& l : run.world.media_plan.left_out) plan.left_out.push_back(l);
+    for (const std::string& what : run.world->media_plan.needed) plan.needed.push_back(what);
+    for (const LeftOut& l : run.world->media_plan.left_out) plan.left_out.push_back(l);
 }
 
 /// Aims the sky map at the medium's box. A coloured one asks for a set of sums per colour channel,
 /// as its photons differ in colour.
 Status aim_map(CollectorsRun& run) {
-    if (!run.world.sky_map.present()) return Status::ok();
-    PILEUS_TRY(
-        aim_sky_map(run.world.medium.extent_m, run.world.medium.grid.periodic, run.world.sky_map));
-    if (run.world.sky_map.view.planes == 3 && run.world.medium.channels == 1) {
-        run.world.medium.channels = 3;
+    if (!run.around.sky_map.present()) return Status::ok();
+    PILEUS_TRY(aim_sky_map(run.world->medium.extent_m, run.world->medium.grid.periodic,
+                           run.around.sky_map));
+    if (run.around.sky_map.view.planes == 3 && run.deposit.channels == 1) {
+        run.deposit.channels = 3;
         run.plan.need("coefficients per colour channel: coloured sky map");
     }
     return Status::ok();
@@ -156,14 +160,17 @@ Status aim_map(CollectorsRun& run) {
 
 /// Coloured solids tell the channels of a photon apart as well.
 void tell_colours(CollectorsRun& run) {
-    if (!run.world.solids.coloured() || run.world.medium.channels == 3) return;
-    run.world.medium.channels = 3;
+    if (!run.world->solids.coloured() || run.deposit.channels == 3) return;
+    run.deposit.channels = 3;
     run.plan.need("coefficients per colour channel: coloured solids");
 }
 
 /// Lights, photons and what a collision stores, for the medium as it is known now.
-Status choose_light(const Scene& scene, std::int64_t photons, CollectorsRun& run) {
+Status choose_light(CollectorsRun& run) {
+    const Scene& scene = *run.scene;
+    const std::int64_t photons = run.budget_photons;
     run.plan = Plan{};
+    run.deposit.channels = run.world->medium.channels;
     run.plan.bias = collectors_bias(scene.collectors);
     PILEUS_TRY(aim_map(run));
     tell_colours(run);
@@ -172,26 +179,19 @@ Status choose_light(const Scene& scene, std::int64_t photons, CollectorsRun& run
     if (photons >= 0 && std::uint64_t(photons) < run.generations)
         run.generations = photons > 0 ? std::uint64_t(photons) : 1;
     run.sun_elevation_deg = first_elevation(scene);
-    run.lighting = light_world(scene, run.sun_elevation_deg, run.world, run.plan);
+    run.lighting = light_world(scene, run.sun_elevation_deg, *run.world, run.around, run.plan);
     share_photons(std::uint64_t(photons) / run.generations, run.lighting.lights);
     run.light_photons.clear();
     for (const Light& l : run.lighting.lights) run.light_photons.push_back(l.photons);
-    run.ground_map = make_ground_map(run.world.medium, run.lighting);
+    run.ground_map = make_ground_map(run.world->medium, run.lighting);
     return plan_deposit(scene, run);
-}
-
-/// What runs for the world as it is known now, and whether it is within the limits.
-Status weigh(const Scene& scene, std::int64_t photons, const Context& context, CollectorsRun& run) {
-    PILEUS_TRY(choose_light(scene, photons, run));
-    note_plan(scene, run);
-    return collectors_measure(context, run);
 }
 
 }  // namespace
 
 TraceInput collectors_trace_input(const Context& context, const CollectorsRun& run) {
     TraceInput in;
-    in.medium = &run.world.medium;
+    in.medium = &run.world->medium;
     in.lighting = &run.lighting;
     in.majorants = run.majorants.tracking.span();
     in.block = run.majorants.block;
@@ -212,9 +212,15 @@ std::uint64_t collectors_slots(const CollectorsRun& run) {
     return wants_error(*run.scene) ? batch_count(run.generations) : 1;
 }
 
-Status collectors_outline(const Scene& scene, std::int64_t photons, const Context& context,
-                          CollectorsRun& run) {
-    run.scene = &scene;
+Status collectors_weigh(const Context& context, CollectorsRun& run) {
+    PILEUS_TRY(choose_light(run));
+    note_plan(*run.scene, run);
+    return collectors_measure(context, run);
+}
+
+Status collectors_outline(const Context& context, CollectorsRun& run) {
+    const Scene& scene = *run.scene;
+    run.budget_photons = collectors_photons(scene, run.budget);
     if (scene.collectors.camera_closure) {
         if (scene.animation.present && scene.animation.moves_camera)
             return Status::bad_input(scene.file +
@@ -222,31 +228,23 @@ Status collectors_outline(const Scene& scene, std::int64_t photons, const Contex
                                      "camera, but animation.camera_orbit_deg moves it");
         run.camera_cells = scene.collectors.cell_voxels;
     }
-    PILEUS_TRY(outline_world(scene, SkyUse::kOnGrid, context, run.world));
-    return weigh(scene, photons, context, run);
-}
-
-Status collectors_load(const Scene& scene, std::int64_t photons, const Context& context,
-                       CollectorsRun& run) {
-    PILEUS_TRY(collectors_outline(scene, photons, context, run));
-    PILEUS_TRY(load_world(scene, context, run.world));
-    // The values may show that there is no medium, or more of it than sizes tell.
-    return weigh(scene, photons, context, run);
-}
-
-Status collectors_prepare(const Scene& scene, std::int64_t photons, const Context& context,
-                          CollectorsRun& run) {
     // Tell before any work that the compositor asked for is not here.
     if (scene.collectors.compositor != Compositor::kBuiltin) {
         GlBlender blender;
         PILEUS_TRY(open_gl_blender(scene.collectors.compositor, blender));
     }
-    PILEUS_TRY(collectors_load(scene, photons, context, run));
+    return collectors_weigh(context, run);
+}
+
+Status collectors_prepare(const Context& context, CollectorsRun& run) {
+    const Scene& scene = *run.scene;
+    // The values may show that there is no medium, or more of it than sizes tell.
+    PILEUS_TRY(collectors_weigh(context, run));
     PILEUS_TRY(run.camera_cells > 0
-                   ? prepare_cells(run.world.medium, run.camera_cells, context, run.prepared)
-                   : prepare_collectors(run.world.medium, scene.collectors, scene.seed, context,
+                   ? prepare_cells(run.world->medium, run.camera_cells, context, run.prepared)
+                   : prepare_collectors(run.world->medium, scene.collectors, scene.seed, context,
                                         run.prepared));
-    PILEUS_TRY(make_photon_majorants(run.world.medium, scene.collectors.local_tracking, context,
+    PILEUS_TRY(make_photon_majorants(run.world->medium, scene.collectors.local_tracking, context,
                                      run.majorants));
     run.outlined_only = false;
     PILEUS_TRY(collectors_measure(context, run));
@@ -261,14 +259,12 @@ void collectors_end_tracing(CollectorsRun& run) {
     run.majorants.tracking = Buffer<float>();
 }
 
-Status collectors_set_sun(double elevation_deg, const Context&, CollectorsRun& run) {
-    if (elevation_deg == run.sun_elevation_deg) return Status::ok();
-    Plan ignored;
-    const std::vector<Light> before = run.lighting.lights;
-    Lighting next = light_world(*run.scene, elevation_deg, run.world, ignored);
-    // The set of lights is the ring's layout: a light that has set keeps its place and shoots no
-    // photons; those of its day stay in the ring until they leave it.
-    std::vector<Light> lights = before;
+namespace {
+
+/// The set of lights is the ring's layout: a light that has set keeps its place and shoots no
+/// photons; those of its day stay in the ring until they leave it.
+void keep_places(const CollectorsRun& run, Lighting& next) {
+    std::vector<Light> lights = run.lighting.lights;
     for (std::size_t i = 0; i < lights.size(); ++i) {
         bool found = false;
         for (const Light& n : next.lights)
@@ -278,9 +274,50 @@ Status collectors_set_sun(double elevation_deg, const Context&, CollectorsRun& r
         if (!found && !lights[i].beam) lights[i].colour = {0, 0, 0};
     }
     next.lights = lights;
+}
+
+/// Whether every light of `next` has a place in the ring, and the ground its map.
+bool has_places(const CollectorsRun& run, const Lighting& next) {
+    for (const Light& light : next.lights) {
+        bool found = false;
+        for (const Light& place : run.lighting.lights) found |= place.stream == light.stream;
+        if (!found) return false;
+    }
+    const GroundMap map = make_ground_map(run.world->medium, next), &own = run.ground_map;
+    bool same = map.cells == own.cells;
+    for (int a = 0; a < 2; ++a)
+        same &= map.origin[a] == own.origin[a] && map.per_metre[a] == own.per_metre[a];
+    return same;
+}
+
+}  // namespace
+
+Status collectors_set_sun(double elevation_deg, const Context&, CollectorsRun& run) {
+    if (elevation_deg == run.sun_elevation_deg) return Status::ok();
+    Plan ignored;
+    Lighting next = light_world(*run.scene, elevation_deg, *run.world, run.around, ignored);
+    keep_places(run, next);
     run.lighting = next;
     run.sun_elevation_deg = elevation_deg;
     run.shadow_ready = false;
+    return Status::ok();
+}
+
+Status collectors_relight(bool anew, const Context& context, CollectorsRun& run) {
+    Plan ignored;
+    const double elevation_deg = run.scene->sun.elevation_deg;
+    Lighting next;
+    if (!anew) next = light_world(*run.scene, elevation_deg, *run.world, run.around, ignored);
+    if (anew || !has_places(run, next)) {
+        PILEUS_TRY(collectors_weigh(context, run));
+        run.shadow_ready = false;
+        return allocate_photons(context, run);
+    }
+    keep_places(run, next);
+    const Lighting& before = run.lighting;
+    if (next.sunlit != before.sunlit || next.to_sun != before.to_sun) run.shadow_ready = false;
+    run.lighting = next;
+    run.sun_elevation_deg = elevation_deg;
     return Status::ok();
 }
 

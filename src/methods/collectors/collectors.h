@@ -7,6 +7,7 @@
 #include "src/methods/collectors/photons/reconstruct.h"
 #include "src/methods/collectors/prepare/prepare.h"
 #include "src/methods/methods.h"
+#include "src/picture/layers.h"
 #include "src/plan/plan.h"
 #include "src/world/camera/view.h"
 #include "src/world/world.h"
@@ -20,20 +21,15 @@ constexpr std::uint64_t kMostBatches = 16;
 const Method& collectors_method();
 
 /// Everything one run holds; made by `prepare`, lit by `shoot`, read by `show`.
-struct CollectorsRun {
-    const Scene* scene = nullptr;
-    World world;
-    Plan plan;
-    Lighting lighting;
+struct CollectorsRun : MethodRun {
+    std::int64_t budget_photons = 0;           ///< of the whole ring
     std::vector<std::uint64_t> light_photons;  ///< per light and generation while it is up
     double sun_elevation_deg = 0;
-    bool outlined_only = true;  ///< sizes are known, values are not
     Prepared prepared;
     Majorants majorants;
     DepositPlan deposit;
     GroundMap ground_map;
     Photons photons;
-    std::vector<std::pair<std::string, std::string>> digests;  ///< of the prepared stages
     TraceScratch scratch;
     std::uint64_t next_generation = 0, generations = 1;
     std::uint64_t ring_first = 0;  ///< generation in the first slot of a ring that time cut short
@@ -42,6 +38,8 @@ struct CollectorsRun {
     Buffer<float> shadow;      ///< optical depth to the sun per node
     Buffer<float> visibility;  ///< and what solids leave of the sun; empty without solids
     bool shadow_ready = false;
+    Planes planes;               ///< of a session's picture
+    std::uint32_t layouts = 0;  ///< times that the sums were laid out
     bool interrupted = false;  ///< fewer generations than asked for, because the user wanted an end
     int camera_cells = 0;      ///< > 0: the camera-directed estimate on cells of so many voxels
 };
@@ -54,7 +52,7 @@ inline bool is_marched(const CollectorsRun& run) {
 /// Whether the display keeps what each collector scatters into every direction: a perspective view
 /// of a periodic medium shows each from many sides.
 inline bool shows_harmonics(const CollectorsRun& run) {
-    return is_marched(run) && run.world.medium.grid.periodic && !run.scene->camera.orthographic;
+    return is_marched(run) && run.world->medium.grid.periodic && !run.scene->camera.orthographic;
 }
 
 /// Slots of the photon map: the generations of an animation's ring, or batches for the error.
@@ -65,24 +63,29 @@ int collectors_batches(const CollectorsRun& run);
 
 /// Chooses what is needed and fills the plan from sizes alone: reads no values, prepares nothing,
 /// takes no memory to speak of. kLimit: the scene or the plan is over a limit.
-Status collectors_outline(const Scene& scene, std::int64_t photons, const Context& context,
-                          CollectorsRun& run);
+Status collectors_outline(const Context& context, CollectorsRun& run);
 
-/// Outlines, loads the media and works out the lights and what a collision stores; the first part
-/// of `collectors_prepare`.
-Status collectors_load(const Scene& scene, std::int64_t photons, const Context& context,
-                       CollectorsRun& run);
+/// The same once the world is loaded; the first part of `collectors_prepare`.
+Status collectors_weigh(const Context& context, CollectorsRun& run);
 
-/// Loads, chooses what is needed, prepares the tree and allocates the sums.
-Status collectors_prepare(const Scene& scene, std::int64_t photons, const Context& context,
-                          CollectorsRun& run);
+/// Chooses what is needed, prepares the tree and allocates the sums.
+Status collectors_prepare(const Context& context, CollectorsRun& run);
 
 /// Moves the sun; generations already shot keep the sun they were shot under.
 Status collectors_set_sun(double elevation_deg, const Context& context, CollectorsRun& run);
 
+/// Takes up a new sun, sky or ground of the run's scene; the ring begins anew where a light appears
+/// that it has no place for, or where `anew` says so. Errors: those of the plan.
+Status collectors_relight(bool anew, const Context& context, CollectorsRun& run);
+
 /// Shoots one generation into its slot of the ring, replacing the oldest where it is full; sets
 /// run.interrupted where the user ended it within.
 Status collectors_shoot(const Context& context, CollectorsRun& run);
+
+/// The picture of the lit collectors as planes; `colours` are what it is made from, `channels` those
+/// of planes.colour.
+Status collectors_compose(const CameraParams& camera, const Context& context, CollectorsRun& run,
+                          CollectorColours& colours, int& channels, Planes& planes);
 
 /// Reconstructs and composites one picture.
 Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& run, Image& image);
@@ -107,8 +110,7 @@ void collectors_end_tracing(CollectorsRun& run);
 std::int64_t collectors_photons(const Scene& scene, const Budget& budget);
 
 /// Shoots what a frame needs. kCheckFailed: interrupted before there was anything to show.
-Status collectors_light(const Budget& budget, const FrameStep& step, const Context& context,
-                        CollectorsRun& run);
+Status collectors_light(const FrameStep& step, const Context& context, CollectorsRun& run);
 
 struct CollectorsSizes;
 

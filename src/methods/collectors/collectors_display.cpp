@@ -35,13 +35,13 @@ float smallest_cell(const Grid& grid) {
 }
 
 MediumView view_of(const CollectorsRun& run) {
-    return make_medium_view(run.world.medium, run.majorants);
+    return make_medium_view(run.world->medium, run.majorants);
 }
 
 NodeGrid shadow_grid(const CollectorsRun& run) {
     float coarse = 0;
-    for (float cell : run.world.medium.grid.cell_m) coarse = cell > coarse ? cell : coarse;
-    return make_node_grid(run.world.medium.grid, run.world.medium.extent_m,
+    for (float cell : run.world->medium.grid.cell_m) coarse = cell > coarse ? cell : coarse;
+    return make_node_grid(run.world->medium.grid, run.world->medium.extent_m,
                           kShadowVoxels * double(coarse));
 }
 
@@ -67,8 +67,8 @@ Status make_shadow(const Context& context, CollectorsRun& run) {
 
 /// Spacing of the source nodes: what the budget allows, at least the cells of a cell estimate.
 double source_spacing(const CollectorsRun& run) {
-    const auto& e = run.world.medium.extent_m;
-    const double smallest = double(smallest_cell(run.world.medium.grid));
+    const auto& e = run.world->medium.extent_m;
+    const double smallest = double(smallest_cell(run.world->medium.grid));
     if (run.camera_cells > 0) return smallest * run.camera_cells;
     double spacing = 2 * smallest;
     const double budget = double(shows_harmonics(run) ? kHarmonicBudget : kNodeBudget);
@@ -84,7 +84,7 @@ SplatOptions splat_options(const CollectorsRun& run) {
     for (const PhotonSlot& slot : run.photons.slots) scatterings += double(slot.scatterings);
     SplatOptions options;
     options.radius_factor = kSplatFactor;
-    options.periodic = run.world.medium.grid.periodic;
+    options.periodic = run.world->medium.grid.periodic;
     options.prior_mass = scatterings > 0 ? float(kPriorScatterings * mass / scatterings) : 0.0f;
     return options;
 }
@@ -104,7 +104,7 @@ Status march(const Context& context, const CollectorsRun& run, const float* sour
     b.optical_depth = run.shadow.data();
     b.source = source;
     b.opaque_depth = planes.opaque_depth.data();
-    b.parts = run.world.medium.parts.data();
+    b.parts = run.world->medium.parts.data();
     b.transmittance = planes.transmittance.data();
     b.half_depth = planes.half_depth.data();
     b.colour = target;
@@ -120,20 +120,20 @@ MarchParams march_params(const CollectorsRun& run, const ReconstructInput& lit) 
     MarchParams k{};
     k.medium = view_of(run);
     k.camera = lit.camera;
-    k.media = run.world.medium.count;
+    k.media = run.world->medium.count;
     for (std::size_t c = 0; c < 3; ++c) {
         k.sun_travel[c] = -light.to_sun[c];
         k.constant[c] = float(light.constant[c]);
     }
-    for (int i = 0; i < run.world.medium.count; ++i) {
-        const Optics& optics = run.world.medium.optics[std::size_t(i)];
+    for (int i = 0; i < run.world->medium.count; ++i) {
+        const Optics& optics = run.world->medium.optics[std::size_t(i)];
         k.phase[i] = optics.phase;
         for (std::size_t c = 0; c < 3 && run.deposit.first_order == 2; ++c)
             k.sun_source[i][c] = float(light.sun_irradiance[c] * double(optics.albedo[c]));
     }
     k.shadow = run.shadow_nodes;
     k.source =
-        make_node_grid(run.world.medium.grid, run.world.medium.extent_m, source_spacing(run));
+        make_node_grid(run.world->medium.grid, run.world->medium.extent_m, source_spacing(run));
     k.channels = 3;
     k.cut = kCut;
     return k;
@@ -187,7 +187,7 @@ Status show_harmonics(const Context& context, CollectorsRun& run, const Reconstr
             const StageClock clock(context, "reconstruct");
             PILEUS_TRY(reconstruct_harmonics(in, batch, lit));
         }
-        if (batch < 0) digest.floats(lit.values.span());
+        if (batch < 0 && context.digests) digest.floats(lit.values.span());
         k.bands = lit.bands;
         k.sets = lit.sets;
         k.harmonics = stored_harmonics(lit.bands);
@@ -201,7 +201,8 @@ Status show_harmonics(const Context& context, CollectorsRun& run, const Reconstr
         PILEUS_TRY(march(context, run, by_node.data(), k, target, planes));
     }
     // The picture's own digest, not those of its parts.
-    if (in.lighting == &run.lighting) context.report->digests.emplace_back("colours", digest.hex());
+    if (in.lighting == &run.lighting && context.digests)
+        context.report->digests.emplace_back("colours", digest.hex());
     return Status::ok();
 }
 
@@ -300,7 +301,7 @@ Status collectors_billboards(const Context& context, const CollectorsRun& run,
         const Collector& c = run.prepared.collectors[i];
         for (std::size_t a = 0; a < 3; ++a) spheres[a * n + i] = c.centre[a];
         spheres[3 * n + i] = c.billboard_radius;
-        spheres[4 * n + i] = c.extinction * run.world.medium.sigma;
+        spheres[4 * n + i] = c.extinction * run.world->medium.sigma;
     }
     BillboardScene scene;
     scene.x = spheres.data();
@@ -338,16 +339,16 @@ void collectors_size_display(const CollectorsRun& run, CollectorsSizes& sizes) {
     sizes.parts = parts > 0;
     if (!sizes.marched) return;
     const NodeGrid nodes =
-        make_node_grid(run.world.medium.grid, run.world.medium.extent_m, source_spacing(run));
+        make_node_grid(run.world->medium.grid, run.world->medium.extent_m, source_spacing(run));
     sizes.source_nodes = source_nodes(nodes);
     if (shows_harmonics(run)) {
-        const std::uint64_t sets = std::uint64_t(harmonic_sets(run.world.medium, run.lighting));
+        const std::uint64_t sets = std::uint64_t(harmonic_sets(run.deposit.channels, run.lighting));
         sizes.harmonics = sets * std::uint64_t(run.deposit.bands * run.deposit.bands);
         sizes.numbers_by_node =
             bytes_of(node_count(nodes), sets * std::uint64_t(stored_harmonics(run.deposit.bands)));
     }
     if (run.lighting.sunlit && run.deposit.first_order == 2)
-        sizes.shadow_nodes = node_count(shadow_grid(run)) * (run.world.solids.meshes ? 2 : 1);
+        sizes.shadow_nodes = node_count(shadow_grid(run)) * (run.world->solids.meshes ? 2 : 1);
 }
 
 }  // namespace pileus

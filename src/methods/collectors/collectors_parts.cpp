@@ -70,7 +70,7 @@ Status show_optical_depth(const Context& context, const CollectorsRun& run,
     Planes part;
     PILEUS_TRY(allocate_planes(lit.camera.width, lit.camera.height, 0, lit.lighting->opaque(),
                                false, part));
-    PILEUS_TRY(march_medium(context, run.world.medium, run.majorants, *lit.lighting, lit.camera,
+    PILEUS_TRY(march_medium(context, run.world->medium, run.majorants, *lit.lighting, lit.camera,
                             {false, true}, part));
     planes.optical_depth.swap(part.optical_depth);
     return Status::ok();

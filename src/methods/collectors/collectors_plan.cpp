@@ -52,7 +52,7 @@ void size_prepared(const CollectorsRun& run, const Context& context, CollectorsS
         s.leaves = block_total(s.grid, run.camera_cells);
     else
         s.leaves =
-            most > 0 ? most : expected_leaves(s.grid, leaf_share(run.world.medium), s.samples);
+            most > 0 ? most : expected_leaves(s.grid, leaf_share(run.world->medium), s.samples);
     s.collectors = s.leaves;
     s.tracking_blocks = most_tracking_blocks(s.grid, settings.local_tracking);
 }
@@ -62,19 +62,19 @@ void size_prepared(const CollectorsRun& run, const Context& context, CollectorsS
 CollectorsSizes collectors_sizes(const CollectorsRun& run, const Context& context) {
     const CollectorSettings& settings = run.scene->collectors;
     CollectorsSizes s;
-    s.grid = run.world.medium.grid;
-    s.source = run.world.source;
+    s.grid = run.world->medium.grid;
+    s.source = run.world->source;
     s.threads = std::uint64_t(context.threads);
-    s.media = std::uint64_t(run.world.medium.count);
+    s.media = std::uint64_t(run.world->medium.count);
     s.cells = run.camera_cells > 0;
     s.variance = settings.variance_field;
     s.rejection = settings.rejection_sampler;
     s.paper = settings.paper;
-    s.channels = std::uint64_t(run.world.medium.channels);
+    s.channels = std::uint64_t(run.deposit.channels);
     s.coefficients = std::uint64_t(run.deposit.coefficients);
     s.lights = run.lighting.lights.size();
-    s.phases = phase_bytes(run.world.medium);
-    s.sky = sky_map_bytes(run.world.sky_map);
+    s.phases = phase_bytes(run.world->medium);
+    s.sky = sky_map_bytes(run.around.sky_map);
     s.slots = collectors_slots(run);
     s.ground_cells = std::uint64_t(run.ground_map.cells) * std::uint64_t(run.ground_map.cells);
     s.shoots_again = context.frames > 1;
@@ -99,11 +99,12 @@ Status collectors_measure(const Context& context, CollectorsRun& run) {
         run.plan.accumulation = {"shared", "all threads of the device add to one set", 0, true};
     sizes.private_sums = run.plan.accumulation.bytes;
     run.plan.memory = collectors_memory(sizes);
-    add_solid_rows(*run.scene, context.limits, run.world.solids, run.plan.memory);
+    add_solid_rows(*run.scene, context.limits, run.world->solids, run.around.depth,
+                   run.plan.memory);
     PILEUS_TRY(
         check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), run.scene->file));
     run.plan.skip(Stage::kPaths);
-    run.plan.work = estimate_work(medium_work(run.world.medium, run.world.source.mean_density,
+    run.plan.work = estimate_work(medium_work(run.world->medium, run.world->source.mean_density,
                                               double(run.max_events), double(photons)));
     return check_work(run.plan.work, context.limits, run.scene->file);
 }
@@ -118,7 +119,7 @@ void report_limits(const CollectorsRun& run, const Context& context, Report& rep
         report.limits.push_back(limit_of(context.limits, id, needs, known));
     };
     report.limits.clear();
-    add(LimitId::kVoxels, voxel_count(run.world.medium.grid));
+    add(LimitId::kVoxels, voxel_count(run.world->medium.grid));
     add(LimitId::kSamples, std::uint64_t(scene.collectors.samples));
     add(LimitId::kPhotons, whole(work.photons));
     add(LimitId::kPixels, std::uint64_t(size[0]) * std::uint64_t(size[1]));

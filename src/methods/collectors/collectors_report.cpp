@@ -77,14 +77,14 @@ std::string photon_digest(const CollectorsRun& run) {
 
 /// Numbers that the photon map holds for each collector.
 std::uint64_t coefficients_of(const CollectorsRun& run) {
-    return std::uint64_t(run.world.medium.channels) * std::uint64_t(run.deposit.coefficients) *
+    return std::uint64_t(run.deposit.channels) * std::uint64_t(run.deposit.coefficients) *
            run.lighting.lights.size() * run.photons.slots.size();
 }
 
 }  // namespace
 
 void collectors_digest_prepared(CollectorsRun& run) {
-    run.digests = {{"density", density_digest(run.world)},
+    run.digests = {{"density", density_digest(*run.world)},
                    {"leaves", leaf_digest(run)},
                    {"collectors", collector_digest(run)}};
 }
@@ -116,7 +116,7 @@ void collectors_report(const CollectorsRun& run, Report& report) {
     report.tentative = std::uint64_t(all.tentative);
     report.crossings = std::uint64_t(all.crossings);
     double diagonal = 0;
-    for (double e : run.world.medium.extent_m) diagonal += e * e;
+    for (double e : run.world->medium.extent_m) diagonal += e * e;
     if (all.photons > 0)
         report.mean_path_m =
             double(all.path) / 1048576.0 * __builtin_sqrt(diagonal) / double(all.photons);

@@ -20,7 +20,7 @@ int collectors_batches(const CollectorsRun& run) {
 ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const Context& context,
                                               const CollectorsRun& run) {
     ReconstructInput in;
-    in.medium = &run.world.medium;
+    in.medium = &run.world->medium;
     in.lighting = &run.lighting;
     in.photons = &run.photons;
     in.collectors = run.prepared.collectors.span();
@@ -37,23 +37,29 @@ ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const 
     return in;
 }
 
-Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& run, Image& image) {
-    const Scene& scene = *run.scene;
-    const CameraParams camera = make_camera(scene.camera, orbit_deg, run.world.medium.low_m);
+Status collectors_compose(const CameraParams& camera, const Context& context, CollectorsRun& run,
+                          CollectorColours& colours, int& channels, Planes& planes) {
     const ReconstructInput in = collectors_reconstruct_input(camera, context, run);
-    CollectorColours colours;
     if (!shows_harmonics(run)) {
         const StageClock clock(context, "reconstruct");
         PILEUS_TRY(reconstruct(in, colours));
     }
-    const int channels = 3 * (1 + in.batches);
-    Planes planes;
+    channels = 3 * (1 + in.batches);
     PILEUS_TRY(allocate_planes(camera.width, camera.height, channels, run.lighting.opaque(),
-                               scene.output.layer_depth, planes));
+                               run.scene->output.layer_depth, planes));
     PILEUS_TRY(collectors_background(context, run, in, planes));
     PILEUS_TRY(collectors_display(context, run, in, colours, channels, planes));
     PILEUS_TRY(collectors_ground_noise(context, run, in, planes));
-    PILEUS_TRY(collectors_parts(context, run, in, planes));
+    return collectors_parts(context, run, in, planes);
+}
+
+Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& run, Image& image) {
+    const Scene& scene = *run.scene;
+    const CameraParams camera = make_camera(scene.camera, orbit_deg, run.world->medium.low_m);
+    CollectorColours colours;
+    int channels = 3;
+    Planes planes;
+    PILEUS_TRY(collectors_compose(camera, context, run, colours, channels, planes));
     Report& report = *context.report;
     report.counters.clear();
     std::uint64_t clamped = colours.clamped_negative;
@@ -62,10 +68,10 @@ Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& 
     report.counters.emplace_back("clamped_negative", clamped);
     report.executed = {{"depth_tests", planes.opaque_depth.size()},
                        {"depths_stored", planes.half_depth.size()},
-                       {"batches", std::uint64_t(in.batches)},
-                       {"parts_stored", run.world.medium.parts.size()}};
-    report_solids(run.world.solids, report);
-    set_image_camera(camera, run.world.medium.low_m, image);
+                       {"batches", std::uint64_t(channels / 3 - 1)},
+                       {"parts_stored", run.world->medium.parts.size()}};
+    report_solids(run.world->solids, run.around.depth, report);
+    set_image_camera(camera, run.world->medium.low_m, image);
     if (shows_harmonics(run)) return Status::ok();
     Digest digest;
     digest.floats(colours.colour.span());

@@ -28,36 +28,27 @@ Status check(const Scene& scene, const Budget& budget) {
 /// Light for the medium as it is known now; a map lights by its own radiances.
 void choose_light(double sun_elevation_deg, PathRun& run) {
     Plan photons;  // speaks of photons alone
-    run.lighting = light_world(*run.scene, sun_elevation_deg, run.world, photons);
+    run.lighting = light_world(*run.scene, sun_elevation_deg, *run.world, run.around, photons);
 }
 
 void digest_prepared(PathRun& run) {
     Digest majorants;
     majorants.floats(run.majorants.tracking.span());
-    run.digests = {{"density", density_digest(run.world)}, {"majorants", majorants.hex()}};
+    run.digests = {{"density", density_digest(*run.world)}, {"majorants", majorants.hex()}};
 }
 
-Status outline(const Scene& scene, const Budget& budget, const Context& context,
-               MethodRun& method_run) {
+Status outline(const Context& context, MethodRun& method_run) {
     PathRun& run = own(method_run);
-    run.scene = &scene;
-    run.budget = budget;
-    PILEUS_TRY(outline_world(scene, SkyUse::kOnGrid, context, run.world));
-    choose_light(sun_at(scene, 0), run);
-    run.camera = make_camera(scene.camera, 0, run.world.medium.low_m);
+    choose_light(sun_at(*run.scene, 0), run);
+    run.camera = make_camera(run.scene->camera, 0, run.world->medium.low_m);
     return path_measure(context, run);
 }
 
-Status prepare(const Scene& scene, const Budget& budget, const Context& context,
-               MethodRun& method_run) {
+Status prepare(const Context& context, MethodRun& method_run) {
     PathRun& run = own(method_run);
-    PILEUS_TRY(outline(scene, budget, context, run));
-    PILEUS_TRY(load_world(scene, context, run.world));
     // The values may show that there is no medium, or more of it than sizes tell.
-    choose_light(sun_at(scene, 0), run);
-    run.camera = make_camera(scene.camera, 0, run.world.medium.low_m);
-    PILEUS_TRY(path_measure(context, run));
-    PILEUS_TRY(make_majorants(run.world.medium, true, context, run.majorants, kPathCosts));
+    PILEUS_TRY(outline(context, run));
+    PILEUS_TRY(make_majorants(run.world->medium, true, context, run.majorants, kPathCosts));
     run.outlined_only = false;
     PILEUS_TRY(path_measure(context, run));
     digest_prepared(run);
@@ -68,10 +59,51 @@ Status light(const FrameStep& step, const Context& context, MethodRun& method_ru
     PathRun& run = own(method_run);
     const Scene& scene = *run.scene;
     choose_light(sun_at(scene, step.frame), run);
-    run.camera = make_camera(scene.camera, orbit_at(scene, step.frame), run.world.medium.low_m);
+    run.camera = make_camera(scene.camera, orbit_at(scene, step.frame), run.world->medium.low_m);
     // Frame f of an animation has the noise of the seed f further on.
     run.seed = std::uint64_t(scene.seed) + std::uint64_t(step.frame);
     return path_light(step, context, run);
+}
+
+/// A film shows one camera and one light.
+Status aim(int frame, bool anew, const Context&, MethodRun& method_run) {
+    PathRun& run = own(method_run);
+    choose_light(run.scene->sun.elevation_deg, run);
+    run.camera = make_camera(run.scene->camera, 0, run.world->medium.low_m);
+    run.seed = std::uint64_t(run.scene->seed) + std::uint64_t(frame);
+    run.begun = false;
+    if (anew || run.film.width != run.camera.width || run.film.height != run.camera.height)
+        run.scratch = PathScratch{};
+    return Status::ok();
+}
+
+Status advance(std::uint64_t units, const Context& context, MethodRun& method_run,
+               std::uint64_t& done) {
+    PathRun& run = own(method_run);
+    if (!run.begun) PILEUS_TRY(path_begin(context, run));
+    const std::uint64_t before = run.film.samples;
+    const Status status = units > 0 ? path_advance(units, context, run) : Status::ok();
+    done = run.film.samples - before;
+    return status;
+}
+
+LightUnits units(const MethodRun& method_run) {
+    const PathRun& run = static_cast<const PathRun&>(method_run);
+    const auto& size = run.scene->camera.resolution;
+    LightUnits out;
+    out.unit = "sample";
+    out.whole = std::uint64_t(run.scene->path.samples_per_pixel);
+    out.unit_photons = std::uint64_t(size[0]) * std::uint64_t(size[1]);
+    out.held = run.begun ? run.film.samples : 0;
+    return out;
+}
+
+Status compose(const FrameStep&, const Context& context, MethodRun& method_run,
+               const Planes*& planes) {
+    PathRun& run = own(method_run);
+    if (!run.begun) PILEUS_TRY(path_begin(context, run));
+    planes = &run.planes;
+    return path_planes(context, run);
 }
 
 }  // namespace
@@ -82,7 +114,7 @@ bool path_parts(const OutputSettings& output) {
 
 PathInput path_input(const Context& context, const PathRun& run) {
     PathInput in;
-    in.medium = &run.world.medium;
+    in.medium = &run.world->medium;
     in.lighting = &run.lighting;
     in.majorants = run.majorants.tracking.span();
     in.block = run.majorants.block;
@@ -97,8 +129,9 @@ PathInput path_input(const Context& context, const PathRun& run) {
 }
 
 const Method& path_method() {
-    static constexpr Method method{"path",           make,  check,     outline,    prepare,
-                                   path_report_plan, light, path_show, path_report};
+    static constexpr LiveMethod live{aim, advance, units, compose};
+    static constexpr Method method{"path",  SkyUse::kOnGrid,  make,  check,     outline,
+                                   prepare, path_report_plan, light, path_show, path_report, &live};
     return method;
 }
 

@@ -15,15 +15,7 @@ namespace pileus {
 
 /// Everything one run holds. Each frame has a film of its own, made and freed with it.
 struct PathRun : MethodRun {
-    const Scene* scene = nullptr;
-    Budget budget;
-    World world;
-    Plan plan;
-    Lighting lighting;
     Majorants majorants;
-    bool outlined_only = true;                                 ///< sizes are known, values are not
-    std::vector<std::pair<std::string, std::string>> digests;  ///< of what no frame changes
-
     CameraParams camera{};
     std::uint64_t seed = 0;  ///< of the frame
     Planes planes;
@@ -32,6 +24,7 @@ struct PathRun : MethodRun {
     PathTally earlier{};  ///< of what a state file brought
     PathTally tally{};    ///< of all frames so far
     bool interrupted = false;
+    bool begun = false;  ///< a session's film belongs to its camera and light
 };
 
 /// The recipe.
@@ -51,6 +44,11 @@ void path_report_plan(const MethodRun& run, const Context& context, Report& repo
 /// Traces a frame's film until its budget is met or the user wants an end. Errors: those of the
 /// state file; kCheckFailed: interrupted before the first sample of every pixel.
 Status path_light(const FrameStep& step, const Context& context, MethodRun& run);
+
+/// Its parts in a session: an empty film, samples for it, its planes.
+Status path_begin(const Context& context, PathRun& run);
+Status path_advance(std::uint64_t samples, const Context& context, PathRun& run);
+Status path_planes(const Context& context, PathRun& run);
 
 /// The error of the film over the cloud's pixels, of numbers as the image holds them.
 ErrorSum path_error(const PathRun& run);

@@ -19,7 +19,7 @@ Status make_alpha(const Context& context, PathRun& run) {
                                output.layer_depth, run.planes));
     if (run.camera.flux != 0) return Status::ok();  // alpha 1: all pixels are measured
     const MarchWanted wanted{output.layer_depth, output.layer_optical_depth};
-    return march_medium(context, run.world.medium, run.majorants, run.lighting, run.camera, wanted,
+    return march_medium(context, run.world->medium, run.majorants, run.lighting, run.camera, wanted,
                         run.planes);
 }
 
@@ -95,6 +95,21 @@ Status resume(const PassRule& rule, const Keeper& keeper, PathRun& run) {
 }
 
 }  // namespace
+
+Status path_begin(const Context& context, PathRun& run) {
+    const PathInput in = path_input(context, run);
+    PILEUS_TRY(make_film(in, run.film));
+    PILEUS_TRY(make_alpha(context, run));
+    run.begun = true;
+    return run.scratch.ready ? Status::ok() : prepare_path(in, run.scratch);
+}
+
+Status path_advance(std::uint64_t samples, const Context& context, PathRun& run) {
+    const StageClock clock(context, "paths");
+    PathInput in = path_input(context, run);
+    in.ended = patient_stop(context);
+    return trace_paths(in, samples, run.scratch, run.film);
+}
 
 Status path_light(const FrameStep& step, const Context& context, MethodRun& method_run) {
     PathRun& run = static_cast<PathRun&>(method_run);

@@ -44,8 +44,8 @@ void note_parts(const Scene& scene, const PathRun& run, Plan& plan) {
         plan.need("parts of the light, apart");
     else
         plan.leave_out("parts of the light, apart", "no layer cloud, light or order");
-    if (run.world.medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
-    if (is_white(run.world.medium)) plan.leave_out("absorption", "albedo 1");
+    if (run.world->medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
+    if (is_white(run.world->medium)) plan.leave_out("absorption", "albedo 1");
     if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
     if (!output.layer_depth) plan.leave_out("depth of the medium", "no depth layer");
     if (!output.layer_optical_depth) plan.leave_out("optical depth", "no optical_depth layer");
@@ -69,10 +69,10 @@ void note_plan(PathRun& run) {
         plan.need("alpha, marched through pixel centres");
     plan.need("paths");
     note_light(scene, run, plan);
-    note_solids(run.world.solids, plan);
+    note_solids(run.world->solids, run.around.depth, plan);
     note_parts(scene, run, plan);
-    for (const std::string& what : run.world.media_plan.needed) plan.needed.push_back(what);
-    for (const LeftOut& l : run.world.media_plan.left_out) plan.left_out.push_back(l);
+    for (const std::string& what : run.world->media_plan.needed) plan.needed.push_back(what);
+    for (const LeftOut& l : run.world->media_plan.left_out) plan.left_out.push_back(l);
     for (Stage stage : kUnused) plan.skip(stage);
 }
 
@@ -83,22 +83,22 @@ std::uint64_t pixels_of(const Scene& scene) {
 void weigh_memory(const Context& context, PathRun& run) {
     const Scene& scene = *run.scene;
     const OutputSettings& output = scene.output;
-    const Grid& grid = run.world.medium.grid;
+    const Grid& grid = run.world->medium.grid;
     const PathInput in = path_input(context, run);
     const std::uint64_t pixels = pixels_of(scene);
     const bool again = context.frames > 1;
     const Stage traced = again ? Stage::kWrite : Stage::kPaths;
-    const SkyMapBytes sky = sky_map_bytes(run.world.sky_map);
+    const SkyMapBytes sky = sky_map_bytes(run.around.sky_map);
     MemoryTable t;
-    add_density_rows(grid, run.world.source, std::uint64_t(run.world.medium.count),
-                     phase_bytes(run.world.medium), std::uint64_t(context.threads), sky, t);
+    add_density_rows(grid, run.world->source, std::uint64_t(run.world->medium.count),
+                     phase_bytes(run.world->medium), std::uint64_t(context.threads), sky, t);
     add_majorant_rows(
         grid, run.outlined_only ? most_tracking_blocks(grid, true) : run.majorants.tracking.size(),
         std::uint64_t(context.threads), traced, t);
 
     // All rows of the map, of which a ground leaves the upper ones.
-    const std::uint64_t columns = std::uint64_t(run.world.sky_map.size[0]),
-                        rows = std::uint64_t(run.world.sky_map.size[1]);
+    const std::uint64_t columns = std::uint64_t(run.around.sky_map.size[0]),
+                        rows = std::uint64_t(run.around.sky_map.size[1]);
     add(t, arrays::path_sky_weight(rows, columns), arrays::path_sky_columns(rows, columns),
         arrays::path_sky_rows(rows));
     const auto sums = arrays::film_sums(in), squares = arrays::film_squares(in);
@@ -119,7 +119,7 @@ void weigh_memory(const Context& context, PathRun& run) {
     add_image_rows(std::uint64_t(scene.camera.resolution[0]),
                    std::uint64_t(scene.camera.resolution[1]),
                    4 + extra_layers(output, output.layer_error), t);
-    add_solid_rows(scene, context.limits, run.world.solids, t);
+    add_solid_rows(scene, context.limits, run.world->solids, run.around.depth, t);
     run.plan.memory = t;
     run.plan.exact = !run.outlined_only;
 }
@@ -138,7 +138,7 @@ Status path_measure(const Context& context, PathRun& run) {
         open ? 0 : double(pixels_of(*run.scene)) * double(rule.most) * double(context.frames);
     run.plan.work_of = "paths";
     run.plan.work = estimate_work(
-        medium_work(run.world.medium, run.world.source.mean_density, double(1u << 24), paths));
+        medium_work(run.world->medium, run.world->source.mean_density, double(1u << 24), paths));
     return check_work(run.plan.work, context.limits, run.scene->file);
 }
 
@@ -151,7 +151,7 @@ void path_report_plan(const MethodRun& method_run, const Context& context, Repor
         report.limits.push_back(limit_of(context.limits, id, needs, known));
     };
     const Animation& animation = run.scene->animation;
-    add(LimitId::kVoxels, voxel_count(run.world.medium.grid));
+    add(LimitId::kVoxels, voxel_count(run.world->medium.grid));
     add(LimitId::kPixels, pixels_of(*run.scene));
     add(LimitId::kFrames, animation.present ? std::uint64_t(animation.frames) : 1);
     add(LimitId::kMemory, run.plan.memory.peak());

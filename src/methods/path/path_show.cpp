@@ -75,6 +75,11 @@ ErrorSum path_error(const PathRun& run) {
     return sum;
 }
 
+Status path_planes(const Context& context, PathRun& run) {
+    const StageClock clock(context, "layers");
+    return fill_planes(context, run);
+}
+
 Status path_show(const FrameStep&, const Context& context, MethodRun& method_run, Image& image) {
     PathRun& run = static_cast<PathRun&>(method_run);
     Report& report = *context.report;
@@ -90,13 +95,13 @@ Status path_show(const FrameStep&, const Context& context, MethodRun& method_run
     report.counters.emplace_back("clamped_negative", clamped);
     report.executed = {{"depth_tests", run.planes.opaque_depth.size()},
                        {"depths_stored", run.planes.half_depth.size()},
-                       {"parts_stored", run.world.medium.parts.size()},
+                       {"parts_stored", run.world->medium.parts.size()},
                        {"film_parts", std::uint64_t(run.film.parts)}};
-    report_solids(run.world.solids, report);
+    report_solids(run.world->solids, run.around.depth, report);
     report.samples_per_pixel = run.film.samples;
     report.ahead_pixels = run.film.ahead;
     report.ahead_samples = run.film.ahead > 0 ? run.film.ahead_samples : 0;
-    set_image_camera(run.camera, run.world.medium.low_m, image);
+    set_image_camera(run.camera, run.world->medium.low_m, image);
     run.planes = Planes{};
     run.film.sum = Buffer<double>();
     run.film.square = Buffer<double>();

@@ -4,6 +4,7 @@
 
 #include "src/base/digest.h"
 #include "src/base/file.h"
+#include "src/world/solids/camera_depth.h"
 #include "src/world/solids/solids.h"
 
 namespace pileus {
@@ -184,7 +185,6 @@ void add_solids(const Solids& solids, Digest& d) {
         d.u32(std::uint32_t(t.solid));
     }
     d.floats(solids.albedo.span());
-    d.floats(solids.camera_depth.span());
 }
 
 }  // namespace
@@ -195,6 +195,7 @@ std::uint64_t path_state_digest(const PathInput& in, const std::string& version)
     add_medium(in, d);
     add_light(*in.lighting, d);
     if (in.lighting->solids != nullptr) add_solids(*in.lighting->solids, d);
+    if (in.lighting->depth != nullptr) d.floats(in.lighting->depth->metres.span());
     add_camera(in.camera, d);
     d.u64(in.seed);
     d.u32(std::uint32_t(in.max_depth));

@@ -8,6 +8,7 @@
 #include "src/run/context.h"
 #include "src/run/device_launch.h"
 #include "src/world/majorant/majorants.h"
+#include "src/world/solids/camera_depth.h"
 #include "src/world/solids/solids.h"
 
 namespace pileus {
@@ -63,9 +64,9 @@ void set_light(const PathInput& in, const SkySampler& sampler, PathParams& k) {
     k.sky_lit = sky_lit ? 1 : 0;
     if (light.solids != nullptr) {
         k.solids = light.solids->view();
-        k.camera_depth = light.solids->camera_depth.data();
         if (light.solids->coloured()) k.channels = 3;
     }
+    if (light.depth != nullptr) k.camera_depth = light.depth->metres.data();
     k.ground = light.ground ? 1 : 0;
     k.ground_z = float(light.ground_z);
     k.ground_albedo = float(light.ground_albedo);
@@ -98,8 +99,8 @@ Status run_launch(const PathInput& in, const PathParams& k, std::uint64_t count,
         const std::uint64_t begin = std::uint64_t(piece) * kPiece;
         const PathBuffers b{scratch.radiance.data(), scratch.capacity,
                             &scratch.tallies[std::size_t(thread) * 2]};
-        const auto kernel = in.lighting->solids != nullptr ? in.kernels->trace_paths_solid
-                                                           : in.kernels->trace_paths;
+        const bool ends = in.lighting->solids != nullptr || in.lighting->depth != nullptr;
+        const auto kernel = ends ? in.kernels->trace_paths_solid : in.kernels->trace_paths;
         kernel(k, b, std::uint32_t(begin), std::uint32_t(smaller(begin + kPiece, count)));
     });
     return Status::ok();

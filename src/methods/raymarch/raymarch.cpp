@@ -54,46 +54,74 @@ Status check(const Scene& scene, const Budget& budget) {
 
 void choose_light(double sun_elevation_deg, RaymarchRun& run) {
     Plan photons;  // speaks of photons alone
-    run.lighting = light_world(*run.scene, sun_elevation_deg, run.world, photons);
+    run.lighting = light_world(*run.scene, sun_elevation_deg, *run.world, run.around, photons);
 }
 
-Status outline(const Scene& scene, const Budget& budget, const Context& context,
-               MethodRun& method_run) {
+Status outline(const Context& context, MethodRun& method_run) {
     RaymarchRun& run = own(method_run);
-    run.scene = &scene;
-    run.settings = scene.raymarch;
-    if (budget.steps >= 0) run.settings.steps = int(budget.steps);
+    run.settings = run.scene->raymarch;
+    if (run.budget.steps >= 0) run.settings.steps = int(run.budget.steps);
     if (context.kernels->device != nullptr)
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
                                  "\": method raymarch runs on the host alone, allowed: another, or "
                                  "another method");
-    PILEUS_TRY(outline_world(scene, SkyUse::kInPlace, context, run.world));
-    choose_light(sun_at(scene, 0), run);
+    choose_light(sun_at(*run.scene, 0), run);
     return raymarch_measure(context, run);
 }
 
-Status prepare(const Scene& scene, const Budget& budget, const Context& context,
-               MethodRun& method_run) {
+Status prepare(const Context& context, MethodRun& method_run) {
     RaymarchRun& run = own(method_run);
-    PILEUS_TRY(outline(scene, budget, context, run));
-    PILEUS_TRY(load_world(scene, context, run.world));
     // The values may show that there is no medium.
-    choose_light(sun_at(scene, 0), run);
-    PILEUS_TRY(make_majorants(run.world.medium, false, context, run.majorants));
+    choose_light(sun_at(*run.scene, 0), run);
+    PILEUS_TRY(make_majorants(run.world->medium, false, context, run.majorants));
     run.outlined_only = false;
-    PILEUS_TRY(make_density_levels(run.world.medium, run.levels, run.majorants.skip_block, context,
+    PILEUS_TRY(make_density_levels(run.world->medium, run.levels, run.majorants.skip_block, context,
                                    run.coarse));
     PILEUS_TRY(raymarch_measure(context, run));
-    run.digests = {{"density", density_digest(run.world)}};
+    run.digests = {{"density", density_digest(*run.world)}};
     return Status::ok();
+}
+
+/// Nodes of sunlight and sky are made again by the next picture where their light has changed.
+Status aim(int, bool anew, const Context&, MethodRun& method_run) {
+    RaymarchRun& run = own(method_run);
+    const Lighting before = run.lighting;
+    choose_light(run.scene->sun.elevation_deg, run);
+    const Lighting& now = run.lighting;
+    const auto& size = run.scene->camera.resolution;
+    if (anew || before.sunlit != now.sunlit || before.sky != now.sky ||
+        before.sun_irradiance != now.sun_irradiance || before.ground != now.ground ||
+        before.ground_z != now.ground_z || before.ground_albedo != now.ground_albedo) {
+        run.sky_to_sun = {};
+        run.upsample.ready = false;
+    }
+    if (run.camera.width != size[0] || run.camera.height != size[1] ||
+        before.opaque() != now.opaque())
+        run.upsample = UpsampleMemory{};
+    return Status::ok();
+}
+
+Status advance(std::uint64_t, const Context&, MethodRun&, std::uint64_t& done) {
+    done = 0;
+    return Status::ok();
+}
+
+LightUnits units(const MethodRun&) { return {}; }
+
+Status compose(const FrameStep& step, const Context& context, MethodRun& method_run,
+               const Planes*& planes) {
+    RaymarchRun& run = own(method_run);
+    planes = &run.planes;
+    return raymarch_light(step, context, run);
 }
 
 }  // namespace
 
 const Method& raymarch_method() {
-    static constexpr Method method{"raymarch",     make,          check,
-                                   outline,        prepare,       raymarch_report_plan,
-                                   raymarch_light, raymarch_show, raymarch_report};
+    static constexpr LiveMethod live{aim, advance, units, compose};
+    static constexpr Method method{
+        "raymarch", SkyUse::kInPlace,     make,           check,         outline,
+        prepare,    raymarch_report_plan, raymarch_light, raymarch_show, raymarch_report, &live};
     return method;
 }
 

@@ -15,18 +15,12 @@ namespace pileus {
 
 /// Everything one run holds. Each frame has planes of its own, made and freed with it.
 struct RaymarchRun : MethodRun {
-    const Scene* scene = nullptr;
     RaymarchSettings settings;  ///< the scene's, with the steps of the budget
-    World world;
-    Buffer<float> visibility;  ///< what solids leave of the sun, on nodes; empty without solids
+    Buffer<float> visibility;   ///< what solids leave of the sun, on nodes; empty without solids
     NodeGrid visibility_nodes{};
-    Plan plan;
-    Lighting lighting;
     Majorants majorants;
-    bool outlined_only = true;                                 ///< sizes are known, values are not
-    bool march_light = false;                                  ///< else sunlight comes from nodes
-    std::string light_why;                                     ///< and why that is
-    std::vector<std::pair<std::string, std::string>> digests;  ///< of what no frame changes
+    bool march_light = false;  ///< else sunlight comes from nodes
+    std::string light_why;     ///< and why that is
 
     Buffer<float> noise;  ///< tile of the jitter; empty: none
     SkyNodes sky;

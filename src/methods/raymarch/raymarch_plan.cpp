@@ -29,10 +29,10 @@ double reach_of(const RaymarchRun& run) {
     for (std::size_t a = 0; a < 3; ++a) {
         const double arm = c.position_m[a] - c.target_m[a];
         const double off =
-            c.target_m[a] - run.world.medium.low_m[a] - 0.5 * run.world.medium.extent_m[a];
+            c.target_m[a] - run.world->medium.low_m[a] - 0.5 * run.world->medium.extent_m[a];
         from_target += arm * arm;
         target += off * off;
-        diagonal += run.world.medium.extent_m[a] * run.world.medium.extent_m[a];
+        diagonal += run.world->medium.extent_m[a] * run.world->medium.extent_m[a];
     }
     return __builtin_sqrt(from_target) + __builtin_sqrt(target) + 0.5 * __builtin_sqrt(diagonal);
 }
@@ -41,11 +41,11 @@ double reach_of(const RaymarchRun& run) {
 /// 64 samples of a ray lie where light still matters; half a way leads out of the medium.
 void choose_light(RaymarchRun& run) {
     const RaymarchSettings& s = run.settings;
-    const Grid& grid = run.world.medium.grid;
+    const Grid& grid = run.world->medium.grid;
     run.march_light = s.light == RaymarchLightKind::kMarch || s.light_cone;
     run.light_why = s.light_cone ? "light_path = \"cone\"" : "as the scene asks";
     if (s.light_cone || s.light != RaymarchLightKind::kAuto) return;
-    if (run.world.direct_sky) {
+    if (run.world->direct_sky) {
         run.march_light = true;
         run.light_why = "the sky is evaluated in place";
         return;
@@ -116,7 +116,7 @@ void note_plan(RaymarchRun& run) {
     plan.bias = {"raymarch", "light scattered more than once is missing or approximate",
                  "docs/raymarch.md"};
     if (run.settings.steps > 0) {
-        plan.need(run.world.direct_sky ? "the sky's noises, evaluated in place" : "majorants");
+        plan.need(run.world->direct_sky ? "the sky's noises, evaluated in place" : "majorants");
         plan.need("marched rays");
         note_light(scene, run, plan);
         note_appearance(run.settings, plan);
@@ -132,29 +132,29 @@ void note_plan(RaymarchRun& run) {
     if (run.settings.jitter == RaymarchJitterKind::kNone)
         plan.leave_out("jitter of samples", "jitter = \"none\"");
     note_upsampling(scene, plan);
-    if (run.world.medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
-    note_solids(run.world.solids, plan);
+    if (run.world->medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
+    note_solids(run.world->solids, run.around.depth, plan);
     if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
     if (!scene.output.layer_depth) plan.leave_out("depth of the medium", "no depth layer");
     if (!scene.output.layer_optical_depth)
         plan.leave_out("optical depth", "no optical_depth layer");
-    for (const std::string& what : run.world.media_plan.needed) plan.needed.push_back(what);
-    for (const LeftOut& l : run.world.media_plan.left_out) plan.left_out.push_back(l);
+    for (const std::string& what : run.world->media_plan.needed) plan.needed.push_back(what);
+    for (const LeftOut& l : run.world->media_plan.left_out) plan.left_out.push_back(l);
     for (Stage stage : kUnused) plan.skip(stage);
 }
 
 void weigh_memory(const Context& context, RaymarchRun& run) {
     const Scene& scene = *run.scene;
     const OutputSettings& output = scene.output;
-    const Grid& grid = run.world.medium.grid;
+    const Grid& grid = run.world->medium.grid;
     const std::uint64_t pixels = pixels_of(scene), kFloat = sizeof(float);
     const bool again = context.frames > 1;
     const Stage last = again ? Stage::kWrite : Stage::kDisplay;
     MemoryTable t;
-    add_density_rows(grid, run.world.source, std::uint64_t(run.world.medium.count),
-                     phase_bytes(run.world.medium), std::uint64_t(context.threads),
-                     sky_map_bytes(run.world.sky_map), t);
-    if (run.world.direct_sky) add_sky_rows(scene.media[0].sky, last, t);
+    add_density_rows(grid, run.world->source, std::uint64_t(run.world->medium.count),
+                     phase_bytes(run.world->medium), std::uint64_t(context.threads),
+                     sky_map_bytes(run.around.sky_map), t);
+    if (run.world->direct_sky) add_sky_rows(scene.media[0].sky, last, t);
     add_majorant_rows(grid, run.outlined_only ? 1 : run.majorants.tracking.size(),
                       std::uint64_t(context.threads), last, t);
     if (!run.march_light && run.lighting.sunlit) add(t, arrays::sun_depth(grid, last));
@@ -163,7 +163,7 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
         add(t, arrays::coarse_blocks(level, last));
     }
     if (run.settings.sky_ambient) {
-        const std::uint64_t nodes = node_count(sky_node_grid(run.world.medium));
+        const std::uint64_t nodes = node_count(sky_node_grid(run.world->medium));
         const int sets = sky_node_sets(run.lighting);
         add(t, arrays::sky_light(nodes, sets, last));
         if (sets > 0) add(t, arrays::sky_depths(nodes));
@@ -178,8 +178,8 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
     add(t, arrays::raymarch_counts(std::uint64_t(scene.camera.resolution[1])));
     add_image_rows(std::uint64_t(scene.camera.resolution[0]),
                    std::uint64_t(scene.camera.resolution[1]), 4 + extra_layers(output, false), t);
-    add_solid_rows(scene, context.limits, run.world.solids, t);
-    if (run.world.solids.meshes && run.lighting.sunlit)
+    add_solid_rows(scene, context.limits, run.world->solids, run.around.depth, t);
+    if (run.world->solids.meshes && run.lighting.sunlit)
         t.add("shadow of solids", Stage::kShadow, last, bytes_of(kFloat, voxel_count(grid)));
     run.plan.memory = t;
     run.plan.exact = !run.outlined_only;
@@ -190,8 +190,8 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
 Status raymarch_measure(const Context& context, RaymarchRun& run) {
     choose_light(run);
     run.levels =
-        raymarch_levels(run.settings, make_camera(run.scene->camera, 0, run.world.medium.low_m),
-                        run.world.medium, reach_of(run));
+        raymarch_levels(run.settings, make_camera(run.scene->camera, 0, run.world->medium.low_m),
+                        run.world->medium, reach_of(run));
     note_plan(run);
     weigh_memory(context, run);
     return check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), run.scene->file);
@@ -205,7 +205,7 @@ void raymarch_report_plan(const MethodRun& method_run, const Context& context, R
         report.limits.push_back(limit_of(context.limits, id, needs));
     };
     const Animation& animation = run.scene->animation;
-    add(LimitId::kVoxels, voxel_count(run.world.medium.grid));
+    add(LimitId::kVoxels, voxel_count(run.world->medium.grid));
     add(LimitId::kPixels, pixels_of(*run.scene));
     add(LimitId::kFrames, animation.present ? std::uint64_t(animation.frames) : 1);
     add(LimitId::kMemory, run.plan.memory.peak());

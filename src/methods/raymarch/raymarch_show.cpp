@@ -17,41 +17,42 @@ constexpr std::uint64_t kComparedNodes = 1024;
 
 /// Nodes serve every frame of the same sun.
 Status light_nodes(const Context& context, RaymarchRun& run) {
-    if (run.march_light || !run.lighting.sunlit || run.world.medium.sigma <= 0) return Status::ok();
+    if (run.march_light || !run.lighting.sunlit || run.world->medium.sigma <= 0)
+        return Status::ok();
     if (!run.nodes.optical_depth.empty() && run.nodes_to_sun == run.lighting.to_sun)
         return Status::ok();
     const bool swept = run.settings.light == RaymarchLightKind::kBuffer;
     const auto kind = swept ? SunDepthKind::kSwept : SunDepthKind::kExact;
     const auto& to_sun = run.lighting.to_sun;
-    PILEUS_TRY(make_sun_depth(context, run.world.medium, run.majorants, to_sun, kind, run.nodes));
+    PILEUS_TRY(make_sun_depth(context, run.world->medium, run.majorants, to_sun, kind, run.nodes));
     // A thousand rays tell what the sweep smears.
     run.nodes_difference = {};
     if (run.nodes.swept)
-        PILEUS_TRY(sun_depth_difference(context, run.world.medium, run.majorants, to_sun, run.nodes,
-                                        kComparedNodes, run.nodes_difference));
+        PILEUS_TRY(sun_depth_difference(context, run.world->medium, run.majorants, to_sun,
+                                        run.nodes, kComparedNodes, run.nodes_difference));
     run.nodes_to_sun = run.lighting.to_sun;
     return Status::ok();
 }
 
 /// Light of sky and ground changes with the sun alone.
 Status light_sky(const Context& context, const FrameStep& step, RaymarchRun& run) {
-    if (!run.settings.sky_ambient || run.world.medium.sigma <= 0) return Status::ok();
+    if (!run.settings.sky_ambient || run.world->medium.sigma <= 0) return Status::ok();
     if (!step.first && run.sky_to_sun == run.lighting.to_sun) return Status::ok();
     run.sky_to_sun = run.lighting.to_sun;
-    return make_sky_nodes(context, run.world.medium, run.majorants, run.lighting,
-                          mean_kept(run.settings, run.world.medium), octaves_of(run.settings),
+    return make_sky_nodes(context, run.world->medium, run.majorants, run.lighting,
+                          mean_kept(run.settings, run.world->medium), octaves_of(run.settings),
                           run.sky);
 }
 
 /// The shadow of solids, on nodes two voxels apart.
 Status shade_by_solids(const Context& context, RaymarchRun& run) {
-    if (!run.world.solids.meshes || !run.lighting.sunlit || run.world.medium.sigma <= 0)
+    if (!run.world->solids.meshes || !run.lighting.sunlit || run.world->medium.sigma <= 0)
         return Status::ok();
     float coarse = 0;
-    for (float cell : run.world.medium.grid.cell_m) coarse = cell > coarse ? cell : coarse;
+    for (float cell : run.world->medium.grid.cell_m) coarse = cell > coarse ? cell : coarse;
     run.visibility_nodes =
-        make_node_grid(run.world.medium.grid, run.world.medium.extent_m, 2 * double(coarse));
-    return solid_visibility(context, run.world.solids, run.visibility_nodes, run.lighting.to_sun,
+        make_node_grid(run.world->medium.grid, run.world->medium.extent_m, 2 * double(coarse));
+    return solid_visibility(context, run.world->solids, run.visibility_nodes, run.lighting.to_sun,
                             run.visibility);
 }
 
@@ -59,7 +60,7 @@ Status fill_background(const Context& context, RaymarchRun& run) {
     const StageClock clock(context, "background");
     const Lighting& light = run.lighting;
     BackgroundParams k{};
-    k.medium = make_medium_view(run.world.medium, run.majorants);
+    k.medium = make_medium_view(run.world->medium, run.majorants);
     k.camera = run.camera;
     k.ground = light.ground ? 1 : 0;
     k.ground_z = float(light.ground_z);
@@ -82,8 +83,8 @@ Status raymarch_light(const FrameStep& step, const Context& context, MethodRun& 
     const Scene& scene = *run.scene;
     const OutputSettings& output = scene.output;
     Plan photons;  // speaks of photons alone
-    run.lighting = light_world(scene, sun_at(scene, step.frame), run.world, photons);
-    run.camera = make_camera(scene.camera, orbit_at(scene, step.frame), run.world.medium.low_m);
+    run.lighting = light_world(scene, sun_at(scene, step.frame), *run.world, run.around, photons);
+    run.camera = make_camera(scene.camera, orbit_at(scene, step.frame), run.world->medium.low_m);
     if (run.settings.jitter == RaymarchJitterKind::kBlueNoise && run.noise.empty())
         PILEUS_TRY(make_blue_noise(run.noise));
     PILEUS_TRY(light_nodes(context, run));
@@ -96,7 +97,7 @@ Status raymarch_light(const FrameStep& step, const Context& context, MethodRun& 
         PILEUS_TRY(allocate(arrays::picture_planes(1, pixels), run.planes.optical_depth));
     PILEUS_TRY(fill_background(context, run));
     RaymarchInput in;
-    in.medium = &run.world.medium;
+    in.medium = &run.world->medium;
     in.majorants = &run.majorants;
     in.lighting = &run.lighting;
     in.settings = &run.settings;
@@ -109,7 +110,7 @@ Status raymarch_light(const FrameStep& step, const Context& context, MethodRun& 
     in.noise = &run.noise;
     // Frame f of an animation has the jitter of the seed f further on.
     in.seed = std::uint64_t(scene.seed) + std::uint64_t(step.frame);
-    in.layer = run.world.direct_sky ? &run.world.layer : nullptr;
+    in.layer = run.world->direct_sky ? &run.world->layer : nullptr;
     in.camera = run.camera;
     return upsample_picture(context, in, step.frame, run.upsample, run.planes, run.tally);
 }
@@ -137,9 +138,9 @@ Status raymarch_show(const FrameStep&, const Context& context, MethodRun& method
     report.counters.emplace_back("clamped_negative", clamped);
     report.executed = {{"depth_tests", run.planes.opaque_depth.size()},
                        {"depths_stored", run.planes.half_depth.size()},
-                       {"parts_stored", run.world.medium.parts.size()}};
-    report_solids(run.world.solids, report);
-    set_image_camera(run.camera, run.world.medium.low_m, image);
+                       {"parts_stored", run.world->medium.parts.size()}};
+    report_solids(run.world->solids, run.around.depth, report);
+    set_image_camera(run.camera, run.world->medium.low_m, image);
     run.planes = Planes{};
     return Status::ok();
 }

@@ -30,12 +30,24 @@ void store(const Double3& from, float (&to)[3]) {
 
 }  // namespace
 
+Double3 orbit(const Double3& position_m, const Double3& target_m, double degrees) {
+    const SineCosine turn = sincos_deg(degrees);
+    const Double3 arm = minus(position_m, target_m);
+    return {target_m[0] + arm[0] * turn.cosine - arm[1] * turn.sine,
+            target_m[1] + arm[0] * turn.sine + arm[1] * turn.cosine, position_m[2]};
+}
+
+double ray_slant(const CameraParams& camera, double x, double y) {
+    if (camera.orthographic != 0) return 1;
+    const double sx = ((x + 0.5) * 2 / camera.width - 1) * double(camera.half_width) +
+                      double(camera.shift_x);
+    const double sy = (1 - (y + 0.5) * 2 / camera.height) * double(camera.half_height) +
+                      double(camera.shift_y);
+    return __builtin_sqrt(1 + sx * sx + sy * sy);
+}
+
 CameraParams make_camera(const Camera& camera, double orbit_deg, const Double3& box_low_m) {
-    const SineCosine turn = sincos_deg(orbit_deg);
-    const Double3 arm = minus(camera.position_m, camera.target_m);
-    const Double3 position{camera.target_m[0] + arm[0] * turn.cosine - arm[1] * turn.sine,
-                           camera.target_m[1] + arm[0] * turn.sine + arm[1] * turn.cosine,
-                           camera.position_m[2]};
+    const Double3 position = orbit(camera.position_m, camera.target_m, orbit_deg);
     const Double3 forward = unit(minus(camera.target_m, position));
     const Double3 right = unit(cross(forward, in_range(camera.up)));
     const Double3 up = cross(right, forward);
@@ -49,6 +61,13 @@ CameraParams make_camera(const Camera& camera, double orbit_deg, const Double3& 
     out.height = camera.resolution[1];
     out.orthographic = camera.orthographic ? 1 : 0;
     out.flux = camera.flux ? 1 : 0;
+    if (camera.has_frustum) {
+        out.half_width = float(camera.frustum.half_width);
+        out.half_height = float(camera.frustum.half_height);
+        out.shift_x = float(camera.frustum.shift_x);
+        out.shift_y = float(camera.frustum.shift_y);
+        return out;
+    }
     const SineCosine half = sincos_deg(camera.fov_deg * 0.5);
     const double height = camera.orthographic ? camera.height_m * 0.5 : half.sine / half.cosine;
     out.half_height = float(height);
@@ -77,7 +96,8 @@ void set_image_camera(const CameraParams& camera, const Double3& box_low_m, Imag
     to_ndc[0][0] = 0.5 / double(camera.half_width);
     to_ndc[1][1] = -0.5 / double(camera.half_height);
     to_ndc[2][2] = to_ndc[last][3] = 1;
-    to_ndc[last][0] = to_ndc[last][1] = 0.5;
+    to_ndc[last][0] = 0.5 - 0.5 * double(camera.shift_x) / double(camera.half_width);
+    to_ndc[last][1] = 0.5 + 0.5 * double(camera.shift_y) / double(camera.half_height);
     if (camera.orthographic == 0) to_ndc[3][2] = -1;
     for (std::size_t row = 0; row < 4; ++row)
         for (std::size_t column = 0; column < 4; ++column) {

@@ -4,6 +4,7 @@
 
 #include "src/base/angles.h"
 #include "src/base/random_streams.h"
+#include "src/world/solids/camera_depth.h"
 #include "src/world/solids/solids.h"
 
 namespace pileus {
@@ -141,9 +142,11 @@ void share_photons(std::uint64_t per_generation, std::vector<Light>& lights) {
 }
 
 Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elevation_deg,
-                       Plan& plan, const SkyMap* map, const Solids* solids) {
+                       Plan& plan, const SkyMap* map, const Solids* solids,
+                       const CameraDepth* depth) {
     Lighting out;
-    if (solids != nullptr && solids->present()) out.solids = solids;
+    if (solids != nullptr && solids->meshes) out.solids = solids;
+    if (depth != nullptr && depth->present) out.depth = depth;
     const bool mapped = map != nullptr && map->present();
     const bool dark = medium.sigma <= 0 || medium.density_max <= 0;
     if (mapped) out.map = map->view;

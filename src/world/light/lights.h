@@ -13,6 +13,7 @@
 
 namespace pileus {
 
+struct CameraDepth;
 struct Solids;
 
 /// A light that shoots photons. Its radiance (diffuse) or irradiance on a plane facing it (beam)
@@ -33,7 +34,8 @@ struct Light {
 
 /// Everything about illumination that is not in the medium.
 struct Lighting {
-    const Solids* solids = nullptr;  ///< what casts shadows and hides; null: nothing does
+    const Solids* solids = nullptr;      ///< what casts shadows and hides; null: nothing does
+    const CameraDepth* depth = nullptr;  ///< what hides alone; null: nothing does
     std::vector<Light> lights;
     std::array<double, 3> constant{};  ///< source everywhere in the medium (furnace identity)
     bool sunlit = false;
@@ -47,13 +49,15 @@ struct Lighting {
     std::array<double, 3> ground_diffuse{}, ground_sun{};  ///< radiance of the unshadowed ground
 
     /// Whether rays may end before the sky.
-    bool opaque() const { return ground || solids != nullptr; }
+    bool opaque() const { return ground || solids != nullptr || depth != nullptr; }
 };
 
 /// Works out the lights and notes in `plan` what was left out. `map` is the scene's sky map, aimed
-/// at the medium's box; null or empty: a constant sky. `solids`: null or without any: none.
+/// at the medium's box; null or empty: a constant sky. `solids`, `depth`: null or
+/// without any: none.
 Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elevation_deg,
-                       Plan& plan, const SkyMap* map = nullptr, const Solids* solids = nullptr);
+                       Plan& plan, const SkyMap* map = nullptr, const Solids* solids = nullptr,
+                       const CameraDepth* depth = nullptr);
 
 /// Shares `per_generation` photons among the lights by power; every light with power gets one.
 void share_photons(std::uint64_t per_generation, std::vector<Light>& lights);

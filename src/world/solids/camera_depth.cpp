@@ -8,17 +8,10 @@
 #include "src/io/images/image_file.h"
 #include "src/scene/read_scene.h"
 #include "src/world/camera/view.h"
+#include "src/world/solids/solids.h"
 
 namespace pileus {
 namespace {
-
-/// Metres along the ray of a pixel per metre along the view's axis.
-double slant(const CameraParams& camera, std::size_t x, std::size_t y) {
-    if (camera.orthographic != 0) return 1;
-    const double sx = ((double(x) + 0.5) * 2 / camera.width - 1) * double(camera.half_width);
-    const double sy = (1 - (double(y) + 0.5) * 2 / camera.height) * double(camera.half_height);
-    return __builtin_sqrt(1 + sx * sx + sy * sy);
-}
 
 /// The plane of distances: Z, or the only one there is. Any other choice would be a guess.
 Status find_depth(const std::string& name, const Image& image, const Channel*& z) {
@@ -47,7 +40,7 @@ Status keep_one_plane(const std::string& name, Image& image) {
 }  // namespace
 
 Status take_camera_depth(const Camera& camera, const std::string& name, const Image& image,
-                         Solids& solids) {
+                         CameraDepth& depth) {
     if (image.width != camera.resolution[0] || image.height != camera.resolution[1])
         return Status::bad_input(name + ": depth: wrong size, " + std::to_string(image.width) +
                                  " x " + std::to_string(image.height) +
@@ -58,33 +51,40 @@ Status take_camera_depth(const Camera& camera, const std::string& name, const Im
     const CameraParams view = make_camera(camera, 0, {});
     const std::size_t width = std::size_t(image.width);
     const std::size_t pixels = width * std::size_t(image.height);
-    PILEUS_TRY(solids.camera_depth.resize(pixels, "camera depth"));
-    solids.depth_columns = width;
+    PILEUS_TRY(depth.metres.resize(pixels, "camera depth"));
+    depth.columns = width;
     for (std::size_t i = 0; i < pixels; ++i) {
         double metres = double(z->pixels.at(i)) * camera.depth_scale;
-        if (camera.depth_on_axis) metres *= slant(view, i % width, i / width);
+        if (camera.depth_on_axis) metres *= ray_slant(view, double(i % width), double(i / width));
         if (!(metres == metres)) {
             metres = double(__builtin_inff());
-            ++solids.broken_depths;
+            ++depth.broken;
         }
         if (metres < 0) {
             metres = 0;
-            ++solids.negative_depths;
+            ++depth.negative;
         }
         // What hosts write for "nothing there" is as far as a float reaches.
-        solids.camera_depth[i] = metres >= 1e30 ? __builtin_inff() : float(metres);
+        depth.metres[i] = metres >= 1e30 ? __builtin_inff() : float(metres);
     }
     return Status::ok();
 }
 
-Status read_camera_depth(const Scene& scene, Solids& solids) {
-    if (!solids.image) return Status::ok();
+Status outline_camera_depth(const Scene& scene, const Context& context, CameraDepth& depth) {
+    depth = CameraDepth();
+    depth.present = !scene.camera.depth.empty();
+    return depth.present ? refuse_device(scene, context) : Status::ok();
+}
+
+Status read_camera_depth(const Scene& scene, const Context& context, CameraDepth& depth) {
+    if (scene.camera.depth.empty()) return Status::ok();
+    const StageClock clock(context, "solids");
     const std::string path = scene_path(scene.directory, scene.camera.depth);
     Image image;
     PILEUS_TRY(at_key(scene, "camera.depth", read_image(path, image)));
     if (file_extension(path) == ".pfm")
         PILEUS_TRY(at_key(scene, "camera.depth", keep_one_plane(path, image)));
-    return at_key(scene, "camera.depth", take_camera_depth(scene.camera, path, image, solids));
+    return at_key(scene, "camera.depth", take_camera_depth(scene.camera, path, image, depth));
 }
 
 }  // namespace pileus

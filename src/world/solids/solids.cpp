@@ -98,13 +98,16 @@ Status place_triangles(const SolidSettings& settings, const std::string& name, s
     return Status::ok();
 }
 
+Status refuse_device(const Scene& scene, const Context& context) {
+    if (context.kernels->device == nullptr) return Status::ok();
+    return Status::bad_input(scene.file + ": solid, camera.depth: not on the device " +
+                             context.kernels->name + " in this version, allowed: --isa auto");
+}
+
 Status outline_solids(const Scene& scene, const Context& context, Solids& solids) {
     solids = Solids();
     solids.meshes = !scene.solids.empty();
-    solids.image = !scene.camera.depth.empty();
-    if (solids.present() && context.kernels->device != nullptr)
-        return Status::bad_input(scene.file + ": solid, camera.depth: not on the device " +
-                                 context.kernels->name + " in this version, allowed: --isa auto");
+    if (solids.meshes) PILEUS_TRY(refuse_device(scene, context));
     PILEUS_TRY(solids.albedo.resize(3 * scene.solids.size(), "colours of solids"));
     for (std::size_t i = 0; i < solids.albedo.size(); ++i)
         solids.albedo[i] = scene.solids[i / 3].albedo[i % 3];
@@ -121,10 +124,8 @@ Status outline_solids(const Scene& scene, const Context& context, Solids& solids
 
 Status load_solids(const Scene& scene, const Double3& low_m, const Context& context,
                    Solids& solids) {
-    if (!solids.present()) return Status::ok();
-    const StageClock clock(context, "solids");
-    PILEUS_TRY(read_camera_depth(scene, solids));
     if (!solids.meshes) return Status::ok();
+    const StageClock clock(context, "solids");
     std::vector<Mesh> meshes(scene.solids.size());
     PILEUS_TRY(read_all(scene, context, meshes));
     std::uint64_t sum = 0, used = 0;
@@ -142,16 +143,16 @@ Status load_solids(const Scene& scene, const Double3& low_m, const Context& cont
     return build_solid_tree(solids);
 }
 
-void note_solids(const Solids& solids, Plan& plan) {
+void note_solids(const Solids& solids, const CameraDepth& depth, Plan& plan) {
     if (solids.meshes)
         plan.need("solid meshes: rays against triangles");
     else
         plan.leave_out("rays against triangles", "no solid");
-    if (solids.image) plan.need("the camera's depth image");
+    if (depth.present) plan.need("the camera's depth image");
 }
 
 void add_solid_rows(const Scene& scene, const Limits& limits, const Solids& solids,
-                    MemoryTable& table) {
+                    const CameraDepth& depth, MemoryTable& table) {
     // A face takes at least two bytes of a file; the tree has less than two nodes a triangle.
     const std::uint64_t bound = solids.file_bytes / 2 < limits[LimitId::kTriangles]
                                     ? solids.file_bytes / 2
@@ -167,17 +168,17 @@ void add_solid_rows(const Scene& scene, const Limits& limits, const Solids& soli
     const std::uint64_t pixels =
         std::uint64_t(scene.camera.resolution[0]) * std::uint64_t(scene.camera.resolution[1]);
     table.add("camera depth", Stage::kDensity, Stage::kWrite,
-              solids.image ? pixels * sizeof(float) : 0);
+              depth.present ? pixels * sizeof(float) : 0);
 }
 
-void report_solids(const Solids& solids, Report& report) {
-    if (!solids.present()) return;
+void report_solids(const Solids& solids, const CameraDepth& depth, Report& report) {
+    if (!solids.meshes && !depth.present) return;
     report.executed.emplace_back("triangles", solids.triangles.size());
     report.executed.emplace_back("solid_nodes", solids.nodes.size());
     report.counters.emplace_back("degenerate_triangles", solids.degenerate);
-    if (!solids.image) return;
-    report.counters.emplace_back("depths_not_numbers", solids.broken_depths);
-    report.counters.emplace_back("depths_negative", solids.negative_depths);
+    if (!depth.present) return;
+    report.counters.emplace_back("depths_not_numbers", depth.broken);
+    report.counters.emplace_back("depths_negative", depth.negative);
 }
 
 }  // namespace pileus

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Solid things of a scene, ready for rays: meshes under one tree of boxes, the camera's depth
-// image. in: the scene's words, the medium's box -> out: Solids, made once and then read only.
-// docs/solids.md.
+// Solid things of a scene, ready for rays: meshes under one tree of boxes. in: the scene's words,
+// the medium's box -> out: Solids, made once and then read only. docs/solids.md.
 #pragma once
 #include "kernels_cpu/solids/solids_params.h"
 #include "src/base/buffer.h"
@@ -16,18 +15,13 @@ namespace pileus {
 constexpr double kMostSolidMetres = 1e10;
 
 struct Solids {
-    bool meshes = false, image = false;  ///< the scene has such; the arrays may not be there yet
+    bool meshes = false;  ///< the scene has some; the arrays may not be there yet
     Buffer<SolidNode> nodes;
     Buffer<SolidTriangle> triangles;
     Buffer<float> albedo;          ///< [solid][3]
     std::uint64_t degenerate = 0;  ///< triangles without an area, left out
-    Buffer<float> camera_depth;    ///< [pixel], m along the ray; infinity: nothing solid
-    std::size_t depth_columns = 0;
-    std::uint64_t broken_depths = 0;    ///< values that were no numbers and count as infinity
-    std::uint64_t negative_depths = 0;  ///< and below 0, which count as 0
-    std::uint64_t file_bytes = 0;       ///< of all meshes
+    std::uint64_t file_bytes = 0;  ///< of all meshes
 
-    bool present() const { return meshes || image; }
     /// Whether any colour is no grey.
     bool coloured() const {
         for (std::size_t i = 0; i + 2 < albedo.size(); i += 3)
@@ -39,12 +33,16 @@ struct Solids {
     }
 };
 
+struct CameraDepth;
+
+/// kBadInput where kernels run on a device, which knows no solids.
+Status refuse_device(const Scene& scene, const Context& context);
+
 /// What the scene has, from sizes of files alone. kBadInput: a file that is not there; kLimit.
 Status outline_solids(const Scene& scene, const Context& context, Solids& solids);
 
-/// Reads the scene's meshes and builds the tree over them, in metres from `low_m`; reads the
-/// camera's depth. Errors: those of the readers; kBadInput: too far away, or another size than the
-/// picture's; kLimit: a limit, or out of memory.
+/// Reads the scene's meshes and builds the tree over them, in metres from `low_m`. Errors: those of
+/// the readers; kBadInput: too far away; kLimit: a limit, or out of memory.
 Status load_solids(const Scene& scene, const Double3& low_m, const Context& context,
                    Solids& solids);
 
@@ -58,9 +56,9 @@ Status place_triangles(const SolidSettings& settings, const std::string& name, s
 Status build_solid_tree(Solids& solids);
 
 /// What the plan says of them; their bytes, bounds where they are not there yet.
-void note_solids(const Solids& solids, Plan& plan);
+void note_solids(const Solids& solids, const CameraDepth& depth, Plan& plan);
 void add_solid_rows(const Scene& scene, const Limits& limits, const Solids& solids,
-                    MemoryTable& table);
-void report_solids(const Solids& solids, Report& report);
+                    const CameraDepth& depth, MemoryTable& table);
+void report_solids(const Solids& solids, const CameraDepth& depth, Report& report);
 
 }  // namespace pileus

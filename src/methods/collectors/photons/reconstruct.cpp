@@ -168,9 +168,10 @@ Row collector_colour(const ReconstructInput& in, const Window& window, std::size
     const Collector& c = in.collectors[i];
     const Direction to = towards_camera(in, c);
     const Medium& m = *in.medium;
+    const int channels = sum_channels(m, in.deposit);
     const double depth_m2 = c.mass * double(m.sigma);
     Mixture mix[3];
-    for (std::size_t ch = 0; ch < std::size_t(m.channels); ++ch) mix[ch] = mixture_of(in, i, ch);
+    for (std::size_t ch = 0; ch < std::size_t(channels); ++ch) mix[ch] = mixture_of(in, i, ch);
     // The deposits know the albedos at real collisions, and where several media share a voxel.
     const bool albedo_done =
         in.deposit.mode == kDepositOutgoing || (in.deposit.mode == kDepositCamera && m.count > 1);
@@ -185,8 +186,8 @@ Row collector_colour(const ReconstructInput& in, const Window& window, std::size
             const auto& colour = in.lighting->lights[l].colour;
             double power = 0;
             for (std::size_t ch = 0; ch < 3; ++ch) {
-                if (ch == 0 || m.channels == 3) {
-                    const std::uint64_t set = std::uint64_t(i) * std::uint64_t(m.channels) + ch;
+                if (ch == 0 || channels == 3) {
+                    const std::uint64_t set = std::uint64_t(i) * std::uint64_t(channels) + ch;
                     power = slot_power(in, window, mix[ch], slot, l, set, to) * share;
                     if (!albedo_done) power *= double(mix[ch].albedo);
                 }
@@ -235,8 +236,8 @@ Status reconstruct(const ReconstructInput& in, CollectorColours& out) {
     return Status::ok();
 }
 
-int harmonic_sets(const Medium& medium, const Lighting& lighting) {
-    return medium.channels == 1 && lighting.lights.size() < 3 ? int(lighting.lights.size()) : 3;
+int harmonic_sets(int channels, const Lighting& lighting) {
+    return channels == 1 && lighting.lights.size() < 3 ? int(lighting.lights.size()) : 3;
 }
 
 namespace {
@@ -246,6 +247,7 @@ void collector_harmonics(const ReconstructInput& in, const Window& window, std::
                          std::size_t first, std::size_t last, const HarmonicSource& sets,
                          double* out) {
     const Medium& m = *in.medium;
+    const int channels = sum_channels(m, in.deposit);
     const int count = sets.bands * sets.bands;
     const bool by_light = sets.sets < 3;
     const bool albedo_done = in.deposit.mode == kDepositOutgoing;
@@ -253,7 +255,7 @@ void collector_harmonics(const ReconstructInput& in, const Window& window, std::
     for (std::size_t s = first; s < last; ++s)
         generations += double(in.photons->slots[s].generations);
     for (int k = 0; k < sets.sets * count; ++k) out[k] = 0;
-    for (std::size_t ch = 0; ch < std::size_t(m.channels == 3 ? 3 : 1); ++ch) {
+    for (std::size_t ch = 0; ch < std::size_t(channels); ++ch) {
         const Mixture mix = mixture_of(in, i, ch);
         double factor[kMaxBands];
         for (int l = 0; l < sets.bands; ++l)
@@ -265,11 +267,11 @@ void collector_harmonics(const ReconstructInput& in, const Window& window, std::
             const double share = double(slot.generations) / generations;
             for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {
                 double sums[kMostNumbers];
-                slot_sums(in, slot, l, std::uint64_t(i) * std::uint64_t(m.channels) + ch, sums);
+                slot_sums(in, slot, l, std::uint64_t(i) * std::uint64_t(channels) + ch, sums);
                 // Which sets this light feeds, and how brightly.
                 const auto& colour = in.lighting->lights[l].colour;
                 for (std::size_t set = 0; set < std::size_t(sets.sets); ++set) {
-                    if (by_light ? set != l : (m.channels == 3 && set != ch)) continue;
+                    if (by_light ? set != l : (channels == 3 && set != ch)) continue;
                     const double power = share * (by_light ? 1.0 : colour[set]);
                     for (int band = 0, k = 0; band < sets.bands; ++band)
                         for (int order = -band; order <= band; ++order, ++k)
@@ -288,7 +290,7 @@ Status reconstruct_harmonics(const ReconstructInput& in, int batch, HarmonicSour
     const std::size_t first = batch < 0 ? 0 : std::size_t(batch) * slots / batches;
     const std::size_t last = batch < 0 ? slots : (std::size_t(batch) + 1) * slots / batches;
     out.bands = in.deposit.bands;
-    out.sets = harmonic_sets(*in.medium, *in.lighting);
+    out.sets = harmonic_sets(sum_channels(*in.medium, in.deposit), *in.lighting);
     for (int s = 0; s < out.sets; ++s)
         for (std::size_t c = 0; c < 3; ++c)
             out.colour[s][c] = out.sets < 3 ? float(in.lighting->lights[std::size_t(s)].colour[c])
@@ -338,7 +340,7 @@ Status reconstruct_ground(const ReconstructInput& in, const GroundMap& map, int 
     const double unit = in.lighting->ground_albedo / 3.14159265358979323846 *
                         double(map.per_metre[0]) * double(map.per_metre[1]) /
                         (generations * double(std::uint64_t{1} << in.deposit.places));
-    const std::size_t channels = std::size_t(in.medium->channels);
+    const std::size_t channels = std::size_t(sum_channels(*in.medium, in.deposit));
     for (std::size_t i = 0; i < cells; ++i) {
         double rgb[3] = {};
         for (std::size_t s = first; s < last; ++s) {

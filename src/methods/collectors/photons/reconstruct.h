@@ -57,8 +57,9 @@ struct HarmonicSource {
     float colour[3][3] = {};  ///< [set][channel]
 };
 
-/// Sets of a run: one per light where light differs in colour only, otherwise one per channel.
-int harmonic_sets(const Medium& medium, const Lighting& lighting);
+/// Sets of a run whose sums have so many colour channels: one per light where light differs in
+/// colour only, otherwise one per channel.
+int harmonic_sets(int channels, const Lighting& lighting);
 
 /// What `reconstruct` evaluates towards one camera, for all directions, from batch `batch` of the
 /// slots, or from all: -1. Closure kSh only. Nothing is clamped. kLimit: out of memory.

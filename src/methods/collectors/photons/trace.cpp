@@ -17,7 +17,7 @@ constexpr std::uint64_t kChunk = 4096;                          // photons per p
 constexpr std::uint64_t kMostPhotons = std::uint64_t{1} << 31;  // per launch
 
 std::uint64_t collector_numbers(const TraceInput& in) {
-    return in.collectors * std::uint64_t(in.medium->channels) *
+    return in.collectors * std::uint64_t(sum_channels(*in.medium, in.deposit)) *
            std::uint64_t(in.deposit.coefficients);
 }
 
@@ -99,7 +99,7 @@ TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_
         diagonal += m.extent_m[a] * m.extent_m[a];
     }
     k.grid = track_grid(m, in.majorants, in.block, in.max_events);
-    k.channels = m.channels;
+    k.channels = sum_channels(m, in.deposit);
     k.media = m.count;
     for (std::size_t i = 0; i < m.optics.size(); ++i) k.optics[i] = m.optics[i];
     k.light = light.map ? kLightMap : (light.beam ? kLightBeam : kLightDiffuse);
@@ -156,7 +156,7 @@ GroundMap make_ground_map(const Medium& medium, const Lighting& lighting) {
 }
 
 SlotSize slot_size(const TraceInput& in) {
-    return {in.collectors, std::uint64_t(in.medium->channels),
+    return {in.collectors, std::uint64_t(sum_channels(*in.medium, in.deposit)),
             std::uint64_t(in.deposit.coefficients),
             std::uint64_t(in.ground.cells) * std::uint64_t(in.ground.cells)};
 }

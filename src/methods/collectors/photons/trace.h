@@ -20,6 +20,7 @@ struct DepositPlan {
     int first_order = 0;    ///< see TraceParams
     int axis_degrees = 0;   ///< see TraceParams
     int coefficients = 16;  ///< per collector and channel
+    int channels = 0;       ///< that photons tell apart, 1 or 3; 0: as many as the medium
     int places = 16;        ///< binary places of the sums
     float camera[3] = {0, 0, 0};
     bool orthographic = false;
@@ -35,6 +36,11 @@ struct GroundMap {
 /// A map that reaches out of the box by its height above the ground, or covers one period; none
 /// without a ground.
 GroundMap make_ground_map(const Medium& medium, const Lighting& lighting);
+
+/// Colour channels of the sums.
+inline int sum_channels(const Medium& medium, const DepositPlan& deposit) {
+    return deposit.channels > 0 ? deposit.channels : medium.channels;
+}
 
 struct TraceInput {
     const Medium* medium = nullptr;

@@ -20,7 +20,7 @@ bool needs_tree(View view) {
 
 /// Says in the plan what the view needs and what it spares.
 void note_plan(ViewRun& out) {
-    Plan& plan = out.run.plan;
+    Plan& plan = out.plan;
     const std::string why = std::string("--show ") + name_of(out.view);
     const auto step = [&](const char* name, bool needed) {
         if (needed)
@@ -40,15 +40,15 @@ void note_plan(ViewRun& out) {
     const auto take = [&](const char* name, std::uint64_t bytes) {
         plan.memory.add(name, Stage::kDensity, Stage::kWrite, bytes);
     };
-    const Prepared& p = out.run.prepared;
-    take("density", out.run.world.medium.volume.density.bytes());
-    take("parts of the media", out.run.world.medium.parts.bytes());
+    const Prepared& p = out.prepared;
+    take("density", out.world->medium.volume.density.bytes());
+    take("parts of the media", out.world->medium.parts.bytes());
     take("gradient", out.field.bytes());
     take("samples", out.samples.samples.bytes());
     take("leaves", p.leaves.bytes());
     take("collectors", p.collectors.bytes());
     take("collector of voxel", p.collector_of_voxel.bytes());
-    take("majorants", out.run.majorants.tracking.bytes() + out.run.majorants.skipping.bytes());
+    take("majorants", out.majorants.tracking.bytes() + out.majorants.skipping.bytes());
     plan.exact = true;
 }
 
@@ -64,49 +64,51 @@ Status check_closure(const Scene& scene, View view) {
 }
 
 Status prepare_step(View view, const Context& context, ViewRun& out) {
-    CollectorsRun& run = out.run;
+    CollectorsRun& run = out;
     const CollectorSettings& settings = run.scene->collectors;
     switch (view) {
         case View::kDensitySlice:
             return Status::ok();
         case View::kGradientSlice:
         case View::kGradient:
-            return prepare_sample_field(run.world.medium, settings, context, out.field, out.stats);
+            return prepare_sample_field(run.world->medium, settings, context, out.field, out.stats);
         case View::kSamples:
-            return prepare_sample_set(run.world.medium, settings, run.scene->seed, context,
+            return prepare_sample_set(run.world->medium, settings, run.scene->seed, context,
                                       out.samples);
         case View::kPhotons:
-            return make_photon_majorants(run.world.medium, settings.local_tracking, context,
+            return make_photon_majorants(run.world->medium, settings.local_tracking, context,
                                          run.majorants);
         default:
             return run.camera_cells > 0
-                       ? prepare_cells(run.world.medium, run.camera_cells, context, run.prepared)
-                       : prepare_collectors(run.world.medium, settings, run.scene->seed, context,
+                       ? prepare_cells(run.world->medium, run.camera_cells, context, run.prepared)
+                       : prepare_collectors(run.world->medium, settings, run.scene->seed, context,
                                             run.prepared);
     }
 }
 
 }  // namespace
 
-Status collectors_view_prepare(const Scene& scene, View view, std::int64_t photons,
-                               const Context& context, ViewRun& out) {
-    PILEUS_TRY(check_closure(scene, view));
-    out.view = view;
-    out.scene = scene;
+Status collectors_view_outline(const Context& context, ViewRun& out) {
+    PILEUS_TRY(check_closure(*out.scene, out.view));
+    out.shown = *out.scene;
+    out.scene = &out.shown;
     // Colours of billboards hold all light; those of the march leave the sun's first scattering
     // and the constant sky to the march.
-    out.scene.collectors.billboards = true;
-    out.scene.output.layer_error = false;
-    if (view == View::kIllumination)
-        return collectors_prepare(out.scene, photons, context, out.run);
-    PILEUS_TRY(collectors_load(out.scene, photons, context, out.run));
-    PILEUS_TRY(prepare_step(view, context, out));
+    out.shown.collectors.billboards = true;
+    out.shown.output.layer_error = false;
+    return collectors_outline(context, out);
+}
+
+Status collectors_view_prepare(const Context& context, ViewRun& out) {
+    if (out.view == View::kIllumination) return collectors_prepare(context, out);
+    PILEUS_TRY(collectors_weigh(context, out));
+    PILEUS_TRY(prepare_step(out.view, context, out));
     note_plan(out);
     return Status::ok();
 }
 
 void collectors_view_report(const ViewRun& out, Report& report) {
-    const CollectorsRun& run = out.run;
+    const CollectorsRun& run = out;
     if (out.view == View::kIllumination) {
         collectors_report(run, report);
         return;
@@ -118,7 +120,7 @@ void collectors_view_report(const ViewRun& out, Report& report) {
     report.counters.emplace_back("samples_given_up",
                                  drawn ? out.samples.given_up : run.prepared.rejected);
     Digest density;
-    density.floats(run.world.medium.volume.density.span());
+    density.floats(run.world->medium.volume.density.span());
     report.digests.emplace(report.digests.begin(), "density", density.hex());
 }
 

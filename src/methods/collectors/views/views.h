@@ -28,24 +28,24 @@ const Method* collectors_views(int& count);
 constexpr bool view_is_light(View view) { return view == View::kIllumination; }
 
 /// A run as far as its view needs it.
-struct ViewRun : MethodRun {
+struct ViewRun : CollectorsRun {
     ViewRun() = default;
     explicit ViewRun(View v) : view(v) {}
 
     View view = View::kGradient;
-    Budget budget;
-    Scene scene;  ///< the scene that the view renders: its display has no march
-    CollectorsRun run;
+    Scene shown;  ///< the scene that the view renders: its display has no march
     SampleSet samples;
     Buffer<float> field;  ///< what samples are drawn from, per voxel
     FieldStats stats;
 };
 
-/// Runs the steps up to the view's own; photons are shot by `collectors_shoot` on `out.run` where
-/// the view is kIllumination. `out` must not move afterwards. Errors: those of the steps;
-/// kBadInput for a view of a step that closure "camera" does not have.
-Status collectors_view_prepare(const Scene& scene, View view, std::int64_t photons,
-                               const Context& context, ViewRun& out);
+/// From sizes alone, with the scene as the view shows it. `out` must not move afterwards.
+/// kBadInput: a view of a step that closure "camera" does not have; kLimit.
+Status collectors_view_outline(const Context& context, ViewRun& out);
+
+/// Runs the steps up to the view's own; photons are shot by `collectors_shoot` where the view is
+/// kIllumination. Errors: those of the steps.
+Status collectors_view_prepare(const Context& context, ViewRun& out);
 
 /// Draws the view: channels R G B A, and where a field is shown `value` in its own unit
 /// (density, gradient 1/m, or variance).

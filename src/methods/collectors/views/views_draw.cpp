@@ -24,7 +24,7 @@ constexpr float kBoxSolidity = 4;     // leaves as boxes, times the true extinct
 
 /// A field as heat: on the middle plane, or the largest value on each ray.
 Status draw_field(Span<const float> field, float full, bool slice, Drawing& d) {
-    const Grid& grid = d.run.world.medium.grid;
+    const Grid& grid = d.run.world->medium.grid;
     if (slice) {
         PILEUS_TRY(look_at_plane(field, grid, d.camera, d.context.threads, d.value));
     } else {
@@ -38,7 +38,7 @@ Status draw_field(Span<const float> field, float full, bool slice, Drawing& d) {
 
 Status draw_samples(const ViewRun& v, Drawing& d) {
     PILEUS_TRY(draw_veil(d));
-    const Grid& grid = d.run.world.medium.grid;
+    const Grid& grid = d.run.world->medium.grid;
     Buffer<Disc> discs;
     PILEUS_TRY(discs.resize(v.samples.samples.size(), "discs"));
     std::size_t count = 0;
@@ -70,7 +70,7 @@ struct TreeLines {
 
 void add_leaf(const Drawing& d, const Leaf& leaf, const MiddlePlane& plane, double largest,
               TreeLines& lines) {
-    const Box box = box_of(leaf, d.run.world.medium.grid);
+    const Box box = box_of(leaf, d.run.world->medium.grid);
     double volume = 1;
     std::size_t inside = 1;
     for (int a = 0; a < 3; ++a) {
@@ -105,9 +105,9 @@ Status draw_tree(Drawing& d) {
     PILEUS_TRY(lines.edges.resize(std::uint64_t(leaves.size) * 12, "edges of leaves"));
     PILEUS_TRY(lines.section.resize(std::uint64_t(leaves.size) * 6, "cuts of leaves"));
     double diagonal = 0;
-    for (double e : d.run.world.medium.extent_m) diagonal += e * e;
+    for (double e : d.run.world->medium.extent_m) diagonal += e * e;
     const double largest = __builtin_sqrt(diagonal) * kLeafShare;
-    const MiddlePlane plane = middle_plane(d.run.world.medium.grid, d.camera);
+    const MiddlePlane plane = middle_plane(d.run.world->medium.grid, d.camera);
     for (const Leaf& leaf : leaves) add_leaf(d, leaf, plane, largest, lines);
     // Empty leaves first, then farthest first.
     const Span<Line> edges{lines.edges.data(), lines.edge_count};
@@ -129,9 +129,9 @@ Status draw_leaf_density(Drawing& d) {
     boxes.leaves = p.leaves.span();
     boxes.collectors = p.collectors.span();
     boxes.collector_of_voxel = p.collector_of_voxel.span();
-    boxes.sigma = kBoxSolidity * d.run.world.medium.sigma;
-    boxes.full = d.run.world.medium.density_max;
-    paint_leaf_boxes(boxes, d.run.world.medium.grid, d.camera, d.context.threads, d.canvas);
+    boxes.sigma = kBoxSolidity * d.run.world->medium.sigma;
+    boxes.full = d.run.world->medium.density_max;
+    paint_leaf_boxes(boxes, d.run.world->medium.grid, d.camera, d.context.threads, d.canvas);
     d.counters.emplace_back("leaves_drawn", p.collectors.size());
     return Status::ok();
 }
@@ -139,7 +139,7 @@ Status draw_leaf_density(Drawing& d) {
 /// Balls behind the middle plane: where the front half is taken away, their sizes show.
 Status draw_collectors(Drawing& d) {
     const Span<const Collector> collectors = d.run.prepared.collectors.span();
-    const MiddlePlane plane = middle_plane(d.run.world.medium.grid, d.camera);
+    const MiddlePlane plane = middle_plane(d.run.world->medium.grid, d.camera);
     Buffer<Disc> discs;
     PILEUS_TRY(discs.resize(collectors.size, "discs"));
     std::size_t count = 0;
@@ -179,7 +179,8 @@ Status draw_illumination(Drawing& d, Report& report) {
         // A disc hides what its leaf would hide along its diameter.
         const double r = double(c.radius);
         const double mean = c.mass / (4.0 / 3.0 * double(kPi) * r * r * r);
-        const float alpha = one_minus_exp(float(2.0 * r * mean * double(d.run.world.medium.sigma)));
+        const float alpha =
+            one_minus_exp(float(2.0 * r * mean * double(d.run.world->medium.sigma)));
         Disc& disc = discs[count++];
         disc = {p.x, p.y, p.depth, float(r * p.scale), alpha, {}, false};
         for (std::size_t k = 0; k < 3; ++k)
@@ -216,7 +217,7 @@ Status make_image(const Canvas& canvas, Image& image) {
 
 /// The cloud as a faint X-ray, to see where the marks are.
 Status draw_veil(Drawing& d) {
-    const Medium& m = d.run.world.medium;
+    const Medium& m = d.run.world->medium;
     FieldView view;
     PILEUS_TRY(look_through(m.volume.density.span(), m.grid, d.camera, d.context.threads, view));
     const double across = m.extent_m[2] * double(m.density_max);
@@ -226,8 +227,8 @@ Status draw_veil(Drawing& d) {
 }
 
 Status collectors_view_show(double orbit_deg, const Context& context, ViewRun& v, Image& image) {
-    Drawing d{context, v.run, make_camera(v.scene.camera, orbit_deg, v.run.world.medium.low_m),
-              {},      {},    {}};
+    Drawing d{context, v,  make_camera(v.shown.camera, orbit_deg, v.world->medium.low_m),
+              {},      {}, {}};
     PILEUS_TRY(make_canvas(d.camera.width, d.camera.height,
                            view_is_light(v.view) ? kDarkSky : kNight, d.canvas));
     Report& report = *context.report;
@@ -235,8 +236,8 @@ Status collectors_view_show(double orbit_deg, const Context& context, ViewRun& v
         const StageClock clock(context, "draw");
         switch (v.view) {
             case View::kDensitySlice:
-                PILEUS_TRY(draw_field(v.run.world.medium.volume.density.span(),
-                                      v.run.world.medium.density_max, true, d));
+                PILEUS_TRY(draw_field(v.world->medium.volume.density.span(),
+                                      v.world->medium.density_max, true, d));
                 break;
             case View::kGradientSlice:
             case View::kGradient:
@@ -270,7 +271,7 @@ Status collectors_view_show(double orbit_deg, const Context& context, ViewRun& v
         image.channels.back().pixels.swap(d.value);
     }
     image.display_colours = !view_is_light(v.view);
-    set_image_camera(d.camera, v.run.world.medium.low_m, image);
+    set_image_camera(d.camera, v.world->medium.low_m, image);
     return Status::ok();
 }
 

@@ -32,15 +32,15 @@ bool leaves_box(PathEvent event) {
 void stretch_end(const Drawing& d, const PathPoint& from, const PathPoint& to, float* end) {
     const float metres = to.path_m - from.path_m;
     for (int a = 0; a < 3; ++a)
-        end[a] = d.run.world.medium.grid.periodic ? from.at_m[a] + metres * from.direction[a]
-                                                  : to.at_m[a];
+        end[a] = d.run.world->medium.grid.periodic ? from.at_m[a] + metres * from.direction[a]
+                                                   : to.at_m[a];
 }
 
 /// A path from before the box to after it, and a dot for each scattering.
 void add_path(const Drawing& d, const std::vector<PathPoint>& path, const Float3& colour,
               const Line& light, std::vector<Line>& lines, std::vector<Disc>& dots) {
     double diagonal = 0;
-    for (double e : d.run.world.medium.extent_m) diagonal += e * e;
+    for (double e : d.run.world->medium.extent_m) diagonal += e * e;
     const float tail = float(kTail * __builtin_sqrt(diagonal));
     float before[3], after[3];
     for (int a = 0; a < 3; ++a) {

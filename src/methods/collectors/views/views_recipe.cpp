@@ -19,32 +19,34 @@ Status check(const Scene& scene, const Budget& budget) {
     return collectors_method().check(scene, budget);
 }
 
-Status prepare(const Scene& scene, const Budget& budget, const Context& context, MethodRun& run) {
-    own(run).budget = budget;
-    return collectors_view_prepare(scene, own(run).view, collectors_photons(scene, budget), context,
-                                   own(run));
+Status outline(const Context& context, MethodRun& run) {
+    return collectors_view_outline(context, own(run));
+}
+
+Status prepare(const Context& context, MethodRun& run) {
+    return collectors_view_prepare(context, own(run));
 }
 
 void report_plan(const MethodRun& run, const Context& context, Report& report) {
-    collectors_report_plan(own(run).run, context, report);
+    collectors_report_plan(own(run), context, report);
 }
 
 /// Only the light of collectors needs photons that stay.
 Status light(const FrameStep& step, const Context& context, MethodRun& run) {
     if (own(run).view != View::kIllumination) return Status::ok();
-    return collectors_light(own(run).budget, step, context, own(run).run);
+    return collectors_light(step, context, own(run));
 }
 
 Status show(const FrameStep& step, const Context& context, MethodRun& run, Image& image) {
-    return collectors_view_show(orbit_at(own(run).scene, step.frame), context, own(run), image);
+    return collectors_view_show(orbit_at(own(run).shown, step.frame), context, own(run), image);
 }
 
 void report(const MethodRun& run, Report& out) { collectors_view_report(own(run), out); }
 
 template <View kView>
 constexpr Method recipe(const char* name) {
-    return {name,        make<kView>, check, nullptr, prepare,
-            report_plan, light,       show,  report,  view_is_light(kView)};
+    return {name, SkyUse::kOnGrid, make<kView>,         check, outline, prepare, report_plan, light,
+            show, report, nullptr, view_is_light(kView)};
 }
 
 }  // namespace

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// See c_types.h. Versions, errors, what a host lends.
+#include "src/api/c_types.h"
+#include "src/world/camera/view.h"
+
+namespace pileus::api {
+
+Status no_struct(const char* name) {
+    return Status::bad_input(std::string(name) +
+                             ": null or without struct_size, allowed: after PILEUS_INIT");
+}
+
+Status no_handle(const char* name) {
+    return Status::bad_input(std::string(name) + ": null, allowed: what a function of pileus made");
+}
+
+pileus_code finish(const Status& status, pileus_error* error) {
+    const pileus_code code = static_cast<pileus_code>(status.code);
+    if (error == nullptr || error->struct_size < 2 * sizeof(std::uint32_t)) return code;
+    error->code = code;
+    const std::size_t head = offsetof(pileus_error, message);
+    if (error->struct_size <= head) return code;
+    std::size_t room = error->struct_size - head;
+    if (room > sizeof error->message) room = sizeof error->message;
+    const std::string& text = status.message;
+    const std::size_t size = text.size() < room ? text.size() : room - 1;
+    std::memcpy(error->message, text.data(), size);
+    error->message[size] = 0;
+    if (size < text.size() && size >= 3) std::memcpy(error->message + size - 3, "...", 3);
+    return code;
+}
+
+Status take_host(const pileus_host* given, std::shared_ptr<const HostParts>& host,
+                 RenderOptions& options) {
+    const auto parts = std::make_shared<HostParts>();
+    if (given != nullptr && !take(given, parts->given)) return no_struct("host");
+    const pileus_host& h = parts->given;
+    if ((h.allocate == nullptr) != (h.release == nullptr))
+        return Status::bad_input("host: allocate and release, one is null, allowed: both or none");
+    if (h.threads > 1024)
+        return Status::bad_input("host.threads: " + std::to_string(h.threads) +
+                                 ", allowed: 0 (all) to 1024");
+    parts->allocator = {h.allocate, h.release, h.user};
+    parts->executor = {h.run, h.user};
+    options.threads = int(h.threads);
+    if (h.isa != nullptr) options.isa = h.isa;
+    if (h.memory_limit > 0) options.limits[LimitId::kMemory] = h.memory_limit;
+    const HostParts* kept = parts.get();
+    if (h.progress != nullptr)
+        options.progress = [kept](const char* stage, double share) {
+            kept->given.progress(kept->given.user, stage, share);
+        };
+    if (h.stop != nullptr)
+        options.interrupted = [kept] { return kept->given.stop(kept->given.user) != 0; };
+    host = parts;
+    return Status::ok();
+}
+
+}  // namespace pileus::api
+
+extern "C" {
+
+void pileus_init(void* pileus_struct, uint32_t size) {
+    if (pileus_struct == nullptr || size < sizeof size) return;
+    std::memset(pileus_struct, 0, size);
+    std::memcpy(pileus_struct, &size, sizeof size);
+}
+
+const char* pileus_version(void) { return pileus::kVersion; }
+
+uint32_t pileus_api_version(void) { return PILEUS_API_VERSION; }
+
+void pileus_orbit(const double position_m[3], const double target_m[3], double degrees,
+                  double turned_m[3]) {
+    const pileus::FpModeGuard mode;
+    const pileus::Double3 turned =
+        pileus::orbit({position_m[0], position_m[1], position_m[2]},
+                      {target_m[0], target_m[1], target_m[2]}, degrees);
+    for (std::size_t a = 0; a < 3; ++a) turned_m[a] = turned[a];
+}
+
+}  // extern "C"

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// What stands behind the handles of pileus.h, and how its functions begin and end.
+// in: structs of a host, of any age -> out: structs of this library; a Status as code and message.
+// docs/embedding.md
+#pragma once
+#include <cstring>
+#include <memory>
+#include <new>
+
+#include "include/pileus/pileus.h"
+#include "platform/fp_mode.h"
+#include "platform/memory.h"
+#include "src/session/session.h"
+
+namespace pileus::api {
+
+/// What a host lends. Handles keep it, as their arrays go back to it.
+struct HostParts {
+    pileus_host given{};
+    Allocator allocator;
+    Executor executor;
+
+    Host host() const {
+        return {given.allocate != nullptr ? &allocator : nullptr,
+                given.run != nullptr ? &executor : nullptr};
+    }
+};
+
+/// A world and the memory it lies in.
+struct HeldWorld {
+    std::shared_ptr<const HostParts> host;
+    std::shared_ptr<const World> world;
+};
+
+/// The part of a caller's struct that this library knows; the rest stays 0. False: null, or no
+/// struct_size.
+template <class T>
+bool take(const T* given, T& own) {
+    own = T{};
+    if (given == nullptr || given->struct_size < sizeof(std::uint32_t)) return false;
+    const std::size_t size = given->struct_size < sizeof(T) ? given->struct_size : sizeof(T);
+    std::memcpy(static_cast<void*>(&own), given, size);
+    return true;
+}
+
+/// The part of a result that the caller's struct has room for.
+template <class T>
+Status give(T own, T* to, const char* name) {
+    if (to == nullptr || to->struct_size < sizeof(std::uint32_t))
+        return Status::bad_input(std::string(name) +
+                                 ": null or without struct_size, allowed: after PILEUS_INIT");
+    own.struct_size = to->struct_size;
+    const std::size_t size = to->struct_size < sizeof(T) ? to->struct_size : sizeof(T);
+    std::memcpy(static_cast<void*>(to), &own, size);
+    return Status::ok();
+}
+
+/// Bytes of the arrays that sessions share.
+std::uint64_t bytes_of_world(const World& world);
+
+Status no_struct(const char* name);
+Status no_handle(const char* name);
+
+/// The end of every call: code and message.
+pileus_code finish(const Status& status, pileus_error* error);
+
+/// A call's body: `work` returns a Status; running out of small memory is a code as well.
+template <class Work>
+pileus_code call(const HostParts* host, pileus_error* error, Work work) {
+    const HostGuard lent(host != nullptr ? host->host() : Host{});
+    const FpModeGuard mode;
+    try {
+        return finish(work(), error);
+    } catch (const std::bad_alloc&) {
+        return finish(Status{Code::kLimit, "out of memory"}, error);
+    }
+}
+
+/// Copies what a host lends and turns it into options. kBadInput: one of two functions alone.
+Status take_host(const pileus_host* given, std::shared_ptr<const HostParts>& host,
+                 RenderOptions& options);
+
+}  // namespace pileus::api
+
+struct pileus_scene {
+    pileus::Scene scene;
+    std::string text;
+    std::vector<std::string> overrides;
+};
+
+struct pileus_world {
+    std::shared_ptr<const pileus::api::HostParts> host;
+    std::shared_ptr<const pileus::World> world;  ///< keeps its host's parts
+};
+
+struct pileus_session {
+    std::shared_ptr<const pileus::api::HostParts> host;
+    pileus::Session session;
+    std::vector<std::string> told;  ///< accidents that the log has been told of
+};

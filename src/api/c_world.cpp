@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// pileus.h: scenes, plans and worlds.
+#include "src/api/c_types.h"
+#include "src/scene/read_scene.h"
+
+namespace pileus::api {
+namespace {
+
+Status take_overrides(const char* const* overrides, std::uint32_t count,
+                      std::vector<std::string>& out) {
+    if (count > 0 && overrides == nullptr)
+        return Status::bad_input("overrides: null, allowed: as many texts as override_count says");
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (overrides[i] == nullptr)
+            return Status::bad_input("overrides[" + std::to_string(i) + "]: null, allowed: a text");
+        out.emplace_back(overrides[i]);
+    }
+    return Status::ok();
+}
+
+/// `read` fills the scene.
+template <class Read>
+pileus_code make_scene(const char* const* overrides, std::uint32_t count, pileus_scene** scene,
+                       pileus_error* error, Read read) {
+    return call(nullptr, error, [&]() -> Status {
+        if (scene == nullptr) return Status::bad_input("scene: null, allowed: where to put it");
+        auto made = std::make_unique<pileus_scene>();
+        PILEUS_TRY(take_overrides(overrides, count, made->overrides));
+        PILEUS_TRY(read(made->overrides, made->scene));
+        *scene = made.release();
+        return Status::ok();
+    });
+}
+
+Status take_density(const pileus_density& given, std::uint32_t at, Scene& scene) {
+    const std::string where = "densities[" + std::to_string(at) + "]: ";
+    if (given.medium >= scene.media.size())
+        return Status::bad_input(where + "no medium " + std::to_string(given.medium) +
+                                 ", allowed: below " + std::to_string(scene.media.size()));
+    MediumSettings& medium = scene.media[given.medium];
+    std::uint64_t cells = 1;
+    for (const std::uint32_t n : given.size) {
+        if (n < 1 || n > 4096)
+            return Status::bad_input(where + "size: " + std::to_string(n) +
+                                     ", allowed: 1 to 4096 along each axis");
+        cells *= n;
+    }
+    if (given.values == nullptr) return Status::bad_input(where + "values: null, allowed: cells");
+    if (medium.density.empty() || !medium.has_bounds)
+        return Status::bad_input(where + "the scene's medium is a file or has no bounds_m, allowed: "
+                                         "density = \"uniform:box\" and bounds_m");
+    for (std::uint64_t i = 0; i < cells; ++i)
+        if (!(given.values[i] >= 0 && given.values[i] <= 1e30f))
+            return Status::bad_input(where + "cell " + std::to_string(i) + ": " +
+                                     std::to_string(given.values[i]) +
+                                     ", allowed: finite and not negative");
+    medium.values = given.values;
+    for (std::size_t a = 0; a < 3; ++a) medium.resolution[a] = int(given.size[a]);
+    return Status::ok();
+}
+
+std::uint64_t held_bytes(const World& world) {
+    std::uint64_t bytes = world.medium.volume.density.bytes() + world.medium.parts.bytes() +
+                          phase_bytes(world.medium) + world.solids.nodes.bytes() +
+                          world.solids.triangles.bytes() + world.solids.albedo.bytes();
+    for (const NoiseTexture* noise : {&world.layer.perlin, &world.layer.worley})
+        bytes += noise->words.bytes();
+    return bytes;
+}
+
+}  // namespace
+}  // namespace pileus::api
+
+using namespace pileus;
+using namespace pileus::api;
+
+extern "C" {
+
+pileus_code pileus_scene_read(const char* path, const char* const* overrides,
+                              uint32_t override_count, pileus_scene** scene, pileus_error* error) {
+    return make_scene(overrides, override_count, scene, error,
+                      [&](const std::vector<std::string>& texts, Scene& out) {
+                          if (path == nullptr)
+                              return Status::bad_input("path: null, allowed: of a scene file");
+                          return read_scene_file(path, texts, out);
+                      });
+}
+
+pileus_code pileus_scene_parse(const char* text, const char* directory,
+                               const char* const* overrides, uint32_t override_count,
+                               pileus_scene** scene, pileus_error* error) {
+    return make_scene(overrides, override_count, scene, error,
+                      [&](const std::vector<std::string>& texts, Scene& out) {
+                          if (text == nullptr)
+                              return Status::bad_input("text: null, allowed: a scene");
+                          return read_scene_text(text, "scene", directory ? directory : "", texts,
+                                                 out);
+                      });
+}
+
+void pileus_scene_free(pileus_scene* scene) { delete scene; }
+
+pileus_code pileus_plan_scene(const pileus_scene* scene, const pileus_host* host, pileus_plan* plan,
+                              pileus_error* error) {
+    return call(nullptr, error, [&]() -> Status {
+        if (scene == nullptr) return no_handle("scene");
+        std::shared_ptr<const HostParts> parts;
+        RenderOptions options;
+        PILEUS_TRY(take_host(host, parts, options));
+        const HostGuard lent(parts->host());
+        Session session;
+        PILEUS_TRY(session.open(scene->scene, options, SessionKind::kLive, false, nullptr));
+        const Medium& medium = session.run().world->medium;
+        pileus_plan out{};
+        for (std::size_t a = 0; a < 3; ++a) {
+            out.cells[a] = std::uint32_t(medium.grid.size[a]);
+            out.low_m[a] = medium.low_m[a];
+            out.high_m[a] = medium.low_m[a] + medium.extent_m[a];
+        }
+        out.peak_bytes = session.run().plan.memory.peak();
+        for (const MemoryRow& row : session.run().plan.memory.rows())
+            for (const char* name : {"density", "parts of the media", "phase functions",
+                                     "triangles", "tree of solids", "noise"})
+                if (std::string(row.item) == name) out.world_bytes += row.bytes;
+        return give(out, plan, "plan");
+    });
+}
+
+pileus_code pileus_world_create(const pileus_scene* scene, const pileus_host* host,
+                                const pileus_density* densities, uint32_t density_count,
+                                pileus_world** world, pileus_error* error) {
+    return call(nullptr, error, [&]() -> Status {
+        if (scene == nullptr) return no_handle("scene");
+        if (world == nullptr) return Status::bad_input("world: null, allowed: where to put it");
+        if (density_count > 0 && densities == nullptr)
+            return Status::bad_input("densities: null, allowed: as many as density_count says");
+        std::shared_ptr<const HostParts> parts;
+        RenderOptions options;
+        PILEUS_TRY(take_host(host, parts, options));
+        Scene own = scene->scene;
+        for (std::uint32_t i = 0; i < density_count; ++i) {
+            // The array's elements lie as far apart as the caller's header says.
+            const auto* bytes = reinterpret_cast<const unsigned char*>(densities);
+            const auto* at = reinterpret_cast<const pileus_density*>(
+                bytes + std::size_t(i) * densities->struct_size);
+            pileus_density given;
+            if (!take(at, given) || given.struct_size != densities->struct_size)
+                return no_struct("densities");
+            PILEUS_TRY(take_density(given, i, own));
+        }
+        const HostGuard lent(parts->host());
+        const auto held = std::make_shared<HeldWorld>();
+        held->host = parts;
+        PILEUS_TRY(make_world(own, options, held->world));
+        auto made = std::make_unique<pileus_world>();
+        made->host = parts;
+        made->world = std::shared_ptr<const World>(held, held->world.get());
+        *world = made.release();
+        return Status::ok();
+    });
+}
+
+void pileus_world_free(pileus_world* world) { delete world; }
+
+}  // extern "C"
+
+namespace pileus::api {
+std::uint64_t bytes_of_world(const World& world) { return held_bytes(world); }
+}  // namespace pileus::api

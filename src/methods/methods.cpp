@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// See methods.h.
+#include "src/methods/methods.h"
+
+namespace pileus {
+
+Status open_run(const Method& method, const Scene& scene, const Budget& budget,
+                const Context& context, bool exact, std::shared_ptr<const World> world,
+                MethodRun& run) {
+    run.scene = &scene;
+    run.budget = budget;
+    std::shared_ptr<World> own;
+    if (world == nullptr) {
+        own = std::make_shared<World>();
+        PILEUS_TRY(outline_world(scene, method.sky, context, *own));
+        world = own;
+    }
+    run.world = std::move(world);
+    PILEUS_TRY(outline_surroundings(scene, context, run.around));
+    PILEUS_TRY(method.outline(context, run));
+    if (!exact) return Status::ok();
+    if (own != nullptr) PILEUS_TRY(load_world(scene, context, *own));
+    PILEUS_TRY(load_surroundings(scene, context, run.around));
+    return method.prepare(context, run);
+}
+
+}  // namespace pileus

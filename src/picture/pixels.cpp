@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+// See pixels.h.
+#include "src/picture/pixels.h"
+
+#include <atomic>
+#include <cstring>
+
+#include "kernels_cpu/display/tone.h"
+#include "platform/threads.h"
+#include "src/base/digest.h"
+#include "src/io/images/srgb.h"
+#include "src/world/camera/view.h"
+
+namespace pileus {
+namespace {
+
+constexpr float kInfinity = __builtin_inff();
+
+struct Rgba {
+    float c[4];
+};
+
+/// Radiances of one pixel: below 0 and what is no number become 0.
+float sound(float v, std::uint64_t& broken) {
+    if (!(v - v == 0.0f)) ++broken;
+    return v == v ? (v < 0.0f ? 0.0f : v) : 0.0f;
+}
+
+/// The whole picture, or the media's own light.
+Rgba pixel_of(const Planes& p, std::size_t i, bool whole, std::uint64_t& broken) {
+    const std::size_t pixels = p.transmittance.size();
+    const float transmittance = p.transmittance[i];
+    Rgba out{};
+    for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t at = c * pixels + i;
+        float v = !whole && !p.cloud.empty() ? p.cloud[at] : p.colour[at];
+        if (whole && !p.background.empty()) v += transmittance * p.background[at];
+        out.c[c] = sound(v, broken);
+    }
+    out.c[3] = 1.0f - transmittance;
+    return out;
+}
+
+/// Display-linear light of each 8-bit code.
+struct SrgbTable {
+    float linear[256];
+};
+
+void fill(SrgbTable& table) {
+    for (int i = 0; i < 256; ++i) table.linear[i] = float(linear_of_srgb(i / 255.0));
+}
+
+/// The curve is the program's; a medium is shown as its own light would be, as far as it covers.
+void store_8bit(const Rgba& p, PixelBlend blend, float gain, const SrgbTable* table,
+                unsigned char* to) {
+    const float alpha = p.c[3];
+    const bool part = blend != PixelBlend::kReplace;
+    const float share = part ? alpha : 1.0f;
+    Rgb<float> shown{};
+    if (share > 0.0f) {
+        shown = tone_curve(Rgb<float>{p.c[0] / share, p.c[1] / share, p.c[2] / share}, gain);
+        shown = {shown.r * share, shown.g * share, shown.b * share};
+    }
+    float out_alpha = alpha;
+    if (blend == PixelBlend::kOver) {
+        const float left = 1.0f - alpha;
+        shown.r += left * table->linear[to[0]];
+        shown.g += left * table->linear[to[1]];
+        shown.b += left * table->linear[to[2]];
+        out_alpha = alpha + left * (float(to[3]) / 255.0f);
+    }
+    to[0] = static_cast<unsigned char>(srgb_code(shown.r));
+    to[1] = static_cast<unsigned char>(srgb_code(shown.g));
+    to[2] = static_cast<unsigned char>(srgb_code(shown.b));
+    to[3] = static_cast<unsigned char>(out_alpha * 255.0f + 0.5f);
+}
+
+/// A row of pixels; `Load` and `Store` are of one number of it.
+template <class Number, class Load, class Store>
+void store_row(const Planes& p, std::size_t first, std::size_t width, PixelBlend blend,
+               unsigned char* row, std::uint64_t& broken, Load load, Store store) {
+    for (std::size_t x = 0; x < width; ++x) {
+        Rgba v = pixel_of(p, first + x, blend == PixelBlend::kReplace, broken);
+        Number held[4];
+        unsigned char* at = row + x * sizeof held;
+        if (blend == PixelBlend::kOver) {
+            std::memcpy(held, at, sizeof held);
+            const float left = 1.0f - v.c[3];
+            for (int c = 0; c < 4; ++c) v.c[c] += left * load(held[c]);
+        }
+        for (int c = 0; c < 4; ++c) held[c] = store(v.c[c]);
+        std::memcpy(at, held, sizeof held);
+    }
+}
+
+}  // namespace
+
+std::size_t pixel_bytes(PixelFormat format) {
+    return format == PixelFormat::kRgba8Srgb ? 4 : format == PixelFormat::kRgba16F ? 8 : 16;
+}
+
+std::uint16_t half_of(float value) {
+    std::uint32_t bits;
+    std::memcpy(&bits, &value, sizeof bits);
+    const std::uint32_t sign = (bits >> 16) & 0x8000u, rest = bits & 0x7fffffffu;
+    if (rest > 0x7f800000u) return std::uint16_t(sign | 0x7e00u);
+    // 65520 and more round to infinity.
+    if (rest >= 0x477ff000u) return std::uint16_t(sign | 0x7c00u);
+    // Below 2^-25 all rounds to 0; below 2^-14 the last place is 2^-24.
+    if (rest < 0x33000000u) return std::uint16_t(sign);
+    std::uint32_t mantissa = rest & 0x7fffffu;
+    const std::uint32_t exponent = rest >> 23;
+    std::uint32_t shift = 13, half = 0;
+    if (exponent < 113) {
+        mantissa |= 0x800000u;
+        shift = 126 - exponent;
+    } else {
+        half = (exponent - 112) << 10;
+    }
+    const std::uint32_t last = 1u << shift, lost = mantissa & (last - 1);
+    half += mantissa >> shift;
+    if (lost > last / 2 || (lost == last / 2 && (half & 1u) != 0)) ++half;
+    return std::uint16_t(sign | half);
+}
+
+float float_of_half(std::uint16_t half) {
+    const std::uint32_t sign = std::uint32_t(half & 0x8000u) << 16;
+    const std::uint32_t exponent = (half >> 10) & 31u, mantissa = half & 0x3ffu;
+    std::uint32_t bits = sign;
+    if (exponent == 31) {
+        bits |= 0x7f800000u | (mantissa << 13);
+    } else if (exponent > 0) {
+        bits |= ((exponent + 112) << 23) | (mantissa << 13);
+    } else {
+        const float small = float(mantissa) * 0x1p-24f;
+        std::memcpy(&bits, &small, sizeof bits);
+        bits |= sign;
+    }
+    float value;
+    std::memcpy(&value, &bits, sizeof value);
+    return value;
+}
+
+void write_pixels(const Planes& planes, int width, int height, const PixelTarget& target,
+                  int threads, std::uint64_t& broken) {
+    const bool decodes =
+        target.format == PixelFormat::kRgba8Srgb && target.blend == PixelBlend::kOver;
+    SrgbTable table{};
+    if (decodes) fill(table);
+    const float gain = exposure_gain(target.stops);
+    const std::size_t columns = std::size_t(width);
+    std::atomic<std::uint64_t> all{0};
+    parallel_for(threads, height, [&](std::int64_t y, int) {
+        unsigned char* row = target.rows.row(int(y), height);
+        const std::size_t first = std::size_t(y) * columns;
+        std::uint64_t own = 0;
+        if (target.format == PixelFormat::kRgba8Srgb)
+            for (std::size_t x = 0; x < columns; ++x)
+                store_8bit(pixel_of(planes, first + x, target.blend == PixelBlend::kReplace, own),
+                           target.blend, gain, &table, row + 4 * x);
+        else if (target.format == PixelFormat::kRgba16F)
+            store_row<std::uint16_t>(planes, first, columns, target.blend, row, own, float_of_half,
+                                     half_of);
+        else
+            store_row<float>(
+                planes, first, columns, target.blend, row, own, [](float v) { return v; },
+                [](float v) { return v; });
+        if (own > 0) all.fetch_add(own, std::memory_order_relaxed);
+    });
+    broken = all.load();
+}
+
+std::uint64_t hash_planes(const Planes& planes) {
+    Digest digest;
+    std::uint64_t broken = 0;
+    for (std::size_t i = 0; i < planes.transmittance.size(); ++i) {
+        const Rgba p = pixel_of(planes, i, true, broken);
+        for (const float v : p.c) digest.f32(v);
+    }
+    return digest.value();
+}
+
+double DepthScale::metres(double value) const {
+    if (!(value == value)) return 0;
+    if (value == far_value) return double(kInfinity);
+    const double clip = lowest + value * (1 - lowest);
+    const double below = clip * c - a;
+    const double z = below != 0 ? (b - clip * d) / below : double(kInfinity);
+    return z > 0 ? z : 0;
+}
+
+double DepthScale::value(double z) const {
+    if (!(z < double(kInfinity))) return far_value;
+    const double below = c * z + d;
+    if (!(below != 0)) return 1 - far_value;
+    const double clip = (a * z + b) / below;
+    const double v = (clip - lowest) / (1 - lowest);
+    return v < 0 ? 0 : v > 1 ? 1 : v;
+}
+
+Status take_depths(const Rows& rows, DepthKind kind, const DepthScale& scale,
+                   const CameraParams& camera, CameraDepth& depth) {
+    const std::size_t width = std::size_t(camera.width);
+    const std::uint64_t pixels = std::uint64_t(camera.width) * std::uint64_t(camera.height);
+    if (depth.metres.size() != pixels) PILEUS_TRY(depth.metres.resize(pixels, "camera depth"));
+    depth.columns = width;
+    depth.broken = depth.negative = 0;
+    for (int y = 0; y < camera.height; ++y) {
+        const unsigned char* row = rows.row(y, camera.height);
+        for (std::size_t x = 0; x < width; ++x) {
+            float given;
+            std::memcpy(&given, row + x * sizeof given, sizeof given);
+            double metres = double(given);
+            if (kind == DepthKind::kBuffer) metres = scale.metres(metres);
+            if (kind != DepthKind::kDistance) metres *= ray_slant(camera, double(x), double(y));
+            if (!(metres == metres)) {
+                metres = double(kInfinity);
+                ++depth.broken;
+            }
+            if (metres < 0) {
+                metres = 0;
+                ++depth.negative;
+            }
+            depth.metres[std::size_t(y) * width + x] =
+                metres >= 1e30 ? kInfinity : float(metres);
+        }
+    }
+    return Status::ok();
+}
+
+void write_depths(const Planes& planes, const CameraParams& camera, DepthKind kind,
+                  const DepthScale& scale, const Rows& rows) {
+    const std::size_t width = std::size_t(camera.width);
+    for (int y = 0; y < camera.height; ++y) {
+        unsigned char* row = rows.row(y, camera.height);
+        for (std::size_t x = 0; x < width; ++x) {
+            const std::size_t i = std::size_t(y) * width + x;
+            float metres = planes.half_depth[i];
+            if (!planes.opaque_depth.empty() && planes.opaque_depth[i] < metres)
+                metres = planes.opaque_depth[i];
+            if (kind != DepthKind::kDistance) {
+                const double z = double(metres) / ray_slant(camera, double(x), double(y));
+                metres = float(kind == DepthKind::kBuffer ? scale.value(z) : z);
+            }
+            std::memcpy(row + x * sizeof metres, &metres, sizeof metres);
+        }
+    }
+}
+
+}  // namespace pileus

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// See session.h. Opening and drawing; session_set.cpp takes what a host sets.
+#include "src/session/session.h"
+
+#include "platform/clock.h"
+#include "platform/fp_mode.h"
+#include "src/methods/registry.h"
+#include "src/session/run_context.h"
+#include "src/world/camera/view.h"
+
+namespace pileus {
+namespace {
+
+/// Pictures that a live session plans for: more than one, so that nothing is freed between them.
+constexpr int kLiveFrames = 2;
+
+/// What a host cannot ask for is left out; what it may ask for is planned.
+void make_live(Scene& scene) {
+    scene.animation = Animation{};
+    scene.animation.present = true;
+    scene.animation.frames = kLiveFrames;
+    OutputSettings& output = scene.output;
+    output.layer_error = output.layer_light = output.layer_order = false;
+    output.layer_optical_depth = output.layer_transmittance = false;
+    output.layer_depth = !scene.camera.flux;
+    output.layer_cloud = scene.method == "path";
+    scene.camera.depth.clear();
+}
+
+double stage_seconds(const Report& report) {
+    double sum = 0;
+    for (const StageTime& stage : report.stages) sum += stage.wall_s;
+    return sum;
+}
+
+}  // namespace
+
+Status make_world(const Scene& scene, const RenderOptions& options,
+                  std::shared_ptr<const World>& world) {
+    const FpModeGuard guard;
+    Report report;
+    Context context;
+    const Method* method = nullptr;
+    PILEUS_TRY(make_context(scene, options, context, report));
+    PILEUS_TRY(find_method(scene, method));
+    const auto made = std::make_shared<World>();
+    PILEUS_TRY(outline_world(scene, method->sky, context, *made));
+    PILEUS_TRY(load_world(scene, context, *made));
+    world = made;
+    return Status::ok();
+}
+
+Status Session::open(const Scene& scene, const RenderOptions& options, SessionKind kind, bool exact,
+                     std::shared_ptr<const World> world) {
+    const FpModeGuard guard;
+    const bool live = kind == SessionKind::kLive;
+    scene_ = scene;
+    options_ = options;
+    if (live) make_live(scene_);
+    camera_ = scene_.camera;
+    sun_ = scene_.sun;
+    ground_ = scene_.ground;
+    PILEUS_TRY(make_context(scene_, options, context_, report_));
+    if (live) context_.frames = kLiveFrames;
+    context_.digests = !live;
+    PILEUS_TRY(find_method(scene_, method_));
+    PILEUS_TRY(method_->check(scene_, budget_of(options)));
+    if (!options.show.empty()) PILEUS_TRY(find_view(scene_.method, options.show, method_));
+    if (live && method_->live == nullptr)
+        return Status::bad_input(scene_.file + ": method.name: \"" + scene_.method +
+                                 "\" is for no session, allowed: another");
+    if (world != nullptr && world->direct_sky && method_->sky != SkyUse::kInPlace)
+        return Status::bad_input(scene_.file + ": method.name: \"" + scene_.method +
+                                 "\" needs the sky on a grid, allowed: a world made for it");
+    run_ = method_->make();
+    PILEUS_TRY(open_run(*method_, scene_, budget_of(options), context_, exact, std::move(world),
+                        *run_));
+    method_->report_plan(*run_, context_, report_);
+    return Status::ok();
+}
+
+Status Session::render_image(const FrameStep& step, Image& image) {
+    const FpModeGuard guard;
+    PILEUS_TRY(method_->light(step, context_, *run_));
+    report_.digests.clear();
+    PILEUS_TRY(method_->show(step, context_, *run_, image));
+    ++stats_.pictures;
+    return Status::ok();
+}
+
+/// Changes that a host made since the last time.
+Status Session::aim() {
+    if (!stale_) return Status::ok();
+    place();
+    PILEUS_TRY(method_->live->aim(frame_, anew_, context_, *run_));
+    stale_ = anew_ = false;
+    stats_.prepared = method_->live->units(*run_).prepared;
+    return Status::ok();
+}
+
+Status Session::step(std::uint64_t units, std::uint64_t& done) {
+    const FpModeGuard guard;
+    done = 0;
+    PILEUS_TRY(aim());
+    const Status status = method_->live->advance(units, context_, *run_, done);
+    stats_.units += done;
+    return status;
+}
+
+LightUnits Session::light() const { return method_->live->units(*run_); }
+
+Status Session::render(const FrameTarget& target) {
+    const FpModeGuard guard;
+    const double start = wall_seconds(), staged = stage_seconds(report_);
+    PILEUS_TRY(aim());
+    const Planes* planes = nullptr;
+    scene_.output.layer_depth = target.has_depth || scene_.method == "path";
+    report_.counters.clear();
+    PILEUS_TRY(method_->live->compose({frame_, stats_.pictures == 0, false}, context_, *run_, planes));
+    const auto& size = scene_.camera.resolution;
+    std::uint64_t broken = 0;
+    if (target.has_colour) {
+        const StageClock clock(context_, "pixels");
+        write_pixels(*planes, size[0], size[1], target.colour, context_.threads, broken);
+    }
+    if (target.has_depth) {
+        const StageClock clock(context_, "depths");
+        write_depths(*planes, make_camera(scene_.camera, 0, run_->world->medium.low_m),
+                     target.depth_kind, depth_scale_, target.depth);
+    }
+    if (target.hash != nullptr) {
+        const StageClock clock(context_, "hash");
+        *target.hash = hash_planes(*planes);
+    }
+    report_.counters.emplace_back("nan", broken);
+    report_.frame = frame_;
+    ++stats_.pictures;
+    stats_.render_s = wall_seconds() - start;
+    stats_.stages_s = stage_seconds(report_) - staged;
+    return Status::ok();
+}
+
+}  // namespace pileus

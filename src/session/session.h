@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// One camera, one light and one method over a world: what programs, tests and hosts draw with.
+// in: Scene, options, a world to share -> out: pictures, one after the other; a Report.
+// docs/architecture.md, "One way through"; docs/embedding.md
+#pragma once
+#include <memory>
+
+#include "src/methods/methods.h"
+#include "src/picture/pixels.h"
+#include "src/session/render.h"
+
+namespace pileus {
+
+/// A world of a scene, all read and made. Errors: those of the readers; kLimit.
+Status make_world(const Scene& scene, const RenderOptions& options,
+                  std::shared_ptr<const World>& world);
+
+/// What a picture is written to; the parts that are null are left out.
+struct FrameTarget {
+    bool has_colour = false;
+    PixelTarget colour;
+    bool has_depth = false;
+    Rows depth;
+    DepthKind depth_kind = DepthKind::kDistance;
+    std::uint64_t* hash = nullptr;
+};
+
+struct SessionStats {
+    std::uint32_t prepared = 0;
+    std::uint64_t pictures = 0, units = 0;
+    double render_s = 0, stages_s = 0;
+};
+
+/// Which session it becomes: one that walks through the scene's animation, or one whose camera and
+/// lights a host sets.
+enum class SessionKind { kAnimation, kLive };
+
+class Session {
+public:
+    Session() = default;
+    Session(const Session&) = delete;
+    Session& operator=(const Session&) = delete;
+
+    /// `world`: as make_world, or null for one of its own; `exact` false: as far as sizes tell, for
+    /// the plan alone. Once only. Errors: as render's.
+    Status open(const Scene& scene, const RenderOptions& options, SessionKind kind, bool exact,
+                std::shared_ptr<const World> world);
+
+    const Scene& scene() const { return scene_; }
+    Report& report() { return report_; }
+    const Report& report() const { return report_; }
+    const MethodRun& run() const { return *run_; }
+    const SessionStats& stats() const { return stats_; }
+
+    /// Lights and draws a frame of the animation as an image with the scene's layers.
+    Status render_image(const FrameStep& step, Image& image);
+    /// What the method counted goes to the report, after render_image.
+    void finish_report() { method_->report(*run_, report_); }
+
+    // What a host sets, in a live session. Values are checked; kBadInput names the key.
+    Status set_camera(const Camera& camera);
+    Status set_depth_scale(const DepthScale& scale);
+    Status set_sun(const Sun& sun);
+    Status set_sky(const Sky& sky, const Image* map);
+    Status set_ground(const Ground& ground);
+    Status set_placement(const Double3& offset_m, double yaw_deg);
+    Status set_frame(int number);
+    /// Null rows: nothing solid.
+    Status set_depth(const Rows* rows, DepthKind kind);
+
+    /// Camera as it was set, in the host's coordinates.
+    const Camera& camera() const { return camera_; }
+    const Sun& sun() const { return sun_; }
+    const Sky& sky() const { return scene_.sky; }
+    const Ground& ground() const { return ground_; }
+
+    /// Traces so many whole units; `done` fewer where the host's `interrupted` ended it.
+    Status step(std::uint64_t units, std::uint64_t& done);
+    LightUnits light() const;
+
+    /// Draws what is lit, into a host's memory.
+    Status render(const FrameTarget& target);
+
+private:
+    Status check_changed(const Scene& changed);
+    Status aim();
+    void place();
+
+    Scene scene_;  ///< as the method sees it: in the media's coordinates
+    Camera camera_;
+    Sun sun_;
+    Ground ground_;
+    Double3 offset_m_{};
+    double yaw_deg_ = 0;
+    DepthScale depth_scale_;
+    int frame_ = 0;
+    bool stale_ = true, anew_ = false;
+    RenderOptions options_;
+    Report report_;
+    Context context_;
+    const Method* method_ = nullptr;
+    std::unique_ptr<MethodRun> run_;
+    SessionStats stats_;
+};
+
+}  // namespace pileus

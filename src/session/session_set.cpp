@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a host changes in a live session: camera, lights, depths, the place of the media.
+// in: values in the host's coordinates -> out: the session's scene in the media's; faults.
+// docs/embedding.md, "What may change"
+#include "platform/fp_mode.h"
+#include "src/base/angles.h"
+#include "src/session/session.h"
+#include "src/scene/read_scene.h"
+#include "src/world/camera/view.h"
+
+namespace pileus {
+namespace {
+
+Double3 minus(const Double3& a, const Double3& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+/// By -yaw about the z axis.
+Double3 turned_back(const Double3& v, const SineCosine& yaw) {
+    return {v[0] * yaw.cosine + v[1] * yaw.sine, v[1] * yaw.cosine - v[0] * yaw.sine, v[2]};
+}
+
+bool is_positive(double v) { return v > 0 && v < 1e15; }
+
+Status check_frustum(const Camera& camera, bool billboards) {
+    if (!camera.has_frustum) return Status::ok();
+    const Frustum& f = camera.frustum;
+    if (!is_positive(f.half_width) || !is_positive(f.half_height) || !is_positive(1 + f.shift_x * f.shift_x) ||
+        !is_positive(1 + f.shift_y * f.shift_y))
+        return Status::bad_input(
+            "camera.projection: no picture of a positive width and height, allowed: a perspective or "
+            "orthographic projection");
+    if (billboards && (f.shift_x != 0 || f.shift_y != 0))
+        return Status::bad_input(
+            "camera.projection: off-centre, allowed: a symmetric one with display = \"billboards\"");
+    return Status::ok();
+}
+
+}  // namespace
+
+/// A change passes the checks that a file's values pass.
+Status Session::check_changed(const Scene& changed) {
+    Scene plain = changed;
+    plain.file = "session";
+    return check_scene(plain);
+}
+
+Status Session::set_camera(const Camera& camera) {
+    const FpModeGuard guard;
+    if (scene_.method == "collectors" && scene_.collectors.camera_closure)
+        return Status::bad_input(
+            "camera: collectors.closure \"camera\" lights cells towards a fixed one, allowed: "
+            "another closure");
+    PILEUS_TRY(check_frustum(camera, scene_.collectors.billboards));
+    Scene changed = scene_;
+    changed.camera = camera;
+    changed.ground = ground_;
+    PILEUS_TRY(check_changed(changed));
+    const std::uint64_t pixels =
+        std::uint64_t(camera.resolution[0]) * std::uint64_t(camera.resolution[1]);
+    PILEUS_TRY(check_limit(context_.limits, LimitId::kPixels, pixels, "camera.resolution"));
+    if (camera.resolution != camera_.resolution) run_->around.depth = CameraDepth{};
+    camera_ = camera;
+    stale_ = true;
+    return Status::ok();
+}
+
+Status Session::set_depth_scale(const DepthScale& scale) {
+    depth_scale_ = scale;
+    return Status::ok();
+}
+
+Status Session::set_sun(const Sun& sun) {
+    Scene changed = scene_;
+    changed.sun = sun;
+    PILEUS_TRY(check_changed(changed));
+    sun_ = sun;
+    stale_ = true;
+    return Status::ok();
+}
+
+Status Session::set_sky(const Sky& sky, const Image* map) {
+    const FpModeGuard guard;
+    Scene changed = scene_;
+    changed.sky = sky;
+    PILEUS_TRY(check_changed(changed));
+    if (map != nullptr) {
+        SkyMap made;
+        PILEUS_TRY(make_sky_map("sky.map", *map, sky, ground_.present, made));
+        run_->around.sky_map = std::move(made);
+        anew_ = true;
+    } else if (sky.map.empty() && run_->around.sky_map.present()) {
+        run_->around.sky_map = SkyMap{};
+        anew_ = true;
+    }
+    scene_.sky = sky;
+    stale_ = true;
+    return Status::ok();
+}
+
+Status Session::set_ground(const Ground& ground) {
+    Scene changed = scene_;
+    changed.ground = ground;
+    changed.camera = camera_;
+    PILEUS_TRY(check_changed(changed));
+    if (ground.present != ground_.present && run_->around.sky_map.present())
+        return Status::bad_input(
+            "ground: the sky map was read with it or without, allowed: as the scene has it");
+    ground_ = ground;
+    stale_ = true;
+    return Status::ok();
+}
+
+Status Session::set_placement(const Double3& offset_m, double yaw_deg) {
+    for (const double v : offset_m)
+        if (!(v > -1e9 && v < 1e9))
+            return Status::bad_input("placement.offset_m: out of range, allowed: within 1e9 m");
+    if (!(yaw_deg > -1e6 && yaw_deg < 1e6))
+        return Status::bad_input("placement.yaw_deg: out of range, allowed: within 1e6");
+    const bool moves = offset_m != Double3{} || yaw_deg != 0;
+    if (moves && run_->world->solids.meshes)
+        return Status::bad_input("placement: solids stay where they are, allowed: 0");
+    if (yaw_deg != 0 && run_->around.sky_map.present())
+        return Status::bad_input("placement.yaw_deg: not below a sky map, allowed: 0");
+    offset_m_ = offset_m;
+    yaw_deg_ = yaw_deg;
+    stale_ = true;
+    return Status::ok();
+}
+
+Status Session::set_frame(int number) {
+    if (number < 0) return Status::bad_input("frame: below 0, allowed: 0 and more");
+    stale_ = stale_ || number != frame_;
+    frame_ = number;
+    return Status::ok();
+}
+
+Status Session::set_depth(const Rows* rows, DepthKind kind) {
+    const FpModeGuard guard;
+    CameraDepth& depth = run_->around.depth;
+    if (rows != nullptr) {
+        const CameraParams camera = make_camera(camera_, 0, {});
+        PILEUS_TRY(take_depths(*rows, kind, depth_scale_, camera, depth));
+    } else if (depth.present) {
+        depth = CameraDepth{};
+    } else {
+        return Status::ok();
+    }
+    depth.present = rows != nullptr;
+    stale_ = true;
+    return Status::ok();
+}
+
+/// The host's values in the media's coordinates, which alone have moved.
+void Session::place() {
+    scene_.camera = camera_;
+    scene_.sun = sun_;
+    scene_.ground = ground_;
+    if (yaw_deg_ == 0 && offset_m_ == Double3{}) return;
+    const SineCosine yaw = sincos_deg(yaw_deg_);
+    Camera& c = scene_.camera;
+    c.position_m = turned_back(minus(camera_.position_m, offset_m_), yaw);
+    c.target_m = turned_back(minus(camera_.target_m, offset_m_), yaw);
+    c.up = turned_back(camera_.up, yaw);
+    scene_.sun.azimuth_deg += yaw_deg_;
+    scene_.ground.altitude_m -= offset_m_[2];
+}
+
+}  // namespace pileus
