@@ -102,11 +102,25 @@ TEST_CASE("structs: laws between keys speak as they do of a file") {
           "scene: medium.0.bounds_m: missing, nothing, allowed: [[x, y, z], [x, y, z]], the lowest "
           "and highest corner in metres");
     CHECK(
-        fault([](Scene& s) { s.media[0].phase.kind = PhaseKind::kHgDraine; }) ==
+        fault([](Scene& s) { s.media[0].phase.type = "hg-draine"; }) ==
         "scene: medium.0.phase.droplet_diameter_um: missing, nothing, allowed: a number, required "
         "by \"hg-draine\"");
     // A g of 0 may be meant.
-    CHECK(fault([](Scene& s) { s.media[0].phase.kind = PhaseKind::kHenyeyGreenstein; }) == "");
+    CHECK(fault([](Scene& s) { s.media[0].phase.type = "henyey-greenstein"; }) == "");
+    CHECK(fault([](Scene& s) {
+              s.media[0].phase.type = "two-lobe";
+              s.media[0].phase.numbers = {{"g", 0.5}, {"g1", 0.8}, {"weight", 2}};
+          }) ==
+          "scene: medium.0.phase.weight: out of range, 2, allowed: number in [0, 1]\n"
+          "scene: medium.0.phase.g: conflicts with phase.type \"two-lobe\", 0.5, allowed: left "
+          "out");
+    const std::string unknown = fault([](Scene& s) { s.media[0].phase.numbers["G1"] = 0.5; });
+    CHECK(unknown.find("scene: medium.0.phase.numbers: unknown key, \"G1\", allowed: g, g1, ") ==
+          0);
+    CHECK(unknown.find("; did you mean g1?") != std::string::npos);
+    CHECK(fault([](Scene& s) {
+              s.media[0].phase.type = "mie";
+          }).find("scene: medium.0.phase.type: unknown value, \"mie\", allowed: isotropic, ") == 0);
     CHECK(fault([](Scene& s) { s.media[0].density = DensityKind::kFile; }) ==
           "scene: medium.0.density: empty, \"\", allowed: the path of a file");
     CHECK(fault([](Scene& s) {

@@ -38,7 +38,7 @@ public:
         }
         sky();
         extinction();
-        phase();
+        check_phase(check_, index_);
         bounds();
     }
 
@@ -176,53 +176,6 @@ private:
             fault(density, "bounds_m",
                   "missing, nothing, allowed: [[x, y, z], [x, y, z]], the "
                   "lowest and highest corner in metres");
-    }
-
-    /// Each phase function has its own parameters: all of them, and no others.
-    void phase() {
-        const Node* type = check_.valid_key(path_ + "phase.type");
-        if (type == nullptr) return;
-        const PhaseKind kind = medium_.phase.kind;
-        phase_key(*type, "phase.g", kind == PhaseKind::kHenyeyGreenstein);
-        for (const char* key : {"phase.g1", "phase.g2", "phase.weight"})
-            phase_key(*type, key, kind == PhaseKind::kTwoLobe);
-        phase_key(*type, "phase.droplet_diameter_um", kind == PhaseKind::kHgDraine);
-        const bool in_file = kind == PhaseKind::kTable || kind == PhaseKind::kMoments;
-        phase_key(*type, "phase.file", in_file, "a path");
-        phase_file();
-        // A cloud is told by its droplets or by its kind, once.
-        const Node* cloud = check_.key(path_ + "phase.cloud");
-        const Node* radius = check_.key(path_ + "phase.effective_radius_um");
-        const bool droplets = kind == PhaseKind::kCloud;
-        if (cloud == nullptr || !droplets || radius == nullptr)
-            phase_key(*type, "phase.effective_radius_um", droplets && cloud == nullptr,
-                      "a number, or phase.cloud");
-        else
-            fault(*cloud, "phase.cloud",
-                  "given twice, " + value_text(*cloud) +
-                      ", allowed: phase.cloud or phase.effective_radius_um");
-        if (!droplets) phase_key(*type, "phase.cloud", false);
-    }
-
-    void phase_file() {
-        const Node* node = check_.valid_key(path_ + "phase.file");
-        if (node == nullptr) return;
-        if (!node->text.empty())
-            check_path(check_, *node, (path_ + "phase.file").c_str(), medium_.phase.file);
-        else
-            fault(*node, "phase.file", "empty, \"\", allowed: the path of a file");
-    }
-
-    void phase_key(const Node& type, const char* key, bool wanted, const char* what = "a number") {
-        const Node* node = check_.key(path_ + key);
-        if (wanted && check_.lacks(path_ + key))
-            fault(type, key,
-                  std::string("missing, nothing, allowed: ") + what + ", required by " +
-                      value_text(type));
-        if (!wanted && node != nullptr)
-            fault(*node, key,
-                  "conflicts with phase.type " + value_text(type) + ", " + value_text(*node) +
-                      ", allowed: left out");
     }
 
     void bounds() {

@@ -54,7 +54,7 @@ std::string row_markdown(const KeyRow& row) {
     text += row.kind() == KeyKind::kLater ? "not in this version" : allowed_text(row);
     text += std::string(" | ") + row.unit + " | ";
     text += row.required() || fallback.empty() ? fallback : "`" + fallback + "`";
-    text += std::string(" | ") + row.help;
+    text += " | " + meaning_of(row);
     if (row.allowed.later != nullptr)
         text += "; not in this version: " + choices_text(row.allowed.later);
     return text + " |\n";
