@@ -45,6 +45,9 @@ TEST_CASE("keys that do not go together") {
         {kCamera + kMedium + "phase = { type = \"henyey-greenstein\" }\n",
          "s.toml:8:18: medium.0.phase.g: missing, nothing, allowed: a number, required by "
          "\"henyey-greenstein\""},
+        {kCamera + kMedium + "phase = { type = \"cornette-shanks\" }\n",
+         "s.toml:8:18: medium.0.phase.g: missing, nothing, allowed: a number, required by "
+         "\"cornette-shanks\""},
         {kCamera + kMedium + "phase = { type = \"two-lobe\", g1 = 0.5, g2 = -0.1 }\n",
          "s.toml:8:18: medium.0.phase.weight: missing, ..."},
         {kCamera + kMedium + "phase = { type = \"cloud\" }\n",

@@ -11,6 +11,7 @@ namespace pileus {
     ROW("isotropic", isotropic_phase)                 \
     ROW("rayleigh", rayleigh_phase)                   \
     ROW("henyey-greenstein", henyey_greenstein_phase) \
+    ROW("cornette-shanks", cornette_shanks_phase)     \
     ROW("two-lobe", two_lobe_phase)                   \
     ROW("hg-draine", hg_draine_phase)                 \
     ROW("cloud", cloud_phase)                         \
