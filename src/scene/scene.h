@@ -56,8 +56,6 @@ struct SolidSettings {
     bool y_up = false;                     ///< the file's y points up; glTF's always does
 };
 
-enum class DensityKind { kCumulus, kUniformBox, kUniformSphere, kUniformEllipsoid, kFile, kSky };
-
 /// A phase function by its name, and its numbers by the names of their keys (docs/scene.md):
 /// phase.type = "henyey-greenstein", phase.numbers["g"] = 0.85. One left out has its row's default.
 struct PhaseSettings {
@@ -69,7 +67,8 @@ struct PhaseSettings {
 enum class RawType { kUint8, kUint16, kFloat32 };
 
 struct MediumSettings {
-    DensityKind density = DensityKind::kCumulus;
+    /// A name of density_row.h; empty: a file.
+    std::string density = "procedural:cumulus";
     std::string file;    ///< as written, relative to the scene file
     std::string format;  ///< a name of volume_format.h; empty: by extension
     std::string grid;    ///< of a file with several; empty: the first of floats

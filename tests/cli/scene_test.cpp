@@ -97,7 +97,7 @@ TEST_CASE("a full scene gives what it says, colours in both forms, and what a fi
     REQUIRE(scene.media.size() == 3);
     CHECK(scene.media[0].phase.type == "henyey-greenstein");
     CHECK(scene.media[0].phase.numbers.at("g") == -1);
-    CHECK(scene.media[1].density == DensityKind::kFile);
+    CHECK(scene.media[1].density.empty());
     CHECK(scene.media[1].file == "a.dat");
     CHECK(scene.media[1].format == "raw");
     CHECK(scene.media[1].raw_type == RawType::kUint16);
@@ -154,7 +154,7 @@ TEST_CASE("overrides change, add and create") {
     CHECK(scene.sun.elevation_deg == 20);
     CHECK(scene.raymarch.steps == 3);
     REQUIRE(scene.media.size() == 2);
-    CHECK(scene.media[0].density == DensityKind::kUniformSphere);
+    CHECK(scene.media[0].density == "uniform:sphere");
     CHECK(scene.media[0].albedo == Float3{0.9f, 0.9f, 0.9f});
     CHECK(scene.media[0].phase.numbers.at("g") == 0.75);
     CHECK(scene.media[1].file == "a.pbrt");

@@ -3,6 +3,7 @@
 // in: checked values <-> out: fields of MediumSettings.
 // docs/scene.md.
 #include "src/scene/keys/all_keys.h"
+#include "src/scene/rows/density_row.h"
 
 namespace pileus {
 namespace {
@@ -10,37 +11,21 @@ namespace {
 template <auto... Members>
 constexpr KeyField medium = field<Members...>;
 
-/// Densities that are no file.
-struct DensityName {
-    const char* name;
-    DensityKind kind;
-};
-constexpr DensityName kDensityNames[] = {{"procedural:cumulus", DensityKind::kCumulus},
-                                         {"procedural:sky", DensityKind::kSky},
-                                         {"uniform:box", DensityKind::kUniformBox},
-                                         {"uniform:sphere", DensityKind::kUniformSphere},
-                                         {"uniform:ellipsoid", DensityKind::kUniformEllipsoid}};
-constexpr const char* kDensities =
-    "procedural:cumulus|procedural:sky|uniform:box|uniform:sphere|uniform:ellipsoid";
-
 /// A name or a path; a table is read key by key.
 constexpr KeyField kDensity{KeyKind::kDensity,
                             [](const KeySource& s) {
-                                for (const DensityName& density : kDensityNames)
-                                    if (density.kind == s.medium.density)
-                                        return node_of(std::string(density.name));
-                                return node_of(s.medium.file);
+                                const std::string& name = s.medium.density;
+                                return node_of(name.empty() ? s.medium.file : name);
                             },
                             [](const KeyTarget& t, const Node& n) {
                                 if (!n.is_text()) return;
-                                t.medium.density = DensityKind::kFile;
-                                for (const DensityName& density : kDensityNames)
-                                    if (density.name == n.text) t.medium.density = density.kind;
-                                if (t.medium.density == DensityKind::kFile) t.medium.file = n.text;
+                                const bool file = density_row(n.text) == nullptr;
+                                (file ? t.medium.file : t.medium.density) = n.text;
+                                if (file) t.medium.density.clear();
                             }};
 constexpr KeyField kDensityFile{KeyKind::kText, [](const KeySource&) { return no_value(); },
                                 [](const KeyTarget& t, const Node& n) {
-                                    t.medium.density = DensityKind::kFile;
+                                    t.medium.density.clear();
                                     t.medium.file = n.text;
                                 }};
 /// Another way to say `grid`.
@@ -57,10 +42,9 @@ constexpr KeyField kBounds{KeyKind::kBounds,
                            }};
 
 constexpr KeyRow kRows[] = {
-    {"medium.N.density", kDensity, one_of(kDensities), "",
-     "`procedural:cumulus`, `procedural:sky`, `uniform:box`, `uniform:sphere`, "
-     "`uniform:ellipsoid` (filling "
-     "bounds_m), the path of a file, or a table for a raw, OpenVDB or NanoVDB file",
+    {"medium.N.density", kDensity, any(), "",
+     "name of a density that the program makes, filling bounds_m; the path of a file; or a table "
+     "for a raw, OpenVDB or NanoVDB file",
      kRequired},
     {"medium.N.density.file", kDensityFile, any(), "",
      "path of the file, relative to the scene file; `${PILEUS_DATA_DIR}` may stand at "
