@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draine's phase function: sample, evaluate, and its Legendre moments.
-// in: g in (0.3, 0.7), alpha >= 0, one uniform or 1-cos -> out: a turn, or density in 1/sr.
+// in: g in (0.3, 0.7), at alpha 1 in [0.2, 0.99], one uniform or 1-cos -> out: turn, density 1/sr.
 // docs/phase.md; Draine 2003, Jendersie and d'Eon 2023: HG(g) times (1 + alpha cos^2), normalised.
 #pragma once
 #include "kernels_cpu/media/phase_hg.h"

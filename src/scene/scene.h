@@ -68,31 +68,19 @@ struct SolidSettings {
     bool y_up = false;                     ///< the file's y points up; glTF's always does
 };
 
-enum class DensityKind { kCumulus, kUniformBox, kUniformSphere, kUniformEllipsoid, kFile, kSky };
-enum class PhaseKind {
-    kIsotropic,
-    kRayleigh,
-    kHenyeyGreenstein,
-    kTwoLobe,
-    kHgDraine,
-    kCloud,
-    kTable,
-    kMoments,
-};
-
+/// A phase function by its name, and its numbers by the names of their keys (docs/scene.md):
+/// phase.type = "henyey-greenstein", phase.numbers["g"] = 0.85. One left out has its row's default.
 struct PhaseSettings {
-    PhaseKind kind = PhaseKind::kIsotropic;
-    double g = 0;                       ///< HG; [-1, 1]
-    double g1 = 0, g2 = 0, weight = 1;  ///< two-lobe: weight*HG(g1) + (1-weight)*HG(g2)
-    double droplet_diameter_um = 0;     ///< hg-draine; [5, 50]
-    double effective_radius_um = 0;     ///< cloud; [4, 20]
-    std::string file;                   ///< table, moments; as MediumSettings::file
+    std::string type = "isotropic";         ///< a name of phase_row.h
+    std::map<std::string, double> numbers;  ///< those that the type asks for, and no others
+    std::string file;                       ///< table, moments; as MediumSettings::file
 };
 
 enum class RawType { kUint8, kUint16, kFloat32 };
 
 struct MediumSettings {
-    DensityKind density = DensityKind::kCumulus;
+    /// A name of density_row.h; empty: a file.
+    std::string density = "procedural:cumulus";
     std::string file;    ///< as written, relative to the scene file
     std::string format;  ///< a name of volume_format.h; empty: by extension
     std::string grid;    ///< of a file with several; empty: the first of floats

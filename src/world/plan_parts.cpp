@@ -2,8 +2,6 @@
 // See plan_parts.h. Rows without a declaration are bounds of what a reader or writer takes.
 #include "src/world/plan_parts.h"
 
-#include "src/world/density/bubbles.h"
-
 namespace pileus {
 namespace {
 
@@ -38,11 +36,9 @@ void add_density_rows(const Grid& grid, const MediumSource& source, std::uint64_
         t.add("mixing of media", Stage::kDensity, Stage::kDensity, source.mixing_bytes);
         add(t, arrays::media_parts(grid, media));
     }
-    if (source.noise_bytes > 0)
-        t.add("noises of the sky", Stage::kDensity, Stage::kDensity, source.noise_bytes);
-    if (source.cumulus)
-        t.add("bubbles of the cumulus", Stage::kDensity, Stage::kDensity,
-              kMaxBubbles * (sizeof(Bubble) + 3 * sizeof(std::uint16_t) * threads));
+    for (const DensityWork& work : source.making)
+        t.add(work.what, Stage::kDensity, Stage::kDensity,
+              sum_of_bytes(work.bytes, bytes_of(work.thread_bytes, threads)));
 }
 
 /// src/world/majorant/majorant.cpp

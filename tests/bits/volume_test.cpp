@@ -9,6 +9,7 @@
 
 #include "kernels_cpu/procedural/noise.h"
 #include "src/base/digest.h"
+#include "src/scene/rows/density_row.h"
 #include "src/world/density/cumulus.h"
 #include "src/world/density/shapes.h"
 
@@ -80,10 +81,10 @@ Parts parts(const Volume& v) {
 
 TEST_CASE("a uniform box is one everywhere, by default in one cell") {
     Volume v;
-    REQUIRE(make_shape(DensityKind::kUniformBox, {0, 0, 0}, v).code == Code::kOk);
-    CHECK(v.size == std::array<int, 3>{1, 1, 1});
+    CHECK(density_row("uniform:box")->outline({}).size == std::array<int, 3>{1, 1, 1});
+    REQUIRE(make_box({1, 1, 1}, v).code == Code::kOk);
     CHECK(v.density[0] == 1.0f);
-    REQUIRE(make_shape(DensityKind::kUniformBox, {3, 4, 5}, v).code == Code::kOk);
+    REQUIRE(make_box({3, 4, 5}, v).code == Code::kOk);
     CHECK(v.density.size() == 60);
     for (float x : v.density.span()) CHECK(x == 1.0f);
 }
@@ -92,23 +93,22 @@ TEST_CASE("sphere and ellipsoid fill pi/6 of their box") {
     // Midpoint samples 1/(8n) apart miss the closed form by far less than 1e-3 at these sizes.
     const double expected = 3.14159265358979 / 6;
     Volume v;
-    REQUIRE(make_shape(DensityKind::kUniformSphere, {0, 0, 0}, v).code == Code::kOk);
-    CHECK(v.size == std::array<int, 3>{64, 64, 64});
+    CHECK(density_row("uniform:sphere")->outline({}).size == std::array<int, 3>{64, 64, 64});
+    REQUIRE(make_ellipsoid({64, 64, 64}, v).code == Code::kOk);
     CHECK(std::fabs(mean(v) - expected) < 1e-4);
     CHECK(at(v, 32, 32, 32) == 1.0f);
     CHECK(at(v, 0, 0, 0) == 0.0f);
     CHECK(at(v, 0, 32, 32) > 0.0f);
     CHECK(at(v, 3, 20, 31) == at(v, 60, 43, 32));
-    REQUIRE(make_shape(DensityKind::kUniformEllipsoid, {40, 17, 23}, v).code == Code::kOk);
+    REQUIRE(make_ellipsoid({40, 17, 23}, v).code == Code::kOk);
     CHECK(std::fabs(mean(v) - expected) < 1e-3);
     for (float x : v.density.span()) CHECK((x >= 0.0f && x <= 1.0f));
 }
 
 TEST_CASE("shapes and cumulus refuse what they cannot make") {
     Volume v;
-    CHECK(make_shape(DensityKind::kCumulus, {4, 4, 4}, v).code == Code::kBadInput);
-    CHECK(make_shape(DensityKind::kUniformBox, {4, 0, 4}, v).code == Code::kBadInput);
-    CHECK(make_shape(DensityKind::kUniformBox, {4, 4097, 4}, v).code == Code::kBadInput);
+    CHECK(make_ellipsoid({4, 0, 4}, v).code == Code::kBadInput);
+    CHECK(make_box({4, 4097, 4}, v).code == Code::kBadInput);
     CumulusSettings s;
     s.resolution = {2, 8, 8};
     CHECK(make_cumulus(s, 1, v).code == Code::kBadInput);

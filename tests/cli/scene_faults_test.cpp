@@ -52,7 +52,7 @@ TEST_CASE("unknown, missing and ill-typed keys") {
          "s.toml:4:1: medium.0.extinction_per_m: missing, nothing, allowed: number in [0, 1e+12]"},
         {kCamera + kMedium + "phase = { g = 0.5 }\n",
          "s.toml:8:9: medium.0.phase.type: missing, nothing, allowed: isotropic, rayleigh, "
-         "henyey-greenstein, two-lobe, hg-draine, cloud, table, moments"},
+         "henyey-greenstein, ..."},
         {"camera = 3\n", "s.toml:1:10: camera: wrong type, 3, allowed: a table"},
         {kCamera + "[medium]\ndensity = \"uniform:box\"\n",
          "s.toml:4:1: medium: wrong type or too many, a table, allowed: up to 64 tables, each "

@@ -95,17 +95,17 @@ TEST_CASE("a full scene gives what it says, colours in both forms, and what a fi
     CHECK(scene.sky.map == "a.PFM");
     CHECK(scene.sky.map_rotation_deg == -20);
     REQUIRE(scene.media.size() == 3);
-    CHECK(scene.media[0].phase.kind == PhaseKind::kHenyeyGreenstein);
-    CHECK(scene.media[0].phase.g == -1);
-    CHECK(scene.media[1].density == DensityKind::kFile);
+    CHECK(scene.media[0].phase.type == "henyey-greenstein");
+    CHECK(scene.media[0].phase.numbers.at("g") == -1);
+    CHECK(scene.media[1].density.empty());
     CHECK(scene.media[1].file == "a.dat");
     CHECK(scene.media[1].format == "raw");
     CHECK(scene.media[1].raw_type == RawType::kUint16);
     CHECK(scene.media[1].raw_big_endian);
     CHECK(scene.media[2].format == "openvdb");
     CHECK(scene.media[2].grid == "fog");
-    CHECK(scene.media[2].phase.kind == PhaseKind::kCloud);
-    CHECK(scene.media[2].phase.effective_radius_um == 10.7);
+    CHECK(scene.media[2].phase.type == "cloud");
+    CHECK(scene.media[2].phase.numbers.at("effective_radius_um") == 10.7);
     CHECK(scene.collectors.photons == 2000000);
     CHECK_FALSE(scene.collectors.local_tracking);
     CHECK(scene.collectors.lobe_closure);
@@ -154,9 +154,9 @@ TEST_CASE("overrides change, add and create") {
     CHECK(scene.sun.elevation_deg == 20);
     CHECK(scene.raymarch.steps == 3);
     REQUIRE(scene.media.size() == 2);
-    CHECK(scene.media[0].density == DensityKind::kUniformSphere);
+    CHECK(scene.media[0].density == "uniform:sphere");
     CHECK(scene.media[0].albedo == Float3{0.9f, 0.9f, 0.9f});
-    CHECK(scene.media[0].phase.g == 0.75);
+    CHECK(scene.media[0].phase.numbers.at("g") == 0.75);
     CHECK(scene.media[1].file == "a.pbrt");
     CHECK(scene.output.layer_depth);
     CHECK(scene.output.layer_error);
@@ -212,7 +212,7 @@ TEST_CASE("the scenes in assets are sound") {
     REQUIRE(cumulus.media.size() == 1);
     CHECK(cumulus.media[0].resolution == std::array<int, 3>{160, 160, 110});
     CHECK(cumulus.media[0].bounds_m[1] == Double3{800, 800, 1700});
-    CHECK(cumulus.media[0].phase.g == 0.85);
+    CHECK(cumulus.media[0].phase.numbers.at("g") == 0.85);
     CHECK(cumulus.output.files ==
           std::vector<std::string>{"../../out/cumulus.png", "../../out/cumulus.exr"});
     const char* before = std::getenv("PILEUS_DATA_DIR");

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "src/scene/rows/phase_row.h"
 #include "src/scene/toml/toml_tree.h"
 
 namespace fuzz {
@@ -94,7 +95,6 @@ private:
                                              "procedural:cumulus"};
         // Optical depths across the box of side 1; larger ones only where the first event absorbs.
         static const double depths[] = {1, 0, 1e-9, 0.05, 8, 2000};
-        static const char* const cosines[] = {"0", "0.85", "-0.85", "1", "-1", "0.9999999"};
         const std::string shape = pick(shapes);
         const int least = shape == "procedural:cumulus" ? 4 : 1;
         text_ += "[[medium]]\n";
@@ -106,15 +106,26 @@ private:
         const double depth = depths[below(6)], extinction = depth / box;
         line("extinction_per_m", pileus::number_text(extinction < 1e12 ? extinction : 1e12));
         line("albedo", depth > 100 ? "0" : color());
-        const std::string g = pick(cosines);
-        const std::string phases[] = {
-            "\"isotropic\"",
-            "\"rayleigh\"",
-            "\"henyey-greenstein\", g = " + g,
-            "\"two-lobe\", g1 = " + g + ", g2 = -0.3, weight = " + share(),
-            "\"hg-draine\", droplet_diameter_um = " + std::to_string(5 + below(46)),
-            "\"cloud\", effective_radius_um = " + std::to_string(4 + below(17))};
-        line("phase", "{ type = " + phases[below(6)] + " }");
+        line("phase", "{ type = " + phase() + " }");
+    }
+
+    /// Any that needs no file, with any numbers that its row allows.
+    std::string phase() {
+        static const char* const cosines[] = {"0", "0.85", "-0.85", "1", "-1", "0.9999999"};
+        const auto types = pileus::phase_rows();
+        const pileus::NamedPhase& type = types[std::size_t(below(std::uint32_t(types.size)))];
+        std::string text = '"' + std::string(type.name) + '"';
+        for (const pileus::KeyRow& key : type.row->keys) {
+            if (key.kind() == pileus::KeyKind::kText) return "\"isotropic\"";
+            // Other keys say the same in another way.
+            if (key.kind() != pileus::KeyKind::kNumber) continue;
+            const pileus::KeyRange& r = key.allowed.range;
+            const std::string name = std::string(key.path).substr(sizeof "medium.N.phase");
+            const double value = r.low + double(below(65)) / 64 * (r.high - r.low);
+            text += ", " + name + " = " +
+                    (r.low == -1 && r.high == 1 ? pick(cosines) : pileus::number_text(value));
+        }
+        return text;
     }
 
     void collectors() {

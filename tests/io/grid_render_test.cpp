@@ -131,7 +131,7 @@ TEST_CASE("grids: files in extinction end at density 1, and the scale counts onc
     Scene scene;
     scene.media.resize(1);
     MediumSettings& medium = scene.media[0];
-    medium.density = DensityKind::kFile;
+    medium.density.clear();
     medium.file =
         folder.put("c.txt", "1,1,2\n.1,.1\n.1,.2\ni,j,k,lwc,reff\n0,0,0,.3,9\n0,0,1,.1,9\n");
     medium.extinction_scale = 2;

@@ -97,7 +97,7 @@ TEST_CASE("phase moments: known answer and faults") {
 TEST_CASE("phases of a scene: files are read from its folder, and moments must make a phase") {
     const test::TempFolder folder;
     PhaseSettings settings;
-    settings.kind = PhaseKind::kTable;
+    settings.type = "table";
     settings.file = "p.txt";
     PhaseStore store;
     PhaseParams params;
@@ -115,7 +115,7 @@ TEST_CASE("phases of a scene: files are read from its folder, and moments must m
         text += std::to_string(power) + "\n";
     }
     folder.put("m.txt", text);
-    settings.kind = PhaseKind::kMoments;
+    settings.type = "moments";
     settings.file = "m.txt";
     REQUIRE(load_phase(directory, settings, store, params));
     CHECK(double(phase_moment(params, 1)) == doctest::Approx(0.9).epsilon(2e-3));

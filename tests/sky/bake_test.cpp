@@ -14,7 +14,7 @@ namespace {
 
 MediumSettings medium() {
     MediumSettings m;
-    m.density = DensityKind::kSky;
+    m.density = "procedural:sky";
     m.sky = small_sky();
     m.bounds_m = {Double3{-4096, 512, 900}, Double3{4096, 4608, 2600}};
     m.resolution = {37, 20, 11};
@@ -25,7 +25,7 @@ Volume baked(const MediumSettings& m, const KernelTable* table = nullptr, int th
     unsetenv("HOME"), unsetenv("PILEUS_CACHE_DIR"), unsetenv("XDG_CACHE_HOME");
     Volume volume;
     if (table == nullptr) table = kernel_table(nullptr);
-    REQUIRE(bake_sky(m, *table->sky, threads, volume));
+    REQUIRE(bake_sky(m, m.resolution, *table->sky, threads, volume));
     return volume;
 }
 
@@ -97,14 +97,14 @@ TEST_CASE("a kind of cloud brings layer, extinction and droplets, and the scene 
     CHECK(m.sky.top_m == 800);
     CHECK(m.sky.coverage == 0.95);
     CHECK(m.extinction_per_m == 0.057);
-    CHECK(m.phase.kind == PhaseKind::kCloud);
-    CHECK(m.phase.effective_radius_um == 7.33);
+    CHECK(m.phase.type == "cloud");
+    CHECK(m.phase.numbers.at("effective_radius_um") == 7.33);
     REQUIRE(
         read("extinction_per_m = 0.5\nphase = { type = \"rayleigh\" }\n"
              "sky = { type = \"stratus\", threshold_low = 0.2 }\n",
              scene));
     CHECK(scene.media[0].extinction_per_m == 0.5);
-    CHECK(scene.media[0].phase.kind == PhaseKind::kRayleigh);
+    CHECK(scene.media[0].phase.type == "rayleigh");
     CHECK(scene.media[0].sky.coverage == -1);  // thresholds that are given stay
     REQUIRE(read("extinction_per_m = 1\n", scene));
     CHECK(scene.media[0].sky.threshold_high == 0.7);
@@ -132,7 +132,8 @@ TEST_CASE("faults of a sky are one clear line each") {
           "s.toml:9:37: medium.0.sky.worley_m: does not divide the box of boundary \"periodic\", "
           "1500 m, allowed: 4000 m over a whole number");
     CHECK(fault(ext + "sky = { coverage = 1.5 }\n").find("out of range") != std::string::npos);
-    CHECK(fault(ext + "shape_seed = 3\n").find("for procedural:cumulus only") != std::string::npos);
+    CHECK(fault(ext + "shape_seed = 3\n").find("shape_seed: for procedural:cumulus") !=
+          std::string::npos);
     Scene scene;
     const Status status = read_scene_text(
         "[camera]\nposition_m = [0, -9, 5]\ntarget_m = [0, 0, 5]\n[[medium]]\ndensity = "

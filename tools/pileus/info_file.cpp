@@ -6,6 +6,7 @@
 
 #include "src/io/images/image_file.h"
 #include "src/scene/read_scene.h"
+#include "src/scene/rows/density_row.h"
 #include "src/scene/rows/volume_format.h"
 #include "src/world/phase/phase_table.h"
 #include "tools/pileus/info.h"
@@ -45,21 +46,9 @@ std::string range_text(const Range& range) {
 }
 
 std::string density_name(const MediumSettings& medium) {
-    switch (medium.density) {
-        case DensityKind::kCumulus:
-            return "procedural:cumulus";
-        case DensityKind::kUniformBox:
-            return "uniform:box";
-        case DensityKind::kUniformSphere:
-            return "uniform:sphere";
-        case DensityKind::kUniformEllipsoid:
-            return "uniform:ellipsoid";
-        case DensityKind::kSky:
-            return "procedural:sky, type " + medium.sky.type;
-        case DensityKind::kFile:
-            return medium.file;
-    }
-    return "";
+    const DensityRow* row = density_row(medium.density);
+    if (row == nullptr) return medium.file;
+    return row->name + (row->detail == nullptr ? "" : row->detail(medium));
 }
 
 std::string extinction_text(const MediumSettings& medium) {

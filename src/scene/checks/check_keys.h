@@ -48,6 +48,8 @@ bool check_path(SceneCheck& check, const Node& node, const char* key, std::strin
 
 /// Laws between the keys of one medium: density, file, phase, bounds.
 void check_medium(SceneCheck& check, std::size_t index);
+/// Each phase function has its own keys: all of them, and no others.
+void check_phase(SceneCheck& check, std::size_t index);
 
 /// Laws between the keys of meshes and of the camera's depth.
 void check_solids(SceneCheck& check);

@@ -5,13 +5,11 @@
 #include <algorithm>
 
 #include "src/scene/checks/check_keys.h"
+#include "src/scene/rows/density_row.h"
 #include "src/scene/rows/volume_format.h"
 
 namespace pileus {
 namespace {
-
-// A procedural cloud keeps its outermost layer of cells empty.
-constexpr int kLeastCells = 3;
 
 bool ends_with(const std::string& text, std::string_view end) {
     return text.size() >= end.size() &&
@@ -29,16 +27,16 @@ public:
     void run() {
         const Node* density = check_.valid_key(path_ + "density");
         if (density != nullptr && set_density(*density)) {
-            if (medium_.density == DensityKind::kFile) {
-                file_keys(*density);
+            if (const DensityRow* made = density_row(medium_.density)) {
+                shape_keys(*made, *density);
             } else {
-                shape_keys(*density);
+                file_keys(*density);
             }
             grid_name();
         }
-        sky();
+        own_keys();
         extinction();
-        phase();
+        check_phase(check_, index_);
         bounds();
     }
 
@@ -47,9 +45,16 @@ private:
         check_.faults.add(node.at, path_ + key, text);
     }
 
-    /// The row has set the kind of density and the path; this sees to the path.
+    /// The key has set the density's name and the path; this sees to the path.
     bool set_density(const Node& node) {
-        if (medium_.density != DensityKind::kFile) return true;
+        if (density_row(medium_.density) != nullptr) return true;
+        // Of a struct: what a text says that is no name has become the path.
+        if (!medium_.density.empty()) {
+            fault(node, "density",
+                  "unknown value, " + value_text(node) + ", allowed: " + density_names() +
+                      ", or nothing beside the path of a file");
+            return false;
+        }
         if (!node.is_table()) return set_file(node, "density");
         const Node* file = check_.valid_key(path_ + "density.file");
         return file != nullptr && set_file(*file, "density.file");
@@ -121,12 +126,16 @@ private:
                   "for a raw file");
     }
 
-    /// A kind of cloud brings its extinction and its phase function.
-    void sky() {
-        const Node* table = check_.key(path_ + "sky");
-        if (medium_.density == DensityKind::kSky) return check_sky(check_, index_);
-        if (table != nullptr)
-            fault(*table, "sky", "for procedural:sky only, a table, allowed: left out");
+    /// Keys that one density alone has; they may bring extinction and phase function.
+    void own_keys() {
+        const DensityRow* mine = density_row(medium_.density);
+        for (const DensityRow* other : density_rows()) {
+            if (other == mine || other->table == nullptr) continue;
+            if (const Node* table = check_.key(path_ + other->table))
+                fault(*table, other->table,
+                      std::string("for ") + other->name + " only, a table, allowed: left out");
+        }
+        if (mine != nullptr && mine->check != nullptr) mine->check(check_, index_);
     }
 
     /// A file in physical units takes a factor; everything else takes the extinction at density 1.
@@ -143,28 +152,31 @@ private:
             fault(*scale, "extinction_scale",
                   "for files that hold extinction only, " + value_text(*scale) +
                       ", allowed: left out, and the key extinction_per_m");
-        const bool known = medium_.density == DensityKind::kSky && medium_.extinction_per_m > 0;
+        // A kind of cloud has brought it.
+        const bool known = medium_.extinction_per_m > 0;
         if (!physical && check_.lacks(path_ + "extinction_per_m") && !known)
             fault(*check_.key(path_.substr(0, path_.size() - 1)), "extinction_per_m",
                   "missing, nothing, allowed: number in [0, 1e+12]");
     }
 
-    void shape_keys(const Node& density) {
+    void shape_keys(const DensityRow& made, const Node& density) {
         if (const Node* node = check_.key(path_ + "format"))
             fault(*node, "format", "for files only, " + value_text(*node) + ", allowed: left out");
         if (const Node* node = check_.valid_key(path_ + "y_up"))
             if (node->flag)
                 fault(*node, "y_up", "for files only, true, allowed: false or left out");
         if (const Node* node = check_.key(path_ + "shape_seed"))
-            if (medium_.density != DensityKind::kCumulus)
+            if (!made.takes_seed)
                 fault(*node, "shape_seed",
-                      "for procedural:cumulus only, " + value_text(*node) + ", allowed: left out");
+                      "for " + density_names([](const DensityRow& row) { return row.takes_seed; }) +
+                          " only, " + value_text(*node) + ", allowed: left out");
         if (const Node* node = check_.valid_key(path_ + "resolution"))
-            if (medium_.density == DensityKind::kCumulus && least(medium_.resolution) < kLeastCells)
+            if (least(medium_.resolution) < made.least_cells)
                 fault(*node, "resolution",
-                      "too coarse for procedural:cumulus, " + value_text(*node) +
-                          ", allowed: at least 3 along each axis");
-        if (medium_.density != DensityKind::kSky) need_bounds(density);
+                      std::string("too coarse for ") + made.name + ", " + value_text(*node) +
+                          ", allowed: at least " + std::to_string(made.least_cells) +
+                          " along each axis");
+        if (made.needs_bounds) need_bounds(density);
     }
 
     static int least(const std::array<int, 3>& cells) {
@@ -176,53 +188,6 @@ private:
             fault(density, "bounds_m",
                   "missing, nothing, allowed: [[x, y, z], [x, y, z]], the "
                   "lowest and highest corner in metres");
-    }
-
-    /// Each phase function has its own parameters: all of them, and no others.
-    void phase() {
-        const Node* type = check_.valid_key(path_ + "phase.type");
-        if (type == nullptr) return;
-        const PhaseKind kind = medium_.phase.kind;
-        phase_key(*type, "phase.g", kind == PhaseKind::kHenyeyGreenstein);
-        for (const char* key : {"phase.g1", "phase.g2", "phase.weight"})
-            phase_key(*type, key, kind == PhaseKind::kTwoLobe);
-        phase_key(*type, "phase.droplet_diameter_um", kind == PhaseKind::kHgDraine);
-        const bool in_file = kind == PhaseKind::kTable || kind == PhaseKind::kMoments;
-        phase_key(*type, "phase.file", in_file, "a path");
-        phase_file();
-        // A cloud is told by its droplets or by its kind, once.
-        const Node* cloud = check_.key(path_ + "phase.cloud");
-        const Node* radius = check_.key(path_ + "phase.effective_radius_um");
-        const bool droplets = kind == PhaseKind::kCloud;
-        if (cloud == nullptr || !droplets || radius == nullptr)
-            phase_key(*type, "phase.effective_radius_um", droplets && cloud == nullptr,
-                      "a number, or phase.cloud");
-        else
-            fault(*cloud, "phase.cloud",
-                  "given twice, " + value_text(*cloud) +
-                      ", allowed: phase.cloud or phase.effective_radius_um");
-        if (!droplets) phase_key(*type, "phase.cloud", false);
-    }
-
-    void phase_file() {
-        const Node* node = check_.valid_key(path_ + "phase.file");
-        if (node == nullptr) return;
-        if (!node->text.empty())
-            check_path(check_, *node, (path_ + "phase.file").c_str(), medium_.phase.file);
-        else
-            fault(*node, "phase.file", "empty, \"\", allowed: the path of a file");
-    }
-
-    void phase_key(const Node& type, const char* key, bool wanted, const char* what = "a number") {
-        const Node* node = check_.key(path_ + key);
-        if (wanted && check_.lacks(path_ + key))
-            fault(type, key,
-                  std::string("missing, nothing, allowed: ") + what + ", required by " +
-                      value_text(type));
-        if (!wanted && node != nullptr)
-            fault(*node, key,
-                  "conflicts with phase.type " + value_text(type) + ", " + value_text(*node) +
-                      ", allowed: left out");
     }
 
     void bounds() {

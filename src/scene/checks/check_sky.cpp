@@ -59,8 +59,8 @@ private:
         if (check_.key(path_ + "extinction_per_m") == nullptr)
             medium_.extinction_per_m = type.extinction_per_m;
         if (check_.key(path_ + "phase") == nullptr && type.effective_radius_um > 0) {
-            medium_.phase.kind = PhaseKind::kCloud;
-            medium_.phase.effective_radius_um = type.effective_radius_um;
+            medium_.phase.type = "cloud";
+            medium_.phase.numbers["effective_radius_um"] = type.effective_radius_um;
         }
     }
 

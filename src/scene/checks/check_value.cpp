@@ -3,18 +3,12 @@
 // in: a row of the key table and a node -> out: true, or a fault that says what is allowed.
 // docs/scene.md, section Messages.
 #include "src/scene/checks/check_keys.h"
+#include "src/scene/rows/density_row.h"
 
 namespace pileus {
 namespace {
 
 constexpr std::size_t kMaxTexts = 16;
-
-/// Texts that begin so name no files.
-bool is_shape(std::string_view text) {
-    for (std::string_view start : {"procedural:", "uniform:"})
-        if (text.substr(0, start.size()) == start) return true;
-    return false;
-}
 
 struct ValueCheck {
     const KeyRow& row;
@@ -79,11 +73,15 @@ struct ValueCheck {
         if (node.text.find('\0') != std::string::npos) return fault(node, "null byte in text");
         const Allowed& allowed = row.allowed;
         if (allowed.choices == nullptr || place_in(allowed.choices, node.text) >= 0) return true;
-        // A density that is none of the names is the path of a file.
-        if (row.kind() == KeyKind::kDensity)
-            return !is_shape(node.text) || fault(node, "unknown value");
         const bool later = allowed.later != nullptr && place_in(allowed.later, node.text) >= 0;
         return fault(node, later ? "not in this version" : "unknown value");
+    }
+
+    /// A density that is none of the names is the path of a file.
+    bool density(const Node& node) const {
+        if (!text(node)) return false;
+        const bool named = density_row(node.text) != nullptr;
+        return named || !is_like_density_name(node.text) || fault(node, "unknown value");
     }
 
     bool texts(const Node& node) const {
@@ -129,7 +127,7 @@ bool check_value(const KeyRow& row, const Node& node, const std::string& path, F
         case KeyKind::kTexts:
             return check.texts(node);
         case KeyKind::kDensity:
-            return node.is_table() || check.text(node);
+            return node.is_table() || check.density(node);
         case KeyKind::kTable:
             return node.is_table() || check.fault(node, "wrong type");
         case KeyKind::kLater:

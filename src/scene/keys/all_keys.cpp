@@ -20,14 +20,20 @@ bool begins_with(const char* path, std::string_view start) {
 }  // namespace
 
 std::vector<const KeyRow*> all_scene_keys() {
-    std::vector<Span<const KeyRow>> tables{view_keys(), solid_keys(), medium_keys(), sky_keys(),
-                                           method_keys()};
-    for (const MethodKeys& method : all_methods()) tables.push_back(method.rows());
-    tables.push_back(later_keys());
-    tables.push_back(output_keys());
     std::vector<const KeyRow*> rows;
-    for (const Span<const KeyRow>& table : tables)
+    const auto add = [&](const Span<const KeyRow>& table) {
         for (const KeyRow& row : table) rows.push_back(&row);
+    };
+    add(view_keys());
+    add(solid_keys());
+    add(medium_keys());
+    for (const KeyRow* row : phase_keys()) rows.push_back(row);
+    add(medium_last_keys());
+    add(sky_keys());
+    add(method_keys());
+    for (const MethodKeys& method : all_methods()) add(method.rows());
+    add(later_keys());
+    add(output_keys());
     return rows;
 }
 

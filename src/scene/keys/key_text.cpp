@@ -4,6 +4,7 @@
 // docs/scene.md.
 #include "src/scene/checks/check_keys.h"
 #include "src/scene/keys/all_keys.h"
+#include "src/scene/rows/density_row.h"
 
 namespace pileus {
 namespace {
@@ -54,7 +55,7 @@ std::string row_markdown(const KeyRow& row) {
     text += row.kind() == KeyKind::kLater ? "not in this version" : allowed_text(row);
     text += std::string(" | ") + row.unit + " | ";
     text += row.required() || fallback.empty() ? fallback : "`" + fallback + "`";
-    text += std::string(" | ") + row.help;
+    text += " | " + meaning_of(row);
     if (row.allowed.later != nullptr)
         text += "; not in this version: " + choices_text(row.allowed.later);
     return text + " |\n";
@@ -145,7 +146,7 @@ std::string allowed_text(const KeyRow& row) {
             return choices == nullptr ? "list of up to 16 texts"
                                       : "list of " + choices_text(choices);
         case KeyKind::kDensity:
-            return choices_text(choices) + ", the path of a file, or a table";
+            return density_names() + ", the path of a file, or a table";
         case KeyKind::kTable:
             return "table";
         case KeyKind::kLater:

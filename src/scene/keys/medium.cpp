@@ -1,62 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys of one scattering medium: its density, optics and phase function.
-// in: checked values <-> out: fields of MediumSettings and PhaseSettings.
-// docs/scene.md; Henyey and Greenstein 1941 for g.
+// Keys of one scattering medium but its phase function's: its density and optics.
+// in: checked values <-> out: fields of MediumSettings.
+// docs/scene.md.
 #include "src/scene/keys/all_keys.h"
+#include "src/scene/rows/density_row.h"
 
 namespace pileus {
 namespace {
 
 template <auto... Members>
 constexpr KeyField medium = field<Members...>;
-template <auto... Members>
-constexpr KeyField phase = field<&MediumSettings::phase, Members...>;
-
-/// In the order of PhaseKind.
-constexpr const char* kPhases =
-    "isotropic|rayleigh|henyey-greenstein|two-lobe|hg-draine|cloud|table|moments";
-
-/// Kinds of water clouds and their effective radii, um (docs/phase.md, "Kinds of clouds").
-constexpr const char* kClouds =
-    "cumulus-clean|cumulus-polluted|cumulus-maritime|stratus-continental|stratus-maritime|fog";
-constexpr double kCloudRadius[] = {5.77, 4, 12.68, 7.33, 11.3, 10.7};
-
-constexpr KeyField kCloud{KeyKind::kChoice, [](const KeySource&) { return no_value(); },
-                          [](const KeyTarget& t, const Node& n) {
-                              t.medium.phase.effective_radius_um = kCloudRadius[n.integer];
-                          }};
-
-/// Densities that are no file.
-struct DensityName {
-    const char* name;
-    DensityKind kind;
-};
-constexpr DensityName kDensityNames[] = {{"procedural:cumulus", DensityKind::kCumulus},
-                                         {"procedural:sky", DensityKind::kSky},
-                                         {"uniform:box", DensityKind::kUniformBox},
-                                         {"uniform:sphere", DensityKind::kUniformSphere},
-                                         {"uniform:ellipsoid", DensityKind::kUniformEllipsoid}};
-constexpr const char* kDensities =
-    "procedural:cumulus|procedural:sky|uniform:box|uniform:sphere|uniform:ellipsoid";
 
 /// A name or a path; a table is read key by key.
 constexpr KeyField kDensity{KeyKind::kDensity,
                             [](const KeySource& s) {
-                                for (const DensityName& density : kDensityNames)
-                                    if (density.kind == s.medium.density)
-                                        return node_of(std::string(density.name));
-                                return node_of(s.medium.file);
+                                const std::string& name = s.medium.density;
+                                return node_of(name.empty() ? s.medium.file : name);
                             },
                             [](const KeyTarget& t, const Node& n) {
                                 if (!n.is_text()) return;
-                                t.medium.density = DensityKind::kFile;
-                                for (const DensityName& density : kDensityNames)
-                                    if (density.name == n.text) t.medium.density = density.kind;
-                                if (t.medium.density == DensityKind::kFile) t.medium.file = n.text;
+                                const bool file = density_row(n.text) == nullptr;
+                                (file ? t.medium.file : t.medium.density) = n.text;
+                                if (file) t.medium.density.clear();
                             }};
 constexpr KeyField kDensityFile{KeyKind::kText, [](const KeySource&) { return no_value(); },
                                 [](const KeyTarget& t, const Node& n) {
-                                    t.medium.density = DensityKind::kFile;
+                                    t.medium.density.clear();
                                     t.medium.file = n.text;
                                 }};
 /// Another way to say `grid`.
@@ -73,10 +42,9 @@ constexpr KeyField kBounds{KeyKind::kBounds,
                            }};
 
 constexpr KeyRow kRows[] = {
-    {"medium.N.density", kDensity, one_of(kDensities), "",
-     "`procedural:cumulus`, `procedural:sky`, `uniform:box`, `uniform:sphere`, "
-     "`uniform:ellipsoid` (filling "
-     "bounds_m), the path of a file, or a table for a raw, OpenVDB or NanoVDB file",
+    {"medium.N.density", kDensity, any(), "",
+     "name of a density that the program makes, filling bounds_m; the path of a file; or a table "
+     "for a raw, OpenVDB or NanoVDB file",
      kRequired},
     {"medium.N.density.file", kDensityFile, any(), "",
      "path of the file, relative to the scene file; `${PILEUS_DATA_DIR}` may stand at "
@@ -114,27 +82,10 @@ constexpr KeyRow kRows[] = {
      "factor on the values of a file that holds extinction in 1/m (les), for no others"},
     {"medium.N.albedo", medium<&MediumSettings::albedo>, from_to(0, 1), "",
      "share of the extinction that scatters; the rest is absorbed"},
-    {"medium.N.phase.type", phase<&PhaseSettings::kind>, one_of(kPhases), "",
-     "phase function; a medium without `phase` scatters alike in all directions", kRequired},
-    {"medium.N.phase.g", phase<&PhaseSettings::g>, from_to(-1, 1), "",
-     "mean cosine of henyey-greenstein, required there; 1 is straight on", kNone},
-    {"medium.N.phase.g1", phase<&PhaseSettings::g1>, from_to(-1, 1), "",
-     "mean cosine of the first of two lobes, required there", kNone},
-    {"medium.N.phase.g2", phase<&PhaseSettings::g2>, from_to(-1, 1), "",
-     "mean cosine of the second of two lobes, required there", kNone},
-    {"medium.N.phase.weight", phase<&PhaseSettings::weight>, from_to(0, 1), "",
-     "share of the first of two lobes, required there", kNone},
-    {"medium.N.phase.droplet_diameter_um", phase<&PhaseSettings::droplet_diameter_um>,
-     from_to(5, 50), "um", "diameter of the droplets of hg-draine, required there", kNone},
-    {"medium.N.phase.effective_radius_um", phase<&PhaseSettings::effective_radius_um>,
-     from_to(4, 20), "um",
-     "effective radius of the droplets of a cloud; this or `phase.cloud` is required there", kNone},
-    {"medium.N.phase.cloud", kCloud, one_of(kClouds), "",
-     "kind of cloud, which sets the effective radius (docs/phase.md)", kNone},
-    {"medium.N.phase.file", phase<&PhaseSettings::file>, any(), "",
-     "path of a table of angles and values, or of Legendre moments, relative to the scene "
-     "file; required by both",
-     kNone},
+};
+
+/// What stands behind the phase function.
+constexpr KeyRow kLastRows[] = {
     {"medium.N.boundary", medium<&MediumSettings::periodic>, one_of("open|periodic"), "",
      "what lies beside the box: nothing, or the same again without end along x and y; "
      "periodic for all media of a scene, with one box in x and y, or for none"},
@@ -145,5 +96,8 @@ constexpr KeyRow kRows[] = {
 }  // namespace
 
 Span<const KeyRow> medium_keys() { return {kRows, sizeof kRows / sizeof kRows[0]}; }
+Span<const KeyRow> medium_last_keys() {
+    return {kLastRows, sizeof kLastRows / sizeof kLastRows[0]};
+}
 
 }  // namespace pileus

@@ -10,6 +10,7 @@
 #include "kernels_cpu/procedural/noise.h"
 #include "platform/threads.h"
 #include "src/base/random_streams.h"
+#include "src/scene/rows/density_row.h"
 #include "src/world/density/bubbles.h"
 
 namespace pileus {
@@ -271,6 +272,33 @@ Status prepare(const CumulusSettings& settings, Field& f) {
                         f.list);
 }
 
+DensityOutline outline_row(const MediumSettings&) {
+    constexpr double kMean = 0.08;  // in the default box, which other boxes come close to
+    return {CumulusSettings().resolution, kMean, kMaxBubbles * sizeof(Bubble),
+            3 * kMaxBubbles * sizeof(std::uint16_t)};
+}
+
+Status make_row(const MediumSettings& medium, const DensityMaking& with, Volume& volume) {
+    CumulusSettings settings;
+    settings.resolution = with.size;
+    settings.seed = medium.shape_seed;
+    for (std::size_t a = 0; a < 3; ++a)
+        settings.extent_m[a] = medium.bounds_m[1][a] - medium.bounds_m[0][a];
+    return make_cumulus(settings, with.threads, volume);
+}
+
+constexpr DensityRow cumulus_row() {
+    DensityRow row;
+    row.name = "procedural:cumulus";
+    row.takes_seed = true;
+    row.least_cells = 3;  // the outermost layer of cells stays empty
+    row.outline = outline_row;
+    row.mean_within = 1.05;
+    row.working = "bubbles of the cumulus";
+    row.make = make_row;
+    return row;
+}
+
 }  // namespace
 
 Status make_cumulus(const CumulusSettings& asked, int threads, Volume& volume) {
@@ -296,5 +324,8 @@ Status make_cumulus(const CumulusSettings& asked, int threads, Volume& volume) {
     volume.knows_bounds = false;
     return Status::ok();
 }
+
+extern const DensityRow kCumulusDensity;
+constexpr DensityRow kCumulusDensity = cumulus_row();
 
 }  // namespace pileus

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // See shapes.h. Cells cut by the surface are sampled 8 x 8 x 8 times.
-// in: a kind, a resolution -> out: densities.
+// in: a resolution -> out: densities.
 #include "src/world/density/shapes.h"
 
 #include <cmath>
 #include <string>
+
+#include "src/scene/rows/density_row.h"
 
 namespace pileus {
 namespace {
@@ -55,20 +57,7 @@ void fill_ellipsoid(const std::array<int, 3>& n, Buffer<float>& density) {
             }
 }
 
-}  // namespace
-
-std::array<int, 3> default_shape_size(DensityKind kind) {
-    if (kind == DensityKind::kUniformBox) return {1, 1, 1};
-    return {64, 64, 64};
-}
-
-Status make_shape(DensityKind kind, std::array<int, 3> resolution, Volume& volume) {
-    const bool box = kind == DensityKind::kUniformBox;
-    if (!box && kind != DensityKind::kUniformSphere && kind != DensityKind::kUniformEllipsoid)
-        return Status::bad_input(
-            "density: not a uniform shape, allowed uniform:box, "
-            "uniform:sphere, uniform:ellipsoid");
-    if (resolution == std::array<int, 3>{0, 0, 0}) resolution = default_shape_size(kind);
+Status allocate(const std::array<int, 3>& resolution, Volume& volume) {
     for (int n : resolution)
         if (n < 1 || n > 4096)
             return Status::bad_input("resolution: " + std::to_string(n) +
@@ -76,13 +65,53 @@ Status make_shape(DensityKind kind, std::array<int, 3> resolution, Volume& volum
     const auto cells =
         std::uint64_t(resolution[0]) * std::uint64_t(resolution[1]) * std::uint64_t(resolution[2]);
     PILEUS_TRY(volume.density.resize(cells, "uniform shape"));
-    if (box)
-        for (float& v : volume.density.span()) v = 1.0f;
-    else
-        fill_ellipsoid(resolution, volume.density);
     volume.size = resolution;
     volume.knows_bounds = false;
     return Status::ok();
 }
+
+constexpr DensityRow box_row() {
+    DensityRow row;
+    row.name = "uniform:box";
+    row.outline = [](const MediumSettings&) { return DensityOutline{{1, 1, 1}, 1, 0, 0}; };
+    row.make = [](const MediumSettings&, const DensityMaking& with, Volume& volume) {
+        return make_box(with.size, volume);
+    };
+    return row;
+}
+
+/// The sphere is the ellipsoid: it is round in metres when the box is a cube.
+constexpr DensityRow round_row(const char* name) {
+    DensityRow row;
+    row.name = name;
+    row.outline = [](const MediumSettings&) {
+        constexpr double kMean = 3.14159265358979323846 / 6;  // share of its box that it fills
+        return DensityOutline{{64, 64, 64}, kMean, 0, 0};
+    };
+    row.mean_within = 1.0002;
+    row.make = [](const MediumSettings&, const DensityMaking& with, Volume& volume) {
+        return make_ellipsoid(with.size, volume);
+    };
+    return row;
+}
+
+}  // namespace
+
+Status make_box(const std::array<int, 3>& resolution, Volume& volume) {
+    PILEUS_TRY(allocate(resolution, volume));
+    for (float& v : volume.density.span()) v = 1.0f;
+    return Status::ok();
+}
+
+Status make_ellipsoid(const std::array<int, 3>& resolution, Volume& volume) {
+    PILEUS_TRY(allocate(resolution, volume));
+    fill_ellipsoid(resolution, volume.density);
+    return Status::ok();
+}
+
+extern const DensityRow kBoxDensity, kSphereDensity, kEllipsoidDensity;
+constexpr DensityRow kBoxDensity = box_row();
+constexpr DensityRow kSphereDensity = round_row("uniform:sphere");
+constexpr DensityRow kEllipsoidDensity = round_row("uniform:ellipsoid");
 
 }  // namespace pileus

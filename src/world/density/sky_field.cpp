@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "platform/threads.h"
+#include "src/scene/checks/check_keys.h"
+#include "src/scene/rows/density_row.h"
 
 namespace pileus {
 namespace {
@@ -106,6 +108,34 @@ Status cover(const SkySettings& settings, const SkyKernels& kernels, int threads
     return Status::ok();
 }
 
+DensityOutline outline_row(const MediumSettings& medium) {
+    constexpr double kMean = 0.1;  // coverage and shape move it by a factor of several
+    const SkyBytes bytes = sky_bytes(medium.sky);
+    return {default_sky_size(medium), kMean, bytes.kept + bytes.making, 0};
+}
+
+Status make_row(const MediumSettings& medium, const DensityMaking& with, Volume& volume) {
+    const KernelTable* kernels = with.kernels;
+    if (kernels == nullptr || kernels->sky == nullptr) kernels = kernel_table(nullptr);
+    return bake_sky(medium, with.size, *kernels->sky, with.threads, volume, with.field);
+}
+
+constexpr DensityRow sky_row() {
+    DensityRow row;
+    row.name = "procedural:sky";
+    row.needs_bounds = false;  // of a sky that is put on a grid `check_sky` asks for them
+    row.table = "sky";
+    row.check = check_sky;
+    row.outline = outline_row;
+    row.mean_within = 4;
+    row.working = "noises of the sky";
+    row.make = make_row;
+    row.has_field = true;
+    row.factor = [](const MediumSettings& medium) { return medium.sky.density; };
+    row.detail = [](const MediumSettings& medium) { return ", type " + medium.sky.type; };
+    return row;
+}
+
 }  // namespace
 
 Status make_sky(const SkySettings& settings, const Double3& low_m, const SkyKernels& kernels,
@@ -152,14 +182,14 @@ std::array<int, 3> default_sky_size(const MediumSettings& settings) {
     return size;
 }
 
-Status bake_sky(const MediumSettings& settings, const SkyKernels& kernels, int threads,
-                Volume& volume, SkyField* keep) {
+Status bake_sky(const MediumSettings& settings, const std::array<int, 3>& size,
+                const SkyKernels& kernels, int threads, Volume& volume, SkyField* keep) {
     SkyField own;
     SkyField& sky = keep != nullptr ? *keep : own;
     PILEUS_TRY(make_sky(settings.sky, settings.bounds_m[0], kernels, threads, sky));
     BakeParams k{};
     k.sky = sky.params;
-    volume.size = settings.resolution[0] > 0 ? settings.resolution : default_sky_size(settings);
+    volume.size = size;
     std::uint64_t cells = 1;
     for (std::size_t a = 0; a < 3; ++a) {
         k.size[a] = volume.size[a];
@@ -186,5 +216,8 @@ SkyBytes sky_bytes(const SkySettings& settings) {
     return {noises * noise_texture_bytes(size),
             std::max(noise_making_bytes(size), texels + noise_packing_bytes(size)) + 4 * kColumns};
 }
+
+extern const DensityRow kSkyDensity;
+constexpr DensityRow kSkyDensity = sky_row();
 
 }  // namespace pileus

@@ -2,12 +2,13 @@
 // See medium.h.
 #include "src/world/medium/medium.h"
 
+#include <algorithm>
+#include <string_view>
+
 #include "src/base/file.h"
 #include "src/io/volumes/volume_file.h"
 #include "src/scene/read_scene.h"
-#include "src/world/density/cumulus.h"
-#include "src/world/density/shapes.h"
-#include "src/world/density/sky_field.h"
+#include "src/scene/rows/density_row.h"
 #include "src/world/phase/medium_phase.h"
 
 namespace pileus {
@@ -17,27 +18,21 @@ std::string density_key(const Scene& scene, const MediumSettings& settings) {
     return medium_key(scene, settings) + ".density";
 }
 
+/// Cells of a density that the program makes.
+std::array<int, 3> made_size(const MediumSettings& settings, const DensityOutline& outline) {
+    return settings.resolution[0] > 0 ? settings.resolution : outline.size;
+}
+
 Status load_density(const Scene& scene, const MediumSettings& settings, int threads,
                     const KernelTable* kernels, SkyField* sky, Volume& volume) {
-    if (settings.density == DensityKind::kFile) {
-        const std::string path = scene_path(scene.directory, settings.file);
-        PILEUS_TRY(
-            at_key(scene, density_key(scene, settings), read_volume(settings, path, volume)));
-        if (settings.y_up) PILEUS_TRY(permute_y_up(volume));
-        return Status::ok();
+    if (const DensityRow* row = density_row(settings.density)) {
+        const std::array<int, 3> size = made_size(settings, row->outline(settings));
+        return row->make(settings, {size, threads, kernels, sky}, volume);
     }
-    if (settings.density == DensityKind::kSky) {
-        if (kernels == nullptr || kernels->sky == nullptr) kernels = kernel_table(nullptr);
-        return bake_sky(settings, *kernels->sky, threads, volume, sky);
-    }
-    if (settings.density != DensityKind::kCumulus)
-        return make_shape(settings.density, settings.resolution, volume);
-    CumulusSettings cumulus;
-    if (settings.resolution[0] > 0) cumulus.resolution = settings.resolution;
-    cumulus.seed = settings.shape_seed;
-    for (std::size_t a = 0; a < 3; ++a)
-        cumulus.extent_m[a] = settings.bounds_m[1][a] - settings.bounds_m[0][a];
-    return make_cumulus(cumulus, threads, volume);
+    const std::string path = scene_path(scene.directory, settings.file);
+    PILEUS_TRY(at_key(scene, density_key(scene, settings), read_volume(settings, path, volume)));
+    if (settings.y_up) PILEUS_TRY(permute_y_up(volume));
+    return Status::ok();
 }
 
 /// Divides extinctions by the largest, so that densities end at exactly 1 and sigma is the largest
@@ -66,8 +61,9 @@ Status place_medium(const Scene& scene, const MediumSettings& settings, const Vo
         out.grid.cell_m[a] = float(out.extent_m[a] / head.size[a]);
     }
     // A file's extinction is known only from its values; until then any but none stands for it.
-    const double per_m = settings.extinction_per_m *
-                         (settings.density == DensityKind::kSky ? settings.sky.density : 1);
+    const DensityRow* row = density_row(settings.density);
+    const bool scaled = row != nullptr && row->factor != nullptr;
+    const double per_m = settings.extinction_per_m * (scaled ? row->factor(settings) : 1);
     out.sigma = float(head.in_extinction ? settings.extinction_scale : per_m);
     Optics& optics = out.optics[0];
     optics.albedo_max = 0;
@@ -86,22 +82,14 @@ Status place_medium(const Scene& scene, const MediumSettings& settings, const Vo
     return Status::ok();
 }
 
-/// Size, place and mean of a density that the program makes.
-void outline_shape(const MediumSettings& settings, VolumeHead& head, MediumSource& source) {
-    source.cumulus = settings.density == DensityKind::kCumulus;
-    const bool given = settings.resolution[0] > 0;
-    if (settings.density == DensityKind::kSky) {
-        const SkyBytes bytes = sky_bytes(settings.sky);
-        head.size = given ? settings.resolution : default_sky_size(settings);
-        source.noise_bytes = bytes.kept + bytes.making;
-        source.mean_density = kSkyMean;
-        return;
-    }
-    head.size = given            ? settings.resolution
-                : source.cumulus ? CumulusSettings().resolution
-                                 : default_shape_size(settings.density);
-    const bool box = settings.density == DensityKind::kUniformBox;
-    source.mean_density = source.cumulus ? kCumulusMean : (box ? 1 : kEllipsoidMean);
+/// Size, mean and work of a density that the program makes.
+void outline_shape(const DensityRow& row, const MediumSettings& settings, VolumeHead& head,
+                   MediumSource& source) {
+    const DensityOutline outline = row.outline(settings);
+    head.size = made_size(settings, outline);
+    source.mean_density = outline.mean;
+    if (row.working != nullptr)
+        source.making = {{row.working, outline.bytes, outline.thread_bytes}};
 }
 
 /// Checks the file's length, and the size where the scene states it, before the file's own head.
@@ -167,10 +155,10 @@ Status outline_medium(const Scene& scene, const MediumSettings& settings, const 
                       Medium& out, MediumSource& source) {
     VolumeHead head;
     source = MediumSource{};
-    if (settings.density == DensityKind::kFile)
-        PILEUS_TRY(outline_file(scene, settings, limits, head, source));
+    if (const DensityRow* row = density_row(settings.density))
+        outline_shape(*row, settings, head, source);
     else
-        outline_shape(settings, head, source);
+        PILEUS_TRY(outline_file(scene, settings, limits, head, source));
     PILEUS_TRY(check_voxels(scene.file, head.size, limits));
     if (settings.y_up)
         source.turned_voxels =
@@ -195,6 +183,16 @@ Status load_medium(const Scene& scene, const MediumSettings& settings, int threa
         if (density > out.density_max) out.density_max = density;
     if (out.volume.in_extinction) set_peak_to_one(settings.extinction_scale, out);
     return Status::ok();
+}
+
+void keep_larger(const DensityWork& work, std::vector<DensityWork>& list) {
+    for (DensityWork& known : list) {
+        if (std::string_view(known.what) != work.what) continue;
+        known.bytes = std::max(known.bytes, work.bytes);
+        known.thread_bytes = std::max(known.thread_bytes, work.thread_bytes);
+        return;
+    }
+    list.push_back(work);
 }
 
 double mean_density(const Medium& medium) {

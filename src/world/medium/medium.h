@@ -57,22 +57,24 @@ float phase_peak(const Medium& medium);
 /// "medium.N" of settings that belong to the scene, as its keys are named.
 std::string medium_key(const Scene& scene, const MediumSettings& settings);
 
+/// Memory beside the grid while a density is made, as the plan lists it.
+struct DensityWork {
+    const char* what;
+    std::uint64_t bytes, thread_bytes;  ///< in all, and for each thread more
+};
+
+/// Densities are made one after the other: of those alike the largest counts.
+void keep_larger(const DensityWork& work, std::vector<DensityWork>& list);
+
 /// What is known of a density before its values are there.
 struct MediumSource {
     std::uint64_t reading_bytes = 0;  ///< of the file, packed and not, in memory while it is read
     std::uint64_t turned_voxels = 0;  ///< of a file whose y axis points up: a grid more for a while
     std::uint64_t apart_voxels = 0;   ///< of media that are then laid on one grid
     std::uint64_t mixing_bytes = 0;   ///< scratch of that
-    std::uint64_t noise_bytes = 0;    ///< of noise volumes, while a sky is put on a grid
-    bool cumulus = false;             ///< made by the program from bubbles
+    std::vector<DensityWork> making;  ///< of densities that the program makes
     double mean_density = -1;         ///< over the box; below 0: known only from the values
 };
-
-/// Mean density of `procedural:cumulus` in its default box, which other boxes come close to.
-constexpr double kCumulusMean = 0.08;
-
-/// The same of `procedural:sky`, which its coverage and its shape move by a factor of several.
-constexpr double kSkyMean = 0.1;
 
 /// kLimit: a side or the product over the limits; `where` opens the line.
 Status check_voxels(const std::string& where, const std::array<int, 3>& size, const Limits& limits);

@@ -342,8 +342,7 @@ Status outline_media(const Scene& scene, const Limits& limits, std::uint64_t thr
         const auto larger = [](std::uint64_t a, std::uint64_t b) { return a > b ? a : b; };
         source.reading_bytes = larger(source.reading_bytes, own.reading_bytes);
         source.turned_voxels = larger(source.turned_voxels, own.turned_voxels);
-        source.noise_bytes = larger(source.noise_bytes, own.noise_bytes);
-        source.cumulus = source.cumulus || own.cumulus;
+        for (const DensityWork& work : own.making) keep_larger(work, source.making);
         const std::size_t before = list.media.size();
         list.add(std::move(medium), i, i + 1 == scene.media.size(), plan);
         if (list.media.size() > before) means.push_back(own.mean_density);

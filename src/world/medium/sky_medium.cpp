@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "src/scene/rows/density_row.h"
+
 namespace pileus {
 namespace {
 
@@ -28,13 +30,16 @@ MediumSettings placed(const Scene& scene) {
 }  // namespace
 
 bool is_direct_sky(const Scene& scene) {
-    return scene.media.size() == 1 && scene.media[0].density == DensityKind::kSky &&
+    if (scene.media.size() != 1) return false;
+    const DensityRow* row = density_row(scene.media[0].density);
+    return row != nullptr && row->has_field &&
            scene.media[0].sky.evaluate == SkyEvaluation::kDirect;
 }
 
 Status outline_sky(const Scene& scene, const Limits& limits, Medium& medium, MediumSource& source) {
     PILEUS_TRY(outline_medium(scene, placed(scene), limits, medium, source));
-    source.noise_bytes = sky_bytes(scene.media[0].sky).making;
+    // What is kept is a row of its own.
+    source.making[0].bytes = sky_bytes(scene.media[0].sky).making;
     return Status::ok();
 }
 

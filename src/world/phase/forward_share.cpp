@@ -36,13 +36,50 @@ double draine_share(const PhaseParams& p, double limit) {
 
 double at_most_one(double v) { return v < 0 ? 0 : v > 1 ? 1 : v; }
 
+/// 1 - cos without cancellation: 2 sin^2 of half the angle.
+double one_minus_cos(double angle_deg) {
+    const double half = sincos_deg(0.5 * angle_deg).sine;
+    return 2 * half * half;
+}
+
+/// Simpson's rule over one panel of 1 - cos.
+double panel(const PhaseParams& p, double begin, double end) {
+    constexpr int kParts = 32;
+    double sum = 0;
+    for (int i = 0; i <= kParts; ++i) {
+        const double weight = i == 0 || i == kParts ? 1 : i % 2 == 1 ? 4 : 2;
+        sum += weight * double(phase_density(p, float(begin + (end - begin) * i / kParts)));
+    }
+    return sum * (end - begin) / (3 * kParts);
+}
+
+/// Whether the sums below know the type better than by its density.
+bool is_closed(const PhaseParams& p) {
+    return p.type == kPhaseHg || p.type == kPhaseTwoLobe || p.type == kPhaseHgDraine;
+}
+
 }  // namespace
 
+double forward_share_by_density(const PhaseParams& p, double half_deg) {
+    const double x = one_minus_cos(half_deg);
+    double sum = 0;
+    // Panels that halve towards both ends resolve peaks there, as far as floats tell angles apart.
+    for (double outer = 1, inner; outer > 0; outer = inner) {
+        inner = outer > 0x1p-48 ? 0.5 * outer : 0;
+        if (x > inner) sum += panel(p, inner, x < outer ? x : outer);
+    }
+    for (double outer = 1, inner; outer > 0; outer = inner) {
+        inner = outer > 0x1p-24 ? 0.5 * outer : 0;
+        if (x > 2 - outer) sum += panel(p, 2 - outer, x < 2 - inner ? x : 2 - inner);
+    }
+    return at_most_one(kTwoPi * sum);
+}
+
 double forward_share(const PhaseParams& p, double half_deg) {
-    // 1 - cos without cancellation: 2 sin^2 of half the angle.
-    const double half = sincos_deg(0.5 * half_deg).sine, x = 2 * half * half, c = 1 - x;
+    const double x = one_minus_cos(half_deg), c = 1 - x;
     if (p.type == kPhaseTable) return at_most_one(phase_table_share(*p.table, half_deg));
     if (p.type == kPhaseRayleigh) return at_most_one(0.375 * x + 0.125 * x * (1 + c + c * c));
+    if (!is_closed(p)) return forward_share_by_density(p, half_deg);
     const double first = hg_share(double(p.g1), x);
     if (p.type == kPhaseHg) return at_most_one(first);
     const double second = p.type == kPhaseHgDraine ? draine_share(p, x) : hg_share(double(p.g2), x);

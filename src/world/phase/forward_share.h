@@ -8,7 +8,11 @@
 namespace pileus {
 
 /// In closed form for Henyey-Greenstein, Rayleigh and tables, to 1e-6 for what is mixed with
-/// Draine. `half_deg` in [0, 180].
+/// Draine, and for any other by its density. `half_deg` in [0, 180].
 double forward_share(const PhaseParams& phase, double half_deg);
+
+/// The same by the density alone, to 1e-5 where that is smooth but for peaks straight on and
+/// straight back.
+double forward_share_by_density(const PhaseParams& phase, double half_deg);
 
 }  // namespace pileus

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys of a medium's phase function: its type; the rest comes from the rows of the types.
+// in: rows of phase_row.h -> out: rows of keys.
+// docs/scene.md; docs/phase.md.
+#include "src/scene/keys/all_keys.h"
+#include "src/scene/rows/phase_row.h"
+
+namespace pileus {
+namespace {
+
+constexpr KeyRow kType{"medium.N.phase.type",
+                       field<&MediumSettings::phase, &PhaseSettings::type>,
+                       one_of(kPhaseNames.text),
+                       "",
+                       "phase function; a medium without `phase` scatters alike in all directions",
+                       kRequired};
+
+}  // namespace
+
+std::vector<const KeyRow*> phase_keys() {
+    std::vector<const KeyRow*> rows{&kType};
+    for (const NamedPhase& type : phase_rows())
+        for (const KeyRow& key : type.row->keys) {
+            bool known = false;
+            for (const KeyRow* row : rows) known |= std::string_view(row->path) == key.path;
+            if (!known) rows.push_back(&key);
+        }
+    return rows;
+}
+
+std::string meaning_of(const KeyRow& row) {
+    std::string text = row.help;
+    std::vector<const KeyRow*> said{&row};
+    for (const NamedPhase& type : phase_rows())
+        for (const KeyRow& key : type.row->keys) {
+            if (std::string_view(key.path) != row.path) continue;
+            // Types of one file may have the very same row.
+            bool known = false;
+            for (const KeyRow* other : said) known |= other == &key;
+            if (known) continue;
+            said.push_back(&key);
+            text += std::string("; ") + key.help;
+        }
+    return text;
+}
+
+}  // namespace pileus
