@@ -59,6 +59,10 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64|amd64|i[3-6]86)$")
     endif()
 endif()
 
-# The library itself neither throws nor asks for types at run time.
+# The library itself neither throws nor asks for types at run time. What a host may call is unwound
+# where the C++ runtime finds no memory, so that nothing leaks; kernels never throw.
 add_library(pileus_strict INTERFACE)
-target_compile_options(pileus_strict INTERFACE -fno-exceptions -fno-rtti)
+target_compile_options(pileus_strict INTERFACE -fno-rtti)
+add_library(pileus_nothrow INTERFACE)
+target_compile_options(pileus_nothrow INTERFACE -fno-exceptions)
+target_link_libraries(pileus_nothrow INTERFACE pileus_strict)

@@ -3,6 +3,7 @@
 #include "platform/threads.h"
 
 #include <atomic>
+#include <exception>
 
 #include "platform/fp_mode.h"
 #include "platform/memory.h"
@@ -23,6 +24,27 @@ int hardware_threads() {
 
 namespace {
 
+/// The first of what pieces threw, where memory ended: it must not leave a thread.
+class Thrown {
+public:
+    template <class Work>
+    void guard(Work work) {
+        if (any_.load(std::memory_order_relaxed)) return;
+        try {
+            work();
+        } catch (...) {
+            if (!any_.exchange(true)) first_ = std::current_exception();
+        }
+    }
+    void pass_on() const {
+        if (first_ != nullptr) std::rethrow_exception(first_);
+    }
+
+private:
+    std::atomic<bool> any_{false};
+    std::exception_ptr first_;
+};
+
 /// Pieces that a host's threads take one after the other.
 struct SharedPieces {
     std::int64_t pieces;
@@ -30,6 +52,7 @@ struct SharedPieces {
     WorkFunction work;
     Host host;
     std::atomic<std::int64_t> next{0};
+    Thrown thrown{};
 };
 
 void take_pieces(void* data, std::uint32_t index) {
@@ -39,7 +62,7 @@ void take_pieces(void* data, std::uint32_t index) {
     for (;;) {
         const std::int64_t piece = shared.next.fetch_add(1, std::memory_order_relaxed);
         if (piece >= shared.pieces) return;
-        shared.work(shared.context, piece, int(index));
+        shared.thrown.guard([&] { shared.work(shared.context, piece, int(index)); });
     }
 }
 
@@ -47,6 +70,7 @@ void run_on_host(const Executor& executor, int threads, std::int64_t pieces, voi
                  WorkFunction work, const Host& host) {
     SharedPieces shared{pieces, context, work, host};
     executor.run(executor.user, std::uint32_t(threads), take_pieces, &shared);
+    shared.thrown.pass_on();
 }
 
 }  // namespace
@@ -59,14 +83,16 @@ void parallel_pieces(int threads, std::int64_t pieces, void* context, WorkFuncti
     }
 #ifdef _OPENMP
     if (threads > 1 && pieces > 1) {
+        Thrown thrown;
 #pragma omp parallel num_threads(threads)
         {
             const FpModeGuard guard;
             const HostGuard lent(host);
 #pragma omp for schedule(dynamic, 1)
             for (std::int64_t piece = 0; piece < pieces; ++piece)
-                work(context, piece, omp_get_thread_num());
+                thrown.guard([&] { work(context, piece, omp_get_thread_num()); });
         }
+        thrown.pass_on();
         return;
     }
 #endif

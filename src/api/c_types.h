@@ -61,6 +61,9 @@ std::uint64_t bytes_of_world(const World& world);
 Status no_struct(const char* name);
 Status no_handle(const char* name);
 
+/// kBadInput: rows that would overlap.
+Status take_stride(const char* name, std::int64_t stride, std::int64_t least, Rows& rows);
+
 /// The end of every call: code and message.
 pileus_code finish(const Status& status, pileus_error* error);
 

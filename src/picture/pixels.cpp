@@ -180,24 +180,6 @@ std::uint64_t hash_planes(const Planes& planes) {
     return digest.value();
 }
 
-double DepthScale::metres(double value) const {
-    if (!(value == value)) return 0;
-    if (value == far_value) return double(kInfinity);
-    const double clip = lowest + value * (1 - lowest);
-    const double below = clip * c - a;
-    const double z = below != 0 ? (b - clip * d) / below : double(kInfinity);
-    return z > 0 ? z : 0;
-}
-
-double DepthScale::value(double z) const {
-    if (!(z < double(kInfinity))) return far_value;
-    const double below = c * z + d;
-    if (!(below != 0)) return 1 - far_value;
-    const double clip = (a * z + b) / below;
-    const double v = (clip - lowest) / (1 - lowest);
-    return v < 0 ? 0 : v > 1 ? 1 : v;
-}
-
 Status take_depths(const Rows& rows, DepthKind kind, const DepthScale& scale,
                    const CameraParams& camera, CameraDepth& depth) {
     const std::size_t width = std::size_t(camera.width);
@@ -221,8 +203,7 @@ Status take_depths(const Rows& rows, DepthKind kind, const DepthScale& scale,
                 metres = 0;
                 ++depth.negative;
             }
-            depth.metres[std::size_t(y) * width + x] =
-                metres >= 1e30 ? kInfinity : float(metres);
+            depth.metres[std::size_t(y) * width + x] = metres >= 1e30 ? kInfinity : float(metres);
         }
     }
     return Status::ok();

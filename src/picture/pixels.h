@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Planes of one picture into pixels of a caller's own memory, and depths to and from it.
-// in: Planes, a buffer's layout -> out: colour written or blended over, depths in the caller's kind.
-// docs/embedding.md, "Pixels" and "Depth".
+// in: Planes, a buffer's layout -> out: colour written or blended over, depths in the caller's
+// kind. docs/embedding.md, "Pixels" and "Depth".
 #pragma once
 #include "kernels_cpu/core/camera.h"
 #include "src/picture/layers.h"
+#include "src/world/camera/matrices.h"
 #include "src/world/solids/camera_depth.h"
 
 namespace pileus {
@@ -33,18 +34,6 @@ struct PixelTarget {
 
 /// Bytes of a pixel.
 std::size_t pixel_bytes(PixelFormat format);
-
-/// How a depth buffer counts: the value of a point z metres in front of the camera is
-/// (a z + b) / (c z + d), between `lowest` and 1 in clip space and 0 to 1 in the buffer.
-struct DepthScale {
-    double a = 0, b = 0, c = 1, d = 0;
-    double lowest = 0;
-    double far_value = 1;  ///< of the buffer where nothing is
-
-    /// Metres in front of the camera; infinity at the far end, 0 for what is no such number.
-    double metres(double value) const;
-    double value(double metres) const;
-};
 
 /// Writes or blends a picture; what is below 0 or no number counts as 0 and is counted in `broken`.
 /// Blending other than kReplace needs the media's own light: planes with a background, or `cloud`.

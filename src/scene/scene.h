@@ -20,8 +20,8 @@ struct Frustum {
     double half_width = 0, half_height = 0;  ///< > 0
     double shift_x = 0, shift_y = 0;         ///< of its middle, to the right and up
     bool operator==(const Frustum& o) const {
-        return half_width == o.half_width && half_height == o.half_height &&
-               shift_x == o.shift_x && shift_y == o.shift_y;
+        return half_width == o.half_width && half_height == o.half_height && shift_x == o.shift_x &&
+               shift_y == o.shift_y;
     }
 };
 
@@ -91,9 +91,11 @@ struct MediumSettings {
     std::array<Double3, 2> bounds_m{};
     std::array<int, 3> resolution{0, 0, 0};  ///< procedural and uniform shapes; 0: a default
     std::int64_t shape_seed = 0;             ///< another cumulus for each; key `shape_seed`
-    SkySettings sky;                         ///< of a procedural sky
-    double extinction_per_m = 0;             ///< at density 1
-    double extinction_scale = 1;             ///< for files that hold extinction; >= 0
+    const float* values =
+        nullptr;                  ///< a host's cells, as many as `resolution`; null: the row's own
+    SkySettings sky;              ///< of a procedural sky
+    double extinction_per_m = 0;  ///< at density 1
+    double extinction_scale = 1;  ///< for files that hold extinction; >= 0
     Float3 albedo{1, 1, 1};
     PhaseSettings phase;
     bool periodic = false;  ///< boundary = "periodic": repeats without end along x and y

@@ -73,8 +73,8 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
         return Status::bad_input(scene_.file + ": method.name: \"" + scene_.method +
                                  "\" needs the sky on a grid, allowed: a world made for it");
     run_ = method_->make();
-    PILEUS_TRY(open_run(*method_, scene_, budget_of(options), context_, exact, std::move(world),
-                        *run_));
+    PILEUS_TRY(
+        open_run(*method_, scene_, budget_of(options), context_, exact, std::move(world), *run_));
     method_->report_plan(*run_, context_, report_);
     return Status::ok();
 }
@@ -112,11 +112,16 @@ LightUnits Session::light() const { return method_->live->units(*run_); }
 Status Session::render(const FrameTarget& target) {
     const FpModeGuard guard;
     const double start = wall_seconds(), staged = stage_seconds(report_);
+    if (target.has_depth && target.depth_kind == DepthKind::kBuffer && !depth_scale_.known)
+        return Status::bad_input(
+            "frame.depth: a depth buffer without a camera's near_m, allowed: a camera with it, or "
+            "another kind");
     PILEUS_TRY(aim());
     const Planes* planes = nullptr;
     scene_.output.layer_depth = target.has_depth || scene_.method == "path";
     report_.counters.clear();
-    PILEUS_TRY(method_->live->compose({frame_, stats_.pictures == 0, false}, context_, *run_, planes));
+    PILEUS_TRY(
+        method_->live->compose({frame_, stats_.pictures == 0, false}, context_, *run_, planes));
     const auto& size = scene_.camera.resolution;
     std::uint64_t broken = 0;
     if (target.has_colour) {

@@ -61,7 +61,8 @@ public:
     Status set_camera(const Camera& camera);
     Status set_depth_scale(const DepthScale& scale);
     Status set_sun(const Sun& sun);
-    Status set_sky(const Sky& sky, const Image* map);
+    /// `map`: another one; null: none, or with `keep` the one that there is.
+    Status set_sky(const Sky& sky, const Image* map, bool keep);
     Status set_ground(const Ground& ground);
     Status set_placement(const Double3& offset_m, double yaw_deg);
     Status set_frame(int number);

@@ -4,8 +4,8 @@
 // docs/embedding.md, "What may change"
 #include "platform/fp_mode.h"
 #include "src/base/angles.h"
-#include "src/session/session.h"
 #include "src/scene/read_scene.h"
+#include "src/session/session.h"
 #include "src/world/camera/view.h"
 
 namespace pileus {
@@ -25,14 +25,16 @@ bool is_positive(double v) { return v > 0 && v < 1e15; }
 Status check_frustum(const Camera& camera, bool billboards) {
     if (!camera.has_frustum) return Status::ok();
     const Frustum& f = camera.frustum;
-    if (!is_positive(f.half_width) || !is_positive(f.half_height) || !is_positive(1 + f.shift_x * f.shift_x) ||
-        !is_positive(1 + f.shift_y * f.shift_y))
+    if (!is_positive(f.half_width) || !is_positive(f.half_height) ||
+        !is_positive(1 + f.shift_x * f.shift_x) || !is_positive(1 + f.shift_y * f.shift_y))
         return Status::bad_input(
-            "camera.projection: no picture of a positive width and height, allowed: a perspective or "
+            "camera.projection: no picture of a positive width and height, allowed: a perspective "
+            "or "
             "orthographic projection");
     if (billboards && (f.shift_x != 0 || f.shift_y != 0))
         return Status::bad_input(
-            "camera.projection: off-centre, allowed: a symmetric one with display = \"billboards\"");
+            "camera.projection: off-centre, allowed: a symmetric one with display = "
+            "\"billboards\"");
     return Status::ok();
 }
 
@@ -79,7 +81,7 @@ Status Session::set_sun(const Sun& sun) {
     return Status::ok();
 }
 
-Status Session::set_sky(const Sky& sky, const Image* map) {
+Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
     const FpModeGuard guard;
     Scene changed = scene_;
     changed.sky = sky;
@@ -89,7 +91,7 @@ Status Session::set_sky(const Sky& sky, const Image* map) {
         PILEUS_TRY(make_sky_map("sky.map", *map, sky, ground_.present, made));
         run_->around.sky_map = std::move(made);
         anew_ = true;
-    } else if (sky.map.empty() && run_->around.sky_map.present()) {
+    } else if (!keep && run_->around.sky_map.present()) {
         run_->around.sky_map = SkyMap{};
         anew_ = true;
     }
@@ -138,6 +140,10 @@ Status Session::set_frame(int number) {
 Status Session::set_depth(const Rows* rows, DepthKind kind) {
     const FpModeGuard guard;
     CameraDepth& depth = run_->around.depth;
+    if (kind == DepthKind::kBuffer && !depth_scale_.known)
+        return Status::bad_input(
+            "depth: a depth buffer without a camera's near_m, allowed: a camera with it, or "
+            "another kind");
     if (rows != nullptr) {
         const CameraParams camera = make_camera(camera_, 0, {});
         PILEUS_TRY(take_depths(*rows, kind, depth_scale_, camera, depth));

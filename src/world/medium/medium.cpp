@@ -3,6 +3,7 @@
 #include "src/world/medium/medium.h"
 
 #include <algorithm>
+#include <cstring>
 #include <string_view>
 
 #include "src/base/file.h"
@@ -23,8 +24,19 @@ std::array<int, 3> made_size(const MediumSettings& settings, const DensityOutlin
     return settings.resolution[0] > 0 ? settings.resolution : outline.size;
 }
 
+/// Cells that a host has in memory.
+Status copy_values(const MediumSettings& settings, Volume& volume) {
+    volume.size = settings.resolution;
+    std::uint64_t cells = 1;
+    for (const int n : settings.resolution) cells *= std::uint64_t(n);
+    PILEUS_TRY(volume.density.resize(cells, "density"));
+    std::memcpy(volume.density.data(), settings.values, std::size_t(cells) * sizeof(float));
+    return Status::ok();
+}
+
 Status load_density(const Scene& scene, const MediumSettings& settings, int threads,
                     const KernelTable* kernels, SkyField* sky, Volume& volume) {
+    if (settings.values != nullptr) return copy_values(settings, volume);
     if (const DensityRow* row = density_row(settings.density)) {
         const std::array<int, 3> size = made_size(settings, row->outline(settings));
         return row->make(settings, {size, threads, kernels, sky}, volume);

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// pileus.h: light, pictures, and what a session tells.
+#include "src/api/c_types.h"
+#include "src/io/text/report_json.h"
+#include "src/session/warnings.h"
+
+namespace pileus::api {
+namespace {
+
+Status take_colour(const pileus_frame& f, const Camera& camera, FrameTarget& target) {
+    if (f.format > PILEUS_RGBA32F)
+        return Status::bad_input("frame.format: " + std::to_string(f.format) +
+                                 ", allowed: PILEUS_RGBA8_SRGB, PILEUS_RGBA16F, PILEUS_RGBA32F");
+    if (f.blend > PILEUS_MEDIA)
+        return Status::bad_input("frame.blend: " + std::to_string(f.blend) +
+                                 ", allowed: PILEUS_REPLACE, PILEUS_OVER, PILEUS_MEDIA");
+    target.has_colour = f.colour != nullptr;
+    if (!target.has_colour) return Status::ok();
+    PixelTarget& colour = target.colour;
+    colour.format = PixelFormat(f.format);
+    colour.blend = PixelBlend(f.blend);
+    colour.stops = f.exposure_stops;
+    colour.rows.first = static_cast<unsigned char*>(f.colour);
+    colour.rows.bottom_up = f.bottom_up != 0;
+    const auto width =
+        std::int64_t(camera.resolution[0]) * std::int64_t(pixel_bytes(colour.format));
+    return take_stride("frame.colour", f.colour_stride, width, colour.rows);
+}
+
+Status take_depth(const pileus_frame& f, const Camera& camera, FrameTarget& target) {
+    if (f.depth_kind > PILEUS_BUFFER)
+        return Status::bad_input("frame.depth_kind: " + std::to_string(f.depth_kind) +
+                                 ", allowed: PILEUS_DISTANCE, PILEUS_VIEW_Z, PILEUS_BUFFER");
+    target.has_depth = f.depth != nullptr;
+    if (!target.has_depth) return Status::ok();
+    target.depth_kind = DepthKind(f.depth_kind);
+    target.depth.first = reinterpret_cast<unsigned char*>(f.depth);
+    target.depth.bottom_up = f.bottom_up != 0;
+    const auto width = std::int64_t(camera.resolution[0]) * std::int64_t(sizeof(float));
+    return take_stride("frame.depth", f.depth_stride, width, target.depth);
+}
+
+/// A line for each accident, the first time that it happens.
+void tell_accidents(pileus_session& session) {
+    const pileus_host& host = session.host->given;
+    if (host.log == nullptr) return;
+    for (const auto& counter : session.session.report().counters)
+        for (const Accident& accident : accidents()) {
+            if (counter.second == 0 || counter.first != accident.counter) continue;
+            bool told = false;
+            for (const std::string& name : session.told) told |= name == counter.first;
+            if (told) continue;
+            session.told.push_back(counter.first);
+            host.log(host.user, ("counters." + counter.first + ": " +
+                                 std::to_string(counter.second) + " " + accident.meaning)
+                                    .c_str());
+        }
+}
+
+}  // namespace
+}  // namespace pileus::api
+
+using namespace pileus;
+using namespace pileus::api;
+
+extern "C" {
+
+pileus_code pileus_session_light(const pileus_session* session, pileus_light_info* info,
+                                 pileus_error* error) {
+    if (session == nullptr) return finish(no_handle("session"), error);
+    return call(session->host.get(), error, [&]() -> Status {
+        const LightUnits light = session->session.light();
+        pileus_light_info out{};
+        out.whole = std::uint32_t(light.whole < UINT32_MAX ? light.whole : UINT32_MAX);
+        out.unit_photons = light.unit_photons;
+        out.units = light.held;
+        std::strncpy(out.unit, light.unit, sizeof out.unit - 1);
+        return give(out, info, "info");
+    });
+}
+
+pileus_code pileus_session_step(pileus_session* session, uint32_t units, uint32_t* done,
+                                pileus_error* error) {
+    if (session == nullptr) return finish(no_handle("session"), error);
+    return call(session->host.get(), error, [&]() -> Status {
+        std::uint64_t traced = 0;
+        const Status status = session->session.step(units, traced);
+        if (done != nullptr) *done = std::uint32_t(traced);
+        return status;
+    });
+}
+
+pileus_code pileus_session_render(pileus_session* session, const pileus_frame* frame,
+                                  pileus_error* error) {
+    if (session == nullptr) return finish(no_handle("session"), error);
+    return call(session->host.get(), error, [&]() -> Status {
+        pileus_frame f;
+        if (!take(frame, f)) return no_struct("frame");
+        FrameTarget target;
+        PILEUS_TRY(take_colour(f, session->session.camera(), target));
+        PILEUS_TRY(take_depth(f, session->session.camera(), target));
+        std::uint64_t hash = 0;
+        target.hash = f.hash != nullptr ? &hash : nullptr;
+        PILEUS_TRY(session->session.render(target));
+        if (f.hash != nullptr) *f.hash = hash;
+        tell_accidents(*session);
+        return Status::ok();
+    });
+}
+
+pileus_code pileus_session_stats(const pileus_session* session, pileus_stats* stats,
+                                 pileus_error* error) {
+    if (session == nullptr) return finish(no_handle("session"), error);
+    return call(session->host.get(), error, [&]() -> Status {
+        const SessionStats& counted = session->session.stats();
+        pileus_stats out{};
+        out.prepared = counted.prepared;
+        out.pictures = counted.pictures;
+        out.units = counted.units;
+        out.render_s = counted.render_s;
+        out.stages_s = counted.stages_s;
+        const MethodRun& run = session->session.run();
+        out.shared_bytes = bytes_of_world(*run.world);
+        const std::uint64_t peak = run.plan.memory.peak();
+        out.own_bytes = peak > out.shared_bytes ? peak - out.shared_bytes : 0;
+        return give(out, stats, "stats");
+    });
+}
+
+pileus_code pileus_session_report(const pileus_session* session, char* text, size_t size,
+                                  size_t* needed, pileus_error* error) {
+    if (session == nullptr) return finish(no_handle("session"), error);
+    return call(session->host.get(), error, [&]() -> Status {
+        const std::string json = report_json(session->session.report());
+        if (needed != nullptr) *needed = json.size() + 1;
+        if (text == nullptr && size == 0) return Status::ok();
+        if (text == nullptr) return Status::bad_input("text: null, allowed: of size bytes");
+        if (size < json.size() + 1)
+            return Status::limit("report: needs " + std::to_string(json.size() + 1) +
+                                 " bytes, allowed: " + std::to_string(size));
+        std::memcpy(text, json.c_str(), json.size() + 1);
+        return Status::ok();
+    });
+}
+
+}  // extern "C"

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+// pileus.h: sessions and what a host sets in them.
+#include "src/api/c_types.h"
+
+namespace pileus::api {
+namespace {
+
+template <class From, class To>
+void copy3(const From (&from)[3], To& to) {
+    for (std::size_t a = 0; a < 3; ++a) to[a] = from[a];
+}
+
+bool is_zero(const double (&v)[3]) { return v[0] == 0 && v[1] == 0 && v[2] == 0; }
+
+/// A call that changes a session by one struct.
+template <class Given, class Set>
+pileus_code change(pileus_session* session, const Given* given, const char* name,
+                   pileus_error* error, Set set) {
+    if (session == nullptr) return finish(no_handle("session"), error);
+    return call(session->host.get(), error, [&]() -> Status {
+        Given own;
+        if (!take(given, own)) return no_struct(name);
+        return set(own, session->session);
+    });
+}
+
+Status take_size(std::uint32_t width, std::uint32_t height, Camera& camera) {
+    for (const std::uint32_t n : {width, height})
+        if (n > 32768)
+            return Status::bad_input("camera.resolution: " + std::to_string(n) +
+                                     ", allowed: 1 to 32768");
+    if (width > 0) camera.resolution[0] = int(width);
+    if (height > 0) camera.resolution[1] = int(height);
+    return Status::ok();
+}
+
+Status set_camera(const pileus_camera& given, Session& session) {
+    Camera camera = session.camera();
+    PILEUS_TRY(take_size(given.width, given.height, camera));
+    copy3(given.position_m, camera.position_m);
+    copy3(given.target_m, camera.target_m);
+    if (is_zero(given.up))
+        camera.up = {0, 0, 1};
+    else
+        copy3(given.up, camera.up);
+    camera.has_frustum = false;
+    camera.orthographic = given.height_m > 0;
+    const Camera plain;
+    camera.fov_deg = camera.orthographic ? plain.fov_deg : given.fov_deg;
+    camera.height_m = camera.orthographic ? given.height_m : plain.height_m;
+    PILEUS_TRY(session.set_camera(camera));
+    return session.set_depth_scale(depth_scale(camera.orthographic, given.near_m, given.far_m));
+}
+
+/// A map of three floats a texel as an image.
+Status map_image(const pileus_sky& given, Image& image) {
+    image.width = int(given.map_size[0]);
+    image.height = int(given.map_size[1]);
+    const std::size_t texels = std::size_t(image.width) * std::size_t(image.height);
+    const char* const names[3] = {"R", "G", "B"};
+    image.channels.resize(3);
+    for (std::size_t c = 0; c < 3; ++c) {
+        image.channels[c].name = names[c];
+        PILEUS_TRY(image.channels[c].pixels.resize(texels, "sky map"));
+        for (std::size_t i = 0; i < texels; ++i) image.channels[c].pixels[i] = given.map[3 * i + c];
+    }
+    return Status::ok();
+}
+
+Status set_sky(const pileus_sky& given, Session& session) {
+    Sky sky;
+    sky.present = given.present != 0;
+    copy3(given.radiance, sky.radiance);
+    sky.map_scale = given.map_scale == 0 ? 1 : given.map_scale;
+    sky.map_rotation_deg = given.map_rotation_deg;
+    if (given.map_size[0] == 0) return session.set_sky(sky, nullptr, false);
+    if (given.map == nullptr) return session.set_sky(sky, nullptr, true);
+    if (given.map_size[0] > 16384 || given.map_size[1] > 8192)
+        return Status::bad_input("sky.map_size: allowed: at most 16384 x 8192");
+    Image image;
+    PILEUS_TRY(map_image(given, image));
+    return session.set_sky(sky, &image, false);
+}
+
+Status set_depth(const pileus_depth_image& given, Session& session) {
+    if (given.kind > PILEUS_BUFFER)
+        return Status::bad_input("depth.kind: " + std::to_string(given.kind) +
+                                 ", allowed: PILEUS_DISTANCE, PILEUS_VIEW_Z, PILEUS_BUFFER");
+    if (given.values == nullptr) return session.set_depth(nullptr, DepthKind::kDistance);
+    const auto width = std::int64_t(session.camera().resolution[0]) * std::int64_t(sizeof(float));
+    // Read only: rows are shared with those that are written.
+    Rows rows;
+    rows.first = reinterpret_cast<unsigned char*>(const_cast<float*>(given.values));
+    PILEUS_TRY(take_stride("depth", given.stride, width, rows));
+    rows.bottom_up = given.bottom_up != 0;
+    return session.set_depth(&rows, DepthKind(given.kind));
+}
+
+}  // namespace
+
+Status take_stride(const char* name, std::int64_t stride, std::int64_t least, Rows& rows) {
+    rows.stride = stride == 0 ? least : stride;
+    if (rows.stride >= least) return Status::ok();
+    return Status::bad_input(std::string(name) + ".stride: " + std::to_string(stride) +
+                             " bytes, allowed: 0, or at least " + std::to_string(least));
+}
+
+}  // namespace pileus::api
+
+using namespace pileus;
+using namespace pileus::api;
+
+extern "C" {
+
+pileus_code pileus_session_create(const pileus_world* world, const pileus_scene* scene,
+                                  const pileus_host* host, pileus_session** session,
+                                  pileus_error* error) {
+    return call(nullptr, error, [&]() -> Status {
+        if (world == nullptr) return no_handle("world");
+        if (scene == nullptr) return no_handle("scene");
+        if (session == nullptr) return Status::bad_input("session: null, allowed: where to put it");
+        RenderOptions options;
+        auto made = std::make_unique<pileus_session>();
+        PILEUS_TRY(take_host(host, made->host, options));
+        const HostGuard lent(made->host->host());
+        PILEUS_TRY(
+            made->session.open(scene->scene, options, SessionKind::kLive, true, world->world));
+        *session = made.release();
+        return Status::ok();
+    });
+}
+
+void pileus_session_free(pileus_session* session) { delete session; }
+
+pileus_code pileus_session_set_camera(pileus_session* session, const pileus_camera* camera,
+                                      pileus_error* error) {
+    return change(session, camera, "camera", error, set_camera);
+}
+
+pileus_code pileus_session_set_matrices(pileus_session* session, const double view[16],
+                                        const double projection[16], pileus_clip clip,
+                                        uint32_t width, uint32_t height, pileus_error* error) {
+    if (session == nullptr) return finish(no_handle("session"), error);
+    return call(session->host.get(), error, [&]() -> Status {
+        if (view == nullptr || projection == nullptr)
+            return Status::bad_input("view, projection: null, allowed: 16 numbers each");
+        glm::dmat4 v, p;
+        for (int c = 0; c < 4; ++c)
+            for (int r = 0; r < 4; ++r) {
+                v[c][r] = view[4 * c + r];
+                p[c][r] = projection[4 * c + r];
+            }
+        Camera camera = session->session.camera();
+        DepthScale scale;
+        PILEUS_TRY(take_size(width, height, camera));
+        PILEUS_TRY(camera_from_matrices(v, p, clip == PILEUS_CLIP_ZERO, camera, scale));
+        PILEUS_TRY(session->session.set_camera(camera));
+        return session->session.set_depth_scale(scale);
+    });
+}
+
+pileus_code pileus_session_set_sun(pileus_session* session, const pileus_sun* sun,
+                                   pileus_error* error) {
+    return change(session, sun, "sun", error, [](const pileus_sun& given, Session& s) {
+        Sun own;
+        own.present = given.present != 0;
+        own.azimuth_deg = given.azimuth_deg;
+        own.elevation_deg = given.elevation_deg;
+        copy3(given.irradiance, own.irradiance);
+        return s.set_sun(own);
+    });
+}
+
+pileus_code pileus_session_set_sky(pileus_session* session, const pileus_sky* sky,
+                                   pileus_error* error) {
+    return change(session, sky, "sky", error, set_sky);
+}
+
+pileus_code pileus_session_set_ground(pileus_session* session, const pileus_ground* ground,
+                                      pileus_error* error) {
+    return change(session, ground, "ground", error, [](const pileus_ground& given, Session& s) {
+        Ground own;
+        own.present = given.present != 0;
+        own.altitude_m = given.altitude_m;
+        own.albedo = given.albedo;
+        return s.set_ground(own);
+    });
+}
+
+pileus_code pileus_session_set_placement(pileus_session* session, const pileus_placement* placement,
+                                         pileus_error* error) {
+    return change(session, placement, "placement", error,
+                  [](const pileus_placement& given, Session& s) {
+                      return s.set_placement(
+                          {given.offset_m[0], given.offset_m[1], given.offset_m[2]}, given.yaw_deg);
+                  });
+}
+
+pileus_code pileus_session_set_depth(pileus_session* session, const pileus_depth_image* depth,
+                                     pileus_error* error) {
+    return change(session, depth, "depth", error, set_depth);
+}
+
+pileus_code pileus_session_set_frame(pileus_session* session, int32_t number, pileus_error* error) {
+    if (session == nullptr) return finish(no_handle("session"), error);
+    return call(session->host.get(), error, [&] { return session->session.set_frame(number); });
+}
+
+}  // extern "C"
