@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/methods/raymarch/raymarch.h"
+#include "src/session/session.h"
 #include "tests/support/render_harness.h"
 
 using namespace render_test;
@@ -78,31 +78,29 @@ TEST_CASE("Where no marched pixel sees cloud the background is exact") {
 
 TEST_CASE("A view at rest becomes the whole picture, to the bit, whatever was there before") {
     for (int cell : {2, 4}) {
-        Overrides all = moving("[0, 0]", "[35, 35]", cell * cell + 1);
-        all.push_back("raymarch.temporal = " + std::to_string(cell));
-        const Scene scene = scene_from(kSmallCumulus, marched(all));
-        Report report;
-        Context context;
-        context.kernels = kernel_table(nullptr);
-        context.report = &report;
-        const Method& method = raymarch_method();
-        const std::unique_ptr<MethodRun> made = method.make();
-        RaymarchRun& run = static_cast<RaymarchRun&>(*made);
-        REQUIRE(open_run(method, scene, {}, context, true, nullptr, run));
-        REQUIRE(method.light(FrameStep{0, true, false}, context, run));
-        const std::vector<float> whole(run.planes.colour.span().begin(),
-                                       run.planes.colour.span().end());
-        for (float& v : run.upsample.colour.span()) v = 77.0f;
+        const Scene scene = scene_from(
+            kSmallCumulus, marched({"raymarch.temporal = " + std::to_string(cell)}));
+        std::uint64_t hash = 0;
+        FrameTarget target;
+        target.hash = &hash;
+        Session whole;
+        REQUIRE(whole.open(scene, {}, SessionKind::kLive, true, nullptr));
+        REQUIRE(whole.render(target));
+        const std::uint64_t expected = hash;
+        // Another view leaves its pixels to this one.
+        Session moved;
+        REQUIRE(moved.open(scene, {}, SessionKind::kLive, true, nullptr));
+        Camera aside = scene.camera;
+        aside.position_m[0] += 700;
+        REQUIRE(moved.set_camera(aside));
+        REQUIRE(moved.render(target));
+        REQUIRE(moved.set_camera(scene.camera));
         for (int frame = 1; frame <= cell * cell; ++frame) {
-            const auto colour = run.planes.colour.span();
-            if (frame > 1) {
-                const bool same = std::equal(whole.begin(), whole.end(), colour.begin());
-                CHECK(!same);  // not before every pixel had its turn
-            }
-            REQUIRE(method.light(FrameStep{frame, false, false}, context, run));
+            REQUIRE(moved.set_frame(frame));
+            REQUIRE(moved.render(target));
+            if (frame == 1) CHECK(hash != expected);  // not before every pixel had its turn
         }
-        const auto colour = run.planes.colour.span();
-        CHECK(std::equal(whole.begin(), whole.end(), colour.begin()));
+        CHECK(hash == expected);
     }
 }
 
@@ -157,8 +155,9 @@ TEST_CASE("Scales that are none are faults of one line") {
          {Overrides{"raymarch.scale = 3"}, Overrides{"raymarch.temporal = 1"},
           Overrides{"raymarch.temporal = 3"},
           Overrides{"raymarch.temporal = 2", "raymarch.scale = 2"}}) {
-        const Status status =
-            raymarch_method().check(scene_from(kSmallCumulus, marched(wrong)), Budget{});
+        Session session;
+        const Status status = session.open(scene_from(kSmallCumulus, marched(wrong)), {},
+                                           SessionKind::kAnimation, false, nullptr);
         CHECK(status.code == Code::kBadInput);
         CHECK(status.message.find("allowed: ") != std::string::npos);
         CHECK(status.message.find('\n') == std::string::npos);

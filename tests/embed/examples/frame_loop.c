@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: Apache-2.0
  * A frame loop: camera and sun move over a cloud, which is blended over the program's own picture.
- * in: a scene file, a method, a number of frames -> out: a line with the hash of each picture.
+ * in: a scene file, a method, frames, "over" or "plain" (without the picture), a file for the last one
+ * -> out: a line with the hash of each picture, a PPM file.
  * docs/embedding.md explains each step. Needs nothing but pileus.h and the C library. */
 #include <pileus/pileus.h>
 #include <stdio.h>
@@ -34,6 +35,7 @@ int main(int argc, char** argv) {
     static unsigned char colour[4 * WIDTH * HEIGHT];
     static float depth[WIDTH * HEIGHT];
     const int frames = argc > 3 ? atoi(argv[3]) : 10;
+    const int over = argc <= 4 || strcmp(argv[4], "plain") != 0;
     char method[64];
     const char* overrides[3];
     int frame;
@@ -50,7 +52,7 @@ int main(int argc, char** argv) {
     PILEUS_INIT(camera);
     PILEUS_INIT(sun);
     if (argc < 2) {
-        fprintf(stderr, "usage: %s SCENE [METHOD [FRAMES]]\n", argv[0]);
+        fprintf(stderr, "usage: %s SCENE [METHOD [FRAMES [over|plain [PICTURE.ppm]]]]\n", argv[0]);
         return 2;
     }
 
@@ -72,6 +74,7 @@ int main(int argc, char** argv) {
         pileus_depth_image opaque;
         pileus_frame picture;
         uint64_t hash = 0;
+        const double share = frames > 1 ? (double)frame / (frames - 1) : 0;
         PILEUS_INIT(opaque);
         PILEUS_INIT(picture);
 
@@ -80,12 +83,11 @@ int main(int argc, char** argv) {
         camera.height = HEIGHT;
         camera.fov_deg = 40;
         memcpy(camera.target_m, target, sizeof target);
-        pileus_orbit(start, target, 90.0 * frame / (frames > 1 ? frames - 1 : 1),
-                     camera.position_m);
+        pileus_orbit(start, target, 90 * share, camera.position_m);
         check(pileus_session_set_camera(session, &camera, &error), &error);
         sun.present = 1;
         sun.azimuth_deg = 120;
-        sun.elevation_deg = 20 + 30.0 * frame / (frames > 1 ? frames - 1 : 1);
+        sun.elevation_deg = 20 + 30 * share;
         for (i = 0; i < 3; ++i) sun.irradiance[i] = 1;
         check(pileus_session_set_sun(session, &sun, &error), &error);
         check(pileus_session_set_frame(session, frame, &error), &error);
@@ -94,18 +96,18 @@ int main(int argc, char** argv) {
         draw_own_picture(colour, depth);
         opaque.kind = PILEUS_DISTANCE;
         opaque.values = depth;
-        check(pileus_session_set_depth(session, &opaque, &error), &error);
+        if (over) check(pileus_session_set_depth(session, &opaque, &error), &error);
         check(pileus_session_step(session, units, NULL, &error), &error);
         picture.colour = colour;
         picture.format = PILEUS_RGBA8_SRGB;
-        picture.blend = PILEUS_OVER;
+        picture.blend = over ? PILEUS_OVER : PILEUS_REPLACE;
         picture.hash = &hash;
         check(pileus_session_render(session, &picture, &error), &error);
         printf("%d %08lx%08lx\n", frame, (unsigned long)(hash >> 32),
                (unsigned long)(hash & 0xffffffffu));
     }
-    if (argc > 4) {
-        FILE* file = fopen(argv[4], "wb");
+    if (argc > 5) {
+        FILE* file = fopen(argv[5], "wb");
         if (file == NULL) return 4;
         fprintf(file, "P6\n%d %d\n255\n", WIDTH, HEIGHT);
         for (i = 0; i < WIDTH * HEIGHT; ++i) fwrite(colour + 4 * i, 1, 3, file);

@@ -1,0 +1,71 @@
+# SPDX-License-Identifier: Apache-2.0
+# What others link: a static and a shared library that show pileus.h alone, and how they are found.
+# in: object libraries, PILEUS_WITH_<LIBRARY> -> out: targets pileus_static, pileus_shared, rules to install
+# docs/embedding.md; tests/embed builds programs against an installed tree
+include(GNUInstallDirs)
+include(CMakePackageConfigHelpers)
+
+set(objects $<TARGET_OBJECTS:pileus_objects> $<TARGET_OBJECTS:pileus_dispatch> ${PILEUS_ISA_OBJECTS}
+    ${PILEUS_CUDA_OBJECTS})
+add_library(pileus_static STATIC ${objects})
+set(libraries pileus_static)
+set(PILEUS_HAS_SHARED FALSE)
+# A foreign machine's programs are static, and sanitizers belong to programs.
+if(PILEUS_SHARED AND NOT CMAKE_CROSSCOMPILING AND NOT PILEUS_SANITIZE)
+    add_library(pileus_shared SHARED ${objects})
+    target_link_libraries(pileus_shared PRIVATE ${PILEUS_LINK_LIBRARIES})
+    target_link_options(pileus_shared PRIVATE -Wl,--no-undefined
+        -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/pileus.map)
+    set_target_properties(pileus_shared PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 1
+        LINK_DEPENDS "${PROJECT_SOURCE_DIR}/cmake/pileus.map")
+    list(APPEND libraries pileus_shared)
+    set(PILEUS_HAS_SHARED TRUE)
+endif()
+set_target_properties(${libraries} PROPERTIES OUTPUT_NAME pileus LINKER_LANGUAGE CXX)
+
+# What a static library's program needs besides, for CMake and for pkg-config.
+set(PILEUS_DEPENDENCIES)
+set(PILEUS_STATIC_LINKS stdc++ m)
+set(PILEUS_PC_REQUIRES)
+set(PILEUS_PC_LIBS "-lstdc++ -lm")
+foreach(row "OPENEXR OpenEXR OpenEXR::OpenEXR OpenEXR" "PNG PNG PNG::PNG libpng"
+        "ZLIB ZLIB ZLIB::ZLIB zlib")
+    separate_arguments(row)
+    list(POP_FRONT row name package target pc)
+    if(PILEUS_WITH_${name})
+        string(APPEND PILEUS_DEPENDENCIES "find_dependency(${package})\n")
+        list(APPEND PILEUS_STATIC_LINKS ${target})
+        string(APPEND PILEUS_PC_REQUIRES " ${pc}")
+    endif()
+endforeach()
+foreach(row "BLOSC blosc" "OPENMP gomp")
+    separate_arguments(row)
+    list(POP_FRONT row name link)
+    if(PILEUS_WITH_${name})
+        if(name STREQUAL OPENMP AND CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+            set(link omp)
+        endif()
+        list(APPEND PILEUS_STATIC_LINKS ${link})
+        string(APPEND PILEUS_PC_LIBS " -l${link}")
+    endif()
+endforeach()
+if(NOT CMAKE_CROSSCOMPILING)
+    list(APPEND PILEUS_STATIC_LINKS ${CMAKE_DL_LIBS} pthread)
+    string(APPEND PILEUS_PC_LIBS " -ldl -lpthread")
+endif()
+
+configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/pileusConfig.cmake.in"
+    "${PROJECT_BINARY_DIR}/package/pileusConfig.cmake"
+    INSTALL_DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/pileus"
+    PATH_VARS CMAKE_INSTALL_INCLUDEDIR CMAKE_INSTALL_LIBDIR)
+write_basic_package_version_file("${PROJECT_BINARY_DIR}/package/pileusConfigVersion.cmake"
+    COMPATIBILITY SameMinorVersion)
+configure_file("${PROJECT_SOURCE_DIR}/cmake/pileus.pc.in" "${PROJECT_BINARY_DIR}/package/pileus.pc"
+    @ONLY)
+install(TARGETS ${libraries})
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/include/pileus" TYPE INCLUDE)
+install(FILES "${PROJECT_BINARY_DIR}/package/pileusConfig.cmake"
+    "${PROJECT_BINARY_DIR}/package/pileusConfigVersion.cmake"
+    DESTINATION "${CMAKE_INSTALL_LIBDIR}/cmake/pileus")
+install(FILES "${PROJECT_BINARY_DIR}/package/pileus.pc"
+    DESTINATION "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
