@@ -62,7 +62,9 @@ endif()
 # The library itself neither throws nor asks for types at run time. What a host may call is unwound
 # where the C++ runtime finds no memory, so that nothing leaks; kernels never throw.
 add_library(pileus_strict INTERFACE)
-target_compile_options(pileus_strict INTERFACE -fno-rtti)
+# What it shows of itself is the functions of pileus.h; sections of their own let a linker drop the rest.
+target_compile_options(pileus_strict INTERFACE -fno-rtti -fvisibility=hidden
+    -fvisibility-inlines-hidden -ffunction-sections -fdata-sections)
 add_library(pileus_nothrow INTERFACE)
 target_compile_options(pileus_nothrow INTERFACE -fno-exceptions)
 target_link_libraries(pileus_nothrow INTERFACE pileus_strict)

@@ -14,7 +14,7 @@ set(PILEUS_HAS_SHARED FALSE)
 if(PILEUS_SHARED AND NOT CMAKE_CROSSCOMPILING AND NOT PILEUS_SANITIZE)
     add_library(pileus_shared SHARED ${objects})
     target_link_libraries(pileus_shared PRIVATE ${PILEUS_LINK_LIBRARIES})
-    target_link_options(pileus_shared PRIVATE -Wl,--no-undefined
+    target_link_options(pileus_shared PRIVATE -Wl,--no-undefined -Wl,--gc-sections
         -Wl,--version-script=${PROJECT_SOURCE_DIR}/cmake/pileus.map)
     set_target_properties(pileus_shared PROPERTIES VERSION ${PROJECT_VERSION} SOVERSION 1
         LINK_DEPENDS "${PROJECT_SOURCE_DIR}/cmake/pileus.map")

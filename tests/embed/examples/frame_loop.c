@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
     const int frames = argc > 3 ? atoi(argv[3]) : 10;
     const int over = argc <= 4 || strcmp(argv[4], "plain") != 0;
     char method[64];
-    const char* overrides[3];
+    const char* overrides[4];
     int frame;
     uint32_t i;
     pileus_error error;
@@ -61,7 +61,8 @@ int main(int argc, char** argv) {
     overrides[0] = method;
     overrides[1] = "collectors.photons=20000";
     overrides[2] = "collectors.generations=10";
-    check(pileus_scene_read(argv[1], overrides, 3, &scene, &error), &error);
+    overrides[3] = "path.samples_per_pixel=2";
+    check(pileus_scene_read(argv[1], overrides, 4, &scene, &error), &error);
     check(pileus_world_create(scene, NULL, NULL, 0, &world, &error), &error);
     check(pileus_session_create(world, scene, NULL, &session, &error), &error);
     check(pileus_session_light(session, &light, &error), &error);
