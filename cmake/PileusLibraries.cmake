@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Finds foreign libraries: four required sets of headers, ten optional libraries.
+# Finds foreign libraries: five required sets of headers, ten optional libraries.
 # in: PILEUS_<LIBRARY> options -> out: target pileus_headers, PILEUS_WITH_<LIBRARY> (0 or 1),
 # PILEUS_LINK_LIBRARIES, PILEUS_LIBRARY_DEFINITIONS. Debian package names: tools/install_packages
 add_library(pileus_headers INTERFACE)
@@ -24,9 +24,19 @@ function(pileus_find_headers name folder header package)
     target_include_directories(pileus_headers SYSTEM INTERFACE "${place}")
 endfunction()
 
+# GLM's own package knows its place, where there is one; else it is looked for like the others.
+find_package(glm CONFIG QUIET)
+if(TARGET glm::glm)
+    get_target_property(place glm::glm INTERFACE_INCLUDE_DIRECTORIES)
+    if(EXISTS "${place}/glm/glm.hpp")
+        set(PILEUS_GLM_INCLUDE "${place}" CACHE PATH "Folder that holds glm/glm.hpp")
+    endif()
+endif()
+
 set(missing)
 foreach(row "TOMLPLUSPLUS toml++ toml.h libtomlplusplus-dev" "CLI11 CLI CLI.hpp libcli11-dev"
-        "FMT fmt format.h libfmt-dev" "JSON nlohmann json.hpp nlohmann-json3-dev")
+        "FMT fmt format.h libfmt-dev" "JSON nlohmann json.hpp nlohmann-json3-dev"
+        "GLM glm glm.hpp libglm-dev")
     separate_arguments(row)
     pileus_find_headers(${row})
     list(GET row 0 name)

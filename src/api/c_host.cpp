@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // See c_types.h. Versions, errors, what a host lends.
+#include <glm/gtc/type_ptr.hpp>
+
 #include "src/api/c_types.h"
 #include "src/world/camera/view.h"
 
@@ -74,9 +76,8 @@ void pileus_orbit(const double position_m[3], const double target_m[3], double d
                   double turned_m[3]) {
     const pileus::FpModeGuard mode;
     const pileus::Double3 turned =
-        pileus::orbit({position_m[0], position_m[1], position_m[2]},
-                      {target_m[0], target_m[1], target_m[2]}, degrees);
-    for (std::size_t a = 0; a < 3; ++a) turned_m[a] = turned[a];
+        pileus::orbit(glm::make_vec3(position_m), glm::make_vec3(target_m), degrees);
+    for (int a = 0; a < 3; ++a) turned_m[a] = turned[a];
 }
 
 }  // extern "C"

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // pileus.h: sessions and what a host sets in them.
+#include <glm/gtc/type_ptr.hpp>
+
 #include "src/api/c_types.h"
 
 namespace pileus::api {
@@ -144,16 +146,11 @@ pileus_code pileus_session_set_matrices(pileus_session* session, const double vi
     return call(session->host.get(), error, [&]() -> Status {
         if (view == nullptr || projection == nullptr)
             return Status::bad_input("view, projection: null, allowed: 16 numbers each");
-        glm::dmat4 v, p;
-        for (int c = 0; c < 4; ++c)
-            for (int r = 0; r < 4; ++r) {
-                v[c][r] = view[4 * c + r];
-                p[c][r] = projection[4 * c + r];
-            }
         Camera camera = session->session.camera();
         DepthScale scale;
         PILEUS_TRY(take_size(width, height, camera));
-        PILEUS_TRY(camera_from_matrices(v, p, clip == PILEUS_CLIP_ZERO, camera, scale));
+        PILEUS_TRY(camera_from_matrices(glm::make_mat4(view), glm::make_mat4(projection),
+                                        clip == PILEUS_CLIP_ZERO, camera, scale));
         PILEUS_TRY(session->session.set_camera(camera));
         return session->session.set_depth_scale(scale);
     });

@@ -86,7 +86,8 @@ void store_row(const Planes& p, std::size_t first, std::size_t width, PixelBlend
         if (blend == PixelBlend::kOver) {
             std::memcpy(held, at, sizeof held);
             const float left = 1.0f - v.c[3];
-            for (int c = 0; c < 4; ++c) v.c[c] += left * load(held[c]);
+            // What is hidden may be infinite, and no times infinity is no number.
+            for (int c = 0; c < 4 && left > 0.0f; ++c) v.c[c] += left * load(held[c]);
         }
         for (int c = 0; c < 4; ++c) held[c] = store(v.c[c]);
         std::memcpy(at, held, sizeof held);

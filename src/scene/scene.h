@@ -8,11 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "src/base/vectors.h"
 #include "src/scene/sky_settings.h"
 
 namespace pileus {
 
-using Double3 = std::array<double, 3>;
 using Float3 = std::array<float, 3>;
 
 /// The image plane of a host's projection, at distance 1, or in metres of parallel rays.

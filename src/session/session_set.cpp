@@ -11,13 +11,9 @@
 namespace pileus {
 namespace {
 
-Double3 minus(const Double3& a, const Double3& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
 /// By -yaw about the z axis.
 Double3 turned_back(const Double3& v, const SineCosine& yaw) {
-    return {v[0] * yaw.cosine + v[1] * yaw.sine, v[1] * yaw.cosine - v[0] * yaw.sine, v[2]};
+    return {v.x * yaw.cosine + v.y * yaw.sine, v.y * yaw.cosine - v.x * yaw.sine, v.z};
 }
 
 bool is_positive(double v) { return v > 0 && v < 1e15; }
@@ -114,7 +110,7 @@ Status Session::set_ground(const Ground& ground) {
 }
 
 Status Session::set_placement(const Double3& offset_m, double yaw_deg) {
-    for (const double v : offset_m)
+    for (const double v : {offset_m.x, offset_m.y, offset_m.z})
         if (!(v > -1e9 && v < 1e9))
             return Status::bad_input("placement.offset_m: out of range, allowed: within 1e9 m");
     if (!(yaw_deg > -1e6 && yaw_deg < 1e6))
@@ -165,11 +161,11 @@ void Session::place() {
     if (yaw_deg_ == 0 && offset_m_ == Double3{}) return;
     const SineCosine yaw = sincos_deg(yaw_deg_);
     Camera& c = scene_.camera;
-    c.position_m = turned_back(minus(camera_.position_m, offset_m_), yaw);
-    c.target_m = turned_back(minus(camera_.target_m, offset_m_), yaw);
+    c.position_m = turned_back(camera_.position_m - offset_m_, yaw);
+    c.target_m = turned_back(camera_.target_m - offset_m_, yaw);
     c.up = turned_back(camera_.up, yaw);
     scene_.sun.azimuth_deg += yaw_deg_;
-    scene_.ground.altitude_m -= offset_m_[2];
+    scene_.ground.altitude_m -= offset_m_.z;
 }
 
 }  // namespace pileus

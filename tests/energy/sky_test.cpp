@@ -130,8 +130,8 @@ TEST_CASE("sky map: one bright texel is a sun of the same direction and irradian
     light_by_map(a, map);
     const double theta = (kRow + 0.5) * kPi64 / kRows;
     const double phi = (kColumn + 0.5) * 2 * kPi64 / kColumns - kPi64;
-    const std::array<double, 3> travel{-std::sin(theta) * std::sin(phi),
-                                       -std::sin(theta) * std::cos(phi), -std::cos(theta)};
+    const Double3 travel{-std::sin(theta) * std::sin(phi), -std::sin(theta) * std::cos(phi),
+                         -std::cos(theta)};
     const Light sun = beam_light(b.medium, travel);
     add_light(b, sun);
     const double texel = kPi64 / kRows;

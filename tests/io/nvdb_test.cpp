@@ -21,8 +21,8 @@ TEST_CASE("NanoVDB: leaves, tiles and places of four kinds of grids") {
             INFO(status.message);
             REQUIRE(status);
             REQUIRE(v.size == std::array<int, 3>{24, 8, 8});
-            CHECK(v.bounds_m[0] == std::array<double, 3>{-0.25, 9, -2});
-            CHECK(v.bounds_m[1] == std::array<double, 3>{11.75, 25, 30});
+            CHECK(v.bounds_m[0] == Double3{-0.25, 9, -2});
+            CHECK(v.bounds_m[1] == Double3{11.75, 25, 30});
             long wrong = 0;
             for (unsigned z = 0; z < 8; ++z)
                 for (unsigned y = 0; y < 8; ++y)

@@ -37,8 +37,8 @@ TEST_CASE("pbrt volume: any order, comments, brackets and signs") {
     CHECK(volume.density[2] == 0.0f);
     CHECK(volume.density[3] == 0.25f);
     CHECK(volume.knows_bounds);
-    CHECK(volume.bounds_m[0] == std::array<double, 3>{-1, 0, 0.25});
-    CHECK(volume.bounds_m[1] == std::array<double, 3>{1, 2, 3.5});
+    CHECK(volume.bounds_m[0] == Double3{-1, 0, 0.25});
+    CHECK(volume.bounds_m[1] == Double3{1, 2, 3.5});
 }
 
 TEST_CASE("pbrt volume: without points the box is not known") {

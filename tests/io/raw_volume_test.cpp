@@ -121,8 +121,8 @@ TEST_CASE("volume: y up becomes z up by a right-handed turn") {
     CHECK(v.density[2] == 2.0f);                      // (0,1,0) was x 0, y 0, z 2
     CHECK(v.density[8] == 13.0f);                     // (0,0,1) was x 0, y 1, z 3
     CHECK(v.density[(2 * 4 + 3) * 2 + 1] == 120.0f);  // (1,3,2) was x 1, y 2, z 0
-    CHECK(v.bounds_m[0] == std::array<double, 3>{1, -8, 2});
-    CHECK(v.bounds_m[1] == std::array<double, 3>{4, -3, 6});
+    CHECK(v.bounds_m[0] == Double3{1, -8, 2});
+    CHECK(v.bounds_m[1] == Double3{4, -3, 6});
 }
 
 TEST_CASE("volume: format by key or extension, axes in file order") {

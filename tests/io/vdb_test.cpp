@@ -103,8 +103,8 @@ TEST_CASE("OpenVDB: what is written is read, cropped to what is not 0") {
     CHECK(again.size == std::array<int, 3>{3, 1, 4});
     CHECK(again.density[0] == 0.5f);
     CHECK(again.density[11] == 0.25f);
-    CHECK(again.bounds_m[0] == std::array<double, 3>{-3 + 5 * 0.25, 10 + 4 * 0.5, 1003});
-    CHECK(again.bounds_m[1] == std::array<double, 3>{-3 + 8 * 0.25, 10 + 5 * 0.5, 1007});
+    CHECK(again.bounds_m[0] == Double3{-3 + 5 * 0.25, 10 + 4 * 0.5, 1003});
+    CHECK(again.bounds_m[1] == Double3{-3 + 8 * 0.25, 10 + 5 * 0.5, 1007});
     VolumeHead head;
     std::string bytes = encoded(v, false);
     REQUIRE(decode_vdb_head("a.vdb", {bytes.data(), bytes.size()}, "density", VdbLimits(), head));
@@ -115,7 +115,7 @@ TEST_CASE("OpenVDB: what is written is read, cropped to what is not 0") {
     CHECK(decode(bytes, again));
     v.knows_bounds = false;
     REQUIRE(decode(encoded(v, false), again));
-    CHECK(again.bounds_m[0] == std::array<double, 3>{5, 4, 3});
+    CHECK(again.bounds_m[0] == Double3{5, 4, 3});
 }
 
 TEST_CASE("OpenVDB: files, dispatch and raw files out") {

@@ -63,8 +63,8 @@ TEST_CASE("vol: size, box and values, read and decoded alike") {
     CHECK(v.size == std::array<int, 3>{2, 1, 3});
     CHECK(v.knows_bounds);
     CHECK_FALSE(v.in_extinction);
-    CHECK(v.bounds_m[0] == std::array<double, 3>{-1, 0, 0.5});
-    CHECK(v.bounds_m[1] == std::array<double, 3>{1, 2, 3});
+    CHECK(v.bounds_m[0] == Double3{-1, 0, 0.5});
+    CHECK(v.bounds_m[1] == Double3{1, 2, 3});
     const std::vector<float> wanted = Parts().values;
     REQUIRE(v.density.size() == wanted.size());
     for (std::size_t i = 0; i < wanted.size(); ++i) CHECK(v.density[i] == wanted[i]);

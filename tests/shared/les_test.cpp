@@ -18,7 +18,7 @@ namespace {
 struct Facts {
     std::string name;
     std::array<int, 3> size;
-    std::array<double, 3> cell_m;
+    Double3 cell_m;
     double bottom_m;
     int filled;
     double most, mean, mean_depth, most_depth;
@@ -115,7 +115,7 @@ TEST_CASE("vol grids: a density is read, a colour refused") {
     Volume v;
     REQUIRE(read_volume({}, folder + "sigmat.vol", v));
     CHECK(v.size == std::array<int, 3>{16, 16, 16});
-    CHECK(v.bounds_m[1] == std::array<double, 3>{1, 1, 1});
+    CHECK(v.bounds_m[1] == Double3{1, 1, 1});
     double sum = 0;
     float most = 0;
     int filled = 0;

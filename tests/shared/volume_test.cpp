@@ -29,8 +29,8 @@ TEST_CASE("smoke volume, frame 70: size, box and statistics") {
     MESSAGE("read in ", seconds, " s");
     CHECK(volume.size == std::array<int, 3>{100, 100, 40});
     CHECK(volume.knows_bounds);
-    CHECK(volume.bounds_m[0] == std::array<double, 3>{0.01, 0.01, 0.01});
-    CHECK(volume.bounds_m[1] == std::array<double, 3>{1.99, 1.99, 0.79});
+    CHECK(volume.bounds_m[0] == Double3{0.01, 0.01, 0.01});
+    CHECK(volume.bounds_m[1] == Double3{1.99, 1.99, 0.79});
 
     // The published figures are rounded: half of their last digit is the tolerance.
     double sum = 0;

@@ -200,7 +200,7 @@ TEST_CASE("S34: one box in grids of 1, 2, 7, 64 cubed and 37 x 53 x 11 passes ex
 TEST_CASE("S35, S36: rods, plates and voxels of 1:1000 keep 4V/S and exp(-tau)") {
     struct Row {
         std::array<int, 3> size;
-        std::array<double, 3> extent;
+        Double3 extent;
     };
     const Row rows[] = {{{1, 1, 1}, {1, 1, 1}},    {{1, 1, 50}, {1, 1, 50}},
                         {{50, 1, 1}, {50, 1, 1}},  {{1, 1, 40}, {1000, 1000, 40}},

@@ -22,8 +22,8 @@ inline Mean flux(const Rig& rig, double z, bool up, std::uint64_t samples, std::
 }
 
 /// Radiance at a level that travels along `travel`.
-inline Mean radiance(const Rig& rig, double z, const std::array<double, 3>& travel,
-                     std::uint64_t samples, std::uint64_t seed) {
+inline Mean radiance(const Rig& rig, double z, const Double3& travel, std::uint64_t samples,
+                     std::uint64_t seed) {
     const CameraParams camera = make_flat_view(
         place(z), {float(-travel[0]), float(-travel[1]), float(-travel[2])}, 1e-3f, 1, 1);
     PathInput in = path_input(rig, camera, seed);
@@ -74,7 +74,7 @@ inline std::array<float, 3> sun_at(double mu0) {
 }
 
 /// Travel with cosine `mu` upward, turned by `phi_deg` from the azimuth of that sun's light.
-inline std::array<double, 3> travel_of(double mu, double phi_deg) {
+inline Double3 travel_of(double mu, double phi_deg) {
     const double s = std::sqrt(std::fmax(0.0, 1 - mu * mu)), phi = phi_deg * std::acos(-1.0) / 180;
     return {-s * std::cos(phi), -s * std::sin(phi), mu};
 }

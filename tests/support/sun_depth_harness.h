@@ -16,7 +16,7 @@ struct Rig {
 };
 
 /// Random densities in [0, 1), one in three of them 0.
-inline Rig random_box(std::array<int, 3> size, std::array<double, 3> extent_m, double sigma) {
+inline Rig random_box(std::array<int, 3> size, Double3 extent_m, double sigma) {
     Rig rig;
     Medium& m = rig.medium;
     m.volume.size = size;

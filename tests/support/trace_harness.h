@@ -47,7 +47,7 @@ inline void set_majorants(Rig& rig, int block) {
 }
 
 /// A box of density 1, isotropic and white.
-inline Rig make_rig(std::array<int, 3> size, std::array<double, 3> extent_m, double sigma) {
+inline Rig make_rig(std::array<int, 3> size, Double3 extent_m, double sigma) {
     Rig rig;
     Medium& m = rig.medium;
     m.volume.size = size;

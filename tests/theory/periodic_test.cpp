@@ -68,7 +68,7 @@ Rig make_waves(int shift) {
 TEST_CASE("periodic slab of any box gives van de Hulst's shares") {
     const struct {
         std::array<int, 3> size;
-        std::array<double, 3> extent;
+        Double3 extent;
         int block;
     } boxes[] = {{{1, 1, 1}, {1, 1, 1}, 0},
                  {{7, 5, 6}, {1, 1, 1}, 2},

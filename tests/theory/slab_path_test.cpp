@@ -44,7 +44,7 @@ Mean by_sun(const slab_list::Case& c, bool reflected, std::uint64_t count, std::
 /// through the slab along the sun's light, is by reciprocity the share of the sun's flux.
 Mean by_sky(const slab_list::Case& c, bool reflected, std::uint64_t count, std::uint64_t seed) {
     const Rig rig = make_skylit(c);
-    std::array<double, 3> travel = travel_of(reflected ? c.mu0 : -c.mu0, 0);
+    Double3 travel = travel_of(reflected ? c.mu0 : -c.mu0, 0);
     return radiance(rig, reflected ? 1.5 : -0.5, travel, count, seed);
 }
 

@@ -18,7 +18,7 @@ std::string compiler_text();
 
 /// Lines "size" and, where the place is known, "box".
 std::string size_lines(const std::array<int, 3>& size, bool knows_bounds,
-                       const std::array<std::array<double, 3>, 2>& bounds_m);
+                       const std::array<Double3, 2>& bounds_m);
 
 Status scene_lines(const std::string& path, std::string& lines);
 Status image_lines(const std::string& path, std::string& lines);

@@ -154,7 +154,7 @@ Status image_lines(const std::string& path, std::string& lines) {
 }
 
 std::string size_lines(const std::array<int, 3>& n, bool knows_bounds,
-                       const std::array<std::array<double, 3>, 2>& b) {
+                       const std::array<Double3, 2>& b) {
     std::string lines = info_line("size", fmt::format("{} x {} x {}", n[0], n[1], n[2]));
     if (!knows_bounds) return lines + info_line("box", "not in the file");
     lines += info_line("cell", fmt::format("{:.6g} x {:.6g} x {:.6g} m", (b[1][0] - b[0][0]) / n[0],

@@ -268,7 +268,7 @@ bool has_commas(const std::string& name, Span<const char> text) {
 
 /// Where the grid lies once its levels are equal layers.
 void set_place(const Header& header, std::array<int, 3>& size, bool& knows_bounds,
-               std::array<std::array<double, 3>, 2>& bounds_m) {
+               std::array<Double3, 2>& bounds_m) {
     size = {int(header.size[0]), int(header.size[1]), int(header.size[2])};
     bounds_m = {};
     knows_bounds = header.size[2] > 1;

@@ -15,7 +15,7 @@ using Range = TextRange;
 /// What the parameters said; the list of densities is only found, not yet read.
 struct Grid {
     std::array<std::int64_t, 3> size{-1, -1, -1};
-    std::array<std::array<double, 3>, 2> points{};
+    std::array<Double3, 2> points{};
     std::array<bool, 2> has_point{false, false};
     Range density;
     bool has_density = false;
@@ -37,7 +37,7 @@ private:
     Status quoted(Range& range, const char* what, std::string& word) const;
     Status values(Range& range, const std::string& key, Range& list) const;
     Status single(Range list, const std::string& key, std::int64_t& value) const;
-    Status point(Range list, const std::string& key, std::array<double, 3>& value) const;
+    Status point(Range list, const std::string& key, Double3& value) const;
     Status parameter(const std::string& key, std::size_t at, Range list, Grid& grid) const;
     Status check(const Grid& grid) const;
     Status wrong_count(const Grid& grid, std::uint64_t count) const;
@@ -100,8 +100,9 @@ Status Reader::single(Range list, const std::string& key, std::int64_t& value) c
     return Status::ok();
 }
 
-Status Reader::point(Range list, const std::string& key, std::array<double, 3>& value) const {
-    for (double& coordinate : value) {
+Status Reader::point(Range list, const std::string& key, Double3& value) const {
+    for (int a = 0; a < 3; ++a) {
+        double& coordinate = value[a];
         skip(list);
         const std::size_t at = list.at;
         PILEUS_TRY(number(list, key, coordinate));

@@ -8,22 +8,23 @@
 #include <string>
 
 #include "src/base/buffer.h"
+#include "src/base/vectors.h"
 
 namespace pileus {
 
 struct Volume {
-    std::array<int, 3> size{0, 0, 0};                 ///< cells along x, y, z; each 1..4096
-    Buffer<float> density;                            ///< index (z*ny + y)*nx + x; finite, >= 0
-    bool knows_bounds = false;                        ///< the file says where its box lies
-    std::array<std::array<double, 3>, 2> bounds_m{};  ///< outer faces of the box, metres
-    bool in_extinction = false;  ///< values are extinction in 1/m, not relative densities
+    std::array<int, 3> size{0, 0, 0};   ///< cells along x, y, z; each 1..4096
+    Buffer<float> density;              ///< index (z*ny + y)*nx + x; finite, >= 0
+    bool knows_bounds = false;          ///< the file says where its box lies
+    std::array<Double3, 2> bounds_m{};  ///< outer faces of the box, metres
+    bool in_extinction = false;         ///< values are extinction in 1/m, not relative densities
 };
 
 /// What a file says about itself before its values are read.
 struct VolumeHead {
     std::array<int, 3> size{0, 0, 0};  ///< within the limits of check_volume_size
     bool knows_bounds = false;
-    std::array<std::array<double, 3>, 2> bounds_m{};
+    std::array<Double3, 2> bounds_m{};
     bool in_extinction = false;
     std::uint64_t unpacked_bytes = 0;  ///< held beside the file while it is read
     std::string kind;                  ///< "pbrt text volume", "OpenVDB fog volume"

@@ -31,7 +31,7 @@ std::string voxel_name(const std::array<int, 3>& size, std::uint64_t index) {
            std::to_string(index / nx / ny) + " (index " + std::to_string(index) + ')';
 }
 
-void turn_y_up(std::array<int, 3>& size, std::array<std::array<double, 3>, 2>& bounds_m) {
+void turn_y_up(std::array<int, 3>& size, std::array<Double3, 2>& bounds_m) {
     const auto box = bounds_m;
     size = {size[0], size[2], size[1]};
     bounds_m = {{{box[0][0], -box[1][2], box[0][1]}, {box[1][0], -box[0][2], box[1][1]}}};

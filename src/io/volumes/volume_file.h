@@ -52,7 +52,7 @@ Status write_raw_volume(const std::string& path, RawType type, bool big_endian,
                         const Volume& volume);
 
 /// Size and box of a grid that permute_y_up turns; mirroring an axis exchanges its two faces.
-void turn_y_up(std::array<int, 3>& size, std::array<std::array<double, 3>, 2>& bounds_m);
+void turn_y_up(std::array<int, 3>& size, std::array<Double3, 2>& bounds_m);
 
 /// Turns a grid whose y axis points up by +90 degrees about x: (x, y, z) -> (x, -z, y), values and
 /// box alike, so that z points up and handedness is kept. Out of memory: kLimit.

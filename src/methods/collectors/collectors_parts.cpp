@@ -13,8 +13,7 @@ Lighting sun_alone(const Lighting& all) {
     Lighting sun = all;
     for (Light& light : sun.lights) {
         if (light.beam) continue;
-        light.colour =
-            light.map || light.hemisphere <= 0 ? std::array<double, 3>{} : all.ground_sun;
+        light.colour = light.map || light.hemisphere <= 0 ? Double3{} : all.ground_sun;
     }
     sun.constant = sun.sky = sun.ground_diffuse = {};
     sun.map = SkyMapView{};

@@ -95,11 +95,8 @@ NodeGrid sky_node_grid(const Medium& medium) {
 
 int sky_node_sets(const Lighting& light) {
     if (light.map.columns > 0) return 3;
-    double any = 0;
-    for (double v : light.sky) any += v;
-    for (double v : light.ground_diffuse) any += v;
-    for (double v : light.ground_sun) any += v;
-    return !(any > 0) ? 0 : light.ground ? 2 : 1;
+    const Double3 sum = light.sky + light.ground_diffuse + light.ground_sun;
+    return !(sum.x + sum.y + sum.z > 0) ? 0 : light.ground ? 2 : 1;
 }
 
 Status make_sky_nodes(const Context& context, const Medium& medium, const Majorants& majorants,

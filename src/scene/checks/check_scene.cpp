@@ -2,7 +2,7 @@
 // Laws between the keys of a scene that no single key can break.
 // in: keys that passed their own checks -> out: what is present, dependent defaults; faults.
 // docs/scene.md.
-#include <cmath>
+#include <glm/geometric.hpp>
 
 #include "src/scene/checks/check_keys.h"
 #include "src/scene/rows/picture_format.h"
@@ -19,8 +19,6 @@ void conflict(SceneCheck& check, const char* key, const char* with) {
                          std::string("conflicts with ") + with + ", " + value_text(*node) +
                              ", allowed: left out");
 }
-
-double length(const Double3& v) { return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]); }
 
 void check_camera(SceneCheck& check) {
     const Camera& camera = check.scene.camera;
@@ -41,24 +39,23 @@ void check_camera(SceneCheck& check) {
     const Node* position = check.valid_key("camera.position_m");
     const Node* up_node = check.key("camera.up");
     const bool up_valid = up_node == nullptr || check.valid_key("camera.up") != nullptr;
-    if (up_valid && length(camera.up) == 0) {
+    if (up_valid && glm::length(camera.up) == 0) {
         check.faults.add(
             up_node->at, "camera.up",
             "no direction, " + value_text(*up_node) + ", allowed: any but the zero vector");
         return;
     }
     if (target == nullptr || position == nullptr) return;
-    const Double3 &p = camera.position_m, &q = camera.target_m, &up = camera.up;
-    const Double3 view{q[0] - p[0], q[1] - p[1], q[2] - p[2]};
-    if (length(view) == 0) {
+    const Double3 view = camera.target_m - camera.position_m;
+    if (glm::length(view) == 0) {
         check.faults.add(
             target->at, "camera.target_m",
             "same as position_m, " + value_text(*target) + ", allowed: any other point");
         return;
     }
-    const Double3 cross{view[1] * up[2] - view[2] * up[1], view[2] * up[0] - view[0] * up[2],
-                        view[0] * up[1] - view[1] * up[0]};
-    if (up_valid && length(cross) <= kLeastSine * length(view) * length(up)) {
+    const Double3 across = glm::cross(view, camera.up);
+    if (up_valid &&
+        glm::length(across) <= kLeastSine * glm::length(view) * glm::length(camera.up)) {
         const Node& blamed = up_node != nullptr ? *up_node : *target;
         check.faults.add(blamed.at, "camera.up",
                          "parallel to the view, " +

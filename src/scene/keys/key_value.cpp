@@ -72,11 +72,15 @@ Node node_of(const std::string& value) {
     return node;
 }
 
+Node node_of(const Double3& value) {
+    return node_of(std::array<double, 3>{value.x, value.y, value.z});
+}
+
 std::int64_t integer_of(const Node& node) {
     return node.kind == NodeKind::kInteger ? node.integer : static_cast<std::int64_t>(node.number);
 }
 
-std::array<double, 3> number3_of(const Node& node) {
+Double3 number3_of(const Node& node) {
     return {number_of(node.children[0]), number_of(node.children[1]), number_of(node.children[2])};
 }
 

@@ -9,6 +9,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "src/base/vectors.h"
 #include "src/scene/toml/toml_tree.h"
 
 namespace pileus {
@@ -23,6 +24,7 @@ Node node_of(double value);
 /// The double of the shortest decimal text, so that 0.2f is written 0.2.
 Node node_of(float value);
 Node node_of(const std::string& value);
+Node node_of(const Double3& value);
 inline Node node_of(int value) { return node_of(std::int64_t{value}); }
 
 /// Enumerations as their number, lists element by element.
@@ -40,7 +42,7 @@ Node node_of(const List& list) {
 
 std::int64_t integer_of(const Node& node);
 std::array<double, 2> number2_of(const Node& node);
-std::array<double, 3> number3_of(const Node& node);
+Double3 number3_of(const Node& node);
 bool texts_hold(const Node& node, std::string_view text);
 
 inline void take(const Node& node, bool& value) { value = node.flag; }
@@ -57,6 +59,7 @@ template <class Enum, std::enable_if_t<std::is_enum_v<Enum>, int> = 0>
 void take(const Node& node, Enum& value) {
     value = static_cast<Enum>(node.integer);
 }
+inline void take(const Node& node, Double3& value) { value = number3_of(node); }
 /// One number stands for all of a colour's.
 template <class Value, std::size_t N>
 void take(const Node& node, std::array<Value, N>& values) {

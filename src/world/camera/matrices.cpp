@@ -13,8 +13,6 @@ constexpr double kInfinity = double(__builtin_inff());
 /// How far a host's floats may be from a rotation.
 constexpr double kRigid = 1e-4;
 
-Double3 to_double3(const glm::dvec3& v) { return {v.x, v.y, v.z}; }
-
 bool is_near(double a, double b) { return a - b < kRigid && b - a < kRigid; }
 
 bool is_finite(const glm::dmat4& m) {
@@ -107,9 +105,9 @@ Status camera_from_matrices(const glm::dmat4& view, const glm::dmat4& projection
     camera.frustum.shift_y = sign * middle.y / p[1].y;
     camera.orthographic = flat;
     camera.flux = false;
-    camera.position_m = to_double3(position);
-    camera.target_m = to_double3(position - back);
-    camera.up = to_double3(up);
+    camera.position_m = position;
+    camera.target_m = position - back;
+    camera.up = up;
 
     scale.a = -p[2].z;
     scale.b = p[3].z;

@@ -238,7 +238,7 @@ Status check(const CumulusSettings& s) {
         if (n < 3 || n > 4096)
             return Status::bad_input("resolution: " + std::to_string(n) +
                                      " cells, allowed 3..4096 for procedural:cumulus");
-    for (double e : s.extent_m) {
+    for (const double e : {s.extent_m.x, s.extent_m.y, s.extent_m.z}) {
         const double share = e / s.extent_m[2];
         if (!(e > 0 && share >= 1e-3 && share <= 1e3))
             return Status::bad_input("bounds_m: the box's width over its height is " +
@@ -282,8 +282,7 @@ Status make_row(const MediumSettings& medium, const DensityMaking& with, Volume&
     CumulusSettings settings;
     settings.resolution = with.size;
     settings.seed = medium.shape_seed;
-    for (std::size_t a = 0; a < 3; ++a)
-        settings.extent_m[a] = medium.bounds_m[1][a] - medium.bounds_m[0][a];
+    settings.extent_m = medium.bounds_m[1] - medium.bounds_m[0];
     return make_cumulus(settings, with.threads, volume);
 }
 

@@ -12,9 +12,9 @@
 namespace pileus {
 
 struct CumulusSettings {
-    std::array<int, 3> resolution{160, 160, 110};      ///< cells along x, y, z; each 3..4096
-    std::int64_t seed = 0;                             ///< another cloud for each
-    std::array<double, 3> extent_m{1600, 1600, 1100};  ///< the box; only its proportions matter
+    std::array<int, 3> resolution{160, 160, 110};  ///< cells along x, y, z; each 3..4096
+    std::int64_t seed = 0;                         ///< another cloud for each
+    Double3 extent_m{1600, 1600, 1100};            ///< the box; only its proportions matter
 };
 
 /// Fills `volume` with densities in [0, 1]: zero in the outermost layer of cells, about 0.3

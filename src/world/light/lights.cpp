@@ -15,9 +15,7 @@ constexpr double kPiD = 3.14159265358979323846;
 double magnitude(double v) { return v < 0 ? -v : v; }
 
 /// Size of a colour whose channels may differ in sign: what its noise grows with.
-double strength(const std::array<double, 3>& c) {
-    return magnitude(c[0]) + magnitude(c[1]) + magnitude(c[2]);
-}
+double strength(const Double3& c) { return magnitude(c[0]) + magnitude(c[1]) + magnitude(c[2]); }
 
 /// Area of one face across `axis` through which light enters: none beside a periodic medium.
 double face_area(const Medium& m, int axis) {
@@ -37,17 +35,17 @@ void set_faces(const double (&flux)[6], Light& light) {
     light.face_cdf[5] = 1.0f;
 }
 
-bool any_positive(const std::array<double, 3>& c) { return c[0] > 0 || c[1] > 0 || c[2] > 0; }
+bool any_positive(const Double3& c) { return c[0] > 0 || c[1] > 0 || c[2] > 0; }
 
 /// Unit vector towards the sun.
-std::array<double, 3> sun_direction(const Scene& scene, double elevation_deg) {
+Double3 sun_direction(const Scene& scene, double elevation_deg) {
     const SineCosine el = sincos_deg(elevation_deg), az = sincos_deg(scene.sun.azimuth_deg);
     return {az.sine * el.cosine, az.cosine * el.cosine, el.sine};
 }
 
 void plan_sun(const Scene& scene, const Medium& medium, double elevation_deg, Plan& plan,
               Lighting& out) {
-    const std::array<double, 3> to_sun = sun_direction(scene, elevation_deg);
+    const Double3 to_sun = sun_direction(scene, elevation_deg);
     for (std::size_t c = 0; c < 3; ++c) {
         out.to_sun[c] = float(to_sun[c]);
         if (scene.sun.present) out.sun_irradiance[c] = double(scene.sun.irradiance[c]);
@@ -75,15 +73,13 @@ void plan_ground(const Scene& scene, const Medium& medium, const SkyMap* map, do
     const double height = sincos_deg(elevation_deg).sine;
     out.ground_z = scene.ground.altitude_m - medium.low_m[2];
     out.ground_albedo = scene.ground.albedo;
-    for (std::size_t c = 0; c < 3; ++c) {
-        const double sky = map != nullptr ? map->ground_irradiance[c] / kPiD : out.sky[c];
-        out.ground_diffuse[c] = out.ground_albedo * sky;
-        out.ground_sun[c] = out.ground_albedo / kPiD * out.sun_irradiance[c] * height;
-    }
+    const Double3 sky = map != nullptr ? map->ground_irradiance / kPiD : out.sky;
+    out.ground_diffuse = out.ground_albedo * sky;
+    out.ground_sun = out.ground_albedo / kPiD * out.sun_irradiance * height;
 }
 
-void add_light(const char* name, std::uint32_t stream, const std::array<double, 3>& colour,
-               Light light, Lighting& out) {
+void add_light(const char* name, std::uint32_t stream, const Double3& colour, Light light,
+               Lighting& out) {
     light.name = name;
     light.stream = stream;
     light.colour = colour;
@@ -108,7 +104,7 @@ Light diffuse_light(const Medium& medium, int hemisphere) {
     return light;
 }
 
-Light beam_light(const Medium& medium, const std::array<double, 3>& travel) {
+Light beam_light(const Medium& medium, const Double3& travel) {
     Light light;
     light.beam = true;
     double flux[6] = {};
@@ -161,8 +157,7 @@ Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elev
         return out;
     }
     if (out.sunlit) {
-        const std::array<double, 3> to_sun = sun_direction(scene, sun_elevation_deg);
-        Light sun = beam_light(medium, {-to_sun[0], -to_sun[1], -to_sun[2]});
+        const Light sun = beam_light(medium, -sun_direction(scene, sun_elevation_deg));
         add_light("sun", kSunStream, out.sun_irradiance, sun, out);
     } else if (!scene.sun.present || scene.ground.present == false) {
         plan.leave_out("sun photons", "no sunlight");
@@ -172,20 +167,19 @@ Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elev
     // sky's radiance out as a constant, and light the cloud from below by what the ground's
     // radiance differs from it.
     const bool white = is_white(medium);
-    std::array<double, 3> below{};
-    for (std::size_t c = 0; c < 3; ++c) below[c] = out.ground_diffuse[c] + out.ground_sun[c];
+    Double3 below = out.ground_diffuse + out.ground_sun;
     if (mapped && map->power_m2 > 0) {
         add_light("sky", kSkyStream, {1, 1, 1}, map_light(*map), out);
     } else if (white && any_positive(out.sky) && scene.solids.empty()) {
         out.constant = out.sky;
         plan.leave_out("sky photons", "constant sky and albedo 1: the furnace identity");
-        for (std::size_t c = 0; c < 3; ++c) below[c] -= out.sky[c];
+        below -= out.sky;
     } else if (any_positive(out.sky)) {
         add_light("sky", kSkyStream, out.sky, diffuse_light(medium, out.ground ? -1 : 0), out);
     } else {
         plan.leave_out("sky photons", "no sky");
     }
-    if (out.ground && (below[0] != 0 || below[1] != 0 || below[2] != 0))
+    if (out.ground && below != Double3{})
         add_light("ground", kGroundStream, below, diffuse_light(medium, 1), out);
     return out;
 }

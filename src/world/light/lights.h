@@ -25,7 +25,7 @@ struct Light {
     bool map = false;
     int hemisphere = 0;  ///< diffuse: 0 all directions, -1 travelling down, +1 travelling up
     std::array<float, 3> travel{0, 0, -1};
-    std::array<double, 3> colour{};
+    Double3 colour{};
     double power_m2 = 0;
     std::array<float, 6> face_cdf{};
     std::uint64_t photons = 0;  ///< per generation
@@ -37,16 +37,16 @@ struct Lighting {
     const Solids* solids = nullptr;      ///< what casts shadows and hides; null: nothing does
     const CameraDepth* depth = nullptr;  ///< what hides alone; null: nothing does
     std::vector<Light> lights;
-    std::array<double, 3> constant{};  ///< source everywhere in the medium (furnace identity)
+    Double3 constant{};  ///< source everywhere in the medium (furnace identity)
     bool sunlit = false;
     std::array<float, 3> to_sun{0, 0, 1};
-    std::array<double, 3> sun_irradiance{};
-    std::array<double, 3> sky{};  ///< radiance of a constant sky
-    SkyMapView map{};             ///< or a map of it
+    Double3 sun_irradiance{};
+    Double3 sky{};     ///< radiance of a constant sky
+    SkyMapView map{};  ///< or a map of it
     bool ground = false;
     double ground_z = 0;  ///< m, box-local
     double ground_albedo = 0;
-    std::array<double, 3> ground_diffuse{}, ground_sun{};  ///< radiance of the unshadowed ground
+    Double3 ground_diffuse{}, ground_sun{};  ///< radiance of the unshadowed ground
 
     /// Whether rays may end before the sky.
     bool opaque() const { return ground || solids != nullptr || depth != nullptr; }
@@ -69,6 +69,6 @@ Light diffuse_light(const Medium& medium, int hemisphere);
 Light map_light(const SkyMap& map);
 
 /// A beam travelling along `travel` over the box's silhouette.
-Light beam_light(const Medium& medium, const std::array<double, 3>& travel);
+Light beam_light(const Medium& medium, const Double3& travel);
 
 }  // namespace pileus

@@ -25,7 +25,7 @@ struct SkyMap {
     Buffer<float> row_bound, column_bound;
     SkyMapView view{};
     double power_m2 = 0;  ///< flux into the box, each texel counted by its brightest channel, W
-    std::array<double, 3> ground_irradiance{};  ///< on a level plane without media
+    Double3 ground_irradiance{};  ///< on a level plane without media
 
     bool present() const { return size[0] > 0; }
     std::uint64_t bytes() const {

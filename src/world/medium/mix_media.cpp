@@ -117,14 +117,14 @@ Status add_layers(const std::vector<Medium>& media, const MixBox& box, int threa
 /// The smallest diagonal of the media, but not so small that cubes of a 24th of it (the longest
 /// leaves) would be more than 2^17 in the common box.
 double detail_of(const std::vector<Medium>& media, const MixBox& box) {
-    double least = 0, volume = 1;
+    double least = 0;
     for (const Medium& m : media) {
         double square = 0;
         for (double e : m.extent_m) square += e * e;
         const double diagonal = __builtin_sqrt(square);
         if (!(least > 0) || diagonal < least) least = diagonal;
     }
-    for (double e : box.extent_m) volume *= e;
+    const double volume = box.extent_m.x * box.extent_m.y * box.extent_m.z;
     const double floor = 24 * cube_root(volume / 131072);
     return least > floor ? least : floor;
 }

@@ -2,6 +2,9 @@
 // See solids.h. Meshes: read, turned, placed; solid_tree.cpp sorts them.
 #include "src/world/solids/solids.h"
 
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
 #include "src/base/angles.h"
 #include "src/base/file.h"
 #include "src/io/meshes/mesh_file.h"
@@ -14,40 +17,25 @@ namespace {
 /// Bytes that the reader of meshes takes for each of a file's (measured: docs/solids.md).
 constexpr std::uint64_t kReadingFactor = 12;
 
-struct Axes {
-    double m[3][3];
-};
-
-Axes operator*(const Axes& a, const Axes& b) {
-    Axes out{};
-    for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < 3; ++c)
-            for (int i = 0; i < 3; ++i) out.m[r][c] += a.m[r][i] * b.m[i][c];
-    return out;
-}
-
-/// Axes of the file onto axes of the world: about x, then y, then z.
-Axes turn_of(const SolidSettings& s) {
+/// Axes of the file onto axes of the world: about x, then y, then z. Written by columns.
+glm::dmat3 turn_of(const SolidSettings& s) {
     const SineCosine x = sincos_deg(s.rotation_deg[0]), y = sincos_deg(s.rotation_deg[1]),
                      z = sincos_deg(s.rotation_deg[2]);
-    const Axes about_x{{{1, 0, 0}, {0, x.cosine, -x.sine}, {0, x.sine, x.cosine}}};
-    const Axes about_y{{{y.cosine, 0, y.sine}, {0, 1, 0}, {-y.sine, 0, y.cosine}}};
-    const Axes about_z{{{z.cosine, -z.sine, 0}, {z.sine, z.cosine, 0}, {0, 0, 1}}};
-    const Axes all = about_z * (about_y * about_x);
+    const glm::dmat3 about_x(1, 0, 0, 0, x.cosine, x.sine, 0, -x.sine, x.cosine);
+    const glm::dmat3 about_y(y.cosine, 0, -y.sine, 0, 1, 0, y.sine, 0, y.cosine);
+    const glm::dmat3 about_z(z.cosine, z.sine, 0, -z.sine, z.cosine, 0, 0, 0, 1);
+    const glm::dmat3 all = about_z * (about_y * about_x);
     if (!s.y_up) return all;
-    return all * Axes{{{1, 0, 0}, {0, 0, -1}, {0, 1, 0}}};
+    return all * glm::dmat3(1, 0, 0, 0, 0, 1, 0, -1, 0);
 }
+
+Double3 vector_of(const float* p) { return {p[0], p[1], p[2]}; }
 
 /// Fills the unit normal; false where there is none.
 bool set_normal(SolidTriangle& t) {
-    double u[3], v[3];
-    for (int a = 0; a < 3; ++a) {
-        u[a] = double(t.corner[1][a]) - double(t.corner[0][a]);
-        v[a] = double(t.corner[2][a]) - double(t.corner[0][a]);
-    }
-    const double n[3] = {u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2],
-                         u[0] * v[1] - u[1] * v[0]};
-    const double length = __builtin_sqrt(n[0] * n[0] + n[1] * n[1] + n[2] * n[2]);
+    const Double3 first = vector_of(t.corner[0]);
+    const Double3 n = glm::cross(vector_of(t.corner[1]) - first, vector_of(t.corner[2]) - first);
+    const double length = glm::length(n);
     if (!(length > 0)) return false;
     for (int a = 0; a < 3; ++a) t.normal[a] = float(n[a] / length);
     return true;
@@ -72,22 +60,20 @@ Status read_all(const Scene& scene, const Context& context, std::vector<Mesh>& m
 Status place_triangles(const SolidSettings& settings, const std::string& name, std::int32_t solid,
                        const Double3& low_m, Span<const float> corners, std::uint64_t& used,
                        Solids& solids) {
-    const Axes turn = turn_of(settings);
+    const glm::dmat3 turn = turn_of(settings);
+    const Double3 shift = settings.position_m - low_m;
     for (std::size_t at = 0; at + 9 <= corners.size; at += 9) {
         SolidTriangle t{};
         t.number = std::int32_t(used + solids.degenerate);
         t.solid = solid;
         for (std::size_t i = 0; i < 3; ++i) {
-            const float* p = corners.data + at + 3 * i;
-            for (std::size_t r = 0; r < 3; ++r) {
-                const double* m = turn.m[r];
-                const double turned =
-                    m[0] * double(p[0]) + m[1] * double(p[1]) + m[2] * double(p[2]);
-                const double x = turned * settings.scale + (settings.position_m[r] - low_m[r]);
-                if (!(x >= -kMostSolidMetres && x <= kMostSolidMetres))
+            const Double3 p = vector_of(corners.data + at + 3 * i);
+            const Double3 placed = turn * p * settings.scale + shift;
+            for (int r = 0; r < 3; ++r) {
+                if (!(placed[r] >= -kMostSolidMetres && placed[r] <= kMostSolidMetres))
                     return Status::bad_input(name + ": mesh: triangle " + std::to_string(at / 9) +
                                              ": too far away, allowed: within 1e10 m of the media");
-                t.corner[i][r] = float(x);
+                t.corner[i][r] = float(placed[r]);
             }
         }
         if (set_normal(t))
