@@ -82,6 +82,9 @@ public:
     /// Draws what is lit, into a host's memory.
     Status render(const FrameTarget& target);
 
+    /// The report of a live session up to now.
+    Report told() const;
+
 private:
     Status check_changed(const Scene& changed);
     Status aim();
