@@ -180,6 +180,10 @@ PILEUS_API pileus_code pileus_session_set_matrices(pileus_session* session, cons
                                                    uint32_t width, uint32_t height,
                                                    pileus_error* error);
 
+/** Pixels of the camera as it is set now, which the caller's buffers must have. */
+PILEUS_API pileus_code pileus_session_size(const pileus_session* session, uint32_t* width,
+                                           uint32_t* height, pileus_error* error);
+
 typedef struct pileus_sun {
     uint32_t struct_size;
     int32_t present;

@@ -159,6 +159,18 @@ pileus_code pileus_session_set_matrices(pileus_session* session, const double vi
     });
 }
 
+pileus_code pileus_session_size(const pileus_session* session, uint32_t* width, uint32_t* height,
+                                pileus_error* error) {
+    if (session == nullptr) return finish(no_handle("session"), error);
+    return call(session->host.get(), error, [&]() -> Status {
+        if (width == nullptr || height == nullptr)
+            return Status::bad_input("width, height: null, allowed: where to put them");
+        *width = std::uint32_t(session->session.camera().resolution[0]);
+        *height = std::uint32_t(session->session.camera().resolution[1]);
+        return Status::ok();
+    });
+}
+
 pileus_code pileus_session_set_sun(pileus_session* session, const pileus_sun* sun,
                                    pileus_error* error) {
     return change(session, sun, "sun", error, [](const pileus_sun& given, Session& s) {
