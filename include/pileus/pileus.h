@@ -200,8 +200,8 @@ typedef struct pileus_sky {
     int32_t present;
     float radiance[3];          /**< used without a map */
     uint32_t map_size[2];       /**< columns, rows; columns = 2 rows; 0: no map */
-    const float* map;           /**< [row][column][3]; null: keep the map there is */
-    double map_scale, map_rotation_deg; /**< scale 0 counts as 1 */
+    const float* map;           /**< [row][column][3]; null: keep the map there is, as it is */
+    double map_scale, map_rotation_deg; /**< of `map`; scale 0 counts as 1 */
 } pileus_sky;
 PILEUS_API pileus_code pileus_session_set_sky(pileus_session* session, const pileus_sky* sky,
                                               pileus_error* error);

@@ -73,7 +73,7 @@ Status set_sky(const pileus_sky& given, Session& session) {
     copy3(given.radiance, sky.radiance);
     sky.map_scale = given.map_scale == 0 ? 1 : given.map_scale;
     sky.map_rotation_deg = given.map_rotation_deg;
-    if (given.map_size[0] == 0) return session.set_sky(sky, nullptr, false);
+    if (given.present == 0 || given.map_size[0] == 0) return session.set_sky(sky, nullptr, false);
     if (given.map == nullptr) return session.set_sky(sky, nullptr, true);
     if (given.map_size[0] > 16384 || given.map_size[1] > 8192)
         return Status::bad_input("sky.map_size: allowed: at most 16384 x 8192");
