@@ -47,6 +47,11 @@ Status make_world(const Scene& scene, const RenderOptions& options,
     PILEUS_TRY(find_method(scene, method));
     const auto made = std::make_shared<World>();
     PILEUS_TRY(outline_world(scene, method->sky, context, *made));
+    // Sessions weigh all they need; here it is the grid, of which each medium has its part.
+    const std::uint64_t media = made->direct_sky ? 0 : std::uint64_t(scene.media.size());
+    PILEUS_TRY(check_limit(context.limits, LimitId::kMemory,
+                           bytes_of(media, voxel_count(made->medium.grid) * sizeof(float)),
+                           scene.file));
     PILEUS_TRY(load_world(scene, context, *made));
     world = made;
     return Status::ok();
