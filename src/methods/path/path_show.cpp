@@ -107,7 +107,8 @@ Status path_show(const FrameStep&, const Context& context, MethodRun& method_run
 
 void path_report(const MethodRun& method_run, Report& report) {
     const PathRun& run = static_cast<const PathRun&>(method_run);
-    const PathTally& all = run.tally;
+    PathTally all = run.tally;
+    add_tally(run.film.tally, all);
     report.interrupted = run.interrupted;
     report.samples_per_pixel = run.film.samples;
     report.ahead_pixels = run.film.ahead;
