@@ -44,7 +44,8 @@ Status take_depth(const pileus_frame& f, const Camera& camera, FrameTarget& targ
 void tell_accidents(pileus_session& session) {
     const pileus_host& host = session.host->given;
     if (host.log == nullptr) return;
-    for (const auto& counter : session.session.report().counters)
+    const Report report = session.session.told();
+    for (const auto& counter : report.counters)
         for (const Accident& accident : accidents()) {
             if (counter.second == 0 || counter.first != accident.counter) continue;
             bool told = false;
@@ -131,7 +132,7 @@ pileus_code pileus_session_report(const pileus_session* session, char* text, siz
                                   size_t* needed, pileus_error* error) {
     if (session == nullptr) return finish(no_handle("session"), error);
     return call(session->host.get(), error, [&]() -> Status {
-        const std::string json = report_json(session->session.report());
+        const std::string json = report_json(session->session.told());
         if (needed != nullptr) *needed = json.size() + 1;
         if (text == nullptr && size == 0) return Status::ok();
         if (text == nullptr) return Status::bad_input("text: null, allowed: of size bytes");

@@ -75,7 +75,7 @@ Status set_sky(const pileus_sky& given, Session& session) {
     copy3(given.radiance, sky.radiance);
     sky.map_scale = given.map_scale == 0 ? 1 : given.map_scale;
     sky.map_rotation_deg = given.map_rotation_deg;
-    if (given.map_size[0] == 0) return session.set_sky(sky, nullptr, false);
+    if (given.present == 0 || given.map_size[0] == 0) return session.set_sky(sky, nullptr, false);
     if (given.map == nullptr) return session.set_sky(sky, nullptr, true);
     if (given.map_size[0] > 16384 || given.map_size[1] > 8192)
         return Status::bad_input("sky.map_size: allowed: at most 16384 x 8192");
@@ -153,6 +153,18 @@ pileus_code pileus_session_set_matrices(pileus_session* session, const double vi
                                         clip == PILEUS_CLIP_ZERO, camera, scale));
         PILEUS_TRY(session->session.set_camera(camera));
         return session->session.set_depth_scale(scale);
+    });
+}
+
+pileus_code pileus_session_size(const pileus_session* session, uint32_t* width, uint32_t* height,
+                                pileus_error* error) {
+    if (session == nullptr) return finish(no_handle("session"), error);
+    return call(session->host.get(), error, [&]() -> Status {
+        if (width == nullptr || height == nullptr)
+            return Status::bad_input("width, height: null, allowed: where to put them");
+        *width = std::uint32_t(session->session.camera().resolution[0]);
+        *height = std::uint32_t(session->session.camera().resolution[1]);
+        return Status::ok();
     });
 }
 

@@ -20,12 +20,7 @@ struct RunStart {
 void finish_report(const RunStart& start, Report& report) {
     report.total_s = wall_seconds() - start.wall_s;
     report.cpu_s = cpu_seconds() - start.cpu_s;
-    report.peak_bytes = peak_memory_bytes();
-    for (const StageTime& s : report.stages)
-        if (s.name == "photons" || s.name == "paths") {
-            report.tracing_wall_s = s.wall_s;
-            report.tracing_cpu_s = s.cpu_s;
-        }
+    take_clocks(report);
 }
 
 /// Names the picture by its bits before anything else is written about it.

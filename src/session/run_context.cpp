@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "platform/clock.h"
 #include "src/run/find_kernels.h"
 
 namespace pileus {
@@ -77,6 +78,15 @@ Budget budget_of(const RenderOptions& options) {
     budget.state = options.state;
     budget.state_every_s = options.state_every_s;
     return budget;
+}
+
+void take_clocks(Report& report) {
+    report.peak_bytes = peak_memory_bytes();
+    for (const StageTime& s : report.stages)
+        if (s.name == "photons" || s.name == "paths") {
+            report.tracing_wall_s = s.wall_s;
+            report.tracing_cpu_s = s.cpu_s;
+        }
 }
 
 }  // namespace pileus

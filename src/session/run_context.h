@@ -22,4 +22,7 @@ Status frames_of(const Scene& scene, const RenderOptions& options, Frames& frame
 
 Budget budget_of(const RenderOptions& options);
 
+/// What the process and its stages have used up to now.
+void take_clocks(Report& report);
+
 }  // namespace pileus

@@ -2,6 +2,8 @@
 // See session.h. Opening and drawing; session_set.cpp takes what a host sets.
 #include "src/session/session.h"
 
+#include <fmt/format.h>
+
 #include "platform/clock.h"
 #include "platform/fp_mode.h"
 #include "src/methods/registry.h"
@@ -45,6 +47,11 @@ Status make_world(const Scene& scene, const RenderOptions& options,
     PILEUS_TRY(find_method(scene, method));
     const auto made = std::make_shared<World>();
     PILEUS_TRY(outline_world(scene, method->sky, context, *made));
+    // Sessions weigh all they need; here it is the grid, of which each medium has its part.
+    const std::uint64_t media = made->direct_sky ? 0 : std::uint64_t(scene.media.size());
+    PILEUS_TRY(check_limit(context.limits, LimitId::kMemory,
+                           bytes_of(media, voxel_count(made->medium.grid) * sizeof(float)),
+                           scene.file));
     PILEUS_TRY(load_world(scene, context, *made));
     world = made;
     return Status::ok();
@@ -75,6 +82,8 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
     run_ = method_->make();
     PILEUS_TRY(
         open_run(*method_, scene_, budget_of(options), context_, exact, std::move(world), *run_));
+    // Nor does its report hash what is made in each stage: that takes longer than a picture.
+    if (live) run_->digests.clear();
     method_->report_plan(*run_, context_, report_);
     return Status::ok();
 }
@@ -133,16 +142,26 @@ Status Session::render(const FrameTarget& target) {
         write_depths(*planes, make_camera(scene_.camera, 0, run_->world->medium.low_m),
                      target.depth_kind, depth_scale_, target.depth);
     }
+    report_.hash.clear();
     if (target.hash != nullptr) {
         const StageClock clock(context_, "hash");
         *target.hash = hash_planes(*planes);
+        report_.hash = fmt::format("{:016x}", *target.hash);
     }
     report_.counters.emplace_back("nan", broken);
     report_.frame = frame_;
     ++stats_.pictures;
     stats_.render_s = wall_seconds() - start;
     stats_.stages_s = stage_seconds(report_) - staged;
+    report_.frame_wall_s = stats_.render_s;
     return Status::ok();
+}
+
+Report Session::told() const {
+    Report out = report_;
+    method_->report(*run_, out);
+    take_clocks(out);
+    return out;
 }
 
 }  // namespace pileus

@@ -61,7 +61,8 @@ public:
     Status set_camera(const Camera& camera);
     Status set_depth_scale(const DepthScale& scale);
     Status set_sun(const Sun& sun);
-    /// `map`: another one; null: none, or with `keep` the one that there is.
+    /// `map`: another one; null: none, or with `keep` the one that there is, as it was scaled and
+    /// turned. A sky that is not present has none.
     Status set_sky(const Sky& sky, const Image* map, bool keep);
     Status set_ground(const Ground& ground);
     Status set_placement(const Double3& offset_m, double yaw_deg);
@@ -81,6 +82,9 @@ public:
 
     /// Draws what is lit, into a host's memory.
     Status render(const FrameTarget& target);
+
+    /// The report of a live session up to now.
+    Report told() const;
 
 private:
     Status check_changed(const Scene& changed);

@@ -80,18 +80,29 @@ Status Session::set_sun(const Sun& sun) {
 Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
     const FpModeGuard guard;
     Scene changed = scene_;
-    changed.sky = sky;
+    const bool kept = sky.present && map == nullptr && keep && run_->around.sky_map.present();
+    if (!kept) changed.sky = sky;
+    changed.sky.present = sky.present;
+    if (!kept && map == nullptr) {
+        // What belongs to a map says nothing without one.
+        changed.sky.map_scale = Sky{}.map_scale;
+        changed.sky.map_rotation_deg = Sky{}.map_rotation_deg;
+    } else {
+        // The checks know maps by their files.
+        changed.sky.radiance = Sky{}.radiance;
+        if (changed.sky.map.empty()) changed.sky.map = "host.pfm";
+    }
     PILEUS_TRY(check_changed(changed));
     if (map != nullptr) {
         SkyMap made;
-        PILEUS_TRY(make_sky_map("sky.map", *map, sky, ground_.present, made));
+        PILEUS_TRY(make_sky_map("sky.map", *map, changed.sky, ground_.present, made));
         run_->around.sky_map = std::move(made);
         anew_ = true;
-    } else if (!keep && run_->around.sky_map.present()) {
+    } else if (!kept && run_->around.sky_map.present()) {
         run_->around.sky_map = SkyMap{};
         anew_ = true;
     }
-    scene_.sky = sky;
+    scene_.sky = changed.sky;
     stale_ = true;
     return Status::ok();
 }

@@ -127,6 +127,7 @@ void collectors_report(const CollectorsRun& run, Report& report) {
     report.counters.emplace_back("saturated", 0);  // fixed_point_places proves it
     report.counters.emplace_back("terminated", photons_in(all.light.terminated));
     report.counters.emplace_back("samples_given_up", run.prepared.rejected);
+    if (run.digests.empty()) return;
     report.digests.insert(report.digests.begin(), {"photons", photon_digest(run)});
     report.digests.insert(report.digests.begin(), run.digests.begin(), run.digests.end());
 }

@@ -22,7 +22,7 @@ struct PathRun : MethodRun {
     Film film;
     PathScratch scratch;
     PathTally earlier{};  ///< of what a state file brought
-    PathTally tally{};    ///< of all frames so far
+    PathTally tally{};    ///< of all films before this one
     bool interrupted = false;
     bool begun = false;  ///< a session's film belongs to its camera and light
 };

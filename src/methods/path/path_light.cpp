@@ -98,6 +98,7 @@ Status resume(const PassRule& rule, const Keeper& keeper, PathRun& run) {
 
 Status path_begin(const Context& context, PathRun& run) {
     const PathInput in = path_input(context, run);
+    add_tally(run.film.tally, run.tally);
     PILEUS_TRY(make_film(in, run.film));
     PILEUS_TRY(make_alpha(context, run));
     run.begun = true;
@@ -107,8 +108,23 @@ Status path_begin(const Context& context, PathRun& run) {
 Status path_advance(std::uint64_t samples, const Context& context, PathRun& run) {
     const StageClock clock(context, "paths");
     PathInput in = path_input(context, run);
-    in.ended = patient_stop(context);
-    return trace_paths(in, samples, run.scratch, run.film);
+    run.interrupted = false;
+    if (!context.interrupted) return trace_paths(in, samples, run.scratch, run.film);
+    // Who may end it is asked between passes; the bits are those of one.
+    PassRule rule;
+    rule.most = run.film.samples + samples;
+    std::uint64_t last = 0;
+    double last_s = 0;
+    while (run.film.samples < rule.most) {
+        run.interrupted = context.stop();
+        if (run.interrupted) break;
+        const double start = wall_seconds();
+        last = pass_samples(rule, run.film.samples, last, last_s, 0);
+        in.ended = patient_stop(context);
+        PILEUS_TRY(trace_paths(in, last, run.scratch, run.film));
+        last_s = wall_seconds() - start;
+    }
+    return Status::ok();
 }
 
 Status path_light(const FrameStep& step, const Context& context, MethodRun& method_run) {
@@ -137,6 +153,7 @@ Status path_light(const FrameStep& step, const Context& context, MethodRun& meth
     PILEUS_TRY(keeper.save(run.film));
     run.scratch = PathScratch{};
     add_tally(run.film.tally, run.tally);
+    run.film.tally = PathTally{};
     return Status::ok();
 }
 

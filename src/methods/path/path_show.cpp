@@ -98,9 +98,6 @@ Status path_show(const FrameStep&, const Context& context, MethodRun& method_run
                        {"parts_stored", run.world->medium.parts.size()},
                        {"film_parts", std::uint64_t(run.film.parts)}};
     report_solids(run.world->solids, run.around.depth, report);
-    report.samples_per_pixel = run.film.samples;
-    report.ahead_pixels = run.film.ahead;
-    report.ahead_samples = run.film.ahead > 0 ? run.film.ahead_samples : 0;
     set_image_camera(run.camera, run.world->medium.low_m, image);
     run.planes = Planes{};
     run.film.sum = Buffer<double>();
@@ -110,8 +107,12 @@ Status path_show(const FrameStep&, const Context& context, MethodRun& method_run
 
 void path_report(const MethodRun& method_run, Report& report) {
     const PathRun& run = static_cast<const PathRun&>(method_run);
-    const PathTally& all = run.tally;
+    PathTally all = run.tally;
+    add_tally(run.film.tally, all);
     report.interrupted = run.interrupted;
+    report.samples_per_pixel = run.film.samples;
+    report.ahead_pixels = run.film.ahead;
+    report.ahead_samples = run.film.ahead > 0 ? run.film.ahead_samples : 0;
     report.paths = std::uint64_t(all.paths);
     report.scatterings = std::uint64_t(all.scatterings);
     report.tentative = std::uint64_t(all.tentative);
