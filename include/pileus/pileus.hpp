@@ -9,8 +9,8 @@
 //   azimuth counts from north (+y) towards east (+x).
 // - Owners move and are not copied; an empty one answers every call with kBadInput. One thread uses
 //   a session at a time; scenes and worlds are read only and may be shared.
-// - The namespace is pileus::host, what a host sees: the library keeps its own Scene, World and
-//   Session in pileus, so that one program, such as a test, may include both.
+// - The namespace is pileus::embed, as the library keeps its own Scene, World and Session in pileus
+//   and its kernels in pileus::host: one program, such as a test, may include both.
 //
 // docs/embedding.md shows how to use all of this; tests/embed/examples/frame_loop.cpp does.
 #ifndef PILEUS_HPP
@@ -25,7 +25,7 @@
 #include <string>
 #include <vector>
 
-namespace pileus::host {
+namespace pileus::embed {
 
 /// "0.6.0" of the library that is linked, which may differ from this header's.
 inline const char* version() { return pileus_version(); }
@@ -310,6 +310,6 @@ inline glm::dvec3 orbit(const glm::dvec3& position_m, const glm::dvec3& target_m
     return {to[0], to[1], to[2]};
 }
 
-}  // namespace pileus::host
+}  // namespace pileus::embed
 
 #endif  // PILEUS_HPP

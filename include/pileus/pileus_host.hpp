@@ -14,7 +14,7 @@
 #include <string>
 #include <utility>
 
-namespace pileus::host {
+namespace pileus::embed {
 
 enum class Code : std::int32_t {
     kOk = PILEUS_OK,
@@ -173,6 +173,6 @@ struct FreeSession {
 
 }  // namespace detail
 
-}  // namespace pileus::host
+}  // namespace pileus::embed
 
 #endif  // PILEUS_HOST_HPP

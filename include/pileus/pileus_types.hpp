@@ -11,7 +11,7 @@
 #include <glm/vec3.hpp>
 #include <string>
 
-namespace pileus::host {
+namespace pileus::embed {
 
 /// Sizes before memory.
 struct Plan {
@@ -126,6 +126,6 @@ struct Stats {
     double stages_s = 0;             ///< of that in named stages
 };
 
-}  // namespace pileus::host
+}  // namespace pileus::embed
 
 #endif  // PILEUS_TYPES_HPP

@@ -15,7 +15,7 @@
 
 namespace {
 
-using namespace pileus::host;
+using namespace pileus::embed;
 
 constexpr unsigned kWidth = 160, kHeight = 90;
 constexpr double kNear = 10, kFar = 50000, kFov = 40;
