@@ -60,6 +60,9 @@ configure_package_config_file("${PROJECT_SOURCE_DIR}/cmake/pileusConfig.cmake.in
     PATH_VARS CMAKE_INSTALL_INCLUDEDIR CMAKE_INSTALL_LIBDIR)
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/package/pileusConfigVersion.cmake"
     COMPATIBILITY SameMinorVersion)
+# The tree may be moved.
+cmake_path(RELATIVE_PATH CMAKE_INSTALL_PREFIX BASE_DIRECTORY
+    "${CMAKE_INSTALL_FULL_LIBDIR}/pkgconfig" OUTPUT_VARIABLE PILEUS_PC_UP)
 configure_file("${PROJECT_SOURCE_DIR}/cmake/pileus.pc.in" "${PROJECT_BINARY_DIR}/package/pileus.pc"
     @ONLY)
 install(TARGETS ${libraries})

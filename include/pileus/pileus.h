@@ -7,13 +7,13 @@
  *
  * Rules of all functions
  * - A result other than PILEUS_OK leaves outputs as they were; `error`, where not null, then holds
- *   the code and one line for each fault. Nothing is written to stdout or stderr, no signal handler,
- *   no floating-point mode and no OpenMP setting of yours is changed, nothing is kept outside the
- *   handles.
+ *   the code and one line for each fault. Nothing is written to stdout or stderr, no signal
+ * handler, no floating-point mode and no OpenMP setting of yours is changed, nothing is kept
+ * outside the handles.
  * - Handles are used by one thread at a time; different handles by as many threads as you like. A
  *   world and a scene are read only once made, so that threads share them.
- * - Structs begin with their size, which PILEUS_INIT sets: a library that is newer or older than the
- *   header reads the part that both know.
+ * - Structs begin with their size, which PILEUS_INIT sets: a library that is newer or older than
+ * the header reads the part that both know.
  * - Lengths are metres, angles degrees. x points east, y north, z up; an azimuth counts from north
  *   (+y) towards east (+x). Matrices are column-major, as OpenGL and GLM store them.
  * - Pictures are the same bits for any number of threads, on any processor, as the program `pileus`
@@ -75,10 +75,11 @@ PILEUS_API uint32_t pileus_api_version(void);
  * from its threads. */
 typedef struct pileus_host {
     uint32_t struct_size;
-    uint32_t threads;      /**< 0: as many as there are processors */
-    const char* isa;       /**< "scalar", "avx2", ...; null: the widest of this machine */
-    uint64_t memory_limit; /**< bytes a world or session may need by its plan; 0: the default limit */
-    void* user;            /**< handed to the callbacks */
+    uint32_t threads; /**< 0: as many as there are processors */
+    const char* isa;  /**< "scalar", "avx2", ...; null: the widest of this machine */
+    uint64_t
+        memory_limit; /**< bytes a world or session may need by its plan; 0: the default limit */
+    void* user;       /**< handed to the callbacks */
     /** Arrays: at least `bytes` at a multiple of `alignment`, or null. Both or neither. */
     void* (*allocate)(void* user, size_t bytes, size_t alignment);
     void (*release)(void* user, void* memory);
@@ -116,9 +117,9 @@ typedef struct pileus_world pileus_world;
 /** Sizes before memory. */
 typedef struct pileus_plan {
     uint32_t struct_size;
-    uint32_t cells[3];      /**< of the media's grid */
-    uint64_t peak_bytes;    /**< of a world and one session of it together, an upper bound */
-    uint64_t world_bytes;   /**< of that the world's own, shared by its sessions */
+    uint32_t cells[3];          /**< of the media's grid */
+    uint64_t peak_bytes;        /**< of a world and one session of it together, an upper bound */
+    uint64_t world_bytes;       /**< of that the world's own, shared by its sessions */
     double low_m[3], high_m[3]; /**< corners of the media's box */
 } pileus_plan;
 
@@ -173,8 +174,9 @@ PILEUS_API pileus_code pileus_session_set_camera(pileus_session* session,
  * infinite projections are told by the matrix. */
 typedef enum pileus_clip { PILEUS_CLIP_MINUS_ONE = 0, PILEUS_CLIP_ZERO = 1 } pileus_clip;
 
-/** The same from matrices: world to view (a rigid motion; the view looks along -z, y up) and view to
- * clip (perspective or orthographic; may be off-centre). `width`, `height`: pixels, 0: as before. */
+/** The same from matrices: world to view (a rigid motion; the view looks along -z, y up) and view
+ * to clip (perspective or orthographic; may be off-centre). `width`, `height`: pixels, 0: as
+ * before. */
 PILEUS_API pileus_code pileus_session_set_matrices(pileus_session* session, const double view[16],
                                                    const double projection[16], pileus_clip clip,
                                                    uint32_t width, uint32_t height,
@@ -198,9 +200,9 @@ PILEUS_API pileus_code pileus_session_set_sun(pileus_session* session, const pil
 typedef struct pileus_sky {
     uint32_t struct_size;
     int32_t present;
-    float radiance[3];          /**< used without a map */
-    uint32_t map_size[2];       /**< columns, rows; columns = 2 rows; 0: no map */
-    const float* map;           /**< [row][column][3]; null: keep the map there is, as it is */
+    float radiance[3];    /**< used without a map */
+    uint32_t map_size[2]; /**< columns, rows; columns = 2 rows; 0: no map */
+    const float* map;     /**< [row][column][3]; null: keep the map there is, as it is */
     double map_scale, map_rotation_deg; /**< of `map`; scale 0 counts as 1 */
 } pileus_sky;
 PILEUS_API pileus_code pileus_session_set_sky(pileus_session* session, const pileus_sky* sky,
@@ -228,7 +230,7 @@ PILEUS_API pileus_code pileus_session_set_placement(pileus_session* session,
 typedef enum pileus_depth {
     PILEUS_DISTANCE = 0, /**< metres along each pixel's ray; infinity: nothing */
     PILEUS_VIEW_Z = 1,   /**< metres along the view's axis; infinity: nothing */
-    PILEUS_BUFFER = 2    /**< a depth buffer of the camera's projection, 0..1; its far end: nothing */
+    PILEUS_BUFFER = 2 /**< a depth buffer of the camera's projection, 0..1; its far end: nothing */
 } pileus_depth;
 
 /** Opaque things of the caller, which end rays: terrain, aircraft, runways. */
@@ -245,18 +247,18 @@ PILEUS_API pileus_code pileus_session_set_depth(pileus_session* session,
                                                 const pileus_depth_image* depth,
                                                 pileus_error* error);
 
-/** Number of the picture, which jitter, pixels that are marched in turn and the noise of paths go by;
- * from 0 on. Without it every picture is number 0. */
+/** Number of the picture, which jitter, pixels that are marched in turn and the noise of paths go
+ * by; from 0 on. Without it every picture is number 0. */
 PILEUS_API pileus_code pileus_session_set_frame(pileus_session* session, int32_t number,
                                                 pileus_error* error);
 
 /** What a step counts. */
 typedef struct pileus_light_info {
     uint32_t struct_size;
-    uint32_t whole;       /**< units that a first picture should have: a ring; samples; 0: none */
+    uint32_t whole;        /**< units that a first picture should have: a ring; samples; 0: none */
     uint64_t unit_photons; /**< photons or paths of one unit */
-    uint64_t units;       /**< of light that the next picture shows */
-    char unit[24];        /**< "generation", "sample" or "" */
+    uint64_t units;        /**< of light that the next picture shows */
+    char unit[24];         /**< "generation", "sample" or "" */
 } pileus_light_info;
 PILEUS_API pileus_code pileus_session_light(const pileus_session* session, pileus_light_info* info,
                                             pileus_error* error);
@@ -275,24 +277,25 @@ typedef enum pileus_format {
 } pileus_format;
 
 typedef enum pileus_blend {
-    PILEUS_REPLACE = 0, /**< the whole picture, sky and ground behind the media; alpha: the media's */
-    PILEUS_OVER = 1,    /**< the media over what the buffer holds */
-    PILEUS_MEDIA = 2    /**< the media alone, premultiplied by their alpha */
+    PILEUS_REPLACE =
+        0,           /**< the whole picture, sky and ground behind the media; alpha: the media's */
+    PILEUS_OVER = 1, /**< the media over what the buffer holds */
+    PILEUS_MEDIA = 2 /**< the media alone, premultiplied by their alpha */
 } pileus_blend;
 
 /** Buffers of the caller, for one picture. */
 typedef struct pileus_frame {
     uint32_t struct_size;
-    void* colour;           /**< first byte of the first row in memory; may be null */
-    int64_t colour_stride;  /**< bytes from row to row; 0: rows lie close */
-    uint32_t format;        /**< a pileus_format */
-    uint32_t blend;         /**< a pileus_blend */
-    int32_t bottom_up;      /**< not 0: the first row in memory is the picture's lowest; both buffers */
-    float exposure_stops;   /**< RGBA8 only: doubles or halves the light */
-    float* depth;           /**< where half of the light is gone, or the opaque thing; null: none */
-    int64_t depth_stride;   /**< bytes; 0: rows lie close */
-    uint32_t depth_kind;    /**< a pileus_depth */
-    uint64_t* hash;         /**< null: none is made; else of the whole picture, as the program's */
+    void* colour;          /**< first byte of the first row in memory; may be null */
+    int64_t colour_stride; /**< bytes from row to row; 0: rows lie close */
+    uint32_t format;       /**< a pileus_format */
+    uint32_t blend;        /**< a pileus_blend */
+    int32_t bottom_up; /**< not 0: the first row in memory is the picture's lowest; both buffers */
+    float exposure_stops; /**< RGBA8 only: doubles or halves the light */
+    float* depth;         /**< where half of the light is gone, or the opaque thing; null: none */
+    int64_t depth_stride; /**< bytes; 0: rows lie close */
+    uint32_t depth_kind;  /**< a pileus_depth */
+    uint64_t* hash;       /**< null: none is made; else of the whole picture, as the program's */
 } pileus_frame;
 
 /** Draws what the session holds now. Light is not traced: see pileus_session_step. */
@@ -313,8 +316,8 @@ typedef struct pileus_stats {
 PILEUS_API pileus_code pileus_session_stats(const pileus_session* session, pileus_stats* stats,
                                             pileus_error* error);
 
-/** The report as the program writes it (docs/report.md), JSON, ended by a zero. `needed`: bytes with
- * the zero; `text` may be null where `size` is 0. Too small a size: PILEUS_LIMIT. */
+/** The report as the program writes it (docs/report.md), JSON, ended by a zero. `needed`: bytes
+ * with the zero; `text` may be null where `size` is 0. Too small a size: PILEUS_LIMIT. */
 PILEUS_API pileus_code pileus_session_report(const pileus_session* session, char* text, size_t size,
                                              size_t* needed, pileus_error* error);
 
@@ -350,8 +353,8 @@ PILEUS_API pileus_code pileus_compare(const pileus_picture* a, const pileus_pict
                                       const pileus_host* host, pileus_figures* figures,
                                       pileus_error* error);
 
-/** Turns `position_m` about the vertical axis through `target_m`, counter-clockwise seen from above,
- * by the bits of the program's animation.camera_orbit_deg. */
+/** Turns `position_m` about the vertical axis through `target_m`, counter-clockwise seen from
+ * above, by the bits of the program's animation.camera_orbit_deg. */
 PILEUS_API void pileus_orbit(const double position_m[3], const double target_m[3], double degrees,
                              double turned_m[3]);
 

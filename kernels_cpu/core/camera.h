@@ -29,8 +29,7 @@ struct Ray {
 template <class T>
 PILEUS_FN Ray<T> camera_ray(const CameraParams& c, T x, T y) {
     const T sx = ((x + 0.5f) * (2.0f / float(c.width)) - 1.0f) * c.half_width + c.shift_x;
-    const T sy =
-        (1.0f - (y + 0.5f) * (2.0f / float(c.height))) * c.half_height + c.shift_y;
+    const T sy = (1.0f - (y + 0.5f) * (2.0f / float(c.height))) * c.half_height + c.shift_y;
     const Vec<T> offset{c.right[0] * sx + c.up[0] * sy, c.right[1] * sx + c.up[1] * sy,
                         c.right[2] * sx + c.up[2] * sy};
     const Vec<T> o{all<T>(c.origin[0]), all<T>(c.origin[1]), all<T>(c.origin[2])};

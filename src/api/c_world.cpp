@@ -47,8 +47,9 @@ Status take_density(const pileus_density& given, std::uint32_t at, Scene& scene)
     }
     if (given.values == nullptr) return Status::bad_input(where + "values: null, allowed: cells");
     if (medium.density.empty() || !medium.has_bounds)
-        return Status::bad_input(where + "the scene's medium is a file or has no bounds_m, allowed: "
-                                         "density = \"uniform:box\" and bounds_m");
+        return Status::bad_input(where +
+                                 "the scene's medium is a file or has no bounds_m, allowed: "
+                                 "density = \"uniform:box\" and bounds_m");
     for (std::uint64_t i = 0; i < cells; ++i)
         if (!(given.values[i] >= 0 && given.values[i] <= 1e30f))
             return Status::bad_input(where + "cell " + std::to_string(i) + ": " +

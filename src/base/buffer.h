@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Owned array whose allocation can fail with a Status instead of an exception.
-// in: a count -> out: zeroed, 64-byte aligned memory of the host (platform/memory.h), freed with its
-// owner.
+// in: a count -> out: zeroed, 64-byte aligned memory of the host (platform/memory.h), freed with
+// its owner.
 #pragma once
 #include <cstdint>
 #include <cstring>

@@ -58,7 +58,8 @@ struct LightUnits {
 
 struct Planes;
 
-/// How a method lives in a session, where a host moves the camera and the lights of the run's scene.
+/// How a method lives in a session, where a host moves the camera and the lights of the run's
+/// scene.
 struct LiveMethod {
     /// Takes them up as they are now. `anew`: the sky map is another one.
     Status (*aim)(int frame, bool anew, const Context&, MethodRun&);

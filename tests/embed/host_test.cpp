@@ -22,7 +22,8 @@ struct CountedMemory {
     static void* allocate(void* user, std::size_t bytes, std::size_t alignment) {
         CountedMemory& own = *static_cast<CountedMemory*>(user);
         if (own.calls.fetch_add(1) == own.fails_at) return nullptr;
-        void* memory = std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+        void* memory =
+            std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
         if (memory != nullptr) ++own.held;
         return memory;
     }
@@ -50,8 +51,7 @@ pileus_code draw(const char* name, const pileus_host* lent, std::string* hash = 
     Hosted host(kSmallCumulus, method(name), lent);
     if (host.code != PILEUS_OK) return host.code;
     std::uint32_t done = 0;
-    const pileus_code stepped =
-        pileus_session_step(host.session.get(), 3, &done, &host.out.error);
+    const pileus_code stepped = pileus_session_step(host.session.get(), 3, &done, &host.out.error);
     if (stepped != PILEUS_OK) return stepped;
     std::vector<float> pixels(4 * 24 * 14), depth(24 * 14);
     auto frame = cleared<pileus_frame>();

@@ -151,7 +151,8 @@ TEST_CASE("misuse: a plan, a report, a version") {
     std::string text(needed, ' ');
     CHECK(pileus_session_report(hosted.session.get(), &text[0], needed - 1, nullptr, &out.error) ==
           PILEUS_LIMIT);
-    hosted.check(pileus_session_report(hosted.session.get(), &text[0], needed, nullptr, &out.error));
+    hosted.check(
+        pileus_session_report(hosted.session.get(), &text[0], needed, nullptr, &out.error));
     CHECK(text.find("\"method\": \"raymarch\"") != std::string::npos);
     CHECK(std::string(pileus_version()) == pileus::kVersion);
     CHECK(pileus_api_version() == PILEUS_API_VERSION);

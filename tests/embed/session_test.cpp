@@ -21,7 +21,8 @@ Overrides with(const std::string& method, const Overrides& more = {}) {
     return all;
 }
 
-/// Frame f of an animation of `frames`, which orbits by 60 degrees while the sun rises from -10 to 40.
+/// Frame f of an animation of `frames`, which orbits by 60 degrees while the sun rises from -10
+/// to 40.
 void move(Hosted& host, int frame, int frames) {
     const double share = double(frame) / (frames - 1);
     double position[3];
@@ -79,8 +80,7 @@ TEST_CASE("sessions: what was set and set back leaves no trace") {
         auto placement = cleared<pileus_placement>();
         placement.offset_m[0] = 500;
         placement.yaw_deg = 33;
-        host.check(
-            pileus_session_set_placement(host.session.get(), &placement, &host.out.error));
+        host.check(pileus_session_set_placement(host.session.get(), &placement, &host.out.error));
         auto sky = cleared<pileus_sky>();
         sky.present = 1;
         sky.radiance[1] = 2;
@@ -95,8 +95,7 @@ TEST_CASE("sessions: what was set and set back leaves no trace") {
         image.values = nullptr;
         host.check(pileus_session_set_depth(host.session.get(), &image, &host.out.error));
         placement = cleared<pileus_placement>();
-        host.check(
-            pileus_session_set_placement(host.session.get(), &placement, &host.out.error));
+        host.check(pileus_session_set_placement(host.session.get(), &placement, &host.out.error));
         sky.radiance[0] = 0.0625f;
         sky.radiance[1] = 0.125f;
         sky.radiance[2] = 0.25f;
@@ -115,12 +114,11 @@ TEST_CASE("sessions: a placement is the scene moved the other way") {
         auto placement = cleared<pileus_placement>();
         placement.offset_m[0] = 1024;
         placement.offset_m[2] = 256;
-        host.check(
-            pileus_session_set_placement(host.session.get(), &placement, &host.out.error));
+        host.check(pileus_session_set_placement(host.session.get(), &placement, &host.out.error));
         host.step(host.whole());
-        const Overrides moved = with(method, {"camera.position_m=[-1008,-4000,0]",
-                                              "camera.target_m=[-1024,0,768]",
-                                              "ground.altitude_m=-256"});
+        const Overrides moved =
+            with(method, {"camera.position_m=[-1008,-4000,0]", "camera.target_m=[-1024,0,768]",
+                          "ground.altitude_m=-256"});
         CHECK(host.hash() == program_hashes(kSmallCumulus, moved)[0]);
     }
     // A quarter turn: the camera goes round the other way, and so does the sun.
@@ -128,8 +126,8 @@ TEST_CASE("sessions: a placement is the scene moved the other way") {
     auto placement = cleared<pileus_placement>();
     placement.yaw_deg = 90;
     host.check(pileus_session_set_placement(host.session.get(), &placement, &host.out.error));
-    const Overrides turned = with("raymarch", {"camera.position_m=[-4000,-16,256]",
-                                               "sun.azimuth_deg=210"});
+    const Overrides turned =
+        with("raymarch", {"camera.position_m=[-4000,-16,256]", "sun.azimuth_deg=210"});
     CHECK(host.hash() == program_hashes(kSmallCumulus, turned)[0]);
 }
 
@@ -228,9 +226,9 @@ name = "raymarch"
     const auto hash_of = [&] {
         pileus_world* world = nullptr;
         Outcome out;
-        REQUIRE_MESSAGE(pileus_world_create(scene.get(), nullptr, &density, 1, &world,
-                                            &out.error) == PILEUS_OK,
-                        out.line());
+        REQUIRE_MESSAGE(
+            pileus_world_create(scene.get(), nullptr, &density, 1, &world, &out.error) == PILEUS_OK,
+            out.line());
         const WorldHandle kept(world);
         pileus_session* session = nullptr;
         REQUIRE(pileus_session_create(world, scene.get(), nullptr, &session, &out.error) ==

@@ -78,8 +78,8 @@ TEST_CASE("Where no marched pixel sees cloud the background is exact") {
 
 TEST_CASE("A view at rest becomes the whole picture, to the bit, whatever was there before") {
     for (int cell : {2, 4}) {
-        const Scene scene = scene_from(
-            kSmallCumulus, marched({"raymarch.temporal = " + std::to_string(cell)}));
+        const Scene scene =
+            scene_from(kSmallCumulus, marched({"raymarch.temporal = " + std::to_string(cell)}));
         std::uint64_t hash = 0;
         FrameTarget target;
         target.hash = &hash;

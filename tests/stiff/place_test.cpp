@@ -24,7 +24,7 @@ void shift(Scene& scene, const Double3& by) {
 void scale(Scene& scene, double by) {
     for (Double3* v : {&scene.camera.position_m, &scene.camera.target_m,
                        &scene.media[0].bounds_m[0], &scene.media[0].bounds_m[1]})
-        for (double& x : *v) x *= by;
+        *v *= by;
     scene.ground.altitude_m *= by;
     scene.media[0].extinction_per_m /= by;
 }

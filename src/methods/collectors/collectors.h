@@ -38,7 +38,7 @@ struct CollectorsRun : MethodRun {
     Buffer<float> shadow;      ///< optical depth to the sun per node
     Buffer<float> visibility;  ///< and what solids leave of the sun; empty without solids
     bool shadow_ready = false;
-    Planes planes;               ///< of a session's picture
+    Planes planes;              ///< of a session's picture
     std::uint32_t layouts = 0;  ///< times that the sums were laid out
     bool interrupted = false;  ///< fewer generations than asked for, because the user wanted an end
     int camera_cells = 0;      ///< > 0: the camera-directed estimate on cells of so many voxels
@@ -82,8 +82,8 @@ Status collectors_relight(bool anew, const Context& context, CollectorsRun& run)
 /// run.interrupted where the user ended it within.
 Status collectors_shoot(const Context& context, CollectorsRun& run);
 
-/// The picture of the lit collectors as planes; `colours` are what it is made from, `channels` those
-/// of planes.colour.
+/// The picture of the lit collectors as planes; `colours` are what it is made from, `channels`
+/// those of planes.colour.
 Status collectors_compose(const CameraParams& camera, const Context& context, CollectorsRun& run,
                           CollectorColours& colours, int& channels, Planes& planes);
 

@@ -175,8 +175,8 @@ Status compose(const FrameStep&, const Context& context, MethodRun& method_run,
 
 const Method& collectors_method() {
     static constexpr LiveMethod live{aim, advance, units, compose};
-    static constexpr Method method{"collectors", SkyUse::kOnGrid, make,  check, outline,
-                                   prepare, report_plan, light, show, report, &live};
+    static constexpr Method method{"collectors", SkyUse::kOnGrid, make, check,  outline, prepare,
+                                   report_plan,  light,           show, report, &live};
     return method;
 }
 

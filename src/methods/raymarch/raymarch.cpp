@@ -120,8 +120,8 @@ Status compose(const FrameStep& step, const Context& context, MethodRun& method_
 const Method& raymarch_method() {
     static constexpr LiveMethod live{aim, advance, units, compose};
     static constexpr Method method{
-        "raymarch", SkyUse::kInPlace,     make,           check,         outline,
-        prepare,    raymarch_report_plan, raymarch_light, raymarch_show, raymarch_report, &live};
+        "raymarch",           SkyUse::kInPlace, make,          check,           outline, prepare,
+        raymarch_report_plan, raymarch_light,   raymarch_show, raymarch_report, &live};
     return method;
 }
 

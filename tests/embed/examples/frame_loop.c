@@ -37,7 +37,7 @@ int main(int argc, char** argv) {
     const int frames = argc > 3 ? atoi(argv[3]) : 10;
     const int over = argc <= 4 || strcmp(argv[4], "plain") != 0;
     char method[64];
-    const char* overrides[4];
+    const char* overrides[5];
     int frame;
     uint32_t i;
     pileus_error error;
@@ -62,7 +62,8 @@ int main(int argc, char** argv) {
     overrides[1] = "collectors.photons=20000";
     overrides[2] = "collectors.generations=10";
     overrides[3] = "path.samples_per_pixel=2";
-    check(pileus_scene_read(argv[1], overrides, 4, &scene, &error), &error);
+    overrides[4] = "camera.resolution=[160,90]";
+    check(pileus_scene_read(argv[1], overrides, 5, &scene, &error), &error);
     check(pileus_world_create(scene, NULL, NULL, 0, &world, &error), &error);
     check(pileus_session_create(world, scene, NULL, &session, &error), &error);
     check(pileus_session_light(session, &light, &error), &error);
@@ -87,7 +88,7 @@ int main(int argc, char** argv) {
         pileus_orbit(start, target, 90 * share, camera.position_m);
         check(pileus_session_set_camera(session, &camera, &error), &error);
         sun.present = 1;
-        sun.azimuth_deg = 120;
+        sun.azimuth_deg = 65;
         sun.elevation_deg = 20 + 30 * share;
         for (i = 0; i < 3; ++i) sun.irradiance[i] = 1;
         check(pileus_session_set_sun(session, &sun, &error), &error);

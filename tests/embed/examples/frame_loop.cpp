@@ -81,7 +81,8 @@ int main(int argc, char** argv) {
     // Once: the world is read and prepared.
     const Scene scene =
         take(Scene::read(argv[1], {"method.name=\"" + method + "\"", "collectors.photons=20000",
-                                   "collectors.generations=10"}));
+                                   "collectors.generations=10", "path.samples_per_pixel=2",
+                                   "camera.resolution=[160,90]"}));
     const World world = take(World::create(scene));
     Session session = take(Session::create(world, scene));
     const Light light = take(session.light());
@@ -109,7 +110,7 @@ int main(int argc, char** argv) {
             check(session.set_camera(camera));
         }
         Sun sun;
-        sun.azimuth_deg = 120;
+        sun.azimuth_deg = 65;
         sun.elevation_deg = 20 + 30 * share;
         check(session.set_sun(sun));
         check(session.set_frame(number));

@@ -45,8 +45,8 @@ void report(const MethodRun& run, Report& out) { collectors_view_report(own(run)
 
 template <View kView>
 constexpr Method recipe(const char* name) {
-    return {name, SkyUse::kOnGrid, make<kView>,         check, outline, prepare, report_plan, light,
-            show, report, nullptr, view_is_light(kView)};
+    return {name,        SkyUse::kOnGrid, make<kView>, check,  outline, prepare,
+            report_plan, light,           show,        report, nullptr, view_is_light(kView)};
 }
 
 }  // namespace
