@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The Python module: the program's bits, memory written in place, faults, threads.
+"""The Python module: the program's bits, memory written in place, what a session is set to.
 
 in: PILEUS_PROGRAM, the module in the path -> out: exit 0. docs/python.md
 """
@@ -7,65 +7,14 @@ in: PILEUS_PROGRAM, the module in the path -> out: exit 0. docs/python.md
 import json
 import math
 import os
-import signal
 import subprocess
 import tempfile
-import threading
 import unittest
-import warnings
 
 import numpy as np
 import pileus
 
-CUMULUS = """
-seed = 4
-[camera]
-position_m = [16, -4000, 256]
-target_m = [0, 0, 1024]
-fov_deg = 40
-resolution = [24, 14]
-[sun]
-azimuth_deg = 120
-elevation_deg = 35
-[sky]
-radiance = [0.0625, 0.125, 0.25]
-[ground]
-altitude_m = 0
-albedo = 0.25
-[[medium]]
-density = "procedural:cumulus"
-bounds_m = [[-768, -768, 512], [768, 768, 1536]]
-resolution = [24, 24, 16]
-extinction_per_m = 0.0625
-albedo = [0.9, 0.99, 1.0]
-phase = { type = "henyey-greenstein", g = 0.85 }
-[collectors]
-photons = 12_000
-generations = 4
-samples = 1_000
-[path]
-samples_per_pixel = 3
-"""
-BOX = """
-[camera]
-position_m = [0, -300, 0]
-target_m = [0, 0, 0]
-resolution = [9, 7]
-[sun]
-[[medium]]
-density = "uniform:box"
-bounds_m = [[-50, -50, -50], [50, 50, 50]]
-extinction_per_m = 0.02
-[method]
-name = "raymarch"
-"""
-POSITION, TARGET = (16, -4000, 256), (0, 0, 1024)
-
-
-def open_session(method="raymarch", **more):
-    scene = pileus.Scene(CUMULUS, {"method.name": method, **more})
-    # One thread: these pictures are too small for more, and the machine may be busy.
-    return pileus.Session(pileus.World(scene, threads=1), threads=1)
+from python_scenes import BOX, CUMULUS, POSITION, RAYMARCH, TARGET, open_session
 
 
 def program_report(folder, method):
@@ -129,9 +78,6 @@ class Program(unittest.TestCase):
             self.assertLess(pileus.compare(*pictures, flip=False).cloud_pixels, ours.pixels)
         same = pileus.compare(pictures[0], pictures[0], flip=False)
         self.assertTrue(same.identical and same.relmse == 0 and math.isnan(same.flip))
-
-
-RAYMARCH = {"method.name": "raymarch"}
 
 
 class Arrays(unittest.TestCase):
@@ -321,127 +267,6 @@ class Settings(unittest.TestCase):
         for bad in ({0: -values}, {1: values}, {0: values[0]}, {0: values * math.nan}):
             with self.assertRaises(pileus.BadInput):
                 pileus.World(scene, density=bad)
-
-
-class Faults(unittest.TestCase):
-    def test_classes(self):
-        for raised, also in ((pileus.BadInput, ValueError), (pileus.Limit, MemoryError),
-                             (pileus.Io, OSError)):
-            self.assertTrue(issubclass(raised, also) and issubclass(raised, pileus.Error))
-        with self.assertRaisesRegex(pileus.BadInput, "nothing.toml: no such file"):
-            pileus.Scene("nothing.toml")
-        with self.assertRaisesRegex(pileus.BadInput, "(?s)camera.position_m: missing.*x: unknown"):
-            pileus.Scene("[camera]\nx = 1\n")
-        with self.assertRaises(pileus.Limit):
-            pileus.World(pileus.Scene(CUMULUS), memory_limit=1000)
-        with self.assertRaisesRegex(pileus.BadInput, "sse9"):
-            pileus.World(pileus.Scene(CUMULUS), isa="sse9")
-        with self.assertRaises(pileus.BadInput):
-            pileus.Scene(CUMULUS, {"sun.elevation_deg": 91})
-        with self.assertRaises(pileus.BadInput):
-            pileus.Scene(CUMULUS, "sun.elevation_deg=1")
-        with self.assertRaises(TypeError):
-            pileus.World(pileus.Scene(CUMULUS), threads="two")
-
-    def test_a_fault_leaves_the_session_as_it_was(self):
-        session = open_session()
-        first = session.render(hash=True).hash
-        for wrong in (lambda: session.set_sun(0, 91), lambda: session.set_sun(0),
-                      lambda: session.set_camera(TARGET, TARGET),
-                      lambda: session.set_camera(POSITION, (1, 2)),
-                      lambda: session.set_camera(POSITION, TARGET, size=(40000, 2)),
-                      lambda: session.set_ground(2), lambda: session.set_frame(-1),
-                      lambda: session.set_placement(yaw_deg=math.nan),
-                      lambda: session.set_matrices(np.eye(3), np.eye(4)),
-                      lambda: session.set_depth(np.ones((14, 24)), "buffer"),
-                      lambda: session.render(blend="under")):
-            with self.assertRaises(pileus.BadInput):
-                wrong()
-        self.assertEqual(session.render(hash=True).hash, first)
-
-    def test_overrides_are_toml(self):
-        listed = pileus.Scene(CUMULUS, ["camera.resolution=[5,4]", "method.name=raymarch"])
-        kept = pileus.Scene(CUMULUS, {"camera.resolution": np.array([5, 4]), **RAYMARCH,
-                                      "medium.0.phase": {"type": "isotropic"},
-                                      "sun.elevation_deg": np.float32(20)})
-        for scene in (listed, kept):
-            self.assertEqual(pileus.Session(pileus.World(scene)).size, (5, 4))
-        self.assertEqual(listed.plan()["cells"], (24, 24, 16))
-
-    def test_ctrl_c_ends_a_step(self):
-        session = open_session("path")
-        timer = threading.Timer(0.5, lambda: os.kill(os.getpid(), signal.SIGINT))
-        timer.start()
-        with self.assertRaises(KeyboardInterrupt):
-            session.step(2**32 - 1)
-        timer.join()
-        session.step(1)
-        self.assertGreater(session.light.units, 0)
-        self.assertGreater(session.render()[..., :3].max(), 0)
-
-    def test_a_doubtful_picture_warns(self):
-        session = open_session("collectors", **{"medium.0.extinction_per_m": 1e-9})
-        with warnings.catch_warnings(record=True) as told:
-            warnings.simplefilter("always")
-            session.render()
-        self.assertTrue(all(w.category is pileus.PictureWarning for w in told))
-
-
-class Threads(unittest.TestCase):
-    def test_two_sessions_of_one_world(self):
-        world = pileus.World(pileus.Scene(CUMULUS, RAYMARCH))
-        expected = {}
-        for method in ("raymarch", "path"):
-            expected[method] = pileus.render(CUMULUS, overrides={"method.name": method}, hash=True).hash
-        found, faults = {"raymarch": set(), "path": set()}, []
-
-        def work(method):
-            try:
-                scene = pileus.Scene(CUMULUS, {"method.name": method})
-                session = pileus.Session(world, scene, threads=1)
-                for _ in range(5):
-                    session.set_frame(1)
-                    session.render()
-                    session.set_frame(0)
-                    session.step()
-                    found[method].add(session.render(hash=True).hash)
-            except Exception as fault:  # pylint: disable=broad-except
-                faults.append(fault)
-
-        threads = [threading.Thread(target=work, args=(m,)) for m in found]
-        for thread in threads:
-            thread.start()
-        for thread in threads:
-            thread.join()
-        self.assertEqual(faults, [])
-        for method, hashes in found.items():
-            self.assertEqual(hashes, {expected[method]})
-
-    def test_python_runs_while_the_library_works(self):
-        session = open_session("path")
-        ended, counted = threading.Event(), 0
-        worker = threading.Thread(target=lambda: (session.step(300), ended.set()))
-        worker.start()
-        refused = 0
-        while not ended.is_set():
-            counted += 1
-            try:
-                session.render()
-            except pileus.BadInput:
-                refused += 1
-            ended.wait(0.001)
-        worker.join()
-        self.assertGreater(counted, 5)
-        self.assertGreater(refused, 0)  # one session serves one thread at a time
-        self.assertGreaterEqual(session.light.units, 1)
-
-    def test_a_world_outlives_its_name(self):
-        session = open_session()
-        scene = pileus.Scene(CUMULUS, RAYMARCH)
-        other = pileus.Session(session.world, scene)
-        first = session.render(hash=True).hash
-        del session, scene
-        self.assertEqual(other.render(hash=True).hash, first)
 
 
 if __name__ == "__main__":

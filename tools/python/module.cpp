@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// pileus._core: scenes, worlds and comparisons for the Python module, whose manners are in src/pileus.
+// pileus._core: scenes, worlds and comparisons; their manners in Python are in tools/python/src.
 // in: pileus.h -> out: handles, dicts; pileus.Error for every code but 0.
 // docs/python.md
 #include "tools/python/handles.h"
