@@ -1,0 +1,210 @@
+# SPDX-License-Identifier: Apache-2.0
+"""Sessions: what changes from picture to picture."""
+
+import json
+import warnings
+from typing import NamedTuple, Optional
+
+import numpy as np
+
+from . import _core
+from ._errors import BadInput, PictureWarning
+
+_FORMATS = {"rgba8": 0, "rgba16f": 1, "rgba32f": 2}
+_DTYPES = (np.uint8, np.float16, np.float32)
+_BLENDS = {"replace": 0, "over": 1, "media": 2}
+_DEPTHS = {"distance": 0, "view_z": 1, "buffer": 2}
+_CLIPS = {"minus_one": 0, "zero": 1}
+
+
+class Light(NamedTuple):
+    """Units of light: docs/embedding.md."""
+
+    whole: int  # that a first picture should have; 0: the method traces none
+    unit_photons: int  # photons or paths of one
+    units: int  # that the next picture shows
+    unit: str  # "generation", "sample" or ""
+
+
+class Stats(NamedTuple):
+    """Counts of what was done."""
+
+    prepared: int
+    pictures: int
+    units: int
+    shared_bytes: int
+    own_bytes: int
+    render_s: float
+    stages_s: float
+
+
+class Picture(NamedTuple):
+    """What render gives where depth or hash is asked for."""
+
+    colour: Optional[np.ndarray]
+    depth: Optional[np.ndarray]
+    hash: Optional[str]  # 16 hex digits, as of `pileus hash`
+
+
+def _choice(name, value, table):
+    if value in table:
+        return table[value]
+    raise BadInput(f"{name}: {value!r}, allowed: {', '.join(table)}")
+
+
+def _three(name, value):
+    numbers = np.asarray(value, np.float64)
+    if numbers.shape not in ((), (3,)):
+        raise BadInput(f"{name}: shape {numbers.shape}, allowed: a number, or three")
+    return np.broadcast_to(numbers, 3).tolist()
+
+
+def _columns(name, matrix):
+    """[row, column] as NumPy has it into columns one after the other, as pileus.h has them."""
+    matrix = np.asarray(matrix, np.float64)
+    if matrix.shape != (4, 4):
+        raise BadInput(f"{name}: shape {matrix.shape}, allowed: (4, 4)")
+    return matrix.T.ravel().tolist()
+
+
+class Session:
+    """One camera, one light and one method over a world; it begins as its scene says.
+
+    One thread at a time; for more threads make more sessions. Lengths are metres, angles degrees;
+    x points east, y north, z up.
+    """
+
+    def __init__(self, world, scene=None, *, threads=0, isa="", memory_limit=0):
+        scene = world.scene if scene is None else scene
+        self.world = world
+        self._core = _core.Session(world._handle, scene._handle, threads, isa or "", memory_limit)
+
+    @property
+    def size(self):
+        """Pixels of the camera: (width, height)."""
+        return tuple(self._core.size())
+
+    def set_camera(self, position, target, up=(0, 0, 1), *, fov_deg=40.0, height=None, size=None,
+                   near=0.0, far=0.0):
+        """A perspective camera, or with `height` (of the picture, metres) an orthographic one.
+
+        fov_deg: vertical. size: (width, height) in pixels; left out: as before. near, far: for
+        depth buffers alone; far 0: infinite.
+        """
+        self._core.set_camera(_three("position", position), _three("target", target),
+                              _three("up", up), fov_deg, height or 0.0, size or (0, 0), near, far)
+
+    def set_matrices(self, view, projection, *, clip="minus_one", size=None):
+        """The same from arrays [row, column]: world to view (looks along -z), view to clip.
+
+        A point is a column, as in view @ [x, y, z, 1]. clip: depth from -1 ("minus_one", OpenGL)
+        or from 0 ("zero", Vulkan, Direct3D).
+        """
+        self._core.set_matrices(_columns("view", view), _columns("projection", projection),
+                                _choice("clip", clip, _CLIPS), size or (0, 0))
+
+    def set_sun(self, azimuth_deg, elevation_deg=None, irradiance=1.0):
+        """Azimuth from north towards east. set_sun(None): no sun."""
+        present = azimuth_deg is not None
+        if present and elevation_deg is None:
+            raise BadInput("sun: no elevation_deg, allowed: with azimuth_deg")
+        self._core.set_sun(present, azimuth_deg or 0.0, elevation_deg or 0.0,
+                           _three("irradiance", irradiance))
+
+    def set_sky(self, light, *, scale=1.0, rotation_deg=0.0):
+        """A radiance (a number or three), a map [rows, columns, 3] or None: no sky.
+
+        Rows of a map run from the zenith down; scale and rotation_deg are the map's.
+        """
+        radiance, sky_map = [0.0] * 3, None
+        if np.ndim(light) > 1:
+            sky_map = np.require(light, np.float32, "CA")
+        elif light is not None:
+            radiance = _three("sky", light)
+        self._core.set_sky(light is not None, radiance, sky_map, scale, rotation_deg)
+
+    def set_ground(self, albedo, *, altitude=0.0):
+        """A flat ground. set_ground(None): none."""
+        self._core.set_ground(albedo is not None, altitude, albedo or 0.0)
+
+    def set_placement(self, offset=(0, 0, 0), yaw_deg=0.0):
+        """Turns all media about the z axis, then shifts them. Nothing is prepared again."""
+        self._core.set_placement(_three("offset", offset), yaw_deg)
+
+    def set_depth(self, values, kind="distance", *, bottom_up=False):
+        """Opaque things that end rays, [height, width], for the camera as it is now; None: none.
+
+        kind: "distance" (along each ray), "view_z" or "buffer" (of the camera's projection).
+        """
+        if values is not None:
+            values = np.asarray(values, np.float32)
+            if values.ndim == 2 and values.strides[1] != 4:
+                values = np.ascontiguousarray(values)
+        self._core.set_depth(values, _choice("kind", kind, _DEPTHS), bottom_up)
+
+    def set_frame(self, number):
+        """Number of the picture, which jitter and the noise of paths go by."""
+        self._core.set_frame(number)
+
+    @property
+    def light(self):
+        """How much light there is, and what a step counts: Light."""
+        return Light(*self._core.light())
+
+    @property
+    def stats(self):
+        """Counts: Stats."""
+        return Stats(*self._core.stats())
+
+    def report(self):
+        """The report as the program writes it (docs/report.md), a dict."""
+        return json.loads(self._core.report())
+
+    def step(self, units=None):
+        """Traces so many units of light; left out: as many as a first picture should have."""
+        return self._core.step(self.light.whole if units is None else units)
+
+    def render(self, colour=None, *, format=None, blend="replace", exposure=0.0, depth=None,
+               depth_kind="distance", hash=False, bottom_up=False):
+        """Draws what the session holds, into arrays of yours or new ones. Light is not traced.
+
+        colour: an array [height, width, 4] of uint8, float16 or float32, written in place; gaps
+        between its rows stay. None: a new one of `format` ("rgba8", "rgba16f", "rgba32f"). False: none.
+        blend: "replace" (all, sky and ground too), "over" (the media over what is there), "media"
+        (premultiplied by alpha). exposure: stops, of rgba8.
+        depth: True, or an array [height, width] of float32. hash: True for the picture's.
+        bottom_up: the first row is the picture's lowest.
+        Returns colour; where depth or hash is asked for, Picture(colour, depth, hash).
+        """
+        mode = _choice("blend", blend, _BLENDS)
+        width, height = self.size
+        if colour is None:
+            chosen = _choice("format", format or "rgba32f", _FORMATS)
+            make = np.zeros if blend == "over" else np.empty
+            colour = make((height, width, 4), _DTYPES[chosen])
+        elif colour is False:
+            chosen, colour = 0, None
+        else:
+            chosen = self._format_of(colour, format)
+        if depth is True:
+            depth = np.empty((height, width), np.float32)
+        elif depth is False:
+            depth = None
+        bits = self._core.render(colour, chosen, mode, exposure, depth,
+                                 _choice("depth_kind", depth_kind, _DEPTHS), hash, bottom_up)
+        for line in self._core.take_lines():
+            warnings.warn(line, PictureWarning, stacklevel=2)
+        if depth is None and not hash:
+            return colour
+        return Picture(colour, depth, None if bits is None else f"{bits:016x}")
+
+    @staticmethod
+    def _format_of(colour, name):
+        """The format that an array's numbers say."""
+        if not isinstance(colour, np.ndarray):
+            raise BadInput(f"colour: {type(colour).__name__}, allowed: an array, None or False")
+        kinds = [i for i, dtype in enumerate(_DTYPES) if colour.dtype == dtype]
+        if not kinds or (name is not None and kinds[0] != _choice("format", name, _FORMATS)):
+            wanted = f"of format {name}" if kinds else "uint8, float16 or float32"
+            raise BadInput(f"colour: {colour.dtype}, allowed: {wanted}")
+        return kinds[0]
