@@ -47,7 +47,7 @@ extern "C" {
 
 typedef enum pileus_code {
     PILEUS_OK = 0,
-    PILEUS_CHECK_FAILED = 1, /**< kernels that give other bits than they must, or a stopped step */
+    PILEUS_CHECK_FAILED = 1, /**< kernels that give other bits than they must */
     PILEUS_BAD_INPUT = 2,    /**< an argument, a scene or a file of it */
     PILEUS_LIMIT = 3,        /**< out of memory, or more than a limit allows */
     PILEUS_IO = 4            /**< reading or writing failed half way */

@@ -200,7 +200,7 @@ TEST_CASE("pileus.hpp: faults are codes and lines; what stops says how far it ca
     host.stop = [] { return true; };
     hpp::Session session = session_of("path", host);
     std::uint32_t done = 9;
-    CHECK(session.step(5, &done).code() == hpp::Code::kCheckFailed);
+    CHECK(bool(session.step(5, &done)));
     CHECK(done < 5);
     CHECK(session.set_sun({0, 91}).message().find("elevation") != std::string::npos);
     CHECK(session.set_camera(glm::dmat4(2), glm::dmat4(1)).code() == hpp::Code::kBadInput);
