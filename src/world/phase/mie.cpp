@@ -120,6 +120,7 @@ MieResult mie_cloud(const MieCloud& cloud, const std::vector<double>& angle_deg)
     MieResult result;
     result.density.assign(angle_deg.size(), 0.0);
     std::vector<double> cosine;
+    cosine.reserve(angle_deg.size());
     for (double angle : angle_deg) cosine.push_back(sincos_deg(angle).cosine);
     const double scale = 2 * kPiDouble * cloud.effective_radius_um / cloud.wavelength_um;
     double scattering = 0, forward = 0, area = 0;
