@@ -33,8 +33,8 @@ void prepare(Piece& p) {
     Prepared out;
     Majorants majorants;
     p.status =
-        prepare_collectors(p.run->world.medium, p.scene->collectors, p.scene->seed, p.context, out);
-    if (p.status) p.status = make_majorants(p.run->world.medium, true, p.context, majorants);
+        prepare_collectors(p.run->world->medium, p.scene->collectors, p.scene->seed, p.context, out);
+    if (p.status) p.status = make_majorants(p.run->world->medium, true, p.context, majorants);
 }
 void trace(Piece& p) { p.status = collectors_shoot(p.context, *p.run); }
 void show(Piece& p) {
@@ -43,11 +43,11 @@ void show(Piece& p) {
 }
 PathInput path_input(const Piece& p) {
     PathInput in;
-    in.medium = &p.run->world.medium;
+    in.medium = &p.run->world->medium;
     in.lighting = &p.run->lighting;
     in.majorants = p.run->majorants.tracking.span();
     in.block = p.run->majorants.block;
-    in.camera = make_camera(p.scene->camera, 0, p.run->world.medium.low_m);
+    in.camera = make_camera(p.scene->camera, 0, p.run->world->medium.low_m);
     in.seed = std::uint64_t(p.scene->seed);
     in.kernels = p.context.kernels;
     in.threads = 1;
