@@ -32,8 +32,8 @@ struct Piece {
 void prepare(Piece& p) {
     Prepared out;
     Majorants majorants;
-    p.status =
-        prepare_collectors(p.run->world->medium, p.scene->collectors, p.scene->seed, p.context, out);
+    p.status = prepare_collectors(p.run->world->medium, p.scene->collectors, p.scene->seed,
+                                  p.context, out);
     if (p.status) p.status = make_majorants(p.run->world->medium, true, p.context, majorants);
 }
 void trace(Piece& p) { p.status = collectors_shoot(p.context, *p.run); }
