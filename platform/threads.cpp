@@ -51,7 +51,8 @@ struct SharedPieces {
     void* context;
     WorkFunction work;
     Host host;
-    std::atomic<std::int64_t> next{0};
+    std::int64_t stride;                 ///< pieces that are taken at once
+    std::atomic<std::uint32_t> next{0};  ///< 32 bits, which every machine adds to by itself
     Thrown thrown{};
 };
 
@@ -60,15 +61,18 @@ void take_pieces(void* data, std::uint32_t index) {
     const FpModeGuard guard;
     const HostGuard lent(shared.host);
     for (;;) {
-        const std::int64_t piece = shared.next.fetch_add(1, std::memory_order_relaxed);
-        if (piece >= shared.pieces) return;
-        shared.thrown.guard([&] { shared.work(shared.context, piece, int(index)); });
+        const std::int64_t first =
+            std::int64_t(shared.next.fetch_add(1, std::memory_order_relaxed)) * shared.stride;
+        if (first >= shared.pieces) return;
+        for (std::int64_t piece = first; piece < first + shared.stride && piece < shared.pieces;
+             ++piece)
+            shared.thrown.guard([&] { shared.work(shared.context, piece, int(index)); });
     }
 }
 
 void run_on_host(const Executor& executor, int threads, std::int64_t pieces, void* context,
                  WorkFunction work, const Host& host) {
-    SharedPieces shared{pieces, context, work, host};
+    SharedPieces shared{pieces, context, work, host, pieces / (1 << 30) + 1};
     executor.run(executor.user, std::uint32_t(threads), take_pieces, &shared);
     shared.thrown.pass_on();
 }

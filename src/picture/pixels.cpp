@@ -150,7 +150,7 @@ void write_pixels(const Planes& planes, int width, int height, const PixelTarget
     if (decodes) fill(table);
     const float gain = exposure_gain(target.stops);
     const std::size_t columns = std::size_t(width);
-    std::atomic<std::uint64_t> all{0};
+    std::atomic<std::uint32_t> all{0};  // below 2^30
     parallel_for(threads, height, [&](std::int64_t y, int) {
         unsigned char* row = target.rows.row(int(y), height);
         const std::size_t first = std::size_t(y) * columns;
@@ -166,7 +166,7 @@ void write_pixels(const Planes& planes, int width, int height, const PixelTarget
             store_row<float>(
                 planes, first, columns, target.blend, row, own, [](float v) { return v; },
                 [](float v) { return v; });
-        if (own > 0) all.fetch_add(own, std::memory_order_relaxed);
+        if (own > 0) all.fetch_add(std::uint32_t(own), std::memory_order_relaxed);
     });
     broken = all.load();
 }
