@@ -240,7 +240,7 @@ public:
     }
 
     /// Traces so many units of light for what is set now; never counts time. `done`, where not
-    /// null: how many, fewer where Host::stop ended it, which is kCheckFailed.
+    /// null: how many, fewer where Host::stop ended it, which is no fault.
     Status step(std::uint32_t units, std::uint32_t* done = nullptr) {
         return detail::status_of(
             [&](pileus_error* error) { return pileus_session_step(get(), units, done, error); });

@@ -18,7 +18,7 @@ namespace pileus::embed {
 
 enum class Code : std::int32_t {
     kOk = PILEUS_OK,
-    kCheckFailed = PILEUS_CHECK_FAILED,  ///< wrong kernels, or a step that `stop` ended
+    kCheckFailed = PILEUS_CHECK_FAILED,  ///< kernels that give other bits than they must
     kBadInput = PILEUS_BAD_INPUT,        ///< an argument, a scene or a file of it
     kLimit = PILEUS_LIMIT,               ///< out of memory, or more than a limit allows
     kIo = PILEUS_IO                      ///< reading or writing failed half way
