@@ -74,11 +74,7 @@ extern "C" {
 pileus_code pileus_compare(const pileus_picture* a, const pileus_picture* reference,
                            double alpha_least, int32_t with_flip, const pileus_host* host,
                            pileus_figures* figures, pileus_error* error) {
-    return call(nullptr, error, [&]() -> Status {
-        std::shared_ptr<const HostParts> parts;
-        RenderOptions options;
-        PILEUS_TRY(take_host(host, parts, options));
-        const HostGuard lent(parts->host());
+    return call_with(host, error, [&](const auto&, const RenderOptions& options) -> Status {
         if (!(alpha_least <= 1))
             return Status::bad_input("alpha_least: " + std::to_string(alpha_least) +
                                      ", allowed: at most 1; below 0: all pixels");

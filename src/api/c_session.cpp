@@ -117,14 +117,12 @@ extern "C" {
 pileus_code pileus_session_create(const pileus_world* world, const pileus_scene* scene,
                                   const pileus_host* host, pileus_session** session,
                                   pileus_error* error) {
-    return call(nullptr, error, [&]() -> Status {
+    return call_with(host, error, [&](const auto& parts, const RenderOptions& options) -> Status {
         if (world == nullptr) return no_handle("world");
         if (scene == nullptr) return no_handle("scene");
         if (session == nullptr) return Status::bad_input("session: null, allowed: where to put it");
-        RenderOptions options;
         auto made = std::make_unique<pileus_session>();
-        PILEUS_TRY(take_host(host, made->host, options));
-        const HostGuard lent(made->host->host());
+        made->host = parts;
         PILEUS_TRY(
             made->session.open(scene->scene, options, SessionKind::kLive, true, world->world));
         *session = made.release();

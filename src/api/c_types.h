@@ -43,12 +43,13 @@ bool take(const T* given, T& own) {
     return true;
 }
 
+Status no_struct(const char* name);
+Status no_handle(const char* name);
+
 /// The part of a result that the caller's struct has room for.
 template <class T>
 Status give(T own, T* to, const char* name) {
-    if (to == nullptr || to->struct_size < sizeof(std::uint32_t))
-        return Status::bad_input(std::string(name) +
-                                 ": null or without struct_size, allowed: after PILEUS_INIT");
+    if (to == nullptr || to->struct_size < sizeof(std::uint32_t)) return no_struct(name);
     own.struct_size = to->struct_size;
     const std::size_t size = to->struct_size < sizeof(T) ? to->struct_size : sizeof(T);
     std::memcpy(static_cast<void*>(to), &own, size);
@@ -57,9 +58,6 @@ Status give(T own, T* to, const char* name) {
 
 /// Bytes of the arrays that sessions share.
 std::uint64_t bytes_of_world(const World& world);
-
-Status no_struct(const char* name);
-Status no_handle(const char* name);
 
 /// kBadInput: rows that would overlap.
 Status take_stride(const char* name, std::int64_t stride, std::int64_t least, Rows& rows);
@@ -83,12 +81,23 @@ pileus_code call(const HostParts* host, pileus_error* error, Work work) {
 Status take_host(const pileus_host* given, std::shared_ptr<const HostParts>& host,
                  RenderOptions& options);
 
+/// A call that makes something in the memory and on the threads of `given`:
+/// `work(host, options)` returns a Status.
+template <class Work>
+pileus_code call_with(const pileus_host* given, pileus_error* error, Work work) {
+    return call(nullptr, error, [&]() -> Status {
+        std::shared_ptr<const HostParts> host;
+        RenderOptions options;
+        PILEUS_TRY(take_host(given, host, options));
+        const HostGuard lent(host->host());
+        return work(host, options);
+    });
+}
+
 }  // namespace pileus::api
 
 struct pileus_scene {
     pileus::Scene scene;
-    std::string text;
-    std::vector<std::string> overrides;
 };
 
 struct pileus_world {

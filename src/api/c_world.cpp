@@ -25,8 +25,9 @@ pileus_code make_scene(const char* const* overrides, std::uint32_t count, pileus
     return call(nullptr, error, [&]() -> Status {
         if (scene == nullptr) return Status::bad_input("scene: null, allowed: where to put it");
         auto made = std::make_unique<pileus_scene>();
-        PILEUS_TRY(take_overrides(overrides, count, made->overrides));
-        PILEUS_TRY(read(made->overrides, made->scene));
+        std::vector<std::string> texts;
+        PILEUS_TRY(take_overrides(overrides, count, texts));
+        PILEUS_TRY(read(texts, made->scene));
         *scene = made.release();
         return Status::ok();
     });
@@ -60,7 +61,9 @@ Status take_density(const pileus_density& given, std::uint32_t at, Scene& scene)
     return Status::ok();
 }
 
-std::uint64_t held_bytes(const World& world) {
+}  // namespace
+
+std::uint64_t bytes_of_world(const World& world) {
     std::uint64_t bytes = world.medium.volume.density.bytes() + world.medium.parts.bytes() +
                           phase_bytes(world.medium) + world.solids.nodes.bytes() +
                           world.solids.triangles.bytes() + world.solids.albedo.bytes();
@@ -69,7 +72,6 @@ std::uint64_t held_bytes(const World& world) {
     return bytes;
 }
 
-}  // namespace
 }  // namespace pileus::api
 
 using namespace pileus;
@@ -103,12 +105,8 @@ void pileus_scene_free(pileus_scene* scene) { delete scene; }
 
 pileus_code pileus_plan_scene(const pileus_scene* scene, const pileus_host* host, pileus_plan* plan,
                               pileus_error* error) {
-    return call(nullptr, error, [&]() -> Status {
+    return call_with(host, error, [&](const auto&, const RenderOptions& options) -> Status {
         if (scene == nullptr) return no_handle("scene");
-        std::shared_ptr<const HostParts> parts;
-        RenderOptions options;
-        PILEUS_TRY(take_host(host, parts, options));
-        const HostGuard lent(parts->host());
         Session session;
         PILEUS_TRY(session.open(scene->scene, options, SessionKind::kLive, false, nullptr));
         const Medium& medium = session.run().world->medium;
@@ -130,14 +128,11 @@ pileus_code pileus_plan_scene(const pileus_scene* scene, const pileus_host* host
 pileus_code pileus_world_create(const pileus_scene* scene, const pileus_host* host,
                                 const pileus_density* densities, uint32_t density_count,
                                 pileus_world** world, pileus_error* error) {
-    return call(nullptr, error, [&]() -> Status {
+    return call_with(host, error, [&](const auto& parts, const RenderOptions& options) -> Status {
         if (scene == nullptr) return no_handle("scene");
         if (world == nullptr) return Status::bad_input("world: null, allowed: where to put it");
         if (density_count > 0 && densities == nullptr)
             return Status::bad_input("densities: null, allowed: as many as density_count says");
-        std::shared_ptr<const HostParts> parts;
-        RenderOptions options;
-        PILEUS_TRY(take_host(host, parts, options));
         Scene own = scene->scene;
         for (std::uint32_t i = 0; i < density_count; ++i) {
             // The array's elements lie as far apart as the caller's header says.
@@ -149,7 +144,6 @@ pileus_code pileus_world_create(const pileus_scene* scene, const pileus_host* ho
                 return no_struct("densities");
             PILEUS_TRY(take_density(given, i, own));
         }
-        const HostGuard lent(parts->host());
         const auto held = std::make_shared<HeldWorld>();
         held->host = parts;
         PILEUS_TRY(make_world(own, options, held->world));
@@ -164,7 +158,3 @@ pileus_code pileus_world_create(const pileus_scene* scene, const pileus_host* ho
 void pileus_world_free(pileus_world* world) { delete world; }
 
 }  // extern "C"
-
-namespace pileus::api {
-std::uint64_t bytes_of_world(const World& world) { return held_bytes(world); }
-}  // namespace pileus::api

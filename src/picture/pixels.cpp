@@ -196,15 +196,7 @@ Status take_depths(const Rows& rows, DepthKind kind, const DepthScale& scale,
             double metres = double(given);
             if (kind == DepthKind::kBuffer) metres = scale.metres(metres);
             if (kind != DepthKind::kDistance) metres *= ray_slant(camera, double(x), double(y));
-            if (!(metres == metres)) {
-                metres = double(kInfinity);
-                ++depth.broken;
-            }
-            if (metres < 0) {
-                metres = 0;
-                ++depth.negative;
-            }
-            depth.metres[std::size_t(y) * width + x] = metres >= 1e30 ? kInfinity : float(metres);
+            depth.put(std::size_t(y) * width + x, metres);
         }
     }
     return Status::ok();

@@ -27,6 +27,10 @@ void make_live(Scene& scene) {
     output.layer_depth = !scene.camera.flux;
     output.layer_cloud = scene.method == "path";
     scene.camera.depth.clear();
+    // A change is checked on a copy of the scene, and its faults name no line of a file.
+    scene.text.clear();
+    scene.places.clear();
+    scene.overrides.clear();
 }
 
 double stage_seconds(const Report& report) {
@@ -76,6 +80,10 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
     if (live && method_->live == nullptr)
         return Status::bad_input(scene_.file + ": method.name: \"" + scene_.method +
                                  "\" is for no session, allowed: another");
+    if (world != nullptr && world->media != scene.media.size())
+        return Status::bad_input(
+            fmt::format("{}: medium: {} media, allowed: {}, as the world was made of", scene.file,
+                        scene.media.size(), world->media));
     if (world != nullptr && world->direct_sky && method_->sky != SkyUse::kInPlace)
         return Status::bad_input(scene_.file + ": method.name: \"" + scene_.method +
                                  "\" needs the sky on a grid, allowed: a world made for it");

@@ -46,7 +46,6 @@ public:
     Status open(const Scene& scene, const RenderOptions& options, SessionKind kind, bool exact,
                 std::shared_ptr<const World> world);
 
-    const Scene& scene() const { return scene_; }
     Report& report() { return report_; }
     const Report& report() const { return report_; }
     const MethodRun& run() const { return *run_; }
@@ -72,9 +71,6 @@ public:
 
     /// Camera as it was set, in the host's coordinates.
     const Camera& camera() const { return camera_; }
-    const Sun& sun() const { return sun_; }
-    const Sky& sky() const { return scene_.sky; }
-    const Ground& ground() const { return ground_; }
 
     /// Traces so many whole units; `done` fewer where the host's `interrupted` ended it.
     Status step(std::uint64_t units, std::uint64_t& done);
@@ -87,7 +83,6 @@ public:
     Report told() const;
 
 private:
-    Status check_changed(const Scene& changed);
     Status aim();
     void place();
 

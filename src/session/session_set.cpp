@@ -2,6 +2,8 @@
 // What a host changes in a live session: camera, lights, depths, the place of the media.
 // in: values in the host's coordinates -> out: the session's scene in the media's; faults.
 // docs/embedding.md, "What may change"
+#include <utility>
+
 #include "platform/fp_mode.h"
 #include "src/base/angles.h"
 #include "src/scene/read_scene.h"
@@ -25,8 +27,7 @@ Status check_frustum(const Camera& camera, bool billboards) {
         !is_positive(1 + f.shift_x * f.shift_x) || !is_positive(1 + f.shift_y * f.shift_y))
         return Status::bad_input(
             "camera.projection: no picture of a positive width and height, allowed: a perspective "
-            "or "
-            "orthographic projection");
+            "or orthographic projection");
     if (billboards && (f.shift_x != 0 || f.shift_y != 0))
         return Status::bad_input(
             "camera.projection: off-centre, allowed: a symmetric one with display = "
@@ -34,17 +35,35 @@ Status check_frustum(const Camera& camera, bool billboards) {
     return Status::ok();
 }
 
-}  // namespace
-
 /// A change passes the checks that a file's values pass.
-Status Session::check_changed(const Scene& changed) {
-    Scene plain = changed;
-    plain.file = "session";
-    return check_scene(plain);
+Status check_changed(Scene changed) {
+    changed.file = "session";
+    return check_scene(changed);
 }
+
+/// What a session may change of a camera.
+bool same_view(const Camera& a, const Camera& b) {
+    return a.position_m == b.position_m && a.target_m == b.target_m && a.up == b.up &&
+           a.orthographic == b.orthographic && a.fov_deg == b.fov_deg && a.height_m == b.height_m &&
+           a.resolution == b.resolution && a.has_frustum == b.has_frustum &&
+           (!a.has_frustum || a.frustum == b.frustum);
+}
+
+bool same_sun(const Sun& a, const Sun& b) {
+    return a.present == b.present && a.azimuth_deg == b.azimuth_deg &&
+           a.elevation_deg == b.elevation_deg && a.irradiance == b.irradiance;
+}
+
+bool same_ground(const Ground& a, const Ground& b) {
+    return a.present == b.present && a.altitude_m == b.altitude_m && a.albedo == b.albedo;
+}
+
+}  // namespace
 
 Status Session::set_camera(const Camera& camera) {
     const FpModeGuard guard;
+    // Light that was gathered for this view stays.
+    if (same_view(camera, camera_)) return Status::ok();
     if (scene_.method == "collectors" && scene_.collectors.camera_closure)
         return Status::bad_input(
             "camera: collectors.closure \"camera\" lights cells towards a fixed one, allowed: "
@@ -53,7 +72,7 @@ Status Session::set_camera(const Camera& camera) {
     Scene changed = scene_;
     changed.camera = camera;
     changed.ground = ground_;
-    PILEUS_TRY(check_changed(changed));
+    PILEUS_TRY(check_changed(std::move(changed)));
     const std::uint64_t pixels =
         std::uint64_t(camera.resolution[0]) * std::uint64_t(camera.resolution[1]);
     PILEUS_TRY(check_limit(context_.limits, LimitId::kPixels, pixels, "camera.resolution"));
@@ -69,9 +88,10 @@ Status Session::set_depth_scale(const DepthScale& scale) {
 }
 
 Status Session::set_sun(const Sun& sun) {
+    if (same_sun(sun, sun_)) return Status::ok();
     Scene changed = scene_;
     changed.sun = sun;
-    PILEUS_TRY(check_changed(changed));
+    PILEUS_TRY(check_changed(std::move(changed)));
     sun_ = sun;
     stale_ = true;
     return Status::ok();
@@ -108,10 +128,11 @@ Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
 }
 
 Status Session::set_ground(const Ground& ground) {
+    if (same_ground(ground, ground_)) return Status::ok();
     Scene changed = scene_;
     changed.ground = ground;
     changed.camera = camera_;
-    PILEUS_TRY(check_changed(changed));
+    PILEUS_TRY(check_changed(std::move(changed)));
     if (ground.present != ground_.present && run_->around.sky_map.present())
         return Status::bad_input(
             "ground: the sky map was read with it or without, allowed: as the scene has it");
@@ -131,9 +152,9 @@ Status Session::set_placement(const Double3& offset_m, double yaw_deg) {
         return Status::bad_input("placement: solids stay where they are, allowed: 0");
     if (yaw_deg != 0 && run_->around.sky_map.present())
         return Status::bad_input("placement.yaw_deg: not below a sky map, allowed: 0");
+    stale_ = stale_ || offset_m != offset_m_ || yaw_deg != yaw_deg_;
     offset_m_ = offset_m;
     yaw_deg_ = yaw_deg;
-    stale_ = true;
     return Status::ok();
 }
 

@@ -58,6 +58,7 @@ Status read_sky_map(const Scene& scene, const Context& context, SkyMap& map) {
 Status outline_world(const Scene& scene, SkyUse use, const Context& context, World& world) {
     PILEUS_TRY(check_scene_limits(scene, context.limits));
     PILEUS_TRY(outline_solids(scene, context, world.solids));
+    world.media = scene.media.size();
     world.direct_sky = use == SkyUse::kInPlace && is_direct_sky(scene);
     return outline_medium_of(scene, context, world);
 }

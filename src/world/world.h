@@ -16,7 +16,8 @@ namespace pileus {
 /// Made once, then read only and shared; depends on neither camera nor light, and of methods only
 /// on whether they evaluate a procedural sky in place.
 struct World {
-    Medium medium;  ///< all media on one grid; a voxel of nothing for a scene without any
+    std::size_t media = 0;  ///< of the scene that it was made of
+    Medium medium;          ///< all media on one grid; a voxel of nothing for a scene without any
     MediumSource source;
     Plan media_plan;          ///< what laying the media on one grid says
     bool direct_sky = false;  ///< the medium is `layer`, evaluated in place

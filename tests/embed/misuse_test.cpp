@@ -40,6 +40,17 @@ TEST_CASE("misuse: null handles, structs and texts") {
     CHECK(pileus_session_set_sun(host.session.get(), nullptr, &out.error) == PILEUS_BAD_INPUT);
 }
 
+TEST_CASE("misuse: a scene with other media than the world's") {
+    Hosted host(kSmallCumulus, {"method.name=\"raymarch\""});
+    host.scene = scene_of(
+        "[camera]\nposition_m = [0, 0, 0]\ntarget_m = [0, 1, 0]\n[method]\nname = \"raymarch\"",
+        {});
+    host.open(nullptr);
+    CHECK(host.code == PILEUS_BAD_INPUT);
+    CHECK_MESSAGE(host.out.line() == "scene: medium: 0 media, allowed: 1, as the world was made of",
+                  host.out.line());
+}
+
 TEST_CASE("misuse: values out of range change nothing and name their key") {
     Hosted host(kSmallCumulus, {"method.name=\"raymarch\""});
     const std::string before = host.hash();

@@ -39,6 +39,18 @@ Status keep_one_plane(const std::string& name, Image& image) {
 
 }  // namespace
 
+void CameraDepth::put(std::size_t pixel, double value) {
+    float along = value >= 1e30 ? __builtin_inff() : float(value);
+    if (!(value == value)) {
+        along = __builtin_inff();
+        ++broken;
+    } else if (value < 0) {
+        along = 0;
+        ++negative;
+    }
+    metres[pixel] = along;
+}
+
 Status take_camera_depth(const Camera& camera, const std::string& name, const Image& image,
                          CameraDepth& depth) {
     if (image.width != camera.resolution[0] || image.height != camera.resolution[1])
@@ -56,16 +68,7 @@ Status take_camera_depth(const Camera& camera, const std::string& name, const Im
     for (std::size_t i = 0; i < pixels; ++i) {
         double metres = double(z->pixels.at(i)) * camera.depth_scale;
         if (camera.depth_on_axis) metres *= ray_slant(view, double(i % width), double(i / width));
-        if (!(metres == metres)) {
-            metres = double(__builtin_inff());
-            ++depth.broken;
-        }
-        if (metres < 0) {
-            metres = 0;
-            ++depth.negative;
-        }
-        // What hosts write for "nothing there" is as far as a float reaches.
-        depth.metres[i] = metres >= 1e30 ? __builtin_inff() : float(metres);
+        depth.put(i, metres);
     }
     return Status::ok();
 }

@@ -16,6 +16,10 @@ struct CameraDepth {
     std::size_t columns = 0;
     std::uint64_t broken = 0;    ///< values that were no numbers and count as infinity
     std::uint64_t negative = 0;  ///< and below 0, which count as 0
+
+    /// A value along its ray; what is none counts. What hosts write for "nothing there" is as far
+    /// as a float reaches.
+    void put(std::size_t pixel, double value);
 };
 
 /// Whether the scene has one. kBadInput: on a device.
