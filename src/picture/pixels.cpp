@@ -14,8 +14,6 @@
 namespace pileus {
 namespace {
 
-constexpr float kInfinity = __builtin_inff();
-
 struct Rgba {
     float c[4];
 };
