@@ -78,10 +78,13 @@ PILEUS_FN SunDepths<T> march_to_sun(const RaymarchParams& k, const Field& field,
     return sum;
 }
 
-/// Powder: less light where little lies before the sun; `turn` is 1 - cos of the scattering angle.
+/// Powder: less light where little lies before the sun; `turn` is 1 - cos of the scattering angle,
+/// `extinction` that of the place, 1/m.
 template <class T>
-PILEUS_FN T powder_factor(const RaymarchLight& light, T tau, T turn) {
-    const T p = one_minus_exp(min_(tau * light.powder_strength, all<T>(87.0f)));
+PILEUS_FN T powder_factor(const RaymarchLight& light, T tau, T extinction, T turn) {
+    const T depth = light.powder == kPowderLocal ? extinction : tau;
+    const T p = one_minus_exp(min_(depth * light.powder_strength, all<T>(87.0f)));
+    if (light.powder >= kPowderSimple) return max_(1.0f - light.powder_share * (1.0f - p), T{});
     if (light.powder != kPowderDirectional) return p;
     // Looking along the sunlight, turn is 2; cos(theta) of (3.15) is turn - 1.
     return 1.0f - 0.5f * turn * (1.0f - p);
@@ -143,7 +146,7 @@ PILEUS_FN T sunlight_at(const RaymarchParams& k, const float* optical_depth, con
                                : depth.tau * (1.0f - k.light.kept[0][c]);
         out[c] = k.light.powder == kPowderAlone ? all<T>(1.0f) : exp_(T{} - left);
         if (k.light.powder != kPowderNone)
-            out[c] = out[c] * powder_factor(k.light, depth.tau, turn);
+            out[c] = out[c] * powder_factor(k.light, depth.tau, density * k.medium.sigma, turn);
     }
     return depth.tau;
 }

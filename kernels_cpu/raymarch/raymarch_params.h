@@ -22,6 +22,8 @@ enum RaymarchPowder : std::int32_t {
     kPowderAlone = 1,        ///< (3.13)
     kPowderBeer = 2,         ///< (3.14)
     kPowderDirectional = 3,  ///< (3.15)
+    kPowderSimple = 4,       ///< Maerkl 2018, (3.1): a share of it, by the way to the sun
+    kPowderLocal = 5,        ///< the same by the extinction at the place; his 5.1.6
 };
 
 /// How far rays begin before the medium, so that their samples do not line up.
@@ -79,7 +81,8 @@ struct RaymarchLight {
     std::int32_t turns;  ///< 0: straight; else so many directions one after the other
     float direction[kLightTurns][3];
     std::int32_t powder;    ///< a RaymarchPowder
-    float powder_strength;  ///< k of (3.13)
+    float powder_strength;  ///< k of (3.13); powderDepth of Maerkl's (3.1)
+    float powder_share;     ///< powderStrength of Maerkl's (3.1)
     std::int32_t channels;  ///< 1, or 3 where the light kept differs by channel
     std::int32_t forward;   ///< 1: some light is kept
     Octaves octaves;

@@ -64,7 +64,8 @@ PILEUS_FN RaySample<T> take_sample(const RaymarchParams& k, const RaymarchBuffer
     const bool octaves = k.sunlit != 0 && k.light.octaves.count > 1;
     T brightest = max_(light[0], max_(light[1], light[2]));
     if (octaves) {
-        if (k.light.powder != kPowderNone) factor = factor * powder_factor(k.light, tau, r.turn);
+        if (k.light.powder != kPowderNone)
+            factor = factor * powder_factor(k.light, tau, s.density * k.medium.sigma, r.turn);
         brightest = octave_light(k.light.octaves, tau, brightest, factor, more);
     }
     s.share = max_(s.share, brightest);

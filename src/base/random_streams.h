@@ -18,6 +18,8 @@ namespace pileus {
     ROW(kGroundShiftStream, 19, "shifts of the ground's cells")       \
     ROW(kJitterStream, 31, "places of a ray's steps in raymarching")  \
     ROW(kPathStream, 32, "light paths from the camera")               \
+    ROW(kVerifyStream, 33, "light paths that verify a picture")       \
+    ROW(kVerifiedStream, 34, "the pixels that they are for")          \
     ROW(kBubbleStream, 0x63756d75, "bubbles of a procedural cumulus") \
     ROW(kDetailStream, 0x6e6f6973, "detail on a procedural cumulus")
 

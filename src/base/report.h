@@ -101,6 +101,10 @@ struct Report {
     bool has_error = false;
     double mean_relative = 0, rmse_estimate = 0;  ///< over pixels with A > 0.02
 
+    std::uint64_t verified_pixels = 0, verified_samples = 0;  ///< by paths; 0: none
+    double verify_bias = 0, verify_standard_error = 0;        ///< shares of the mean by paths
+    double verify_relmse = 0;                                 ///< the paths' noise taken off
+
     std::vector<std::string> warnings;  ///< a line for each: what makes the picture doubtful
     std::vector<std::pair<std::string, std::uint64_t>> counters;
     std::vector<std::pair<std::string, std::uint64_t>> executed;  ///< 0: left out, and truly so

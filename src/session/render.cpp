@@ -7,6 +7,7 @@
 #include "src/io/images/image_file.h"
 #include "src/session/run_context.h"
 #include "src/session/session.h"
+#include "src/session/verify.h"
 #include "src/session/warnings.h"
 
 namespace pileus {
@@ -70,6 +71,11 @@ Status render(const Scene& scene, const RenderOptions& options, const FrameSink&
     Session session;
     PILEUS_TRY(session.open(scene, options, SessionKind::kAnimation, true, nullptr));
     Report& report = session.report();
+    Verifier verifier;
+    const bool verifies = options.verify > 0 && options.show.empty();
+    if (verifies)
+        PILEUS_TRY(verifier.open(scene, std::uint64_t(options.verify), session.context(),
+                                 session.run().world));
     for (int frame = frames.first; frame <= frames.last && !report.interrupted; ++frame) {
         const RunStart frame_start;
         Image image;
@@ -77,6 +83,7 @@ Status render(const Scene& scene, const RenderOptions& options, const FrameSink&
             session.render_image({frame, frame == frames.first, frame == frames.last}, image));
         take_hash(image, report);
         session.finish_report();
+        if (verifies) PILEUS_TRY(verifier.check(frame, session.context(), image, report));
         if (options.show.empty()) find_warnings(scene, image, report);
         report.frame_wall_s = wall_seconds() - frame_start.wall_s;
         report.frame_cpu_s = cpu_seconds() - frame_start.cpu_s;

@@ -28,6 +28,7 @@ struct RenderOptions {
     double budget_seconds = 0;             ///< > 0: stop tracing after this wall time; whole passes
     std::string state;          ///< file that keeps a path tracer's progress; empty: none
     double state_every_s = 60;  ///< between two writings of it while tracing
+    std::int64_t verify = 0;    ///< pixels of each picture to trace by paths afterwards
     std::string show;  ///< empty: the picture; else a step of the method (docs/how-it-works.md)
     int first_frame = 0, last_frame = 0;  ///< of the animation, inclusive
     Limits limits;                        ///< what the scene may ask for; docs/program.md

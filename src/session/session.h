@@ -49,6 +49,7 @@ public:
     Report& report() { return report_; }
     const Report& report() const { return report_; }
     const MethodRun& run() const { return *run_; }
+    const Context& context() const { return context_; }
     const SessionStats& stats() const { return stats_; }
 
     /// Lights and draws a frame of the animation as an image with the scene's layers.

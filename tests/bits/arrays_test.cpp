@@ -4,11 +4,12 @@
 // docs/contributing.md, "Add an array"
 #include <map>
 
+#include "src/march/march_run.h"
 #include "src/methods/collectors/collectors_memory.h"
 #include "src/methods/collectors/prepare/leaves.h"
 #include "src/methods/path/path.h"
 #include "src/methods/path/path_sky.h"
-#include "src/methods/raymarch/raymarch.h"
+#include "src/methods/registry.h"
 #include "tests/support/render_harness.h"
 
 using namespace render_test;
@@ -140,10 +141,11 @@ void check_path(const Fixture& f) {
 
 void check_raymarch(const Fixture& f) {
     RaymarchRun run;
-    const Method& method = raymarch_method();
-    REQUIRE(open_run(method, f.scene, {}, f.context, true, nullptr, run));
+    const Method* method = nullptr;
+    REQUIRE(find_method(f.scene, method));
+    REQUIRE(open_run(*method, f.scene, {}, f.context, true, nullptr, run));
     REQUIRE(run.plan.exact);
-    REQUIRE(method.light(FrameStep{}, f.context, run));
+    REQUIRE(method->light(FrameStep{}, f.context, run));
     Bytes held = held_by(run, run.majorants);
     held["sunlight's optical depth on nodes"] = run.nodes.optical_depth.bytes();
     held["skylight on nodes"] = run.sky.light.bytes();
@@ -152,6 +154,9 @@ void check_raymarch(const Fixture& f) {
         held["coarser density"] += level.density.bytes();
         held["its blocks"] += level.majorants.bytes();
     }
+    held["blocks to skip"] += run.lit_majorants.skipping.bytes();
+    held["density below the largest extinction"] = run.capped.volume.density.bytes();
+    held["density on the cells of the buffer"] = run.lit.volume.density.bytes();
     held["picture planes"] = bytes_held(run.planes);
     const std::uint64_t rows = std::uint64_t(f.scene.camera.resolution[1]);
     // Freed with the march: a count of 64 bits of each kind for a row.
@@ -180,6 +185,10 @@ TEST_CASE("arrays: what raymarch holds while it marches is what the plan says") 
                     {layers, "raymarch.light = \"buffer\"", "raymarch.jitter = \"blue-noise\"",
                      "raymarch.detail = true", "raymarch.steps = 4"}});
     check_raymarch({kTwoMedia, "raymarch", {"raymarch.scale = 2"}});
+    check_raymarch({kSmallCumulus,
+                    "optical-depth",
+                    {layers, "optical_depth.resolution = [9, 0, 5]",
+                     "optical_depth.max_extinction_per_m = 0.01"}});
 }
 
 TEST_CASE("arrays: the bytes of collectors by their definition, those of scratch, too") {

@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-#include "src/methods/raymarch/march.h"
+#include "src/march/march.h"
 #include "src/picture/blue_noise.h"
 #include "src/world/camera/view.h"
 #include "src/world/medium/mix_media.h"

@@ -30,7 +30,7 @@ namespace {
 struct RenderArguments {
     SceneArguments scene;
     std::vector<std::string> files;
-    std::optional<std::string> report, frames, exposure, show, state, state_every;
+    std::optional<std::string> report, frames, exposure, show, state, state_every, verify;
     BlockArguments blocks;
     bool quiet = false, strict = false;
 };
@@ -44,6 +44,9 @@ struct Outputs {
     BlockSettings blocks;
     bool numbered = false;  ///< the scene has several frames, so names carry the frame's number
 };
+
+/// Pixels of --verify: a thousand paths each.
+constexpr std::int64_t kMostVerified = 1000000;
 
 std::string frame_path(const std::string& path, int frame, bool numbered) {
     return numbered ? numbered_path(path, frame) : path;
@@ -132,6 +135,13 @@ Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOpti
     if (arguments.exposure)
         add_fault(read_exposure("--exposure", *arguments.exposure, outputs.tone), faults);
     add_fault(read_state(arguments, options), faults);
+    if (arguments.verify)
+        add_fault(read_integer("--verify", *arguments.verify, 1, kMostVerified, options.verify),
+                  faults);
+    if (arguments.verify && arguments.show)
+        add_fault(Status::bad_input("--verify: a view is no picture of light, allowed: without "
+                                    "--show"),
+                  faults);
     add_fault(read_block_arguments(arguments.blocks, outputs.blocks), faults);
     add_fault(read_scene_options(arguments.scene, scene, options), faults);
     PILEUS_TRY(faults);
@@ -178,6 +188,12 @@ Status write_frame(const Outputs& outputs, int frame, const Image& image, const 
         PILEUS_TRY(set.add_report(report, path));
         lines += fmt::format("{:16} {}\n", "report", path);
     }
+    if (report.verified_pixels > 0)
+        lines += fmt::format(
+            "{:16} bias {:+.2f} % with a standard error of {:.2f} %, relMSE {:.2g}, over "
+            "{} pixels\n",
+            "verify", 100 * report.verify_bias, 100 * report.verify_standard_error,
+            report.verify_relmse, report.verified_pixels);
     PILEUS_TRY(set.commit());
     PILEUS_TRY(print(outputs.report_printed ? report_json(report) : lines));
     set.keep();
@@ -270,6 +286,11 @@ void add_render(CLI::App& app, Chosen& chosen) {
         ->add_option("--show", arguments->show,
                      "A step of the method instead of its picture: " + view_names())
         ->type_name("VIEW");
+    command
+        ->add_option("--verify", arguments->verify,
+                     "Trace so many pixels of each finished picture by paths, and say how far off "
+                     "they are")
+        ->type_name("N");
     command
         ->add_option("--state", arguments->state,
                      "Keep the path tracer's progress in this file, and go on from it")

@@ -138,6 +138,15 @@ Json error_of(const Report& report) {
     return {{"mean_relative", report.mean_relative}, {"rmse_estimate", report.rmse_estimate}};
 }
 
+Json verify_of(const Report& report) {
+    if (report.verified_pixels == 0) return nullptr;
+    return {{"pixels", report.verified_pixels},
+            {"samples_per_pixel", report.verified_samples},
+            {"bias", report.verify_bias},
+            {"standard_error", report.verify_standard_error},
+            {"relmse", report.verify_relmse}};
+}
+
 Json ahead_of(const Report& report) {
     if (report.ahead_pixels == 0) return nullptr;
     return {{"pixels", report.ahead_pixels}, {"samples", report.ahead_samples}};
@@ -212,6 +221,7 @@ std::string report_json(const Report& report) {
 
     json["energy"] = energy_of(report);
     json["error"] = error_of(report);
+    json["verify"] = verify_of(report);
     json["light"] = light_of(report);
     json["warnings"] = report.warnings;
     json["counters"] = object_of(report.counters);

@@ -56,13 +56,8 @@ Status prepare(const Context& context, MethodRun& method_run) {
 }
 
 Status light(const FrameStep& step, const Context& context, MethodRun& method_run) {
-    PathRun& run = own(method_run);
-    const Scene& scene = *run.scene;
-    choose_light(sun_at(scene, step.frame), run);
-    run.camera = make_camera(scene.camera, orbit_at(scene, step.frame), run.world->medium.low_m);
-    // Frame f of an animation has the noise of the seed f further on.
-    run.seed = std::uint64_t(scene.seed) + std::uint64_t(step.frame);
-    return path_light(step, context, run);
+    path_aim(step.frame, own(method_run));
+    return path_light(step, context, method_run);
 }
 
 /// A film shows one camera and one light.
@@ -107,6 +102,14 @@ Status compose(const FrameStep&, const Context& context, MethodRun& method_run,
 }
 
 }  // namespace
+
+void path_aim(int frame, PathRun& run) {
+    const Scene& scene = *run.scene;
+    choose_light(sun_at(scene, frame), run);
+    run.camera = make_camera(scene.camera, orbit_at(scene, frame), run.world->medium.low_m);
+    // Frame f of an animation has the noise of the seed f further on.
+    run.seed = std::uint64_t(scene.seed) + std::uint64_t(frame);
+}
 
 bool path_parts(const OutputSettings& output) {
     return output.layer_cloud || output.layer_light || output.layer_order;

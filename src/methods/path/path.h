@@ -30,6 +30,9 @@ struct PathRun : MethodRun {
 /// The recipe.
 const Method& path_method();
 
+/// Lights, camera and noise of a frame.
+void path_aim(int frame, PathRun& run);
+
 /// What launches of this run's paths read.
 PathInput path_input(const Context& context, const PathRun& run);
 

@@ -228,6 +228,44 @@ Status trace_paths(const PathInput& in, std::uint64_t samples, PathScratch& scra
     return Status::ok();
 }
 
+std::uint32_t most_pixel_samples(const PathInput& in) {
+    return std::uint32_t(smaller(samples_per_key(in), kPiecesPerThread * kPiece));
+}
+
+Status trace_pixels(const PathInput& in, const std::vector<std::uint32_t>& pixels,
+                    std::uint32_t samples, PathScratch& scratch, std::vector<PixelLight>& out,
+                    bool& ended) {
+    if (!scratch.ready) PILEUS_TRY(prepare_path(in, scratch));
+    PathParams k = path_params(in, scratch);
+    k.key = make_key(in.seed, kVerifyStream, 0);
+    k.first_sample = 0;
+    k.per_pixel = samples;
+    const bool solid = in.lighting->solids != nullptr || in.lighting->depth != nullptr;
+    const auto kernel = solid ? in.kernels->trace_paths_solid : in.kernels->trace_paths;
+    const std::uint64_t own = scratch.capacity / std::uint64_t(in.threads);
+    out.assign(pixels.size(), PixelLight{});
+    ended = !run_until(
+        in.threads, std::int64_t(pixels.size()), in.ended, [&](std::int64_t i, int thread) {
+            float* const radiance = scratch.radiance.data() + std::uint64_t(thread) * own;
+            PathParams mine = k;
+            mine.first_pixel = pixels[std::size_t(i)];
+            kernel(mine, {radiance, scratch.capacity, &scratch.tallies[std::size_t(thread) * 2]}, 0,
+                   samples);
+            const double n = double(samples);
+            for (std::size_t c = 0; c < 3; ++c) {
+                const float* from = radiance + c * scratch.capacity;
+                double sum = 0, square = 0;
+                for (std::uint32_t s = 0; s < samples; ++s) sum += double(from[s]);
+                const double mean = sum / n;
+                for (std::uint32_t s = 0; s < samples; ++s)
+                    square += (double(from[s]) - mean) * (double(from[s]) - mean);
+                out[std::size_t(i)].mean[c] = mean;
+                out[std::size_t(i)].square_error[c] = square / (n * (n - 1));
+            }
+        });
+    return Status::ok();
+}
+
 double film_mean(const Film& film, int part, int channel, std::size_t pixel) {
     const std::uint64_t samples = film.samples_of(pixel);
     if (samples == 0) return 0;

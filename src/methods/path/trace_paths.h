@@ -87,6 +87,21 @@ Status prepare_path(const PathInput& in, PathScratch& scratch);
 /// Errors: kLimit where memory is missing.
 Status trace_paths(const PathInput& in, std::uint64_t samples, PathScratch& scratch, Film& film);
 
+/// The light of one pixel, and the squares of its standard errors.
+struct PixelLight {
+    double mean[3] = {}, square_error[3] = {};
+};
+
+/// Samples for each pixel that trace_pixels takes at most.
+std::uint32_t most_pixel_samples(const PathInput& in);
+
+/// Traces single pixels of the input's camera, `samples` (at least 2) for each, from a stream of
+/// their own: independent of any film. Runs on the host. `ended`: `in.ended` ended it, `out` is not
+/// whole. kLimit: out of memory.
+Status trace_pixels(const PathInput& in, const std::vector<std::uint32_t>& pixels,
+                    std::uint32_t samples, PathScratch& scratch, std::vector<PixelLight>& out,
+                    bool& ended);
+
 /// Mean of a part and channel of a pixel; 0 without samples.
 double film_mean(const Film& film, int part, int channel, std::size_t pixel);
 

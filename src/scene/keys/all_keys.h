@@ -10,17 +10,18 @@
 
 namespace pileus {
 
-Span<const KeyRow> view_keys();         // seed, camera, sun, sky, ground
-Span<const KeyRow> solid_keys();        // solid
-Span<const KeyRow> medium_keys();       // medium, up to its phase function
-Span<const KeyRow> medium_last_keys();  // medium, behind it
-Span<const KeyRow> sky_keys();          // medium.sky
-Span<const KeyRow> method_keys();       // method
-Span<const KeyRow> collectors_keys();   // collectors
-Span<const KeyRow> path_keys();         // path
-Span<const KeyRow> raymarch_keys();     // raymarch
-Span<const KeyRow> later_keys();        // tables of later methods
-Span<const KeyRow> output_keys();       // output, animation
+Span<const KeyRow> view_keys();           // seed, camera, sun, sky, ground
+Span<const KeyRow> solid_keys();          // solid
+Span<const KeyRow> medium_keys();         // medium, up to its phase function
+Span<const KeyRow> medium_last_keys();    // medium, behind it
+Span<const KeyRow> sky_keys();            // medium.sky
+Span<const KeyRow> method_keys();         // method
+Span<const KeyRow> collectors_keys();     // collectors
+Span<const KeyRow> path_keys();           // path
+Span<const KeyRow> raymarch_keys();       // raymarch
+Span<const KeyRow> optical_depth_keys();  // optical_depth
+Span<const KeyRow> later_keys();          // tables of later methods
+Span<const KeyRow> output_keys();         // output, animation
 
 /// medium.phase: the type, then the keys of every phase function, each path once.
 std::vector<const KeyRow*> phase_keys();

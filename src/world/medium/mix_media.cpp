@@ -6,18 +6,13 @@
 
 #include <charconv>
 
-#include "platform/threads.h"
 #include "src/base/powers.h"
 #include "src/io/volumes/volume_file.h"
 #include "src/scene/toml/toml_tree.h"
-#include "src/world/grid/mix_weights.h"
+#include "src/world/medium/resample.h"
 
 namespace pileus {
 namespace {
-
-MixBox box_of(const Medium& m) {
-    return {m.low_m, {m.extent_m[0], m.extent_m[1], m.extent_m[2]}, m.volume.size};
-}
 
 /// Cells of `edge` along `extent`; one that is there but for rounding counts.
 int cells_along(double extent, double edge) {
@@ -28,64 +23,6 @@ int cells_along(double extent, double edge) {
     return double(whole) < cells ? whole + 1 : whole;
 }
 
-CellRow row_of(const MixBox& box, std::size_t axis) {
-    return {box.low_m[axis], box.extent_m[axis] / box.size[axis], box.size[axis]};
-}
-
-/// One medium on its way onto the grid: weights per axis, and the common unit of extinction.
-struct Layer {
-    const Medium* medium;
-    RowWeights axis[3];
-    double scale;
-    float* part;  ///< null for medium 0, which the sum holds
-
-    std::size_t width() const { return std::size_t(medium->volume.size[0]); }
-    std::size_t plane() const { return width() * std::size_t(medium->volume.size[1]); }
-};
-
-Layer make_layer(const Medium& medium, const MixBox& target, float sigma, float* part) {
-    Layer layer{&medium, {}, double(medium.sigma) / double(sigma), part};
-    const MixBox source = box_of(medium);
-    for (std::size_t a = 0; a < 3; ++a)
-        layer.axis[a] = row_weights(row_of(target, a), row_of(source, a));
-    return layer;
-}
-
-/// sum = weighted sum of runs of `stride` numbers that lie `stride` apart.
-template <class T>
-void add_runs(const RowWeights& w, std::size_t cell, const T* source, std::size_t stride,
-              double* sum) {
-    for (std::size_t i = 0; i < stride; ++i) sum[i] = 0;
-    for (std::size_t k = w.first[cell]; k < w.first[cell + 1]; ++k) {
-        const T* from = source + (std::size_t(w.begin[cell]) + k - w.first[cell]) * stride;
-        const double weight = w.weight[k];
-        for (std::size_t i = 0; i < stride; ++i) sum[i] += weight * double(from[i]);
-    }
-}
-
-bool reached(const RowWeights& w, std::size_t cell) { return w.first[cell] < w.first[cell + 1]; }
-
-/// Adds slice z of one medium to the sum, axis after axis; `scratch` holds a plane and a row of it.
-void add_slice(const Layer& layer, const std::array<int, 3>& size, std::size_t z, double* scratch,
-               float* density) {
-    if (!reached(layer.axis[2], z)) return;
-    double* row = scratch + layer.plane();
-    add_runs(layer.axis[2], z, layer.medium->volume.density.data(), layer.plane(), scratch);
-    const std::size_t nx = std::size_t(size[0]), ny = std::size_t(size[1]);
-    for (std::size_t y = 0; y < ny; ++y) {
-        if (!reached(layer.axis[1], y)) continue;
-        add_runs(layer.axis[1], y, scratch, layer.width(), row);
-        for (std::size_t x = 0; x < nx; ++x) {
-            double value = 0;
-            add_runs(layer.axis[0], x, row, 1, &value);
-            const float part = float(value * layer.scale);
-            const std::size_t voxel = (z * ny + y) * nx + x;
-            density[voxel] += part;
-            if (layer.part != nullptr) layer.part[voxel] = part;
-        }
-    }
-}
-
 /// Media 1, 2 ... and then 0: the order in which the kernels add them up again.
 std::vector<Layer> make_layers(const std::vector<Medium>& media, const MixBox& box, Medium& out) {
     const std::size_t voxels = out.volume.density.size();
@@ -94,24 +31,6 @@ std::vector<Layer> make_layers(const std::vector<Medium>& media, const MixBox& b
         layers.push_back(make_layer(media[i], box, out.sigma, out.parts.data() + (i - 1) * voxels));
     layers.push_back(make_layer(media[0], box, out.sigma, nullptr));
     return layers;
-}
-
-Status add_layers(const std::vector<Medium>& media, const MixBox& box, int threads, Medium& out) {
-    const std::vector<Layer> layers = make_layers(media, box, out);
-    std::size_t largest = 0;
-    for (const Layer& layer : layers) {
-        const std::size_t numbers = layer.plane() + layer.width();
-        if (numbers > largest) largest = numbers;
-    }
-    largest = (largest + 31) / 16 * 16;
-    Buffer<double> scratch;
-    PILEUS_TRY(scratch.resize(std::uint64_t(largest) * std::uint64_t(threads), "mixing of media"));
-    parallel_for(threads, box.size[2], [&](std::int64_t z, int thread) {
-        for (const Layer& layer : layers)
-            add_slice(layer, box.size, std::size_t(z),
-                      scratch.data() + std::size_t(thread) * largest, out.volume.density.data());
-    });
-    return Status::ok();
 }
 
 /// The smallest diagonal of the media, but not so small that cubes of a 24th of it (the longest
@@ -233,7 +152,7 @@ Status mix_media(std::vector<Medium>& media, const MixGrid& grid, int threads, M
     PILEUS_TRY(allocate(arrays::density(out.grid), out.volume.density));
     PILEUS_TRY(allocate(arrays::media_parts(out.grid, media.size()), out.parts));
     // Without any extinction there is nothing to add up.
-    if (out.sigma > 0) PILEUS_TRY(add_layers(media, box, threads, out));
+    if (out.sigma > 0) PILEUS_TRY(add_layers(make_layers(media, box, out), box, threads, out));
     for (float density : out.volume.density.span())
         if (density > out.density_max) out.density_max = density;
     media.clear();

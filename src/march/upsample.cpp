@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // See upsample.h.
-#include "src/methods/raymarch/upsample.h"
+#include "src/march/upsample.h"
 
 #include "src/picture/march_view.h"
 

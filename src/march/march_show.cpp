@@ -3,7 +3,7 @@
 // in: a prepared RaymarchRun -> out: Image, Report.
 // docs/raymarch.md; docs/formats.md, "Pictures out"
 #include "src/base/digest.h"
-#include "src/methods/raymarch/raymarch.h"
+#include "src/march/march_run.h"
 #include "src/picture/background.h"
 #include "src/picture/blue_noise.h"
 #include "src/picture/march_view.h"
@@ -24,12 +24,16 @@ Status light_nodes(const Context& context, RaymarchRun& run) {
     const bool swept = run.settings.light == RaymarchLightKind::kBuffer;
     const auto kind = swept ? SunDepthKind::kSwept : SunDepthKind::kExact;
     const auto& to_sun = run.lighting.to_sun;
-    PILEUS_TRY(make_sun_depth(context, run.world->medium, run.majorants, to_sun, kind, run.nodes));
+    PILEUS_TRY(make_lit_medium(context, run));
+    const bool apart = !run.lit.volume.density.empty();
+    const Medium& medium = apart ? run.lit : marched_medium(run);
+    const Majorants& majorants = apart ? run.lit_majorants : run.majorants;
+    PILEUS_TRY(make_sun_depth(context, medium, majorants, to_sun, kind, run.nodes));
     // A thousand rays tell what the sweep smears.
     run.nodes_difference = {};
     if (run.nodes.swept)
-        PILEUS_TRY(sun_depth_difference(context, run.world->medium, run.majorants, to_sun,
-                                        run.nodes, kComparedNodes, run.nodes_difference));
+        PILEUS_TRY(sun_depth_difference(context, medium, majorants, to_sun, run.nodes,
+                                        kComparedNodes, run.nodes_difference));
     run.nodes_to_sun = run.lighting.to_sun;
     return Status::ok();
 }
@@ -78,7 +82,7 @@ Status fill_background(const Context& context, RaymarchRun& run) {
 
 }  // namespace
 
-Status raymarch_light(const FrameStep& step, const Context& context, MethodRun& method_run) {
+Status march_light(const FrameStep& step, const Context& context, MethodRun& method_run) {
     RaymarchRun& run = static_cast<RaymarchRun&>(method_run);
     const Scene& scene = *run.scene;
     const OutputSettings& output = scene.output;
@@ -97,10 +101,11 @@ Status raymarch_light(const FrameStep& step, const Context& context, MethodRun& 
         PILEUS_TRY(allocate(arrays::picture_planes(1, pixels), run.planes.optical_depth));
     PILEUS_TRY(fill_background(context, run));
     RaymarchInput in;
-    in.medium = &run.world->medium;
+    in.medium = &marched_medium(run);
     in.majorants = &run.majorants;
     in.lighting = &run.lighting;
     in.settings = &run.settings;
+    in.simple = run.simple;
     in.nodes = &run.nodes;
     in.visibility_nodes = run.visibility_nodes;
     in.visibility = run.visibility.data();
@@ -115,8 +120,7 @@ Status raymarch_light(const FrameStep& step, const Context& context, MethodRun& 
     return upsample_picture(context, in, step.frame, run.upsample, run.planes, run.tally);
 }
 
-Status raymarch_show(const FrameStep&, const Context& context, MethodRun& method_run,
-                     Image& image) {
+Status march_show(const FrameStep&, const Context& context, MethodRun& method_run, Image& image) {
     RaymarchRun& run = static_cast<RaymarchRun&>(method_run);
     Report& report = *context.report;
     const StageClock clock(context, "layers");
@@ -145,7 +149,7 @@ Status raymarch_show(const FrameStep&, const Context& context, MethodRun& method
     return Status::ok();
 }
 
-void raymarch_report(const MethodRun& method_run, Report& report) {
+void march_report(const MethodRun& method_run, Report& report) {
     const RaymarchRun& run = static_cast<const RaymarchRun&>(method_run);
     report.counters.emplace_back("majorant_violations", 0);  // bounds only say where nothing is
     report.counters.emplace_back("bound_breaches", run.tally.breaches);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // See march.h.
-#include "src/methods/raymarch/march.h"
+#include "src/march/march.h"
 
 #include "kernels_cpu/core/rng.h"
 #include "kernels_cpu/core/vec.h"
@@ -116,6 +116,25 @@ void set_media(const RaymarchInput& in, RaymarchParams& k) {
     }
 }
 
+/// Maerkl 2018, 3.1.4 and 4.4.2: twice the light of a single scattering, less the powder effect.
+void set_simple(const OpticalDepthSettings& s, RaymarchParams& k) {
+    k.sunlit = 0;
+    for (int i = 0; i < k.media; ++i) {
+        if (s.g >= -1) {
+            k.phase[i] = {kPhaseHg, float(s.g), 0, 1};
+            k.phase_scale[i] = 1;
+        }
+        for (float& source : k.sun_source[i]) {
+            source = float(2 * s.intensity * double(source));
+            if (source > 0) k.sunlit = 1;
+        }
+    }
+    k.light.powder = s.powder_by_extinction ? kPowderLocal : kPowderSimple;
+    if (!(s.powder_strength > 0)) k.light.powder = kPowderNone;
+    k.light.powder_strength = float(s.powder_depth);
+    k.light.powder_share = float(s.powder_strength);
+}
+
 void set_levels(const RaymarchInput& in, RaymarchParams& k) {
     if (in.levels == nullptr) return;
     for (const DensityLevel& level : *in.levels) {
@@ -227,6 +246,7 @@ RaymarchParams raymarch_params(const RaymarchInput& in) {
     set_media(in, k);
     set_light(in, k);
     set_octaves(in, k);
+    if (in.simple != nullptr) set_simple(*in.simple, k);
     return k;
 }
 

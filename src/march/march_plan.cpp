@@ -2,7 +2,7 @@
 // Weighs a run of the raymarch: what it needs and leaves out, where sunlight comes from, memory.
 // in: RaymarchRun, outlined or prepared -> out: its plan; kLimit where something is too much.
 // docs/report.md, "Plan"; docs/raymarch.md
-#include "src/methods/raymarch/raymarch.h"
+#include "src/march/march_run.h"
 #include "src/picture/blue_noise.h"
 #include "src/world/medium/sky_medium.h"
 #include "src/world/plan_parts.h"
@@ -74,6 +74,34 @@ bool has_sky(const Lighting& light) {
     return light.map.columns > 0 || light.sky[0] > 0 || light.sky[1] > 0 || light.sky[2] > 0;
 }
 
+/// What method optical-depth is made of.
+void note_simple(const RaymarchRun& run, Plan& plan) {
+    const OpticalDepthSettings& s = *run.simple;
+    constexpr const char* kTag = ": appearance, not physics";
+    if (run.lighting.sunlit)
+        plan.need((std::string("sunlight by optical depth on nodes, doubled") + kTag).c_str());
+    else
+        plan.leave_out("sunlight",
+                       run.scene->sun.present ? "below the ground's horizon, or dark" : "no sun");
+    if (!run.lighting.sunlit)
+        plan.leave_out("powder", "no sunlight");
+    else if (s.powder_strength > 0)
+        plan.need((std::string("powder") + kTag).c_str());
+    else
+        plan.leave_out("powder", "powder_strength = 0");
+    if (s.ambient[0] > 0 || s.ambient[1] > 0 || s.ambient[2] > 0)
+        plan.need((std::string("ambient light") + kTag).c_str());
+    else
+        plan.leave_out("ambient light", "optical_depth.ambient = 0");
+    if (s.g >= -1) plan.need((std::string("one mean cosine for all media") + kTag).c_str());
+    if (caps_extinction(run))
+        plan.need("a bound on the extinction");
+    else
+        plan.leave_out("a bound on the extinction", "no extinction exceeds it, or it is 0");
+    if (!has_sun_grid(run))
+        plan.leave_out("a grid of its own for the sun's optical depth", "it is on the medium's");
+}
+
 void note_light(const Scene& scene, const RaymarchRun& run, Plan& plan) {
     const RaymarchSettings& s = run.settings;
     const bool moves = scene.animation.present && scene.animation.moves_sun;
@@ -113,13 +141,21 @@ void note_plan(RaymarchRun& run) {
     const Scene& scene = *run.scene;
     Plan& plan = run.plan;
     plan = Plan{};
-    plan.bias = {"raymarch", "light scattered more than once is missing or approximate",
-                 "docs/raymarch.md"};
+    if (run.simple != nullptr)
+        plan.bias = {"optical-depth", "a look: light scattered more than once is only hinted at",
+                     "docs/optical-depth.md"};
+    else
+        plan.bias = {"raymarch", "light scattered more than once is missing or approximate",
+                     "docs/raymarch.md"};
     if (run.settings.steps > 0) {
         plan.need(run.world->direct_sky ? "the sky's noises, evaluated in place" : "majorants");
         plan.need("marched rays");
-        note_light(scene, run, plan);
-        note_appearance(run.settings, plan);
+        if (run.simple != nullptr) {
+            note_simple(run, plan);
+        } else {
+            note_light(scene, run, plan);
+            note_appearance(run.settings, plan);
+        }
     } else {
         plan.leave_out("marched rays", "steps = 0: the medium is not seen");
     }
@@ -131,7 +167,7 @@ void note_plan(RaymarchRun& run) {
             run.settings.detail ? "no step or pixel is wider than a cell" : "detail = false");
     if (run.settings.jitter == RaymarchJitterKind::kNone)
         plan.leave_out("jitter of samples", "jitter = \"none\"");
-    note_upsampling(scene, plan);
+    if (run.simple == nullptr) note_upsampling(scene, plan);
     if (run.world->medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
     note_solids(run.world->solids, run.around.depth, plan);
     if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
@@ -157,7 +193,12 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
     if (run.world->direct_sky) add_sky_rows(scene.media[0].sky, last, t);
     add_majorant_rows(grid, run.outlined_only ? 1 : run.majorants.tracking.size(),
                       std::uint64_t(context.threads), last, t);
-    if (!run.march_light && run.lighting.sunlit) add(t, arrays::sun_depth(grid, last));
+    if (!run.march_light && run.lighting.sunlit) add(t, arrays::sun_depth(sun_grid(run), last));
+    if (caps_extinction(run)) add(t, arrays::capped_density(grid));
+    if (has_sun_grid(run)) {
+        add(t, arrays::lit_density(sun_grid(run)));
+        add_majorant_rows(sun_grid(run), 0, std::uint64_t(context.threads), last, t);
+    }
     for (const Grid& level : level_grids(grid, run.levels)) {
         add(t, arrays::coarse_density(level, last));
         add(t, arrays::coarse_blocks(level, last));
@@ -187,7 +228,7 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
 
 }  // namespace
 
-Status raymarch_measure(const Context& context, RaymarchRun& run) {
+Status march_measure(const Context& context, RaymarchRun& run) {
     choose_light(run);
     run.levels =
         raymarch_levels(run.settings, make_camera(run.scene->camera, 0, run.world->medium.low_m),
@@ -197,7 +238,7 @@ Status raymarch_measure(const Context& context, RaymarchRun& run) {
     return check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), run.scene->file);
 }
 
-void raymarch_report_plan(const MethodRun& method_run, const Context& context, Report& report) {
+void march_report_plan(const MethodRun& method_run, const Context& context, Report& report) {
     const RaymarchRun& run = static_cast<const RaymarchRun&>(method_run);
     report_plan(run.plan, report);
     report.limits.clear();

@@ -3,7 +3,7 @@
 // in: a raymarch, its camera, what the frame before left -> out: planes of the whole picture.
 // docs/upsampling.md
 #pragma once
-#include "src/methods/raymarch/march.h"
+#include "src/march/march.h"
 
 namespace pileus {
 

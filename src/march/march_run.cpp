@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// See march_run.h. Preparation and sessions; march_show.cpp makes the picture.
+// in: settings of the march -> out: a prepared run.
+// docs/raymarch.md
+#include "src/march/march_run.h"
+
+#include "src/world/medium/resample.h"
+
+namespace pileus {
+namespace {
+
+RaymarchRun& own(MethodRun& run) { return static_cast<RaymarchRun&>(run); }
+
+void choose_light(double sun_elevation_deg, RaymarchRun& run) {
+    Plan photons;  // speaks of photons alone
+    run.lighting = light_world(*run.scene, sun_elevation_deg, *run.world, run.around, photons);
+}
+
+/// The medium with no extinction above the largest one asked for.
+Status cap_medium(RaymarchRun& run) {
+    const Medium& medium = run.world->medium;
+    if (!caps_extinction(run)) return Status::ok();
+    const float most = float(run.simple->max_extinction_per_m / double(medium.sigma));
+    Medium& out = run.capped;
+    out.low_m = medium.low_m;
+    for (std::size_t a = 0; a < 3; ++a) out.extent_m[a] = medium.extent_m[a];
+    out.grid = medium.grid;
+    out.volume.size = medium.volume.size;
+    out.sigma = medium.sigma;
+    out.channels = medium.channels;
+    out.optics = medium.optics;
+    out.density_max = most;
+    PILEUS_TRY(allocate(arrays::capped_density(medium.grid), out.volume.density));
+    const Span<const float> from = medium.volume.density.span();
+    const Span<float> to = out.volume.density.span();
+    for (std::size_t i = 0; i < from.size; ++i) to[i] = from[i] < most ? from[i] : most;
+    return Status::ok();
+}
+
+/// Cells of the buffer; axes that the scene leaves alone have the medium's.
+std::array<int, 3> sun_cells(const RaymarchRun& run) {
+    std::array<int, 3> cells = run.world->medium.volume.size;
+    for (std::size_t a = 0; a < 3; ++a)
+        if (run.simple->resolution[a] > 0) cells[a] = run.simple->resolution[a];
+    return cells;
+}
+
+/// Nodes of sunlight and sky are made again by the next picture where their light has changed.
+Status aim(int, bool anew, const Context&, MethodRun& method_run) {
+    RaymarchRun& run = own(method_run);
+    const Lighting before = run.lighting;
+    choose_light(run.scene->sun.elevation_deg, run);
+    const Lighting& now = run.lighting;
+    const auto& size = run.scene->camera.resolution;
+    if (anew || before.sunlit != now.sunlit || before.sky != now.sky ||
+        before.sun_irradiance != now.sun_irradiance || before.ground != now.ground ||
+        before.ground_z != now.ground_z || before.ground_albedo != now.ground_albedo) {
+        run.sky_to_sun = {};
+        run.upsample.ready = false;
+    }
+    if (run.camera.width != size[0] || run.camera.height != size[1] ||
+        before.opaque() != now.opaque())
+        run.upsample = UpsampleMemory{};
+    return Status::ok();
+}
+
+Status advance(std::uint64_t, const Context&, MethodRun&, std::uint64_t& done) {
+    done = 0;
+    return Status::ok();
+}
+
+LightUnits units(const MethodRun&) { return {}; }
+
+Status compose(const FrameStep& step, const Context& context, MethodRun& method_run,
+               const Planes*& planes) {
+    RaymarchRun& run = own(method_run);
+    planes = &run.planes;
+    return march_light(step, context, run);
+}
+
+}  // namespace
+
+Status check_marched(const Scene& scene, const Budget& budget) {
+    constexpr const char* kAllowed = "steps=N";
+    if (budget.photons >= 0) return unknown_budget("--budget photons", scene.method, kAllowed);
+    if (budget.samples >= 0) return unknown_budget("--budget samples", scene.method, kAllowed);
+    if (budget.error > 0) return unknown_budget("--budget error", scene.method, kAllowed);
+    if (budget.seconds > 0) return unknown_budget("--budget seconds", scene.method, kAllowed);
+    if (!budget.state.empty())
+        return unknown_budget("--state", scene.method, "method.name = \"path\"");
+    if (scene.camera.flux)
+        return Status::bad_input(scene.file +
+                                 ": camera.projection: \"flux\" sees along no single ray, which "
+                                 "method " +
+                                 scene.method + " marches, allowed: perspective, orthographic");
+    const OutputSettings& output = scene.output;
+    if (output.layer_error || output.layer_light || output.layer_order)
+        return Status::bad_input(
+            scene.file + ": output.layers: method " + scene.method +
+            " has no noise and one order of scattering, allowed: radiance, alpha, depth, cloud, "
+            "optical_depth, transmittance");
+    return Status::ok();
+}
+
+bool caps_extinction(const RaymarchRun& run) {
+    const double most = run.simple != nullptr ? run.simple->max_extinction_per_m : 0;
+    if (!(most > 0) || run.outlined_only) return most > 0;
+    const Medium& medium = run.world->medium;
+    return most < double(medium.sigma) * double(medium.density_max);
+}
+
+bool has_sun_grid(const RaymarchRun& run) {
+    // A sun that is below the horizon may rise.
+    if (run.simple == nullptr || !run.scene->sun.present) return false;
+    return run.simple->light_scale != 1 || sun_cells(run) != run.world->medium.volume.size;
+}
+
+const Medium& marched_medium(const RaymarchRun& run) {
+    return run.capped.volume.density.empty() ? run.world->medium : run.capped;
+}
+
+Grid sun_grid(const RaymarchRun& run) {
+    return has_sun_grid(run) ? resampled_grid(run.world->medium, sun_cells(run))
+                             : run.world->medium.grid;
+}
+
+Status make_lit_medium(const Context& context, RaymarchRun& run) {
+    if (!has_sun_grid(run) || !run.lit.volume.density.empty()) return Status::ok();
+    const StageClock clock(context, "shadow");
+    PILEUS_TRY(resample_medium(marched_medium(run), sun_cells(run), context.threads,
+                               arrays::lit_density(sun_grid(run)), run.lit));
+    run.lit.sigma *= float(run.simple->light_scale);
+    return make_majorants(run.lit, false, context, run.lit_majorants);
+}
+
+Status march_outline(const Context& context, RaymarchRun& run) {
+    if (context.kernels->device != nullptr)
+        return Status::bad_input(std::string("--isa: \"") + context.kernels->name + "\": method " +
+                                 run.scene->method +
+                                 " runs on the host alone, allowed: another, or another method");
+    choose_light(sun_at(*run.scene, 0), run);
+    return march_measure(context, run);
+}
+
+Status march_prepare(const Context& context, MethodRun& method_run) {
+    RaymarchRun& run = own(method_run);
+    // The values may show that there is no medium.
+    choose_light(sun_at(*run.scene, 0), run);
+    PILEUS_TRY(make_majorants(run.world->medium, false, context, run.majorants));
+    run.outlined_only = false;
+    PILEUS_TRY(cap_medium(run));
+    PILEUS_TRY(make_density_levels(marched_medium(run), run.levels, run.majorants.skip_block,
+                                   context, run.coarse));
+    PILEUS_TRY(march_measure(context, run));
+    run.digests = {{"density", density_digest(*run.world)}};
+    return Status::ok();
+}
+
+const LiveMethod live_march{aim, advance, units, compose};
+
+}  // namespace pileus

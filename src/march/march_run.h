@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// A run of marched pictures: what methods `raymarch` and `optical-depth` have in common.
+// in: a scene, settings of the march -> out: an image without noise, as fine as its steps.
+// docs/raymarch.md; docs/optical-depth.md
+#pragma once
+#include "src/march/march.h"
+#include "src/march/upsample.h"
+#include "src/methods/methods.h"
+#include "src/plan/plan.h"
+#include "src/world/camera/view.h"
+#include "src/world/majorant/majorants.h"
+#include "src/world/world.h"
+
+namespace pileus {
+
+/// Everything one run holds. Each frame has planes of its own, made and freed with it.
+struct RaymarchRun : MethodRun {
+    RaymarchSettings settings;                     ///< the scene's, with the steps of the budget
+    const OpticalDepthSettings* simple = nullptr;  ///< of method optical-depth
+    Medium capped;  ///< the medium with its extinction cut; unused where that cuts nothing
+    Medium lit;     ///< on the cells that its optical depth is swept over, if they are others
+    Majorants lit_majorants;
+    Buffer<float> visibility;  ///< what solids leave of the sun, on nodes; empty without solids
+    NodeGrid visibility_nodes{};
+    Majorants majorants;
+    bool march_light = false;  ///< else sunlight comes from nodes
+    std::string light_why;     ///< and why that is
+
+    Buffer<float> noise;  ///< tile of the jitter; empty: none
+    SkyNodes sky;
+    int levels = 0;                    ///< of detail
+    std::vector<DensityLevel> coarse;  ///< their densities
+    SunDepth nodes;
+    SunDepthDifference nodes_difference;  ///< of swept nodes to rays
+    std::array<float, 3> sky_to_sun{};    ///< the sun that the sky's nodes were made for
+    std::array<float, 3> nodes_to_sun{};  ///< the sun that the nodes were made for
+    CameraParams camera{};
+    Planes planes;
+    UpsampleMemory upsample;
+    RaymarchTally tally;  ///< of all frames so far
+};
+
+namespace arrays {
+
+inline Array<float> capped_density(const Grid& grid) {
+    return {"density below the largest extinction", voxel_count(grid), Stage::kMajorants,
+            Stage::kWrite};
+}
+inline Array<float> lit_density(const Grid& grid) {
+    return {"density on the cells of the buffer", voxel_count(grid), Stage::kShadow, Stage::kWrite};
+}
+
+}  // namespace arrays
+
+/// Whether a scene's largest extinction cuts anything; before values are known: may cut.
+bool caps_extinction(const RaymarchRun& run);
+/// Whether optical depths are made on cells or of extinctions other than the medium's.
+bool has_sun_grid(const RaymarchRun& run);
+
+/// Makes that medium once. kLimit: out of memory.
+Status make_lit_medium(const Context& context, RaymarchRun& run);
+
+/// What is shown and lit: the world's medium, or the capped one.
+const Medium& marched_medium(const RaymarchRun& run);
+/// Cells of the sun's optical depth.
+Grid sun_grid(const RaymarchRun& run);
+
+/// kBadInput: a budget, camera or layer that marched pictures do not have.
+Status check_marched(const Scene& scene, const Budget& budget);
+
+/// Chooses lights, notes what runs and what is left out, and weighs memory; `run.settings` are set.
+/// kBadInput: a device; kLimit: more than the limits allow.
+Status march_outline(const Context& context, RaymarchRun& run);
+/// Majorants, coarser densities, and the exact plan.
+Status march_prepare(const Context& context, MethodRun& run);
+
+/// Chooses where sunlight comes from, notes the plan and weighs it.
+Status march_measure(const Context& context, RaymarchRun& run);
+void march_report_plan(const MethodRun& run, const Context& context, Report& report);
+
+/// Sunlight, background and the march of one frame.
+Status march_light(const FrameStep& step, const Context& context, MethodRun& run);
+
+/// The planes as an image; frees them.
+Status march_show(const FrameStep& step, const Context& context, MethodRun& run, Image& image);
+void march_report(const MethodRun& run, Report& report);
+
+/// In a session: pictures are all there is, no light is traced.
+extern const LiveMethod live_march;
+
+}  // namespace pileus

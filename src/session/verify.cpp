@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// See verify.h.
+// in: a picture -> out: figures over stratified pixels of the media.
+// docs/report.md, "Verify"
+#include "src/session/verify.h"
+
+#include "kernels_cpu/core/rng.h"
+#include "src/base/random_streams.h"
+
+namespace pileus {
+namespace {
+
+/// For each pixel. Noise of 1000 paths is some per cent of a pixel: less than pixels differ by.
+constexpr std::uint32_t kSamples = 1024;
+constexpr float kLeastAlpha = 0.02f;
+
+/// One of each of `wanted` equal runs of the pixels that show media, row by row; all where they are
+/// no more.
+std::vector<std::uint32_t> choose_pixels(const Image& image, std::uint64_t wanted,
+                                         std::uint64_t seed) {
+    std::vector<std::uint32_t> seen, chosen;
+    const Channel* alpha = image.find("A");
+    if (alpha == nullptr) return chosen;
+    for (std::size_t i = 0; i < alpha->pixels.size(); ++i)
+        if (alpha->pixels[i] > kLeastAlpha) seen.push_back(std::uint32_t(i));
+    if (seen.size() <= wanted) return seen;
+    const Key key = make_key(seed, kVerifiedStream, 0);
+    const std::uint64_t count = seen.size();
+    for (std::uint64_t i = 0; i < wanted; ++i) {
+        const std::uint64_t begin = i * count / wanted, end = (i + 1) * count / wanted;
+        const std::uint32_t word = threefry(key.k0, key.k1, std::uint32_t(i), 0u).a;
+        chosen.push_back(seen[std::size_t(begin + ((end - begin) * word >> 32))]);
+    }
+    return chosen;
+}
+
+/// Differences of pixels, channels one by one.
+struct Figures {
+    double bias = 0, standard_error = 0, relmse = 0;
+};
+Figures compare_pixels(const Image& image, const std::vector<std::uint32_t>& pixels,
+                       const std::vector<PixelLight>& paths) {
+    const char* const names[3] = {"R", "G", "B"};
+    const Channel* planes[3];
+    for (int c = 0; c < 3; ++c) planes[c] = image.find(names[c]);
+    const double n = double(pixels.size());
+    double reference = 0, sum = 0, square = 0;
+    for (std::size_t i = 0; i < pixels.size(); ++i) {
+        // The channels of a pixel err together: a pixel counts as one.
+        double d = 0;
+        for (std::size_t c = 0; c < 3; ++c) {
+            d += (double(planes[c]->pixels[pixels[i]]) - paths[i].mean[c]) / 3;
+            reference += paths[i].mean[c] / (3 * n);
+        }
+        sum += d;
+        square += d * d;
+    }
+    Figures out;
+    if (!(reference > 0)) return out;
+    const double mean = sum / n, spread = square / n - mean * mean;
+    out.bias = mean / reference;
+    if (pixels.size() > 1 && spread > 0)
+        out.standard_error = __builtin_sqrt(spread / (n - 1)) / reference;
+    const double least = 1e-4 * reference * reference;
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double m = paths[i].mean[c], d = double(planes[c]->pixels[pixels[i]]) - m;
+            out.relmse += (d * d - paths[i].square_error[c]) / ((m * m + least) * 3 * n);
+        }
+    return out;
+}
+
+}  // namespace
+
+Status Verifier::open(const Scene& scene, std::uint64_t pixels, const Context& context,
+                      std::shared_ptr<const World> world) {
+    if (context.kernels->device != nullptr)
+        return Status::bad_input("--verify: not on a device, allowed: an --isa of the host");
+    if (world->direct_sky)
+        return Status::bad_input(scene.file +
+                                 ": --verify: paths need the sky on a grid, allowed: "
+                                 "medium.0.sky.evaluate = \"grid\"");
+    pixels_ = pixels;
+    scene_ = scene;
+    own_paths_ = scene.method == "path";
+    scene_.method = "path";
+    scene_.output = OutputSettings{};
+    if (!own_paths_) {
+        // Other methods look through the middles of pixels, and aim at all orders of scattering.
+        scene_.path = PathSettings{};
+        scene_.path.centre = true;
+    }
+    return open_run(path_method(), scene_, Budget{}, context, true, std::move(world), run_);
+}
+
+Status Verifier::check(int frame, const Context& context, const Image& image, Report& report) {
+    report.verified_pixels = 0;
+    path_aim(frame, run_);
+    PathInput in = path_input(context, run_);
+    in.ended = context.interrupted;
+    const std::vector<std::uint32_t> pixels = choose_pixels(image, pixels_, in.seed);
+    if (pixels.empty()) return Status::ok();
+    const std::uint32_t most = most_pixel_samples(in);
+    const std::uint32_t samples = kSamples < most ? kSamples : most < 2 ? 2 : most;
+    std::vector<PixelLight> paths;
+    bool ended = false;
+    {
+        const StageClock clock(context, "verify");
+        PILEUS_TRY(trace_pixels(in, pixels, samples, run_.scratch, paths, ended));
+    }
+    if (ended) return Status::ok();
+    const Figures f = compare_pixels(image, pixels, paths);
+    report.verified_pixels = pixels.size();
+    report.verified_samples = samples;
+    report.verify_bias = f.bias;
+    report.verify_standard_error = f.standard_error;
+    report.verify_relmse = f.relmse;
+    return Status::ok();
+}
+
+}  // namespace pileus
