@@ -53,11 +53,11 @@ TEST_CASE("program: wrong usage is one line and exit 2") {
     const ProgramFolder folder;
     const Fault faults[] = {
         {"", 2,
-         "no subcommand, allowed: render, plan, follow, compare, study, hash, info, convert"},
+         "no subcommand, allowed: render, plan, follow, flux, compare, study, hash, info, convert"},
         {"paint s.toml", 2,
-         "unknown subcommand, \"paint\", allowed: render, plan, follow, compare, study, hash, "
-         "info, "
-         "convert"},
+         "unknown subcommand, \"paint\", allowed: render, plan, follow, flux, compare, study, "
+         "hash, "
+         "info, convert"},
         {"--loud render s.toml", 2, "unknown option before the subcommand, \"--loud\""},
         {"compare a.exr b.exr", 2, "a.exr: cannot read: no such file"},
         {"convert a.exr b.png", 2, "b.png: extension: unknown, \".png\", allowed: .raw .vdb"},

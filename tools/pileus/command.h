@@ -18,6 +18,7 @@ using Chosen = std::function<Status()>;
 void add_render(CLI::App& app, Chosen& chosen);
 void add_plan(CLI::App& app, Chosen& chosen);
 void add_follow(CLI::App& app, Chosen& chosen);
+void add_flux(CLI::App& app, Chosen& chosen);
 void add_compare(CLI::App& app, Chosen& chosen);
 void add_hash(CLI::App& app, Chosen& chosen);
 void add_info(CLI::App& app, Chosen& chosen);

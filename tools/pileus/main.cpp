@@ -25,7 +25,7 @@ Status print(const std::string& text) {
 
 namespace {
 
-constexpr const char* kCommands = "render, plan, follow, compare, study, hash, info, convert";
+constexpr const char* kCommands = "render, plan, follow, flux, compare, study, hash, info, convert";
 
 /// Says nothing for Code::kOk without a message.
 int finish(const Status& status) {
@@ -61,7 +61,7 @@ Status check_command(int count, char** words) {
     if (word == "view")
         return Status::bad_input("pileus " + word + ": not in this version, allowed: " + kCommands);
     for (const char* known :
-         {"render", "plan", "follow", "compare", "study", "hash", "info", "convert"})
+         {"render", "plan", "follow", "flux", "compare", "study", "hash", "info", "convert"})
         if (word == known) return Status::ok();
     return Status::bad_input("pileus: unknown subcommand, " + quote_text(word) +
                              ", allowed: " + kCommands);
@@ -108,6 +108,7 @@ int run(int count, char** words) {
     add_render(app, chosen);
     add_plan(app, chosen);
     add_follow(app, chosen);
+    add_flux(app, chosen);
     add_compare(app, chosen);
     add_hash(app, chosen);
     add_info(app, chosen);
