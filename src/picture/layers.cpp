@@ -135,7 +135,25 @@ Status allocate_planes(int width, int height, int channels, bool solid, bool dep
 std::uint64_t extra_layers(const OutputSettings& output, bool has_error) {
     return (output.layer_cloud ? 3u : 0u) + (output.layer_depth ? 1u : 0u) +
            (output.layer_optical_depth ? 1u : 0u) + (output.layer_transmittance ? 1u : 0u) +
-           (output.layer_light ? 6u : 0u) + (output.layer_order ? 6u : 0u) + (has_error ? 3u : 0u);
+           (output.layer_light ? 6u : 0u) + (output.layer_order ? 6u : 0u) +
+           (output.layer_reflectance ? 3u : 0u) + (has_error ? 3u : 0u);
+}
+
+Status add_reflectance(const Lighting& lighting, Image& image) {
+    const char* const names[3] = {"reflectance.R", "reflectance.G", "reflectance.B"};
+    const double mu0 = lighting.sunlit ? double(lighting.to_sun[2]) : 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        const Buffer<float>& radiance = image.channels[c].pixels;
+        Buffer<float> share;
+        PILEUS_TRY(share.resize(radiance.size(), names[c]));
+        const double level = mu0 * lighting.sun_irradiance[c];
+        // Nothing is a share of a sun that does not shine.
+        const double scale = level > 0 ? 3.14159265358979323846 / level : 0;
+        for (std::size_t i = 0; i < share.size(); ++i)
+            share[i] = float(scale * double(radiance[i]));
+        image.channels.push_back({names[c], std::move(share)});
+    }
+    return Status::ok();
 }
 
 Status make_layers(const Planes& planes, int width, int height, int channels,

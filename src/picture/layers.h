@@ -8,6 +8,7 @@
 #include "src/io/images/image.h"
 #include "src/plan/array.h"
 #include "src/scene/scene.h"
+#include "src/world/light/lights.h"
 
 namespace pileus {
 
@@ -61,6 +62,10 @@ Status allocate_planes(int width, int height, int channels, bool solid, bool dep
 
 /// Layers of the image that are asked for, beside the four that are always there.
 std::uint64_t extra_layers(const OutputSettings& output, bool has_error);
+
+/// reflectance.R/G/B: pi R/(mu0 E) of an image that begins with R G B; 0 without a sun above the
+/// horizon. kLimit: out of memory.
+Status add_reflectance(const Lighting& lighting, Image& image);
 
 /// Fills the image's channels and the report's error figures; counts pixels that are not finite.
 /// Radiances below zero, noise of the light that the cloud keeps from the ground, become 0 and are

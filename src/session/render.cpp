@@ -81,6 +81,8 @@ Status render(const Scene& scene, const RenderOptions& options, const FrameSink&
         Image image;
         PILEUS_TRY(
             session.render_image({frame, frame == frames.first, frame == frames.last}, image));
+        if (scene.output.layer_reflectance && options.show.empty())
+            PILEUS_TRY(add_reflectance(session.run().lighting, image));
         take_hash(image, report);
         session.finish_report();
         if (verifies) PILEUS_TRY(verifier.check(frame, session.context(), image, report));

@@ -133,10 +133,10 @@ TEST_CASE("parts of the format that this version cannot use") {
     const Row rows[] = {
         {kCamera + "[method]\nname = \"particles\"\n",
          "s.toml:5:8: method.name: not in this version, \"particles\", allowed: collectors, path, "
-         "raymarch"},
+         "raymarch, optical-depth"},
         {kCamera + "[method]\nname = \"radiosity\"\n",
          "s.toml:5:8: method.name: unknown value, \"radiosity\", allowed: collectors, path, "
-         "raymarch"},
+         "raymarch, optical-depth"},
         {kCamera + "[sky]\nmodel = \"atmosphere\"\n", "s.toml:5:1: sky.model: not in this ..."},
         {kCamera + kFile + "density = \"a.x\"\nformat = \"netcdf\"\n",
          "s.toml:7:10: medium.0.format: not in this version, \"netcdf\", allowed: pbrt, raw, vol, "
@@ -201,7 +201,7 @@ TEST_CASE("faults of overrides name the option") {
          "printable text without quotes"},
         {"method.name=particles",
          "--set method.name=particles: method.name: not in this version, \"particles\", "
-         "allowed: collectors, path, raymarch"},
+         "allowed: collectors, path, raymarch, optical-depth"},
     };
     const std::string text = kCamera + "up = [0, 0, 1]\n" + kMedium;
     for (const auto& row : rows) {

@@ -138,7 +138,8 @@ TEST_CASE("structs: laws between keys speak as they do of a file") {
           "scene: medium.0.density.size: missing, nothing, allowed: density = { file = \"...\", "
           "type = \"float32\", size = [nx, ny, nz] }");
     CHECK(fault([](Scene& s) { s.method = "radiosity"; }) ==
-          "scene: method.name: unknown value, \"radiosity\", allowed: collectors, path, raymarch");
+          "scene: method.name: unknown value, \"radiosity\", allowed: collectors, path, raymarch, "
+          "optical-depth");
     CHECK(fault([](Scene& s) { s.sun.elevation_deg = std::nan(""); }) ==
           "scene: sun.elevation_deg: not finite, nan, allowed: number in [-90, 90]");
     CHECK(

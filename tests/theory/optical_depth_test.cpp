@@ -83,6 +83,22 @@ TEST_CASE("optical-depth: a slab from above has the formula's radiance") {
     }
 }
 
+TEST_CASE("optical-depth: reflectance is radiance over that of a white plane in the sun") {
+    const Picture p =
+        picture_of(kSlab, {"sun.elevation_deg=30", "output.layers=[\"reflectance\"]"});
+    const char* const from[] = {"R", "G", "B"};
+    const char* const to[] = {"reflectance.R", "reflectance.G", "reflectance.B"};
+    for (int c = 0; c < 3; ++c) {
+        const double radiance = double(p.image.find(from[c])->pixels[1]);
+        CHECK(radiance > 0);
+        CHECK(double(p.image.find(to[c])->pixels[1]) ==
+              doctest::Approx(kPi * radiance / (0.5 * (c + 1))).epsilon(1e-6));
+    }
+    const Picture night =
+        picture_of(kSlab, {"sun.elevation_deg=-30", "output.layers=[\"reflectance\"]"});
+    CHECK(night.image.find("reflectance.G")->pixels[0] == 0.0f);
+}
+
 TEST_CASE("optical-depth: powder by extinction, a phase function for all, ambient light") {
     // At 0.04 per metre and 30 m the powder leaves 1 - 0.8 exp(-1.2) everywhere.
     const Picture p =

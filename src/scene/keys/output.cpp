@@ -22,7 +22,8 @@ constexpr Layer kLayerFlags[] = {{"depth", &OutputSettings::layer_depth},
                                  {"optical_depth", &OutputSettings::layer_optical_depth},
                                  {"transmittance", &OutputSettings::layer_transmittance},
                                  {"light", &OutputSettings::layer_light},
-                                 {"order", &OutputSettings::layer_order}};
+                                 {"order", &OutputSettings::layer_order},
+                                 {"reflectance", &OutputSettings::layer_reflectance}};
 
 constexpr KeyField kLayers{KeyKind::kTexts,
                            [](const KeySource& s) {
@@ -63,8 +64,8 @@ constexpr KeyRow kRows[] = {
     {"output.report", output<&OutputSettings::report>, any(), "",
      "JSON report to write, relative to the scene's folder; empty: none"},
     {"output.layers", kLayers,
-     one_of("radiance|alpha|depth|error|cloud|optical_depth|transmittance|light|order"), "",
-     "layers of the picture; radiance and alpha are always there"},
+     one_of("radiance|alpha|depth|error|cloud|optical_depth|transmittance|light|order|reflectance"),
+     "", "layers of the picture; radiance and alpha are always there"},
     {"animation.frames", animation<&Animation::frames>, from_to(1, 1000000), "",
      "number of pictures"},
     {"animation.camera_orbit_deg", kOrbit, from_to(-36000, 36000), "deg",
