@@ -23,9 +23,6 @@ namespace {
 std::mutex one_at_a_time;
 using Turn = std::lock_guard<std::mutex>;
 
-/// How much of a variable that is stored in pieces is kept unpacked.
-constexpr std::size_t kCacheBytes = std::size_t{1} << 26;
-
 /// The library during one call. It stays loaded: what it keeps of open files outlives the call.
 struct Library {
     decltype(&::nc_strerror) strerror = nullptr;
@@ -239,7 +236,7 @@ Status read_hdf5(const std::string& name, int handle, const NcVariable& variable
             to[i] = double(static_cast<unsigned char>(text[i]));
         return Status::ok();
     }
-    nc.set_var_chunk_cache(handle, id, kCacheBytes, 1009, 0.75f);
+    nc.set_var_chunk_cache(handle, id, std::size_t{kNcCacheBytes}, 1009, 0.75f);
     PILEUS_NC(nc.get_vara_double(handle, id, start.data(), count.data(), to.data),
               "variable " + variable.name);
     return Status::ok();

@@ -34,8 +34,7 @@ Status FieldBlock::read(const WeatherSource& from, std::uint64_t row, std::uint6
     first_row = row;
     rows = count;
     for (std::size_t r = 0; r < std::size_t(Role::kCount); ++r)
-        if (from.fields.of[r].there())
-            PILEUS_TRY(read_field(from, Role(r), row, count, values[r]));
+        if (from.fields.of[r].there()) PILEUS_TRY(read_field(from, Role(r), row, count, values[r]));
     return Status::ok();
 }
 
@@ -70,11 +69,10 @@ Status AirColumn::check() const {
     const char* lacks = !s_.has(Role::kTemperature) ? "temperature" : nullptr;
     if (!s_.has(Role::kPressure) && s_.hybrid_b.empty()) lacks = "pressure";
     if (lacks == nullptr) return Status::ok();
-    return Status::bad_input(
-        s_.file->name() + ": " + lacks +
-        ": no such variable, nothing, allowed: one with a standard_name or "
-        "name of docs/weather.md, or the key " +
-        lacks + " of the density; it is needed for the air's density");
+    return Status::bad_input(s_.file->name() + ": " + lacks +
+                             ": no such variable, nothing, allowed: one with a standard_name or "
+                             "name of docs/weather.md, or the key " +
+                             lacks + " of the density; it is needed for the air's density");
 }
 
 /// Mean of two faces where a field stands on faces; missing ones from the nearest level above,
@@ -101,7 +99,8 @@ Status AirColumn::on_levels(Role role, std::size_t c, std::vector<double>& to) {
     return Status::ok();
 }
 
-Status AirColumn::monotonic(Role role, std::size_t c, Span<const double> values, bool ascends) const {
+Status AirColumn::monotonic(Role role, std::size_t c, Span<const double> values,
+                            bool ascends) const {
     const std::size_t n = values.size;
     for (std::size_t k = 0; k < n; ++k) {
         if (missing(values[k])) return fault(role, c, "missing value on a level");
@@ -109,8 +108,8 @@ Status AirColumn::monotonic(Role role, std::size_t c, Span<const double> values,
         if (ascends ? values[k] > values[k - 1] : values[k] < values[k - 1]) continue;
         const bool turned = ascends ? values[0] > values[n - 1] : values[0] < values[n - 1];
         return fault(role, c,
-                     std::string(turned ? "levels upside down" : "levels not monotonic") +
-                         ", " + number_text(values[k - 1]) + " then " + number_text(values[k]) +
+                     std::string(turned ? "levels upside down" : "levels not monotonic") + ", " +
+                         number_text(values[k - 1]) + " then " + number_text(values[k]) +
                          " upwards, allowed: " + (ascends ? "rising" : "falling") +
                          " in every column as in the first");
     }
@@ -120,8 +119,7 @@ Status AirColumn::monotonic(Role role, std::size_t c, Span<const double> values,
 /// Pressures of faces, from below.
 Status AirColumn::pressure_faces(std::size_t c) {
     const Span<double> faces{faces_pa_.data(), faces_pa_.size()};
-    const double ground =
-        s_.has(Role::kSurfacePressure) ? of(Role::kSurfacePressure).at(c) : -1;
+    const double ground = s_.has(Role::kSurfacePressure) ? of(Role::kSurfacePressure).at(c) : -1;
     if (missing(ground)) return fault(Role::kSurfacePressure, c, "missing value");
     if (s_.hybrid_b.empty()) {
         const Buffer<double>& p = of(Role::kPressure);
@@ -207,8 +205,7 @@ Status AirColumn::place_column(std::size_t c, const Span<double>& faces) {
         if (missing(lowest)) return fault(Role::kSurfaceHeight, c, "missing value");
         // Pressure levels may begin above the ground.
         if (s_.vertical == Vertical::kPressureLevels && ground_pa_ > faces_pa_[0])
-            lowest +=
-                kDryAir * virtual_[0] / kGravity * layer_logarithm(ground_pa_, faces_pa_[0]);
+            lowest += kDryAir * virtual_[0] / kGravity * layer_logarithm(ground_pa_, faces_pa_[0]);
         integrate_heights({faces_pa_.data(), n_ + 1}, {virtual_.data(), n_}, lowest, faces);
     } else {
         const std::size_t m = s_.vertical == Vertical::kHeightFaces ? n_ + 1 : n_;

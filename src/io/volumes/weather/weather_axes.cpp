@@ -6,6 +6,7 @@
 
 #include <charconv>
 
+#include "src/io/netcdf/netcdf_values.h"
 #include "src/io/volumes/weather/weather_units.h"
 #include "src/scene/toml/toml_tree.h"
 
@@ -192,7 +193,7 @@ Status choose_member(const NcFile& file, const std::string& wanted, WeatherAxes&
             for (std::uint64_t i = 0; i < size; ++i) {
                 std::string name;
                 for (std::size_t k = 0; k < length; ++k) {
-                    const char c = char(letters[std::size_t(i) * length + k]);
+                    const char c = nc_letter(letters[std::size_t(i) * length + k]);
                     if (c != '\0' && c != ' ') name += c;
                 }
                 axes.member_index = i;

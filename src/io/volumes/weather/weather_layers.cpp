@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint64_t kBlockValues = std::uint64_t{1} << 19;
 constexpr double kUndershoot = -1e-6;    // kg/kg; below it water is a fault
-constexpr double kMostWater = 0.5;         // kg/kg or kg/m3
+constexpr double kMostWater = 0.5;       // kg/kg or kg/m3
 constexpr double kLeastFraction = 0.01;  // clouds in less are as dense as in this
 constexpr double kLeastExtinction =
     1e-12;  // 1/m; models write traces such as 1e-24 kg/kg everywhere
@@ -40,8 +40,7 @@ public:
             PILEUS_TRY(water->resize(columns * n_, "water of layers"));
         PILEUS_TRY(air_.check());
         for (std::size_t c = 0; c < columns; ++c) {
-            PILEUS_TRY(
-                air_.place_column(c, layers_.faces_m.span().part(c * (n_ + 1), n_ + 1)));
+            PILEUS_TRY(air_.place_column(c, layers_.faces_m.span().part(c * (n_ + 1), n_ + 1)));
             PILEUS_TRY(cloud_column(c));
         }
         return Status::ok();

@@ -4,6 +4,7 @@
 // CF conventions 1.10, section 4.4; Howard Hinnant, "chrono-compatible low-level date algorithms".
 #include <charconv>
 
+#include "src/io/netcdf/netcdf_values.h"
 #include "src/io/volumes/weather/weather_axes.h"
 
 namespace pileus {
@@ -76,7 +77,7 @@ Status read_date_rows(const NcFile& file, const NcVariable& v, std::vector<std::
     for (std::size_t i = 0; i < block.count[0]; ++i) {
         std::string date;
         for (std::size_t k = 0; k < length; ++k) {
-            const char c = char(letters[i * length + k]);
+            const char c = nc_letter(letters[i * length + k]);
             if (c != '\0') date += c == '_' || c == ' ' ? 'T' : c;
         }
         dates.push_back(printable_line(date));

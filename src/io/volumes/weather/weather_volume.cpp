@@ -48,7 +48,16 @@ std::string detail_of(const WeatherSource& s, const WeatherSurvey& survey) {
 
 /// What reading holds beside the file and the volume.
 std::uint64_t working_bytes(const WeatherSource& s, const WeatherGrid& grid) {
-    return block_bytes(s) + grid.cells() * sizeof(double);
+    std::uint64_t bytes = block_bytes(s) + grid.cells() * sizeof(double);
+    const NcHead& head = s.file->head();
+    if (!head.on_hdf5) return bytes;
+    for (const WeatherField& field : s.fields.of)
+        for (const NcVariable* part : field.parts) {
+            const std::uint64_t values = whole_block(head, *part).values();
+            const bool small = values < kNcCacheBytes / 8;
+            bytes += small ? values * nc_bytes(part->type) : kNcCacheBytes;
+        }
+    return bytes + kNcLibraryBytes;
 }
 
 Status fill(const WeatherSource& s, const WeatherGrid& grid, Volume& volume) {
