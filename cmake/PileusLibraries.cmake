@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Finds foreign libraries: five required sets of headers, ten optional libraries.
+# Finds foreign libraries: five required sets of headers, eleven optional libraries.
 # in: PILEUS_<LIBRARY> options -> out: target pileus_headers, PILEUS_WITH_<LIBRARY> (0 or 1),
 # PILEUS_LINK_LIBRARIES, PILEUS_LIBRARY_DEFINITIONS. Debian package names: tools/install_packages
 add_library(pileus_headers INTERFACE)
@@ -52,7 +52,7 @@ endif()
 target_compile_definitions(pileus_headers INTERFACE FMT_HEADER_ONLY=1)
 
 # An optional library is used when it is wanted and found.
-foreach(name OPENEXR PNG ZLIB BLOSC ASSIMP OSMESA EGL OPENMP TESTS BENCHMARKS)
+foreach(name OPENEXR PNG ZLIB BLOSC NETCDF ASSIMP OSMESA EGL OPENMP TESTS BENCHMARKS)
     set(PILEUS_WITH_${name} 0)
 endforeach()
 if(PILEUS_OPENEXR)
@@ -94,7 +94,7 @@ if(PILEUS_BLOSC)
 endif()
 # Headers alone: the program loads these libraries when a scene asks for them, and starts
 # without them. A static program could load none.
-foreach(row "ASSIMP assimp/cimport.h" "OSMESA GL/osmesa.h" "EGL EGL/eglext.h")
+foreach(row "NETCDF netcdf_mem.h" "ASSIMP assimp/cimport.h" "OSMESA GL/osmesa.h" "EGL EGL/eglext.h")
     separate_arguments(row)
     list(POP_FRONT row name header)
     if(PILEUS_${name} AND NOT CMAKE_CROSSCOMPILING)

@@ -75,6 +75,21 @@ FileResult InputFile::read(void* to, std::size_t bytes) {
     return {};
 }
 
+FileResult InputFile::read_at(std::uint64_t at, void* to, std::size_t bytes) const {
+    char* place = static_cast<char*>(to);
+    while (bytes > 0) {
+        const ssize_t got =
+            ::pread(descriptor_, place, bytes < kPiece ? bytes : kPiece, static_cast<off_t>(at));
+        if (got < 0 && errno == EINTR) continue;
+        if (got < 0) return system_fault();
+        if (got == 0) return {FileFault::kShort, 0};
+        place += got;
+        at += std::uint64_t(got);
+        bytes -= std::size_t(got);
+    }
+    return {};
+}
+
 FileResult replace_file(const char* path, const void* data, std::size_t bytes) {
     NewFile file;
     FileResult result = file.begin(path);

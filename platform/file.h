@@ -41,6 +41,8 @@ public:
     FileResult read(void* to, std::size_t bytes);
     /// Reads up to `most` bytes; none only at the end.
     FileResult read_some(void* to, std::size_t most, std::size_t& got);
+    /// Reads exactly `bytes` from byte `at` on, wherever reading stands; kShort as above.
+    FileResult read_at(std::uint64_t at, void* to, std::size_t bytes) const;
 
 private:
     int descriptor_ = -1;

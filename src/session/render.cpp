@@ -50,6 +50,15 @@ void note_origin(const Report& report, Image& image) {
         add("override." + std::to_string(i), report.overrides[i]);
 }
 
+/// What the files of weather data had that was no water.
+void count_water(const Scene& scene, const World& world, Report& report) {
+    bool weather = false;
+    for (const MediumSettings& medium : scene.media) weather = weather || medium.format == "netcdf";
+    if (!weather) return;
+    report.counters.emplace_back("water_missing", world.medium.volume.missing);
+    report.counters.emplace_back("water_negative", world.medium.volume.clamped);
+}
+
 /// Completes a frame's picture and report, and hands both over.
 Status deliver(const Scene& scene, const RunStart& start, int frame, const FrameSink& sink,
                Image& image, Report& report) {
@@ -86,6 +95,7 @@ Status render(const Scene& scene, const RenderOptions& options, const FrameSink&
         take_hash(image, report);
         session.finish_report();
         if (verifies) PILEUS_TRY(verifier.check(frame, session.context(), image, report));
+        count_water(scene, *session.run().world, report);
         if (options.show.empty()) find_warnings(scene, image, report);
         report.frame_wall_s = wall_seconds() - frame_start.wall_s;
         report.frame_cpu_s = cpu_seconds() - frame_start.cpu_s;

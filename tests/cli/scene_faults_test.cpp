@@ -138,9 +138,6 @@ TEST_CASE("parts of the format that this version cannot use") {
          "s.toml:5:8: method.name: unknown value, \"radiosity\", allowed: collectors, path, "
          "raymarch, optical-depth"},
         {kCamera + "[sky]\nmodel = \"atmosphere\"\n", "s.toml:5:1: sky.model: not in this ..."},
-        {kCamera + kFile + "density = \"a.x\"\nformat = \"netcdf\"\n",
-         "s.toml:7:10: medium.0.format: not in this version, \"netcdf\", allowed: pbrt, raw, vol, "
-         "les, openvdb, nanovdb"},
     };
     for (const Row& row : rows) check(row);
 }

@@ -114,11 +114,16 @@ TEST_CASE("densities and their files") {
          "s.toml:7:14: medium.0.resolution: not for a file, [1, 1, 1], allowed: left out"},
         {kCamera + kFile + "density = \"a.f32\"\n",
          "s.toml:6:11: medium.0.density: unknown kind of file, \"a.f32\", allowed: a name that "
-         "ends in .pbrt, .raw, .vol, .txt, .les, .vdb, .nvdb; or beside it the key format, one of "
-         "\"pbrt\", \"raw\", \"vol\", \"les\", \"openvdb\", \"nanovdb\"; or density = { file = "
-         "\"...\", type = \"float32\", size = [nx, ny, nz] } for a raw file"},
-        {kCamera + kFile + "density = \"a.nc\"\n",
-         "s.toml:6:11: medium.0.density: not in this version, \"a.nc\", ..."},
+         "ends in .pbrt, .raw, .vol, .txt, .les, .vdb, .nvdb, .nc, .nc4, .cdf; or beside it the "
+         "key "
+         "format, one of \"pbrt\", \"raw\", \"vol\", \"les\", \"openvdb\", \"nanovdb\", "
+         "\"netcdf\"; or "
+         "density = { file = \"...\", type = \"float32\", size = [nx, ny, nz] } for a raw file"},
+        {kCamera + kFile + "density = { file = \"a.vdb\", time = 3 }\n",
+         "s.toml:6:36: medium.0.density.time: for NetCDF files only, 3, allowed: left out"},
+        {kCamera + kFile + "density = { file = \"a.nc\", ice_dge_um = 40, ice_radius_um = 30 }\n",
+         "s.toml:6:51: medium.0.density.ice_radius_um: given twice, 30, allowed: a radius or "
+         "ice_dge_um"},
         {kCamera + kFile + "density = \"a.pbrt\"\ngrid = \"d\"\n",
          "s.toml:7:8: medium.0.grid: for OpenVDB and NanoVDB files only, \"d\", allowed: left out"},
         {kCamera + kFile + "density = { file = \"a.vdb\", grid = \"e\" }\ngrid = \"d\"\n",

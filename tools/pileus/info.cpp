@@ -13,6 +13,7 @@
 #include "platform/threads.h"
 #include "src/base/file.h"
 #include "src/io/images/image_file.h"
+#include "src/io/netcdf/netcdf_file.h"
 #include "src/io/volumes/vdb/vdb_file.h"
 #include "src/scene/rows/mesh_format.h"
 #include "src/scene/rows/picture_format.h"
@@ -65,7 +66,7 @@ std::string library_text() {
         if (format.library == nullptr) continue;
         text += std::string(format.title) + (format.built ? " yes, " : " no, ");
     }
-    return text + vdb_library_text();
+    return text + vdb_library_text() + ", " + netcdf_library_text();
 }
 
 std::string program_lines() {
@@ -97,7 +98,8 @@ Status run_info(const InfoArguments& arguments) {
     } else if (volume != nullptr) {
         medium.grid = arguments.grid;
         if (volume->bare) PILEUS_TRY(read_raw_facts(arguments.file, arguments.raw, medium));
-        PILEUS_TRY(volume_lines(arguments.file, medium, lines));
+        PILEUS_TRY(volume->is_weather ? weather_lines(arguments.file, medium, lines)
+                                      : volume_lines(arguments.file, medium, lines));
     } else {
         return Status::bad_input(arguments.file + ": extension: unknown, \"" + extension +
                                  "\", allowed: .toml, " + picture_extensions(is_radiance) + ", " +

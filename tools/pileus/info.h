@@ -27,4 +27,7 @@ Status phase_lines(const std::string& path, std::string& lines);
 /// `medium` holds the facts that a raw grid does not state itself.
 Status volume_lines(const std::string& path, const MediumSettings& medium, std::string& lines);
 
+/// A NetCDF file: dimensions, variables, times, and the medium that it would be.
+Status weather_lines(const std::string& path, const MediumSettings& medium, std::string& lines);
+
 }  // namespace pileus

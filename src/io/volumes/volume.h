@@ -18,6 +18,8 @@ struct Volume {
     bool knows_bounds = false;          ///< the file says where its box lies
     std::array<Double3, 2> bounds_m{};  ///< outer faces of the box, metres
     bool in_extinction = false;         ///< values are extinction in 1/m, not relative densities
+    std::uint64_t missing = 0;          ///< values of the file that are none, taken for no cloud
+    std::uint64_t clamped = 0;          ///< values below 0 by a little, taken for 0
 };
 
 /// What a file says about itself before its values are read.
@@ -27,6 +29,7 @@ struct VolumeHead {
     std::array<Double3, 2> bounds_m{};
     bool in_extinction = false;
     std::uint64_t unpacked_bytes = 0;  ///< held beside the file while it is read
+    bool in_pieces = false;            ///< the file is never held whole
     std::string kind;                  ///< "pbrt text volume", "OpenVDB fog volume"
     std::string detail;  ///< one line a reader may add: grid names, compression; may be empty
 };

@@ -8,6 +8,7 @@
 #include "src/io/volumes/vdb/vdb_file.h"
 #include "src/io/volumes/vol_volume.h"
 #include "src/io/volumes/volume_file.h"
+#include "src/io/volumes/weather/weather_volume.h"
 #include "src/scene/rows/volume_format.h"
 
 namespace pileus {
@@ -46,20 +47,22 @@ Status write_vdb(const MediumSettings&, const std::string& path, const Volume& v
     return write_vdb_volume(path, volume);
 }
 
-// One row for a format: name, title, extensions; in extinction, several grids, bare numbers;
-// reader, reader of the head, writer.
+// One row for a format: name, title, extensions; in extinction, several grids, weather, bare
+// numbers; reader, reader of the head, writer.
 constexpr VolumeFormat kFormats[] = {
-    {"pbrt", "pbrt text", ".pbrt", false, false, false, read_path<read_pbrt_volume>,
+    {"pbrt", "pbrt text", ".pbrt", false, false, false, false, read_path<read_pbrt_volume>,
      head_of_path<read_pbrt_head>, nullptr},
-    {"raw", "bare numbers", ".raw", false, false, true, read_raw, raw_head, write_raw},
-    {"vol", "Mitsuba", ".vol", false, false, false, read_path<read_vol_volume>,
+    {"raw", "bare numbers", ".raw", false, false, false, true, read_raw, raw_head, write_raw},
+    {"vol", "Mitsuba", ".vol", false, false, false, false, read_path<read_vol_volume>,
      head_of_path<read_vol_head>, nullptr},
-    {"les", "LES text", ".txt|.les", true, false, false, read_path<read_les_volume>,
+    {"les", "LES text", ".txt|.les", true, false, false, false, read_path<read_les_volume>,
      head_of_path<read_les_head>, nullptr},
-    {"openvdb", "OpenVDB", ".vdb", false, true, false, read_grid<read_vdb_volume>,
+    {"openvdb", "OpenVDB", ".vdb", false, true, false, false, read_grid<read_vdb_volume>,
      head_of_grid<read_vdb_head>, write_vdb},
-    {"nanovdb", "NanoVDB", ".nvdb", false, true, false, read_grid<read_nvdb_volume>,
+    {"nanovdb", "NanoVDB", ".nvdb", false, true, false, false, read_grid<read_nvdb_volume>,
      head_of_grid<read_nvdb_head>, nullptr},
+    {"netcdf", "NetCDF", ".nc|.nc4|.cdf", true, false, true, false, read_weather_volume,
+     read_weather_head, nullptr},
 };
 
 /// Calls `use` with each extension of a format.

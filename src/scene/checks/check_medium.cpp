@@ -11,11 +11,6 @@
 namespace pileus {
 namespace {
 
-bool ends_with(const std::string& text, std::string_view end) {
-    return text.size() >= end.size() &&
-           std::string_view(text).substr(text.size() - end.size()) == end;
-}
-
 class MediumCheck {
 public:
     MediumCheck(SceneCheck& check, std::size_t index)
@@ -33,6 +28,7 @@ public:
                 file_keys(*density);
             }
             grid_name();
+            weather_keys_of();
         }
         own_keys();
         extinction();
@@ -70,10 +66,13 @@ private:
     /// Keys of a file: its format must be known, and raw numbers need a type, a size and a place.
     void file_keys(const Node& density) {
         if (check_.key(path_ + "format") == nullptr) format_by_name(density);
+        const VolumeFormat* format = volume_format_named(medium_.format);
+        const bool weather = format != nullptr && format->is_weather;
         for (const char* key : {"resolution", "shape_seed"})
             if (const Node* node = check_.key(path_ + key))
-                fault(*node, key, "not for a file, " + value_text(*node) + ", allowed: left out");
-        const VolumeFormat* format = volume_format_named(medium_.format);
+                if (!weather || key[0] == 's')
+                    fault(*node, key,
+                          "not for a file, " + value_text(*node) + ", allowed: left out");
         if (format != nullptr && format->bare) {
             for (const char* key : {"density.type", "density.size"})
                 if (check_.lacks(path_ + key))
@@ -87,6 +86,32 @@ private:
                     fault(*node, key,
                           "for raw files only, " + value_text(*node) + ", allowed: left out");
         }
+    }
+
+    /// Weather data alone has variables, times and a geometry.
+    void weather_keys_of() {
+        const VolumeFormat* format = volume_format_named(medium_.format);
+        if (format != nullptr && format->is_weather) {
+            check_weather();
+            return;
+        }
+        for (const KeyRow& row : weather_keys()) {
+            const std::string key = std::string(row.path).substr(sizeof "medium.N." - 1);
+            if (const Node* node = check_.key(path_ + key))
+                fault(*node, key,
+                      "for NetCDF files only, " + value_text(*node) + ", allowed: left out");
+        }
+    }
+
+    /// One size of ice crystals, in one way.
+    void check_weather() {
+        const Node* dge = check_.valid_key(path_ + "density.ice_dge_um");
+        for (const char* key : {"density.ice_radius_um", "density.ice_radius"})
+            if (const Node* node = check_.valid_key(path_ + key))
+                if (dge != nullptr)
+                    fault(
+                        *node, key,
+                        "given twice, " + value_text(*node) + ", allowed: a radius or ice_dge_um");
     }
 
     /// A grid has a name in OpenVDB and NanoVDB files only, and it is said once.
@@ -115,13 +140,11 @@ private:
             medium_.format = format->name;
             return;
         }
-        const bool later = ends_with(medium_.file, ".nc");
         // Bare numbers are told by no ending, only by what the scene says of them.
         fault(density, "density",
-              std::string(later ? "not in this version, " : "unknown kind of file, ") +
-                  quote_text(medium_.file) + ", allowed: a name that ends in " +
-                  volume_format_extensions() + "; or beside it the key format, one of " +
-                  volume_format_names() +
+              "unknown kind of file, " + quote_text(medium_.file) +
+                  ", allowed: a name that ends in " + volume_format_extensions() +
+                  "; or beside it the key format, one of " + volume_format_names() +
                   "; or density = { file = \"...\", type = \"float32\", size = [nx, ny, nz] } "
                   "for a raw file");
     }

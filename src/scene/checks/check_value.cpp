@@ -126,6 +126,8 @@ bool check_value(const KeyRow& row, const Node& node, const std::string& path, F
             return check.text(node);
         case KeyKind::kTexts:
             return check.texts(node);
+        case KeyKind::kIndexOrText:
+            return node.is_text() ? check.text(node) : check.integer(node);
         case KeyKind::kDensity:
             return node.is_table() || check.density(node);
         case KeyKind::kTable:

@@ -18,14 +18,15 @@ enum class KeyKind {
     kNumber,
     kNumber2,
     kNumber3,
-    kColor,    ///< a number, or three for red, green, blue
-    kBounds,   ///< two corners of a box
-    kText,     ///< with choices: one of them
-    kTexts,    ///< list of texts
-    kChoice,   ///< one of the row's texts; the field holds its place among them
-    kDensity,  ///< a text or a table
-    kTable,    ///< a table whose contents are left alone
-    kLater,    ///< a key of the format that this version cannot use
+    kColor,        ///< a number, or three for red, green, blue
+    kBounds,       ///< two corners of a box
+    kText,         ///< with choices: one of them
+    kTexts,        ///< list of texts
+    kChoice,       ///< one of the row's texts; the field holds its place among them
+    kIndexOrText,  ///< a whole number or a text
+    kDensity,      ///< a text or a table
+    kTable,        ///< a table whose contents are left alone
+    kLater,        ///< a key of the format that this version cannot use
 };
 
 /// Where values stand: in the scene, or in the element of a list that the path's N counts.

@@ -34,6 +34,8 @@ std::string choices_text(const char* choices) {
 std::string section_of(const KeyRow& row) {
     const std::string path = row.path;
     if (row.kind() == KeyKind::kTable) return "other";
+    for (const KeyRow& weather : weather_keys())
+        if (path == weather.path) return "medium.N.density";
     if (path.compare(0, 13, "medium.N.sky.") == 0) return "medium.N.sky";
     if (path.compare(0, 9, "medium.N.") == 0) return "medium.N";
     if (path.compare(0, 8, "solid.N.") == 0) return "solid.N";
@@ -46,6 +48,7 @@ std::string heading_of(const std::string& section) {
     if (section == "other") return "Tables of other methods";
     if (section == "solid.N") return "`[[solid]]`";
     if (section == "medium.N.sky") return "`[[medium]]`, `sky = { ... }`";
+    if (section == "medium.N.density") return "`[[medium]]`, `density = { ... }` of weather data";
     return section == "medium.N" ? "`[[medium]]`" : "`[" + section + "]`";
 }
 
@@ -145,6 +148,8 @@ std::string allowed_text(const KeyRow& row) {
         case KeyKind::kTexts:
             return choices == nullptr ? "list of up to 16 texts"
                                       : "list of " + choices_text(choices);
+        case KeyKind::kIndexOrText:
+            return "text, or whole number" + range;
         case KeyKind::kDensity:
             return density_names() + ", the path of a file, or a table";
         case KeyKind::kTable:

@@ -118,6 +118,7 @@ Status outline_file(const Scene& scene, const MediumSettings& settings, const Li
     constexpr std::uint64_t kPieceBytes = 65536 * sizeof(float);
     source.reading_bytes = raw ? kPieceBytes : file.size();
     PILEUS_TRY(at_key(scene, key, read_volume_head(settings, path, head)));
+    if (head.in_pieces) source.reading_bytes = 0;
     source.reading_bytes += head.unpacked_bytes;
     if (settings.y_up) turn_y_up(head.size, head.bounds_m);
     return Status::ok();

@@ -284,13 +284,19 @@ Status outline_media(const Scene& scene, const Limits& limits, std::uint64_t thr
 Status load_media(const Scene& scene, const Limits& limits, int threads, Plan& plan, Medium& out,
                   const KernelTable* kernels) {
     MediaList list;
+    std::uint64_t missing = 0, clamped = 0;
     for (std::size_t i = 0; i < scene.media.size(); ++i) {
         Medium medium;
         PILEUS_TRY(load_medium(scene, scene.media[i], threads, medium, kernels));
+        missing += medium.volume.missing;
+        clamped += medium.volume.clamped;
         list.add(std::move(medium), i, i + 1 == scene.media.size(), plan);
     }
     const MixGrid grid = list.plan_grid(limits, plan);
-    return mix_media(list.media, grid, threads, out);
+    PILEUS_TRY(mix_media(list.media, grid, threads, out));
+    out.volume.missing = missing;
+    out.volume.clamped = clamped;
+    return Status::ok();
 }
 
 }  // namespace pileus

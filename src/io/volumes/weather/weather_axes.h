@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which dimension of a file is what: time, member, level, y, x, or a list of columns.
+// in: the variable of water and its dimensions' names and attributes -> out: their places.
+// docs/weather.md, "Dimensions"; CF conventions 1.10, chapter 4.
+#pragma once
+#include "src/io/netcdf/netcdf_file.h"
+#include "src/scene/weather_settings.h"
+
+namespace pileus {
+
+constexpr std::size_t kNoDimension = ~std::size_t{0};
+
+struct WeatherAxes {
+    /// Indices of dimensions of the file; kNoDimension where there is none.
+    std::size_t time = kNoDimension, member = kNoDimension, level = kNoDimension, y = kNoDimension,
+                x = kNoDimension, column = kNoDimension;
+    std::uint64_t levels = 0, ny = 1, nx = 1;  ///< a list of columns counts along x
+    std::uint64_t time_index = 0, member_index = 0;
+    std::string time_text;  ///< date of the time; empty where the file has none
+};
+
+enum class AxisKind { kUnknown, kTime, kMember, kLevel, kY, kX, kColumn };
+
+/// By the name of a dimension and the variable of the same name.
+AxisKind axis_kind(const NcHead& head, std::size_t dimension);
+
+/// Dimensions of the variable of water, and the time and member that the scene names.
+Status find_axes(const NcFile& file, const NcVariable& water, const WeatherSettings& settings,
+                 WeatherAxes& axes);
+
+/// Dates of all times, "2005-08-28T12:00:00", by variable `Times` or the coordinate's units; empty
+/// where the file tells none.
+Status weather_times(const NcFile& file, std::size_t dimension, std::vector<std::string>& dates);
+
+/// "2005-08-28T12:00:00" of seconds since 1970, proleptic Gregorian.
+std::string date_text(std::int64_t seconds);
+
+}  // namespace pileus

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which variables of a file are cloud water, temperature, pressure and so on.
+// in: a head and the names that a scene gives -> out: fields: variables that are added, their unit.
+// docs/weather.md, "Variables"; CF standard names; names of ecRad, ECMWF, ICON, COSMO and WRF.
+#pragma once
+#include "src/io/volumes/weather/weather_axes.h"
+#include "src/io/volumes/weather/weather_units.h"
+
+namespace pileus {
+
+enum class Role : std::size_t {
+    kLiquid,
+    kIce,
+    kFraction,
+    kTemperature,
+    kPressure,
+    kHeight,
+    kHumidity,
+    kLiquidRadius,
+    kIceRadius,
+    kSurfacePressure,
+    kSurfaceHeight,
+    kCount
+};
+
+/// What has to be done with the numbers once they are in the unit of their quantity.
+enum class Meaning {
+    kPlain,
+    kPotential,     ///< potential temperature, K
+    kGeopotential,  ///< m2/s2, over `gravity` is the height
+    kLogarithm,     ///< of a pressure in Pa
+    kPerDryAir,     ///< mixing ratio: per kg of dry air
+};
+
+struct WeatherField {
+    std::vector<const NcVariable*> parts;  ///< are added up; empty: the file has none
+    Quantity quantity = Quantity::kRatio;
+    Meaning meaning = Meaning::kPlain;
+    UnitScale unit;
+    double gravity = 9.80665;
+    bool on_faces = false;  ///< between levels: one more value than levels
+    bool there() const { return !parts.empty(); }
+    std::string name() const;  ///< "P + PB"
+};
+
+struct WeatherFields {
+    WeatherField of[std::size_t(Role::kCount)];
+    WeatherField& operator[](Role role) { return of[std::size_t(role)]; }
+    const WeatherField& operator[](Role role) const { return of[std::size_t(role)]; }
+};
+
+/// Key of the scene that names the variable: "liquid".
+const char* role_key(Role role);
+
+/// The variable of liquid water or else of ice, by which the axes are known. kBadInput: neither.
+Status find_water(const NcFile& file, const WeatherSettings& settings, const NcVariable*& water);
+
+/// All roles. kBadInput: a variable that the scene names is not there or has other dimensions, a
+/// unit is missing or of another quantity.
+Status find_fields(const NcFile& file, const WeatherSettings& settings, const WeatherAxes& axes,
+                   WeatherFields& fields);
+
+}  // namespace pileus

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// From columns of cloud to the grid of a medium, once and conserving.
+// in: layers of every footprint -> out: extinction of equal cells; sums over the footprints.
+// docs/weather.md, "What is conserved"
+#pragma once
+#include <array>
+
+#include "src/base/vectors.h"
+#include "src/io/volumes/weather/weather_layers.h"
+
+namespace pileus {
+
+/// Sums over all columns of a file, as it is laid: nothing of the grid enters.
+struct WeatherSurvey {
+    WeatherCounts counts;
+    bool any_cloud = false;
+    double low_m = 0, high_m = 0;      ///< faces of the cloud, or of all levels without any
+    double thickness_m = 0;            ///< of layers with cloud, added up
+    std::uint64_t cloudy = 0;          ///< layers with cloud
+    double area_m2 = 0;                ///< of all footprints
+    double liquid_kg = 0, ice_kg = 0;  ///< in all footprints
+    double depth_m2 = 0;               ///< optical depth times area
+    double most_depth = 0;             ///< of one column
+};
+
+/// Equal cells over the footprints.
+struct WeatherGrid {
+    std::array<int, 3> size{1, 1, 1};
+    double low[3] = {}, high[3] = {};  ///< metres, heights as they are
+    double step(std::size_t a) const { return (high[a] - low[a]) / size[a]; }
+    std::uint64_t cells() const {
+        return std::uint64_t(size[0]) * std::uint64_t(size[1]) * std::uint64_t(size[2]);
+    }
+};
+
+/// One pass over the file. All of the water missing: kBadInput.
+Status survey_weather(const WeatherSource& source, WeatherSurvey& survey);
+
+/// The scene's cells, or as many as there are footprints and, along z, as the cloudy layers are
+/// thick on the mean. `where` opens the line of a size beyond the limits.
+Status weather_grid(const WeatherSource& source, const WeatherSurvey& survey,
+                    const std::array<int, 3>& resolution, WeatherGrid& grid);
+
+/// Adds the layers of a block of rows: to each cell extinction times the thickness and the shares
+/// of the cell's length and width that it has in common with a layer. `sums` has the grid's cells.
+void lay_block(const WeatherSource& source, const WeatherGrid& grid, std::uint64_t first_row,
+               std::uint64_t rows, const CloudLayers& layers, Span<double> sums);
+
+}  // namespace pileus

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+// The table of names.
+// in: nothing -> out: see weather_names.h.
+// docs/weather.md, "Variables"; CF standard names; names of ecRad, ECMWF, ICON, COSMO and WRF.
+#include "src/io/volumes/weather/weather_names.h"
+
+namespace pileus {
+namespace {
+
+using Q = Quantity;
+using M = Meaning;
+
+constexpr WeatherName kRows[] = {
+    {Role::kLiquid, "QCLOUD", nullptr, Q::kRatio, M::kPerDryAir, 0, true},
+    {Role::kIce, "QICE", nullptr, Q::kRatio, M::kPerDryAir, 0, true},
+    {Role::kFraction, "CLDFRA", nullptr, Q::kFraction, M::kPlain, 0, true},
+    {Role::kTemperature, "T", nullptr, Q::kTemperature, M::kPotential, 300, true},
+    {Role::kPressure, "P+PB", nullptr, Q::kPressure, M::kPlain, 0, true},
+    {Role::kHeight, "PH+PHB", nullptr, Q::kGeopotential, M::kGeopotential, 0, true},
+    {Role::kHumidity, "QVAPOR", nullptr, Q::kRatio, M::kPerDryAir, 0, true},
+    {Role::kLiquidRadius, "RE_CLOUD", nullptr, Q::kRadius, M::kPlain, 0, true},
+    {Role::kIceRadius, "RE_ICE", nullptr, Q::kRadius, M::kPlain, 0, true},
+    {Role::kSurfacePressure, "PSFC", nullptr, Q::kPressure, M::kPlain, 0, true},
+    {Role::kSurfaceHeight, "HGT", nullptr, Q::kHeight, M::kPlain, 0, true},
+    {Role::kLiquid, nullptr, "mass_fraction_of_cloud_liquid_water_in_air", Q::kRatio},
+    {Role::kLiquid, nullptr, "cloud_liquid_water_mixing_ratio", Q::kRatio, M::kPerDryAir},
+    {Role::kLiquid, nullptr, "mass_concentration_of_cloud_liquid_water_in_air", Q::kContent},
+    {Role::kLiquid, "q_liquid", nullptr, Q::kRatio},
+    {Role::kLiquid, "clwc", nullptr, Q::kRatio},
+    {Role::kLiquid, "clw", nullptr, Q::kRatio},
+    {Role::kLiquid, "qc", nullptr, Q::kRatio},
+    {Role::kLiquid, "ql", nullptr, Q::kRatio},
+    {Role::kLiquid, "lwc", nullptr, Q::kContent},
+    {Role::kLiquid, "LWC", nullptr, Q::kContent},
+    {Role::kIce, nullptr, "mass_fraction_of_cloud_ice_in_air", Q::kRatio},
+    {Role::kIce, nullptr, "cloud_ice_mixing_ratio", Q::kRatio, M::kPerDryAir},
+    {Role::kIce, nullptr, "mass_concentration_of_cloud_ice_in_air", Q::kContent},
+    {Role::kIce, "q_ice", nullptr, Q::kRatio},
+    {Role::kIce, "ciwc", nullptr, Q::kRatio},
+    {Role::kIce, "cli", nullptr, Q::kRatio},
+    {Role::kIce, "qi", nullptr, Q::kRatio},
+    {Role::kIce, "iwc", nullptr, Q::kContent},
+    {Role::kIce, "IWC", nullptr, Q::kContent},
+    {Role::kFraction, nullptr, "cloud_area_fraction_in_atmosphere_layer", Q::kFraction},
+    {Role::kFraction, nullptr, "cloud_volume_fraction_in_atmosphere_layer", Q::kFraction},
+    {Role::kFraction, "cloud_fraction", nullptr, Q::kFraction},
+    {Role::kFraction, "cc", nullptr, Q::kFraction},
+    {Role::kFraction, "cl", nullptr, Q::kFraction},
+    {Role::kFraction, "clc", nullptr, Q::kFraction},
+    {Role::kTemperature, nullptr, "air_temperature", Q::kTemperature},
+    {Role::kTemperature, nullptr, "air_potential_temperature", Q::kTemperature, M::kPotential},
+    {Role::kTemperature, "temperature", nullptr, Q::kTemperature},
+    {Role::kTemperature, "temperature_hl", nullptr, Q::kTemperature},
+    {Role::kTemperature, "ta", nullptr, Q::kTemperature},
+    {Role::kTemperature, "temp", nullptr, Q::kTemperature},
+    {Role::kTemperature, "t", nullptr, Q::kTemperature},
+    {Role::kTemperature, "theta", nullptr, Q::kTemperature, M::kPotential},
+    {Role::kPressure, nullptr, "air_pressure", Q::kPressure},
+    {Role::kPressure, "pressure_hl", nullptr, Q::kPressure},
+    {Role::kPressure, "pressure", nullptr, Q::kPressure},
+    {Role::kPressure, "pressure_fl", nullptr, Q::kPressure},
+    {Role::kPressure, "pfull", nullptr, Q::kPressure},
+    {Role::kPressure, "pres", nullptr, Q::kPressure},
+    {Role::kPressure, "p", nullptr, Q::kPressure},
+    {Role::kHeight, nullptr, "altitude", Q::kHeight},
+    {Role::kHeight, nullptr, "height_above_mean_sea_level", Q::kHeight},
+    {Role::kHeight, nullptr, "geopotential_height", Q::kHeight},
+    {Role::kHeight, nullptr, "geopotential", Q::kGeopotential, M::kGeopotential},
+    {Role::kHeight, nullptr, "height", Q::kHeight},
+    {Role::kHeight, "height_hl", nullptr, Q::kHeight},
+    {Role::kHeight, "height", nullptr, Q::kHeight},
+    {Role::kHeight, "altitude", nullptr, Q::kHeight},
+    {Role::kHeight, "z_ifc", nullptr, Q::kHeight},
+    {Role::kHeight, "HHL", nullptr, Q::kHeight},
+    {Role::kHeight, "z_mc", nullptr, Q::kHeight},
+    {Role::kHeight, "height_fl", nullptr, Q::kHeight},
+    {Role::kHeight, "zg", nullptr, Q::kHeight},
+    {Role::kHeight, "z", nullptr, Q::kGeopotential, M::kGeopotential},
+    {Role::kHumidity, nullptr, "specific_humidity", Q::kRatio},
+    {Role::kHumidity, nullptr, "humidity_mixing_ratio", Q::kRatio, M::kPerDryAir},
+    {Role::kHumidity, "q", nullptr, Q::kRatio},
+    {Role::kHumidity, "hus", nullptr, Q::kRatio},
+    {Role::kHumidity, "qv", nullptr, Q::kRatio},
+    {Role::kLiquidRadius, nullptr, "effective_radius_of_cloud_liquid_water_particles", Q::kRadius},
+    {Role::kLiquidRadius, nullptr, "effective_radius_of_cloud_liquid_water_particle", Q::kRadius},
+    {Role::kLiquidRadius, "re_liquid", nullptr, Q::kRadius},
+    {Role::kIceRadius, nullptr, "effective_radius_of_cloud_ice_particles", Q::kRadius},
+    {Role::kIceRadius, nullptr, "effective_radius_of_cloud_ice_particle", Q::kRadius},
+    {Role::kIceRadius, "re_ice", nullptr, Q::kRadius},
+    {Role::kSurfacePressure, nullptr, "surface_air_pressure", Q::kPressure},
+    {Role::kSurfacePressure, "surface_pressure", nullptr, Q::kPressure},
+    {Role::kSurfacePressure, "ps", nullptr, Q::kPressure},
+    {Role::kSurfacePressure, "sp", nullptr, Q::kPressure},
+    {Role::kSurfacePressure, "lnsp", nullptr, Q::kFraction, M::kLogarithm},
+    {Role::kSurfaceHeight, nullptr, "surface_altitude", Q::kHeight},
+    {Role::kSurfaceHeight, nullptr, "surface_geopotential", Q::kGeopotential, M::kGeopotential},
+    {Role::kSurfaceHeight, "orog", nullptr, Q::kHeight},
+    {Role::kSurfaceHeight, "hsurf", nullptr, Q::kHeight},
+    {Role::kSurfaceHeight, "topography_c", nullptr, Q::kHeight},
+};
+
+}  // namespace
+
+Span<const WeatherName> weather_names() { return {kRows, sizeof kRows / sizeof kRows[0]}; }
+
+}  // namespace pileus

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// An opened file of weather data: what is where in it, and blocks of columns from it.
+// in: an NcFile and the scene's words -> out: axes, fields, places; values in SI units, from below.
+// docs/weather.md
+#pragma once
+#include "src/base/buffer.h"
+#include "src/io/volumes/weather/weather_fields.h"
+#include "src/io/volumes/weather/weather_ground.h"
+
+namespace pileus {
+
+/// What tells where the layers of air lie.
+enum class Vertical { kHeightFaces, kHeightLevels, kPressureFaces, kPressureLevels };
+
+/// Accidents of the data that are no faults, counted.
+struct WeatherCounts {
+    std::uint64_t missing = 0;  ///< missing values of water, taken for no cloud
+    std::uint64_t clamped = 0;  ///< negative water within -1e-6 kg/kg, taken for none
+    std::uint64_t values = 0;   ///< of water
+    std::uint64_t filled = 0;   ///< missing values of air, taken from the next level
+};
+
+struct WeatherSource {
+    const NcFile* file = nullptr;
+    const WeatherSettings* settings = nullptr;
+    const NcVariable* water = nullptr;
+    WeatherAxes axes;
+    WeatherFields fields;
+    Vertical vertical = Vertical::kHeightLevels;
+    /// Of hybrid levels: pressure = a + b * pressure at the ground, from the file's first level on.
+    std::vector<double> hybrid_a, hybrid_b;
+    bool top_down = false;  ///< the file's first level is the highest
+    Footprints ground;
+
+    std::size_t levels() const { return std::size_t(axes.levels); }
+    std::size_t row_columns() const { return std::size_t(axes.nx); }
+    bool has(Role role) const { return fields[role].there(); }
+};
+
+/// All but values. Faults of the data and of names: kBadInput.
+Status open_weather(const NcFile& file, const WeatherSettings& settings, WeatherSource& source);
+
+/// Rows of a field: values[(row * nx + column) * n + level], n levels from below, those that are
+/// missing as NaN. n: levels, one more on faces, 1 at the ground.
+Status read_field(const WeatherSource& source, Role role, std::uint64_t first_row,
+                  std::uint64_t rows, Buffer<double>& values);
+
+/// Sets `top_down` and the coefficients of hybrid levels, and chooses what tells the heights.
+Status find_vertical(WeatherSource& source);
+
+/// "column 3 4" of a grid, "column 12" of a list.
+std::string column_name(const WeatherSource& source, std::uint64_t row, std::size_t column);
+
+}  // namespace pileus

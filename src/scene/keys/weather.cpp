@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys of weather data: names of variables, time, microphysics, geometry.
+// in: checked values <-> out: fields of WeatherSettings.
+// docs/weather.md.
+#include "src/scene/keys/all_keys.h"
+
+namespace pileus {
+namespace {
+
+template <auto... Members>
+constexpr KeyField weather = field<&MediumSettings::weather, Members...>;
+
+/// A whole number or a text; kept as text.
+template <auto Member>
+constexpr KeyField choice{
+    KeyKind::kIndexOrText, [](const KeySource& s) { return node_of(s.medium.weather.*Member); },
+    [](const KeyTarget& t, const Node& n) {
+        t.medium.weather.*Member = n.is_text() ? n.text : std::to_string(integer_of(n));
+    }};
+
+using W = WeatherSettings;
+
+constexpr KeyRow kRows[] = {
+    {"medium.N.density.liquid", weather<&W::liquid>, any(), "",
+     "NetCDF: variable of cloud liquid water, or `none`; left out, as for the ten below: found by "
+     "its standard_name or a known name",
+     kNone},
+    {"medium.N.density.ice", weather<&W::ice>, any(), "", "variable of cloud ice, or `none`",
+     kNone},
+    {"medium.N.density.cloud_fraction", weather<&W::cloud_fraction>, any(), "",
+     "variable of the cloud fraction, or `none`", kNone},
+    {"medium.N.density.temperature", weather<&W::temperature>, any(), "",
+     "variable of temperature or potential temperature", kNone},
+    {"medium.N.density.pressure", weather<&W::pressure>, any(), "", "variable of pressure", kNone},
+    {"medium.N.density.humidity", weather<&W::humidity>, any(), "",
+     "variable of specific humidity or of the vapour's mixing ratio, or `none`: dry air", kNone},
+    {"medium.N.density.height", weather<&W::height>, any(), "",
+     "variable of height or geopotential, or `none`: integrated from pressures", kNone},
+    {"medium.N.density.liquid_radius", weather<&W::liquid_radius>, any(), "",
+     "variable of the droplets' effective radius, or `none`", kNone},
+    {"medium.N.density.ice_radius", weather<&W::ice_radius>, any(), "",
+     "variable of the crystals' effective radius, or `none`", kNone},
+    {"medium.N.density.surface_pressure", weather<&W::surface_pressure>, any(), "",
+     "variable of the pressure at the ground, or `none`", kNone},
+    {"medium.N.density.surface_geopotential", weather<&W::surface_geopotential>, any(), "",
+     "variable of the ground's geopotential or height, or `none`: 0", kNone},
+    {"medium.N.density.time", choice<&W::time>, from_to(0, 1e9), "",
+     "which time of a NetCDF file: an index from 0, or a date such as "
+     "`2005-08-28T12` of which one time's date begins"},
+    {"medium.N.density.member", choice<&W::member>, from_to(0, 1e9), "",
+     "which member of an ensemble: an index from 0, or the member's number or name as text"},
+    {"medium.N.density.fraction", weather<&W::in_cloud>, one_of("mean|in_cloud"), "",
+     "`mean`: a cell's water fills it, `in_cloud`: is divided by the cloud fraction first"},
+    {"medium.N.density.liquid_radius_um", weather<&W::liquid_radius_um>, above(0, 1e4), "um",
+     "effective radius of all droplets; left out: the file's, else 10", kNone},
+    {"medium.N.density.ice_radius_um", weather<&W::ice_radius_um>, above(0, 1e4), "um",
+     "effective radius of all crystals; left out: the file's, else 30", kNone},
+    {"medium.N.density.ice_dge_um", weather<&W::ice_dge_um>, above(0, 1e4), "um",
+     "generalized effective size of all crystals (Fu 1996), in place of a radius", kNone},
+    {"medium.N.density.missing", weather<&W::missing_is_fault>, one_of("clear|fault"), "",
+     "what missing values of water are: no cloud, counted, or a fault"},
+    {"medium.N.density.geometry", weather<&W::plain_degrees>, one_of("cosine|plain"), "",
+     "degrees of longitude as metres: times the cosine of latitude, or not"},
+    {"medium.N.density.origin_deg", weather<&W::origin_deg>, from_to(-360, 360), "deg",
+     "longitude and latitude of x = y = 0; left out: the middle of the data", kNone},
+    {"medium.N.density.width_m", weather<&W::width_m>, above(0, 1e9), "m",
+     "width of a slice or a single column, across; left out: the spacing of a slice's columns, "
+     "10 km for a single one",
+     kNone},
+    {"medium.N.density.vertical_scale", weather<&W::vertical_scale>, above(0, 1e4), "",
+     "factor on heights; extinction is divided by it, so that optical depths stay"},
+};
+
+}  // namespace
+
+Span<const KeyRow> weather_keys() { return {kRows, sizeof kRows / sizeof kRows[0]}; }
+
+}  // namespace pileus
