@@ -181,15 +181,18 @@ Status open_weather(const NcFile& file, const WeatherSettings& settings, Weather
     PILEUS_TRY(find_water(file, settings, source.water));
     PILEUS_TRY(find_axes(file, *source.water, settings, source.axes));
     // No column may have more levels than a grid can show, no row more columns.
-    constexpr std::uint64_t kMostLevels = 10'000, kMostColumns = std::uint64_t{1} << 24;
+    constexpr std::uint64_t kMostLevels = 10'000, kMostSide = std::uint64_t{1} << 20;
+    constexpr std::uint64_t kMostRow = std::uint64_t{1} << 24;
     const WeatherAxes& axes = source.axes;
-    if (axes.levels > kMostLevels || axes.nx > kMostColumns || axes.ny > kMostColumns ||
-        axes.nx * axes.levels > kMostColumns)
+    if (axes.levels > kMostLevels || axes.nx > kMostSide || axes.ny > kMostSide ||
+        axes.nx * axes.levels > kMostRow)
         return Status::limit(file.name() + ": variable " + printable_line(source.water->name) +
                              ": too large, " + std::to_string(axes.nx) + " x " +
                              std::to_string(axes.ny) + " x " + std::to_string(axes.levels) +
-                             ", allowed: at most " + std::to_string(kMostLevels) +
-                             " levels and 2^24 values in a row of columns");
+                             ", allowed: at most 10000 levels, 2^20 columns along x and y and 2^24 "
+                             "values in a row of columns");
+    // Of a classic file: the sizes are true before anything is made as large as they say.
+    PILEUS_TRY(file.check_room(*source.water, whole_block(file.head(), *source.water)));
     PILEUS_TRY(find_fields(file, settings, axes, source.fields));
     PILEUS_TRY(find_footprints(file, *source.water, axes, settings, source.ground));
     return find_vertical(source);
