@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "src/base/digest.h"
-#include "src/methods/collectors/photons/trace.h"
+#include "src/photons/trace.h"
 #include "src/world/majorant/majorant.h"
 
 namespace trace_test {

@@ -3,7 +3,7 @@
 // in: slots of integer sums, collectors, the camera -> out: colours, [channel][collector].
 // docs/methods.md 3, each image frame, step 4; repairs 2 and 3.
 #pragma once
-#include "src/methods/collectors/photons/trace.h"
+#include "src/photons/trace.h"
 #include "src/methods/collectors/prepare/prepared.h"
 
 namespace pileus {

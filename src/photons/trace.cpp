@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // See trace.h.
-#include "src/methods/collectors/photons/trace.h"
+#include "src/photons/trace.h"
 
 #include "kernels_cpu/core/accumulate.h"
 #include "platform/threads.h"
