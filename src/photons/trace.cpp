@@ -2,6 +2,8 @@
 // See trace.h.
 #include "src/photons/trace.h"
 
+#include <cstring>
+
 #include "kernels_cpu/core/accumulate.h"
 #include "platform/threads.h"
 #include "src/base/random_streams.h"
@@ -140,6 +142,13 @@ void add_tally(const TraceTally& from, TraceTally& to) {
     to.majorant_violations += from.majorant_violations;
     to.absorption_tests += from.absorption_tests;
     to.bounces += from.bounces;
+}
+
+void empty_slot(PhotonSlot& slot) {
+    std::memset(slot.sums.data(), 0, std::size_t(slot.sums.bytes()));
+    slot.generations = 0;
+    slot.scatterings = 0;
+    slot.parts.clear();
 }
 
 GroundMap make_ground_map(const Medium& medium, const Lighting& lighting) {

@@ -75,6 +75,9 @@ struct PhotonSlot {
     }
 };
 
+/// Forgets what was shot into it.
+void empty_slot(PhotonSlot& slot);
+
 struct Photons {
     std::vector<PhotonSlot> slots;
     std::vector<TraceTally> tallies;  ///< per light
