@@ -187,4 +187,17 @@ bool relight_photons(PhotonRun& run) {
     return true;
 }
 
+bool same_lights(const Lighting& a, const Lighting& b) {
+    if (a.lights.size() != b.lights.size() || a.ground != b.ground || a.ground_z != b.ground_z ||
+        a.ground_albedo != b.ground_albedo || a.map.columns != b.map.columns)
+        return false;
+    for (std::size_t i = 0; i < a.lights.size(); ++i) {
+        const Light &x = a.lights[i], &y = b.lights[i];
+        if (x.stream != y.stream || x.travel != y.travel || x.colour != y.colour ||
+            x.power_m2 != y.power_m2 || x.photons != y.photons || x.face_cdf != y.face_cdf)
+            return false;
+    }
+    return true;
+}
+
 }  // namespace pileus

@@ -64,4 +64,7 @@ void set_photon_sun(double elevation_deg, PhotonRun& run);
 /// no place for, so that they are to be laid out anew.
 bool relight_photons(PhotonRun& run);
 
+/// Whether photons of one are photons of the other.
+bool same_lights(const Lighting& a, const Lighting& b);
+
 }  // namespace pileus

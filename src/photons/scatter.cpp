@@ -6,6 +6,18 @@
 
 namespace pileus {
 
+int useful_axis_degrees(const Medium& medium, int bands, int wanted) {
+    constexpr float kNothing = 1e-3f;  // of a moment
+    // Moments of tables end at a degree of their own.
+    const int most = kPhaseMoments - bands;
+    for (int n = wanted < most ? wanted : most; n > 0; --n)
+        for (int i = 0; i < medium.count; ++i) {
+            const float chi = phase_moment(medium.optics[std::size_t(i)].phase, bands + n - 1);
+            if (chi > kNothing || chi < -kNothing) return n;
+        }
+    return 0;
+}
+
 Window band_window(int bands, bool sinc) {
     Window w{};
     for (int l = 0; l < bands; ++l) {

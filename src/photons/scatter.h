@@ -9,6 +9,9 @@
 
 namespace pileus {
 
+/// Degrees beyond the bands that a phase function still sends on, as far as they were asked for.
+int useful_axis_degrees(const Medium& medium, int bands, int wanted);
+
 /// What the sinc window multiplies each band by.
 struct Window {
     float factor[kMaxBands];

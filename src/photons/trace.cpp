@@ -98,8 +98,13 @@ TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_
     for (int a = 0; a < 3; ++a) {
         k.direction[a] = light.travel[std::size_t(a)];
         k.camera[a] = in.deposit.camera[a];
+        k.axis[a] = light.beam ? light.travel[std::size_t(a)]
+                               : (a < 2 ? 0.0f : (light.hemisphere > 0 ? 1.0f : -1.0f));
+        k.cells[a] = in.cells.size[a];
+        k.cells_per_voxel[a] = float(double(in.cells.size[a]) / m.grid.size[a]);
         diagonal += m.extent_m[a] * m.extent_m[a];
     }
+    k.cell_density = in.cells.density;
     k.grid = track_grid(m, in.majorants, in.block, in.max_events);
     k.channels = sum_channels(m, in.deposit);
     k.media = m.count;

@@ -27,19 +27,9 @@ const char* why_no_axis(const CollectorSettings& c, const CollectorsRun& run) {
     return nullptr;
 }
 
-/// Degrees beyond the bands that a phase function still sends on, as far as they were asked for.
 int axis_degrees(const CollectorSettings& c, const CollectorsRun& run) {
-    constexpr float kNothing = 1e-3f;  // of a moment
     if (why_no_axis(c, run) != nullptr) return 0;
-    // Moments of tables end at a degree of their own.
-    const int most = kPhaseMoments - c.bands;
-    for (int n = c.axis_degrees < most ? c.axis_degrees : most; n > 0; --n)
-        for (int i = 0; i < run.world->medium.count; ++i) {
-            const float chi =
-                phase_moment(run.world->medium.optics[std::size_t(i)].phase, c.bands + n - 1);
-            if (chi > kNothing || chi < -kNothing) return n;
-        }
-    return 0;
+    return useful_axis_degrees(run.world->medium, c.bands, c.axis_degrees);
 }
 
 /// First-order coefficients are 1; P_l exceeds 1 by its rounding alone; |y| stays below 1.1 for 8

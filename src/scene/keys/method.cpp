@@ -10,11 +10,13 @@
 namespace pileus {
 namespace {
 
-constexpr MethodKeys kMethods[] = {
-    {"collectors", collectors_keys}, {"path", path_keys}, {"raymarch", raymarch_keys}};
+constexpr MethodKeys kMethods[] = {{"collectors", collectors_keys},
+                                   {"path", path_keys},
+                                   {"raymarch", raymarch_keys},
+                                   {"photon-grid", photon_grid_keys}};
 
 /// Methods that the format names and this version has not: their tables are left alone.
-constexpr const char* kLater[] = {"optical-depth", "photon-grid", "particles"};
+constexpr const char* kLater[] = {"optical-depth", "particles"};
 constexpr std::size_t kLaterCount = sizeof kLater / sizeof kLater[0];
 
 /// Names parted by '|'.
