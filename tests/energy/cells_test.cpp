@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cells that gather at every tentative collision: track lengths without bias, floors, the ledger.
-// in: media of high contrast in diffuse light -> out: the same fluence in every cell; exact balances.
-// Blanco and Fournier 2003: in a white medium lit evenly from all sides light is even everywhere.
+// in: media of high contrast in diffuse light -> out: the same fluence in every cell; exact
+// balances. Blanco and Fournier 2003: in a white medium lit evenly from all sides light is even
+// everywhere.
 #include "src/world/majorant/cell_majorants.h"
 #include "tests/support/trace_harness.h"
 

@@ -136,8 +136,9 @@ TEST_CASE("identity: cells of their own, every instruction set, number of thread
                 rig.deposit.mode = mode;
                 rig.deposit.first_order = first_order;
                 rig.deposit.axis_degrees = mode == kDepositIncident ? 5 : 0;
-                rig.deposit.coefficients =
-                    mode == kDepositCamera ? 1 : mode == kDepositCosine ? 2 : 21;
+                rig.deposit.coefficients = mode == kDepositCamera   ? 1
+                                           : mode == kDepositCosine ? 2
+                                                                    : 21;
                 rig.deposit.camera[1] = -500;
                 rig.kernels = kernel_table_at(0);
                 const std::string scalar = shoot_digest(rig, 3'000, 2, true);

@@ -5,6 +5,7 @@
 #include "src/methods/photon_grid/photon_grid.h"
 
 #include "src/photons/scatter.h"
+#include "src/picture/nodes/node_grid.h"
 #include "src/world/plan_parts.h"
 
 namespace pileus {
@@ -201,12 +202,12 @@ Status photon_grid_light(const FrameStep& step, const Context& context, PhotonGr
     };
     const Scene& scene = *run.scene;
     if (run.ring) return light_photon_frame(step, context, run, shoot);
-    // One sum: all photons anew for each frame, frame f's of the same generations whatever frames
-    // were asked for.
+    // One sum: all photons anew for each frame, of the same random numbers, so that noise stays
+    // where it is.
     if (scene.animation.present) {
         set_photon_sun(sun_at(scene, step.frame), run);
         for (PhotonSlot& slot : run.photons.slots) empty_slot(slot);
-        run.next_generation = run.ring_first = std::uint64_t(step.frame) * run.generations;
+        run.next_generation = run.ring_first = 0;
     }
     const bool open = run.budget.seconds > 0;
     const std::uint64_t first = run.next_generation;

@@ -97,7 +97,7 @@ Status aim(int, bool anew, const Context& context, MethodRun& method_run) {
     }
     if (run.ring || same_lights(before, run.lighting)) return Status::ok();
     for (PhotonSlot& slot : run.photons.slots) empty_slot(slot);
-    run.ring_first = run.next_generation;
+    run.next_generation = run.ring_first = 0;
     run.photons.tallies.assign(run.lighting.lights.size(), TraceTally{});
     return Status::ok();
 }

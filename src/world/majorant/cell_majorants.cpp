@@ -17,12 +17,12 @@ struct Range {
 /// The largest whole number that is not over a / b, b > 0.
 std::int64_t floor_div(std::int64_t a, std::int64_t b) { return a / b - (a % b < 0 ? 1 : 0); }
 
-/// Voxels whose trilinear footprint, half a voxel more on each side, may reach into cell c of n
-/// along an axis of `size` voxels.
+/// Voxels whose trilinear footprint, half a voxel more on each side, reaches into cell c of n along
+/// an axis of `size` voxels.
 Range voxels_of_cell(int c, int n, int size) {
     const std::int64_t low = std::int64_t(2) * c * size - 3 * n;
     const std::int64_t high = std::int64_t(2) * (c + 1) * size + n;
-    return {int(floor_div(low, 2 * n)), int(floor_div(high, 2 * n)) + 2};
+    return {int(floor_div(low, 2 * n)) + 1, int(-floor_div(-high, 2 * n))};
 }
 
 /// Cells that share a volume with voxels [first, last) of an axis of `size` voxels.
