@@ -18,12 +18,16 @@
 
 #define PILEUS_JOIN(a, b) a##b
 #define PILEUS_TRACE_SOLIDS(isa) PILEUS_JOIN(trace_solids_, isa)
+#define PILEUS_TRACE_CELLS(isa) PILEUS_JOIN(trace_cells_, isa)
 
 namespace pileus {
 
 /// Of isa_trace_solids.cpp, compiled for the same instruction set.
 void PILEUS_TRACE_SOLIDS(PILEUS_ISA)(const TraceParams&, const TraceBuffers&, std::uint32_t,
                                      std::uint32_t);
+/// Of isa_trace_cells.cpp.
+void PILEUS_TRACE_CELLS(PILEUS_ISA)(const TraceParams&, const TraceBuffers&, std::uint32_t,
+                                    std::uint32_t);
 
 namespace {
 
@@ -31,6 +35,7 @@ static_assert(__FLT_EVAL_METHOD__ == 0, "floats must be computed as floats");
 
 void trace_kernel(const TraceParams& k, const TraceBuffers& b, std::uint32_t begin,
                   std::uint32_t end) {
+    if (k.cells[0] > 0) return PILEUS_TRACE_CELLS(PILEUS_ISA)(k, b, begin, end);
     if (k.solids.count > 0) return PILEUS_TRACE_SOLIDS(PILEUS_ISA)(k, b, begin, end);
     trace<PILEUS_WIDTH>(k, b, begin, end);
 }

@@ -97,14 +97,16 @@ PILEUS_FN void push_deposits(DepositQueue<W, NC>& q, const Vec<F<W>>& d, M<W> m,
     q.count += count_bits(bits);
 }
 
-/// Adds the directions of items [at, at + W) of the queue, or of its last few, to the sums.
-template <int W, int NC>
-PILEUS_FN void add_deposits(const TraceParams& k, const TraceBuffers& b,
-                            const DepositQueue<W, NC>& q, std::int32_t at) {
-    using T = F<W>;
-    constexpr int kMost = kMaxBands * kMaxBands + kMaxAxisDegrees;
-    const Vec<T> d{load<T>(q.x + at), load<T>(q.y + at), load<T>(q.z + at)};
-    T y[kMost];
+/// What is kept of a direction of travel, `Cells`: by a regular grid. Returns how many numbers.
+template <bool Cells, class T>
+PILEUS_FN int direction_numbers(const TraceParams& k, const Vec<T>& d, T* y) {
+    if constexpr (Cells) {
+        if (k.mode == kDepositCosine) {
+            y[0] = all<T>(1.0f);
+            y[1] = d.x * k.axis[0] + d.y * k.axis[1] + d.z * k.axis[2];
+            return 2;
+        }
+    }
     sh_values(k.bands, d, y);
     int count = k.bands * k.bands;
     if (k.axis_degrees > 0 && k.light == kLightBeam) {
@@ -113,6 +115,18 @@ PILEUS_FN void add_deposits(const TraceParams& k, const TraceBuffers& b,
         axis_values(k.bands, k.axis_degrees, cosine, y + count);
         count += k.axis_degrees;
     }
+    return count;
+}
+
+/// Adds the directions of items [at, at + W) of the queue, or of its last few, to the sums.
+template <bool Cells, int W, int NC>
+PILEUS_FN void add_deposits(const TraceParams& k, const TraceBuffers& b,
+                            const DepositQueue<W, NC>& q, std::int32_t at) {
+    using T = F<W>;
+    constexpr int kMost = kMaxBands * kMaxBands + kMaxAxisDegrees;
+    const Vec<T> d{load<T>(q.x + at), load<T>(q.y + at), load<T>(q.z + at)};
+    T y[kMost];
+    const int count = direction_numbers<Cells>(k, d, y);
     const std::int32_t items = q.count - at < W ? q.count - at : W;
     I<W> quanta[kMost];
     for (int c = 0; c < NC; ++c) {
@@ -128,13 +142,13 @@ PILEUS_FN void add_deposits(const TraceParams& k, const TraceBuffers& b,
 
 /// Adds all that waits but the last vector or two, or all: a vector is added when the one after it
 /// is full, whose sums are asked for first.
-template <int W, int NC>
+template <bool Cells, int W, int NC>
 PILEUS_FN void flush_deposits(const TraceParams& k, const TraceBuffers& b, DepositQueue<W, NC>& q,
                               bool last) {
     std::int32_t at = 0;
     for (; q.count - at >= (last ? 1 : 2 * W); at += W) {
         if (!last) fetch_sums<W>(k, b, q.collector + at + W);
-        add_deposits(k, b, q, at);
+        add_deposits<Cells>(k, b, q, at);
     }
     if (at == 0) return;
     const std::int32_t left = q.count > at ? q.count - at : 0;
@@ -144,6 +158,17 @@ PILEUS_FN void flush_deposits(const TraceParams& k, const TraceBuffers& b, Depos
         q.collector[i] = q.collector[at + i];
     }
     q.count = left;
+}
+
+/// The direction from each lane's photon to the camera.
+template <int W, int NC, bool S>
+PILEUS_FN Vec<F<W>> way_to_camera(const Photon<W, NC, S>& s, const TraceParams& k) {
+    using T = F<W>;
+    Vec<T> to{all<T>(k.camera[0]), all<T>(k.camera[1]), all<T>(k.camera[2])};
+    if (!k.orthographic)
+        to = normalized(Vec<T>{to.x - s.p.x * k.grid.cell[0], to.y - s.p.y * k.grid.cell[1],
+                               to.z - s.p.z * k.grid.cell[2]});
+    return to;
 }
 
 /// Deposit `share` (0..1) of each lane in `m`, travelling along s.d, into its voxel's collector.
@@ -174,15 +199,45 @@ PILEUS_FN void deposit(const TraceParams& k, const TraceBuffers& b, DepositQueue
         push_deposits(q, d, m, collector, shares);
         return;
     }
-    Vec<T> to{all<T>(k.camera[0]), all<T>(k.camera[1]), all<T>(k.camera[2])};
-    if (!k.orthographic)
-        to = normalized(Vec<T>{to.x - s.p.x * k.grid.cell[0], to.y - s.p.y * k.grid.cell[1],
-                               to.z - s.p.z * k.grid.cell[2]});
+    const Vec<T> to = way_to_camera(s, k);
     T p[NC];
     towards_camera<W, NC>(k, b, corner, density, one_minus_cosine(d, to), p);
     for (int c = 0; c < NC; ++c) {
         const I<W> quanta = quantise(value * s.weight[c] * p[c], k.scale);
         add_lanes<W>(k, b, bits_of(m), collector, &quanta, c, 0, 1);
+    }
+}
+
+/// The cell of the regular grid that holds a position in or on the box.
+template <class T>
+PILEUS_FN auto cell_of(const Vec<T>& p, const TraceParams& k) {
+    const auto along = [&](T at, int a) {
+        return min_(max_(to_int(at * k.cells_per_voxel[a]), I_of<T>{}),
+                    all<I_of<T>>(k.cells[a] - 1));
+    };
+    return (along(p.z, 2) * k.cells[1] + along(p.y, 1)) * k.cells[0] + along(p.x, 0);
+}
+
+/// Deposit the track length that a tentative collision of each lane in `m` stands for, in units of
+/// the longest one, 1 / (cell_density sigma): no deposit is over 1.
+template <int W, int NC, bool S>
+PILEUS_FN void deposit_in_cell(const TraceParams& k, const TraceBuffers& b, DepositQueue<W, NC>& q,
+                               const Photon<W, NC, S>& s, M<W> m, I<W> cell) {
+    using T = F<W>;
+    if (k.first_order != 0 && k.light == kLightBeam) m = m & (s.order != 0);
+    if (!any(m)) return;
+    const T length = min_(k.cell_density / s.bound, all<T>(1.0f));
+    const T value = select(s.shadow, T{} - length, length);
+    if (k.mode != kDepositCamera) {
+        T shares[NC];
+        for (int c = 0; c < NC; ++c) shares[c] = value * s.weight[c];
+        push_deposits(q, s.d, m, cell, shares);
+        return;
+    }
+    const T p = phase_density(k.optics[0].phase, one_minus_cosine(s.d, way_to_camera(s, k)));
+    for (int c = 0; c < NC; ++c) {
+        const I<W> quanta = quantise(value * s.weight[c] * p, k.scale);
+        add_lanes<W>(k, b, bits_of(m), cell, &quanta, c, 0, 1);
     }
 }
 

@@ -17,8 +17,8 @@ PILEUS_FN void fetch_ahead(const S* grid, I<W> at) {
     for (int i = 0; i < W; ++i) prefetch_(grid + lane(at, i));
 }
 
-/// Move every living lane to its next collision or block border.
-template <int W, int NC, bool S>
+/// Move every living lane to its next collision or block border. `Cells`: a regular grid gathers.
+template <bool Cells = false, int W, int NC, bool S>
 PILEUS_FN void advance(Group<W, NC, S>& g, const TraceParams& k, const TraceBuffers& b) {
     Photon<W, NC, S>& s = g.s;
     const M<W> flies = s.alive & lnot(g.out) & (g.waits == 0);
@@ -43,7 +43,9 @@ PILEUS_FN void advance(Group<W, NC, S>& g, const TraceParams& k, const TraceBuff
     g.corner = select(g.hits, corner_voxel(s.p, w.a, k.grid), I<W>{});
     g.draw = w.b;
     fetch_ahead<W>(k.grid.density, g.corner);
-    if (k.mode == kDepositIncident || k.mode == kDepositCamera) {
+    if constexpr (Cells) {
+        g.voxel = select(g.hits, cell_of(s.p, k), I<W>{});
+    } else if (k.mode == kDepositIncident || k.mode == kDepositCamera) {
         g.voxel = select(g.hits, voxel_of(s.p, k.grid), I<W>{});
         fetch_ahead<W>(b.collector, g.voxel);
     }
@@ -51,7 +53,7 @@ PILEUS_FN void advance(Group<W, NC, S>& g, const TraceParams& k, const TraceBuff
 }
 
 /// Tentative collisions in the lanes that have come to one.
-template <int W, int NC, bool S>
+template <bool Cells = false, int W, int NC, bool S>
 PILEUS_FN void collide(Group<W, NC, S>& g, const TraceParams& k, const TraceBuffers& b, int group,
                        Queues<W, NC, S>& queues) {
     using T = F<W>;
@@ -62,7 +64,9 @@ PILEUS_FN void collide(Group<W, NC, S>& g, const TraceParams& k, const TraceBuff
 
     const auto medium = g.hits & (density > 0.0f);
     const T share = density / s.bound;
-    if (k.mode != kDepositNone && k.mode != kDepositOutgoing && any(medium))
+    if constexpr (Cells)
+        deposit_in_cell(k, b, queues.deposits, s, g.hits, g.voxel);
+    else if (k.mode != kDepositNone && k.mode != kDepositOutgoing && any(medium))
         deposit(k, b, queues.deposits, s, medium, g.voxel, share, g.corner, density);
 
     // Of the draw that refuses a collision the part above the share of real ones is even still.
@@ -132,7 +136,7 @@ PILEUS_FN bool renew(Group<W, NC, S>& g, const TraceParams& k, const TraceBuffer
 
 /// Trace photons [begin, end) of the launch, several groups of lanes in turn: while the memory of
 /// one is on its way the others compute.
-template <int W, int NC, bool S>
+template <int W, int NC, bool S, bool Cells>
 PILEUS_FN void trace_photons(const TraceParams& k, const TraceBuffers& b, std::uint32_t begin,
                              std::uint32_t end) {
     Group<W, NC, S> groups[kGroups] = {};
@@ -146,24 +150,24 @@ PILEUS_FN void trace_photons(const TraceParams& k, const TraceBuffers& b, std::u
         busy = false;
         for (Group<W, NC, S>& g : groups) {
             busy |= renew(g, k, b, next, end);
-            advance(g, k, b);
+            advance<Cells>(g, k, b);
         }
         for (int i = 0; i < kGroups; ++i) {
-            if (any(groups[i].hits)) collide(groups[i], k, b, i, queues);
+            if (any(groups[i].hits)) collide<Cells>(groups[i], k, b, i, queues);
         }
         turn_queued(groups, k, b, queues, next >= end);
-        flush_deposits(k, b, queues.deposits, !busy);
+        flush_deposits<Cells>(k, b, queues.deposits, !busy);
     }
 }
 #undef PILEUS_FATE
 
-template <int W, bool S = false>
+template <int W, bool S = false, bool Cells = false>
 PILEUS_FN void trace(const TraceParams& k, const TraceBuffers& b, std::uint32_t begin,
                      std::uint32_t end) {
     if (k.channels == 1)
-        trace_photons<W, 1, S>(k, b, begin, end);
+        trace_photons<W, 1, S, Cells>(k, b, begin, end);
     else
-        trace_photons<W, 3, S>(k, b, begin, end);
+        trace_photons<W, 3, S, Cells>(k, b, begin, end);
 }
 
 }  // namespace PILEUS_ISA

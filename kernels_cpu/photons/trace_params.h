@@ -16,6 +16,7 @@ enum DepositMode : std::int32_t {
     kDepositIncident = 1,  ///< SH of the incident direction at every tentative collision
     kDepositOutgoing = 2,  ///< SH of the scattered direction at every real one (the paper)
     kDepositCamera = 3,    ///< phase function towards the camera, one number per cell
+    kDepositCosine = 4,    ///< flux, and flux times the cosine to the light's axis; cells only
 };
 
 enum LightKind : std::int32_t { kLightBeam = 0, kLightDiffuse = 1, kLightMap = 2 };
@@ -51,7 +52,12 @@ struct TraceParams {
     float path_scale;           ///< quanta per metre of path
     float camera[3];            ///< position, or unit direction towards it when orthographic
     std::int32_t orthographic;
-    SolidsView solids;  ///< without triangles: the launch knows nothing of them
+    float axis[3];  ///< the light's, unit: a beam's direction, down or up for diffuse light
+    std::int32_t
+        cells[3];  ///< of a regular grid that gathers at every tentative collision; 0: none
+    float cells_per_voxel[3];
+    float cell_density;  ///< least majorant density of blocks that hold medium: a deposit of 1
+    SolidsView solids;   ///< without triangles: the launch knows nothing of them
 };
 
 /// Steps of the R2 sequence in units of 2^-32 (Roberts 2018): photon i starts at i * kR2 + shift.

@@ -6,6 +6,7 @@
 #include "src/methods/collectors/views/views.h"
 #include "src/methods/optical_depth/optical_depth.h"
 #include "src/methods/path/path.h"
+#include "src/methods/photon_grid/photon_grid.h"
 #include "src/methods/raymarch/raymarch.h"
 
 namespace pileus {
@@ -26,7 +27,11 @@ std::string names_of_views(const MethodRow& row) {
 std::vector<MethodRow> method_rows() {
     MethodRow collectors{&collectors_method()};
     collectors.views = collectors_views(collectors.view_count);
-    return {collectors, {&path_method()}, {&raymarch_method()}, {&optical_depth_method()}};
+    return {collectors,
+            {&path_method()},
+            {&raymarch_method()},
+            {&optical_depth_method()},
+            {&photon_grid_method()}};
 }
 
 Status find_method(const Scene& scene, const Method*& method) {

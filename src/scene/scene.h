@@ -134,6 +134,21 @@ struct CollectorSettings {
     AccumulationChoice accumulation = AccumulationChoice::kAuto;
 };
 
+enum class GridClosure { kSh, kPublished, kMean, kCamera };
+
+struct PhotonGridSettings {
+    std::int64_t photons = 5'000'000;  ///< over all generations
+    int generations = 16;
+    bool ring = false;                  ///< an animation keeps every generation apart
+    std::array<int, 3> cells{0, 0, 0};  ///< of the grid that gathers; 0: chosen
+    GridClosure closure = GridClosure::kSh;
+    int bands = 4;         ///< closure = "sh"; 1..8
+    int axis_degrees = 8;  ///< closure = "sh"
+    bool local_tracking = true;
+    bool first_order_split = true;
+    AccumulationChoice accumulation = AccumulationChoice::kAuto;
+};
+
 struct PathSettings {
     std::int64_t samples_per_pixel = 64;
     int max_depth = 0;        ///< scatterings after which light is not followed; 0: unlimited
@@ -225,6 +240,7 @@ struct Scene {
     PathSettings path;
     RaymarchSettings raymarch;
     OpticalDepthSettings optical_depth;
+    PhotonGridSettings photon_grid;
     OutputSettings output;
     Animation animation;
     std::vector<std::string> overrides;         ///< texts of the --set options

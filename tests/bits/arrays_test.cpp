@@ -9,6 +9,7 @@
 #include "src/methods/collectors/prepare/leaves.h"
 #include "src/methods/path/path.h"
 #include "src/methods/path/path_sky.h"
+#include "src/methods/photon_grid/photon_grid.h"
 #include "src/methods/registry.h"
 #include "tests/support/render_harness.h"
 
@@ -120,6 +121,27 @@ void check_collectors(const Fixture& f) {
     check_rows(run.plan.memory, Stage::kPhotons, held);
 }
 
+void check_photon_grid(const Fixture& f) {
+    PhotonGridRun run;
+    Budget budget;
+    budget.photons = 4000;
+    const Status status =
+        open_run(photon_grid_method(), f.scene, budget, f.context, true, nullptr, run);
+    REQUIRE_MESSAGE(status, status.message);
+    REQUIRE(run.plan.exact);
+    Bytes held = held_by(run, run.majorants);
+    held["cells near medium"] = run.near.marks.bytes();
+    held["shares of the media"] = run.shares.bytes();
+    for (const PhotonSlot& slot : run.photons.slots) held["photon map"] += slot.sums.bytes();
+    held["photon tallies per thread"] = run.scratch.tallies.bytes();
+    // A bound: up to 256 bytes keep each thread's sums apart from the next one's.
+    const std::uint64_t sums = run.scratch.sums.bytes(), bound = run.plan.accumulation.bytes;
+    CHECK(sums <= bound);
+    CHECK(bound <= sums + 2 * 256);
+    held["photon sums per thread"] = bound;
+    check_rows(run.plan.memory, Stage::kPhotons, held);
+}
+
 void check_path(const Fixture& f) {
     PathRun run;
     Budget budget;
@@ -171,6 +193,11 @@ void check_raymarch(const Fixture& f) {
 TEST_CASE("arrays: what collectors hold once they are prepared is what the plan says") {
     check_collectors({kSmallCumulus, "collectors"});
     check_collectors({kTwoMedia, "collectors"});
+}
+
+TEST_CASE("arrays: what a photon grid holds once it is prepared is what the plan says") {
+    check_photon_grid({kSmallCumulus, "photon-grid"});
+    check_photon_grid({kTwoMedia, "photon-grid", {"photon_grid.closure = \"published\""}});
 }
 
 TEST_CASE("arrays: what path holds while it traces is what the plan says") {

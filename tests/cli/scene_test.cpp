@@ -61,7 +61,7 @@ tracking = "global"
 closure = "lobe"
 [raymarch]
 scattering = "octaves"
-[photon-grid]
+[particles]
 anything = { goes = [1, 2] }
 [output]
 files = ["x.exr", "y.pfm"]

@@ -35,7 +35,7 @@ void move(Hosted& host, int frame, int frames) {
 }  // namespace
 
 TEST_CASE("sessions: a still picture is the program's, in every method") {
-    for (const char* method : {"collectors", "raymarch", "path", "optical-depth"}) {
+    for (const char* method : {"collectors", "photon-grid", "raymarch", "path", "optical-depth"}) {
         CAPTURE(method);
         Hosted host(kSmallCumulus, with(method));
         REQUIRE_MESSAGE(host.code == PILEUS_OK, host.out.line());
@@ -48,7 +48,7 @@ TEST_CASE("sessions: frames of a moving camera and sun are those of the program'
     constexpr int kFrames = 9;
     const Overrides moves = {"animation.frames=9", "animation.camera_orbit_deg=[0,60]",
                              "animation.sun_elevation_deg=[10,40]", "raymarch.temporal=2"};
-    for (const char* method : {"collectors", "raymarch", "path", "optical-depth"}) {
+    for (const char* method : {"collectors", "photon-grid", "raymarch", "path", "optical-depth"}) {
         CAPTURE(method);
         const auto expected = program_hashes(kSmallCumulus, with(method, moves), kFrames);
         Hosted host(kSmallCumulus, with(method, {"raymarch.temporal=2"}));
@@ -88,7 +88,7 @@ TEST_CASE("sessions: a camera, sun and ground set to what they are keep the samp
 }
 
 TEST_CASE("sessions: what was set and set back leaves no trace") {
-    for (const char* method : {"collectors", "raymarch", "path", "optical-depth"}) {
+    for (const char* method : {"collectors", "photon-grid", "raymarch", "path", "optical-depth"}) {
         CAPTURE(method);
         Hosted host(kSmallCumulus, with(method));
         const std::uint32_t whole = host.whole();

@@ -119,7 +119,7 @@ TEST_CASE("solid shadow: a plate before the sun leaves nothing, in any method") 
     const std::string scene =
         world("extinction_per_m = 0.25\nalbedo = 0.9\n", kSun) +
         files.plate("position_m = [0, 20, 20]\nrotation_deg = [-45, 0, 0]\nscale = 30\nalbedo = 0");
-    for (const char* method : {"collectors", "path", "raymarch"}) {
+    for (const char* method : {"collectors", "photon-grid", "path", "raymarch"}) {
         CAPTURE(method);
         const Picture p = render_one(scene_from(scene, {std::string("method.name=") + method}));
         for (int i = 0; i < 16; ++i) CHECK(p.at("G", i, i) == 0.0f);

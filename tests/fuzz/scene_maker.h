@@ -12,6 +12,23 @@
 namespace fuzz {
 
 class SceneMaker {
+    void photon_grid() {
+        static const char* const closures[] = {"\"sh\"", "\"published\"", "\"mean\"", "\"camera\""};
+        text_ += "[method]\nname = \"photon-grid\"\n[photon_grid]\n";
+        line("photons", std::to_string(below(33)));
+        line("generations", std::to_string(1 + below(4)));
+        line("closure", pick(closures));
+        line("bands", std::to_string(1 + below(8)));
+        line("axis_degrees", std::to_string(below(17)));
+        const int bits = below(16);
+        line("tracking", (bits & 1) != 0 ? "\"global\"" : "\"local\"");
+        line("first_order_split", (bits & 2) != 0 ? "false" : "true");
+        line("ring", (bits & 4) != 0 ? "true" : "false");
+        if ((bits & 8) == 0) return;
+        const std::string x = std::to_string(1 + below(5)), y = std::to_string(1 + below(5));
+        line("cells", "[" + x + ", " + y + ", " + std::to_string(1 + below(5)) + "]");
+    }
+
 public:
     SceneMaker(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
 
@@ -24,7 +41,9 @@ public:
         if (below(8) > 0) medium(side);
         collectors();
         // Bytes that end before leave the method as it is.
-        if (below(4) == 1) path();
+        const int method = below(4);
+        if (method == 1) path();
+        if (method == 2) photon_grid();
         return text_;
     }
 

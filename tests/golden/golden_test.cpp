@@ -19,7 +19,9 @@ const char* const kFolder = "assets/scenes/golden";
 /// The stages of a method; a scene of a path tracing is told by its film.
 std::vector<const char*> stages_of(const std::map<std::string, std::string>& stages) {
     if (stages.count("film") == 1) return {"density", "majorants", "film", "image"};
-    // A raymarch prepares no collectors.
+    // A grid of photons prepares no collectors, a raymarch shoots no photons either.
+    if (stages.count("leaves") == 0 && stages.count("photons") == 1)
+        return {"density", "photons", "colours", "image"};
     if (stages.count("leaves") == 0) return {"density", "colours", "image"};
     return {"density", "leaves", "collectors", "photons", "colours", "image"};
 }

@@ -116,7 +116,7 @@ TEST_CASE("raymarch: interrupted within a picture there is none") {
 }
 
 TEST_CASE("what may be lost is held, from the first light to the files") {
-    for (const char* method : {"path", "collectors", "raymarch"}) {
+    for (const char* method : {"path", "collectors", "photon-grid", "raymarch"}) {
         RenderOptions options;
         bool held = false, traced = false;
         options.holding = [&](bool hold) { held = hold; };

@@ -126,6 +126,35 @@ TEST_CASE("identity: every instruction set, every deposit, the same sums") {
             }
 }
 
+TEST_CASE("identity: cells of their own, every instruction set, number of threads and way to add") {
+    for (const Float3& albedo : kAlbedos)
+        for (std::int32_t mode : {kDepositIncident, kDepositCosine, kDepositCamera})
+            for (int first_order : {0, 2}) {
+                Rig rig = make_lump(albedo);
+                rig.collectors = 3 * 4 * 5;
+                rig.cells = {{3, 4, 5}, 0.05f};
+                rig.deposit.mode = mode;
+                rig.deposit.first_order = first_order;
+                rig.deposit.axis_degrees = mode == kDepositIncident ? 5 : 0;
+                rig.deposit.coefficients = mode == kDepositCamera   ? 1
+                                           : mode == kDepositCosine ? 2
+                                                                    : 21;
+                rig.deposit.camera[1] = -500;
+                rig.kernels = kernel_table_at(0);
+                const std::string scalar = shoot_digest(rig, 3'000, 2, true);
+                for (int i = 1; const KernelTable* table = kernel_table_at(i); ++i) {
+                    CAPTURE(table->name);
+                    CAPTURE(mode);
+                    rig.kernels = table;
+                    rig.threads = 1;
+                    CHECK(shoot_digest(rig, 3'000, 2, true) == scalar);
+                    rig.threads = 3;
+                    CHECK(shoot_digest(rig, 3'000, 2, true, false) == scalar);
+                    CHECK(shoot_digest(rig, 3'000, 2, true, true) == scalar);
+                }
+            }
+}
+
 TEST_CASE("identity: any number of threads") {
     for (const Float3& albedo : kAlbedos) {
         Rig rig = make_lump(albedo);

@@ -158,7 +158,7 @@ TEST_CASE("suns on the axes: method raymarch, integrators and lights in turn") {
 }
 
 TEST_CASE("one pixel, one cell, the sun overhead") {
-    for (const char* method : {"path", "collectors", "raymarch"})
+    for (const char* method : {"path", "collectors", "photon-grid", "raymarch"})
         for (const char* boundary : {"open", "periodic"}) {
             Keys keys = {std::string("method.name=") + method, "medium.0.resolution=[1,1,1]",
                          std::string("medium.0.boundary=") + boundary, "camera.resolution=[1,1]",
@@ -171,7 +171,7 @@ TEST_CASE("one pixel, one cell, the sun overhead") {
 }
 
 TEST_CASE("rays in the faces of the box end") {
-    for (const char* method : {"path", "collectors", "raymarch"})
+    for (const char* method : {"path", "collectors", "photon-grid", "raymarch"})
         for (const char* boundary : {"open", "periodic"})
             for (const char* view : {"[-500,0,40]", "[0,0,540]"}) {
                 Keys keys = {std::string("method.name=") + method,

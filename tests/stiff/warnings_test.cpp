@@ -43,7 +43,7 @@ TEST_CASE("each accident has a line with its number, other counters have none") 
 
 TEST_CASE("every method reports the accidents that can happen to it") {
     std::set<std::string> met;
-    for (const char* method : {"path", "collectors", "raymarch"}) {
+    for (const char* method : {"path", "collectors", "photon-grid", "raymarch"}) {
         const Picture p = render_sound(by_method(method, {}));
         for (const auto& counter : p.report.counters)
             for (const Accident& accident : accidents())
@@ -63,7 +63,7 @@ TEST_CASE("a medium that no ray meets is a warning in every method") {
     const Keys away = {"camera.target_m=[0,-6000,1100]"};
     // Bounds in kilometres where metres are meant.
     const Keys tiny = {"medium.0.bounds_m=[[-0.8,-0.8,0.6],[0.8,0.8,1.7]]"};
-    for (const char* method : {"path", "collectors", "raymarch"}) {
+    for (const char* method : {"path", "collectors", "photon-grid", "raymarch"}) {
         CAPTURE(method);
         CHECK(unseen(render_sound(by_method(method, away))));
         CHECK(unseen(render_sound(by_method(method, tiny))));

@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "src/base/digest.h"
-#include "src/methods/collectors/photons/trace.h"
+#include "src/photons/trace.h"
 #include "src/world/majorant/majorant.h"
 
 namespace trace_test {
@@ -31,6 +31,7 @@ struct Rig {
     int block = 1;
     Buffer<std::int32_t> collector_of_voxel;
     std::uint64_t collectors = 0;
+    GatherCells cells;
     DepositPlan deposit;
     std::uint32_t max_events = 1u << 20;
     int threads = 1;
@@ -95,6 +96,7 @@ inline TraceInput input_of(const Rig& rig, std::uint64_t seed) {
     in.block = rig.block;
     in.collector_of_voxel = rig.collector_of_voxel.span();
     in.collectors = rig.collectors;
+    in.cells = rig.cells;
     in.deposit = rig.deposit;
     in.seed = seed;
     in.threads = rig.threads;

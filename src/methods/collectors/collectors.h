@@ -6,42 +6,18 @@
 #include "src/methods/collectors/billboards/composite_billboards.h"
 #include "src/methods/collectors/photons/reconstruct.h"
 #include "src/methods/collectors/prepare/prepare.h"
-#include "src/methods/methods.h"
-#include "src/picture/layers.h"
-#include "src/plan/plan.h"
+#include "src/photons/photon_run.h"
 #include "src/world/camera/view.h"
-#include "src/world/world.h"
 
 namespace pileus {
-
-/// Most groups of generations that the standard error is made from.
-constexpr std::uint64_t kMostBatches = 16;
 
 /// The recipe.
 const Method& collectors_method();
 
 /// Everything one run holds; made by `prepare`, lit by `shoot`, read by `show`.
-struct CollectorsRun : MethodRun {
-    std::int64_t budget_photons = 0;           ///< of the whole ring
-    std::vector<std::uint64_t> light_photons;  ///< per light and generation while it is up
-    double sun_elevation_deg = 0;
+struct CollectorsRun : PhotonRun {
     Prepared prepared;
-    Majorants majorants;
-    DepositPlan deposit;
-    GroundMap ground_map;
-    Photons photons;
-    TraceScratch scratch;
-    std::uint64_t next_generation = 0, generations = 1;
-    std::uint64_t ring_first = 0;  ///< generation in the first slot of a ring that time cut short
-    std::uint32_t max_events = 1u << 20;
-    NodeGrid shadow_nodes{};
-    Buffer<float> shadow;      ///< optical depth to the sun per node
-    Buffer<float> visibility;  ///< and what solids leave of the sun; empty without solids
-    bool shadow_ready = false;
-    Planes planes;              ///< of a session's picture
-    std::uint32_t layouts = 0;  ///< times that the sums were laid out
-    bool interrupted = false;  ///< fewer generations than asked for, because the user wanted an end
-    int camera_cells = 0;      ///< > 0: the camera-directed estimate on cells of so many voxels
+    int camera_cells = 0;  ///< > 0: the camera-directed estimate on cells of so many voxels
 };
 
 /// The display that a run uses: cells lit towards the camera are always marched.
@@ -55,12 +31,6 @@ inline bool shows_harmonics(const CollectorsRun& run) {
     return is_marched(run) && run.world->medium.grid.periodic && !run.scene->camera.orthographic;
 }
 
-/// Slots of the photon map: the generations of an animation's ring, or batches for the error.
-std::uint64_t collectors_slots(const CollectorsRun& run);
-
-/// Groups of slots that the standard error is made from; 0: no error layer.
-int collectors_batches(const CollectorsRun& run);
-
 /// Chooses what is needed and fills the plan from sizes alone: reads no values, prepares nothing,
 /// takes no memory to speak of. kLimit: the scene or the plan is over a limit.
 Status collectors_outline(const Context& context, CollectorsRun& run);
@@ -70,9 +40,6 @@ Status collectors_weigh(const Context& context, CollectorsRun& run);
 
 /// Chooses what is needed, prepares the tree and allocates the sums.
 Status collectors_prepare(const Context& context, CollectorsRun& run);
-
-/// Moves the sun; generations already shot keep the sun they were shot under.
-Status collectors_set_sun(double elevation_deg, const Context& context, CollectorsRun& run);
 
 /// Takes up a new sun, sky or ground of the run's scene; the ring begins anew where a light appears
 /// that it has no place for, or where `anew` says so. Errors: those of the plan.

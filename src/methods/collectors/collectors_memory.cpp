@@ -11,6 +11,7 @@
 #include "src/methods/collectors/prepare/place_collectors.h"
 #include "src/methods/collectors/prepare/shares.h"
 #include "src/methods/collectors/prepare/tree.h"
+#include "src/photons/lit_march.h"
 
 namespace pileus {
 namespace {

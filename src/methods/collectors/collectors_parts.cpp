@@ -3,29 +3,17 @@
 // in: CollectorsRun after shooting -> out: planes of the layers light, order and optical_depth.
 // docs/formats.md, "Pictures out".
 #include "src/methods/collectors/collectors_display.h"
-#include "src/picture/march_view.h"
+#include "src/photons/lit_march.h"
 
 namespace pileus {
 namespace {
-
-/// The same light without the sky: the ground then sends back sunlight alone.
-Lighting sun_alone(const Lighting& all) {
-    Lighting sun = all;
-    for (Light& light : sun.lights) {
-        if (light.beam) continue;
-        light.colour = light.map || light.hemisphere <= 0 ? Double3{} : all.ground_sun;
-    }
-    sun.constant = sun.sky = sun.ground_diffuse = {};
-    sun.map = SkyMapView{};
-    return sun;
-}
 
 /// A picture of one part of the light, without batches; `colours` as in collectors_display.
 Status show_part(const Context& context, CollectorsRun& run, const ReconstructInput& lit,
                  const CollectorColours& colours, Planes& part) {
     PILEUS_TRY(allocate_planes(lit.camera.width, lit.camera.height, 3, lit.lighting->opaque(),
                                false, part));
-    PILEUS_TRY(collectors_background(context, run, lit, part));
+    PILEUS_TRY(fill_lit_background(context, run, lit, 0, part));
     return collectors_display(context, run, lit, colours, 3, part);
 }
 
@@ -61,17 +49,6 @@ Status show_single(const Context& context, CollectorsRun& run, const Reconstruct
     Planes part;
     PILEUS_TRY(show_part(context, run, lit, colours, part));
     planes.single.swap(part.colour);
-    return Status::ok();
-}
-
-Status show_optical_depth(const Context& context, const CollectorsRun& run,
-                          const ReconstructInput& lit, Planes& planes) {
-    Planes part;
-    PILEUS_TRY(allocate_planes(lit.camera.width, lit.camera.height, 0, lit.lighting->opaque(),
-                               false, part));
-    PILEUS_TRY(march_medium(context, run.world->medium, run.majorants, *lit.lighting, lit.camera,
-                            {false, true}, part));
-    planes.optical_depth.swap(part.optical_depth);
     return Status::ok();
 }
 

@@ -4,37 +4,11 @@
 // docs/report.md, "Plan"; docs/program.md, "Limits".
 #include "src/methods/collectors/collectors_memory.h"
 #include "src/methods/collectors/prepare/tree.h"
+#include "src/photons/photon_report.h"
 #include "src/world/majorant/majorant.h"
 
 namespace pileus {
 namespace {
-
-/// The ring, and one generation for each further picture.
-std::uint64_t photons_of(const CollectorsRun& run, const Context& context) {
-    std::uint64_t generation = 0;
-    for (const Light& light : run.lighting.lights) generation += light.photons;
-    return bytes_of(generation, run.generations + context.frames - 1);
-}
-
-/// Bounds of the sums that no picture shows but every report does.
-void bound_ledgers(double photons, const CollectorsRun& run, Plan& plan) {
-    // A photon may die twice, the second time as the ground's missing light.
-    SumBound ledger[] = {deposit_bound("energy of a fate", 2 * photons, 1, 20),
-                         deposit_bound("path of all photons", 2 * photons, 2147483520.0, 0),
-                         deposit_bound("scatterings", photons * double(run.max_events), 1, 0)};
-    for (SumBound& bound : ledger) {
-        bound.allowed = 0x1p63;
-        plan.bounds.push_back(bound);
-    }
-}
-
-Status check_bounds(const CollectorsRun& run) {
-    for (const SumBound& bound : run.plan.bounds)
-        if (!(bound.worst < bound.allowed))
-            return Status::limit(run.scene->file + ": collectors.photons: the sum \"" + bound.sum +
-                                 "\" could overflow 64 bits; take fewer");
-    return Status::ok();
-}
 
 /// Leaves, collectors and blocks: counted after preparation, bounded before.
 void size_prepared(const CollectorsRun& run, const Context& context, CollectorsSizes& s) {
@@ -75,7 +49,7 @@ CollectorsSizes collectors_sizes(const CollectorsRun& run, const Context& contex
     s.lights = run.lighting.lights.size();
     s.phases = phase_bytes(run.world->medium);
     s.sky = sky_map_bytes(run.around.sky_map);
-    s.slots = collectors_slots(run);
+    s.slots = photon_slots(run);
     s.ground_cells = std::uint64_t(run.ground_map.cells) * std::uint64_t(run.ground_map.cells);
     s.shoots_again = context.frames > 1;
     size_prepared(run, context, s);
@@ -84,11 +58,10 @@ CollectorsSizes collectors_sizes(const CollectorsRun& run, const Context& contex
 }
 
 Status collectors_measure(const Context& context, CollectorsRun& run) {
-    const std::uint64_t photons = photons_of(run, context);
+    const std::uint64_t photons = photons_of_run(run, context);
     PILEUS_TRY(check_limit(context.limits, LimitId::kPhotons, photons, run.scene->file));
-    run.plan.bounds.resize(1);
-    bound_ledgers(double(photons), run, run.plan);
-    PILEUS_TRY(check_bounds(run));
+    bound_ledgers(double(photons), double(run.max_events), run.plan);
+    PILEUS_TRY(check_bounds(run.plan, run.scene->file, "collectors.photons"));
     CollectorsSizes sizes = collectors_sizes(run, context);
     run.plan.exact = !run.outlined_only;
     run.plan.accumulation =

@@ -4,18 +4,9 @@
 // docs/methods.md 3, each image frame, steps 4 and 5; repairs 3 and 4.
 #include "src/base/digest.h"
 #include "src/methods/collectors/collectors_display.h"
+#include "src/photons/lit_march.h"
 
 namespace pileus {
-
-int collectors_batches(const CollectorsRun& run) {
-    std::uint64_t slots = collectors_slots(run);
-    // Tracing that ended early has left slots without a generation.
-    if (!run.scene->animation.present && run.next_generation > 0 && run.next_generation < slots)
-        slots = run.next_generation;
-    if (!run.scene->output.layer_error || slots < 2) return 0;
-    // An animation's ring may hold more generations than the blender has planes for.
-    return int(slots < kMostBatches ? slots : kMostBatches);
-}
 
 ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const Context& context,
                                               const CollectorsRun& run) {
@@ -31,7 +22,7 @@ ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const 
                  : run.scene->collectors.lobe_closure ? Closure::kLobe
                                                       : Closure::kSh;
     in.window = run.scene->collectors.window;
-    in.batches = collectors_batches(run);
+    in.batches = photon_batches(run);
     in.constant = !is_marched(run);
     in.threads = context.threads;
     return in;
@@ -47,9 +38,9 @@ Status collectors_compose(const CameraParams& camera, const Context& context, Co
     channels = 3 * (1 + in.batches);
     PILEUS_TRY(allocate_planes(camera.width, camera.height, channels, run.lighting.opaque(),
                                run.scene->output.layer_depth, planes));
-    PILEUS_TRY(collectors_background(context, run, in, planes));
+    PILEUS_TRY(fill_lit_background(context, run, in, 0, planes));
     PILEUS_TRY(collectors_display(context, run, in, colours, channels, planes));
-    PILEUS_TRY(collectors_ground_noise(context, run, in, planes));
+    PILEUS_TRY(add_ground_noise(context, run, in, planes));
     return collectors_parts(context, run, in, planes);
 }
 

@@ -13,10 +13,11 @@ namespace {
 constexpr MethodKeys kMethods[] = {{"collectors", collectors_keys},
                                    {"path", path_keys},
                                    {"raymarch", raymarch_keys},
-                                   {"optical-depth", optical_depth_keys}};
+                                   {"optical-depth", optical_depth_keys},
+                                   {"photon-grid", photon_grid_keys}};
 
 /// Methods that the format names and this version has not: their tables are left alone.
-constexpr const char* kLater[] = {"photon-grid", "particles"};
+constexpr const char* kLater[] = {"particles"};
 constexpr std::size_t kLaterCount = sizeof kLater / sizeof kLater[0];
 
 /// Names parted by '|'.

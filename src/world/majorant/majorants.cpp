@@ -25,9 +25,7 @@ Status make_majorants(const Medium& medium, bool local, const Context& context, 
 
 Status make_photon_majorants(const Medium& medium, bool local, const Context& context,
                              Majorants& out) {
-    // Fitted to the times of blocks of 4, 8 and 16 voxels on two clouds (docs/performance.md).
-    constexpr TrackingCosts kCosts{1.0, 0.85, 0.15};
-    PILEUS_TRY(make_majorants(medium, local, context, out, kCosts));
+    PILEUS_TRY(make_majorants(medium, local, context, out, kPhotonTracking));
     int counts[3];
     block_counts(medium.grid, out.block, counts);
     mark_empty_blocks(out.tracking.span(), counts, context.threads);

@@ -22,6 +22,10 @@ struct Majorants {
 Status make_majorants(const Medium& medium, bool local, const Context& context, Majorants& out,
                       const TrackingCosts& costs = {});
 
+/// What suits photons: fitted to the times of blocks of 4, 8 and 16 voxels on two clouds
+/// (docs/performance.md).
+constexpr TrackingCosts kPhotonTracking{1.0, 0.85, 0.15};
+
 /// The same for photons, which leap over empty blocks: with blocks that suit them, and with the
 /// empty ones marked (mark_empty_blocks).
 Status make_photon_majorants(const Medium& medium, bool local, const Context& context,

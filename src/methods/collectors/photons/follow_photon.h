@@ -6,7 +6,7 @@
 #pragma once
 #include <vector>
 
-#include "src/methods/collectors/photons/trace.h"
+#include "src/photons/trace.h"
 
 namespace pileus {
 

@@ -2,51 +2,10 @@
 // See reconstruct.h.
 #include "src/methods/collectors/photons/reconstruct.h"
 
-#include "kernels_cpu/photons/deposit.h"
 #include "platform/threads.h"
-#include "src/base/angles.h"
 
 namespace pileus {
 namespace {
-
-constexpr int kMostNumbers = kMaxBands * kMaxBands + kMaxAxisDegrees + 1;
-using Direction = Vec<float>;
-
-/// What the sinc window multiplies each band by.
-struct Window {
-    float factor[kMaxBands];
-};
-Window band_window(const ReconstructInput& in) {
-    Window w{};
-    for (int l = 0; l < in.deposit.bands; ++l) {
-        w.factor[l] = 1;
-        if (!in.window || l == 0) continue;
-        const double x = double(l) / in.deposit.bands;
-        w.factor[l] = float(sincos_deg(180.0 * x).sine / (3.14159265358979323846 * x));
-    }
-    return w;
-}
-
-/// All media of one collector as one, in one channel: albedo, and whose phase function how much of
-/// the scattered light follows. One medium has weight 1, to the bit.
-struct Mixture {
-    float albedo = 0;
-    float weight[kMostMedia] = {};
-    const Medium* medium = nullptr;
-
-    float moment(int l) const {
-        float sum = 0;
-        for (int i = 0; i < medium->count; ++i)
-            sum += weight[i] * phase_moment(medium->optics[std::size_t(i)].phase, l);
-        return sum;
-    }
-    float density(float one_minus_cos) const {
-        float sum = 0;
-        for (int i = 0; i < medium->count; ++i)
-            sum += weight[i] * phase_density(medium->optics[std::size_t(i)].phase, one_minus_cos);
-        return sum;
-    }
-};
 
 /// The share of a medium is that of the collector's extinction: the light is taken to be the same
 /// all over the leaf, as its colour is.
@@ -63,63 +22,6 @@ Mixture mixture_of(const ReconstructInput& in, std::size_t collector, std::size_
     return mix;
 }
 
-/// Power per steradian and unit light scattered towards `to`, from all bands.
-double sh_power(const ReconstructInput& in, const Window& window, const Mixture& mix,
-                const double* sums, const Direction& to) {
-    float y[kMaxBands * kMaxBands];
-    sh_values(in.deposit.bands, to, y);
-    double power = 0;
-    for (int l = 0, i = 0; l < in.deposit.bands; ++l) {
-        double band = 0;
-        for (int m = -l; m <= l; ++m, ++i) band += sums[i] * double(y[i]);
-        const float moment = in.deposit.mode == kDepositOutgoing ? 1.0f : mix.moment(l);
-        power += band * double(moment * window.factor[l]);
-    }
-    return power;
-}
-
-/// What the degrees beyond the bands add to it, of light spread evenly around the beam's direction
-/// `sun`: sum_l (2l+1)/4pi chi_l m_l P_l(cosine), m_l the sum of P_l over the light.
-double axis_power(const ReconstructInput& in, const Mixture& mix, const double* sums,
-                  const Direction& sun, const Direction& to) {
-    float p[kMaxAxisDegrees];
-    axis_values(in.deposit.bands, in.deposit.axis_degrees, 1.0f - one_minus_cosine(sun, to), p);
-    double power = 0;
-    for (int j = 0; j < in.deposit.axis_degrees; ++j) {
-        const int l = in.deposit.bands + j;
-        const double weight = double(2 * l + 1) * 0.079577471545947667884;  // 1 / 4 pi
-        power += weight * double(mix.moment(l)) * double(p[j]) * sums[j];
-    }
-    return power;
-}
-
-/// The same from flux and mean direction alone: one HG lobe (docs/methods.md 3, closure `lobe`).
-double lobe_power(const ReconstructInput& in, const Mixture& mix, const double* sums,
-                  const Direction& to) {
-    const double flux = sums[0] * 3.5449077018110320546;  // sqrt(4 pi)
-    if (!(flux > 0) || in.deposit.bands < 2) return flux * 0.079577471545947667884;
-    // y_1m is sqrt(3/4pi) times y, z, x.
-    const double scale = 2.0466534158929769770 / flux;
-    const double x = sums[3] * scale, y = sums[1] * scale, z = sums[2] * scale;
-    const double length = __builtin_sqrt(x * x + y * y + z * z);
-    const float mean = length < 0.999 ? float(length) : 0.999f;
-    const float g = in.deposit.mode == kDepositOutgoing ? mean : mean * mix.moment(1);
-    const double safe = length > 1e-9 ? 1.0 / length : 0.0;
-    const float cosine = float((x * double(to.x) + y * double(to.y) + z * double(to.z)) * safe);
-    return flux * double(hg_density(g, 1.0f - cosine));
-}
-
-/// Sums of one set of one light in one slot, per unit of its colour.
-void slot_sums(const ReconstructInput& in, const PhotonSlot& slot, std::size_t light,
-               std::uint64_t set, double* sums) {
-    const int n = in.deposit.coefficients;
-    const std::uint64_t stride = slot.sums.size() / in.lighting->lights.size();
-    const std::int64_t* from = slot.sums.data() + light * stride + set * std::uint64_t(n);
-    const double norm = slot.flux_per_photon_m2[light] /
-                        double(std::uint64_t{1} << in.deposit.places) / slot.generations_of(light);
-    for (int i = 0; i < n; ++i) sums[i] = double(from[i]) * norm;
-}
-
 /// Light of one light in one slot, scattered towards `to`, per unit of its colour.
 double slot_power(const ReconstructInput& in, const Window& window, const Mixture& mix,
                   const PhotonSlot& slot, std::size_t light, std::uint64_t set,
@@ -130,12 +32,12 @@ double slot_power(const ReconstructInput& in, const Window& window, const Mixtur
     if (in.closure == Closure::kCamera) return sums[0];
 
     double power = in.first_order_alone           ? 0
-                   : in.closure == Closure::kLobe ? lobe_power(in, mix, sums, to)
-                                                  : sh_power(in, window, mix, sums, to);
+                   : in.closure == Closure::kLobe ? lobe_power(in.deposit, mix, sums, to)
+                                                  : sh_power(in.deposit, window, mix, sums, to);
     if (!in.lighting->lights[light].beam) return power;
     const Direction sun{slot.sun_travel[0], slot.sun_travel[1], slot.sun_travel[2]};
     if (!in.first_order_alone)
-        power += axis_power(in, mix, sums + in.deposit.bands * in.deposit.bands, sun, to);
+        power += axis_power(in.deposit, mix, sums + in.deposit.bands * in.deposit.bands, sun, to);
     if (in.deposit.first_order == 1)
         power += sums[in.deposit.coefficients - 1] * double(mix.density(one_minus_cosine(sun, to)));
     return power;
@@ -149,13 +51,6 @@ Direction towards_camera(const ReconstructInput& in, const Collector& c) {
     // From inside the collector there is no such direction: any will do.
     if (!(dot(d, d) > 1e-12f)) return {0, 0, 1};
     return normalized(d);
-}
-
-/// Slots up to the first that no generation has reached: tracing may have ended early.
-std::size_t filled_slots(const Photons& photons) {
-    std::size_t filled = 0;
-    while (filled < photons.slots.size() && photons.slots[filled].generations > 0) ++filled;
-    return filled;
 }
 
 struct Row {
@@ -204,7 +99,7 @@ Status reconstruct(const ReconstructInput& in, CollectorColours& out) {
     const std::size_t slots = filled_slots(*in.photons), count = in.collectors.size;
     const std::size_t batches = std::size_t(in.batches), sets = 1 + batches;
     PILEUS_TRY(allocate_once(arrays::collector_colours(3 * sets, count), out.colour));
-    const Window window = band_window(in);
+    const Window window = band_window(in.deposit.bands, in.window);
     constexpr std::size_t kPiece = 256;
     const std::size_t pieces = (count + kPiece - 1) / kPiece;
     Buffer<std::uint64_t> negative;
@@ -234,10 +129,6 @@ Status reconstruct(const ReconstructInput& in, CollectorColours& out) {
     out.clamped_negative = 0;
     for (std::uint64_t n : negative.span()) out.clamped_negative += n;
     return Status::ok();
-}
-
-int harmonic_sets(int channels, const Lighting& lighting) {
-    return channels == 1 && lighting.lights.size() < 3 ? int(lighting.lights.size()) : 3;
 }
 
 namespace {
@@ -297,7 +188,7 @@ Status reconstruct_harmonics(const ReconstructInput& in, int batch, HarmonicSour
                                             : (std::size_t(s) == c ? 1.0f : 0.0f);
     const std::size_t numbers = std::size_t(out.sets) * std::size_t(out.bands * out.bands);
     PILEUS_TRY(allocate_once(arrays::collector_colours(numbers, count), out.values));
-    const Window window = band_window(in);
+    const Window window = band_window(in.deposit.bands, in.window);
     constexpr std::size_t kPiece = 256;
     parallel_for(in.threads, std::int64_t((count + kPiece - 1) / kPiece),
                  [&](std::int64_t piece, int) {
@@ -310,53 +201,6 @@ Status reconstruct_harmonics(const ReconstructInput& in, int batch, HarmonicSour
                              out.values[k * count + i] = float(own[k]);
                      }
                  });
-    return Status::ok();
-}
-
-Status reconstruct_ground(const ReconstructInput& in, const GroundMap& map, int batch,
-                          Buffer<float>& radiance) {
-    const std::size_t cells = std::size_t(map.cells) * std::size_t(map.cells);
-    PILEUS_TRY(allocate(arrays::ground_light(cells), radiance));
-    if (cells == 0) return Status::ok();
-    // The same groups of slots as the collectors' batches.
-    const std::size_t slots = in.photons->slots.size(), group = std::size_t(batch);
-    const std::size_t batches = std::size_t(in.batches);
-    const std::size_t first = batch > 0 ? (group - 1) * slots / batches : 0;
-    const std::size_t last = batch > 0 ? group * slots / batches : slots;
-    double generations = 0;
-    for (std::size_t s = first; s < last; ++s)
-        generations += double(in.photons->slots[s].generations);
-    if (!(generations > 0)) return Status::ok();
-    // What a generation that was ended within has brought counts for the lights that it reached.
-    std::vector<double> whole;
-    for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {
-        double shot = 0;
-        for (std::size_t s = first; s < last; ++s)
-            if (in.photons->slots[s].generations > 0)
-                shot += in.photons->slots[s].generations_of(l);
-        whole.push_back(generations / shot);
-    }
-    // Irradiance = flux per cell area; a Lambertian ground sends albedo / pi of it back.
-    const double unit = in.lighting->ground_albedo / 3.14159265358979323846 *
-                        double(map.per_metre[0]) * double(map.per_metre[1]) /
-                        (generations * double(std::uint64_t{1} << in.deposit.places));
-    const std::size_t channels = std::size_t(sum_channels(*in.medium, in.deposit));
-    for (std::size_t i = 0; i < cells; ++i) {
-        double rgb[3] = {};
-        for (std::size_t s = first; s < last; ++s) {
-            const PhotonSlot& slot = in.photons->slots[s];
-            if (slot.generations == 0) continue;
-            const std::size_t stride = slot.sums.size() / in.lighting->lights.size();
-            for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {
-                const std::int64_t* cell =
-                    slot.sums.data() + (l + 1) * stride - (cells - i) * channels;
-                for (std::size_t c = 0; c < 3; ++c)
-                    rgb[c] += double(cell[channels == 3 ? c : 0]) * slot.flux_per_photon_m2[l] *
-                              in.lighting->lights[l].colour[c] * whole[l];
-            }
-        }
-        for (std::size_t c = 0; c < 3; ++c) radiance[c * cells + i] = float(rgb[c] * unit);
-    }
     return Status::ok();
 }
 

@@ -23,10 +23,6 @@ inline Array<float> source_grid(std::uint64_t numbers, std::uint64_t nodes) {
 inline Array<float> source_weights(std::uint64_t nodes) {
     return {"source weights", nodes, Stage::kSplat, Stage::kSplat};
 }
-/// The same light as kernels read it: one node's numbers after the other.
-inline Array<float> source_by_node(std::uint64_t numbers) {
-    return {"source by node", numbers, Stage::kSplat, Stage::kDisplay};
-}
 
 }  // namespace arrays
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // See trace.h.
-#include "src/methods/collectors/photons/trace.h"
+#include "src/photons/trace.h"
+
+#include <cstring>
 
 #include "kernels_cpu/core/accumulate.h"
 #include "platform/threads.h"
@@ -96,8 +98,13 @@ TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_
     for (int a = 0; a < 3; ++a) {
         k.direction[a] = light.travel[std::size_t(a)];
         k.camera[a] = in.deposit.camera[a];
+        k.axis[a] = light.beam ? light.travel[std::size_t(a)]
+                               : (a < 2 ? 0.0f : (light.hemisphere > 0 ? 1.0f : -1.0f));
+        k.cells[a] = in.cells.size[a];
+        k.cells_per_voxel[a] = float(double(in.cells.size[a]) / m.grid.size[a]);
         diagonal += m.extent_m[a] * m.extent_m[a];
     }
+    k.cell_density = in.cells.density;
     k.grid = track_grid(m, in.majorants, in.block, in.max_events);
     k.channels = sum_channels(m, in.deposit);
     k.media = m.count;
@@ -140,6 +147,13 @@ void add_tally(const TraceTally& from, TraceTally& to) {
     to.majorant_violations += from.majorant_violations;
     to.absorption_tests += from.absorption_tests;
     to.bounces += from.bounces;
+}
+
+void empty_slot(PhotonSlot& slot) {
+    std::memset(slot.sums.data(), 0, std::size_t(slot.sums.bytes()));
+    slot.generations = 0;
+    slot.scatterings = 0;
+    slot.parts.clear();
 }
 
 GroundMap make_ground_map(const Medium& medium, const Lighting& lighting) {

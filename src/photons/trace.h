@@ -42,13 +42,20 @@ inline int sum_channels(const Medium& medium, const DepositPlan& deposit) {
     return deposit.channels > 0 ? deposit.channels : medium.channels;
 }
 
+/// A regular grid over the box that gathers track lengths at every tentative collision.
+struct GatherCells {
+    int size[3] = {0, 0, 0};  ///< 0: leaves of collectors gather
+    float density = 0;        ///< least positive majorant: a collision there deposits 1
+};
+
 struct TraceInput {
     const Medium* medium = nullptr;
     const Lighting* lighting = nullptr;
     Span<const float> majorants;
     int block = 1;
     Span<const std::int32_t> collector_of_voxel;
-    std::uint64_t collectors = 0;
+    std::uint64_t collectors = 0;  ///< or cells
+    GatherCells cells;
     DepositPlan deposit;
     std::uint64_t seed = 0;
     int threads = 1;
@@ -74,6 +81,9 @@ struct PhotonSlot {
         return double(generations) + (parts.empty() ? 0.0 : parts[light]);
     }
 };
+
+/// Forgets what was shot into it.
+void empty_slot(PhotonSlot& slot);
 
 struct Photons {
     std::vector<PhotonSlot> slots;

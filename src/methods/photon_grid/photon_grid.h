@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// Method `photon-grid`: photons into a regular grid of their own, shown by marching.
+// in: a scene and its medium -> out: images, one per call of `show`.
+// Elek et al. 2012, Märkl 2018 with the repairs of docs/methods.md 5; docs/photon-grid.md.
+#pragma once
+#include "src/methods/photon_grid/grid_light.h"
+#include "src/photons/photon_frames.h"
+#include "src/photons/photon_run.h"
+#include "src/world/camera/view.h"
+
+namespace pileus {
+
+/// The recipe.
+const Method& photon_grid_method();
+
+/// Photons that the sums hold at least, so that a budget or a session may go on.
+constexpr double kLeastMostPhotons = 0x1p26;
+
+/// Everything about one run; made by `prepare`, lit generation by generation, read by `show`.
+struct PhotonGridRun : PhotonRun {
+    CellGrid cells;
+    CellMajorants near;
+    Buffer<float> shares;  ///< of each medium in a cell's extinction; empty for one medium
+};
+
+/// Cells of the grid that gathers: the scene's, or as many as suit its photons.
+CellGrid photon_cells(const PhotonGridSettings& settings, std::int64_t photons,
+                      const Medium& medium);
+
+/// Whether cells are shown by harmonics: a perspective view of a periodic medium sees each from
+/// many sides.
+inline bool shows_harmonics(const PhotonGridRun& run) {
+    return run.world->medium.grid.periodic && !run.scene->camera.orthographic;
+}
+
+/// Generations that may be added to a sum; a ring holds its own length for ever.
+std::uint64_t most_generations(const PhotonGridRun& run);
+
+/// Chooses lights and what a collision stores, and weighs the plan. kLimit: too much of something.
+Status photon_grid_weigh(const Context& context, PhotonGridRun& run);
+
+/// Majorants, marks, shares and empty sums.
+Status photon_grid_prepare(const Context& context, PhotonGridRun& run);
+
+/// Fills memory, work and bounds of the plan and checks them against the limits.
+Status photon_grid_measure(const Context& context, PhotonGridRun& run);
+
+/// What launches of this run's photons read.
+TraceInput photon_grid_trace_input(const Context& context, const PhotonGridRun& run);
+
+/// What the light of the cells towards a camera is made from.
+GridLightInput photon_grid_light_input(const CameraParams& camera, const Context& context,
+                                       const PhotonGridRun& run);
+
+/// The picture as it is lit now, as planes; `channels` those of planes.colour.
+Status photon_grid_compose(const CameraParams& camera, const Context& context, PhotonGridRun& run,
+                           std::uint64_t& clamped, int& channels, Planes& planes);
+
+/// One picture with its layers.
+Status photon_grid_show(double orbit_deg, const Context& context, PhotonGridRun& run, Image& image);
+
+/// Shoots what a frame needs. kCheckFailed: interrupted before there was anything to show.
+Status photon_grid_light(const FrameStep& step, const Context& context, PhotonGridRun& run);
+
+/// Fills the report's plan and what the run has done.
+void photon_grid_report_plan(const PhotonGridRun& run, const Context& context, Report& report);
+void photon_grid_report(const PhotonGridRun& run, Report& report);
+
+}  // namespace pileus

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// Weighs a run of the photon grid: memory, work, bounds of its sums, limits.
+// in: PhotonGridRun, outlined or prepared -> out: its plan; kLimit where something is too much.
+// docs/report.md, "Plan"; docs/photon-grid.md, "Memory".
+#include "src/methods/photon_grid/photon_grid.h"
+#include "src/photons/lit_march.h"
+#include "src/photons/photon_report.h"
+#include "src/world/plan_parts.h"
+
+namespace pileus {
+namespace {
+
+using Size = std::uint64_t;
+
+constexpr Stage kUnused[] = {Stage::kPaths, Stage::kSamples, Stage::kTree, Stage::kCollectors,
+                             Stage::kLeafGrid};
+
+SlotSize slot_of(const PhotonGridRun& run) {
+    return {run.cells.count(), Size(run.deposit.channels), Size(run.deposit.coefficients),
+            Size(run.ground_map.cells) * Size(run.ground_map.cells)};
+}
+
+Size bytes_of_thread(const PhotonGridRun& run) {
+    return sum_of_bytes(arrays::photon_slot(slot_of(run), 1).bytes(), 256);
+}
+
+/// Numbers per cell while it is shown.
+Size light_numbers(const PhotonGridRun& run) {
+    if (!shows_harmonics(run)) return 3 * (1 + Size(photon_batches(run)));
+    return Size(harmonic_sets(run.deposit.channels, run.lighting)) *
+           Size(stored_harmonics(run.deposit.bands));
+}
+
+void add_photons(const PhotonGridRun& run, const Context& context, Size private_sums,
+                 MemoryTable& t) {
+    const Medium& m = run.world->medium;
+    const Size threads = Size(context.threads);
+    const Stage traced = context.frames > 1 ? Stage::kWrite : Stage::kPhotons;
+    const Size blocks = run.outlined_only
+                            ? most_tracking_blocks(m.grid, run.scene->photon_grid.local_tracking)
+                            : run.majorants.tracking.size();
+    add_majorant_rows(m.grid, blocks, threads, traced, t);
+    add(t, arrays::cell_marks(run.cells.count()));
+    if (m.count > 1) add(t, arrays::cell_shares(run.cells.count(), Size(m.count)));
+    add(t,
+        several(photon_slots(run), arrays::photon_slot(slot_of(run), run.lighting.lights.size())));
+    add(t, arrays::photon_tallies(threads, traced));
+    const auto own = arrays::photon_sums(0, 0, traced);
+    t.add(own.name, own.first, own.last, private_sums);
+}
+
+void add_picture(const PhotonGridRun& run, const Context& context, MemoryTable& t) {
+    const OutputSettings& output = run.scene->output;
+    const auto& size = run.scene->camera.resolution;
+    const Size pixels = Size(size[0]) * Size(size[1]);
+    const Size planes = 3 * (1 + Size(photon_batches(run)));
+    const Size parts = (output.layer_light ? 3u : 0u) + (output.layer_order ? 3u : 0u);
+    const Size extra = parts + (output.layer_optical_depth ? 1u : 0u);
+    const Size ground = slot_of(run).ground_cells;
+    const bool solid = run.lighting.opaque();
+    add(t, arrays::cell_light(light_numbers(run), run.cells.count()));
+    add(t, arrays::picture_planes(plane_count(planes, solid, output.layer_depth) + extra, pixels));
+    if (extra > 0)
+        add(t, renamed(arrays::picture_planes(plane_count(parts > 0 ? 3 : 0, solid, false), pixels),
+                       "planes of a part", Stage::kDisplay, Stage::kDisplay));
+    if (parts > 0)
+        add(t, renamed(arrays::cell_light(3, run.cells.count()), "light of a part", Stage::kDisplay,
+                       Stage::kDisplay));
+    add(t, arrays::ground_light(ground));
+    if (planes > 3 && ground > 0)
+        add(t, arrays::batch_background(pixels), arrays::ground_light(ground));
+    if (run.lighting.sunlit && run.deposit.first_order == 2)
+        add(t, arrays::shadow(sun_shadow_numbers(run),
+                              context.frames > 1 ? Stage::kPhotons : Stage::kShadow));
+    add_image_rows(Size(size[0]), Size(size[1]), 4 + extra_layers(output, planes > 3), t);
+}
+
+MemoryTable memory_of(const PhotonGridRun& run, const Context& context, Size private_sums) {
+    MemoryTable t;
+    add_density_rows(run.world->medium.grid, run.world->source, Size(run.world->medium.count),
+                     phase_bytes(run.world->medium), Size(context.threads),
+                     sky_map_bytes(run.around.sky_map), t);
+    add_photons(run, context, private_sums, t);
+    add_picture(run, context, t);
+    return t;
+}
+
+/// All that the scene asks for; where time decides, what the sums hold at most is no work to come.
+Size all_photons(const PhotonGridRun& run, const Context& context) {
+    if (run.ring) return photons_of_run(run, context);
+    Size generation = 0;
+    for (const Light& light : run.lighting.lights) generation += light.photons;
+    return bytes_of(generation, run.generations, context.frames);
+}
+
+}  // namespace
+
+Status photon_grid_measure(const Context& context, PhotonGridRun& run) {
+    const Size photons = all_photons(run, context);
+    PILEUS_TRY(check_limit(context.limits, LimitId::kPhotons, photons, run.scene->file));
+    const double most = double(photons) > kLeastMostPhotons ? double(photons) : kLeastMostPhotons;
+    bound_ledgers(most, double(run.max_events), run.plan);
+    PILEUS_TRY(check_bounds(run.plan, run.scene->file, "photon_grid.photons"));
+    run.plan.exact = !run.outlined_only;
+    run.plan.accumulation = plan_accumulation(
+        run.scene->photon_grid.accumulation,
+        {Size(context.threads), bytes_of_thread(run), memory_of(run, context, 0).peak(),
+         context.limits[LimitId::kMemory], run.plan.exact});
+    run.plan.memory = memory_of(run, context, run.plan.accumulation.bytes);
+    add_solid_rows(*run.scene, context.limits, run.world->solids, run.around.depth,
+                   run.plan.memory);
+    PILEUS_TRY(
+        check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), run.scene->file));
+    for (Stage stage : kUnused) run.plan.skip(stage);
+    const bool open = run.budget.seconds > 0;
+    run.plan.work = estimate_work(medium_work(run.world->medium, run.world->source.mean_density,
+                                              double(run.max_events), open ? 0 : double(photons)));
+    return check_work(run.plan.work, context.limits, run.scene->file);
+}
+
+void photon_grid_report_plan(const PhotonGridRun& run, const Context& context, Report& report) {
+    const auto& size = run.scene->camera.resolution;
+    const WorkEstimate& work = run.plan.work;
+    const Animation& animation = run.scene->animation;
+    report_plan(run.plan, report);
+    report.limits.clear();
+    const auto add = [&](LimitId id, Size needs, bool known = true) {
+        report.limits.push_back(limit_of(context.limits, id, needs, known));
+    };
+    add(LimitId::kVoxels, voxel_count(run.world->medium.grid));
+    add(LimitId::kPhotons, whole(work.photons));
+    add(LimitId::kPixels, Size(size[0]) * Size(size[1]));
+    add(LimitId::kFrames, animation.present ? Size(animation.frames) : 1);
+    add(LimitId::kMemory, run.plan.memory.peak());
+    add(LimitId::kScatterings, whole(work.scatterings_per_photon), work.known);
+    add(LimitId::kWork, whole(work.scatterings), work.known);
+}
+
+}  // namespace pileus

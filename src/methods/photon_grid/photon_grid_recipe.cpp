@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// Method `photon-grid` as a recipe: which of its functions a frame calls.
+// in: scene, budget, frames -> out: generations shot, pictures.
+// docs/photon-grid.md
+#include "src/methods/photon_grid/photon_grid.h"
+#include "src/photons/photon_report.h"
+
+namespace pileus {
+namespace {
+
+PhotonGridRun& own(MethodRun& run) { return static_cast<PhotonGridRun&>(run); }
+const PhotonGridRun& own(const MethodRun& run) { return static_cast<const PhotonGridRun&>(run); }
+
+std::unique_ptr<MethodRun> make() { return std::make_unique<PhotonGridRun>(); }
+
+Status check_layers(const Scene& scene) {
+    if (scene.output.layer_order && scene.sun.present && !scene.photon_grid.first_order_split)
+        return Status::bad_input(scene.file +
+                                 ": output.layers: \"order\": method photon-grid keeps single "
+                                 "scattering apart only with first_order_split, allowed: "
+                                 "photon_grid.first_order_split = true, or no such layer");
+    return Status::ok();
+}
+
+/// A periodic medium is seen from many sides at once, a moved camera as well.
+Status check_closure(const Scene& scene) {
+    const GridClosure closure = scene.photon_grid.closure;
+    if (closure == GridClosure::kSh) return Status::ok();
+    const std::string where = scene.file + ": photon_grid.closure: ";
+    bool periodic = false;
+    for (const MediumSettings& m : scene.media) periodic |= m.periodic;
+    if (periodic && !scene.camera.orthographic)
+        return Status::bad_input(where +
+                                 "not for periodic media, allowed: sh, or an orthographic camera");
+    if (closure == GridClosure::kCamera && scene.animation.present && scene.animation.moves_camera)
+        return Status::bad_input(where +
+                                 "\"camera\" needs a fixed camera, but "
+                                 "animation.camera_orbit_deg moves it");
+    return Status::ok();
+}
+
+Status check(const Scene& scene, const Budget& budget) {
+    constexpr const char* kAllowed = "photons=N, seconds=S";
+    if (budget.samples >= 0) return unknown_budget("--budget samples", scene.method, kAllowed);
+    if (budget.steps >= 0) return unknown_budget("--budget steps", scene.method, kAllowed);
+    if (budget.error > 0) return unknown_budget("--budget error", scene.method, kAllowed);
+    if (!budget.state.empty())
+        return unknown_budget("--state", scene.method, "method.name = \"path\"");
+    PILEUS_TRY(check_layers(scene));
+    return check_closure(scene);
+}
+
+Status outline(const Context& context, MethodRun& run) {
+    if (context.kernels->device != nullptr)
+        return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
+                                 "\": method photon-grid runs on the host alone, allowed: another, "
+                                 "or another method");
+    return photon_grid_weigh(context, own(run));
+}
+
+Status prepare(const Context& context, MethodRun& run) {
+    return photon_grid_prepare(context, own(run));
+}
+
+void report_plan(const MethodRun& run, const Context& context, Report& report) {
+    photon_grid_report_plan(own(run), context, report);
+}
+
+Status light(const FrameStep& step, const Context& context, MethodRun& run) {
+    return photon_grid_light(step, context, own(run));
+}
+
+Status show(const FrameStep& step, const Context& context, MethodRun& method_run, Image& image) {
+    PhotonGridRun& run = own(method_run);
+    if (step.last || run.interrupted) {
+        run.scratch.sums = Buffer<std::int64_t>();
+        run.majorants.tracking = Buffer<float>();
+    }
+    return photon_grid_show(orbit_at(*run.scene, step.frame), context, run, image);
+}
+
+/// The ring follows a light that has moved; one sum begins anew.
+Status aim(int, bool anew, const Context& context, MethodRun& method_run) {
+    PhotonGridRun& run = own(method_run);
+    const Lighting before = run.lighting;
+    const DepositPlan deposit = run.deposit;
+    const bool placed = !anew && relight_photons(run);
+    const CameraParams camera = make_camera(run.scene->camera, 0, run.world->medium.low_m);
+    bool turned = false;
+    for (int a = 0; a < 3 && run.scene->photon_grid.closure == GridClosure::kCamera; ++a)
+        turned |= deposit.camera[a] !=
+                  (run.scene->camera.orthographic ? -camera.forward[a] : camera.origin[a]);
+    if (!placed || turned) {
+        PILEUS_TRY(photon_grid_weigh(context, run));
+        run.shadow_ready = false;
+        return lay_out_photons(photon_grid_trace_input(context, run), run);
+    }
+    if (run.ring || same_lights(before, run.lighting)) return Status::ok();
+    for (PhotonSlot& slot : run.photons.slots) empty_slot(slot);
+    run.next_generation = run.ring_first = 0;
+    run.photons.tallies.assign(run.lighting.lights.size(), TraceTally{});
+    return Status::ok();
+}
+
+Status advance(std::uint64_t units, const Context& context, MethodRun& method_run,
+               std::uint64_t& done) {
+    PhotonGridRun& run = own(method_run);
+    const std::uint64_t held = run.next_generation - run.ring_first;
+    const std::uint64_t most = most_generations(run);
+    // One sum takes no more than was proven for it.
+    if (!run.ring && held + units > most) units = held < most ? most - held : 0;
+    const ShootPhotons shoot = [&] {
+        return shoot_generation(photon_grid_trace_input(context, run), context, run);
+    };
+    return advance_photons(units, context, run, shoot, done);
+}
+
+LightUnits units(const MethodRun& run) { return photon_units(own(run)); }
+
+Status compose(const FrameStep&, const Context& context, MethodRun& method_run,
+               const Planes*& planes) {
+    PhotonGridRun& run = own(method_run);
+    const CameraParams camera = make_camera(run.scene->camera, 0, run.world->medium.low_m);
+    int channels = 3;
+    std::uint64_t clamped = 0;
+    planes = &run.planes;
+    return photon_grid_compose(camera, context, run, clamped, channels, run.planes);
+}
+
+void report(const MethodRun& run, Report& out) { photon_grid_report(own(run), out); }
+
+}  // namespace
+
+void photon_grid_report(const PhotonGridRun& run, Report& report) {
+    report_photons(run, report);
+    const std::uint64_t numbers =
+        std::uint64_t(run.deposit.channels) * std::uint64_t(run.deposit.coefficients);
+    report.executed.emplace_back("cells", run.cells.count());
+    report.executed.emplace_back("cells_near_medium", run.near.marked);
+    report.executed.emplace_back("coefficients",
+                                 numbers * run.lighting.lights.size() * run.photons.slots.size());
+    if (run.digests.empty()) return;
+    report.digests.insert(report.digests.begin(), {"photons", photon_digest(run.photons)});
+    report.digests.insert(report.digests.begin(), run.digests.begin(), run.digests.end());
+}
+
+const Method& photon_grid_method() {
+    static constexpr LiveMethod live{aim, advance, units, compose};
+    static constexpr Method method{"photon-grid", SkyUse::kOnGrid, make, check,  outline, prepare,
+                                   report_plan,   light,           show, report, &live};
+    return method;
+}
+
+}  // namespace pileus

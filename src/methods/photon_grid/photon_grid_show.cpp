@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+// The picture of a lit photon grid: light of the cells, march, parts, layers.
+// in: PhotonGridRun after shooting, a camera -> out: Planes, Image.
+// docs/photon-grid.md; docs/formats.md, "Pictures out".
+#include "src/base/digest.h"
+#include "src/methods/photon_grid/photon_grid.h"
+#include "src/photons/lit_march.h"
+
+namespace pileus {
+namespace {
+
+NodeGrid cell_nodes(const PhotonGridRun& run) {
+    NodeGrid nodes{};
+    for (int a = 0; a < 3; ++a) {
+        nodes.size[a] = run.cells.size[a];
+        nodes.per_metre[a] = float(run.cells.size[a] / run.world->medium.extent_m[a]);
+    }
+    return nodes;
+}
+
+/// The picture's own digest, not those of its parts.
+void tell_colours(const Context& context, const PhotonGridRun& run, const GridLightInput& in,
+                  Span<const float> light) {
+    if (!context.digests || in.lighting != &run.lighting) return;
+    Digest digest;
+    digest.floats(light);
+    context.report->digests.emplace_back("colours", digest.hex());
+}
+
+/// Each cell's light towards the camera.
+Status show_towards(const Context& context, PhotonGridRun& run, const GridLightInput& in,
+                    Planes& planes) {
+    Buffer<float> light;
+    {
+        const StageClock clock(context, "reconstruct");
+        PILEUS_TRY(light_cells(in, light));
+    }
+    tell_colours(context, run, in, light.span());
+    MarchParams k = lit_march_params(run, in, cell_nodes(run));
+    k.channels = 3 * (1 + in.batches);
+    return march_lit(context, run, light.data(), k, planes.colour.data(), planes);
+}
+
+/// Each cell's light in all directions: one march for the picture and one for each batch.
+Status show_all_ways(const Context& context, PhotonGridRun& run, const GridLightInput& in,
+                     Planes& planes) {
+    MarchParams k = lit_march_params(run, in, cell_nodes(run));
+    const int bands = in.deposit.bands;
+    CellHarmonics light;
+    for (int batch = -1; batch < in.batches; ++batch) {
+        {
+            const StageClock clock(context, "reconstruct");
+            PILEUS_TRY(light_cell_harmonics(in, batch, stored_harmonics(bands), light));
+        }
+        if (batch < 0) tell_colours(context, run, in, light.values.span());
+        set_harmonic_sets(bands, light.sets, light.colour, k);
+        float* target =
+            planes.colour.data() + 3 * std::size_t(batch + 1) * planes.transmittance.size();
+        PILEUS_TRY(march_lit(context, run, light.values.data(), k, target, planes));
+    }
+    return Status::ok();
+}
+
+/// Without photons' light there is one dark node, so that the sun's first order is alone.
+Status show_first_order(const Context& context, PhotonGridRun& run, const GridLightInput& in,
+                        Planes& planes) {
+    const float dark[3] = {};
+    const MarchParams k = lit_march_params(run, in, NodeGrid{{1, 1, 1}, {0, 0, 0}});
+    return march_lit(context, run, dark, k, planes.colour.data(), planes);
+}
+
+Status display(const Context& context, PhotonGridRun& run, const GridLightInput& in,
+               Planes& planes) {
+    PILEUS_TRY(make_sun_shadow(context, run));
+    if (in.first_order_alone) return show_first_order(context, run, in, planes);
+    return shows_harmonics(run) ? show_all_ways(context, run, in, planes)
+                                : show_towards(context, run, in, planes);
+}
+
+/// A picture of one part of the light, without batches.
+Status show_part(const Context& context, PhotonGridRun& run, const GridLightInput& in,
+                 Planes& part) {
+    PILEUS_TRY(
+        allocate_planes(in.camera.width, in.camera.height, 3, in.lighting->opaque(), false, part));
+    PILEUS_TRY(fill_lit_background(context, run, in, 0, part));
+    return display(context, run, in, part);
+}
+
+Status show_sun(const Context& context, PhotonGridRun& run, GridLightInput in, Planes& planes) {
+    const Lighting light = sun_alone(*in.lighting);
+    in.lighting = &light;
+    in.batches = 0;
+    Planes part;
+    PILEUS_TRY(show_part(context, run, in, part));
+    const std::size_t pixels = part.transmittance.size();
+    for (std::size_t i = 0; i < 3 * pixels; ++i)
+        part.colour[i] += part.transmittance[i % pixels] * part.background[i];
+    planes.sun.swap(part.colour);
+    return Status::ok();
+}
+
+/// Sunlight that the media scattered once, straight from the sun.
+Status show_single(const Context& context, PhotonGridRun& run, GridLightInput in, Planes& planes) {
+    if (!in.lighting->sunlit)
+        return allocate(arrays::picture_planes(3, planes.transmittance.size()), planes.single);
+    const Lighting light = sun_alone(*in.lighting);
+    in.lighting = &light;
+    in.batches = 0;
+    in.first_order_alone = true;
+    Planes part;
+    PILEUS_TRY(show_part(context, run, in, part));
+    planes.single.swap(part.colour);
+    return Status::ok();
+}
+
+}  // namespace
+
+Status photon_grid_compose(const CameraParams& camera, const Context& context, PhotonGridRun& run,
+                           std::uint64_t& clamped, int& channels, Planes& planes) {
+    const GridLightInput in = photon_grid_light_input(camera, context, run);
+    const OutputSettings& output = run.scene->output;
+    channels = 3 * (1 + in.batches);
+    PILEUS_TRY(allocate_planes(camera.width, camera.height, channels, run.lighting.opaque(),
+                               output.layer_depth, planes));
+    PILEUS_TRY(fill_lit_background(context, run, in, 0, planes));
+    PILEUS_TRY(display(context, run, in, planes));
+    // Noise may leave less than nothing in a pixel.
+    const std::size_t pixels = planes.transmittance.size();
+    for (std::size_t i = 0; i < 3 * pixels; ++i)
+        if (planes.colour[i] < 0) planes.colour[i] = 0, ++clamped;
+    PILEUS_TRY(add_ground_noise(context, run, in, planes));
+    if (output.layer_optical_depth) PILEUS_TRY(show_optical_depth(context, run, in, planes));
+    if (output.layer_light) PILEUS_TRY(show_sun(context, run, in, planes));
+    if (output.layer_order) PILEUS_TRY(show_single(context, run, in, planes));
+    return Status::ok();
+}
+
+Status photon_grid_show(double orbit_deg, const Context& context, PhotonGridRun& run,
+                        Image& image) {
+    const Scene& scene = *run.scene;
+    const CameraParams camera = make_camera(scene.camera, orbit_deg, run.world->medium.low_m);
+    int channels = 3;
+    std::uint64_t clamped = 0;
+    Planes planes;
+    PILEUS_TRY(photon_grid_compose(camera, context, run, clamped, channels, planes));
+    Report& report = *context.report;
+    report.counters.clear();
+    PILEUS_TRY(make_layers(planes, camera.width, camera.height, channels, scene.output, image,
+                           report, clamped));
+    report.counters.emplace_back("clamped_negative", clamped);
+    report.executed = {{"depth_tests", planes.opaque_depth.size()},
+                       {"depths_stored", planes.half_depth.size()},
+                       {"batches", std::uint64_t(channels / 3 - 1)},
+                       {"parts_stored", run.world->medium.parts.size()}};
+    report_solids(run.world->solids, run.around.depth, report);
+    set_image_camera(camera, run.world->medium.low_m, image);
+    return Status::ok();
+}
+
+}  // namespace pileus

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which light of a run is shown, and to whom.
+// in: slots of integer sums, lights, the camera -> out: sums per light as power; the ground's
+// light. docs/methods.md 3, each image frame, step 4.
+#pragma once
+#include "kernels_cpu/core/camera.h"
+#include "src/photons/trace.h"
+
+namespace pileus {
+
+struct LightInput {
+    const Medium* medium = nullptr;
+    const Lighting* lighting = nullptr;
+    const Photons* photons = nullptr;
+    CameraParams camera{};
+    DepositPlan deposit;
+    bool first_order_alone = false;  ///< only sunlight scattered once, where deposits keep it apart
+    int batches = 0;  ///< also one RGB for each of so many groups of slots, for the error
+    int threads = 1;
+};
+
+namespace arrays {
+
+/// Three channels of what the ground sends back.
+inline Array<float> ground_light(std::uint64_t cells) {
+    return {"ground map", bytes_of(3, cells), Stage::kBackground, Stage::kBackground};
+}
+
+}  // namespace arrays
+
+/// Slots up to the first that no generation has reached: tracing may have ended early.
+std::size_t filled_slots(const Photons& photons);
+
+/// Sums of one set of one light in one slot, per unit of its colour.
+void slot_sums(const LightInput& in, const PhotonSlot& slot, std::size_t light, std::uint64_t set,
+               double* sums);
+
+/// Sets of a run whose sums have so many colour channels: one per light where light differs in
+/// colour only, otherwise one per channel.
+int harmonic_sets(int channels, const Lighting& lighting);
+
+/// Radiance that the cells of the ground send back of the light scattered onto them (or kept from
+/// them, then negative): [3][cells * cells]. `batch` 0: of all slots; 1 ... in.batches: of that
+/// group of them alone. kLimit: out of memory.
+Status reconstruct_ground(const LightInput& in, const GroundMap& map, int batch,
+                          Buffer<float>& radiance);
+
+}  // namespace pileus

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// See lit_march.h.
+// in: sums, nodes, a camera -> out: planes.
+// docs/methods.md 3, each image frame, steps 4 and 5; repairs 3 and 4.
+#include "src/photons/lit_march.h"
+
+#include "platform/threads.h"
+#include "src/picture/background.h"
+#include "src/picture/march_view.h"
+#include "src/picture/nodes/solid_shadow.h"
+
+namespace pileus {
+namespace {
+
+constexpr float kCut = 1e-4f;        // transmittance that no eye misses
+constexpr double kShadowVoxels = 2;  // spacing of the shadow nodes
+
+MediumView view_of(const PhotonRun& run) {
+    return make_medium_view(run.world->medium, run.majorants);
+}
+
+NodeGrid shadow_grid(const PhotonRun& run) {
+    float coarse = 0;
+    for (float cell : run.world->medium.grid.cell_m) coarse = cell > coarse ? cell : coarse;
+    return make_node_grid(run.world->medium.grid, run.world->medium.extent_m,
+                          kShadowVoxels * double(coarse));
+}
+
+}  // namespace
+
+Status make_sun_shadow(const Context& context, PhotonRun& run) {
+    if (run.shadow_ready || !run.lighting.sunlit || run.deposit.first_order != 2)
+        return Status::ok();
+    const StageClock clock(context, "shadow");
+    run.shadow_nodes = shadow_grid(run);
+    PILEUS_TRY(allocate(arrays::shadow(node_count(run.shadow_nodes), Stage::kShadow), run.shadow));
+    ShadowParams k{};
+    k.medium = view_of(run);
+    k.nodes = run.shadow_nodes;
+    for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = run.lighting.to_sun[a];
+    PILEUS_TRY(run_rows(context, context.kernels->shadow_rows, k, ShadowBuffers{run.shadow.data()},
+                        std::uint32_t(k.nodes.size[1] * k.nodes.size[2])));
+    if (run.lighting.solids != nullptr)
+        PILEUS_TRY(solid_visibility(context, *run.lighting.solids, run.shadow_nodes,
+                                    run.lighting.to_sun, run.visibility));
+    run.shadow_ready = true;
+    return Status::ok();
+}
+
+std::uint64_t sun_shadow_numbers(const PhotonRun& run) {
+    return node_count(shadow_grid(run)) * (run.world->solids.meshes ? 2 : 1);
+}
+
+Status march_lit(const Context& context, const PhotonRun& run, const float* source,
+                 const MarchParams& k, float* target, Planes& planes) {
+    const StageClock clock(context, "march");
+    MarchBuffers b{};
+    b.optical_depth = run.shadow.data();
+    b.source = source;
+    b.opaque_depth = planes.opaque_depth.data();
+    b.parts = run.world->medium.parts.data();
+    b.transmittance = planes.transmittance.data();
+    b.half_depth = planes.half_depth.data();
+    b.colour = target;
+    b.visibility = run.visibility.data();
+    PILEUS_TRY(
+        run_rows(context, context.kernels->march_rows, k, b, std::uint32_t(k.camera.height)));
+    return Status::ok();
+}
+
+MarchParams lit_march_params(const PhotonRun& run, const LightInput& lit, const NodeGrid& source) {
+    const Lighting& light = *lit.lighting;
+    MarchParams k{};
+    k.medium = view_of(run);
+    k.camera = lit.camera;
+    k.media = run.world->medium.count;
+    for (std::size_t c = 0; c < 3; ++c) {
+        k.sun_travel[c] = -light.to_sun[c];
+        k.constant[c] = float(light.constant[c]);
+    }
+    for (int i = 0; i < run.world->medium.count; ++i) {
+        const Optics& optics = run.world->medium.optics[std::size_t(i)];
+        k.phase[i] = optics.phase;
+        for (std::size_t c = 0; c < 3 && run.deposit.first_order == 2; ++c)
+            k.sun_source[i][c] = float(light.sun_irradiance[c] * double(optics.albedo[c]));
+    }
+    k.shadow = run.shadow_nodes;
+    k.source = source;
+    k.channels = 3;
+    k.cut = kCut;
+    return k;
+}
+
+int stored_harmonics(int bands) {
+    return (bands * bands + kHarmonicsAbreast - 1) / kHarmonicsAbreast * kHarmonicsAbreast;
+}
+
+void set_harmonic_sets(int bands, int sets, const float (&colour)[3][3], MarchParams& k) {
+    k.bands = bands;
+    k.sets = sets;
+    k.harmonics = stored_harmonics(bands);
+    for (int s = 0; s < sets; ++s)
+        for (int c = 0; c < 3; ++c) k.set_colour[s][c] = colour[s][c];
+}
+
+Status gather_by_node(const Context& context, const MarchParams& k, Span<const float> planes,
+                      Buffer<float>& by_node) {
+    const std::size_t nodes = std::size_t(node_count(k.source)),
+                      own = std::size_t(k.bands) * std::size_t(k.bands);
+    const std::size_t stored = std::size_t(k.harmonics), sets = std::size_t(k.sets);
+    PILEUS_TRY(allocate_once(arrays::source_by_node(nodes * sets * stored), by_node));
+    const std::size_t slice = nodes / std::size_t(k.source.size[2]);
+    parallel_for(context.threads, k.source.size[2], [&](std::int64_t z, int) {
+        for (std::size_t n = std::size_t(z) * slice; n < (std::size_t(z) + 1) * slice; ++n)
+            for (std::size_t s = 0; s < sets; ++s)
+                for (std::size_t i = 0; i < own; ++i)
+                    by_node[(n * sets + s) * stored + i] = planes[(s * own + i) * nodes + n];
+    });
+    return Status::ok();
+}
+
+Status fill_lit_background(const Context& context, const PhotonRun& run, const LightInput& lit,
+                           int batch, Planes& planes) {
+    const StageClock clock(context, "background");
+    const CameraParams& camera = lit.camera;
+    const Lighting& light = *lit.lighting;
+    Buffer<float> map;
+    PILEUS_TRY(reconstruct_ground(lit, run.ground_map, batch, map));
+    BackgroundParams k{};
+    k.medium = view_of(run);
+    k.camera = camera;
+    k.ground = light.ground ? 1 : 0;
+    k.ground_z = float(light.ground_z);
+    for (std::size_t c = 0; c < 3; ++c) {
+        k.sky[c] = float(light.sky[c]);
+        k.ground_diffuse[c] = float(light.ground_diffuse[c]);
+        k.ground_sun[c] = float(light.ground_sun[c]);
+        k.to_sun[c] = light.to_sun[c];
+    }
+    k.sky_map = light.map;
+    k.map.size[0] = k.map.size[1] = run.ground_map.cells;
+    k.map.size[2] = 1;
+    for (int a = 0; a < 2; ++a) {
+        k.map.per_metre[a] = run.ground_map.per_metre[a];
+        k.map_origin[a] = run.ground_map.origin[a];
+    }
+    const BackgroundBuffers b{map.data(), planes.background.data(), planes.opaque_depth.data()};
+    return show_background(context, light, k, b);
+}
+
+Status add_ground_noise(const Context& context, const PhotonRun& run, const LightInput& lit,
+                        Planes& planes) {
+    if (lit.batches < 2 || run.ground_map.cells == 0) return Status::ok();
+    // What is the same in every batch has no spread: sky, and the ground's light without the media.
+    Lighting scattered = *lit.lighting;
+    scattered.sky = scattered.ground_diffuse = scattered.ground_sun = {};
+    scattered.sun_irradiance = {};
+    scattered.map = SkyMapView{};
+    LightInput alone = lit;
+    alone.lighting = &scattered;
+    const std::size_t pixels = planes.transmittance.size();
+    Planes part;
+    PILEUS_TRY(allocate(arrays::batch_background(pixels), part.background));
+    for (int b = 1; b <= lit.batches; ++b) {
+        PILEUS_TRY(fill_lit_background(context, run, alone, b, part));
+        float* colour = planes.colour.data() + std::size_t(3 * b) * pixels;
+        for (std::size_t i = 0; i < 3 * pixels; ++i)
+            colour[i] += planes.transmittance[i % pixels] * part.background[i];
+    }
+    return Status::ok();
+}
+
+Lighting sun_alone(const Lighting& all) {
+    Lighting sun = all;
+    for (Light& light : sun.lights) {
+        if (light.beam) continue;
+        light.colour = light.map || light.hemisphere <= 0 ? Double3{} : all.ground_sun;
+    }
+    sun.constant = sun.sky = sun.ground_diffuse = {};
+    sun.map = SkyMapView{};
+    return sun;
+}
+
+Status show_optical_depth(const Context& context, const PhotonRun& run, const LightInput& lit,
+                          Planes& planes) {
+    Planes part;
+    PILEUS_TRY(allocate_planes(lit.camera.width, lit.camera.height, 0, lit.lighting->opaque(),
+                               false, part));
+    PILEUS_TRY(march_medium(context, run.world->medium, run.majorants, *lit.lighting, lit.camera,
+                            {false, true}, part));
+    planes.optical_depth.swap(part.optical_depth);
+    return Status::ok();
+}
+
+}  // namespace pileus

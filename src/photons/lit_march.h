@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// The marched picture of light on nodes: the sun's first order exact, sky and ground behind it.
+// in: PhotonRun after shooting, nodes that hold scattered light -> out: planes of pixels.
+// docs/methods.md 3, repairs 3 and 4; 4.
+#pragma once
+#include "src/photons/light_input.h"
+#include "src/photons/photon_run.h"
+#include "src/picture/nodes/node_grid.h"
+
+namespace pileus {
+
+namespace arrays {
+
+/// Optical depths towards the sun, from the first stage that shows or, in animations, shoots.
+inline Array<float> shadow(std::uint64_t nodes, Stage first) {
+    return {"shadow", nodes, first, Stage::kWrite};
+}
+/// With the ground's light of the batch beside it.
+inline Array<float> batch_background(std::uint64_t pixels) {
+    return {"ground light of a batch", bytes_of(3, pixels), Stage::kLayers, Stage::kLayers};
+}
+/// Light on nodes as kernels read it: one node's numbers after the other.
+inline Array<float> source_by_node(std::uint64_t numbers) {
+    return {"source by node", numbers, Stage::kSplat, Stage::kDisplay};
+}
+
+}  // namespace arrays
+
+/// Optical depth towards the sun, once per position of the sun; where the march does the first
+/// order.
+Status make_sun_shadow(const Context& context, PhotonRun& run);
+
+/// Numbers that it keeps.
+std::uint64_t sun_shadow_numbers(const PhotonRun& run);
+
+/// What all marches of a picture share.
+MarchParams lit_march_params(const PhotonRun& run, const LightInput& lit, const NodeGrid& source);
+
+/// Marches through `source` into `target`'s planes.
+Status march_lit(const Context& context, const PhotonRun& run, const float* source,
+                 const MarchParams& k, float* target, Planes& planes);
+
+/// Numbers per node and set, filled up to whole groups.
+int stored_harmonics(int bands);
+
+/// Nodes hold so many sets of harmonics of these colours.
+void set_harmonic_sets(int bands, int sets, const float (&colour)[3][3], MarchParams& k);
+
+/// Numbers of one harmonic of one set after the other become those of one node after the other.
+Status gather_by_node(const Context& context, const MarchParams& k, Span<const float> planes,
+                      Buffer<float>& by_node);
+
+/// Sky and ground of `lit`; the light scattered onto the ground is that of `batch`, 0: of all.
+Status fill_lit_background(const Context& context, const PhotonRun& run, const LightInput& lit,
+                           int batch, Planes& planes);
+
+/// Adds to every batch's colour what its own photons brought to the ground, seen through the media:
+/// the spread of the batches then holds that light's noise, too. After the display.
+Status add_ground_noise(const Context& context, const PhotonRun& run, const LightInput& lit,
+                        Planes& planes);
+
+/// The same light without the sky: the ground then sends back sunlight alone.
+Lighting sun_alone(const Lighting& all);
+
+/// The layer of optical depths.
+Status show_optical_depth(const Context& context, const PhotonRun& run, const LightInput& lit,
+                          Planes& planes);
+
+}  // namespace pileus

@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: Apache-2.0
+// See photon_frames.h.
+// in: frames, budgets -> out: slots of sums, filled.
+// docs/collectors.md
+#include "src/photons/photon_frames.h"
+
+#include <algorithm>
+
+#include "platform/clock.h"
+
+namespace pileus {
+namespace {
+
+/// The ring of an animation is whole, or as far as the time went.
+Status ring_state(const PhotonRun& run) {
+    return run.interrupted ? interrupted_before("the frame's ring of generations was whole")
+                           : Status::ok();
+}
+
+/// Fills the ring of the first frame that is asked for. Frame f has generations f .. f + p - 1.
+Status fill_ring(int frame, const Context& context, PhotonRun& run, const ShootPhotons& shoot) {
+    run.next_generation = std::uint64_t(frame);
+    const auto aim = [&] {
+        // Generation g >= p was shot for frame g - p + 1; those before it under frame 0's sun.
+        const std::uint64_t g = run.next_generation;
+        const int shown = g < run.generations ? 0 : int(g - run.generations + 1);
+        set_photon_sun(sun_at(*run.scene, shown), run);
+    };
+    PILEUS_TRY(shoot_generations(context, run, run.generations, aim, shoot));
+    // Time cut it short: what there is begins at the first slot, so that no gap lies before it.
+    std::vector<PhotonSlot>& slots = run.photons.slots;
+    if (run.next_generation - std::uint64_t(frame) < slots.size()) {
+        run.ring_first = std::uint64_t(frame);
+        std::rotate(slots.begin(), slots.begin() + std::ptrdiff_t(run.ring_first % slots.size()),
+                    slots.end());
+        set_photon_sun(sun_at(*run.scene, frame), run);
+    }
+    return ring_state(run);
+}
+
+}  // namespace
+
+Status interrupted_before(const char* what) {
+    return {Code::kCheckFailed, std::string("interrupted before ") + what + "; no file written"};
+}
+
+Status shoot_generations(const Context& context, PhotonRun& run, std::uint64_t count,
+                         const std::function<void()>& aim, const ShootPhotons& shoot) {
+    const StageClock clock(context, "photons");
+    const double start = wall_seconds();
+    context.hold(true);
+    for (std::uint64_t g = 0; g < count; ++g) {
+        run.interrupted = context.stop();
+        if (run.interrupted) break;
+        aim();
+        PILEUS_TRY(shoot());
+        if (run.interrupted) break;
+        context.tell("photons", double(g + 1) / double(count));
+        // Time only chooses a whole number of generations, which the report records.
+        if (run.budget.seconds > 0 && wall_seconds() - start >= run.budget.seconds) break;
+    }
+    return Status::ok();
+}
+
+Status light_photon_frame(const FrameStep& step, const Context& context, PhotonRun& run,
+                          const ShootPhotons& shoot) {
+    const Scene& scene = *run.scene;
+    const auto nothing = [] {};
+    if (!step.first) {
+        set_photon_sun(sun_at(scene, step.frame), run);
+        PILEUS_TRY(shoot_generations(context, run, 1, nothing, shoot));
+        return ring_state(run);
+    }
+    if (scene.animation.present) return fill_ring(step.frame, context, run, shoot);
+    PILEUS_TRY(shoot_generations(context, run, run.generations, nothing, shoot));
+    return run.next_generation > 0 ? Status::ok() : interrupted_before("the first generation");
+}
+
+Status advance_photons(std::uint64_t units, const Context& context, PhotonRun& run,
+                       const ShootPhotons& shoot, std::uint64_t& done) {
+    const StageClock clock(context, "photons");
+    for (done = 0; done < units; ++done) {
+        run.interrupted = context.stop();
+        if (run.interrupted) return Status::ok();
+        // The ledger is that of the last turn of the ring, so that its bounds hold for ever.
+        if ((run.next_generation - run.ring_first) % run.generations == 0)
+            run.photons.tallies.assign(run.lighting.lights.size(), TraceTally{});
+        PILEUS_TRY(shoot());
+        if (run.interrupted) return Status::ok();
+        context.tell("photons", double(done + 1) / double(units));
+    }
+    return Status::ok();
+}
+
+LightUnits photon_units(const PhotonRun& run) {
+    LightUnits out;
+    out.unit = "generation";
+    out.whole = run.generations;
+    for (const Light& light : run.lighting.lights) out.unit_photons += light.photons;
+    for (const PhotonSlot& slot : run.photons.slots) out.held += slot.generations;
+    out.prepared = run.layouts;
+    return out;
+}
+
+}  // namespace pileus

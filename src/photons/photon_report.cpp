@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// See photon_report.h.
+// in: tallies, slots -> out: rows of the report.
+// docs/report.md.
+#include "src/photons/photon_report.h"
+
+#include "src/base/digest.h"
+
+namespace pileus {
+namespace {
+
+/// Binomial standard error of a share of n photons (fates are exclusive outcomes of each).
+double share_error(double share, double n) {
+    return n > 1 && share > 0 && share < 1 ? __builtin_sqrt(share * (1 - share) / (n - 1)) : 0;
+}
+
+EnergyRow energy_row(const std::string& light, const Fates& f) {
+    EnergyRow row;
+    // The first colour channel in which the light shines.
+    std::size_t c = 0;
+    while (c < 2 && f.emitted[c] == 0) ++c;
+    row.light = light;
+    row.balance_quanta = f.emitted[c] - f.top[c] - f.bottom[c] - f.sides[c] - f.absorbed[c] -
+                         f.ground[c] - f.sky[c] - f.terminated[c] - f.solid[c];
+    const double unit = double(f.emitted[c]);
+    if (unit <= 0) return row;
+    // A photon that carries a share of its power counts as that share: its variance is less yet.
+    const double photons = unit / double(kPhotonQuanta);
+    row.emitted = 1;
+    row.top = double(f.top[c]) / unit;
+    row.bottom = double(f.bottom[c]) / unit;
+    row.sides = double(f.sides[c]) / unit;
+    row.absorbed = double(f.absorbed[c]) / unit;
+    row.ground = double(f.ground[c]) / unit;
+    row.sky = double(f.sky[c]) / unit;
+    row.solid = double(f.solid[c]) / unit;
+    row.terminated = double(f.terminated[c]) / unit;
+    row.direct_bottom = double(f.direct_bottom[c]) / unit;
+    row.top_error = share_error(row.top, photons);
+    row.bottom_error = share_error(row.bottom, photons);
+    row.sides_error = share_error(row.sides, photons);
+    row.absorbed_error = share_error(row.absorbed, photons);
+    return row;
+}
+
+/// Photons that a fate stands for, in the channel that has most of it.
+std::uint64_t photons_in(const std::int64_t (&fate)[3]) {
+    std::int64_t most = 0;
+    for (const std::int64_t quanta : fate) most = quanta > most ? quanta : most;
+    return std::uint64_t((most + kPhotonQuanta - 1) / kPhotonQuanta);
+}
+
+}  // namespace
+
+std::string photon_digest(const Photons& photons) {
+    Digest d;
+    for (const PhotonSlot& slot : photons.slots) d.integers(slot.sums.span());
+    return d.hex();
+}
+
+void report_photons(const PhotonRun& run, Report& report) {
+    report.generations = run.next_generation;
+    report.interrupted = run.interrupted;
+    report.ring_generations = report.ring_whole = 0;
+    if (run.ring && run.scene->animation.present && run.photons.slots.size() == run.generations) {
+        report.ring_whole = run.generations;
+        for (const PhotonSlot& slot : run.photons.slots)
+            report.ring_generations += slot.generations > 0 ? 1 : 0;
+    }
+    report.energy.clear();
+    TraceTally all{};
+    for (std::size_t l = 0; l < run.photons.tallies.size(); ++l) {
+        const TraceTally& t = run.photons.tallies[l];
+        add_tally(t, all);
+        report.energy.push_back(energy_row(run.lighting.lights[l].name, t.light));
+        if (t.shadow.emitted[0] > 0)
+            report.energy.push_back(
+                energy_row(run.lighting.lights[l].name + ": kept from the ground", t.shadow));
+    }
+    report.photons = std::uint64_t(all.photons);
+    report.scatterings = std::uint64_t(all.scatterings);
+    report.tentative = std::uint64_t(all.tentative);
+    report.crossings = std::uint64_t(all.crossings);
+    double diagonal = 0;
+    for (double e : run.world->medium.extent_m) diagonal += e * e;
+    if (all.photons > 0)
+        report.mean_path_m =
+            double(all.path) / 1048576.0 * __builtin_sqrt(diagonal) / double(all.photons);
+    report.executed.emplace_back("absorption_tests", std::uint64_t(all.absorption_tests));
+    report.executed.emplace_back("ground_bounces", std::uint64_t(all.bounces));
+    report.counters.emplace_back("majorant_violations", std::uint64_t(all.majorant_violations));
+    report.counters.emplace_back("saturated", 0);  // fixed_point_places proves it
+    report.counters.emplace_back("terminated", photons_in(all.light.terminated));
+}
+
+void bound_ledgers(double photons, double max_events, Plan& plan) {
+    plan.bounds.resize(1);
+    // A photon may die twice, the second time as the ground's missing light.
+    SumBound ledger[] = {deposit_bound("energy of a fate", 2 * photons, 1, 20),
+                         deposit_bound("path of all photons", 2 * photons, 2147483520.0, 0),
+                         deposit_bound("scatterings", photons * max_events, 1, 0)};
+    for (SumBound& bound : ledger) {
+        bound.allowed = 0x1p63;
+        plan.bounds.push_back(bound);
+    }
+}
+
+Status check_bounds(const Plan& plan, const std::string& file, const char* key) {
+    for (const SumBound& bound : plan.bounds)
+        if (!(bound.worst < bound.allowed))
+            return Status::limit(file + ": " + key + ": the sum \"" + bound.sum +
+                                 "\" could overflow 64 bits; take fewer");
+    return Status::ok();
+}
+
+std::uint64_t photons_of_run(const PhotonRun& run, const Context& context) {
+    std::uint64_t generation = 0;
+    for (const Light& light : run.lighting.lights) generation += light.photons;
+    return bytes_of(generation, run.generations + context.frames - 1);
+}
+
+}  // namespace pileus

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+// See photon_run.h.
+// in: scene, lights -> out: slots of sums.
+// docs/methods.md 3, each image frame, step 1; "Generations and error".
+#include "src/photons/photon_run.h"
+
+#include <cstring>
+
+namespace pileus {
+namespace {
+
+/// Batches for the standard error: the largest divisor of the generations up to 16, so that all
+/// hold equally many; if that is under 8, as many as fit with slightly unequal shares.
+std::uint64_t batch_count(std::uint64_t generations) {
+    std::uint64_t best = 1;
+    for (std::uint64_t n = 1; n <= kMostBatches && n <= generations; ++n)
+        if (generations % n == 0) best = n;
+    const std::uint64_t most = generations < kMostBatches ? generations : kMostBatches;
+    return best >= 8 ? best : most;
+}
+
+/// The sun that the lights are planned for: one that only rises during an animation needs its
+/// place among them from the start.
+double first_elevation(const Scene& scene) {
+    const Animation& a = scene.animation;
+    const double own = scene.sun.elevation_deg;
+    if (!scene.ground.present || own > 0 || !a.present || !a.moves_sun) return own;
+    return a.sun_elevation_deg[0] > a.sun_elevation_deg[1] ? a.sun_elevation_deg[0]
+                                                           : a.sun_elevation_deg[1];
+}
+
+/// Aims the sky map at the medium's box. A coloured one asks for a set of sums per colour channel,
+/// as its photons differ in colour.
+Status aim_map(PhotonRun& run) {
+    if (!run.around.sky_map.present()) return Status::ok();
+    PILEUS_TRY(aim_sky_map(run.world->medium.extent_m, run.world->medium.grid.periodic,
+                           run.around.sky_map));
+    if (run.around.sky_map.view.planes == 3 && run.deposit.channels == 1) {
+        run.deposit.channels = 3;
+        run.plan.need("coefficients per colour channel: coloured sky map");
+    }
+    return Status::ok();
+}
+
+/// Coloured solids tell the channels of a photon apart as well.
+void tell_colours(PhotonRun& run) {
+    if (!run.world->solids.coloured() || run.deposit.channels == 3) return;
+    run.deposit.channels = 3;
+    run.plan.need("coefficients per colour channel: coloured solids");
+}
+
+/// The set of lights is the ring's layout: a light that has set keeps its place and shoots no
+/// photons; those of its day stay in the ring until they leave it.
+void keep_places(const PhotonRun& run, Lighting& next) {
+    std::vector<Light> lights = run.lighting.lights;
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        bool found = false;
+        for (const Light& n : next.lights)
+            if (n.stream == lights[i].stream) lights[i] = n, found = true;
+        lights[i].photons = found ? run.light_photons[i] : 0;
+        // A diffuse light's colour is today's for the whole ring; a beam's never changes.
+        if (!found && !lights[i].beam) lights[i].colour = {0, 0, 0};
+    }
+    next.lights = lights;
+}
+
+/// Whether every light of `next` has a place in the ring, and the ground its map.
+bool has_places(const PhotonRun& run, const Lighting& next) {
+    for (const Light& light : next.lights) {
+        bool found = false;
+        for (const Light& place : run.lighting.lights) found |= place.stream == light.stream;
+        if (!found) return false;
+    }
+    const GroundMap map = make_ground_map(run.world->medium, next), &own = run.ground_map;
+    bool same = map.cells == own.cells;
+    for (int a = 0; a < 2; ++a)
+        same &= map.origin[a] == own.origin[a] && map.per_metre[a] == own.per_metre[a];
+    return same;
+}
+
+}  // namespace
+
+std::uint64_t photon_slots(const PhotonRun& run) {
+    const Scene& scene = *run.scene;
+    if (run.ring && scene.animation.present && scene.animation.frames > 1) return run.generations;
+    return scene.output.layer_error ? batch_count(run.generations) : 1;
+}
+
+int photon_batches(const PhotonRun& run) {
+    std::uint64_t slots = photon_slots(run);
+    // Tracing that ended early has left slots without a generation.
+    if (!run.scene->animation.present && run.next_generation > 0 && run.next_generation < slots)
+        slots = run.next_generation;
+    if (!run.scene->output.layer_error || slots < 2) return 0;
+    // An animation's ring may hold more generations than the blender has planes for.
+    return int(slots < kMostBatches ? slots : kMostBatches);
+}
+
+Status choose_photon_lights(std::uint64_t generations, PhotonRun& run) {
+    const Scene& scene = *run.scene;
+    const std::int64_t photons = run.budget_photons;
+    run.plan = Plan{};
+    run.deposit.channels = run.world->medium.channels;
+    PILEUS_TRY(aim_map(run));
+    tell_colours(run);
+    run.generations = generations;
+    if (photons >= 0 && std::uint64_t(photons) < run.generations)
+        run.generations = photons > 0 ? std::uint64_t(photons) : 1;
+    run.sun_elevation_deg = first_elevation(scene);
+    run.lighting = light_world(scene, run.sun_elevation_deg, *run.world, run.around, run.plan);
+    share_photons(std::uint64_t(photons) / run.generations, run.lighting.lights);
+    run.light_photons.clear();
+    for (const Light& l : run.lighting.lights) run.light_photons.push_back(l.photons);
+    run.ground_map = make_ground_map(run.world->medium, run.lighting);
+    return Status::ok();
+}
+
+TraceInput photon_trace_input(const Context& context, const PhotonRun& run) {
+    TraceInput in;
+    in.medium = &run.world->medium;
+    in.lighting = &run.lighting;
+    in.majorants = run.majorants.tracking.span();
+    in.block = run.majorants.block;
+    in.deposit = run.deposit;
+    in.seed = std::uint64_t(run.scene->seed);
+    in.threads = context.threads;
+    in.kernels = context.kernels;
+    in.max_events = run.max_events;
+    in.ground = run.ground_map;
+    in.shared_sums = run.plan.accumulation.shared;
+    return in;
+}
+
+Status lay_out_photons(const TraceInput& in, PhotonRun& run) {
+    ++run.layouts;
+    run.ring_first = run.next_generation;
+    PILEUS_TRY(prepare_trace(in, run.scratch));
+    run.photons.tallies.assign(run.lighting.lights.size(), TraceTally{});
+    run.photons.slots.clear();
+    run.photons.slots.resize(std::size_t(photon_slots(run)));
+    const auto sums = arrays::photon_slot(slot_size(in), run.lighting.lights.size());
+    for (PhotonSlot& slot : run.photons.slots) PILEUS_TRY(allocate(sums, slot.sums));
+    return Status::ok();
+}
+
+Status shoot_generation(TraceInput in, const Context& context, PhotonRun& run) {
+    in.ended = patient_stop(context);
+    PhotonSlot& slot =
+        run.photons
+            .slots[std::size_t((run.next_generation - run.ring_first) % run.photons.slots.size())];
+    // In an animation each generation has a slot of its own: the oldest gives way, exactly.
+    const bool ring =
+        run.ring && run.photons.slots.size() == run.generations && run.scene->animation.present;
+    if (ring && slot.generations > 0) empty_slot(slot);
+    slot.flux_per_photon_m2.clear();
+    for (const Light& l : run.lighting.lights) {
+        slot.flux_per_photon_m2.push_back(l.photons > 0 ? l.power_m2 / double(l.photons) : 0);
+        if (l.beam) slot.sun_travel = l.travel;
+    }
+    const std::uint64_t before = slot.generations;
+    PILEUS_TRY(trace_generation(in, run.next_generation, run.scratch, slot, run.photons.tallies));
+    run.interrupted = slot.generations == before;
+    if (!run.interrupted) ++run.next_generation;
+    return Status::ok();
+}
+
+void set_photon_sun(double elevation_deg, PhotonRun& run) {
+    if (elevation_deg == run.sun_elevation_deg) return;
+    Plan ignored;
+    Lighting next = light_world(*run.scene, elevation_deg, *run.world, run.around, ignored);
+    keep_places(run, next);
+    run.lighting = next;
+    run.sun_elevation_deg = elevation_deg;
+    run.shadow_ready = false;
+}
+
+bool relight_photons(PhotonRun& run) {
+    Plan ignored;
+    const double elevation_deg = run.scene->sun.elevation_deg;
+    Lighting next = light_world(*run.scene, elevation_deg, *run.world, run.around, ignored);
+    if (!has_places(run, next)) return false;
+    keep_places(run, next);
+    const Lighting& before = run.lighting;
+    if (next.sunlit != before.sunlit || next.to_sun != before.to_sun) run.shadow_ready = false;
+    run.lighting = next;
+    run.sun_elevation_deg = elevation_deg;
+    return true;
+}
+
+bool same_lights(const Lighting& a, const Lighting& b) {
+    if (a.lights.size() != b.lights.size() || a.ground != b.ground || a.ground_z != b.ground_z ||
+        a.ground_albedo != b.ground_albedo || a.map.columns != b.map.columns)
+        return false;
+    for (std::size_t i = 0; i < a.lights.size(); ++i) {
+        const Light &x = a.lights[i], &y = b.lights[i];
+        if (x.stream != y.stream || x.travel != y.travel || x.colour != y.colour ||
+            x.power_m2 != y.power_m2 || x.photons != y.photons || x.face_cdf != y.face_cdf)
+            return false;
+    }
+    return true;
+}
+
+}  // namespace pileus

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run that shoots photons holds: lights, sums in slots, the ring of generations.
+// in: a scene and its world -> out: light in integer sums, generation by generation.
+// docs/methods.md 3, "Generations and error"; what the sums mean belongs to the method.
+#pragma once
+#include "src/methods/methods.h"
+#include "src/photons/trace.h"
+#include "src/picture/layers.h"
+#include "src/plan/plan.h"
+#include "src/world/world.h"
+
+namespace pileus {
+
+/// Most groups of generations that the standard error is made from.
+constexpr std::uint64_t kMostBatches = 16;
+
+/// Made by the method's `prepare`, lit by shoot_generation.
+struct PhotonRun : MethodRun {
+    std::int64_t budget_photons = 0;           ///< of all generations
+    std::vector<std::uint64_t> light_photons;  ///< per light and generation while it is up
+    double sun_elevation_deg = 0;
+    Majorants majorants;
+    DepositPlan deposit;
+    GroundMap ground_map;
+    Photons photons;
+    TraceScratch scratch;
+    std::uint64_t next_generation = 0, generations = 1;
+    bool ring = true;              ///< an animation keeps every generation apart
+    std::uint64_t ring_first = 0;  ///< generation in the first slot of a ring that time cut short
+    std::uint32_t max_events = 1u << 20;
+    NodeGrid shadow_nodes{};
+    Buffer<float> shadow;      ///< optical depth to the sun per node
+    Buffer<float> visibility;  ///< and what solids leave of the sun; empty without solids
+    bool shadow_ready = false;
+    Planes planes;              ///< of a session's picture
+    std::uint32_t layouts = 0;  ///< times that the sums were laid out
+    bool interrupted = false;  ///< fewer generations than asked for, because the user wanted an end
+};
+
+/// Slots of the sums: the generations of an animation's ring, or batches for the error.
+std::uint64_t photon_slots(const PhotonRun& run);
+
+/// Groups of slots that the standard error is made from; 0: no error layer.
+int photon_batches(const PhotonRun& run);
+
+/// Chooses lights, their photons and the ground's map for the medium as it is known now, in at most
+/// so many generations. The plan begins anew. Errors: those of the sky map.
+Status choose_photon_lights(std::uint64_t generations, PhotonRun& run);
+
+/// What launches read; the method says where light is stored.
+TraceInput photon_trace_input(const Context& context, const PhotonRun& run);
+
+/// Empty sums; what was shot before is forgotten. kLimit: out of memory.
+Status lay_out_photons(const TraceInput& in, PhotonRun& run);
+
+/// Shoots one generation into its slot, in a ring in place of the oldest; sets run.interrupted
+/// where the user ended it within.
+Status shoot_generation(TraceInput in, const Context& context, PhotonRun& run);
+
+/// Moves the sun; generations already shot keep the sun they were shot under.
+void set_photon_sun(double elevation_deg, PhotonRun& run);
+
+/// Takes up a new sun, sky or ground of the run's scene. False: a light appears that the slots have
+/// no place for, so that they are to be laid out anew.
+bool relight_photons(PhotonRun& run);
+
+/// Whether photons of one are photons of the other.
+bool same_lights(const Lighting& a, const Lighting& b);
+
+}  // namespace pileus

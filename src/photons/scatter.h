@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// What media scatter of the light that sums of photons stand for, towards one direction.
+// in: sums of one light at one place, media mixed there -> out: power per steradian.
+// docs/methods.md 3, each image frame, step 4.
+#pragma once
+#include "kernels_cpu/core/sh.h"
+#include "kernels_cpu/media/phase.h"
+#include "src/photons/trace.h"
+
+namespace pileus {
+
+/// Degrees beyond the bands that a phase function still sends on, as far as they were asked for.
+int useful_axis_degrees(const Medium& medium, int bands, int wanted);
+
+/// What the sinc window multiplies each band by.
+struct Window {
+    float factor[kMaxBands];
+};
+Window band_window(int bands, bool sinc);
+
+/// All media of one place as one, in one channel: albedo, and whose phase function how much of
+/// the scattered light follows. One medium has weight 1, to the bit.
+struct Mixture {
+    float albedo = 0;
+    float weight[kMostMedia] = {};
+    const Medium* medium = nullptr;
+
+    float moment(int l) const {
+        float sum = 0;
+        for (int i = 0; i < medium->count; ++i)
+            sum += weight[i] * phase_moment(medium->optics[std::size_t(i)].phase, l);
+        return sum;
+    }
+    float density(float one_minus_cos) const {
+        float sum = 0;
+        for (int i = 0; i < medium->count; ++i)
+            sum += weight[i] * phase_density(medium->optics[std::size_t(i)].phase, one_minus_cos);
+        return sum;
+    }
+};
+
+constexpr int kMostNumbers = kMaxBands * kMaxBands + kMaxAxisDegrees + 1;
+using Direction = Vec<float>;
+
+/// Power per steradian and unit light scattered towards `to`, from all bands.
+double sh_power(const DepositPlan& deposit, const Window& window, const Mixture& mix,
+                const double* sums, const Direction& to);
+
+/// What the degrees beyond the bands add to it, of light spread evenly around the beam's direction
+/// `sun`: sum_l (2l+1)/4pi chi_l m_l P_l(cosine), m_l the sum of P_l over the light.
+double axis_power(const DepositPlan& deposit, const Mixture& mix, const double* sums,
+                  const Direction& sun, const Direction& to);
+
+/// The same from flux and mean direction alone: one HG lobe (docs/methods.md 3, closure `lobe`).
+double lobe_power(const DepositPlan& deposit, const Mixture& mix, const double* sums,
+                  const Direction& to);
+
+}  // namespace pileus

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys of method `photon-grid`.
+// in: checked values <-> out: fields of PhotonGridSettings.
+// docs/scene.md; docs/photon-grid.md says what they do.
+#include "src/scene/keys/all_keys.h"
+
+namespace pileus {
+namespace {
+
+template <auto... Members>
+constexpr KeyField grid = field<&Scene::photon_grid, Members...>;
+
+constexpr KeyField kTracking{
+    KeyKind::kChoice,
+    [](const KeySource& s) { return node_of(!s.scene.photon_grid.local_tracking); },
+    [](const KeyTarget& t, const Node& n) { t.scene.photon_grid.local_tracking = !n.flag; }};
+
+constexpr KeyRow kRows[] = {
+    {"photon_grid.photons", grid<&PhotonGridSettings::photons>, from_to(0, 0x1p40), "",
+     "over all generations"},
+    {"photon_grid.generations", grid<&PhotonGridSettings::generations>, from_to(1, 1000), "",
+     "pieces in which the photons are shot, each of photons / generations"},
+    {"photon_grid.ring", grid<&PhotonGridSettings::ring>, any(), "",
+     "true: an animation keeps the sums of every generation and replaces the oldest with each "
+     "frame; false: one sum, and all photons anew for each frame"},
+    {"photon_grid.cells", grid<&PhotonGridSettings::cells>, from_to(1, 1024), "cells",
+     "cells of the photon grid along x, y, z; left out: a number that suits the photons", kNone},
+    {"photon_grid.closure", grid<&PhotonGridSettings::closure>, one_of("sh|published|mean|camera"),
+     "",
+     "what a cell keeps of the directions: harmonics; flux and mean cosine to the light, as "
+     "published; the mean direction; or the light scattered to a fixed camera"},
+    {"photon_grid.bands", grid<&PhotonGridSettings::bands>, from_to(1, 8), "",
+     "closure `sh`: bands of spherical harmonics"},
+    {"photon_grid.axis_degrees", grid<&PhotonGridSettings::axis_degrees>, from_to(0, 16), "",
+     "closure `sh`: degrees beyond the bands that are kept of the light around the sun's "
+     "direction, up to degree 15"},
+    {"photon_grid.tracking", kTracking, one_of("local|global"), "",
+     "majorant of the free flights: one per block of cells, or one for all"},
+    {"photon_grid.first_order_split", grid<&PhotonGridSettings::first_order_split>, any(), "",
+     "true: light straight from the sun is left to the march, with its exact direction"},
+    {"photon_grid.accumulation", grid<&PhotonGridSettings::accumulation>,
+     one_of("auto|private|shared"), "",
+     "sums per thread, or one set that all threads add to atomically; `auto`: per thread up to a "
+     "quarter of the limit of memory. The same bits either way"},
+};
+
+}  // namespace
+
+Span<const KeyRow> photon_grid_keys() { return {kRows, sizeof kRows / sizeof kRows[0]}; }
+
+}  // namespace pileus
