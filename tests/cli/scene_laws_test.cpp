@@ -121,7 +121,8 @@ TEST_CASE("densities and their files") {
          "density = { file = \"...\", type = \"float32\", size = [nx, ny, nz] } for a raw file"},
         {kCamera + kFile + "density = { file = \"a.vdb\", time = 3 }\n",
          "s.toml:6:36: medium.0.density.time: for NetCDF files only, 3, allowed: left out"},
-        {kCamera + "[[medium]]\ndensity = { file = \"a.nc\", ice_dge_um = 40, ice_radius_um = 30 }\n",
+        {kCamera +
+             "[[medium]]\ndensity = { file = \"a.nc\", ice_dge_um = 40, ice_radius_um = 30 }\n",
          "s.toml:5:61: medium.0.density.ice_radius_um: given twice, 30, allowed: a radius or "
          "ice_dge_um"},
         {kCamera + kFile + "density = \"a.pbrt\"\ngrid = \"d\"\n",
