@@ -85,7 +85,7 @@ struct NcBlock {
 /// How much of a variable that is stored in pieces libnetcdf keeps unpacked, and what it needs
 /// itself.
 constexpr std::uint64_t kNcCacheBytes = std::uint64_t{1} << 25;
-constexpr std::uint64_t kNcLibraryBytes = std::uint64_t{1} << 25;
+constexpr std::uint64_t kNcLibraryBytes = std::uint64_t{3} << 24;
 
 /// All of a variable.
 NcBlock whole_block(const NcHead& head, const NcVariable& variable);
