@@ -32,6 +32,9 @@ resolution = [20, 20, 14]
 extinction_per_m = 0.02
 albedo = 0.99
 phase = { type = "henyey-greenstein", g = 0.85 }
+[photon_grid]
+photons = 12_000
+generations = 4
 [collectors]
 photons = 8_000
 generations = 4

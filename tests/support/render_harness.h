@@ -56,6 +56,9 @@ resolution = [24, 24, 16]
 extinction_per_m = 0.0625
 albedo = [0.9, 0.99, 1.0]
 phase = { type = "henyey-greenstein", g = 0.85 }
+[photon_grid]
+photons = 12_000
+generations = 4
 [collectors]
 photons = 12_000
 generations = 4
