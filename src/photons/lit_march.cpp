@@ -12,18 +12,26 @@
 namespace pileus {
 namespace {
 
-constexpr float kCut = 1e-4f;        // transmittance that no eye misses
-constexpr double kShadowVoxels = 2;  // spacing of the shadow nodes
+constexpr float kCut = 1e-4f;     // transmittance that no eye misses
+constexpr int kShadowVoxels = 2;  // spacing of the shadow nodes
 
 MediumView view_of(const PhotonRun& run) {
     return make_medium_view(run.world->medium, run.majorants);
 }
 
 NodeGrid shadow_grid(const PhotonRun& run) {
+    const Medium& medium = run.world->medium;
+    if (run.shadow_by_axis) {
+        NodeGrid g{};
+        for (int a = 0; a < 3; ++a) {
+            g.size[a] = int((medium.grid.size[a] + 1) / kShadowVoxels);
+            g.per_metre[a] = float(g.size[a] / medium.extent_m[a]);
+        }
+        return g;
+    }
     float coarse = 0;
-    for (float cell : run.world->medium.grid.cell_m) coarse = cell > coarse ? cell : coarse;
-    return make_node_grid(run.world->medium.grid, run.world->medium.extent_m,
-                          kShadowVoxels * double(coarse));
+    for (float cell : medium.grid.cell_m) coarse = cell > coarse ? cell : coarse;
+    return make_node_grid(medium.grid, medium.extent_m, kShadowVoxels * double(coarse));
 }
 
 }  // namespace

@@ -31,6 +31,9 @@ struct PhotonRun : MethodRun {
     NodeGrid shadow_nodes{};
     Buffer<float> shadow;      ///< optical depth to the sun per node
     Buffer<float> visibility;  ///< and what solids leave of the sun; empty without solids
+    /// Nodes two cells apart along each axis; false: two of the largest edge along all, which is
+    /// too far apart in layers of flat cells.
+    bool shadow_by_axis = false;
     bool shadow_ready = false;
     Planes planes;              ///< of a session's picture
     std::uint32_t layouts = 0;  ///< times that the sums were laid out

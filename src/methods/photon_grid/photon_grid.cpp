@@ -45,6 +45,7 @@ double most_deposits(const PhotonGridRun& run) {
 
 void choose_numbers(const PhotonGridSettings& s, PhotonGridRun& run) {
     DepositPlan& d = run.deposit;
+    run.shadow_by_axis = true;
     d.mode = kDepositIncident;
     d.bands = s.closure == GridClosure::kSh ? s.bands : 2;
     d.first_order = s.first_order_split && run.lighting.sunlit ? 2 : 0;
