@@ -129,7 +129,8 @@ Status run_flux(FluxArguments& arguments) {
     FluxSettings settings;
     PILEUS_TRY(read_columns(arguments.columns, settings));
     // A detector needs no view.
-    for (const char* key : {"camera.position_m=[0,-1,0]", "camera.target_m=[0,0,0]"})
+    for (const char* key :
+         {"camera.position_m=[0,-1,0]", "camera.target_m=[0,0,0]", "camera.up=[0,0,1]"})
         arguments.scene.sets.insert(arguments.scene.sets.begin(), key);
     PILEUS_TRY(read_scene_options(arguments.scene, scene, options));
     const std::string file = arguments.file.value_or("");
