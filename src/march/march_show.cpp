@@ -63,18 +63,8 @@ Status shade_by_solids(const Context& context, RaymarchRun& run) {
 Status fill_background(const Context& context, RaymarchRun& run) {
     const StageClock clock(context, "background");
     const Lighting& light = run.lighting;
-    BackgroundParams k{};
-    k.medium = make_medium_view(run.world->medium, run.majorants);
-    k.camera = run.camera;
-    k.ground = light.ground ? 1 : 0;
-    k.ground_z = float(light.ground_z);
-    for (std::size_t c = 0; c < 3; ++c) {
-        k.sky[c] = float(light.sky[c]);
-        k.ground_diffuse[c] = float(light.ground_diffuse[c]);
-        k.ground_sun[c] = float(light.ground_sun[c]);
-        k.to_sun[c] = light.to_sun[c];
-    }
-    k.sky_map = light.map;
+    const BackgroundParams k =
+        background_params(make_medium_view(run.world->medium, run.majorants), run.camera, light);
     const BackgroundBuffers b{nullptr, run.planes.background.data(),
                               run.planes.opaque_depth.data()};
     return show_background(context, light, k, b);

@@ -130,22 +130,10 @@ Status gather_by_node(const Context& context, const MarchParams& k, Span<const f
 Status fill_lit_background(const Context& context, const PhotonRun& run, const LightInput& lit,
                            int batch, Planes& planes) {
     const StageClock clock(context, "background");
-    const CameraParams& camera = lit.camera;
     const Lighting& light = *lit.lighting;
     Buffer<float> map;
     PILEUS_TRY(reconstruct_ground(lit, run.ground_map, batch, map));
-    BackgroundParams k{};
-    k.medium = view_of(run);
-    k.camera = camera;
-    k.ground = light.ground ? 1 : 0;
-    k.ground_z = float(light.ground_z);
-    for (std::size_t c = 0; c < 3; ++c) {
-        k.sky[c] = float(light.sky[c]);
-        k.ground_diffuse[c] = float(light.ground_diffuse[c]);
-        k.ground_sun[c] = float(light.ground_sun[c]);
-        k.to_sun[c] = light.to_sun[c];
-    }
-    k.sky_map = light.map;
+    BackgroundParams k = background_params(view_of(run), lit.camera, light);
     k.map.size[0] = k.map.size[1] = run.ground_map.cells;
     k.map.size[2] = 1;
     for (int a = 0; a < 2; ++a) {

@@ -6,6 +6,8 @@
 
 #include <cstring>
 
+#include "src/world/camera/view.h"
+
 namespace pileus {
 namespace {
 
@@ -162,6 +164,14 @@ Status shoot_generation(TraceInput in, const Context& context, PhotonRun& run) {
     run.interrupted = slot.generations == before;
     if (!run.interrupted) ++run.next_generation;
     return Status::ok();
+}
+
+void aim_deposit(PhotonRun& run) {
+    const Camera& seen = run.scene->camera;
+    const CameraParams camera = make_camera(seen, 0, run.world->medium.low_m);
+    run.deposit.orthographic = seen.orthographic;
+    for (int a = 0; a < 3; ++a)
+        run.deposit.camera[a] = seen.orthographic ? -camera.forward[a] : camera.origin[a];
 }
 
 void set_photon_sun(double elevation_deg, PhotonRun& run) {

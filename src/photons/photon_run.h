@@ -60,6 +60,9 @@ Status lay_out_photons(const TraceInput& in, PhotonRun& run);
 /// where the user ended it within.
 Status shoot_generation(TraceInput in, const Context& context, PhotonRun& run);
 
+/// Where deposits of the phase function look: the camera, or back along its parallel rays.
+void aim_deposit(PhotonRun& run);
+
 /// Moves the sun; generations already shot keep the sun they were shot under.
 void set_photon_sun(double elevation_deg, PhotonRun& run);
 

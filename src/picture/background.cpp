@@ -82,6 +82,23 @@ void hide(const CameraDepth& from, const CameraParams& camera, const BackgroundB
 
 }  // namespace
 
+BackgroundParams background_params(const MediumView& medium, const CameraParams& camera,
+                                   const Lighting& light) {
+    BackgroundParams k{};
+    k.medium = medium;
+    k.camera = camera;
+    k.ground = light.ground ? 1 : 0;
+    k.ground_z = float(light.ground_z);
+    for (std::size_t c = 0; c < 3; ++c) {
+        k.sky[c] = float(light.sky[c]);
+        k.ground_diffuse[c] = float(light.ground_diffuse[c]);
+        k.ground_sun[c] = float(light.ground_sun[c]);
+        k.to_sun[c] = light.to_sun[c];
+    }
+    k.sky_map = light.map;
+    return k;
+}
+
 Status show_background(const Context& context, const Lighting& light, const BackgroundParams& k,
                        const BackgroundBuffers& b) {
     const std::uint32_t rows = std::uint32_t(k.camera.height);

@@ -8,6 +8,10 @@
 
 namespace pileus {
 
+/// What shines behind the media, without their shadow on the ground.
+BackgroundParams background_params(const MediumView& medium, const CameraParams& camera,
+                                   const Lighting& light);
+
 /// Runs background_rows, or its like with solids, and lays the camera's depth image over the
 /// result. `light` tells the solids and the light around them; `k` the rest.
 Status show_background(const Context& context, const Lighting& light, const BackgroundParams& k,

@@ -7,14 +7,6 @@
 namespace pileus {
 namespace {
 
-/// Where deposits of the phase function look: the camera, or back along its parallel rays.
-void aim_deposit(const Scene& scene, CollectorsRun& run) {
-    const CameraParams camera = make_camera(scene.camera, 0, run.world->medium.low_m);
-    run.deposit.orthographic = scene.camera.orthographic;
-    for (int a = 0; a < 3; ++a)
-        run.deposit.camera[a] = scene.camera.orthographic ? -camera.forward[a] : camera.origin[a];
-}
-
 /// Why a collision stores nothing about the sun's axis; null where it does.
 const char* why_no_axis(const CollectorSettings& c, const CollectorsRun& run) {
     if (run.camera_cells > 0) return "closure \"camera\" has all bands";
@@ -104,7 +96,7 @@ Status choose_light(CollectorsRun& run) {
     const Scene& scene = *run.scene;
     PILEUS_TRY(choose_photon_lights(std::uint64_t(scene.collectors.generations), run));
     run.plan.bias = collectors_bias(scene.collectors);
-    aim_deposit(scene, run);
+    aim_deposit(run);
     return plan_deposit(scene, run);
 }
 

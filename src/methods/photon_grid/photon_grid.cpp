@@ -11,13 +11,6 @@
 namespace pileus {
 namespace {
 
-void aim_deposit(const Scene& scene, PhotonGridRun& run) {
-    const CameraParams camera = make_camera(scene.camera, 0, run.world->medium.low_m);
-    run.deposit.orthographic = scene.camera.orthographic;
-    for (int a = 0; a < 3; ++a)
-        run.deposit.camera[a] = scene.camera.orthographic ? -camera.forward[a] : camera.origin[a];
-}
-
 /// Why a collision stores nothing about the sun's axis; null where it does.
 const char* why_no_axis(const PhotonGridSettings& s, const PhotonGridRun& run) {
     if (s.closure != GridClosure::kSh) return "closures other than \"sh\" have none";
@@ -175,7 +168,7 @@ Status photon_grid_weigh(const Context& context, PhotonGridRun& run) {
                                  ": photon_grid.closure: \"camera\" knows one medium, but the "
                                  "scene has several, allowed: sh, published, mean");
     PILEUS_TRY(choose_photon_lights(std::uint64_t(settings.generations), run));
-    aim_deposit(scene, run);
+    aim_deposit(run);
     PILEUS_TRY(plan_deposit(scene, run));
     run.plan.bias = {"photon-grid", "cells and the bands left out blur the light of many orders",
                      "docs/photon-grid.md"};
