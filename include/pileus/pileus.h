@@ -63,7 +63,7 @@ typedef struct pileus_error {
 /** Clears `size` bytes and stores `size` in the first four. */
 PILEUS_API void pileus_init(void* pileus_struct, uint32_t size);
 
-/** "0.7.0"; and the PILEUS_API_VERSION that the library was built with. */
+/** "0.8.0"; and the PILEUS_API_VERSION that the library was built with. */
 PILEUS_API const char* pileus_version(void);
 PILEUS_API uint32_t pileus_api_version(void);
 
@@ -317,7 +317,8 @@ PILEUS_API pileus_code pileus_session_stats(const pileus_session* session, pileu
                                             pileus_error* error);
 
 /** The report as the program writes it (docs/report.md), JSON, ended by a zero. `needed`: bytes
- * with the zero; `text` may be null where `size` is 0. Too small a size: PILEUS_LIMIT. */
+ * with the zero; `text` may be null where `size` is 0. Too small a size: PILEUS_LIMIT. The text
+ * stays the same until the session steps or renders. */
 PILEUS_API pileus_code pileus_session_report(const pileus_session* session, char* text, size_t size,
                                              size_t* needed, pileus_error* error);
 

@@ -7,6 +7,13 @@
 #include "kernels_cpu/core/sh.h"
 #include "kernels_cpu/display/march_ray.h"
 
+// A march's step is one function among several alike: the compiler would call some of them.
+#ifdef __CUDACC__
+#define PILEUS_INLINED
+#else
+#define PILEUS_INLINED __attribute__((always_inline))
+#endif
+
 namespace pileus {
 inline namespace PILEUS_ISA {
 
@@ -15,7 +22,20 @@ template <class T>
 struct SunAlongRay {
     T phase[kMostMedia];
     bool lit;
+    I_of<T> angle;  // cell of the beam's tables, and the place in it
+    T within;
 };
+
+/// Where the beam's tables hold a turn by 1 - cos = x.
+template <class T>
+PILEUS_FN void find_angle(T x, SunAlongRay<T>& s) {
+    const auto front = x < 1.0f;
+    const T root = 0.5f * sqrt_(max_(select(front, x, 2.0f - x), T{}));
+    const T at = select(front, root, 1.0f - root) * float(kBeamAngles);
+    s.angle = min_(to_int(at), all<I_of<T>>(kBeamAngles - 1));
+    s.within = at - to_float(s.angle);
+}
+
 template <class T>
 PILEUS_FN SunAlongRay<T> sun_along(const MarchParams& k, const Vec<T>& direction) {
     SunAlongRay<T> s{};
@@ -26,11 +46,35 @@ PILEUS_FN SunAlongRay<T> sun_along(const MarchParams& k, const Vec<T>& direction
         s.phase[i] = phase_density(k.phase[i], turn);
         for (int c = 0; c < 3; ++c) s.lit |= k.sun_source[i][c] > 0.0f;
     }
+    if (k.beam_sets > 0) find_angle(turn, s);
     return s;
 }
 
-/// The same where the sunlight is `light`: by the share of each medium in the `density` there.
+/// Light of the beam where its optical depth is `tau`, scattered within its peak before it leaves
+/// along the ray: the tables between their nodes, times what is left of the beam.
 template <class T>
+PILEUS_FN void add_beam(const MarchParams& k, const MarchBuffers& b, const SunAlongRay<T>& s, T tau,
+                        T visible, T (&source)[3]) {
+    const T at = tau / (tau + kBeamDepth) * float(kBeamDepths);
+    const I_of<T> depth = min_(to_int(at), all<I_of<T>>(kBeamDepths - 1));
+    const T f = at - to_float(depth);
+    const I_of<T> node = s.angle * (kBeamDepths + 1) + depth;
+    T light{};
+    for (int c = 0; c < 3; ++c) {
+        if (c < k.beam_sets) {
+            const float* table = b.beam + c * kBeamNumbers;
+            const T near = gather(table, node), far = gather(table, node + 1);
+            const T near_up = gather(table, node + (kBeamDepths + 1)),
+                    far_up = gather(table, node + (kBeamDepths + 2));
+            const T low = near + f * (far - near), high = near_up + f * (far_up - near_up);
+            light = visible * exp_(T{} - tau * k.beam_rest[c]) * (low + s.within * (high - low));
+        }
+        source[c] = source[c] + light * k.sun_source[0][c];
+    }
+}
+
+/// The same where the sunlight is `light`: by the share of each medium in the `density` there.
+template <bool Constant, class T>
 PILEUS_FN void sun_source_at(const MarchParams& k, const MarchBuffers& b, const SunAlongRay<T>& s,
                              const Corners<T>& at, T density, T light, T (&source)[3]) {
     if (k.media <= 1) {
@@ -41,7 +85,7 @@ PILEUS_FN void sun_source_at(const MarchParams& k, const MarchBuffers& b, const 
     const std::int32_t* n = k.medium.size;
     for_shares(
         b.parts, std::int64_t(n[0]) * n[1] * n[2], k.media, density,
-        [&](const float* grid) { return interpolate(grid, at); },
+        [&](const float* grid) { return read_density<Constant>(grid, at); },
         [&](int i, T share) {
             const T direct = share * s.phase[i] * light;
             for (int c = 0; c < 3; ++c) source[c] = source[c] + direct * k.sun_source[i][c];
@@ -123,7 +167,7 @@ PILEUS_FN void add_source(const MarchParams& k, const MarchBuffers& b, const Vec
 }
 
 /// W pixels, a block from column x and row y on, in rows before `end`.
-template <int W, bool Veiled>
+template <int W, bool Veiled, bool Constant>
 PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::int32_t x,
                             std::int32_t y, std::int32_t end) {
     using T = F<W>;
@@ -153,37 +197,42 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
     T transmittance = all<T>(1.0f), half = all<T>(__builtin_inff()), depth{};
     T colour[kMost];
     for (int c = 0; c < k.channels; ++c) colour[c] = T{};
-    march_ray(k.medium, ray, box.enter, leave,
-              [&](M<W> dense, T t, T width, const Vec<T>& p, const Vec<T>& metres) {
-                  if (!any(dense)) return transmittance < k.cut;
-                  const Corners<T> at = corners(p, k.medium.size, wraps);
-                  const T density = interpolate(k.medium.density, at);
-                  const T optical = select(dense, density * k.medium.sigma * width, T{});
-                  if (!any(optical > 0.0f)) return transmittance < k.cut;
-                  depth = depth + optical;
-                  const T alpha = one_minus_exp(optical);
-                  const T weight = transmittance * alpha;
-                  T direct[3] = {};
-                  if (sun.lit) {
-                      const Vec<T> node = node_position(k.shadow, metres);
-                      const Corners<T> near = corners(node, k.shadow.size, wraps);
-                      T light = exp_(T{} - interpolate(b.optical_depth, near));
-                      if constexpr (Veiled) light = light * interpolate(b.visibility, near);
-                      sun_source_at(k, b, sun, at, density, light, direct);
-                  }
-                  add_source<W>(k, b, metres, harmonics, direct, weight, colour);
-                  const T left = transmittance * (1.0f - alpha);
-                  if (b.half_depth != nullptr) {
-                      const auto crosses = (transmittance > 0.5f) & (left <= 0.5f);
-                      if (any(crosses)) {
-                          const T share =
-                              log_(transmittance * 2.0f) / max_(optical, all<T>(1e-30f));
-                          half = select(crosses, t + (share - 0.5f) * width, half);
-                      }
-                  }
-                  transmittance = left;
-                  return transmittance < k.cut;
-              });
+    march_ray<Constant>(
+        k.medium, ray, box.enter, leave,
+        [&](M<W> dense, T t, T width, const Vec<T>& p, const Vec<T>& metres) PILEUS_INLINED {
+            if (!any(dense)) return transmittance < k.cut;
+            const Corners<T> at = density_corners<Constant>(k.medium, p);
+            const T density = read_density<Constant>(k.medium.density, at);
+            const T optical = select(dense, density * k.medium.sigma * width, T{});
+            if (!any(optical > 0.0f)) return transmittance < k.cut;
+            depth = depth + optical;
+            const T alpha = one_minus_exp(optical);
+            const T weight = transmittance * alpha;
+            T direct[3] = {};
+            if (sun.lit) {
+                const Vec<T> node = node_position(k.shadow, metres);
+                const Corners<T> near = corners(node, k.shadow.size, wraps);
+                const T tau = interpolate(b.optical_depth, near);
+                T light = exp_(T{} - tau), visible = all<T>(1.0f);
+                if constexpr (Veiled) {
+                    visible = interpolate(b.visibility, near);
+                    light = light * visible;
+                }
+                sun_source_at<Constant>(k, b, sun, at, density, light, direct);
+                if (k.beam_sets > 0) add_beam(k, b, sun, tau, visible, direct);
+            }
+            add_source<W>(k, b, metres, harmonics, direct, weight, colour);
+            const T left = transmittance * (1.0f - alpha);
+            if (b.half_depth != nullptr) {
+                const auto crosses = (transmittance > 0.5f) & (left <= 0.5f);
+                if (any(crosses)) {
+                    const T share = log_(transmittance * 2.0f) / max_(optical, all<T>(1e-30f));
+                    half = select(crosses, t + (share - 0.5f) * width, half);
+                }
+            }
+            transmittance = left;
+            return transmittance < k.cut;
+        });
     for_block<W>(k.camera, x, y, end, [&](int l, std::int64_t pixel) {
         b.transmittance[pixel] = lane(transmittance, l);
         if (b.half_depth != nullptr) b.half_depth[pixel] = lane(half, l);
@@ -192,16 +241,25 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
     });
 }
 
-template <int W>
-PILEUS_FN void march_rows(const MarchParams& k, const MarchBuffers& b, std::uint32_t begin,
-                          std::uint32_t end) {
+template <int W, bool Constant>
+PILEUS_FN void march_blocks(const MarchParams& k, const MarchBuffers& b, std::uint32_t begin,
+                            std::uint32_t end) {
     constexpr int across = kMarchAcross<W>;
     for (std::uint32_t y = begin; y < end; y += W / across)
         for (std::int32_t x = 0; x < k.camera.width; x += across)
             if (b.visibility != nullptr)
-                march_pixels<W, true>(k, b, x, std::int32_t(y), std::int32_t(end));
+                march_pixels<W, true, Constant>(k, b, x, std::int32_t(y), std::int32_t(end));
             else
-                march_pixels<W, false>(k, b, x, std::int32_t(y), std::int32_t(end));
+                march_pixels<W, false, Constant>(k, b, x, std::int32_t(y), std::int32_t(end));
+}
+
+template <int W>
+PILEUS_FN void march_rows(const MarchParams& k, const MarchBuffers& b, std::uint32_t begin,
+                          std::uint32_t end) {
+    if (k.medium.constant != 0)
+        march_blocks<W, true>(k, b, begin, end);
+    else
+        march_blocks<W, false>(k, b, begin, end);
 }
 
 }  // namespace PILEUS_ISA

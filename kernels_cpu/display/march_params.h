@@ -21,6 +21,7 @@ struct MediumView {
     const float* density;
     const float* majorant;
     std::int32_t periodic;  ///< 1: the box, and every grid over it, repeats along x and y
+    std::int32_t constant;  ///< 1: a voxel has one density; 0: trilinear between centres
 };
 
 /// A grid of nodes at (i + 1/2) * spacing over the same box.
@@ -42,6 +43,12 @@ struct ShadowBuffers {
 constexpr int kHarmonicsAbreast = 16;
 constexpr int kMostHarmonics = 64;
 
+/// A beam's light by angle and optical depth: what scatterings within its peak add to what is left
+/// of it. Angles even near both ends, depths as tau / (tau + kBeamDepth).
+constexpr int kBeamAngles = 1024, kBeamDepths = 32;
+constexpr float kBeamDepth = 4;
+constexpr int kBeamNumbers = (kBeamAngles + 1) * (kBeamDepths + 1);
+
 struct MarchParams {
     MediumView medium;
     CameraParams camera;
@@ -57,6 +64,9 @@ struct MarchParams {
     std::int32_t sets;       ///< 1..3 of such harmonics
     float set_colour[3][3];  ///< R G B of each
     float cut;               ///< stop below this transmittance
+    std::int32_t
+        beam_sets;       ///< tables of the sun's light that stays in its beam: 0, 1 or a channel
+    float beam_rest[3];  ///< share of extinction that takes light out of the beam, by channel
 };
 struct MarchBuffers {
     const float* optical_depth;  ///< shadow nodes; unused without direct sunlight
@@ -69,6 +79,7 @@ struct MarchBuffers {
                                 ///< null: not wanted
     float* colour;              ///< [channel][pixel], premultiplied
     float* ray_depth;           ///< [pixel], optical depth along the ray; null: not wanted
+    const float* beam;          ///< [set][angle][depth], 1/sr; src/photons/beam.h
     const float* visibility;    ///< shadow nodes, share of the sun that no solid hides; null: all
 };
 

@@ -40,6 +40,34 @@ PILEUS_FN Block<T> block_ahead(const MediumView& m, const Vec<T>& p, const Vec<T
     return {gather(m.majorant, (z * m.blocks[1] + y) * m.blocks[0] + x), max_(t, T{})};
 }
 
+/// The cells that are read for the density at `p`, voxels.
+template <bool Constant, class T>
+PILEUS_FN Corners<T> density_corners(const MediumView& m, const Vec<T>& p) {
+    if constexpr (Constant)
+        return own_cell(p, m.size);
+    else
+        return corners(p, m.size, m.periodic != 0);
+}
+
+/// Metres along `d` from `p`, voxels, to the end of its voxel. Rounding may put a place just before
+/// the face that it stands on: the voxel `least` metres farther on counts, and never less is left.
+template <class T>
+PILEUS_FN T voxel_ahead(const MediumView& m, const Vec<T>& p, const Vec<T>& d, T least) {
+    const auto rest = [&](T v, T direction, int axis) {
+        const T per_voxel = m.cell[axis] / max_(abs_(direction), all<T>(1e-18f));
+        const T whole = to_float(floor_int(v + direction * least * (1.0f / m.cell[axis])));
+        return select(direction >= 0.0f, whole + 1.0f - v, v - whole) * per_voxel;
+    };
+    return max_(min_(min_(rest(p.x, d.x, 0), rest(p.y, d.y, 1)), rest(p.z, d.z, 2)), least);
+}
+
+/// Least way that a march through constant voxels takes, where it takes steps of `step` over
+/// `length` metres: more than rounding takes from a place, and nothing beside a voxel.
+template <class T>
+PILEUS_FN T least_way(T step, T length) {
+    return max_(step * 0x1p-9f, length * 0x1p-22f);
+}
+
 /// Shortest step as a share of the ray in the box: grids have at most 4096 cells along an axis, so
 /// that a ray still takes two steps or more in each cell it crosses.
 constexpr float kLeastStep = 0x1p-13f;
@@ -63,27 +91,43 @@ PILEUS_FN Vec<T> reduced(const MediumView& m, const Vec<T>& q) {
     return {wrap_place(q.x, m.extent[0]), wrap_place(q.y, m.extent[1]), q.z};
 }
 
-/// Visits the middles of steps that start at enter + n step; the last one ends at `leave`.
+template <class T>
+PILEUS_FN Vec<T> in_voxels(const MediumView& m, const Vec<T>& q) {
+    return {q.x * (1.0f / m.cell[0]), q.y * (1.0f / m.cell[1]), q.z * (1.0f / m.cell[2])};
+}
+
+/// Visits the middles of steps that start at enter + n step; the last one ends at `leave`. Through
+/// constant voxels a step ends at the voxel's face, too, so that sums of densities are exact.
 /// `sample(dense, t, width, voxel position, metres)`, both places within one period, may return
 /// lanes that are finished.
-template <class T, class Sample>
+template <bool Constant, class T, class Sample>
 PILEUS_FN void march_ray(const MediumView& m, const Ray<T>& ray, T enter, T leave, Sample sample) {
-    T n{};
+    T n{};  // steps; through constant voxels metres
     auto alive = enter < leave;
     // A flat voxel sets the step for rays along it, too: bound their number (docs/testing.md S41).
     const float least = m.periodic != 0 ? 1.0f / kMostPeriodicSteps : kLeastStep;
     const T step = max_(all<T>(m.step), (leave - enter) * least), per_metre = 1.0f / step;
     // Bounded: every turn of the loop advances every living lane by a step.
     while (any(alive)) {
-        const T start = enter + n * step;
-        const T width = max_(min_(step, leave - start), T{});
+        const T start = Constant ? enter + n : enter + n * step;
+        T width = max_(min_(step, leave - start), T{});
+        if constexpr (Constant) {
+            const Vec<T> from = in_voxels(m, reduced(m, along(ray, start)));
+            const T shortest = least_way(step, leave - enter);
+            width = min_(width, voxel_ahead(m, from, ray.direction, shortest));
+        }
         const T t = start + 0.5f * width;
         const Vec<T> q = reduced(m, along(ray, t));
-        const Vec<T> p{q.x * (1.0f / m.cell[0]), q.y * (1.0f / m.cell[1]),
-                       q.z * (1.0f / m.cell[2])};
+        const Vec<T> p = in_voxels(m, q);
         const Block<T> block = block_ahead(m, p, ray.direction);
         const auto dense = alive & (block.bound > 0.0f);
         const auto ended = sample(dense, t, width, p, q);
+        if constexpr (Constant) {
+            // An empty block ends at the face of a voxel.
+            n = n + select(dense, width, max_(0.5f * width + block.rest, width));
+            alive = alive & lnot(dense & ended) & (enter + n < leave);
+            continue;
+        }
         // Jump to the last step whose middle lies in an empty block; it adds nothing either.
         const T skipped = to_float(to_int(min_(block.rest * per_metre, all<T>(1e6f))));
         n = select(dense, n + 1.0f, n + max_(skipped, all<T>(1.0f)));
@@ -91,21 +135,28 @@ PILEUS_FN void march_ray(const MediumView& m, const Ray<T>& ray, T enter, T leav
     }
 }
 
+/// Integral of the density between two distances, as long as light is left.
+template <bool Constant, class T>
+PILEUS_FN T density_along(const MediumView& m, const Ray<T>& ray, T enter, T leave) {
+    T sum{};
+    march_ray<Constant>(
+        m, ray, enter, leave, [&](M_of<T> dense, T, T width, const Vec<T>& p, const Vec<T>&) {
+            if (any(dense)) {
+                const Corners<T> at = density_corners<Constant>(m, p);
+                sum = select(dense, sum + width * read_density<Constant>(m.density, at), sum);
+            }
+            return sum * m.sigma > 60.0f;  // e^-60 is nothing
+        });
+    return sum;
+}
+
 /// Optical depth from `origin` along `direction` to the end of the box.
 template <class T>
 PILEUS_FN T optical_depth(const MediumView& m, const Ray<T>& ray, M_of<T> wanted) {
     const Segment<T> box = clip_to_medium(m, ray);
     const T leave = select(wanted, box.leave, box.enter);
-    T sum{};
-    march_ray(m, ray, box.enter, leave,
-              [&](M_of<T> dense, T, T width, const Vec<T>& p, const Vec<T>&) {
-                  if (any(dense)) {
-                      const Corners<T> at = corners(p, m.size, m.periodic != 0);
-                      sum = select(dense, sum + width * interpolate(m.density, at), sum);
-                  }
-                  return sum * m.sigma > 60.0f;  // e^-60 is nothing
-              });
-    return sum * m.sigma;
+    if (m.constant != 0) return density_along<true>(m, ray, box.enter, leave) * m.sigma;
+    return density_along<false>(m, ray, box.enter, leave) * m.sigma;
 }
 
 /// Rows of nodes [begin, end), a row along x.

@@ -36,6 +36,13 @@ PILEUS_DEVICE_KERNEL(march_rows, MarchParams, MarchBuffers)
 PILEUS_DEVICE_KERNEL(background_rows, BackgroundParams, BackgroundBuffers)
 PILEUS_DEVICE_KERNEL(blend_tile, BlendParams, BlendBuffers)
 PILEUS_DEVICE_KERNEL(trace_paths, PathParams, PathBuffers)
+// Of the two forms of trace_paths_guided the one without solids, which devices know not.
+template <int W>
+__device__ __forceinline__ void trace_paths_seeking(const PathParams& k, const PathBuffers& b,
+                                                    std::uint32_t begin, std::uint32_t end) {
+    trace_paths<W, kSeekingSun>(k, b, begin, end);
+}
+PILEUS_DEVICE_KERNEL(trace_paths_seeking, PathParams, PathBuffers)
 
 __global__ void self_test_item(NoParams, SelfTestBuffers b, std::uint32_t begin, std::uint32_t) {
     if (begin + blockIdx.x * blockDim.x + threadIdx.x == begin) *b.digest = self_test_digest<1>();
@@ -51,6 +58,6 @@ constexpr const void* address(Function* function) {
 const DeviceKernels cuda_kernels{
     address(trace_items),       address(shadow_rows_items), address(march_rows_items),
     address(background_rows_items), address(blend_tile_items),  address(trace_paths_items),
-    address(self_test_item)};
+    address(self_test_item),    address(trace_paths_seeking_items)};
 
 }  // namespace pileus

@@ -12,6 +12,7 @@ struct Device;
 struct DeviceKernels {
     const void *trace, *shadow_rows, *march_rows, *background_rows, *blend_tile, *trace_paths;
     const void* self_test;  ///< one item: SelfTestBuffers
+    const void* trace_paths_guided;
 };
 
 /// A device and the kernels that it runs.

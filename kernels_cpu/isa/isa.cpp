@@ -69,6 +69,7 @@ std::uint64_t self_test_kernel() { return self_test_digest<PILEUS_WIDTH>(); }
 #define PILEUS_SWEEP(isa) PILEUS_JOIN(sweep_kernel_, isa)
 #define PILEUS_SWEEP_LAYER(isa) PILEUS_JOIN(sweep_layer_kernel_, isa)
 #define PILEUS_PATH_SOLIDS(isa) PILEUS_JOIN(path_solids_, isa)
+#define PILEUS_PATH_GUIDED(isa) PILEUS_JOIN(path_guided_, isa)
 #define PILEUS_SOLIDS(isa) PILEUS_JOIN(solid_rows_, isa)
 
 /// Of isa_path.cpp, compiled for the same instruction set.
@@ -78,6 +79,9 @@ void PILEUS_RAYMARCH(PILEUS_ISA)(const RaymarchParams&, const RaymarchBuffers&, 
                                  std::uint32_t);
 /// Of isa_path_solids.cpp.
 void PILEUS_PATH_SOLIDS(PILEUS_ISA)(const PathParams&, const PathBuffers&, std::uint32_t,
+                                    std::uint32_t);
+/// Of isa_path_guided.cpp.
+void PILEUS_PATH_GUIDED(PILEUS_ISA)(const PathParams&, const PathBuffers&, std::uint32_t,
                                     std::uint32_t);
 /// Of isa_sky.cpp.
 extern const SkyKernels PILEUS_SKY(PILEUS_ISA);
@@ -112,6 +116,7 @@ const KernelTable PILEUS_TABLE(PILEUS_ISA) = {
     PILEUS_SWEEP_LAYER(PILEUS_ISA),
     &PILEUS_SKY(PILEUS_ISA),
     PILEUS_UPSAMPLE(PILEUS_ISA),
+    PILEUS_PATH_GUIDED(PILEUS_ISA),
 };
 
 }  // namespace pileus

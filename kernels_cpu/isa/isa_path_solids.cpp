@@ -20,7 +20,7 @@ void PILEUS_PATH_SOLIDS(PILEUS_ISA)(const PathParams&, const PathBuffers&, std::
                                     std::uint32_t);
 void PILEUS_PATH_SOLIDS(PILEUS_ISA)(const PathParams& k, const PathBuffers& b, std::uint32_t begin,
                                     std::uint32_t end) {
-    trace_paths<PILEUS_WIDTH, true>(k, b, begin, end);
+    trace_paths<PILEUS_WIDTH, kAmongSolids>(k, b, begin, end);
 }
 
 }  // namespace pileus

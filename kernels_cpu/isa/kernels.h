@@ -50,6 +50,9 @@ struct KernelTable {
     /// Rows of a picture of which a lattice of pixels was marched.
     void (*upsample_rows)(const UpsampleParams&, const UpsampleBuffers&, std::uint32_t begin,
                           std::uint32_t end) = nullptr;
+    /// As trace_paths and trace_paths_solid where PathParams::guide is on or the sun is a disc.
+    void (*trace_paths_guided)(const PathParams&, const PathBuffers&, std::uint32_t begin,
+                               std::uint32_t end) = nullptr;
 };
 
 /// The widest table this machine runs; `name` (or null) forces one. Null: no such table here.

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Grids read between their points, and rays clipped to the box.
 // in: positions in voxels or metres, box-local -> out: density, grid values, path segments.
-// docs/methods.md 1: trilinear between voxel centres, clamped inside the box or wrapped around.
+// docs/methods.md 1: trilinear between voxel centres, clamped inside the box or wrapped around; or
+// constant within voxels.
 #pragma once
 #include "kernels_cpu/core/math.h"
 #include "kernels_cpu/core/vec.h"
@@ -58,6 +59,21 @@ PILEUS_FN Corners<T> corners(const Vec<T>& p, const std::int32_t* size, bool wra
     return c;
 }
 
+/// The cell that holds `p` alone.
+template <class T>
+PILEUS_FN Corners<T> own_cell(const Vec<T>& p, const std::int32_t* size) {
+    using II = I_of<T>;
+    const auto whole = [](T v, std::int32_t n) {
+        return min_(max_(to_int(v), II{}), all<II>(n - 1));
+    };
+    const std::int32_t row = size[0], slice = size[0] * size[1];
+    Corners<T> c{};
+    c.x0 = c.x1 = whole(p.x, size[0]);
+    c.y0 = c.y1 = whole(p.y, size[1]) * row;
+    c.z0 = c.z1 = whole(p.z, size[2]) * slice;
+    return c;
+}
+
 template <class T>
 PILEUS_FN T interpolate(const float* grid, const Corners<T>& c) {
     const auto mix = [](T a, T b, T f) { return a + (b - a) * f; };
@@ -67,6 +83,15 @@ PILEUS_FN T interpolate(const float* grid, const Corners<T>& c) {
     const T low = mix(row(c.z0 + c.y0), row(c.z0 + c.y1), c.fy);
     const T high = mix(row(c.z1 + c.y0), row(c.z1 + c.y1), c.fy);
     return mix(low, high, c.fz);
+}
+
+/// What a grid of densities holds: of one cell where they are constant within cells.
+template <bool Constant, class T>
+PILEUS_FN T read_density(const float* grid, const Corners<T>& c) {
+    if constexpr (Constant)
+        return gather(grid, c.z0 + c.y0 + c.x0);
+    else
+        return interpolate(grid, c);
 }
 
 /// Where a ray enters and leaves the box [0, extent], metres along it; enter >= 0.

@@ -14,6 +14,7 @@ struct TrackGrid {
     float block;               ///< block edge, voxels
     float sigma;               ///< extinction at density 1, 1/m
     std::int32_t periodic;     ///< 1: the grid repeats without end along x and y
+    std::int32_t constant;     ///< 1: a voxel has one density; 0: trilinear between centres
     std::uint32_t max_events;  ///< draws per ray before it is given up
     const float* density;      ///< voxels, x fastest, >= 0
     const float* majorant;     ///< blocks, bound on the density over the trilinear footprint

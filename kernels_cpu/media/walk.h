@@ -95,11 +95,24 @@ PILEUS_FN auto next_flight(UU word, F_of<UU> real, M_of<UU> refused, More more) 
     return max_(T{} - log_(select(refused, above / (1.0f - real), all<T>(1.0f))), all<T>(0x1p-25f));
 }
 
+/// The voxel that holds a position in or on the box.
+template <class T>
+PILEUS_FN auto voxel_of(const Vec<T>& p, const TrackGrid& k) {
+    using II = I_of<T>;
+    const auto clamped = [](T at, std::int32_t n) {
+        return min_(max_(to_int(at), II{}), all<II>(n - 1));
+    };
+    return (clamped(p.z, k.size[2]) * k.size[1] + clamped(p.y, k.size[1])) * k.size[0] +
+           clamped(p.x, k.size[0]);
+}
+
 /// Index of one of the eight voxels around `p`, drawn with its trilinear weight: to 11 bits in x
-/// and y, 10 in z, rounded without a systematic error; the bits of one word serve once.
+/// and y, 10 in z, rounded without a systematic error; the bits of one word serve once. Where a
+/// voxel has one density, the voxel itself.
 template <class T, class UU>
 PILEUS_FN auto corner_voxel(const Vec<T>& p, UU bits, const TrackGrid& k) {
     using II = I_of<T>;
+    if (k.constant != 0) return voxel_of(p, k);
     const auto draw = [](T at, UU word, float step, std::int32_t n, bool wraps) {
         const T jitter = to_float(reinterpret<II>(word)) * step + (0.5f * step - 0.5f);
         const II last = all<II>(n - 1);

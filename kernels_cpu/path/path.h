@@ -13,27 +13,28 @@ inline namespace PILEUS_ISA {
 constexpr int kPathGroups = 4;
 
 /// Paths, and the tentative collision that each flight has come to.
-template <int W, int NC, bool S>
+template <int W, int NC, int K>
 struct PathGroup {
-    PathLanes<W, NC, S> s;
+    PathLanes<W, NC, K> s;
     M<W> hits;      // arrived at a tentative collision
     I<W> corner;    // the look-up's voxel
     Words<U<W>> w;  // of the look-up and the next free flight
 };
 
 /// Store the radiance of paths that have ended.
-template <int W, int NC, bool S>
-PILEUS_FN void store_paths(const PathLanes<W, NC, S>& s, const PathParams& k, const PathBuffers& b,
+template <int W, int NC, int K>
+PILEUS_FN void store_paths(const PathLanes<W, NC, K>& s, const PathParams& k, const PathBuffers& b,
                            std::uint32_t lanes) {
     store_radiance<W>(s.sum, k.parts_wanted != 0 ? 3 * kPathParts : 3, s.sample, k, b, lanes);
 }
 
 /// Serve the lanes whose flights have ended, begin new paths, and send them all on.
-template <int W, int NC, bool S>
-PILEUS_FN void serve(PathLanes<W, NC, S>& s, FreshPaths<W, S>& fresh, const PathParams& k,
+template <int W, int NC, int K>
+PILEUS_FN void serve(PathLanes<W, NC, K>& s, FreshPaths<W, K>& fresh, const PathParams& k,
                      const PathBuffers& b, std::uint32_t& next, std::uint32_t end) {
     constexpr std::uint32_t kFull = (1u << W) - 1u;
-    const std::uint32_t before = bits_of(s.alive);
+    const M<W> lived = s.alive;
+    const std::uint32_t before = bits_of(lived);
     PathTally& tally = *b.tally;
     M<W> due = s.lit;
     if (any(s.lit)) gather_light(s, k, s.lit);
@@ -44,7 +45,13 @@ PILEUS_FN void serve(PathLanes<W, NC, S>& s, FreshPaths<W, S>& fresh, const Path
         due = due | (met & s.alive);
     }
     if (any(s.out)) due = due | leave_media(s, k, tally, s.out);
+    if constexpr (kGuided<K>) begin_branches(s, k, due);
     thin_out(s, k, due);
+    if constexpr (kGuided<K>) {
+        const M<W> back = resume_paths(s, lived);
+        thin_out(s, k, back);
+        due = due | back;
+    }
     due = due & s.alive;
     if (any(due)) launch(s, k, tally, due);
     store_paths(s, k, b, before & ~bits_of(s.alive));
@@ -55,9 +62,9 @@ PILEUS_FN void serve(PathLanes<W, NC, S>& s, FreshPaths<W, S>& fresh, const Path
 constexpr int kHopsPerTurn = 2;
 
 /// Move every flight to its next tentative collision, or some borders on towards it.
-template <int W, int NC, bool S>
-PILEUS_FN void advance_paths(PathGroup<W, NC, S>& g, const PathParams& k, const PathBuffers& b) {
-    PathLanes<W, NC, S>& s = g.s;
+template <int W, int NC, int K>
+PILEUS_FN void advance_paths(PathGroup<W, NC, K>& g, const PathParams& k, const PathBuffers& b) {
+    PathLanes<W, NC, K>& s = g.s;
     const M<W> path = s.flight == kFlightPath;
     M<W> flying = s.alive & lnot(waiting(s));
     g.hits = flying & lnot(flying);
@@ -84,10 +91,10 @@ PILEUS_FN void advance_paths(PathGroup<W, NC, S>& g, const PathParams& k, const 
 
 /// Shadow rays of the lanes of `rays` lose the share `density` / bound of their light, and end by
 /// luck once little is left; `luck` is 0, 1/256 ... 255/256.
-template <int W, int NC, bool S>
-PILEUS_FN void dim_rays(PathGroup<W, NC, S>& g, M<W> rays, F<W> density, F<W> luck) {
+template <int W, int NC, int K>
+PILEUS_FN void dim_rays(PathGroup<W, NC, K>& g, M<W> rays, F<W> density, F<W> luck) {
     using T = F<W>;
-    PathLanes<W, NC, S>& s = g.s;
+    PathLanes<W, NC, K>& s = g.s;
     // Carry the rounding: a million collisions in thin air would add theirs up.
     const T share = min_(density / s.bound, all<T>(1.0f));
     const T lost = s.carry - (s.seen + s.carry) * share;
@@ -106,10 +113,10 @@ PILEUS_FN void dim_rays(PathGroup<W, NC, S>& g, M<W> rays, F<W> density, F<W> lu
 /// Tentative collisions: paths meet the medium or pass, shadow rays lose a share. The draw's first
 /// word is the next free flight but for eight bits, which decide what happens here; where they do
 /// not, and once in 2^24 flights, the next draw has more.
-template <int W, int NC, bool S>
-PILEUS_FN void collide_paths(PathGroup<W, NC, S>& g, const PathParams& k, const PathBuffers& b) {
+template <int W, int NC, int K>
+PILEUS_FN void collide_paths(PathGroup<W, NC, K>& g, const PathParams& k, const PathBuffers& b) {
     using T = F<W>;
-    PathLanes<W, NC, S>& s = g.s;
+    PathLanes<W, NC, K>& s = g.s;
     const T density = gather(k.grid.density, g.corner);
     const M<W> over = g.hits & (density > s.bound);
     if (any(over)) b.tally->majorant_violations += count_bits(bits_of(over));
@@ -145,14 +152,14 @@ PILEUS_FN void collide_paths(PathGroup<W, NC, S>& g, const PathParams& k, const 
 }
 
 /// Whether to serve the lanes now: results belong to samples, so the moment is free.
-template <int W, int NC, bool S>
-PILEUS_FN bool worth_serving(const PathLanes<W, NC, S>& s) {
+template <int W, int NC, int K>
+PILEUS_FN bool worth_serving(const PathLanes<W, NC, K>& s) {
     constexpr int kFew = W / 2 > 1 ? W / 2 : 1;
     const std::uint32_t flying = bits_of(s.alive & lnot(waiting(s)));
     return W - count_bits(flying) >= kFew;
 }
 
-template <int W, int NC, bool S>
+template <int W, int NC, int K>
 PILEUS_FN void trace_path_lanes(const PathParams& k, const PathBuffers& b, std::uint32_t begin,
                                 std::uint32_t end) {
     // Lanes without a path stand at rest in the box: they are carried along by all that follows.
@@ -161,33 +168,44 @@ PILEUS_FN void trace_path_lanes(const PathParams& k, const PathBuffers& b, std::
         f.d.z = all<F<W>>(1.0f);
         begin_flight(f, k.grid, iota<I<W>>() >= 0, {middle, middle, middle});
     };
-    FreshPaths<W, S> fresh{};
+    FreshPaths<W, K> fresh{};
     rest(fresh.flight);
-    PathGroup<W, NC, S> groups[kPathGroups] = {};
-    for (PathGroup<W, NC, S>& g : groups) {
+    PathGroup<W, NC, K> groups[kPathGroups] = {};
+    for (PathGroup<W, NC, K>& g : groups) {
         rest(g.s);
         g.s.next = g.s.to_map = g.s.d;
+        if constexpr (kGuided<K>) g.s.to_sun = g.s.fork = g.s.main.next = g.s.d;
     }
     std::uint32_t next = begin;
     for (bool busy = true; busy;) {
         busy = false;
-        for (PathGroup<W, NC, S>& g : groups) {
+        for (PathGroup<W, NC, K>& g : groups) {
             if (worth_serving(g.s)) serve(g.s, fresh, k, b, next, end);
             busy |= any(g.s.alive);
             advance_paths(g, k, b);
         }
-        for (PathGroup<W, NC, S>& g : groups)
+        for (PathGroup<W, NC, K>& g : groups)
             if (any(g.hits)) collide_paths(g, k, b);
     }
 }
 
-template <int W, bool S = false>
+template <int W, int K = 0>
 PILEUS_FN void trace_paths(const PathParams& k, const PathBuffers& b, std::uint32_t begin,
                            std::uint32_t end) {
     if (k.channels == 1)
-        trace_path_lanes<W, 1, S>(k, b, begin, end);
+        trace_path_lanes<W, 1, K>(k, b, begin, end);
     else
-        trace_path_lanes<W, 3, S>(k, b, begin, end);
+        trace_path_lanes<W, 3, K>(k, b, begin, end);
+}
+
+/// As trace_paths, for all that needs a kernel of its own: guided paths, the sun's disc.
+template <int W>
+PILEUS_FN void trace_paths_guided(const PathParams& k, const PathBuffers& b, std::uint32_t begin,
+                                  std::uint32_t end) {
+    if (k.solids.count > 0 || k.camera_depth != nullptr)
+        trace_paths<W, kAmongSolids | kSeekingSun>(k, b, begin, end);
+    else
+        trace_paths<W, kSeekingSun>(k, b, begin, end);
 }
 
 }  // namespace PILEUS_ISA

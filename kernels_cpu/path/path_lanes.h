@@ -20,8 +20,16 @@ constexpr float kPathRoulette = 1.0f / 8.0f;
 /// The same for a shadow ray's transmittance, which survives as about this.
 constexpr float kShadowRoulette = 1.0f / 16.0f;
 
+/// What a kernel minds beside the media: bits of the template argument K.
+constexpr int kAmongSolids = 1;  ///< flights end at solids and at the camera's image of them
+constexpr int kSeekingSun = 2;   ///< paths are guided to the sun, which may be a disc
+template <int K>
+constexpr bool kSolid = (K & kAmongSolids) != 0;
+template <int K>
+constexpr bool kGuided = (K & kSeekingSun) != 0;
+
 /// What solid thing ends each flight; nothing where the scene has none.
-template <int W, bool S>
+template <int W, bool Solid>
 struct Walls {};
 template <int W>
 struct Walls<W, true> {
@@ -31,9 +39,32 @@ struct Walls<W, true> {
 constexpr std::int32_t kNoWall = -1;
 constexpr std::int32_t kImageWall = -2;  ///< of the camera's depth image
 
-/// A path per lane, `S`: among solids. A flight that has ended waits until its lane is served.
-template <int W, int NC, bool S>
-struct PathLanes : Flight<W>, Walls<W, S> {
+/// What a path keeps while its branch flies (path_guide.h).
+template <int W, int NC>
+struct Kept {
+    Vec<F<W>> vertex, next;
+    F<W> beta[NC];
+    F<W> odds, next_density;
+    I<W> order;
+    M<W> outside;
+};
+
+/// Where the sun is, and the branches that seek it; nothing where K does not ask for them.
+template <int W, int NC, bool Seeks>
+struct Seeker {};
+template <int W, int NC>
+struct Seeker<W, NC, true> {
+    Vec<F<W>> to_sun;    // this path's point of the disc
+    F<W> odds;           // how much likelier a branch than the path flies as this one does
+    M<W> branch, forks;  // this is a branch; one is due
+    Vec<F<W>> fork;      // its direction
+    F<W> fork_odds;
+    Kept<W, NC> main;
+};
+
+/// A path per lane. A flight that has ended waits until its lane is served.
+template <int W, int NC, int K>
+struct PathLanes : Flight<W>, Walls<W, kSolid<K>>, Seeker<W, NC, kGuided<K>> {
     Vec<F<W>> p;               // last tentative collision, voxels
     F<W> beta[NC];             // light at the camera per light that leaves the last vertex
     F<W> sum[3 * kPathParts];  // radiance so far
@@ -53,13 +84,13 @@ struct PathLanes : Flight<W>, Walls<W, S> {
     M<W> cloud;                // the first vertex was in the media
 };
 
-template <int W, int NC, bool S>
-PILEUS_FN M<W> waiting(const PathLanes<W, NC, S>& s) {
+template <int W, int NC, int K>
+PILEUS_FN M<W> waiting(const PathLanes<W, NC, K>& s) {
     return s.met | s.lit | s.out;
 }
 
-template <int W, int NC, bool S>
-PILEUS_FN void end_paths(PathLanes<W, NC, S>& s, M<W> m) {
+template <int W, int NC, int K>
+PILEUS_FN void end_paths(PathLanes<W, NC, K>& s, M<W> m) {
     const M<W> keep = lnot(m);
     s.alive = s.alive & keep;
     s.met = s.met & keep;
@@ -68,16 +99,24 @@ PILEUS_FN void end_paths(PathLanes<W, NC, S>& s, M<W> m) {
 }
 
 /// The largest share of light that a channel of the path still carries.
-template <int W, int NC, bool S>
-PILEUS_FN F<W> heaviest(const PathLanes<W, NC, S>& s) {
+template <int W, int NC, int K>
+PILEUS_FN F<W> heaviest(const PathLanes<W, NC, K>& s) {
     F<W> most = s.beta[0];
     for (int c = 1; c < NC; ++c) most = max_(most, s.beta[c]);
     return most;
 }
 
+/// Unit vectors towards the sun.
+template <int W, int NC, int K>
+PILEUS_FN Vec<F<W>> sun_of(const PathLanes<W, NC, K>& s, const PathParams& k) {
+    using T = F<W>;
+    if constexpr (kGuided<K>) return s.to_sun;
+    return {all<T>(k.to_sun[0]), all<T>(k.to_sun[1]), all<T>(k.to_sun[2])};
+}
+
 /// The next 64 random bits of the lanes of `m`.
-template <int W, int NC, bool S>
-PILEUS_FN Words<U<W>> draw(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m) {
+template <int W, int NC, int K>
+PILEUS_FN Words<U<W>> draw(PathLanes<W, NC, K>& s, const PathParams& k, M<W> m) {
     const Words<U<W>> w = threefry(k.key.k0, k.key.k1, s.number, s.event);
     s.event = select(m, s.event + 1u, s.event);
     return w;
@@ -97,8 +136,8 @@ PILEUS_FN T whole_chance(T chance, float steps) {
 }
 
 /// Add `share` of `light` that the lanes of `m` found at the end of their path.
-template <int W, int NC, bool S>
-PILEUS_FN void add_light(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m, F<W> share,
+template <int W, int NC, int K>
+PILEUS_FN void add_light(PathLanes<W, NC, K>& s, const PathParams& k, M<W> m, F<W> share,
                          const Vec<F<W>>& light, M<W> from_sun) {
     using T = F<W>;
     const T channel[3] = {light.x, light.y, light.z};
@@ -159,12 +198,12 @@ PILEUS_FN M<W> send_flights(Flight<W>& w, const PathParams& k, M<W> m, const Vec
 
 /// Paths that go on from the lanes of `m` survive by luck once they are light: keeps the mean,
 /// saves the flights that would bring little.
-template <int W, int NC, bool S>
-PILEUS_FN void thin_out(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m) {
+template <int W, int NC, int K>
+PILEUS_FN void thin_out(PathLanes<W, NC, K>& s, const PathParams& k, M<W> m) {
     using T = F<W>;
     m = m & (s.flight == kFlightPath);
     // After the last scattering only light from behind the media is left to find.
-    if (!S && k.sky_lit == 0 && k.ground == 0) end_paths(s, m & (s.order >= k.max_depth));
+    if (!kSolid<K> && k.sky_lit == 0 && k.ground == 0) end_paths(s, m & (s.order >= k.max_depth));
     m = m & s.alive;
     const T most = heaviest(s);
     const M<W> low = m & (most < kPathRoulette);
@@ -177,8 +216,8 @@ PILEUS_FN void thin_out(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m) {
 }
 
 /// Where the last vertex lies, metres.
-template <int W, int NC, bool S>
-PILEUS_FN Vec<F<W>> vertex_metres(const PathLanes<W, NC, S>& s, const PathParams& k) {
+template <int W, int NC, int K>
+PILEUS_FN Vec<F<W>> vertex_metres(const PathLanes<W, NC, K>& s, const PathParams& k) {
     const auto metres = [&](F<W> v, int a) { return select(s.outside, v, v * k.grid.cell[a]); };
     return {metres(s.vertex.x, 0), metres(s.vertex.y, 1), metres(s.vertex.z, 2)};
 }
@@ -203,8 +242,8 @@ PILEUS_FN void cut_flights(Flight<W>& w, const PathParams& k, M<W> m, const Vec<
 }
 
 /// Paths of the lanes of `paths` learn what they will meet; of `rays` those behind solids are dark.
-template <int W, int NC, bool S>
-PILEUS_FN void stop_at_solids(PathLanes<W, NC, S>& s, const PathParams& k, M<W> paths, M<W> rays) {
+template <int W, int NC, int K>
+PILEUS_FN void stop_at_solids(PathLanes<W, NC, K>& s, const PathParams& k, M<W> paths, M<W> rays) {
     using T = F<W>;
     const Vec<T> o = vertex_metres(s, k);
     if (any(rays)) {
@@ -221,22 +260,23 @@ PILEUS_FN void stop_at_solids(PathLanes<W, NC, S>& s, const PathParams& k, M<W> 
 
 /// Send the lanes of `m` from their vertex on the flight that each is due. The optical depth to go
 /// is what the last flight had left, or drew where it ended: the exponential has no memory.
-template <int W, int NC, bool S>
-PILEUS_FN void launch(PathLanes<W, NC, S>& s, const PathParams& k, PathTally& tally, M<W> m) {
+template <int W, int NC, int K>
+PILEUS_FN void launch(PathLanes<W, NC, K>& s, const PathParams& k, PathTally& tally, M<W> m) {
     using T = F<W>;
     const M<W> to_sun = s.flight == kFlightSun, path = s.flight == kFlightPath;
-    const auto aim = [&](float sun, T map, T next) {
-        return select(path, next, select(to_sun, all<T>(sun), map));
+    const Vec<T> at_sun = sun_of(s, k);
+    const auto aim = [&](T sun, T map, T next) {
+        return select(path, next, select(to_sun, sun, map));
     };
     aim_flight(s, k.grid, m,
-               {aim(k.to_sun[0], s.to_map.x, s.next.x), aim(k.to_sun[1], s.to_map.y, s.next.y),
-                aim(k.to_sun[2], s.to_map.z, s.next.z)});
+               {aim(at_sun.x, s.to_map.x, s.next.x), aim(at_sun.y, s.to_map.y, s.next.y),
+                aim(at_sun.z, s.to_map.z, s.next.z)});
     const M<W> missed = send_flights<W>(s, k, m, s.vertex, s.outside);
     s.out = s.out | (missed & path);
     s.lit = s.lit | (missed & lnot(path));
     s.seen = select(m, all<T>(1.0f), s.seen);
     s.carry = select(m, T{}, s.carry);
-    if constexpr (S) stop_at_solids(s, k, m & path, m & lnot(path));
+    if constexpr (kSolid<K>) stop_at_solids(s, k, m & path, m & lnot(path));
     tally.shadow_rays += count_bits(bits_of(m & lnot(path)));
 }
 

@@ -25,6 +25,16 @@ constexpr int kPathParts = 4;
 /// what an isotropic medium would bring (measured: docs/path.md, "Costs").
 constexpr float kLightRoulette = 1.0f / 8.0f;
 
+/// Branches towards the sun: directions of Henyey-Greenstein within a cone about it.
+struct GuideParams {
+    std::int32_t on;  ///< 0: no branches
+    float g;          ///< above 0
+    float cone;       ///< 1 - cos of its half angle
+    float share;      ///< of Henyey-Greenstein's light that turns by less
+    float unit;       ///< 1 / share
+    float worth;      ///< branches are as rare as that each brings about this per irradiance, 1/sr
+};
+
 struct PathParams {
     TrackGrid grid;         ///< majorants of src/methods/path/path_blocks.h
     float extent[3];        ///< box edges, m
@@ -39,6 +49,8 @@ struct PathParams {
     std::int32_t sunlit;   ///< 0: no sun
     float to_sun[3];       ///< unit
     float sun[3];          ///< irradiance on a plane facing it
+    float sun_disc;        ///< 1 - cos of its radius; 0: a point. Read by trace_paths_guided alone
+    GuideParams guide;     ///< as sun_disc
     float sky[3];          ///< radiance, where there is no map of it
     std::int32_t sky_lit;  ///< 0: the sky is black
     SkyMapView map;        ///< no columns: none
@@ -69,6 +81,9 @@ struct PathTally {
     std::int64_t nan;         ///< samples that were no finite number, stored as 0
     std::int64_t majorant_violations;
 };
+
+/// Whether paths need trace_paths_guided.
+inline bool seeks_sun(const PathParams& k) { return k.guide.on != 0 || k.sun_disc > 0; }
 
 struct PathBuffers {
     float* radiance;       ///< [part][channel][sample], each `stride` long

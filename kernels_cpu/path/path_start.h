@@ -9,8 +9,8 @@ namespace pileus {
 inline namespace PILEUS_ISA {
 
 /// Rays that wait for a lane.
-template <int W, bool S>
-struct FreshPaths : Walls<W, S> {
+template <int W, int K>
+struct FreshPaths : Walls<W, kSolid<K>> {
     Flight<W> flight;
     Vec<F<W>> origin;     // metres
     U<W> number, sample;  // as in PathLanes
@@ -63,8 +63,8 @@ PILEUS_FN M<W> leap_to_medium(Flight<W>& s, const PathParams& k, PathTally& tall
 }
 
 /// Place and direction of the camera's rays through the pixels (x, y) of the lanes of `m`.
-template <int W, bool S>
-PILEUS_FN void aim_camera(FreshPaths<W, S>& f, const PathParams& k, M<W> m, F<W> x, F<W> y) {
+template <int W, int K>
+PILEUS_FN void aim_camera(FreshPaths<W, K>& f, const PathParams& k, M<W> m, F<W> x, F<W> y) {
     // One draw for the place in the pixel, 16 bits each way, and the first free flight.
     const Words<U<W>> w = threefry(k.key.k0, k.key.k1, f.number, U<W>{});
     if (k.jitter != 0) {
@@ -90,8 +90,8 @@ PILEUS_FN void aim_camera(FreshPaths<W, S>& f, const PathParams& k, M<W> m, F<W>
 }
 
 /// The next samples' pixels, one per lane; returns the lanes that have one.
-template <int W, bool S>
-PILEUS_FN M<W> next_samples(FreshPaths<W, S>& f, const PathParams& k, std::uint32_t& next,
+template <int W, int K>
+PILEUS_FN M<W> next_samples(FreshPaths<W, K>& f, const PathParams& k, std::uint32_t& next,
                             std::uint32_t end, F<W>& x, F<W>& y) {
     const std::uint32_t width = std::uint32_t(k.camera.width);
     int count = 0;
@@ -107,8 +107,8 @@ PILEUS_FN M<W> next_samples(FreshPaths<W, S>& f, const PathParams& k, std::uint3
 }
 
 /// The camera's rays learn what they will meet: of mesh, image and ground the nearest.
-template <int W, bool S>
-PILEUS_FN void aim_at_solids(FreshPaths<W, S>& f, const PathParams& k, M<W> m) {
+template <int W, int K>
+PILEUS_FN void aim_at_solids(FreshPaths<W, K>& f, const PathParams& k, M<W> m) {
     using T = F<W>;
     T limit = way_to_ground<W>(k, f.origin, f.flight.d);
     f.piece = all<I<W>>(kNoWall);
@@ -133,8 +133,8 @@ PILEUS_FN void aim_at_solids(FreshPaths<W, S>& f, const PathParams& k, M<W> m) {
 }
 
 /// Rays of the next samples, as many as there are lanes. What sees nothing but sky is done.
-template <int W, bool S>
-PILEUS_FN void fill_fresh(FreshPaths<W, S>& f, const PathParams& k, const PathBuffers& b,
+template <int W, int K>
+PILEUS_FN void fill_fresh(FreshPaths<W, K>& f, const PathParams& k, const PathBuffers& b,
                           std::uint32_t& next, std::uint32_t end) {
     using T = F<W>;
     T x{}, y{};
@@ -142,10 +142,10 @@ PILEUS_FN void fill_fresh(FreshPaths<W, S>& f, const PathParams& k, const PathBu
     b.tally->paths += count_bits(bits_of(m));
     aim_camera<W>(f, k, m, x, y);
     const M<W> missed = send_flights<W>(f.flight, k, m, f.origin, m);
-    if constexpr (S) aim_at_solids(f, k, m);
+    if constexpr (kSolid<K>) aim_at_solids(f, k, m);
     f.out = missed | leap_to_medium(f.flight, k, *b.tally, m & lnot(missed));
     M<W> sky = f.out;
-    if constexpr (S) sky = sky & (f.piece == kNoWall);
+    if constexpr (kSolid<K>) sky = sky & (f.piece == kNoWall);
     if (k.ground != 0) sky = sky & lnot((f.flight.d.z < 0.0f) & (f.origin.z - k.ground_z >= 0.0f));
     f.ready = bits_of(m & lnot(sky));
     if (!any(sky)) return;
@@ -155,8 +155,8 @@ PILEUS_FN void fill_fresh(FreshPaths<W, S>& f, const PathParams& k, const PathBu
 }
 
 /// Hand the waiting ray `from` over to lane `to`.
-template <int W, int NC, bool S>
-PILEUS_FN void hand_over(PathLanes<W, NC, S>& s, int to, const FreshPaths<W, S>& f, int from) {
+template <int W, int NC, int K>
+PILEUS_FN void hand_over(PathLanes<W, NC, K>& s, int to, const FreshPaths<W, K>& f, int from) {
     const auto move = [&](auto& a, const auto& b) { set_lane(a, to, lane(b, from)); };
     const auto move3 = [&](auto& a, const auto& b) {
         move(a.x, b.x), move(a.y, b.y), move(a.z, b.z);
@@ -168,12 +168,12 @@ PILEUS_FN void hand_over(PathLanes<W, NC, S>& s, int to, const FreshPaths<W, S>&
     move(s.bound, w.bound), move(s.lift, w.lift), move(s.block, w.block);
     move(s.wraps, w.wraps);
     move(s.number, f.number), move(s.sample, f.sample);
-    if constexpr (S) move(s.wall, f.wall), move(s.piece, f.piece);
+    if constexpr (kSolid<K>) move(s.wall, f.wall), move(s.piece, f.piece);
 }
 
 /// Give the lanes of `idle` the next samples, whose rays fly already.
-template <int W, int NC, bool S>
-PILEUS_FN void refill_paths(PathLanes<W, NC, S>& s, FreshPaths<W, S>& f, const PathParams& k,
+template <int W, int NC, int K>
+PILEUS_FN void refill_paths(PathLanes<W, NC, K>& s, FreshPaths<W, K>& f, const PathParams& k,
                             const PathBuffers& b, std::uint32_t idle, std::uint32_t& next,
                             std::uint32_t end) {
     const I<W> lanes = iota<I<W>>();
@@ -193,6 +193,7 @@ PILEUS_FN void refill_paths(PathLanes<W, NC, S>& s, FreshPaths<W, S>& f, const P
     }
     if (!any(fresh)) return;
     s.event = select(fresh, U<W>{} + f.event, s.event);
+    if constexpr (kGuided<K>) choose_sun(s, k, fresh);
     for (int c = 0; c < NC; ++c) s.beta[c] = select(fresh, all<F<W>>(1.0f), s.beta[c]);
     for (F<W>& sum : s.sum) sum = select(fresh, F<W>{}, sum);
     s.order = select(fresh, I<W>{}, s.order);

@@ -4,7 +4,7 @@
 // docs/path.md: next-event estimation; sky maps by the balance heuristic (Veach 1997, 9.2).
 #pragma once
 #include "kernels_cpu/light/lambert.h"
-#include "kernels_cpu/path/path_lanes.h"
+#include "kernels_cpu/path/path_guide.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
@@ -13,8 +13,8 @@ inline namespace PILEUS_ISA {
 constexpr std::int32_t kMostBounces = 1 << 14;
 
 /// Calls `use(optics, lanes)` for every medium that lanes of `m` have met.
-template <int W, int NC, bool S, class Use>
-PILEUS_FN void for_media(const PathLanes<W, NC, S>& s, const PathParams& k, M<W> m, Use use) {
+template <int W, int NC, int K, class Use>
+PILEUS_FN void for_media(const PathLanes<W, NC, K>& s, const PathParams& k, M<W> m, Use use) {
     if (k.media <= 1) return use(k.optics[0], m);
     for (int i = 0; i < k.media; ++i) {
         const M<W> mine = m & (s.medium == i);
@@ -26,8 +26,8 @@ PILEUS_FN void for_media(const PathLanes<W, NC, S>& s, const PathParams& k, M<W>
 /// `value`, per steradian, for each unit of irradiance that the light could give. The others bring
 /// theirs, `shade` is raised. Rays of the first vertex, which carry the picture's detail, are all
 /// kept. `spare` are 16 random bits. Returns the lanes that fly.
-template <int W, int NC, bool S>
-PILEUS_FN M<W> thin_out_rays(const PathLanes<W, NC, S>& s, const PathParams& k, M<W> m, F<W> value,
+template <int W, int NC, int K>
+PILEUS_FN M<W> thin_out_rays(const PathLanes<W, NC, K>& s, const PathParams& k, M<W> m, F<W> value,
                              U<W> spare, F<W>& shade) {
     using T = F<W>;
     constexpr float kSteps = 0x1p16f;
@@ -42,8 +42,8 @@ PILEUS_FN M<W> thin_out_rays(const PathLanes<W, NC, S>& s, const PathParams& k, 
 
 /// Choose the first flight from a new vertex: the sun's, the map's or the path's own. The lanes of
 /// `mapped` have a ray to the map.
-template <int W, int NC, bool S>
-PILEUS_FN void first_flight(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m, M<W> mapped,
+template <int W, int NC, int K>
+PILEUS_FN void first_flight(PathLanes<W, NC, K>& s, const PathParams& k, M<W> m, M<W> mapped,
                             U<W> spare) {
     M<W> sun = m & (s.shade > 0.0f);
     if (k.sunlit != 0) sun = thin_out_rays(s, k, sun, s.shade, spare, s.shade);
@@ -56,8 +56,8 @@ PILEUS_FN void first_flight(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m,
 }
 
 /// Draw a direction towards the map for the lanes of `m`; returns 16 random bits that are left.
-template <int W, int NC, bool S>
-PILEUS_FN U<W> aim_at_map(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m) {
+template <int W, int NC, int K>
+PILEUS_FN U<W> aim_at_map(PathLanes<W, NC, K>& s, const PathParams& k, M<W> m) {
     const Words<U<W>> texel = draw(s, k, m), place = draw(s, k, m);
     const Vec<F<W>> d = draw_sky<F<W>>(k.map, k.sampler, texel, place);
     s.to_map.x = select(m, d.x, s.to_map.x);
@@ -75,8 +75,8 @@ PILEUS_FN T balanced(T own, T other) {
 
 /// Weigh the ray to the map, drawn where a path's own turn has the density `own`, and choose the
 /// lanes of `m` in which it flies.
-template <int W, int NC, bool S>
-PILEUS_FN M<W> map_rays(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m, F<W> own, U<W> spare) {
+template <int W, int NC, int K>
+PILEUS_FN M<W> map_rays(PathLanes<W, NC, K>& s, const PathParams& k, M<W> m, F<W> own, U<W> spare) {
     const F<W> other = sky_density(k.map, k.sampler, s.to_map);
     F<W> shade = balanced(own, other);
     // The map's light, all of it, times the density of this direction is its radiance.
@@ -86,8 +86,8 @@ PILEUS_FN M<W> map_rays(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m, F<W
 }
 
 /// Real collisions in the lanes of `m`.
-template <int W, int NC, bool S>
-PILEUS_FN void scatter_path(PathLanes<W, NC, S>& s, const PathParams& k, PathTally& tally, M<W> m) {
+template <int W, int NC, int K>
+PILEUS_FN void scatter_path(PathLanes<W, NC, K>& s, const PathParams& k, PathTally& tally, M<W> m) {
     using T = F<W>;
     end_paths(s, m & (s.order >= k.max_depth));
     m = m & s.alive;
@@ -101,8 +101,7 @@ PILEUS_FN void scatter_path(PathLanes<W, NC, S>& s, const PathParams& k, PathTal
 
     const Words<U<W>> w = draw(s, k, m);
     const T u = uniform_open(w.a);
-    const Vec<T> sun{all<T>(k.to_sun[0]), all<T>(k.to_sun[1]), all<T>(k.to_sun[2])};
-    const T to_sun = one_minus_cosine(s.d, sun);
+    const T to_sun = one_minus_cosine(s.d, sun_of(s, k));
     const bool map = k.map.columns > 0;
     T to_map{}, to_map_density{};
     U<W> map_luck{};
@@ -123,17 +122,27 @@ PILEUS_FN void scatter_path(PathLanes<W, NC, S>& s, const PathParams& k, PathTal
         s.next_density =
             select(mine, phase_density(optics.phase, own.one_minus_cos), s.next_density);
     });
-    M<W> mapped = m & lnot(m);
-    if (map) mapped = map_rays(s, k, m, to_map_density, map_luck);
+    M<W> mapped = m & lnot(m), mappable = m;
+    if constexpr (kGuided<K>) mappable = m & lnot(s.branch);
+    if (map) mapped = map_rays(s, k, mappable, to_map_density, map_luck);
     const SinCos<T> phi = sincos_turns(uniform(w.b));
     const Vec<T> d = turned(s.d, 1.0f - turn.one_minus_cos, turn.sine, phi.cosine, phi.sine);
     s.next = {select(m, d.x, s.next.x), select(m, d.y, s.next.y), select(m, d.z, s.next.z)};
+    if constexpr (kGuided<K>)
+        seek_sun(s, k, m, [&](const Vec<T>& way, M<W> lanes) {
+            const T one_minus_cos = one_minus_cosine(s.d, way);
+            T density{};
+            for_media(s, k, lanes, [&](const Optics& optics, M<W> mine) {
+                density = select(mine, phase_density(optics.phase, one_minus_cos), density);
+            });
+            return density;
+        });
     first_flight(s, k, m, mapped, spare_bits(w));
 }
 
 /// The lanes of `m` meet the ground at `at`, metres.
-template <int W, int NC, bool S>
-PILEUS_FN void reflect_path(PathLanes<W, NC, S>& s, const PathParams& k, PathTally& tally, M<W> m,
+template <int W, int NC, int K>
+PILEUS_FN void reflect_path(PathLanes<W, NC, K>& s, const PathParams& k, PathTally& tally, M<W> m,
                             const Vec<F<W>>& at) {
     using T = F<W>;
     constexpr float kInvPi = 4.0f * kInvFourPi;
@@ -148,18 +157,20 @@ PILEUS_FN void reflect_path(PathLanes<W, NC, S>& s, const PathParams& k, PathTal
     const T height = max_(up.normal, all<T>(1e-6f));
     s.next = {select(m, up.a, s.next.x), select(m, up.b, s.next.y), select(m, height, s.next.z)};
     s.next_density = select(m, height * kInvPi, s.next_density);
-    s.shade = select(m, all<T>((k.to_sun[2] > 0.0f ? k.to_sun[2] : 0.0f) * kInvPi), s.shade);
+    s.shade = select(m, max_(sun_of(s, k).z, T{}) * kInvPi, s.shade);
     M<W> mapped = m & lnot(m);
     if (k.map.columns > 0) {
         const U<W> luck = aim_at_map(s, k, m);
         mapped = map_rays(s, k, m, max_(s.to_map.z, T{}) * kInvPi, luck);
     }
+    if constexpr (kGuided<K>)
+        seek_sun(s, k, m, [&](const Vec<T>& way, M<W>) { return max_(way.z, T{}) * kInvPi; });
     first_flight(s, k, m, mapped, spare_bits(w));
 }
 
 /// The lanes of `m` meet a solid.
-template <int W, int NC, bool S>
-PILEUS_FN void reflect_at_solid(PathLanes<W, NC, S>& s, const PathParams& k, PathTally& tally,
+template <int W, int NC, int K>
+PILEUS_FN void reflect_at_solid(PathLanes<W, NC, K>& s, const PathParams& k, PathTally& tally,
                                 M<W> m) {
     using T = F<W>;
     constexpr float kInvPi = 4.0f * kInvFourPi;
@@ -178,13 +189,14 @@ PILEUS_FN void reflect_at_solid(PathLanes<W, NC, S>& s, const PathParams& k, Pat
     const Vec<T> d = turned(n, height, all<T>(1.0f), up.a, up.b);
     s.next = {select(m, d.x, s.next.x), select(m, d.y, s.next.y), select(m, d.z, s.next.z)};
     s.next_density = select(m, height * kInvPi, s.next_density);
-    const T sun = n.x * k.to_sun[0] + n.y * k.to_sun[1] + n.z * k.to_sun[2];
-    s.shade = select(m, max_(sun, T{}) * kInvPi, s.shade);
+    s.shade = select(m, max_(dot(n, sun_of(s, k)), T{}) * kInvPi, s.shade);
     M<W> mapped = m & lnot(m);
     if (k.map.columns > 0) {
         const U<W> luck = aim_at_map(s, k, m);
         mapped = map_rays(s, k, m, max_(dot(s.to_map, n), T{}) * kInvPi, luck);
     }
+    if constexpr (kGuided<K>)
+        seek_sun(s, k, m, [&](const Vec<T>& way, M<W>) { return max_(dot(way, n), T{}) * kInvPi; });
     first_flight(s, k, m, mapped, spare_bits(w));
     // Black surfaces end paths; between white ones a path would go on for ever.
     const M<W> endless = m & (s.bounces >= kMostBounces);
@@ -200,8 +212,8 @@ PILEUS_FN Vec<F<W>> sky_light(const PathParams& k, const Vec<F<W>>& d) {
 }
 
 /// Paths of the lanes of `m` see the sky along their direction, and end.
-template <int W, int NC, bool S>
-PILEUS_FN void reach_sky(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m) {
+template <int W, int NC, int K>
+PILEUS_FN void reach_sky(PathLanes<W, NC, K>& s, const PathParams& k, M<W> m) {
     using T = F<W>;
     T share = all<T>(1.0f);
     if (k.map.columns > 0) {
@@ -216,12 +228,13 @@ PILEUS_FN void reach_sky(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m) {
 
 /// Paths of the lanes of `m` have left the box: the ground reflects them or the sky ends them.
 /// Returns the lanes that go on.
-template <int W, int NC, bool S>
-PILEUS_FN M<W> leave_media(PathLanes<W, NC, S>& s, const PathParams& k, PathTally& tally, M<W> m) {
+template <int W, int NC, int K>
+PILEUS_FN M<W> leave_media(PathLanes<W, NC, K>& s, const PathParams& k, PathTally& tally, M<W> m) {
     using T = F<W>;
     s.out = s.out & lnot(m);
+    if constexpr (kGuided<K>) m = leave_branches(s, m);
     M<W> ground = m & lnot(m), solid = ground;
-    if constexpr (S) {
+    if constexpr (kSolid<K>) {
         solid = m & (s.piece >= 0);
         end_paths(s, m & (s.piece == kImageWall));
         m = m & (s.piece == kNoWall);
@@ -246,8 +259,8 @@ PILEUS_FN M<W> leave_media(PathLanes<W, NC, S>& s, const PathParams& k, PathTall
 }
 
 /// Shadow rays of the lanes of `m` have ended: add what they bring, choose the next flight.
-template <int W, int NC, bool S>
-PILEUS_FN void gather_light(PathLanes<W, NC, S>& s, const PathParams& k, M<W> m) {
+template <int W, int NC, int K>
+PILEUS_FN void gather_light(PathLanes<W, NC, K>& s, const PathParams& k, M<W> m) {
     using T = F<W>;
     s.lit = s.lit & lnot(m);
     const M<W> sun = m & (s.flight == kFlightSun), map = m & lnot(sun);

@@ -7,6 +7,7 @@
 #include "kernels_cpu/core/fixed.h"
 #include "kernels_cpu/core/pack.h"
 #include "kernels_cpu/core/sh.h"
+#include "kernels_cpu/photons/meter_params.h"
 #include "kernels_cpu/photons/trace_start.h"
 
 namespace pileus {
@@ -22,17 +23,6 @@ PILEUS_FN void add_lanes(const TraceParams& k, const TraceBuffers& b, std::uint3
         std::int64_t* sums = b.sums + set * k.coefficients + first;
         add_sums(sums, quanta, i, count, b.shared_sums != 0);
     }
-}
-
-/// The voxel that holds a position in or on the box.
-template <class T>
-PILEUS_FN auto voxel_of(const Vec<T>& p, const TrackGrid& k) {
-    using II = I_of<T>;
-    const auto clamped = [](T at, std::int32_t n) {
-        return min_(max_(to_int(at), II{}), all<II>(n - 1));
-    };
-    return (clamped(p.z, k.size[2]) * k.size[1] + clamped(p.y, k.size[1])) * k.size[0] +
-           clamped(p.x, k.size[0]);
 }
 
 PILEUS_FN std::int64_t voxels_of(const TrackGrid& k) {
@@ -58,6 +48,27 @@ PILEUS_FN void towards_camera(const TraceParams& k, const TraceBuffers& b, I<W> 
             const T p = part * phase_density(k.optics[i].phase, one_minus_cos);
             for (int c = 0; c < NC; ++c) out[c] = out[c] + p * k.optics[i].albedo[c];
         });
+}
+
+/// Of the light that collides at `corner`, where the `density` was looked up, the share that the
+/// media absorb in channel `c`, over the largest 1 - albedo of all media: that factor is left to
+/// the reconstruction, so that weak absorption keeps its digits.
+template <int W>
+PILEUS_FN F<W> absorbed_share(const TraceParams& k, const TraceBuffers& b, I<W> corner,
+                              F<W> density, int c) {
+    using T = F<W>;
+    float most = 0.0f;
+    for (int i = 0; i < k.media; ++i) {
+        const float lost = 1.0f - k.optics[i].albedo[c];
+        most = lost > most ? lost : most;
+    }
+    if (k.media <= 1 || most <= 0.0f) return all<T>(most > 0.0f ? 1.0f : 0.0f);
+    T sum{};
+    for_shares(
+        b.parts, voxels_of(k.grid), k.media, density,
+        [&](const float* grid) { return gather(grid, corner); },
+        [&](int i, T part) { sum = sum + part * ((1.0f - k.optics[i].albedo[c]) / most); });
+    return sum;
 }
 
 /// Lanes of photons that move in turn; what they leave behind is gathered into full vectors.
@@ -183,7 +194,7 @@ PILEUS_FN void deposit(const TraceParams& k, const TraceBuffers& b, DepositQueue
     m = m & (collector >= 0);
     const T value = select(s.shadow, T{} - share, share);
     if (k.first_order != 0 && k.light == kLightBeam) {
-        const auto straight = m & (s.order == 0);
+        const auto straight = m & (s.strayed == 0);
         if (k.first_order == 1 && any(straight)) {
             const I<W> quanta = quantise(value, k.scale);
             for (int c = 0; c < NC; ++c)
@@ -193,6 +204,14 @@ PILEUS_FN void deposit(const TraceParams& k, const TraceBuffers& b, DepositQueue
     }
     if (!any(m)) return;
 
+    if (k.mode == kDepositAbsorbed) {
+        for (int c = 0; c < NC; ++c) {
+            const T lost = absorbed_share<W>(k, b, corner, density, c);
+            const I<W> quanta = quantise(value * s.weight[c] * lost, k.scale);
+            add_lanes<W>(k, b, bits_of(m), collector, &quanta, c, 0, 1);
+        }
+        return;
+    }
     if (k.mode != kDepositCamera) {
         T shares[NC];
         for (int c = 0; c < NC; ++c) shares[c] = value * s.weight[c];
@@ -224,7 +243,7 @@ template <int W, int NC, bool S>
 PILEUS_FN void deposit_in_cell(const TraceParams& k, const TraceBuffers& b, DepositQueue<W, NC>& q,
                                const Photon<W, NC, S>& s, M<W> m, I<W> cell) {
     using T = F<W>;
-    if (k.first_order != 0 && k.light == kLightBeam) m = m & (s.order != 0);
+    if (k.first_order != 0 && k.light == kLightBeam) m = m & (s.strayed != 0);
     if (!any(m)) return;
     const T length = min_(k.cell_density / s.bound, all<T>(1.0f));
     const T value = select(s.shadow, T{} - length, length);

@@ -45,7 +45,8 @@ PILEUS_FN void advance(Group<W, NC, S>& g, const TraceParams& k, const TraceBuff
     fetch_ahead<W>(k.grid.density, g.corner);
     if constexpr (Cells) {
         g.voxel = select(g.hits, cell_of(s.p, k), I<W>{});
-    } else if (k.mode == kDepositIncident || k.mode == kDepositCamera) {
+    } else if (k.mode == kDepositIncident || k.mode == kDepositCamera ||
+               k.mode == kDepositAbsorbed) {
         g.voxel = select(g.hits, voxel_of(s.p, k.grid), I<W>{});
         fetch_ahead<W>(b.collector, g.voxel);
     }

@@ -5,6 +5,7 @@
 #pragma once
 #include "kernels_cpu/core/accumulate.h"
 #include "kernels_cpu/core/fixed.h"
+#include "kernels_cpu/photons/meter.h"
 #include "kernels_cpu/photons/trace_walk.h"
 #include "kernels_cpu/solids/solids.h"
 
@@ -74,6 +75,7 @@ PILEUS_FN void bounce(Photon<W, NC, S>& s, const TraceParams& k, TraceTally& tal
     tally.bounces += count_bits(bits_of(m));
     s.event = select(m, s.event + 1u, s.event);
     s.order = select(m, s.order + 1, s.order);
+    s.strayed = select(m, all<I<W>>(1), s.strayed);
     const U<W> number = s.index + k.first_photon, at = s.event * 4u;
     const Words<U<W>> first = threefry(k.key.k0, k.key.k1, number, at + 2u);
     const Lambert<T> up = lambert(threefry(k.key.k0, k.key.k1, number, at + 3u));
@@ -135,6 +137,10 @@ template <int W, int NC, bool S>
 PILEUS_FN void leave_box(Photon<W, NC, S>& s, const TraceParams& k, const TraceBuffers& b, M<W> m,
                          M<W> by_z) {
     TraceTally& tally = *b.tally;
+    if (k.mode == kDepositAbsorbed) {
+        const M<W> up = s.inverse.z > 0.0f;
+        meter_exits(s, k, b, m & by_z & up, m & by_z & lnot(up));
+    }
     auto down = m & lnot(m);
     if (k.ground != 0) {
         // Unscattered light is part of the unshadowed ground's radiance already.

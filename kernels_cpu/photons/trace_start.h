@@ -29,6 +29,7 @@ struct Photon : Walker<W>, Ahead<W, S> {
     I<W> exit, reach;          // axis across which it ends; empty blocks around it
     I<W> enters;               // -1: the three above are to be found anew
     I<W> order;                // scatterings so far, bounces included
+    I<W> strayed;              // 1: by a bounce, or by a turn that its beam does not keep
     I<W> texel;                // of the sky map that it comes from
     M<W> alive, shadow, owes;  // owes: the ground below misses this photon's light
     F<W> owed_x, owed_y;       // where on the ground, metres
@@ -142,6 +143,7 @@ PILEUS_FN void start_photons(Photon<W, NC, S>& s, const TraceParams& k, M<W> m) 
     s.path = select(m, zero, s.path);
     s.event = select(m, U<W>{}, s.event);
     s.order = select(m, I<W>{}, s.order);
+    s.strayed = select(m, I<W>{}, s.strayed);
     s.enters = select(m, all<I<W>>(-1), s.enters);
     s.alive = s.alive | m;
     s.shadow = s.shadow & lnot(m);

@@ -126,10 +126,11 @@ PILEUS_FN void scatter(Group<W, NC, S>& g, const TraceParams& k, const TraceBuff
     for (std::int32_t i = at; i < q.count; ++i) prefetch_(b.collector + q.voxel[i]);
 }
 
-/// New directions of items [at, at + W) of the queue, or of its last few.
+/// New directions of items [at, at + W) of the queue, or of its last few; `strays`: which turn by
+/// more than their beam keeps.
 template <int W, int NC, bool S>
 PILEUS_FN Vec<F<W>> turned_items(const TraceParams& k, const TurnQueue<W, NC, S>& q,
-                                 std::int32_t at) {
+                                 std::int32_t at, M<W>& strays) {
     using T = F<W>;
     const Words<U<W>> w =
         threefry(k.key.k0, k.key.k1, load<U<W>>(q.photon + at), load<U<W>>(q.event + at) * 4u + 2u);
@@ -141,6 +142,12 @@ PILEUS_FN Vec<F<W>> turned_items(const TraceParams& k, const TurnQueue<W, NC, S>
         const Turn<T> other = phase_sample(k.optics[i].phase, u);
         turn.one_minus_cos = select(mine, other.one_minus_cos, turn.one_minus_cos);
         turn.sine = select(mine, other.sine, turn.sine);
+    }
+    strays = turn.one_minus_cos >= 0.0f;
+    if (k.peak_turn > 0.0f) {
+        // The bits that neither of the two numbers above has used.
+        const T chance = to_float(reinterpret<I<W>>(((w.a & 255u) << 8) | (w.b & 255u)));
+        strays = chance >= 65536.0f * exp_(T{} - turn.one_minus_cos * (1.0f / k.peak_turn));
     }
     const SinCos<T> phi = sincos_turns(uniform(w.b));
     const Vec<T> d{load<T>(q.x + at), load<T>(q.y + at), load<T>(q.z + at)};
@@ -164,7 +171,9 @@ PILEUS_FN void turn_items(Group<W, NC, S>* groups, const TraceParams& k, const T
     const Words<U<W>> flight =
         threefry(k.key.k0, k.key.k1, load<U<W>>(q.photon + at), load<U<W>>(q.event + at) * 4u + 3u);
     w.tau = free_flight(flight.a, flight.b);
-    set_direction(w, k.grid, iota<I<W>>() < items, turned_items(k, q, at));
+    M<W> strays{};
+    set_direction(w, k.grid, iota<I<W>>() < items, turned_items(k, q, at, strays));
+    const std::uint32_t stray_lanes = bits_of(strays);
     for (std::int32_t i = 0; i < items; ++i) {
         const std::int32_t place = q.place[at + i];
         if (place < 0) continue;
@@ -176,6 +185,7 @@ PILEUS_FN void turn_items(Group<W, NC, S>* groups, const TraceParams& k, const T
         put(g.s.tau, l, lane(w.tau, i));
         put(g.s.enters, l, std::int32_t{-1});
         if constexpr (S) put(g.s.wall, l, -1.0f);
+        if ((stray_lanes >> i) & 1u) put(g.s.strayed, l, std::int32_t{1});
         put(g.waits, l, std::int32_t{0});
     }
     if (k.mode != kDepositOutgoing) return;

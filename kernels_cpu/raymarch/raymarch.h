@@ -23,7 +23,20 @@ PILEUS_FN void march_lattice(const RayMarch<T, Field>& r, const Lattice<T>& latt
     if (ends && any(alive)) last = sample_at(r, from, lattice.first, alive);
     // Bounded: every turn of the loop takes every living lane to a later step.
     while (any(alive)) {
-        const T to = max_(min_(lattice_place(lattice, n + steps), high), from);
+        T to = max_(min_(lattice_place(lattice, n + steps), high), from);
+        auto cut = alive & lnot(alive);  // panels that end before the lattice's do
+        if constexpr (Field::kHasVoxels) {
+            // A panel ends where its density does, too: what is left of it comes next.
+            if (r.k.rule == kRuleClosed) {
+                const T whole = to;
+                const Vec<T> start{r.origin.x + r.direction.x * from,
+                                   r.origin.y + r.direction.y * from,
+                                   r.origin.z + r.direction.z * from};
+                const T least = least_way(lattice_place(lattice, n + steps) - from, high);
+                to = min_(to, from + field_voxel(r.field, start, r.direction, least));
+                cut = alive & (to < whole);
+            }
+        }
         const T width = to - from;
         // A panel of one sample is empty where that is; others over all of their length.
         const T look = r.k.rule == kRuleClosed ? from + 0.5f * width : from;
@@ -42,7 +55,7 @@ PILEUS_FN void march_lattice(const RayMarch<T, Field>& r, const Lattice<T>& latt
             else
                 add_single(r, from, to, dense, sum);
         }
-        T next = n + steps;
+        T next = Field::kHasVoxels ? select(cut, n, n + steps) : n + steps;
         if (any(alive & empty)) {
             // The last panel that ends within the empty block; it adds nothing either.
             const T whole = to_float(to_int(
@@ -52,9 +65,13 @@ PILEUS_FN void march_lattice(const RayMarch<T, Field>& r, const Lattice<T>& latt
         const T before = n;
         n = next;
         from = max_(lattice_place(lattice, n), low);
+        if constexpr (Field::kHasVoxels) {
+            cut = cut & lnot(before < n) & (width > 0.0f);
+            from = select(cut, to, from);
+        }
         alive = alive & (from < high) & (to < high) & (sum.transmittance >= r.k.cut);
         // Whole numbers end at 2^24: a ray that needs more steps is cut short.
-        const auto stuck = alive & lnot(before < n);
+        const auto stuck = alive & lnot(before < n) & lnot(cut);
         if (any(stuck)) r.counts[kCountCut] += count_bits(bits_of(stuck));
         alive = alive & lnot(stuck);
     }
@@ -153,14 +170,23 @@ PILEUS_FN void raymarch_pixels(const RaymarchParams& k, const RaymarchBuffers& b
     store_pixels<W>(k, b, x, y, end, sum);
 }
 
-template <int W>
-PILEUS_FN void raymarch_rows(const RaymarchParams& k, const RaymarchBuffers& b, std::uint32_t begin,
-                             std::uint32_t end) {
+template <int W, bool Constant>
+PILEUS_FN void raymarch_blocks(const RaymarchParams& k, const RaymarchBuffers& b,
+                               std::uint32_t begin, std::uint32_t end) {
     constexpr int across = kMarchAcross<W>;
-    const GridField field{&k.medium, k.level, k.levels, b.parts, k.media};
+    const GridField<Constant> field{&k.medium, k.level, k.levels, b.parts, k.media};
     for (std::uint32_t y = begin; y < end; y += W / across)
         for (std::int32_t x = 0; x < k.lattice.width; x += across)
             raymarch_pixels<W>(k, b, field, x, std::int32_t(y), std::int32_t(end));
+}
+
+template <int W>
+PILEUS_FN void raymarch_rows(const RaymarchParams& k, const RaymarchBuffers& b, std::uint32_t begin,
+                             std::uint32_t end) {
+    if (k.medium.constant != 0)
+        raymarch_blocks<W, true>(k, b, begin, end);
+    else
+        raymarch_blocks<W, false>(k, b, begin, end);
 }
 
 }  // namespace PILEUS_ISA

@@ -18,12 +18,16 @@ inline namespace PILEUS_ISA {
 //                                                may change; bound 0: nothing up to there
 //   field_in_box(field, medium, place)            where nodes over the medium's box are read
 //   Field::kBoundsAreCheap                       whether to ask for a bound before each density
+//   Field::kHasVoxels                            whether densities are constant within voxels; then
+//   field_voxel(field, place, direction, least)  metres to the end of the voxel, at least `least`
 //   field_density(field, place, width)           density, filtered for steps of `width` metres
 //   field_shares(field, place, density, use)     use(i, share) for each medium; sum of shares 1
 
-/// The trilinear density grid of the scene's media, and coarser ones of the same box.
+/// The density grid of the scene's media, and coarser ones of the same box: trilinear, or with one
+/// density for each voxel.
+template <bool Constant>
 struct GridField {
-    static constexpr bool kBoundsAreCheap = true;
+    static constexpr bool kBoundsAreCheap = true, kHasVoxels = Constant;
     const MediumView* medium;
     const MediumView* level;  ///< [levels], the finest first
     std::int32_t levels;
@@ -31,13 +35,13 @@ struct GridField {
     std::int32_t media;
 };
 
-template <class T>
-PILEUS_FN Segment<T> field_clip(const GridField& f, const Ray<T>& ray) {
+template <bool Constant, class T>
+PILEUS_FN Segment<T> field_clip(const GridField<Constant>& f, const Ray<T>& ray) {
     return clip_to_medium(*f.medium, ray);
 }
 
-template <class T>
-PILEUS_FN M_of<T> field_holds(const GridField& f, const Vec<T>& p) {
+template <bool Constant, class T>
+PILEUS_FN M_of<T> field_holds(const GridField<Constant>& f, const Vec<T>& p) {
     const float* e = f.medium->extent;
     const auto height = (p.z >= 0.0f) & (p.z <= e[2]);
     if (f.medium->periodic != 0) return height;
@@ -52,25 +56,32 @@ PILEUS_FN Vec<T> field_in_box(const Field&, const MediumView& m, const Vec<T>& p
 
 template <class T>
 PILEUS_FN Vec<T> grid_voxels(const MediumView& m, const Vec<T>& place) {
-    const Vec<T> q = reduced(m, place);
-    return {q.x * (1.0f / m.cell[0]), q.y * (1.0f / m.cell[1]), q.z * (1.0f / m.cell[2])};
+    return in_voxels(m, reduced(m, place));
 }
-template <class T>
+template <bool Constant, class T>
 PILEUS_FN T grid_density(const MediumView& m, const Vec<T>& place) {
-    return interpolate(m.density, corners(grid_voxels(m, place), m.size, m.periodic != 0));
+    return read_density<Constant>(m.density, density_corners<Constant>(m, grid_voxels(m, place)));
+}
+
+/// Mixed levels have no voxels: nothing ends.
+template <class T>
+PILEUS_FN T field_voxel(const GridField<true>& f, const Vec<T>& place, const Vec<T>& direction,
+                        T least) {
+    if (f.levels > 0) return all<T>(3.0e38f);
+    return voxel_ahead(*f.medium, grid_voxels(*f.medium, place), direction, least);
 }
 
 /// Level whose cells are as long as a step: a finer one holds waves that the steps do not follow.
-template <class T>
-PILEUS_FN T grid_level(const GridField& f, T width) {
+template <bool Constant, class T>
+PILEUS_FN T grid_level(const GridField<Constant>& f, T width) {
     const T cells = max_(width * (1.0f / f.medium->step), all<T>(1.0f));
     return min_(log_(cells) * 1.44269504f, all<T>(float(f.levels)));
 }
 
 /// Empty cells of a level have none but empty ones below them, with their borders.
-template <class T>
-PILEUS_FN Block<T> field_ahead(const GridField& f, const Vec<T>& place, const Vec<T>& direction,
-                               T width) {
+template <bool Constant, class T>
+PILEUS_FN Block<T> field_ahead(const GridField<Constant>& f, const Vec<T>& place,
+                               const Vec<T>& direction, T width) {
     if (f.levels == 0) return block_ahead(*f.medium, grid_voxels(*f.medium, place), direction);
     const T level = grid_level(f, width);
     const auto whole = to_int(level);
@@ -87,9 +98,9 @@ PILEUS_FN Block<T> field_ahead(const GridField& f, const Vec<T>& place, const Ve
     return out;
 }
 
-template <class T>
-PILEUS_FN T field_density(const GridField& f, const Vec<T>& place, T width) {
-    if (f.levels == 0) return grid_density(*f.medium, place);
+template <bool Constant, class T>
+PILEUS_FN T field_density(const GridField<Constant>& f, const Vec<T>& place, T width) {
+    if (f.levels == 0) return grid_density<Constant>(*f.medium, place);
     const T level = grid_level(f, width);
     T out{};
     for (std::int32_t l = 0; l <= f.levels; ++l) {
@@ -97,22 +108,22 @@ PILEUS_FN T field_density(const GridField& f, const Vec<T>& place, T width) {
         const T weight = max_(1.0f - abs_(level - float(l)), T{});
         const auto here = weight > 0.0f;
         if (!any(here)) continue;
-        const T density = grid_density(l == 0 ? *f.medium : f.level[l - 1], place);
+        const T density = grid_density<Constant>(l == 0 ? *f.medium : f.level[l - 1], place);
         out = out + select(here, weight * density, T{});
     }
     return out;
 }
 
-template <class T, class Use>
-PILEUS_FN void field_shares(const GridField& f, const Vec<T>& place, T density, Use use) {
+template <bool Constant, class T, class Use>
+PILEUS_FN void field_shares(const GridField<Constant>& f, const Vec<T>& place, T density, Use use) {
     if (f.media <= 1) return use(0, all<T>(1.0f));
     const MediumView& m = *f.medium;
-    const Corners<T> at = corners(grid_voxels(m, place), m.size, m.periodic != 0);
+    const Corners<T> at = density_corners<Constant>(m, grid_voxels(m, place));
     // Parts have no levels: their shares are those of the grid itself.
-    if (f.levels > 0) density = interpolate(m.density, at);
+    if (f.levels > 0) density = read_density<Constant>(m.density, at);
     for_shares(
         f.parts, std::int64_t(m.size[0]) * m.size[1] * m.size[2], f.media, density,
-        [&](const float* grid) { return interpolate(grid, at); }, use);
+        [&](const float* grid) { return read_density<Constant>(grid, at); }, use);
 }
 
 }  // namespace PILEUS_ISA

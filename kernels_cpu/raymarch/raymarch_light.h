@@ -44,7 +44,14 @@ PILEUS_FN SunDepths<T> march_to_sun(const RaymarchParams& k, const Field& field,
     auto alive = wanted & (leave > 0.0f);
     const bool leaps = whole && light.turns == 0;
     for (std::int32_t turn = 0; any(alive) && (whole || turn < light.steps); ++turn) {
-        const T real = max_(min_(width, leave - at), T{}), half = 0.5f * real, middle = at + half;
+        T real = max_(min_(width, leave - at), T{});
+        if constexpr (Field::kHasVoxels) {
+            if (leaps) {
+                const Vec<T> start{place.x + d.x * at, place.y + d.y * at, place.z + d.z * at};
+                real = min_(real, field_voxel(field, start, d, least_way(width, leave)));
+            }
+        }
+        const T half = 0.5f * real, middle = at + half;
         Vec<T> p{place.x + d.x * middle, place.y + d.y * middle, place.z + d.z * middle};
         auto within = alive;
         if (light.turns > 0) {
@@ -71,7 +78,10 @@ PILEUS_FN SunDepths<T> march_to_sun(const RaymarchParams& k, const Field& field,
             skipped = select(dense, skipped, max_(steps, skipped));
         }
         n = n + skipped;
-        at = whole ? n * width : at + width;
+        if (Field::kHasVoxels && leaps)
+            at = at + select(dense, real, max_(half + ahead.rest, real));
+        else
+            at = whole ? n * width : at + width;
         if (!whole) width = width * light.growth;
         alive = alive & (at < leave) & (sum.tau < 60.0f);  // e^-60 is nothing
     }

@@ -10,7 +10,7 @@ namespace pileus {
 inline namespace PILEUS_ISA {
 
 struct SkyMedium {
-    static constexpr bool kBoundsAreCheap = false;
+    static constexpr bool kBoundsAreCheap = false, kHasVoxels = false;
     const SkyParams* sky;
 };
 

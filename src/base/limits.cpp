@@ -13,7 +13,7 @@ constexpr std::uint64_t two_to(int power) { return std::uint64_t{1} << power; }
 
 constexpr LimitRow kRows[kLimitCount] = {
     {"text", two_to(20), two_to(20), "bytes", "text of the scene"},
-    {"media", 8, 8, "", "media in a scene"},
+    {"media", 8, 8, "", "media in a scene, each colour of a transfer function one"},
     {"file", two_to(34), two_to(46), "bytes", "length of one file of a medium"},
     {"side", 4096, 4096, "cells", "cells along one side of a medium"},
     {"voxels", two_to(31), two_to(31), "cells", "cells of all media together"},

@@ -50,6 +50,11 @@ void choose_light(RaymarchRun& run) {
         run.light_why = "the sky is evaluated in place";
         return;
     }
+    if (grid.constant) {
+        run.march_light = true;
+        run.light_why = "light between the nodes of constant cells is not linear";
+        return;
+    }
     const double way = 0.5 * cells_across(grid);
     const double lit = double(s.steps < 64 ? s.steps : 64) * double(pixels_of(*run.scene));
     const double marched = lit * (s.light_steps > 0 ? double(s.light_steps) : way);
@@ -159,6 +164,8 @@ void note_plan(RaymarchRun& run) {
     } else {
         plan.leave_out("marched rays", "steps = 0: the medium is not seen");
     }
+    if (run.lighting.sunlit && scene.sun.angular_radius_deg > 0)
+        plan.leave_out("the sun's disc", "a point to this method: path alone knows it");
     if (run.levels > 0)
         plan.need((std::to_string(run.levels) + " coarser levels of the density").c_str());
     else

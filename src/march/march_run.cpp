@@ -126,7 +126,7 @@ Grid sun_grid(const RaymarchRun& run) {
 
 Status make_lit_medium(const Context& context, RaymarchRun& run) {
     if (!has_sun_grid(run) || !run.lit.volume.density.empty()) return Status::ok();
-    const StageClock clock(context, "shadow");
+    const StageClock clock(context, "buffer cells");
     PILEUS_TRY(resample_medium(marched_medium(run), sun_cells(run), context.threads,
                                arrays::lit_density(sun_grid(run)), run.lit));
     run.lit.sigma *= float(run.simple->light_scale);

@@ -27,11 +27,10 @@ std::string names_of_views(const MethodRow& row) {
 std::vector<MethodRow> method_rows() {
     MethodRow collectors{&collectors_method()};
     collectors.views = collectors_views(collectors.view_count);
-    return {collectors,
-            {&path_method()},
-            {&raymarch_method()},
-            {&optical_depth_method()},
-            {&photon_grid_method()}};
+    MethodRow photon_grid{&photon_grid_method()};
+    photon_grid.views = photon_grid_views(photon_grid.view_count);
+    return {
+        collectors, {&path_method()}, {&raymarch_method()}, {&optical_depth_method()}, photon_grid};
 }
 
 Status find_method(const Scene& scene, const Method*& method) {

@@ -19,19 +19,16 @@ MediumView view_of(const PhotonRun& run) {
     return make_medium_view(run.world->medium, run.majorants);
 }
 
+/// Nodes so many cells apart along each axis: the depth changes from cell to cell, and where cells
+/// are flat it does so over less than their longest edge.
 NodeGrid shadow_grid(const PhotonRun& run) {
     const Medium& medium = run.world->medium;
-    if (run.shadow_by_axis) {
-        NodeGrid g{};
-        for (int a = 0; a < 3; ++a) {
-            g.size[a] = int((medium.grid.size[a] + 1) / kShadowVoxels);
-            g.per_metre[a] = float(g.size[a] / medium.extent_m[a]);
-        }
-        return g;
+    NodeGrid g{};
+    for (int a = 0; a < 3; ++a) {
+        g.size[a] = int((medium.grid.size[a] + 1) / kShadowVoxels);
+        g.per_metre[a] = float(g.size[a] / medium.extent_m[a]);
     }
-    float coarse = 0;
-    for (float cell : medium.grid.cell_m) coarse = cell > coarse ? cell : coarse;
-    return make_node_grid(medium.grid, medium.extent_m, kShadowVoxels * double(coarse));
+    return g;
 }
 
 }  // namespace
@@ -51,6 +48,9 @@ Status make_sun_shadow(const Context& context, PhotonRun& run) {
     if (run.lighting.solids != nullptr)
         PILEUS_TRY(solid_visibility(context, *run.lighting.solids, run.shadow_nodes,
                                     run.lighting.to_sun, run.visibility));
+    if (run.deposit.peak_turn > 0 && run.beam.sets == 0)
+        PILEUS_TRY(
+            make_beam(run.world->medium, run.peak_deg, context.threads, Stage::kShadow, run.beam));
     run.shadow_ready = true;
     return Status::ok();
 }
@@ -64,6 +64,7 @@ Status march_lit(const Context& context, const PhotonRun& run, const float* sour
     const StageClock clock(context, "march");
     MarchBuffers b{};
     b.optical_depth = run.shadow.data();
+    b.beam = run.beam.tables.data();
     b.source = source;
     b.opaque_depth = planes.opaque_depth.data();
     b.parts = run.world->medium.parts.data();
@@ -92,6 +93,8 @@ MarchParams lit_march_params(const PhotonRun& run, const LightInput& lit, const 
         for (std::size_t c = 0; c < 3 && run.deposit.first_order == 2; ++c)
             k.sun_source[i][c] = float(light.sun_irradiance[c] * double(optics.albedo[c]));
     }
+    k.beam_sets = lit.first_order_alone || run.deposit.first_order != 2 ? 0 : run.beam.sets;
+    for (int c = 0; c < 3; ++c) k.beam_rest[c] = run.beam.rest[c];
     k.shadow = run.shadow_nodes;
     k.source = source;
     k.channels = 3;

@@ -7,9 +7,13 @@
 #include <cstring>
 
 #include "src/world/camera/view.h"
+#include "src/world/phase/forward_share.h"
 
 namespace pileus {
 namespace {
+
+/// Least share of the scattered light within a cone that is worth a table of its own.
+constexpr double kLeastPeak = 0.3;
 
 /// Batches for the standard error: the largest divisor of the generations up to 16, so that all
 /// hold equally many; if that is under 8, as many as fit with slightly unequal shares.
@@ -172,6 +176,32 @@ void aim_deposit(PhotonRun& run) {
     run.deposit.orthographic = seen.orthographic;
     for (int a = 0; a < 3; ++a)
         run.deposit.camera[a] = seen.orthographic ? -camera.forward[a] : camera.origin[a];
+}
+
+void choose_peak(double peak_deg, PhotonRun& run) {
+    const Medium& medium = run.world->medium;
+    run.peak_deg = peak_deg;
+    run.deposit.peak_turn = 0;
+    const char* why = nullptr;
+    if (!(peak_deg > 0))
+        why = "switched off";
+    else if (!run.lighting.sunlit)
+        why = "no sun";
+    else if (run.deposit.first_order != 2)
+        why = "the march does not show the first order";
+    else if (medium.count != 1)
+        why = "other than one medium";
+    else if (forward_share(medium.optics[0].phase, peak_deg) < kLeastPeak)
+        why = "the phase function has no peak";
+    if (why != nullptr)
+        run.plan.leave_out("the beam's peak", why);
+    else
+        run.deposit.peak_turn = turn_of_deg(peak_deg);
+}
+
+std::uint64_t beam_sets(const PhotonRun& run) {
+    if (!(run.deposit.peak_turn > 0)) return 0;
+    return run.world->medium.channels == 1 ? 1 : 3;
 }
 
 void set_photon_sun(double elevation_deg, PhotonRun& run) {

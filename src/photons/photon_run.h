@@ -4,6 +4,7 @@
 // docs/methods.md 3, "Generations and error"; what the sums mean belongs to the method.
 #pragma once
 #include "src/methods/methods.h"
+#include "src/photons/beam.h"
 #include "src/photons/trace.h"
 #include "src/picture/layers.h"
 #include "src/plan/plan.h"
@@ -31,10 +32,9 @@ struct PhotonRun : MethodRun {
     NodeGrid shadow_nodes{};
     Buffer<float> shadow;      ///< optical depth to the sun per node
     Buffer<float> visibility;  ///< and what solids leave of the sun; empty without solids
-    /// Nodes two cells apart along each axis; false: two of the largest edge along all, which is
-    /// too far apart in layers of flat cells.
-    bool shadow_by_axis = false;
     bool shadow_ready = false;
+    double peak_deg = 0;
+    Beam beam;                  ///< made with the shadow where deposit.peak_turn asks for it
     Planes planes;              ///< of a session's picture
     std::uint32_t layouts = 0;  ///< times that the sums were laid out
     bool interrupted = false;  ///< fewer generations than asked for, because the user wanted an end
@@ -62,6 +62,14 @@ Status shoot_generation(TraceInput in, const Context& context, PhotonRun& run);
 
 /// Where deposits of the phase function look: the camera, or back along its parallel rays.
 void aim_deposit(PhotonRun& run);
+
+/// Decides deposit.peak_turn: a beam of light scattered within so many degrees is kept apart from
+/// the photons' deposits, where the march shows the sun's first order of one medium. Else the plan
+/// leaves it out.
+void choose_peak(double peak_deg, PhotonRun& run);
+
+/// Tables that the beam will have.
+std::uint64_t beam_sets(const PhotonRun& run);
 
 /// Moves the sun; generations already shot keep the sun they were shot under.
 void set_photon_sun(double elevation_deg, PhotonRun& run);

@@ -19,6 +19,7 @@ struct DepositPlan {
     int bands = 4;
     int first_order = 0;    ///< see TraceParams
     int axis_degrees = 0;   ///< see TraceParams
+    float peak_turn = 0;    ///< see TraceParams
     int coefficients = 16;  ///< per collector and channel
     int channels = 0;       ///< that photons tell apart, 1 or 3; 0: as many as the medium
     int places = 16;        ///< binary places of the sums

@@ -119,6 +119,18 @@ Status add_error(const Planes& planes, int batches, Image& image) {
 
 }  // namespace
 
+ErrorSum batch_error_sum(const Planes& planes, int batches) {
+    ErrorSum sum;
+    const std::size_t pixels = planes.transmittance.size();
+    for (std::size_t i = 0; i < pixels && batches > 1; ++i) {
+        float radiance = planes.colour[pixels + i];
+        if (!planes.background.empty())
+            radiance += planes.transmittance[i] * planes.background[pixels + i];
+        sum.add(planes.transmittance[i], batch_error(planes, pixels, i, 1, batches), radiance);
+    }
+    return sum;
+}
+
 Status allocate_planes(int width, int height, int channels, bool solid, bool depth,
                        Planes& planes) {
     const std::uint64_t pixels = std::uint64_t(width) * std::uint64_t(height);

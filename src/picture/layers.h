@@ -41,6 +41,9 @@ struct ErrorSum {
     double mean_relative() const { return count > 0 ? relative / count : 0; }
 };
 
+/// Of planes whose colours after the first three are those of `batches` parts of the light.
+ErrorSum batch_error_sum(const Planes& planes, int batches);
+
 /// Numbers per pixel that allocate_planes makes room for.
 inline std::uint64_t plane_count(std::uint64_t channels, bool solid, bool depth) {
     return 1 + channels + (channels > 0 ? 3u : 0u) + (solid ? 1u : 0u) + (depth ? 1u : 0u);

@@ -22,6 +22,7 @@ MediumView make_medium_view(const Medium& medium, const Majorants& majorants) {
     v.density = medium.volume.density.data();
     v.majorant = majorants.skipping.data();
     v.periodic = medium.grid.periodic ? 1 : 0;
+    v.constant = medium.grid.constant ? 1 : 0;
     return v;
 }
 

@@ -67,6 +67,7 @@ Status launch_on_device(const DeviceTable& device, const MarchParams& params,
     const Size numbers = k.bands > 0 ? Size(k.sets) * Size(k.harmonics) : Size(k.channels);
     a.in(b.optical_depth, product(k.shadow.size));
     a.in(b.source, numbers * product(k.source.size));
+    a.in(b.beam, Size(k.beam_sets) * Size(kBeamNumbers));
     a.in(b.opaque_depth, pixels);
     if (k.media > 1) a.in(b.parts, Size(k.media - 1) * product(k.medium.size));
     a.both(b.transmittance, pixels);
@@ -104,7 +105,8 @@ Status launch_on_device(const DeviceTable& device, const PathParams& params,
     add_sampler(a, k.map, k.sampler);
     a.both(b.radiance, b.stride * (k.parts_wanted != 0 ? 3 * kPathParts : 3));
     a.both(b.tally, 1);
-    a.launch(device.kernels->trace_paths, k, b, 0, count);
+    a.launch(seeks_sun(k) ? device.kernels->trace_paths_guided : device.kernels->trace_paths, k, b,
+             0, count);
     return a.finish();
 }
 

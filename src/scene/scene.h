@@ -28,10 +28,12 @@ struct Frustum {
 
 struct Camera {
     Double3 position_m{0, -3000, 600}, target_m{0, 0, 900}, up{0, 0, 1};
-    bool orthographic = false;  ///< parallel rays, or none at all (flux)
-    bool flux = false;          ///< a flat detector of light from its front; orthographic too
-    double fov_deg = 40;        ///< vertical, perspective only; in (0, 180)
-    double height_m = 2000;     ///< orthographic and flux; > 0
+    bool position_by_place = false, target_by_place = false;  ///< by the weather file's map
+    Double3 position_place{}, target_place{};  ///< longitude, latitude in degrees, height in m
+    bool orthographic = false;                 ///< parallel rays, or none at all (flux)
+    bool flux = false;       ///< a flat detector of light from its front; orthographic too
+    double fov_deg = 40;     ///< vertical, perspective only; in (0, 180)
+    double height_m = 2000;  ///< orthographic and flux; > 0
     std::array<int, 2> resolution{960, 540};
     bool has_frustum = false;  ///< a session's: instead of fov_deg and height_m
     Frustum frustum;
@@ -45,6 +47,7 @@ struct Sun {
     double azimuth_deg = 0;     ///< from +y (north) towards +x (east)
     double elevation_deg = 45;  ///< [-90, 90]
     Float3 irradiance{1, 1, 1};
+    double angular_radius_deg = 0;  ///< of its disc; 0: a point. Method path alone
 };
 
 struct Sky {
@@ -77,6 +80,13 @@ struct PhaseSettings {
     std::string file;                       ///< table, moments; as MediumSettings::file
 };
 
+/// What a medium is at one value of the field that it shows; linear in between.
+struct TransferRow {
+    double value = 0;
+    double extinction_per_m = 0;  ///< >= 0
+    Float3 albedo{1, 1, 1};
+};
+
 enum class RawType { kUint8, kUint16, kFloat32 };
 
 struct MediumSettings {
@@ -101,6 +111,8 @@ struct MediumSettings {
     Float3 albedo{1, 1, 1};
     PhaseSettings phase;
     bool periodic = false;  ///< boundary = "periodic": repeats without end along x and y
+    bool constant = false;  ///< interpolation = "constant": a cell has one value
+    std::vector<TransferRow> transfer;  ///< by rising values; none: extinction as the file has it
     bool y_up = false;
 };
 
@@ -126,6 +138,7 @@ struct CollectorSettings {
     bool variance_field = false;     ///< placement = "variance" or "gradient"
     int variance_radius = 2;         ///< voxels, 1..8
     double density_range = 0.1;      ///< stop splitting below this range of density; [0, 1]
+    double peak_deg = 20;            ///< scatterings within it are the sun's own light; [0, 90]
     double influence_radius = 0.05;  ///< of a sample, as a share of the box's diagonal; (0, 1]
     double radius_factor = 1.35;     ///< billboard radius over r; best only; [1, 3]
     int axis_degrees = 8;
@@ -144,6 +157,7 @@ struct PhotonGridSettings {
     GridClosure closure = GridClosure::kSh;
     int bands = 4;         ///< closure = "sh"; 1..8
     int axis_degrees = 8;  ///< closure = "sh"
+    double peak_deg = 20;  ///< as CollectorSettings::peak_deg
     bool local_tracking = true;
     bool first_order_split = true;
     AccumulationChoice accumulation = AccumulationChoice::kAuto;
@@ -155,6 +169,7 @@ struct PathSettings {
     bool centre = false;      ///< pixel = "centre": rays through the middles of pixels only
     double target_error = 0;  ///< mean relative standard error to reach; 0: none
     std::int64_t max_samples_per_pixel = 65536;  ///< where an error or a time decides
+    bool guide = true;  ///< a peaked phase function's light is also sought from near the sun
 };
 
 enum class RaymarchIntegrator { kClosed, kRiemann, kTrapezoid, kSimpson, kSimpson38 };

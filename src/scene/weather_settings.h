@@ -12,6 +12,7 @@ namespace pileus {
 struct WeatherSettings {
     std::string liquid, ice, cloud_fraction, temperature, pressure, humidity, height;
     std::string liquid_radius, ice_radius, surface_pressure, surface_geopotential;
+    std::string variable;  ///< any field, shown by medium.transfer; empty: the water above
     std::string time = "0", member = "0";  ///< a whole number counts from 0; else a name
     bool in_cloud = false;        ///< fraction = "in_cloud": water is divided by the cloud fraction
     double liquid_radius_um = 0;  ///< effective; 0: of the file, or else 10

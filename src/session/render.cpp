@@ -5,10 +5,12 @@
 #include "platform/clock.h"
 #include "platform/fp_mode.h"
 #include "src/io/images/image_file.h"
+#include "src/scene/rows/volume_format.h"
 #include "src/session/run_context.h"
 #include "src/session/session.h"
 #include "src/session/verify.h"
 #include "src/session/warnings.h"
+#include "src/world/camera/places.h"
 
 namespace pileus {
 namespace {
@@ -53,7 +55,10 @@ void note_origin(const Report& report, Image& image) {
 /// What the files of weather data had that was no water.
 void count_water(const Scene& scene, const World& world, Report& report) {
     bool weather = false;
-    for (const MediumSettings& medium : scene.media) weather = weather || medium.format == "netcdf";
+    for (const MediumSettings& medium : scene.media) {
+        const VolumeFormat* format = volume_format_named(medium.format);
+        weather = weather || (format != nullptr && format->is_weather);
+    }
     if (!weather) return;
     report.counters.emplace_back("water_missing", world.medium.volume.missing);
     report.counters.emplace_back("water_negative", world.medium.volume.clamped);
@@ -100,6 +105,8 @@ Status render(const Scene& scene, const RenderOptions& options, const FrameSink&
         report.frame_wall_s = wall_seconds() - frame_start.wall_s;
         report.frame_cpu_s = cpu_seconds() - frame_start.cpu_s;
         if (options.holding) options.holding(true);
+        for (const auto& told : picture_place(*session.run().scene, orbit_at(scene, frame)))
+            image.origin.push_back(told);
         PILEUS_TRY(deliver(scene, start, frame, sink, image, report));
         if (options.holding) options.holding(false);
     }

@@ -8,6 +8,7 @@
 #include "platform/fp_mode.h"
 #include "src/methods/registry.h"
 #include "src/session/run_context.h"
+#include "src/world/camera/places.h"
 #include "src/world/camera/view.h"
 
 namespace pileus {
@@ -66,6 +67,7 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
     const FpModeGuard guard;
     const bool live = kind == SessionKind::kLive;
     scene_ = scene;
+    PILEUS_TRY(place_camera(scene_));
     options_ = options;
     if (live) make_live(scene_);
     camera_ = scene_.camera;
@@ -93,6 +95,7 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
     // Nor does its report hash what is made in each stage: that takes longer than a picture.
     if (live) run_->digests.clear();
     method_->report_plan(*run_, context_, report_);
+    report_.peak_bytes = peak_memory_bytes();
     return Status::ok();
 }
 
@@ -121,6 +124,7 @@ Status Session::step(std::uint64_t units, std::uint64_t& done) {
     PILEUS_TRY(aim());
     const Status status = method_->live->advance(units, context_, *run_, done);
     stats_.units += done;
+    report_.peak_bytes = peak_memory_bytes();
     return status;
 }
 
@@ -162,6 +166,7 @@ Status Session::render(const FrameTarget& target) {
     stats_.render_s = wall_seconds() - start;
     stats_.stages_s = stage_seconds(report_) - staged;
     report_.frame_wall_s = stats_.render_s;
+    report_.peak_bytes = peak_memory_bytes();
     return Status::ok();
 }
 
@@ -169,6 +174,8 @@ Report Session::told() const {
     Report out = report_;
     method_->report(*run_, out);
     take_clocks(out);
+    // Not that of this call: the text would grow between a host's two calls for it.
+    out.peak_bytes = report_.peak_bytes;
     return out;
 }
 

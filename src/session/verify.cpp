@@ -6,6 +6,7 @@
 
 #include "kernels_cpu/core/rng.h"
 #include "src/base/random_streams.h"
+#include "src/world/camera/places.h"
 
 namespace pileus {
 namespace {
@@ -82,6 +83,7 @@ Status Verifier::open(const Scene& scene, std::uint64_t pixels, const Context& c
                                  "medium.0.sky.evaluate = \"grid\"");
     pixels_ = pixels;
     scene_ = scene;
+    PILEUS_TRY(place_camera(scene_));
     own_paths_ = scene.method == "path";
     scene_.method = "path";
     scene_.output = OutputSettings{};

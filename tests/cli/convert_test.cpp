@@ -63,6 +63,38 @@ TEST_CASE("convert: from one format to the next and back") {
     CHECK(first.output.substr(0, 16) == second.output.substr(0, 16));
 }
 
+TEST_CASE("convert: to NetCDF and back, the same bytes") {
+    const ProgramFolder folder;
+    folder.files().put("a.pbrt", kGrid);
+    const Outcome nc = folder.run("convert a.pbrt a.nc");
+    CHECK(nc.errors == "");
+    CHECK(nc.output ==
+          "grid           a.nc\n"
+          "size           4 x 2 x 2\n"
+          "cell           1 x 1 x 2 m\n"
+          "box            0 0 10 to 4 2 14 m\n"
+          "density = \"a.nc\"\n"
+          "# relative densities: extinction_scale is the extinction at density 1, per m\n");
+    CHECK(folder.run("convert a.nc a.raw").exit_status == 0);
+    CHECK(folder.run("convert a.pbrt b.raw").exit_status == 0);
+    CHECK(folder.files().get("a.raw") == folder.files().get("b.raw"));
+    CHECK(folder.run("convert a.nc b.nc").output.find("#") == std::string::npos);
+    const std::string whole = folder.files().get("a.nc");
+    folder.files().put("c.nc", whole.substr(0, whole.size() - 1));
+    CHECK(holds(folder.run("convert c.nc d.vdb").errors,
+                "c.nc: variable density: the file ends before its values do"));
+    const Outcome over = folder.run("convert a.nc a.nc");
+    CHECK(over.exit_status == 2);
+    CHECK(holds(over.errors, "a.nc: output: is the grid that is read"));
+    CHECK(folder.files().get("a.nc") == whole);
+    CHECK(holds(folder.run("convert a.pbrt d.nc --time 0").errors,
+                "a.pbrt: --time, --member, --resolution: for NetCDF files, allowed: left out"));
+    CHECK(holds(folder.run("convert a.nc d.vdb --resolution 2 2 2").errors,
+                "a.nc: resolution: not for a grid of density, allowed: left out"));
+    CHECK(holds(folder.run("convert a.nc d.vdb --resolution 2 0 2").errors,
+                "--resolution: out of range, 0, allowed: 1 to 4096"));
+}
+
 TEST_CASE("convert: the scene's line holds the whole path, however long") {
     const ProgramFolder folder;
     folder.files().put("a.pbrt", kGrid);
@@ -82,7 +114,8 @@ TEST_CASE("convert: each fault is one line, and no file is left") {
         int exit_status;
     };
     const Row rows[] = {
-        {"a.pbrt b.pbrt", "b.pbrt: extension: unknown, \".pbrt\", allowed: .raw .vdb", 2},
+        {"a.pbrt b.pbrt", "b.pbrt: extension: unknown, \".pbrt\", allowed: .raw .vdb .nc .nc4 .cdf",
+         2},
         {"a.raw b.raw", "b.raw: both files are raw, allowed: one of them", 2},
         {"a.raw b.vdb", "a.raw: --size: missing", 2},
         {"a.pbrt b.raw --size 1 1 1", "--size: for a .raw file that is read", 2},

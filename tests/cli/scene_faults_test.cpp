@@ -45,7 +45,7 @@ TEST_CASE("unknown, missing and ill-typed keys") {
          "mean collectors.photons?"},
         {kCamera + "[sun]\n\"a\\nb\" = 1\n",
          "s.toml:5:1: sun.\"a\\x0ab\": unknown key, \"a\\x0ab\", allowed: azimuth_deg, "
-         "elevation_deg, irradiance"},
+         "elevation_deg, irradiance, angular_radius_deg"},
         {"[camera]\nposition_m = [0, -9, 5]\n",
          "s.toml:1:1: camera.target_m: missing, nothing, allowed: 3 numbers in [-1e+09, 1e+09]"},
         {kCamera + "[[medium]]\ndensity = \"uniform:box\"\nbounds_m = [[0, 0, 0], [1, 1, 1]]\n",

@@ -55,6 +55,8 @@ bool allows(const KeyRow& row, const Node& node) {
 /// Values that a row may hold, as TOML.
 std::vector<std::string> candidates(const KeyRow& row) {
     if (row.kind() == KeyKind::kDensity) return {"\"uniform:sphere\""};
+    if (row.kind() == KeyKind::kTransfer)
+        return {"[{value=0,extinction_per_m=0},{value=0.5,extinction_per_m=2,albedo=[1,0.5,0]}]"};
     if (row.allowed.choices != nullptr) {
         std::vector<std::string> texts;
         for (std::string_view choice : split_list(row.allowed.choices))

@@ -75,9 +75,16 @@ TEST_CASE("keys that do not go together") {
         {kCamera + "[animation]\nsun_elevation_deg = [1, 2]\n",
          "s.toml:5:1: animation.sun_elevation_deg: conflicts with a scene without a sun, [1, 2], "
          "allowed: left out"},
+        {"[camera]\nposition_deg = [10, 50, 100]\ntarget_m = [0, 0, 0]\n",
+         "s.toml:2:16: camera.position_deg: no map to find it on, [10, 50, 100], allowed: "
+         "with a medium of weather data, or camera.position_m"},
+        {"[camera]\nposition_m = [0, -9, 5]\ntarget_deg = [10, 95, 100]\n",
+         "s.toml:3:14: camera.target_deg: out of range, [10, 95, 100], allowed: longitude "
+         "-360 "
+         "to 360, latitude -90 to 90, height"},
         {kCamera + "[output]\nfiles = [\"a.png\", \"b.jpg\"]\n",
          "s.toml:5:19: output.files: unknown kind of picture, \"b.jpg\", allowed: .exr, .png, "
-         ".pfm, .ppm"},
+         ".pfm, .ppm, .nc"},
         {kCamera + "[output]\nfiles = [\"a.png\", \"a.png\"]\n",
          "s.toml:5:19: output.files: given twice, \"a.png\", allowed: list of up to 16 texts"},
         {kCamera + "[output]\nlayers = [\"depht\"]\n",
@@ -114,10 +121,11 @@ TEST_CASE("densities and their files") {
          "s.toml:7:14: medium.0.resolution: not for a file, [1, 1, 1], allowed: left out"},
         {kCamera + kFile + "density = \"a.f32\"\n",
          "s.toml:6:11: medium.0.density: unknown kind of file, \"a.f32\", allowed: a name that "
-         "ends in .pbrt, .raw, .vol, .txt, .les, .vdb, .nvdb, .nc, .nc4, .cdf; or beside it the "
+         "ends in .pbrt, .raw, .vol, .txt, .les, .vdb, .nvdb, .nc, .nc4, .cdf, .grib, .grib2, "
+         ".grb, .grb2; or beside it the "
          "key "
          "format, one of \"pbrt\", \"raw\", \"vol\", \"les\", \"openvdb\", \"nanovdb\", "
-         "\"netcdf\"; or "
+         "\"netcdf\", \"grib\"; or "
          "density = { file = \"...\", type = \"float32\", size = [nx, ny, nz] } for a raw file"},
         {kCamera + kFile + "density = { file = \"a.vdb\", time = 3 }\n",
          "s.toml:6:36: medium.0.density.time: for NetCDF files only, 3, allowed: left out"},
@@ -147,6 +155,73 @@ TEST_CASE("densities and their files") {
          "s.toml:6:11: medium.0.density: null byte in text, \"a\\x00.pbrt\", ..."},
     };
     for (const Row& row : rows) check(row);
+}
+
+TEST_CASE("a transfer function has rising rows, and nothing beside it says what the medium is") {
+    const std::string box =
+        "[[medium]]\ndensity = \"uniform:box\"\nbounds_m = [[0, 0, 0], [1, 1, 1]]\n";
+    const std::string two =
+        "transfer = [{ value = 0, extinction_per_m = 0 }, { value = 1, extinction_per_m = 2 }]\n";
+    const std::string nc = "[[medium]]\ndensity = { file = \"a.nc\", variable = \"cc\"";
+    const char* const allowed =
+        "allowed: list of 2 to 64 tables of value, extinction_per_m, albedo";
+    const std::string length =
+        std::string("s.toml:7:12: medium.0.transfer: wrong length, 1 rows, ") + allowed;
+    const std::string type =
+        std::string("s.toml:7:12: medium.0.transfer: wrong type, [1, 2], ") + allowed;
+    const Row rows[] = {
+        {kCamera + box + "transfer = [{ value = 0, extinction_per_m = 0 }]\n", length.c_str()},
+        {kCamera + box + "transfer = [1, 2]\n", type.c_str()},
+        {kCamera + box +
+             "transfer = [{ value = 1, extinction_per_m = 0 }, { value = 1, extinction_per_m = 2 "
+             "}]\n",
+         "s.toml:7:60: medium.0.transfer.1.value: not rising, 1, allowed: more than 1, that of the "
+         "row before"},
+        {kCamera + box +
+             "transfer = [{ value = nan, extinction_per_m = 0 }, { value = 1, "
+             "extinction_per_m = 2 }]\n",
+         "s.toml:7:23: medium.0.transfer.0.value: not finite, nan, ..."},
+        {kCamera + box +
+             "transfer = [{ value = 0, extinction_per_m = -1 }, { value = 1, "
+             "extinction_per_m = 2 }]\n",
+         "s.toml:7:45: medium.0.transfer.0.extinction_per_m: out of range, -1, allowed: number in "
+         "[0, 1e+12]"},
+        {kCamera + box +
+             "transfer = [{ value = 0, extinction_per_m = 1, albedo = 2 }, { value = "
+             "1, extinction_per_m = 2 }]\n",
+         "s.toml:7:57: medium.0.transfer.0.albedo: out of range, 2, ..."},
+        {kCamera + box + "transfer = [{ value = 0 }, { value = 1, extinction_per_m = 2 }]\n",
+         "s.toml:7:13: medium.0.transfer.0.extinction_per_m: missing, nothing, ..."},
+        {kCamera + box +
+             "transfer = [{ value = 0, extinction_per_m = 0, color = 1 }, { value = 1, "
+             "extinction_per_m = 2 }]\n",
+         "s.toml:7:48: medium.0.transfer.0: unknown key, \"color\", allowed: value, "
+         "extinction_per_m, albedo"},
+        {kCamera + kMedium + two,
+         "s.toml:7:20: medium.0.extinction_per_m: conflicts with transfer, 1, allowed: left out"},
+        {kCamera + box + "albedo = 0.5\n" + two,
+         "s.toml:7:10: medium.0.albedo: conflicts with transfer, 0.5, allowed: left out"},
+        {kCamera + "[[medium]]\ndensity = \"a.txt\"\nextinction_scale = 2\n" + two,
+         "s.toml:6:20: medium.0.extinction_scale: conflicts with transfer, 2, allowed: left out"},
+        {kCamera + nc + " }\n",
+         "s.toml:5:39: medium.0.density.variable: shown by a transfer function only, \"cc\", "
+         "allowed: left out, or the key transfer"},
+        {kCamera + nc + ", ice = \"none\" }\n" + two,
+         "s.toml:5:51: medium.0.density.ice: of water, conflicts with variable, \"none\", allowed: "
+         "left out"},
+        {kCamera + kFile + "density = { file = \"a.vdb\", variable = \"cc\" }\n",
+         "s.toml:6:40: medium.0.density.variable: for NetCDF files only, \"cc\", allowed: left "
+         "out"},
+    };
+    for (const Row& row : rows) check(row);
+    CHECK(read(kCamera + box + two));
+    CHECK(read(kCamera + nc + " }\n" + two));
+    // The kind of a sky brings an extinction, which is no fault beside the rows.
+    const std::string sky =
+        "[[medium]]\ndensity = \"procedural:sky\"\n" + box.substr(box.find("bounds_m")) + two;
+    Scene scene;
+    REQUIRE(pileus::read_scene_text(kCamera + sky, "s.toml", "", {}, scene));
+    CHECK(pileus::check_scene(scene));
 }
 
 TEST_CASE("extinction is the scene's or the file's, never both") {

@@ -142,9 +142,9 @@ TEST_CASE("structs: laws between keys speak as they do of a file") {
           "optical-depth, photon-grid");
     CHECK(fault([](Scene& s) { s.sun.elevation_deg = std::nan(""); }) ==
           "scene: sun.elevation_deg: not finite, nan, allowed: number in [-90, 90]");
-    CHECK(
-        fault([](Scene& s) { s.output.files = {"a.jpg"}; }) ==
-        "scene: output.files: unknown kind of picture, \"a.jpg\", allowed: .exr, .png, .pfm, .ppm");
+    CHECK(fault([](Scene& s) { s.output.files = {"a.jpg"}; }) ==
+          "scene: output.files: unknown kind of picture, \"a.jpg\", allowed: .exr, .png, .pfm, "
+          ".ppm, .nc");
 }
 
 TEST_CASE("structs: what reading leaves behind is sound") {

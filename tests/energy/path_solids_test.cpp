@@ -3,6 +3,7 @@
 // in: meshes in small files, media, one light each -> out: pass or fail.
 // docs/solids.md; docs/testing.md. Differences are judged in standard errors of the film.
 #include <cmath>
+#include <cstdio>
 
 #include "src/base/file.h"
 #include "src/io/images/image_file.h"
@@ -147,6 +148,34 @@ TEST_CASE("path, solids: a plate between sun and cloud leaves it dark, one behin
     const Mean bright =
         lit("position_m = [0, -2.5, 0]\nrotation_deg = [90, 0, 0]\nscale = 9\nalbedo = 1");
     CHECK(bright.value > free.value + kFar * (free.error + bright.error));
+}
+
+TEST_CASE(
+    "path, solids: guided to the sun's disc or not, the same light; the same bits at any width") {
+    const Files files;
+    const std::string scene =
+        camera("[0, 0, 50]", "height_m = 4\nresolution = [6, 6]\n") +
+        "[sun]\nazimuth_deg = 20\nelevation_deg = 35\nangular_radius_deg = 3\n" +
+        solid(files.square, "albedo = 1\nrotation_deg = [20, 30, 0]") + box(2, 0.5, 0.95) +
+        "phase = { type = \"henyey-greenstein\", g = 0.95 }\n";
+    const auto traced = [&](const char* guide, const char* samples, const KernelTable* kernels) {
+        RenderOptions options;
+        options.kernels = kernels;
+        return render_one(scene_from(scene, {guide, samples}), options);
+    };
+    const Mean with = mean_of(traced("path.guide=true", "path.samples_per_pixel=2048", nullptr));
+    const Mean without =
+        mean_of(traced("path.guide=false", "path.samples_per_pixel=8192", nullptr));
+    std::printf("solids, g 0.95: guided %.5g se %.1g, unguided %.5g se %.1g\n", with.value,
+                with.error, without.value, without.error);
+    CHECK(std::abs(with.value - without.value) <
+          kFar * std::sqrt(with.error * with.error + without.error * without.error));
+    std::string hash;
+    for (int i = 0; const KernelTable* kernels = kernel_table_at(i); ++i) {
+        const Picture p = traced("path.guide=true", "path.samples_per_pixel=16", kernels);
+        if (i == 0) hash = p.report.hash;
+        CHECK(p.report.hash == hash);
+    }
 }
 
 TEST_CASE("path, solids: a closed white room is given up, and says so") {

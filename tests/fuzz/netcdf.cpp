@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "src/io/netcdf/netcdf_file.h"
+#include "src/io/volumes/netcdf_grid.h"
 #include "src/io/volumes/weather/weather_volume.h"
 #include "tests/fuzz/target.h"
 
@@ -18,12 +19,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         return 0;
     }
     pileus::MediumSettings medium;
-    medium.resolution = {4, 3, 5};
+    // A grid has its own cells.
+    const bool grid = pileus::netcdf_grid(file.head(), medium.weather) != nullptr;
+    if (!grid) medium.resolution = {4, 3, 5};
     pileus::VolumeHead head;
     pileus::Volume volume;
     const pileus::Status seen = pileus::weather_head(medium, file, head);
     const pileus::Status status = pileus::weather_volume(medium, file, volume);
-    fuzz::require(bool(seen) == bool(status), "a head and a volume have the same faults");
+    // The head of a grid reads none of its values, which may be faults of their own.
+    if (!grid || !seen)
+        fuzz::require(bool(seen) == bool(status), "a head and a volume have the same faults");
     if (!status) {
         fuzz::check_fault(status, "w.nc:", true);
         return 0;

@@ -80,6 +80,40 @@ TEST_CASE("one film from every instruction set, thread count and order of asking
     }
 }
 
+TEST_CASE("one film of guided paths and of the sun's disc from every instruction set") {
+    Rig rig = make_everything();
+    rig.medium.optics[0].phase = {kPhaseHg, 0.97f, 0, 1};
+    const SkyMap map =
+        sky_test::sky_map_of(sky_test::rough_sky(8, 5, true), true, rig.medium.extent_m, 20);
+    rig.lighting.map = map.view;
+    PathInput in = path_input(rig, make_view({-40, -60, 30}, {0.6f, 0.8f, 0}, 24, 16), 11);
+    std::vector<std::string> films;
+    for (double radius : {0.0, 3.0})
+        for (bool guide : {true, false}) {
+            in.guide = guide;
+            in.sun_radius_deg = radius;
+            const std::string once = film_digest(in, {37});
+            for (const std::string& other : films) CHECK(once != other);
+            films.push_back(once);
+            for (int i = 0; const KernelTable* kernels = kernel_table_at(i); ++i) {
+                in.kernels = kernels;
+                INFO(kernels->name);
+                CHECK(film_digest(in, {37}) == once);
+                in.threads = 3;
+                CHECK(film_digest(in, {1, 20, 16}) == once);
+                in.threads = 1;
+            }
+        }
+}
+
+TEST_CASE("where no phase function is peaked a guide changes no bit") {
+    Rig rig = make_everything();
+    PathInput in = path_input(rig, make_view({-40, -60, 30}, {0.6f, 0.8f, 0}, 24, 16), 11);
+    const std::string once = film_digest(in, {37});
+    in.guide = false;
+    CHECK(film_digest(in, {37}) == once);
+}
+
 TEST_CASE("the scratch's size and the film's parts change nothing") {
     Rig rig = make_everything();
     PathInput in = path_input(rig, make_view({60, 50, 40}, {0.6f, 0.8f, 0}, 5, 3), 11);

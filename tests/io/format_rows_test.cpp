@@ -54,6 +54,10 @@ TEST_CASE("format rows: an extension means one format, and the documents name it
         // A scene states the place of bare numbers; they can't be told from their head.
         CHECK((!format.bare || !format.has_grids));
     }
+    // NetCDF holds grids and pictures; which of them a name means is known where it stands, and
+    // none is read as a picture.
+    CHECK(seen.erase(".nc") == 1);
+    CHECK((picture_format_of("a.nc")->decode == nullptr));
     for (const PictureFormat& format : picture_formats()) {
         CAPTURE(format.extension);
         CHECK(seen.insert(format.extension).second);

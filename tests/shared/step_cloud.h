@@ -11,7 +11,6 @@ namespace step_cloud {
 using namespace path_test;
 
 constexpr int kColumns = 32;
-constexpr int kCuts = 64;  ///< voxels in each; the step is smeared over one of them, 0.24 m
 constexpr double kWidth = 500, kHeight = 250, kThin = 2, kThick = 18;
 
 struct Experiment {
@@ -26,16 +25,16 @@ inline double extinction(double x) {
     return (at < kWidth / 2 ? kThin : kThick) / kHeight;
 }
 
-/// Columns 1-16 of optical thickness 2, 17-32 of 18; light travels towards +x; flux 1 on a level
-/// plane.
+/// Columns 1-16 of optical thickness 2, 17-32 of 18, cells as they are; light travels towards +x;
+/// flux 1 on a level plane.
 inline Rig make_step(const Experiment& e) {
-    Rig rig = make_rig({kColumns * kCuts, 1, 1}, {kWidth, kWidth, kHeight}, kThick / kHeight);
+    Rig rig = make_rig({kColumns, 1, 1}, {kWidth, kWidth, kHeight}, kThick / kHeight);
     for (std::size_t i = 0; i < rig.medium.volume.density.size(); ++i)
-        rig.medium.volume.density.data()[i] = i < kColumns * kCuts / 2 ? float(kThin / kThick) : 1;
+        rig.medium.volume.density.data()[i] = i < kColumns / 2 ? float(kThin / kThick) : 1;
     set_albedo(rig, {float(e.albedo), float(e.albedo), float(e.albedo)});
     rig.medium.optics[0].phase.g1 = 0.85f;
-    rig.medium.grid.periodic = true;
-    set_majorants(rig, kCuts);
+    rig.medium.grid.periodic = rig.medium.grid.constant = true;
+    set_majorants(rig, 1);
     const SineCosine zenith = sincos_deg(e.zenith_deg);
     shine(rig, {float(-zenith.sine), 0, float(zenith.cosine)}, 1 / zenith.cosine);
     return rig;

@@ -58,7 +58,7 @@ Columns absorbed_by_photons(const Experiment& e, std::uint64_t photons, std::uin
     rig.collectors = kColumns;
     REQUIRE(rig.collector_of_voxel.resize(rig.medium.volume.density.size(), "columns"));
     for (std::size_t i = 0; i < rig.collector_of_voxel.size(); ++i)
-        rig.collector_of_voxel.data()[i] = std::int32_t(i / kCuts);
+        rig.collector_of_voxel.data()[i] = std::int32_t(i);
     rig.deposit.bands = 1;
     rig.deposit.coefficients = 1;
     const SineCosine zenith = sincos_deg(e.zenith_deg);

@@ -4,12 +4,14 @@
 // docs/weather.md; docs/testing.md, label shared
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <cstdlib>
 #include <string>
 
 #include "src/io/volumes/volume.h"
 #include "src/io/volumes/weather/weather_grid.h"
 #include "src/io/volumes/weather/weather_volume.h"
+#include "src/io/volumes/weather_map.h"
 
 using namespace pileus;
 
@@ -143,4 +145,37 @@ TEST_CASE("weather: WRF on Mercator has the water of each of its times") {
         CHECK(p.most_depth == doctest::Approx(most[i] * 150).epsilon(1e-9));
         check_conserved(file, medium, s);
     }
+}
+
+TEST_CASE("weather: WRF's own longitudes and latitudes are found where their columns lie") {
+    const std::string path = weather_file("wrf_mercator.nc");
+    if (path.empty() || netcdf_library_text() == "NetCDF-4 no") return;
+    WeatherMap map;
+    MediumSettings medium;
+    const Status status = read_weather_map(medium, path, map);
+    REQUIRE_MESSAGE(status, status.message);
+    NcFile file;
+    REQUIRE(file.open(path));
+    std::vector<double> places[2];
+    for (int i = 0; i < 2; ++i) {
+        const NcVariable* v = file.head().find(i == 0 ? "XLONG" : "XLAT");
+        REQUIRE((v != nullptr));
+        NcBlock block = whole_block(file.head(), *v);
+        block.count[0] = 1;
+        places[i].resize(std::size_t(block.values()));
+        REQUIRE(file.read(*v, block, {places[i].data(), places[i].size()}));
+    }
+    REQUIRE(places[0].size() == 48 * 48);
+    // Floats of degrees are good to 4e-6 degrees, 0.4 m, of 10 km columns; single precision in
+    // WRF's own projection makes some metres of it.
+    double worst = 0;
+    for (std::size_t at = 0; at < places[0].size(); ++at) {
+        Double3 metres{};
+        REQUIRE(map.place("place", {places[0][at], places[1][at], 0}, metres));
+        const double x = (double(at % 48) - 23.5) * 10000, y = (double(at / 48) - 23.5) * 10000;
+        const double off = std::hypot(metres[0] - x, metres[1] - y);
+        if (off > worst) worst = off;
+    }
+    MESSAGE("farthest off: ", worst, " m");
+    CHECK(worst < 10);
 }

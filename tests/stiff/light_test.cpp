@@ -56,9 +56,10 @@ TEST_CASE("S54: 0, 1 and 2 photons, with and without the error layer") {
 
 TEST_CASE("S54: one photon's noise makes no pixel of the ground negative; what is cut is counted") {
     for (const char* display : kDisplays) {
-        const Picture p = render_sound(bent_scene(
-            {display_key(display), "ground.altitude_m=590", "sky.radiance=0",
-             "sun.elevation_deg=10", "collectors.generations=1", "collectors.photons=20"}));
+        const Picture p = render_sound(
+            bent_scene({display_key(display), "ground.altitude_m=590", "sky.radiance=0",
+                        "sun.elevation_deg=10", "collectors.generations=1", "collectors.photons=20",
+                        "collectors.peak_deg=0"}));
         const Picture calm = render_sound(
             bent_scene({display_key(display), "ground.altitude_m=590", "sky.radiance=0",
                         "sun.elevation_deg=10", "collectors.photons=0"}));

@@ -96,7 +96,8 @@ struct Emulator {
         address(emulate<BackgroundParams, BackgroundBuffers, &KernelTable::background_rows>),
         address(emulate<BlendParams, BlendBuffers, &KernelTable::blend_tile>),
         address(emulate<PathParams, PathBuffers, &KernelTable::trace_paths>),
-        address(emulate_self_test)};
+        address(emulate_self_test),
+        address(emulate<PathParams, PathBuffers, &KernelTable::trace_paths_guided>)};
     DeviceTable pair{&device, &kernels};
     KernelTable table{"emulated", 1,       nullptr, nullptr, nullptr,
                       nullptr,    nullptr, nullptr, nullptr, &pair};

@@ -39,6 +39,12 @@ photons = 300_000
 const Keys kSlab = {"medium.0.density=uniform:box", "medium.0.boundary=periodic",
                     "medium.0.extinction_per_m=0.02"};
 
+FluxSettings in_columns(std::array<int, 2> columns) {
+    FluxSettings settings;
+    settings.columns = columns;
+    return settings;
+}
+
 struct Measured {
     FluxResult flux;
     Image maps;
@@ -48,8 +54,8 @@ Measured measure(const Keys& keys, std::int64_t samples, std::array<int, 2> colu
     RenderOptions options;
     options.budget_samples = samples;
     Report report;
-    const Status status =
-        measure_flux(scene_from(kScene, keys), options, {columns}, m.flux, m.maps, report);
+    const Status status = measure_flux(scene_from(kScene, keys), options, in_columns(columns),
+                                       m.flux, m.maps, report);
     REQUIRE_MESSAGE(bool(status), status.message);
     return m;
 }
@@ -125,7 +131,7 @@ TEST_CASE("flux: maps have the means of the shares, north at the top, west at th
     Report report;
     RenderOptions options;
     options.budget_samples = 256;
-    REQUIRE(measure_flux(scene_from(text, two), options, {{4, 4}}, flux, maps, report));
+    REQUIRE(measure_flux(scene_from(text, two), options, in_columns({4, 4}), flux, maps, report));
     const auto at = [&](const char* name, std::size_t x, std::size_t y) {
         return double(maps.find(name)->pixels[y * 4 + x]);
     };
@@ -143,11 +149,12 @@ TEST_CASE("flux: what cannot be measured is one line") {
         Image maps;
         Report report;
         const Status status =
-            measure_flux(scene_from(kScene, keys), options, {{2, 2}}, flux, maps, report);
+            measure_flux(scene_from(kScene, keys), options, in_columns({2, 2}), flux, maps, report);
         CHECK(status.code == Code::kBadInput);
         return status.message;
     };
     CHECK(fault({"sun.elevation_deg=-5"}).find("test.toml: sun: not above the horizon") == 0);
+    CHECK(fault({"sun.elevation_deg=0"}).find("test.toml: sun: not above the horizon") == 0);
     CHECK(fault({"sun.irradiance=0"}).find("test.toml: sun: not above the horizon") == 0);
     RenderOptions seconds;
     seconds.budget_seconds = 1;

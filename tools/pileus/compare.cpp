@@ -258,11 +258,9 @@ Status run_compare(const CompareArguments& arguments) {
 
     OutputSet set;
     PILEUS_TRY(add_pictures(arguments, settings, a, reference, metrics, flip_result, set));
-    PILEUS_TRY(set.commit());
     const FlipResult* seen = arguments.no_flip ? nullptr : &flip_result;
-    PILEUS_TRY(print(arguments.json ? metrics_json(text, metrics, seen)
-                                    : metrics_lines(text, metrics, seen)));
-    set.keep();
+    PILEUS_TRY(set.commit(arguments.json ? metrics_json(text, metrics, seen)
+                                         : metrics_lines(text, metrics, seen)));
     return check_limits(arguments.a, settings, metrics);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // pileus convert: a density grid from one format to another.
-// in: a grid that a scene could read -> out: a .vdb or .raw file, and the lines to use it.
-// docs/program.md
+// in: a grid or weather data that a scene could read -> out: a .vdb, .nc or .raw file, and the
+// lines to use it. docs/program.md
 #include <fmt/format.h>
 
 #include <memory>
@@ -9,6 +9,7 @@
 
 #include "src/base/file.h"
 #include "src/base/output_check.h"
+#include "src/io/volumes/volume_file.h"
 #include "src/scene/rows/volume_format.h"
 #include "src/scene/toml/toml_tree.h"
 #include "tools/pileus/command.h"
@@ -20,7 +21,8 @@ namespace pileus {
 namespace {
 
 struct ConvertArguments {
-    std::string from, to, grid;
+    std::string from, to, grid, time, member;
+    std::vector<int> resolution;
     RawOptions raw;
     bool y_up = false;
 };
@@ -37,6 +39,13 @@ Status check_files(const ConvertArguments& arguments, bool& from_raw, bool& to_r
                                  ", allowed: " + volume_format_extensions(true, " "));
     if (from_raw && to_raw)
         return Status::bad_input(arguments.to + ": both files are raw, allowed: one of them");
+    const bool weather = from != nullptr && from->is_weather;
+    const bool asks =
+        !arguments.time.empty() || !arguments.member.empty() || !arguments.resolution.empty();
+    if (asks && !weather)
+        return Status::bad_input(arguments.from +
+                                 ": --time, --member, --resolution: for NetCDF files, allowed: "
+                                 "left out");
     if (to_raw && !arguments.raw.size.empty())
         return Status::bad_input("--size: for a .raw file that is read, allowed: left out");
     return Status::ok();
@@ -47,6 +56,20 @@ Status write_grid(const ConvertArguments& arguments, const Volume& volume) {
     form.raw_big_endian = arguments.raw.big_endian;
     PILEUS_TRY(read_raw_type(arguments.raw, form.raw_type));
     return volume_format_of(arguments.to)->write(form, arguments.to, volume);
+}
+
+/// What a scene would say of weather data.
+Status read_weather_options(const ConvertArguments& arguments, MediumSettings& medium) {
+    if (!arguments.time.empty()) medium.weather.time = arguments.time;
+    if (!arguments.member.empty()) medium.weather.member = arguments.member;
+    for (std::size_t a = 0; a < arguments.resolution.size(); ++a) {
+        const int cells = arguments.resolution[a];
+        if (cells < 1 || cells > kMaxVolumeSide)
+            return Status::bad_input("--resolution: out of range, " + std::to_string(cells) +
+                                     ", allowed: 1 to " + std::to_string(kMaxVolumeSide));
+        medium.resolution[a] = cells;
+    }
+    return Status::ok();
 }
 
 /// A text as a scene holds it, whole: TOML takes the escapes of JSON.
@@ -71,7 +94,13 @@ std::string scene_text(const ConvertArguments& arguments, bool raw, const Volume
     } else {
         text = fmt::format("density = {}\n", toml_text(arguments.to));
     }
-    if (volume.in_extinction) text += fmt::format("extinction_per_m = {}\n", scale);
+    const VolumeFormat* to = volume_format_of(arguments.to);
+    if (to != nullptr && to->is_weather) {
+        if (!volume.in_extinction)
+            text +=
+                "# relative densities: extinction_scale is the extinction at density 1, per m\n";
+    } else if (volume.in_extinction)
+        text += fmt::format("extinction_per_m = {}\n", scale);
     const auto& b = volume.bounds_m;
     if (raw && volume.knows_bounds)
         text += fmt::format("bounds_m = [[{}, {}, {}], [{}, {}, {}]]\n", b[0][0], b[0][1], b[0][2],
@@ -84,6 +113,7 @@ Status run_convert(const ConvertArguments& arguments) {
     PILEUS_TRY(check_files(arguments, from_raw, to_raw));
     MediumSettings medium;
     medium.grid = arguments.grid;
+    PILEUS_TRY(read_weather_options(arguments, medium));
     RawType type;
     PILEUS_TRY(read_raw_type(arguments.raw, type));
     OutputCheck check;
@@ -117,6 +147,16 @@ void add_convert(CLI::App& app, Chosen& chosen) {
         ->add_option("--grid", arguments->grid,
                      "Name of the grid of a " + grid_format_extensions() + " file")
         ->type_name("NAME");
+    command
+        ->add_option("--time", arguments->time,
+                     "Which time of a NetCDF file: an index from 0, or the beginning of a date")
+        ->type_name("TIME");
+    command->add_option("--member", arguments->member, "Which member of a NetCDF file")
+        ->type_name("MEMBER");
+    command
+        ->add_option("--resolution", arguments->resolution, "Cells of weather data, along x, y, z")
+        ->expected(3)
+        ->type_name("NX NY NZ");
     command->add_flag("--y-up", arguments->y_up, "Turn a grid whose y axis points up to z up");
     add_raw_options(*command, arguments->raw);
     command->footer(help_example("pileus convert cloud.vdb cloud.raw --type uint16"));

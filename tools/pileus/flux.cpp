@@ -1,20 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// pileus flux: what a scene's media send back, let through and keep of the sun's light.
-// in: a scene -> out: shares with standard errors on stdout, as lines or JSON; maps as a picture.
+// pileus flux: what a scene's media send back, let through and keep of light.
+// in: a scene -> out: shares with standard errors on stdout, as lines or JSON; maps as a picture;
+// absorbed power as a volume.
 // docs/flux.md
-#define JSON_NOEXCEPTION 1
 #include "src/session/flux.h"
 
-#include <fmt/format.h>
-
 #include <memory>
-#include <nlohmann/json.hpp>
 
 #include "platform/clock.h"
+#include "src/base/file.h"
 #include "src/base/output_check.h"
 #include "src/io/images/image_file.h"
 #include "src/io/text/scene_files.h"
 #include "tools/pileus/command.h"
+#include "tools/pileus/flux_text.h"
 #include "tools/pileus/option_text.h"
 #include "tools/pileus/output_set.h"
 #include "tools/pileus/progress.h"
@@ -23,118 +22,134 @@
 namespace pileus {
 namespace {
 
-using Json = nlohmann::ordered_json;
-
 struct FluxArguments {
     SceneArguments scene;
-    std::vector<std::string> columns;
-    std::optional<std::string> file;
+    std::vector<std::string> columns, cells, below;
+    std::optional<std::string> method, file, absorbed, density, heat_capacity, sensors;
     bool json = false, quiet = false;
 };
 
-/// All channels as one, weighed by the sun's light in each.
-struct Weighed {
-    double mean = 0, standard_error = 0;
-};
-Weighed weigh(const FluxResult& flux, const FluxShare& share) {
-    Weighed out;
-    double sum = 0;
-    for (std::size_t c = 0; c < 3; ++c) {
-        const double weight = double(flux.irradiance[c]);
-        sum += weight;
-        out.mean += weight * share.mean[c];
-        // Channels share their paths: their errors add up.
-        out.standard_error += weight * share.standard_error[c];
-    }
-    return {out.mean / sum, out.standard_error / sum};
-}
-
-/// What is not direct.
-FluxShare diffuse_of(const FluxResult& flux) {
-    FluxShare out = flux.transmittance;
-    for (std::size_t c = 0; c < 3; ++c) out.mean[c] -= flux.transmittance_direct.mean[c];
-    return out;
-}
-
-Json json_of(const FluxResult& flux, const FluxShare& share) {
-    const Weighed all = weigh(flux, share);
-    return {{"mean", all.mean},
-            {"standard_error", all.standard_error},
-            {"channels", share.mean},
-            {"channel_errors", share.standard_error}};
-}
-
-std::string json_text(const FluxResult& flux, const Report& report) {
-    Json json;
-    json["version"] = report.version;
-    json["scene"] = report.scene;
-    json["method"] = report.method;
-    json["seed"] = report.seed;
-    json["mu0"] = flux.mu0;
-    json["irradiance"] = flux.irradiance;
-    json["reflectance"] = json_of(flux, flux.reflectance);
-    json["transmittance"] = json_of(flux, flux.transmittance);
-    json["transmittance_direct"] = json_of(flux, flux.transmittance_direct);
-    json["transmittance_diffuse"] = json_of(flux, diffuse_of(flux));
-    json["absorptance"] = json_of(flux, flux.absorptance);
-    json["columns"] = flux.columns;
-    json["samples_per_column"] = flux.samples;
-    json["paths"] = flux.paths;
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
-}
-
-std::string lines_of(const FluxResult& flux) {
-    std::string text;
-    const auto add = [&](const char* name, const FluxShare& share) {
-        const Weighed all = weigh(flux, share);
-        text += fmt::format("{:24} {:.6f}  standard error {:.6f}\n", name, all.mean,
-                            all.standard_error);
-    };
-    add("reflectance", flux.reflectance);
-    add("transmittance", flux.transmittance);
-    add("  direct", flux.transmittance_direct);
-    add("  diffuse", diffuse_of(flux));
-    add("absorptance", flux.absorptance);
-    text += fmt::format(
-        "of the sun's irradiance on a level plane, mu0 {:.6g}; {} x {} columns, {} "
-        "paths each\n",
-        flux.mu0, flux.columns[0], flux.columns[1], flux.samples);
-    return text;
-}
-
-Status read_columns(const std::vector<std::string>& texts, FluxSettings& settings) {
-    for (std::size_t a = 0; a < 2 && !texts.empty(); ++a) {
+Status read_counts(const char* option, const std::vector<std::string>& texts, int* counts,
+                   std::size_t axes) {
+    for (std::size_t a = 0; a < axes && !texts.empty(); ++a) {
         std::int64_t n = 0;
-        // One number counts along both axes.
-        PILEUS_TRY(read_integer("--columns", texts[a < texts.size() ? a : 0], 1, 32768, n));
-        settings.columns[a] = int(n);
+        // One number counts along all axes.
+        PILEUS_TRY(read_integer(option, texts[a < texts.size() ? a : 0], 1, 32768, n));
+        counts[a] = int(n);
     }
     return Status::ok();
 }
 
-Status check_file(const std::string& file, const Scene& scene) {
-    if (file.empty()) return Status::ok();
+/// By paths, unless only photons can do what is asked.
+Status read_method(const FluxArguments& arguments, FluxSettings& settings) {
+    settings.absorbed = arguments.absorbed.has_value();
+    if (!arguments.method) {
+        settings.method = settings.absorbed ? FluxMethod::kPhotons : FluxMethod::kPath;
+        return Status::ok();
+    }
+    if (*arguments.method != "path" && *arguments.method != "photons")
+        return Status::bad_input("--method: unknown, \"" + *arguments.method +
+                                 "\", allowed: path, photons");
+    settings.method = *arguments.method == "path" ? FluxMethod::kPath : FluxMethod::kPhotons;
+    return Status::ok();
+}
+
+Status read_below(const FluxArguments& arguments, FluxSettings& settings) {
+    settings.from_below = !arguments.below.empty();
+    if (!settings.from_below) return Status::ok();
+    const auto& texts = arguments.below;
+    if (texts.size() == 2)
+        return Status::bad_input("--from-below: two numbers, allowed: one, or R G B");
+    double most = 0;
+    for (std::size_t c = 0; c < 3; ++c) {
+        double& radiance = settings.below_radiance[c];
+        PILEUS_TRY(read_number("--from-below", texts[texts.size() == 3 ? c : 0], 0, 1e9, radiance));
+        most = radiance > most ? radiance : most;
+    }
+    return most >= 1e-9 ? Status::ok()
+                        : Status::bad_input(
+                              "--from-below: dark, allowed: a channel of 1e-9 to "
+                              "1e+9");
+}
+
+Status read_heating(const FluxArguments& arguments, AirHeating& heating) {
+    if (!arguments.density && !arguments.heat_capacity) return Status::ok();
+    if (!arguments.density || !arguments.heat_capacity)
+        return Status::bad_input(
+            std::string(arguments.density ? "--heat-capacity" : "--density") +
+            ": missing, allowed: both of --density and --heat-capacity, or neither");
+    if (!arguments.absorbed)
+        return Status::bad_input(
+            "--density: heats by what --absorbed measures, allowed: beside it");
+    PILEUS_TRY(read_number("--density", *arguments.density, 1e-9, 1e5, heating.density_kg_m3));
+    return read_number("--heat-capacity", *arguments.heat_capacity, 1e-3, 1e6,
+                       heating.heat_capacity_j_kg_k);
+}
+
+Status read_settings(const FluxArguments& arguments, FluxSettings& settings, AirHeating& heating) {
+    PILEUS_TRY(read_method(arguments, settings));
+    PILEUS_TRY(read_counts("--columns", arguments.columns, settings.columns.data(), 2));
+    PILEUS_TRY(read_counts("--cells", arguments.cells, settings.cells.data(), 3));
+    if (!arguments.cells.empty() && !settings.absorbed)
+        return Status::bad_input("--cells: of what --absorbed measures, allowed: beside it");
+    PILEUS_TRY(read_below(arguments, settings));
+    PILEUS_TRY(read_heating(arguments, heating));
+    if (!arguments.sensors) return Status::ok();
+    settings.sensor_file = *arguments.sensors;
+    return read_sensors(settings.sensor_file, settings.sensors);
+}
+
+/// The description beside a volume.
+std::string head_file(const std::string& volume) { return volume + ".json"; }
+
+Status check_files(const FluxArguments& arguments, const Scene& scene) {
     OutputCheck check;
     check.reads(scene.file, "the scene itself");
     for (const std::string& read : scene_files(scene))
         check.reads(read, "a file that the scene reads");
-    PILEUS_TRY(check.writes(file));
-    PILEUS_TRY(can_write_image(file));
-    return can_write_file(file);
+    if (arguments.sensors) check.reads(*arguments.sensors, "the file of the sensors");
+    if (arguments.absorbed) {
+        if (file_extension(*arguments.absorbed) != ".raw")
+            return Status::bad_input(*arguments.absorbed + ": extension: unknown, \"" +
+                                     file_extension(*arguments.absorbed) + "\", allowed: .raw");
+        for (const std::string& file : {*arguments.absorbed, head_file(*arguments.absorbed)}) {
+            PILEUS_TRY(check.writes(file));
+            PILEUS_TRY(can_write_file(file));
+        }
+    }
+    if (!arguments.file || arguments.file->empty()) return Status::ok();
+    PILEUS_TRY(check.writes(*arguments.file));
+    PILEUS_TRY(can_write_image(*arguments.file));
+    return can_write_file(*arguments.file);
+}
+
+/// Maps and volumes.
+Status add_files(const FluxArguments& arguments, const AirHeating& heating, const FluxResult& flux,
+                 const Image& maps, OutputSet& set) {
+    if (arguments.file && !arguments.file->empty())
+        PILEUS_TRY(set.add_image(maps, *arguments.file, ToneSettings{}));
+    if (arguments.absorbed) {
+        Buffer<char> bytes;
+        std::string head;
+        PILEUS_TRY(absorbed_file(flux.absorbed, heating, *arguments.absorbed, bytes, head));
+        PILEUS_TRY(set.add_bytes(bytes.span(), *arguments.absorbed));
+        PILEUS_TRY(set.add_bytes({head.data(), head.size()}, head_file(*arguments.absorbed)));
+    }
+    return Status::ok();
 }
 
 Status run_flux(FluxArguments& arguments) {
     Scene scene;
     RenderOptions options;
     FluxSettings settings;
-    PILEUS_TRY(read_columns(arguments.columns, settings));
-    // A detector needs no view.
+    AirHeating heating;
+    PILEUS_TRY(read_settings(arguments, settings, heating));
+    // A detector needs no view; scenes do, above the ground.
     for (const char* key :
-         {"camera.position_m=[0,-1,0]", "camera.target_m=[0,0,0]", "camera.up=[0,0,1]"})
+         {"camera.position_m=[0,-1,1e6]", "camera.target_m=[0,0,1e6]", "camera.up=[0,0,1]"})
         arguments.scene.sets.insert(arguments.scene.sets.begin(), key);
     PILEUS_TRY(read_scene_options(arguments.scene, scene, options));
-    const std::string file = arguments.file.value_or("");
-    PILEUS_TRY(check_file(file, scene));
+    PILEUS_TRY(check_files(arguments, scene));
     Progress progress(!arguments.quiet && stderr_is_terminal());
     options.progress = [&progress](const char* stage, double share) {
         progress.tell(stage, share);
@@ -145,23 +160,18 @@ Status run_flux(FluxArguments& arguments) {
     const Status status = measure_flux(scene, options, settings, flux, maps, report);
     progress.clear();
     PILEUS_TRY(status);
+    maps.scene_text = scene.text;
     OutputSet set;
-    std::string text = arguments.json ? json_text(flux, report) : lines_of(flux);
-    if (!file.empty()) {
-        maps.scene_text = scene.text;
-        PILEUS_TRY(set.add_image(maps, file, ToneSettings{}));
-        PILEUS_TRY(set.commit());
-    }
-    PILEUS_TRY(print(text));
-    set.keep();
-    return Status::ok();
+    PILEUS_TRY(add_files(arguments, heating, flux, maps, set));
+    return set.commit(arguments.json ? flux_json(settings, flux, heating, report)
+                                     : flux_lines(settings, flux, heating));
 }
 
 }  // namespace
 
 void add_flux(CLI::App& app, Chosen& chosen) {
     CLI::App* command = app.add_subcommand(
-        "flux", "Measure what the media send back, let through and keep of the sun's light");
+        "flux", "Measure what the media send back, let through and keep of light");
     const auto arguments = std::make_shared<FluxArguments>();
     add_scene_options(*command, arguments->scene,
                       "pileus flux cloud.toml --columns 64 64 --budget samples=256 -o maps.exr");
@@ -172,6 +182,28 @@ void add_flux(CLI::App& app, Chosen& chosen) {
         ->type_name("N [N]");
     command->add_option("-o,--output", arguments->file, "Maps, a pixel a column, e.g. maps.exr")
         ->type_name("FILE");
+    command->add_option("--method", arguments->method, "path (the default) or photons")
+        ->type_name("NAME");
+    command
+        ->add_option("--absorbed", arguments->absorbed,
+                     "Absorbed power per volume, by photons, e.g. heat.raw")
+        ->type_name("FILE");
+    command->add_option("--cells", arguments->cells, "Of it; left out: the cells of the media")
+        ->expected(1, 3)
+        ->type_name("N [N N]");
+    command->add_option("--density", arguments->density, "Of the air, for heating in K/day")
+        ->type_name("KG_M3");
+    command
+        ->add_option("--heat-capacity", arguments->heat_capacity,
+                     "Of the air, at constant pressure")
+        ->type_name("J_KG_K");
+    command->add_option("--sensors", arguments->sensors, "Places and levels to measure light at")
+        ->type_name("FILE.toml");
+    command
+        ->add_option("--from-below", arguments->below,
+                     "Instead of all lights: this radiance from the whole lower half space")
+        ->expected(1, 3)
+        ->type_name("RADIANCE");
     command->add_flag("--json", arguments->json, "Print JSON");
     command->add_flag("-q,--quiet", arguments->quiet, "No progress");
     command->callback(

@@ -13,6 +13,7 @@
 #include "platform/threads.h"
 #include "src/base/file.h"
 #include "src/io/images/image_file.h"
+#include "src/io/netcdf/grib_file.h"
 #include "src/io/netcdf/netcdf_file.h"
 #include "src/io/volumes/vdb/vdb_file.h"
 #include "src/scene/rows/mesh_format.h"
@@ -41,6 +42,7 @@ namespace {
 struct InfoArguments {
     std::string file, grid;
     bool phase = false;
+    std::vector<double> place;
     RawOptions raw;
 };
 
@@ -66,7 +68,7 @@ std::string library_text() {
         if (format.library == nullptr) continue;
         text += std::string(format.title) + (format.built ? " yes, " : " no, ");
     }
-    return text + vdb_library_text() + ", " + netcdf_library_text();
+    return text + vdb_library_text() + ", " + netcdf_library_text() + ", " + grib_library_text();
 }
 
 std::string program_lines() {
@@ -89,6 +91,8 @@ Status run_info(const InfoArguments& arguments) {
     const VolumeFormat* volume = volume_format_of(arguments.file);
     std::string lines;
     MediumSettings medium;
+    if (!arguments.place.empty() && (volume == nullptr || !volume->is_weather))
+        return Status::bad_input("--place: for weather data, allowed: left out");
     if (arguments.phase) {
         PILEUS_TRY(phase_lines(arguments.file, lines));
     } else if (extension == ".toml") {
@@ -105,6 +109,8 @@ Status run_info(const InfoArguments& arguments) {
                                  "\", allowed: .toml, " + picture_extensions(is_radiance) + ", " +
                                  volume_format_extensions());
     }
+    if (!arguments.place.empty())
+        PILEUS_TRY(place_line(arguments.file, medium, arguments.place, lines));
     return print(lines);
 }
 
@@ -119,6 +125,11 @@ void add_info(CLI::App& app, Chosen& chosen) {
         ->add_option("--grid", arguments->grid,
                      "Name of the grid of a " + grid_format_extensions() + " file")
         ->type_name("NAME");
+    command
+        ->add_option("--place", arguments->place,
+                     "Where a longitude and latitude lie in a file of weather data")
+        ->expected(2)
+        ->type_name("LON LAT");
     command->add_flag("--phase", arguments->phase, "The file is a table of a phase function");
     add_raw_options(*command, arguments->raw);
     command->footer(help_example("pileus info cloud.vdb --grid density"));

@@ -29,5 +29,8 @@ Status volume_lines(const std::string& path, const MediumSettings& medium, std::
 
 /// A NetCDF file: dimensions, variables, times, and the medium that it would be.
 Status weather_lines(const std::string& path, const MediumSettings& medium, std::string& lines);
+/// "place  19.05 47.5 at x y m" and the map, of a longitude and a latitude.
+Status place_line(const std::string& path, const MediumSettings& medium,
+                  const std::vector<double>& lon_lat, std::string& lines);
 
 }  // namespace pileus

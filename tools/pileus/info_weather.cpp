@@ -7,6 +7,7 @@
 #include "src/io/netcdf/netcdf_packing.h"
 #include "src/io/volumes/weather/weather_axes.h"
 #include "src/io/volumes/weather/weather_volume.h"
+#include "src/io/volumes/weather_map.h"
 #include "tools/pileus/info.h"
 
 namespace pileus {
@@ -92,6 +93,18 @@ Status weather_lines(const std::string& path, const MediumSettings& medium, std:
         return Status::ok();
     }
     return volume_lines(path, medium, lines);
+}
+
+Status place_line(const std::string& path, const MediumSettings& medium,
+                  const std::vector<double>& lon_lat, std::string& lines) {
+    WeatherMap map;
+    Double3 metres{};
+    PILEUS_TRY(read_weather_map(medium, path, map));
+    PILEUS_TRY(map.place("--place", {lon_lat[0], lon_lat[1], 0}, metres));
+    lines += info_line("place", fmt::format("{:g} {:g} at {:.1f} {:.1f} m", lon_lat[0], lon_lat[1],
+                                            metres[0], metres[1]));
+    lines += info_line("map", map.projection());
+    return Status::ok();
 }
 
 }  // namespace pileus

@@ -2,6 +2,9 @@
 // The program: finds the subcommand, runs it, turns its Status into lines and an exit status.
 // in: the command line -> out: results on stdout, faults on stderr, exit 0 to 4.
 // docs/program.md
+#ifdef __GLIBC__
+#include <malloc.h>
+#endif
 #include <unistd.h>
 
 #include <csignal>
@@ -131,6 +134,11 @@ int run(int count, char** words) {
 
 int main(int count, char** words) {
     pileus::wait_passively(words);
+#ifdef M_MMAP_THRESHOLD
+    // Large arrays go back to the system when they are freed; by default glibc learns to keep them,
+    // and finds no place for the next among the gaps.
+    (void)mallopt(M_MMAP_THRESHOLD, 1 << 20);
+#endif
     std::set_new_handler(pileus::on_no_memory);
     (void)std::atexit(pileus::on_exit);
     // A reader that went away is a failed write like any other: files of the frame are taken back.

@@ -6,6 +6,7 @@
 
 #include "src/base/file.h"
 #include "src/io/text/report_json.h"
+#include "tools/pileus/command.h"
 
 namespace pileus {
 
@@ -35,13 +36,11 @@ Status OutputSet::add_report(const Report& report, const std::string& path) {
     return add(path, {text.data(), text.size()});
 }
 
-Status OutputSet::commit() {
+Status OutputSet::commit(const std::string& text) {
     for (File& entry : files_) PILEUS_TRY(fault(entry.path, entry.file->publish()));
-    return Status::ok();
-}
-
-void OutputSet::keep() {
+    PILEUS_TRY(print(text));
     for (File& entry : files_) entry.file->keep();
+    return Status::ok();
 }
 
 }  // namespace pileus

@@ -24,21 +24,23 @@ public:
         while (!files_.empty()) files_.pop_back();
     }
 
+    /// A file that cannot be written: kIo.
+    Status add(const std::string& path, Span<const char> bytes);
     /// Errors: those of encode_image; a file that cannot be written: kIo.
     Status add_image(const Image& image, const std::string& path, const ToneSettings& tone);
     Status add_report(const Report& report, const std::string& path);
+    Status add_bytes(Span<const char> bytes, const std::string& path) { return add(path, bytes); }
 
-    /// Gives all files their names; a fault is kIo.
-    Status commit();
-    /// Lets the files outlive the set; otherwise they are taken back, and older ones return.
-    void keep();
+    /// Gives all files their names, writes `text` to the standard output, and lets the files stay.
+    /// A fault is kIo: the files are taken back, and older ones return. Takes no memory unless
+    /// there is a fault: where it ends the program nothing could be taken back.
+    Status commit(const std::string& text);
 
 private:
     struct File {
         std::string path;
         std::unique_ptr<NewFile> file;
     };
-    Status add(const std::string& path, Span<const char> bytes);
 
     std::vector<File> files_;
 };

@@ -16,6 +16,7 @@
 #include "src/methods/registry.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/picture_format.h"
+#include "src/world/camera/places.h"
 #include "tools/pileus/block_files.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
@@ -32,12 +33,13 @@ struct RenderArguments {
     std::vector<std::string> files;
     std::optional<std::string> report, frames, exposure, show, state, state_every, verify;
     BlockArguments blocks;
-    bool quiet = false, strict = false;
+    bool quiet = false, strict = false, world_file = false;
 };
 
 /// Everything a frame needs to be written.
 struct Outputs {
     std::vector<std::string> files;
+    std::vector<std::string> world_files;  ///< beside them; none, or one for each
     std::string report;
     bool report_printed = false;  ///< --report -: on the standard output, and nothing else there
     ToneSettings tone;
@@ -88,6 +90,7 @@ Status check_names(const std::vector<std::string>& all, bool numbered, const Sce
 Status check_outputs(const Outputs& outputs, const Scene& scene, const RenderOptions& options) {
     Status faults;
     std::vector<std::string> all = outputs.files;
+    all.insert(all.end(), outputs.world_files.begin(), outputs.world_files.end());
     if (!outputs.report.empty()) all.push_back(outputs.report);
     if (!options.state.empty()) all.push_back(options.state);
     std::vector<std::string> sound;
@@ -106,6 +109,41 @@ Status check_outputs(const Outputs& outputs, const Scene& scene, const RenderOpt
                       faults);
     }
     return faults;
+}
+
+/// "a.pgw" of "a.png"; "a.wld" of the others, which readers of maps look for, too.
+std::string world_name(const std::string& picture) {
+    const std::string extension = file_extension(picture);
+    return picture.substr(0, picture.size() - extension.size()) +
+           (extension == ".png" ? ".pgw" : ".wld");
+}
+
+/// World files are for pictures that are maps.
+Status add_world_files(const RenderArguments& arguments, const Scene& scene, Outputs& outputs) {
+    if (!arguments.world_file) return Status::ok();
+    Scene placed = scene;
+    PILEUS_TRY(place_camera(placed));
+    if (picture_place(placed, 0).empty())
+        return Status::bad_input(scene.file +
+                                 ": --world-file: no map, allowed: an orthographic camera that "
+                                 "looks straight down on weather data");
+    for (const std::string& file : outputs.files) {
+        const std::string name = world_name(file);
+        bool known = false;  // a.exr and a.pfm have one
+        for (const std::string& other : outputs.world_files) known = known || other == name;
+        if (!known) outputs.world_files.push_back(name);
+    }
+    return Status::ok();
+}
+
+/// Its six numbers, a line each.
+std::string world_text(const Image& image) {
+    std::string text;
+    for (const auto& [name, value] : image.origin)
+        if (name == "world_file") text = value + '\n';
+    for (char& c : text)
+        if (c == ' ') c = '\n';
+    return text;
 }
 
 /// -o takes all words up to the next option; a scene among them is no picture.
@@ -172,6 +210,7 @@ Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOpti
         return Status::bad_input(scene.file +
                                  ": output.files: no output, allowed: -o FILE, --report FILE or "
                                  "output.files in the scene");
+    PILEUS_TRY(add_world_files(arguments, scene, outputs));
     return check_outputs(outputs, scene, options);
 }
 
@@ -182,6 +221,12 @@ Status write_frame(const Outputs& outputs, int frame, const Image& image, const 
         const std::string path = frame_path(file, frame, outputs.numbered);
         PILEUS_TRY(set.add_image(image, path, outputs.tone));
         lines += fmt::format("{} {}\n", image.pixel_hash, path);
+    }
+    const std::string world = world_text(image);
+    for (const std::string& file : outputs.world_files) {
+        const std::string path = frame_path(file, frame, outputs.numbered);
+        PILEUS_TRY(set.add(path, {world.data(), world.size()}));
+        lines += fmt::format("{:16} {}\n", "world file", path);
     }
     if (!outputs.report.empty()) {
         const std::string path = frame_path(outputs.report, frame, outputs.numbered);
@@ -194,10 +239,8 @@ Status write_frame(const Outputs& outputs, int frame, const Image& image, const 
             "{} pixels\n",
             "verify", 100 * report.verify_bias, 100 * report.verify_standard_error,
             report.verify_relmse, report.verified_pixels);
-    PILEUS_TRY(set.commit());
-    PILEUS_TRY(print(outputs.report_printed ? report_json(report) : lines));
-    set.keep();
-    return Status::ok();
+    if (outputs.report_printed) lines = report_json(report);
+    return set.commit(lines);
 }
 
 /// What there is of a picture that the user did not let finish.
@@ -312,6 +355,8 @@ void add_render(CLI::App& app, Chosen& chosen) {
         ->type_name("N");
     command->add_flag("--strict", arguments->strict,
                       "Exit status 1 where a picture has warnings; it is written all the same");
+    command->add_flag("--world-file", arguments->world_file,
+                      "Write the place of a map beside each picture: .pgw of .png, .wld of others");
     command->add_flag("-q,--quiet", arguments->quiet, "No progress and no total");
     command->callback(
         [arguments, &chosen] { chosen = [arguments] { return run_render(*arguments); }; });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Pictures to files and back.
-// in: an Image -> out: .exr .pfm (radiance), .png .ppm (8-bit, tone mapped).
+// in: an Image -> out: .exr .pfm .nc (radiance), .png .ppm (8-bit, tone mapped).
 // docs/formats.md
 #pragma once
 #include <cstdint>
@@ -58,10 +58,16 @@ Status encode_exr(const Image& image, Buffer<char>& bytes);
 Status decode_exr(const std::string& name, Span<const char> bytes, Image& image,
                   std::uint64_t most_pixels = kMaxImagePixels);
 Status encode_png(int width, int height, Span<const std::uint8_t> rgb, Buffer<char>& bytes);
+/// The same with chunks tEXt: names and texts, Latin letters.
+Status encode_png(int width, int height, Span<const std::uint8_t> rgb,
+                  const std::vector<std::pair<std::string, std::string>>& texts,
+                  Buffer<char>& bytes);
 /// Any PNG file as display-linear R G B; where it has alpha, premultiplied, and A. 16 bits
 /// become 8.
 Status decode_png(const std::string& name, Span<const char> bytes, Image& image,
                   std::uint64_t most_pixels = kMaxImagePixels);
+/// Each channel as a variable; on metres where `origin` has an extent_m and a projection.
+Status encode_netcdf_picture(const Image& image, Buffer<char>& bytes);
 Status encode_pfm(const Image& image, Buffer<char>& bytes);
 Status decode_pfm(const std::string& name, Span<const char> bytes, Image& image,
                   std::uint64_t most_pixels = kMaxImagePixels);

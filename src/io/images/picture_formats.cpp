@@ -35,12 +35,24 @@ Status codes(const Image& image, const ToneSettings& tone, Buffer<char>& bytes) 
     return kEncode(image.width, image.height, rgb.span(), bytes);
 }
 
+/// A picture that is a map says so in its file.
+Status png_of(const Image& image, const ToneSettings& tone, Buffer<char>& bytes) {
+    Buffer<std::uint8_t> rgb;
+    PILEUS_TRY(tone_map_8bit(image, tone, rgb));
+    std::vector<std::pair<std::string, std::string>> texts;
+    for (const auto& [name, text] : image.origin)
+        for (const char* of_maps : {"extent_m", "world_file", "projection"})
+            if (name == of_maps) texts.emplace_back("pileus." + name, text);
+    return encode_png(image.width, image.height, rgb.span(), texts, bytes);
+}
+
 // One row for a format: extension, title; radiance; library, built in; writer, reader.
 constexpr PictureFormat kFormats[] = {
     {".exr", "OpenEXR", true, "PILEUS_OPENEXR", kHasExr, floats<encode_exr>, decode_exr},
-    {".png", "PNG", false, "PILEUS_PNG", kHasPng, codes<encode_png>, decode_png},
+    {".png", "PNG", false, "PILEUS_PNG", kHasPng, png_of, decode_png},
     {".pfm", "PFM", true, nullptr, true, floats<encode_pfm>, decode_pfm},
     {".ppm", "PPM", false, nullptr, true, codes<encode_ppm>, nullptr},
+    {".nc", "NetCDF", true, nullptr, true, floats<encode_netcdf_picture>, nullptr},
 };
 
 }  // namespace

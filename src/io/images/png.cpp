@@ -57,13 +57,14 @@ void on_flush(png_structp) {}
 
 /// The frame that libpng may jump back to: it owns nothing and changes nothing of its own.
 bool write_all(png_structp png, png_infop info, Sink* sink, std::uint32_t width,
-               std::uint32_t height, const std::uint8_t* rgb) {
+               std::uint32_t height, const std::uint8_t* rgb, png_textp texts, int text_count) {
     if (setjmp(png_jmpbuf(png)) != 0) return false;
     png_set_write_fn(png, sink, on_write, on_flush);
     png_set_compression_level(png, 6);
     png_set_IHDR(png, info, width, height, 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                  PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
     png_set_sRGB_gAMA_and_cHRM(png, info, PNG_sRGB_INTENT_PERCEPTUAL);
+    if (text_count > 0) png_set_text(png, info, texts, text_count);
     png_write_info(png, info);
     for (std::size_t y = 0; y < height; ++y) png_write_row(png, rgb + y * width * 3);
     png_write_end(png, info);
@@ -104,18 +105,29 @@ Status planes_of(const std::string& name, const Buffer<std::uint8_t>& rgba, bool
 
 }  // namespace
 
-Status encode_png(int width, int height, Span<const std::uint8_t> rgb, Buffer<char>& bytes) {
+Status encode_png(int width, int height, Span<const std::uint8_t> rgb,
+                  const std::vector<std::pair<std::string, std::string>>& texts,
+                  Buffer<char>& bytes) {
     PILEUS_TRY(check_image_size("PNG file", width, height));
     if (rgb.size != std::size_t(width) * std::size_t(height) * 3)
         return Status::bad_input("PNG file: pixels: wrong number of bytes, " +
                                  std::to_string(rgb.size));
+    // libpng reads these, and asks for letters that it might write to.
+    std::vector<png_text> chunks(texts.size(), png_text{});
+    for (std::size_t i = 0; i < texts.size(); ++i) {
+        chunks[i].compression = PNG_TEXT_COMPRESSION_NONE;
+        chunks[i].key = const_cast<char*>(texts[i].first.c_str());
+        chunks[i].text = const_cast<char*>(texts[i].second.c_str());
+        chunks[i].text_length = texts[i].second.size();
+    }
     Buffer<char> growing;
     Sink sink;
     sink.bytes = &growing;
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &sink, on_error, on_warning);
     png_infop info = png != nullptr ? png_create_info_struct(png) : nullptr;
-    const bool made = info != nullptr && write_all(png, info, &sink, std::uint32_t(width),
-                                                   std::uint32_t(height), rgb.data);
+    const bool made =
+        info != nullptr && write_all(png, info, &sink, std::uint32_t(width), std::uint32_t(height),
+                                     rgb.data, chunks.data(), int(chunks.size()));
     if (png != nullptr) png_destroy_write_struct(&png, &info);
     // Pixels and sizes are sound and nothing is written yet: only memory can be what is missing.
     if (!made && (info == nullptr || sink.out_of_memory))
@@ -153,7 +165,8 @@ Status decode_png(const std::string& name, Span<const char> bytes, Image& image,
     return planes_of(name, rgba, alpha, image);
 }
 #else
-Status encode_png(int, int, Span<const std::uint8_t>, Buffer<char>&) {
+Status encode_png(int, int, Span<const std::uint8_t>,
+                  const std::vector<std::pair<std::string, std::string>>&, Buffer<char>&) {
     return Status::bad_input("PNG file: left out of this build, configure with -DPILEUS_PNG=ON");
 }
 Status decode_png(const std::string& name, Span<const char>, Image&, std::uint64_t) {
@@ -161,5 +174,9 @@ Status decode_png(const std::string& name, Span<const char>, Image&, std::uint64
                              ": PNG file: left out of this build, configure with -DPILEUS_PNG=ON");
 }
 #endif
+
+Status encode_png(int width, int height, Span<const std::uint8_t> rgb, Buffer<char>& bytes) {
+    return encode_png(width, height, rgb, {}, bytes);
+}
 
 }  // namespace pileus

@@ -8,6 +8,7 @@
 
 #include "src/base/buffer.h"
 #include "src/base/file.h"
+#include "src/io/netcdf/grib_file.h"
 #include "src/io/netcdf/netcdf_hdf5.h"
 #include "src/io/netcdf/netcdf_values.h"
 
@@ -77,7 +78,16 @@ NcFile::~NcFile() {
 Status NcFile::open(const std::string& path) {
     name_ = path;
     PILEUS_TRY(open_file(path, file_));
-    return open_head(file_.size());
+    unsigned char start[4] = {};
+    size_ = file_.size();
+    if (size_ >= 4) PILEUS_TRY(take(0, 4, "head", start));
+    if (std::memcmp(start, "GRIB", 4) == 0) {
+        PILEUS_TRY(read_grib(path, own_));
+        PILEUS_TRY(open_bytes(path, own_.span()));
+        head_.kind = "GRIB";
+        return Status::ok();
+    }
+    return open_head(size_);
 }
 
 Status NcFile::open_bytes(const std::string& name, Span<const char> bytes) {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "platform/file.h"
+#include "src/base/buffer.h"
 #include "src/base/span.h"
 #include "src/base/status.h"
 
@@ -97,12 +98,15 @@ public:
     NcFile& operator=(const NcFile&) = delete;
     ~NcFile();
 
-    /// Reads the head. Missing, no NetCDF, damaged, or of a part that was not built in: kBadInput.
+    /// Reads the head. A GRIB file is made into a NetCDF file in memory. Missing, neither of them,
+    /// damaged, or of a part that was not built in: kBadInput.
     Status open(const std::string& path);
     /// The same of bytes that outlive this; `name` opens every line.
     Status open_bytes(const std::string& name, Span<const char> bytes);
 
     const NcHead& head() const { return head_; }
+    /// Of a file that is held in memory whole.
+    std::uint64_t held_bytes() const { return own_.size(); }
     const std::string& name() const { return name_; }
 
     /// Whether a classic file is long enough for a block, so that memory may be taken for it.
@@ -122,6 +126,7 @@ private:
 
     std::string name_;
     InputFile file_;
+    Buffer<char> own_;        ///< of a GRIB file
     Span<const char> bytes_;  ///< instead of file_
     bool in_memory_ = false;
     std::uint64_t size_ = 0;

@@ -13,8 +13,10 @@
 namespace pileus {
 
 struct Volume {
-    std::array<int, 3> size{0, 0, 0};   ///< cells along x, y, z; each 1..4096
-    Buffer<float> density;              ///< index (z*ny + y)*nx + x; finite, >= 0
+    std::array<int, 3> size{0, 0, 0};  ///< cells along x, y, z; each 1..4096
+    /// Index (z*ny + y)*nx + x; finite, >= 0. Of a variable that a transfer function shows: of any
+    /// sign, and NaN where there is nothing.
+    Buffer<float> density;
     bool knows_bounds = false;          ///< the file says where its box lies
     std::array<Double3, 2> bounds_m{};  ///< outer faces of the box, metres
     bool in_extinction = false;         ///< values are extinction in 1/m, not relative densities

@@ -4,6 +4,7 @@
 // docs/formats.md; docs/contributing.md, "Add a file format".
 #include "src/base/file.h"
 #include "src/io/volumes/les_volume.h"
+#include "src/io/volumes/netcdf_grid.h"
 #include "src/io/volumes/vdb/nvdb_file.h"
 #include "src/io/volumes/vdb/vdb_file.h"
 #include "src/io/volumes/vol_volume.h"
@@ -46,6 +47,9 @@ Status write_raw(const MediumSettings& medium, const std::string& path, const Vo
 Status write_vdb(const MediumSettings&, const std::string& path, const Volume& volume) {
     return write_vdb_volume(path, volume);
 }
+Status write_netcdf(const MediumSettings&, const std::string& path, const Volume& volume) {
+    return write_netcdf_volume(path, volume);
+}
 
 // One row for a format: name, title, extensions; in extinction, several grids, weather, bare
 // numbers; reader, reader of the head, writer.
@@ -62,6 +66,8 @@ constexpr VolumeFormat kFormats[] = {
     {"nanovdb", "NanoVDB", ".nvdb", false, true, false, false, read_grid<read_nvdb_volume>,
      head_of_grid<read_nvdb_head>, nullptr},
     {"netcdf", "NetCDF", ".nc|.nc4|.cdf", true, false, true, false, read_weather_volume,
+     read_weather_head, write_netcdf},
+    {"grib", "GRIB", ".grib|.grib2|.grb|.grb2", true, false, true, false, read_weather_volume,
      read_weather_head, nullptr},
 };
 

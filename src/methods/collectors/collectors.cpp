@@ -48,6 +48,7 @@ Status plan_deposit(const Scene& scene, CollectorsRun& run) {
     if (run.camera_cells > 0) d.mode = kDepositCamera;
     const bool split = (c.first_order_split || run.camera_cells > 0) && run.lighting.sunlit;
     d.first_order = !split ? 0 : (is_marched(run) ? 2 : 1);
+    choose_peak(c.peak_deg, run);
     d.axis_degrees = axis_degrees(c, run);
     if (d.axis_degrees == 0) {
         const char* why = why_no_axis(c, run);

@@ -190,6 +190,7 @@ void collectors_size_display(const CollectorsRun& run, CollectorsSizes& sizes) {
     }
     if (run.lighting.sunlit && run.deposit.first_order == 2)
         sizes.shadow_nodes = sun_shadow_numbers(run);
+    sizes.beam_sets = beam_sets(run);
 }
 
 }  // namespace pileus

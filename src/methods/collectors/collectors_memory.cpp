@@ -81,7 +81,8 @@ void add_light(const CollectorsSizes& s, MemoryTable& t) {
     add(t, arrays::ground_light(s.ground_cells));
     if (s.planes > 3 && s.ground_cells > 0)
         add(t, arrays::batch_background(pixels), arrays::ground_light(s.ground_cells));
-    add(t, arrays::shadow(s.shadow_nodes, s.shoots_again ? Stage::kPhotons : Stage::kShadow));
+    const Stage shadows = s.shoots_again ? Stage::kPhotons : Stage::kShadow;
+    add(t, arrays::shadow(s.shadow_nodes, shadows), arrays::beam_tables(s.beam_sets, shadows));
     if (s.marched) {
         add(t, arrays::source_grid(source, s.source_nodes));
         add(t, arrays::source_by_node(s.numbers_by_node));

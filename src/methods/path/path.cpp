@@ -127,6 +127,8 @@ PathInput path_input(const Context& context, const PathRun& run) {
     in.kernels = context.kernels;
     in.max_depth = run.scene->path.max_depth;
     in.jitter = !run.scene->path.centre;
+    in.guide = run.scene->path.guide;
+    in.sun_radius_deg = run.scene->sun.angular_radius_deg;
     in.parts = path_parts(run.scene->output);
     return in;
 }

@@ -19,14 +19,29 @@ bool has_sky(const Lighting& light) {
     return light.map.columns > 0 || light.sky[0] > 0 || light.sky[1] > 0 || light.sky[2] > 0;
 }
 
-void note_light(const Scene& scene, const PathRun& run, Plan& plan) {
-    const Lighting& light = run.lighting;
+void note_sun(const Scene& scene, const PathRun& run, Plan& plan) {
     const bool moves = scene.animation.present && scene.animation.moves_sun;
-    if (light.sunlit || (moves && scene.sun.present))
-        plan.need("flights towards the sun");
-    else
+    if (!run.lighting.sunlit && !(moves && scene.sun.present)) {
         plan.leave_out("flights towards the sun",
                        scene.sun.present ? "below the ground's horizon, or dark" : "no sun");
+        return;
+    }
+    plan.need("flights towards the sun");
+    if (scene.sun.angular_radius_deg > 0)
+        plan.need("the sun's disc");
+    else
+        plan.leave_out("the sun's disc", "sun.angular_radius_deg = 0");
+    if (!scene.path.guide)
+        plan.leave_out("branches towards the sun", "path.guide = false");
+    else if (fit_guide(run.world->medium).on == 0)
+        plan.leave_out("branches towards the sun", "no peaked phase function");
+    else
+        plan.need("branches towards the sun, weighed against scattering (MIS)");
+}
+
+void note_light(const Scene& scene, const PathRun& run, Plan& plan) {
+    const Lighting& light = run.lighting;
+    note_sun(scene, run, plan);
     if (light.map.columns > 0)
         plan.need("flights towards the sky map, weighed against scattering (MIS)");
     else

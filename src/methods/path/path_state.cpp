@@ -202,6 +202,8 @@ std::uint64_t path_state_digest(const PathInput& in, const std::string& version)
     d.u32(in.jitter ? 1 : 0);
     d.u32(in.parts ? 1 : 0);
     d.u32(in.max_events);
+    d.u32(in.guide ? 1 : 0);
+    d.f32(float(in.sun_radius_deg));
     return d.value();
 }
 

@@ -3,6 +3,7 @@
 #include "src/methods/path/trace_paths.h"
 
 #include "platform/threads.h"
+#include "src/base/angles.h"
 #include "src/base/random_streams.h"
 #include "src/methods/path/path_blocks.h"
 #include "src/run/context.h"
@@ -72,6 +73,13 @@ void set_light(const PathInput& in, const SkySampler& sampler, PathParams& k) {
     k.ground_albedo = float(light.ground_albedo);
 }
 
+/// The sun's disc shines alike all over; its irradiance stays that of the point.
+void set_disc(double radius_deg, PathParams& k) {
+    const double half = sincos_deg(0.5 * radius_deg).sine;
+    k.sun_disc = float(2 * half * half);
+    for (float& light : k.sun) light = float(double(light) / (1 - half * half));
+}
+
 PathParams path_params(const PathInput& in, const PathScratch& scratch) {
     PathParams k{};
     set_medium(in, scratch.blocks.span(), k);
@@ -82,7 +90,17 @@ PathParams path_params(const PathInput& in, const PathScratch& scratch) {
     k.pixels = std::uint32_t(film_pixels(in));
     k.parts_wanted = in.parts ? 1 : 0;
     k.light_roulette = in.light_roulette;
+    if (k.sunlit == 0) return k;
+    if (in.guide) k.guide = scratch.guide;
+    if (in.sun_radius_deg > 0) set_disc(in.sun_radius_deg, k);
     return k;
+}
+
+/// The kernel of the table that these paths need.
+auto kernel_for(const PathInput& in, const PathParams& k) {
+    if (seeks_sun(k)) return in.kernels->trace_paths_guided;
+    const bool ends = in.lighting->solids != nullptr || in.lighting->depth != nullptr;
+    return ends ? in.kernels->trace_paths_solid : in.kernels->trace_paths;
 }
 
 /// Traces the samples of a launch, which fit the scratch. `ended`: not all of them, because `in`
@@ -99,9 +117,8 @@ Status run_launch(const PathInput& in, const PathParams& k, std::uint64_t count,
         const std::uint64_t begin = std::uint64_t(piece) * kPiece;
         const PathBuffers b{scratch.radiance.data(), scratch.capacity,
                             &scratch.tallies[std::size_t(thread) * 2]};
-        const bool ends = in.lighting->solids != nullptr || in.lighting->depth != nullptr;
-        const auto kernel = ends ? in.kernels->trace_paths_solid : in.kernels->trace_paths;
-        kernel(k, b, std::uint32_t(begin), std::uint32_t(smaller(begin + kPiece, count)));
+        kernel_for(in, k)(k, b, std::uint32_t(begin),
+                          std::uint32_t(smaller(begin + kPiece, count)));
     });
     return Status::ok();
 }
@@ -202,6 +219,7 @@ Status prepare_path(const PathInput& in, PathScratch& scratch) {
     PILEUS_TRY(allocate(arrays::path_samples(in), scratch.radiance));
     PILEUS_TRY(scratch.tallies.resize(std::uint64_t(in.threads) * 2, "path tallies"));
     PILEUS_TRY(make_path_sky(in.lighting->map, scratch.sky));
+    scratch.guide = fit_guide(*in.medium);
     std::int32_t counts[3];
     block_counts(in.medium->grid, in.block, counts);
     PILEUS_TRY(path_blocks(in.majorants, counts, in.threads, scratch.blocks));
@@ -240,8 +258,7 @@ Status trace_pixels(const PathInput& in, const std::vector<std::uint32_t>& pixel
     k.key = make_key(in.seed, kVerifyStream, 0);
     k.first_sample = 0;
     k.per_pixel = samples;
-    const bool solid = in.lighting->solids != nullptr || in.lighting->depth != nullptr;
-    const auto kernel = solid ? in.kernels->trace_paths_solid : in.kernels->trace_paths;
+    const auto kernel = kernel_for(in, k);
     const std::uint64_t own = scratch.capacity / std::uint64_t(in.threads);
     out.assign(pixels.size(), PixelLight{});
     ended = !run_until(

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "kernels_cpu/isa/kernels.h"
+#include "src/methods/path/path_guide.h"
 #include "src/methods/path/path_sky.h"
 #include "src/world/light/lights.h"
 #include "src/world/majorant/majorant.h"
@@ -31,6 +32,8 @@ struct PathInput {
     std::uint32_t max_events = 1u << 24;  ///< draws per path before it is given up
     /// Shadow rays that bring less than this share of their light, 1/sr, play roulette; 0: all fly.
     float light_roulette = kLightRoulette;
+    bool guide = true;              ///< branches towards the sun where a phase function is peaked
+    double sun_radius_deg = 0;      ///< of the sun's disc, [0, 10]; 0: a point
     std::function<bool()> ended{};  ///< asked between pieces of work whether to end there
 };
 
@@ -56,6 +59,7 @@ struct PathScratch {
     Buffer<float> radiance;
     Buffer<PathTally> tallies;
     PathSky sky;
+    GuideParams guide{};
     Buffer<float> blocks;        ///< majorants, and leaps through empty ones
     std::uint64_t capacity = 0;  ///< samples
     bool ready = false;

@@ -4,6 +4,7 @@
 // docs/photon-grid.md.
 #include "src/methods/photon_grid/photon_grid.h"
 
+#include "platform/clock.h"
 #include "src/photons/scatter.h"
 #include "src/picture/nodes/node_grid.h"
 #include "src/world/plan_parts.h"
@@ -38,7 +39,6 @@ double most_deposits(const PhotonGridRun& run) {
 
 void choose_numbers(const PhotonGridSettings& s, PhotonGridRun& run) {
     DepositPlan& d = run.deposit;
-    run.shadow_by_axis = true;
     d.mode = kDepositIncident;
     d.bands = s.closure == GridClosure::kSh ? s.bands : 2;
     d.first_order = s.first_order_split && run.lighting.sunlit ? 2 : 0;
@@ -52,6 +52,7 @@ void choose_numbers(const PhotonGridSettings& s, PhotonGridRun& run) {
     d.coefficients = d.bands * d.bands + d.axis_degrees;
     if (s.closure == GridClosure::kPublished) d.mode = kDepositCosine, d.coefficients = 2;
     if (s.closure == GridClosure::kCamera) d.mode = kDepositCamera, d.coefficients = 1;
+    choose_peak(s.peak_deg, run);
     if (d.first_order == 0)
         run.plan.leave_out("first-order split", run.lighting.sunlit ? "switched off" : "no sun");
 }
@@ -190,6 +191,39 @@ Status photon_grid_prepare(const Context& context, PhotonGridRun& run) {
     return lay_out_photons(photon_grid_trace_input(context, run), run);
 }
 
+namespace {
+
+/// Doubles the photons until the picture's mean relative standard error is as wanted, or the sums
+/// hold all that is proven for them. The error is looked at after whole turns of the batches alone.
+Status shoot_to_error(const FrameStep& step, const Context& context, PhotonGridRun& run,
+                      const ShootPhotons& shoot) {
+    const CameraParams camera =
+        make_camera(run.scene->camera, orbit_at(*run.scene, step.frame), run.world->medium.low_m);
+    const std::uint64_t most = most_generations(run);
+    const double start = wall_seconds(), seconds = run.budget.seconds;
+    std::uint64_t count = run.generations;
+    while (count > 0) {
+        PILEUS_TRY(shoot_generations(
+            context, run, count, [] {}, shoot));
+        if (run.interrupted) break;
+        const double left = seconds - (wall_seconds() - start);
+        if (seconds > 0 && left <= 0) break;
+        run.budget.seconds = seconds > 0 ? left : 0;
+        int channels = 3;
+        std::uint64_t clamped = 0;
+        Planes planes;
+        PILEUS_TRY(photon_grid_compose(camera, context, run, clamped, channels, planes));
+        const ErrorSum sum = batch_error_sum(planes, channels / 3 - 1);
+        if (sum.mean_relative() <= run.budget.error) break;
+        const std::uint64_t held = run.next_generation;
+        count = held * 2 <= most ? held : 0;
+    }
+    run.budget.seconds = seconds;
+    return Status::ok();
+}
+
+}  // namespace
+
 Status photon_grid_light(const FrameStep& step, const Context& context, PhotonGridRun& run) {
     const ShootPhotons shoot = [&] {
         return shoot_generation(photon_grid_trace_input(context, run), context, run);
@@ -202,6 +236,11 @@ Status photon_grid_light(const FrameStep& step, const Context& context, PhotonGr
         set_photon_sun(sun_at(scene, step.frame), run);
         for (PhotonSlot& slot : run.photons.slots) empty_slot(slot);
         run.next_generation = run.ring_first = 0;
+    }
+    if (run.budget.error > 0) {
+        PILEUS_TRY(shoot_to_error(step, context, run, shoot));
+        if (run.next_generation == 0) return interrupted_before("the first generation");
+        return Status::ok();
     }
     const bool open = run.budget.seconds > 0;
     const std::uint64_t first = run.next_generation;

@@ -59,6 +59,15 @@ Status photon_grid_compose(const CameraParams& camera, const Context& context, P
 /// One picture with its layers.
 Status photon_grid_show(double orbit_deg, const Context& context, PhotonGridRun& run, Image& image);
 
+/// All level slices of the grid beside one another: flux of the light in each cell that has been
+/// scattered, or its mean cosine to the first light's direction; channel `value` holds the numbers.
+enum class GridSlices { kFlux, kAnisotropy };
+Status photon_grid_show_slices(GridSlices what, double orbit_deg, const Context& context,
+                               PhotonGridRun& run, Image& image);
+
+/// Recipes of these views.
+const Method* photon_grid_views(int& count);
+
 /// Shoots what a frame needs. kCheckFailed: interrupted before there was anything to show.
 Status photon_grid_light(const FrameStep& step, const Context& context, PhotonGridRun& run);
 

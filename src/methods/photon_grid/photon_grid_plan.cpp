@@ -35,7 +35,9 @@ void add_photons(const PhotonGridRun& run, const Context& context, Size private_
                  MemoryTable& t) {
     const Medium& m = run.world->medium;
     const Size threads = Size(context.threads);
-    const Stage traced = context.frames > 1 ? Stage::kWrite : Stage::kPhotons;
+    // A wanted error looks at pictures between photons.
+    const bool looks = context.frames > 1 || run.budget.error > 0;
+    const Stage traced = looks ? Stage::kWrite : Stage::kPhotons;
     const Size blocks = run.outlined_only
                             ? most_tracking_blocks(m.grid, run.scene->photon_grid.local_tracking)
                             : run.majorants.tracking.size();
@@ -69,9 +71,10 @@ void add_picture(const PhotonGridRun& run, const Context& context, MemoryTable& 
     add(t, arrays::ground_light(ground));
     if (planes > 3 && ground > 0)
         add(t, arrays::batch_background(pixels), arrays::ground_light(ground));
+    const Stage shadows = context.frames > 1 ? Stage::kPhotons : Stage::kShadow;
     if (run.lighting.sunlit && run.deposit.first_order == 2)
-        add(t, arrays::shadow(sun_shadow_numbers(run),
-                              context.frames > 1 ? Stage::kPhotons : Stage::kShadow));
+        add(t, arrays::shadow(sun_shadow_numbers(run), shadows));
+    add(t, arrays::beam_tables(beam_sets(run), shadows));
     add_image_rows(Size(size[0]), Size(size[1]), 4 + extra_layers(output, planes > 3), t);
 }
 

@@ -40,10 +40,18 @@ Status check_closure(const Scene& scene) {
 }
 
 Status check(const Scene& scene, const Budget& budget) {
-    constexpr const char* kAllowed = "photons=N, seconds=S";
+    constexpr const char* kAllowed = "photons=N, seconds=S, error=E";
     if (budget.samples >= 0) return unknown_budget("--budget samples", scene.method, kAllowed);
     if (budget.steps >= 0) return unknown_budget("--budget steps", scene.method, kAllowed);
-    if (budget.error > 0) return unknown_budget("--budget error", scene.method, kAllowed);
+    if (budget.error > 0 && !scene.output.layer_error)
+        return Status::bad_input(
+            "--budget error: method photon-grid knows its error by batches of photons, allowed: "
+            "output.layers with \"error\"");
+    if (budget.error > 0 && scene.animation.present)
+        return Status::bad_input(
+            "--budget error: not for an animation by photon-grid, whose frames have the same "
+            "photons, "
+            "allowed: photons=N");
     if (!budget.state.empty())
         return unknown_budget("--state", scene.method, "method.name = \"path\"");
     PILEUS_TRY(check_layers(scene));
@@ -77,6 +85,28 @@ Status show(const FrameStep& step, const Context& context, MethodRun& method_run
         run.majorants.tracking = Buffer<float>();
     }
     return photon_grid_show(orbit_at(*run.scene, step.frame), context, run, image);
+}
+
+void report(const MethodRun& run, Report& out) { photon_grid_report(own(run), out); }
+
+template <GridSlices kWhat>
+Status show_slices(const FrameStep& step, const Context& context, MethodRun& run, Image& image) {
+    return photon_grid_show_slices(kWhat, orbit_at(*run.scene, step.frame), context, own(run),
+                                   image);
+}
+
+Status outline_slices(const Context& context, MethodRun& run) {
+    if (run.scene->photon_grid.closure == GridClosure::kCamera)
+        return Status::bad_input(run.scene->file +
+                                 ": photon_grid.closure: \"camera\" keeps neither flux nor "
+                                 "directions to show, allowed: sh, published, mean");
+    return outline(context, run);
+}
+
+template <GridSlices kWhat>
+constexpr Method slices(const char* name) {
+    return {name,  SkyUse::kOnGrid,    make,   check,   outline_slices, prepare, report_plan,
+            light, show_slices<kWhat>, report, nullptr, false};
 }
 
 /// The ring follows a light that has moved; one sum begins anew.
@@ -127,8 +157,6 @@ Status compose(const FrameStep&, const Context& context, MethodRun& method_run,
     return photon_grid_compose(camera, context, run, clamped, channels, run.planes);
 }
 
-void report(const MethodRun& run, Report& out) { photon_grid_report(own(run), out); }
-
 }  // namespace
 
 void photon_grid_report(const PhotonGridRun& run, Report& report) {
@@ -142,6 +170,13 @@ void photon_grid_report(const PhotonGridRun& run, Report& report) {
     if (run.digests.empty()) return;
     report.digests.insert(report.digests.begin(), {"photons", photon_digest(run.photons)});
     report.digests.insert(report.digests.begin(), run.digests.begin(), run.digests.end());
+}
+
+const Method* photon_grid_views(int& count) {
+    static constexpr Method all[] = {slices<GridSlices::kFlux>("flux-slices"),
+                                     slices<GridSlices::kAnisotropy>("anisotropy-slices")};
+    count = int(sizeof all / sizeof all[0]);
+    return all;
 }
 
 const Method& photon_grid_method() {

@@ -30,6 +30,13 @@ double share(int neighbour, double slope, bool rim, double t) {
     return neighbour == 0 ? 1 - t * slope : t * slope;
 }
 
+/// 1 for the neighbour in whose voxel the ray is `t` slices along it, where voxels have one
+/// density.
+double inside(int neighbour, double slope, bool rim, double t) {
+    const int steps = !rim && t * slope > 0.5 ? 1 : 0;
+    return neighbour == steps ? 1 : 0;
+}
+
 /// Simpson's rule on [a, b].
 template <class Function>
 double simpson(double a, double b, Function f) {
@@ -38,21 +45,37 @@ double simpson(double a, double b, Function f) {
 
 /// `slope`: voxels per slice along the lesser axes, both in [0, 1]; `length`: of a ray between two
 /// slices, times the extinction.
-SweepTaps open_taps(const double (&slope)[2], const bool (&rim)[2], bool top, double length) {
+SweepTaps open_taps(const double (&slope)[2], const bool (&rim)[2], bool top, bool constant,
+                    double length) {
     // Centres of the outermost voxels lie half a voxel before the faces, where rays end.
     double end = top ? 0.5 : 1;
     for (int i = 0; i < 2; ++i)
         if (rim[i] && slope[i] * end > 0.5) end = 0.5 / slope[i];
+    // Pieces on which the densities' shares are one formula: all of it, or within voxels.
+    std::vector<double> at{0, end};
+    if (constant)
+        for (const double s : {slope[0], slope[1], 1.0})
+            if (s * end > 0.5) at.push_back(0.5 / s);
+    std::sort(at.begin(), at.end());
+    const auto over = [&](const auto& weight) {
+        double sum = 0;
+        for (std::size_t p = 0; p + 1 < at.size(); ++p)
+            sum += constant ? (at[p + 1] - at[p]) * weight(0.5 * (at[p] + at[p + 1]))
+                            : simpson(at[p], at[p + 1], weight);
+        return sum;
+    };
+    const auto part = constant ? inside : share;
     SweepTaps taps{};
     for (int i = 0; i < 4; ++i) {
         const int u = i & 1, v = i / 2;
         const auto beside = [&](double t) {
             return share(u, slope[0], rim[0], t) * share(v, slope[1], rim[1], t);
         };
-        const double near =
-            simpson(0, end, [&](double t) { return beside(t) * share(0, 1, top, t); });
-        const double far =
-            simpson(0, end, [&](double t) { return beside(t) * share(1, 1, top, t); });
+        const auto held = [&](double t) {
+            return part(u, slope[0], rim[0], t) * part(v, slope[1], rim[1], t);
+        };
+        const double near = over([&](double t) { return held(t) * part(0, 1, top, t); });
+        const double far = over([&](double t) { return held(t) * part(1, 1, top, t); });
         taps.near[i] = weight_of(near * length);
         taps.far[i] = weight_of(far * length);
         if (top) continue;
@@ -83,21 +106,32 @@ std::vector<SweepTap> tap_list(const TapMap& map) {
     return list;
 }
 
-/// Where the ray over [0, end] slices crosses lines of voxel centres, ends included, rising.
-std::vector<double> crossings(const double (&slope)[2], double end) {
+/// Where the ray over [0, end] slices crosses lines of voxel centres, ends included, rising; or
+/// their faces, `shift` half a voxel before.
+std::vector<double> crossings(const double (&slope)[2], double end, double shift) {
     std::vector<double> at{0, end};
     for (double s : slope)
-        for (int n = 1; magnitude(s) > 0 && n < magnitude(s) * end; ++n)
-            at.push_back(n / magnitude(s));
+        for (int n = 1; magnitude(s) > 0 && n - shift < magnitude(s) * end; ++n)
+            at.push_back((n - shift) / magnitude(s));
     std::sort(at.begin(), at.end());
     return at;
 }
 
 void add_densities(const Grid& grid, const double (&slope)[2], bool top, double length,
                    TapMap& map) {
-    const std::vector<double> at = crossings(slope, top ? 0.5 : 1);
+    std::vector<double> at = crossings(slope, top ? 0.5 : 1, grid.constant ? 0.5 : 0);
+    if (grid.constant && !top) {
+        at.push_back(0.5);
+        std::sort(at.begin(), at.end());
+    }
     for (std::size_t p = 0; p + 1 < at.size(); ++p) {
         const double middle = 0.5 * (at[p] + at[p + 1]);
+        if (grid.constant) {
+            const int x = floor_of(middle * slope[0] + 0.5), y = floor_of(middle * slope[1] + 0.5);
+            map[{middle > 0.5 ? 1 : 2, wrapped(y, grid.size[1]), wrapped(x, grid.size[0])}] +=
+                length * (at[p + 1] - at[p]);
+            continue;
+        }
         const int x0 = floor_of(middle * slope[0]), y0 = floor_of(middle * slope[1]);
         for (int i = 0; i < 8; ++i) {
             const int u = i & 1, v = (i >> 1) & 1, far = i >> 2;
@@ -136,7 +170,7 @@ SweepParams sweep_params(const Grid& grid, const std::array<float, 3>& to_sun,
     }
     for (int i = 0; i < 8; ++i)
         k.taps[i] = open_taps(slope, {(i & kSweepRimU) != 0, (i & kSweepRimV) != 0},
-                              (i & kSweepTop) != 0, extinction_per_m / along);
+                              (i & kSweepTop) != 0, grid.constant, extinction_per_m / along);
     return k;
 }
 

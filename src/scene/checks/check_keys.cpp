@@ -177,6 +177,10 @@ private:
             if (full.substr(0, start.size()) != start) continue;
             const std::string name(full.substr(start.size()));
             if (name.find('.') != std::string::npos || node.find(name) != nullptr) continue;
+            // A place in degrees stands for one in metres.
+            const std::string_view bare = without_unit(name);
+            if (bare.size() < name.size() && node.find(std::string(bare) + "_deg") != nullptr)
+                continue;
             check_.faults.add(node.at, joined(path, name),
                               "missing, nothing, allowed: " + allowed_text(*row));
         }

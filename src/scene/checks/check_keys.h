@@ -61,6 +61,9 @@ void check_laws(SceneCheck& check);
 
 /// Checks one value against its row. Returns false after adding a fault for it.
 bool check_value(const KeyRow& row, const Node& node, const std::string& path, FaultList& faults);
+/// The same of a transfer function.
+bool check_transfer(const KeyRow& row, const Node& list, const std::string& path,
+                    FaultList& faults);
 
 /// The nearest of `names` within a third of the length (at least 2) in edits; empty if none.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& names);

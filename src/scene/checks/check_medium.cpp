@@ -112,6 +112,26 @@ private:
                     fault(
                         *node, key,
                         "given twice, " + value_text(*node) + ", allowed: a radius or ice_dge_um");
+        check_variable();
+    }
+
+    /// Only a transfer function tells what a variable of any kind looks like, and water is not
+    /// asked for beside it.
+    void check_variable() {
+        const Node* variable = check_.valid_key(path_ + "density.variable");
+        if (variable == nullptr) return;
+        if (check_.key(path_ + "transfer") == nullptr)
+            fault(*variable, "density.variable",
+                  "shown by a transfer function only, " + value_text(*variable) +
+                      ", allowed: left out, or the key transfer");
+        for (const char* key : {"liquid", "ice", "cloud_fraction", "liquid_radius", "ice_radius",
+                                "fraction", "liquid_radius_um", "ice_radius_um", "ice_dge_um"}) {
+            const std::string name = std::string("density.") + key;
+            if (const Node* node = check_.key(path_ + name))
+                fault(*node, name,
+                      "of water, conflicts with variable, " + value_text(*node) +
+                          ", allowed: left out");
+        }
     }
 
     /// A grid has a name in OpenVDB and NanoVDB files only, and it is said once.
@@ -167,6 +187,7 @@ private:
         const bool physical = format != nullptr && format->in_extinction;
         const Node* per_m = check_.key(path_ + "extinction_per_m");
         const Node* scale = check_.key(path_ + "extinction_scale");
+        if (check_.key(path_ + "transfer") != nullptr) return transfer();
         if (physical && per_m != nullptr)
             fault(*per_m, "extinction_per_m",
                   "the file holds extinction in 1/m, " + value_text(*per_m) +
@@ -180,6 +201,14 @@ private:
         if (!physical && check_.lacks(path_ + "extinction_per_m") && !known)
             fault(*check_.key(path_.substr(0, path_.size() - 1)), "extinction_per_m",
                   "missing, nothing, allowed: number in [0, 1e+12]");
+    }
+
+    /// Its rows say what the medium is; nothing else does.
+    void transfer() {
+        for (const char* key : {"extinction_per_m", "extinction_scale", "albedo"})
+            if (const Node* node = check_.key(path_ + key))
+                fault(*node, key,
+                      "conflicts with transfer, " + value_text(*node) + ", allowed: left out");
     }
 
     void shape_keys(const DensityRow& made, const Node& density) {

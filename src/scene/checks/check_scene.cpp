@@ -6,6 +6,7 @@
 
 #include "src/scene/checks/check_keys.h"
 #include "src/scene/rows/picture_format.h"
+#include "src/scene/rows/volume_format.h"
 
 namespace pileus {
 namespace {
@@ -18,6 +19,34 @@ void conflict(SceneCheck& check, const char* key, const char* with) {
         check.faults.add(node->key_at, key,
                          std::string("conflicts with ") + with + ", " + value_text(*node) +
                              ", allowed: left out");
+}
+
+/// Places in degrees need a map, which weather data alone has.
+void check_places(SceneCheck& check) {
+    bool weather = false;
+    for (const MediumSettings& medium : check.scene.media) {
+        const bool by_name = medium.format.empty() && !medium.file.empty();
+        const VolumeFormat* format =
+            by_name ? volume_format_of(medium.file) : volume_format_named(medium.format);
+        weather = weather || (format != nullptr && format->is_weather);
+    }
+    for (const char* name : {"camera.position_", "camera.target_"}) {
+        const std::string degrees = std::string(name) + "deg", metres = std::string(name) + "m";
+        const Node* node = check.valid_key(degrees);
+        if (node == nullptr) continue;
+        // A struct has its metres in any case.
+        if (check.written) conflict(check, metres.c_str(), degrees.c_str());
+        const Camera& c = check.scene.camera;
+        const Double3& place = degrees == "camera.position_deg" ? c.position_place : c.target_place;
+        if (!(place[0] >= -360 && place[0] <= 360 && place[1] >= -90 && place[1] <= 90))
+            check.faults.add(node->at, degrees,
+                             "out of range, " + value_text(*node) +
+                                 ", allowed: longitude -360 to 360, latitude -90 to 90, height");
+        else if (!weather)
+            check.faults.add(node->at, degrees,
+                             "no map to find it on, " + value_text(*node) +
+                                 ", allowed: with a medium of weather data, or " + metres);
+    }
 }
 
 void check_camera(SceneCheck& check) {
@@ -35,6 +64,7 @@ void check_camera(SceneCheck& check) {
                          "measured by no method but path, \"flux\", allowed: perspective, "
                          "orthographic with method " +
                              check.scene.method);
+    check_places(check);
     const Node* target = check.valid_key("camera.target_m");
     const Node* position = check.valid_key("camera.position_m");
     const Node* up_node = check.key("camera.up");
@@ -45,6 +75,8 @@ void check_camera(SceneCheck& check) {
             "no direction, " + value_text(*up_node) + ", allowed: any but the zero vector");
         return;
     }
+    // Where places are on the map is known once the map is.
+    if (camera.position_by_place || camera.target_by_place) return;
     if (target == nullptr || position == nullptr) return;
     const Double3 view = camera.target_m - camera.position_m;
     if (glm::length(view) == 0) {
@@ -67,7 +99,7 @@ void check_camera(SceneCheck& check) {
 void check_ground(SceneCheck& check) {
     const Node* position = check.valid_key("camera.position_m");
     const Scene& scene = check.scene;
-    if (!scene.ground.present || position == nullptr) return;
+    if (!scene.ground.present || position == nullptr || scene.camera.position_by_place) return;
     if (scene.camera.position_m[2] < scene.ground.altitude_m)
         check.faults.add(position->at, "camera.position_m",
                          "below the ground, z " + number_text(scene.camera.position_m[2]) +

@@ -56,7 +56,7 @@ private:
         set("top_fall", sky_.top_fall, type.top_fall);
         set("rounding", sky_.rounding, type.rounding);
         set("base_density", sky_.base_density, type.base_density);
-        if (check_.key(path_ + "extinction_per_m") == nullptr)
+        if (check_.key(path_ + "extinction_per_m") == nullptr && medium_.transfer.empty())
             medium_.extinction_per_m = type.extinction_per_m;
         if (check_.key(path_ + "phase") == nullptr && type.effective_radius_um > 0) {
             medium_.phase.type = "cloud";
@@ -111,12 +111,14 @@ private:
         const bool marched =
             light == RaymarchLightKind::kAuto || light == RaymarchLightKind::kMarch;
         const bool boxed = medium_.has_bounds && !medium_.periodic;
-        const bool can =
-            scene.method == "raymarch" && scene.media.size() == 1 && (marched || boxed);
+        const bool can = scene.method == "raymarch" && scene.media.size() == 1 &&
+                         (marched || boxed) && medium_.transfer.empty() && !medium_.constant;
         if (sky_.evaluate == SkyEvaluation::kDirect && !can)
             fault("evaluate",
                   "not here, \"direct\", allowed: \"grid\", or method raymarch with this medium "
-                  "alone, and with raymarch.light \"auto\" or \"march\" or an open box");
+                  "alone, without transfer or constant cells, and with raymarch.light \"auto\" or "
+                  "\"march\" or an "
+                  "open box");
         if (sky_.evaluate == SkyEvaluation::kAuto)
             sky_.evaluate = can ? SkyEvaluation::kDirect : SkyEvaluation::kGrid;
         if (sky_.evaluate == SkyEvaluation::kGrid && check_.key(path_ + "bounds_m") == nullptr)

@@ -27,6 +27,7 @@ std::vector<const KeyRow*> all_scene_keys() {
     add(view_keys());
     add(solid_keys());
     add(medium_keys());
+    rows.push_back(&transfer_key());
     for (const KeyRow* row : phase_keys()) rows.push_back(row);
     add(medium_last_keys());
     add(weather_keys());

@@ -5,6 +5,7 @@
 #include "src/scene/checks/check_keys.h"
 #include "src/scene/keys/all_keys.h"
 #include "src/scene/rows/density_row.h"
+#include "src/scene/transfer.h"
 
 namespace pileus {
 namespace {
@@ -152,6 +153,12 @@ std::string allowed_text(const KeyRow& row) {
             return "text, or whole number" + range;
         case KeyKind::kDensity:
             return density_names() + ", the path of a file, or a table";
+        case KeyKind::kTransfer: {
+            std::string keys;
+            for (const KeyRow& key : transfer_row_keys())
+                keys += (keys.empty() ? "" : ", ") + std::string(key.path);
+            return "list of 2 to " + std::to_string(kMostTransferRows) + " tables of " + keys;
+        }
         case KeyKind::kTable:
             return "table";
         case KeyKind::kLater:

@@ -96,6 +96,12 @@ bool texts_hold(const Node& node, std::string_view text) {
 
 std::string toml_text(const Node& node) {
     if (node.is_text()) return toml_string(node.text);
+    if (node.is_table()) {
+        std::string shown = "{";
+        for (const Node& child : node.children)
+            shown += (shown.size() > 1 ? ", " : " ") + child.key + " = " + toml_text(child);
+        return shown + " }";
+    }
     if (!node.is_array()) return value_text(node);
     std::string shown = "[";
     for (std::size_t i = 0; i < node.children.size(); ++i)

@@ -59,7 +59,7 @@ constexpr KeyRow kRows[] = {
     {"medium.N.density.grid", kDensityGrid, any(), "",
      "the same as `grid` beside it: name of the grid in an OpenVDB or NanoVDB file", kNone},
     {"medium.N.format", medium<&MediumSettings::format>,
-     one_of("pbrt|raw|vol|les|openvdb|nanovdb|netcdf"), "",
+     one_of("pbrt|raw|vol|les|openvdb|nanovdb|netcdf|grib"), "",
      "kind of the file; left out: told by the end of its name", kNone},
     {"medium.N.grid", medium<&MediumSettings::grid>, any(), "",
      "name of the grid in an OpenVDB or NanoVDB file; left out: the first of floats that is "
@@ -77,7 +77,7 @@ constexpr KeyRow kRows[] = {
     {"medium.N.extinction_per_m", medium<&MediumSettings::extinction_per_m>, from_to(0, 1e12),
      "1/m",
      "extinction coefficient where the density is 1; required, but for files that hold "
-     "extinction (les, netcdf)",
+     "extinction (les, netcdf) and beside `transfer`",
      kNone},
     {"medium.N.extinction_scale", medium<&MediumSettings::extinction_scale>, from_to(0, 1e12), "",
      "factor on the values of a file that holds extinction in 1/m (les, netcdf), for no others"},
@@ -90,6 +90,9 @@ constexpr KeyRow kLastRows[] = {
     {"medium.N.boundary", medium<&MediumSettings::periodic>, one_of("open|periodic"), "",
      "what lies beside the box: nothing, or the same again without end along x and y; "
      "periodic for all media of a scene, with one box in x and y, or for none"},
+    {"medium.N.interpolation", medium<&MediumSettings::constant>, one_of("linear|constant"), "",
+     "the density between the middles of cells: linear from one to the next, or one value for "
+     "each cell; the same for all media of a scene"},
     {"medium.N.y_up", medium<&MediumSettings::y_up>, any(), "",
      "true: the file's y axis points up; files only"},
 };

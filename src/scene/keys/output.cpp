@@ -59,8 +59,8 @@ constexpr KeyField kElevation{KeyKind::kNumber2,
 
 constexpr KeyRow kRows[] = {
     {"output.files", output<&OutputSettings::files>, any(), "",
-     "pictures to write, relative to the scene's folder; names end in .exr, .png or "
-     ".pfm"},
+     "pictures to write, relative to the scene's folder; names end in .exr, .png, "
+     ".pfm or .nc"},
     {"output.report", output<&OutputSettings::report>, any(), "",
      "JSON report to write, relative to the scene's folder; empty: none"},
     {"output.layers", kLayers,

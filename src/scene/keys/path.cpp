@@ -18,6 +18,8 @@ constexpr KeyRow kRows[] = {
     {"path.pixel", path<&PathSettings::centre>, one_of("box|centre"), "",
      "where a pixel's rays go: spread evenly over it, or all through its centre, as "
      "the other methods send theirs"},
+    {"path.guide", path<&PathSettings::guide>, any(), "",
+     "seeks the sun's light by branches near its direction where a phase function is peaked"},
     {"path.target_error", path<&PathSettings::target_error>, from_to(0, 1), "",
      "ends where the standard error over the radiance, its mean over the cloud's "
      "pixels, is no more than this; 0: after samples_per_pixel"},

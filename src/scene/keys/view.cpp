@@ -27,6 +27,18 @@ constexpr KeyField kProjection{
         t.scene.camera.flux = n.integer == 2;
     }};
 
+/// A place by the map of the weather data.
+template <Double3 Camera::*kPlace, bool Camera::*kByPlace>
+constexpr KeyField place{KeyKind::kNumber3,
+                         [](const KeySource& s) {
+                             const Camera& c = s.scene.camera;
+                             return c.*kByPlace ? node_of(c.*kPlace) : no_value();
+                         },
+                         [](const KeyTarget& t, const Node& n) {
+                             t.scene.camera.*kByPlace = true;
+                             take(n, t.scene.camera.*kPlace);
+                         }};
+
 constexpr KeyRow kRows[] = {
     {"seed", field<&Scene::seed>, from_to(0, 0x1p63), "",
      "chooses the random numbers; the same seed gives the same picture, bit for bit"},
@@ -53,12 +65,22 @@ constexpr KeyRow kRows[] = {
      "its values: along each pixel's ray, or along the view's axis"},
     {"camera.depth_scale", camera<&Camera::depth_scale>, above(0, 1e9), "m",
      "metres per unit of its values"},
+    {"camera.position_deg", place<&Camera::position_place, &Camera::position_by_place>,
+     from_to(-1e9, 1e9), "deg, deg, m",
+     "instead of position_m: longitude, latitude and height by the map of the first medium that is "
+     "weather data",
+     kNone},
+    {"camera.target_deg", place<&Camera::target_place, &Camera::target_by_place>,
+     from_to(-1e9, 1e9), "deg, deg, m", "the same instead of target_m", kNone},
     {"sun.azimuth_deg", sun<&Sun::azimuth_deg>, from_to(-360, 360), "deg",
      "where the sun stands, from north (+y) towards east (+x)"},
     {"sun.elevation_deg", sun<&Sun::elevation_deg>, from_to(-90, 90), "deg",
      "how high the sun stands over the horizon"},
     {"sun.irradiance", sun<&Sun::irradiance>, from_to(0, 1e12), "any",
      "on a plane facing the sun; radiances come out in its unit"},
+    {"sun.angular_radius_deg", sun<&Sun::angular_radius_deg>, from_to(0, 10), "deg",
+     "of the sun's disc, which is alike all over; method `path` only, the others take a point. 0: "
+     "a point; the real sun: 0.2665"},
     {"sky.radiance", sky<&Sky::radiance>, from_to(0, 1e12), "sun's per sr",
      "of a constant sky: the full sphere, or the upper half where there is a ground"},
     {"sky.map", sky<&Sky::map>, any(), "",

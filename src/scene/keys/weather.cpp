@@ -44,6 +44,8 @@ constexpr KeyRow kRows[] = {
      "variable of the pressure at the ground, or `none`", kNone},
     {"medium.N.density.surface_geopotential", weather<&W::surface_geopotential>, any(), "",
      "variable of the ground's geopotential or height, or `none`: 0", kNone},
+    {"medium.N.density.variable", weather<&W::variable>, any(), "",
+     "variable that `transfer` shows in place of water, in its own unit", kNone},
     {"medium.N.density.time", choice<&W::time>, from_to(0, 1e9), "",
      "which time of a NetCDF file: an index from 0, or a date such as "
      "`2005-08-28T12` of which one time's date begins"},

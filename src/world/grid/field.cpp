@@ -25,11 +25,17 @@ Corner corner(float x, int size, bool wraps = false) {
     return {low, low + 1, c - float(low)};
 }
 
+/// The voxel that holds a voxel coordinate.
+int voxel_at(float x, int size) { return !(x > 0.0f) ? 0 : x < float(size) ? int(x) : size - 1; }
+
 float mix(float a, float b, float t) { return a + (b - a) * t; }
 
 }  // namespace
 
 float density_at(Span<const float> density, const Grid& grid, const float x[3]) {
+    if (grid.constant)
+        return density[voxel_index(grid, voxel_at(x[0], grid.size[0]), voxel_at(x[1], grid.size[1]),
+                                   voxel_at(x[2], grid.size[2]))];
     const Corner a = corner(x[0], grid.size[0], grid.periodic);
     const Corner b = corner(x[1], grid.size[1], grid.periodic);
     const Corner c = corner(x[2], grid.size[2]);
@@ -44,6 +50,12 @@ float density_at(Span<const float> density, const Grid& grid, const float x[3]) 
 
 void mass_row(Span<const float> density, const Grid& grid, const int (&range)[2], int j, int k,
               double* out) {
+    const double volume = double(grid.cell_m[0]) * double(grid.cell_m[1]) * double(grid.cell_m[2]);
+    if (grid.constant) {
+        for (int i = range[0]; i < range[1]; ++i)
+            out[i - range[0]] = double(density[voxel_index(grid, i, j, k)]) * volume;
+        return;
+    }
     const int nx = grid.size[0], ny = grid.size[1], nz = grid.size[2];
     const bool wraps = grid.periodic;
     const int js[3] = {j > 0 ? j - 1 : (wraps ? ny - 1 : 0), j,
@@ -64,8 +76,7 @@ void mass_row(Span<const float> density, const Grid& grid, const int (&range)[2]
     const double last = across(end < nx ? end : (wraps ? 0 : nx - 1));
     for (int i = 0; i < count; ++i) out[i] = across(begin + i);
     // Then 1 6 1 along x, in place: keep the left neighbour while the row is overwritten.
-    const double scale =
-        double(grid.cell_m[0]) * double(grid.cell_m[1]) * double(grid.cell_m[2]) / 512.0;
+    const double scale = volume / 512.0;
     double left = first;
     for (int i = 0; i < count; ++i) {
         const double here = out[i];

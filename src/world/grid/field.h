@@ -1,17 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-// The trilinear field and its exact integrals, the one meaning of "density" in the preparation.
+// The density between grid points and its exact integrals, its one meaning in the preparation.
 // in: densities at voxel centres -> out: density at a point, mass of each voxel.
-// docs/methods.md 1; linear between centres, clamped inside the box, zero outside.
+// docs/methods.md 1; linear between centres and clamped inside the box, or constant within voxels
+// (Grid::constant); zero outside.
 #pragma once
 #include "src/base/span.h"
 #include "src/world/grid/grid.h"
 
 namespace pileus {
 
-/// Trilinear density at a point inside the box, given in voxel coordinates [0, size].
+/// Density at a point inside the box, given in voxel coordinates [0, size].
 float density_at(Span<const float> density, const Grid& grid, const float x[3]);
 
-/// Integral of the trilinear density over voxels [range[0], range[1]) of row (j, k), m^3 each.
+/// Integral of the density over voxels [range[0], range[1]) of row (j, k), m^3 each.
 void mass_row(Span<const float> density, const Grid& grid, const int (&range)[2], int j, int k,
               double* out);
 

@@ -14,6 +14,7 @@ struct Grid {
     int size[3];            ///< voxels along x, y, z; each 1..4096
     float cell_m[3];        ///< edge lengths of a voxel, metres; each > 0
     bool periodic = false;  ///< the box repeats without end along x and y
+    bool constant = false;  ///< a voxel has one density; else it is linear between centres
 };
 
 inline std::size_t voxel_index(const Grid& grid, int i, int j, int k) {

@@ -42,6 +42,15 @@ void integrate(double from, double to, int count, int begin, std::vector<double>
     }
 }
 
+/// The same of cells that hold one value each.
+void integrate_constant(double from, double to, int begin, std::vector<double>& sum) {
+    for (double x = from; x < to;) {
+        const double end = floor_of(x) + 1 < to ? floor_of(x) + 1 : to;
+        sum[std::size_t(int(x) - begin)] += end - x;
+        x = end;
+    }
+}
+
 /// Marks what is more than a copy. One source cell that fills the target's is a copy: exactly.
 void settle(RowWeights& row) {
     const bool one = row.weight.size() - row.first.back() == 1;
@@ -61,7 +70,7 @@ bool coincide(const CellRow& target, const CellRow& source, int& shift) {
 
 }  // namespace
 
-RowWeights row_weights(const CellRow& target, const CellRow& source) {
+RowWeights row_weights(const CellRow& target, const CellRow& source, bool constant) {
     RowWeights row;
     int shift = 0;
     const bool same = coincide(target, source, shift);
@@ -81,9 +90,13 @@ RowWeights row_weights(const CellRow& target, const CellRow& source) {
         if (!(from < to)) continue;
         int begin = int(from - 0.5), end = int(to + 0.5) + 1;
         if (begin < 0 || from < 0.5) begin = 0;
+        if (constant) begin = int(from), end = int(to) + (double(int(to)) < to ? 1 : 0);
         if (end > source.count) end = source.count;
         sum.assign(std::size_t(end - begin), 0.0);
-        integrate(from, to, source.count, begin, sum);
+        if (constant)
+            integrate_constant(from, to, begin, sum);
+        else
+            integrate(from, to, source.count, begin, sum);
         row.begin.back() = begin;
         for (double w : sum) row.weight.push_back(w * source.cell_m / target.cell_m);
         settle(row);

@@ -25,9 +25,9 @@ struct RowWeights {
 };
 
 /// Exact: the source is read trilinearly, held constant over half a cell at both ends of its row,
-/// and zero beyond. A lattice that coincides with the target's (within a millionth of a cell) is
-/// copied. The target must cover the source; then weights times target cells add up to the source
-/// cell for each of them.
-RowWeights row_weights(const CellRow& target, const CellRow& source);
+/// and zero beyond; where its cells are `constant`, these hold all over themselves. A lattice that
+/// coincides with the target's (within a millionth of a cell) is copied. The target must cover the
+/// source; then weights times target cells add up to the source cell for each of them.
+RowWeights row_weights(const CellRow& target, const CellRow& source, bool constant = false);
 
 }  // namespace pileus

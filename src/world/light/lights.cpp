@@ -59,6 +59,8 @@ void plan_sun(const Scene& scene, const Medium& medium, double elevation_deg, Pl
         out.sunlit = false;
         plan.leave_out("sun", "exactly at the horizon of a periodic medium: it meets no face");
     }
+    if (out.sunlit && scene.sun.angular_radius_deg > 0)
+        plan.leave_out("the sun's disc", "a point to this method: path alone knows it");
     if (!out.sunlit) out.sun_irradiance = {};
 }
 

@@ -43,6 +43,7 @@ TrackGrid track_grid(const Medium& medium, Span<const float> majorants, int bloc
     k.block = float(block);
     k.sigma = medium.sigma;
     k.periodic = medium.grid.periodic ? 1 : 0;
+    k.constant = medium.grid.constant ? 1 : 0;
     k.max_events = max_events;
     k.density = medium.volume.density.data();
     k.majorant = majorants.data;

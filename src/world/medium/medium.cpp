@@ -67,6 +67,7 @@ Status place_medium(const Scene& scene, const MediumSettings& settings, const Vo
     const auto& bounds = settings.has_bounds ? settings.bounds_m : head.bounds_m;
     out.low_m = bounds[0];
     out.grid.periodic = settings.periodic;
+    out.grid.constant = settings.constant;
     for (std::size_t a = 0; a < 3; ++a) {
         out.extent_m[a] = bounds[1][a] - bounds[0][a];
         out.grid.size[a] = head.size[a];
@@ -179,6 +180,8 @@ Status outline_medium(const Scene& scene, const MediumSettings& settings, const 
     out.volume.size = head.size;
     out.volume.in_extinction = head.in_extinction;
     out.density_max = 1;
+    // What a transfer function makes of the values is not known before them.
+    if (!settings.transfer.empty()) source.mean_density = -1;
     return place_medium(scene, settings, head, out);
 }
 
@@ -191,6 +194,7 @@ Status load_medium(const Scene& scene, const MediumSettings& settings, int threa
     head.bounds_m = out.volume.bounds_m;
     head.in_extinction = out.volume.in_extinction;
     PILEUS_TRY(place_medium(scene, settings, head, out));
+    if (!settings.transfer.empty()) return Status::ok();
     out.density_max = 0;
     for (float density : out.volume.density.span())
         if (density > out.density_max) out.density_max = density;

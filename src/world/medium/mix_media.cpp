@@ -10,6 +10,7 @@
 #include "src/io/volumes/volume_file.h"
 #include "src/scene/toml/toml_tree.h"
 #include "src/world/medium/resample.h"
+#include "src/world/medium/transfer_media.h"
 
 namespace pileus {
 namespace {
@@ -54,6 +55,7 @@ void join_media(std::vector<Medium>& media, const MixBox& box, Medium& out) {
     out.low_m = box.low_m;
     out.volume.size = box.size;
     out.grid.periodic = media[0].grid.periodic;
+    out.grid.constant = media[0].grid.constant;
     for (std::size_t a = 0; a < 3; ++a) {
         out.extent_m[a] = box.extent_m[a];
         out.grid.size[a] = box.size[a];
@@ -94,7 +96,8 @@ std::string told_mix(const std::vector<MixBox>& boxes, const std::vector<std::si
     if (grid.coarsened) text += ", coarsened to keep the limit";
     const std::vector<bool> resampled = resampled_media(boxes, grid);
     for (std::size_t i = 0; i < boxes.size(); ++i)
-        if (resampled[i]) text += "; medium " + std::to_string(names[i]) + " resampled";
+        if (resampled[i] && (i == 0 || names[i] != names[i - 1]))
+            text += "; medium " + std::to_string(names[i]) + " resampled";
     return text;
 }
 
@@ -179,6 +182,22 @@ struct MediaList {
         media.push_back(std::move(medium));
     }
 
+    /// One of the scene, as it is or colour by colour.
+    Status add_all(const Scene& scene, std::size_t name, Medium medium, Plan& plan) {
+        const bool last = name + 1 == scene.media.size();
+        const std::vector<TransferRow>& rows = scene.media[name].transfer;
+        if (rows.empty()) {
+            add(std::move(medium), name, last, plan);
+            return Status::ok();
+        }
+        plan.need(told_transfer(name, rows).c_str());
+        std::vector<Medium> colours;
+        PILEUS_TRY(split_by_transfer(rows, medium, colours));
+        for (std::size_t c = 0; c < colours.size(); ++c)
+            add(std::move(colours[c]), name, last && c + 1 == colours.size(), plan);
+        return Status::ok();
+    }
+
     MixGrid plan_grid(const Limits& limits, Plan& plan) const {
         const std::uint64_t most = limits[LimitId::kVoxels];
         const MixGrid grid = plan_mix(boxes, most < kMostMixedVoxels ? most : kMostMixedVoxels);
@@ -190,14 +209,18 @@ struct MediaList {
     }
 };
 
-/// Periodic media share one period and one place of it in x and y; open ones stay among themselves.
-Status check_periods(const Scene& scene, const MediaList& list) {
+/// Media of one grid are read in one way. Periodic ones share one period and one place of it in x
+/// and y; open ones stay among themselves.
+Status check_alike(const Scene& scene, const MediaList& list) {
     const auto line = [&](std::size_t i, const std::string& rest) {
         return Status::bad_input(scene.file + ": medium." + std::to_string(list.names[i]) + rest);
     };
     for (std::size_t i = 1; i < list.media.size(); ++i) {
         const std::string first = " medium." + std::to_string(list.names[0]) + " has";
-        const bool periodic = list.media[0].grid.periodic;
+        const bool periodic = list.media[0].grid.periodic, constant = list.media[0].grid.constant;
+        if (list.media[i].grid.constant != constant)
+            return line(i, std::string(".interpolation: differs, \"") +
+                               (constant ? "linear" : "constant") + "\", allowed: what" + first);
         if (list.media[i].grid.periodic != periodic)
             return line(i, std::string(".boundary: differs, \"") +
                                (periodic ? "open" : "periodic") + "\", allowed: what" + first);
@@ -262,11 +285,10 @@ Status outline_media(const Scene& scene, const Limits& limits, std::uint64_t thr
         source.reading_bytes = larger(source.reading_bytes, own.reading_bytes);
         source.turned_voxels = larger(source.turned_voxels, own.turned_voxels);
         for (const DensityWork& work : own.making) keep_larger(work, source.making);
-        const std::size_t before = list.media.size();
-        list.add(std::move(medium), i, i + 1 == scene.media.size(), plan);
-        if (list.media.size() > before) means.push_back(own.mean_density);
+        PILEUS_TRY(list.add_all(scene, i, std::move(medium), plan));
+        means.resize(list.media.size(), own.mean_density);
     }
-    PILEUS_TRY(check_periods(scene, list));
+    PILEUS_TRY(check_alike(scene, list));
     const MixGrid grid = list.plan_grid(limits, plan);
     if (list.media.size() == 1) {
         source.mean_density = means[0];
@@ -290,7 +312,7 @@ Status load_media(const Scene& scene, const Limits& limits, int threads, Plan& p
         PILEUS_TRY(load_medium(scene, scene.media[i], threads, medium, kernels));
         missing += medium.volume.missing;
         clamped += medium.volume.clamped;
-        list.add(std::move(medium), i, i + 1 == scene.media.size(), plan);
+        PILEUS_TRY(list.add_all(scene, i, std::move(medium), plan));
     }
     const MixGrid grid = list.plan_grid(limits, plan);
     PILEUS_TRY(mix_media(list.media, grid, threads, out));

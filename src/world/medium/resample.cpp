@@ -50,7 +50,7 @@ Layer make_layer(const Medium& medium, const MixBox& target, float sigma, float*
     Layer layer{&medium, {}, double(medium.sigma) / double(sigma), part};
     const MixBox source = box_of(medium);
     for (std::size_t a = 0; a < 3; ++a)
-        layer.axis[a] = row_weights(row_of(target, a), row_of(source, a));
+        layer.axis[a] = row_weights(row_of(target, a), row_of(source, a), medium.grid.constant);
     return layer;
 }
 
@@ -74,6 +74,7 @@ Status add_layers(const std::vector<Layer>& layers, const MixBox& box, int threa
 Grid resampled_grid(const Medium& medium, const std::array<int, 3>& size) {
     Grid grid;
     grid.periodic = medium.grid.periodic;
+    grid.constant = medium.grid.constant;
     for (std::size_t a = 0; a < 3; ++a) {
         grid.size[a] = size[a];
         grid.cell_m[a] = float(medium.extent_m[a] / size[a]);

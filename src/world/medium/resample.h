@@ -35,7 +35,7 @@ Layer make_layer(const Medium& medium, const MixBox& target, float sigma, float*
 /// memory.
 Status add_layers(const std::vector<Layer>& layers, const MixBox& box, int threads, Medium& out);
 
-/// The same box in `size` cells, each holding the mean of the trilinear field over it: what lies
+/// The same box in `size` cells, each holding the mean of the density over it: what lies
 /// in the box stays the same. Its density alone: optics and parts are left out. `density` names
 /// the array in the plan. kLimit: out of memory.
 Status resample_medium(const Medium& medium, const std::array<int, 3>& size, int threads,

@@ -29,12 +29,15 @@ bool needs_air(const WeatherSource& s, bool by_pressure) {
 
 }  // namespace
 
-Status FieldBlock::read(const WeatherSource& from, std::uint64_t row, std::uint64_t count) {
+Status FieldBlock::read(const WeatherSource& from, std::uint64_t row, std::uint64_t count,
+                        FieldRoom& to) {
     source = &from;
+    room = &to;
     first_row = row;
     rows = count;
     for (std::size_t r = 0; r < std::size_t(Role::kCount); ++r)
-        if (from.fields.of[r].there()) PILEUS_TRY(read_field(from, Role(r), row, count, values[r]));
+        if (from.fields.of[r].there())
+            PILEUS_TRY(read_field(from, Role(r), row, count, to.raw, to.values[r]));
     return Status::ok();
 }
 
@@ -58,7 +61,8 @@ AirColumn::AirColumn(const FieldBlock& block, WeatherCounts& counts)
       kelvin_(n_, 0.0),
       virtual_(n_, 0.0),
       pressure_(n_, 0.0),
-      faces_pa_(n_ + 1, 0.0) {}
+      faces_pa_(n_ + 1, 0.0),
+      logarithms_(n_, 0.0) {}
 
 bool AirColumn::by_pressure() const {
     return s_.vertical == Vertical::kPressureFaces || s_.vertical == Vertical::kPressureLevels;
@@ -164,8 +168,10 @@ Status AirColumn::air_column(std::size_t c) {
     if (s_.has(Role::kHumidity)) PILEUS_TRY(on_levels(Role::kHumidity, c, humidity));
     if (by_pressure()) {
         PILEUS_TRY(pressure_faces(c));
-        for (std::size_t k = 0; k < n_; ++k)
-            pressure_[k] = layer_pressure(faces_pa_[k], faces_pa_[k + 1]);
+        for (std::size_t k = 0; k < n_; ++k) {
+            logarithms_[k] = layer_logarithm(faces_pa_[k], faces_pa_[k + 1]);
+            pressure_[k] = layer_pressure(faces_pa_[k], faces_pa_[k + 1], logarithms_[k]);
+        }
     } else if (s_.has(Role::kPressure)) {
         PILEUS_TRY(on_levels(Role::kPressure, c, pressure_));
     }
@@ -206,7 +212,7 @@ Status AirColumn::place_column(std::size_t c, const Span<double>& faces) {
         // Pressure levels may begin above the ground.
         if (s_.vertical == Vertical::kPressureLevels && ground_pa_ > faces_pa_[0])
             lowest += kDryAir * virtual_[0] / kGravity * layer_logarithm(ground_pa_, faces_pa_[0]);
-        integrate_heights({faces_pa_.data(), n_ + 1}, {virtual_.data(), n_}, lowest, faces);
+        sum_heights({logarithms_.data(), n_}, {virtual_.data(), n_}, lowest, faces);
     } else {
         const std::size_t m = s_.vertical == Vertical::kHeightFaces ? n_ + 1 : n_;
         const Span<const double> z = of(Role::kHeight).span().part(c * m, m);

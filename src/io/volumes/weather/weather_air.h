@@ -11,10 +11,10 @@ namespace pileus {
 struct FieldBlock {
     const WeatherSource* source = nullptr;
     std::uint64_t first_row = 0, rows = 0;
-    Buffer<double> values[std::size_t(Role::kCount)];
+    FieldRoom* room = nullptr;
 
-    Status read(const WeatherSource& from, std::uint64_t row, std::uint64_t count);
-    const Buffer<double>& of(Role role) const { return values[std::size_t(role)]; }
+    Status read(const WeatherSource& from, std::uint64_t row, std::uint64_t count, FieldRoom& to);
+    const Buffer<double>& of(Role role) const { return room->values[std::size_t(role)]; }
     std::size_t columns() const { return std::size_t(rows) * source->row_columns(); }
     /// "file: variable q: row 1, column 2: line".
     Status fault(Role role, std::size_t column, const std::string& line) const;
@@ -51,6 +51,7 @@ private:
     bool needs_air_ = false;
     double ground_pa_ = -1;  ///< of the column; below 0: not known
     std::vector<double> kelvin_, virtual_, pressure_, faces_pa_;
+    std::vector<double> logarithms_;  ///< of each layer's pressures
 };
 
 }  // namespace pileus

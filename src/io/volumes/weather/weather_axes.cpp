@@ -67,6 +67,9 @@ constexpr NameRow kNames[] = {
     {AxisKind::kLevel, "hybrid"},
     {AxisKind::kLevel, "model_level"},
     {AxisKind::kLevel, "nlev"},
+    {AxisKind::kLevel, "half_level"},
+    {AxisKind::kLevel, "ilev"},
+    {AxisKind::kLevel, "bottom_top_stag"},
     {AxisKind::kLevel, "height_2"},
     {AxisKind::kLevel, "generalvertical"},
 };

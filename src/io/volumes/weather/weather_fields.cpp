@@ -23,7 +23,8 @@ const char* const kKeys[] = {"liquid",
                              "liquid_radius",
                              "ice_radius",
                              "surface_pressure",
-                             "surface_geopotential"};
+                             "surface_geopotential",
+                             "variable"};
 
 const std::string& wanted_name(const WeatherSettings& s, Role role) {
     const std::string* const names[] = {&s.liquid,
@@ -36,8 +37,15 @@ const std::string& wanted_name(const WeatherSettings& s, Role role) {
                                         &s.liquid_radius,
                                         &s.ice_radius,
                                         &s.surface_pressure,
-                                        &s.surface_geopotential};
+                                        &s.surface_geopotential,
+                                        &s.variable};
     return *names[std::size_t(role)];
+}
+
+/// What counts for water alone is left out where something else is shown.
+bool is_of_water(Role role) {
+    return role == Role::kLiquid || role == Role::kIce || role == Role::kFraction ||
+           role == Role::kLiquidRadius || role == Role::kIceRadius;
 }
 
 bool is_surface(Role role) {
@@ -90,7 +98,7 @@ public:
         const std::string& wanted = wanted_name(settings_, role);
         row = nullptr;
         found.clear();
-        if (wanted == "none") return Status::ok();
+        if (wanted == "none" && role != Role::kShown) return Status::ok();
         if (!wanted.empty()) {
             if (!find_parts(head_, wanted, found))
                 return Status::bad_input(file_.name() + ": " + role_key(role) +
@@ -112,6 +120,7 @@ public:
     Status field(Role role, const WeatherAxes& axes, WeatherField& out) const {
         const WeatherName* row = nullptr;
         out = WeatherField();
+        if (!settings_.variable.empty() && is_of_water(role)) return Status::ok();
         PILEUS_TRY(parts(role, &axes, out.parts, row));
         if (!out.there()) return Status::ok();
         for (const NcVariable* part : out.parts) {
@@ -129,6 +138,7 @@ public:
         out.quantity = row != nullptr ? row->quantity : default_quantity(role);
         out.meaning = row != nullptr ? row->meaning : M::kPlain;
         if (wrf_) out.gravity = 9.81;
+        if (role == Role::kShown) return shown(out);
         PILEUS_TRY(unit(role, out));
         if (row != nullptr) out.unit.offset += row->offset;
         return Status::ok();
@@ -140,10 +150,18 @@ private:
                                    : v.text("standard_name") == row.standard_name;
     }
 
+    /// A variable of any kind keeps its own unit.
+    Status shown(WeatherField& field) const {
+        field.meaning = M::kPlain;
+        field.unit = UnitScale();
+        if (!field.on_faces) return Status::ok();
+        return nc_fault(file_.name(), *field.parts[0], "dimensions: other than those of its sum");
+    }
+
     static Q default_quantity(Role role) {
         static constexpr Q of[] = {Q::kRatio,    Q::kRatio,    Q::kFraction, Q::kTemperature,
                                    Q::kPressure, Q::kHeight,   Q::kRatio,    Q::kRadius,
-                                   Q::kRadius,   Q::kPressure, Q::kHeight};
+                                   Q::kRadius,   Q::kPressure, Q::kHeight,   Q::kRatio};
         return of[std::size_t(role)];
     }
 
@@ -243,7 +261,7 @@ Status find_water(const NcFile& file, const WeatherSettings& settings, const NcV
     const Search search(file, settings);
     std::vector<const NcVariable*> found;
     const WeatherName* row = nullptr;
-    for (const Role role : {Role::kLiquid, Role::kIce}) {
+    for (const Role role : {Role::kShown, Role::kLiquid, Role::kIce}) {
         PILEUS_TRY(search.parts(role, nullptr, found, row));
         if (found.empty()) continue;
         water = found[0];

@@ -20,6 +20,7 @@ enum class Role : std::size_t {
     kIceRadius,
     kSurfacePressure,
     kSurfaceHeight,
+    kShown,  ///< any variable that a transfer function shows in place of water
     kCount
 };
 
@@ -52,7 +53,8 @@ struct WeatherFields {
 /// Key of the scene that names the variable: "liquid".
 const char* role_key(Role role);
 
-/// The variable of liquid water or else of ice, by which the axes are known. kBadInput: neither.
+/// The variable that is shown, of liquid water or else of ice, by which the axes are known.
+/// kBadInput: none of them.
 Status find_water(const NcFile& file, const WeatherSettings& settings, const NcVariable*& water);
 
 /// All roles. kBadInput: a variable that the scene names is not there or has other dimensions, a

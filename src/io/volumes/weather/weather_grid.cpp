@@ -55,7 +55,7 @@ void survey_column(const WeatherSource& s, const CloudLayers& layers, std::size_
     for (std::size_t k = 0; k < n; ++k) {
         const double low = layers.faces_m.at(column * (n + 1) + k);
         const double high = layers.faces_m.at(column * (n + 1) + k + 1);
-        const double kappa = layers.extinction.at(column * n + k), thickness = high - low;
+        const double kappa = s.seen(layers.extinction.at(column * n + k)), thickness = high - low;
         if (!(kappa > 0) || !(thickness > 0)) continue;
         survey.low_m = survey.any_cloud && survey.low_m < low ? survey.low_m : low;
         survey.high_m = survey.any_cloud && survey.high_m > high ? survey.high_m : high;
@@ -73,8 +73,12 @@ void survey_column(const WeatherSource& s, const CloudLayers& layers, std::size_
 }  // namespace
 
 Status survey_weather(const WeatherSource& s, WeatherSurvey& survey) {
-    survey = WeatherSurvey();
     CloudLayers layers;
+    return survey_weather(s, layers, survey);
+}
+
+Status survey_weather(const WeatherSource& s, CloudLayers& layers, WeatherSurvey& survey) {
+    survey = WeatherSurvey();
     const std::uint64_t step = block_rows(s);
     double lowest = 1e30, highest = -1e30;
     for (std::uint64_t row = 0; row < s.axes.ny; row += step) {
@@ -86,7 +90,8 @@ Status survey_weather(const WeatherSource& s, WeatherSurvey& survey) {
                 survey_column(s, layers, std::size_t(y) * s.row_columns() + x,
                               (r.x1 - r.x0) * (r.y1 - r.y0), survey);
             }
-        for (const double z : layers.faces_m.span()) {
+        const std::size_t faces = std::size_t(rows) * s.row_columns() * (s.levels() + 1);
+        for (const double z : layers.faces_m.span().part(0, faces)) {
             if (z < lowest) lowest = z;
             if (z > highest) highest = z;
         }
@@ -128,7 +133,9 @@ Status weather_grid(const WeatherSource& s, const WeatherSurvey& survey,
 }
 
 void lay_block(const WeatherSource& s, const WeatherGrid& grid, std::uint64_t first_row,
-               std::uint64_t rows, const CloudLayers& layers, Span<double> sums) {
+               std::uint64_t rows, const CloudLayers& layers, Span<double> sums,
+               Span<double> known) {
+    const bool shown = s.has(Role::kShown);
     const std::size_t n = s.levels(), nx = std::size_t(grid.size[0]),
                       ny = std::size_t(grid.size[1]);
     const double dx = grid.step(0), dy = grid.step(1), dz = grid.step(2);
@@ -142,15 +149,17 @@ void lay_block(const WeatherSource& s, const WeatherGrid& grid, std::uint64_t fi
             const double y1 = in_cells(r.y1, grid.low[1], dy, grid.size[1]);
             for (std::size_t k = 0; k < n; ++k) {
                 const double kappa = layers.extinction.at(column * n + k);
-                if (!(kappa > 0)) continue;
+                if (shown ? kappa != kappa : !(kappa > 0)) continue;
                 const double* face = &layers.faces_m.at(column * (n + 1) + k);
                 const double z0 = in_cells(face[0], grid.low[2], dz, grid.size[2]);
                 const double z1 = in_cells(face[1], grid.low[2], dz, grid.size[2]);
                 for_overlaps(z0, z1, grid.size[2], [&](int cz, double high) {
                     for_overlaps(y0, y1, grid.size[1], [&](int cy, double wide) {
                         for_overlaps(x0, x1, grid.size[0], [&](int cx, double across) {
-                            sums.at((std::size_t(cz) * ny + std::size_t(cy)) * nx +
-                                    std::size_t(cx)) += kappa * high * wide * across;
+                            const std::size_t cell =
+                                (std::size_t(cz) * ny + std::size_t(cy)) * nx + std::size_t(cx);
+                            sums.at(cell) += kappa * high * wide * across;
+                            if (shown) known.at(cell) += high * wide * across;
                         });
                     });
                 });

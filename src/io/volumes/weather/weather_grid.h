@@ -13,7 +13,7 @@ namespace pileus {
 /// Sums over all columns of a file, as it is laid: nothing of the grid enters.
 struct WeatherSurvey {
     WeatherCounts counts;
-    bool any_cloud = false;
+    bool any_cloud = false;            ///< anything that is seen
     double low_m = 0, high_m = 0;      ///< faces of the cloud, or of all levels without any
     double thickness_m = 0;            ///< of layers with cloud, added up
     std::uint64_t cloudy = 0;          ///< layers with cloud
@@ -35,6 +35,8 @@ struct WeatherGrid {
 
 /// One pass over the file. All of the water missing: kBadInput.
 Status survey_weather(const WeatherSource& source, WeatherSurvey& survey);
+/// The same with room for blocks that is used again.
+Status survey_weather(const WeatherSource& source, CloudLayers& layers, WeatherSurvey& survey);
 
 /// The scene's cells, or as many as there are footprints and, along z, as the cloudy layers are
 /// thick on the mean. `where` opens the line of a size beyond the limits.
@@ -43,7 +45,10 @@ Status weather_grid(const WeatherSource& source, const WeatherSurvey& survey,
 
 /// Adds the layers of a block of rows: to each cell extinction times the thickness and the shares
 /// of the cell's length and width that it has in common with a layer. `sums` has the grid's cells.
+/// Of a variable of any kind its values instead, and to `known` the shares of the cells that have
+/// one; otherwise that is empty.
 void lay_block(const WeatherSource& source, const WeatherGrid& grid, std::uint64_t first_row,
-               std::uint64_t rows, const CloudLayers& layers, Span<double> sums);
+               std::uint64_t rows, const CloudLayers& layers, Span<double> sums,
+               Span<double> known);
 
 }  // namespace pileus

@@ -150,9 +150,11 @@ private:
 
     /// The middle of the data at x = y = 0.
     void centre() {
+        double* origin = ground_.origin;
         for (std::vector<double>* e : {&ground_.x_edges, &ground_.y_edges}) {
-            const double middle = 0.5 * (e->front() + e->back());
-            for (double& edge : *e) edge -= middle;
+            *origin = 0.5 * (e->front() + e->back());
+            for (double& edge : *e) edge -= *origin;
+            ++origin;
         }
     }
 
@@ -189,7 +191,11 @@ private:
             while (lon < middle - 180) lon += 360;
             while (lon > middle + 180) lon -= 360;
         }
+        ground_.in_degrees = true;
+        ground_.origin[0] = lon;
+        ground_.origin[1] = lat;
         if (x.size() == 1) {
+            ground_.squeeze = squeeze;
             // A slice along a meridian is as wide everywhere.
             const double middle = (x[0] - lon) * kMetresPerDegree * squeeze;
             const double width = x_width * kMetresPerDegree * squeeze;

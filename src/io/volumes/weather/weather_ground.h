@@ -15,6 +15,11 @@ constexpr double kMetresPerDegree = 40030173.0 / 360;
 /// Column (i, j) covers x from row_scale[j] * x_edges[i] to row_scale[j] * x_edges[i + 1], and y
 /// from y_edges[j] to y_edges[j + 1]; edges ascend.
 struct Footprints {
+    /// What x = y = 0 is: longitude and latitude (of a rotated pole where the file has one), or the
+    /// file's own metres; degrees of longitude are `squeeze` times as wide in a slice.
+    double origin[2] = {0, 0};
+    bool in_degrees = false;
+    double squeeze = 1;
     std::vector<double> x_edges, y_edges, row_scale;
     bool x_flipped = false, y_flipped = false;  ///< the file's first column is the largest x or y
     bool even = false;  ///< all footprints are equal: the grid of the medium may be theirs

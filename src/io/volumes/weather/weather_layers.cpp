@@ -14,6 +14,7 @@ namespace {
 constexpr std::uint64_t kBlockValues = std::uint64_t{1} << 19;
 constexpr double kUndershoot = -1e-6;    // kg/kg; below it water is a fault
 constexpr double kMostWater = 0.5;       // kg/kg or kg/m3
+constexpr double kMostShown = 1e30;      // as the values of a transfer function
 constexpr double kLeastFraction = 0.01;  // clouds in less are as dense as in this
 constexpr double kLeastExtinction =
     1e-12;  // 1/m; models write traces such as 1e-24 kg/kg everywhere
@@ -34,10 +35,10 @@ public:
 
     Status run() {
         const std::size_t columns = fields_.columns();
-        PILEUS_TRY(layers_.faces_m.resize(columns * (n_ + 1), "faces of layers"));
-        PILEUS_TRY(layers_.extinction.resize(columns * n_, "extinction of layers"));
+        PILEUS_TRY(make_room(columns * (n_ + 1), "faces of layers", layers_.faces_m));
+        PILEUS_TRY(make_room(columns * n_, "extinction of layers", layers_.extinction));
         for (auto* water : {&layers_.liquid, &layers_.ice})
-            PILEUS_TRY(water->resize(columns * n_, "water of layers"));
+            PILEUS_TRY(make_room(columns * n_, "water of layers", *water));
         PILEUS_TRY(air_.check());
         for (std::size_t c = 0; c < columns; ++c) {
             PILEUS_TRY(air_.place_column(c, layers_.faces_m.span().part(c * (n_ + 1), n_ + 1)));
@@ -108,7 +109,29 @@ private:
         return Status::ok();
     }
 
+    /// The values of a variable as they are.
+    Status shown_column(std::size_t c) {
+        for (std::size_t k = 0; k < n_; ++k) {
+            const double value = of(Role::kShown).at(c * n_ + k);
+            ++counts_.values;
+            if (missing(value)) {
+                ++counts_.missing;
+                if (s_.settings->missing_is_fault)
+                    return fault(Role::kShown, c,
+                                 "level " + level_text(k) +
+                                     ": missing value, allowed: none (missing = \"fault\")");
+            } else if (!(value >= -kMostShown && value <= kMostShown)) {
+                return fault(Role::kShown, c,
+                             "level " + level_text(k) + ": out of range, " + number_text(value) +
+                                 ", allowed: -1e30 to 1e30");
+            }
+            layers_.extinction[c * n_ + k] = value;
+        }
+        return Status::ok();
+    }
+
     Status cloud_column(std::size_t c) {
+        if (s_.has(Role::kShown)) return shown_column(c);
         const WeatherSettings& w = *s_.settings;
         for (std::size_t k = 0; k < n_; ++k) {
             double liquid = 0, ice = 0, extinction = 0, size = 0;
@@ -168,7 +191,7 @@ std::uint64_t block_bytes(const WeatherSource& s) {
 Status read_layers(const WeatherSource& source, std::uint64_t first_row, std::uint64_t rows,
                    CloudLayers& layers, WeatherCounts& counts) {
     FieldBlock fields;
-    PILEUS_TRY(fields.read(source, first_row, rows));
+    PILEUS_TRY(fields.read(source, first_row, rows, layers.room));
     return Block(fields, layers, counts).run();
 }
 

@@ -9,8 +9,12 @@ namespace pileus {
 
 /// Of `rows` rows of columns: [(row * nx + column) * levels + level], faces with one more level.
 struct CloudLayers {
-    Buffer<double> faces_m, extinction;  ///< heights as they are; 1/m of heights as they are
-    Buffer<double> liquid, ice;          ///< kg/m3 of cloud as it is laid; empty: none of it
+    Buffer<double> faces_m;     ///< heights as they are
+    Buffer<double> extinction;  ///< 1/m of heights as they are; or what is shown, NaN where missing
+    Buffer<double> liquid, ice;  ///< kg/m3 of cloud as it is laid; empty: none of it
+    /// Room of fields, kept from block to block: memory that comes and goes is never all given
+    /// back.
+    FieldRoom room;
 };
 
 /// Rows that are read at a time, and bytes that reading them holds at most.

@@ -35,6 +35,8 @@ void faces_in_logarithm(Span<const double> levels, Span<double> faces);
 /// high)/ln(low/high). The uppermost layer may end at 0 Pa; ln 2 stands for its logarithm then, as
 /// in the IFS.
 double layer_pressure(double low, double high);
+/// The same where ln(low/high) is known, as layer_logarithm gives it.
+double layer_pressure(double low, double high, double logarithm);
 /// ln(low/high), ln 2 for high = 0; 0 where both are the same.
 double layer_logarithm(double low, double high);
 
@@ -42,6 +44,9 @@ double layer_logarithm(double low, double high);
 /// element than `kelvin`.
 void integrate_heights(Span<const double> faces_pa, Span<const double> virtual_kelvin,
                        double lowest, Span<double> heights);
+/// The same of the layers' logarithms.
+void sum_heights(Span<const double> logarithms, Span<const double> virtual_kelvin, double lowest,
+                 Span<double> heights);
 
 /// Height of a pressure in the standard atmosphere's lowest layer.
 double standard_height(double pressure);

@@ -70,8 +70,18 @@ std::string column_name(const WeatherSource& s, std::uint64_t row, std::size_t c
     return "row " + std::to_string(row) + ", column " + std::to_string(column);
 }
 
+Status make_room(std::uint64_t count, const char* what, Buffer<double>& room) {
+    return room.size() < count ? room.resize(count, what) : Status::ok();
+}
+
 Status read_field(const WeatherSource& s, Role role, std::uint64_t first_row, std::uint64_t rows,
                   Buffer<double>& values) {
+    Buffer<double> raw;
+    return read_field(s, role, first_row, rows, raw, values);
+}
+
+Status read_field(const WeatherSource& s, Role role, std::uint64_t first_row, std::uint64_t rows,
+                  Buffer<double>& raw, Buffer<double>& values) {
     const WeatherField& field = s.fields[role];
     const bool ground = role == Role::kSurfacePressure || role == Role::kSurfaceHeight;
     const std::size_t n = ground ? 1 : s.levels() + (field.on_faces ? 1 : 0), nx = s.row_columns();
@@ -79,17 +89,21 @@ Status read_field(const WeatherSource& s, Role role, std::uint64_t first_row, st
         Strides strides;
         PILEUS_TRY(s.file->check_room(*part, block_of(s, *part, first_row, rows, strides)));
     }
-    PILEUS_TRY(values.resize(rows * nx * n, "columns of weather data"));
-    Buffer<double> raw;
+    PILEUS_TRY(make_room(rows * nx * n, "columns of weather data", values));
     for (const NcVariable* part : field.parts) {
         Strides strides;
         const NcBlock block = block_of(s, *part, first_row, rows, strides);
         const std::uint64_t count = block.values();
-        if (count > std::uint64_t(values.size()))
-            return nc_fault(s.file->name(), *part, "dimensions: more values than columns");
-        PILEUS_TRY(raw.resize(count, "values of a variable"));
-        PILEUS_TRY(s.file->read(*part, block, raw.span()));
+        // A dimension may stand twice, or a level where another variable has a column.
+        const std::uint64_t last =
+            (rows - 1) * strides.y + (nx - 1) * strides.x + (n - 1) * strides.level;
+        if (rows == 0 || nx == 0 || n == 0 || count > rows * nx * n || last >= count)
+            return nc_fault(s.file->name(), *part,
+                            "dimensions: not those of its columns and levels, allowed: each once");
+        PILEUS_TRY(make_room(count, "values of a variable", raw));
+        PILEUS_TRY(s.file->read(*part, block, raw.span().part(0, std::size_t(count))));
         const NcPacking packing(*part);
+        const bool first = part == field.parts[0];
         std::size_t to = 0;
         for (std::uint64_t y = 0; y < rows; ++y)
             for (std::size_t x = 0; x < nx; ++x)
@@ -101,10 +115,12 @@ Status read_field(const WeatherSource& s, Role role, std::uint64_t first_row, st
                     const double value = packing.scale * number + packing.offset;
                     if (!missing && !(value - value == 0))
                         return not_finite(s, *part, first_row + y, x, level, value);
-                    values[to] += missing ? kMissing : value;
+                    const double known = missing ? kMissing : value;
+                    values[to] = first ? known : values[to] + known;
                 }
     }
-    for (double& value : values.span()) value = finish(field, value);
+    for (double& value : values.span().part(0, std::size_t(rows) * nx * n))
+        value = finish(field, value);
     return Status::ok();
 }
 

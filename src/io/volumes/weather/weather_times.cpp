@@ -4,6 +4,7 @@
 // CF conventions 1.10, section 4.4; Howard Hinnant, "chrono-compatible low-level date algorithms".
 #include <charconv>
 
+#include "src/io/netcdf/civil_days.h"
 #include "src/io/netcdf/netcdf_values.h"
 #include "src/io/volumes/weather/weather_axes.h"
 
@@ -11,14 +12,6 @@ namespace pileus {
 namespace {
 
 constexpr std::uint64_t kMostTimes = 100'000;
-
-std::int64_t days_from_civil(std::int64_t y, std::int64_t m, std::int64_t d) {
-    y -= m <= 2 ? 1 : 0;
-    const std::int64_t era = (y >= 0 ? y : y - 399) / 400;
-    const std::int64_t yoe = y - era * 400;
-    const std::int64_t doy = (153 * (m + (m > 2 ? -3 : 9)) + 2) / 5 + d - 1;
-    return era * 146097 + yoe * 365 + yoe / 4 - yoe / 100 + doy - 719468;
-}
 
 std::string digits(std::int64_t value, std::size_t width) {
     std::string text = std::to_string(value);

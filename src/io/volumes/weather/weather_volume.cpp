@@ -4,6 +4,9 @@
 // docs/weather.md
 #include "src/io/volumes/weather/weather_volume.h"
 
+#include <limits>
+
+#include "src/io/volumes/netcdf_grid.h"
 #include "src/io/volumes/volume.h"
 #include "src/io/volumes/weather/weather_grid.h"
 
@@ -31,7 +34,7 @@ const char* vertical_text(const WeatherSource& s) {
 
 std::string detail_of(const WeatherSource& s, const WeatherSurvey& survey) {
     std::string text;
-    for (const Role role : {Role::kLiquid, Role::kIce})
+    for (const Role role : {Role::kShown, Role::kLiquid, Role::kIce})
         if (s.has(role))
             text += std::string(text.empty() ? "" : ", ") + role_key(role) + ' ' +
                     s.fields[role].name();
@@ -48,7 +51,10 @@ std::string detail_of(const WeatherSource& s, const WeatherSurvey& survey) {
 
 /// What reading holds beside the file and the volume.
 std::uint64_t working_bytes(const WeatherSource& s, const WeatherGrid& grid) {
-    std::uint64_t bytes = block_bytes(s) + grid.cells() * sizeof(double);
+    const std::uint64_t sums = s.has(Role::kShown) ? 2 : 1;
+    // A GRIB file is in memory twice while it is made.
+    std::uint64_t bytes =
+        block_bytes(s) + sums * grid.cells() * sizeof(double) + 2 * s.file->held_bytes();
     const NcHead& head = s.file->head();
     if (!head.on_hdf5) return bytes;
     for (const WeatherField& field : s.fields.of)
@@ -60,18 +66,30 @@ std::uint64_t working_bytes(const WeatherSource& s, const WeatherGrid& grid) {
     return bytes + kNcLibraryBytes;
 }
 
-Status fill(const WeatherSource& s, const WeatherGrid& grid, Volume& volume) {
-    Buffer<double> sums;
+/// The mean of what is known in a cell; none where that is less than half of it.
+void fill_shown(Span<const double> sums, Span<const double> known, Volume& volume) {
+    constexpr float kNone = std::numeric_limits<float>::quiet_NaN();
+    for (std::size_t i = 0; i < sums.size; ++i)
+        volume.density[i] = known[i] >= 0.5 - 1e-6 ? float(sums[i] / known[i]) : kNone;
+}
+
+Status fill(const WeatherSource& s, const WeatherGrid& grid, CloudLayers& layers, Volume& volume) {
+    const bool shown = s.has(Role::kShown);
+    Buffer<double> sums, known;
     PILEUS_TRY(sums.resize(grid.cells(), "sums of weather data"));
-    CloudLayers layers;
+    if (shown) PILEUS_TRY(known.resize(grid.cells(), "known shares of weather data"));
     WeatherCounts counts;
     const std::uint64_t step = block_rows(s);
     for (std::uint64_t row = 0; row < s.axes.ny; row += step) {
         const std::uint64_t rows = s.axes.ny - row < step ? s.axes.ny - row : step;
         PILEUS_TRY(read_layers(s, row, rows, layers, counts));
-        lay_block(s, grid, row, rows, layers, sums.span());
+        lay_block(s, grid, row, rows, layers, sums.span(), known.span());
     }
     PILEUS_TRY(volume.density.resize(grid.cells(), "density grid of weather data"));
+    if (shown) {
+        fill_shown(sums.span(), known.span(), volume);
+        return Status::ok();
+    }
     const double scale = s.settings->vertical_scale;
     for (std::size_t i = 0; i < sums.size(); ++i) {
         const double kappa = sums[i] / scale;
@@ -86,15 +104,19 @@ Status fill(const WeatherSource& s, const WeatherGrid& grid, Volume& volume) {
 }  // namespace
 
 Status weather_head(const MediumSettings& medium, const NcFile& file, VolumeHead& head) {
+    if (const NcVariable* grid = netcdf_grid(file.head(), medium.weather))
+        return netcdf_grid_head(medium, file, *grid, head);
     WeatherSource source;
     WeatherSurvey survey;
     WeatherGrid grid;
     head = VolumeHead();
     PILEUS_TRY(open_weather(file, medium.weather, source));
+    source.transfer = &medium.transfer;
     PILEUS_TRY(survey_weather(source, survey));
     PILEUS_TRY(weather_grid(source, survey, medium.resolution, grid));
     head.size = grid.size;
-    head.knows_bounds = head.in_extinction = true;
+    head.knows_bounds = true;
+    head.in_extinction = !source.has(Role::kShown);
     head.bounds_m = bounds_of(grid, medium.weather.vertical_scale);
     head.in_pieces = true;
     head.unpacked_bytes = working_bytes(source, grid);
@@ -104,18 +126,23 @@ Status weather_head(const MediumSettings& medium, const NcFile& file, VolumeHead
 }
 
 Status weather_volume(const MediumSettings& medium, const NcFile& file, Volume& volume) {
+    if (const NcVariable* grid = netcdf_grid(file.head(), medium.weather))
+        return read_netcdf_grid(medium, file, *grid, volume);
     WeatherSource source;
     WeatherSurvey survey;
     WeatherGrid grid;
     PILEUS_TRY(open_weather(file, medium.weather, source));
-    PILEUS_TRY(survey_weather(source, survey));
+    source.transfer = &medium.transfer;
+    CloudLayers layers;
+    PILEUS_TRY(survey_weather(source, layers, survey));
     PILEUS_TRY(weather_grid(source, survey, medium.resolution, grid));
     volume.size = grid.size;
-    volume.knows_bounds = volume.in_extinction = true;
+    volume.knows_bounds = true;
+    volume.in_extinction = !source.has(Role::kShown);
     volume.bounds_m = bounds_of(grid, medium.weather.vertical_scale);
     volume.missing = survey.counts.missing;
     volume.clamped = survey.counts.clamped;
-    return fill(source, grid, volume);
+    return fill(source, grid, layers, volume);
 }
 
 Status read_weather_volume(const MediumSettings& medium, const std::string& path, Volume& volume) {

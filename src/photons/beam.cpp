@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// See beam.h.
+// in: a phase function -> out: its moments within a cone and in all, sums of Legendre polynomials.
+// docs/methods.md 3, "The beam's peak".
+#include "src/photons/beam.h"
+
+#include "platform/threads.h"
+#include "src/base/angles.h"
+#include "src/base/exponential.h"
+
+namespace pileus {
+namespace {
+
+/// Degrees that are tried: smooth phase functions are done after the first.
+constexpr int kDegrees[] = {96, 512};
+constexpr double kNothing = 1e-5;  // of a degree's part in the sum
+constexpr double kTwoPi = 6.28318530717958647693;
+
+/// Moments of the whole function and of what stays in the beam; degrees that count.
+struct Moments {
+    std::vector<double> all, kept;
+    int degrees = 1;  ///< the last that counts, and one
+
+    explicit Moments(int count) : all(std::size_t(count)), kept(std::size_t(count)) {}
+    double part(std::size_t l) const { return (2 * double(l) + 1) * all[l] * kept[l]; }
+};
+
+/// Adds the integrals of 2 pi p P_l over 1 - cos in [begin, end], by Simpson's rule with at least
+/// twelve places in a period of the highest degree.
+void add_panel(const PhaseParams& phase, double turn, double begin, double end, Moments& m) {
+    const auto angle = [](double x) {  // within a tenth: it only chooses how many places
+        return x < 1 ? 1.5 * __builtin_sqrt(x) : 3.14159 - 1.5 * __builtin_sqrt(2 - x);
+    };
+    const std::size_t degrees = m.all.size();
+    const int parts = 16 + 2 * int((angle(end) - angle(begin)) * double(degrees));
+    for (int i = 0; i <= parts; ++i) {
+        const double x = begin + (end - begin) * i / parts, cosine = 1 - x;
+        const double simpson = i == 0 || i == parts ? 1 : i % 2 == 1 ? 4 : 2;
+        const double weight = kTwoPi * simpson * (end - begin) / (3.0 * parts) *
+                              double(phase_density(phase, float(x)));
+        const double kept = x < 30 * turn ? weight * exponential(-x / turn) : 0;
+        double before = 1, current = cosine;
+        for (std::size_t l = 0; l < degrees; ++l) {
+            m.all[l] += weight * before;
+            m.kept[l] += kept * before;
+            const double n = double(l);
+            const double above = ((2 * n + 3) * cosine * current - (n + 1) * before) / (n + 2);
+            before = current;
+            current = above;
+        }
+    }
+}
+
+/// Panels halve towards straight on and straight back, where peaks are.
+Moments moments_of(const PhaseParams& phase, double turn) {
+    for (const int degrees : kDegrees) {
+        Moments m(degrees);
+        for (double outer = 1, inner; outer > 0; outer = inner) {
+            inner = outer > 0x1p-40 ? 0.5 * outer : 0;
+            add_panel(phase, turn, inner, outer, m);
+        }
+        for (double outer = 1, inner; outer > 0; outer = inner) {
+            inner = outer > 0x1p-22 ? 0.5 * outer : 0;
+            add_panel(phase, turn, 2 - outer, 2 - inner, m);
+        }
+        for (std::size_t l = 0; l < m.all.size(); ++l)
+            if (m.part(l) > kNothing || m.part(l) < -kNothing) m.degrees = int(l) + 1;
+        // A sum that ends well before its degrees do has all that counts.
+        if (m.degrees < degrees - degrees / 8 || degrees == kDegrees[1]) return m;
+    }
+    return Moments(1);
+}
+
+/// (2l+1)/4pi chi_l times the two exponentials' difference: [depth][degree].
+std::vector<double> weights_of(const Moments& m, double albedo) {
+    const std::size_t degrees = std::size_t(m.degrees);
+    std::vector<double> w((kBeamDepths + 1) * degrees);
+    for (int d = 0; d <= kBeamDepths; ++d) {
+        // The last node stands for all that is deeper: there nothing of the beam is left.
+        const double part = (d < kBeamDepths ? d : kBeamDepths - 0.5) / double(kBeamDepths);
+        const double tau = double(kBeamDepth) * part / (1 - part) * albedo;
+        for (std::size_t l = 0; l < degrees; ++l)
+            w[std::size_t(d) * degrees + l] =
+                (2.0 * double(l) + 1) / (2 * kTwoPi) * m.all[l] *
+                (exponential(-tau * (m.kept[0] - m.kept[l])) - exponential(-tau * m.kept[0]));
+    }
+    return w;
+}
+
+/// 1 - cos of a node of the tables, as find_angle of the march has them.
+double turn_of_node(int node) {
+    const double at = double(node) / kBeamAngles, near = at < 0.5 ? at : 1 - at;
+    return at < 0.5 ? 4 * near * near : 2 - 4 * near * near;
+}
+
+void fill_angle(const Moments& m, const std::vector<double>& weights, int node, float* out) {
+    const double cosine = 1 - turn_of_node(node);
+    double legendre[kDegrees[1]];
+    double before = 1, current = cosine;
+    for (int l = 0; l < m.degrees; ++l) {
+        legendre[l] = before;
+        const double above = ((2 * l + 3) * cosine * current - (l + 1) * before) / (l + 2);
+        before = current;
+        current = above;
+    }
+    for (int d = 0; d <= kBeamDepths; ++d) {
+        const double* w = weights.data() + std::size_t(d) * std::size_t(m.degrees);
+        double sum = 0;
+        for (int l = 0; l < m.degrees; ++l) sum += w[l] * legendre[l];
+        out[d] = sum > 0 ? float(sum) : 0.0f;
+    }
+}
+
+}  // namespace
+
+float turn_of_deg(double deg) {
+    const double half = sincos_deg(0.5 * deg).sine;
+    return float(2 * half * half);
+}
+
+Status make_beam(const Medium& medium, double peak_deg, int threads, Stage first, Beam& out) {
+    out.peak_turn = turn_of_deg(peak_deg);
+    out.sets = medium.channels == 1 ? 1 : 3;  // as beam_sets of a run
+    PILEUS_TRY(allocate_once(arrays::beam_tables(std::uint64_t(out.sets), first), out.tables));
+    const Optics& optics = medium.optics[0];
+    const Moments m = moments_of(optics.phase, double(out.peak_turn));
+    out.share = m.kept[0];
+    for (int s = 0; s < 3; ++s) {
+        const double albedo = double(optics.albedo[s]);
+        out.rest[s] = float(1 - albedo * out.share);
+        if (s >= out.sets) continue;
+        const std::vector<double> weights = weights_of(m, albedo);
+        float* table = out.tables.data() + s * kBeamNumbers;
+        parallel_for(threads, kBeamAngles + 1, [&](std::int64_t node, int) {
+            fill_angle(m, weights, int(node), table + node * (kBeamDepths + 1));
+        });
+    }
+    return Status::ok();
+}
+
+}  // namespace pileus

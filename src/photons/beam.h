@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sun's light that scatterings within the peak of a phase function leave in its beam.
+// in: a medium, the angle of a cone -> out: tables that the march reads.
+// docs/methods.md 3, "The beam's peak": small-angle scattering, Goudsmit and Saunderson (1940).
+#pragma once
+#include "kernels_cpu/display/march_params.h"
+#include "src/photons/trace.h"
+#include "src/world/medium/medium.h"
+
+namespace pileus {
+
+/// Scatterings that turn by less than a cone's half angle keep light in the beam. It is shown as if
+/// it had come straight through what else takes light away, with the spread of direction that so
+/// many turns give: for one medium of albedo w, per unit of w and of the irradiance E,
+///     S(angle, tau) = p e^(-tau) + e^(-tau (1 - w f)) Q(angle, tau),
+///     Q = sum_l (2l+1)/4pi chi_l (e^(-tau w (f - c_l)) - e^(-tau w f)) P_l(cos angle),
+/// chi_l the moments of p, c_l those of p within the cone, f = c_0.
+struct Beam {
+    float peak_turn = 0;   ///< 1 - cos of the cone; 0: there is none
+    double share = 0;      ///< f
+    int sets = 0;          ///< one, or one a channel of coloured media
+    float rest[3] = {};    ///< 1 - w f
+    Buffer<float> tables;  ///< Q: [set][angle][depth]
+};
+
+namespace arrays {
+
+inline Array<float> beam_tables(std::uint64_t sets, Stage first) {
+    return {"beam by angle and depth", bytes_of(sets, std::uint64_t(kBeamNumbers)), first,
+            Stage::kWrite};
+}
+
+}  // namespace arrays
+
+/// 1 - cos of an angle in degrees.
+float turn_of_deg(double deg);
+
+/// Tables for the one medium there is. kLimit: out of memory.
+Status make_beam(const Medium& medium, double peak_deg, int threads, Stage first, Beam& out);
+
+}  // namespace pileus

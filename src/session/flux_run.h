@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The two ways to measure fluxes, behind one entry.
+// in: a prepared run, settings -> out: FluxResult and maps.
+// docs/flux.md
+#pragma once
+#include "src/methods/path/path.h"
+#include "src/session/flux.h"
+
+namespace pileus {
+
+/// What a measurement of either way begins with.
+struct FluxTask {
+    const Scene& scene;
+    const FluxSettings& settings;
+    const Context& context;
+    PathRun& run;                 ///< prepared, with its lights
+    double level[3] = {0, 0, 0};  ///< incident flux on a level plane
+
+    /// Part of the incident flux, 0 where there is none.
+    double share(double light, std::size_t c) const { return level[c] > 0 ? light / level[c] : 0; }
+};
+
+/// Names of the maps' channels in their order, three of each.
+Status make_flux_maps(const std::array<int, 2>& columns, Image& maps);
+
+/// `samples` paths for each column and detector. Errors: those of measure_flux.
+Status flux_by_paths(const FluxTask& task, std::uint64_t samples, FluxResult& out, Image& maps);
+
+/// `photons` in all. kBadInput: columns or cells that do not divide the medium's; too few photons.
+Status flux_by_photons(const FluxTask& task, std::int64_t photons, FluxResult& out, Image& maps,
+                       Report& report);
+
+}  // namespace pileus

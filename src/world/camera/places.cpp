@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// See places.h.
+#include "src/world/camera/places.h"
+
+#include <fmt/format.h>
+
+#include <glm/geometric.hpp>
+
+#include "src/io/volumes/weather_map.h"
+#include "src/scene/read_scene.h"
+#include "src/scene/rows/volume_format.h"
+#include "src/scene/toml/toml_tree.h"
+#include "src/world/camera/view.h"
+
+namespace pileus {
+namespace {
+
+/// The first medium that is weather data; null: there is none.
+const MediumSettings* weather_of(const Scene& scene) {
+    for (const MediumSettings& medium : scene.media) {
+        const VolumeFormat* format = volume_format_named(medium.format);
+        if (format != nullptr && format->is_weather) return &medium;
+    }
+    return nullptr;
+}
+
+Status map_of(const Scene& scene, WeatherMap& map) {
+    const MediumSettings* medium = weather_of(scene);
+    if (medium == nullptr)
+        return Status::bad_input(
+            "no map to find it on, allowed: with a medium of weather data, or in metres");
+    return read_weather_map(*medium, scene_path(scene.directory, medium->file), map);
+}
+
+Status check_view(const Scene& scene) {
+    constexpr double kLeastSine = 1e-6;
+    const Camera& c = scene.camera;
+    const Double3 view = c.target_m - c.position_m;
+    const double length = glm::length(view), up = glm::length(c.up);
+    if (!(length > 0)) return Status::bad_input("same as the target, allowed: any other place");
+    if (!(glm::length(glm::cross(view, c.up)) > kLeastSine * length * up))
+        return Status::bad_input("the view is along camera.up, allowed: any direction across it");
+    if (scene.ground.present && c.position_m[2] < scene.ground.altitude_m)
+        return Status::bad_input("below the ground, z " + number_text(c.position_m[2]) +
+                                 ", allowed: at least ground.altitude_m " +
+                                 number_text(scene.ground.altitude_m));
+    return Status::ok();
+}
+
+}  // namespace
+
+Status place_camera(Scene& scene) {
+    Camera& c = scene.camera;
+    if (!c.position_by_place && !c.target_by_place) return Status::ok();
+    const char* key = c.position_by_place ? "camera.position_deg" : "camera.target_deg";
+    WeatherMap map;
+    PILEUS_TRY(at_key(scene, key, map_of(scene, map)));
+    if (c.position_by_place)
+        PILEUS_TRY(at_key(scene, key, map.place("place", c.position_place, c.position_m)));
+    if (c.target_by_place)
+        PILEUS_TRY(
+            at_key(scene, "camera.target_deg", map.place("place", c.target_place, c.target_m)));
+    c.position_by_place = c.target_by_place = false;
+    return at_key(scene, key, check_view(scene));
+}
+
+std::vector<std::pair<std::string, std::string>> picture_place(const Scene& scene,
+                                                               double orbit_deg) {
+    std::vector<std::pair<std::string, std::string>> told;
+    const Camera& c = scene.camera;
+    if (!c.orthographic || c.flux || c.has_frustum || weather_of(scene) == nullptr) return told;
+    const Double3 position = orbit(c.position_m, c.target_m, orbit_deg);
+    const Double3 view = glm::normalize(c.target_m - position);
+    if (!(view[2] < -1 + 1e-12)) return told;
+    // Right and up of the picture on the map, pixels and the middle of the first one.
+    const Double3 up = glm::normalize(Double3{c.up[0], c.up[1], 0});
+    const Double3 right{up[1], -up[0], 0};
+    const double size = c.height_m / c.resolution[1];
+    const double half_x = 0.5 * size * c.resolution[0], half_y = 0.5 * c.height_m;
+    const Double3 first = position - (half_x - 0.5 * size) * right + (half_y - 0.5 * size) * up;
+    told.emplace_back(
+        "world_file",
+        // Adding 0 makes -0 plain.
+        fmt::format("{} {} {} {} {} {}", size * right[0] + 0.0, size * right[1] + 0.0,
+                    -size * up[0] + 0.0, -size * up[1] + 0.0, first[0] + 0.0, first[1] + 0.0));
+    if (up[1] == 1)
+        told.emplace_back("extent_m",
+                          fmt::format("{} {} {} {}", position[0] - half_x, position[1] - half_y,
+                                      position[0] + half_x, position[1] + half_y));
+    WeatherMap map;
+    if (map_of(scene, map)) told.emplace_back("projection", map.projection());
+    return told;
+}
+
+}  // namespace pileus
