@@ -6,6 +6,7 @@
 #include "kernels_cpu/core/pixel_block.h"
 #include "kernels_cpu/core/sh.h"
 #include "kernels_cpu/display/march_ray.h"
+#include "kernels_cpu/media/phase_table.h"
 
 // A march's step is one function among several alike: the compiler would call some of them.
 #ifdef __CUDACC__
@@ -26,12 +27,11 @@ struct SunAlongRay {
     T within;
 };
 
-/// Where the beam's tables hold a turn by 1 - cos = x.
+/// Where the beam's tables hold a turn by 1 - cos = x, which rounding may lead out of [0, 2].
 template <class T>
 PILEUS_FN void find_angle(T x, SunAlongRay<T>& s) {
-    const auto front = x < 1.0f;
-    const T root = 0.5f * sqrt_(max_(select(front, x, 2.0f - x), T{}));
-    const T at = select(front, root, 1.0f - root) * float(kBeamAngles);
+    const T turn = max_(min_(x, all<T>(2.0f)), T{});
+    const T at = even_at_ends(turn) * float(kBeamAngles);
     s.angle = min_(to_int(at), all<I_of<T>>(kBeamAngles - 1));
     s.within = at - to_float(s.angle);
 }

@@ -37,12 +37,19 @@ PILEUS_FN auto draw_slot(std::int32_t slots, T u) {
     return to_int(u * float(slots));
 }
 
-/// Slot of 1-cos in [0, 2]: even in angle near both ends; grows with it, whatever the rounding.
+/// Place in [0, 1] of 1-cos in [0, 2]: even in angle near both ends, where peaks are; grows with
+/// it, whatever the rounding.
 template <class T>
-PILEUS_FN auto find_slot(std::int32_t slots, T x) {
+PILEUS_FN T even_at_ends(T x) {
     const auto front = x < 1.0f;
     const T root = 0.5f * sqrt_(select(front, x, 2.0f - x));
-    const auto slot = to_int(select(front, root, 1.0f - root) * float(slots));
+    return select(front, root, 1.0f - root);
+}
+
+/// Slot of 1-cos in [0, 2].
+template <class T>
+PILEUS_FN auto find_slot(std::int32_t slots, T x) {
+    const auto slot = to_int(even_at_ends(x) * float(slots));
     return min_(slot, all<I_of<T>>(slots - 1));
 }
 

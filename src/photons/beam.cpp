@@ -25,29 +25,37 @@ struct Moments {
     double part(std::size_t l) const { return (2 * double(l) + 1) * all[l] * kept[l]; }
 };
 
+/// Hands out P_l(cosine) for l = 0 ... degrees - 1, by Bonnet's recurrence.
+template <class Use>
+void legendre(double cosine, int degrees, const Use& use) {
+    double before = 1, current = cosine;
+    for (int l = 0; l < degrees; ++l) {
+        use(std::size_t(l), before);
+        const double n = l;
+        const double above = ((2 * n + 3) * cosine * current - (n + 1) * before) / (n + 2);
+        before = current;
+        current = above;
+    }
+}
+
 /// Adds the integrals of 2 pi p P_l over 1 - cos in [begin, end], by Simpson's rule with at least
 /// twelve places in a period of the highest degree.
 void add_panel(const PhaseParams& phase, double turn, double begin, double end, Moments& m) {
     const auto angle = [](double x) {  // within a tenth: it only chooses how many places
         return x < 1 ? 1.5 * __builtin_sqrt(x) : 3.14159 - 1.5 * __builtin_sqrt(2 - x);
     };
-    const std::size_t degrees = m.all.size();
-    const int parts = 16 + 2 * int((angle(end) - angle(begin)) * double(degrees));
+    const int degrees = int(m.all.size());
+    const int parts = 16 + 2 * int((angle(end) - angle(begin)) * degrees);
     for (int i = 0; i <= parts; ++i) {
-        const double x = begin + (end - begin) * i / parts, cosine = 1 - x;
+        const double x = begin + (end - begin) * i / parts;
         const double simpson = i == 0 || i == parts ? 1 : i % 2 == 1 ? 4 : 2;
         const double weight = kTwoPi * simpson * (end - begin) / (3.0 * parts) *
                               double(phase_density(phase, float(x)));
         const double kept = x < 30 * turn ? weight * exponential(-x / turn) : 0;
-        double before = 1, current = cosine;
-        for (std::size_t l = 0; l < degrees; ++l) {
-            m.all[l] += weight * before;
-            m.kept[l] += kept * before;
-            const double n = double(l);
-            const double above = ((2 * n + 3) * cosine * current - (n + 1) * before) / (n + 2);
-            before = current;
-            current = above;
-        }
+        legendre(1 - x, degrees, [&](std::size_t l, double value) {
+            m.all[l] += weight * value;
+            m.kept[l] += kept * value;
+        });
     }
 }
 
@@ -94,19 +102,13 @@ double turn_of_node(int node) {
 }
 
 void fill_angle(const Moments& m, const std::vector<double>& weights, int node, float* out) {
-    const double cosine = 1 - turn_of_node(node);
-    double legendre[kDegrees[1]];
-    double before = 1, current = cosine;
-    for (int l = 0; l < m.degrees; ++l) {
-        legendre[l] = before;
-        const double above = ((2 * l + 3) * cosine * current - (l + 1) * before) / (l + 2);
-        before = current;
-        current = above;
-    }
+    double values[kDegrees[1]];
+    legendre(1 - turn_of_node(node), m.degrees,
+             [&](std::size_t l, double value) { values[l] = value; });
     for (int d = 0; d <= kBeamDepths; ++d) {
         const double* w = weights.data() + std::size_t(d) * std::size_t(m.degrees);
         double sum = 0;
-        for (int l = 0; l < m.degrees; ++l) sum += w[l] * legendre[l];
+        for (int l = 0; l < m.degrees; ++l) sum += w[l] * values[l];
         out[d] = sum > 0 ? float(sum) : 0.0f;
     }
 }
@@ -118,12 +120,11 @@ float turn_of_deg(double deg) {
     return float(2 * half * half);
 }
 
-Status make_beam(const Medium& medium, double peak_deg, int threads, Stage first, Beam& out) {
-    out.peak_turn = turn_of_deg(peak_deg);
-    out.sets = medium.channels == 1 ? 1 : 3;  // as beam_sets of a run
+Status make_beam(const Medium& medium, float peak_turn, int threads, Stage first, Beam& out) {
+    out.sets = medium.channels;
     PILEUS_TRY(allocate_once(arrays::beam_tables(std::uint64_t(out.sets), first), out.tables));
     const Optics& optics = medium.optics[0];
-    const Moments m = moments_of(optics.phase, double(out.peak_turn));
+    const Moments m = moments_of(optics.phase, double(peak_turn));
     out.share = m.kept[0];
     for (int s = 0; s < 3; ++s) {
         const double albedo = double(optics.albedo[s]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sun's light that scatterings within the peak of a phase function leave in its beam.
-// in: a medium, the angle of a cone -> out: tables that the march reads.
+// in: a medium, 1 - cos of a cone -> out: tables that the march reads.
 // docs/methods.md 3, "The beam's peak": small-angle scattering, Goudsmit and Saunderson (1940).
 #pragma once
 #include "kernels_cpu/display/march_params.h"
@@ -16,9 +16,8 @@ namespace pileus {
 ///     Q = sum_l (2l+1)/4pi chi_l (e^(-tau w (f - c_l)) - e^(-tau w f)) P_l(cos angle),
 /// chi_l the moments of p, c_l those of p within the cone, f = c_0.
 struct Beam {
-    float peak_turn = 0;   ///< 1 - cos of the cone; 0: there is none
     double share = 0;      ///< f
-    int sets = 0;          ///< one, or one a channel of coloured media
+    int sets = 0;          ///< one a channel of the medium; 0: there are no tables
     float rest[3] = {};    ///< 1 - w f
     Buffer<float> tables;  ///< Q: [set][angle][depth]
 };
@@ -35,7 +34,7 @@ inline Array<float> beam_tables(std::uint64_t sets, Stage first) {
 /// 1 - cos of an angle in degrees.
 float turn_of_deg(double deg);
 
-/// Tables for the one medium there is. kLimit: out of memory.
-Status make_beam(const Medium& medium, double peak_deg, int threads, Stage first, Beam& out);
+/// Tables for the one medium there is, and a cone by its 1 - cos. kLimit: out of memory.
+Status make_beam(const Medium& medium, float peak_turn, int threads, Stage first, Beam& out);
 
 }  // namespace pileus

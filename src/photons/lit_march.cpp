@@ -49,8 +49,8 @@ Status make_sun_shadow(const Context& context, PhotonRun& run) {
         PILEUS_TRY(solid_visibility(context, *run.lighting.solids, run.shadow_nodes,
                                     run.lighting.to_sun, run.visibility));
     if (run.deposit.peak_turn > 0 && run.beam.sets == 0)
-        PILEUS_TRY(
-            make_beam(run.world->medium, run.peak_deg, context.threads, Stage::kShadow, run.beam));
+        PILEUS_TRY(make_beam(run.world->medium, run.deposit.peak_turn, context.threads,
+                             Stage::kShadow, run.beam));
     run.shadow_ready = true;
     return Status::ok();
 }

@@ -180,7 +180,6 @@ void aim_deposit(PhotonRun& run) {
 
 void choose_peak(double peak_deg, PhotonRun& run) {
     const Medium& medium = run.world->medium;
-    run.peak_deg = peak_deg;
     run.deposit.peak_turn = 0;
     const char* why = nullptr;
     if (!(peak_deg > 0))
@@ -200,8 +199,7 @@ void choose_peak(double peak_deg, PhotonRun& run) {
 }
 
 std::uint64_t beam_sets(const PhotonRun& run) {
-    if (!(run.deposit.peak_turn > 0)) return 0;
-    return run.world->medium.channels == 1 ? 1 : 3;
+    return run.deposit.peak_turn > 0 ? std::uint64_t(run.world->medium.channels) : 0;
 }
 
 void set_photon_sun(double elevation_deg, PhotonRun& run) {

@@ -33,7 +33,6 @@ struct PhotonRun : MethodRun {
     Buffer<float> shadow;      ///< optical depth to the sun per node
     Buffer<float> visibility;  ///< and what solids leave of the sun; empty without solids
     bool shadow_ready = false;
-    double peak_deg = 0;
     Beam beam;                  ///< made with the shadow where deposit.peak_turn asks for it
     Planes planes;              ///< of a session's picture
     std::uint32_t layouts = 0;  ///< times that the sums were laid out

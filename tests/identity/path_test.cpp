@@ -59,6 +59,18 @@ std::string film_digest(const PathInput& in, std::initializer_list<std::uint64_t
     return digest_of(film);
 }
 
+/// `once`, from every instruction set, by other threads and pieces.
+void check_one_film(PathInput in, const std::string& once) {
+    for (int i = 0; const KernelTable* kernels = kernel_table_at(i); ++i) {
+        in.kernels = kernels;
+        INFO(kernels->name);
+        CHECK(film_digest(in, {37}) == once);
+        in.threads = 3;
+        CHECK(film_digest(in, {1, 20, 16}) == once);
+        in.threads = 1;
+    }
+}
+
 TEST_CASE("one film from every instruction set, thread count and order of asking") {
     Rig rig = make_everything();
     const SkyMap map =
@@ -68,15 +80,7 @@ TEST_CASE("one film from every instruction set, thread count and order of asking
         rig.lighting.map = mapped ? map.view : SkyMapView{};
         PathInput in = path_input(rig, make_view({-40, -60, 30}, {0.6f, 0.8f, 0}, 24, 16), 11);
         in.parts = mapped;
-        const std::string once = film_digest(in, {37});
-        for (int i = 0; const KernelTable* kernels = kernel_table_at(i); ++i) {
-            in.kernels = kernels;
-            INFO(kernels->name);
-            CHECK(film_digest(in, {37}) == once);
-            in.threads = 3;
-            CHECK(film_digest(in, {1, 20, 16}) == once);
-            in.threads = 1;
-        }
+        check_one_film(in, film_digest(in, {37}));
     }
 }
 
@@ -95,14 +99,7 @@ TEST_CASE("one film of guided paths and of the sun's disc from every instruction
             const std::string once = film_digest(in, {37});
             for (const std::string& other : films) CHECK(once != other);
             films.push_back(once);
-            for (int i = 0; const KernelTable* kernels = kernel_table_at(i); ++i) {
-                in.kernels = kernels;
-                INFO(kernels->name);
-                CHECK(film_digest(in, {37}) == once);
-                in.threads = 3;
-                CHECK(film_digest(in, {1, 20, 16}) == once);
-                in.threads = 1;
-            }
+            check_one_film(in, once);
         }
 }
 

@@ -49,7 +49,8 @@ TEST_CASE("beam: all of what scatters within the peak is in the tables, for each
             CAPTURE(g);
             CAPTURE(albedo);
             Beam beam;
-            REQUIRE(make_beam(medium_of(hg(float(g)), float(albedo)), 20, 2, Stage::kShadow, beam));
+            REQUIRE(make_beam(medium_of(hg(float(g)), float(albedo)), turn_of_deg(20), 2,
+                              Stage::kShadow, beam));
             CHECK(beam.sets == 1);
             CHECK(beam.share > 0.05);
             CHECK(beam.share < 1);
@@ -68,7 +69,7 @@ TEST_CASE("beam: all of what scatters within the peak is in the tables, for each
 TEST_CASE("beam: one scattering within the peak is the phase function spread by its peak") {
     // Of HG with a window of almost all directions: HG of g spread by HG of g is HG of g squared.
     Beam beam;
-    REQUIRE(make_beam(medium_of(hg(0.6f), 1e-3f), 89.9, 1, Stage::kShadow, beam));
+    REQUIRE(make_beam(medium_of(hg(0.6f), 1e-3f), turn_of_deg(89.9), 1, Stage::kShadow, beam));
     // Thin: tau w f is 4e-5, so that Q is tau w times the spread function, to 1e-4.
     const int depth = 1;
     const double tau = 4 * (1 / 32.0) / (1 - 1 / 32.0);

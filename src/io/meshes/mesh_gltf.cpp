@@ -7,10 +7,11 @@
 #ifdef PILEUS_WITH_ASSIMP
 #include <assimp/cimport.h>
 #include <assimp/scene.h>
-#include <dlfcn.h>
 
 #include <cstring>
 #include <vector>
+
+#include "src/base/dynamic_library.h"
 #endif
 
 namespace pileus {
@@ -41,7 +42,7 @@ Placement placement_of(const aiMatrix4x4& m) {
              {double(m.c1), double(m.c2), double(m.c3), double(m.c4)}}};
 }
 
-/// The library while one file is read. It stays loaded: its threads and tables may outlive a call.
+/// The library while one file is read.
 struct Library {
     decltype(&aiImportFile) from_file = nullptr;
     decltype(&aiImportFileFromMemory) from_memory = nullptr;
@@ -49,15 +50,12 @@ struct Library {
     decltype(&aiGetErrorString) error = nullptr;
 
     bool load() {
-        void* library = dlopen("libassimp.so.5", RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-        if (library == nullptr) return false;
-        from_file = reinterpret_cast<decltype(from_file)>(dlsym(library, "aiImportFile"));
-        from_memory =
-            reinterpret_cast<decltype(from_memory)>(dlsym(library, "aiImportFileFromMemory"));
-        release = reinterpret_cast<decltype(release)>(dlsym(library, "aiReleaseImport"));
-        error = reinterpret_cast<decltype(error)>(dlsym(library, "aiGetErrorString"));
-        return from_file != nullptr && from_memory != nullptr && release != nullptr &&
-               error != nullptr;
+        DynamicLibrary library("libassimp.so.5");
+        library.find("aiImportFile", from_file);
+        library.find("aiImportFileFromMemory", from_memory);
+        library.find("aiReleaseImport", release);
+        library.find("aiGetErrorString", error);
+        return library.is_whole();
     }
 };
 

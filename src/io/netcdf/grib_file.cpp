@@ -5,13 +5,13 @@
 #include "src/io/netcdf/grib_file.h"
 
 #if PILEUS_WITH_ECCODES
-#include <dlfcn.h>
 #include <eccodes.h>
 
 #include <cstdio>
 #include <memory>
 #include <mutex>
 
+#include "src/base/dynamic_library.h"
 #include "src/io/netcdf/civil_days.h"
 #include "src/io/netcdf/grib_fields.h"
 #endif
@@ -40,27 +40,23 @@ struct Library {
     decltype(&::codes_context_set_logging_proc) set_log = nullptr;
 
     Status load(const std::string& name) {
-        void* library = dlopen("libeccodes.so.0", RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-        if (library == nullptr)
+        DynamicLibrary library("libeccodes.so.0");
+        if (!library.is_there())
             return Status::bad_input(name +
                                      ": GRIB: the library libeccodes.so.0 is not there, allowed: "
                                      "install it, or NetCDF (grib_to_netcdf)");
-        bool whole = true;
-        const auto find = [&](const char* symbol, auto& to) {
-            to = reinterpret_cast<std::decay_t<decltype(to)>>(dlsym(library, symbol));
-            whole = whole && to != nullptr;
-        };
-        find("codes_handle_new_from_file", next);
-        find("codes_handle_delete", drop);
-        find("codes_get_long", get_long);
-        find("codes_get_double", get_double);
-        find("codes_get_string", get_string);
-        find("codes_get_size", get_size);
-        find("codes_get_double_array", get_doubles);
-        find("codes_set_double", set_double);
-        find("codes_context_get_default", context);
-        find("codes_context_set_logging_proc", set_log);
-        if (!whole) return Status::bad_input(name + ": GRIB: libeccodes.so.0 lacks a function");
+        library.find("codes_handle_new_from_file", next);
+        library.find("codes_handle_delete", drop);
+        library.find("codes_get_long", get_long);
+        library.find("codes_get_double", get_double);
+        library.find("codes_get_string", get_string);
+        library.find("codes_get_size", get_size);
+        library.find("codes_get_double_array", get_doubles);
+        library.find("codes_set_double", set_double);
+        library.find("codes_context_get_default", context);
+        library.find("codes_context_set_logging_proc", set_log);
+        if (!library.is_whole())
+            return Status::bad_input(name + ": GRIB: libeccodes.so.0 lacks a function");
         // A fault is one line, and it is ours.
         set_log(context(), [](const codes_context*, int, const char*) {});
         return Status::ok();

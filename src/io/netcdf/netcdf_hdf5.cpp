@@ -5,11 +5,12 @@
 #include "src/io/netcdf/netcdf_hdf5.h"
 
 #if PILEUS_WITH_NETCDF
-#include <dlfcn.h>
 #include <netcdf.h>
 #include <netcdf_mem.h>
 
 #include <mutex>
+
+#include "src/base/dynamic_library.h"
 #endif
 
 #include "src/base/buffer.h"
@@ -23,7 +24,7 @@ namespace {
 std::mutex one_at_a_time;
 using Turn = std::lock_guard<std::mutex>;
 
-/// The library during one call. It stays loaded: what it keeps of open files outlives the call.
+/// The library during one call.
 struct Library {
     decltype(&::nc_strerror) strerror = nullptr;
     decltype(&::nc_inq_attname) inq_attname = nullptr;
@@ -46,40 +47,36 @@ struct Library {
     decltype(&::nc_set_var_chunk_cache) set_var_chunk_cache = nullptr;
 
     Status load(const std::string& name) {
-        void* library = dlopen("libnetcdf.so.19", RTLD_NOW | RTLD_LOCAL | RTLD_NODELETE);
-        if (library == nullptr)
+        DynamicLibrary library("libnetcdf.so.19");
+        if (!library.is_there())
             return Status::bad_input(name +
                                      ": NetCDF-4 on HDF5: the library libnetcdf.so.19 is not "
                                      "there, allowed: install it, or a classic file (nccopy -k "
                                      "cdf5)");
-        bool whole = true;
-        const auto find = [&](const char* symbol, auto& to) {
-            to = reinterpret_cast<std::decay_t<decltype(to)>>(dlsym(library, symbol));
-            whole = whole && to != nullptr;
-        };
-        find("nc_strerror", strerror);
-        find("nc_inq_attname", inq_attname);
-        find("nc_inq_att", inq_att);
-        find("nc_get_att_text", get_att_text);
-        find("nc_get_att_string", get_att_string);
-        find("nc_free_string", free_string);
-        find("nc_get_att_double", get_att_double);
-        find("nc_inq_dimids", inq_dimids);
-        find("nc_inq_unlimdims", inq_unlimdims);
-        find("nc_inq_dim", inq_dim);
-        find("nc_inq_var", inq_var);
-        find("nc_inq_vardimid", inq_vardimid);
-        find("nc_open", open);
-        find("nc_open_mem", open_mem);
-        find("nc_close", close);
-        find("nc_inq", inq);
-        find("nc_get_vara_text", get_vara_text);
-        find("nc_get_vara_double", get_vara_double);
-        find("nc_set_var_chunk_cache", set_var_chunk_cache);
-        return whole ? Status::ok()
-                     : Status::bad_input(name +
-                                         ": NetCDF-4 on HDF5: libnetcdf.so.19 lacks a "
-                                         "function, allowed: version 4.6 or later");
+        library.find("nc_strerror", strerror);
+        library.find("nc_inq_attname", inq_attname);
+        library.find("nc_inq_att", inq_att);
+        library.find("nc_get_att_text", get_att_text);
+        library.find("nc_get_att_string", get_att_string);
+        library.find("nc_free_string", free_string);
+        library.find("nc_get_att_double", get_att_double);
+        library.find("nc_inq_dimids", inq_dimids);
+        library.find("nc_inq_unlimdims", inq_unlimdims);
+        library.find("nc_inq_dim", inq_dim);
+        library.find("nc_inq_var", inq_var);
+        library.find("nc_inq_vardimid", inq_vardimid);
+        library.find("nc_open", open);
+        library.find("nc_open_mem", open_mem);
+        library.find("nc_close", close);
+        library.find("nc_inq", inq);
+        library.find("nc_get_vara_text", get_vara_text);
+        library.find("nc_get_vara_double", get_vara_double);
+        library.find("nc_set_var_chunk_cache", set_var_chunk_cache);
+        if (!library.is_whole())
+            return Status::bad_input(name +
+                                     ": NetCDF-4 on HDF5: libnetcdf.so.19 lacks a function, "
+                                     "allowed: version 4.6 or later");
+        return Status::ok();
     }
 };
 
