@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/base/vectors.h"
+#include "src/scene/particle_settings.h"
 #include "src/scene/sky_settings.h"
 #include "src/scene/weather_settings.h"
 
@@ -98,7 +99,8 @@ struct MediumSettings {
     RawType raw_type = RawType::kFloat32;
     std::array<int, 3> raw_size{0, 0, 0};
     bool raw_big_endian = false;
-    WeatherSettings weather;  ///< of a NetCDF file
+    WeatherSettings weather;     ///< of a NetCDF file
+    ParticleSettings particles;  ///< of a medium made of particles
     bool has_bounds = false;
     std::array<Double3, 2> bounds_m{};
     std::array<int, 3> resolution{0, 0, 0};  ///< procedural and uniform shapes; 0: a default
