@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a scene says of a medium made of particles.
-// in: keys medium.N.particles.* -> out: this struct.
+// What a scene says of a file of particles.
+// in: keys of medium.density -> out: plain values.
 // docs/particles.md, "Data".
 #pragma once
 
@@ -11,8 +11,8 @@ struct ParticleSettings {
     double radius_m = 0;      ///< of every particle; 0: the file's own
     double radius_scale = 1;  ///< on each radius; > 0
     bool cross_section =
-        false;         ///< density = "cross-section": m^2 of a particle; else peak extinction
-    double share = 1;  ///< of the particles that are kept, densities re-weighted; (0, 1]
+        false;         ///< holds = "cross-section": m^2 of a particle; else extinction, 1/m
+    double share = 1;  ///< of the particles that are kept, denser in return; (0, 1]
 };
 
 }  // namespace pileus

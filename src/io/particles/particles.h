@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Particles as a file or a recipe says them: arrays side by side, and nothing of the scene.
-// in: files that nobody has checked -> out: this struct, every number finite.
+// Particles: places, radii, densities, colours, side by side in arrays.
+// in: a source that nobody has checked -> out: this struct, every number finite and in range.
 // docs/particles.md, "Data".
 #pragma once
 #include <cstdint>
@@ -10,18 +10,18 @@
 
 namespace pileus {
 
-/// Arrays that a source has nothing of are empty. Lengths in the source's own unit.
+/// Of a source without densities, colours or numbers those arrays are empty.
 struct ParticleSet {
     std::uint64_t count = 0;
-    Double3 origin{};  ///< what positions are counted from, so that far ones keep their digits
-    Buffer<float> position;  ///< [particle][axis], from the origin
-    Buffer<float> radius;    ///< [particle]; > 0. Empty: the scene says one for all
-    Buffer<float> density;   ///< [particle]; >= 0. Empty: 1
-    Buffer<float> colour;    ///< [particle][channel]: albedo in [0, 1]. Empty: white
-    Buffer<float>
-        emission;  ///< [particle][channel]: radiance per metre at its centre, >= 0. Empty: none
-    Buffer<float> velocity;    ///< [particle][axis], units per second. Empty: at rest
-    Buffer<std::uint64_t> id;  ///< [particle]. Empty: particles are told apart by their own bits
+    Double3 origin{};          ///< what places are counted from, so that far ones keep their digits
+    Buffer<float> position;    ///< [particle][axis], from the origin
+    Buffer<float> radius;      ///< [particle]; > 0
+    Buffer<float> density;     ///< [particle]; >= 0. Empty: 1
+    Buffer<float> colour;      ///< [particle][channel]: albedo, 0 to 1. Empty: white
+    Buffer<std::uint64_t> id;  ///< [particle]. Empty: told apart by their own numbers
+    Double3 low{}, high{};     ///< corners of a box about all particles, their radii included
+
+    float density_of(std::uint64_t i) const { return density.empty() ? 1.0f : density[i]; }
 };
 
 }  // namespace pileus
