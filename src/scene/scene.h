@@ -228,6 +228,23 @@ struct OpticalDepthSettings {
     double stop_below = 1e-4;
 };
 
+enum class ParticleLight { kCentre, kLinear, kExact };
+enum class ParticleScattering { kSingle, kEffective, kSimilarity, kOctaves };
+
+/// Method particles; src/scene/keys/particles.cpp says what each means.
+struct ParticlesSettings {
+    ParticleScattering scattering = ParticleScattering::kSingle;
+    int octaves = 8;  ///< 1..8
+    double octave_extinction = 0.45, octave_share = 0.65, octave_anisotropy = 0.75;
+    double cone_deg = 40;     ///< at its apex
+    bool sky_ambient = true;  ///< sky_light = "ambient"
+    int bins = 256;           ///< along a ray, 1..4096
+    int leaf = 12;            ///< most particles in one, 1..1024
+    ParticleLight light = ParticleLight::kLinear;
+    double most_depth = 0;  ///< towards the sun, where the walk ends; 0: none
+    double stop_below = 1e-4;
+};
+
 struct OutputSettings {
     std::vector<std::string> files;  ///< relative to the scene's folder
     std::string report;
@@ -258,6 +275,7 @@ struct Scene {
     RaymarchSettings raymarch;
     OpticalDepthSettings optical_depth;
     PhotonGridSettings photon_grid;
+    ParticlesSettings particles;
     OutputSettings output;
     Animation animation;
     std::vector<std::string> overrides;         ///< texts of the --set options

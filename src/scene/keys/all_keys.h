@@ -23,6 +23,7 @@ Span<const KeyRow> method_keys();         // method
 Span<const KeyRow> collectors_keys();     // collectors
 Span<const KeyRow> path_keys();           // path
 Span<const KeyRow> raymarch_keys();       // raymarch
+Span<const KeyRow> particles_keys();      // particles
 Span<const KeyRow> optical_depth_keys();  // optical_depth
 Span<const KeyRow> photon_grid_keys();    // photon_grid
 Span<const KeyRow> later_keys();          // tables of later methods
