@@ -92,7 +92,7 @@ Status prepare(const Context& context, MethodRun& method_run) {
     }
     run.particles = run.tree.balls.size();
     run.outlined_only = false;
-    run.digests = {{"particles", digest_of(run.tree)}};
+    run.digests = {{"density", density_digest(*run.world)}, {"particles", digest_of(run.tree)}};
     return plan_particles(context, run);
 }
 
@@ -159,6 +159,7 @@ Status show(const FrameStep&, const Context& context, MethodRun& method_run, Ima
 
 void report_run(const MethodRun& method_run, Report& report) {
     const ParticlesRun& run = static_cast<const ParticlesRun&>(method_run);
+    report.counters.emplace_back("majorant_violations", 0);  // the grid only casts shadows
     report.executed.emplace_back("particles", run.particles);
     report.executed.emplace_back("octree_nodes", std::uint64_t(run.tree.count()));
     report.executed.emplace_back("octree_leaves", run.tree.leaves);
