@@ -239,7 +239,7 @@ struct ParticlesSettings {
     double cone_deg = 40;     ///< at its apex
     bool sky_ambient = true;  ///< sky_light = "ambient"
     int bins = 256;           ///< along a ray, 1..4096
-    int leaf = 12;            ///< most particles in one, 1..1024
+    int leaf = 16;            ///< most particles in one, 1..1024
     ParticleLight light = ParticleLight::kLinear;
     double most_depth = 0;  ///< towards the sun, where the walk ends; 0: none
     double stop_below = 1e-4;

@@ -10,9 +10,9 @@ namespace pileus {
 namespace {
 
 constexpr int kMostCells = 256;  ///< along an axis, where the scene does not say
-/// Samples along each axis of a cell are at most a quarter of a radius apart, but no more than so
-/// many.
-constexpr int kMostSamples = 8;
+/// Samples along each axis of a cell are at most a quarter of a radius apart. Where that would be
+/// more than two, so many across the particle take their place.
+constexpr int kMostSamples = 2, kAcross = 6;
 /// Of all particles, in quanta: nothing overflows.
 constexpr double kAllQuanta = 0x1p62;
 /// Radius of a particle that stands for a cell, over the cell's mean edge: neighbours overlap.
@@ -32,18 +32,31 @@ public:
         for (int a = 0; a < 3; ++a) cell_[a] = cell[a];
     }
 
-    /// Calls use(cell, weight) for cells of weight; the weights' sum is returned.
+    /// Calls use(cell, weight) for places of weight; the weights' sum is returned.
     template <class Use>
     double over(const ParticleSet& set, std::size_t i, Use use) {
         const double radius = double(set.radius[i]);
+        bool small = false;
         for (int a = 0; a < 3; ++a) {
             centre_[a] = set.origin[a] + double(set.position[3 * i + std::size_t(a)]) - low_[a];
             const double at = centre_[a] / cell_[a], reach = radius / cell_[a];
             first_[a] = cell_at(at - reach, a);
             last_[a] = cell_at(at + reach, a);
             const double samples = 4 * cell_[a] / radius;
-            samples_[a] = samples >= kMostSamples ? kMostSamples : int(samples) + 1;
+            small = small || samples > kMostSamples;
+            samples_[a] = samples > 1 ? kMostSamples : 1;
         }
+        return small ? over_ball(radius, use) : over_cells(radius, use);
+    }
+    /// Of the particle that was looked at last.
+    std::size_t own_cell() const {
+        return index(cell_at(centre_[0] / cell_[0], 0), cell_at(centre_[1] / cell_[1], 1),
+                     cell_at(centre_[2] / cell_[2], 2));
+    }
+
+private:
+    template <class Use>
+    double over_cells(double radius, Use use) const {
         double sum = 0;
         for (int z = first_[2]; z <= last_[2]; ++z)
             for (int y = first_[1]; y <= last_[1]; ++y)
@@ -55,12 +68,25 @@ public:
                 }
         return sum;
     }
-    std::size_t own_cell() const {
-        return index(cell_at(centre_[0] / cell_[0], 0), cell_at(centre_[1] / cell_[1], 1),
-                     cell_at(centre_[2] / cell_[2], 2));
+    /// Places within the ball, each in whatever cell it lies.
+    template <class Use>
+    double over_ball(double radius, Use use) const {
+        double sum = 0;
+        for (int k = 0; k < kAcross; ++k)
+            for (int j = 0; j < kAcross; ++j)
+                for (int i = 0; i < kAcross; ++i) {
+                    const double x = (2 * i + 1.0) / kAcross - 1, y = (2 * j + 1.0) / kAcross - 1,
+                                 z = (2 * k + 1.0) / kAcross - 1;
+                    const double left = 1 - (x * x + y * y + z * z);
+                    if (!(left > 0)) continue;
+                    sum += left * left;
+                    use(index(cell_at((centre_[0] + x * radius) / cell_[0], 0),
+                              cell_at((centre_[1] + y * radius) / cell_[1], 1),
+                              cell_at((centre_[2] + z * radius) / cell_[2], 2)),
+                        left * left);
+                }
+        return sum;
     }
-
-private:
     int cell_at(double place, int axis) const {
         const int most = size_[std::size_t(axis)] - 1;
         return !(place > 0) ? 0 : (place >= most ? most : int(place));
@@ -149,7 +175,7 @@ Status grid_particles(const ParticleSet& set, const std::array<int, 3>& size, Vo
                 sums[at] += part;
                 left -= part;
             });
-        // What rounding leaves, or all of a particle that no sample met.
+        // What rounding leaves.
         sums[stamp.own_cell()] += left;
     }
     const double per_cell = quantum * kBallMass / (cell[0] * cell[1] * cell[2]);
