@@ -70,6 +70,7 @@ std::uint64_t self_test_kernel() { return self_test_digest<PILEUS_WIDTH>(); }
 #define PILEUS_SWEEP_LAYER(isa) PILEUS_JOIN(sweep_layer_kernel_, isa)
 #define PILEUS_PATH_SOLIDS(isa) PILEUS_JOIN(path_solids_, isa)
 #define PILEUS_PATH_GUIDED(isa) PILEUS_JOIN(path_guided_, isa)
+#define PILEUS_PARTICLES(isa) PILEUS_JOIN(particle_kernel_, isa)
 #define PILEUS_SOLIDS(isa) PILEUS_JOIN(solid_rows_, isa)
 
 /// Of isa_path.cpp, compiled for the same instruction set.
@@ -85,6 +86,9 @@ void PILEUS_PATH_GUIDED(PILEUS_ISA)(const PathParams&, const PathBuffers&, std::
                                     std::uint32_t);
 /// Of isa_sky.cpp.
 extern const SkyKernels PILEUS_SKY(PILEUS_ISA);
+
+/// Of isa_particles.cpp.
+extern const ParticleKernels PILEUS_PARTICLES(PILEUS_ISA);
 
 /// Of isa_upsample.cpp and isa_sweep.cpp, likewise.
 void PILEUS_UPSAMPLE(PILEUS_ISA)(const UpsampleParams&, const UpsampleBuffers&, std::uint32_t,
@@ -117,6 +121,7 @@ const KernelTable PILEUS_TABLE(PILEUS_ISA) = {
     &PILEUS_SKY(PILEUS_ISA),
     PILEUS_UPSAMPLE(PILEUS_ISA),
     PILEUS_PATH_GUIDED(PILEUS_ISA),
+    &PILEUS_PARTICLES(PILEUS_ISA),
 };
 
 }  // namespace pileus

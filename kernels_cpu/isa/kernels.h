@@ -8,6 +8,7 @@
 #include "kernels_cpu/display/upsample_params.h"
 #include "kernels_cpu/isa/device_kernels.h"
 #include "kernels_cpu/light/sweep_params.h"
+#include "kernels_cpu/particles/particle_params.h"
 #include "kernels_cpu/path/path_params.h"
 #include "kernels_cpu/photons/trace_params.h"
 #include "kernels_cpu/procedural/sky_params.h"
@@ -53,6 +54,7 @@ struct KernelTable {
     /// As trace_paths and trace_paths_solid where PathParams::guide is on or the sun is a disc.
     void (*trace_paths_guided)(const PathParams&, const PathBuffers&, std::uint32_t begin,
                                std::uint32_t end) = nullptr;
+    const ParticleKernels* particles = nullptr;  ///< of method particles
 };
 
 /// The widest table this machine runs; `name` (or null) forces one. Null: no such table here.

@@ -5,6 +5,7 @@
 #include "src/methods/collectors/collectors.h"
 #include "src/methods/collectors/views/views.h"
 #include "src/methods/optical_depth/optical_depth.h"
+#include "src/methods/particles/particles_method.h"
 #include "src/methods/path/path.h"
 #include "src/methods/photon_grid/photon_grid.h"
 #include "src/methods/raymarch/raymarch.h"
@@ -29,8 +30,8 @@ std::vector<MethodRow> method_rows() {
     collectors.views = collectors_views(collectors.view_count);
     MethodRow photon_grid{&photon_grid_method()};
     photon_grid.views = photon_grid_views(photon_grid.view_count);
-    return {
-        collectors, {&path_method()}, {&raymarch_method()}, {&optical_depth_method()}, photon_grid};
+    return {collectors,  {&path_method()},     {&raymarch_method()}, {&optical_depth_method()},
+            photon_grid, {&particles_method()}};
 }
 
 Status find_method(const Scene& scene, const Method*& method) {

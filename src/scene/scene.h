@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/base/vectors.h"
+#include "src/scene/particle_settings.h"
 #include "src/scene/sky_settings.h"
 #include "src/scene/weather_settings.h"
 
@@ -98,7 +99,8 @@ struct MediumSettings {
     RawType raw_type = RawType::kFloat32;
     std::array<int, 3> raw_size{0, 0, 0};
     bool raw_big_endian = false;
-    WeatherSettings weather;  ///< of a NetCDF file
+    WeatherSettings weather;     ///< of a NetCDF file
+    ParticleSettings particles;  ///< of a medium made of particles
     bool has_bounds = false;
     std::array<Double3, 2> bounds_m{};
     std::array<int, 3> resolution{0, 0, 0};  ///< procedural and uniform shapes; 0: a default
@@ -226,6 +228,23 @@ struct OpticalDepthSettings {
     double stop_below = 1e-4;
 };
 
+enum class ParticleLight { kCentre, kLinear, kExact };
+enum class ParticleScattering { kSingle, kEffective, kSimilarity, kOctaves };
+
+/// Method particles; src/scene/keys/particles.cpp says what each means.
+struct ParticlesSettings {
+    ParticleScattering scattering = ParticleScattering::kSingle;
+    int octaves = 8;  ///< 1..8
+    double octave_extinction = 0.45, octave_share = 0.65, octave_anisotropy = 0.75;
+    double cone_deg = 40;     ///< at its apex
+    bool sky_ambient = true;  ///< sky_light = "ambient"
+    int bins = 256;           ///< along a ray, 1..4096
+    int leaf = 16;            ///< most particles in one, 1..1024
+    ParticleLight light = ParticleLight::kLinear;
+    double most_depth = 0;  ///< towards the sun, where the walk ends; 0: none
+    double stop_below = 1e-4;
+};
+
 struct OutputSettings {
     std::vector<std::string> files;  ///< relative to the scene's folder
     std::string report;
@@ -256,6 +275,7 @@ struct Scene {
     RaymarchSettings raymarch;
     OpticalDepthSettings optical_depth;
     PhotonGridSettings photon_grid;
+    ParticlesSettings particles;
     OutputSettings output;
     Animation animation;
     std::vector<std::string> overrides;         ///< texts of the --set options

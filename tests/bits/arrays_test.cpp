@@ -7,10 +7,13 @@
 #include "src/march/march_run.h"
 #include "src/methods/collectors/collectors_memory.h"
 #include "src/methods/collectors/prepare/leaves.h"
+#include "src/methods/particles/particles_method.h"
+#include "src/methods/particles/particles_run.h"
 #include "src/methods/path/path.h"
 #include "src/methods/path/path_sky.h"
 #include "src/methods/photon_grid/photon_grid.h"
 #include "src/methods/registry.h"
+#include "tests/io/temp_folder.h"
 #include "tests/support/render_harness.h"
 
 using namespace render_test;
@@ -188,6 +191,29 @@ void check_raymarch(const Fixture& f) {
     check_rows(run.plan.memory, Stage::kDisplay, held);
 }
 
+void check_particles(const Fixture& f) {
+    const test::TempFolder folder;
+    folder.put("p.csv", "x y z radius density\n0 0 900 300 0.01\n100 50 1000 200 0.02\n");
+    Scene scene = f.scene;
+    scene.directory = folder.path("");
+    ParticlesRun run;
+    const Method& method = particles_method();
+    REQUIRE(open_run(method, scene, {}, f.context, true, nullptr, run));
+    REQUIRE(run.plan.exact);
+    REQUIRE(method.light(FrameStep{}, f.context, run));
+    Bytes held = held_by(run, run.majorants);
+    held["particles"] = run.tree.balls.bytes();
+    held["octree"] = run.tree.nodes.bytes();
+    held["particles' depths towards the sun"] = run.shade.bytes();
+    held["particles' skylight"] = run.sky.bytes();
+    held["skylight on nodes"] = run.sky_nodes.light.bytes();
+    held["picture planes"] = bytes_held(run.planes);
+    // Freed with the march.
+    held["bins along rays"] =
+        4 * particle_scratch_floats(scene.particles.bins) * std::uint64_t(f.context.threads);
+    check_rows(run.plan.memory, Stage::kDisplay, held);
+}
+
 }  // namespace
 
 TEST_CASE("arrays: what collectors hold once they are prepared is what the plan says") {
@@ -216,6 +242,17 @@ TEST_CASE("arrays: what raymarch holds while it marches is what the plan says") 
                     "optical-depth",
                     {layers, "optical_depth.resolution = [9, 0, 5]",
                      "optical_depth.max_extinction_per_m = 0.01"}});
+}
+
+TEST_CASE("arrays: what particles hold while they are shown is what the plan says") {
+    const std::string text = std::string(kSmallCumulus);
+    const std::size_t from = text.find("[[medium]]"), to = text.find("[photon_grid]");
+    const std::string scene =
+        text.substr(0, from) +
+        "[[medium]]\ndensity = \"p.csv\"\nphase = { type = \"isotropic\" }\n" + text.substr(to);
+    const char* const layers = "output.layers = [\"radiance\", \"alpha\", \"depth\"]";
+    check_particles({scene.c_str(), "particles", {layers, "particles.bins = 50"}});
+    check_particles({scene.c_str(), "particles", {layers, "particles.light = \"exact\""}});
 }
 
 TEST_CASE("arrays: the bytes of collectors by their definition, those of scratch, too") {

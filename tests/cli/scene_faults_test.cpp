@@ -71,10 +71,10 @@ TEST_CASE("unknown, missing and ill-typed keys") {
          "s.toml:8:9: medium.0.phase: wrong type, \"isotropic\", allowed: a table"},
         {kCamera + "[output]\nfiles = \"a.png\"\n",
          "s.toml:5:9: output.files: wrong type, \"a.png\", allowed: list of up to 16 texts"},
-        {kCamera + "[particles]\nx = 1\ny.z = 2\n\n[sky]\nradiance = {}\n",
+        {kCamera + "[particles]\nbins = 1\nleaf = 2\n\n[sky]\nradiance = {}\n",
          "s.toml:9:12: sky.radiance: wrong type, a table, allowed: number or [r, g, b] in "
          "[0, 1e+12]"},
-        {"particles = 1\n" + kCamera, "s.toml:1:13: particles: wrong type, 1, allowed: table"},
+        {"particles = 1\n" + kCamera, "s.toml:1:13: particles: wrong type, 1, allowed: a table"},
     };
     for (const Row& row : rows) check(row);
 }
@@ -131,12 +131,9 @@ TEST_CASE("values out of range") {
 
 TEST_CASE("parts of the format that this version cannot use") {
     const Row rows[] = {
-        {kCamera + "[method]\nname = \"particles\"\n",
-         "s.toml:5:8: method.name: not in this version, \"particles\", allowed: collectors, path, "
-         "raymarch, optical-depth, photon-grid"},
         {kCamera + "[method]\nname = \"radiosity\"\n",
          "s.toml:5:8: method.name: unknown value, \"radiosity\", allowed: collectors, path, "
-         "raymarch, optical-depth, photon-grid"},
+         "raymarch, optical-depth, photon-grid, particles"},
         {kCamera + "[sky]\nmodel = \"atmosphere\"\n", "s.toml:5:1: sky.model: not in this ..."},
     };
     for (const Row& row : rows) check(row);
@@ -196,9 +193,6 @@ TEST_CASE("faults of overrides name the option") {
          "--set output.report=a\\x7f.json: not a value, \"a\\x7f.json\", allowed: a TOML value, or "
          "a "
          "printable text without quotes"},
-        {"method.name=particles",
-         "--set method.name=particles: method.name: not in this version, \"particles\", "
-         "allowed: collectors, path, raymarch, optical-depth, photon-grid"},
     };
     const std::string text = kCamera + "up = [0, 0, 1]\n" + kMedium;
     for (const auto& row : rows) {

@@ -122,11 +122,22 @@ TEST_CASE("densities and their files") {
         {kCamera + kFile + "density = \"a.f32\"\n",
          "s.toml:6:11: medium.0.density: unknown kind of file, \"a.f32\", allowed: a name that "
          "ends in .pbrt, .raw, .vol, .txt, .les, .vdb, .nvdb, .nc, .nc4, .cdf, .grib, .grib2, "
-         ".grb, .grb2; or beside it the "
+         ".grb, .grb2, .ply, .csv; or beside it the "
          "key "
          "format, one of \"pbrt\", \"raw\", \"vol\", \"les\", \"openvdb\", \"nanovdb\", "
-         "\"netcdf\", \"grib\"; or "
+         "\"netcdf\", \"grib\", \"ply\", \"csv\"; or "
          "density = { file = \"...\", type = \"float32\", size = [nx, ny, nz] } for a raw file"},
+        {kCamera + kFile + "density = { file = \"a.vdb\", share = 0.5 }\n",
+         "s.toml:6:37: medium.0.density.share: for files of particles only, 0.5, allowed: left "
+         "out"},
+        {kCamera + kFile + "density = \"a.ply\"\nbounds_m = [[0, 0, 0], [1, 1, 1]]\n",
+         "s.toml:7:12: medium.0.bounds_m: not for particles, [[0, 0, 0], [1, 1, 1]], allowed: left "
+         "out"},
+        {kCamera + kFile + "density = \"a.ply\"\nboundary = \"periodic\"\n",
+         "s.toml:7:12: medium.0.boundary: not for particles, \"periodic\", allowed: left out"},
+        {kCamera + kFile + "density = \"a.ply\"\nextinction_scale = 2\n",
+         "s.toml:7:20: medium.0.extinction_scale: given twice, 2, allowed: extinction_per_m or "
+         "extinction_scale"},
         {kCamera + kFile + "density = { file = \"a.vdb\", time = 3 }\n",
          "s.toml:6:36: medium.0.density.time: for NetCDF files only, 3, allowed: left out"},
         {kCamera +

@@ -139,7 +139,7 @@ TEST_CASE("structs: laws between keys speak as they do of a file") {
           "type = \"float32\", size = [nx, ny, nz] }");
     CHECK(fault([](Scene& s) { s.method = "radiosity"; }) ==
           "scene: method.name: unknown value, \"radiosity\", allowed: collectors, path, raymarch, "
-          "optical-depth, photon-grid");
+          "optical-depth, photon-grid, particles");
     CHECK(fault([](Scene& s) { s.sun.elevation_deg = std::nan(""); }) ==
           "scene: sun.elevation_deg: not finite, nan, allowed: number in [-90, 90]");
     CHECK(fault([](Scene& s) { s.output.files = {"a.jpg"}; }) ==

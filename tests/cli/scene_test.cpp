@@ -62,7 +62,7 @@ closure = "lobe"
 [raymarch]
 scattering = "octaves"
 [particles]
-anything = { goes = [1, 2] }
+bins = 7
 [output]
 files = ["x.exr", "y.pfm"]
 layers = ["radiance", "depth", "order"]

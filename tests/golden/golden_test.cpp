@@ -22,6 +22,7 @@ std::vector<const char*> stages_of(const std::map<std::string, std::string>& sta
     // A grid of photons prepares no collectors, a raymarch shoots no photons either.
     if (stages.count("leaves") == 0 && stages.count("photons") == 1)
         return {"density", "photons", "colours", "image"};
+    if (stages.count("particles") == 1) return {"density", "particles", "colours", "image"};
     if (stages.count("leaves") == 0) return {"density", "colours", "image"};
     return {"density", "leaves", "collectors", "photons", "colours", "image"};
 }

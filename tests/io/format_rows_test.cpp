@@ -66,6 +66,8 @@ TEST_CASE("format rows: an extension means one format, and the documents name it
         CHECK((format.built || format.library != nullptr));
         CHECK(bool(can_write_image(std::string("a") + format.extension)) == format.built);
     }
+    // So PLY is known by where it stands, as a medium or a solid.
+    CHECK(seen.erase(".ply") == 1);
     for (const MeshFormat& format : mesh_formats()) {
         CAPTURE(format.extension);
         CHECK(seen.insert(format.extension).second);
@@ -83,7 +85,8 @@ TEST_CASE("format rows: an extension means one format, and the documents name it
 TEST_CASE("format rows: what a row writes it reads again") {
     const test::TempFolder folder;
     for (const VolumeFormat& format : volume_formats()) {
-        if (format.write == nullptr) continue;
+        // A grid of particles has other cells than the one that they were made of.
+        if (format.write == nullptr || format.is_particles) continue;
         CAPTURE(format.name);
         Volume volume, again;
         volume.size = {3, 2, 4};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // pileus convert: a density grid from one format to another.
-// in: a grid or weather data that a scene could read -> out: a .vdb, .nc or .raw file, and the
-// lines to use it. docs/program.md
+// in: a grid, weather data or particles that a scene could read -> out: a .vdb, .nc, .raw or .ply
+// file, and the lines to use it. docs/program.md
 #include <fmt/format.h>
 
 #include <memory>
@@ -40,12 +40,14 @@ Status check_files(const ConvertArguments& arguments, bool& from_raw, bool& to_r
     if (from_raw && to_raw)
         return Status::bad_input(arguments.to + ": both files are raw, allowed: one of them");
     const bool weather = from != nullptr && from->is_weather;
-    const bool asks =
-        !arguments.time.empty() || !arguments.member.empty() || !arguments.resolution.empty();
-    if (asks && !weather)
+    const bool celled = weather || (from != nullptr && from->is_particles);
+    if ((!arguments.time.empty() || !arguments.member.empty()) && !weather)
         return Status::bad_input(arguments.from +
-                                 ": --time, --member, --resolution: for NetCDF files, allowed: "
-                                 "left out");
+                                 ": --time, --member: for NetCDF files, allowed: left out");
+    if (!arguments.resolution.empty() && !celled)
+        return Status::bad_input(arguments.from +
+                                 ": --resolution: for NetCDF files and particles, allowed: left "
+                                 "out");
     if (to_raw && !arguments.raw.size.empty())
         return Status::bad_input("--size: for a .raw file that is read, allowed: left out");
     return Status::ok();
@@ -58,8 +60,8 @@ Status write_grid(const ConvertArguments& arguments, const Volume& volume) {
     return volume_format_of(arguments.to)->write(form, arguments.to, volume);
 }
 
-/// What a scene would say of weather data.
-Status read_weather_options(const ConvertArguments& arguments, MediumSettings& medium) {
+/// What a scene would say of weather data or particles.
+Status read_made_options(const ConvertArguments& arguments, MediumSettings& medium) {
     if (!arguments.time.empty()) medium.weather.time = arguments.time;
     if (!arguments.member.empty()) medium.weather.member = arguments.member;
     for (std::size_t a = 0; a < arguments.resolution.size(); ++a) {
@@ -113,7 +115,7 @@ Status run_convert(const ConvertArguments& arguments) {
     PILEUS_TRY(check_files(arguments, from_raw, to_raw));
     MediumSettings medium;
     medium.grid = arguments.grid;
-    PILEUS_TRY(read_weather_options(arguments, medium));
+    PILEUS_TRY(read_made_options(arguments, medium));
     RawType type;
     PILEUS_TRY(read_raw_type(arguments.raw, type));
     OutputCheck check;
@@ -154,7 +156,8 @@ void add_convert(CLI::App& app, Chosen& chosen) {
     command->add_option("--member", arguments->member, "Which member of a NetCDF file")
         ->type_name("MEMBER");
     command
-        ->add_option("--resolution", arguments->resolution, "Cells of weather data, along x, y, z")
+        ->add_option("--resolution", arguments->resolution,
+                     "Cells of weather data or particles, along x, y, z")
         ->expected(3)
         ->type_name("NX NY NZ");
     command->add_flag("--y-up", arguments->y_up, "Turn a grid whose y axis points up to z up");

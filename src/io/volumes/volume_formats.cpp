@@ -5,6 +5,7 @@
 #include "src/base/file.h"
 #include "src/io/volumes/les_volume.h"
 #include "src/io/volumes/netcdf_grid.h"
+#include "src/io/volumes/particle_volume.h"
 #include "src/io/volumes/vdb/nvdb_file.h"
 #include "src/io/volumes/vdb/vdb_file.h"
 #include "src/io/volumes/vol_volume.h"
@@ -51,24 +52,29 @@ Status write_netcdf(const MediumSettings&, const std::string& path, const Volume
     return write_netcdf_volume(path, volume);
 }
 
-// One row for a format: name, title, extensions; in extinction, several grids, weather, bare
-// numbers; reader, reader of the head, writer.
+// One row for a format: name, title, extensions; in extinction, several grids, weather, particles,
+// bare numbers; reader, reader of the head, writer.
 constexpr VolumeFormat kFormats[] = {
-    {"pbrt", "pbrt text", ".pbrt", false, false, false, false, read_path<read_pbrt_volume>,
+    {"pbrt", "pbrt text", ".pbrt", false, false, false, false, false, read_path<read_pbrt_volume>,
      head_of_path<read_pbrt_head>, nullptr},
-    {"raw", "bare numbers", ".raw", false, false, false, true, read_raw, raw_head, write_raw},
-    {"vol", "Mitsuba", ".vol", false, false, false, false, read_path<read_vol_volume>,
+    {"raw", "bare numbers", ".raw", false, false, false, false, true, read_raw, raw_head,
+     write_raw},
+    {"vol", "Mitsuba", ".vol", false, false, false, false, false, read_path<read_vol_volume>,
      head_of_path<read_vol_head>, nullptr},
-    {"les", "LES text", ".txt|.les", true, false, false, false, read_path<read_les_volume>,
+    {"les", "LES text", ".txt|.les", true, false, false, false, false, read_path<read_les_volume>,
      head_of_path<read_les_head>, nullptr},
-    {"openvdb", "OpenVDB", ".vdb", false, true, false, false, read_grid<read_vdb_volume>,
+    {"openvdb", "OpenVDB", ".vdb", false, true, false, false, false, read_grid<read_vdb_volume>,
      head_of_grid<read_vdb_head>, write_vdb},
-    {"nanovdb", "NanoVDB", ".nvdb", false, true, false, false, read_grid<read_nvdb_volume>,
+    {"nanovdb", "NanoVDB", ".nvdb", false, true, false, false, false, read_grid<read_nvdb_volume>,
      head_of_grid<read_nvdb_head>, nullptr},
-    {"netcdf", "NetCDF", ".nc|.nc4|.cdf", true, false, true, false, read_weather_volume,
+    {"netcdf", "NetCDF", ".nc|.nc4|.cdf", true, false, true, false, false, read_weather_volume,
      read_weather_head, write_netcdf},
-    {"grib", "GRIB", ".grib|.grib2|.grb|.grb2", true, false, true, false, read_weather_volume,
-     read_weather_head, nullptr},
+    {"grib", "GRIB", ".grib|.grib2|.grb|.grb2", true, false, true, false, false,
+     read_weather_volume, read_weather_head, nullptr},
+    {"ply", "PLY particles", ".ply", true, false, false, true, false, read_particle_volume,
+     read_particle_head, write_particle_volume},
+    {"csv", "particles as text", ".csv", true, false, false, true, false, read_particle_volume,
+     read_particle_head, nullptr},
 };
 
 /// Calls `use` with each extension of a format.

@@ -29,6 +29,7 @@ public:
             }
             grid_name();
             weather_keys_of();
+            particle_keys_of();
         }
         own_keys();
         extinction();
@@ -67,10 +68,10 @@ private:
     void file_keys(const Node& density) {
         if (check_.key(path_ + "format") == nullptr) format_by_name(density);
         const VolumeFormat* format = volume_format_named(medium_.format);
-        const bool weather = format != nullptr && format->is_weather;
+        const bool celled = format != nullptr && (format->is_weather || format->is_particles);
         for (const char* key : {"resolution", "shape_seed"})
             if (const Node* node = check_.key(path_ + key))
-                if (!weather || key[0] == 's')
+                if (!celled || key[0] == 's')
                     fault(*node, key,
                           "not for a file, " + value_text(*node) + ", allowed: left out");
         if (format != nullptr && format->bare) {
@@ -95,12 +96,34 @@ private:
             check_weather();
             return;
         }
-        for (const KeyRow& row : weather_keys()) {
+        refuse(weather_keys(), "NetCDF files");
+    }
+
+    void refuse(Span<const KeyRow> keys, const char* owner) {
+        for (const KeyRow& row : keys) {
             const std::string key = std::string(row.path).substr(sizeof "medium.N." - 1);
             if (const Node* node = check_.key(path_ + key))
                 fault(*node, key,
-                      "for NetCDF files only, " + value_text(*node) + ", allowed: left out");
+                      std::string("for ") + owner + " only, " + value_text(*node) +
+                          ", allowed: left out");
         }
+    }
+
+    /// Particles alone have a unit and radii; their box is as large as they are.
+    void particle_keys_of() {
+        const VolumeFormat* format = volume_format_named(medium_.format);
+        if (format == nullptr || !format->is_particles) {
+            refuse(particle_keys(), "files of particles");
+            return;
+        }
+        const auto refused = [&](const char* key, const Node* node) {
+            if (node != nullptr)
+                fault(*node, key,
+                      "not for particles, " + value_text(*node) + ", allowed: left out");
+        };
+        refused("bounds_m", check_.key(path_ + "bounds_m"));
+        refused("transfer", check_.key(path_ + "transfer"));
+        if (medium_.periodic) refused("boundary", check_.key(path_ + "boundary"));
     }
 
     /// One size of ice crystals, in one way.
@@ -188,6 +211,16 @@ private:
         const Node* per_m = check_.key(path_ + "extinction_per_m");
         const Node* scale = check_.key(path_ + "extinction_scale");
         if (check_.key(path_ + "transfer") != nullptr) return transfer();
+        // Both keys are a factor on particles.
+        if (format != nullptr && format->is_particles) {
+            if (per_m != nullptr && scale != nullptr)
+                fault(*scale, "extinction_scale",
+                      "given twice, " + value_text(*scale) +
+                          ", allowed: extinction_per_m or extinction_scale");
+            if (per_m != nullptr) medium_.extinction_scale = medium_.extinction_per_m;
+            medium_.extinction_per_m = 0;
+            return;
+        }
         if (physical && per_m != nullptr)
             fault(*per_m, "extinction_per_m",
                   "the file holds extinction in 1/m, " + value_text(*per_m) +

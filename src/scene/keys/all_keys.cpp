@@ -31,6 +31,7 @@ std::vector<const KeyRow*> all_scene_keys() {
     for (const KeyRow* row : phase_keys()) rows.push_back(row);
     add(medium_last_keys());
     add(weather_keys());
+    add(particle_keys());
     add(sky_keys());
     add(method_keys());
     for (const MethodKeys& method : all_methods()) add(method.rows());

@@ -14,6 +14,7 @@ Span<const KeyRow> view_keys();           // seed, camera, sun, sky, ground
 Span<const KeyRow> solid_keys();          // solid
 Span<const KeyRow> medium_keys();         // medium, up to its phase function
 Span<const KeyRow> weather_keys();        // medium.density, of weather data
+Span<const KeyRow> particle_keys();       // medium.density, of particles
 const KeyRow& transfer_key();             // medium.transfer
 Span<const KeyRow> transfer_row_keys();   // keys of one of its rows, without its path
 Span<const KeyRow> medium_last_keys();    // medium, behind it
@@ -22,6 +23,7 @@ Span<const KeyRow> method_keys();         // method
 Span<const KeyRow> collectors_keys();     // collectors
 Span<const KeyRow> path_keys();           // path
 Span<const KeyRow> raymarch_keys();       // raymarch
+Span<const KeyRow> particles_keys();      // particles
 Span<const KeyRow> optical_depth_keys();  // optical_depth
 Span<const KeyRow> photon_grid_keys();    // photon_grid
 Span<const KeyRow> later_keys();          // tables of later methods

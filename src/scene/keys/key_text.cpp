@@ -35,8 +35,9 @@ std::string choices_text(const char* choices) {
 std::string section_of(const KeyRow& row) {
     const std::string path = row.path;
     if (row.kind() == KeyKind::kTable) return "other";
-    for (const KeyRow& weather : weather_keys())
-        if (path == weather.path) return "medium.N.density";
+    for (const Span<const KeyRow> keys : {weather_keys(), particle_keys()})
+        for (const KeyRow& of_file : keys)
+            if (path == of_file.path) return "medium.N.density";
     if (path.compare(0, 13, "medium.N.sky.") == 0) return "medium.N.sky";
     if (path.compare(0, 9, "medium.N.") == 0) return "medium.N";
     if (path.compare(0, 8, "solid.N.") == 0) return "solid.N";

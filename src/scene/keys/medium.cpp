@@ -44,7 +44,7 @@ constexpr KeyField kBounds{KeyKind::kBounds,
 constexpr KeyRow kRows[] = {
     {"medium.N.density", kDensity, any(), "",
      "name of a density that the program makes, filling bounds_m; the path of a file; or a table "
-     "for a raw, OpenVDB, NanoVDB or NetCDF file",
+     "for a raw, OpenVDB, NanoVDB or NetCDF file, or one of particles",
      kRequired},
     {"medium.N.density.file", kDensityFile, any(), "",
      "path of the file, relative to the scene file; `${PILEUS_DATA_DIR}` may stand at "
@@ -59,7 +59,7 @@ constexpr KeyRow kRows[] = {
     {"medium.N.density.grid", kDensityGrid, any(), "",
      "the same as `grid` beside it: name of the grid in an OpenVDB or NanoVDB file", kNone},
     {"medium.N.format", medium<&MediumSettings::format>,
-     one_of("pbrt|raw|vol|les|openvdb|nanovdb|netcdf|grib"), "",
+     one_of("pbrt|raw|vol|les|openvdb|nanovdb|netcdf|grib|ply|csv"), "",
      "kind of the file; left out: told by the end of its name", kNone},
     {"medium.N.grid", medium<&MediumSettings::grid>, any(), "",
      "name of the grid in an OpenVDB or NanoVDB file; left out: the first of floats that is "
@@ -70,14 +70,15 @@ constexpr KeyRow kRows[] = {
      "their place, and wins where given",
      kNone},
     {"medium.N.resolution", medium<&MediumSettings::resolution>, from_to(1, 4096), "cells",
-     "cells along x, y, z; procedural, uniform and NetCDF only; left out: a suitable number",
+     "cells along x, y, z; procedural, uniform, NetCDF and particles only; left out: a suitable "
+     "number",
      kNone},
     {"medium.N.shape_seed", medium<&MediumSettings::shape_seed>, from_to(0, 0x1p63), "",
      "another procedural cloud for each number"},
     {"medium.N.extinction_per_m", medium<&MediumSettings::extinction_per_m>, from_to(0, 1e12),
      "1/m",
      "extinction coefficient where the density is 1; required, but for files that hold "
-     "extinction (les, netcdf) and beside `transfer`",
+     "extinction (les, netcdf; particles, where it is a factor) and beside `transfer`",
      kNone},
     {"medium.N.extinction_scale", medium<&MediumSettings::extinction_scale>, from_to(0, 1e12), "",
      "factor on the values of a file that holds extinction in 1/m (les, netcdf), for no others"},

@@ -10,15 +10,13 @@
 namespace pileus {
 namespace {
 
-constexpr MethodKeys kMethods[] = {{"collectors", collectors_keys},
-                                   {"path", path_keys},
-                                   {"raymarch", raymarch_keys},
-                                   {"optical-depth", optical_depth_keys},
-                                   {"photon-grid", photon_grid_keys}};
+constexpr MethodKeys kMethods[] = {
+    {"collectors", collectors_keys},   {"path", path_keys},
+    {"raymarch", raymarch_keys},       {"optical-depth", optical_depth_keys},
+    {"photon-grid", photon_grid_keys}, {"particles", particles_keys}};
 
 /// Methods that the format names and this version has not: their tables are left alone.
-constexpr const char* kLater[] = {"particles"};
-constexpr std::size_t kLaterCount = sizeof kLater / sizeof kLater[0];
+constexpr std::array<const char*, 0> kLater{};
 
 /// Names parted by '|'.
 struct Names {
@@ -44,8 +42,8 @@ constexpr Names kNowText = names_now(), kLaterText = names_later();
 
 template <std::size_t... kPlaces>
 constexpr std::array<KeyRow, sizeof...(kPlaces)> later_rows(std::index_sequence<kPlaces...>) {
-    return {{KeyRow{kLater[kPlaces], KeyKind::kTable, any(), "", "settings of a later method",
-                    kNone}...}};
+    return {KeyRow{kLater[kPlaces], KeyKind::kTable, any(), "", "settings of a later method",
+                   kNone}...};
 }
 
 }  // namespace
@@ -61,7 +59,7 @@ Span<const KeyRow> method_keys() {
 }
 
 Span<const KeyRow> later_keys() {
-    static constexpr auto rows = later_rows(std::make_index_sequence<kLaterCount>());
+    static constexpr auto rows = later_rows(std::make_index_sequence<kLater.size()>());
     return {rows.data(), rows.size()};
 }
 

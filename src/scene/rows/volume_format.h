@@ -21,6 +21,7 @@ struct VolumeFormat {
     bool in_extinction;      ///< values are extinction in 1/m, not relative densities
     bool has_grids;          ///< a file may hold several, so that the key medium.N.grid counts
     bool is_weather;         ///< made from variables, by keys and on cells that the scene may state
+    bool is_particles;       ///< no cells: particles, on cells that the scene may state
     bool bare;               ///< numbers only: the scene states their type, size and place
     /// A whole file, in its own axes. Errors: those of readers.
     Status (*read)(const MediumSettings& medium, const std::string& path, Volume& volume);

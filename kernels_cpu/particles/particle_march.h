@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// A picture of lit particles: what each ray meets is gathered into bins along it, and these are
+// composited front to back. Nothing is sorted.
+// in: a tree, depth towards the sun and skylight in every ball -> out: planes of pixels.
+// docs/particles.md, "Display": the optical depth of a bin is exact, that towards the sun a mean.
+#pragma once
+#include "kernels_cpu/core/pixel_block.h"
+#include "kernels_cpu/particles/particle_walk.h"
+
+namespace pileus {
+inline namespace PILEUS_ISA {
+
+/// Least of the lanes that `m` names; some is named.
+template <class Int, class Mask>
+PILEUS_FN std::int32_t least_lane(Int v, Mask m) {
+    std::int32_t least = 0x7fffffff;
+    for (std::uint32_t lanes = bits_of(m); lanes != 0; lanes &= lanes - 1) {
+        const std::int32_t own = lane(v, lowest_bit(lanes));
+        if (own < least) least = own;
+    }
+    return least;
+}
+template <class Int, class Mask>
+PILEUS_FN std::int32_t largest_lane(Int v, Mask m) {
+    return -least_lane(Int{} - v, m);
+}
+
+/// Phase functions of the sun's orders along a ray.
+template <class T>
+struct ParticlePhases {
+    T order[kMostParticleOrders];
+};
+template <class T>
+PILEUS_FN ParticlePhases<T> particle_phases(const ParticleMarchParams& k, const Vec<T>& direction) {
+    ParticlePhases<T> p{};
+    if (k.orders == 0) return p;
+    const Vec<T> sun{all<T>(k.sun_travel[0]), all<T>(k.sun_travel[1]), all<T>(k.sun_travel[2])};
+    const T turn =
+        one_minus_cosine(sun, Vec<T>{T{} - direction.x, T{} - direction.y, T{} - direction.z});
+    p.order[0] = phase_density(k.phase, turn);
+    for (int n = 1; n < k.orders; ++n) p.order[n] = hg_density(all<T>(k.order_g[n]), turn);
+    return p;
+}
+
+/// Optical depth towards the sun from places along rays; `wanted` lanes alone.
+template <class T>
+PILEUS_FN T shade_at(const ParticleMarchParams& k, const ParticleRay<T>& r, T at, M_of<T> wanted) {
+    const Vec<T> place{r.origin.x + at * r.direction.x, r.origin.y + at * r.direction.y,
+                       r.origin.z + at * r.direction.z};
+    const Vec<T> to_sun{all<T>(-k.sun_travel[0]), all<T>(-k.sun_travel[1]),
+                        all<T>(-k.sun_travel[2])};
+    const ParticleRay<T> ray = particle_ray(place, to_sun, T{}, all<T>(3e38f));
+    T tau{};
+    walk_particles(k.view, ray, wanted, [&](std::int32_t i, const BallPass<T>& p, M_of<T> hit) {
+        const T way = ball_integral(p.inner, p.end) - ball_integral(p.inner, p.begin);
+        tau = tau + select(hit, k.view.balls[i].depth * way, T{});
+        return hit & (tau >= k.most);
+    });
+    return tau;
+}
+
+/// Light that leaves a bin along the rays, per optical depth; `own` are its sums.
+template <class T>
+PILEUS_FN void light_of_bin(const ParticleMarchParams& k, const ParticlePhases<T>& phases,
+                            const T (&own)[kParticleSums], T (&light)[3]) {
+    const T per_depth = 1.0f / max_(own[0], all<T>(1e-30f));
+    for (int c = 0; c < 3; ++c) light[c] = k.albedo[c] * (own[c + 2] * per_depth);
+    const T shade = max_(own[1] * per_depth, T{});
+    for (int n = 0; n < k.orders; ++n) {
+        const T arrives = phases.order[n] * exp_(T{} - shade * k.thinner[n]);
+        for (int c = 0; c < 3; ++c) light[c] = light[c] + arrives * k.sun[n][c];
+    }
+}
+
+/// W pixels, a block from column x and row y on, in rows before `end`.
+template <int W, bool Exact>
+PILEUS_FN void particle_pixels(const ParticleMarchParams& k, const ParticleMarchBuffers& b,
+                               std::int32_t x, std::int32_t y, std::int32_t end) {
+    using T = F<W>;
+    const I<W> number = iota<I<W>>();
+    const I<W> column = number % kMarchAcross<W> + x, row = number / kMarchAcross<W> + y;
+    const M<W> real = (column < k.camera.width) & (row < end);
+    const std::int64_t pixels = std::int64_t(k.camera.width) * k.camera.height;
+    const Ray<T> ray = camera_ray(k.camera, to_float(column), to_float(row));
+    T most = all<T>(3e38f);
+    if (b.opaque_depth != nullptr)
+        for_block<W>(k.camera, x, y, end,
+                     [&](int l, std::int64_t pixel) { set_lane(most, l, b.opaque_depth[pixel]); });
+    ParticleRay<T> r = particle_ray(ray.origin, ray.direction, T{}, most);
+    const ParticleSegment<T> box = within_box(k.view.nodes[0], r);
+    const M<W> seen = real & (box.enter < box.leave);
+    r.from = box.enter, r.to = box.leave;
+
+    T transmittance = all<T>(1.0f), half = all<T>(__builtin_inff()), depth{}, colour[3] = {};
+    if (any(seen)) {
+        const T width =
+            select(seen, (box.leave - box.enter) * (1.0f / float(k.bins)), all<T>(1.0f));
+        const T per_width = 1.0f / width;
+        const ParticlePhases<T> phases = particle_phases(k, ray.direction);
+        float* sums = b.scratch;
+        const std::int64_t numbers = std::int64_t(k.bins) * kParticleSums * W;
+        for (std::int64_t i = 0; i < numbers; ++i) sums[i] = 0;
+        std::int32_t nearest = k.bins, farthest = -1;
+        walk_particles(k.view, r, seen, [&](std::int32_t i, const BallPass<T>& p, M<W> hit) {
+            const ParticleBall& ball = k.view.balls[i];
+            const T radius = all<T>(1.0f / ball.per_radius);
+            const auto bin = [&](T s) {
+                const T at = (p.along + s * radius - r.from) * per_width;
+                return min_(max_(to_int(select(hit, at, T{})), I<W>{}), all<I<W>>(k.bins - 1));
+            };
+            const I<W> own_first = bin(p.begin), own_last = bin(p.end);
+            const std::int32_t first = least_lane(own_first, hit);
+            const std::int32_t last = largest_lane(own_last, hit);
+            nearest = first < nearest ? first : nearest;
+            farthest = last > farthest ? last : farthest;
+            // Depth towards the sun at place s of the ray, in radii: shade + s slope.
+            T shade{}, slope{};
+            if constexpr (!Exact) {
+                const ParticleShade& sun = b.shade[i];
+                const Vec<T>& d = r.direction;
+                slope = sun.slope[0] * d.x + sun.slope[1] * d.y + sun.slope[2] * d.z;
+                const T across = sun.slope[0] * (ball.centre[0] - r.origin.x) +
+                                 sun.slope[1] * (ball.centre[1] - r.origin.y) +
+                                 sun.slope[2] * (ball.centre[2] - r.origin.z) - p.along * slope;
+                shade = sun.depth - across * ball.per_radius;
+            }
+            T start = p.begin;
+            const T weight = select(hit, all<T>(ball.depth), T{});
+            T before = ball_integral(p.inner, p.begin);
+            for (std::int32_t n = first; n <= last; ++n) {
+                const T edge = r.from + float(n + 1) * width;
+                T s = min_(max_((edge - p.along) * ball.per_radius, p.begin), p.end);
+                // A ray's first and last bin are its own, whatever rounding says of their edges.
+                s = select(own_first > n, p.begin, select(own_last <= n, p.end, s));
+                const T after = ball_integral(p.inner, s);
+                const T tau = weight * max_(after - before, T{});
+                before = after;
+                float* to = sums + std::int64_t(n) * kParticleSums * W;
+                T own[kParticleSums];
+                __builtin_memcpy(own, to, sizeof own);
+                own[0] = own[0] + tau;
+                const T middle = 0.5f * (start + s);
+                if constexpr (Exact)
+                    own[1] = own[1] + tau * (p.along + middle * radius);
+                else
+                    own[1] = own[1] + tau * (shade + middle * slope);
+                start = s;
+                if (b.sky != nullptr)
+                    for (int c = 0; c < 3; ++c)
+                        own[c + 2] =
+                            own[c + 2] + tau * b.sky[std::uint64_t(c) * b.balls + std::uint64_t(i)];
+                __builtin_memcpy(to, own, sizeof own);
+            }
+            return hit & lnot(hit);
+        });
+        for (std::int32_t n = nearest; n <= farthest; ++n) {
+            T own[kParticleSums];
+            __builtin_memcpy(own, sums + std::int64_t(n) * kParticleSums * W, sizeof own);
+            if (!any(own[0] > 0.0f)) continue;
+            depth = depth + own[0];
+            const T tau = select(transmittance >= k.cut, own[0], T{});
+            if constexpr (Exact)
+                own[1] = own[0] * shade_at(k, r, own[1] / max_(own[0], all<T>(1e-30f)), tau > 0.0f);
+            const T alpha = one_minus_exp(tau);
+            T light[3];
+            light_of_bin(k, phases, own, light);
+            const T weight = transmittance * alpha;
+            for (int c = 0; c < 3; ++c) colour[c] = colour[c] + weight * light[c];
+            const T left = transmittance * (1.0f - alpha);
+            const auto crosses = (transmittance > 0.5f) & (left <= 0.5f);
+            if (b.half_depth != nullptr && any(crosses)) {
+                const T share = log_(transmittance * 2.0f) / max_(tau, all<T>(1e-30f));
+                half = select(crosses, r.from + (float(n) + share) * width, half);
+            }
+            transmittance = left;
+            if (b.optical_depth == nullptr && !any(transmittance >= k.cut)) break;
+        }
+    }
+    for_block<W>(k.camera, x, y, end, [&](int l, std::int64_t pixel) {
+        b.transmittance[pixel] = lane(transmittance, l);
+        if (b.half_depth != nullptr) b.half_depth[pixel] = lane(half, l);
+        if (b.optical_depth != nullptr) b.optical_depth[pixel] = lane(depth, l);
+        for (int c = 0; c < 3; ++c) b.colour[c * pixels + pixel] = lane(colour[c], l);
+    });
+}
+
+template <int W>
+PILEUS_FN void particle_rows(const ParticleMarchParams& k, const ParticleMarchBuffers& b,
+                             std::uint32_t begin, std::uint32_t end) {
+    constexpr int across = kMarchAcross<W>;
+    for (std::uint32_t y = begin; y < end; y += W / across)
+        for (std::int32_t x = 0; x < k.camera.width; x += across)
+            if (k.exact != 0)
+                particle_pixels<W, true>(k, b, x, std::int32_t(y), std::int32_t(end));
+            else
+                particle_pixels<W, false>(k, b, x, std::int32_t(y), std::int32_t(end));
+}
+
+}  // namespace PILEUS_ISA
+}  // namespace pileus

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the kernels of particles read and write: a tree of boxes over balls, rays, light, pixels.
+// in: the scene's stages -> out: the layout of a launch. Lengths in metres, box-local.
+// docs/particles.md, "The method".
+#pragma once
+#include "kernels_cpu/core/camera.h"
+#include "kernels_cpu/media/phase.h"
+
+namespace pileus {
+
+/// A box about balls, in the order of a walk that takes the first child first. A leaf has
+/// skip = its own number + 1, and the balls from `first` to that of the node behind it.
+struct ParticleNode {
+    float low[3];
+    std::int32_t skip;  ///< the node after all that this one holds
+    float high[3];
+    std::int32_t first;  ///< the first ball of all that it holds
+};
+
+/// Extinction `at its centre` (1 - r^2 / R^2)^2 within the radius R.
+struct ParticleBall {
+    float centre[3];
+    float per_radius;  ///< 1 / R
+    float depth;       ///< extinction at the centre times R
+};
+
+struct ParticleView {
+    const ParticleNode*
+        nodes;  ///< and one more behind the last, whose `first` is the number of balls
+    std::int32_t node_count;
+    const ParticleBall* balls;
+};
+
+/// Optical depth from a place in each ball along one direction, to the end of all.
+struct ParticleDepthParams {
+    ParticleView view;
+    float direction[3];  ///< unit
+    float offset[3];     ///< of the place from the centre, in radii
+    float most;  ///< what is deeper is as deep as it is when the walk notices; 3e38: no bound
+};
+struct ParticleDepthBuffers {
+    float* depth;  ///< [ball]
+};
+
+constexpr int kMostParticleOrders = 8;
+/// Sums of a bin: optical depth; that times the depth towards the sun, or times the place along the
+/// ray; that times skylight.
+constexpr int kParticleSums = 5;
+
+/// Optical depth towards the sun within a ball: `depth` at its centre, and how much more a radius
+/// farther along each axis.
+struct ParticleShade {
+    float depth, slope[3];
+};
+
+struct ParticleMarchParams {
+    ParticleView view;
+    CameraParams camera;
+    std::int32_t bins;                  ///< along a ray's way through the box of all
+    std::int32_t orders;                ///< of the sun's light, 0 to kMostParticleOrders; 0: no sun
+    float sun_travel[3];                ///< unit, away from the sun
+    float sun[kMostParticleOrders][3];  ///< irradiance times albedo times the order's share
+    float thinner[kMostParticleOrders];  ///< factor on the depth towards the sun
+    PhaseParams phase;                   ///< of the first order
+    float order_g[kMostParticleOrders];  ///< of Henyey-Greenstein; from the second order on
+    float albedo[3];
+    std::int32_t exact;  ///< 1: a walk towards the sun from each bin; 0: what `shade` says
+    float most;          ///< of that walk, as ParticleDepthParams::most
+    float cut;           ///< of transmittance, below which nothing is seen
+};
+struct ParticleMarchBuffers {
+    const ParticleShade* shade;  ///< [ball]
+    const float* sky;            ///< [channel][ball]: light from around; null: none
+    std::uint64_t balls;         ///< their number
+    const float* opaque_depth;   ///< [pixel], m along the ray; null: nothing solid
+    float* transmittance;        ///< [pixel]
+    float* colour;               ///< [channel][pixel]
+    float* half_depth;           ///< [pixel], m; null: not wanted
+    float* optical_depth;        ///< [pixel]; null: not wanted
+    float* scratch;              ///< particle_scratch_floats() of one thread, aligned to 64 bytes
+};
+
+/// Most lanes of a launch.
+constexpr int kMostParticleLanes = 16;
+constexpr std::uint64_t particle_scratch_floats(std::int32_t bins) {
+    return std::uint64_t(bins) * kParticleSums * kMostParticleLanes;
+}
+
+/// A table of functions, one for each instruction set.
+struct ParticleKernels {
+    int width;
+    void (*depths)(const ParticleDepthParams&, const ParticleDepthBuffers&, std::uint32_t begin,
+                   std::uint32_t end);
+    void (*march_rows)(const ParticleMarchParams&, const ParticleMarchBuffers&, std::uint32_t begin,
+                       std::uint32_t end);
+};
+
+}  // namespace pileus

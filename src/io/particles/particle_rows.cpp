@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// See particle_rows.h.
+#include "src/io/particles/particle_rows.h"
+
+#include <algorithm>
+
+namespace pileus {
+namespace {
+
+/// A role in a row: the names that it goes by, parted by '|', and the numbers that it takes.
+struct RoleRow {
+    const char* names;
+    double least, most;
+    bool above;  ///< the least itself is out of range
+};
+
+constexpr double kMostId = 0x1p53;
+constexpr RoleRow kRoleRows[] = {
+    {"|x|px|position_x|", -kMostParticlePlace, kMostParticlePlace, false},
+    {"|y|py|position_y|", -kMostParticlePlace, kMostParticlePlace, false},
+    {"|z|pz|position_z|", -kMostParticlePlace, kMostParticlePlace, false},
+    {"|radius|pscale|", 0, kMostParticlePlace, true},
+    {"|density|extinction|", 0, 1e12, false},
+    {"|red|r|color_r|colour_r|", 0, 1, false},
+    {"|green|g|color_g|colour_g|", 0, 1, false},
+    {"|blue|b|color_b|colour_b|", 0, 1, false},
+    {"|id|", 0, kMostId, false},
+};
+
+std::string short_name(const RoleRow& role) {
+    const std::string names = role.names;
+    return names.substr(1, names.find('|', 1) - 1);
+}
+
+int role_of(std::string name) {
+    for (char& c : name)
+        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+    if (name.empty() || name.find('|') != std::string::npos) return -1;
+    for (int i = 0; i < int(sizeof kRoleRows / sizeof kRoleRows[0]); ++i)
+        if (std::string(kRoleRows[i].names).find('|' + name + '|') != std::string::npos) return i;
+    return -1;
+}
+
+std::string number_of(double v) {
+    char text[32];
+    (void)std::snprintf(text, sizeof text, "%.9g", v);
+    return text;
+}
+
+}  // namespace
+
+Status ParticleRows::fault(std::uint64_t particle, int role, double value) const {
+    const RoleRow& r = kRoleRows[role];
+    return Status::bad_input(file_ + ": particle " + std::to_string(particle) + ": " +
+                             short_name(r) + ": out of range, " + number_of(value) +
+                             ", allowed: number in " + (r.above ? "(" : "[") + number_of(r.least) +
+                             ", " + number_of(r.most) + "]");
+}
+
+Status ParticleRows::begin(const std::vector<ParticleColumn>& columns, std::uint64_t count,
+                           const ParticleReading& reading) {
+    for (std::size_t i = 0; i < columns.size(); ++i) {
+        const int role = role_of(columns[i].name);
+        if (role < 0) continue;
+        if (columns_[role].at >= 0)
+            return Status::bad_input(file_ + ": " + short_name(kRoleRows[role]) +
+                                     ": given twice, allowed: one column");
+        columns_[role].at = int(i);
+        if (columns[i].byte && role >= kRed && role <= kBlue) columns_[role].scale = 1.0 / 255;
+    }
+    for (const int axis : {kX, kY, kZ})
+        if (columns_[axis].at < 0)
+            return Status::bad_input(file_ + ": " + short_name(kRoleRows[axis]) +
+                                     ": missing, nothing, allowed: columns x, y and z");
+    radius_ = reading.radius;
+    if (columns_[kRadius].at < 0 && !(radius_ > 0))
+        return Status::bad_input(file_ +
+                                 ": radius: missing, nothing, allowed: a column radius, or the key "
+                                 "density.radius_m");
+    const int colours =
+        int(columns_[kRed].at >= 0) + int(columns_[kGreen].at >= 0) + int(columns_[kBlue].at >= 0);
+    if (colours != 0 && colours != 3)
+        return Status::bad_input(file_ + ": colour: not whole, " + std::to_string(colours) +
+                                 " columns, allowed: red, green and blue, or none");
+    if (count > reading.most)
+        return Status::limit(file_ + ": too many particles, " + std::to_string(count) +
+                             ", allowed: at most " + std::to_string(reading.most));
+    set_ = ParticleSet();
+    set_.count = count;
+    PILEUS_TRY(set_.position.resize(3 * count, "particles"));
+    PILEUS_TRY(set_.radius.resize(count, "particles"));
+    if (columns_[kDensity].at >= 0) PILEUS_TRY(set_.density.resize(count, "particles"));
+    if (colours == 3) PILEUS_TRY(set_.colour.resize(3 * count, "particles"));
+    if (columns_[kId].at >= 0) PILEUS_TRY(set_.id.resize(count, "particles"));
+    for (int a = 0; a < 3; ++a) set_.low[a] = 4 * kMostParticlePlace, set_.high[a] = -set_.low[a];
+    return Status::ok();
+}
+
+Status ParticleRows::measure(std::uint64_t particle, Span<const double> row) {
+    for (int role = 0; role < kRoles; ++role) {
+        if (columns_[role].at < 0 || (role == kRadius && radius_ > 0)) continue;
+        const RoleRow& r = kRoleRows[role];
+        const double v = number(role, row);
+        if (!(v >= r.least && v <= r.most) || (r.above && v == r.least) ||
+            (role == kId && v != double(std::uint64_t(v))))
+            return fault(particle, role, v);
+    }
+    // A radius below what floats hold would be none.
+    const double radius = radius_of(row);
+    if (!(float(radius) > 0)) return fault(particle, kRadius, radius);
+    for (int a = 0; a < 3; ++a) {
+        const double v = number(kX + a, row);
+        set_.low[a] = std::min(set_.low[a], v - radius);
+        set_.high[a] = std::max(set_.high[a], v + radius);
+    }
+    return Status::ok();
+}
+
+void ParticleRows::measured() {
+    if (set_.count == 0) set_.low = set_.high = Double3{};
+    // A whole number: places near it lose no digit by being counted from it.
+    for (int a = 0; a < 3; ++a) {
+        const double middle = 0.5 * set_.low[a] + 0.5 * set_.high[a];
+        set_.origin[a] = double(std::int64_t(middle));
+    }
+}
+
+Status ParticleRows::keep(std::uint64_t particle, Span<const double> row) {
+    const std::size_t i = std::size_t(particle);
+    for (std::size_t a = 0; a < 3; ++a)
+        set_.position.at(3 * i + a) = float(number(int(a), row) - set_.origin[int(a)]);
+    set_.radius.at(i) = float(radius_of(row));
+    if (!set_.density.empty()) set_.density.at(i) = float(number(kDensity, row));
+    for (std::size_t c = 0; c < 3 && !set_.colour.empty(); ++c)
+        set_.colour.at(3 * i + c) = float(number(kRed + int(c), row));
+    if (!set_.id.empty()) set_.id.at(i) = std::uint64_t(number(kId, row));
+    return Status::ok();
+}
+
+}  // namespace pileus

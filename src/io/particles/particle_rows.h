@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rows of numbers, by the names of their columns, as particles.
+// in: each row twice, first to measure, then to keep -> out: a ParticleSet, or one line.
+// docs/formats.md, "Particles".
+#pragma once
+#include <string>
+#include <vector>
+
+#include "src/base/span.h"
+#include "src/base/status.h"
+#include "src/io/particles/particle_file.h"
+
+namespace pileus {
+
+class ParticleRows {
+public:
+    /// `file` opens the lines of faults.
+    ParticleRows(const std::string& file, ParticleSet& set) : file_(file), set_(set) {}
+
+    /// Finds the columns; takes memory for `count` particles. No place, no radius, a name that
+    /// stands twice: kBadInput; too many: kLimit.
+    Status begin(const std::vector<ParticleColumn>& columns, std::uint64_t count,
+                 const ParticleReading& reading);
+    /// Looks at a row, so that the origin does not depend on the order of rows.
+    Status measure(std::uint64_t particle, Span<const double> row);
+    /// Between the two: the origin.
+    void measured();
+    Status keep(std::uint64_t particle, Span<const double> row);
+
+private:
+    struct Column {
+        int at = -1;  ///< -1: none
+        double scale = 1;
+    };
+    static constexpr int kRoles = 9;
+
+    Status fault(std::uint64_t particle, int role, double value) const;
+    double number(int role, Span<const double> row) const {
+        return row[std::size_t(columns_[role].at)] * columns_[role].scale;
+    }
+    double radius_of(Span<const double> row) const {
+        return columns_[kRadius].at >= 0 && radius_ == 0 ? number(kRadius, row) : radius_;
+    }
+
+    enum Role { kX, kY, kZ, kRadius, kDensity, kRed, kGreen, kBlue, kId };
+
+    const std::string& file_;
+    ParticleSet& set_;
+    Column columns_[kRoles];
+    double radius_ = 0;
+};
+
+}  // namespace pileus

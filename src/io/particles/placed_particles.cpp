@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// See placed_particles.h.
+#include "src/io/particles/placed_particles.h"
+
+#include "src/base/digest.h"
+#include "src/base/file.h"
+
+namespace pileus {
+namespace {
+
+constexpr double kMostExtinction = 1e12;
+
+/// The same number for a particle wherever it stands in its file, in [0, 2^32).
+std::uint64_t lot_of(const ParticleSet& set, std::size_t i) {
+    Digest digest;
+    if (!set.id.empty()) {
+        digest.u32(std::uint32_t(set.id[i]));
+        digest.u32(std::uint32_t(set.id[i] >> 32));
+    } else {
+        digest.floats({set.position.data() + 3 * i, 3});
+        digest.floats({set.radius.data() + i, 1});
+        if (!set.density.empty()) digest.floats({set.density.data() + i, 1});
+    }
+    // High bits of the digest alone are well mixed.
+    std::uint64_t v = digest.value();
+    v ^= v >> 32;
+    v *= 0xd6e8feb86659fd93ull;
+    return v >> 32;
+}
+
+void move(ParticleSet& set, std::size_t from, std::size_t to) {
+    for (std::size_t a = 0; a < 3; ++a) set.position[3 * to + a] = set.position[3 * from + a];
+    set.radius[to] = set.radius[from];
+    set.density[to] = set.density[from];
+    for (std::size_t c = 0; c < 3 && !set.colour.empty(); ++c)
+        set.colour[3 * to + c] = set.colour[3 * from + c];
+    if (!set.id.empty()) set.id[to] = set.id[from];
+}
+
+/// Drops particles by lot.
+void thin(double share, ParticleSet& set) {
+    const std::uint64_t below = std::uint64_t(share * 0x1p32);
+    std::size_t kept = 0;
+    for (std::size_t i = 0; i < set.count; ++i)
+        if (lot_of(set, i) < below) move(set, i, kept++);
+    set.count = kept;
+    set.position.truncate(3 * kept);
+    set.radius.truncate(kept);
+    set.density.truncate(kept);
+    if (!set.colour.empty()) set.colour.truncate(3 * kept);
+    if (!set.id.empty()) set.id.truncate(kept);
+}
+
+}  // namespace
+
+Status place_particles(const std::string& name, const ParticleSettings& s, ParticleSet& set) {
+    if (set.density.empty()) {
+        PILEUS_TRY(set.density.resize(set.count, "particles"));
+        for (float& v : set.density.span()) v = 1.0f;
+    }
+    double largest = 0;
+    for (std::size_t i = 0; i < set.count; ++i) {
+        const double own = double(set.radius[i]) * s.unit_m;
+        const double radius = own * s.radius_scale;
+        if (radius - own > largest) largest = radius - own;
+        double density = double(set.density[i]) / s.share;
+        if (s.cross_section) density /= kBallMass * radius * radius * radius;
+        if (!(float(radius) > 0) || !(radius <= kMostParticlePlace) ||
+            !(density <= kMostExtinction))
+            return Status::bad_input(name + ": particle " + std::to_string(i) +
+                                     ": radius or extinction out of range, " +
+                                     std::to_string(radius) + " m and " + std::to_string(density) +
+                                     " per m, allowed: above 0 to 1e12 m, up to 1e12 per m");
+        set.radius[i] = float(radius);
+        set.density[i] = float(density);
+    }
+    for (int a = 0; a < 3; ++a) {
+        set.origin[a] *= s.unit_m;
+        set.low[a] = set.low[a] * s.unit_m - largest;
+        set.high[a] = set.high[a] * s.unit_m + largest;
+        if (!(set.low[a] >= -kMostParticlePlace && set.high[a] <= kMostParticlePlace))
+            return Status::bad_input(
+                name + ": particles: too far out, " + std::to_string(set.low[a]) + " to " +
+                std::to_string(set.high[a]) + " m, allowed: within -1e12 to 1e12 m");
+    }
+    const float unit = float(s.unit_m);
+    if (unit != 1.0f)
+        for (float& v : set.position.span()) v *= unit;
+    if (s.share < 1) thin(s.share, set);
+    return Status::ok();
+}
+
+Status read_placed_particles(const MediumSettings& medium, const std::string& path,
+                             ParticleSet& set) {
+    const ParticleSettings& s = medium.particles;
+    ParticleReading reading;
+    reading.radius = s.radius_m / s.unit_m;
+    const std::string extension =
+        medium.format.empty() ? file_extension(path) : '.' + medium.format;
+    PILEUS_TRY(read_particles(path, extension, reading, set));
+    return place_particles(path, s, set);
+}
+
+void turn_particles_y_up(ParticleSet& set) {
+    // (x, y, z) -> (x, -z, y)
+    for (std::size_t i = 0; i < set.count; ++i) {
+        float* p = set.position.data() + 3 * i;
+        const float y = p[1];
+        p[1] = -p[2];
+        p[2] = y;
+    }
+    set.origin = {set.origin[0], -set.origin[2], set.origin[1]};
+    const Double3 low = set.low, high = set.high;
+    set.low = {low[0], -high[2], low[1]};
+    set.high = {high[0], -low[2], high[1]};
+}
+
+}  // namespace pileus

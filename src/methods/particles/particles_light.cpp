@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+// See particles_run.h. Sunlight and skylight at every particle, and the march of a picture.
+// in: an octree, lights -> out: light per particle; planes of pixels.
+// docs/particles.md, "Light", "Display".
+#include "kernels_cpu/display/march_ray.h"
+#include "platform/threads.h"
+#include "src/methods/particles/particles_run.h"
+#include "src/picture/nodes/node_grid.h"
+#include "src/world/phase/forward_share.h"
+
+namespace pileus {
+namespace {
+
+/// Particles of a piece of work.
+constexpr std::uint32_t kPiece = 4096;
+
+template <class Function>
+void for_pieces(const Context& context, std::size_t count, Function function) {
+    const std::int64_t pieces = std::int64_t((count + kPiece - 1) / kPiece);
+    parallel_for(context.threads, pieces, [&](std::int64_t piece, int) {
+        const std::uint32_t begin = std::uint32_t(piece) * kPiece;
+        const std::size_t end = std::size_t(begin) + kPiece;
+        function(begin, std::uint32_t(end < count ? end : count));
+    });
+}
+
+void light_by_sky(const Context& context, ParticlesRun& run) {
+    const std::size_t count = run.tree.balls.size();
+    const SkyNodes& nodes = run.sky_nodes;
+    const std::uint64_t node_number = node_count(nodes.grid);
+    for_pieces(context, count, [&](std::uint32_t begin, std::uint32_t end) {
+        for (std::uint32_t i = begin; i < end; ++i) {
+            float colour[3] = {};
+            const float* p = run.tree.balls[i].centre;
+            const Corners<float> at = corners(
+                node_position(nodes.grid, Vec<float>{p[0], p[1], p[2]}), nodes.grid.size, false);
+            for (int s = 0; s < nodes.sets; ++s) {
+                const float light =
+                    interpolate(nodes.light.data() + std::uint64_t(s) * node_number, at);
+                for (int c = 0; c < 3; ++c) colour[c] += light * nodes.colour[s][c];
+            }
+            for (std::size_t c = 0; c < 3; ++c) run.sky[c * count + i] = colour[c];
+        }
+    });
+}
+
+/// What scattering leaves in place of light scattered once: octaves as raymarch has them.
+Octaves octaves_of(const ParticlesRun& run) {
+    const ParticlesSettings& s = run.scene->particles;
+    const bool many = s.scattering == ParticleScattering::kOctaves;
+    return {many ? s.octaves : 1, float(s.octave_extinction), float(s.octave_share)};
+}
+
+/// Corners of a tetrahedron of unit arms.
+constexpr float kArm = 0.57735026919f;
+constexpr float kCorners[4][3] = {
+    {kArm, kArm, kArm}, {kArm, -kArm, -kArm}, {-kArm, kArm, -kArm}, {-kArm, -kArm, kArm}};
+/// Their distance from the centre, in radii.
+constexpr float kReach = 0.5f;
+
+/// The linear function through the depths at the corners, or the centre's depth alone.
+ParticleShade shade_of(const float* depths, std::size_t stride, int samples) {
+    if (samples == 1) return {depths[0], {0, 0, 0}};
+    ParticleShade shade{};
+    for (std::size_t s = 0; s < 4; ++s) {
+        const float depth = depths[s * stride];
+        shade.depth += 0.25f * depth;
+        for (int a = 0; a < 3; ++a) shade.slope[a] += 0.75f / kReach * kCorners[s][a] * depth;
+    }
+    return shade;
+}
+
+Status light_by_sun(const Context& context, ParticlesRun& run) {
+    const StageClock clock(context, "light");
+    const std::size_t count = run.tree.balls.size();
+    const int samples = light_samples(run.scene->particles);
+    PILEUS_TRY(allocate_once(arrays::particle_shades(count), run.shade));
+    Buffer<float> depths;
+    PILEUS_TRY(allocate(arrays::particle_depths(count, samples), depths));
+    ParticleDepthParams k{};
+    k.view = run.tree.view();
+    for (std::size_t a = 0; a < 3; ++a) k.direction[a] = run.lighting.to_sun[a];
+    const double most = run.scene->particles.most_depth;
+    k.most = most > 0 ? float(most) : 3e38f;
+    for_pieces(context, count, [&](std::uint32_t begin, std::uint32_t end) {
+        for (int s = 0; s < samples; ++s) {
+            ParticleDepthParams own = k;
+            for (int a = 0; a < 3 && samples > 1; ++a) own.offset[a] = kReach * kCorners[s][a];
+            const ParticleDepthBuffers b{depths.data() + std::size_t(s) * count};
+            context.kernels->particles->depths(own, b, begin, end);
+        }
+        for (std::uint32_t i = begin; i < end; ++i)
+            run.shade[i] = shade_of(depths.data() + i, count, samples);
+    });
+    return Status::ok();
+}
+
+}  // namespace
+
+void choose_orders(ParticlesRun& run) {
+    run.orders = run.lighting.sunlit ? 1 : 0;
+    if (run.orders == 0) return;
+    const ParticlesSettings& s = run.scene->particles;
+    const Optics& optics = run.world->medium.optics[0];
+    const float mean_cosine = phase_moment(optics.phase, 1);
+    double albedo = 0;
+    for (const float a : optics.albedo) albedo += double(a) / 3;
+    run.order[0] = ParticleOrder{};
+    if (s.scattering == ParticleScattering::kEffective)
+        run.order[0].extinction = float(1 - albedo * forward_share(optics.phase, 0.5 * s.cone_deg));
+    if (s.scattering == ParticleScattering::kSimilarity)
+        run.order[0].extinction = float(1 - albedo * double(mean_cosine));
+    if (s.scattering != ParticleScattering::kOctaves) return;
+    run.orders = s.octaves;
+    for (std::size_t n = 1; n < std::size_t(s.octaves); ++n) {
+        const ParticleOrder& before = run.order[n - 1];
+        const float g = n == 1 ? mean_cosine : before.g;
+        run.order[n] = {before.extinction * float(s.octave_extinction),
+                        before.share * float(s.octave_share), g * float(s.octave_anisotropy)};
+    }
+}
+
+Status light_particles(const Context& context, ParticlesRun& run) {
+    if (run.lit && run.to_sun == run.lighting.to_sun) return Status::ok();
+    choose_orders(run);
+    if (run.tree.balls.empty()) return Status::ok();
+    if (run.scene->particles.light != ParticleLight::kExact) {
+        if (run.orders > 0)
+            PILEUS_TRY(light_by_sun(context, run));
+        else
+            PILEUS_TRY(allocate_once(arrays::particle_shades(run.tree.balls.size()), run.shade));
+    }
+    if (run.scene->particles.sky_ambient) {
+        PILEUS_TRY(make_sky_nodes(context, run.world->medium, run.majorants, run.lighting, 0,
+                                  octaves_of(run), run.sky_nodes));
+        if (run.sky_nodes.sets > 0) {
+            PILEUS_TRY(allocate_once(arrays::particle_sky(run.tree.balls.size()), run.sky));
+            light_by_sky(context, run);
+        }
+    }
+    run.lit = true;
+    run.to_sun = run.lighting.to_sun;
+    return Status::ok();
+}
+
+Status show_particles(const Context& context, ParticlesRun& run) {
+    const StageClock clock(context, "march");
+    Planes& planes = run.planes;
+    if (run.tree.balls.empty()) {
+        for (float& t : planes.transmittance.span()) t = 1;
+        for (float& d : planes.half_depth.span()) d = __builtin_inff();
+        return Status::ok();
+    }
+    const ParticlesSettings& s = run.scene->particles;
+    const Optics& optics = run.world->medium.optics[0];
+    ParticleMarchParams k{};
+    k.view = run.tree.view();
+    k.camera = run.camera;
+    k.bins = s.bins;
+    k.orders = run.orders;
+    k.phase = optics.phase;
+    k.cut = float(s.stop_below);
+    k.exact = s.light == ParticleLight::kExact && run.orders > 0 ? 1 : 0;
+    k.most = s.most_depth > 0 ? float(s.most_depth) : 3e38f;
+    for (int a = 0; a < 3; ++a) {
+        k.sun_travel[a] = -run.lighting.to_sun[std::size_t(a)];
+        k.albedo[a] = optics.albedo[a];
+    }
+    float absorbed[3] = {1, 1, 1};
+    for (int n = 0; n < run.orders; ++n) {
+        const ParticleOrder& order = run.order[std::size_t(n)];
+        k.order_g[n] = order.g;
+        k.thinner[n] = order.extinction;
+        for (int c = 0; c < 3; ++c) {
+            // Each octave is scattered once more.
+            absorbed[c] *= optics.albedo[c];
+            k.sun[n][c] = float(run.lighting.sun_irradiance[c]) * absorbed[c] * order.share;
+        }
+    }
+    const std::uint64_t share = particle_scratch_floats(s.bins);
+    Buffer<float> scratch;
+    PILEUS_TRY(allocate(arrays::particle_bins(std::uint64_t(context.threads), s.bins), scratch));
+    ParticleMarchBuffers b{};
+    b.shade = run.shade.data();
+    b.sky = run.sky.data();
+    b.balls = run.tree.balls.size();
+    b.opaque_depth = planes.opaque_depth.data();
+    b.transmittance = planes.transmittance.data();
+    b.colour = planes.colour.data();
+    b.half_depth = planes.half_depth.data();
+    b.optical_depth = planes.optical_depth.data();
+    constexpr std::uint32_t kRows = 4;
+    const std::uint32_t rows = std::uint32_t(run.camera.height);
+    parallel_for(context.threads, (rows + kRows - 1) / kRows, [&](std::int64_t piece, int thread) {
+        ParticleMarchBuffers own = b;
+        own.scratch = scratch.data() + std::uint64_t(thread) * share;
+        const std::uint32_t begin = std::uint32_t(piece) * kRows;
+        context.kernels->particles->march_rows(k, own, begin,
+                                               begin + kRows < rows ? begin + kRows : rows);
+    });
+    return Status::ok();
+}
+
+}  // namespace pileus

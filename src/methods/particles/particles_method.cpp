@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// See particles_method.h.
+#include "src/methods/particles/particles_method.h"
+
+#include "src/base/digest.h"
+#include "src/io/particles/placed_particles.h"
+#include "src/methods/particles/particles_run.h"
+#include "src/picture/background.h"
+#include "src/picture/march_view.h"
+#include "src/scene/read_scene.h"
+#include "src/scene/rows/volume_format.h"
+#include "src/world/camera/view.h"
+#include "src/world/plan_parts.h"
+
+namespace pileus {
+namespace {
+
+ParticlesRun& own(MethodRun& run) { return static_cast<ParticlesRun&>(run); }
+
+std::unique_ptr<MethodRun> make() { return std::make_unique<ParticlesRun>(); }
+
+bool is_particles(const MediumSettings& medium) {
+    const VolumeFormat* format = volume_format_named(medium.format);
+    return medium.values == nullptr && format != nullptr && format->is_particles;
+}
+
+Status check(const Scene& scene, const Budget& budget) {
+    constexpr const char* kAllowed = "none";
+    if (budget.photons >= 0) return unknown_budget("--budget photons", scene.method, kAllowed);
+    if (budget.samples >= 0) return unknown_budget("--budget samples", scene.method, kAllowed);
+    if (budget.steps >= 0) return unknown_budget("--budget steps", scene.method, kAllowed);
+    if (budget.error > 0) return unknown_budget("--budget error", scene.method, kAllowed);
+    if (budget.seconds > 0) return unknown_budget("--budget seconds", scene.method, kAllowed);
+    if (!budget.state.empty())
+        return unknown_budget("--state", scene.method, "method.name = \"path\"");
+    if (scene.media.size() != 1 || !is_particles(scene.media[0]))
+        return Status::bad_input(scene.file +
+                                 ": medium: method particles shows one file of particles, " +
+                                 std::to_string(scene.media.size()) +
+                                 " media, allowed: one [[medium]] whose density is .ply or .csv");
+    const OutputSettings& output = scene.output;
+    if (output.layer_error || output.layer_light || output.layer_order)
+        return Status::bad_input(
+            scene.file +
+            ": output.layers: method particles has no noise and one kind of light, allowed: "
+            "radiance, alpha, depth, cloud, optical_depth, transmittance");
+    return Status::ok();
+}
+
+void choose_light(double sun_elevation_deg, ParticlesRun& run) {
+    Plan photons;  // speaks of photons alone
+    run.lighting = light_world(*run.scene, sun_elevation_deg, *run.world, run.around, photons);
+    choose_orders(run);
+}
+
+Status outline(const Context& context, MethodRun& method_run) {
+    ParticlesRun& run = own(method_run);
+    if (context.kernels->device != nullptr)
+        return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
+                                 "\": method particles runs on the host alone, allowed: another, "
+                                 "or another method");
+    choose_light(sun_at(*run.scene, 0), run);
+    return plan_particles(context, run);
+}
+
+/// The digest of what the kernels read.
+std::string digest_of(const ParticleTree& tree) {
+    Digest digest;
+    for (const ParticleBall& ball : tree.balls.span()) {
+        for (const float v : ball.centre) digest.f32(v);
+        digest.f32(ball.per_radius);
+        digest.f32(ball.depth);
+    }
+    return digest.hex();
+}
+
+Status prepare(const Context& context, MethodRun& method_run) {
+    ParticlesRun& run = own(method_run);
+    const Scene& scene = *run.scene;
+    choose_light(sun_at(scene, 0), run);
+    PILEUS_TRY(make_majorants(run.world->medium, false, context, run.majorants));
+    {
+        const StageClock clock(context, "octree");
+        const MediumSettings& medium = scene.media[0];
+        ParticleSet set;
+        PILEUS_TRY(read_placed_particles(medium, scene_path(scene.directory, medium.file), set));
+        if (medium.y_up) turn_particles_y_up(set);
+        const float scale = float(medium.extinction_scale);
+        for (float& v : set.density.span()) v *= scale;
+        PILEUS_TRY(
+            make_particle_tree(set, run.world->medium.low_m, scene.particles.leaf, run.tree));
+    }
+    run.particles = run.tree.balls.size();
+    run.outlined_only = false;
+    run.digests = {{"density", density_digest(*run.world)}, {"particles", digest_of(run.tree)}};
+    return plan_particles(context, run);
+}
+
+void report_the_plan(const MethodRun& method_run, const Context& context, Report& report) {
+    const ParticlesRun& run = static_cast<const ParticlesRun&>(method_run);
+    report_plan(run.plan, report);
+    report.limits.clear();
+    const auto add = [&](LimitId id, std::uint64_t needs) {
+        report.limits.push_back(limit_of(context.limits, id, needs));
+    };
+    const Scene& scene = *run.scene;
+    add(LimitId::kVoxels, voxel_count(run.world->medium.grid));
+    add(LimitId::kPixels,
+        std::uint64_t(scene.camera.resolution[0]) * std::uint64_t(scene.camera.resolution[1]));
+    add(LimitId::kFrames, scene.animation.present ? std::uint64_t(scene.animation.frames) : 1);
+    add(LimitId::kMemory, run.plan.memory.peak());
+}
+
+Status fill_background(const Context& context, ParticlesRun& run) {
+    const StageClock clock(context, "background");
+    const BackgroundParams k = background_params(make_medium_view(run.world->medium, run.majorants),
+                                                 run.camera, run.lighting);
+    const BackgroundBuffers b{nullptr, run.planes.background.data(),
+                              run.planes.opaque_depth.data()};
+    return show_background(context, run.lighting, k, b);
+}
+
+Status light(const FrameStep& step, const Context& context, MethodRun& method_run) {
+    ParticlesRun& run = own(method_run);
+    const Scene& scene = *run.scene;
+    Plan photons;
+    run.lighting = light_world(scene, sun_at(scene, step.frame), *run.world, run.around, photons);
+    run.camera = make_camera(scene.camera, orbit_at(scene, step.frame), run.world->medium.low_m);
+    PILEUS_TRY(light_particles(context, run));
+    PILEUS_TRY(allocate_planes(run.camera.width, run.camera.height, 3, run.lighting.opaque(),
+                               scene.output.layer_depth, run.planes));
+    if (scene.output.layer_optical_depth)
+        PILEUS_TRY(allocate(arrays::picture_planes(1, run.planes.transmittance.size()),
+                            run.planes.optical_depth));
+    PILEUS_TRY(fill_background(context, run));
+    return show_particles(context, run);
+}
+
+Status show(const FrameStep&, const Context& context, MethodRun& method_run, Image& image) {
+    ParticlesRun& run = own(method_run);
+    Report& report = *context.report;
+    const StageClock clock(context, "layers");
+    report.digests = run.digests;
+    report.counters.clear();
+    std::uint64_t clamped = 0;
+    Digest colours;
+    colours.floats(run.planes.colour.span());
+    PILEUS_TRY(make_layers(run.planes, run.camera.width, run.camera.height, 3, run.scene->output,
+                           image, report, clamped));
+    report.digests.emplace_back("colours", colours.hex());
+    report.counters.emplace_back("clamped_negative", clamped);
+    report.executed = {{"depth_tests", run.planes.opaque_depth.size()},
+                       {"depths_stored", run.planes.half_depth.size()}};
+    report_solids(run.world->solids, run.around.depth, report);
+    set_image_camera(run.camera, run.world->medium.low_m, image);
+    run.planes = Planes{};
+    return Status::ok();
+}
+
+void report_run(const MethodRun& method_run, Report& report) {
+    const ParticlesRun& run = static_cast<const ParticlesRun&>(method_run);
+    report.counters.emplace_back("majorant_violations", 0);  // the grid only casts shadows
+    report.executed.emplace_back("particles", run.particles);
+    report.executed.emplace_back("octree_nodes", std::uint64_t(run.tree.count()));
+    report.executed.emplace_back("octree_leaves", run.tree.leaves);
+}
+
+}  // namespace
+
+const Method& particles_method() {
+    static constexpr Method method{"particles", SkyUse::kOnGrid, make,  check, outline,
+                                   prepare,     report_the_plan, light, show,  report_run};
+    return method;
+}
+
+}  // namespace pileus

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a run of method `particles` needs and leaves out, and its memory.
+// in: ParticlesRun, outlined or prepared -> out: its plan; kLimit where something is too much.
+// docs/report.md, "Plan"; docs/particles.md
+#include "src/methods/particles/particles_run.h"
+#include "src/picture/nodes/node_grid.h"
+#include "src/world/plan_parts.h"
+
+namespace pileus {
+namespace {
+
+constexpr Stage kUnused[] = {Stage::kSamples, Stage::kTree,  Stage::kCollectors,  Stage::kLeafGrid,
+                             Stage::kPhotons, Stage::kPaths, Stage::kReconstruct, Stage::kSplat};
+
+std::uint64_t pixels_of(const Scene& scene) {
+    return std::uint64_t(scene.camera.resolution[0]) * std::uint64_t(scene.camera.resolution[1]);
+}
+
+const char* scattering_text(ParticleScattering kind) {
+    switch (kind) {
+        case ParticleScattering::kSingle:
+            break;
+        case ParticleScattering::kEffective:
+            return "forward scattering as less extinction, by a cone: approximation";
+        case ParticleScattering::kSimilarity:
+            return "forward scattering as less extinction, by the mean cosine: approximation";
+        case ParticleScattering::kOctaves:
+            return "light scattered more than once as octaves of the first: approximation";
+    }
+    return nullptr;
+}
+
+void note_plan(ParticlesRun& run) {
+    const Scene& scene = *run.scene;
+    const ParticlesSettings& s = scene.particles;
+    Plan& plan = run.plan;
+    plan = Plan{};
+    plan.bias = {"particles", "light scattered more than once is missing or approximate",
+                 "docs/particles.md"};
+    plan.need("an octree of particles");
+    plan.need("rays through particles, in bins");
+    if (run.lighting.sunlit || (scene.sun.present && scene.animation.moves_sun))
+        plan.need(scene.particles.light == ParticleLight::kExact
+                      ? "sunlight by a walk from each bin"
+                      : "sunlight at each particle");
+    else
+        plan.leave_out("sunlight",
+                       scene.sun.present ? "below the ground's horizon, or dark" : "no sun");
+    if (const char* text = scattering_text(s.scattering))
+        plan.need(text);
+    else
+        plan.leave_out("light scattered more than once", "scattering = \"single\"");
+    if (sky_node_sets(run.lighting) == 0)
+        plan.leave_out("skylight in the particles", "no sky, no ground");
+    else if (s.sky_ambient)
+        plan.need("skylight from 24 directions on coarse nodes: approximation");
+    else
+        plan.leave_out("skylight in the particles", "sky_light = \"none\"");
+    if (run.lighting.sunlit && scene.sun.angular_radius_deg > 0)
+        plan.leave_out("the sun's disc", "a point to this method: path alone knows it");
+    if (run.world->solids.meshes)
+        plan.leave_out("shadows of solids on particles", "not in this version");
+    note_solids(run.world->solids, run.around.depth, plan);
+    if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
+    if (!scene.output.layer_depth) plan.leave_out("depth of the medium", "no depth layer");
+    if (!scene.output.layer_optical_depth)
+        plan.leave_out("optical depth", "no optical_depth layer");
+    for (Stage stage : kUnused) plan.skip(stage);
+}
+
+void weigh_memory(const Context& context, ParticlesRun& run) {
+    const Scene& scene = *run.scene;
+    const OutputSettings& output = scene.output;
+    const Grid& grid = run.world->medium.grid;
+    const std::uint64_t pixels = pixels_of(scene);
+    MemoryTable t;
+    add_density_rows(grid, run.world->source, std::uint64_t(run.world->medium.count),
+                     phase_bytes(run.world->medium), std::uint64_t(context.threads),
+                     sky_map_bytes(run.around.sky_map), t);
+    add_majorant_rows(grid, run.outlined_only ? 1 : run.majorants.tracking.size(),
+                      std::uint64_t(context.threads), Stage::kWrite, t);
+    // Before the file is read its bytes bound the particles.
+    const std::uint64_t particles =
+        run.outlined_only ? run.world->source.reading_bytes / 12 : run.particles;
+    add(t, arrays::particle_balls(particles));
+    if (run.outlined_only)
+        add(t, arrays::particle_nodes(particles));
+    else
+        t.add("octree", Stage::kDensity, Stage::kWrite, run.tree.nodes.bytes());
+    // The set, its order twice.
+    t.add("particles while they are sorted", Stage::kMajorants, Stage::kMajorants,
+          bytes_of(particles, 28 + 2 * 16));
+    if (scene.particles.light != ParticleLight::kExact) {
+        add(t, arrays::particle_shades(particles));
+        add(t, arrays::particle_depths(particles, light_samples(scene.particles)));
+    }
+    if (scene.particles.sky_ambient) {
+        const std::uint64_t nodes = node_count(sky_node_grid(run.world->medium));
+        const int sets = sky_node_sets(run.lighting);
+        add(t, arrays::sky_light(nodes, sets, Stage::kWrite));
+        if (sets > 0) add(t, arrays::sky_depths(nodes));
+        if (sets > 0) add(t, arrays::particle_sky(particles));
+    }
+    const std::uint64_t shown = plane_count(3, run.lighting.opaque(), output.layer_depth) +
+                                (output.layer_optical_depth ? 1u : 0u);
+    add(t, arrays::picture_planes(shown, pixels));
+    add(t, arrays::particle_bins(std::uint64_t(context.threads), scene.particles.bins));
+    add_image_rows(std::uint64_t(scene.camera.resolution[0]),
+                   std::uint64_t(scene.camera.resolution[1]), 4 + extra_layers(output, false), t);
+    add_solid_rows(scene, context.limits, run.world->solids, run.around.depth, t);
+    run.plan.memory = t;
+    run.plan.exact = !run.outlined_only;
+}
+
+}  // namespace
+
+Status plan_particles(const Context& context, ParticlesRun& run) {
+    note_plan(run);
+    weigh_memory(context, run);
+    return check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), run.scene->file);
+}
+
+}  // namespace pileus

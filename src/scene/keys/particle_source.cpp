@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys of a file of particles: its unit, radii, what its densities mean.
+// in: checked values <-> out: fields of ParticleSettings.
+// docs/particles.md.
+#include "src/scene/keys/all_keys.h"
+
+namespace pileus {
+namespace {
+
+template <auto... Members>
+constexpr KeyField particles = field<&MediumSettings::particles, Members...>;
+
+using P = ParticleSettings;
+
+constexpr KeyRow kRows[] = {
+    {"medium.N.density.unit_m", particles<&P::unit_m>, above(0, 1e9), "m",
+     "particles: metres of the file's unit of length"},
+    {"medium.N.density.radius_m", particles<&P::radius_m>, above(0, 1e12), "m",
+     "radius of every particle; left out: the file's own", kNone},
+    {"medium.N.density.radius_scale", particles<&P::radius_scale>, above(0, 1e6), "",
+     "factor on every radius"},
+    {"medium.N.density.holds", particles<&P::cross_section>, one_of("extinction|cross-section"), "",
+     "what the file's `density` is: a particle's extinction at its centre in 1/m, or its "
+     "cross-section in "
+     "m^2, which a larger radius spreads thinner"},
+    {"medium.N.density.share", particles<&P::share>, above(0, 1), "",
+     "share of the particles that are kept, chosen by number or by their own bits; they are denser "
+     "in return"},
+};
+
+}  // namespace
+
+Span<const KeyRow> particle_keys() { return {kRows, sizeof kRows / sizeof kRows[0]}; }
+
+}  // namespace pileus

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys of method `particles`.
+// in: checked values <-> out: fields of ParticlesSettings.
+// docs/scene.md; docs/particles.md says what each does.
+#include "src/scene/keys/all_keys.h"
+
+namespace pileus {
+namespace {
+
+template <auto... Members>
+constexpr KeyField particles = field<&Scene::particles, Members...>;
+using Settings = ParticlesSettings;
+
+constexpr KeyRow kRows[] = {
+    {"particles.scattering", particles<&Settings::scattering>,
+     one_of("single|effective|similarity|octaves"), "",
+     "the sun's light scattered once; the same with less extinction towards the sun, for what the "
+     "phase function keeps within a cone, or by its mean cosine; or octaves of it"},
+    {"particles.octaves", particles<&Settings::octaves>, from_to(1, 8), "",
+     "how many, the first included"},
+    {"particles.octave_extinction", particles<&Settings::octave_extinction>, from_to(0, 1), "",
+     "factor on the extinction from one to the next"},
+    {"particles.octave_share", particles<&Settings::octave_share>, from_to(0, 1), "",
+     "factor on the light from one to the next"},
+    {"particles.octave_anisotropy", particles<&Settings::octave_anisotropy>, from_to(0, 1), "",
+     "factor on the mean cosine from one to the next"},
+    {"particles.cone_deg", particles<&Settings::cone_deg>, above(0, 360), "deg",
+     "of scattering = `effective`: angle at the cone's apex"},
+    {"particles.sky_light", particles<&Settings::sky_ambient>, one_of("none|ambient"), "",
+     "light of sky and ground in the particles: none, or from 24 directions on coarse nodes"},
+    {"particles.bins", particles<&Settings::bins>, from_to(1, 4096), "",
+     "parts of a ray's way through the box of all particles; within each, order is forgotten"},
+    {"particles.leaf", particles<&Settings::leaf>, from_to(1, 1024), "",
+     "most particles in a leaf of the octree; no pixel depends on it but by rounding"},
+    {"particles.light", particles<&Settings::light>, one_of("centre|linear|exact"), "",
+     "optical depth towards the sun: one walk from each particle's centre; four from each, linear "
+     "in between; or one from each bin of each ray"},
+    {"particles.most_depth", particles<&Settings::most_depth>, from_to(0, 1e9), "",
+     "a walk towards the sun ends where it has met this optical depth; 0: never"},
+    {"particles.stop_below", particles<&Settings::stop_below>, from_to(0, 1), "",
+     "a ray ends where less of what lies behind is seen"},
+};
+
+}  // namespace
+
+Span<const KeyRow> particles_keys() { return {kRows, sizeof kRows / sizeof kRows[0]}; }
+
+}  // namespace pileus
