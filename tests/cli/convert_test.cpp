@@ -63,6 +63,21 @@ TEST_CASE("convert: from one format to the next and back") {
     CHECK(first.output.substr(0, 16) == second.output.substr(0, 16));
 }
 
+TEST_CASE("convert: particles to a grid and back, and what a scene makes of them") {
+    const ProgramFolder folder;
+    folder.files().put("p.csv", "x,y,z,radius,density\n0,0,50,20,0.1\n10,0,60,10,0.2\n");
+    const Outcome grid = folder.run("convert p.csv p.vdb --resolution 8 8 8");
+    CHECK(grid.errors == "");
+    CHECK(holds(grid.output, "size           8 x 8 x 8\n"));
+    CHECK(holds(grid.output, "box            -20 -20 30 to 20 20 70 m\n"));
+    CHECK(holds(folder.run("convert p.vdb back.ply").output, "density = \"back.ply\"\n"));
+    CHECK(holds(folder.run("info back.ply").output, "particles, radius 7.5 to 7.5 m\n"));
+    CHECK(holds(folder.run("info p.csv").output, "particles; 2 particles, radius 10 to 20 m\n"));
+    const Outcome faulty = folder.run("convert p.csv p.ply --time 3");
+    CHECK(holds(faulty.errors, "p.csv: --time, --member: for NetCDF files, allowed: left out"));
+    CHECK(faulty.exit_status == 2);
+}
+
 TEST_CASE("convert: to NetCDF and back, the same bytes") {
     const ProgramFolder folder;
     folder.files().put("a.pbrt", kGrid);
@@ -88,7 +103,9 @@ TEST_CASE("convert: to NetCDF and back, the same bytes") {
     CHECK(holds(over.errors, "a.nc: output: is the grid that is read"));
     CHECK(folder.files().get("a.nc") == whole);
     CHECK(holds(folder.run("convert a.pbrt d.nc --time 0").errors,
-                "a.pbrt: --time, --member, --resolution: for NetCDF files, allowed: left out"));
+                "a.pbrt: --time, --member: for NetCDF files, allowed: left out"));
+    CHECK(holds(folder.run("convert a.pbrt d.nc --resolution 2 2 2").errors,
+                "a.pbrt: --resolution: for NetCDF files and particles, allowed: left out"));
     CHECK(holds(folder.run("convert a.nc d.vdb --resolution 2 2 2").errors,
                 "a.nc: resolution: not for a grid of density, allowed: left out"));
     CHECK(holds(folder.run("convert a.nc d.vdb --resolution 2 0 2").errors,
