@@ -28,12 +28,7 @@ PILEUS_FN void particle_depths(const ParticleDepthParams& k, const ParticleDepth
             set_lane(origin.z, l, ball.centre[2] + k.offset[2] * radius);
         }
         const ParticleRay<T> ray = particle_ray(origin, direction, T{}, all<T>(3e38f));
-        T tau{};
-        walk_particles(k.view, ray, real, [&](std::int32_t i, const BallPass<T>& p, M<W> hit) {
-            const T way = ball_integral(p.inner, p.end) - ball_integral(p.inner, p.begin);
-            tau = tau + select(hit, k.view.balls[i].depth * way, T{});
-            return hit & (tau >= k.most);
-        });
+        const T tau = particle_depth(k.view, ray, real, k.most);
         for (int l = 0; l < W; ++l)
             if (first + std::uint32_t(l) < end) b.depth[first + std::uint32_t(l)] = lane(tau, l);
     }

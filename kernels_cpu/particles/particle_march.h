@@ -50,13 +50,7 @@ PILEUS_FN T shade_at(const ParticleMarchParams& k, const ParticleRay<T>& r, T at
     const Vec<T> to_sun{all<T>(-k.sun_travel[0]), all<T>(-k.sun_travel[1]),
                         all<T>(-k.sun_travel[2])};
     const ParticleRay<T> ray = particle_ray(place, to_sun, T{}, all<T>(3e38f));
-    T tau{};
-    walk_particles(k.view, ray, wanted, [&](std::int32_t i, const BallPass<T>& p, M_of<T> hit) {
-        const T way = ball_integral(p.inner, p.end) - ball_integral(p.inner, p.begin);
-        tau = tau + select(hit, k.view.balls[i].depth * way, T{});
-        return hit & (tau >= k.most);
-    });
-    return tau;
+    return particle_depth(k.view, ray, wanted, k.most);
 }
 
 /// Light that leaves a bin along the rays, per optical depth; `own` are its sums.

@@ -102,5 +102,19 @@ PILEUS_FN void walk_particles(const ParticleView& v, const ParticleRay<T>& r, M_
     }
 }
 
+/// Optical depth of the rays; what is deeper than `most` is as deep as it is when that is noticed.
+/// `wanted` lanes alone.
+template <class T>
+PILEUS_FN T particle_depth(const ParticleView& v, const ParticleRay<T>& r, M_of<T> wanted,
+                           float most) {
+    T tau{};
+    walk_particles(v, r, wanted, [&](std::int32_t i, const BallPass<T>& p, M_of<T> hit) {
+        const T way = ball_integral(p.inner, p.end) - ball_integral(p.inner, p.begin);
+        tau = tau + select(hit, v.balls[i].depth * way, T{});
+        return hit & (tau >= most);
+    });
+    return tau;
+}
+
 }  // namespace PILEUS_ISA
 }  // namespace pileus

@@ -21,6 +21,17 @@ Overrides with(const std::string& method, const Overrides& more = {}) {
     return all;
 }
 
+/// The small cumulus, or for method particles what it shows.
+std::string scene_for(const std::string& method) {
+    const std::string text = kSmallCumulus;
+    if (method != "particles") return text;
+    const std::size_t from = text.find("[[medium]]"), to = text.find("[photon_grid]");
+    return text.substr(0, from) +
+           "[[medium]]\ndensity = \"assets/scenes/golden/data/puff.csv\"\n"
+           "phase = { type = \"isotropic\" }\n" +
+           text.substr(to);
+}
+
 /// Frame f of an animation of `frames`, which orbits by 60 degrees while the sun rises from -10
 /// to 40.
 void move(Hosted& host, int frame, int frames) {
@@ -35,12 +46,13 @@ void move(Hosted& host, int frame, int frames) {
 }  // namespace
 
 TEST_CASE("sessions: a still picture is the program's, in every method") {
-    for (const char* method : {"collectors", "photon-grid", "raymarch", "path", "optical-depth"}) {
+    for (const char* method :
+         {"collectors", "photon-grid", "raymarch", "path", "optical-depth", "particles"}) {
         CAPTURE(method);
-        Hosted host(kSmallCumulus, with(method));
+        Hosted host(scene_for(method), with(method));
         REQUIRE_MESSAGE(host.code == PILEUS_OK, host.out.line());
         host.step(host.whole());
-        CHECK(host.hash() == program_hashes(kSmallCumulus, with(method))[0]);
+        CHECK(host.hash() == program_hashes(scene_for(method), with(method))[0]);
     }
 }
 
@@ -48,10 +60,11 @@ TEST_CASE("sessions: frames of a moving camera and sun are those of the program'
     constexpr int kFrames = 9;
     const Overrides moves = {"animation.frames=9", "animation.camera_orbit_deg=[0,60]",
                              "animation.sun_elevation_deg=[10,40]", "raymarch.temporal=2"};
-    for (const char* method : {"collectors", "photon-grid", "raymarch", "path", "optical-depth"}) {
+    for (const char* method :
+         {"collectors", "photon-grid", "raymarch", "path", "optical-depth", "particles"}) {
         CAPTURE(method);
-        const auto expected = program_hashes(kSmallCumulus, with(method, moves), kFrames);
-        Hosted host(kSmallCumulus, with(method, {"raymarch.temporal=2"}));
+        const auto expected = program_hashes(scene_for(method), with(method, moves), kFrames);
+        Hosted host(scene_for(method), with(method, {"raymarch.temporal=2"}));
         const bool stays = std::string(method) == "collectors";
         const std::uint32_t whole = host.whole();
         for (int frame = 0; frame < kFrames; ++frame) {

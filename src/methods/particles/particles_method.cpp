@@ -157,6 +157,34 @@ Status show(const FrameStep&, const Context& context, MethodRun& method_run, Ima
     return Status::ok();
 }
 
+/// Light is made again by the next picture where what shines has changed.
+Status aim(int, bool anew, const Context&, MethodRun& method_run) {
+    ParticlesRun& run = own(method_run);
+    const Lighting before = run.lighting;
+    choose_light(run.scene->sun.elevation_deg, run);
+    const Lighting& now = run.lighting;
+    if (anew || before.sunlit != now.sunlit || before.sky != now.sky ||
+        before.sun_irradiance != now.sun_irradiance || before.ground != now.ground ||
+        before.ground_z != now.ground_z || before.ground_albedo != now.ground_albedo)
+        run.lit = false;
+    return Status::ok();
+}
+
+Status advance(std::uint64_t, const Context&, MethodRun&, std::uint64_t& done) {
+    done = 0;
+    return Status::ok();
+}
+
+LightUnits units(const MethodRun&) { return {}; }
+
+Status compose(const FrameStep& step, const Context& context, MethodRun& method_run,
+               const Planes*& planes) {
+    planes = &own(method_run).planes;
+    return light(step, context, method_run);
+}
+
+constexpr LiveMethod kLive{aim, advance, units, compose};
+
 void report_run(const MethodRun& method_run, Report& report) {
     const ParticlesRun& run = static_cast<const ParticlesRun&>(method_run);
     report.counters.emplace_back("majorant_violations", 0);  // the grid only casts shadows
@@ -169,7 +197,8 @@ void report_run(const MethodRun& method_run, Report& report) {
 
 const Method& particles_method() {
     static constexpr Method method{"particles", SkyUse::kOnGrid, make,  check, outline,
-                                   prepare,     report_the_plan, light, show,  report_run};
+                                   prepare,     report_the_plan, light, show,  report_run,
+                                   &kLive};
     return method;
 }
 
