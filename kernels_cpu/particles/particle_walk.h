@@ -49,18 +49,22 @@ struct BallPass {
     T inner;       ///< 1 - (distance from the centre)^2 in radii; above 0 within
     T begin, end;  ///< of the ray's piece within the ball
 };
+/// `along` and `inner` alone: most balls are missed.
 template <class T>
-PILEUS_FN BallPass<T> pass_ball(const ParticleBall& b, const ParticleRay<T>& r) {
+PILEUS_FN BallPass<T> near_ball(const ParticleBall& b, const ParticleRay<T>& r) {
     const Vec<T> p{b.centre[0] - r.origin.x, b.centre[1] - r.origin.y, b.centre[2] - r.origin.z};
-    BallPass<T> s;
+    BallPass<T> s{};
     s.along = dot(p, r.direction);
     const Vec<T> q{p.x - s.along * r.direction.x, p.y - s.along * r.direction.y,
                    p.z - s.along * r.direction.z};
     s.inner = 1.0f - dot(q, q) * (b.per_radius * b.per_radius);
+    return s;
+}
+template <class T>
+PILEUS_FN void pass_ball(const ParticleBall& b, const ParticleRay<T>& r, BallPass<T>& s) {
     const T half = sqrt_(max_(s.inner, T{}));
     s.begin = max_((r.from - s.along) * b.per_radius, T{} - half);
     s.end = min_((r.to - s.along) * b.per_radius, half);
-    return s;
 }
 
 /// Integral of (inner - s^2)^2 from 0 to s.
@@ -93,8 +97,11 @@ PILEUS_FN void walk_particles(const ParticleView& v, const ParticleRay<T>& r, M_
         if (n.skip != at) continue;
         const std::int32_t end = v.nodes[at].first;
         for (std::int32_t i = n.first; i < end; ++i) {
-            const BallPass<T> p = pass_ball(v.balls[i], r);
-            const auto hit = meets & (p.inner > 0.0f) & (p.begin < p.end);
+            BallPass<T> p = near_ball(v.balls[i], r);
+            auto hit = meets & (p.inner > 0.0f);
+            if (!any(hit)) continue;
+            pass_ball(v.balls[i], r, p);
+            hit = hit & (p.begin < p.end);
             if (!any(hit)) continue;
             const auto done = visit(i, p, hit);
             awake_at = select(done, all<II>(v.node_count), awake_at);
