@@ -17,7 +17,7 @@ struct ParticleNode {
     std::int32_t first;  ///< the first ball of all that it holds
 };
 
-/// Extinction `at its centre` (1 - r^2 / R^2)^2 within the radius R.
+/// Of extinction e at its centre, at distance r e (1 - r^2 / R^2)^2 within the radius R.
 struct ParticleBall {
     float centre[3];
     float per_radius;  ///< 1 / R
@@ -25,8 +25,7 @@ struct ParticleBall {
 };
 
 struct ParticleView {
-    const ParticleNode*
-        nodes;  ///< and one more behind the last, whose `first` is the number of balls
+    const ParticleNode* nodes;  ///< and one behind the last: its `first` is the number of balls
     std::int32_t node_count;
     const ParticleBall* balls;
 };

@@ -14,10 +14,12 @@ namespace {
 /// Particles of a piece of work.
 constexpr std::uint32_t kPiece = 4096;
 
+/// Thread 0 is the caller, and tells how far it is.
 template <class Function>
-void for_pieces(const Context& context, std::size_t count, Function function) {
+void for_pieces(const Context& context, const char* stage, std::size_t count, Function function) {
     const std::int64_t pieces = std::int64_t((count + kPiece - 1) / kPiece);
-    parallel_for(context.threads, pieces, [&](std::int64_t piece, int) {
+    parallel_for(context.threads, pieces, [&](std::int64_t piece, int thread) {
+        if (thread == 0) context.tell(stage, double(piece) / double(pieces));
         const std::uint32_t begin = std::uint32_t(piece) * kPiece;
         const std::size_t end = std::size_t(begin) + kPiece;
         function(begin, std::uint32_t(end < count ? end : count));
@@ -28,7 +30,7 @@ void light_by_sky(const Context& context, ParticlesRun& run) {
     const std::size_t count = run.tree.balls.size();
     const SkyNodes& nodes = run.sky_nodes;
     const std::uint64_t node_number = node_count(nodes.grid);
-    for_pieces(context, count, [&](std::uint32_t begin, std::uint32_t end) {
+    for_pieces(context, "light", count, [&](std::uint32_t begin, std::uint32_t end) {
         for (std::uint32_t i = begin; i < end; ++i) {
             float colour[3] = {};
             const float* p = run.tree.balls[i].centre;
@@ -82,7 +84,7 @@ Status light_by_sun(const Context& context, ParticlesRun& run) {
     for (std::size_t a = 0; a < 3; ++a) k.direction[a] = run.lighting.to_sun[a];
     const double most = run.scene->particles.most_depth;
     k.most = most > 0 ? float(most) : 3e38f;
-    for_pieces(context, count, [&](std::uint32_t begin, std::uint32_t end) {
+    for_pieces(context, "light", count, [&](std::uint32_t begin, std::uint32_t end) {
         for (int s = 0; s < samples; ++s) {
             ParticleDepthParams own = k;
             for (int a = 0; a < 3 && samples > 1; ++a) own.offset[a] = kReach * kCorners[s][a];
@@ -193,6 +195,7 @@ Status show_particles(const Context& context, ParticlesRun& run) {
     constexpr std::uint32_t kRows = 4;
     const std::uint32_t rows = std::uint32_t(run.camera.height);
     parallel_for(context.threads, (rows + kRows - 1) / kRows, [&](std::int64_t piece, int thread) {
+        if (thread == 0) context.tell("march", double(piece) * kRows / double(rows));
         ParticleMarchBuffers own = b;
         own.scratch = scratch.data() + std::uint64_t(thread) * share;
         const std::uint32_t begin = std::uint32_t(piece) * kRows;
