@@ -121,6 +121,13 @@ Status choose_photon_lights(std::uint64_t generations, PhotonRun& run) {
     return Status::ok();
 }
 
+Status sums_overflow(const char* key, const PhotonRun& run) {
+    const bool camera = run.deposit.mode == kDepositCamera;
+    return Status::limit(run.scene->file + ": " + key + ": " + std::to_string(run.budget_photons) +
+                         " photons could overflow the 64-bit sums; take fewer" +
+                         (camera ? ", or a closure other than \"camera\"" : ""));
+}
+
 TraceInput photon_trace_input(const Context& context, const PhotonRun& run) {
     TraceInput in;
     in.medium = &run.world->medium;

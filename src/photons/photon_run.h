@@ -59,6 +59,9 @@ Status lay_out_photons(const TraceInput& in, PhotonRun& run);
 /// where the user ended it within.
 Status shoot_generation(TraceInput in, const Context& context, PhotonRun& run);
 
+/// kLimit: the sums have no room for the photons under `key`, with what each may leave.
+Status sums_overflow(const char* key, const PhotonRun& run);
+
 /// Where deposits of the phase function look: the camera, or back along its parallel rays.
 void aim_deposit(PhotonRun& run);
 

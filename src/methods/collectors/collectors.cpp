@@ -63,10 +63,7 @@ Status plan_deposit(const Scene& scene, CollectorsRun& run) {
 
     const double largest = largest_deposit(run);
     d.places = fixed_point_places(most_deposits(run), largest);
-    if (d.places < 0)
-        return Status::limit(scene.file +
-                             ": collectors.photons: " + std::to_string(scene.collectors.photons) +
-                             " photons could overflow the 64-bit sums; take fewer");
+    if (d.places < 0) return sums_overflow("collectors.photons", run);
     run.plan.bounds = {
         deposit_bound("light in a collector", most_deposits(run), largest, d.places)};
     return Status::ok();

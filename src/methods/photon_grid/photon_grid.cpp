@@ -28,14 +28,15 @@ double largest_deposit(const PhotonGridRun& run) {
     return run.deposit.bands > 6 ? 1.1 : 1.01;
 }
 
-/// Every photon may end only with its last event; what a budget may add counts from the start, so
-/// that it changes no bit.
-double most_deposits(const PhotonGridRun& run) {
+/// Of one generation.
+double photons_of(const PhotonGridRun& run) {
     double photons = 0;
     for (const Light& l : run.lighting.lights) photons += double(l.photons);
-    const double all = photons * double(run.generations);
-    return (all > kLeastMostPhotons ? all : kLeastMostPhotons) * double(run.max_events);
+    return photons;
 }
+
+/// Every photon may end only with its last event.
+double most_deposits(const PhotonGridRun& run) { return run.most_photons * double(run.max_events); }
 
 void choose_numbers(const PhotonGridSettings& s, PhotonGridRun& run) {
     DepositPlan& d = run.deposit;
@@ -57,15 +58,19 @@ void choose_numbers(const PhotonGridSettings& s, PhotonGridRun& run) {
         run.plan.leave_out("first-order split", run.lighting.sunlit ? "switched off" : "no sun");
 }
 
-/// Decides what a collision stores, and proves that the sums hold it.
+/// Decides what a collision stores, and proves that the sums hold it. What a budget may add counts
+/// from the start, so that it changes no bit; a high peak leaves it less room.
 Status plan_deposit(const Scene& scene, PhotonGridRun& run) {
     choose_numbers(scene.photon_grid, run);
     const double largest = largest_deposit(run);
+    const double all = photons_of(run) * double(run.generations);
+    run.most_photons = all > kLeastMostPhotons ? all : kLeastMostPhotons;
     run.deposit.places = fixed_point_places(most_deposits(run), largest);
-    if (run.deposit.places < 0)
-        return Status::limit(scene.file +
-                             ": photon_grid.photons: " + std::to_string(run.budget_photons) +
-                             " photons could overflow the 64-bit sums; take fewer");
+    while (run.deposit.places < 0 && run.most_photons > all) {
+        run.most_photons = run.most_photons > 2 * all ? run.most_photons / 2 : all;
+        run.deposit.places = fixed_point_places(most_deposits(run), largest);
+    }
+    if (run.deposit.places < 0) return sums_overflow("photon_grid.photons", run);
     run.plan.bounds = {
         deposit_bound("light in a cell", most_deposits(run), largest, run.deposit.places)};
     return Status::ok();
@@ -100,9 +105,8 @@ double unit_m2(const PhotonGridRun& run) {
 
 std::uint64_t most_generations(const PhotonGridRun& run) {
     if (run.ring) return run.generations;
-    double photons = 0;
-    for (const Light& l : run.lighting.lights) photons += double(l.photons);
-    const double room = photons > 0 ? kLeastMostPhotons / photons : 1;
+    const double photons = photons_of(run);
+    const double room = photons > 0 ? run.most_photons / photons : 1;
     const std::uint64_t most = room < 1e9 ? std::uint64_t(room) : 1000000000;
     return most > run.generations ? most : run.generations;
 }

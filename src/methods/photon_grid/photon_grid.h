@@ -13,14 +13,15 @@ namespace pileus {
 /// The recipe.
 const Method& photon_grid_method();
 
-/// Photons that the sums hold at least, so that a budget or a session may go on.
+/// Photons that the sums hold where they have room, so that a budget or a session may go on.
 constexpr double kLeastMostPhotons = 0x1p26;
 
 /// Everything about one run; made by `prepare`, lit generation by generation, read by `show`.
 struct PhotonGridRun : PhotonRun {
     CellGrid cells;
     CellMajorants near;
-    Buffer<float> shares;  ///< of each medium in a cell's extinction; empty for one medium
+    Buffer<float> shares;     ///< of each medium in a cell's extinction; empty for one medium
+    double most_photons = 0;  ///< the sums hold; no fewer than the scene's
 };
 
 /// Cells of the grid that gathers: the scene's, or as many as suit its photons.

@@ -101,7 +101,7 @@ Size all_photons(const PhotonGridRun& run, const Context& context) {
 Status photon_grid_measure(const Context& context, PhotonGridRun& run) {
     const Size photons = all_photons(run, context);
     PILEUS_TRY(check_limit(context.limits, LimitId::kPhotons, photons, run.scene->file));
-    const double most = double(photons) > kLeastMostPhotons ? double(photons) : kLeastMostPhotons;
+    const double most = double(photons) > run.most_photons ? double(photons) : run.most_photons;
     bound_ledgers(most, double(run.max_events), run.plan);
     PILEUS_TRY(check_bounds(run.plan, run.scene->file, "photon_grid.photons"));
     run.plan.exact = !run.outlined_only;
