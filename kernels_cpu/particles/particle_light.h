@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Optical depth from every particle towards a light far away.
-// in: a tree, a direction -> out: a depth for each ball.
+// Optical depth from places among particles towards a light far away.
+// in: places, the balls that may lie in their way -> out: a depth for each place.
 // Monette and Whitehead 2014, 3.3; docs/particles.md, "Light".
 #pragma once
 #include "kernels_cpu/particles/particle_walk.h"
@@ -8,29 +8,48 @@
 namespace pileus {
 inline namespace PILEUS_ISA {
 
-/// Balls [begin, end). Those side by side in the tree lie side by side: their rays share a walk.
+/// Occluders between two looks at whether all places are as deep as it counts.
+constexpr std::int32_t kLookAgain = 16;
+
+/// Places [begin, end), W side by side. What a pair of place and ball adds depends on these two
+/// alone, and a ball that is missed adds 0: neither neighbours nor lanes change a bit.
 template <int W>
 PILEUS_FN void particle_depths(const ParticleDepthParams& k, const ParticleDepthBuffers& b,
                                std::uint32_t begin, std::uint32_t end) {
     using T = F<W>;
-    const Vec<T> direction{all<T>(k.direction[0]), all<T>(k.direction[1]), all<T>(k.direction[2])};
     for (std::uint32_t first = begin; first < end; first += W) {
-        Vec<T> origin{};
-        const I<W> number = iota<I<W>>();
-        const M<W> real = number < std::int32_t(end - first);
+        T u{}, v{}, w{}, tau{};
+        float nearest = -3e38f, farthest = 3e38f;
         for (int l = 0; l < W; ++l) {
             const std::uint32_t own =
                 first + std::uint32_t(l) < end ? first + std::uint32_t(l) : first;
-            const ParticleBall& ball = k.view.balls[own];
-            const float radius = 1.0f / ball.per_radius;
-            set_lane(origin.x, l, ball.centre[0] + k.offset[0] * radius);
-            set_lane(origin.y, l, ball.centre[1] + k.offset[1] * radius);
-            set_lane(origin.z, l, ball.centre[2] + k.offset[2] * radius);
+            set_lane(u, l, b.u[own]), set_lane(v, l, b.v[own]), set_lane(w, l, b.w[own]);
+            set_lane(tau, l, b.depth[own]);
+            nearest = b.w[own] > nearest ? b.w[own] : nearest;
+            farthest = b.w[own] < farthest ? b.w[own] : farthest;
         }
-        const ParticleRay<T> ray = particle_ray(origin, direction, T{}, all<T>(3e38f));
-        const T tau = particle_depth(k.view, ray, real, k.most);
+        for (std::int32_t i = 0; i < k.count; ++i) {
+            const ParticleOccluder& o = k.occluders[i];
+            if (o.back <= farthest) break;
+            const T x = u - o.u, y = v - o.v;
+            const T inner = max_(1.0f - (x * x + y * y) * o.per_square, T{});
+            if (o.front >= nearest) {
+                // All of it lies before each place.
+                tau = tau + o.whole * (inner * inner * sqrt_(inner));
+                if (i % kLookAgain == 0 && !any(tau < k.most)) break;
+                continue;
+            }
+            if (!any(inner > 0.0f)) continue;
+            const T half = sqrt_(inner);
+            const T from = min_(max_((w - o.w) * o.per_radius, T{} - half), half);
+            const T part = (o.whole * (15.0f / 16)) *
+                           max_(ball_integral(inner, half) - ball_integral(inner, from), T{});
+            const T whole = o.whole * (inner * inner * half);
+            tau = tau + select(w <= o.front, whole, select(w < o.back, part, T{}));
+        }
         for (int l = 0; l < W; ++l)
-            if (first + std::uint32_t(l) < end) b.depth[first + std::uint32_t(l)] = lane(tau, l);
+            if (first + std::uint32_t(l) < end)
+                b.depth[first + std::uint32_t(l)] = lane(min_(tau, all<T>(k.most)), l);
     }
 }
 

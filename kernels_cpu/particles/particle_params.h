@@ -30,15 +30,25 @@ struct ParticleView {
     const ParticleBall* balls;
 };
 
-/// Optical depth from a place in each ball along one direction, to the end of all.
+/// A ball that may lie between places and a light far away. u and v are across the light's
+/// direction, w grows towards the light.
+struct ParticleOccluder {
+    float u, v, w;
+    float per_square;   ///< 1 / R^2
+    float whole;        ///< depth on a ray through the centre: 16/15 of that of ParticleBall
+    float back, front;  ///< w + R and w - R
+    float per_radius;
+};
+
+/// Adds up the optical depth from places towards the light, over occluders in their order.
 struct ParticleDepthParams {
-    ParticleView view;
-    float direction[3];  ///< unit
-    float offset[3];     ///< of the place from the centre, in radii
-    float most;  ///< what is deeper is as deep as it is when the walk notices; 3e38: no bound
+    const ParticleOccluder* occluders;  ///< `back` falls
+    std::int32_t count;
+    float most;  ///< what is deeper counts as this; 3e38: no bound
 };
 struct ParticleDepthBuffers {
-    float* depth;  ///< [ball]
+    const float *u, *v, *w;  ///< [place]; any order is right, falling w is fast
+    float* depth;            ///< [place], added to
 };
 
 constexpr int kMostParticleOrders = 8;

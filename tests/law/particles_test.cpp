@@ -5,9 +5,11 @@
 #include <cmath>
 
 #include "src/io/particles/placed_particles.h"
+#include "src/methods/particles/sun_tiles.h"
 #include "src/world/particles/particle_tree.h"
 #include "tests/io/temp_folder.h"
 #include "tests/support/render_harness.h"
+#include "tests/support/sun_depth_harness.h"
 
 using namespace pileus;
 using namespace render_test;
@@ -66,14 +68,30 @@ double depth_of(const ParticleTree& tree, const float* from, const float* d) {
     return sum;
 }
 
-std::vector<float> depths_by(const KernelTable& table, const ParticleTree& tree,
-                             const ParticleDepthParams& k, std::uint32_t piece) {
+std::vector<float> depths_by(const KernelTable& table, int threads, const ParticleTree& tree,
+                             const std::array<float, 3>& direction,
+                             const std::array<float, 3>& offset, float most) {
+    Report report;
+    const Context context = sun_depth_test::context_of(&table, threads, report);
     std::vector<float> out(tree.balls.size());
-    const ParticleDepthBuffers b{out.data()};
-    const std::uint32_t count = std::uint32_t(out.size());
-    for (std::uint32_t i = 0; i < count; i += piece)
-        table.particles->depths(k, b, i, std::min(i + piece, count));
+    SunTiles tiles;
+    REQUIRE(make_sun_tiles(context, tree, direction, tiles));
+    REQUIRE(sun_depths(context, tiles, offset, most, out.data()));
     return out;
+}
+
+/// Of (depth - sum over all) / sum, the worst.
+double worst_of(const std::vector<float>& depths, const ParticleTree& tree,
+                const std::array<float, 3>& direction, const std::array<float, 3>& offset) {
+    double worst = 0;
+    for (std::size_t i = 0; i < depths.size(); ++i) {
+        const ParticleBall& b = tree.balls[i];
+        float from[3];
+        for (std::size_t a = 0; a < 3; ++a) from[a] = b.centre[a] + offset[a] * (1 / b.per_radius);
+        const double exact = depth_of(tree, from, direction.data());
+        worst = std::max(worst, std::fabs(double(depths[i]) - exact) / exact);
+    }
+    return worst;
 }
 
 const char* const kText = R"(
@@ -167,39 +185,63 @@ TEST_CASE("particles: a million in one place are one leaf, none are no tree") {
     CHECK(tree.count() == 0);
 }
 
-TEST_CASE("particles: depths by walks are the sums over all, in every width and piece") {
+TEST_CASE("particles: depths by tiles are the sums over all, in every width and thread") {
     ParticleSet set;
     make(2000, 0, set);
     ParticleTree tree;
     REQUIRE(make_particle_tree(set, set.low, 12, tree));
-    const float directions[][3] = {{0, 0, 1},  {0, 0, -1},      {1, 0, 0},
-                                   {0, -1, 0}, {0.6f, 0, 0.8f}, {0.36f, -0.48f, 0.8f}};
-    for (const auto& d : directions) {
-        ParticleDepthParams k{};
-        k.view = tree.view();
-        for (int a = 0; a < 3; ++a) k.direction[a] = d[a], k.offset[a] = 0.25f * float(a);
-        k.most = 3e38f;
-        const std::vector<float> one = depths_by(*kernel_table_at(0), tree, k, 2000);
-        double worst = 0;
-        for (std::size_t i = 0; i < one.size(); ++i) {
-            const ParticleBall& b = tree.balls[i];
-            float from[3];
-            for (int a = 0; a < 3; ++a) from[a] = b.centre[a] + k.offset[a] * (1 / b.per_radius);
-            const double exact = depth_of(tree, from, d);
-            worst = std::max(worst, std::fabs(double(one[i]) - exact) / exact);
-        }
-        CHECK(worst < 1e-5);
+    const std::array<float, 3> offset = {0, 0.25f, 0.5f};
+    for (const std::array<float, 3> d : {std::array<float, 3>{0, 0, 1},
+                                         {0, 0, -1},
+                                         {1, 0, 0},
+                                         {0, -1, 0},
+                                         {0.6f, 0, 0.8f},
+                                         {0.36f, -0.48f, 0.8f},
+                                         {1e-7f, 0, 1}}) {
+        const std::vector<float> one = depths_by(*kernel_table_at(0), 1, tree, d, offset, 3e38f);
+        CHECK(worst_of(one, tree, d, offset) < 1e-5);
         for (int t = 0; const KernelTable* table = kernel_table_at(t); ++t)
-            for (const std::uint32_t piece : {2000u, 1u, 7u})
-                CHECK(depths_by(*table, tree, k, piece) == one);
-        // What is deeper than the bound is at least as deep as that.
-        k.most = 0.5f;
-        const std::vector<float> bound = depths_by(*kernel_table_at(0), tree, k, 2000);
-        std::size_t wrong = 0;
-        for (std::size_t i = 0; i < one.size(); ++i)
-            wrong += one[i] < 0.5f ? bound[i] != one[i] : bound[i] < 0.5f;
-        CHECK(wrong == 0);
+            for (const int threads : {1, 3})
+                CHECK(depths_by(*table, threads, tree, d, offset, 3e38f) == one);
+        // What is deeper than the bound is the bound.
+        for (int t = 0; const KernelTable* table = kernel_table_at(t); ++t) {
+            const std::vector<float> bound = depths_by(*table, 2, tree, d, offset, 0.5f);
+            std::size_t wrong = 0;
+            for (std::size_t i = 0; i < one.size(); ++i)
+                wrong += bound[i] != std::min(one[i], 0.5f);
+            CHECK(wrong == 0);
+        }
     }
+}
+
+TEST_CASE("particles: depths by tiles where some balls hold all, and where all lie in one place") {
+    // Radii over three decades, so that a few balls touch every tile.
+    ParticleSet set;
+    make(3000, 0, set);
+    for (std::size_t i = 0; i < set.count; ++i)
+        set.radius[i] = i % 100 == 0 ? 200.0f : 0.2f + 0.1f * float(i % 7);
+    ParticleTree tree;
+    for (int a = 0; a < 3; ++a) set.low[a] -= 300, set.high[a] += 300;
+    REQUIRE(make_particle_tree(set, set.low, 12, tree));
+    const std::array<float, 3> d = {0.48f, 0.6f, 0.64f}, none{};
+    CHECK(worst_of(depths_by(*kernel_table_at(0), 2, tree, d, none, 3e38f), tree, d, none) < 1e-5);
+    // More than are at hand at once; the closed form of the sum: 8/15 of each.
+    const std::size_t many = 20000;
+    ParticleSet same;
+    same.count = many;
+    REQUIRE(same.position.resize(3 * many, "p"));
+    REQUIRE(same.radius.resize(many, "p"));
+    REQUIRE(same.density.resize(many, "p"));
+    for (std::size_t i = 0; i < many; ++i) same.radius[i] = 2, same.density[i] = 0.5f;
+    same.low = {-2, -2, -2};
+    same.high = {2, 2, 2};
+    REQUIRE(make_particle_tree(same, same.low, 12, tree));
+    const std::vector<float> depths = depths_by(*kernel_table_at(0), 2, tree, d, none, 3e38f);
+    std::size_t wrong = 0;
+    // Twenty thousand roundings of a float that grows.
+    for (const float depth : depths)
+        wrong += std::fabs(double(depth) / (8.0 / 15 * double(many)) - 1) > 1e-3;
+    CHECK(wrong == 0);
 }
 
 TEST_CASE("particles: a ray through a ball sees 16/15 of its depth, and no more behind it") {

@@ -5,6 +5,7 @@
 #include "kernels_cpu/display/march_ray.h"
 #include "platform/threads.h"
 #include "src/methods/particles/particles_run.h"
+#include "src/methods/particles/sun_tiles.h"
 #include "src/picture/nodes/node_grid.h"
 #include "src/world/phase/forward_share.h"
 
@@ -79,18 +80,16 @@ Status light_by_sun(const Context& context, ParticlesRun& run) {
     PILEUS_TRY(allocate_once(arrays::particle_shades(count), run.shade));
     Buffer<float> depths;
     PILEUS_TRY(allocate(arrays::particle_depths(count, samples), depths));
-    ParticleDepthParams k{};
-    k.view = run.tree.view();
-    for (std::size_t a = 0; a < 3; ++a) k.direction[a] = run.lighting.to_sun[a];
+    SunTiles tiles;
+    PILEUS_TRY(make_sun_tiles(context, run.tree, run.lighting.to_sun, tiles));
     const double most = run.scene->particles.most_depth;
-    k.most = most > 0 ? float(most) : 3e38f;
+    for (int n = 0; n < samples; ++n) {
+        std::array<float, 3> offset{};
+        for (std::size_t a = 0; a < 3 && samples > 1; ++a) offset[a] = kReach * kCorners[n][a];
+        PILEUS_TRY(sun_depths(context, tiles, offset, most > 0 ? float(most) : 3e38f,
+                              depths.data() + std::size_t(n) * count));
+    }
     for_pieces(context, "light", count, [&](std::uint32_t begin, std::uint32_t end) {
-        for (int s = 0; s < samples; ++s) {
-            ParticleDepthParams own = k;
-            for (int a = 0; a < 3 && samples > 1; ++a) own.offset[a] = kReach * kCorners[s][a];
-            const ParticleDepthBuffers b{depths.data() + std::size_t(s) * count};
-            context.kernels->particles->depths(own, b, begin, end);
-        }
         for (std::uint32_t i = begin; i < end; ++i)
             run.shade[i] = shade_of(depths.data() + i, count, samples);
     });

@@ -3,6 +3,7 @@
 // in: ParticlesRun, outlined or prepared -> out: its plan; kLimit where something is too much.
 // docs/report.md, "Plan"; docs/particles.md
 #include "src/methods/particles/particles_run.h"
+#include "src/methods/particles/sun_tiles.h"
 #include "src/picture/nodes/node_grid.h"
 #include "src/world/plan_parts.h"
 
@@ -93,6 +94,10 @@ void weigh_memory(const Context& context, ParticlesRun& run) {
     if (scene.particles.light != ParticleLight::kExact) {
         add(t, arrays::particle_shades(particles));
         add(t, arrays::particle_depths(particles, light_samples(scene.particles)));
+        add(t, arrays::tile_balls(particles));
+        add(t, arrays::tile_places(particles));
+        t.add("tiles", Stage::kShadow, Stage::kShadow,
+              bytes_of(std::uint64_t(context.threads), sun_tile_scratch_bytes()));
     }
     if (scene.particles.sky_ambient) {
         const std::uint64_t nodes = node_count(sky_node_grid(run.world->medium));

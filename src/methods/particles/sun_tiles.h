@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// Optical depth from every particle towards a light far away: particles by tiles across its
+// direction, so that a place meets those alone that may lie in its way.
+// in: a tree, a direction -> out: a depth for each ball. docs/particles.md, "Light".
+#pragma once
+#include "src/methods/methods.h"
+#include "src/world/particles/particle_tree.h"
+
+namespace pileus {
+
+/// Balls sorted into tiles for one direction. u and v are across it, w along it.
+struct SunTiles {
+    const ParticleTree* tree = nullptr;
+    double middle[3] = {}, axis[3][3] = {};  ///< u, v, w = dot(axis, place - middle)
+    float low[2] = {}, side = 1;             ///< m
+    int across[2] = {1, 1};                  ///< tiles along u and v
+    Buffer<std::uint64_t> begin;             ///< [tile] in balls, and one behind the last
+    Buffer<std::uint32_t> balls;             ///< that may lie in the way
+
+    std::uint32_t count() const { return std::uint32_t(across[0]) * std::uint32_t(across[1]); }
+};
+
+namespace arrays {
+
+/// At most; larger tiles name fewer balls twice.
+inline Array<std::uint32_t> tile_balls(std::uint64_t particles) {
+    return {"particles by tiles", bytes_of(4, particles), Stage::kShadow, Stage::kShadow};
+}
+inline Array<std::uint32_t> tile_places(std::uint64_t particles) {
+    return {"places by tiles", particles, Stage::kShadow, Stage::kShadow};
+}
+
+}  // namespace arrays
+
+/// What one thread works in, bytes.
+std::uint64_t sun_tile_scratch_bytes();
+
+/// `direction`: unit, to the light. The tree must outlive the tiles and hold a ball. kLimit: out
+/// of memory.
+Status make_sun_tiles(const Context& context, const ParticleTree& tree,
+                      const std::array<float, 3>& direction, SunTiles& tiles);
+
+/// Depth of each ball, `offset` radii from its centre on; what is deeper than `most` is `most`.
+/// Neither threads nor the width of kernels change a bit. kLimit: out of memory.
+Status sun_depths(const Context& context, SunTiles& tiles, const std::array<float, 3>& offset,
+                  float most, float* depth);
+
+}  // namespace pileus
