@@ -13,6 +13,7 @@ struct ParticleSettings {
     bool cross_section =
         false;         ///< holds = "cross-section": m^2 of a particle; else extinction, 1/m
     double share = 1;  ///< of the particles that are kept, denser in return; (0, 1]
+    bool shadows_only = false;  ///< the method shows particles; their grid is for shadows alone
 };
 
 }  // namespace pileus

@@ -26,7 +26,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const int cells : pileus::particle_cells(set))
         fuzz::require(cells >= 1 && cells <= 256, "cells are as many as allowed");
     pileus::Volume volume;
-    fuzz::require(bool(pileus::grid_particles(set, {5, 4, 3}, volume)), "particles have a grid");
+    fuzz::require(bool(pileus::grid_particles(set, {5, 4, 3}, 1, volume)), "particles have a grid");
     fuzz::check_volume(volume);
     return 0;
 }

@@ -61,7 +61,7 @@ TEST_CASE("particles on a grid: their integral is kept on any cells") {
          {std::array<int, 3>{1, 1, 1}, {40, 3, 17}, {5, 5, 5}, particle_cells(set)}) {
         CAPTURE(size[0]);
         Volume v;
-        REQUIRE(grid_particles(set, size, v));
+        REQUIRE(grid_particles(set, size, 2, v));
         // Each value is a float: 6e-8 of itself.
         CHECK(held_by(v) == doctest::Approx(held_by(set)).epsilon(1e-7));
     }
@@ -73,8 +73,8 @@ TEST_CASE("particles on a grid: another order, the same bits") {
     make(400, 50, 5, 6, 123, b);
     CHECK(particle_cells(a) == particle_cells(b));
     Volume va, vb;
-    REQUIRE(grid_particles(a, {20, 20, 20}, va));
-    REQUIRE(grid_particles(b, {20, 20, 20}, vb));
+    REQUIRE(grid_particles(a, {20, 20, 20}, 1, va));
+    REQUIRE(grid_particles(b, {20, 20, 20}, 7, vb));
     std::size_t other = 0;
     for (std::size_t i = 0; i < va.density.size(); ++i) other += va.density[i] != vb.density[i];
     CHECK(other == 0);
@@ -88,7 +88,7 @@ TEST_CASE("particles on a grid: the value in a particle is its own") {
     REQUIRE(decode_particles("p", ".csv", {text.data(), text.size()}, {}, set));
     REQUIRE(place_particles("p", {}, set));
     Volume v;
-    REQUIRE(grid_particles(set, {41, 41, 41}, v));
+    REQUIRE(grid_particles(set, {41, 41, 41}, 2, v));
     CHECK(v.bounds_m[0] == Double3(1, 2, 3));
     CHECK(v.bounds_m[1] == Double3(5, 6, 7));
     const auto at = [&](int x, int y, int z) {
@@ -105,20 +105,20 @@ TEST_CASE("particles on a grid: the value in a particle is its own") {
 TEST_CASE("particles on a grid: none, coincident ones, and ones smaller than a sample") {
     ParticleSet none;
     Volume v;
-    REQUIRE(grid_particles(none, particle_cells(none), v));
+    REQUIRE(grid_particles(none, particle_cells(none), 2, v));
     CHECK(held_by(v) == 0);
     ParticleSet same;
     std::string text = "x y z radius density\n";
     for (int i = 0; i < 1000; ++i) text += "7 7 7 1 1\n";
     REQUIRE(decode_particles("p", ".csv", {text.data(), text.size()}, {}, same));
     REQUIRE(place_particles("p", {}, same));
-    REQUIRE(grid_particles(same, particle_cells(same), v));
+    REQUIRE(grid_particles(same, particle_cells(same), 2, v));
     CHECK(held_by(v) == doctest::Approx(1000 * kBallMass).epsilon(1e-7));
     ParticleSet tiny;
     text = "x y z radius density\n0 0 0 1e-3 5\n100 100 100 1e-3 5\n";
     REQUIRE(decode_particles("p", ".csv", {text.data(), text.size()}, {}, tiny));
     REQUIRE(place_particles("p", {}, tiny));
-    REQUIRE(grid_particles(tiny, {10, 10, 10}, v));
+    REQUIRE(grid_particles(tiny, {10, 10, 10}, 2, v));
     CHECK(held_by(v) == doctest::Approx(10 * kBallMass * 1e-9).epsilon(1e-6));
     CHECK(v.density[0] > 0);
     CHECK(v.density[999] > 0);
@@ -128,7 +128,7 @@ TEST_CASE("particles on a grid and back: what each cell holds") {
     ParticleSet set, back;
     make(200, 60, 10, 3, 0, set);
     Volume v;
-    REQUIRE(grid_particles(set, {12, 9, 15}, v));
+    REQUIRE(grid_particles(set, {12, 9, 15}, 2, v));
     REQUIRE(particles_of_grid("v", v, back));
     CHECK(back.count > 100);
     CHECK(held_by(back) == doctest::Approx(held_by(v)).epsilon(1e-6));

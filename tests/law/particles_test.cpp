@@ -142,8 +142,8 @@ TEST_CASE("particles: the octree holds every ball once, in boxes that hold them 
     make(3000, 0, set);
     make(3000, 777, other);
     ParticleTree tree, again;
-    REQUIRE(make_particle_tree(set, set.low, 8, tree));
-    REQUIRE(make_particle_tree(other, other.low, 8, again));
+    REQUIRE(make_particle_tree(set, set.low, 8, 2, tree));
+    REQUIRE(make_particle_tree(other, other.low, 8, 1, again));
     REQUIRE(tree.balls.size() == 3000);
     CHECK(std::memcmp(tree.balls.data(), again.balls.data(), tree.balls.bytes()) == 0);
     CHECK(std::memcmp(tree.nodes.data(), again.nodes.data(), tree.nodes.bytes()) == 0);
@@ -178,10 +178,10 @@ TEST_CASE("particles: a million in one place are one leaf, none are no tree") {
     set.low = {-1, -1, -1};
     set.high = {1, 1, 1};
     ParticleTree tree;
-    REQUIRE(make_particle_tree(set, set.low, 8, tree));
+    REQUIRE(make_particle_tree(set, set.low, 8, 2, tree));
     CHECK(tree.leaves == 1);
     CHECK(tree.count() == 1);
-    REQUIRE(make_particle_tree({}, {}, 8, tree));
+    REQUIRE(make_particle_tree({}, {}, 8, 2, tree));
     CHECK(tree.count() == 0);
 }
 
@@ -189,7 +189,7 @@ TEST_CASE("particles: depths by tiles are the sums over all, in every width and 
     ParticleSet set;
     make(2000, 0, set);
     ParticleTree tree;
-    REQUIRE(make_particle_tree(set, set.low, 12, tree));
+    REQUIRE(make_particle_tree(set, set.low, 12, 2, tree));
     const std::array<float, 3> offset = {0, 0.25f, 0.5f};
     for (const std::array<float, 3> d : {std::array<float, 3>{0, 0, 1},
                                          {0, 0, -1},
@@ -222,7 +222,7 @@ TEST_CASE("particles: depths by tiles where some balls hold all, and where all l
         set.radius[i] = i % 100 == 0 ? 200.0f : 0.2f + 0.1f * float(i % 7);
     ParticleTree tree;
     for (int a = 0; a < 3; ++a) set.low[a] -= 300, set.high[a] += 300;
-    REQUIRE(make_particle_tree(set, set.low, 12, tree));
+    REQUIRE(make_particle_tree(set, set.low, 12, 2, tree));
     const std::array<float, 3> d = {0.48f, 0.6f, 0.64f}, none{};
     CHECK(worst_of(depths_by(*kernel_table_at(0), 2, tree, d, none, 3e38f), tree, d, none) < 1e-5);
     // More than are at hand at once; the closed form of the sum: 8/15 of each.
@@ -235,7 +235,7 @@ TEST_CASE("particles: depths by tiles where some balls hold all, and where all l
     for (std::size_t i = 0; i < many; ++i) same.radius[i] = 2, same.density[i] = 0.5f;
     same.low = {-2, -2, -2};
     same.high = {2, 2, 2};
-    REQUIRE(make_particle_tree(same, same.low, 12, tree));
+    REQUIRE(make_particle_tree(same, same.low, 12, 2, tree));
     const std::vector<float> depths = depths_by(*kernel_table_at(0), 2, tree, d, none, 3e38f);
     std::size_t wrong = 0;
     // Twenty thousand roundings of a float that grows.

@@ -4,15 +4,19 @@
 
 #include <algorithm>
 
+#include "platform/threads.h"
 #include "src/io/volumes/volume_file.h"
 
 namespace pileus {
 namespace {
 
-constexpr int kMostCells = 256;  ///< along an axis, where the scene does not say
+/// Along an axis, where the scene does not say and the method shows the particles themselves.
+constexpr int kShadowCells = 96;
 /// Samples along each axis of a cell are at most a quarter of a radius apart. Where that would be
-/// more than two, so many across the particle take their place.
-constexpr int kMostSamples = 2, kAcross = 6;
+/// more than two, places across the particle take theirs: so many, or half a cell apart.
+constexpr int kMostSamples = 2, kMostAcross = 6;
+/// Pieces of the grid for each thread.
+constexpr int kSlabs = 4;
 /// Of all particles, in quanta: nothing overflows.
 constexpr double kAllQuanta = 0x1p62;
 /// Radius of a particle that stands for a cell, over the cell's mean edge: neighbours overlap.
@@ -24,31 +28,69 @@ double mass_of(const ParticleSet& set, std::size_t i) {
     return double(set.density[i]) * r * r * r;
 }
 
+/// Places within a ball of radius 1.
+struct BallPlaces {
+    struct Place {
+        double at[3], weight;
+    };
+    Place place[kMostAcross * kMostAcross * kMostAcross];
+    int count = 0;
+    double weights = 0;
+
+    void lay(int across) {
+        for (int k = 0; k < across; ++k)
+            for (int j = 0; j < across; ++j)
+                for (int i = 0; i < across; ++i) {
+                    const double x = (2 * i + 1.0) / across - 1, y = (2 * j + 1.0) / across - 1,
+                                 z = (2 * k + 1.0) / across - 1;
+                    const double left = 1 - (x * x + y * y + z * z);
+                    if (!(left > 0)) continue;
+                    place[count++] = {{x, y, z}, left * left};
+                    weights += left * left;
+                }
+    }
+};
+
 /// One particle over the cells that it touches.
 class Stamp {
 public:
     Stamp(const std::array<int, 3>& size, const Double3& low, const double (&cell)[3])
         : size_(size), low_(low) {
         for (int a = 0; a < 3; ++a) cell_[a] = cell[a];
+        least_ = std::min(cell[0], std::min(cell[1], cell[2]));
+        for (int n = 0; n < kMostAcross; ++n) places_[n].lay(n + 1);
     }
 
-    /// Calls use(cell, weight) for places of weight; the weights' sum is returned.
-    template <class Use>
-    double over(const ParticleSet& set, std::size_t i, Use use) {
-        const double radius = double(set.radius[i]);
-        bool small = false;
-        for (int a = 0; a < 3; ++a) {
+    /// Looks at a particle; false: it touches no cell of layers [begin, end) along z.
+    bool place(const ParticleSet& set, std::size_t i, int begin, int end) {
+        radius_ = double(set.radius[i]);
+        small_ = false;
+        for (int a = 2; a >= 0; --a) {
             centre_[a] = set.origin[a] + double(set.position[3 * i + std::size_t(a)]) - low_[a];
-            const double at = centre_[a] / cell_[a], reach = radius / cell_[a];
+            const double at = centre_[a] / cell_[a], reach = radius_ / cell_[a];
             first_[a] = cell_at(at - reach, a);
             last_[a] = cell_at(at + reach, a);
-            const double samples = 4 * cell_[a] / radius;
-            small = small || samples > kMostSamples;
+            if (a == 2 && (last_[2] < begin || first_[2] >= end)) return false;
+            const double samples = 4 * cell_[a] / radius_;
+            small_ = small_ || samples > kMostSamples;
             samples_[a] = samples > 1 ? kMostSamples : 1;
         }
-        return small ? over_ball(radius, use) : over_cells(radius, use);
+        return true;
     }
-    /// Of the particle that was looked at last.
+    /// Calls use(cell, weight) for the particle's places of weight.
+    template <class Use>
+    void over(Use use) const {
+        if (small_)
+            over_ball(use);
+        else
+            over_cells(use);
+    }
+    double weights() const {
+        if (small_) return ball().weights;
+        double sum = 0;
+        over_cells([&](std::size_t, double weight) { sum += weight; });
+        return sum;
+    }
     std::size_t own_cell() const {
         return index(cell_at(centre_[0] / cell_[0], 0), cell_at(centre_[1] / cell_[1], 1),
                      cell_at(centre_[2] / cell_[2], 2));
@@ -56,36 +98,30 @@ public:
 
 private:
     template <class Use>
-    double over_cells(double radius, Use use) const {
-        double sum = 0;
+    void over_cells(Use use) const {
         for (int z = first_[2]; z <= last_[2]; ++z)
             for (int y = first_[1]; y <= last_[1]; ++y)
                 for (int x = first_[0]; x <= last_[0]; ++x) {
-                    const double weight = of_cell(x, y, z, radius);
-                    if (!(weight > 0)) continue;
-                    sum += weight;
-                    use(index(x, y, z), weight);
+                    const double weight = of_cell(x, y, z, radius_);
+                    if (weight > 0) use(index(x, y, z), weight);
                 }
-        return sum;
     }
     /// Places within the ball, each in whatever cell it lies.
     template <class Use>
-    double over_ball(double radius, Use use) const {
-        double sum = 0;
-        for (int k = 0; k < kAcross; ++k)
-            for (int j = 0; j < kAcross; ++j)
-                for (int i = 0; i < kAcross; ++i) {
-                    const double x = (2 * i + 1.0) / kAcross - 1, y = (2 * j + 1.0) / kAcross - 1,
-                                 z = (2 * k + 1.0) / kAcross - 1;
-                    const double left = 1 - (x * x + y * y + z * z);
-                    if (!(left > 0)) continue;
-                    sum += left * left;
-                    use(index(cell_at((centre_[0] + x * radius) / cell_[0], 0),
-                              cell_at((centre_[1] + y * radius) / cell_[1], 1),
-                              cell_at((centre_[2] + z * radius) / cell_[2], 2)),
-                        left * left);
-                }
-        return sum;
+    void over_ball(Use use) const {
+        const BallPlaces& ball = this->ball();
+        double over[3], at[3];
+        for (int a = 0; a < 3; ++a) over[a] = radius_ / cell_[a], at[a] = centre_[a] / cell_[a];
+        for (int n = 0; n < ball.count; ++n) {
+            const BallPlaces::Place& p = ball.place[n];
+            use(index(cell_at(at[0] + p.at[0] * over[0], 0), cell_at(at[1] + p.at[1] * over[1], 1),
+                      cell_at(at[2] + p.at[2] * over[2], 2)),
+                p.weight);
+        }
+    }
+    const BallPlaces& ball() const {
+        const double wanted = 4 * radius_ / least_;
+        return places_[wanted < kMostAcross - 1 ? int(wanted) : kMostAcross - 1];
     }
     int cell_at(double place, int axis) const {
         const int most = size_[std::size_t(axis)] - 1;
@@ -112,8 +148,10 @@ private:
 
     const std::array<int, 3> size_;
     Double3 low_;
-    double cell_[3], centre_[3] = {};
+    double cell_[3], least_ = 0, centre_[3] = {}, radius_ = 0;
     int first_[3] = {}, last_[3] = {}, samples_[3] = {};
+    bool small_ = false;
+    BallPlaces places_[kMostAcross];
 };
 
 /// Whole numbers alone have sums without an order.
@@ -126,24 +164,30 @@ double mean_radius(const ParticleSet& set) {
     return double(largest) * (double(sum) / 0x1p32 / double(set.count));
 }
 
+std::array<int, 3> cells_of(const MediumSettings& medium, const ParticleSet& set) {
+    if (medium.resolution[0] > 0) return medium.resolution;
+    return medium.particles.shadows_only ? particle_cells(set, kShadowCells) : particle_cells(set);
+}
+
 }  // namespace
 
-std::array<int, 3> particle_cells(const ParticleSet& set) {
+std::array<int, 3> particle_cells(const ParticleSet& set, int most) {
     if (set.count == 0) return {1, 1, 1};
     const double edge = 0.5 * mean_radius(set);
     double longest = 0;
     for (int a = 0; a < 3; ++a) longest = std::max(longest, set.high[a] - set.low[a]);
-    const double cell = std::max(edge, longest / kMostCells);
+    const double cell = std::max(edge, longest / most);
     std::array<int, 3> size{1, 1, 1};
     for (int a = 0; a < 3; ++a) {
         const double cells = (set.high[a] - set.low[a]) / cell;
         const int whole = int(cells);
-        size[std::size_t(a)] = std::max(1, std::min(kMostCells, whole + (whole < cells ? 1 : 0)));
+        size[std::size_t(a)] = std::max(1, std::min(most, whole + (whole < cells ? 1 : 0)));
     }
     return size;
 }
 
-Status grid_particles(const ParticleSet& set, const std::array<int, 3>& size, Volume& volume) {
+Status grid_particles(const ParticleSet& set, const std::array<int, 3>& size, int threads,
+                      Volume& volume) {
     PILEUS_TRY(check_volume_size("resolution", {size[0], size[1], size[2]}));
     volume = Volume();
     volume.size = size;
@@ -164,20 +208,30 @@ Status grid_particles(const ParticleSet& set, const std::array<int, 3>& size, Vo
     Buffer<std::int64_t> sums;
     PILEUS_TRY(sums.resize(cells, "sums of particles"));
     const double quantum = largest * double(set.count) / kAllQuanta;
-    Stamp stamp(size, set.low, cell);
-    for (std::size_t i = 0; i < set.count; ++i) {
-        const std::int64_t all = std::int64_t(mass_of(set, i) / quantum);
-        const double weights = stamp.over(set, i, [](std::size_t, double) {});
-        std::int64_t left = all;
-        if (weights > 0)
-            stamp.over(set, i, [&](std::size_t at, double weight) {
-                const std::int64_t part = std::int64_t(double(all) * (weight / weights));
-                sums[at] += part;
-                left -= part;
-            });
-        // What rounding leaves.
-        sums[stamp.own_cell()] += left;
-    }
+    const int slabs = std::min(size[2], threads > 1 ? kSlabs * threads : 1);
+    const std::size_t layer = std::size_t(size[0]) * std::size_t(size[1]);
+    parallel_for(threads, slabs, [&](std::int64_t slab, int) {
+        const int low = int(size[2] * slab / slabs), high = int(size[2] * (slab + 1) / slabs);
+        const std::size_t first = layer * std::size_t(low), end = layer * std::size_t(high);
+        const auto add = [&](std::size_t at, std::int64_t part) {
+            if (at >= first && at < end) sums[at] += part;
+        };
+        Stamp stamp(size, set.low, cell);
+        for (std::size_t i = 0; i < set.count; ++i) {
+            if (!stamp.place(set, i, low, high)) continue;
+            const std::int64_t all = std::int64_t(mass_of(set, i) / quantum);
+            const double weights = stamp.weights();
+            std::int64_t left = all;
+            if (weights > 0)
+                stamp.over([&](std::size_t at, double weight) {
+                    const std::int64_t part = std::int64_t(double(all) * (weight / weights));
+                    add(at, part);
+                    left -= part;
+                });
+            // What rounding leaves.
+            add(stamp.own_cell(), left);
+        }
+    });
     const double per_cell = quantum * kBallMass / (cell[0] * cell[1] * cell[2]);
     for (std::size_t i = 0; i < cells; ++i)
         volume.density[i] = float(std::min(double(sums[i]) * per_cell, 3e38));
@@ -219,18 +273,18 @@ Status particles_of_grid(const std::string& name, const Volume& volume, Particle
     return Status::ok();
 }
 
-Status read_particle_volume(const MediumSettings& medium, const std::string& path, Volume& volume) {
+Status read_particle_volume(const MediumSettings& medium, const std::string& path, int threads,
+                            Volume& volume) {
     ParticleSet set;
     PILEUS_TRY(read_placed_particles(medium, path, set));
-    return grid_particles(set, medium.resolution[0] > 0 ? medium.resolution : particle_cells(set),
-                          volume);
+    return grid_particles(set, cells_of(medium, set), threads, volume);
 }
 
 Status read_particle_head(const MediumSettings& medium, const std::string& path, VolumeHead& head) {
     ParticleSet set;
     PILEUS_TRY(read_placed_particles(medium, path, set));
     head = VolumeHead();
-    head.size = medium.resolution[0] > 0 ? medium.resolution : particle_cells(set);
+    head.size = cells_of(medium, set);
     PILEUS_TRY(check_volume_size(path, {head.size[0], head.size[1], head.size[2]}));
     head.knows_bounds = true;
     head.bounds_m = {set.low, set.high};

@@ -8,19 +8,21 @@
 
 namespace pileus {
 
-/// Cells along each axis where a scene leaves them out: about two to a mean radius, at most 256.
-std::array<int, 3> particle_cells(const ParticleSet& set);
+/// Cells along each axis where a scene leaves them out: about two to a mean radius, at most `most`.
+std::array<int, 3> particle_cells(const ParticleSet& set, int most = 256);
 
 /// Extinction, 1/m, of placed particles on cells of their box: each keeps its integral to rounding,
 /// and neither their order nor a thread counts. kLimit: out of memory.
-Status grid_particles(const ParticleSet& set, const std::array<int, 3>& size, Volume& volume);
+Status grid_particles(const ParticleSet& set, const std::array<int, 3>& size, int threads,
+                      Volume& volume);
 
 /// A particle for each cell that is not empty, in the order of cells; each holds what its cell
 /// does: radius 1.5 times the cell's mean edge. kBadInput: a volume that does not know its place.
 Status particles_of_grid(const std::string& name, const Volume& volume, ParticleSet& set);
 
 /// A file, as `medium` says. Errors: those of read_placed_particles; kLimit: cells.
-Status read_particle_volume(const MediumSettings& medium, const std::string& path, Volume& volume);
+Status read_particle_volume(const MediumSettings& medium, const std::string& path, int threads,
+                            Volume& volume);
 Status read_particle_head(const MediumSettings& medium, const std::string& path, VolumeHead& head);
 Status write_particle_volume(const MediumSettings& medium, const std::string& path,
                              const Volume& volume);

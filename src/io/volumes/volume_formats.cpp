@@ -52,6 +52,10 @@ Status write_netcdf(const MediumSettings&, const std::string& path, const Volume
     return write_netcdf_volume(path, volume);
 }
 
+Status read_particles(const MediumSettings& medium, const std::string& path, Volume& volume) {
+    return read_particle_volume(medium, path, 1, volume);
+}
+
 // One row for a format: name, title, extensions; in extinction, several grids, weather, particles,
 // bare numbers; reader, reader of the head, writer.
 constexpr VolumeFormat kFormats[] = {
@@ -71,9 +75,9 @@ constexpr VolumeFormat kFormats[] = {
      read_weather_head, write_netcdf},
     {"grib", "GRIB", ".grib|.grib2|.grb|.grb2", true, false, true, false, false,
      read_weather_volume, read_weather_head, nullptr},
-    {"ply", "PLY particles", ".ply", true, false, false, true, false, read_particle_volume,
+    {"ply", "PLY particles", ".ply", true, false, false, true, false, read_particles,
      read_particle_head, write_particle_volume},
-    {"csv", "particles as text", ".csv", true, false, false, true, false, read_particle_volume,
+    {"csv", "particles as text", ".csv", true, false, false, true, false, read_particles,
      read_particle_head, nullptr},
 };
 

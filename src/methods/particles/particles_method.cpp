@@ -79,17 +79,21 @@ Status prepare(const Context& context, MethodRun& method_run) {
     const Scene& scene = *run.scene;
     choose_light(sun_at(scene, 0), run);
     PILEUS_TRY(make_majorants(run.world->medium, false, context, run.majorants));
+    ParticleSet set;
     {
-        const StageClock clock(context, "octree");
+        const StageClock clock(context, "particles");
         const MediumSettings& medium = scene.media[0];
-        ParticleSet set;
         PILEUS_TRY(read_placed_particles(medium, scene_path(scene.directory, medium.file), set));
         if (medium.y_up) turn_particles_y_up(set);
         const float scale = float(medium.extinction_scale);
         for (float& v : set.density.span()) v *= scale;
-        PILEUS_TRY(
-            make_particle_tree(set, run.world->medium.low_m, scene.particles.leaf, run.tree));
     }
+    {
+        const StageClock clock(context, "octree");
+        PILEUS_TRY(make_particle_tree(set, run.world->medium.low_m, scene.particles.leaf,
+                                      context.threads, run.tree));
+    }
+    set = ParticleSet();
     run.particles = run.tree.balls.size();
     run.outlined_only = false;
     run.digests = {{"density", density_digest(*run.world)}, {"particles", digest_of(run.tree)}};

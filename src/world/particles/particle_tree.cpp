@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "platform/threads.h"
+
 namespace pileus {
 namespace {
 
@@ -28,8 +30,13 @@ std::uint64_t spread(std::uint64_t v) {
 
 class Builder {
 public:
-    Builder(const ParticleSet& set, const Double3& low, int most_in_leaf, ParticleTree& tree)
-        : set_(set), low_(low), most_in_leaf_(std::uint32_t(most_in_leaf)), tree_(tree) {}
+    Builder(const ParticleSet& set, const Double3& low, int most_in_leaf, int threads,
+            ParticleTree& tree)
+        : set_(set),
+          low_(low),
+          threads_(threads),
+          most_in_leaf_(std::uint32_t(most_in_leaf)),
+          tree_(tree) {}
 
     Status build() {
         PILEUS_TRY(items_.resize(set_.count, "order of particles"));
@@ -39,7 +46,7 @@ public:
         sort_equal_codes();
         other_ = Buffer<Item>();
         PILEUS_TRY(allocate(arrays::particle_balls(set_.count), tree_.balls));
-        for (std::size_t i = 0; i < set_.count; ++i) tree_.balls[i] = ball_of(items_[i].number);
+        for_all([&](std::size_t i) { tree_.balls[i] = ball_of(items_[i].number); });
         PILEUS_TRY(count_nodes());
         make_boxes();
         return Status::ok();
@@ -55,12 +62,23 @@ private:
                 1.0f / radius,
                 set_.density[i] * radius};
     }
+    template <class Function>
+    void for_all(Function function) const {
+        constexpr std::size_t kPiece = 0x10000;
+        const std::size_t count = std::size_t(set_.count);
+        parallel_for(threads_, std::int64_t((count + kPiece - 1) / kPiece),
+                     [&](std::int64_t piece, int) {
+                         const std::size_t begin = std::size_t(piece) * kPiece;
+                         const std::size_t end = std::min(begin + kPiece, count);
+                         for (std::size_t i = begin; i < end; ++i) function(i);
+                     });
+    }
     void set_codes() {
         double side = 0;
         for (int a = 0; a < 3; ++a) side = std::max(side, set_.high[a] - set_.low[a]);
         constexpr double kCells = 1 << kParticleLevels;
         const double scale = side > 0 ? kCells / side : 0;
-        for (std::size_t i = 0; i < set_.count; ++i) {
+        for_all([&](std::size_t i) {
             std::uint64_t code = 0;
             for (int a = 0; a < 3; ++a) {
                 const double at = (place(i, a) + (low_[a] - set_.low[a])) * scale;
@@ -68,7 +86,7 @@ private:
                 code |= spread(std::uint64_t(cell)) << a;
             }
             items_[i] = {code, std::uint32_t(i)};
-        }
+        });
     }
     /// Digit by digit, the lowest first; each pass keeps the order of the one before.
     void sort_by_code() {
@@ -206,6 +224,7 @@ private:
 
     const ParticleSet& set_;
     Double3 low_;
+    int threads_;
     std::uint32_t most_in_leaf_;
     ParticleTree& tree_;
     Buffer<Item> items_, other_;
@@ -213,14 +232,14 @@ private:
 
 }  // namespace
 
-Status make_particle_tree(const ParticleSet& set, const Double3& low, int most_in_leaf,
+Status make_particle_tree(const ParticleSet& set, const Double3& low, int most_in_leaf, int threads,
                           ParticleTree& tree) {
     tree = ParticleTree();
     if (set.count > kMostTreeParticles)
         return Status::limit("particles: " + std::to_string(set.count) + ", allowed: at most " +
                              std::to_string(kMostTreeParticles));
     if (set.count == 0) return tree.nodes.resize(1, arrays::particle_nodes(0).name);
-    return Builder(set, low, most_in_leaf, tree).build();
+    return Builder(set, low, most_in_leaf, threads, tree).build();
 }
 
 }  // namespace pileus

@@ -40,7 +40,7 @@ inline Array<ParticleNode> particle_nodes(std::uint64_t particles) {
 /// Particles by their centres into leaves of at most `most_in_leaf`, but for those that the last
 /// level does not part; boxes hold their balls whole. Metres are counted from `low`. Neither the
 /// order of the particles nor a thread changes a bit. kLimit: out of memory, or too many.
-Status make_particle_tree(const ParticleSet& set, const Double3& low, int most_in_leaf,
+Status make_particle_tree(const ParticleSet& set, const Double3& low, int most_in_leaf, int threads,
                           ParticleTree& tree);
 
 }  // namespace pileus
