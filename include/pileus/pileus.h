@@ -127,13 +127,27 @@ typedef struct pileus_plan {
 PILEUS_API pileus_code pileus_plan_scene(const pileus_scene* scene, const pileus_host* host,
                                          pileus_plan* plan, pileus_error* error);
 
+/** Particles from memory. Strides are the bytes from one particle to the next. Their unit, and what
+ * `density` means, is what the scene says of its file of particles (docs/particles.md). */
+typedef struct pileus_particles {
+    uint32_t struct_size;
+    uint32_t position_stride, radius_stride, density_stride, id_stride;
+    uint64_t count;
+    const float* position; /**< x, y, z of each; -1e12 to 1e12 */
+    const float* radius;   /**< above 0, to 1e12; null where the scene has radius_m */
+    const float* density;  /**< 0 to 1e12; null: 1 */
+    const uint64_t* id;    /**< up to 2^53, for density.share; null: none */
+} pileus_particles;
+
 /** Densities from memory instead of the scene's file: values[(z*size[1] + y)*size[0] + x], the
- * scene's medium number `medium` fills its bounds_m with them. Copied. */
+ * scene's medium number `medium` fills its bounds_m with them; or `particles`, where that medium is
+ * a file of particles, which need not exist. Copied. */
 typedef struct pileus_density {
     uint32_t struct_size;
     uint32_t medium;
     uint32_t size[3];
-    const float* values; /**< finite, not negative */
+    const float* values;               /**< finite, not negative */
+    const pileus_particles* particles; /**< not null: `size` and `values` do not count */
 } pileus_density;
 
 /** Loads or makes the media and solids. `host` may be null. The scene may be freed afterwards.

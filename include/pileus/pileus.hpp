@@ -105,11 +105,23 @@ public:
                                 const std::vector<Density>& densities = {}) {
         auto lent = std::make_shared<const detail::Lent>(host);
         std::vector<pileus_density> given;
+        std::vector<pileus_particles> particles;
+        particles.reserve(densities.size());
         for (const Density& density : densities) {
             given.push_back(detail::cleared<pileus_density>());
             given.back().medium = density.medium;
             detail::store(density.size, given.back().size);
             given.back().values = density.values;
+            if (const Particles* p = density.particles) {
+                particles.push_back(detail::cleared<pileus_particles>());
+                pileus_particles& own = particles.back();
+                own.count = p->count;
+                own.position = p->position, own.position_stride = p->position_stride;
+                own.radius = p->radius, own.radius_stride = p->radius_stride;
+                own.density = p->density, own.density_stride = p->density_stride;
+                own.id = p->id, own.id_stride = p->id_stride;
+                given.back().particles = &own;
+            }
         }
         pileus_world* handle = nullptr;
         Status status = detail::status_of([&](pileus_error* error) {

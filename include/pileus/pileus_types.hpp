@@ -21,12 +21,26 @@ struct Plan {
     glm::dvec3 low_m{0}, high_m{0};  ///< corners of the media's box
 };
 
+/// Particles from memory; strides are the bytes from one to the next. Their unit, and what
+/// `density` means, is what the scene says of its file of particles.
+struct Particles {
+    std::uint64_t count = 0;
+    const float* position = nullptr;    ///< x, y, z of each; -1e12 to 1e12
+    const float* radius = nullptr;      ///< above 0, to 1e12; null where the scene has radius_m
+    const float* density = nullptr;     ///< 0 to 1e12; null: 1
+    const std::uint64_t* id = nullptr;  ///< up to 2^53, for density.share; null: none
+    std::uint32_t position_stride = 3 * sizeof(float), radius_stride = sizeof(float);
+    std::uint32_t density_stride = sizeof(float), id_stride = sizeof(std::uint64_t);
+};
+
 /// Densities from memory instead of a scene's: values[(z * size.y + y) * size.x + x] fill the
-/// bounds_m of medium number `medium`. Copied.
+/// bounds_m of medium number `medium`; or `particles`, where that medium is a file of particles,
+/// which need not exist. Copied.
 struct Density {
     std::uint32_t medium = 0;
-    glm::uvec3 size{0};             ///< 1 to 4096 each
-    const float* values = nullptr;  ///< finite, not negative
+    glm::uvec3 size{0};                    ///< 1 to 4096 each
+    const float* values = nullptr;         ///< finite, not negative
+    const Particles* particles = nullptr;  ///< not null: `size` and `values` do not count
 };
 
 /// A perspective or, where height_m > 0, an orthographic camera.

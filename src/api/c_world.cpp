@@ -2,6 +2,7 @@
 // pileus.h: scenes, plans and worlds.
 #include "src/api/c_types.h"
 #include "src/scene/read_scene.h"
+#include "src/scene/rows/volume_format.h"
 
 namespace pileus::api {
 namespace {
@@ -33,12 +34,44 @@ pileus_code make_scene(const char* const* overrides, std::uint32_t count, pileus
     });
 }
 
-Status take_density(const pileus_density& given, std::uint32_t at, Scene& scene) {
+/// `host` must outlive the scene.
+Status take_particles(const pileus_density& density, const std::string& where,
+                      MediumSettings& medium, HostParticles& host) {
+    pileus_particles given;
+    if (!take(density.particles, given)) return no_struct("particles");
+    const VolumeFormat* format = volume_format_named(medium.format);
+    if (format == nullptr || !format->is_particles)
+        return Status::bad_input(where +
+                                 "the scene's medium is no file of particles, allowed: "
+                                 "density = \"host.ply\"");
+    if (given.count > 0 && given.position == nullptr)
+        return Status::bad_input(where + "position: null, allowed: x, y, z of each particle");
+    host.count = given.count;
+    host.position = given.position, host.position_stride = given.position_stride;
+    host.radius = given.radius, host.radius_stride = given.radius_stride;
+    host.density = given.density, host.density_stride = given.density_stride;
+    host.id = given.id, host.id_stride = given.id_stride;
+    const auto stride = [&](const char* name, bool used, std::size_t bytes, std::size_t least) {
+        if (!used || bytes >= least || given.count < 2) return Status::ok();
+        return Status::bad_input(where + name + "_stride: " + std::to_string(bytes) +
+                                 ", allowed: at least " + std::to_string(least));
+    };
+    PILEUS_TRY(stride("position", true, host.position_stride, 3 * sizeof(float)));
+    PILEUS_TRY(stride("radius", host.radius != nullptr, host.radius_stride, sizeof(float)));
+    PILEUS_TRY(stride("density", host.density != nullptr, host.density_stride, sizeof(float)));
+    PILEUS_TRY(stride("id", host.id != nullptr, host.id_stride, sizeof(std::uint64_t)));
+    medium.particles.host = &host;
+    return Status::ok();
+}
+
+Status take_density(const pileus_density& given, std::uint32_t at, HostParticles& host,
+                    Scene& scene) {
     const std::string where = "densities[" + std::to_string(at) + "]: ";
     if (given.medium >= scene.media.size())
         return Status::bad_input(where + "no medium " + std::to_string(given.medium) +
                                  ", allowed: below " + std::to_string(scene.media.size()));
     MediumSettings& medium = scene.media[given.medium];
+    if (given.particles != nullptr) return take_particles(given, where, medium, host);
     std::uint64_t cells = 1;
     for (const std::uint32_t n : given.size) {
         if (n < 1 || n > 4096)
@@ -66,7 +99,9 @@ Status take_density(const pileus_density& given, std::uint32_t at, Scene& scene)
 std::uint64_t bytes_of_world(const World& world) {
     std::uint64_t bytes = world.medium.volume.density.bytes() + world.medium.parts.bytes() +
                           phase_bytes(world.medium) + world.solids.nodes.bytes() +
-                          world.solids.triangles.bytes() + world.solids.albedo.bytes();
+                          world.solids.triangles.bytes() + world.solids.albedo.bytes() +
+                          world.particles.position.bytes() + world.particles.radius.bytes() +
+                          world.particles.density.bytes();
     for (const NoiseTexture* noise : {&world.layer.perlin, &world.layer.worley})
         bytes += noise->words.bytes();
     return bytes;
@@ -134,6 +169,7 @@ pileus_code pileus_world_create(const pileus_scene* scene, const pileus_host* ho
         if (density_count > 0 && densities == nullptr)
             return Status::bad_input("densities: null, allowed: as many as density_count says");
         Scene own = scene->scene;
+        std::vector<HostParticles> hosts(density_count);
         for (std::uint32_t i = 0; i < density_count; ++i) {
             // The array's elements lie as far apart as the caller's header says.
             const auto* bytes = reinterpret_cast<const unsigned char*>(densities);
@@ -142,7 +178,7 @@ pileus_code pileus_world_create(const pileus_scene* scene, const pileus_host* ho
             pileus_density given;
             if (!take(at, given) || given.struct_size != densities->struct_size)
                 return no_struct("densities");
-            PILEUS_TRY(take_density(given, i, own));
+            PILEUS_TRY(take_density(given, i, hosts[i], own));
         }
         const auto held = std::make_shared<HeldWorld>();
         held->host = parts;

@@ -12,7 +12,7 @@ Status open_run(const Method& method, const Scene& scene, const Budget& budget,
     std::shared_ptr<World> own;
     if (world == nullptr) {
         own = std::make_shared<World>();
-        PILEUS_TRY(outline_world(scene, method.sky, context, *own));
+        PILEUS_TRY(outline_world(scene, method.world, context, *own));
         world = own;
     }
     run.world = std::move(world);

@@ -74,7 +74,7 @@ struct LiveMethod {
 /// scene and the context outlive the run.
 struct Method {
     const char* name;  ///< of a view: as `--show` names it
-    SkyUse sky;        ///< what it asks of its world
+    WorldUse world;    ///< what it asks of its world
     std::unique_ptr<MethodRun> (*make)();
     /// kBadInput: a budget that the method does not know, or a scene that it cannot render.
     Status (*check)(const Scene&, const Budget&);

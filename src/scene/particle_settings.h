@@ -3,8 +3,20 @@
 // in: keys of medium.density -> out: plain values.
 // docs/particles.md, "Data".
 #pragma once
+#include <cstddef>
+#include <cstdint>
 
 namespace pileus {
+
+struct ParticleSet;
+
+/// Particles in a host's memory; strides in bytes. None of `density`: 1; none of `id`: none.
+struct HostParticles {
+    std::uint64_t count = 0;
+    const float *position = nullptr, *radius = nullptr, *density = nullptr;
+    const std::uint64_t* id = nullptr;
+    std::size_t position_stride = 0, radius_stride = 0, density_stride = 0, id_stride = 0;
+};
 
 struct ParticleSettings {
     double unit_m = 1;        ///< metres per unit of the file; > 0
@@ -13,7 +25,9 @@ struct ParticleSettings {
     bool cross_section =
         false;         ///< holds = "cross-section": m^2 of a particle; else extinction, 1/m
     double share = 1;  ///< of the particles that are kept, denser in return; (0, 1]
-    bool shadows_only = false;  ///< the method shows particles; their grid is for shadows alone
+    const HostParticles* host = nullptr;  ///< instead of the file
+    const ParticleSet* placed = nullptr;  ///< what is read already; the grid is for shadows alone
+    bool shadows_only = false;            ///< the same while the medium is outlined
 };
 
 }  // namespace pileus

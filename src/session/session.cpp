@@ -51,7 +51,7 @@ Status make_world(const Scene& scene, const RenderOptions& options,
     PILEUS_TRY(make_context(scene, options, context, report));
     PILEUS_TRY(find_method(scene, method));
     const auto made = std::make_shared<World>();
-    PILEUS_TRY(outline_world(scene, method->sky, context, *made));
+    PILEUS_TRY(outline_world(scene, method->world, context, *made));
     // Sessions weigh all they need; here it is the grid, of which each medium has its part.
     const std::uint64_t media = made->direct_sky ? 0 : std::uint64_t(scene.media.size());
     PILEUS_TRY(check_limit(context.limits, LimitId::kMemory,
@@ -86,9 +86,15 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
         return Status::bad_input(
             fmt::format("{}: medium: {} media, allowed: {}, as the world was made of", scene.file,
                         scene.media.size(), world->media));
-    if (world != nullptr && world->direct_sky && method_->sky != SkyUse::kInPlace)
+    if (world != nullptr && world->direct_sky && method_->world != WorldUse::kSkyInPlace)
         return Status::bad_input(scene_.file + ": method.name: \"" + scene_.method +
                                  "\" needs the sky on a grid, allowed: a world made for it");
+    if (world != nullptr && world->shows_particles != (method_->world == WorldUse::kParticles))
+        return Status::bad_input(
+            scene_.file + ": method.name: \"" + scene_.method +
+            (world->shows_particles
+                 ? "\" needs the particles on a grid, allowed: a world made for it"
+                 : "\" needs the particles, allowed: a world made for it"));
     run_ = method_->make();
     PILEUS_TRY(
         open_run(*method_, scene_, budget_of(options), context_, exact, std::move(world), *run_));

@@ -4,8 +4,10 @@
 
 #include "src/base/digest.h"
 #include "src/base/file.h"
+#include "src/io/particles/placed_particles.h"
 #include "src/plan/scene_limits.h"
 #include "src/scene/read_scene.h"
+#include "src/scene/rows/volume_format.h"
 #include "src/world/medium/mix_media.h"
 #include "src/world/medium/sky_medium.h"
 
@@ -41,6 +43,36 @@ Status load_medium_of(const Scene& scene, const Context& context, World& world) 
     return Status::ok();
 }
 
+/// One medium, and that of particles.
+bool is_particles(const Scene& scene) {
+    if (scene.media.size() != 1 || scene.media[0].values != nullptr) return false;
+    const VolumeFormat* format = volume_format_named(scene.media[0].format);
+    return format != nullptr && format->is_particles;
+}
+
+/// Reads the particles once, for the method and for the grid that casts their shadows.
+Status load_particles_of(const Scene& scene, const Context& context, World& world) {
+    Scene own = scene;
+    MediumSettings& medium = own.media[0];
+    const MediumSettings& settings = scene.media[0];
+    {
+        const StageClock clock(context, "particles");
+        PILEUS_TRY(
+            at_key(scene, medium_key(scene, settings) + ".density",
+                   read_placed_particles(settings, scene_path(scene.directory, settings.file),
+                                         world.particles)));
+    }
+    medium.particles.shadows_only = true;
+    medium.particles.placed = &world.particles;
+    PILEUS_TRY(load_medium_of(own, context, world));
+    if (settings.y_up) turn_particles_y_up(world.particles);
+    const float scale = float(settings.extinction_scale);
+    for (float& v : world.particles.density.span()) v *= scale;
+    world.particles.colour = Buffer<float>();
+    world.particles.id = Buffer<std::uint64_t>();
+    return Status::ok();
+}
+
 /// Lights, and with them the plan, depend on the map's colours, so that it is read at once.
 Status read_sky_map(const Scene& scene, const Context& context, SkyMap& map) {
     if (scene.sky.map.empty()) return Status::ok();
@@ -55,16 +87,23 @@ Status read_sky_map(const Scene& scene, const Context& context, SkyMap& map) {
 
 }  // namespace
 
-Status outline_world(const Scene& scene, SkyUse use, const Context& context, World& world) {
+Status outline_world(const Scene& scene, WorldUse use, const Context& context, World& world) {
     PILEUS_TRY(check_scene_limits(scene, context.limits));
     PILEUS_TRY(outline_solids(scene, context, world.solids));
     world.media = scene.media.size();
-    world.direct_sky = use == SkyUse::kInPlace && is_direct_sky(scene);
-    return outline_medium_of(scene, context, world);
+    world.direct_sky = use == WorldUse::kSkyInPlace && is_direct_sky(scene);
+    world.shows_particles = use == WorldUse::kParticles && is_particles(scene);
+    if (!world.shows_particles) return outline_medium_of(scene, context, world);
+    Scene own = scene;
+    for (MediumSettings& m : own.media) m.particles.shadows_only = true;
+    return outline_medium_of(own, context, world);
 }
 
 Status load_world(const Scene& scene, const Context& context, World& world) {
-    PILEUS_TRY(load_medium_of(scene, context, world));
+    if (world.shows_particles)
+        PILEUS_TRY(load_particles_of(scene, context, world));
+    else
+        PILEUS_TRY(load_medium_of(scene, context, world));
     return load_solids(scene, world.medium.low_m, context, world.solids);
 }
 

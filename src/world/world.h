@@ -3,6 +3,7 @@
 // in: a checked scene -> out: World, from sizes alone or with its values.
 // docs/architecture.md, "One way through".
 #pragma once
+#include "src/io/particles/particles.h"
 #include "src/run/context.h"
 #include "src/world/density/sky_field.h"
 #include "src/world/light/lights.h"
@@ -14,7 +15,7 @@
 namespace pileus {
 
 /// Made once, then read only and shared; depends on neither camera nor light, and of methods only
-/// on whether they evaluate a procedural sky in place.
+/// on what they ask of it, WorldUse.
 struct World {
     std::size_t media = 0;  ///< of the scene that it was made of
     Medium medium;          ///< all media on one grid; a voxel of nothing for a scene without any
@@ -23,6 +24,8 @@ struct World {
     bool direct_sky = false;  ///< the medium is `layer`, evaluated in place
     SkyField layer;
     Solids solids;
+    bool shows_particles = false;  ///< its medium's grid is for shadows alone
+    ParticleSet particles;         ///< of such a world: metres as the grid's, extinction in 1/m
 };
 
 /// What is seen of a world through one camera and under one sky: each run has its own.
@@ -31,12 +34,13 @@ struct Surroundings {
     CameraDepth depth;
 };
 
-/// Whether a method evaluates a procedural sky in place, or has every medium on a grid.
-enum class SkyUse { kOnGrid, kInPlace };
+/// What a method asks of its world: every medium on a grid, a procedural sky evaluated in place, or
+/// particles themselves.
+enum class WorldUse { kGrid, kSkyInPlace, kParticles };
 
 /// What the scene's sizes tell, reading no values of media: limits, places, solids.
 /// Errors: kLimit: a limit; kBadInput, kIo: a file that is missing or wrong.
-Status outline_world(const Scene& scene, SkyUse use, const Context& context, World& world);
+Status outline_world(const Scene& scene, WorldUse use, const Context& context, World& world);
 
 /// Reads or makes all values of an outlined world. Errors: those of the readers; kLimit: memory.
 Status load_world(const Scene& scene, const Context& context, World& world);

@@ -203,6 +203,10 @@ void check_particles(const Fixture& f) {
     REQUIRE(method.light(FrameStep{}, f.context, run));
     Bytes held = held_by(run, run.majorants);
     held["particles"] = run.tree.balls.bytes();
+    const ParticleSet& set = run.world->particles;
+    CHECK(set.colour.empty());
+    held["particles as they are read"] =
+        set.position.bytes() + set.radius.bytes() + set.density.bytes();
     held["octree"] = run.tree.nodes.bytes();
     held["particles' depths towards the sun"] = run.shade.bytes();
     held["particles' skylight"] = run.sky.bytes();

@@ -2,8 +2,11 @@
 // See placed_particles.h.
 #include "src/io/particles/placed_particles.h"
 
+#include <cstring>
+
 #include "src/base/digest.h"
 #include "src/base/file.h"
+#include "src/io/particles/particle_rows.h"
 
 namespace pileus {
 namespace {
@@ -51,6 +54,17 @@ void thin(double share, ParticleSet& set) {
     if (!set.id.empty()) set.id.truncate(kept);
 }
 
+template <class T>
+const unsigned char* at(const T* first, std::uint64_t i, std::size_t stride) {
+    return reinterpret_cast<const unsigned char*>(first) + i * stride;
+}
+template <class T>
+T one(const T* first, std::uint64_t i, std::size_t stride) {
+    T value;
+    std::memcpy(&value, at(first, i, stride), sizeof value);
+    return value;
+}
+
 }  // namespace
 
 Status place_particles(const std::string& name, const ParticleSettings& s, ParticleSet& set) {
@@ -90,11 +104,48 @@ Status place_particles(const std::string& name, const ParticleSettings& s, Parti
     return Status::ok();
 }
 
+Status read_host_particles(const HostParticles& host, const ParticleReading& reading,
+                           ParticleSet& set) {
+    set = ParticleSet();
+    const std::string name = "particles";
+    std::vector<ParticleColumn> columns = {{"x"}, {"y"}, {"z"}};
+    if (host.radius != nullptr) columns.push_back({"radius"});
+    if (host.density != nullptr) columns.push_back({"density"});
+    if (host.id != nullptr) columns.push_back({"id"});
+    ParticleRows rows(name, set);
+    PILEUS_TRY(rows.begin(columns, host.count, reading));
+    double row[6];
+    const Span<const double> numbers{row, columns.size()};
+    const auto look = [&](std::uint64_t i) {
+        float position[3];
+        std::memcpy(position, at(host.position, i, host.position_stride), sizeof position);
+        std::size_t to = 0;
+        for (const float v : position) row[to++] = double(v);
+        if (host.radius != nullptr) row[to++] = double(one(host.radius, i, host.radius_stride));
+        if (host.density != nullptr) row[to++] = double(one(host.density, i, host.density_stride));
+        if (host.id != nullptr) row[to++] = double(one(host.id, i, host.id_stride));
+    };
+    for (std::uint64_t i = 0; i < host.count; ++i) {
+        look(i);
+        PILEUS_TRY(rows.measure(i, numbers));
+    }
+    rows.measured();
+    for (std::uint64_t i = 0; i < host.count; ++i) {
+        look(i);
+        PILEUS_TRY(rows.keep(i, numbers));
+    }
+    return Status::ok();
+}
+
 Status read_placed_particles(const MediumSettings& medium, const std::string& path,
                              ParticleSet& set) {
     const ParticleSettings& s = medium.particles;
     ParticleReading reading;
     reading.radius = s.radius_m / s.unit_m;
+    if (s.host != nullptr) {
+        PILEUS_TRY(read_host_particles(*s.host, reading, set));
+        return place_particles("particles", s, set);
+    }
     const std::string extension =
         medium.format.empty() ? file_extension(path) : '.' + medium.format;
     PILEUS_TRY(read_particles(path, extension, reading, set));

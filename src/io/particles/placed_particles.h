@@ -20,6 +20,10 @@ constexpr double kBallMass = 32.0 * 3.14159265358979323846 / 105.0;
 Status read_placed_particles(const MediumSettings& medium, const std::string& path,
                              ParticleSet& set);
 
+/// Particles of a host, in its unit; kBadInput names the one that is out of range.
+Status read_host_particles(const HostParticles& host, const ParticleReading& reading,
+                           ParticleSet& set);
+
 /// The same of particles in the file's unit.
 Status place_particles(const std::string& name, const ParticleSettings& settings, ParticleSet& set);
 

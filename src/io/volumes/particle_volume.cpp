@@ -275,6 +275,8 @@ Status particles_of_grid(const std::string& name, const Volume& volume, Particle
 
 Status read_particle_volume(const MediumSettings& medium, const std::string& path, int threads,
                             Volume& volume) {
+    if (const ParticleSet* placed = medium.particles.placed)
+        return grid_particles(*placed, cells_of(medium, *placed), threads, volume);
     ParticleSet set;
     PILEUS_TRY(read_placed_particles(medium, path, set));
     return grid_particles(set, cells_of(medium, set), threads, volume);

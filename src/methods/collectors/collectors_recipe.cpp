@@ -94,7 +94,7 @@ Status compose(const FrameStep&, const Context& context, MethodRun& method_run,
 
 const Method& collectors_method() {
     static constexpr LiveMethod live{aim, advance, units, compose};
-    static constexpr Method method{"collectors", SkyUse::kOnGrid, make, check,  outline, prepare,
+    static constexpr Method method{"collectors", WorldUse::kGrid, make, check,  outline, prepare,
                                    report_plan,  light,           show, report, &live};
     return method;
 }

@@ -40,7 +40,7 @@ Status outline(const Context& context, MethodRun& method_run) {
 
 const Method& optical_depth_method() {
     static constexpr Method method{
-        "optical-depth",   SkyUse::kOnGrid, make,       check,        outline,    march_prepare,
+        "optical-depth",   WorldUse::kGrid, make,       check,        outline,    march_prepare,
         march_report_plan, march_light,     march_show, march_report, &live_march};
     return method;
 }

@@ -79,21 +79,12 @@ Status prepare(const Context& context, MethodRun& method_run) {
     const Scene& scene = *run.scene;
     choose_light(sun_at(scene, 0), run);
     PILEUS_TRY(make_majorants(run.world->medium, false, context, run.majorants));
-    ParticleSet set;
-    {
-        const StageClock clock(context, "particles");
-        const MediumSettings& medium = scene.media[0];
-        PILEUS_TRY(read_placed_particles(medium, scene_path(scene.directory, medium.file), set));
-        if (medium.y_up) turn_particles_y_up(set);
-        const float scale = float(medium.extinction_scale);
-        for (float& v : set.density.span()) v *= scale;
-    }
     {
         const StageClock clock(context, "octree");
+        const ParticleSet& set = run.world->particles;
         PILEUS_TRY(make_particle_tree(set, run.world->medium.low_m, scene.particles.leaf,
                                       context.threads, run.tree));
     }
-    set = ParticleSet();
     run.particles = run.tree.balls.size();
     run.outlined_only = false;
     run.digests = {{"density", density_digest(*run.world)}, {"particles", digest_of(run.tree)}};
@@ -200,8 +191,8 @@ void report_run(const MethodRun& method_run, Report& report) {
 }  // namespace
 
 const Method& particles_method() {
-    static constexpr Method method{"particles", SkyUse::kOnGrid, make,  check, outline,
-                                   prepare,     report_the_plan, light, show,  report_run,
+    static constexpr Method method{"particles", WorldUse::kParticles, make,  check, outline,
+                                   prepare,     report_the_plan,      light, show,  report_run,
                                    &kLive};
     return method;
 }

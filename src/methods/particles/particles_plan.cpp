@@ -88,9 +88,12 @@ void weigh_memory(const Context& context, ParticlesRun& run) {
         add(t, arrays::particle_nodes(particles));
     else
         t.add("octree", Stage::kDensity, Stage::kWrite, run.tree.nodes.bytes());
-    // The set, its order twice.
+    // Places, radii, densities; while they are read, colours and numbers too; their order twice.
+    t.add("particles as they are read", Stage::kDensity, Stage::kWrite, bytes_of(particles, 20));
+    t.add("colours and numbers of particles", Stage::kDensity, Stage::kDensity,
+          bytes_of(particles, 20));
     t.add("particles while they are sorted", Stage::kMajorants, Stage::kMajorants,
-          bytes_of(particles, 28 + 2 * 16));
+          bytes_of(particles, 2 * 16));
     if (scene.particles.light != ParticleLight::kExact) {
         add(t, arrays::particle_shades(particles));
         add(t, arrays::particle_depths(particles, light_samples(scene.particles)));

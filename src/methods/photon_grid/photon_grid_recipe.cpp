@@ -105,7 +105,7 @@ Status outline_slices(const Context& context, MethodRun& run) {
 
 template <GridSlices kWhat>
 constexpr Method slices(const char* name) {
-    return {name,  SkyUse::kOnGrid,    make,   check,   outline_slices, prepare, report_plan,
+    return {name,  WorldUse::kGrid,    make,   check,   outline_slices, prepare, report_plan,
             light, show_slices<kWhat>, report, nullptr, false};
 }
 
@@ -181,7 +181,7 @@ const Method* photon_grid_views(int& count) {
 
 const Method& photon_grid_method() {
     static constexpr LiveMethod live{aim, advance, units, compose};
-    static constexpr Method method{"photon-grid", SkyUse::kOnGrid, make, check,  outline, prepare,
+    static constexpr Method method{"photon-grid", WorldUse::kGrid, make, check,  outline, prepare,
                                    report_plan,   light,           show, report, &live};
     return method;
 }

@@ -46,7 +46,7 @@ Status outline(const Context& context, MethodRun& method_run) {
 
 const Method& raymarch_method() {
     static constexpr Method method{
-        "raymarch",        SkyUse::kInPlace, make,       check,        outline,    march_prepare,
+        "raymarch",        WorldUse::kSkyInPlace, make,       check,        outline,    march_prepare,
         march_report_plan, march_light,      march_show, march_report, &live_march};
     return method;
 }

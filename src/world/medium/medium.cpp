@@ -36,13 +36,6 @@ Status copy_values(const MediumSettings& settings, Volume& volume) {
     return Status::ok();
 }
 
-/// A method that shows particles asks little of their grid.
-MediumSettings for_method(const Scene& scene, const MediumSettings& settings) {
-    MediumSettings own = settings;
-    own.particles.shadows_only = scene.method == "particles";
-    return own;
-}
-
 Status load_density(const Scene& scene, const MediumSettings& settings, int threads,
                     const KernelTable* kernels, SkyField* sky, Volume& volume) {
     if (settings.values != nullptr) return copy_values(settings, volume);
@@ -54,9 +47,8 @@ Status load_density(const Scene& scene, const MediumSettings& settings, int thre
     const VolumeFormat* format = volume_format_named(settings.format);
     const bool particles = format != nullptr && format->is_particles;
     PILEUS_TRY(at_key(scene, density_key(scene, settings),
-                      particles
-                          ? read_particle_volume(for_method(scene, settings), path, threads, volume)
-                          : read_volume(settings, path, volume)));
+                      particles ? read_particle_volume(settings, path, threads, volume)
+                                : read_volume(settings, path, volume)));
     if (settings.y_up) PILEUS_TRY(permute_y_up(volume));
     return Status::ok();
 }
@@ -123,6 +115,13 @@ void outline_shape(const DensityRow& row, const MediumSettings& settings, Volume
 Status outline_file(const Scene& scene, const MediumSettings& settings, const Limits& limits,
                     VolumeHead& head, MediumSource& source) {
     const std::string path = scene_path(scene.directory, settings.file);
+    if (settings.particles.host != nullptr) {
+        PILEUS_TRY(
+            at_key(scene, density_key(scene, settings), read_volume_head(settings, path, head)));
+        source.reading_bytes = head.unpacked_bytes;
+        if (settings.y_up) turn_y_up(head.size, head.bounds_m);
+        return Status::ok();
+    }
     const bool raw = settings.raw_size[0] > 0;
     if (raw) PILEUS_TRY(check_voxels(scene.file, settings.raw_size, limits));
     InputFile file;
@@ -132,7 +131,7 @@ Status outline_file(const Scene& scene, const MediumSettings& settings, const Li
     // Bare numbers pass through in pieces of 65536; every other form is held whole.
     constexpr std::uint64_t kPieceBytes = 65536 * sizeof(float);
     source.reading_bytes = raw ? kPieceBytes : file.size();
-    PILEUS_TRY(at_key(scene, key, read_volume_head(for_method(scene, settings), path, head)));
+    PILEUS_TRY(at_key(scene, key, read_volume_head(settings, path, head)));
     if (head.in_pieces) source.reading_bytes = 0;
     source.reading_bytes += head.unpacked_bytes;
     if (settings.y_up) turn_y_up(head.size, head.bounds_m);

@@ -45,7 +45,7 @@ void report(const MethodRun& run, Report& out) { collectors_view_report(own(run)
 
 template <View kView>
 constexpr Method recipe(const char* name) {
-    return {name,        SkyUse::kOnGrid, make<kView>, check,  outline, prepare,
+    return {name,        WorldUse::kGrid, make<kView>, check,  outline, prepare,
             report_plan, light,           show,        report, nullptr, view_is_light(kView)};
 }
 
