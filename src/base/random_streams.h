@@ -21,7 +21,8 @@ namespace pileus {
     ROW(kVerifyStream, 33, "light paths that verify a picture")       \
     ROW(kVerifiedStream, 34, "the pixels that they are for")          \
     ROW(kBubbleStream, 0x63756d75, "bubbles of a procedural cumulus") \
-    ROW(kDetailStream, 0x6e6f6973, "detail on a procedural cumulus")
+    ROW(kDetailStream, 0x6e6f6973, "detail on a procedural cumulus")  \
+    ROW(kPlumeStream, 0x706c756d, "particles of a procedural plume")
 
 enum RandomStream : std::uint32_t {
 #define PILEUS_ROW(name, number, use) name = number,

@@ -23,8 +23,9 @@ struct ParticleSettings {
     double radius_m = 0;      ///< of every particle; 0: the file's own
     double radius_scale = 1;  ///< on each radius; > 0
     bool cross_section =
-        false;         ///< holds = "cross-section": m^2 of a particle; else extinction, 1/m
-    double share = 1;  ///< of the particles that are kept, denser in return; (0, 1]
+        false;  ///< holds = "cross-section": m^2 of a particle; else extinction, 1/m
+    std::int64_t count = 100000;  ///< of a recipe
+    double share = 1;             ///< of the particles that are kept, denser in return; (0, 1]
     const HostParticles* host = nullptr;  ///< instead of the file
     const ParticleSet* placed = nullptr;  ///< what is read already; the grid is for shadows alone
     bool shadows_only = false;            ///< the same while the medium is outlined

@@ -7,6 +7,7 @@
 #include "src/io/particles/placed_particles.h"
 #include "src/plan/scene_limits.h"
 #include "src/scene/read_scene.h"
+#include "src/scene/rows/density_row.h"
 #include "src/scene/rows/volume_format.h"
 #include "src/world/medium/mix_media.h"
 #include "src/world/medium/sky_medium.h"
@@ -43,31 +44,28 @@ Status load_medium_of(const Scene& scene, const Context& context, World& world) 
     return Status::ok();
 }
 
-/// One medium, and that of particles.
-bool is_particles(const Scene& scene) {
-    if (scene.media.size() != 1 || scene.media[0].values != nullptr) return false;
-    const VolumeFormat* format = volume_format_named(scene.media[0].format);
-    return format != nullptr && format->is_particles;
-}
-
-/// Reads the particles once, for the method and for the grid that casts their shadows.
+/// Reads or makes the particles once, for the method and for the grid that casts their shadows.
 Status load_particles_of(const Scene& scene, const Context& context, World& world) {
     Scene own = scene;
     MediumSettings& medium = own.media[0];
     const MediumSettings& settings = scene.media[0];
+    const DensityRow* row = density_row(settings.density);
     {
         const StageClock clock(context, "particles");
+        const std::string key = medium_key(scene, settings) + ".density";
         PILEUS_TRY(
-            at_key(scene, medium_key(scene, settings) + ".density",
-                   read_placed_particles(settings, scene_path(scene.directory, settings.file),
-                                         world.particles)));
+            at_key(scene, key,
+                   row != nullptr
+                       ? row->make_particles(settings, context.threads, world.particles)
+                       : read_placed_particles(settings, scene_path(scene.directory, settings.file),
+                                               world.particles)));
     }
     medium.particles.shadows_only = true;
     medium.particles.placed = &world.particles;
     PILEUS_TRY(load_medium_of(own, context, world));
     if (settings.y_up) turn_particles_y_up(world.particles);
-    const float scale = float(settings.extinction_scale);
-    for (float& v : world.particles.density.span()) v *= scale;
+    const double scale = row != nullptr ? settings.extinction_per_m : settings.extinction_scale;
+    for (float& v : world.particles.density.span()) v = float(double(v) * scale);
     world.particles.colour = Buffer<float>();
     world.particles.id = Buffer<std::uint64_t>();
     return Status::ok();
@@ -87,12 +85,20 @@ Status read_sky_map(const Scene& scene, const Context& context, SkyMap& map) {
 
 }  // namespace
 
+bool shows_particles(const Scene& scene) {
+    if (scene.media.size() != 1 || scene.media[0].values != nullptr) return false;
+    if (const DensityRow* row = density_row(scene.media[0].density))
+        return row->make_particles != nullptr;
+    const VolumeFormat* format = volume_format_named(scene.media[0].format);
+    return format != nullptr && format->is_particles;
+}
+
 Status outline_world(const Scene& scene, WorldUse use, const Context& context, World& world) {
     PILEUS_TRY(check_scene_limits(scene, context.limits));
     PILEUS_TRY(outline_solids(scene, context, world.solids));
     world.media = scene.media.size();
     world.direct_sky = use == WorldUse::kSkyInPlace && is_direct_sky(scene);
-    world.shows_particles = use == WorldUse::kParticles && is_particles(scene);
+    world.shows_particles = use == WorldUse::kParticles && shows_particles(scene);
     if (!world.shows_particles) return outline_medium_of(scene, context, world);
     Scene own = scene;
     for (MediumSettings& m : own.media) m.particles.shadows_only = true;

@@ -38,6 +38,9 @@ struct Surroundings {
 /// particles themselves.
 enum class WorldUse { kGrid, kSkyInPlace, kParticles };
 
+/// Whether its media are one of particles.
+bool shows_particles(const Scene& scene);
+
 /// What the scene's sizes tell, reading no values of media: limits, places, solids.
 /// Errors: kLimit: a limit; kBadInput, kIo: a file that is missing or wrong.
 Status outline_world(const Scene& scene, WorldUse use, const Context& context, World& world);

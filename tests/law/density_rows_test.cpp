@@ -57,7 +57,9 @@ Volume made(const DensityRow& row, const MediumSettings& settings, const Size& s
     CHECK_FALSE(volume.knows_bounds);
     CHECK_FALSE(volume.in_extinction);
     bool within = true;
-    for (const float v : volume.density.span()) within = within && v >= 0.0f && v <= 1.0f;
+    // Particles lie upon each other.
+    const float most = row.make_particles != nullptr ? 4.0f : 1.0f;
+    for (const float v : volume.density.span()) within = within && v >= 0.0f && v <= most;
     CHECK(within);
     return volume;
 }

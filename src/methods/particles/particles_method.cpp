@@ -19,11 +19,6 @@ ParticlesRun& own(MethodRun& run) { return static_cast<ParticlesRun&>(run); }
 
 std::unique_ptr<MethodRun> make() { return std::make_unique<ParticlesRun>(); }
 
-bool is_particles(const MediumSettings& medium) {
-    const VolumeFormat* format = volume_format_named(medium.format);
-    return medium.values == nullptr && format != nullptr && format->is_particles;
-}
-
 Status check(const Scene& scene, const Budget& budget) {
     constexpr const char* kAllowed = "none";
     if (budget.photons >= 0) return unknown_budget("--budget photons", scene.method, kAllowed);
@@ -33,11 +28,15 @@ Status check(const Scene& scene, const Budget& budget) {
     if (budget.seconds > 0) return unknown_budget("--budget seconds", scene.method, kAllowed);
     if (!budget.state.empty())
         return unknown_budget("--state", scene.method, "method.name = \"path\"");
-    if (scene.media.size() != 1 || !is_particles(scene.media[0]))
+    if (!shows_particles(scene))
+        return Status::bad_input(
+            scene.file + ": medium: method particles shows one medium of particles, " +
+            std::to_string(scene.media.size()) +
+            " media, allowed: one [[medium]] whose density is .ply, .csv or procedural:plume");
+    if (scene.media[0].periodic)
         return Status::bad_input(scene.file +
-                                 ": medium: method particles shows one file of particles, " +
-                                 std::to_string(scene.media.size()) +
-                                 " media, allowed: one [[medium]] whose density is .ply or .csv");
+                                 ": medium.0.boundary: method particles shows each particle once, "
+                                 "\"periodic\", allowed: left out");
     const OutputSettings& output = scene.output;
     if (output.layer_error || output.layer_light || output.layer_order)
         return Status::bad_input(

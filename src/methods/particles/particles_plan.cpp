@@ -81,8 +81,10 @@ void weigh_memory(const Context& context, ParticlesRun& run) {
     add_majorant_rows(grid, run.outlined_only ? 1 : run.majorants.tracking.size(),
                       std::uint64_t(context.threads), Stage::kWrite, t);
     // Before the file is read its bytes bound the particles.
-    const std::uint64_t particles =
-        run.outlined_only ? run.world->source.reading_bytes / 12 : run.particles;
+    const std::uint64_t particles = !run.outlined_only ? run.particles
+                                    : scene.media[0].density.empty()
+                                        ? run.world->source.reading_bytes / 12
+                                        : std::uint64_t(scene.media[0].particles.count);
     add(t, arrays::particle_balls(particles));
     if (run.outlined_only)
         add(t, arrays::particle_nodes(particles));

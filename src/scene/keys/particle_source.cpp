@@ -28,7 +28,14 @@ constexpr KeyRow kRows[] = {
      "in return"},
 };
 
+constexpr KeyRow kPlumeRows[] = {
+    {"medium.N.plume.particles", particles<&P::count>, from_to(1, 1e8), "",
+     "how many particles a procedural plume is made of"},
+};
+
 }  // namespace
+
+Span<const KeyRow> plume_keys() { return {kPlumeRows, sizeof kPlumeRows / sizeof kPlumeRows[0]}; }
 
 Span<const KeyRow> particle_keys() { return {kRows, sizeof kRows / sizeof kRows[0]}; }
 

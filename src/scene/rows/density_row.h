@@ -14,6 +14,7 @@
 namespace pileus {
 
 struct KernelTable;
+struct ParticleSet;
 struct SceneCheck;
 struct SkyField;
 struct Volume;
@@ -54,6 +55,10 @@ struct DensityRow {
     /// All of `volume`: size, values in [0, 1], no bounds. kLimit: out of memory.
     Status (*make)(const MediumSettings& medium, const DensityMaking& with,
                    Volume& volume) = nullptr;
+    /// The particles that `make` lays on its grid, in metres: box, places, radii, densities,
+    /// numbers; null: none. Values of its grid may be above 1.
+    Status (*make_particles)(const MediumSettings& medium, int threads,
+                             ParticleSet& particles) = nullptr;
     bool has_field = false;  ///< makes a SkyField, which rays can ask in place of the grid
     /// Factor on extinction_per_m; null: 1.
     double (*factor)(const MediumSettings& medium) = nullptr;

@@ -10,7 +10,8 @@
     ROW(kSkyDensity)          \
     ROW(kBoxDensity)          \
     ROW(kSphereDensity)       \
-    ROW(kEllipsoidDensity)
+    ROW(kEllipsoidDensity)    \
+    ROW(kPlumeDensity)
 
 namespace pileus {
 
