@@ -25,8 +25,11 @@ std::vector<Puff> puffs(std::size_t count) {
         return float(int(float(state >> 8) / 0x1p24f * steps * 4)) / 4;
     };
     for (std::size_t i = 0; i < count; ++i)
-        made[i] = {{draw(80) - 40, draw(80) - 40, 10 + draw(80)}, {1, 2, 3}, 4 + draw(9),
-                   draw(8) / 64, 3 * i};
+        made[i] = {{draw(80) - 40, draw(80) - 40, 10 + draw(80)},
+                   {1, 2, 3},
+                   4 + draw(9),
+                   draw(8) / 64,
+                   3 * i};
     return made;
 }
 
@@ -78,9 +81,9 @@ pileus_code world_of(const SceneHandle& scene, const pileus_particles& particles
 std::string hash_by(const SceneHandle& scene, const WorldHandle& world) {
     pileus_session* session = nullptr;
     Outcome out;
-    REQUIRE_MESSAGE(pileus_session_create(world.get(), scene.get(), nullptr, &session,
-                                          &out.error) == PILEUS_OK,
-                    out.line());
+    REQUIRE_MESSAGE(
+        pileus_session_create(world.get(), scene.get(), nullptr, &session, &out.error) == PILEUS_OK,
+        out.line());
     const SessionHandle kept(session);
     auto frame = cleared<pileus_frame>();
     std::uint64_t hash = 0;

@@ -46,8 +46,9 @@ Status outline(const Context& context, MethodRun& method_run) {
 
 const Method& raymarch_method() {
     static constexpr Method method{
-        "raymarch",        WorldUse::kSkyInPlace, make,       check,        outline,    march_prepare,
-        march_report_plan, march_light,      march_show, march_report, &live_march};
+        "raymarch",    WorldUse::kSkyInPlace, make,        check,      outline,
+        march_prepare, march_report_plan,     march_light, march_show, march_report,
+        &live_march};
     return method;
 }
 
