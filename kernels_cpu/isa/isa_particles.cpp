@@ -22,9 +22,9 @@ void depths_kernel(const ParticleDepthParams& k, const ParticleDepthBuffers& b, 
                    std::uint32_t end) {
     particle_depths<PILEUS_WIDTH>(k, b, begin, end);
 }
-void march_kernel(const ParticleMarchParams& k, const ParticleMarchBuffers& b, std::uint32_t begin,
-                  std::uint32_t end) {
-    particle_rows<PILEUS_WIDTH>(k, b, begin, end);
+void march_kernel(const ParticleMarchParams& k, const ParticleMarchBuffers& b,
+                  const ParticleTile& tile) {
+    particle_tile<PILEUS_WIDTH>(k, b, tile);
 }
 
 }  // namespace

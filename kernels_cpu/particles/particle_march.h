@@ -66,128 +66,214 @@ PILEUS_FN void light_of_bin(const ParticleMarchParams& k, const ParticlePhases<T
     }
 }
 
-/// W pixels, a block from column x and row y on, in rows before `end`.
+/// Bins along W rays: sums of each, all 0 where no ball has been added since they were shown.
+template <class T>
+struct ParticleBins {
+    float* sums;
+    std::int32_t count;  ///< of bins
+    T from, width, per_width;
+    std::int32_t open = 0;       ///< bins before this are shown
+    std::int32_t farthest = -1;  ///< that a ball was added to
+
+    static constexpr std::int32_t kNumbers =
+        std::int32_t(sizeof(T) / sizeof(float)) * kParticleSums;
+    float* at(std::int32_t n) const { return sums + std::int64_t(n) * kNumbers; }
+};
+
+/// What W pixels see so far.
+template <class T>
+struct ParticlePixels {
+    T transmittance, half, depth, colour[3];
+};
+
+/// Adds a ball's depth, and its light with it, to the bins that it overlaps.
+template <bool Exact, class T>
+PILEUS_FN void add_to_bins(const ParticleMarchParams& k, const ParticleMarchBuffers& b,
+                           const ParticleRay<T>& r, std::int32_t i, const BallPass<T>& p,
+                           M_of<T> hit, ParticleBins<T>& bins) {
+    using II = I_of<T>;
+    const ParticleBall& ball = k.view.balls[i];
+    const T radius = all<T>(1.0f / ball.per_radius);
+    const auto bin = [&](T s) {
+        const T at = (p.along + s * radius - bins.from) * bins.per_width;
+        return min_(max_(to_int(select(hit, at, T{})), all<II>(bins.open)),
+                    all<II>(bins.count - 1));
+    };
+    const II own_first = bin(p.begin), own_last = bin(p.end);
+    const std::int32_t first = least_lane(own_first, hit);
+    const std::int32_t last = largest_lane(own_last, hit);
+    bins.farthest = last > bins.farthest ? last : bins.farthest;
+    // Depth towards the sun at place s of the ray, in radii: shade + s slope.
+    T shade{}, slope{};
+    if constexpr (!Exact) {
+        const ParticleShade& sun = b.shade[i];
+        const Vec<T>& d = r.direction;
+        slope = sun.slope[0] * d.x + sun.slope[1] * d.y + sun.slope[2] * d.z;
+        const T across = sun.slope[0] * (ball.centre[0] - r.origin.x) +
+                         sun.slope[1] * (ball.centre[1] - r.origin.y) +
+                         sun.slope[2] * (ball.centre[2] - r.origin.z) - p.along * slope;
+        shade = sun.depth - across * ball.per_radius;
+    }
+    T start = p.begin;
+    const T weight = select(hit, all<T>(ball.depth), T{});
+    T before = ball_integral(p.inner, p.begin);
+    for (std::int32_t n = first; n <= last; ++n) {
+        const T edge = bins.from + float(n + 1) * bins.width;
+        T s = min_(max_((edge - p.along) * ball.per_radius, p.begin), p.end);
+        // A ray's first and last bin are its own, whatever rounding says of their edges.
+        s = select(own_first > n, p.begin, select(own_last <= n, p.end, s));
+        const T after = ball_integral(p.inner, s);
+        const T tau = weight * max_(after - before, T{});
+        before = after;
+        T own[kParticleSums];
+        __builtin_memcpy(own, bins.at(n), sizeof own);
+        own[0] = own[0] + tau;
+        const T middle = 0.5f * (start + s);
+        if constexpr (Exact)
+            own[1] = own[1] + tau * (p.along + middle * radius);
+        else
+            own[1] = own[1] + tau * (shade + middle * slope);
+        start = s;
+        if (b.sky != nullptr)
+            for (int c = 0; c < 3; ++c)
+                own[c + 2] =
+                    own[c + 2] + tau * b.sky[std::uint64_t(c) * b.balls + std::uint64_t(i)];
+        __builtin_memcpy(bins.at(n), own, sizeof own);
+    }
+}
+
+/// Shows bins up to `end`, and empties them. False: nothing behind them is seen.
+template <bool Exact, class T>
+PILEUS_FN bool show_bins(const ParticleMarchParams& k, const ParticleMarchBuffers& b,
+                         const ParticleRay<T>& r, const ParticlePhases<T>& phases, std::int32_t end,
+                         ParticleBins<T>& bins, ParticlePixels<T>& v) {
+    bool seen = true;
+    for (std::int32_t n = bins.open; n < end; ++n) {
+        T own[kParticleSums];
+        __builtin_memcpy(own, bins.at(n), sizeof own);
+        if (!any(own[0] > 0.0f)) continue;
+        const T none[kParticleSums] = {};
+        __builtin_memcpy(bins.at(n), none, sizeof none);
+        if (!seen) continue;
+        v.depth = v.depth + own[0];
+        const T tau = select(v.transmittance >= k.cut, own[0], T{});
+        if constexpr (Exact)
+            own[1] = own[0] * shade_at(k, r, own[1] / max_(own[0], all<T>(1e-30f)), tau > 0.0f);
+        const T alpha = one_minus_exp(tau);
+        T light[3];
+        light_of_bin(k, phases, own, light);
+        const T weight = v.transmittance * alpha;
+        for (int c = 0; c < 3; ++c) v.colour[c] = v.colour[c] + weight * light[c];
+        const T left = v.transmittance * (1.0f - alpha);
+        const auto crosses = (v.transmittance > 0.5f) & (left <= 0.5f);
+        if (b.half_depth != nullptr && any(crosses)) {
+            const T share = log_(v.transmittance * 2.0f) / max_(tau, all<T>(1e-30f));
+            v.half = select(crosses, bins.from + (float(n) + share) * bins.width, v.half);
+        }
+        v.transmittance = left;
+        seen = b.optical_depth != nullptr || any(v.transmittance >= k.cut);
+    }
+    bins.open = end > bins.open ? end : bins.open;
+    return seen;
+}
+
+/// Looks at balls between two looks at which bins are whole.
+constexpr std::int32_t kBallsBetween = 8;
+
+/// The balls of `seen`, which lie sorted by where rays may first meet them: bins before that are
+/// whole, and where nothing is seen behind them the rest is left out.
+template <bool Exact, class T>
+PILEUS_FN void march_seen(const ParticleMarchParams& k, const ParticleMarchBuffers& b,
+                          const ParticleSeen* seen, std::int32_t count, const ParticleRay<T>& r,
+                          const ParticlePhases<T>& phases, M_of<T> wanted, ParticleBins<T>& bins,
+                          ParticlePixels<T>& v) {
+    // Of all lanes: the farthest begin, the widest bin, the farthest end.
+    float from = 0, width = 0, to = 0;
+    for (std::uint32_t lanes = bits_of(wanted); lanes != 0; lanes &= lanes - 1) {
+        const int l = lowest_bit(lanes);
+        from = lane(r.from, l) > from ? lane(r.from, l) : from;
+        to = lane(r.to, l) > to ? lane(r.to, l) : to;
+        width = lane(bins.width, l) > width ? lane(bins.width, l) : width;
+    }
+    const float per_width = 1.0f / width;
+    for (std::int32_t j = 0; j < count; ++j) {
+        const ParticleSeen& own = seen[j];
+        if (j % kBallsBetween == 0) {
+            if (own.front > to) break;
+            const float whole = (own.front - from) * per_width;
+            // A bin less, for rounding.
+            const std::int32_t end =
+                whole > 1 ? (whole < float(bins.count) ? std::int32_t(whole) - 1 : bins.count) : 0;
+            if (end > bins.open &&
+                !show_bins<Exact>(k, b, r, phases, end <= bins.farthest ? end : bins.farthest + 1,
+                                  bins, v))
+                break;
+        }
+        BallPass<T> p = near_ball(k.view.balls[own.ball], r);
+        auto hit = wanted & (p.inner > 0.0f);
+        if (!any(hit)) continue;
+        pass_ball(k.view.balls[own.ball], r, p);
+        hit = hit & (p.begin < p.end);
+        if (any(hit)) add_to_bins<Exact>(k, b, r, std::int32_t(own.ball), p, hit, bins);
+    }
+}
+
+/// W pixels, a block from column x and row y on, within a rectangle.
 template <int W, bool Exact>
 PILEUS_FN void particle_pixels(const ParticleMarchParams& k, const ParticleMarchBuffers& b,
-                               std::int32_t x, std::int32_t y, std::int32_t end) {
+                               const ParticleTile& tile, std::int32_t x, std::int32_t y) {
     using T = F<W>;
     const I<W> number = iota<I<W>>();
     const I<W> column = number % kMarchAcross<W> + x, row = number / kMarchAcross<W> + y;
-    const M<W> real = (column < k.camera.width) & (row < end);
+    const M<W> real = (column < tile.x_end) & (row < tile.y_end);
     const std::int64_t pixels = std::int64_t(k.camera.width) * k.camera.height;
     const Ray<T> ray = camera_ray(k.camera, to_float(column), to_float(row));
     T most = all<T>(3e38f);
     if (b.opaque_depth != nullptr)
-        for_block<W>(k.camera, x, y, end,
+        for_block<W>(k.camera, x, y, tile.y_end,
                      [&](int l, std::int64_t pixel) { set_lane(most, l, b.opaque_depth[pixel]); });
     ParticleRay<T> r = particle_ray(ray.origin, ray.direction, T{}, most);
     const ParticleSegment<T> box = within_box(k.view.nodes[0], r);
-    const M<W> seen = real & (box.enter < box.leave);
+    const M<W> met = real & (box.enter < box.leave);
     r.from = box.enter, r.to = box.leave;
 
-    T transmittance = all<T>(1.0f), half = all<T>(__builtin_inff()), depth{}, colour[3] = {};
-    if (any(seen)) {
-        const T width =
-            select(seen, (box.leave - box.enter) * (1.0f / float(k.bins)), all<T>(1.0f));
-        const T per_width = 1.0f / width;
+    ParticlePixels<T> v{};
+    v.transmittance = all<T>(1.0f), v.half = all<T>(__builtin_inff());
+    if (any(met) && tile.count != 0) {
+        ParticleBins<T> bins{};
+        bins.sums = b.scratch;
+        bins.count = k.bins;
+        bins.from = box.enter;
+        bins.width = select(met, (box.leave - box.enter) * (1.0f / float(k.bins)), all<T>(1.0f));
+        bins.per_width = 1.0f / bins.width;
         const ParticlePhases<T> phases = particle_phases(k, ray.direction);
-        float* sums = b.scratch;
-        const std::int64_t numbers = std::int64_t(k.bins) * kParticleSums * W;
-        for (std::int64_t i = 0; i < numbers; ++i) sums[i] = 0;
-        std::int32_t nearest = k.bins, farthest = -1;
-        walk_particles(k.view, r, seen, [&](std::int32_t i, const BallPass<T>& p, M<W> hit) {
-            const ParticleBall& ball = k.view.balls[i];
-            const T radius = all<T>(1.0f / ball.per_radius);
-            const auto bin = [&](T s) {
-                const T at = (p.along + s * radius - r.from) * per_width;
-                return min_(max_(to_int(select(hit, at, T{})), I<W>{}), all<I<W>>(k.bins - 1));
-            };
-            const I<W> own_first = bin(p.begin), own_last = bin(p.end);
-            const std::int32_t first = least_lane(own_first, hit);
-            const std::int32_t last = largest_lane(own_last, hit);
-            nearest = first < nearest ? first : nearest;
-            farthest = last > farthest ? last : farthest;
-            // Depth towards the sun at place s of the ray, in radii: shade + s slope.
-            T shade{}, slope{};
-            if constexpr (!Exact) {
-                const ParticleShade& sun = b.shade[i];
-                const Vec<T>& d = r.direction;
-                slope = sun.slope[0] * d.x + sun.slope[1] * d.y + sun.slope[2] * d.z;
-                const T across = sun.slope[0] * (ball.centre[0] - r.origin.x) +
-                                 sun.slope[1] * (ball.centre[1] - r.origin.y) +
-                                 sun.slope[2] * (ball.centre[2] - r.origin.z) - p.along * slope;
-                shade = sun.depth - across * ball.per_radius;
-            }
-            T start = p.begin;
-            const T weight = select(hit, all<T>(ball.depth), T{});
-            T before = ball_integral(p.inner, p.begin);
-            for (std::int32_t n = first; n <= last; ++n) {
-                const T edge = r.from + float(n + 1) * width;
-                T s = min_(max_((edge - p.along) * ball.per_radius, p.begin), p.end);
-                // A ray's first and last bin are its own, whatever rounding says of their edges.
-                s = select(own_first > n, p.begin, select(own_last <= n, p.end, s));
-                const T after = ball_integral(p.inner, s);
-                const T tau = weight * max_(after - before, T{});
-                before = after;
-                float* to = sums + std::int64_t(n) * kParticleSums * W;
-                T own[kParticleSums];
-                __builtin_memcpy(own, to, sizeof own);
-                own[0] = own[0] + tau;
-                const T middle = 0.5f * (start + s);
-                if constexpr (Exact)
-                    own[1] = own[1] + tau * (p.along + middle * radius);
-                else
-                    own[1] = own[1] + tau * (shade + middle * slope);
-                start = s;
-                if (b.sky != nullptr)
-                    for (int c = 0; c < 3; ++c)
-                        own[c + 2] =
-                            own[c + 2] + tau * b.sky[std::uint64_t(c) * b.balls + std::uint64_t(i)];
-                __builtin_memcpy(to, own, sizeof own);
-            }
-            return hit & lnot(hit);
-        });
-        for (std::int32_t n = nearest; n <= farthest; ++n) {
-            T own[kParticleSums];
-            __builtin_memcpy(own, sums + std::int64_t(n) * kParticleSums * W, sizeof own);
-            if (!any(own[0] > 0.0f)) continue;
-            depth = depth + own[0];
-            const T tau = select(transmittance >= k.cut, own[0], T{});
-            if constexpr (Exact)
-                own[1] = own[0] * shade_at(k, r, own[1] / max_(own[0], all<T>(1e-30f)), tau > 0.0f);
-            const T alpha = one_minus_exp(tau);
-            T light[3];
-            light_of_bin(k, phases, own, light);
-            const T weight = transmittance * alpha;
-            for (int c = 0; c < 3; ++c) colour[c] = colour[c] + weight * light[c];
-            const T left = transmittance * (1.0f - alpha);
-            const auto crosses = (transmittance > 0.5f) & (left <= 0.5f);
-            if (b.half_depth != nullptr && any(crosses)) {
-                const T share = log_(transmittance * 2.0f) / max_(tau, all<T>(1e-30f));
-                half = select(crosses, r.from + (float(n) + share) * width, half);
-            }
-            transmittance = left;
-            if (b.optical_depth == nullptr && !any(transmittance >= k.cut)) break;
-        }
+        if (tile.seen != nullptr)
+            march_seen<Exact>(k, b, tile.seen, tile.count, r, phases, met, bins, v);
+        else
+            walk_particles(k.view, r, met, [&](std::int32_t i, const BallPass<T>& p, M<W> hit) {
+                add_to_bins<Exact>(k, b, r, i, p, hit, bins);
+                return hit & lnot(hit);
+            });
+        (void)show_bins<Exact>(k, b, r, phases, bins.farthest + 1, bins, v);
     }
-    for_block<W>(k.camera, x, y, end, [&](int l, std::int64_t pixel) {
-        b.transmittance[pixel] = lane(transmittance, l);
-        if (b.half_depth != nullptr) b.half_depth[pixel] = lane(half, l);
-        if (b.optical_depth != nullptr) b.optical_depth[pixel] = lane(depth, l);
-        for (int c = 0; c < 3; ++c) b.colour[c * pixels + pixel] = lane(colour[c], l);
+    for_block<W>(k.camera, x, y, tile.y_end, [&](int l, std::int64_t pixel) {
+        b.transmittance[pixel] = lane(v.transmittance, l);
+        if (b.half_depth != nullptr) b.half_depth[pixel] = lane(v.half, l);
+        if (b.optical_depth != nullptr) b.optical_depth[pixel] = lane(v.depth, l);
+        for (int c = 0; c < 3; ++c) b.colour[c * pixels + pixel] = lane(v.colour[c], l);
     });
 }
 
 template <int W>
-PILEUS_FN void particle_rows(const ParticleMarchParams& k, const ParticleMarchBuffers& b,
-                             std::uint32_t begin, std::uint32_t end) {
+PILEUS_FN void particle_tile(const ParticleMarchParams& k, const ParticleMarchBuffers& b,
+                             const ParticleTile& tile) {
     constexpr int across = kMarchAcross<W>;
-    for (std::uint32_t y = begin; y < end; y += W / across)
-        for (std::int32_t x = 0; x < k.camera.width; x += across)
+    for (std::int32_t y = tile.y_begin; y < tile.y_end; y += W / across)
+        for (std::int32_t x = tile.x_begin; x < tile.x_end; x += across)
             if (k.exact != 0)
-                particle_pixels<W, true>(k, b, x, std::int32_t(y), std::int32_t(end));
+                particle_pixels<W, true>(k, b, tile, x, y);
             else
-                particle_pixels<W, false>(k, b, x, std::int32_t(y), std::int32_t(end));
+                particle_pixels<W, false>(k, b, tile, x, y);
 }
 
 }  // namespace PILEUS_ISA

@@ -86,7 +86,20 @@ struct ParticleMarchBuffers {
     float* colour;               ///< [channel][pixel]
     float* half_depth;           ///< [pixel], m; null: not wanted
     float* optical_depth;        ///< [pixel]; null: not wanted
-    float* scratch;              ///< particle_scratch_floats() of one thread, aligned to 64 bytes
+    float* scratch;  ///< particle_scratch_floats() of one thread, aligned to 64 bytes; all 0, as
+                     ///< each launch leaves it
+};
+
+/// A ball that may be seen, and the least distance along a ray at which it begins.
+struct ParticleSeen {
+    float front;
+    std::uint32_t ball;
+};
+/// Pixels [x_begin, x_end) of rows [y_begin, y_end), begins multiples of 4.
+struct ParticleTile {
+    std::int32_t x_begin, y_begin, x_end, y_end;
+    const ParticleSeen* seen;  ///< `front` rises; null: any ball, found by a walk
+    std::int32_t count;        ///< of seen; 0: no ball at all
 };
 
 /// Most lanes of a launch.
@@ -100,8 +113,7 @@ struct ParticleKernels {
     int width;
     void (*depths)(const ParticleDepthParams&, const ParticleDepthBuffers&, std::uint32_t begin,
                    std::uint32_t end);
-    void (*march_rows)(const ParticleMarchParams&, const ParticleMarchBuffers&, std::uint32_t begin,
-                       std::uint32_t end);
+    void (*march)(const ParticleMarchParams&, const ParticleMarchBuffers&, const ParticleTile&);
 };
 
 }  // namespace pileus

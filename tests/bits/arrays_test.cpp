@@ -9,6 +9,7 @@
 #include "src/methods/collectors/prepare/leaves.h"
 #include "src/methods/particles/particles_method.h"
 #include "src/methods/particles/particles_run.h"
+#include "src/methods/particles/view_tiles.h"
 #include "src/methods/path/path.h"
 #include "src/methods/path/path_sky.h"
 #include "src/methods/photon_grid/photon_grid.h"
@@ -215,6 +216,9 @@ void check_particles(const Fixture& f) {
     // Freed with the march.
     held["bins along rays"] =
         4 * particle_scratch_floats(scene.particles.bins) * std::uint64_t(f.context.threads);
+    // Filled as far as a picture needs them.
+    held["particles by tiles of the picture"] = arrays::view_balls(run.particles).bytes();
+    held["tiles of the picture"] = view_tile_scratch_bytes() * std::uint64_t(f.context.threads);
     check_rows(run.plan.memory, Stage::kDisplay, held);
 }
 

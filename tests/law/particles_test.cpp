@@ -8,21 +8,15 @@
 #include "src/methods/particles/sun_tiles.h"
 #include "src/world/particles/particle_tree.h"
 #include "tests/io/temp_folder.h"
+#include "tests/support/particle_harness.h"
 #include "tests/support/render_harness.h"
 #include "tests/support/sun_depth_harness.h"
 
 using namespace pileus;
 using namespace render_test;
+using namespace particle_test;
 
 namespace {
-
-double draw(std::uint32_t i, std::uint32_t k) {
-    std::uint32_t v = (i * 16 + k) * 2654435761u;
-    v ^= v >> 15;
-    v *= 2246822519u;
-    v ^= v >> 13;
-    return double(v >> 8) / 0x1p24;
-}
 
 /// Particles in a cube of 100 m, radii over a decade; `turn` begins with another one.
 void make(std::uint32_t count, std::uint32_t turn, ParticleSet& set) {
@@ -37,14 +31,6 @@ void make(std::uint32_t count, std::uint32_t turn, ParticleSet& set) {
     }
     REQUIRE(decode_particles("p", ".csv", {text.data(), text.size()}, {}, set));
     REQUIRE(place_particles("p", {}, set));
-}
-
-/// Of (inner - s^2)^2 from s0 to s1.
-double integral(double inner, double s0, double s1) {
-    const auto part = [&](double s) {
-        return s * (inner * inner - 2.0 / 3 * inner * s * s + s * s * s * s / 5);
-    };
-    return part(s1) - part(s0);
 }
 
 /// From a place on along a direction to the end, over all balls.
@@ -93,25 +79,6 @@ double worst_of(const std::vector<float>& depths, const ParticleTree& tree,
     }
     return worst;
 }
-
-const char* const kText = R"(
-[camera]
-position_m = [0, -400, 50]
-target_m = [0, 0, 50]
-fov_deg = 30
-resolution = [24, 24]
-[sun]
-azimuth_deg = 110
-elevation_deg = 25
-[[medium]]
-density = "p.csv"
-phase = { type = "henyey-greenstein", g = 0.5 }
-albedo = 0.9
-[method]
-name = "particles"
-[output]
-layers = ["radiance", "alpha", "depth", "optical_depth"]
-)";
 
 /// A scene over a file of particles.
 class Field {

@@ -6,6 +6,7 @@
 #include "platform/threads.h"
 #include "src/methods/particles/particles_run.h"
 #include "src/methods/particles/sun_tiles.h"
+#include "src/methods/particles/view_tiles.h"
 #include "src/picture/nodes/node_grid.h"
 #include "src/world/phase/forward_share.h"
 
@@ -179,9 +180,6 @@ Status show_particles(const Context& context, ParticlesRun& run) {
             k.sun[n][c] = float(run.lighting.sun_irradiance[c]) * absorbed[c] * order.share;
         }
     }
-    const std::uint64_t share = particle_scratch_floats(s.bins);
-    Buffer<float> scratch;
-    PILEUS_TRY(allocate(arrays::particle_bins(std::uint64_t(context.threads), s.bins), scratch));
     ParticleMarchBuffers b{};
     b.shade = run.shade.data();
     b.sky = run.sky.data();
@@ -191,17 +189,7 @@ Status show_particles(const Context& context, ParticlesRun& run) {
     b.colour = planes.colour.data();
     b.half_depth = planes.half_depth.data();
     b.optical_depth = planes.optical_depth.data();
-    constexpr std::uint32_t kRows = 4;
-    const std::uint32_t rows = std::uint32_t(run.camera.height);
-    parallel_for(context.threads, (rows + kRows - 1) / kRows, [&](std::int64_t piece, int thread) {
-        if (thread == 0) context.tell("march", double(piece) * kRows / double(rows));
-        ParticleMarchBuffers own = b;
-        own.scratch = scratch.data() + std::uint64_t(thread) * share;
-        const std::uint32_t begin = std::uint32_t(piece) * kRows;
-        context.kernels->particles->march_rows(k, own, begin,
-                                               begin + kRows < rows ? begin + kRows : rows);
-    });
-    return Status::ok();
+    return march_particles(context, run.tree, k, b);
 }
 
 }  // namespace pileus

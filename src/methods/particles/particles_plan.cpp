@@ -4,6 +4,7 @@
 // docs/report.md, "Plan"; docs/particles.md
 #include "src/methods/particles/particles_run.h"
 #include "src/methods/particles/sun_tiles.h"
+#include "src/methods/particles/view_tiles.h"
 #include "src/picture/nodes/node_grid.h"
 #include "src/world/plan_parts.h"
 
@@ -114,6 +115,9 @@ void weigh_memory(const Context& context, ParticlesRun& run) {
     const std::uint64_t shown = plane_count(3, run.lighting.opaque(), output.layer_depth) +
                                 (output.layer_optical_depth ? 1u : 0u);
     add(t, arrays::picture_planes(shown, pixels));
+    add(t, arrays::view_balls(particles));
+    t.add("tiles of the picture", Stage::kDisplay, Stage::kDisplay,
+          bytes_of(std::uint64_t(context.threads), view_tile_scratch_bytes()));
     add(t, arrays::particle_bins(std::uint64_t(context.threads), scene.particles.bins));
     add_image_rows(std::uint64_t(scene.camera.resolution[0]),
                    std::uint64_t(scene.camera.resolution[1]), 4 + extra_layers(output, false), t);

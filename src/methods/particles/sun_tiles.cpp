@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "platform/threads.h"
+#include "src/methods/particles/tile_sort.h"
 
 namespace pileus {
 namespace {
@@ -23,8 +24,6 @@ constexpr std::uint64_t kFewPlaces = 256;
 constexpr float kSmallSide = 0.5f;
 /// Balls of a tile that are at hand at a time; places that are sorted at a time.
 constexpr std::uint32_t kAtHand = 16384, kBatch = 1024;
-/// Runs of balls that are sorted into tiles side by side; their number changes no bit.
-constexpr std::uint32_t kRuns = 8;
 
 using Offset = std::array<float, 3>;
 
@@ -97,43 +96,6 @@ int tile_at(const SunTiles& t, float place, int a) {
     const float at = (place - t.low[a]) / t.side;
     const int last = t.across[a] - 1;
     return at > 0 ? (at < float(last) ? int(at) : last) : 0;
-}
-
-/// Sorts numbers below `things` into boxes: each(number, put) calls put(box). Numbers of a box keep
-/// their order.
-template <class Each>
-Status sort_into(const Context& context, std::size_t things, std::uint32_t boxes,
-                 Buffer<std::uint64_t>& begin, std::uint64_t most, bool& fits,
-                 Buffer<std::uint32_t>& out, Each each) {
-    Buffer<std::uint64_t> next;
-    PILEUS_TRY(next.resize(std::uint64_t(kRuns) * boxes, "tiles"));
-    PILEUS_TRY(begin.resize(std::uint64_t(boxes) + 1, "tiles"));
-    const auto run = [&](auto put) {
-        parallel_for(context.threads, kRuns, [&](std::int64_t r, int) {
-            std::uint64_t* own = next.data() + std::uint64_t(r) * boxes;
-            const std::size_t from = things * std::size_t(r) / kRuns;
-            const std::size_t to = things * std::size_t(r + 1) / kRuns;
-            for (std::size_t i = from; i < to; ++i)
-                each(i, [&](std::uint32_t box) { put(own[box], std::uint32_t(i)); });
-        });
-    };
-    run([](std::uint64_t& n, std::uint32_t) { ++n; });
-    std::uint64_t sum = 0;
-    for (std::uint32_t box = 0; box < boxes; ++box) {
-        begin[box] = sum;
-        for (std::uint32_t r = 0; r < kRuns; ++r) {
-            std::uint64_t& n = next[std::uint64_t(r) * boxes + box];
-            const std::uint64_t own = n;
-            n = sum;
-            sum += own;
-        }
-    }
-    begin[boxes] = sum;
-    fits = sum <= most;
-    if (!fits) return Status::ok();
-    if (out.size() < sum) PILEUS_TRY(out.resize(sum, "tiles"));
-    run([&](std::uint64_t& n, std::uint32_t i) { out[n++] = i; });
-    return Status::ok();
 }
 
 /// Tiles over the box of all, `side` wide but for their most number.

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+// See view_tiles.h.
+#include "src/methods/particles/view_tiles.h"
+
+#include <algorithm>
+
+#include "platform/threads.h"
+#include "src/methods/particles/tile_sort.h"
+
+namespace pileus {
+namespace {
+
+/// Pixels across a tile, where balls are small, and across a block, whose rays share a list.
+constexpr std::int32_t kTilePixels = 32, kBlockPixels = 8;
+/// Balls of a tile; with more, its rays walk through the tree.
+constexpr std::uint32_t kMostSeen = 65536;
+/// Of lengths in the kernel, rounding included; and of pixels.
+constexpr double kSlack = 4e-6, kPixelSlack = 0.05;
+
+/// Pixels whose centres a ball may cover, inclusive, and where rays may first meet it.
+struct Cover {
+    std::int32_t low[2], high[2];
+    float front;
+    std::uint32_t ball;
+};
+struct Nearer {
+    bool operator()(const Cover& a, const Cover& b) const {
+        return a.front != b.front ? a.front < b.front : a.ball < b.ball;
+    }
+};
+struct Scratch {
+    Cover covers[kMostSeen];
+    ParticleSeen seen[kMostSeen];
+};
+
+class Screen {
+public:
+    Screen(const CameraParams& c, const ParticleNode& box) : c_(c) {
+        for (std::size_t a = 0; a < 3; ++a) {
+            axis_[0][a] = double(c.right[a]);
+            axis_[1][a] = double(c.up[a]);
+            axis_[2][a] = double(c.forward[a]);
+            for (const float v : {c.origin[a], box.low[a], box.high[a]})
+                largest_ = std::max(largest_, double(__builtin_fabsf(v)));
+        }
+    }
+
+    /// False: no ray meets it.
+    bool cover(const ParticleBall& ball, std::uint32_t number, Cover& out) const {
+        double p[3] = {};
+        for (int a = 0; a < 3; ++a)
+            for (int i = 0; i < 3; ++i)
+                p[a] += axis_[a][i] * (double(ball.centre[i]) - double(c_.origin[i]));
+        const double slack = kSlack * largest_;
+        const double r = (1 + kSlack) / double(ball.per_radius) + slack;
+        if (p[2] + r <= 0) return false;
+        out.ball = number;
+        const double way =
+            c_.orthographic != 0 ? p[2] : __builtin_sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+        out.front = float(way - r - kSlack * (way + r));
+        const double shift[2] = {double(c_.shift_x), double(c_.shift_y)};
+        const double half[2] = {double(c_.half_width), double(c_.half_height)};
+        const std::int32_t pixels[2] = {c_.width, c_.height};
+        for (int a = 0; a < 2; ++a) {
+            double low = p[a] - r, high = p[a] + r;
+            if (c_.orthographic == 0) {
+                // Too near for an outline: everywhere.
+                if (p[2] <= 1.001 * r) {
+                    out.low[a] = 0, out.high[a] = pixels[a] - 1;
+                    continue;
+                }
+                // Tangents in the plane of this axis and the view's.
+                const double root = r * __builtin_sqrt(p[a] * p[a] + p[2] * p[2] - r * r);
+                const double below = p[2] * p[2] - r * r;
+                low = (p[a] * p[2] - root) / below, high = (p[a] * p[2] + root) / below;
+            }
+            const double scale = 0.5 * pixels[a] / half[a];
+            double first = (low - shift[a] + half[a]) * scale - 0.5;
+            double last = (high - shift[a] + half[a]) * scale - 0.5;
+            if (a == 1) {
+                const double turned = pixels[a] - 1 - first;
+                first = pixels[a] - 1 - last, last = turned;
+            }
+            if (!(last + kPixelSlack >= 0 && first - kPixelSlack <= pixels[a] - 1)) return false;
+            out.low[a] = first - kPixelSlack > 0 ? up(first - kPixelSlack) : 0;
+            out.high[a] = last + kPixelSlack < pixels[a] - 1 ? std::int32_t(last + kPixelSlack)
+                                                             : pixels[a] - 1;
+            if (out.low[a] > out.high[a]) return false;
+        }
+        return true;
+    }
+
+private:
+    static std::int32_t up(double v) {
+        const std::int32_t whole = std::int32_t(v);
+        return double(whole) < v ? whole + 1 : whole;
+    }
+
+    const CameraParams& c_;
+    double axis_[3][3], largest_ = 0;
+};
+
+/// Balls of the picture's tiles.
+struct Tiles {
+    std::int32_t side = kTilePixels, across = 1, down = 1;
+    Buffer<std::uint64_t> begin;
+    Buffer<std::uint32_t> balls;
+
+    std::uint32_t count() const { return std::uint32_t(across) * std::uint32_t(down); }
+};
+
+Status sort_balls(const Context& context, const ParticleTree& tree, const CameraParams& c,
+                  const Screen& screen, Tiles& t) {
+    const std::size_t count = tree.balls.size();
+    const std::uint64_t most = arrays::view_balls(count).count;
+    for (bool fits = false; !fits;) {
+        t.across = (c.width - 1) / t.side + 1;
+        t.down = (c.height - 1) / t.side + 1;
+        PILEUS_TRY(sort_into(
+            context, count, t.count(), t.begin, most, fits, t.balls, [&](std::size_t i, auto put) {
+                Cover own;
+                if (!screen.cover(tree.balls[i], std::uint32_t(i), own)) return;
+                for (int y = own.low[1] / t.side; y <= own.high[1] / t.side; ++y)
+                    for (int x = own.low[0] / t.side; x <= own.high[0] / t.side; ++x)
+                        put(std::uint32_t(y * t.across + x));
+            }));
+        if (!fits) t.side *= 2;
+    }
+    return Status::ok();
+}
+
+}  // namespace
+
+std::uint64_t view_tile_scratch_bytes() { return sizeof(Scratch); }
+
+Status march_particles(const Context& context, const ParticleTree& tree,
+                       const ParticleMarchParams& k, const ParticleMarchBuffers& buffers) {
+    const CameraParams& c = k.camera;
+    const Screen screen(c, tree.nodes[0]);
+    Tiles tiles;
+    PILEUS_TRY(sort_balls(context, tree, c, screen, tiles));
+    Buffer<Scratch> scratch;
+    PILEUS_TRY(scratch.resize(std::uint64_t(context.threads), "tiles of the picture"));
+    const std::uint64_t floats = particle_scratch_floats(k.bins);
+    Buffer<float> bins;
+    PILEUS_TRY(allocate(arrays::particle_bins(std::uint64_t(context.threads), k.bins), bins));
+    const auto march = context.kernels->particles->march;
+    parallel_for(context.threads, tiles.count(), [&](std::int64_t piece, int thread) {
+        if (thread == 0) context.tell("march", double(piece) / double(tiles.count()));
+        ParticleMarchBuffers own = buffers;
+        own.scratch = bins.data() + std::uint64_t(thread) * floats;
+        const std::int32_t x = std::int32_t(piece) % tiles.across * tiles.side;
+        const std::int32_t y = std::int32_t(piece) / tiles.across * tiles.side;
+        ParticleTile tile{};
+        tile.x_begin = x, tile.x_end = std::min(x + tiles.side, c.width);
+        tile.y_begin = y, tile.y_end = std::min(y + tiles.side, c.height);
+        const std::uint64_t first = tiles.begin[std::size_t(piece)];
+        const std::uint64_t named = tiles.begin[std::size_t(piece) + 1] - first;
+        if (named == 0 || named > kMostSeen) {
+            tile.count = named == 0 ? 0 : 1;
+            return march(k, own, tile);
+        }
+        Scratch& s = scratch[std::size_t(thread)];
+        const std::uint32_t count = std::uint32_t(named);
+        for (std::uint32_t i = 0; i < count; ++i) {
+            const std::uint32_t ball = tiles.balls[first + i];
+            (void)screen.cover(tree.balls[ball], ball, s.covers[i]);
+        }
+        std::sort(s.covers, s.covers + count, Nearer());
+        tile.seen = s.seen;
+        const ParticleTile all = tile;
+        for (tile.y_begin = all.y_begin; tile.y_begin < all.y_end; tile.y_begin += kBlockPixels)
+            for (tile.x_begin = all.x_begin; tile.x_begin < all.x_end;
+                 tile.x_begin += kBlockPixels) {
+                tile.x_end = std::min(tile.x_begin + kBlockPixels, all.x_end);
+                tile.y_end = std::min(tile.y_begin + kBlockPixels, all.y_end);
+                std::uint32_t seen = 0;
+                for (std::uint32_t i = 0; i < count; ++i) {
+                    const Cover& o = s.covers[i];
+                    s.seen[seen] = {o.front, o.ball};
+                    const bool in = (o.low[0] < tile.x_end) & (o.high[0] >= tile.x_begin) &
+                                    (o.low[1] < tile.y_end) & (o.high[1] >= tile.y_begin);
+                    seen += in ? 1 : 0;
+                }
+                tile.count = std::int32_t(seen);
+                march(k, own, tile);
+            }
+    });
+    return Status::ok();
+}
+
+}  // namespace pileus

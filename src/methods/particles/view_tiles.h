@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// A picture of lit particles, tile by tile: each tile takes those that its rays may meet, the
+// nearest first, so that what lies behind an opaque front is not looked at. in: balls, a camera,
+// light -> out: planes of pixels. docs/particles.md, "Display".
+#pragma once
+#include "src/methods/particles/particles_run.h"
+
+namespace pileus {
+
+namespace arrays {
+
+/// At most; larger tiles name fewer balls twice.
+inline Array<std::uint32_t> view_balls(std::uint64_t particles) {
+    return {"particles by tiles of the picture", bytes_of(4, particles), Stage::kDisplay,
+            Stage::kDisplay};
+}
+
+}  // namespace arrays
+
+/// What one thread works in, bytes.
+std::uint64_t view_tile_scratch_bytes();
+
+/// Marches all pixels. Neither threads nor the width of kernels change a bit. kLimit: out of
+/// memory.
+Status march_particles(const Context& context, const ParticleTree& tree,
+                       const ParticleMarchParams& k, const ParticleMarchBuffers& buffers);
+
+}  // namespace pileus
