@@ -55,6 +55,9 @@ struct KernelTable {
     void (*trace_paths_guided)(const PathParams&, const PathBuffers&, std::uint32_t begin,
                                std::uint32_t end) = nullptr;
     const ParticleKernels* particles = nullptr;  ///< of method particles
+    /// As trace_paths_guided, for scenes with lamps (PathParams::lamp_count).
+    void (*trace_paths_lamps)(const PathParams&, const PathBuffers&, std::uint32_t begin,
+                              std::uint32_t end) = nullptr;
 };
 
 /// The widest table this machine runs; `name` (or null) forces one. Null: no such table here.
