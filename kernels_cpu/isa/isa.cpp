@@ -71,6 +71,7 @@ std::uint64_t self_test_kernel() { return self_test_digest<PILEUS_WIDTH>(); }
 #define PILEUS_PATH_SOLIDS(isa) PILEUS_JOIN(path_solids_, isa)
 #define PILEUS_PATH_GUIDED(isa) PILEUS_JOIN(path_guided_, isa)
 #define PILEUS_PATH_LAMPS(isa) PILEUS_JOIN(path_lamps_, isa)
+#define PILEUS_LAMPS(isa) PILEUS_JOIN(lamp_kernel_, isa)
 #define PILEUS_PARTICLES(isa) PILEUS_JOIN(particle_kernel_, isa)
 #define PILEUS_SOLIDS(isa) PILEUS_JOIN(solid_rows_, isa)
 
@@ -90,6 +91,9 @@ void PILEUS_PATH_LAMPS(PILEUS_ISA)(const PathParams&, const PathBuffers&, std::u
                                    std::uint32_t);
 /// Of isa_sky.cpp.
 extern const SkyKernels PILEUS_SKY(PILEUS_ISA);
+
+/// Of isa_lamps.cpp.
+extern const LampKernels PILEUS_LAMPS(PILEUS_ISA);
 
 /// Of isa_particles.cpp.
 extern const ParticleKernels PILEUS_PARTICLES(PILEUS_ISA);
@@ -127,6 +131,7 @@ const KernelTable PILEUS_TABLE(PILEUS_ISA) = {
     PILEUS_PATH_GUIDED(PILEUS_ISA),
     &PILEUS_PARTICLES(PILEUS_ISA),
     PILEUS_PATH_LAMPS(PILEUS_ISA),
+    &PILEUS_LAMPS(PILEUS_ISA),
 };
 
 }  // namespace pileus

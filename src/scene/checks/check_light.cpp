@@ -59,18 +59,26 @@ private:
 
     /// Methods and media that lights are not for.
     void known() {
-        const std::string& method = check_.scene.method;
-        if (method != "path")
-            fault(*type_, "type",
-                  "not for method " + method + " in this version, " + value_text(*type_) +
-                      ", allowed: method path, or a scene without [[light]]");
-        for (const MediumSettings& m : check_.scene.media) {
-            if (!m.periodic) continue;
-            fault(*type_, "type",
-                  "not with a periodic medium in this version, " + value_text(*type_) +
-                      ", allowed: boundary = \"open\"");
-            return;
+        const Scene& scene = check_.scene;
+        const bool marched = scene.method == "raymarch" || scene.method == "optical-depth";
+        if (!marched && scene.method != "path")
+            refuse("for method " + scene.method,
+                   "method path, raymarch, optical-depth, or a scene without [[light]]");
+        if (marched && !scene.solids.empty())
+            refuse("with solids by method " + scene.method,
+                   "method path, or a scene without [[solid]]");
+        bool periodic = false, direct = false;
+        for (const MediumSettings& m : scene.media) {
+            periodic = periodic || m.periodic;
+            direct = direct || m.sky.evaluate == SkyEvaluation::kDirect;
         }
+        if (periodic) refuse("with a periodic medium", "boundary = \"open\"");
+        if (direct) refuse("with a sky that is not on a grid", "sky.evaluate = \"grid\"");
+    }
+
+    void refuse(const std::string& what, const std::string& allowed) {
+        fault(*type_, "type",
+              "not " + what + " in this version, " + value_text(*type_) + ", allowed: " + allowed);
     }
 
     void spot() {
