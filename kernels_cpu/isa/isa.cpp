@@ -70,6 +70,8 @@ std::uint64_t self_test_kernel() { return self_test_digest<PILEUS_WIDTH>(); }
 #define PILEUS_SWEEP_LAYER(isa) PILEUS_JOIN(sweep_layer_kernel_, isa)
 #define PILEUS_PATH_SOLIDS(isa) PILEUS_JOIN(path_solids_, isa)
 #define PILEUS_PATH_GUIDED(isa) PILEUS_JOIN(path_guided_, isa)
+#define PILEUS_PATH_LAMPS(isa) PILEUS_JOIN(path_lamps_, isa)
+#define PILEUS_LAMPS(isa) PILEUS_JOIN(lamp_kernel_, isa)
 #define PILEUS_PARTICLES(isa) PILEUS_JOIN(particle_kernel_, isa)
 #define PILEUS_SOLIDS(isa) PILEUS_JOIN(solid_rows_, isa)
 
@@ -84,8 +86,14 @@ void PILEUS_PATH_SOLIDS(PILEUS_ISA)(const PathParams&, const PathBuffers&, std::
 /// Of isa_path_guided.cpp.
 void PILEUS_PATH_GUIDED(PILEUS_ISA)(const PathParams&, const PathBuffers&, std::uint32_t,
                                     std::uint32_t);
+/// Of isa_path_lamps.cpp.
+void PILEUS_PATH_LAMPS(PILEUS_ISA)(const PathParams&, const PathBuffers&, std::uint32_t,
+                                   std::uint32_t);
 /// Of isa_sky.cpp.
 extern const SkyKernels PILEUS_SKY(PILEUS_ISA);
+
+/// Of isa_lamps.cpp.
+extern const LampKernels PILEUS_LAMPS(PILEUS_ISA);
 
 /// Of isa_particles.cpp.
 extern const ParticleKernels PILEUS_PARTICLES(PILEUS_ISA);
@@ -122,6 +130,8 @@ const KernelTable PILEUS_TABLE(PILEUS_ISA) = {
     PILEUS_UPSAMPLE(PILEUS_ISA),
     PILEUS_PATH_GUIDED(PILEUS_ISA),
     &PILEUS_PARTICLES(PILEUS_ISA),
+    PILEUS_PATH_LAMPS(PILEUS_ISA),
+    &PILEUS_LAMPS(PILEUS_ISA),
 };
 
 }  // namespace pileus

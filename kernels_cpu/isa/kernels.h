@@ -12,6 +12,7 @@
 #include "kernels_cpu/path/path_params.h"
 #include "kernels_cpu/photons/trace_params.h"
 #include "kernels_cpu/procedural/sky_params.h"
+#include "kernels_cpu/raymarch/lamp_march_params.h"
 #include "kernels_cpu/raymarch/raymarch_params.h"
 #include "kernels_cpu/solids/solids_params.h"
 
@@ -55,6 +56,10 @@ struct KernelTable {
     void (*trace_paths_guided)(const PathParams&, const PathBuffers&, std::uint32_t begin,
                                std::uint32_t end) = nullptr;
     const ParticleKernels* particles = nullptr;  ///< of method particles
+    /// As trace_paths_guided, for scenes with lamps (PathParams::lamp_count).
+    void (*trace_paths_lamps)(const PathParams&, const PathBuffers&, std::uint32_t begin,
+                              std::uint32_t end) = nullptr;
+    const LampKernels* lamps = nullptr;  ///< marched light of point, spot and parallel lights
 };
 
 /// The widest table this machine runs; `name` (or null) forces one. Null: no such table here.

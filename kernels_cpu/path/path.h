@@ -36,7 +36,12 @@ PILEUS_FN void serve(PathLanes<W, NC, K>& s, FreshPaths<W, K>& fresh, const Path
     const M<W> lived = s.alive;
     const std::uint32_t before = bits_of(lived);
     PathTally& tally = *b.tally;
-    M<W> due = s.lit;
+    M<W> due = s.alive & lnot(s.alive);
+    if constexpr (kLamps<K>) {
+        due = gather_lamps(s, k);
+        due = due | begin_near(s, k);
+    }
+    due = due | s.lit;
     if (any(s.lit)) gather_light(s, k, s.lit);
     if (any(s.met)) {
         const M<W> met = s.met;
@@ -174,6 +179,7 @@ PILEUS_FN void trace_path_lanes(const PathParams& k, const PathBuffers& b, std::
     for (PathGroup<W, NC, K>& g : groups) {
         rest(g.s);
         g.s.next = g.s.to_map = g.s.d;
+        if constexpr (kLamps<K>) g.s.to_lamp = g.s.kept_d = g.s.d;
         if constexpr (kGuided<K>) g.s.to_sun = g.s.fork = g.s.main.next = g.s.d;
     }
     std::uint32_t next = begin;
@@ -206,6 +212,16 @@ PILEUS_FN void trace_paths_guided(const PathParams& k, const PathBuffers& b, std
         trace_paths<W, kAmongSolids | kSeekingSun>(k, b, begin, end);
     else
         trace_paths<W, kSeekingSun>(k, b, begin, end);
+}
+
+/// As trace_paths_guided, for scenes with lamps.
+template <int W>
+PILEUS_FN void trace_paths_lamps(const PathParams& k, const PathBuffers& b, std::uint32_t begin,
+                                 std::uint32_t end) {
+    if (k.solids.count > 0 || k.camera_depth != nullptr)
+        trace_paths<W, kAmongSolids | kSeekingSun | kLitByLamps>(k, b, begin, end);
+    else
+        trace_paths<W, kSeekingSun | kLitByLamps>(k, b, begin, end);
 }
 
 }  // namespace PILEUS_ISA

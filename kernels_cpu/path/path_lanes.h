@@ -3,6 +3,7 @@
 // in: vertices and directions -> out: walkers in the grid; sums of radiance.
 // docs/path.md: a path and its shadow rays take turns in one lane.
 #pragma once
+#include "kernels_cpu/light/lamp.h"
 #include "kernels_cpu/media/flight.h"
 #include "kernels_cpu/path/path_params.h"
 #include "kernels_cpu/solids/solids.h"
@@ -14,6 +15,8 @@ inline namespace PILEUS_ISA {
 constexpr std::int32_t kFlightPath = 0;  ///< the path's next vertex
 constexpr std::int32_t kFlightSun = 1;   ///< a shadow ray towards the sun
 constexpr std::int32_t kFlightMap = 2;   ///< a shadow ray towards a point of the sky map
+constexpr std::int32_t kFlightNear = 3;  ///< one to a lamp, from between two vertices
+constexpr std::int32_t kFlightLamp = 4;  ///< one to a lamp from a vertex
 
 /// Paths of less weight play Russian roulette: survive as twice this, with less than half a chance.
 constexpr float kPathRoulette = 1.0f / 8.0f;
@@ -23,10 +26,13 @@ constexpr float kShadowRoulette = 1.0f / 16.0f;
 /// What a kernel minds beside the media: bits of the template argument K.
 constexpr int kAmongSolids = 1;  ///< flights end at solids and at the camera's image of them
 constexpr int kSeekingSun = 2;   ///< paths are guided to the sun, which may be a disc
+constexpr int kLitByLamps = 4;   ///< there are point, spot or parallel lights
 template <int K>
 constexpr bool kSolid = (K & kAmongSolids) != 0;
 template <int K>
 constexpr bool kGuided = (K & kSeekingSun) != 0;
+template <int K>
+constexpr bool kLamps = (K & kLitByLamps) != 0;
 
 /// What solid thing ends each flight; nothing where the scene has none.
 template <int W, bool Solid>
@@ -62,9 +68,28 @@ struct Seeker<W, NC, true> {
     Kept<W, NC> main;
 };
 
+/// A ray to a lamp, and what it interrupts; nothing where K does not ask for them.
+template <int W, bool Lit>
+struct LampRay {};
+template <int W>
+struct LampRay<W, true> {
+    Vec<F<W>> to_lamp;             // unit
+    F<W> lamp_way;                 // metres to it
+    F<W> lamp_light[3];            // what it brings at the camera, but for transmittance
+    M<W> lamp_single, lamp_cloud;  // parts that it belongs to
+    I<W> after;                    // from a vertex: the flight that is due then
+    Vec<F<W>> near;                // where it begins between vertices, voxels
+    Vec<F<W>> kept_p, kept_d;      // the path's own end
+    M<W> kept_met;                 // which was a collision, else a way out
+    M<W> near_done;                // the last flight has been looked at
+};
+
 /// A path per lane. A flight that has ended waits until its lane is served.
 template <int W, int NC, int K>
-struct PathLanes : Flight<W>, Walls<W, kSolid<K>>, Seeker<W, NC, kGuided<K>> {
+struct PathLanes : Flight<W>,
+                   Walls<W, kSolid<K>>,
+                   Seeker<W, NC, kGuided<K>>,
+                   LampRay<W, kLamps<K>> {
     Vec<F<W>> p;               // last tentative collision, voxels
     F<W> beta[NC];             // light at the camera per light that leaves the last vertex
     F<W> sum[3 * kPathParts];  // radiance so far
@@ -112,6 +137,16 @@ PILEUS_FN Vec<F<W>> sun_of(const PathLanes<W, NC, K>& s, const PathParams& k) {
     using T = F<W>;
     if constexpr (kGuided<K>) return s.to_sun;
     return {all<T>(k.to_sun[0]), all<T>(k.to_sun[1]), all<T>(k.to_sun[2])};
+}
+
+/// Calls `use(optics, lanes)` for every medium that lanes of `m` have met.
+template <int W, int NC, int K, class Use>
+PILEUS_FN void for_media(const PathLanes<W, NC, K>& s, const PathParams& k, M<W> m, Use use) {
+    if (k.media <= 1) return use(k.optics[0], m);
+    for (int i = 0; i < k.media; ++i) {
+        const M<W> mine = m & (s.medium == i);
+        if (any(mine)) use(k.optics[i], mine);
+    }
 }
 
 /// The next 64 random bits of the lanes of `m`.
@@ -258,11 +293,48 @@ PILEUS_FN void stop_at_solids(PathLanes<W, NC, K>& s, const PathParams& k, M<W> 
     cut_flights<W>(s, k, paths & (hit.triangle >= 0), o, hit.distance);
 }
 
+/// The rays of the lanes of `m` go to a lamp.
+template <int W, int NC, int K>
+PILEUS_FN void aim_at_lamp(PathLanes<W, NC, K>& s, M<W> m, const LampSight<F<W>>& sight) {
+    s.to_lamp = {select(m, sight.way.x, s.to_lamp.x), select(m, sight.way.y, s.to_lamp.y),
+                 select(m, sight.way.z, s.to_lamp.z)};
+    s.lamp_way = select(m, sight.distance, s.lamp_way);
+}
+
+/// Send the lanes of `m`, rays to lamps; they end there.
+template <int W, int NC, int K>
+PILEUS_FN void launch_at_lamps(PathLanes<W, NC, K>& s, const PathParams& k, M<W> m) {
+    using T = F<W>;
+    const M<W> near = s.flight == kFlightNear, outside = s.outside & lnot(near);
+    const Vec<T> from{select(near, s.near.x, s.vertex.x), select(near, s.near.y, s.vertex.y),
+                      select(near, s.near.z, s.vertex.z)};
+    const auto metres = [&](T v, int a) { return select(outside, v, v * k.grid.cell[a]); };
+    const Vec<T> o{metres(from.x, 0), metres(from.y, 1), metres(from.z, 2)};
+    aim_flight(s, k.grid, m, s.to_lamp);
+    const M<W> missed = send_flights<W>(s, k, m, from, outside);
+    s.lit = s.lit | missed;
+    cut_flights<W>(s, k, m & lnot(missed), o, s.lamp_way);
+    if constexpr (kSolid<K>) {
+        const M<W> dark = behind_solids(k.solids, o, s.d, s.lamp_way, m);
+        s.seen = select(dark, T{}, s.seen);
+        s.lit = s.lit | dark;
+    }
+}
+
 /// Send the lanes of `m` from their vertex on the flight that each is due. The optical depth to go
 /// is what the last flight had left, or drew where it ended: the exponential has no memory.
 template <int W, int NC, int K>
 PILEUS_FN void launch(PathLanes<W, NC, K>& s, const PathParams& k, PathTally& tally, M<W> m) {
     using T = F<W>;
+    if constexpr (kLamps<K>) {
+        const M<W> lamps = m & (s.flight >= kFlightNear);
+        s.seen = select(lamps, all<T>(1.0f), s.seen);
+        s.carry = select(lamps, T{}, s.carry);
+        if (any(lamps)) launch_at_lamps(s, k, lamps);
+        tally.shadow_rays += count_bits(bits_of(lamps));
+        m = m & lnot(lamps);
+        s.near_done = s.near_done & lnot(m & (s.flight == kFlightPath));
+    }
     const M<W> to_sun = s.flight == kFlightSun, path = s.flight == kFlightPath;
     const Vec<T> at_sun = sun_of(s, k);
     const auto aim = [&](T sun, T map, T next) {
@@ -272,6 +344,7 @@ PILEUS_FN void launch(PathLanes<W, NC, K>& s, const PathParams& k, PathTally& ta
                {aim(at_sun.x, s.to_map.x, s.next.x), aim(at_sun.y, s.to_map.y, s.next.y),
                 aim(at_sun.z, s.to_map.z, s.next.z)});
     const M<W> missed = send_flights<W>(s, k, m, s.vertex, s.outside);
+    if constexpr (kLamps<K>) s.t = select(missed, T{}, s.t);  // nothing of it lies in the box
     s.out = s.out | (missed & path);
     s.lit = s.lit | (missed & lnot(path));
     s.seen = select(m, all<T>(1.0f), s.seen);

@@ -5,6 +5,7 @@
 #pragma once
 #include "kernels_cpu/core/camera.h"
 #include "kernels_cpu/core/rng.h"
+#include "kernels_cpu/light/lamp_params.h"
 #include "kernels_cpu/light/sky_sample.h"
 #include "kernels_cpu/media/optics.h"
 #include "kernels_cpu/media/track_grid.h"
@@ -69,6 +70,11 @@ struct PathParams {
     float light_roulette;       ///< kLightRoulette; 0: every shadow ray flies
     SolidsView solids;          ///< read by trace_paths_solid alone, as is
     const float* camera_depth;  ///< [pixel], m along the ray; null: no such image
+
+    // Read by trace_paths_lamps alone.
+    std::int32_t lamp_count;  ///< 0: none
+    const LampParams* lamps;
+    float lamp_near;  ///< m: nearer to a lamp, light is found between vertices, else at them
 };
 
 /// Sums of integers, so that threads and chunks can be added in any order.

@@ -142,6 +142,7 @@ PILEUS_FN void fill_fresh(FreshPaths<W, K>& f, const PathParams& k, const PathBu
     b.tally->paths += count_bits(bits_of(m));
     aim_camera<W>(f, k, m, x, y);
     const M<W> missed = send_flights<W>(f.flight, k, m, f.origin, m);
+    if constexpr (kLamps<K>) f.flight.t = select(missed, T{}, f.flight.t);
     if constexpr (kSolid<K>) aim_at_solids(f, k, m);
     f.out = missed | leap_to_medium(f.flight, k, *b.tally, m & lnot(missed));
     M<W> sky = f.out;
@@ -202,6 +203,7 @@ PILEUS_FN void refill_paths(PathLanes<W, NC, K>& s, FreshPaths<W, K>& f, const P
     s.alive = s.alive | fresh;
     s.outside = s.outside | fresh;
     s.cloud = s.cloud & lnot(fresh);
+    if constexpr (kLamps<K>) s.near_done = s.near_done & lnot(fresh);
     s.out = s.out | out;
 }
 

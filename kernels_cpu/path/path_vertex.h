@@ -5,22 +5,13 @@
 #pragma once
 #include "kernels_cpu/light/lambert.h"
 #include "kernels_cpu/path/path_guide.h"
+#include "kernels_cpu/path/path_lamps.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
 
 /// Reflections after which a path is given up, where solids reflect all light.
 constexpr std::int32_t kMostBounces = 1 << 14;
-
-/// Calls `use(optics, lanes)` for every medium that lanes of `m` have met.
-template <int W, int NC, int K, class Use>
-PILEUS_FN void for_media(const PathLanes<W, NC, K>& s, const PathParams& k, M<W> m, Use use) {
-    if (k.media <= 1) return use(k.optics[0], m);
-    for (int i = 0; i < k.media; ++i) {
-        const M<W> mine = m & (s.medium == i);
-        if (any(mine)) use(k.optics[i], mine);
-    }
-}
 
 /// Of the shadow rays that leave the lanes of `m`, leave out by luck those that would bring little:
 /// `value`, per steradian, for each unit of irradiance that the light could give. The others bring
@@ -138,6 +129,17 @@ PILEUS_FN void scatter_path(PathLanes<W, NC, K>& s, const PathParams& k, PathTal
             return density;
         });
     first_flight(s, k, m, mapped, spare_bits(w));
+    if constexpr (kLamps<K>)
+        seek_lamps(
+            s, k, m, k.lamp_near, [](const Vec<T>&) { return all<T>(1.0f); },
+            [&](const Vec<T>& way, M<W> lanes) {
+                const T one_minus_cos = one_minus_cosine(s.d, way);
+                T density{};
+                for_media(s, k, lanes, [&](const Optics& optics, M<W> mine) {
+                    density = select(mine, phase_density(optics.phase, one_minus_cos), density);
+                });
+                return density;
+            });
 }
 
 /// The lanes of `m` meet the ground at `at`, metres.
@@ -166,6 +168,10 @@ PILEUS_FN void reflect_path(PathLanes<W, NC, K>& s, const PathParams& k, PathTal
     if constexpr (kGuided<K>)
         seek_sun(s, k, m, [&](const Vec<T>& way, M<W>) { return max_(way.z, T{}) * kInvPi; });
     first_flight(s, k, m, mapped, spare_bits(w));
+    if constexpr (kLamps<K>)
+        seek_lamps(
+            s, k, m, 0, [](const Vec<T>& way) { return way.z; },
+            [&](const Vec<T>& way, M<W>) { return max_(way.z, T{}) * kInvPi; });
 }
 
 /// The lanes of `m` meet a solid.
@@ -198,6 +204,10 @@ PILEUS_FN void reflect_at_solid(PathLanes<W, NC, K>& s, const PathParams& k, Pat
     if constexpr (kGuided<K>)
         seek_sun(s, k, m, [&](const Vec<T>& way, M<W>) { return max_(dot(way, n), T{}) * kInvPi; });
     first_flight(s, k, m, mapped, spare_bits(w));
+    if constexpr (kLamps<K>)
+        seek_lamps(
+            s, k, m, 0, [&](const Vec<T>& way) { return dot(way, n); },
+            [&](const Vec<T>& way, M<W>) { return max_(dot(way, n), T{}) * kInvPi; });
     // Black surfaces end paths; between white ones a path would go on for ever.
     const M<W> endless = m & (s.bounces >= kMostBounces);
     tally.terminated += count_bits(bits_of(endless));

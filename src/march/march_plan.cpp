@@ -164,6 +164,11 @@ void note_plan(RaymarchRun& run) {
     } else {
         plan.leave_out("marched rays", "steps = 0: the medium is not seen");
     }
+    const std::size_t lamps = run.lighting.lamps.size();
+    if (lamps == 0)
+        plan.leave_out("lights", scene.lights.empty() ? "no [[light]]" : "dark or underground");
+    else
+        plan.need((std::to_string(lamps) + " lights of [[light]], scattered once").c_str());
     if (run.lighting.sunlit && scene.sun.angular_radius_deg > 0)
         plan.leave_out("the sun's disc", "a point to this method: path alone knows it");
     if (run.levels > 0)
@@ -201,6 +206,9 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
     add_majorant_rows(grid, run.outlined_only ? 1 : run.majorants.tracking.size(),
                       std::uint64_t(context.threads), last, t);
     if (!run.march_light && run.lighting.sunlit) add(t, arrays::sun_depth(sun_grid(run), last));
+    if (!run.lighting.lamps.empty())
+        add(t, arrays::lamp_depths(node_count(lamp_node_grid(run.world->medium)),
+                                   run.lighting.lamps.size()));
     if (caps_extinction(run)) add(t, arrays::capped_density(grid));
     if (has_sun_grid(run)) {
         add(t, arrays::lit_density(sun_grid(run)));

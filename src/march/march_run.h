@@ -6,6 +6,7 @@
 #include "src/march/march.h"
 #include "src/march/upsample.h"
 #include "src/methods/methods.h"
+#include "src/picture/nodes/lamp_light.h"
 #include "src/plan/plan.h"
 #include "src/world/camera/view.h"
 #include "src/world/majorant/majorants.h"
@@ -28,6 +29,7 @@ struct RaymarchRun : MethodRun {
 
     Buffer<float> noise;  ///< tile of the jitter; empty: none
     SkyNodes sky;
+    LampNodes lamps;
     int levels = 0;                    ///< of detail
     std::vector<DensityLevel> coarse;  ///< their densities
     SunDepth nodes;

@@ -48,6 +48,26 @@ Status light_sky(const Context& context, const FrameStep& step, RaymarchRun& run
                           run.sky);
 }
 
+/// Light of [[light]], scattered once: its own march, in steps of the grid.
+Status add_lamps(const Context& context, RaymarchRun& run) {
+    if (run.lighting.lamps.empty() || run.settings.steps == 0) return Status::ok();
+    const Medium& medium = marched_medium(run);
+    PILEUS_TRY(make_lamp_nodes(context, medium, run.majorants, run.lighting, run.lamps));
+    LampMarchParams k = lamp_march_params(medium, run.majorants, run.lighting, run.camera,
+                                          run.lamps, run.settings.stop_below);
+    for (int i = 0; i < k.media; ++i) {
+        float unit = 1;
+        if (run.settings.peak_phase) unit = 1.0f / phase_peak(k.phase[i]);
+        if (run.simple != nullptr) {
+            // As the sun's light in this method: twice, and with a phase function of its own.
+            if (run.simple->g >= -1) k.phase[i] = {kPhaseHg, float(run.simple->g), 0, 1};
+            unit = float(2 * run.simple->intensity);
+        }
+        for (float& albedo : k.albedo[i]) albedo *= unit;
+    }
+    return add_lamp_light(context, medium, k, run.lamps, run.planes);
+}
+
 /// The shadow of solids, on nodes two voxels apart.
 Status shade_by_solids(const Context& context, RaymarchRun& run) {
     if (!run.world->solids.meshes || !run.lighting.sunlit || run.world->medium.sigma <= 0)
@@ -107,7 +127,8 @@ Status march_light(const FrameStep& step, const Context& context, MethodRun& met
     in.seed = std::uint64_t(scene.seed) + std::uint64_t(step.frame);
     in.layer = run.world->direct_sky ? &run.world->layer : nullptr;
     in.camera = run.camera;
-    return upsample_picture(context, in, step.frame, run.upsample, run.planes, run.tally);
+    PILEUS_TRY(upsample_picture(context, in, step.frame, run.upsample, run.planes, run.tally));
+    return add_lamps(context, run);
 }
 
 Status march_show(const FrameStep&, const Context& context, MethodRun& method_run, Image& image) {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/base/vectors.h"
+#include "src/scene/light_settings.h"
 #include "src/scene/particle_settings.h"
 #include "src/scene/sky_settings.h"
 #include "src/scene/weather_settings.h"
@@ -267,6 +268,7 @@ struct Scene {
     Sun sun;
     Sky sky;
     Ground ground;
+    std::vector<LightSettings> lights;  ///< besides sun and sky
     std::vector<SolidSettings> solids;
     std::vector<MediumSettings> media;
     std::string method = "collectors";

@@ -67,6 +67,8 @@ Status check_flux(const Scene& scene, const Context& context, const PathRun& run
         return fault("--isa: a device, allowed: an instruction set of the host");
     if (!scene.solids.empty())
         return fault("solid: fluxes are those of media alone, allowed: a scene without solids");
+    if (!scene.lights.empty())
+        return fault("light: fluxes are shares of sun and sky, allowed: a scene without [[light]]");
     if (!from_below && (!run.lighting.sunlit || !(run.lighting.to_sun[2] > 0)))
         return fault("sun: not above the horizon, or dark, allowed: what fluxes are shares of");
     return Status::ok();

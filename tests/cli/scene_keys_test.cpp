@@ -26,7 +26,7 @@ std::string file_text(const std::string& path) {
     return text.str();
 }
 
-/// Reads a scene of one medium and one solid with one key set; its laws are left alone.
+/// Reads a scene of one medium, one solid and one light with one key set; its laws are left alone.
 struct OneKey {
     Node root;
     Scene scene;
@@ -35,7 +35,7 @@ struct OneKey {
 
     explicit OneKey(const std::string& setting) {
         SyntaxFault fault;
-        REQUIRE(parse_toml("[[medium]]\n[[solid]]\n", root, fault));
+        REQUIRE(parse_toml("[[medium]]\n[[solid]]\n[[light]]\n", root, fault));
         if (!setting.empty()) apply_overrides({setting}, root, faults);
         check_keys(root, check);
     }
@@ -136,7 +136,8 @@ TEST_CASE("what the dump shows of a key reads back as the same") {
         if (row->field.get == nullptr) continue;
         CAPTURE(row->path);
         OneKey one(first(row->path) + "=" + sample(*row));
-        const KeySource source{one.scene, one.scene.media[0], one.scene.solids[0]};
+        const KeySource source{one.scene, one.scene.media[0], one.scene.solids[0],
+                               one.scene.lights[0]};
         const Node value = value_of(*row, source);
         if (!has_value(value)) continue;
         const OneKey again(first(row->path) + "=" + toml_text(value));

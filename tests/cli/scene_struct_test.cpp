@@ -65,7 +65,8 @@ TEST_CASE("structs: each number beyond its row's range is a fault that names the
             const Node wrong = beyond(*row, high);
             if (!has_value(wrong) || row->field.set == nullptr) continue;
             Scene scene = whole_scene();
-            set_value(*row, {scene, scene.media[0], scene.solids[0]}, wrong);
+            scene.lights.emplace_back();
+            set_value(*row, {scene, scene.media[0], scene.solids[0], scene.lights[0]}, wrong);
             std::string path = row->path;
             const std::size_t n = path.find(".N.");
             if (n != std::string::npos) path.replace(n + 1, 1, "0");

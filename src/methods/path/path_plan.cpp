@@ -42,6 +42,11 @@ void note_sun(const Scene& scene, const PathRun& run, Plan& plan) {
 void note_light(const Scene& scene, const PathRun& run, Plan& plan) {
     const Lighting& light = run.lighting;
     note_sun(scene, run, plan);
+    if (!light.lamps.empty())
+        plan.needed.push_back("flights towards " + std::to_string(light.lamps.size()) +
+                              " lights of [[light]], near them from between vertices");
+    else
+        plan.leave_out("flights towards lights", "no [[light]]");
     if (light.map.columns > 0)
         plan.need("flights towards the sky map, weighed against scattering (MIS)");
     else

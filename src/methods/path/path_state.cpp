@@ -102,6 +102,17 @@ void add_light(const Lighting& light, Digest& d) {
     }
     d.f32(float(light.ground_z));
     d.f32(float(light.ground_albedo));
+    for (const LampParams& lamp : light.lamps) {
+        d.u32(std::uint32_t(lamp.parallel));
+        for (std::size_t c = 0; c < 3; ++c) {
+            d.f32(lamp.at[c]);
+            d.f32(lamp.axis[c]);
+            d.f32(lamp.light[c]);
+        }
+        d.f32(lamp.edge);
+        d.f32(lamp.slope);
+        d.f32(lamp.least_square);
+    }
     const SkyMapView& map = light.map;
     d.u32(std::uint32_t(map.columns));
     d.u32(std::uint32_t(map.rows));

@@ -73,6 +73,14 @@ void set_light(const PathInput& in, const SkySampler& sampler, PathParams& k) {
     k.ground_albedo = float(light.ground_albedo);
 }
 
+void set_lamps(const PathInput& in, PathParams& k) {
+    const Medium& m = *in.medium;
+    k.lamps = in.lighting->lamps.data();
+    k.lamp_count = std::int32_t(in.lighting->lamps.size());
+    const double densest = double(m.sigma) * double(m.density_max);
+    k.lamp_near = densest > 1e-9 ? float(kLampNear / densest) : 1e9f;
+}
+
 /// The sun's disc shines alike all over; its irradiance stays that of the point.
 void set_disc(double radius_deg, PathParams& k) {
     const double half = sincos_deg(0.5 * radius_deg).sine;
@@ -90,6 +98,7 @@ PathParams path_params(const PathInput& in, const PathScratch& scratch) {
     k.pixels = std::uint32_t(film_pixels(in));
     k.parts_wanted = in.parts ? 1 : 0;
     k.light_roulette = in.light_roulette;
+    set_lamps(in, k);
     if (k.sunlit == 0) return k;
     if (in.guide) k.guide = scratch.guide;
     if (in.sun_radius_deg > 0) set_disc(in.sun_radius_deg, k);
@@ -98,6 +107,7 @@ PathParams path_params(const PathInput& in, const PathScratch& scratch) {
 
 /// The kernel of the table that these paths need.
 auto kernel_for(const PathInput& in, const PathParams& k) {
+    if (k.lamp_count > 0) return in.kernels->trace_paths_lamps;
     if (seeks_sun(k)) return in.kernels->trace_paths_guided;
     const bool ends = in.lighting->solids != nullptr || in.lighting->depth != nullptr;
     return ends ? in.kernels->trace_paths_solid : in.kernels->trace_paths;

@@ -17,9 +17,13 @@ namespace pileus {
 /// A step of a flight across a border is a few additions: smaller blocks than photons have pay.
 constexpr TrackingCosts kPathCosts{1.0, 0.25, 0.25};
 
+/// Mean free paths, where the medium is densest, within which light of a lamp is found between
+/// vertices.
+constexpr double kLampNear = 2;
+
 struct PathInput {
     const Medium* medium = nullptr;
-    const Lighting* lighting = nullptr;  ///< of it sun, sky, map and ground; lights are not read
+    const Lighting* lighting = nullptr;  ///< of it sun, sky, map and ground; of lights none
     Span<const float> majorants;
     int block = 1;
     CameraParams camera{};

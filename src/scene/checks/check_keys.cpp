@@ -77,7 +77,7 @@ private:
             if (!valid) return;
             if (row->kind() == KeyKind::kDensity && child.is_table())
                 table(child, path, pattern, medium);
-            set_value(*row, {check_.scene, medium, *solid_}, child);
+            set_value(*row, {check_.scene, medium, *solid_, *light_}, child);
         } else if (pattern == "medium") {
             list(child, pattern, check_.scene.media, [&](const Node& table_node, std::size_t i) {
                 table(table_node, "medium." + std::to_string(i), "medium.N", check_.scene.media[i]);
@@ -87,6 +87,12 @@ private:
                 solid_ = &check_.scene.solids[i];
                 table(table_node, "solid." + std::to_string(i), "solid.N", medium);
                 solid_ = &nowhere_;
+            });
+        } else if (pattern == "light") {
+            list(child, pattern, check_.scene.lights, [&](const Node& table_node, std::size_t i) {
+                light_ = &check_.scene.lights[i];
+                table(table_node, "light." + std::to_string(i), "light.N", medium);
+                light_ = &dark_;
             });
         } else if (is_section(pattern)) {
             check_.found[path] = {&child, child.is_table()};
@@ -189,7 +195,9 @@ private:
     SceneCheck& check_;
     std::vector<const KeyRow*> rows_;
     SolidSettings nowhere_;
+    LightSettings dark_;
     SolidSettings* solid_ = &nowhere_;  ///< of the table being walked
+    LightSettings* light_ = &dark_;     ///< likewise
 };
 
 }  // namespace

@@ -209,6 +209,7 @@ void check_laws(SceneCheck& check) {
     check_periodic(check);
     check_compositor(check);
     check_solids(check);
+    check_lights(check);
 }
 
 }  // namespace pileus

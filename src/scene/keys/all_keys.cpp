@@ -25,6 +25,7 @@ std::vector<const KeyRow*> all_scene_keys() {
         for (const KeyRow& row : table) rows.push_back(&row);
     };
     add(view_keys());
+    add(light_keys());
     add(solid_keys());
     add(medium_keys());
     rows.push_back(&transfer_key());
@@ -44,16 +45,20 @@ std::vector<const KeyRow*> all_scene_keys() {
 void for_each_key(const Scene& scene, const KeyVisit& visit) {
     const MediumSettings no_medium;
     const SolidSettings no_solid;
+    const LightSettings no_light;
     for (const KeyRow* row : all_scene_keys()) {
         if (row->field.get == nullptr) continue;
         if (begins_with(row->path, "medium.N."))
             for (std::size_t i = 0; i < scene.media.size(); ++i)
-                visit(*row, path_at(row->path, i), {scene, scene.media[i], no_solid});
+                visit(*row, path_at(row->path, i), {scene, scene.media[i], no_solid, no_light});
         else if (begins_with(row->path, "solid.N."))
             for (std::size_t i = 0; i < scene.solids.size(); ++i)
-                visit(*row, path_at(row->path, i), {scene, no_medium, scene.solids[i]});
+                visit(*row, path_at(row->path, i), {scene, no_medium, scene.solids[i], no_light});
+        else if (begins_with(row->path, "light.N."))
+            for (std::size_t i = 0; i < scene.lights.size(); ++i)
+                visit(*row, path_at(row->path, i), {scene, no_medium, no_solid, scene.lights[i]});
         else
-            visit(*row, row->path, {scene, no_medium, no_solid});
+            visit(*row, row->path, {scene, no_medium, no_solid, no_light});
     }
 }
 

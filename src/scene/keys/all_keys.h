@@ -11,6 +11,7 @@
 namespace pileus {
 
 Span<const KeyRow> view_keys();           // seed, camera, sun, sky, ground
+Span<const KeyRow> light_keys();          // light
 Span<const KeyRow> solid_keys();          // solid
 Span<const KeyRow> medium_keys();         // medium, up to its phase function
 Span<const KeyRow> weather_keys();        // medium.density, of weather data
@@ -46,7 +47,7 @@ Span<const MethodKeys> all_methods();
 /// All rows in the order of the documentation.
 std::vector<const KeyRow*> all_scene_keys();
 
-/// Calls `visit` for every row that has a field, in every medium and solid, with its path
+/// Calls `visit` for every row that has a field, in every medium, solid and light, with its path
 /// ("medium.0.albedo") and where its value stands.
 using KeyVisit = std::function<void(const KeyRow&, const std::string& path, const KeySource&)>;
 void for_each_key(const Scene& scene, const KeyVisit& visit);

@@ -35,11 +35,13 @@ struct KeyTarget {
     Scene& scene;
     MediumSettings& medium;
     SolidSettings& solid;
+    LightSettings& light;
 };
 struct KeySource {
     const Scene& scene;
     const MediumSettings& medium;
     const SolidSettings& solid;
+    const LightSettings& light;
 };
 
 struct KeyField {
@@ -93,6 +95,10 @@ auto& root(const Places& places, const MediumSettings*) {
 template <class Places>
 auto& root(const Places& places, const SolidSettings*) {
     return places.solid;
+}
+template <class Places>
+auto& root(const Places& places, const LightSettings*) {
+    return places.light;
 }
 
 template <class Class, class Value>

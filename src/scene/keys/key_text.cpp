@@ -41,6 +41,7 @@ std::string section_of(const KeyRow& row) {
     if (path.compare(0, 13, "medium.N.sky.") == 0) return "medium.N.sky";
     if (path.compare(0, 9, "medium.N.") == 0) return "medium.N";
     if (path.compare(0, 8, "solid.N.") == 0) return "solid.N";
+    if (path.compare(0, 8, "light.N.") == 0) return "light.N";
     const std::size_t dot = path.find('.');
     return dot == std::string::npos ? "" : path.substr(0, dot);
 }
@@ -49,6 +50,7 @@ std::string heading_of(const std::string& section) {
     if (section.empty()) return "Top level";
     if (section == "other") return "Tables of other methods";
     if (section == "solid.N") return "`[[solid]]`";
+    if (section == "light.N") return "`[[light]]`";
     if (section == "medium.N.sky") return "`[[medium]]`, `sky = { ... }`";
     if (section == "medium.N.density") return "`[[medium]]`, `density = { ... }` of weather data";
     return section == "medium.N" ? "`[[medium]]`" : "`[" + section + "]`";
@@ -111,7 +113,7 @@ Node value_of(const KeyRow& row, const KeySource& source) {
 }
 
 Node default_value(const KeyRow& row) {
-    return value_of(row, {Scene(), MediumSettings(), SolidSettings()});
+    return value_of(row, {Scene(), MediumSettings(), SolidSettings(), LightSettings()});
 }
 
 void set_value(const KeyRow& row, const KeyTarget& target, const Node& node) {

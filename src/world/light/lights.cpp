@@ -4,6 +4,7 @@
 
 #include "src/base/angles.h"
 #include "src/base/random_streams.h"
+#include "src/world/light/lamps.h"
 #include "src/world/solids/camera_depth.h"
 #include "src/world/solids/solids.h"
 
@@ -153,6 +154,7 @@ Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elev
     for (std::size_t c = 0; c < 3; ++c)
         if (scene.sky.present && !mapped) out.sky[c] = double(scene.sky.radiance[c]);
     plan_ground(scene, medium, mapped ? map : nullptr, sun_elevation_deg, plan, out);
+    if (!scene.lights.empty()) out.lamps = plan_lamps(scene, medium, plan);
     if (medium.grid.periodic) plan.leave_out("side faces", "periodic medium: it has none");
     if (dark) {
         plan.leave_out("photons", "no medium to scatter them");

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "kernels_cpu/light/lamp_params.h"
 #include "src/plan/plan.h"
 #include "src/world/light/sky_map.h"
 #include "src/world/medium/medium.h"
@@ -37,7 +38,8 @@ struct Lighting {
     const Solids* solids = nullptr;      ///< what casts shadows and hides; null: nothing does
     const CameraDepth* depth = nullptr;  ///< what hides alone; null: nothing does
     std::vector<Light> lights;
-    Double3 constant{};  ///< source everywhere in the medium (furnace identity)
+    std::vector<LampParams> lamps;  ///< point, spot and parallel lights
+    Double3 constant{};             ///< source everywhere in the medium (furnace identity)
     bool sunlit = false;
     std::array<float, 3> to_sun{0, 0, 1};
     Double3 sun_irradiance{};

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light of point, spot and parallel lights scattered once, added up along each pixel's ray.
+// in: lamps, a medium -> out: optical depths to each lamp on nodes; light added to planes.
+// docs/lights.md, "By marching": 1 / distance^2 is integrated over each step by the angle that the
+// lamp sees of it, so that a lamp beside the ray needs no finer steps.
+#pragma once
+#include "kernels_cpu/core/pixel_block.h"
+#include "kernels_cpu/display/march_ray.h"
+#include "kernels_cpu/light/lamp.h"
+#include "kernels_cpu/raymarch/lamp_march_params.h"
+
+namespace pileus {
+inline namespace PILEUS_ISA {
+
+/// Optical depth between places (metres) and a lamp.
+template <class T>
+PILEUS_FN T depth_to_lamp(const MediumView& m, const Vec<T>& from, const LampSight<T>& sight,
+                          M_of<T> wanted) {
+    const Ray<T> ray{from, sight.way};
+    const Segment<T> box = clip_to_medium(m, ray);
+    const T leave = select(wanted, min_(box.leave, sight.distance), box.enter);
+    if (m.constant != 0) return density_along<true>(m, ray, box.enter, leave) * m.sigma;
+    return density_along<false>(m, ray, box.enter, leave) * m.sigma;
+}
+
+template <int W>
+PILEUS_FN void lamp_depth_rows(const LampMarchParams& k, const LampMarchBuffers& b,
+                               std::uint32_t begin, std::uint32_t end) {
+    using T = F<W>;
+    const std::int32_t nx = k.nodes.size[0], ny = k.nodes.size[1], nz = k.nodes.size[2];
+    for (std::uint32_t row = begin; row < end; ++row) {
+        const std::int32_t at = std::int32_t(row) % (ny * nz);
+        const LampParams& lamp = b.lamps[std::int32_t(row) / (ny * nz)];
+        const float y = (float(at % ny) + 0.5f) / k.nodes.per_metre[1];
+        const float z = (float(at / ny) + 0.5f) / k.nodes.per_metre[2];
+        for (std::int32_t x = 0; x < nx; x += W) {
+            const I<W> i = iota<I<W>>() + x;
+            const Vec<T> p{(to_float(i) + 0.5f) / k.nodes.per_metre[0], all<T>(y), all<T>(z)};
+            const T tau = depth_to_lamp(k.medium, p, see_lamp(lamp, p), i < nx);
+            for (int l = 0; l < W && x + l < nx; ++l)
+                b.optical_depth[std::int64_t(row) * nx + x + l] = lane(tau, l);
+        }
+    }
+}
+
+/// A lamp's light on a step of `width` metres that begins at `from`: where it is looked at, the
+/// direction, and the mean irradiance per unit of the lamp's light.
+template <class T>
+PILEUS_FN LampSight<T> lamp_over_step(const LampParams& lamp, const Vec<T>& from, const Vec<T>& d,
+                                      T width, Vec<T>& place) {
+    T t = 0.5f * width, mean = all<T>(1.0f);
+    if (lamp.parallel == 0) {
+        // No sphere: the whole step counts.
+        const LampChord<T> chord = lamp_chord(lamp, from, d, width, 1e18f);
+        T metres;
+        t = point_of_chord(chord, all<T>(0.5f), metres);
+        mean = metres / max_(width, all<T>(1e-30f));
+    }
+    place = {from.x + d.x * t, from.y + d.y * t, from.z + d.z * t};
+    LampSight<T> sight = see_lamp(lamp, place);
+    sight.share = sight.share * mean;
+    return sight;
+}
+
+template <int W, bool Constant>
+PILEUS_FN void march_lamps(const LampMarchParams& k, const LampMarchBuffers& b,
+                           const Ray<F<W>>& ray, F<W> enter, F<W> leave, F<W> (&colour)[3]) {
+    using T = F<W>;
+    const MediumView& m = k.medium;
+    const std::int64_t nodes = std::int64_t(k.nodes.size[0]) * k.nodes.size[1] * k.nodes.size[2];
+    const std::int64_t voxels = std::int64_t(m.size[0]) * m.size[1] * m.size[2];
+    T seen = all<T>(1.0f);
+    march_ray<Constant>(
+        m, ray, enter, leave, [&](M<W> dense, T t, T width, const Vec<T>& p, const Vec<T>&) {
+            if (!any(dense)) return seen < k.cut;
+            const Corners<T> at = density_corners<Constant>(m, p);
+            const T density = read_density<Constant>(m.density, at);
+            const T optical = select(dense, density * (m.sigma * width), T{});
+            const T weight = seen * one_minus_exp(optical);
+            const Vec<T> from = along(ray, t - 0.5f * width);
+            T share[kMostMedia] = {};
+            for_shares(
+                b.parts, voxels, k.media, density,
+                [&](const float* grid) { return read_density<Constant>(grid, at); },
+                [&](int i, T s) { share[i] = s; });
+            for (std::int32_t l = 0; l < k.lamps; ++l) {
+                const LampParams& lamp = b.lamps[l];
+                Vec<T> place;
+                const LampSight<T> sight = lamp_over_step(lamp, from, ray.direction, width, place);
+                const M<W> lit = dense & (sight.share > 0.0f) & (weight > 0.0f);
+                if (!any(lit)) continue;
+                const T tau = interpolate(b.optical_depth + l * nodes,
+                                          corners(node_position(k.nodes, place), k.nodes.size));
+                const T light = weight * sight.share * exp_(T{} - tau);
+                const T turn = one_minus_cosine(ray.direction, sight.way);
+                for (int i = 0; i < k.media; ++i) {
+                    const T scattered =
+                        select(lit, light * share[i] * phase_density(k.phase[i], turn), T{});
+                    for (int c = 0; c < 3; ++c)
+                        colour[c] = colour[c] + scattered * (k.albedo[i][c] * lamp.light[c]);
+                }
+            }
+            seen = seen * exp_(T{} - optical);
+            return seen < k.cut;
+        });
+}
+
+/// Light of the lamps that the ground sends along rays which meet it `depth` metres away.
+template <int W>
+PILEUS_FN void light_ground(const LampMarchParams& k, const LampMarchBuffers& b,
+                            const Ray<F<W>>& ray, F<W> depth, M<W> m, F<W> (&colour)[3]) {
+    using T = F<W>;
+    constexpr float kInvPi = 4.0f * kInvFourPi;
+    Vec<T> p = along(ray, select(m, depth, T{}));
+    p.z = all<T>(k.ground_z);
+    for (std::int32_t l = 0; l < k.lamps; ++l) {
+        const LampSight<T> sight = see_lamp(b.lamps[l], p);
+        const T cosine = max_(sight.way.z, T{});
+        const M<W> lit = m & (cosine * sight.share > 0.0f);
+        if (!any(lit)) continue;
+        const T tau = depth_to_lamp(k.medium, p, sight, lit);
+        const T light =
+            select(lit, cosine * sight.share * exp_(T{} - tau) * (k.ground_albedo * kInvPi), T{});
+        for (int c = 0; c < 3; ++c) colour[c] = colour[c] + light * b.lamps[l].light[c];
+    }
+}
+
+template <int W>
+PILEUS_FN void lamp_march_rows(const LampMarchParams& k, const LampMarchBuffers& b,
+                               std::uint32_t begin, std::uint32_t end) {
+    using T = F<W>;
+    constexpr int across = kMarchAcross<W>;
+    const I<W> number = iota<I<W>>();
+    const std::int64_t pixels = std::int64_t(k.camera.width) * k.camera.height;
+    for (std::uint32_t row = begin; row < end; row += W / across)
+        for (std::int32_t x = 0; x < k.camera.width; x += across) {
+            const std::int32_t y = std::int32_t(row), last = std::int32_t(end);
+            const I<W> px = number % across + x, py = number / across + y;
+            const M<W> real = (px < k.camera.width) & (py < last);
+            const Ray<T> ray = camera_ray(k.camera, to_float(px), to_float(py));
+            const Segment<T> box = clip_to_medium(k.medium, ray);
+            T opaque = all<T>(3e38f);
+            if (b.opaque_depth != nullptr)
+                for_block<W>(k.camera, x, y, last, [&](int l, std::int64_t pixel) {
+                    set_lane(opaque, l, b.opaque_depth[pixel]);
+                });
+            const T leave = select(real, min_(box.leave, opaque), box.enter);
+            T colour[3] = {}, behind[3] = {};
+            if (any(box.enter < leave)) {
+                if (k.medium.constant != 0)
+                    march_lamps<W, true>(k, b, ray, box.enter, leave, colour);
+                else
+                    march_lamps<W, false>(k, b, ray, box.enter, leave, colour);
+            }
+            if (k.ground != 0 && b.background != nullptr) {
+                // A depth image may hide the ground: what ends elsewhere is not lit.
+                const T height = ray.origin.z - k.ground_z;
+                const T way = height / max_(T{} - ray.direction.z, all<T>(1e-18f));
+                const M<W> ends = real & (ray.direction.z < 0.0f) & (height >= 0.0f) &
+                                  (opaque < 3e38f) & (abs_(opaque - way) <= way * 1e-4f);
+                if (any(ends)) light_ground<W>(k, b, ray, opaque, ends, behind);
+            }
+            for_block<W>(k.camera, x, y, last, [&](int l, std::int64_t pixel) {
+                for (int c = 0; c < 3; ++c) {
+                    b.colour[c * pixels + pixel] += lane(colour[c], l);
+                    if (b.background != nullptr)
+                        b.background[c * pixels + pixel] += lane(behind[c], l);
+                }
+            });
+        }
+}
+
+}  // namespace PILEUS_ISA
+}  // namespace pileus

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the march of light from point, spot and parallel lights needs: plain structs and pointers.
+// in: lamps, a medium, a camera -> out: the layout of a launch.
+// docs/lights.md, "By marching".
+#pragma once
+#include "kernels_cpu/display/march_params.h"
+#include "kernels_cpu/light/lamp_params.h"
+
+namespace pileus {
+
+struct LampMarchParams {
+    MediumView medium;
+    CameraParams camera;
+    std::int32_t media;  ///< on the grid, 1..kMostMedia
+    PhaseParams phase[kMostMedia];
+    float albedo[kMostMedia][3];
+    std::int32_t lamps;
+    NodeGrid nodes;       ///< of optical depths to each lamp
+    float cut;            ///< stop below this transmittance
+    std::int32_t ground;  ///< 0: none
+    float ground_z;       ///< m
+    float ground_albedo;
+};
+
+struct LampMarchBuffers {
+    const LampParams* lamps;
+    float* optical_depth;       ///< [lamp][node]
+    const float* parts;         ///< [medium - 1][voxel]: densities of media 1, 2 ...
+    const float* opaque_depth;  ///< [pixel], m along the ray; null: nothing opaque
+    float* colour;              ///< [3][pixel], premultiplied; added to
+    float* background;          ///< [3][pixel], added to where rays end at the ground; null: none
+};
+
+/// A table of functions, one for each instruction set.
+struct LampKernels {
+    /// Rows of nodes along x: nodes.size[1] * nodes.size[2] of them for every lamp.
+    void (*depth_rows)(const LampMarchParams&, const LampMarchBuffers&, std::uint32_t begin,
+                       std::uint32_t end);
+    /// Rows of pixels.
+    void (*march_rows)(const LampMarchParams&, const LampMarchBuffers&, std::uint32_t begin,
+                       std::uint32_t end);
+};
+
+}  // namespace pileus

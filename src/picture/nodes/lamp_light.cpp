@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// See lamp_light.h.
+#include "src/picture/nodes/lamp_light.h"
+
+#include <cstring>
+
+#include "src/picture/march_view.h"
+#include "src/picture/nodes/node_grid.h"
+
+namespace pileus {
+namespace {
+
+constexpr double kFewestNodes = 1u << 17, kMostNodes = 1u << 20;
+constexpr double kVoxelsPerNode = 8;
+
+bool same_lamps(const std::vector<LampParams>& a, const std::vector<LampParams>& b) {
+    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
+}
+
+}  // namespace
+
+NodeGrid lamp_node_grid(const Medium& medium) {
+    double budget = double(voxel_count(medium.grid)) / kVoxelsPerNode;
+    budget = budget < kFewestNodes ? kFewestNodes : budget > kMostNodes ? kMostNodes : budget;
+    double spacing = 0;
+    for (double edge : medium.extent_m) spacing = edge > spacing ? edge : spacing;
+    // Flat boxes have one node at least along each axis.
+    const auto nodes = [&](double apart) {
+        double count = 1;
+        for (double edge : medium.extent_m) count *= edge > apart ? edge / apart : 1;
+        return count;
+    };
+    while (nodes(spacing / 1.125) <= budget) spacing /= 1.125;
+    NodeGrid g{};
+    for (int a = 0; a < 3; ++a) {
+        const int n = int(medium.extent_m[a] / spacing + 0.5);
+        g.size[a] = n < 1 ? 1 : n;
+        g.per_metre[a] = float(g.size[a] / medium.extent_m[a]);
+    }
+    return g;
+}
+
+Status make_lamp_nodes(const Context& context, const Medium& medium, const Majorants& majorants,
+                       const Lighting& lighting, LampNodes& out) {
+    if (!out.optical_depth.empty() && same_lamps(out.lamps, lighting.lamps)) return Status::ok();
+    const StageClock clock(context, "lights");
+    out.lamps = lighting.lamps;
+    out.grid = lamp_node_grid(medium);
+    const std::uint64_t count = out.lamps.size();
+    PILEUS_TRY(allocate(arrays::lamp_depths(node_count(out.grid), count), out.optical_depth));
+    const LampMarchParams k = lamp_march_params(medium, majorants, lighting, {}, out, 0);
+    LampMarchBuffers b{};
+    b.lamps = out.lamps.data();
+    b.optical_depth = out.optical_depth.data();
+    const std::uint64_t rows =
+        count * std::uint64_t(out.grid.size[1]) * std::uint64_t(out.grid.size[2]);
+    parallel_for(context.threads, std::int64_t(rows), [&](std::int64_t row, int) {
+        context.kernels->lamps->depth_rows(k, b, std::uint32_t(row), std::uint32_t(row) + 1);
+    });
+    return Status::ok();
+}
+
+LampMarchParams lamp_march_params(const Medium& medium, const Majorants& majorants,
+                                  const Lighting& lighting, const CameraParams& camera,
+                                  const LampNodes& nodes, double cut) {
+    LampMarchParams k{};
+    k.medium = make_medium_view(medium, majorants);
+    k.camera = camera;
+    k.media = medium.count;
+    for (int i = 0; i < medium.count; ++i) {
+        const Optics& optics = medium.optics[std::size_t(i)];
+        k.phase[i] = optics.phase;
+        for (int c = 0; c < 3; ++c) k.albedo[i][c] = optics.albedo[c];
+    }
+    k.lamps = std::int32_t(nodes.lamps.size());
+    k.nodes = nodes.grid;
+    k.cut = float(cut);
+    k.ground = lighting.ground ? 1 : 0;
+    k.ground_z = float(lighting.ground_z);
+    k.ground_albedo = float(lighting.ground_albedo);
+    return k;
+}
+
+Status add_lamp_light(const Context& context, const Medium& medium, const LampMarchParams& k,
+                      const LampNodes& nodes, Planes& planes) {
+    const StageClock clock(context, "light of lights");
+    LampMarchBuffers b{};
+    b.lamps = nodes.lamps.data();
+    // Kernels of one launch fill it, those of the other read it.
+    b.optical_depth = const_cast<float*>(nodes.optical_depth.data());
+    b.parts = medium.parts.data();
+    b.opaque_depth = planes.opaque_depth.data();
+    b.colour = planes.colour.data();
+    b.background = planes.background.data();
+    constexpr std::int64_t kPiece = 4;
+    const std::int64_t rows = k.camera.height;
+    const auto march = [&](std::int64_t piece, int) {
+        const std::int64_t begin = piece * kPiece;
+        const std::int64_t end = begin + kPiece < rows ? begin + kPiece : rows;
+        context.kernels->lamps->march_rows(k, b, std::uint32_t(begin), std::uint32_t(end));
+    };
+    if (!run_until(context.threads, (rows + kPiece - 1) / kPiece, context.interrupted, march))
+        return {Code::kCheckFailed, "interrupted before the picture was whole; no file written"};
+    return Status::ok();
+}
+
+}  // namespace pileus

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light of point, spot and parallel lights, scattered once on its way to the camera.
+// in: lamps, a medium, a camera -> out: optical depths on nodes; light added to a picture's planes.
+// docs/lights.md, "By marching".
+#pragma once
+#include <vector>
+
+#include "kernels_cpu/raymarch/lamp_march_params.h"
+#include "src/picture/layers.h"
+#include "src/plan/array.h"
+#include "src/run/context.h"
+#include "src/world/light/lights.h"
+#include "src/world/majorant/majorants.h"
+
+namespace pileus {
+
+/// Optical depths from nodes to each lamp, and the lamps that they are of.
+struct LampNodes {
+    NodeGrid grid{};
+    Buffer<float> optical_depth;  ///< [lamp][node]
+    std::vector<LampParams> lamps;
+};
+
+/// Nodes of one lamp: 2^17, and of a medium of many voxels one for each eight, at most 2^20.
+NodeGrid lamp_node_grid(const Medium& medium);
+
+namespace arrays {
+
+/// For each lamp.
+inline Array<float> lamp_depths(std::uint64_t nodes, std::uint64_t lamps) {
+    return {"optical depths to lights", bytes_of(nodes, lamps), Stage::kShadow, Stage::kWrite};
+}
+
+}  // namespace arrays
+
+/// Fills `out` where its lamps are not those of `lighting`. kLimit: out of memory. Needs kernels of
+/// the host.
+Status make_lamp_nodes(const Context& context, const Medium& medium, const Majorants& majorants,
+                       const Lighting& lighting, LampNodes& out);
+
+/// The launch that add_lamp_light makes: media with their phase functions and albedos.
+LampMarchParams lamp_march_params(const Medium& medium, const Majorants& majorants,
+                                  const Lighting& lighting, const CameraParams& camera,
+                                  const LampNodes& nodes, double cut);
+
+/// Adds the lamps' light to the planes' colour and, where rays end at the ground, to their
+/// background.
+Status add_lamp_light(const Context& context, const Medium& medium, const LampMarchParams& k,
+                      const LampNodes& nodes, Planes& planes);
+
+}  // namespace pileus

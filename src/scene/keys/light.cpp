@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// Keys of lights besides sun and sky.
+// in: checked values <-> out: fields of LightSettings.
+// docs/scene.md; docs/lights.md.
+#include "src/scene/keys/all_keys.h"
+
+namespace pileus {
+namespace {
+
+using Light = LightSettings;
+
+constexpr KeyRow kRows[] = {
+    {"light.N.type", field<&Light::type>, one_of("point|spot|directional"), "",
+     "a point that shines alike everywhere, a cone, or parallel light (docs/lights.md)", kRequired},
+    {"light.N.position_m", field<&Light::position_m>, from_to(-1e9, 1e9), "m",
+     "where a point or spot light stands: inside the medium or outside; must be given", kNone},
+    {"light.N.intensity", field<&Light::intensity>, from_to(0, 1e18), "",
+     "radiant intensity of a point or spot light, in the sun's unit times m^2 per sr: its "
+     "irradiance at distance d is intensity / d^2"},
+    {"light.N.radius_m", field<&Light::radius_m>, from_to(0, 1e9), "m",
+     "nearer than this to a point or spot light the irradiance is intensity / radius_m^2; 0: a "
+     "thousandth of a cell's shortest edge"},
+    {"light.N.direction", field<&Light::direction>, from_to(-1e9, 1e9), "",
+     "where a spot light shines, of any length but 0", kNone},
+    {"light.N.target_m", field<&Light::target_m>, from_to(-1e9, 1e9), "m",
+     "instead of direction: the point that a spot light shines at", kNone},
+    {"light.N.cone_deg", field<&Light::cone_deg>, above(0, 360), "deg",
+     "whole angle of a spot light's cone, from edge to edge"},
+    {"light.N.penumbra_deg", field<&Light::penumbra_deg>, from_to(0, 180), "deg",
+     "width of the soft edge inside a spot light's cone, at most half of cone_deg"},
+    {"light.N.azimuth_deg", field<&Light::azimuth_deg>, from_to(-360, 360), "deg",
+     "directional: where it stands, from +y (north) towards +x (east)"},
+    {"light.N.elevation_deg", field<&Light::elevation_deg>, from_to(-90, 90), "deg",
+     "directional: angle above the horizon"},
+    {"light.N.irradiance", field<&Light::irradiance>, from_to(0, 1e9), "",
+     "directional: on a plane facing it, in the sun's unit"},
+};
+
+}  // namespace
+
+Span<const KeyRow> light_keys() { return {kRows, sizeof kRows / sizeof kRows[0]}; }
+
+}  // namespace pileus

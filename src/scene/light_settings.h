@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// A light of a scene besides sun and sky: a point, a spot, or parallel light.
+// in: keys of [[light]] -> out: plain values.
+// docs/lights.md.
+#pragma once
+#include <array>
+
+#include "src/base/vectors.h"
+
+namespace pileus {
+
+enum class LampKind { kPoint, kSpot, kDirectional };
+
+struct LightSettings {
+    LampKind type = LampKind::kPoint;
+    Double3 position_m{};                        ///< point, spot
+    std::array<float, 3> intensity{1, 1, 1};     ///< radiant: irradiance at one metre; point, spot
+    double radius_m = 0;                         ///< within it the irradiance grows no more; >= 0
+    Double3 direction{};                         ///< spot: where it shines; zero: towards target_m
+    Double3 target_m{};                          ///< spot
+    double cone_deg = 40;                        ///< spot: the whole angle of its cone; (0, 360]
+    double penumbra_deg = 0;                     ///< spot: width of the soft edge inside; >= 0
+    double azimuth_deg = 0, elevation_deg = 45;  ///< directional: where it stands, as the sun
+    std::array<float, 3> irradiance{1, 1, 1};    ///< directional: on a plane facing it
+};
+
+}  // namespace pileus

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// See lamps.h.
+#include "src/world/light/lamps.h"
+
+#include <glm/geometric.hpp>
+#include <string>
+
+#include "src/base/angles.h"
+
+namespace pileus {
+namespace {
+
+/// A light without a radius has this share of the shortest edge of a cell.
+constexpr double kLeastRadius = 1e-3;
+/// Slope of a cone's hard edge: full light a float's step inside of it.
+constexpr double kHardEdge = 1e7;
+
+void set_cone(const LightSettings& light, LampParams& lamp) {
+    // A cosine of -3 is outside of every cone: the falloff is done long before -1.
+    lamp.edge = -3;
+    lamp.slope = 1;
+    lamp.axis[2] = -1;
+    if (light.type != LampKind::kSpot) return;
+    const Double3 way =
+        light.direction != Double3{} ? light.direction : light.target_m - light.position_m;
+    const Double3 axis = way / glm::length(way);
+    for (std::size_t a = 0; a < 3; ++a) lamp.axis[a] = float(axis[int(a)]);
+    if (light.cone_deg >= 360 && light.penumbra_deg == 0) return;
+    const double half = light.cone_deg / 2;
+    const double edge = sincos_deg(half).cosine;
+    const double full = sincos_deg(half - light.penumbra_deg).cosine;
+    lamp.edge = float(edge);
+    lamp.slope = float(full - edge > 1 / kHardEdge ? 1 / (full - edge) : kHardEdge);
+}
+
+LampParams lamp_of(const LightSettings& light, const Medium& medium) {
+    LampParams lamp{};
+    const bool parallel = light.type == LampKind::kDirectional;
+    const std::array<float, 3>& colour = parallel ? light.irradiance : light.intensity;
+    for (std::size_t c = 0; c < 3; ++c) {
+        lamp.light[c] = colour[c];
+        lamp.strength = colour[c] > lamp.strength ? colour[c] : lamp.strength;
+    }
+    set_cone(light, lamp);
+    lamp.parallel = parallel ? 1 : 0;
+    double shortest = double(medium.grid.cell_m[0]);
+    for (std::size_t a = 0; a < 3; ++a) {
+        lamp.at[a] = float(light.position_m[int(a)] - medium.low_m[int(a)]);
+        const double edge = double(medium.grid.cell_m[a]);
+        shortest = edge < shortest ? edge : shortest;
+    }
+    const double least = kLeastRadius * shortest;
+    const double radius = light.radius_m > least ? light.radius_m : least;
+    lamp.least_square = float(radius * radius);
+    if (!(lamp.least_square > 1e-30f)) lamp.least_square = 1e-30f;
+    if (!parallel) return lamp;
+    const SineCosine el = sincos_deg(light.elevation_deg), az = sincos_deg(light.azimuth_deg);
+    lamp.at[0] = float(az.sine * el.cosine);
+    lamp.at[1] = float(az.cosine * el.cosine);
+    lamp.at[2] = float(el.sine);
+    return lamp;
+}
+
+}  // namespace
+
+std::vector<LampParams> plan_lamps(const Scene& scene, const Medium& medium, Plan& plan) {
+    std::vector<LampParams> lamps;
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        const LightSettings& light = scene.lights[i];
+        const std::string name = "light " + std::to_string(i);
+        const LampParams lamp = lamp_of(light, medium);
+        const bool below = light.type == LampKind::kDirectional
+                               ? !(lamp.at[2] > 0)
+                               : light.position_m[2] < scene.ground.altitude_m;
+        if (!(lamp.strength > 0))
+            plan.left_out.push_back({name, "dark"});
+        else if (scene.ground.present && below)
+            plan.left_out.push_back({name, "below the ground"});
+        else
+            lamps.push_back(lamp);
+    }
+    return lamps;
+}
+
+}  // namespace pileus

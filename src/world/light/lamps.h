@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// The lights of a scene besides sun and sky, as kernels take them.
+// in: [[light]] of a scene, the medium's box -> out: lamps; those that bring nothing left out.
+// docs/lights.md.
+#pragma once
+#include <vector>
+
+#include "kernels_cpu/light/lamp_params.h"
+#include "src/plan/plan.h"
+#include "src/scene/scene.h"
+#include "src/world/medium/medium.h"
+
+namespace pileus {
+
+/// The scene's lights in box-local metres. Dark ones and those below a ground's altitude are noted
+/// in `plan` and left out: the ground hides them from all that is above.
+std::vector<LampParams> plan_lamps(const Scene& scene, const Medium& medium, Plan& plan);
+
+}  // namespace pileus
