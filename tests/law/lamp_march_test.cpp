@@ -46,12 +46,29 @@ extinction_per_m = 0.05
 phase = { type = "henyey-greenstein", g = 0.6 }
 )";
 
-const char* const kLights[] = {
-    "[[light]]\ntype = \"point\"\nposition_m = [12, -8, 45]\nintensity = [900, 600, 300]\n",
-    "[[light]]\ntype = \"spot\"\nposition_m = [-140, -40, 20]\ntarget_m = [0, 0, 60]\ncone_deg = "
-    "30\npenumbra_deg = 8\nintensity = 40000\n",
-    "[[light]]\ntype = \"directional\"\nazimuth_deg = 70\nelevation_deg = 40\n",
-};
+constexpr const char* kPointLight = R"(
+[[light]]
+type = "point"
+position_m = [12, -8, 45]
+intensity = [900, 600, 300]
+)";
+
+constexpr const char* kSpotLight = R"(
+[[light]]
+type = "spot"
+position_m = [-140, -40, 20]
+target_m = [0, 0, 60]
+cone_deg = 30
+penumbra_deg = 8
+intensity = 40000
+)";
+
+constexpr const char* kMoon = R"(
+[[light]]
+type = "directional"
+azimuth_deg = 70
+elevation_deg = 40
+)";
 
 struct Sum {
     double value = 0, error = 0;
@@ -75,7 +92,7 @@ Picture by(const char* method, const std::string& text) {
 
 TEST_CASE("marched lamps are paths of one scattering") {
     for (const char* medium : {kBox, kCloud})
-        for (const char* light : kLights) {
+        for (const char* light : {kPointLight, kSpotLight, kMoon}) {
             CAPTURE(light);
             const std::string text = std::string(kView) + medium + light;
             const Picture path = by("path", text), march = by("raymarch", text);
