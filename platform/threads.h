@@ -2,6 +2,7 @@
 // Runs pieces of work on several threads (OpenMP, or one after the other without it).
 // in: a count and a function of (piece, thread) -> out: every piece ran once.
 #pragma once
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
@@ -21,6 +22,18 @@ void parallel_for(int threads, std::int64_t pieces, Function&& function) {
     parallel_pieces(threads, pieces, &function, [](void* context, std::int64_t piece, int thread) {
         (*static_cast<std::remove_reference_t<Function>*>(context))(piece, thread);
     });
+}
+
+/// Calls function(i) for i in [0, count), some thousands to a piece of work.
+template <class Function>
+void parallel_each(int threads, std::uint64_t count, Function&& function) {
+    constexpr std::uint64_t kPiece = 4096;
+    parallel_for(threads, std::int64_t((count + kPiece - 1) / kPiece),
+                 [&](std::int64_t piece, int) {
+                     const std::uint64_t begin = std::uint64_t(piece) * kPiece;
+                     const std::uint64_t end = begin + kPiece < count ? begin + kPiece : count;
+                     for (std::uint64_t i = begin; i < end; ++i) function(std::size_t(i));
+                 });
 }
 
 }  // namespace pileus

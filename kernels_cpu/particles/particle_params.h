@@ -74,7 +74,7 @@ struct ParticleMarchParams {
     float order_g[kMostParticleOrders];  ///< of Henyey-Greenstein; from the second order on
     float albedo[3];
     std::int32_t exact;  ///< 1: a walk towards the sun from each bin; 0: what `shade` says
-    float most;          ///< of that walk, as ParticleDepthParams::most
+    float most;          ///< of that walk: it ends where it is as deep
     float cut;           ///< of transmittance, below which nothing is seen
 };
 struct ParticleMarchBuffers {

@@ -39,8 +39,7 @@ Status take_particles(const pileus_density& density, const std::string& where,
                       MediumSettings& medium, HostParticles& host) {
     pileus_particles given;
     if (!take(density.particles, given)) return no_struct("particles");
-    const VolumeFormat* format = volume_format_named(medium.format);
-    if (format == nullptr || !format->is_particles)
+    if (!is_particle_format(medium.format))
         return Status::bad_input(where +
                                  "the scene's medium is no file of particles, allowed: "
                                  "density = \"host.ply\"");

@@ -5,8 +5,16 @@
 #pragma once
 #include <glm/vec3.hpp>
 
+#include "src/base/angles.h"
+
 namespace pileus {
 
 using Double3 = glm::dvec3;
+
+/// Unit vector towards an azimuth, clockwise from north (y), and an elevation.
+inline Double3 towards_deg(double azimuth_deg, double elevation_deg) {
+    const SineCosine el = sincos_deg(elevation_deg), az = sincos_deg(azimuth_deg);
+    return {az.sine * el.cosine, az.cosine * el.cosine, el.sine};
+}
 
 }  // namespace pileus

@@ -89,8 +89,7 @@ bool shows_particles(const Scene& scene) {
     if (scene.media.size() != 1 || scene.media[0].values != nullptr) return false;
     if (const DensityRow* row = density_row(scene.media[0].density))
         return row->make_particles != nullptr;
-    const VolumeFormat* format = volume_format_named(scene.media[0].format);
-    return format != nullptr && format->is_particles;
+    return is_particle_format(scene.media[0].format);
 }
 
 Status outline_world(const Scene& scene, WorldUse use, const Context& context, World& world) {

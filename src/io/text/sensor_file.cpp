@@ -102,8 +102,7 @@ Status Reader::direction(const Node& table, Sensor& sensor) const {
     double elevation = 0, azimuth = 0;
     PILEUS_TRY(number(*up, -90, 90, "number in [-90, 90]", elevation));
     if (round != nullptr) PILEUS_TRY(number(*round, -360, 360, "number in [-360, 360]", azimuth));
-    const SineCosine el = sincos_deg(elevation), az = sincos_deg(azimuth);
-    sensor.direction = {az.sine * el.cosine, az.cosine * el.cosine, el.sine};
+    sensor.direction = towards_deg(azimuth, elevation);
     return Status::ok();
 }
 

@@ -13,38 +13,21 @@
 namespace pileus {
 namespace {
 
-/// Particles of a piece of work.
-constexpr std::uint32_t kPiece = 4096;
-
-/// Thread 0 is the caller, and tells how far it is.
-template <class Function>
-void for_pieces(const Context& context, const char* stage, std::size_t count, Function function) {
-    const std::int64_t pieces = std::int64_t((count + kPiece - 1) / kPiece);
-    parallel_for(context.threads, pieces, [&](std::int64_t piece, int thread) {
-        if (thread == 0) context.tell(stage, double(piece) / double(pieces));
-        const std::uint32_t begin = std::uint32_t(piece) * kPiece;
-        const std::size_t end = std::size_t(begin) + kPiece;
-        function(begin, std::uint32_t(end < count ? end : count));
-    });
-}
-
 void light_by_sky(const Context& context, ParticlesRun& run) {
     const std::size_t count = run.tree.balls.size();
     const SkyNodes& nodes = run.sky_nodes;
     const std::uint64_t node_number = node_count(nodes.grid);
-    for_pieces(context, "light", count, [&](std::uint32_t begin, std::uint32_t end) {
-        for (std::uint32_t i = begin; i < end; ++i) {
-            float colour[3] = {};
-            const float* p = run.tree.balls[i].centre;
-            const Corners<float> at = corners(
-                node_position(nodes.grid, Vec<float>{p[0], p[1], p[2]}), nodes.grid.size, false);
-            for (int s = 0; s < nodes.sets; ++s) {
-                const float light =
-                    interpolate(nodes.light.data() + std::uint64_t(s) * node_number, at);
-                for (int c = 0; c < 3; ++c) colour[c] += light * nodes.colour[s][c];
-            }
-            for (std::size_t c = 0; c < 3; ++c) run.sky[c * count + i] = colour[c];
+    parallel_each(context.threads, count, [&](std::size_t i) {
+        float colour[3] = {};
+        const float* p = run.tree.balls[i].centre;
+        const Corners<float> at = corners(node_position(nodes.grid, Vec<float>{p[0], p[1], p[2]}),
+                                          nodes.grid.size, false);
+        for (int s = 0; s < nodes.sets; ++s) {
+            const float light =
+                interpolate(nodes.light.data() + std::uint64_t(s) * node_number, at);
+            for (int c = 0; c < 3; ++c) colour[c] += light * nodes.colour[s][c];
         }
+        for (std::size_t c = 0; c < 3; ++c) run.sky[c * count + i] = colour[c];
     });
 }
 
@@ -88,11 +71,10 @@ Status light_by_sun(const Context& context, ParticlesRun& run) {
         std::array<float, 3> offset{};
         for (std::size_t a = 0; a < 3 && samples > 1; ++a) offset[a] = kReach * kCorners[n][a];
         PILEUS_TRY(sun_depths(context, tiles, offset, most > 0 ? float(most) : 3e38f,
-                              depths.data() + std::size_t(n) * count));
+                              depths.data() + std::size_t(n) * count, n, samples));
     }
-    for_pieces(context, "light", count, [&](std::uint32_t begin, std::uint32_t end) {
-        for (std::uint32_t i = begin; i < end; ++i)
-            run.shade[i] = shade_of(depths.data() + i, count, samples);
+    parallel_each(context.threads, count, [&](std::size_t i) {
+        run.shade[i] = shade_of(depths.data() + i, count, samples);
     });
     return Status::ok();
 }

@@ -3,12 +3,9 @@
 #include "src/methods/particles/particles_method.h"
 
 #include "src/base/digest.h"
-#include "src/io/particles/placed_particles.h"
 #include "src/methods/particles/particles_run.h"
 #include "src/picture/background.h"
 #include "src/picture/march_view.h"
-#include "src/scene/read_scene.h"
-#include "src/scene/rows/volume_format.h"
 #include "src/world/camera/view.h"
 #include "src/world/plan_parts.h"
 

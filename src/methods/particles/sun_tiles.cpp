@@ -322,7 +322,7 @@ Status make_sun_tiles(const Context& context, const ParticleTree& tree,
 }
 
 Status sun_depths(const Context& context, SunTiles& t, const std::array<float, 3>& offset,
-                  float most, float* depth) {
+                  float most, float* depth, int pass, int passes) {
     const std::size_t count = t.tree->balls.size();
     Buffer<std::uint64_t> begin;
     Buffer<std::uint32_t> places;
@@ -336,7 +336,7 @@ Status sun_depths(const Context& context, SunTiles& t, const std::array<float, 3
     PILEUS_TRY(scratch.resize(std::uint64_t(context.threads), "tiles"));
     for (std::size_t i = 0; i < count; ++i) depth[i] = 0;
     parallel_for(context.threads, t.count(), [&](std::int64_t tile, int thread) {
-        if (thread == 0) context.tell("light", double(tile) / double(t.count()));
+        if (thread == 0) context.tell("light", (pass + double(tile) / double(t.count())) / passes);
         TileWork work(context, t, offset, most, scratch[std::size_t(thread)], places.data(), depth);
         const std::size_t own = std::size_t(tile);
         if (begin[own] == begin[own + 1]) return;

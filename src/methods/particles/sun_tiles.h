@@ -41,8 +41,9 @@ Status make_sun_tiles(const Context& context, const ParticleTree& tree,
                       const std::array<float, 3>& direction, SunTiles& tiles);
 
 /// Depth of each ball, `offset` radii from its centre on; what is deeper than `most` is `most`.
-/// Neither threads nor the width of kernels change a bit. kLimit: out of memory.
+/// Neither threads nor the width of kernels change a bit. Progress is told as that of one of so
+/// many passes. kLimit: out of memory.
 Status sun_depths(const Context& context, SunTiles& tiles, const std::array<float, 3>& offset,
-                  float most, float* depth);
+                  float most, float* depth, int pass = 0, int passes = 1);
 
 }  // namespace pileus

@@ -111,8 +111,7 @@ private:
 
     /// Particles alone have a unit and radii; their box is as large as they are.
     void particle_keys_of() {
-        const VolumeFormat* format = volume_format_named(medium_.format);
-        if (format == nullptr || !format->is_particles) {
+        if (!is_particle_format(medium_.format)) {
             refuse(particle_keys(), "files of particles");
             return;
         }

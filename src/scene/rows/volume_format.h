@@ -38,6 +38,12 @@ Span<const VolumeFormat> volume_formats();
 const VolumeFormat* volume_format_named(const std::string& name);
 const VolumeFormat* volume_format_of(const std::string& path);
 
+/// Whether a format of this name holds particles; no format has none.
+inline bool is_particle_format(const std::string& name) {
+    const VolumeFormat* format = volume_format_named(name);
+    return format != nullptr && format->is_particles;
+}
+
 /// "\"pbrt\", \"raw\", ...", for messages; the same parted by '|' for the table of keys.
 std::string volume_format_names();
 std::string volume_format_choices();

@@ -54,10 +54,8 @@ LampParams lamp_of(const LightSettings& light, const Medium& medium) {
     lamp.least_square = float(radius * radius);
     if (!(lamp.least_square > 1e-30f)) lamp.least_square = 1e-30f;
     if (!parallel) return lamp;
-    const SineCosine el = sincos_deg(light.elevation_deg), az = sincos_deg(light.azimuth_deg);
-    lamp.at[0] = float(az.sine * el.cosine);
-    lamp.at[1] = float(az.cosine * el.cosine);
-    lamp.at[2] = float(el.sine);
+    const Double3 way = towards_deg(light.azimuth_deg, light.elevation_deg);
+    for (int a = 0; a < 3; ++a) lamp.at[a] = float(way[a]);
     return lamp;
 }
 

@@ -38,15 +38,9 @@ void set_faces(const double (&flux)[6], Light& light) {
 
 bool any_positive(const Double3& c) { return c[0] > 0 || c[1] > 0 || c[2] > 0; }
 
-/// Unit vector towards the sun.
-Double3 sun_direction(const Scene& scene, double elevation_deg) {
-    const SineCosine el = sincos_deg(elevation_deg), az = sincos_deg(scene.sun.azimuth_deg);
-    return {az.sine * el.cosine, az.cosine * el.cosine, el.sine};
-}
-
 void plan_sun(const Scene& scene, const Medium& medium, double elevation_deg, Plan& plan,
               Lighting& out) {
-    const Double3 to_sun = sun_direction(scene, elevation_deg);
+    const Double3 to_sun = towards_deg(scene.sun.azimuth_deg, elevation_deg);
     for (std::size_t c = 0; c < 3; ++c) {
         out.to_sun[c] = float(to_sun[c]);
         if (scene.sun.present) out.sun_irradiance[c] = double(scene.sun.irradiance[c]);
@@ -161,7 +155,8 @@ Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elev
         return out;
     }
     if (out.sunlit) {
-        const Light sun = beam_light(medium, -sun_direction(scene, sun_elevation_deg));
+        const Light sun =
+            beam_light(medium, -towards_deg(scene.sun.azimuth_deg, sun_elevation_deg));
         add_light("sun", kSunStream, out.sun_irradiance, sun, out);
     } else if (!scene.sun.present || scene.ground.present == false) {
         plan.leave_out("sun photons", "no sunlight");

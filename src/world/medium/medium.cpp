@@ -44,8 +44,7 @@ Status load_density(const Scene& scene, const MediumSettings& settings, int thre
         return row->make(settings, {size, threads, kernels, sky}, volume);
     }
     const std::string path = scene_path(scene.directory, settings.file);
-    const VolumeFormat* format = volume_format_named(settings.format);
-    const bool particles = format != nullptr && format->is_particles;
+    const bool particles = is_particle_format(settings.format);
     PILEUS_TRY(at_key(scene, density_key(scene, settings),
                       particles ? read_particle_volume(settings, path, threads, volume)
                                 : read_volume(settings, path, volume)));

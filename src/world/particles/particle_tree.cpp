@@ -46,7 +46,8 @@ public:
         sort_equal_codes();
         other_ = Buffer<Item>();
         PILEUS_TRY(allocate(arrays::particle_balls(set_.count), tree_.balls));
-        for_all([&](std::size_t i) { tree_.balls[i] = ball_of(items_[i].number); });
+        parallel_each(threads_, set_.count,
+                      [&](std::size_t i) { tree_.balls[i] = ball_of(items_[i].number); });
         PILEUS_TRY(count_nodes());
         make_boxes();
         return Status::ok();
@@ -62,23 +63,12 @@ private:
                 1.0f / radius,
                 set_.density[i] * radius};
     }
-    template <class Function>
-    void for_all(Function function) const {
-        constexpr std::size_t kPiece = 0x10000;
-        const std::size_t count = std::size_t(set_.count);
-        parallel_for(threads_, std::int64_t((count + kPiece - 1) / kPiece),
-                     [&](std::int64_t piece, int) {
-                         const std::size_t begin = std::size_t(piece) * kPiece;
-                         const std::size_t end = std::min(begin + kPiece, count);
-                         for (std::size_t i = begin; i < end; ++i) function(i);
-                     });
-    }
     void set_codes() {
         double side = 0;
         for (int a = 0; a < 3; ++a) side = std::max(side, set_.high[a] - set_.low[a]);
         constexpr double kCells = 1 << kParticleLevels;
         const double scale = side > 0 ? kCells / side : 0;
-        for_all([&](std::size_t i) {
+        parallel_each(threads_, set_.count, [&](std::size_t i) {
             std::uint64_t code = 0;
             for (int a = 0; a < 3; ++a) {
                 const double at = (place(i, a) + (low_[a] - set_.low[a])) * scale;

@@ -26,7 +26,6 @@ constexpr std::uint64_t kPuffNumbers = 0xf0000000u;
 constexpr double kMostRadius = 0.06;  ///< of a particle
 constexpr double kOverlap = 1.5;      ///< radius in mean distances of particles
 constexpr double kTurnsUp = 1.3;      ///< turns of the axis
-constexpr std::int64_t kPiece = 4096;
 /// Measured: density at mid-height over that at the foot; mean over the box.
 constexpr double kFootShare = 0.05, kMeanDensity = 0.00277;
 
@@ -105,13 +104,9 @@ Status make_plume(const MediumSettings& medium, int threads, ParticleSet& out) {
     // Overlapping particles add up to about 1 at the foot, where they are densest.
     plume.mass = kFootShare * volume / double(n) / kBallMass;
     plume.key = make_key(std::uint64_t(medium.shape_seed), kPlumeStream, 0);
-    const std::int64_t pieces = (std::int64_t(n) + kPiece - 1) / kPiece;
-    parallel_for(threads, pieces, [&](std::int64_t piece, int) {
-        const std::int64_t end = std::min(std::int64_t(n), (piece + 1) * kPiece);
-        for (std::size_t i = std::size_t(piece * kPiece); i < std::size_t(end); ++i) {
-            out.id[i] = i;
-            plume.make(i, &out.position[3 * i], out.radius[i], out.density[i]);
-        }
+    parallel_each(threads, n, [&](std::size_t i) {
+        out.id[i] = i;
+        plume.make(i, &out.position[3 * i], out.radius[i], out.density[i]);
     });
     return Status::ok();
 }

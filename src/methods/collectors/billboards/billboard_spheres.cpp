@@ -196,15 +196,10 @@ Status project_billboards(const BillboardScene& scene, const CameraParams& camer
     PILEUS_TRY(allocate(arrays::billboard_distances(scene.count), other));
     PILEUS_TRY(allocate(arrays::billboard_order(scene.count), lists.order));
 
-    // Look at each sphere from the camera, some thousands at a time.
-    constexpr std::int64_t kPiece = 4096;
-    const std::int64_t count = scene.count;
-    parallel_for(threads, (count + kPiece - 1) / kPiece, [&](std::int64_t piece, int) {
-        const std::int64_t end = (piece + 1) * kPiece < count ? (piece + 1) * kPiece : count;
-        for (std::int64_t i = piece * kPiece; i < end; ++i) {
-            const auto at = static_cast<std::uint32_t>(i);
-            items[at] = {project(scene, camera, at, lists.spheres[at]), at};
-        }
+    // Look at each sphere from the camera.
+    parallel_each(threads, std::uint64_t(scene.count), [&](std::size_t i) {
+        const auto at = static_cast<std::uint32_t>(i);
+        items[at] = {project(scene, camera, at, lists.spheres[at]), at};
     });
 
     // Put them in order of their distance.
