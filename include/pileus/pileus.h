@@ -131,12 +131,13 @@ PILEUS_API pileus_code pileus_plan_scene(const pileus_scene* scene, const pileus
  * `density` means, is what the scene says of its file of particles (docs/particles.md). */
 typedef struct pileus_particles {
     uint32_t struct_size;
-    uint32_t position_stride, radius_stride, density_stride, id_stride;
+    uint32_t position_stride, radius_stride, density_stride, id_stride, velocity_stride;
     uint64_t count;
     const float* position; /**< x, y, z of each; -1e12 to 1e12 */
     const float* radius;   /**< above 0, to 1e12; null where the scene has radius_m */
     const float* density;  /**< 0 to 1e12; null: 1 */
     const uint64_t* id;    /**< up to 2^53, for density.share; null: none */
+    const float* velocity; /**< x, y, z of each, lengths per second; null: at rest */
 } pileus_particles;
 
 /** Densities from memory instead of the scene's file: values[(z*size[1] + y)*size[0] + x], the

@@ -120,6 +120,7 @@ public:
                 own.radius = p->radius, own.radius_stride = p->radius_stride;
                 own.density = p->density, own.density_stride = p->density_stride;
                 own.id = p->id, own.id_stride = p->id_stride;
+                own.velocity = p->velocity, own.velocity_stride = p->velocity_stride;
                 given.back().particles = &own;
             }
         }

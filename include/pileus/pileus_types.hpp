@@ -29,8 +29,10 @@ struct Particles {
     const float* radius = nullptr;      ///< above 0, to 1e12; null where the scene has radius_m
     const float* density = nullptr;     ///< 0 to 1e12; null: 1
     const std::uint64_t* id = nullptr;  ///< up to 2^53, for density.share; null: none
+    const float* velocity = nullptr;    ///< x, y, z of each, lengths per second; null: at rest
     std::uint32_t position_stride = 3 * sizeof(float), radius_stride = sizeof(float);
     std::uint32_t density_stride = sizeof(float), id_stride = sizeof(std::uint64_t);
+    std::uint32_t velocity_stride = 3 * sizeof(float);
 };
 
 /// Densities from memory instead of a scene's: values[(z * size.y + y) * size.x + x] fill the

@@ -50,6 +50,7 @@ Status take_particles(const pileus_density& density, const std::string& where,
     host.radius = given.radius, host.radius_stride = given.radius_stride;
     host.density = given.density, host.density_stride = given.density_stride;
     host.id = given.id, host.id_stride = given.id_stride;
+    host.velocity = given.velocity, host.velocity_stride = given.velocity_stride;
     const auto stride = [&](const char* name, bool used, std::size_t bytes, std::size_t least) {
         if (!used || bytes >= least || given.count < 2) return Status::ok();
         return Status::bad_input(where + name + "_stride: " + std::to_string(bytes) +
@@ -59,6 +60,8 @@ Status take_particles(const pileus_density& density, const std::string& where,
     PILEUS_TRY(stride("radius", host.radius != nullptr, host.radius_stride, sizeof(float)));
     PILEUS_TRY(stride("density", host.density != nullptr, host.density_stride, sizeof(float)));
     PILEUS_TRY(stride("id", host.id != nullptr, host.id_stride, sizeof(std::uint64_t)));
+    PILEUS_TRY(
+        stride("velocity", host.velocity != nullptr, host.velocity_stride, 3 * sizeof(float)));
     medium.particles.host = &host;
     return Status::ok();
 }

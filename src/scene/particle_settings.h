@@ -10,12 +10,15 @@ namespace pileus {
 
 struct ParticleSet;
 
-/// Particles in a host's memory; strides in bytes. None of `density`: 1; none of `id`: none.
+/// Particles in a host's memory; strides in bytes. None of `density`: 1; none of `id` or
+/// `velocity`: none.
 struct HostParticles {
     std::uint64_t count = 0;
     const float *position = nullptr, *radius = nullptr, *density = nullptr;
+    const float* velocity = nullptr;
     const std::uint64_t* id = nullptr;
     std::size_t position_stride = 0, radius_stride = 0, density_stride = 0, id_stride = 0;
+    std::size_t velocity_stride = 0;
 };
 
 struct ParticleSettings {
@@ -25,6 +28,7 @@ struct ParticleSettings {
     bool cross_section =
         false;  ///< holds = "cross-section": m^2 of a particle; else extinction, 1/m
     std::int64_t count = 100000;  ///< of a recipe
+    double rise_m_per_s = 5;      ///< of the plume at its foot
     double share = 1;             ///< of the particles that are kept, denser in return; (0, 1]
     const HostParticles* host = nullptr;  ///< instead of the file
     const ParticleSet* placed = nullptr;  ///< what is read already; the grid is for shadows alone

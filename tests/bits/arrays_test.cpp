@@ -208,6 +208,7 @@ void check_particles(const Fixture& f) {
     CHECK(set.colour.empty());
     held["particles as they are read"] =
         set.position.bytes() + set.radius.bytes() + set.density.bytes();
+    held["velocities of particles"] = set.velocity.bytes() + run.tree.velocity.bytes();
     held["octree"] = run.tree.nodes.bytes();
     held["particles' depths towards the sun"] = run.shade.bytes();
     held["particles' skylight"] = run.sky.bytes();

@@ -26,7 +26,7 @@ std::vector<Puff> puffs(std::size_t count) {
     };
     for (std::size_t i = 0; i < count; ++i)
         made[i] = {{draw(80) - 40, draw(80) - 40, 10 + draw(80)},
-                   {1, 2, 3},
+                   {draw(8), 2, -draw(8)},
                    4 + draw(9),
                    draw(8) / 64,
                    3 * i};
@@ -34,11 +34,12 @@ std::vector<Puff> puffs(std::size_t count) {
 }
 
 std::string table_of(const std::vector<Puff>& puffs) {
-    std::string text = "x,y,z,radius,density,id\n";
+    std::string text = "x,y,z,vx,vy,vz,radius,density,id\n";
     for (const Puff& p : puffs) {
-        char row[160];
-        std::snprintf(row, sizeof row, "%.9g,%.9g,%.9g,%.9g,%.9g,%llu\n", double(p.position[0]),
-                      double(p.position[1]), double(p.position[2]), double(p.radius),
+        char row[240];
+        std::snprintf(row, sizeof row, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%llu\n",
+                      double(p.position[0]), double(p.position[1]), double(p.position[2]),
+                      double(p.speed[0]), double(p.speed[1]), double(p.speed[2]), double(p.radius),
                       double(p.density), static_cast<unsigned long long>(p.id));
         text += row;
     }
@@ -62,7 +63,8 @@ pileus_particles particles_of(const std::vector<Puff>& puffs) {
     given.density = &puffs[0].density;
     given.id = &puffs[0].id;
     given.position_stride = given.radius_stride = given.density_stride = given.id_stride =
-        sizeof(Puff);
+        given.velocity_stride = sizeof(Puff);
+    given.velocity = puffs[0].speed;
     return given;
 }
 

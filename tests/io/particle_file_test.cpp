@@ -111,6 +111,7 @@ TEST_CASE("particles: each fault is a line with its place") {
     CHECK(holds(fault_of("x,y,z\n", ".csv"), "radius: missing"));
     CHECK(holds(fault_of("x,y,z,x\n", ".csv", 1), "x: given twice"));
     CHECK(holds(fault_of("x,y,z,red\n", ".csv", 1), "colour: not whole"));
+    CHECK(holds(fault_of("x,y,z,vx\n", ".csv", 1), "velocity: not whole"));
     const std::string end = kPlaces + "end_header\n";
     CHECK(holds(fault_of(kHead + "3" + end + "1 2 3\n", ".ply", 1), "value"));
     CHECK(holds(fault_of(kHead + "1000000000" + end, ".ply", 1), "more than the file can hold"));
@@ -124,10 +125,10 @@ TEST_CASE("particles: each fault is a line with its place") {
 
 TEST_CASE("particles: a written file is read again to the bit") {
     ParticleSet set, again;
-    REQUIRE(
-        decode("x y z radius density red green blue id\n10000000.25 1 2 3 0.1 0.5 0.25 1 "
-               "9007199254740991\n-7 1.5 0 2 0 0 0 0 4\n",
-               ".csv", set));
+    REQUIRE(decode(
+        "x y z radius density red green blue id VX vy velocity_z\n10000000.25 1 2 3 0.1 0.5 0.25 1 "
+        "9007199254740991 5 -6 0.1\n-7 1.5 0 2 0 0 0 0 4 0 1e9 2\n",
+        ".csv", set));
     const test::TempFolder folder;
     const std::string path = folder.path("p.ply");
     REQUIRE(write_particle_ply(path, set));
@@ -139,7 +140,11 @@ TEST_CASE("particles: a written file is read again to the bit") {
         CHECK(again.density[i] == set.density[i]);
         CHECK(again.colour[3 * i + 1] == set.colour[3 * i + 1]);
         CHECK(again.id[i] == set.id[i]);
+        for (std::size_t a = 0; a < 3; ++a)
+            CHECK(again.velocity[3 * i + a] == set.velocity[3 * i + a]);
     }
+    CHECK(set.velocity[1] == -6.0f);
+    CHECK(set.velocity[5] == 2.0f);
 }
 
 TEST_CASE("particles: unit, radii and cross-sections in metres") {

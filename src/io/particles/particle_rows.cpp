@@ -25,6 +25,9 @@ constexpr RoleRow kRoleRows[] = {
     {"|green|g|color_g|colour_g|", 0, 1, false},
     {"|blue|b|color_b|colour_b|", 0, 1, false},
     {"|id|", 0, kMostId, false},
+    {"|vx|velocity_x|", -kMostParticlePlace, kMostParticlePlace, false},
+    {"|vy|velocity_y|", -kMostParticlePlace, kMostParticlePlace, false},
+    {"|vz|velocity_z|", -kMostParticlePlace, kMostParticlePlace, false},
 };
 
 std::string short_name(const RoleRow& role) {
@@ -77,11 +80,18 @@ Status ParticleRows::begin(const std::vector<ParticleColumn>& columns, std::uint
         return Status::bad_input(file_ +
                                  ": radius: missing, nothing, allowed: a column radius, or the key "
                                  "density.radius_m");
-    const int colours =
-        int(columns_[kRed].at >= 0) + int(columns_[kGreen].at >= 0) + int(columns_[kBlue].at >= 0);
+    const auto three = [&](int first) {
+        int given = 0;
+        for (int i = 0; i < 3; ++i) given += columns_[first + i].at >= 0 ? 1 : 0;
+        return given;
+    };
+    const int colours = three(kRed), speeds = three(kSpeedX);
     if (colours != 0 && colours != 3)
         return Status::bad_input(file_ + ": colour: not whole, " + std::to_string(colours) +
                                  " columns, allowed: red, green and blue, or none");
+    if (speeds != 0 && speeds != 3)
+        return Status::bad_input(file_ + ": velocity: not whole, " + std::to_string(speeds) +
+                                 " columns, allowed: vx, vy and vz, or none");
     if (count > reading.most)
         return Status::limit(file_ + ": too many particles, " + std::to_string(count) +
                              ", allowed: at most " + std::to_string(reading.most));
@@ -91,6 +101,7 @@ Status ParticleRows::begin(const std::vector<ParticleColumn>& columns, std::uint
     PILEUS_TRY(set_.radius.resize(count, "particles"));
     if (columns_[kDensity].at >= 0) PILEUS_TRY(set_.density.resize(count, "particles"));
     if (colours == 3) PILEUS_TRY(set_.colour.resize(3 * count, "particles"));
+    if (speeds == 3) PILEUS_TRY(set_.velocity.resize(3 * count, "particles"));
     if (columns_[kId].at >= 0) PILEUS_TRY(set_.id.resize(count, "particles"));
     for (int a = 0; a < 3; ++a) set_.low[a] = 4 * kMostParticlePlace, set_.high[a] = -set_.low[a];
     return Status::ok();
@@ -133,6 +144,8 @@ Status ParticleRows::keep(std::uint64_t particle, Span<const double> row) {
     if (!set_.density.empty()) set_.density.at(i) = float(number(kDensity, row));
     for (std::size_t c = 0; c < 3 && !set_.colour.empty(); ++c)
         set_.colour.at(3 * i + c) = float(number(kRed + int(c), row));
+    for (std::size_t a = 0; a < 3 && !set_.velocity.empty(); ++a)
+        set_.velocity.at(3 * i + a) = float(number(kSpeedX + int(a), row));
     if (!set_.id.empty()) set_.id.at(i) = std::uint64_t(number(kId, row));
     return Status::ok();
 }

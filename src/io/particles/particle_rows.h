@@ -32,7 +32,7 @@ private:
         int at = -1;  ///< -1: none
         double scale = 1;
     };
-    static constexpr int kRoles = 9;
+    static constexpr int kRoles = 12;
 
     Status fault(std::uint64_t particle, int role, double value) const;
     double number(int role, Span<const double> row) const {
@@ -42,7 +42,20 @@ private:
         return columns_[kRadius].at >= 0 && radius_ == 0 ? number(kRadius, row) : radius_;
     }
 
-    enum Role { kX, kY, kZ, kRadius, kDensity, kRed, kGreen, kBlue, kId };
+    enum Role {
+        kX,
+        kY,
+        kZ,
+        kRadius,
+        kDensity,
+        kRed,
+        kGreen,
+        kBlue,
+        kId,
+        kSpeedX,
+        kSpeedY,
+        kSpeedZ
+    };
 
     const std::string& file_;
     ParticleSet& set_;

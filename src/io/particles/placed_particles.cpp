@@ -37,6 +37,8 @@ void move(ParticleSet& set, std::size_t from, std::size_t to) {
     set.density[to] = set.density[from];
     for (std::size_t c = 0; c < 3 && !set.colour.empty(); ++c)
         set.colour[3 * to + c] = set.colour[3 * from + c];
+    for (std::size_t a = 0; a < 3 && !set.velocity.empty(); ++a)
+        set.velocity[3 * to + a] = set.velocity[3 * from + a];
     if (!set.id.empty()) set.id[to] = set.id[from];
 }
 
@@ -51,6 +53,7 @@ void thin(double share, ParticleSet& set) {
     set.radius.truncate(kept);
     set.density.truncate(kept);
     if (!set.colour.empty()) set.colour.truncate(3 * kept);
+    if (!set.velocity.empty()) set.velocity.truncate(3 * kept);
     if (!set.id.empty()) set.id.truncate(kept);
 }
 
@@ -98,8 +101,10 @@ Status place_particles(const std::string& name, const ParticleSettings& s, Parti
                 std::to_string(set.high[a]) + " m, allowed: within -1e12 to 1e12 m");
     }
     const float unit = float(s.unit_m);
-    if (unit != 1.0f)
+    if (unit != 1.0f) {
         for (float& v : set.position.span()) v *= unit;
+        for (float& v : set.velocity.span()) v *= unit;
+    }
     if (s.share < 1) thin(s.share, set);
     return Status::ok();
 }
@@ -112,18 +117,24 @@ Status read_host_particles(const HostParticles& host, const ParticleReading& rea
     if (host.radius != nullptr) columns.push_back({"radius"});
     if (host.density != nullptr) columns.push_back({"density"});
     if (host.id != nullptr) columns.push_back({"id"});
+    if (host.velocity != nullptr)
+        for (const char* axis : {"vx", "vy", "vz"}) columns.push_back({axis});
     ParticleRows rows(name, set);
     PILEUS_TRY(rows.begin(columns, host.count, reading));
-    double row[6];
+    double row[9];
     const Span<const double> numbers{row, columns.size()};
     const auto look = [&](std::uint64_t i) {
-        float position[3];
-        std::memcpy(position, at(host.position, i, host.position_stride), sizeof position);
         std::size_t to = 0;
-        for (const float v : position) row[to++] = double(v);
+        const auto three = [&](const float* first, std::size_t stride) {
+            float own[3];
+            std::memcpy(own, at(first, i, stride), sizeof own);
+            for (const float v : own) row[to++] = double(v);
+        };
+        three(host.position, host.position_stride);
         if (host.radius != nullptr) row[to++] = double(one(host.radius, i, host.radius_stride));
         if (host.density != nullptr) row[to++] = double(one(host.density, i, host.density_stride));
         if (host.id != nullptr) row[to++] = double(one(host.id, i, host.id_stride));
+        if (host.velocity != nullptr) three(host.velocity, host.velocity_stride);
     };
     for (std::uint64_t i = 0; i < host.count; ++i) {
         look(i);
@@ -154,12 +165,15 @@ Status read_placed_particles(const MediumSettings& medium, const std::string& pa
 
 void turn_particles_y_up(ParticleSet& set) {
     // (x, y, z) -> (x, -z, y)
-    for (std::size_t i = 0; i < set.count; ++i) {
-        float* p = set.position.data() + 3 * i;
-        const float y = p[1];
-        p[1] = -p[2];
-        p[2] = y;
-    }
+    const auto turn = [](Buffer<float>& vectors) {
+        for (std::size_t i = 0; i + 2 < vectors.size(); i += 3) {
+            const float y = vectors[i + 1];
+            vectors[i + 1] = -vectors[i + 2];
+            vectors[i + 2] = y;
+        }
+    };
+    turn(set.position);
+    turn(set.velocity);
     set.origin = {set.origin[0], -set.origin[2], set.origin[1]};
     const Double3 low = set.low, high = set.high;
     set.low = {low[0], -high[2], low[1]};

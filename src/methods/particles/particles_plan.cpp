@@ -93,6 +93,10 @@ void weigh_memory(const Context& context, ParticlesRun& run) {
         t.add("octree", Stage::kDensity, Stage::kWrite, run.tree.nodes.bytes());
     // Places, radii, densities; while they are read, colours and numbers too; their order twice.
     t.add("particles as they are read", Stage::kDensity, Stage::kWrite, bytes_of(particles, 20));
+    // Twice: in the order of the file and of the tree.
+    const bool moving = run.outlined_only || !run.world->particles.velocity.empty();
+    t.add("velocities of particles", Stage::kDensity, Stage::kWrite,
+          moving ? bytes_of(particles, 2 * 12) : 0);
     t.add("colours and numbers of particles", Stage::kDensity, Stage::kDensity,
           bytes_of(particles, 20));
     t.add("particles while they are sorted", Stage::kMajorants, Stage::kMajorants,

@@ -31,6 +31,8 @@ constexpr KeyRow kRows[] = {
 constexpr KeyRow kPlumeRows[] = {
     {"medium.N.plume.particles", particles<&P::count>, from_to(1, 1e8), "",
      "how many particles a procedural plume is made of"},
+    {"medium.N.plume.rise_m_per_s", particles<&P::rise_m_per_s>, from_to(0, 1000), "m/s",
+     "how fast it rises at its foot; slower above, as it widens"},
 };
 
 }  // namespace

@@ -48,6 +48,13 @@ public:
         PILEUS_TRY(allocate(arrays::particle_balls(set_.count), tree_.balls));
         parallel_each(threads_, set_.count,
                       [&](std::size_t i) { tree_.balls[i] = ball_of(items_[i].number); });
+        if (!set_.velocity.empty()) {
+            PILEUS_TRY(allocate(arrays::particle_velocities(set_.count), tree_.velocity));
+            parallel_each(threads_, set_.count, [&](std::size_t i) {
+                for (std::size_t a = 0; a < 3; ++a)
+                    tree_.velocity[3 * i + a] = set_.velocity[3 * items_[i].number + a];
+            });
+        }
         PILEUS_TRY(count_nodes());
         make_boxes();
         return Status::ok();
@@ -113,7 +120,11 @@ private:
             if (set_.position[3 * a + k] != set_.position[3 * b + k])
                 return set_.position[3 * a + k] < set_.position[3 * b + k];
         if (set_.radius[a] != set_.radius[b]) return set_.radius[a] < set_.radius[b];
-        return set_.density[a] < set_.density[b];
+        if (set_.density[a] != set_.density[b]) return set_.density[a] < set_.density[b];
+        for (std::size_t k = 0; k < 3 && !set_.velocity.empty(); ++k)
+            if (set_.velocity[3 * a + k] != set_.velocity[3 * b + k])
+                return set_.velocity[3 * a + k] < set_.velocity[3 * b + k];
+        return false;
     }
 
     /// Nodes in the order of a walk: first counted, then made.

@@ -13,6 +13,7 @@ namespace pileus {
 struct ParticleTree {
     Buffer<ParticleNode> nodes;  ///< one more than there are: its end
     Buffer<ParticleBall> balls;  ///< in the order of the leaves
+    Buffer<float> velocity;      ///< [ball][axis], m/s; empty: at rest
     std::uint32_t leaves = 0;
     int depth = 0;  ///< of the deepest leaf; the root's is 0
 
@@ -27,6 +28,9 @@ constexpr std::uint64_t kMostTreeParticles = std::uint64_t{1} << 30;
 
 namespace arrays {
 
+inline Array<float> particle_velocities(std::uint64_t particles) {
+    return {"velocities of particles", bytes_of(particles, 3), Stage::kDensity, Stage::kWrite};
+}
 inline Array<ParticleBall> particle_balls(std::uint64_t particles) {
     return {"particles", particles, Stage::kDensity, Stage::kWrite};
 }

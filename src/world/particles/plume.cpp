@@ -44,6 +44,7 @@ struct Plume {
     double width;    ///< the narrower side
     double spacing;  ///< mean distance of particles, m
     double mass;     ///< of each, 1/m m^3, before dilution
+    double rise;     ///< speed at the foot, m/s
     Key key;
 
     double draw(std::uint64_t particle, std::uint32_t number) const {
@@ -51,10 +52,12 @@ struct Plume {
         return double(uniform(words.a));
     }
     double half_width(double height) const { return (kFoot + kSpread * height) * width; }
-    void make(std::uint64_t particle, float* place, float& radius, float& density) const;
+    void make(std::uint64_t particle, float* place, float* velocity, float& radius,
+              float& density) const;
 };
 
-void Plume::make(std::uint64_t i, float* place, float& radius, float& density) const {
+void Plume::make(std::uint64_t i, float* place, float* velocity, float& radius,
+                 float& density) const {
     // The particle's puff: a ball that the axis carries, so that the edge billows.
     const std::uint64_t puff = std::uint64_t(draw(i, 0) * kPuffs);
     const std::uint64_t p = puff + kPuffNumbers;
@@ -76,6 +79,14 @@ void Plume::make(std::uint64_t i, float* place, float& radius, float& density) c
         kWander * width * (1 - axis.cosine) * height + off * where.sine + out * level * around.sine,
         // From the middle of the box.
         (height - 0.5) * (extent[2] - 2 * kSpread * width) + out * up};
+    // It rises as its width to the power -1/3, and widens as it rises.
+    const double speed = rise * cube_root(thin);
+    const double axis_x = kWander * width * axis.sine * height;
+    const double axis_y = kWander * width * (1 - axis.cosine) * height;
+    const double spread = speed * kSpread * width / (extent[2] * wide);
+    velocity[0] = float((at[0] - axis_x) * spread);
+    velocity[1] = float((at[1] - axis_y) * spread);
+    velocity[2] = float(speed);
     for (std::size_t a = 0; a < 3; ++a) {
         const double room = extent[int(a)] / 2 - r * 1.0001;
         place[a] = float(std::min(std::max(at[a], -room), room));
@@ -91,6 +102,7 @@ Status make_plume(const MediumSettings& medium, int threads, ParticleSet& out) {
     PILEUS_TRY(out.radius.resize(n, "particles"));
     PILEUS_TRY(out.density.resize(n, "particles"));
     PILEUS_TRY(out.id.resize(n, "particles"));
+    PILEUS_TRY(out.velocity.resize(3 * n, "particles"));
     Plume plume;
     plume.low = medium.bounds_m[0];
     plume.extent = medium.bounds_m[1] - medium.bounds_m[0];
@@ -103,10 +115,11 @@ Status make_plume(const MediumSettings& medium, int threads, ParticleSet& out) {
     plume.spacing = cube_root(volume / double(n));
     // Overlapping particles add up to about 1 at the foot, where they are densest.
     plume.mass = kFootShare * volume / double(n) / kBallMass;
+    plume.rise = medium.particles.rise_m_per_s;
     plume.key = make_key(std::uint64_t(medium.shape_seed), kPlumeStream, 0);
     parallel_each(threads, n, [&](std::size_t i) {
         out.id[i] = i;
-        plume.make(i, &out.position[3 * i], out.radius[i], out.density[i]);
+        plume.make(i, &out.position[3 * i], &out.velocity[3 * i], out.radius[i], out.density[i]);
     });
     return Status::ok();
 }
@@ -126,8 +139,8 @@ DensityOutline outline_plume(const MediumSettings& medium) {
         cells *= std::uint64_t(medium.resolution[0] > 0 ? medium.resolution[a] : own);
     }
     outline.mean = kMeanDensity;
-    // Places, radii, densities, numbers; sums of cells.
-    outline.bytes = 28 * std::uint64_t(medium.particles.count) + 8 * cells;
+    // Places, radii, densities, numbers, velocities; sums of cells.
+    outline.bytes = 40 * std::uint64_t(medium.particles.count) + 8 * cells;
     return outline;
 }
 
