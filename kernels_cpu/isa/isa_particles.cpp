@@ -2,6 +2,7 @@
 // Particles, compiled once per instruction set, apart from isa.cpp so that both build at once.
 // in: the kernel templates -> out: a table of functions, named after the instruction set.
 // docs/architecture.md, "Kernels: written once"; tools/check_objects proves that nothing leaks.
+#include "kernels_cpu/particles/particle_board.h"
 #include "kernels_cpu/particles/particle_light.h"
 #include "kernels_cpu/particles/particle_march.h"
 
@@ -26,10 +27,19 @@ void march_kernel(const ParticleMarchParams& k, const ParticleMarchBuffers& b,
                   const ParticleTile& tile) {
     particle_tile<PILEUS_WIDTH>(k, b, tile);
 }
+void boards_kernel(const ParticleBoardParams& k, const ParticleBoardBuffers& b,
+                   const ParticleTile& tile) {
+    board_tile<PILEUS_WIDTH>(k, b, tile);
+}
+void colours_kernel(const ParticleMarchParams& k, const ParticleColourBuffers& b,
+                    std::uint32_t begin, std::uint32_t end) {
+    board_colours<PILEUS_WIDTH>(k, b, begin, end);
+}
 
 }  // namespace
 
 extern const ParticleKernels PILEUS_PARTICLES(PILEUS_ISA);
-const ParticleKernels PILEUS_PARTICLES(PILEUS_ISA) = {PILEUS_WIDTH, depths_kernel, march_kernel};
+const ParticleKernels PILEUS_PARTICLES(PILEUS_ISA) = {PILEUS_WIDTH, depths_kernel, march_kernel,
+                                                      boards_kernel, colours_kernel};
 
 }  // namespace pileus

@@ -108,12 +108,19 @@ constexpr std::uint64_t particle_scratch_floats(std::int32_t bins) {
     return std::uint64_t(bins) * kParticleSums * kMostParticleLanes;
 }
 
+struct ParticleBoardParams;
+struct ParticleBoardBuffers;
+struct ParticleColourBuffers;
+
 /// A table of functions, one for each instruction set.
 struct ParticleKernels {
     int width;
     void (*depths)(const ParticleDepthParams&, const ParticleDepthBuffers&, std::uint32_t begin,
                    std::uint32_t end);
     void (*march)(const ParticleMarchParams&, const ParticleMarchBuffers&, const ParticleTile&);
+    void (*boards)(const ParticleBoardParams&, const ParticleBoardBuffers&, const ParticleTile&);
+    void (*colours)(const ParticleMarchParams&, const ParticleColourBuffers&, std::uint32_t begin,
+                    std::uint32_t end);
 };
 
 }  // namespace pileus

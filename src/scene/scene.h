@@ -39,9 +39,12 @@ struct Camera {
     std::array<int, 2> resolution{960, 540};
     bool has_frustum = false;  ///< a session's: instead of fov_deg and height_m
     Frustum frustum;
-    std::string depth;           ///< image of the way to solid things; empty: none
-    bool depth_on_axis = false;  ///< depth_kind = "z": along the view's axis, not along each ray
-    double depth_scale = 1;      ///< metres per unit of its values; > 0
+    std::string depth;             ///< image of the way to solid things; empty: none
+    bool depth_on_axis = false;    ///< depth_kind = "z": along the view's axis, not along each ray
+    double depth_scale = 1;        ///< metres per unit of its values; > 0
+    double aperture_radius_m = 0;  ///< of the lens; 0: a pinhole
+    double focus_distance_m = 0;   ///< along the view; 0: the target's
+    double shutter_s = 0;          ///< how long it is open, the frame's time in the middle
 };
 
 struct Sun {
@@ -242,7 +245,10 @@ struct ParticlesSettings {
     int bins = 256;           ///< along a ray, 1..4096
     int leaf = 16;            ///< most particles in one, 1..1024
     ParticleLight light = ParticleLight::kLinear;
-    double most_depth = 0;  ///< towards the sun, where the walk ends; 0: none
+    bool billboards = false;   ///< display = "billboards"; else marched
+    double display_scale = 1;  ///< of billboards: on radii, extinction times area kept; > 0
+    double falloff = 2.5;      ///< of billboards: the power of 1 - distance^2; 0..16
+    double most_depth = 0;     ///< towards the sun, where the walk ends; 0: none
     double stop_below = 1e-4;
 };
 

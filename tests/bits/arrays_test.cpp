@@ -215,8 +215,11 @@ void check_particles(const Fixture& f) {
     held["skylight on nodes"] = run.sky_nodes.light.bytes();
     held["picture planes"] = bytes_held(run.planes);
     // Freed with the march.
-    held["bins along rays"] =
-        4 * particle_scratch_floats(scene.particles.bins) * std::uint64_t(f.context.threads);
+    if (scene.particles.billboards)
+        held["billboards"] = arrays::particle_boards(run.particles).bytes();
+    else
+        held["bins along rays"] =
+            4 * particle_scratch_floats(scene.particles.bins) * std::uint64_t(f.context.threads);
     // Filled as far as a picture needs them.
     held["particles by tiles of the picture"] = arrays::view_balls(run.particles).bytes();
     held["tiles of the picture"] = view_tile_scratch_bytes() * std::uint64_t(f.context.threads);
@@ -262,6 +265,7 @@ TEST_CASE("arrays: what particles hold while they are shown is what the plan say
     const char* const layers = "output.layers = [\"radiance\", \"alpha\", \"depth\"]";
     check_particles({scene.c_str(), "particles", {layers, "particles.bins = 50"}});
     check_particles({scene.c_str(), "particles", {layers, "particles.light = \"exact\""}});
+    check_particles({scene.c_str(), "particles", {layers, "particles.display = \"billboards\""}});
 }
 
 TEST_CASE("arrays: the bytes of collectors by their definition, those of scratch, too") {

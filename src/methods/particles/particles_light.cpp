@@ -128,14 +128,9 @@ Status light_particles(const Context& context, ParticlesRun& run) {
     return Status::ok();
 }
 
-Status show_particles(const Context& context, ParticlesRun& run) {
-    const StageClock clock(context, "march");
-    Planes& planes = run.planes;
-    if (run.tree.balls.empty()) {
-        for (float& t : planes.transmittance.span()) t = 1;
-        for (float& d : planes.half_depth.span()) d = __builtin_inff();
-        return Status::ok();
-    }
+namespace {
+
+ParticleMarchParams march_params(const ParticlesRun& run) {
     const ParticlesSettings& s = run.scene->particles;
     const Optics& optics = run.world->medium.optics[0];
     ParticleMarchParams k{};
@@ -162,6 +157,21 @@ Status show_particles(const Context& context, ParticlesRun& run) {
             k.sun[n][c] = float(run.lighting.sun_irradiance[c]) * absorbed[c] * order.share;
         }
     }
+    return k;
+}
+
+}  // namespace
+
+Status show_particles(const Context& context, ParticlesRun& run) {
+    Planes& planes = run.planes;
+    if (run.tree.balls.empty()) {
+        for (float& t : planes.transmittance.span()) t = 1;
+        for (float& d : planes.half_depth.span()) d = __builtin_inff();
+        return Status::ok();
+    }
+    const ParticleMarchParams k = march_params(run);
+    if (run.scene->particles.billboards) return show_boards(context, k, run);
+    const StageClock clock(context, "march");
     ParticleMarchBuffers b{};
     b.shade = run.shade.data();
     b.sky = run.sky.data();

@@ -40,7 +40,14 @@ void note_plan(ParticlesRun& run) {
     plan.bias = {"particles", "light scattered more than once is missing or approximate",
                  "docs/particles.md"};
     plan.need("an octree of particles");
-    plan.need("rays through particles, in bins");
+    if (!s.billboards) plan.need("rays through particles, in bins");
+    if (s.billboards) plan.need("particles as billboards, one colour each: approximation");
+    if (scene.camera.aperture_radius_m > 0)
+        plan.need("depth of field by wider billboards: approximation");
+    if (scene.camera.shutter_s > 0 && (run.outlined_only || moves(run)))
+        plan.need("motion blur by longer billboards: approximation");
+    else if (scene.camera.shutter_s > 0)
+        plan.leave_out("motion blur", "the particles have no velocities");
     if (run.lighting.sunlit || (scene.sun.present && scene.animation.moves_sun))
         plan.need(scene.particles.light == ParticleLight::kExact
                       ? "sunlight by a walk from each bin"
@@ -122,7 +129,10 @@ void weigh_memory(const Context& context, ParticlesRun& run) {
     add(t, arrays::view_balls(particles));
     t.add("tiles of the picture", Stage::kDisplay, Stage::kDisplay,
           bytes_of(std::uint64_t(context.threads), view_tile_scratch_bytes()));
-    add(t, arrays::particle_bins(std::uint64_t(context.threads), scene.particles.bins));
+    if (scene.particles.billboards)
+        add(t, arrays::particle_boards(particles));
+    else
+        add(t, arrays::particle_bins(std::uint64_t(context.threads), scene.particles.bins));
     add_image_rows(std::uint64_t(scene.camera.resolution[0]),
                    std::uint64_t(scene.camera.resolution[1]), 4 + extra_layers(output, false), t);
     add_solid_rows(scene, context.limits, run.world->solids, run.around.depth, t);

@@ -5,6 +5,7 @@
 #pragma once
 #include <array>
 
+#include "kernels_cpu/particles/particle_board_params.h"
 #include "src/methods/methods.h"
 #include "src/picture/layers.h"
 #include "src/picture/nodes/sky_nodes.h"
@@ -52,6 +53,10 @@ inline Array<float> particle_bins(std::uint64_t threads, std::int32_t bins) {
             Stage::kDisplay};
 }
 
+inline Array<ParticleBoard> particle_boards(std::uint64_t particles) {
+    return {"billboards", particles, Stage::kDisplay, Stage::kDisplay};
+}
+
 }  // namespace arrays
 
 /// Walks towards the sun from each particle.
@@ -68,6 +73,13 @@ Status plan_particles(const Context& context, ParticlesRun& run);
 /// Light at every particle, for the sun of the run's lighting; kept while that stays. kLimit: out
 /// of memory.
 Status light_particles(const Context& context, ParticlesRun& run);
+
+/// Whether particles move while the shutter is open.
+bool moves(const ParticlesRun& run);
+
+/// As billboards, into the planes; `march` tells their light. The tree holds a ball. kLimit: out
+/// of memory.
+Status show_boards(const Context& context, const ParticleMarchParams& march, ParticlesRun& run);
 
 /// Into the planes. kLimit: out of memory.
 Status show_particles(const Context& context, ParticlesRun& run);

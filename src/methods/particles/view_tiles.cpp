@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "kernels_cpu/particles/particle_board_params.h"
 #include "platform/threads.h"
 #include "src/methods/particles/tile_sort.h"
 
@@ -51,13 +52,55 @@ public:
         for (int a = 0; a < 3; ++a)
             for (int i = 0; i < 3; ++i)
                 p[a] += axis_[a][i] * (double(ball.centre[i]) - double(c_.origin[i]));
-        const double slack = kSlack * largest_;
-        const double r = (1 + kSlack) / double(ball.per_radius) + slack;
-        if (p[2] + r <= 0) return false;
-        out.ball = number;
+        const double radius = 1 / double(ball.per_radius);
+        Outline o{};
+        if (!outline(p, radius, o)) return false;
         const double way =
             c_.orthographic != 0 ? p[2] : __builtin_sqrt(p[0] * p[0] + p[1] * p[1] + p[2] * p[2]);
+        const double r = wide(radius);
         out.front = float(way - r - kSlack * (way + r));
+        return pixels_of(o, number, out);
+    }
+    /// All of the shutter's time; sorted by the middle's distance.
+    bool cover(const ParticleBoard& board, std::uint32_t number, Cover& out) const {
+        const double radius = 1 / __builtin_sqrt(double(board.per_square));
+        Outline all{};
+        int ahead = 0;
+        const int times = board.way[0] == 0 && board.way[1] == 0 && board.way[2] == 0 ? 1 : 2;
+        for (int time = 0; time < times; ++time) {
+            const double when = times == 1 ? 0 : time - 0.5;
+            double p[3];
+            for (int a = 0; a < 3; ++a) p[a] = double(board.at[a]) + when * double(board.way[a]);
+            Outline own{};
+            if (!outline(p, radius, own)) continue;
+            // A ball's way and what lies between two outlines are convex.
+            for (int a = 0; a < 2 && ahead > 0; ++a) {
+                own.low[a] = std::min(own.low[a], all.low[a]);
+                own.high[a] = std::max(own.high[a], all.high[a]);
+            }
+            all = own;
+            ++ahead;
+        }
+        if (ahead == 0) return false;
+        // Through the camera's plane: anywhere.
+        if (ahead < times) all = {{-kEverywhere, -kEverywhere}, {kEverywhere, kEverywhere}};
+        out.front = board.distance;
+        return pixels_of(all, number, out);
+    }
+
+private:
+    static constexpr double kEverywhere = 1e30;
+
+    /// Pixels, columns and rows, whose centres a ball may cover.
+    struct Outline {
+        double low[2], high[2];
+    };
+    double wide(double radius) const { return (1 + kSlack) * radius + kSlack * largest_; }
+
+    /// Of a ball at `p` along right, up, forward. False: behind the camera.
+    bool outline(const double (&p)[3], double radius, Outline& out) const {
+        const double r = wide(radius);
+        if (p[2] + r <= 0) return false;
         const double shift[2] = {double(c_.shift_x), double(c_.shift_y)};
         const double half[2] = {double(c_.half_width), double(c_.half_height)};
         const std::int32_t pixels[2] = {c_.width, c_.height};
@@ -66,7 +109,7 @@ public:
             if (c_.orthographic == 0) {
                 // Too near for an outline: everywhere.
                 if (p[2] <= 1.001 * r) {
-                    out.low[a] = 0, out.high[a] = pixels[a] - 1;
+                    out.low[a] = -kEverywhere, out.high[a] = kEverywhere;
                     continue;
                 }
                 // Tangents in the plane of this axis and the view's.
@@ -75,22 +118,27 @@ public:
                 low = (p[a] * p[2] - root) / below, high = (p[a] * p[2] + root) / below;
             }
             const double scale = 0.5 * pixels[a] / half[a];
-            double first = (low - shift[a] + half[a]) * scale - 0.5;
-            double last = (high - shift[a] + half[a]) * scale - 0.5;
+            out.low[a] = (low - shift[a] + half[a]) * scale - 0.5;
+            out.high[a] = (high - shift[a] + half[a]) * scale - 0.5;
             if (a == 1) {
-                const double turned = pixels[a] - 1 - first;
-                first = pixels[a] - 1 - last, last = turned;
+                const double turned = pixels[a] - 1 - out.low[a];
+                out.low[a] = pixels[a] - 1 - out.high[a], out.high[a] = turned;
             }
-            if (!(last + kPixelSlack >= 0 && first - kPixelSlack <= pixels[a] - 1)) return false;
-            out.low[a] = first - kPixelSlack > 0 ? up(first - kPixelSlack) : 0;
-            out.high[a] = last + kPixelSlack < pixels[a] - 1 ? std::int32_t(last + kPixelSlack)
-                                                             : pixels[a] - 1;
+        }
+        return true;
+    }
+    bool pixels_of(const Outline& o, std::uint32_t number, Cover& out) const {
+        out.ball = number;
+        const std::int32_t pixels[2] = {c_.width, c_.height};
+        for (int a = 0; a < 2; ++a) {
+            const double first = o.low[a] - kPixelSlack, last = o.high[a] + kPixelSlack;
+            if (!(last >= 0 && first <= pixels[a] - 1)) return false;
+            out.low[a] = first > 0 ? up(first) : 0;
+            out.high[a] = last < pixels[a] - 1 ? std::int32_t(last) : pixels[a] - 1;
             if (out.low[a] > out.high[a]) return false;
         }
         return true;
     }
-
-private:
     static std::int32_t up(double v) {
         const std::int32_t whole = std::int32_t(v);
         return double(whole) < v ? whole + 1 : whole;
@@ -109,24 +157,62 @@ struct Tiles {
     std::uint32_t count() const { return std::uint32_t(across) * std::uint32_t(down); }
 };
 
-Status sort_balls(const Context& context, const ParticleTree& tree, const CameraParams& c,
-                  const Screen& screen, Tiles& t) {
-    const std::size_t count = tree.balls.size();
-    const std::uint64_t most = arrays::view_balls(count).count;
+template <class Thing>
+Status sort_things(const Context& context, Span<const Thing> things, const CameraParams& c,
+                   const Screen& screen, Tiles& t) {
+    const std::uint64_t most = arrays::view_balls(things.size).count;
     for (bool fits = false; !fits;) {
         t.across = (c.width - 1) / t.side + 1;
         t.down = (c.height - 1) / t.side + 1;
-        PILEUS_TRY(sort_into(
-            context, count, t.count(), t.begin, most, fits, t.balls, [&](std::size_t i, auto put) {
-                Cover own;
-                if (!screen.cover(tree.balls[i], std::uint32_t(i), own)) return;
-                for (int y = own.low[1] / t.side; y <= own.high[1] / t.side; ++y)
-                    for (int x = own.low[0] / t.side; x <= own.high[0] / t.side; ++x)
-                        put(std::uint32_t(y * t.across + x));
-            }));
+        PILEUS_TRY(sort_into(context, things.size, t.count(), t.begin, most, fits, t.balls,
+                             [&](std::size_t i, auto put) {
+                                 Cover own;
+                                 if (!screen.cover(things[i], std::uint32_t(i), own)) return;
+                                 for (int y = own.low[1] / t.side; y <= own.high[1] / t.side; ++y)
+                                     for (int x = own.low[0] / t.side; x <= own.high[0] / t.side;
+                                          ++x)
+                                         put(std::uint32_t(y * t.across + x));
+                             }));
         if (!fits) t.side *= 2;
     }
     return Status::ok();
+}
+
+/// Pixels of tile number `piece`.
+ParticleTile tile_at(const Tiles& t, const CameraParams& c, std::int64_t piece) {
+    ParticleTile tile{};
+    tile.x_begin = std::int32_t(piece) % t.across * t.side;
+    tile.y_begin = std::int32_t(piece) / t.across * t.side;
+    tile.x_end = std::min(tile.x_begin + t.side, c.width);
+    tile.y_end = std::min(tile.y_begin + t.side, c.height);
+    return tile;
+}
+
+/// Calls draw(block) for the blocks of a tile, each with those of numbers[count] that it may see,
+/// the nearest first; at most kMostSeen.
+template <class Thing, class Draw>
+void draw_blocks(Span<const Thing> things, const Screen& screen, const std::uint32_t* numbers,
+                 std::uint32_t count, ParticleTile tile, Scratch& s, Draw draw) {
+    for (std::uint32_t i = 0; i < count; ++i)
+        (void)screen.cover(things[numbers[i]], numbers[i], s.covers[i]);
+    std::sort(s.covers, s.covers + count, Nearer());
+    tile.seen = s.seen;
+    const ParticleTile all = tile;
+    for (tile.y_begin = all.y_begin; tile.y_begin < all.y_end; tile.y_begin += kBlockPixels)
+        for (tile.x_begin = all.x_begin; tile.x_begin < all.x_end; tile.x_begin += kBlockPixels) {
+            tile.x_end = std::min(tile.x_begin + kBlockPixels, all.x_end);
+            tile.y_end = std::min(tile.y_begin + kBlockPixels, all.y_end);
+            std::uint32_t seen = 0;
+            for (std::uint32_t i = 0; i < count; ++i) {
+                const Cover& o = s.covers[i];
+                s.seen[seen] = {o.front, o.ball};
+                const bool in = (o.low[0] < tile.x_end) & (o.high[0] >= tile.x_begin) &
+                                (o.low[1] < tile.y_end) & (o.high[1] >= tile.y_begin);
+                seen += in ? 1 : 0;
+            }
+            tile.count = std::int32_t(seen);
+            draw(tile);
+        }
 }
 
 }  // namespace
@@ -138,7 +224,8 @@ Status march_particles(const Context& context, const ParticleTree& tree,
     const CameraParams& c = k.camera;
     const Screen screen(c, tree.nodes[0]);
     Tiles tiles;
-    PILEUS_TRY(sort_balls(context, tree, c, screen, tiles));
+    const Span<const ParticleBall> balls = tree.balls.span();
+    PILEUS_TRY(sort_things(context, balls, c, screen, tiles));
     Buffer<Scratch> scratch;
     PILEUS_TRY(scratch.resize(std::uint64_t(context.threads), "tiles of the picture"));
     const std::uint64_t floats = particle_scratch_floats(k.bins);
@@ -149,42 +236,48 @@ Status march_particles(const Context& context, const ParticleTree& tree,
         if (thread == 0) context.tell("march", double(piece) / double(tiles.count()));
         ParticleMarchBuffers own = buffers;
         own.scratch = bins.data() + std::uint64_t(thread) * floats;
-        const std::int32_t x = std::int32_t(piece) % tiles.across * tiles.side;
-        const std::int32_t y = std::int32_t(piece) / tiles.across * tiles.side;
-        ParticleTile tile{};
-        tile.x_begin = x, tile.x_end = std::min(x + tiles.side, c.width);
-        tile.y_begin = y, tile.y_end = std::min(y + tiles.side, c.height);
+        ParticleTile tile = tile_at(tiles, c, piece);
         const std::uint64_t first = tiles.begin[std::size_t(piece)];
         const std::uint64_t named = tiles.begin[std::size_t(piece) + 1] - first;
         if (named == 0 || named > kMostSeen) {
             tile.count = named == 0 ? 0 : 1;
             return march(k, own, tile);
         }
-        Scratch& s = scratch[std::size_t(thread)];
-        const std::uint32_t count = std::uint32_t(named);
-        for (std::uint32_t i = 0; i < count; ++i) {
-            const std::uint32_t ball = tiles.balls[first + i];
-            (void)screen.cover(tree.balls[ball], ball, s.covers[i]);
-        }
-        std::sort(s.covers, s.covers + count, Nearer());
-        tile.seen = s.seen;
-        const ParticleTile all = tile;
-        for (tile.y_begin = all.y_begin; tile.y_begin < all.y_end; tile.y_begin += kBlockPixels)
-            for (tile.x_begin = all.x_begin; tile.x_begin < all.x_end;
-                 tile.x_begin += kBlockPixels) {
-                tile.x_end = std::min(tile.x_begin + kBlockPixels, all.x_end);
-                tile.y_end = std::min(tile.y_begin + kBlockPixels, all.y_end);
-                std::uint32_t seen = 0;
-                for (std::uint32_t i = 0; i < count; ++i) {
-                    const Cover& o = s.covers[i];
-                    s.seen[seen] = {o.front, o.ball};
-                    const bool in = (o.low[0] < tile.x_end) & (o.high[0] >= tile.x_begin) &
-                                    (o.low[1] < tile.y_end) & (o.high[1] >= tile.y_begin);
-                    seen += in ? 1 : 0;
-                }
-                tile.count = std::int32_t(seen);
-                march(k, own, tile);
-            }
+        draw_blocks(balls, screen, tiles.balls.data() + first, std::uint32_t(named), tile,
+                    scratch[std::size_t(thread)],
+                    [&](const ParticleTile& block) { march(k, own, block); });
+    });
+    return Status::ok();
+}
+
+Status blend_particles(const Context& context, const ParticleTree& tree,
+                       const ParticleBoardParams& k, Span<const ParticleBoard> boards,
+                       const ParticleBoardBuffers& buffers) {
+    const CameraParams& c = k.camera;
+    const Screen screen(c, tree.nodes[0]);
+    Tiles tiles;
+    PILEUS_TRY(sort_things(context, boards, c, screen, tiles));
+    Buffer<Scratch> scratch;
+    PILEUS_TRY(scratch.resize(std::uint64_t(context.threads), "tiles of the picture"));
+    const auto blend = context.kernels->particles->boards;
+    parallel_for(context.threads, tiles.count(), [&](std::int64_t piece, int thread) {
+        if (thread == 0) context.tell("blend", double(piece) / double(tiles.count()));
+        std::uint32_t* numbers = tiles.balls.data() + tiles.begin[std::size_t(piece)];
+        const std::uint64_t named =
+            tiles.begin[std::size_t(piece) + 1] - tiles.begin[std::size_t(piece)];
+        // More than are at hand at once are sorted first and blended by and by.
+        if (named > kMostSeen)
+            std::sort(numbers, numbers + named, [&](std::uint32_t a, std::uint32_t b) {
+                return boards[a].distance != boards[b].distance
+                           ? boards[a].distance < boards[b].distance
+                           : a < b;
+            });
+        const ParticleTile tile = tile_at(tiles, c, piece);
+        for (std::uint64_t from = 0; from < named; from += kMostSeen)
+            draw_blocks(boards, screen, numbers + from,
+                        std::uint32_t(std::min<std::uint64_t>(kMostSeen, named - from)), tile,
+                        scratch[std::size_t(thread)],
+                        [&](const ParticleTile& block) { blend(k, buffers, block); });
     });
     return Status::ok();
 }

@@ -3,6 +3,7 @@
 // nearest first, so that what lies behind an opaque front is not looked at. in: balls, a camera,
 // light -> out: planes of pixels. docs/particles.md, "Display".
 #pragma once
+#include "kernels_cpu/particles/particle_board_params.h"
 #include "src/methods/particles/particles_run.h"
 
 namespace pileus {
@@ -24,5 +25,10 @@ std::uint64_t view_tile_scratch_bytes();
 /// memory.
 Status march_particles(const Context& context, const ParticleTree& tree,
                        const ParticleMarchParams& k, const ParticleMarchBuffers& buffers);
+
+/// The same with boards, one for each ball of the tree; planes go on from what they hold.
+Status blend_particles(const Context& context, const ParticleTree& tree,
+                       const ParticleBoardParams& k, Span<const ParticleBoard> boards,
+                       const ParticleBoardBuffers& buffers);
 
 }  // namespace pileus

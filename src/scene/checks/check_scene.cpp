@@ -189,6 +189,32 @@ void check_compositor(SceneCheck& check) {
                              ", allowed: builtin, or layers without depth");
 }
 
+/// A lens and a shutter belong to one display; elsewhere pictures would be sharp unasked.
+void check_lens(SceneCheck& check) {
+    const Scene& scene = check.scene;
+    const ParticlesSettings& s = scene.particles;
+    const auto refuse = [&](const char* key, const char* why, const char* allowed) {
+        const Node* node = check.key(key);
+        if (node != nullptr)
+            check.faults.add(node->at, key,
+                             why + (", " + value_text(*node)) + ", allowed: " + allowed);
+    };
+    const bool lens = scene.camera.aperture_radius_m > 0;
+    if (scene.method != "particles" || !s.billboards) {
+        constexpr const char* kWhy = "for billboards of particles alone";
+        constexpr const char* kAllowed =
+            "0, or method.name = \"particles\" and particles.display = \"billboards\"";
+        if (lens) refuse("camera.aperture_radius_m", kWhy, kAllowed);
+        if (scene.camera.shutter_s > 0) refuse("camera.shutter_s", kWhy, kAllowed);
+    } else {
+        if (lens && scene.camera.orthographic)
+            refuse("camera.aperture_radius_m", "a lens needs perspective", "0");
+        if (s.light == ParticleLight::kExact)
+            refuse("particles.light", "for bins of a march alone",
+                   "linear, centre, or particles.display = \"march\"");
+    }
+}
+
 }  // namespace
 
 void check_laws(SceneCheck& check) {
@@ -208,6 +234,7 @@ void check_laws(SceneCheck& check) {
     for (std::size_t i = 0; i < scene.media.size(); ++i) check_medium(check, i);
     check_periodic(check);
     check_compositor(check);
+    check_lens(check);
     check_solids(check);
     check_lights(check);
 }

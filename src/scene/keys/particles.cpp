@@ -37,6 +37,16 @@ constexpr KeyRow kRows[] = {
      "in between; or one from each bin of each ray"},
     {"particles.most_depth", particles<&Settings::most_depth>, from_to(0, 1e9), "",
      "a walk towards the sun ends where it has met this optical depth; 0: never"},
+    {"particles.display", particles<&Settings::billboards>, one_of("march|billboards"), "",
+     "exact depths in bins along each ray; or one colour a particle, sorted by distance: faster, "
+     "and with a lens and a shutter"},
+    {"particles.display_scale", particles<&Settings::display_scale>, from_to(0.01, 100), "",
+     "of billboards: factor on the radius that is shown, not on that which is lit; depth times "
+     "area "
+     "is kept"},
+    {"particles.falloff", particles<&Settings::falloff>, from_to(0, 16), "",
+     "of billboards: depth falls with the distance q from the middle, in radii, as (1 - q^2) to "
+     "this power; 2.5: what a ray through the particle meets"},
     {"particles.stop_below", particles<&Settings::stop_below>, from_to(0, 1), "",
      "a ray ends where less of what lies behind is seen"},
 };

@@ -65,6 +65,13 @@ constexpr KeyRow kRows[] = {
      "its values: along each pixel's ray, or along the view's axis"},
     {"camera.depth_scale", camera<&Camera::depth_scale>, above(0, 1e9), "m",
      "metres per unit of its values"},
+    {"camera.aperture_radius_m", camera<&Camera::aperture_radius_m>, from_to(0, 1e6), "m",
+     "of a thin lens: depth of field; billboards of method `particles` only. 0: a pinhole"},
+    {"camera.focus_distance_m", camera<&Camera::focus_distance_m>, above(0, 1e9), "m",
+     "from the camera along the view to what is sharp; left out: the target", kNone},
+    {"camera.shutter_s", camera<&Camera::shutter_s>, from_to(0, 1e6), "s",
+     "how long the shutter is open, the picture's time in the middle: motion blur of particles "
+     "with velocities; billboards of method `particles` only"},
     {"camera.position_deg", place<&Camera::position_place, &Camera::position_by_place>,
      from_to(-1e9, 1e9), "deg, deg, m",
      "instead of position_m: longitude, latitude and height by the map of the first medium that is "

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// A picture of lit particles as billboards: one colour each, sorted, blended front to back.
+// in: an octree, light at its balls, a camera with a lens and a shutter -> out: planes of pixels.
+// Monette and Whitehead 2014, 3.5; docs/particles.md, "Billboards".
+#include "platform/threads.h"
+#include "src/methods/particles/particles_run.h"
+#include "src/methods/particles/view_tiles.h"
+
+namespace pileus {
+namespace {
+
+/// Of (1 - q^2)^power: that of a ball's chords.
+constexpr double kChordPower = 2.5;
+/// Depth of a ball on the ray through its middle, in extinction there times radius.
+constexpr double kChord = 16.0 / 15;
+
+/// What blurs a picture.
+struct Lens {
+    double radius = 0, focus = 1;  ///< m; 0: a pinhole
+    double shutter = 0;            ///< s
+};
+
+class BoardMaker {
+public:
+    BoardMaker(const ParticlesRun& run, const Lens& lens)
+        : tree_(run.tree), c_(run.camera), s_(run.scene->particles), lens_(lens) {}
+
+    ParticleBoard board(std::size_t i) const {
+        const ParticleBall& ball = tree_.balls[i];
+        ParticleBoard o{};
+        double p[3], square = 0;
+        for (int a = 0; a < 3; ++a) {
+            p[a] = 0;
+            for (int n = 0; n < 3; ++n)
+                p[a] += axis(a)[n] * (double(ball.centre[n]) - double(c_.origin[n]));
+            o.at[a] = float(p[a]);
+            square += p[a] * p[a];
+        }
+        if (!tree_.velocity.empty() && lens_.shutter > 0)
+            for (int a = 0; a < 3; ++a) {
+                double way = 0;
+                for (std::size_t n = 0; n < 3; ++n)
+                    way += double(axis(a)[n]) * double(tree_.velocity[3 * i + n]);
+                o.way[a] = float(way * lens_.shutter);
+            }
+        const double own = 1 / double(ball.per_radius), shown = own * s_.display_scale;
+        double radius = shown, power = s_.falloff;
+        if (lens_.radius > 0) {
+            // A disc of this radius is spread over the outline. Their second moments add up.
+            const double blur = lens_.radius * __builtin_fabs(p[2] / lens_.focus - 1);
+            radius = shown + blur;
+            power = radius * radius / (shown * shown / (s_.falloff + 2) + 0.5 * blur * blur) - 2;
+        }
+        o.power = float(power);
+        o.per_square = float(1 / (radius * radius));
+        // The same integral over the picture, whatever the outline.
+        const double share = own * own / (radius * radius) * (power + 1) / (kChordPower + 1);
+        o.whole = float(kChord * double(ball.depth) * share);
+        o.per_radius = ball.per_radius;
+        o.distance = float(c_.orthographic != 0 ? p[2] : __builtin_sqrt(square));
+        return o;
+    }
+
+private:
+    const float* axis(int a) const { return a == 0 ? c_.right : a == 1 ? c_.up : c_.forward; }
+
+    const ParticleTree& tree_;
+    const CameraParams& c_;
+    const ParticlesSettings& s_;
+    const Lens lens_;
+};
+
+Lens lens_of(const Scene& scene) {
+    const Camera& c = scene.camera;
+    Lens lens;
+    lens.radius = c.aperture_radius_m;
+    lens.shutter = c.shutter_s;
+    lens.focus = c.focus_distance_m;
+    if (lens.focus == 0) {
+        const Double3 way = c.target_m - c.position_m;
+        lens.focus = __builtin_sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
+    }
+    return lens;
+}
+
+/// Balls whose colours are made at once.
+constexpr std::size_t kColoursAtOnce = 4096;
+
+}  // namespace
+
+bool moves(const ParticlesRun& run) {
+    return run.scene->camera.shutter_s > 0 && !run.tree.velocity.empty();
+}
+
+Status show_boards(const Context& context, const ParticleMarchParams& march, ParticlesRun& run) {
+    const StageClock clock(context, "blend");
+    const std::size_t count = run.tree.balls.size();
+    Planes& planes = run.planes;
+    for (float& v : planes.transmittance.span()) v = 1;
+    for (float& v : planes.colour.span()) v = 0;
+    for (float& v : planes.half_depth.span()) v = __builtin_inff();
+    for (float& v : planes.optical_depth.span()) v = 0;
+    Buffer<ParticleBoard> boards;
+    PILEUS_TRY(allocate(arrays::particle_boards(count), boards));
+    const BoardMaker maker(run, lens_of(*run.scene));
+    const ParticleColourBuffers colours{run.shade.data(), run.sky.data(), count, boards.data()};
+    const std::size_t pieces = (count - 1) / kColoursAtOnce + 1;
+    parallel_for(context.threads, std::int64_t(pieces), [&](std::int64_t piece, int) {
+        const std::size_t begin = std::size_t(piece) * kColoursAtOnce;
+        const std::size_t end = std::min(begin + kColoursAtOnce, count);
+        for (std::size_t i = begin; i < end; ++i) boards[i] = maker.board(i);
+        context.kernels->particles->colours(march, colours, std::uint32_t(begin),
+                                            std::uint32_t(end));
+    });
+    const Scene& scene = *run.scene;
+    ParticleBoardParams k{};
+    k.camera = run.camera;
+    k.boards = boards.data();
+    k.moving = moves(run) ? 1 : 0;
+    k.curved = scene.camera.aperture_radius_m > 0 || scene.particles.falloff != kChordPower ? 1 : 0;
+    k.cut = float(scene.particles.stop_below);
+    const ParticleBoardBuffers b{planes.opaque_depth.data(), planes.transmittance.data(),
+                                 planes.colour.data(), planes.half_depth.data(),
+                                 planes.optical_depth.data()};
+    return blend_particles(context, run.tree, k, boards.span(), b);
+}
+
+}  // namespace pileus
