@@ -100,6 +100,8 @@ struct BackgroundBuffers {
     const float* map;     ///< [3][cell], radiance
     float* colour;        ///< [3][pixel]; null: not wanted
     float* opaque_depth;  ///< [pixel], m; infinity for the sky; null: nothing solid
+    /// [pixel]: of what stands at opaque_depth, which then is read; null: not wanted.
+    float* shadow = nullptr;
 };
 
 }  // namespace pileus

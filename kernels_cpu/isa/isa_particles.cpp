@@ -3,6 +3,7 @@
 // in: the kernel templates -> out: a table of functions, named after the instruction set.
 // docs/architecture.md, "Kernels: written once"; tools/check_objects proves that nothing leaks.
 #include "kernels_cpu/particles/particle_board.h"
+#include "kernels_cpu/particles/particle_lamps.h"
 #include "kernels_cpu/particles/particle_light.h"
 #include "kernels_cpu/particles/particle_march.h"
 
@@ -35,11 +36,19 @@ void colours_kernel(const ParticleMarchParams& k, const ParticleColourBuffers& b
                     std::uint32_t begin, std::uint32_t end) {
     board_colours<PILEUS_WIDTH>(k, b, begin, end);
 }
+void lamp_depths_kernel(const ParticleLampDepths& k, std::uint32_t begin, std::uint32_t end) {
+    particle_lamp_depths<PILEUS_WIDTH>(k, begin, end);
+}
+void lamp_light_kernel(const ParticleMarchParams& k, const ParticleLampLight& b,
+                       std::uint32_t begin, std::uint32_t end) {
+    particle_lamp_light<PILEUS_WIDTH>(k, b, begin, end);
+}
 
 }  // namespace
 
 extern const ParticleKernels PILEUS_PARTICLES(PILEUS_ISA);
-const ParticleKernels PILEUS_PARTICLES(PILEUS_ISA) = {PILEUS_WIDTH, depths_kernel, march_kernel,
-                                                      boards_kernel, colours_kernel};
+const ParticleKernels PILEUS_PARTICLES(PILEUS_ISA) = {
+    PILEUS_WIDTH,   depths_kernel,      march_kernel,     boards_kernel,
+    colours_kernel, lamp_depths_kernel, lamp_light_kernel};
 
 }  // namespace pileus

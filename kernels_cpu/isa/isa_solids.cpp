@@ -21,6 +21,7 @@ void PILEUS_SOLIDS(PILEUS_ISA)(const SolidRowsParams&, const BackgroundBuffers&,
                                std::uint32_t);
 void PILEUS_SOLIDS(PILEUS_ISA)(const SolidRowsParams& k, const BackgroundBuffers& b,
                                std::uint32_t begin, std::uint32_t end) {
+    if (b.shadow != nullptr) return shadow_of_rows<PILEUS_WIDTH>(k, b, begin, end);
     solid_rows<PILEUS_WIDTH>(k, b, begin, end);
 }
 

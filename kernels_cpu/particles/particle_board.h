@@ -7,6 +7,7 @@
 #include "kernels_cpu/core/pixel_block.h"
 #include "kernels_cpu/display/blend_layer.h"
 #include "kernels_cpu/particles/particle_board_params.h"
+#include "kernels_cpu/particles/particle_light.h"
 #include "kernels_cpu/particles/particle_march.h"
 
 namespace pileus {
@@ -183,10 +184,6 @@ PILEUS_FN void board_tile(const ParticleBoardParams& k, const ParticleBoardBuffe
                 board_pixels<W, true, true>(k, b, tile, x, y);
 }
 
-/// Places along the gradient of the depth towards the sun, and their weights, that have the first
-/// three even moments of a ball's extinction along an axis, 1/9 and 1/33.
-constexpr float kShadeAt = 0.522232968f, kShadeWeight = 11.0f / 54;
-
 /// Colours of the boards [begin, end), W balls side by side: the light that each sends towards the
 /// camera, as a mean over its extinction.
 template <int W>
@@ -196,7 +193,7 @@ PILEUS_FN void board_colours(const ParticleMarchParams& k, const ParticleColourB
     const CameraParams& c = k.camera;
     for (std::uint32_t first = begin; first < end; first += W) {
         Vec<T> to{};
-        T depth{}, reach{}, sky[3] = {};
+        T depth{}, reach{}, seen{}, sky[3] = {};
         for (int l = 0; l < W; ++l) {
             const std::uint32_t i =
                 first + std::uint32_t(l) < end ? first + std::uint32_t(l) : first;
@@ -214,6 +211,7 @@ PILEUS_FN void board_colours(const ParticleMarchParams& k, const ParticleColourB
                     reach, l,
                     s.slope[0] * s.slope[0] + s.slope[1] * s.slope[1] + s.slope[2] * s.slope[2]);
             }
+            set_lane(seen, l, b.seen != nullptr ? b.seen[i] : 1.0f);
             for (int n = 0; n < 3 && b.sky != nullptr; ++n)
                 set_lane(sky[n], l, b.sky[std::uint64_t(n) * b.balls + i]);
         }
@@ -221,14 +219,11 @@ PILEUS_FN void board_colours(const ParticleMarchParams& k, const ParticleColourB
         const T per = 1.0f / sqrt_(max_(square, all<T>(1e-30f)));
         to = {to.x * per, to.y * per, to.z * per};
         const ParticlePhases<T> phases = particle_phases(k, to);
-        const T offset = kShadeAt * sqrt_(reach);
+        reach = sqrt_(reach);
         T light[3] = {};
         for (int n = 0; n < 3; ++n) light[n] = k.albedo[n] * sky[n];
         for (int n = 0; n < k.orders; ++n) {
-            const auto lit = [&](T at) { return exp_(T{} - max_(at, T{}) * k.thinner[n]); };
-            const T mean = (1.0f - 2 * kShadeWeight) * lit(depth) +
-                           kShadeWeight * (lit(depth - offset) + lit(depth + offset));
-            const T arrives = phases.order[n] * mean;
+            const T arrives = phases.order[n] * seen * mean_light(depth, reach, k.thinner[n]);
             for (int i = 0; i < 3; ++i) light[i] = light[i] + arrives * k.sun[n][i];
         }
         for (int l = 0; l < W; ++l)

@@ -40,6 +40,7 @@ struct ParticleBoardBuffers {
 struct ParticleColourBuffers {
     const ParticleShade* shade;  ///< [ball]
     const float* sky;            ///< [channel][ball]: light from around; null: none
+    const float* seen;           ///< [ball]: share of the sun that solids leave; null: all
     std::uint64_t balls;         ///< their number
     ParticleBoard* boards;       ///< [ball]
 };

@@ -8,6 +8,20 @@
 namespace pileus {
 inline namespace PILEUS_ISA {
 
+/// Places along the gradient of the depth towards a light, and their weights, that have the first
+/// even moments of a ball's extinction along an axis, 1/9 and 1/33.
+constexpr float kShadeAt = 0.522232968f, kShadeWeight = 11.0f / 54;
+
+/// Mean over a ball's extinction of e^-(thinner depth), where the depth is `depth` at the centre
+/// and grows by `reach` over a radius.
+template <class T>
+PILEUS_FN T mean_light(T depth, T reach, float thinner) {
+    const T offset = kShadeAt * reach;
+    const auto light = [&](T at) { return exp_(T{} - max_(at, T{}) * thinner); };
+    return (1.0f - 2 * kShadeWeight) * light(depth) +
+           kShadeWeight * (light(depth - offset) + light(depth + offset));
+}
+
 /// Occluders between two looks at whether all places are as deep as it counts.
 constexpr std::int32_t kLookAgain = 16;
 

@@ -53,21 +53,35 @@ PILEUS_FN T shade_at(const ParticleMarchParams& k, const ParticleRay<T>& r, T at
     return particle_depth(k.view, ray, wanted, k.most);
 }
 
+/// How bins find the sun's light: from their balls' depths, by a walk of their own, or from the
+/// balls that solids leave in the light.
+enum class ParticleLit { kShade, kExact, kSeen };
+template <ParticleLit Kind>
+constexpr int kSumsOf = Kind == ParticleLit::kSeen ? kParticleSums : kParticleSums - 1;
+
 /// Light that leaves a bin along the rays, per optical depth; `own` are its sums.
-template <class T>
+template <ParticleLit Kind, class T>
 PILEUS_FN void light_of_bin(const ParticleMarchParams& k, const ParticlePhases<T>& phases,
-                            const T (&own)[kParticleSums], T (&light)[3]) {
+                            const T (&own)[kSumsOf<Kind>], T (&light)[3]) {
+    constexpr bool kSeen = Kind == ParticleLit::kSeen;
     const T per_depth = 1.0f / max_(own[0], all<T>(1e-30f));
     for (int c = 0; c < 3; ++c) light[c] = k.albedo[c] * (own[c + 2] * per_depth);
-    const T shade = max_(own[1] * per_depth, T{});
+    T seen = all<T>(1.0f), shade = own[1] * per_depth;
+    if constexpr (kSeen) {
+        // Depths of those alone that the sun reaches.
+        seen = own[5] * per_depth;
+        shade = own[1] / max_(own[5], all<T>(1e-30f));
+    }
+    shade = max_(shade, T{});
     for (int n = 0; n < k.orders; ++n) {
-        const T arrives = phases.order[n] * exp_(T{} - shade * k.thinner[n]);
+        T arrives = phases.order[n] * exp_(T{} - shade * k.thinner[n]);
+        if constexpr (kSeen) arrives = arrives * seen;
         for (int c = 0; c < 3; ++c) light[c] = light[c] + arrives * k.sun[n][c];
     }
 }
 
 /// Bins along W rays: sums of each, all 0 where no ball has been added since they were shown.
-template <class T>
+template <ParticleLit Kind, class T>
 struct ParticleBins {
     float* sums;
     std::int32_t count;  ///< of bins
@@ -76,7 +90,7 @@ struct ParticleBins {
     std::int32_t farthest = -1;  ///< that a ball was added to
 
     static constexpr std::int32_t kNumbers =
-        std::int32_t(sizeof(T) / sizeof(float)) * kParticleSums;
+        std::int32_t(sizeof(T) / sizeof(float)) * kSumsOf<Kind>;
     float* at(std::int32_t n) const { return sums + std::int64_t(n) * kNumbers; }
 };
 
@@ -87,10 +101,10 @@ struct ParticlePixels {
 };
 
 /// Adds a ball's depth, and its light with it, to the bins that it overlaps.
-template <bool Exact, class T>
+template <ParticleLit Kind, class T>
 PILEUS_FN void add_to_bins(const ParticleMarchParams& k, const ParticleMarchBuffers& b,
                            const ParticleRay<T>& r, std::int32_t i, const BallPass<T>& p,
-                           M_of<T> hit, ParticleBins<T>& bins) {
+                           M_of<T> hit, ParticleBins<Kind, T>& bins) {
     using II = I_of<T>;
     const ParticleBall& ball = k.view.balls[i];
     const T radius = all<T>(1.0f / ball.per_radius);
@@ -105,7 +119,7 @@ PILEUS_FN void add_to_bins(const ParticleMarchParams& k, const ParticleMarchBuff
     bins.farthest = last > bins.farthest ? last : bins.farthest;
     // Depth towards the sun at place s of the ray, in radii: shade + s slope.
     T shade{}, slope{};
-    if constexpr (!Exact) {
+    if constexpr (Kind != ParticleLit::kExact) {
         const ParticleShade& sun = b.shade[i];
         const Vec<T>& d = r.direction;
         slope = sun.slope[0] * d.x + sun.slope[1] * d.y + sun.slope[2] * d.z;
@@ -114,6 +128,7 @@ PILEUS_FN void add_to_bins(const ParticleMarchParams& k, const ParticleMarchBuff
                          sun.slope[2] * (ball.centre[2] - r.origin.z) - p.along * slope;
         shade = sun.depth - across * ball.per_radius;
     }
+    const float seen = Kind == ParticleLit::kSeen ? b.seen[i] : 1.0f;
     T start = p.begin;
     const T weight = select(hit, all<T>(ball.depth), T{});
     T before = ball_integral(p.inner, p.begin);
@@ -125,14 +140,16 @@ PILEUS_FN void add_to_bins(const ParticleMarchParams& k, const ParticleMarchBuff
         const T after = ball_integral(p.inner, s);
         const T tau = weight * max_(after - before, T{});
         before = after;
-        T own[kParticleSums];
+        T own[kSumsOf<Kind>];
         __builtin_memcpy(own, bins.at(n), sizeof own);
         own[0] = own[0] + tau;
         const T middle = 0.5f * (start + s);
-        if constexpr (Exact)
+        if constexpr (Kind == ParticleLit::kExact)
             own[1] = own[1] + tau * (p.along + middle * radius);
         else
-            own[1] = own[1] + tau * (shade + middle * slope);
+            own[1] =
+                own[1] + (Kind == ParticleLit::kSeen ? tau * seen : tau) * (shade + middle * slope);
+        if constexpr (Kind == ParticleLit::kSeen) own[5] = own[5] + tau * seen;
         start = s;
         if (b.sky != nullptr)
             for (int c = 0; c < 3; ++c)
@@ -143,25 +160,25 @@ PILEUS_FN void add_to_bins(const ParticleMarchParams& k, const ParticleMarchBuff
 }
 
 /// Shows bins up to `end`, and empties them. False: nothing behind them is seen.
-template <bool Exact, class T>
+template <ParticleLit Kind, class T>
 PILEUS_FN bool show_bins(const ParticleMarchParams& k, const ParticleMarchBuffers& b,
                          const ParticleRay<T>& r, const ParticlePhases<T>& phases, std::int32_t end,
-                         ParticleBins<T>& bins, ParticlePixels<T>& v) {
+                         ParticleBins<Kind, T>& bins, ParticlePixels<T>& v) {
     bool seen = true;
     for (std::int32_t n = bins.open; n < end; ++n) {
-        T own[kParticleSums];
+        T own[kSumsOf<Kind>];
         __builtin_memcpy(own, bins.at(n), sizeof own);
         if (!any(own[0] > 0.0f)) continue;
-        const T none[kParticleSums] = {};
+        const T none[kSumsOf<Kind>] = {};
         __builtin_memcpy(bins.at(n), none, sizeof none);
         if (!seen) continue;
         v.depth = v.depth + own[0];
         const T tau = select(v.transmittance >= k.cut, own[0], T{});
-        if constexpr (Exact)
+        if (Kind == ParticleLit::kExact && k.orders > 0)
             own[1] = own[0] * shade_at(k, r, own[1] / max_(own[0], all<T>(1e-30f)), tau > 0.0f);
         const T alpha = one_minus_exp(tau);
         T light[3];
-        light_of_bin(k, phases, own, light);
+        light_of_bin<Kind>(k, phases, own, light);
         const T weight = v.transmittance * alpha;
         for (int c = 0; c < 3; ++c) v.colour[c] = v.colour[c] + weight * light[c];
         const T left = v.transmittance * (1.0f - alpha);
@@ -182,11 +199,11 @@ constexpr std::int32_t kBallsBetween = 8;
 
 /// The balls of `seen`, which lie sorted by where rays may first meet them: bins before that are
 /// whole, and where nothing is seen behind them the rest is left out.
-template <bool Exact, class T>
+template <ParticleLit Kind, class T>
 PILEUS_FN void march_seen(const ParticleMarchParams& k, const ParticleMarchBuffers& b,
                           const ParticleSeen* seen, std::int32_t count, const ParticleRay<T>& r,
-                          const ParticlePhases<T>& phases, M_of<T> wanted, ParticleBins<T>& bins,
-                          ParticlePixels<T>& v) {
+                          const ParticlePhases<T>& phases, M_of<T> wanted,
+                          ParticleBins<Kind, T>& bins, ParticlePixels<T>& v) {
     // Of all lanes: the farthest begin, the widest bin, the farthest end.
     float from = 0, width = 0, to = 0;
     for (std::uint32_t lanes = bits_of(wanted); lanes != 0; lanes &= lanes - 1) {
@@ -205,8 +222,8 @@ PILEUS_FN void march_seen(const ParticleMarchParams& k, const ParticleMarchBuffe
             const std::int32_t end =
                 whole > 1 ? (whole < float(bins.count) ? std::int32_t(whole) - 1 : bins.count) : 0;
             if (end > bins.open &&
-                !show_bins<Exact>(k, b, r, phases, end <= bins.farthest ? end : bins.farthest + 1,
-                                  bins, v))
+                !show_bins<Kind>(k, b, r, phases, end <= bins.farthest ? end : bins.farthest + 1,
+                                 bins, v))
                 break;
         }
         BallPass<T> p = near_ball(k.view.balls[own.ball], r);
@@ -214,12 +231,12 @@ PILEUS_FN void march_seen(const ParticleMarchParams& k, const ParticleMarchBuffe
         if (!any(hit)) continue;
         pass_ball(k.view.balls[own.ball], r, p);
         hit = hit & (p.begin < p.end);
-        if (any(hit)) add_to_bins<Exact>(k, b, r, std::int32_t(own.ball), p, hit, bins);
+        if (any(hit)) add_to_bins<Kind>(k, b, r, std::int32_t(own.ball), p, hit, bins);
     }
 }
 
 /// W pixels, a block from column x and row y on, within a rectangle.
-template <int W, bool Exact>
+template <int W, ParticleLit Kind>
 PILEUS_FN void particle_pixels(const ParticleMarchParams& k, const ParticleMarchBuffers& b,
                                const ParticleTile& tile, std::int32_t x, std::int32_t y) {
     using T = F<W>;
@@ -240,7 +257,7 @@ PILEUS_FN void particle_pixels(const ParticleMarchParams& k, const ParticleMarch
     ParticlePixels<T> v{};
     v.transmittance = all<T>(1.0f), v.half = all<T>(__builtin_inff());
     if (any(met) && tile.count != 0) {
-        ParticleBins<T> bins{};
+        ParticleBins<Kind, T> bins{};
         bins.sums = b.scratch;
         bins.count = k.bins;
         bins.from = box.enter;
@@ -248,13 +265,13 @@ PILEUS_FN void particle_pixels(const ParticleMarchParams& k, const ParticleMarch
         bins.per_width = 1.0f / bins.width;
         const ParticlePhases<T> phases = particle_phases(k, ray.direction);
         if (tile.seen != nullptr)
-            march_seen<Exact>(k, b, tile.seen, tile.count, r, phases, met, bins, v);
+            march_seen<Kind>(k, b, tile.seen, tile.count, r, phases, met, bins, v);
         else
             walk_particles(k.view, r, met, [&](std::int32_t i, const BallPass<T>& p, M<W> hit) {
-                add_to_bins<Exact>(k, b, r, i, p, hit, bins);
+                add_to_bins<Kind>(k, b, r, i, p, hit, bins);
                 return hit & lnot(hit);
             });
-        (void)show_bins<Exact>(k, b, r, phases, bins.farthest + 1, bins, v);
+        (void)show_bins<Kind>(k, b, r, phases, bins.farthest + 1, bins, v);
     }
     for_block<W>(k.camera, x, y, tile.y_end, [&](int l, std::int64_t pixel) {
         b.transmittance[pixel] = lane(v.transmittance, l);
@@ -271,9 +288,11 @@ PILEUS_FN void particle_tile(const ParticleMarchParams& k, const ParticleMarchBu
     for (std::int32_t y = tile.y_begin; y < tile.y_end; y += W / across)
         for (std::int32_t x = tile.x_begin; x < tile.x_end; x += across)
             if (k.exact != 0)
-                particle_pixels<W, true>(k, b, tile, x, y);
+                particle_pixels<W, ParticleLit::kExact>(k, b, tile, x, y);
+            else if (b.seen != nullptr)
+                particle_pixels<W, ParticleLit::kSeen>(k, b, tile, x, y);
             else
-                particle_pixels<W, false>(k, b, tile, x, y);
+                particle_pixels<W, ParticleLit::kShade>(k, b, tile, x, y);
 }
 
 }  // namespace PILEUS_ISA

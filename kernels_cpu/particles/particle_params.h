@@ -4,6 +4,7 @@
 // docs/particles.md, "The method".
 #pragma once
 #include "kernels_cpu/core/camera.h"
+#include "kernels_cpu/light/lamp_params.h"
 #include "kernels_cpu/media/phase.h"
 
 namespace pileus {
@@ -53,8 +54,8 @@ struct ParticleDepthBuffers {
 
 constexpr int kMostParticleOrders = 8;
 /// Sums of a bin: optical depth; that times the depth towards the sun, or times the place along the
-/// ray; that times skylight.
-constexpr int kParticleSums = 5;
+/// ray; that times light from around; that times the share that solids leave of the sun.
+constexpr int kParticleSums = 6;
 
 /// Optical depth towards the sun within a ball: `depth` at its centre, and how much more a radius
 /// farther along each axis.
@@ -80,6 +81,7 @@ struct ParticleMarchParams {
 struct ParticleMarchBuffers {
     const ParticleShade* shade;  ///< [ball]
     const float* sky;            ///< [channel][ball]: light from around; null: none
+    const float* seen;           ///< [ball]: share of the sun that solids leave; null: all
     std::uint64_t balls;         ///< their number
     const float* opaque_depth;   ///< [pixel], m along the ray; null: nothing solid
     float* transmittance;        ///< [pixel]
@@ -108,6 +110,28 @@ constexpr std::uint64_t particle_scratch_floats(std::int32_t bins) {
     return std::uint64_t(bins) * kParticleSums * kMostParticleLanes;
 }
 
+/// Depths from balls to a lamp: from one place each, `offset` radii from the centre.
+struct ParticleLampDepths {
+    ParticleView view;
+    LampParams lamp;
+    float offset[3];
+    float most;    ///< where a walk ends
+    float* depth;  ///< [ball]
+};
+/// Light of lamps that each ball scatters towards the camera.
+struct ParticleLampLight {
+    const LampParams* lamps;
+    std::int32_t count;
+    std::int32_t orders;                  ///< as ParticleMarchParams has them for the sun
+    float share[kMostParticleOrders][3];  ///< of each order, without the last albedo
+    const float* depth;                   ///< [lamp][ball]
+    const float* reach;                   ///< [lamp][ball]: its growth over a radius
+    const float* seen;                    ///< [lamp][ball]: share that solids leave; null: all
+    const float* sky;                     ///< [channel][ball], added; null: none
+    float* light;                         ///< [channel][ball]
+    std::uint64_t balls;
+};
+
 struct ParticleBoardParams;
 struct ParticleBoardBuffers;
 struct ParticleColourBuffers;
@@ -121,6 +145,9 @@ struct ParticleKernels {
     void (*boards)(const ParticleBoardParams&, const ParticleBoardBuffers&, const ParticleTile&);
     void (*colours)(const ParticleMarchParams&, const ParticleColourBuffers&, std::uint32_t begin,
                     std::uint32_t end);
+    void (*lamp_depths)(const ParticleLampDepths&, std::uint32_t begin, std::uint32_t end);
+    void (*lamp_light)(const ParticleMarchParams&, const ParticleLampLight&, std::uint32_t begin,
+                       std::uint32_t end);
 };
 
 }  // namespace pileus

@@ -146,7 +146,7 @@ PILEUS_FN void lamp_march_rows(const LampMarchParams& k, const LampMarchBuffers&
                 });
             const T leave = select(real, min_(box.leave, opaque), box.enter);
             T colour[3] = {}, behind[3] = {};
-            if (any(box.enter < leave)) {
+            if (k.media > 0 && any(box.enter < leave)) {
                 if (k.medium.constant != 0)
                     march_lamps<W, true>(k, b, ray, box.enter, leave, colour);
                 else

@@ -11,7 +11,7 @@ namespace pileus {
 struct LampMarchParams {
     MediumView medium;
     CameraParams camera;
-    std::int32_t media;  ///< on the grid, 1..kMostMedia
+    std::int32_t media;  ///< on the grid, up to kMostMedia; 0: the ground alone is lit
     PhaseParams phase[kMostMedia];
     float albedo[kMostMedia][3];
     std::int32_t lamps;

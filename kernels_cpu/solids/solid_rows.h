@@ -88,6 +88,33 @@ PILEUS_FN void surface_light(const SolidRowsParams& k, const BackgroundBuffers& 
     }
 }
 
+/// Share of the sun's light that solids and media keep from what rays meet; 0 in the sky.
+template <int W>
+PILEUS_FN void shadow_of_rows(const SolidRowsParams& k, const BackgroundBuffers& b,
+                              std::uint32_t begin, std::uint32_t end) {
+    using T = F<W>;
+    // Before the surface, so that it does not shade itself where it is lit.
+    constexpr float kBefore = 1 - 2e-5f;
+    const CameraParams& camera = k.back.camera;
+    const Vec<T> to_sun{all<T>(k.back.to_sun[0]), all<T>(k.back.to_sun[1]),
+                        all<T>(k.back.to_sun[2])};
+    for (std::uint32_t y = begin; y < end; ++y) {
+        const std::int64_t row = std::int64_t(y) * camera.width;
+        for (std::int32_t x = 0; x < camera.width; x += W) {
+            const I<W> column = iota<I<W>>() + x;
+            T depth = all<T>(__builtin_inff());
+            for (int l = 0; l < W && x + l < camera.width; ++l)
+                set_lane(depth, l, b.opaque_depth[row + x + l]);
+            const M<W> met = depth < 3e38f;
+            const Ray<T> ray = camera_ray(camera, to_float(column), all<T>(float(y)));
+            const Vec<T> at = along(ray, select(met, depth * kBefore, T{}));
+            const T dark = select(met, 1.0f - sunlight_at(k, at, to_sun, met), T{});
+            for (int l = 0; l < W && x + l < camera.width; ++l)
+                b.shadow[row + x + l] = lane(dark, l);
+        }
+    }
+}
+
 template <int W>
 PILEUS_FN void solid_rows(const SolidRowsParams& k, const BackgroundBuffers& b, std::uint32_t begin,
                           std::uint32_t end) {

@@ -80,6 +80,16 @@ void hide(const CameraDepth& from, const CameraParams& camera, const BackgroundB
     }
 }
 
+void show_solid_rows(const Context& context, const SolidRowsParams& k, const BackgroundBuffers& b) {
+    const std::uint32_t rows = std::uint32_t(k.back.camera.height);
+    constexpr std::uint32_t kPiece = 4;
+    const auto kernel = context.kernels->solid_rows;
+    parallel_for(context.threads, (rows + kPiece - 1) / kPiece, [&](std::int64_t piece, int) {
+        const std::uint32_t begin = std::uint32_t(piece) * kPiece;
+        kernel(k, b, begin, begin + kPiece < rows ? begin + kPiece : rows);
+    });
+}
+
 }  // namespace
 
 BackgroundParams background_params(const MediumView& medium, const CameraParams& camera,
@@ -110,14 +120,30 @@ Status show_background(const Context& context, const Lighting& light, const Back
         params.back = k;
         params.solids = solids->view();
         if (b.colour != nullptr) set_around(light, params);
-        constexpr std::uint32_t kPiece = 4;
-        const auto kernel = context.kernels->solid_rows;
-        parallel_for(context.threads, (rows + kPiece - 1) / kPiece, [&](std::int64_t piece, int) {
-            const std::uint32_t begin = std::uint32_t(piece) * kPiece;
-            kernel(params, b, begin, begin + kPiece < rows ? begin + kPiece : rows);
-        });
+        show_solid_rows(context, params, b);
     }
     if (light.depth != nullptr && !light.depth->metres.empty()) hide(*light.depth, k.camera, b);
+    return Status::ok();
+}
+
+Status add_shadow(const Context& context, const MediumView& medium, const CameraParams& camera,
+                  const Lighting& light, Image& image) {
+    const StageClock clock(context, "shadow layer");
+    const std::uint64_t pixels = std::uint64_t(camera.width) * std::uint64_t(camera.height);
+    Buffer<float> depth, shadow;
+    PILEUS_TRY(shadow.resize(pixels, "shadow"));
+    for (float& v : shadow.span()) v = 0;
+    if (light.sunlit && light.opaque()) {
+        PILEUS_TRY(depth.resize(pixels, "shadow"));
+        SolidRowsParams k{};
+        k.back = background_params(medium, camera, light);
+        if (light.solids != nullptr) k.solids = light.solids->view();
+        BackgroundBuffers b{nullptr, nullptr, depth.data()};
+        PILEUS_TRY(show_background(context, light, k.back, b));
+        b.shadow = shadow.data();
+        show_solid_rows(context, k, b);
+    }
+    image.channels.push_back({"shadow", std::move(shadow)});
     return Status::ok();
 }
 

@@ -17,4 +17,10 @@ BackgroundParams background_params(const MediumView& medium, const CameraParams&
 Status show_background(const Context& context, const Lighting& light, const BackgroundParams& k,
                        const BackgroundBuffers& b);
 
+/// Channel `shadow` of an image of this camera: of ground, solids and what a depth image shows, the
+/// share of the sun's light that media and solids keep from it; 0 in the sky and without a sun.
+/// Needs kernels of the host. kLimit: out of memory.
+Status add_shadow(const Context& context, const MediumView& medium, const CameraParams& camera,
+                  const Lighting& light, Image& image);
+
 }  // namespace pileus

@@ -245,10 +245,13 @@ struct ParticlesSettings {
     int bins = 256;           ///< along a ray, 1..4096
     int leaf = 16;            ///< most particles in one, 1..1024
     ParticleLight light = ParticleLight::kLinear;
-    bool billboards = false;   ///< display = "billboards"; else marched
-    double display_scale = 1;  ///< of billboards: on radii, extinction times area kept; > 0
-    double falloff = 2.5;      ///< of billboards: the power of 1 - distance^2; 0..16
-    double most_depth = 0;     ///< towards the sun, where the walk ends; 0: none
+    double shadow_density = 1;  ///< factor on extinction towards lights; >= 0
+    double light_bias = 0;      ///< places that are lit, moved to a parallel light, radii
+    double solid_shadow = 0;    ///< share of light left behind solids; [0, 1]
+    bool billboards = false;    ///< display = "billboards"; else marched
+    double display_scale = 1;   ///< of billboards: on radii, extinction times area kept; > 0
+    double falloff = 2.5;       ///< of billboards: the power of 1 - distance^2; 0..16
+    double most_depth = 0;      ///< towards the sun, where the walk ends; 0: none
     double stop_below = 1e-4;
 };
 
@@ -258,7 +261,7 @@ struct OutputSettings {
     bool layer_depth = false, layer_error = false, layer_cloud = false;
     bool layer_optical_depth = false, layer_transmittance = false;
     bool layer_light = false, layer_order = false;
-    bool layer_reflectance = false;
+    bool layer_reflectance = false, layer_shadow = false;
 };
 
 struct Animation {

@@ -5,12 +5,16 @@
 #include "platform/clock.h"
 #include "platform/fp_mode.h"
 #include "src/io/images/image_file.h"
+#include "src/picture/background.h"
+#include "src/picture/march_view.h"
 #include "src/scene/rows/volume_format.h"
 #include "src/session/run_context.h"
 #include "src/session/session.h"
 #include "src/session/verify.h"
 #include "src/session/warnings.h"
 #include "src/world/camera/places.h"
+#include "src/world/camera/view.h"
+#include "src/world/majorant/majorants.h"
 
 namespace pileus {
 namespace {
@@ -64,6 +68,21 @@ void count_water(const Scene& scene, const World& world, Report& report) {
     report.counters.emplace_back("water_negative", world.medium.volume.clamped);
 }
 
+Status show_shadow(const Scene& scene, Session& session, int frame, Image& image) {
+    const Context& context = session.context();
+    const MethodRun& run = session.run();
+    const Medium& medium = run.world->medium;
+    if (context.kernels->device != nullptr)
+        return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
+                                 "\": layer shadow is made on the host alone, allowed: another, or "
+                                 "layers without shadow");
+    Majorants majorants;
+    PILEUS_TRY(make_majorants(medium, false, context, majorants));
+    return add_shadow(context, make_medium_view(medium, majorants),
+                      make_camera(run.scene->camera, orbit_at(scene, frame), medium.low_m),
+                      run.lighting, image);
+}
+
 /// Completes a frame's picture and report, and hands both over.
 Status deliver(const Scene& scene, const RunStart& start, int frame, const FrameSink& sink,
                Image& image, Report& report) {
@@ -97,6 +116,8 @@ Status render(const Scene& scene, const RenderOptions& options, const FrameSink&
             session.render_image({frame, frame == frames.first, frame == frames.last}, image));
         if (scene.output.layer_reflectance && options.show.empty())
             PILEUS_TRY(add_reflectance(session.run().lighting, image));
+        if (scene.output.layer_shadow && options.show.empty())
+            PILEUS_TRY(show_shadow(scene, session, frame, image));
         take_hash(image, report);
         session.finish_report();
         if (verifies) PILEUS_TRY(verifier.check(frame, session.context(), image, report));

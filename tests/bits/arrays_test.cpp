@@ -212,6 +212,9 @@ void check_particles(const Fixture& f) {
     held["octree"] = run.tree.nodes.bytes();
     held["particles' depths towards the sun"] = run.shade.bytes();
     held["particles' skylight"] = run.sky.bytes();
+    held["particles' depths towards lights"] =
+        run.lamp_depth.bytes() + run.lamp_reach.bytes() + run.lamp_seen.bytes();
+    held["particles' light around"] = run.around_balls.bytes();
     held["skylight on nodes"] = run.sky_nodes.light.bytes();
     held["picture planes"] = bytes_held(run.planes);
     // Freed with the march.
@@ -265,7 +268,14 @@ TEST_CASE("arrays: what particles hold while they are shown is what the plan say
     const char* const layers = "output.layers = [\"radiance\", \"alpha\", \"depth\"]";
     check_particles({scene.c_str(), "particles", {layers, "particles.bins = 50"}});
     check_particles({scene.c_str(), "particles", {layers, "particles.light = \"exact\""}});
-    check_particles({scene.c_str(), "particles", {layers, "particles.display = \"billboards\""}});
+    const std::string lit =
+        scene +
+        "\n[[light]]\ntype = \"point\"\nposition_m = [0, 0, 2000]\nintensity = 1\n"
+        "[[light]]\ntype = \"directional\"\nelevation_deg = 20\nirradiance = 1\n";
+    const std::string boards = "particles.display = \"billboards\"";
+    check_particles({scene.c_str(), "particles", {layers, boards}});
+    check_particles({lit.c_str(), "particles", {layers, boards}});
+    check_particles({lit.c_str(), "particles", {layers, "particles.light = \"exact\""}});
 }
 
 TEST_CASE("arrays: the bytes of collectors by their definition, those of scratch, too") {

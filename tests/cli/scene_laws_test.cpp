@@ -89,7 +89,7 @@ TEST_CASE("keys that do not go together") {
          "s.toml:5:19: output.files: given twice, \"a.png\", allowed: list of up to 16 texts"},
         {kCamera + "[output]\nlayers = [\"depht\"]\n",
          "s.toml:5:11: output.layers: unknown value, \"depht\", allowed: list of radiance, alpha, "
-         "depth, error, cloud, optical_depth, transmittance, light, order, reflectance"},
+         "depth, error, cloud, optical_depth, transmittance, light, order, reflectance, shadow"},
     };
     for (const Row& row : rows) check(row);
 }

@@ -4,6 +4,7 @@
 // docs/particles.md, "Light", "Display".
 #include "kernels_cpu/display/march_ray.h"
 #include "platform/threads.h"
+#include "src/methods/particles/light_places.h"
 #include "src/methods/particles/particles_run.h"
 #include "src/methods/particles/sun_tiles.h"
 #include "src/methods/particles/view_tiles.h"
@@ -45,9 +46,46 @@ constexpr float kCorners[4][3] = {
 /// Their distance from the centre, in radii.
 constexpr float kReach = 0.5f;
 
-/// The linear function through the depths at the corners, or the centre's depth alone.
-ParticleShade shade_of(const float* depths, std::size_t stride, int samples) {
-    if (samples == 1) return {depths[0], {0, 0, 0}};
+Status light_by_sun(const Context& context, ParticlesRun& run) {
+    const StageClock clock(context, "light");
+    const std::size_t count = run.tree.balls.size();
+    const LightPlaces places = light_places(run.scene->particles, run.lighting.to_sun);
+    PILEUS_TRY(allocate_once(arrays::particle_shades(count), run.shade));
+    Buffer<float> depths;
+    PILEUS_TRY(allocate(arrays::particle_depths(count, places.count), depths));
+    SunTiles tiles;
+    PILEUS_TRY(make_sun_tiles(context, run.tree, run.lighting.to_sun, tiles));
+    const double most = run.scene->particles.most_depth;
+    for (int n = 0; n < places.count; ++n)
+        PILEUS_TRY(sun_depths(context, tiles, places.offset[n], most > 0 ? float(most) : 3e38f,
+                              depths.data() + std::size_t(n) * count, n, places.count));
+    parallel_each(context.threads, count, [&](std::size_t i) {
+        run.shade[i] = shade_of(depths.data() + i, count, places.count);
+    });
+    return Status::ok();
+}
+
+}  // namespace
+
+LightPlaces light_places(const ParticlesSettings& settings, const std::array<float, 3>& to_light) {
+    LightPlaces places;
+    places.count = light_samples(settings);
+    const float bias = float(settings.light_bias);
+    for (int n = 0; n < places.count; ++n)
+        for (std::size_t a = 0; a < 3; ++a) {
+            const float own = places.count > 1 ? kReach * kCorners[n][a] : 0.0f;
+            places.offset[n][a] = own + bias * to_light[a];
+        }
+    return places;
+}
+LightPlaces light_places(const ParticlesSettings& settings, const LampParams& lamp) {
+    std::array<float, 3> way{};
+    for (std::size_t a = 0; a < 3 && lamp.parallel != 0; ++a) way[a] = lamp.at[a];
+    return light_places(settings, way);
+}
+
+ParticleShade shade_of(const float* depths, std::size_t stride, int places) {
+    if (places == 1) return {depths[0], {0, 0, 0}};
     ParticleShade shade{};
     for (std::size_t s = 0; s < 4; ++s) {
         const float depth = depths[s * stride];
@@ -57,33 +95,7 @@ ParticleShade shade_of(const float* depths, std::size_t stride, int samples) {
     return shade;
 }
 
-Status light_by_sun(const Context& context, ParticlesRun& run) {
-    const StageClock clock(context, "light");
-    const std::size_t count = run.tree.balls.size();
-    const int samples = light_samples(run.scene->particles);
-    PILEUS_TRY(allocate_once(arrays::particle_shades(count), run.shade));
-    Buffer<float> depths;
-    PILEUS_TRY(allocate(arrays::particle_depths(count, samples), depths));
-    SunTiles tiles;
-    PILEUS_TRY(make_sun_tiles(context, run.tree, run.lighting.to_sun, tiles));
-    const double most = run.scene->particles.most_depth;
-    for (int n = 0; n < samples; ++n) {
-        std::array<float, 3> offset{};
-        for (std::size_t a = 0; a < 3 && samples > 1; ++a) offset[a] = kReach * kCorners[n][a];
-        PILEUS_TRY(sun_depths(context, tiles, offset, most > 0 ? float(most) : 3e38f,
-                              depths.data() + std::size_t(n) * count, n, samples));
-    }
-    parallel_each(context.threads, count, [&](std::size_t i) {
-        run.shade[i] = shade_of(depths.data() + i, count, samples);
-    });
-    return Status::ok();
-}
-
-}  // namespace
-
 void choose_orders(ParticlesRun& run) {
-    run.orders = run.lighting.sunlit ? 1 : 0;
-    if (run.orders == 0) return;
     const ParticlesSettings& s = run.scene->particles;
     const Optics& optics = run.world->medium.optics[0];
     const float mean_cosine = phase_moment(optics.phase, 1);
@@ -94,9 +106,11 @@ void choose_orders(ParticlesRun& run) {
         run.order[0].extinction = float(1 - albedo * forward_share(optics.phase, 0.5 * s.cone_deg));
     if (s.scattering == ParticleScattering::kSimilarity)
         run.order[0].extinction = float(1 - albedo * double(mean_cosine));
-    if (s.scattering != ParticleScattering::kOctaves) return;
-    run.orders = s.octaves;
-    for (std::size_t n = 1; n < std::size_t(s.octaves); ++n) {
+    // A denser shadow is one of more extinction on the way of the light alone.
+    run.order[0].extinction *= float(s.shadow_density);
+    run.light_orders = s.scattering == ParticleScattering::kOctaves ? s.octaves : 1;
+    run.orders = run.lighting.sunlit ? run.light_orders : 0;
+    for (std::size_t n = 1; n < std::size_t(run.light_orders); ++n) {
         const ParticleOrder& before = run.order[n - 1];
         const float g = n == 1 ? mean_cosine : before.g;
         run.order[n] = {before.extinction * float(s.octave_extinction),
@@ -113,7 +127,16 @@ Status light_particles(const Context& context, ParticlesRun& run) {
             PILEUS_TRY(light_by_sun(context, run));
         else
             PILEUS_TRY(allocate_once(arrays::particle_shades(run.tree.balls.size()), run.shade));
+        if (run.world->solids.meshes && run.orders > 0) {
+            const StageClock clock(context, "solid shadow");
+            PILEUS_TRY(allocate_once(arrays::particle_seen(run.tree.balls.size()), run.seen));
+            LampParams sun{};
+            sun.parallel = 1;
+            for (int a = 0; a < 3; ++a) sun.at[a] = run.lighting.to_sun[std::size_t(a)];
+            see_past_solids(context, run, sun, run.seen.data());
+        }
     }
+    PILEUS_TRY(light_by_lamps(context, run));
     if (run.scene->particles.sky_ambient) {
         PILEUS_TRY(make_sky_nodes(context, run.world->medium, run.majorants, run.lighting, 0,
                                   octaves_of(run), run.sky_nodes));
@@ -140,14 +163,14 @@ ParticleMarchParams march_params(const ParticlesRun& run) {
     k.orders = run.orders;
     k.phase = optics.phase;
     k.cut = float(s.stop_below);
-    k.exact = s.light == ParticleLight::kExact && run.orders > 0 ? 1 : 0;
+    k.exact = s.light == ParticleLight::kExact ? 1 : 0;
     k.most = s.most_depth > 0 ? float(s.most_depth) : 3e38f;
     for (int a = 0; a < 3; ++a) {
         k.sun_travel[a] = -run.lighting.to_sun[std::size_t(a)];
         k.albedo[a] = optics.albedo[a];
     }
     float absorbed[3] = {1, 1, 1};
-    for (int n = 0; n < run.orders; ++n) {
+    for (int n = 0; n < run.light_orders; ++n) {
         const ParticleOrder& order = run.order[std::size_t(n)];
         k.order_g[n] = order.g;
         k.thinner[n] = order.extinction;
@@ -170,11 +193,13 @@ Status show_particles(const Context& context, ParticlesRun& run) {
         return Status::ok();
     }
     const ParticleMarchParams k = march_params(run);
+    PILEUS_TRY(light_around(context, k, run));
     if (run.scene->particles.billboards) return show_boards(context, k, run);
     const StageClock clock(context, "march");
     ParticleMarchBuffers b{};
     b.shade = run.shade.data();
-    b.sky = run.sky.data();
+    b.sky = light_from_around(run);
+    b.seen = run.seen.data();
     b.balls = run.tree.balls.size();
     b.opaque_depth = planes.opaque_depth.data();
     b.transmittance = planes.transmittance.data();

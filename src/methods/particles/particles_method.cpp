@@ -6,6 +6,7 @@
 #include "src/methods/particles/particles_run.h"
 #include "src/picture/background.h"
 #include "src/picture/march_view.h"
+#include "src/picture/nodes/lamp_light.h"
 #include "src/world/camera/view.h"
 #include "src/world/plan_parts.h"
 
@@ -111,6 +112,18 @@ Status fill_background(const Context& context, ParticlesRun& run) {
     return show_background(context, run.lighting, k, b);
 }
 
+/// The grid dims light on its way to the ground, as it does the sun's.
+Status light_ground_by_lamps(const Context& context, ParticlesRun& run) {
+    if (run.lighting.lamps.empty() || !run.lighting.ground) return Status::ok();
+    LampNodes lamps;
+    lamps.lamps = run.lighting.lamps;
+    const Medium& medium = run.world->medium;
+    LampMarchParams k =
+        lamp_march_params(medium, run.majorants, run.lighting, run.camera, lamps, 0);
+    k.media = 0;
+    return add_lamp_light(context, medium, k, lamps, run.planes);
+}
+
 Status light(const FrameStep& step, const Context& context, MethodRun& method_run) {
     ParticlesRun& run = own(method_run);
     const Scene& scene = *run.scene;
@@ -124,7 +137,8 @@ Status light(const FrameStep& step, const Context& context, MethodRun& method_ru
         PILEUS_TRY(allocate(arrays::picture_planes(1, run.planes.transmittance.size()),
                             run.planes.optical_depth));
     PILEUS_TRY(fill_background(context, run));
-    return show_particles(context, run);
+    PILEUS_TRY(show_particles(context, run));
+    return light_ground_by_lamps(context, run);
 }
 
 Status show(const FrameStep&, const Context& context, MethodRun& method_run, Image& image) {

@@ -67,8 +67,14 @@ void note_plan(ParticlesRun& run) {
         plan.leave_out("skylight in the particles", "sky_light = \"none\"");
     if (run.lighting.sunlit && scene.sun.angular_radius_deg > 0)
         plan.leave_out("the sun's disc", "a point to this method: path alone knows it");
-    if (run.world->solids.meshes)
-        plan.leave_out("shadows of solids on particles", "not in this version");
+    if (run.world->solids.meshes && s.light == ParticleLight::kExact)
+        plan.leave_out("the sun's shadow of solids on particles", "light = \"exact\"");
+    else if (run.world->solids.meshes)
+        plan.need("shadows of solids on particles");
+    const std::size_t lamps = run.lighting.lamps.size();
+    if (lamps > 0) plan.need((std::to_string(lamps) + " lights of [[light]]").c_str());
+    if (lamps > 0 && run.world->solids.meshes)
+        plan.leave_out("light of [[light]] on solids", "not in this version");
     note_solids(run.world->solids, run.around.depth, plan);
     if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
     if (!scene.output.layer_depth) plan.leave_out("depth of the medium", "no depth layer");
@@ -111,10 +117,22 @@ void weigh_memory(const Context& context, ParticlesRun& run) {
     if (scene.particles.light != ParticleLight::kExact) {
         add(t, arrays::particle_shades(particles));
         add(t, arrays::particle_depths(particles, light_samples(scene.particles)));
+    }
+    if (scene.particles.light != ParticleLight::kExact || !run.lighting.lamps.empty()) {
         add(t, arrays::tile_balls(particles));
         add(t, arrays::tile_places(particles));
         t.add("tiles", Stage::kShadow, Stage::kShadow,
               bytes_of(std::uint64_t(context.threads), sun_tile_scratch_bytes()));
+    }
+    const std::size_t lamps = run.lighting.lamps.size();
+    const bool solids = run.world->solids.meshes;
+    if (solids && run.orders > 0 && scene.particles.light != ParticleLight::kExact)
+        add(t, arrays::particle_seen(particles));
+    if (lamps > 0) {
+        add(t, arrays::particle_lamps((solids ? 3u : 2u) * particles, lamps));
+        add(t, arrays::particle_around(particles));
+        if (scene.particles.light == ParticleLight::kExact)
+            add(t, arrays::particle_depths(particles, 4));
     }
     if (scene.particles.sky_ambient) {
         const std::uint64_t nodes = node_count(sky_node_grid(run.world->medium));

@@ -23,11 +23,15 @@ struct ParticleOrder {
 struct ParticlesRun : MethodRun {
     std::uint64_t particles = 0;  ///< once they are read; before: 0
     ParticleTree tree;
-    Majorants majorants;  ///< of the grid, which ground and solids see
-    int orders = 0;       ///< of the sun's light; 0: no sun
+    Majorants majorants;   ///< of the grid, which ground and solids see
+    int light_orders = 1;  ///< of a light's light
+    int orders = 0;        ///< of the sun's; 0: no sun
     std::array<ParticleOrder, kMostParticleOrders> order{};
     Buffer<ParticleShade> shade;  ///< [ball]
     Buffer<float> sky;            ///< [channel][ball]; empty: none
+    Buffer<float> seen;           ///< [ball]: share of the sun that solids leave; empty: all
+    Buffer<float> lamp_depth, lamp_reach, lamp_seen;  ///< [lamp][ball]
+    Buffer<float> around_balls;  ///< [channel][ball]: light of lamps and sky; empty: no lamps
     SkyNodes sky_nodes;
     bool lit = false;  ///< for the sun below
     std::array<float, 3> to_sun{};
@@ -45,6 +49,17 @@ inline Array<float> particle_depths(std::uint64_t particles, int samples) {
     return {"particles' single depths", bytes_of(particles, std::uint64_t(samples)), Stage::kShadow,
             Stage::kShadow};
 }
+/// For each lamp, and so often: depths, their growth over a radius, shares that solids leave.
+inline Array<float> particle_lamps(std::uint64_t particles, std::uint64_t lamps) {
+    return {"particles' depths towards lights", bytes_of(particles, lamps), Stage::kShadow,
+            Stage::kWrite};
+}
+inline Array<float> particle_seen(std::uint64_t particles) {
+    return {"shadow of solids on particles", particles, Stage::kShadow, Stage::kWrite};
+}
+inline Array<float> particle_around(std::uint64_t particles) {
+    return {"particles' light around", bytes_of(particles, 3), Stage::kDisplay, Stage::kWrite};
+}
 inline Array<float> particle_sky(std::uint64_t particles) {
     return {"particles' skylight", bytes_of(particles, 3), Stage::kShadow, Stage::kWrite};
 }
@@ -59,9 +74,14 @@ inline Array<ParticleBoard> particle_boards(std::uint64_t particles) {
 
 }  // namespace arrays
 
-/// Walks towards the sun from each particle.
+/// Places in each particle that are lit.
 inline int light_samples(const ParticlesSettings& settings) {
-    return settings.light == ParticleLight::kLinear ? 4 : 1;
+    return settings.light == ParticleLight::kCentre ? 1 : 4;
+}
+
+/// [channel][ball]: light of sky and lamps; null: none.
+inline const float* light_from_around(const ParticlesRun& run) {
+    return run.around_balls.empty() ? run.sky.data() : run.around_balls.data();
 }
 
 /// The orders that a scene asks for.

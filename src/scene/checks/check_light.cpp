@@ -61,9 +61,9 @@ private:
     void known() {
         const Scene& scene = check_.scene;
         const bool marched = scene.method == "raymarch" || scene.method == "optical-depth";
-        if (!marched && scene.method != "path")
+        if (!marched && scene.method != "path" && scene.method != "particles")
             refuse("for method " + scene.method,
-                   "method path, raymarch, optical-depth, or a scene without [[light]]");
+                   "method path, particles, raymarch, optical-depth, or a scene without [[light]]");
         if (marched && !scene.solids.empty())
             refuse("with solids by method " + scene.method,
                    "method path, or a scene without [[solid]]");

@@ -126,6 +126,12 @@ void check_sky(SceneCheck& check) {
 }
 
 void check_output(SceneCheck& check) {
+    if (check.scene.output.layer_shadow && check.scene.camera.flux)
+        if (const Node* layers = check.key("output.layers"))
+            check.faults.add(
+                layers->at, "output.layers",
+                "a flat detector sees no shadows, \"shadow\", allowed: other layers, or "
+                "another camera.projection");
     const Node* files = check.valid_key("output.files");
     if (files == nullptr) return;
     for (const Node& file : files->children) {

@@ -23,7 +23,8 @@ constexpr Layer kLayerFlags[] = {{"depth", &OutputSettings::layer_depth},
                                  {"transmittance", &OutputSettings::layer_transmittance},
                                  {"light", &OutputSettings::layer_light},
                                  {"order", &OutputSettings::layer_order},
-                                 {"reflectance", &OutputSettings::layer_reflectance}};
+                                 {"reflectance", &OutputSettings::layer_reflectance},
+                                 {"shadow", &OutputSettings::layer_shadow}};
 
 constexpr KeyField kLayers{KeyKind::kTexts,
                            [](const KeySource& s) {
@@ -64,7 +65,8 @@ constexpr KeyRow kRows[] = {
     {"output.report", output<&OutputSettings::report>, any(), "",
      "JSON report to write, relative to the scene's folder; empty: none"},
     {"output.layers", kLayers,
-     one_of("radiance|alpha|depth|error|cloud|optical_depth|transmittance|light|order|reflectance"),
+     one_of("radiance|alpha|depth|error|cloud|optical_depth|transmittance|light|order|reflectance|"
+            "shadow"),
      "", "layers of the picture; radiance and alpha are always there"},
     {"animation.frames", animation<&Animation::frames>, from_to(1, 1000000), "",
      "number of pictures"},

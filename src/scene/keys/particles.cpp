@@ -37,6 +37,13 @@ constexpr KeyRow kRows[] = {
      "in between; or one from each bin of each ray"},
     {"particles.most_depth", particles<&Settings::most_depth>, from_to(0, 1e9), "",
      "a walk towards the sun ends where it has met this optical depth; 0: never"},
+    {"particles.shadow_density", particles<&Settings::shadow_density>, from_to(0, 1000), "",
+     "factor on the extinction towards lights: above 1 darker shadows, 0 none"},
+    {"particles.light_bias", particles<&Settings::light_bias>, from_to(-2, 2), "",
+     "moves the places that are lit towards the sun and directional lights, in radii: less of a "
+     "particle's own shade"},
+    {"particles.solid_shadow", particles<&Settings::solid_shadow>, from_to(0, 1), "",
+     "share of the light that is left in the shadow of solids"},
     {"particles.display", particles<&Settings::billboards>, one_of("march|billboards"), "",
      "exact depths in bins along each ray; or one colour a particle, sorted by distance: faster, "
      "and with a lens and a shutter"},

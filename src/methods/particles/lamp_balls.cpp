@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light of points, spots and parallel lights at every particle, and the shadow of solids on them.
+// in: an octree, lamps, solids -> out: depths to each lamp; light that balls scatter to the camera.
+// Monette and Whitehead 2014, 3.3 and 3.4; docs/particles.md, "Lights".
+#include "kernels_cpu/solids/solids.h"
+#include "platform/threads.h"
+#include "src/methods/particles/light_places.h"
+#include "src/methods/particles/sun_tiles.h"
+
+namespace pileus {
+namespace {
+
+constexpr std::size_t kBallsAtOnce = 256;
+
+/// Calls of a kernel for pieces of all balls.
+template <class Kernel>
+void over_balls(const Context& context, std::size_t count, const char* stage, double from,
+                double part, Kernel kernel) {
+    const std::size_t pieces = (count - 1) / kBallsAtOnce + 1;
+    parallel_for(context.threads, std::int64_t(pieces), [&](std::int64_t piece, int thread) {
+        if (thread == 0) context.tell(stage, from + part * double(piece) / double(pieces));
+        const std::size_t begin = std::size_t(piece) * kBallsAtOnce;
+        kernel(std::uint32_t(begin), std::uint32_t(std::min(begin + kBallsAtOnce, count)));
+    });
+}
+
+/// Share of a ball's places that a lamp reaches past the solids, what is left in their shadow
+/// included.
+float seen_by(const SolidsView& solids, const ParticleBall& ball, const LampParams& lamp,
+              const LightPlaces& places, float left) {
+    float seen = 0;
+    for (int n = 0; n < places.count; ++n) {
+        float o[3], d[3], square = 0, limit = 3e38f;
+        for (int a = 0; a < 3; ++a) {
+            o[a] = ball.centre[a] + places.offset[n][std::size_t(a)] / ball.per_radius;
+            d[a] = lamp.parallel != 0 ? lamp.at[a] : lamp.at[a] - o[a];
+            square += d[a] * d[a];
+        }
+        if (lamp.parallel == 0) {
+            limit = __builtin_sqrtf(square);
+            for (float& v : d) v /= limit > 0 ? limit : 1;
+        }
+        seen += limit > 0 && solid_between(solids, o, d, limit) ? left : 1;
+    }
+    return seen / float(places.count);
+}
+
+}  // namespace
+
+void see_past_solids(const Context& context, const ParticlesRun& run, const LampParams& lamp,
+                     float* seen) {
+    const SolidsView solids = run.world->solids.view();
+    const LightPlaces places = light_places(run.scene->particles, lamp);
+    const float left = float(run.scene->particles.solid_shadow);
+    parallel_each(context.threads, run.tree.balls.size(), [&](std::size_t i) {
+        seen[i] = seen_by(solids, run.tree.balls[i], lamp, places, left);
+    });
+}
+
+Status light_by_lamps(const Context& context, ParticlesRun& run) {
+    const std::vector<LampParams>& lamps = run.lighting.lamps;
+    if (lamps.empty()) return Status::ok();
+    const StageClock clock(context, "lights");
+    const std::size_t count = run.tree.balls.size();
+    PILEUS_TRY(allocate_once(arrays::particle_lamps(count, lamps.size()), run.lamp_depth));
+    PILEUS_TRY(allocate_once(arrays::particle_lamps(count, lamps.size()), run.lamp_reach));
+    if (run.world->solids.meshes)
+        PILEUS_TRY(allocate_once(arrays::particle_lamps(count, lamps.size()), run.lamp_seen));
+    const double most = run.scene->particles.most_depth;
+    Buffer<float> depths;
+    for (std::size_t l = 0; l < lamps.size(); ++l) {
+        const LampParams& lamp = lamps[l];
+        const LightPlaces places = light_places(run.scene->particles, lamp);
+        PILEUS_TRY(allocate_once(arrays::particle_depths(count, places.count), depths));
+        SunTiles tiles;
+        if (lamp.parallel != 0)
+            PILEUS_TRY(
+                make_sun_tiles(context, run.tree, {lamp.at[0], lamp.at[1], lamp.at[2]}, tiles));
+        ParticleLampDepths k{};
+        k.view = run.tree.view();
+        k.lamp = lamp;
+        k.most = most > 0 ? float(most) : 3e38f;
+        for (int n = 0; n < places.count; ++n) {
+            k.depth = depths.data() + std::size_t(n) * count;
+            if (lamp.parallel != 0) {
+                PILEUS_TRY(sun_depths(context, tiles, places.offset[n], k.most, k.depth));
+                continue;
+            }
+            for (std::size_t a = 0; a < 3; ++a) k.offset[a] = places.offset[n][a];
+            const double steps = double(lamps.size()) * places.count;
+            over_balls(context, count, "lights", (double(l) * places.count + n) / steps, 1 / steps,
+                       [&](std::uint32_t begin, std::uint32_t end) {
+                           context.kernels->particles->lamp_depths(k, begin, end);
+                       });
+        }
+        parallel_each(context.threads, count, [&](std::size_t i) {
+            const ParticleShade s = shade_of(depths.data() + i, count, places.count);
+            float square = 0;
+            for (const float v : s.slope) square += v * v;
+            run.lamp_depth[l * count + i] = s.depth;
+            run.lamp_reach[l * count + i] = __builtin_sqrtf(square);
+        });
+        if (!run.lamp_seen.empty())
+            see_past_solids(context, run, lamp, run.lamp_seen.data() + l * count);
+    }
+    return Status::ok();
+}
+
+Status light_around(const Context& context, const ParticleMarchParams& k, ParticlesRun& run) {
+    const std::vector<LampParams>& lamps = run.lighting.lamps;
+    if (lamps.empty()) return Status::ok();
+    const StageClock clock(context, "light of lights");
+    const std::size_t count = run.tree.balls.size();
+    PILEUS_TRY(allocate_once(arrays::particle_around(count), run.around_balls));
+    ParticleLampLight b{};
+    b.lamps = lamps.data();
+    b.count = std::int32_t(lamps.size());
+    b.orders = run.light_orders;
+    const Optics& optics = run.world->medium.optics[0];
+    float absorbed[3] = {1, 1, 1};
+    for (int n = 0; n < b.orders; ++n)
+        for (int c = 0; c < 3; ++c) {
+            b.share[n][c] = absorbed[c] * run.order[std::size_t(n)].share;
+            absorbed[c] *= optics.albedo[c];
+        }
+    b.depth = run.lamp_depth.data();
+    b.reach = run.lamp_reach.data();
+    b.seen = run.lamp_seen.data();
+    b.sky = run.sky.data();
+    b.light = run.around_balls.data();
+    b.balls = count;
+    over_balls(context, count, "light of lights", 0, 1,
+               [&](std::uint32_t begin, std::uint32_t end) {
+                   context.kernels->particles->lamp_light(k, b, begin, end);
+               });
+    return Status::ok();
+}
+
+}  // namespace pileus

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+// Places in a particle from which depths to a light are taken, and what follows from them.
+// in: settings, a light -> out: offsets in radii; a linear function through depths.
+// docs/particles.md, "Light".
+#pragma once
+#include "src/methods/particles/particles_run.h"
+
+namespace pileus {
+
+/// Offsets from a ball's centre, radii: one or four, moved towards the light by light_bias.
+struct LightPlaces {
+    int count = 1;
+    std::array<float, 3> offset[4]{};
+};
+
+/// Towards a light far away, `to_light` a unit vector; or a lamp, whose bias is left out where it
+/// has a place, as the direction differs from ball to ball.
+LightPlaces light_places(const ParticlesSettings& settings, const std::array<float, 3>& to_light);
+LightPlaces light_places(const ParticlesSettings& settings, const LampParams& lamp);
+
+/// The linear function through the depths at the places, each `stride` numbers after the other.
+ParticleShade shade_of(const float* depths, std::size_t stride, int places);
+
+/// Share of each ball [ball] that a lamp reaches past the solids.
+void see_past_solids(const Context& context, const ParticlesRun& run, const LampParams& lamp,
+                     float* seen);
+
+/// Depths to the lamps. kLimit: out of memory. Nothing without lamps.
+Status light_by_lamps(const Context& context, ParticlesRun& run);
+
+/// Light of lamps and sky at each ball, for the camera of `k`. Nothing without lamps.
+Status light_around(const Context& context, const ParticleMarchParams& k, ParticlesRun& run);
+
+}  // namespace pileus
