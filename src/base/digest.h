@@ -44,4 +44,13 @@ private:
     std::uint64_t state_ = 0xcbf29ce484222325ull;
 };
 
+/// A number below 2^32 to draw lots by, the same for the same digest.
+inline std::uint64_t lot_of(const Digest& digest) {
+    // High bits of the digest alone are well mixed.
+    std::uint64_t v = digest.value();
+    v ^= v >> 32;
+    v *= 0xd6e8feb86659fd93ull;
+    return v >> 32;
+}
+
 }  // namespace pileus

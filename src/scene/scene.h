@@ -246,6 +246,7 @@ struct ParticlesSettings {
     int leaf = 16;            ///< most particles in one, 1..1024
     ParticleLight light = ParticleLight::kLinear;
     double shadow_density = 1;  ///< factor on extinction towards lights; >= 0
+    double occluders = 1;       ///< share of particles that cast shadows, denser in return; (0, 1]
     double light_bias = 0;      ///< places that are lit, moved to a parallel light, radii
     double solid_shadow = 0;    ///< share of light left behind solids; [0, 1]
     bool billboards = false;    ///< display = "billboards"; else marched

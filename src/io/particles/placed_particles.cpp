@@ -24,11 +24,7 @@ std::uint64_t lot_of(const ParticleSet& set, std::size_t i) {
         digest.floats({set.radius.data() + i, 1});
         if (!set.density.empty()) digest.floats({set.density.data() + i, 1});
     }
-    // High bits of the digest alone are well mixed.
-    std::uint64_t v = digest.value();
-    v ^= v >> 32;
-    v *= 0xd6e8feb86659fd93ull;
-    return v >> 32;
+    return lot_of(digest);
 }
 
 void move(ParticleSet& set, std::size_t from, std::size_t to) {

@@ -74,8 +74,8 @@ Status light_by_lamps(const Context& context, ParticlesRun& run) {
         PILEUS_TRY(allocate_once(arrays::particle_depths(count, places.count), depths));
         SunTiles tiles;
         if (lamp.parallel != 0)
-            PILEUS_TRY(
-                make_sun_tiles(context, run.tree, {lamp.at[0], lamp.at[1], lamp.at[2]}, tiles));
+            PILEUS_TRY(make_sun_tiles(context, run.tree, casts_of(run),
+                                      {lamp.at[0], lamp.at[1], lamp.at[2]}, tiles));
         ParticleLampDepths k{};
         k.view = run.tree.view();
         k.lamp = lamp;

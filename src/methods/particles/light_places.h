@@ -18,6 +18,11 @@ struct LightPlaces {
 LightPlaces light_places(const ParticlesSettings& settings, const std::array<float, 3>& to_light);
 LightPlaces light_places(const ParticlesSettings& settings, const LampParams& lamp);
 
+/// Balls that shadow others towards parallel lights.
+inline Span<const ParticleBall> casts_of(const ParticlesRun& run) {
+    return run.scene->particles.occluders < 1 ? run.occluders.span() : run.tree.balls.span();
+}
+
 /// The linear function through the depths at the places, each `stride` numbers after the other.
 ParticleShade shade_of(const float* depths, std::size_t stride, int places);
 

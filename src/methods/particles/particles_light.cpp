@@ -54,7 +54,7 @@ Status light_by_sun(const Context& context, ParticlesRun& run) {
     Buffer<float> depths;
     PILEUS_TRY(allocate(arrays::particle_depths(count, places.count), depths));
     SunTiles tiles;
-    PILEUS_TRY(make_sun_tiles(context, run.tree, run.lighting.to_sun, tiles));
+    PILEUS_TRY(make_sun_tiles(context, run.tree, casts_of(run), run.lighting.to_sun, tiles));
     const double most = run.scene->particles.most_depth;
     for (int n = 0; n < places.count; ++n)
         PILEUS_TRY(sun_depths(context, tiles, places.offset[n], most > 0 ? float(most) : 3e38f,
@@ -122,6 +122,9 @@ Status light_particles(const Context& context, ParticlesRun& run) {
     if (run.lit && run.to_sun == run.lighting.to_sun) return Status::ok();
     choose_orders(run);
     if (run.tree.balls.empty()) return Status::ok();
+    const double share = run.scene->particles.occluders;
+    if (share < 1 && run.occluders.empty())
+        PILEUS_TRY(choose_occluders(run.tree, share, run.occluders));
     if (run.scene->particles.light != ParticleLight::kExact) {
         if (run.orders > 0)
             PILEUS_TRY(light_by_sun(context, run));
@@ -159,7 +162,7 @@ ParticleMarchParams march_params(const ParticlesRun& run) {
     ParticleMarchParams k{};
     k.view = run.tree.view();
     k.camera = run.camera;
-    k.bins = s.bins;
+    k.bins = bins_of(run);
     k.orders = run.orders;
     k.phase = optics.phase;
     k.cut = float(s.stop_below);

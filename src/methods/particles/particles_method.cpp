@@ -18,10 +18,15 @@ ParticlesRun& own(MethodRun& run) { return static_cast<ParticlesRun&>(run); }
 std::unique_ptr<MethodRun> make() { return std::make_unique<ParticlesRun>(); }
 
 Status check(const Scene& scene, const Budget& budget) {
-    constexpr const char* kAllowed = "none";
+    const char* const kAllowed = scene.particles.billboards ? "none" : "--budget steps";
     if (budget.photons >= 0) return unknown_budget("--budget photons", scene.method, kAllowed);
     if (budget.samples >= 0) return unknown_budget("--budget samples", scene.method, kAllowed);
-    if (budget.steps >= 0) return unknown_budget("--budget steps", scene.method, kAllowed);
+    if (budget.steps >= 0 && scene.particles.billboards)
+        return unknown_budget("--budget steps", "particles with billboards", kAllowed);
+    if (budget.steps == 0 || budget.steps > kMostParticleBins)
+        return Status::bad_input("--budget steps: out of range, " + std::to_string(budget.steps) +
+                                 ", allowed: 1 to " + std::to_string(kMostParticleBins) +
+                                 " for method particles");
     if (budget.error > 0) return unknown_budget("--budget error", scene.method, kAllowed);
     if (budget.seconds > 0) return unknown_budget("--budget seconds", scene.method, kAllowed);
     if (!budget.state.empty())

@@ -119,6 +119,7 @@ void weigh_memory(const Context& context, ParticlesRun& run) {
         add(t, arrays::particle_depths(particles, light_samples(scene.particles)));
     }
     if (scene.particles.light != ParticleLight::kExact || !run.lighting.lamps.empty()) {
+        if (scene.particles.occluders < 1) add(t, arrays::particle_occluders(particles));
         add(t, arrays::tile_balls(particles));
         add(t, arrays::tile_places(particles));
         t.add("tiles", Stage::kShadow, Stage::kShadow,
@@ -150,7 +151,7 @@ void weigh_memory(const Context& context, ParticlesRun& run) {
     if (scene.particles.billboards)
         add(t, arrays::particle_boards(particles));
     else
-        add(t, arrays::particle_bins(std::uint64_t(context.threads), scene.particles.bins));
+        add(t, arrays::particle_bins(std::uint64_t(context.threads), bins_of(run)));
     add_image_rows(std::uint64_t(scene.camera.resolution[0]),
                    std::uint64_t(scene.camera.resolution[1]), 4 + extra_layers(output, false), t);
     add_solid_rows(scene, context.limits, run.world->solids, run.around.depth, t);

@@ -23,9 +23,10 @@ struct ParticleOrder {
 struct ParticlesRun : MethodRun {
     std::uint64_t particles = 0;  ///< once they are read; before: 0
     ParticleTree tree;
-    Majorants majorants;   ///< of the grid, which ground and solids see
-    int light_orders = 1;  ///< of a light's light
-    int orders = 0;        ///< of the sun's; 0: no sun
+    Majorants majorants;             ///< of the grid, which ground and solids see
+    Buffer<ParticleBall> occluders;  ///< empty: all cast shadows
+    int light_orders = 1;            ///< of a light's light
+    int orders = 0;                  ///< of the sun's; 0: no sun
     std::array<ParticleOrder, kMostParticleOrders> order{};
     Buffer<ParticleShade> shade;  ///< [ball]
     Buffer<float> sky;            ///< [channel][ball]; empty: none
@@ -73,6 +74,12 @@ inline Array<ParticleBoard> particle_boards(std::uint64_t particles) {
 }
 
 }  // namespace arrays
+
+/// Most bins along a ray.
+constexpr int kMostParticleBins = 4096;
+inline int bins_of(const ParticlesRun& run) {
+    return run.budget.steps > 0 ? int(run.budget.steps) : run.scene->particles.bins;
+}
 
 /// Places in each particle that are lit.
 inline int light_samples(const ParticlesSettings& settings) {

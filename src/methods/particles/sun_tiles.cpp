@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "platform/threads.h"
+#include "src/base/digest.h"
 #include "src/methods/particles/tile_sort.h"
 
 namespace pileus {
@@ -155,7 +156,7 @@ public:
             if (count <= kAtHand) std::sort(s_.order, s_.order + own, FirstOf());
             float radii = 0;
             for (std::uint32_t i = 0; i < own; ++i) {
-                const ParticleBall& ball = t_.tree->balls[s_.order[i].ball];
+                const ParticleBall& ball = t_.casts[s_.order[i].ball];
                 const ParticleOccluder o = occluder_of(t_, ball);
                 const float radius = 1.0f / ball.per_radius;
                 s_.at_hand[i] = o;
@@ -177,7 +178,7 @@ public:
 
 private:
     float back_of(std::uint32_t ball) const {
-        const ParticleBall& b = t_.tree->balls[ball];
+        const ParticleBall& b = t_.casts[ball];
         return spot_of(t_, b, {0, 0, 0}).w + 1.0f / b.per_radius;
     }
     Spot spot(std::uint32_t ball) const { return spot_of(t_, t_.tree->balls[ball], offset_); }
@@ -279,10 +280,34 @@ private:
 
 std::uint64_t sun_tile_scratch_bytes() { return sizeof(Scratch); }
 
+Status choose_occluders(const ParticleTree& tree, double share, Buffer<ParticleBall>& chosen) {
+    const std::uint64_t below = std::uint64_t(share * 0x1p32);
+    const auto each = [&](auto take) {
+        for (const ParticleBall& ball : tree.balls.span()) {
+            Digest digest;
+            digest.floats({ball.centre, 3});
+            digest.floats({&ball.per_radius, 1});
+            digest.floats({&ball.depth, 1});
+            if (lot_of(digest) < below) take(ball);
+        }
+    };
+    std::size_t count = 0;
+    each([&](const ParticleBall&) { ++count; });
+    PILEUS_TRY(chosen.resize(count, arrays::particle_occluders(0).name));
+    count = 0;
+    each([&](const ParticleBall& ball) {
+        chosen[count] = ball;
+        chosen[count++].depth = float(double(ball.depth) / share);
+    });
+    return Status::ok();
+}
+
 Status make_sun_tiles(const Context& context, const ParticleTree& tree,
-                      const std::array<float, 3>& direction, SunTiles& t) {
+                      Span<const ParticleBall> casts, const std::array<float, 3>& direction,
+                      SunTiles& t) {
     t.tree = &tree;
-    const std::size_t count = tree.balls.size();
+    t.casts = casts;
+    const std::size_t count = casts.size;
     const ParticleNode& box = tree.nodes[0];
     set_axes(direction, box, t);
     float high[2] = {-3e38f, -3e38f};
@@ -301,14 +326,15 @@ Status make_sun_tiles(const Context& context, const ParticleTree& tree,
     const float size[2] = {high[0] - t.low[0], high[1] - t.low[1]};
     double radii = 0;
     for (const ParticleBall& ball : tree.balls.span()) radii += 1 / double(ball.per_radius);
-    const double area = double(size[0]) * double(size[1]) * kPlacesPerTile / double(count);
-    double side = std::max(__builtin_sqrt(area), kLeastSide * radii / double(count));
+    const double places = double(tree.balls.size());
+    const double area = double(size[0]) * double(size[1]) * kPlacesPerTile / places;
+    double side = std::max(__builtin_sqrt(area), kLeastSide * radii / places);
     const std::uint64_t most = arrays::tile_balls(count).count;
     for (bool fits = false; !fits; side *= 2) {
         lay_tiles(size, side, t);
         PILEUS_TRY(sort_into(context, count, t.count(), t.begin, most, fits, t.balls,
                              [&](std::size_t i, auto put) {
-                                 const ParticleBall& ball = t.tree->balls[i];
+                                 const ParticleBall& ball = t.casts[i];
                                  const Spot s = spot_of(t, ball, {0, 0, 0});
                                  const float radius = 1.0f / ball.per_radius;
                                  const int last_u = tile_at(t, s.u + radius, 0),

@@ -10,7 +10,8 @@ namespace pileus {
 
 /// Balls sorted into tiles for one direction. u and v are across it, w along it.
 struct SunTiles {
-    const ParticleTree* tree = nullptr;
+    const ParticleTree* tree = nullptr;      ///< its balls are lit
+    Span<const ParticleBall> casts;          ///< these cast shadows
     double middle[3] = {}, axis[3][3] = {};  ///< u, v, w = dot(axis, place - middle)
     float low[2] = {}, side = 1;             ///< m
     int across[2] = {1, 1};                  ///< tiles along u and v
@@ -26,6 +27,10 @@ namespace arrays {
 inline Array<std::uint32_t> tile_balls(std::uint64_t particles) {
     return {"particles by tiles", bytes_of(4, particles), Stage::kShadow, Stage::kShadow};
 }
+/// A share of the particles, drawn one by one: 6 standard deviations and more than the mean.
+inline Array<ParticleBall> particle_occluders(std::uint64_t particles) {
+    return {"particles that cast shadows", particles, Stage::kShadow, Stage::kWrite};
+}
 inline Array<std::uint32_t> tile_places(std::uint64_t particles) {
     return {"places by tiles", particles, Stage::kShadow, Stage::kShadow};
 }
@@ -35,10 +40,15 @@ inline Array<std::uint32_t> tile_places(std::uint64_t particles) {
 /// What one thread works in, bytes.
 std::uint64_t sun_tile_scratch_bytes();
 
-/// `direction`: unit, to the light. The tree must outlive the tiles and hold a ball. kLimit: out
-/// of memory.
+/// About a share of the balls, denser in return, chosen by their own numbers. kLimit: out of
+/// memory.
+Status choose_occluders(const ParticleTree& tree, double share, Buffer<ParticleBall>& chosen);
+
+/// `direction`: unit, to the light. The tree, which holds a ball, and `casts` must outlive the
+/// tiles. kLimit: out of memory.
 Status make_sun_tiles(const Context& context, const ParticleTree& tree,
-                      const std::array<float, 3>& direction, SunTiles& tiles);
+                      Span<const ParticleBall> casts, const std::array<float, 3>& direction,
+                      SunTiles& tiles);
 
 /// Depth of each ball, `offset` radii from its centre on; what is deeper than `most` is `most`.
 /// Neither threads nor the width of kernels change a bit. Progress is told as that of one of so

@@ -39,6 +39,9 @@ constexpr KeyRow kRows[] = {
      "a walk towards the sun ends where it has met this optical depth; 0: never"},
     {"particles.shadow_density", particles<&Settings::shadow_density>, from_to(0, 1000), "",
      "factor on the extinction towards lights: above 1 darker shadows, 0 none"},
+    {"particles.occluders", particles<&Settings::occluders>, above(0, 1), "",
+     "share of the particles that cast shadows on others towards the sun and directional lights, "
+     "denser in return, chosen by their own numbers; all are lit and shown"},
     {"particles.light_bias", particles<&Settings::light_bias>, from_to(-2, 2), "",
      "moves the places that are lit towards the sun and directional lights, in radii: less of a "
      "particle's own shade"},
