@@ -50,6 +50,31 @@ std::string scene_path(const std::string& directory, const std::string& file) {
     return directory.back() == '/' ? directory + file : directory + "/" + file;
 }
 
+bool is_sequence(const std::string& file) {
+    return file.find('#', file.rfind('/') + 1) != std::string::npos;
+}
+
+bool has_sequence(const Scene& scene) {
+    for (const MediumSettings& medium : scene.media)
+        if (is_sequence(medium.file)) return true;
+    return false;
+}
+
+std::string density_path(const Scene& scene, const MediumSettings& medium) {
+    std::string file = medium.file;
+    if (is_sequence(file)) {
+        const std::size_t last = file.rfind('#');
+        std::size_t first = last;
+        while (first > 0 && file[first - 1] == '#') --first;
+        std::string digits =
+            std::to_string(std::int64_t(medium.first_frame) + scene.sequence_frame);
+        const std::size_t width = last - first + 1;
+        if (digits.size() < width) digits.insert(0, width - digits.size(), '0');
+        file.replace(first, width, digits);
+    }
+    return scene_path(scene.directory, file);
+}
+
 Status read_scene_text(const std::string& text, const std::string& name,
                        const std::string& directory, const std::vector<std::string>& overrides,
                        Scene& out) {

@@ -39,4 +39,10 @@ Status at_key(const Scene& scene, const std::string& key, Status status);
 /// A path from a scene, relative to `directory` unless it is absolute or `directory` is empty.
 std::string scene_path(const std::string& directory, const std::string& file);
 
+/// Whether a file's name has '#', whose last run stands for the digits of a frame's number.
+bool is_sequence(const std::string& file);
+bool has_sequence(const Scene& scene);
+/// The path of a medium's file; of a sequence that of Scene::sequence_frame.
+std::string density_path(const Scene& scene, const MediumSettings& medium);
+
 }  // namespace pileus

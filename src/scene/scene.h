@@ -97,9 +97,10 @@ enum class RawType { kUint8, kUint16, kFloat32 };
 struct MediumSettings {
     /// A name of density_row.h; empty: a file.
     std::string density = "procedural:cumulus";
-    std::string file;    ///< as written, relative to the scene file
-    std::string format;  ///< a name of volume_format.h; empty: by extension
-    std::string grid;    ///< of a file with several; empty: the first of floats
+    std::string file;     ///< as written, relative to the scene file
+    int first_frame = 0;  ///< of a sequence: the number of the file of frame 0
+    std::string format;   ///< a name of volume_format.h; empty: by extension
+    std::string grid;     ///< of a file with several; empty: the first of floats
     RawType raw_type = RawType::kFloat32;
     std::array<int, 3> raw_size{0, 0, 0};
     bool raw_big_endian = false;
@@ -281,6 +282,7 @@ struct Scene {
     std::vector<LightSettings> lights;  ///< besides sun and sky
     std::vector<SolidSettings> solids;
     std::vector<MediumSettings> media;
+    int sequence_frame = 0;  ///< frame whose density files are read; set by whoever renders it
     std::string method = "collectors";
     CollectorSettings collectors;
     PathSettings path;

@@ -7,6 +7,7 @@
 #include "src/io/images/image_file.h"
 #include "src/picture/background.h"
 #include "src/picture/march_view.h"
+#include "src/scene/read_scene.h"
 #include "src/scene/rows/volume_format.h"
 #include "src/session/run_context.h"
 #include "src/session/session.h"
@@ -94,13 +95,9 @@ Status deliver(const Scene& scene, const RunStart& start, int frame, const Frame
     return sink(frame, image, report);
 }
 
-}  // namespace
-
-Status render(const Scene& scene, const RenderOptions& options, const FrameSink& sink) {
-    const FpModeGuard guard;
-    const RunStart start;
-    Frames frames{};
-    PILEUS_TRY(frames_of(scene, options, frames));
+/// Frames that share a world.
+Status render_frames(const Scene& scene, const RunStart& start, const RenderOptions& options,
+                     const Frames& frames, const FrameSink& sink) {
     Session session;
     PILEUS_TRY(session.open(scene, options, SessionKind::kAnimation, true, nullptr));
     Report& report = session.report();
@@ -134,12 +131,37 @@ Status render(const Scene& scene, const RenderOptions& options, const FrameSink&
     return Status::ok();
 }
 
+}  // namespace
+
+Status render(const Scene& scene, const RenderOptions& options, const FrameSink& sink) {
+    const FpModeGuard guard;
+    const RunStart start;
+    Frames frames{};
+    PILEUS_TRY(frames_of(scene, options, frames));
+    // Each frame of a sequence is a world of its own.
+    if (!has_sequence(scene)) return render_frames(scene, start, options, frames, sink);
+    Scene own = scene;
+    bool interrupted = false;
+    const FrameSink watched = [&](int frame, Image& image, Report& report) {
+        interrupted = report.interrupted;
+        return sink(frame, image, report);
+    };
+    for (int frame = frames.first; frame <= frames.last && !interrupted; ++frame) {
+        own.sequence_frame = frame;
+        const Frames one{frame, frame, frames.total};
+        PILEUS_TRY(render_frames(own, start, options, one, watched));
+    }
+    return Status::ok();
+}
+
 Status plan_scene(const Scene& scene, const RenderOptions& options, bool exact, Report& report) {
     const FpModeGuard guard;
     Frames frames{};
     PILEUS_TRY(frames_of(scene, options, frames));
+    Scene own = scene;
+    own.sequence_frame = frames.first;
     Session session;
-    PILEUS_TRY(session.open(scene, options, SessionKind::kAnimation, exact, nullptr));
+    PILEUS_TRY(session.open(own, options, SessionKind::kAnimation, exact, nullptr));
     report = session.report();
     return Status::ok();
 }

@@ -53,12 +53,11 @@ Status load_particles_of(const Scene& scene, const Context& context, World& worl
     {
         const StageClock clock(context, "particles");
         const std::string key = medium_key(scene, settings) + ".density";
-        PILEUS_TRY(
-            at_key(scene, key,
-                   row != nullptr
-                       ? row->make_particles(settings, context.threads, world.particles)
-                       : read_placed_particles(settings, scene_path(scene.directory, settings.file),
-                                               world.particles)));
+        PILEUS_TRY(at_key(
+            scene, key,
+            row != nullptr
+                ? row->make_particles(settings, context.threads, world.particles)
+                : read_placed_particles(settings, density_path(scene, settings), world.particles)));
     }
     medium.particles.shadows_only = true;
     medium.particles.placed = &world.particles;

@@ -45,7 +45,14 @@ std::vector<std::string> scene_files(const Scene& scene) {
         if (!file.empty()) files.push_back(scene_path(scene.directory, file));
     };
     for (const MediumSettings& medium : scene.media) {
-        add(medium.file);
+        if (is_sequence(medium.file)) {
+            Scene at = scene;
+            const int frames = scene.animation.present ? scene.animation.frames : 1;
+            for (; at.sequence_frame < frames; ++at.sequence_frame)
+                files.push_back(density_path(at, medium));
+        } else {
+            add(medium.file);
+        }
         add(medium.phase.file);
     }
     add(scene.sky.map);

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "src/scene/checks/check_keys.h"
+#include "src/scene/read_scene.h"
 #include "src/scene/rows/density_row.h"
 #include "src/scene/rows/volume_format.h"
 
@@ -68,6 +69,11 @@ private:
     void file_keys(const Node& density) {
         if (check_.key(path_ + "format") == nullptr) format_by_name(density);
         const VolumeFormat* format = volume_format_named(medium_.format);
+        const Node* first = check_.key(path_ + "density.first_frame");
+        if (first != nullptr && !is_sequence(medium_.file))
+            fault(*first, "density.first_frame",
+                  "for a sequence only, " + value_text(*first) +
+                      ", allowed: with a # in the file's name");
         const bool celled = format != nullptr && (format->is_weather || format->is_particles);
         for (const char* key : {"resolution", "shape_seed"})
             if (const Node* node = check_.key(path_ + key))

@@ -48,8 +48,10 @@ constexpr KeyRow kRows[] = {
      kRequired},
     {"medium.N.density.file", kDensityFile, any(), "",
      "path of the file, relative to the scene file; `${PILEUS_DATA_DIR}` may stand at "
-     "its front",
+     "its front; a run of `#` in its name stands for the number of an animation's frame",
      kRequired},
+    {"medium.N.density.first_frame", medium<&MediumSettings::first_frame>, from_to(0, 1e9), "",
+     "of a sequence, a file whose name has `#`: the number that stands there in frame 0"},
     {"medium.N.density.type", medium<&MediumSettings::raw_type>, one_of("uint8|uint16|float32"), "",
      "type of the raw numbers; integers are scaled to 0..1; required for raw", kNone},
     {"medium.N.density.size", medium<&MediumSettings::raw_size>, from_to(1, 4096), "cells",

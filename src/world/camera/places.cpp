@@ -29,7 +29,7 @@ Status map_of(const Scene& scene, WeatherMap& map) {
     if (medium == nullptr)
         return Status::bad_input(
             "no map to find it on, allowed: with a medium of weather data, or in metres");
-    return read_weather_map(*medium, scene_path(scene.directory, medium->file), map);
+    return read_weather_map(*medium, density_path(scene, *medium), map);
 }
 
 Status check_view(const Scene& scene) {

@@ -43,7 +43,7 @@ Status load_density(const Scene& scene, const MediumSettings& settings, int thre
         const std::array<int, 3> size = made_size(settings, row->outline(settings));
         return row->make(settings, {size, threads, kernels, sky}, volume);
     }
-    const std::string path = scene_path(scene.directory, settings.file);
+    const std::string path = density_path(scene, settings);
     const bool particles = is_particle_format(settings.format);
     PILEUS_TRY(at_key(scene, density_key(scene, settings),
                       particles ? read_particle_volume(settings, path, threads, volume)
@@ -113,7 +113,7 @@ void outline_shape(const DensityRow& row, const MediumSettings& settings, Volume
 /// Checks the file's length, and the size where the scene states it, before the file's own head.
 Status outline_file(const Scene& scene, const MediumSettings& settings, const Limits& limits,
                     VolumeHead& head, MediumSource& source) {
-    const std::string path = scene_path(scene.directory, settings.file);
+    const std::string path = density_path(scene, settings);
     if (settings.particles.host != nullptr) {
         PILEUS_TRY(
             at_key(scene, density_key(scene, settings), read_volume_head(settings, path, head)));
