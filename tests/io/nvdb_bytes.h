@@ -151,8 +151,8 @@ inline std::string zipped(std::uint32_t type) {
     const std::string grid = make_grid(type);
     std::string room(grid.size() + 8, '\0');
     const std::uint64_t count =
-        vdb_deflate(reinterpret_cast<const unsigned char*>(grid.data()), grid.size(),
-                    reinterpret_cast<unsigned char*>(&room[8]), grid.size());
+        deflate_block(reinterpret_cast<const unsigned char*>(grid.data()), grid.size(),
+                      reinterpret_cast<unsigned char*>(&room[8]), grid.size());
     if (count == 0) return {};
     put(room, 0, count, 8);
     room.resize(8 + std::size_t(count));

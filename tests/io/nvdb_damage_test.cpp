@@ -64,7 +64,8 @@ TEST_CASE("NanoVDB: packed grids and their faults") {
     fault(16, 0, 8, "too many, allowed: none");
     fault(kListBytes, packed, 8, "packed bytes: ends too early");
     fault(kListBytes + 8, 0, 1, "packed values: damaged");
-    fault(14, 2, 2, holds(vdb_library_text(), "blosc yes") ? "packed values: damaged" : "blosc");
+    fault(14, 2, 2,
+          holds(packing_library_text(), "blosc yes") ? "packed values: damaged" : "blosc");
     std::string longer = good + std::string(3, '\0');
     put(longer, 24, packed + 3, 8);
     CHECK(holds(decode(longer, volume).message, "packed bytes: 3 too many, allowed: none"));

@@ -187,3 +187,46 @@ TEST_CASE("particles: a share keeps the same ones in any order, and the mass wit
     CHECK(set[0].count > 250 - 69);
     CHECK(set[0].count < 250 + 69);
 }
+
+namespace {
+
+/// Two particles after Krakatoa's specification: Position of floats, Density of halves, Radius of
+/// doubles, ID of 64 bits, Normal of 16 bits.
+constexpr char kPrt[] =
+    "c05052540d0a1a0a38000000457874656e7369626c65205061727469636c6520466f726d6174000000000000"
+    "01000000020000000000000004000000050000002c000000506f736974696f6e000000000000000000000000"
+    "00000000000000000000000004000000030000000000000044656e7369747900000000000000000000000000"
+    "00000000000000000000000003000000010000000c0000005261646975730000000000000000000000000000"
+    "00000000000000000000000005000000010000000e0000004944000000000000000000000000000000000000"
+    "0000000000000000000000000200000001000000160000004e6f726d616c0000000000000000000000000000"
+    "00000000000000000000000000000000030000001e000000789c636068b067606070002207060b0630f861cf"
+    "0e613030323031303340e441b801490d078a1a00ecdf05b9";
+
+}  // namespace
+
+TEST_CASE("particles: Krakatoa's channels of any type, and the file cut or changed anywhere") {
+    std::string bytes;
+    for (std::size_t i = 0; i + 1 < sizeof kPrt; i += 2) {
+        const auto digit = [](char c) { return c <= '9' ? c - '0' : c - 'a' + 10; };
+        bytes += char(digit(kPrt[i]) * 16 + digit(kPrt[i + 1]));
+    }
+    ParticleSet set;
+    const Status status = decode(bytes, ".prt", set);
+    if (holds(status.message, "is not in this build")) return;
+    REQUIRE_MESSAGE(bool(status), status.message);
+    REQUIRE(set.count == 2);
+    CHECK(set.radius[0] == 1.5f);
+    CHECK(set.density[1] == 0.5f);
+    CHECK(set.id[1] == 8);
+    CHECK(place_of(set, 1)[0] - place_of(set, 0)[0] != 0);
+    for (std::size_t n = 0; n < bytes.size(); ++n)
+        CHECK_FALSE(bool(decode(bytes.substr(0, n), ".prt", set)));
+    std::string lying = bytes;
+    lying[48] = lying[49] = lying[50] = char(0xff);
+    CHECK(holds(decode(lying, ".prt", set).message, "more than the file can hold"));
+    lying[54] = lying[55] = char(0xff);
+    CHECK(holds(decode(lying, ".prt", set).message, "more than the file can hold"));
+    lying = bytes;
+    lying[60] = char(0xff), lying[61] = char(0xff);
+    CHECK(holds(decode(lying, ".prt", set).message, "channels: out of range"));
+}

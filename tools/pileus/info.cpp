@@ -15,6 +15,7 @@
 #include "src/io/images/image_file.h"
 #include "src/io/netcdf/grib_file.h"
 #include "src/io/netcdf/netcdf_file.h"
+#include "src/io/text/packed_bytes.h"
 #include "src/io/volumes/vdb/vdb_file.h"
 #include "src/scene/rows/mesh_format.h"
 #include "src/scene/rows/picture_format.h"
@@ -68,7 +69,8 @@ std::string library_text() {
         if (format.library == nullptr) continue;
         text += std::string(format.title) + (format.built ? " yes, " : " no, ");
     }
-    return text + vdb_library_text() + ", " + netcdf_library_text() + ", " + grib_library_text();
+    return text + packing_library_text() + ", " + netcdf_library_text() + ", " +
+           grib_library_text();
 }
 
 std::string program_lines() {

@@ -9,6 +9,7 @@ namespace pileus {
 
 Status decode_particles(const std::string& name, const std::string& extension,
                         Span<const char> bytes, const ParticleReading& reading, ParticleSet& set) {
+    if (extension == ".prt") return decode_particle_prt(name, bytes, reading, set);
     return extension == ".csv" ? decode_particle_csv(name, bytes, reading, set)
                                : decode_particle_ply(name, bytes, reading, set);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files of particles: who reads which, and what they hold.
-// in: .ply and .csv files that nobody has checked -> out: a ParticleSet, or one line.
+// in: .ply, .csv and .prt files that nobody has checked -> out: a ParticleSet, or one line.
 // docs/particles.md, "Data"; docs/formats.md, "Particles".
 #pragma once
 #include <string>
@@ -27,9 +27,9 @@ struct ParticleColumn {
     bool byte = false;  ///< whole numbers up to 255, which colours are divided by
 };
 
-/// Reads a file; which kind is told by `extension`, ".ply" or ".csv". Missing, malformed, numbers
-/// out of range, no radius in the file and none in `reading`: kBadInput; too many particles or out
-/// of memory: kLimit.
+/// Reads a file; which kind is told by `extension`, ".ply", ".csv" or ".prt". Missing, malformed,
+/// numbers out of range, no radius in the file and none in `reading`: kBadInput; too many particles
+/// or out of memory: kLimit.
 Status read_particles(const std::string& path, const std::string& extension,
                       const ParticleReading& reading, ParticleSet& set);
 
@@ -39,6 +39,8 @@ Status decode_particles(const std::string& name, const std::string& extension,
 
 // One file per format.
 Status decode_particle_ply(const std::string& name, Span<const char> bytes,
+                           const ParticleReading& reading, ParticleSet& set);
+Status decode_particle_prt(const std::string& name, Span<const char> bytes,
                            const ParticleReading& reading, ParticleSet& set);
 Status decode_particle_csv(const std::string& name, Span<const char> bytes,
                            const ParticleReading& reading, ParticleSet& set);

@@ -79,6 +79,8 @@ constexpr VolumeFormat kFormats[] = {
      read_particle_head, write_particle_volume},
     {"csv", "particles as text", ".csv", true, false, false, true, false, read_particles,
      read_particle_head, nullptr},
+    {"prt", "Krakatoa PRT", ".prt", true, false, false, true, false, read_particles,
+     read_particle_head, nullptr},
 };
 
 /// Calls `use` with each extension of a format.

@@ -32,10 +32,11 @@ Status check(const Scene& scene, const Budget& budget) {
     if (!budget.state.empty())
         return unknown_budget("--state", scene.method, "method.name = \"path\"");
     if (!shows_particles(scene))
-        return Status::bad_input(
-            scene.file + ": medium: method particles shows one medium of particles, " +
-            std::to_string(scene.media.size()) +
-            " media, allowed: one [[medium]] whose density is .ply, .csv or procedural:plume");
+        return Status::bad_input(scene.file +
+                                 ": medium: method particles shows one medium of particles, " +
+                                 std::to_string(scene.media.size()) +
+                                 " media, allowed: one [[medium]] whose density is .ply, .csv, "
+                                 ".prt or procedural:plume");
     if (scene.media[0].periodic)
         return Status::bad_input(scene.file +
                                  ": medium.0.boundary: method particles shows each particle once, "

@@ -119,7 +119,7 @@ Status unpack_block(ByteCursor& in, bool blosc, unsigned char* to, std::uint64_t
     const unsigned char* from = nullptr;
     PILEUS_TRY(in.u64("length of packed bytes", count));
     PILEUS_TRY(in.take(count, "packed bytes", from));
-    return vdb_inflate(in, blosc, from, count, to, bytes);
+    return inflate_block(in, blosc, from, count, to, bytes);
 }
 
 }  // namespace

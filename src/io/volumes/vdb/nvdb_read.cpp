@@ -61,7 +61,7 @@ private:
                          ": more than the tree states, allowed: " + std::to_string(nodes_[level]));
     }
     float number_at(Bytes from, std::size_t at, unsigned bytes) const {
-        return vdb_number(from.part(at, bytes).data, bytes);
+        return packed_number(from.part(at, bytes).data, bytes);
     }
     /// The value stands `value` bytes into the part.
     Status tile(const VdbPlace& at, std::int64_t side, Bytes from, std::size_t value) {

@@ -48,7 +48,4 @@ Status encode_vdb(const Volume& volume, bool zip, Buffer<char>& bytes);
 /// encode_vdb into a file, compressed where zlib is there. Cannot write: kIo, and no file is left.
 Status write_vdb_volume(const std::string& path, const Volume& volume);
 
-/// Which compressions this build reads: "zlib yes, blosc no".
-std::string vdb_library_text();
-
 }  // namespace pileus

@@ -5,6 +5,7 @@
 #pragma once
 #include "src/base/buffer.h"
 #include "src/io/text/byte_cursor.h"
+#include "src/io/text/packed_bytes.h"
 #include "src/io/volumes/vdb/vdb_grid.h"
 
 namespace pileus {
@@ -39,17 +40,5 @@ private:
     Buffer<unsigned char> unpacked_;
     Buffer<float> values_;
 };
-
-/// A number of 2, 4 or 8 bytes, little-endian, rounded to the nearest float.
-float vdb_number(const unsigned char* from, unsigned bytes);
-
-/// Unpacks `count` bytes, which must give exactly `bytes`; by blosc or else zlib.
-Status vdb_inflate(const ByteCursor& in, bool blosc, const unsigned char* packed,
-                   std::uint64_t count, unsigned char* to, std::uint64_t bytes);
-
-/// zlib of `bytes` from `from`; how many bytes it took, or 0 where that is not fewer, there is no
-/// room, or zlib was left out of the build.
-std::uint64_t vdb_deflate(const unsigned char* from, std::uint64_t bytes, unsigned char* to,
-                          std::uint64_t room);
 
 }  // namespace pileus

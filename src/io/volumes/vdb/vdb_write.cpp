@@ -205,7 +205,7 @@ void TreeWriter::leaf_values(const Place& leaf, Sink& out) const {
     // Keep the packed bytes where they are fewer; a length that is not above 0 says they are not.
     const std::size_t count = out.at() - begin;
     unsigned char packed[4096];
-    const std::uint64_t fewer = vdb_deflate(out.room() - count, count, packed, sizeof packed);
+    const std::uint64_t fewer = deflate_block(out.room() - count, count, packed, sizeof packed);
     if (fewer == 0) {
         out.put(length_at, 0 - std::uint64_t(count), 8);
         return;
@@ -291,7 +291,7 @@ void write_transform(const Volume& volume, Sink& out) {
 Status encode_vdb(const Volume& volume, bool zip, Buffer<char>& bytes) {
     const unsigned char probe[64] = {};
     unsigned char packed[128];
-    zip = zip && vdb_deflate(probe, sizeof probe, packed, sizeof packed) > 0;
+    zip = zip && deflate_block(probe, sizeof probe, packed, sizeof packed) > 0;
     TreeWriter tree(volume, zip);
     PILEUS_TRY(tree.survey());
     Buffer<char> room;
