@@ -158,9 +158,14 @@ PILEUS_FN void board_pixels(const ParticleBoardParams& k, const ParticleBoardBuf
         if (b.optical_depth != nullptr) set_lane(v.depth, l, b.optical_depth[pixel]);
     });
     const bool to_the_end = b.optical_depth != nullptr;
+    const std::int32_t last_x = x + kMarchAcross<W> - 1, last_y = y + W / kMarchAcross<W> - 1;
     for (std::int32_t j = 0; j < tile.count; ++j) {
         if (j % kBoardsBetween == 0 && !to_the_end && !any(v.transmittance >= k.cut)) break;
-        blend_board<Moving, Curved>(b, k.boards[tile.seen[j].ball], k.cut, v);
+        const ParticleBoard& o = k.boards[tile.seen[j].ball];
+        // Beside these few pixels.
+        const bool beside =
+            (o.low[0] > last_x) | (o.high[0] < x) | (o.low[1] > last_y) | (o.high[1] < y);
+        if (!beside) blend_board<Moving, Curved>(b, o, k.cut, v);
     }
     for_block<W>(c, x, y, tile.y_end, [&](int l, std::int64_t pixel) {
         b.transmittance[pixel] = lane(v.transmittance, l);

@@ -15,9 +15,10 @@ struct ParticleBoard {
     float way[3];      ///< that it moves while the shutter is open
     float per_square;  ///< 1 / shown radius^2
     float whole, power;
-    float per_radius;  ///< 1 / its own radius, along the view
-    float distance;    ///< of its middle; nearer ones are blended first
-    float colour[3];   ///< radiance of an opaque one
+    float per_radius;               ///< 1 / its own radius, along the view
+    float distance;                 ///< of its middle; nearer ones are blended first
+    float colour[3];                ///< radiance of an opaque one
+    std::uint16_t low[2], high[2];  ///< pixels whose centres it may cover; none: low above high
 };
 
 struct ParticleBoardParams {

@@ -61,8 +61,25 @@ public:
         out.front = float(way - r - kSlack * (way + r));
         return pixels_of(o, number, out);
     }
-    /// All of the shutter's time; sorted by the middle's distance.
+    /// What has been found by frame().
     bool cover(const ParticleBoard& board, std::uint32_t number, Cover& out) const {
+        for (int a = 0; a < 2; ++a) out.low[a] = board.low[a], out.high[a] = board.high[a];
+        out.front = board.distance;
+        out.ball = number;
+        return board.low[0] <= board.high[0];
+    }
+    /// Finds the pixels that a board may cover, of all of the shutter's time.
+    void frame(ParticleBoard& board) const {
+        Cover own;
+        const bool met = moving_cover(board, own);
+        for (int a = 0; a < 2; ++a) {
+            board.low[a] = met ? std::uint16_t(own.low[a]) : 1;
+            board.high[a] = met ? std::uint16_t(own.high[a]) : 0;
+        }
+    }
+
+private:
+    bool moving_cover(const ParticleBoard& board, Cover& out) const {
         const double radius = 1 / __builtin_sqrt(double(board.per_square));
         Outline all{};
         int ahead = 0;
@@ -84,11 +101,9 @@ public:
         if (ahead == 0) return false;
         // Through the camera's plane: anywhere.
         if (ahead < times) all = {{-kEverywhere, -kEverywhere}, {kEverywhere, kEverywhere}};
-        out.front = board.distance;
-        return pixels_of(all, number, out);
+        return pixels_of(all, 0, out);
     }
 
-private:
     static constexpr double kEverywhere = 1e30;
 
     /// Pixels, columns and rows, whose centres a ball may cover.
@@ -251,10 +266,12 @@ Status march_particles(const Context& context, const ParticleTree& tree,
 }
 
 Status blend_particles(const Context& context, const ParticleTree& tree,
-                       const ParticleBoardParams& k, Span<const ParticleBoard> boards,
+                       const ParticleBoardParams& k, Span<ParticleBoard> given,
                        const ParticleBoardBuffers& buffers) {
     const CameraParams& c = k.camera;
     const Screen screen(c, tree.nodes[0]);
+    parallel_each(context.threads, given.size, [&](std::size_t i) { screen.frame(given[i]); });
+    const Span<const ParticleBoard> boards{given.data, given.size};
     Tiles tiles;
     PILEUS_TRY(sort_things(context, boards, c, screen, tiles));
     Buffer<Scratch> scratch;

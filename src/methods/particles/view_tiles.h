@@ -26,9 +26,10 @@ std::uint64_t view_tile_scratch_bytes();
 Status march_particles(const Context& context, const ParticleTree& tree,
                        const ParticleMarchParams& k, const ParticleMarchBuffers& buffers);
 
-/// The same with boards, one for each ball of the tree; planes go on from what they hold.
+/// The same with boards, one for each ball of the tree, whose pixels are found here; planes go on
+/// from what they hold.
 Status blend_particles(const Context& context, const ParticleTree& tree,
-                       const ParticleBoardParams& k, Span<const ParticleBoard> boards,
+                       const ParticleBoardParams& k, Span<ParticleBoard> boards,
                        const ParticleBoardBuffers& buffers);
 
 }  // namespace pileus
