@@ -98,7 +98,7 @@ Status check_marched(const Scene& scene, const Budget& budget) {
         return Status::bad_input(
             scene.file + ": output.layers: method " + scene.method +
             " has no noise and one order of scattering, allowed: radiance, alpha, depth, cloud, "
-            "optical_depth, transmittance");
+            "optical_depth, transmittance, reflectance, shadow");
     return Status::ok();
 }
 

@@ -137,7 +137,7 @@ TEST_CASE("particles: the octree holds every ball once, in boxes that hold them 
     CHECK(large == 0);
 }
 
-TEST_CASE("particles: a million in one place are one leaf, none are no tree") {
+TEST_CASE("particles: a million alike in one place are one, none are no tree") {
     ParticleSet set;
     set.count = 1000000;
     REQUIRE(set.position.resize(3 * set.count, "p"));
@@ -150,6 +150,22 @@ TEST_CASE("particles: a million in one place are one leaf, none are no tree") {
     REQUIRE(make_particle_tree(set, set.low, 8, 2, tree));
     CHECK(tree.leaves == 1);
     CHECK(tree.count() == 1);
+    REQUIRE(tree.balls.size() == 1);
+    CHECK(tree.balls[0].depth == 1e6f);
+    // With radii of their own they are one leaf.
+    for (std::size_t i = 0; i < set.count; ++i) set.radius[i] = 1 + float(i) * 0x1p-23f;
+    REQUIRE(make_particle_tree(set, set.low, 8, 2, tree));
+    CHECK(tree.leaves == 1);
+    CHECK(tree.balls.size() == set.count);
+    // Two of three differ in their way alone: they stay apart.
+    set.count = 3;
+    set.radius[1] = set.radius[2] = set.radius[0];
+    REQUIRE(set.velocity.resize(9, "p"));
+    for (std::size_t i = 0; i < 9; ++i) set.velocity[i] = i < 6 ? 1.0f : 2.0f;
+    REQUIRE(make_particle_tree(set, set.low, 8, 2, tree));
+    REQUIRE(tree.balls.size() == 2);
+    CHECK(tree.balls[0].depth == 2);
+    CHECK(tree.velocity[5] == 2);
     REQUIRE(make_particle_tree({}, {}, 8, 2, tree));
     CHECK(tree.count() == 0);
 }
@@ -239,7 +255,10 @@ TEST_CASE("particles: depths by tiles where some balls hold all, and where all l
     REQUIRE(same.position.resize(3 * many, "p"));
     REQUIRE(same.radius.resize(many, "p"));
     REQUIRE(same.density.resize(many, "p"));
-    for (std::size_t i = 0; i < many; ++i) same.radius[i] = 2, same.density[i] = 0.5f;
+    for (std::size_t i = 0; i < many; ++i) same.density[i] = 0.5f;
+    double radii = 0;
+    for (std::size_t i = 0; i < many; ++i)
+        radii += double(same.radius[i] = 2 + float(i) * 0x1p-20f);
     same.low = {-2, -2, -2};
     same.high = {2, 2, 2};
     REQUIRE(make_particle_tree(same, same.low, 12, 2, tree));
@@ -247,7 +266,7 @@ TEST_CASE("particles: depths by tiles where some balls hold all, and where all l
     std::size_t wrong = 0;
     // Twenty thousand roundings of a float that grows.
     for (const float depth : depths)
-        wrong += std::fabs(double(depth) / (8.0 / 15 * double(many)) - 1) > 1e-3;
+        wrong += std::fabs(double(depth) / (8.0 / 15 * 0.5 * radii) - 1) > 1e-3;
     CHECK(wrong == 0);
 }
 

@@ -46,7 +46,8 @@ Status check(const Scene& scene, const Budget& budget) {
         return Status::bad_input(
             scene.file +
             ": output.layers: method particles has no noise and one kind of light, allowed: "
-            "radiance, alpha, depth, cloud, optical_depth, transmittance");
+            "radiance, alpha, depth, cloud, optical_depth, transmittance, reflectance, "
+            "shadow");
     return Status::ok();
 }
 

@@ -45,12 +45,12 @@ public:
         sort_by_code();
         sort_equal_codes();
         other_ = Buffer<Item>();
-        PILEUS_TRY(allocate(arrays::particle_balls(set_.count), tree_.balls));
-        parallel_each(threads_, set_.count,
-                      [&](std::size_t i) { tree_.balls[i] = ball_of(items_[i].number); });
+        PILEUS_TRY(merge());
+        PILEUS_TRY(allocate(arrays::particle_balls(count_), tree_.balls));
+        parallel_each(threads_, count_, [&](std::size_t i) { tree_.balls[i] = ball_of(i); });
         if (!set_.velocity.empty()) {
-            PILEUS_TRY(allocate(arrays::particle_velocities(set_.count), tree_.velocity));
-            parallel_each(threads_, set_.count, [&](std::size_t i) {
+            PILEUS_TRY(allocate(arrays::particle_velocities(count_), tree_.velocity));
+            parallel_each(threads_, count_, [&](std::size_t i) {
                 for (std::size_t a = 0; a < 3; ++a)
                     tree_.velocity[3 * i + a] = set_.velocity[3 * items_[i].number + a];
             });
@@ -64,11 +64,43 @@ private:
     double place(std::size_t i, int axis) const {
         return set_.origin[axis] + double(set_.position[3 * i + std::size_t(axis)]) - low_[axis];
     }
-    ParticleBall ball_of(std::size_t i) const {
+    ParticleBall ball_of(std::size_t item) const {
+        const std::size_t i = items_[item].number;
         const float radius = set_.radius[i];
+        const float density = merged_.empty() ? set_.density[i] : merged_[item];
         return {{float(place(i, 0)), float(place(i, 1)), float(place(i, 2))},
                 1.0f / radius,
-                set_.density[i] * radius};
+                density * radius};
+    }
+    /// Particles that differ in nothing but their density are one: as they are sorted, a million in
+    /// one place would else meet each other.
+    Status merge() {
+        count_ = set_.count;
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < set_.count; ++i)
+            kept += i == 0 || !coincide(items_[i - 1].number, items_[i].number) ? 1 : 0;
+        if (kept == set_.count) return Status::ok();
+        PILEUS_TRY(merged_.resize(kept, "order of particles"));
+        std::size_t to = 0;
+        for (std::size_t i = 0; i < set_.count; ++to) {
+            double sum = 0;
+            const std::size_t first = i;
+            do sum += double(set_.density[items_[i++].number]);
+            while (i < set_.count && coincide(items_[first].number, items_[i].number));
+            items_[to] = items_[first];
+            merged_[to] = float(sum);
+        }
+        count_ = kept;
+        return Status::ok();
+    }
+    bool coincide(std::uint32_t a, std::uint32_t b) const {
+        bool same = set_.radius[a] == set_.radius[b];
+        for (std::size_t k = 0; k < 3; ++k) {
+            same = same && set_.position[3 * a + k] == set_.position[3 * b + k];
+            if (!set_.velocity.empty())
+                same = same && set_.velocity[3 * a + k] == set_.velocity[3 * b + k];
+        }
+        return same;
     }
     void set_codes() {
         double side = 0;
@@ -120,11 +152,10 @@ private:
             if (set_.position[3 * a + k] != set_.position[3 * b + k])
                 return set_.position[3 * a + k] < set_.position[3 * b + k];
         if (set_.radius[a] != set_.radius[b]) return set_.radius[a] < set_.radius[b];
-        if (set_.density[a] != set_.density[b]) return set_.density[a] < set_.density[b];
         for (std::size_t k = 0; k < 3 && !set_.velocity.empty(); ++k)
             if (set_.velocity[3 * a + k] != set_.velocity[3 * b + k])
                 return set_.velocity[3 * a + k] < set_.velocity[3 * b + k];
-        return false;
+        return set_.density[a] < set_.density[b];
     }
 
     /// Nodes in the order of a walk: first counted, then made.
@@ -140,7 +171,7 @@ private:
                 return made++;
             },
             [&](std::uint64_t node) { tree_.nodes[node].skip = std::int32_t(made); });
-        tree_.nodes[count].first = std::int32_t(set_.count);
+        tree_.nodes[count].first = std::int32_t(count_);
         tree_.nodes[count].skip = std::int32_t(count);
         return Status::ok();
     }
@@ -155,7 +186,7 @@ private:
     void walk(Enter enter, Leave leave) const {
         Open stack[kParticleLevels + 2];
         int depth = 0;
-        const std::uint32_t all = std::uint32_t(set_.count);
+        const std::uint32_t all = std::uint32_t(count_);
         stack[depth++] = {0, all, enter(0, all, kParticleLevels), kParticleLevels};
         if (all <= most_in_leaf_) stack[0].begin = all;
         part(stack[0]);
@@ -229,6 +260,8 @@ private:
     std::uint32_t most_in_leaf_;
     ParticleTree& tree_;
     Buffer<Item> items_, other_;
+    std::size_t count_ = 0;  ///< of items that are left
+    Buffer<float> merged_;   ///< [item]: densities; empty: each its own
 };
 
 }  // namespace
