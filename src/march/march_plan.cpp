@@ -206,9 +206,7 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
     add_majorant_rows(grid, run.outlined_only ? 1 : run.majorants.tracking.size(),
                       std::uint64_t(context.threads), last, t);
     if (!run.march_light && run.lighting.sunlit) add(t, arrays::sun_depth(sun_grid(run), last));
-    if (!run.lighting.lamps.empty())
-        add(t, arrays::lamp_depths(node_count(lamp_node_grid(run.world->medium)),
-                                   run.lighting.lamps.size()));
+    add(t, arrays::lamp_depths(lamp_numbers(run.world->medium, run.lighting)));
     if (caps_extinction(run)) add(t, arrays::capped_density(grid));
     if (has_sun_grid(run)) {
         add(t, arrays::lit_density(sun_grid(run)));

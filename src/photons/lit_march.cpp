@@ -130,6 +130,16 @@ Status gather_by_node(const Context& context, const MarchParams& k, Span<const f
     return Status::ok();
 }
 
+Status add_lit_lamps(const Context& context, PhotonRun& run, const LightInput& lit,
+                     Planes& planes) {
+    if (lit.lighting->lamps.empty()) return Status::ok();
+    const Medium& medium = run.world->medium;
+    PILEUS_TRY(make_lamp_nodes(context, medium, run.majorants, *lit.lighting, run.lamps));
+    const LampMarchParams k =
+        lamp_march_params(medium, run.majorants, *lit.lighting, lit.camera, run.lamps, kCut);
+    return add_lamp_light(context, medium, k, run.lamps, planes);
+}
+
 Status fill_lit_background(const Context& context, const PhotonRun& run, const LightInput& lit,
                            int batch, Planes& planes) {
     const StageClock clock(context, "background");
@@ -177,6 +187,7 @@ Lighting sun_alone(const Lighting& all) {
     }
     sun.constant = sun.sky = sun.ground_diffuse = {};
     sun.map = SkyMapView{};
+    sun.lamps.clear();
     return sun;
 }
 

@@ -50,6 +50,10 @@ void set_harmonic_sets(int bands, int sets, const float (&colour)[3][3], MarchPa
 Status gather_by_node(const Context& context, const MarchParams& k, Span<const float> planes,
                       Buffer<float>& by_node);
 
+/// Adds light of `lit`'s lamps, scattered once, to the picture's planes; not to those of batches,
+/// as it has no noise. kLimit: out of memory.
+Status add_lit_lamps(const Context& context, PhotonRun& run, const LightInput& lit, Planes& planes);
+
 /// Sky and ground of `lit`; the light scattered onto the ground is that of `batch`, 0: of all.
 Status fill_lit_background(const Context& context, const PhotonRun& run, const LightInput& lit,
                            int batch, Planes& planes);
@@ -59,7 +63,7 @@ Status fill_lit_background(const Context& context, const PhotonRun& run, const L
 Status add_ground_noise(const Context& context, const PhotonRun& run, const LightInput& lit,
                         Planes& planes);
 
-/// The same light without the sky: the ground then sends back sunlight alone.
+/// The same light without sky and lamps: the ground then sends back sunlight alone.
 Lighting sun_alone(const Lighting& all);
 
 /// The layer of optical depths.

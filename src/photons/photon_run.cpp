@@ -114,6 +114,13 @@ Status choose_photon_lights(std::uint64_t generations, PhotonRun& run) {
         run.generations = photons > 0 ? std::uint64_t(photons) : 1;
     run.sun_elevation_deg = first_elevation(scene);
     run.lighting = light_world(scene, run.sun_elevation_deg, *run.world, run.around, run.plan);
+    if (!run.lighting.lamps.empty()) {
+        run.plan.need((std::to_string(run.lighting.lamps.size()) +
+                       " lights of [[light]], scattered once: marched")
+                          .c_str());
+        run.plan.leave_out("light of [[light]] scattered more than once",
+                           "no photons from these lights in this version");
+    }
     share_photons(std::uint64_t(photons) / run.generations, run.lighting.lights);
     run.light_photons.clear();
     for (const Light& l : run.lighting.lights) run.light_photons.push_back(l.photons);

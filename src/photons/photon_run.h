@@ -7,6 +7,7 @@
 #include "src/photons/beam.h"
 #include "src/photons/trace.h"
 #include "src/picture/layers.h"
+#include "src/picture/nodes/lamp_light.h"
 #include "src/plan/plan.h"
 #include "src/world/world.h"
 
@@ -34,6 +35,7 @@ struct PhotonRun : MethodRun {
     Buffer<float> visibility;  ///< and what solids leave of the sun; empty without solids
     bool shadow_ready = false;
     Beam beam;                  ///< made with the shadow where deposit.peak_turn asks for it
+    LampNodes lamps;            ///< of the march that shows light of [[light]]
     Planes planes;              ///< of a session's picture
     std::uint32_t layouts = 0;  ///< times that the sums were laid out
     bool interrupted = false;  ///< fewer generations than asked for, because the user wanted an end

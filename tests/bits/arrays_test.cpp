@@ -241,6 +241,35 @@ TEST_CASE("arrays: what a photon grid holds once it is prepared is what the plan
     check_photon_grid({kTwoMedia, "photon-grid", {"photon_grid.closure = \"published\""}});
 }
 
+/// Bytes of the rows of this name.
+std::uint64_t planned(const MemoryTable& table, const char* item) {
+    std::uint64_t bytes = 0;
+    for (const MemoryRow& row : table.rows())
+        if (row.item == std::string(item)) bytes += row.bytes;
+    return bytes;
+}
+
+template <class Run>
+void check_lamps(const Method& method, const Fixture& f) {
+    Run run;
+    const Status status = open_run(method, f.scene, {}, f.context, true, nullptr, run);
+    REQUIRE_MESSAGE(status, status.message);
+    PhotonRun& lit = run;
+    Image image;
+    REQUIRE(method.light({0, true, true}, f.context, run));
+    REQUIRE(method.show({0, true, true}, f.context, run, image));
+    CHECK(lit.lamps.optical_depth.bytes() > 0);
+    CHECK(lit.lamps.optical_depth.bytes() == planned(lit.plan.memory, "optical depths to lights"));
+}
+
+TEST_CASE("arrays: what lights of marched photons hold is what the plan says") {
+    const std::string lit = std::string(kSmallCumulus) +
+                            "\n[[light]]\ntype = \"point\"\nposition_m = [0, 0, 2000]\n"
+                            "[[light]]\ntype = \"directional\"\nelevation_deg = 20\n";
+    check_lamps<CollectorsRun>(collectors_method(), {lit.c_str(), "collectors"});
+    check_lamps<PhotonGridRun>(photon_grid_method(), {lit.c_str(), "photon-grid"});
+}
+
 TEST_CASE("arrays: what path holds while it traces is what the plan says") {
     check_path({kSmallCumulus, "path", {"output.layers = [\"radiance\", \"light\", \"depth\"]"}});
     check_path({kTwoMedia, "path"});

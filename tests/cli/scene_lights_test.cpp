@@ -43,10 +43,10 @@ TEST_CASE("faults of lights") {
          "cone_deg 20"},
         {kCamera + spot + "target_m = [1, 2, 4]\ncone_deg = 0\n",
          "s.toml:10:12: light.0.cone_deg: out of range, 0, allowed: ..."},
-        {kCamera + "[method]\nname = \"collectors\"\n[[light]]\ntype = \"point\"\n"
-                   "position_m = [0, 0, 0]\n",
-         "s.toml:7:8: light.0.type: not for method collectors in this version, \"point\", allowed: "
-         "..."},
+        {kCamera + "[method]\nname = \"collectors\"\n[collectors]\ndisplay = \"billboards\"\n"
+                   "[[light]]\ntype = \"point\"\nposition_m = [0, 0, 0]\n",
+         "s.toml:9:8: light.0.type: not for collectors as billboards in this version, \"point\", "
+         "allowed: collectors.display = \"march\", ..."},
     };
     for (const Row& row : rows) check(row);
 }

@@ -95,17 +95,71 @@ TEST_CASE("marched lamps are paths of one scattering") {
         for (const char* light : {kPointLight, kSpotLight, kMoon}) {
             CAPTURE(light);
             const std::string text = std::string(kView) + medium + light;
-            const Picture path = by("path", text), march = by("raymarch", text);
-            for (const char* channel : {"R", "B"}) {
-                const std::string error = std::string("error.") + channel;
-                const Sum a = sum_of(path, channel, error.c_str());
-                const Sum b = sum_of(march, channel, nullptr);
-                MESSAGE(std::string(channel)
-                        << " path " << a.value << " +- " << a.error << " march " << b.value);
-                CHECK(a.error < 0.02 * a.value);
-                CHECK(std::fabs(a.value - b.value) < 4 * a.error + 0.01 * a.value);
+            const Picture path = by("path", text);
+            for (const char* method : {"raymarch", "collectors", "photon-grid"}) {
+                CAPTURE(method);
+                const Picture march = by(method, text);
+                for (const char* channel : {"R", "B"}) {
+                    const std::string error = std::string("error.") + channel;
+                    const Sum a = sum_of(path, channel, error.c_str());
+                    const Sum b = sum_of(march, channel, nullptr);
+                    MESSAGE(std::string(method)
+                            << " " << std::string(channel) << " path " << a.value << " +- "
+                            << a.error << " march " << b.value);
+                    CHECK(a.error < 0.02 * a.value);
+                    CHECK(std::fabs(a.value - b.value) < 4 * a.error + 0.01 * a.value);
+                }
             }
         }
+}
+
+TEST_CASE("photons of sun and sky are those of the scene without lamps, whose light is added") {
+    constexpr const char* kDay = R"(
+[sun]
+elevation_deg = 30
+[sky]
+radiance = [0.1, 0.2, 0.3]
+[ground]
+altitude_m = -10
+albedo = 0.3
+[photon_grid]
+photons = 4000
+generations = 4
+[collectors]
+photons = 4000
+generations = 4
+samples = 500
+)";
+    std::string view = kView;
+    view.replace(view.find("\"error\""), 7, "\"error\", \"order\", \"light\"");
+    for (const char* method : {"collectors", "photon-grid"}) {
+        CAPTURE(method);
+        const std::string named = "[method]\nname = \"" + std::string(method) + "\"\n";
+        const auto shown = [&](const std::string& rest) {
+            return render_one(scene_from(named + view + kBox + rest));
+        };
+        const std::string ground = "[ground]\naltitude_m = -10\nalbedo = 0.3\n";
+        const Picture day = shown(kDay), lamp = shown(ground + kPointLight);
+        const Picture both = shown(std::string(kDay) + kPointLight);
+        double most = 0;
+        for (int y = 0; y < both.image.height; ++y)
+            for (int x = 0; x < both.image.width; ++x) {
+                const auto adds = [&](const char* channel, double lamps) {
+                    const double sum = double(day.at(channel, x, y)) + lamps;
+                    // Sums of floats: some roundings of 6e-8 each.
+                    CHECK(double(both.at(channel, x, y)) == doctest::Approx(sum).epsilon(2e-6));
+                };
+                const double own = double(lamp.at("R", x, y));
+                most = own > most ? own : most;
+                adds("R", own);
+                adds("single.R", double(lamp.at("single.R", x, y)));
+                adds("sun.R", 0);
+                // The same light in every batch has no spread; roundings of the batches alone.
+                CHECK(both.at("error.R", x, y) == day.at("error.R", x, y));
+                CHECK(lamp.at("multiple.R", x, y) == 0.0f);
+            }
+        CHECK(most > 0.01);
+    }
 }
 
 TEST_CASE("marched lamps light the ground through a medium that absorbs") {
@@ -139,7 +193,8 @@ layers = ["radiance", "alpha"]
 )";
     // 50 m of medium to the light, 100 m to the camera; the second light is below the ground.
     const double exact = 0.5 / kPiD * 5000 / 2500 * (40.0 / 50) * std::exp(-0.02 * 150);
-    CHECK(double(by("raymarch", down).at("G", 0, 0)) == doctest::Approx(exact).epsilon(2e-3));
+    for (const char* method : {"raymarch", "collectors", "photon-grid"})
+        CHECK(double(by(method, down).at("G", 0, 0)) == doctest::Approx(exact).epsilon(2e-3));
 }
 
 }  // namespace

@@ -128,8 +128,9 @@ Status collectors_display(const Context& context, CollectorsRun& run, const Reco
                           const CollectorColours& colours, int channels, Planes& planes) {
     if (shows_harmonics(run) && !lit.first_order_alone)
         return show_harmonics(context, run, lit, planes);
-    return is_marched(run) ? show_marched(context, run, lit, colours, channels, planes)
-                           : show_billboards(context, run, lit, colours, channels, planes);
+    if (!is_marched(run)) return show_billboards(context, run, lit, colours, channels, planes);
+    PILEUS_TRY(show_marched(context, run, lit, colours, channels, planes));
+    return add_lit_lamps(context, run, lit, planes);
 }
 
 Status collectors_billboards(const Context& context, const CollectorsRun& run,
@@ -191,6 +192,7 @@ void collectors_size_display(const CollectorsRun& run, CollectorsSizes& sizes) {
     if (run.lighting.sunlit && run.deposit.first_order == 2)
         sizes.shadow_nodes = sun_shadow_numbers(run);
     sizes.beam_sets = beam_sets(run);
+    sizes.lamp_depths = lamp_numbers(run.world->medium, run.lighting);
 }
 
 }  // namespace pileus

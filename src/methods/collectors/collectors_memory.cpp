@@ -83,6 +83,7 @@ void add_light(const CollectorsSizes& s, MemoryTable& t) {
         add(t, arrays::batch_background(pixels), arrays::ground_light(s.ground_cells));
     const Stage shadows = s.shoots_again ? Stage::kPhotons : Stage::kShadow;
     add(t, arrays::shadow(s.shadow_nodes, shadows), arrays::beam_tables(s.beam_sets, shadows));
+    add(t, arrays::lamp_depths(s.lamp_depths));
     if (s.marched) {
         add(t, arrays::source_grid(source, s.source_nodes));
         add(t, arrays::source_by_node(s.numbers_by_node));

@@ -26,7 +26,7 @@ struct CollectorsSizes {
     std::uint64_t extra_planes = 0;     ///< parts of the light, optical depth
     std::uint64_t phases = 0;           ///< bytes of tables of phase functions
     SkyMapBytes sky;
-    std::uint64_t shadow_nodes = 0, beam_sets = 0, source_nodes = 0;
+    std::uint64_t shadow_nodes = 0, beam_sets = 0, source_nodes = 0, lamp_depths = 0;
     bool parts = false;     ///< some of the light is shown alone
     bool cells = false;     ///< closure "camera": no samples and no tree
     bool variance = false;  ///< placement "variance"

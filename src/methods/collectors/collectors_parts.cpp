@@ -34,12 +34,13 @@ Status show_sun(const Context& context, CollectorsRun& run, const ReconstructInp
     return Status::ok();
 }
 
-/// Sunlight that the media scattered once, straight from the sun.
+/// Light that the media scattered once, straight from the sun and the lamps.
 Status show_single(const Context& context, CollectorsRun& run, const ReconstructInput& whole,
                    Planes& planes) {
-    if (!whole.lighting->sunlit)
+    if (!whole.lighting->sunlit && whole.lighting->lamps.empty())
         return allocate(arrays::picture_planes(1, planes.colour.size()), planes.single);
     Lighting light = sun_alone(*whole.lighting);
+    light.lamps = whole.lighting->lamps;
     ReconstructInput lit = whole;
     lit.lighting = &light;
     lit.batches = 0;

@@ -75,6 +75,7 @@ void add_picture(const PhotonGridRun& run, const Context& context, MemoryTable& 
     if (run.lighting.sunlit && run.deposit.first_order == 2)
         add(t, arrays::shadow(sun_shadow_numbers(run), shadows));
     add(t, arrays::beam_tables(beam_sets(run), shadows));
+    add(t, arrays::lamp_depths(lamp_numbers(run.world->medium, run.lighting)));
     add_image_rows(Size(size[0]), Size(size[1]), 4 + extra_layers(output, planes > 3), t);
 }
 

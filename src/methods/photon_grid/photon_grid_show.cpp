@@ -72,9 +72,12 @@ Status show_first_order(const Context& context, PhotonGridRun& run, const GridLi
 Status display(const Context& context, PhotonGridRun& run, const GridLightInput& in,
                Planes& planes) {
     PILEUS_TRY(make_sun_shadow(context, run));
-    if (in.first_order_alone) return show_first_order(context, run, in, planes);
-    return shows_harmonics(run) ? show_all_ways(context, run, in, planes)
-                                : show_towards(context, run, in, planes);
+    if (in.first_order_alone)
+        PILEUS_TRY(show_first_order(context, run, in, planes));
+    else
+        PILEUS_TRY(shows_harmonics(run) ? show_all_ways(context, run, in, planes)
+                                        : show_towards(context, run, in, planes));
+    return add_lit_lamps(context, run, in, planes);
 }
 
 /// A picture of one part of the light, without batches.
@@ -99,11 +102,12 @@ Status show_sun(const Context& context, PhotonGridRun& run, GridLightInput in, P
     return Status::ok();
 }
 
-/// Sunlight that the media scattered once, straight from the sun.
+/// Light that the media scattered once, straight from the sun and the lamps.
 Status show_single(const Context& context, PhotonGridRun& run, GridLightInput in, Planes& planes) {
-    if (!in.lighting->sunlit)
+    if (!in.lighting->sunlit && in.lighting->lamps.empty())
         return allocate(arrays::picture_planes(3, planes.transmittance.size()), planes.single);
-    const Lighting light = sun_alone(*in.lighting);
+    Lighting light = sun_alone(*in.lighting);
+    light.lamps = in.lighting->lamps;
     in.lighting = &light;
     in.batches = 0;
     in.first_order_alone = true;

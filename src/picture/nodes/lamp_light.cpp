@@ -40,6 +40,11 @@ NodeGrid lamp_node_grid(const Medium& medium) {
     return g;
 }
 
+std::uint64_t lamp_numbers(const Medium& medium, const Lighting& lighting) {
+    if (lighting.lamps.empty()) return 0;
+    return bytes_of(node_count(lamp_node_grid(medium)), lighting.lamps.size());
+}
+
 Status make_lamp_nodes(const Context& context, const Medium& medium, const Majorants& majorants,
                        const Lighting& lighting, LampNodes& out) {
     if (!out.optical_depth.empty() && same_lamps(out.lamps, lighting.lamps)) return Status::ok();
@@ -47,7 +52,7 @@ Status make_lamp_nodes(const Context& context, const Medium& medium, const Major
     out.lamps = lighting.lamps;
     out.grid = lamp_node_grid(medium);
     const std::uint64_t count = out.lamps.size();
-    PILEUS_TRY(allocate(arrays::lamp_depths(node_count(out.grid), count), out.optical_depth));
+    PILEUS_TRY(allocate(arrays::lamp_depths(lamp_numbers(medium, lighting)), out.optical_depth));
     const LampMarchParams k = lamp_march_params(medium, majorants, lighting, {}, out, 0);
     LampMarchBuffers b{};
     b.lamps = out.lamps.data();

@@ -24,11 +24,14 @@ struct LampNodes {
 /// Nodes of one lamp: 2^17, and of a medium of many voxels one for each eight, at most 2^20.
 NodeGrid lamp_node_grid(const Medium& medium);
 
+/// Numbers of all lamps' nodes.
+std::uint64_t lamp_numbers(const Medium& medium, const Lighting& lighting);
+
 namespace arrays {
 
-/// For each lamp.
-inline Array<float> lamp_depths(std::uint64_t nodes, std::uint64_t lamps) {
-    return {"optical depths to lights", bytes_of(nodes, lamps), Stage::kShadow, Stage::kWrite};
+/// Of all lamps.
+inline Array<float> lamp_depths(std::uint64_t numbers) {
+    return {"optical depths to lights", numbers, Stage::kShadow, Stage::kWrite};
 }
 
 }  // namespace arrays

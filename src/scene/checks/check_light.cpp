@@ -60,10 +60,12 @@ private:
     /// Methods and media that lights are not for.
     void known() {
         const Scene& scene = check_.scene;
-        const bool marched = scene.method == "raymarch" || scene.method == "optical-depth";
-        if (!marched && scene.method != "path" && scene.method != "particles")
-            refuse("for method " + scene.method,
-                   "method path, particles, raymarch, optical-depth, or a scene without [[light]]");
+        // All others show them by one march.
+        const bool marched = scene.method != "path" && scene.method != "particles";
+        const CollectorSettings& collectors = scene.collectors;
+        if (scene.method == "collectors" && collectors.billboards && !collectors.camera_closure)
+            refuse("for collectors as billboards",
+                   "collectors.display = \"march\", another method, or a scene without [[light]]");
         if (marched && !scene.solids.empty())
             refuse("with solids by method " + scene.method,
                    "method path, or a scene without [[solid]]");
