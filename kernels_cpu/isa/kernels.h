@@ -56,7 +56,7 @@ struct KernelTable {
     void (*trace_paths_guided)(const PathParams&, const PathBuffers&, std::uint32_t begin,
                                std::uint32_t end) = nullptr;
     const ParticleKernels* particles = nullptr;  ///< of method particles
-    /// As trace_paths_guided, for scenes with lamps (PathParams::lamp_count).
+    /// As trace_paths_guided, for scenes with lamps or media that emit.
     void (*trace_paths_lamps)(const PathParams&, const PathBuffers&, std::uint32_t begin,
                               std::uint32_t end) = nullptr;
     const LampKernels* lamps = nullptr;  ///< marched light of point, spot and parallel lights

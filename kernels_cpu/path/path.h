@@ -139,6 +139,9 @@ PILEUS_FN void collide_paths(PathGroup<W, NC, K>& g, const PathParams& k, const 
     s.tau = select(g.hits, free_flight((g.w.a & 0xffffff00u) | (more.b & 0xffu), more.b), s.tau);
     s.event = select(g.hits, s.event + 2u, s.event);
     if (any(rays)) dim_rays(g, rays, density, luck);
+    if constexpr (kLamps<K>) {
+        if (k.emits != 0) gather_emission(s, k, path, g.corner, density);
+    }
 
     const M<W> real = path & (level < density);
     if (k.media > 1 && any(real)) {
@@ -214,7 +217,7 @@ PILEUS_FN void trace_paths_guided(const PathParams& k, const PathBuffers& b, std
         trace_paths<W, kSeekingSun>(k, b, begin, end);
 }
 
-/// As trace_paths_guided, for scenes with lamps.
+/// As trace_paths_guided, for scenes with lamps, or with media that emit.
 template <int W>
 PILEUS_FN void trace_paths_lamps(const PathParams& k, const PathBuffers& b, std::uint32_t begin,
                                  std::uint32_t end) {

@@ -190,6 +190,34 @@ PILEUS_FN void add_light(PathLanes<W, NC, K>& s, const PathParams& k, M<W> m, F<
     }
 }
 
+/// Tentative collisions of paths in the lanes of `m`, where `density` was looked up at `corner`:
+/// add what the media emit there. The mean over collisions of emission / majorant is the integral
+/// of emission along the flight, times transmittance.
+template <int W, int NC, int K>
+PILEUS_FN void gather_emission(PathLanes<W, NC, K>& s, const PathParams& k, M<W> m, I<W> corner,
+                               F<W> density) {
+    using T = F<W>;
+    if constexpr (kGuided<K>) m = m & lnot(s.branch);
+    m = m & (density > 0.0f);
+    if (!any(m)) return;
+    T light[3] = {};
+    const std::int64_t voxels = std::int64_t(k.grid.size[0]) * k.grid.size[1] * k.grid.size[2];
+    for_shares(
+        k.parts, voxels, k.media, density, [&](const float* grid) { return gather(grid, corner); },
+        [&](int i, T share) {
+            for (int c = 0; c < 3; ++c) light[c] = light[c] + share * k.optics[i].emission[c];
+        });
+    const T share = density / s.bound;
+    const M<W> cloud = s.cloud | (s.order + s.bounces == 0);
+    for (int c = 0; c < 3; ++c) {
+        const T value = select(m, s.beta[NC == 1 ? 0 : c] * share * light[c], T{});
+        s.sum[c] = s.sum[c] + value;
+        if (k.parts_wanted == 0) continue;
+        T& part = s.sum[3 * kPathCloud + c];
+        part = part + select(cloud, value, T{});
+    }
+}
+
 /// Where rays from outside enter the box, or the layer that a periodic one is, voxels; `hit` loses
 /// the lanes that miss it.
 template <int W>
@@ -237,8 +265,10 @@ template <int W, int NC, int K>
 PILEUS_FN void thin_out(PathLanes<W, NC, K>& s, const PathParams& k, M<W> m) {
     using T = F<W>;
     m = m & (s.flight == kFlightPath);
-    // After the last scattering only light from behind the media is left to find.
-    if (!kSolid<K> && k.sky_lit == 0 && k.ground == 0) end_paths(s, m & (s.order >= k.max_depth));
+    // After the last scattering only light from behind the media is left to find, and their own.
+    bool dark = !kSolid<K> && k.sky_lit == 0 && k.ground == 0;
+    if constexpr (kLamps<K>) dark = dark && k.emits == 0;
+    if (dark) end_paths(s, m & (s.order >= k.max_depth));
     m = m & s.alive;
     const T most = heaviest(s);
     const M<W> low = m & (most < kPathRoulette);

@@ -74,7 +74,8 @@ struct PathParams {
     // Read by trace_paths_lamps alone.
     std::int32_t lamp_count;  ///< 0: none
     const LampParams* lamps;
-    float lamp_near;  ///< m: nearer to a lamp, light is found between vertices, else at them
+    float lamp_near;     ///< m: nearer to a lamp, light is found between vertices, else at them
+    std::int32_t emits;  ///< 0: no medium shines by itself
 };
 
 /// Sums of integers, so that threads and chunks can be added in any order.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light of point, spot and parallel lights scattered once, added up along each pixel's ray.
+// Light of point, spot and parallel lights scattered once, and what the media emit unscattered,
+// added up along each pixel's ray.
 // in: lamps, a medium -> out: optical depths to each lamp on nodes; light added to planes.
 // docs/lights.md, "By marching": 1 / distance^2 is integrated over each step by the angle that the
 // lamp sees of it, so that a lamp beside the ray needs no finer steps.
@@ -83,6 +84,11 @@ PILEUS_FN void march_lamps(const LampMarchParams& k, const LampMarchBuffers& b,
                 b.parts, voxels, k.media, density,
                 [&](const float* grid) { return read_density<Constant>(grid, at); },
                 [&](int i, T s) { share[i] = s; });
+            // With one emission along it, what leaves a step is exact.
+            if (k.emits != 0)
+                for (int i = 0; i < k.media; ++i)
+                    for (int c = 0; c < 3; ++c)
+                        colour[c] = colour[c] + weight * share[i] * k.emission[i][c];
             for (std::int32_t l = 0; l < k.lamps; ++l) {
                 const LampParams& lamp = b.lamps[l];
                 Vec<T> place;

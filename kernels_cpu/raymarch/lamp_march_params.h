@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the march of light from point, spot and parallel lights needs: plain structs and pointers.
+// What the march of light from lamps and of the media's own needs: plain structs and pointers.
 // in: lamps, a medium, a camera -> out: the layout of a launch.
 // docs/lights.md, "By marching".
 #pragma once
@@ -14,6 +14,8 @@ struct LampMarchParams {
     std::int32_t media;  ///< on the grid, up to kMostMedia; 0: the ground alone is lit
     PhaseParams phase[kMostMedia];
     float albedo[kMostMedia][3];
+    float emission[kMostMedia][3];  ///< as in Optics
+    std::int32_t emits;             ///< 0: none is added
     std::int32_t lamps;
     NodeGrid nodes;       ///< of optical depths to each lamp
     float cut;            ///< stop below this transmittance

@@ -169,6 +169,7 @@ void note_plan(RaymarchRun& run) {
         plan.leave_out("lights", scene.lights.empty() ? "no [[light]]" : "dark or underground");
     else
         plan.need((std::to_string(lamps) + " lights of [[light]], scattered once").c_str());
+    note_emission(run.world->medium, plan);
     if (run.lighting.sunlit && scene.sun.angular_radius_deg > 0)
         plan.leave_out("the sun's disc", "a point to this method: path alone knows it");
     if (run.levels > 0)

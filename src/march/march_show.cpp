@@ -48,10 +48,11 @@ Status light_sky(const Context& context, const FrameStep& step, RaymarchRun& run
                           run.sky);
 }
 
-/// Light of [[light]], scattered once: its own march, in steps of the grid.
+/// Light of [[light]], scattered once, and of the media: its own march, in steps of the grid.
 Status add_lamps(const Context& context, RaymarchRun& run) {
-    if (run.lighting.lamps.empty() || run.settings.steps == 0) return Status::ok();
     const Medium& medium = marched_medium(run);
+    if ((run.lighting.lamps.empty() && !emits(medium)) || run.settings.steps == 0)
+        return Status::ok();
     PILEUS_TRY(make_lamp_nodes(context, medium, run.majorants, run.lighting, run.lamps));
     LampMarchParams k = lamp_march_params(medium, run.majorants, run.lighting, run.camera,
                                           run.lamps, run.settings.stop_below);

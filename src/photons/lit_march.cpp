@@ -132,11 +132,14 @@ Status gather_by_node(const Context& context, const MarchParams& k, Span<const f
 
 Status add_lit_lamps(const Context& context, PhotonRun& run, const LightInput& lit,
                      Planes& planes) {
-    if (lit.lighting->lamps.empty()) return Status::ok();
     const Medium& medium = run.world->medium;
+    // The media's own light is neither the sun's nor scattered once.
+    const bool glows = emits(medium) && lit.lighting == &run.lighting;
+    if (lit.lighting->lamps.empty() && !glows) return Status::ok();
     PILEUS_TRY(make_lamp_nodes(context, medium, run.majorants, *lit.lighting, run.lamps));
-    const LampMarchParams k =
+    LampMarchParams k =
         lamp_march_params(medium, run.majorants, *lit.lighting, lit.camera, run.lamps, kCut);
+    k.emits = glows ? 1 : 0;
     return add_lamp_light(context, medium, k, run.lamps, planes);
 }
 

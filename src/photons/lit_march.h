@@ -50,8 +50,8 @@ void set_harmonic_sets(int bands, int sets, const float (&colour)[3][3], MarchPa
 Status gather_by_node(const Context& context, const MarchParams& k, Span<const float> planes,
                       Buffer<float>& by_node);
 
-/// Adds light of `lit`'s lamps, scattered once, to the picture's planes; not to those of batches,
-/// as it has no noise. kLimit: out of memory.
+/// Adds light of `lit`'s lamps, scattered once, and in the whole picture the media's own to the
+/// picture's planes; not to those of batches, as it has no noise. kLimit: out of memory.
 Status add_lit_lamps(const Context& context, PhotonRun& run, const LightInput& lit, Planes& planes);
 
 /// Sky and ground of `lit`; the light scattered onto the ground is that of `batch`, 0: of all.

@@ -8,6 +8,7 @@
 
 #include "src/world/camera/view.h"
 #include "src/world/phase/forward_share.h"
+#include "src/world/plan_parts.h"
 
 namespace pileus {
 namespace {
@@ -121,6 +122,7 @@ Status choose_photon_lights(std::uint64_t generations, PhotonRun& run) {
         run.plan.leave_out("light of [[light]] scattered more than once",
                            "no photons from these lights in this version");
     }
+    note_emission(run.world->medium, run.plan);
     share_photons(std::uint64_t(photons) / run.generations, run.lighting.lights);
     run.light_photons.clear();
     for (const Light& l : run.lighting.lights) run.light_photons.push_back(l.photons);

@@ -116,6 +116,7 @@ struct MediumSettings {
     double extinction_per_m = 0;  ///< at density 1
     double extinction_scale = 1;  ///< for files that hold extinction; >= 0
     Float3 albedo{1, 1, 1};
+    Float3 emission{0, 0, 0};  ///< radiance per metre where the density is 1; >= 0
     PhaseSettings phase;
     bool periodic = false;  ///< boundary = "periodic": repeats without end along x and y
     bool constant = false;  ///< interpolation = "constant": a cell has one value

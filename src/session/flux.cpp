@@ -69,6 +69,8 @@ Status check_flux(const Scene& scene, const Context& context, const PathRun& run
         return fault("solid: fluxes are those of media alone, allowed: a scene without solids");
     if (!scene.lights.empty())
         return fault("light: fluxes are shares of sun and sky, allowed: a scene without [[light]]");
+    if (emits(run.world->medium))
+        return fault("medium.emission: fluxes are shares of sun and sky, allowed: 0");
     if (!from_below && (!run.lighting.sunlit || !(run.lighting.to_sun[2] > 0)))
         return fault("sun: not above the horizon, or dark, allowed: what fluxes are shares of");
     return Status::ok();

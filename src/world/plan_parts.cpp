@@ -87,6 +87,12 @@ WorkInput medium_work(const Medium& medium, double mean_density, double max_even
     return in;
 }
 
+void note_emission(const Medium& medium, Plan& plan) {
+    if (!emits(medium)) return plan.leave_out("emission of the media", "no medium has any");
+    plan.need("emission of the media, unscattered: marched");
+    plan.leave_out("emission that the media or the ground scatter", "not in this version");
+}
+
 Status check_work(const WorkEstimate& work, const Limits& limits, const std::string& where) {
     if (!work.known || !(work.photons > 0)) return Status::ok();
     PILEUS_TRY(

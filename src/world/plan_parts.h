@@ -40,6 +40,9 @@ WorkInput medium_work(const Medium& medium, double mean_density, double max_even
 /// kLimit: more scatterings than the limits allow. `where` opens the line.
 Status check_work(const WorkEstimate& work, const Limits& limits, const std::string& where);
 
+/// What methods that march emission do with it.
+void note_emission(const Medium& medium, Plan& plan);
+
 /// Fills the report's plan, but for the limits.
 void report_plan(const Plan& plan, Report& report);
 

@@ -115,10 +115,10 @@ Status collectors_weigh(const Context& context, CollectorsRun& run) {
 
 Status collectors_outline(const Context& context, CollectorsRun& run) {
     const Scene& scene = *run.scene;
-    if (context.kernels->device != nullptr && !scene.lights.empty())
+    if (context.kernels->device != nullptr && (!scene.lights.empty() || emits(run.world->medium)))
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
-                                 "\": light of [[light]] is marched on the host alone, allowed: "
-                                 "another, or a scene without lights");
+                                 "\": [[light]] and emission are marched on the host alone, "
+                                 "allowed: another, or a scene without them");
     run.budget_photons = collectors_photons(scene, run.budget);
     if (scene.collectors.camera_closure) {
         if (scene.animation.present && scene.animation.moves_camera)

@@ -39,10 +39,11 @@ void digest_prepared(PathRun& run) {
 
 Status outline(const Context& context, MethodRun& method_run) {
     PathRun& run = own(method_run);
-    if (context.kernels->device != nullptr && !run.scene->lights.empty())
+    if (context.kernels->device != nullptr &&
+        (!run.scene->lights.empty() || emits(run.world->medium)))
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
-                                 "\": paths towards [[light]] run on the host alone, allowed: "
-                                 "another, or a scene without lights");
+                                 "\": paths with [[light]] or emission run on the host alone, "
+                                 "allowed: another, or a scene without them");
     choose_light(sun_at(*run.scene, 0), run);
     run.camera = make_camera(run.scene->camera, 0, run.world->medium.low_m);
     return path_measure(context, run);

@@ -47,6 +47,10 @@ void note_light(const Scene& scene, const PathRun& run, Plan& plan) {
                               " lights of [[light]], near them from between vertices");
     else
         plan.leave_out("flights towards lights", "no [[light]]");
+    if (emits(run.world->medium))
+        plan.need("emission of the media at tentative collisions");
+    else
+        plan.leave_out("emission of the media", "no medium has any");
     if (light.map.columns > 0)
         plan.need("flights towards the sky map, weighed against scattering (MIS)");
     else

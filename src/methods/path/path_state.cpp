@@ -84,6 +84,8 @@ void add_medium(const PathInput& in, Digest& d) {
     for (int i = 0; i < m.count; ++i) {
         const Optics& optics = m.optics[std::size_t(i)];
         for (float albedo : optics.albedo) d.f32(albedo);
+        if (emits(m))
+            for (float emission : optics.emission) d.f32(emission);
         add_phase(optics.phase, d);
     }
     d.floats(m.volume.density.span());

@@ -79,6 +79,7 @@ void set_lamps(const PathInput& in, PathParams& k) {
     k.lamp_count = std::int32_t(in.lighting->lamps.size());
     const double densest = double(m.sigma) * double(m.density_max);
     k.lamp_near = densest > 1e-9 ? float(kLampNear / densest) : 1e9f;
+    k.emits = emits(m) ? 1 : 0;
 }
 
 /// The sun's disc shines alike all over; its irradiance stays that of the point.
@@ -107,7 +108,7 @@ PathParams path_params(const PathInput& in, const PathScratch& scratch) {
 
 /// The kernel of the table that these paths need.
 auto kernel_for(const PathInput& in, const PathParams& k) {
-    if (k.lamp_count > 0) return in.kernels->trace_paths_lamps;
+    if (k.lamp_count > 0 || k.emits != 0) return in.kernels->trace_paths_lamps;
     if (seeks_sun(k)) return in.kernels->trace_paths_guided;
     const bool ends = in.lighting->solids != nullptr || in.lighting->depth != nullptr;
     return ends ? in.kernels->trace_paths_solid : in.kernels->trace_paths;

@@ -75,8 +75,12 @@ LampMarchParams lamp_march_params(const Medium& medium, const Majorants& majoran
     for (int i = 0; i < medium.count; ++i) {
         const Optics& optics = medium.optics[std::size_t(i)];
         k.phase[i] = optics.phase;
-        for (int c = 0; c < 3; ++c) k.albedo[i][c] = optics.albedo[c];
+        for (int c = 0; c < 3; ++c) {
+            k.albedo[i][c] = optics.albedo[c];
+            k.emission[i][c] = optics.emission[c];
+        }
     }
+    k.emits = emits(medium) ? 1 : 0;
     k.lamps = std::int32_t(nodes.lamps.size());
     k.nodes = nodes.grid;
     k.cut = float(cut);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light of point, spot and parallel lights, scattered once on its way to the camera.
+// Light of point, spot and parallel lights, scattered once on its way to the camera, and what the
+// media emit.
 // in: lamps, a medium, a camera -> out: optical depths on nodes; light added to a picture's planes.
 // docs/lights.md, "By marching".
 #pragma once
@@ -46,8 +47,8 @@ LampMarchParams lamp_march_params(const Medium& medium, const Majorants& majoran
                                   const Lighting& lighting, const CameraParams& camera,
                                   const LampNodes& nodes, double cut);
 
-/// Adds the lamps' light to the planes' colour and, where rays end at the ground, to their
-/// background.
+/// Adds the lamps' light and the media's own to the planes' colour and, where rays end at the
+/// ground, that of the lamps to their background.
 Status add_lamp_light(const Context& context, const Medium& medium, const LampMarchParams& k,
                       const LampNodes& nodes, Planes& planes);
 

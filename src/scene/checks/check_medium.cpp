@@ -34,6 +34,7 @@ public:
         }
         own_keys();
         extinction();
+        emission();
         check_phase(check_, index_);
         bounds();
     }
@@ -239,6 +240,36 @@ private:
         if (!physical && check_.lacks(path_ + "extinction_per_m") && !known)
             fault(*check_.key(path_.substr(0, path_.size() - 1)), "extinction_per_m",
                   "missing, nothing, allowed: number in [0, 1e+12]");
+    }
+
+    /// Emission is kept over extinction: the two go together.
+    void emission() {
+        const Node* node = check_.valid_key(path_ + "emission");
+        if (node == nullptr || medium_.emission == Float3{0, 0, 0}) return;
+        const auto refuse = [&](const std::string& what, const std::string& allowed) {
+            fault(*node, "emission",
+                  what + ", " + value_text(*node) + ", allowed: left out, or " + allowed);
+        };
+        const Scene& scene = check_.scene;
+        const VolumeFormat* format = volume_format_named(medium_.format);
+        const bool physical = format != nullptr && (format->in_extinction || format->is_particles);
+        const double per_m = physical ? medium_.extinction_scale : medium_.extinction_per_m;
+        const auto most = std::max({medium_.emission[0], medium_.emission[1], medium_.emission[2]});
+        constexpr const char* kNotYet = " in this version";
+        if (scene.method == "particles")
+            refuse(std::string("not by method particles") + kNotYet, "another method");
+        else if (scene.method == "collectors" && scene.collectors.billboards &&
+                 !scene.collectors.camera_closure)
+            refuse(std::string("not by collectors as billboards") + kNotYet,
+                   "collectors.display = \"march\", or another method");
+        else if (check_.key(path_ + "transfer") != nullptr)
+            refuse(std::string("not beside transfer") + kNotYet, "extinction_per_m");
+        else if (medium_.sky.evaluate == SkyEvaluation::kDirect)
+            refuse(std::string("not with a sky that is not on a grid") + kNotYet,
+                   "sky.evaluate = \"grid\"");
+        else if (!(double(most) <= 1e18 * per_m))
+            refuse("over 1e+18 times the extinction",
+                   physical ? "an extinction_scale above 0" : "an extinction_per_m above 0");
     }
 
     /// Its rows say what the medium is; nothing else does.

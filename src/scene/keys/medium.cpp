@@ -86,6 +86,9 @@ constexpr KeyRow kRows[] = {
      "factor on the values of a file that holds extinction in 1/m (les, netcdf), for no others"},
     {"medium.N.albedo", medium<&MediumSettings::albedo>, from_to(0, 1), "",
      "share of the extinction that scatters; the rest is absorbed"},
+    {"medium.N.emission", medium<&MediumSettings::emission>, from_to(0, 1e9), "",
+     "radiance that the medium adds per metre where the density is 1, in the sun's unit per m and "
+     "sr; it goes with the density as the extinction does (docs/lights.md, \"Media that emit\")"},
 };
 
 /// What stands behind the phase function.

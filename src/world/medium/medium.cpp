@@ -88,6 +88,10 @@ Status place_medium(const Scene& scene, const MediumSettings& settings, const Vo
     for (std::size_t c = 0; c < 3; ++c) {
         optics.albedo[c] = settings.albedo[c];
         if (optics.albedo[c] > optics.albedo_max) optics.albedo_max = optics.albedo[c];
+        // Both keys belong to the same density: the values' own unit, or 1.
+        const double unit =
+            head.in_extinction ? settings.extinction_scale : settings.extinction_per_m;
+        optics.emission[c] = unit > 0 ? float(double(settings.emission[c]) / unit) : 0;
     }
     const bool grey =
         settings.albedo[0] == settings.albedo[1] && settings.albedo[1] == settings.albedo[2];
@@ -150,6 +154,13 @@ bool is_white(const Medium& medium) {
         for (float albedo : medium.optics[std::size_t(i)].albedo)
             if (albedo != 1) return false;
     return true;
+}
+
+bool emits(const Medium& medium) {
+    for (int i = 0; i < medium.count; ++i)
+        for (float emission : medium.optics[std::size_t(i)].emission)
+            if (emission > 0) return true;
+    return false;
 }
 
 float phase_peak(const Medium& medium) {

@@ -51,6 +51,9 @@ std::uint64_t phase_bytes(const Medium& medium);
 /// Whether no medium absorbs anything.
 bool is_white(const Medium& medium);
 
+/// Whether any medium shines by itself.
+bool emits(const Medium& medium);
+
 /// Largest phase function of all media over all angles, 1/sr.
 float phase_peak(const Medium& medium);
 
