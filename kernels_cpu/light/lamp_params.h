@@ -18,4 +18,14 @@ struct LampParams {
     float least_square;     ///< of its radius, m^2, > 0
 };
 
+/// How photons leave a lamp. Directions are even over a cone, or as the spot shines; those of a
+/// parallel light begin on the box's faces.
+struct LampEmission {
+    LampParams lamp;
+    float below;        ///< share of the lamps' power that comes before this one's, in [0, 1)
+    float axis[3];      ///< of the cone, unit
+    float span;         ///< 1 - cosine of the cone's half angle; 2: all around; 0: a spot
+    float face_cdf[6];  ///< as TraceParams has it; parallel only
+};
+
 }  // namespace pileus

@@ -193,6 +193,7 @@ PILEUS_FN void deposit(const TraceParams& k, const TraceBuffers& b, DepositQueue
     const I<W> collector = gather(b.collector, voxel);
     m = m & (collector >= 0);
     const T value = select(s.shadow, T{} - share, share);
+    if (k.light == kLightLamps) m = m & (s.strayed != 0);
     if (k.first_order != 0 && k.light == kLightBeam) {
         const auto straight = m & (s.strayed == 0);
         if (k.first_order == 1 && any(straight)) {
@@ -243,7 +244,8 @@ template <int W, int NC, bool S>
 PILEUS_FN void deposit_in_cell(const TraceParams& k, const TraceBuffers& b, DepositQueue<W, NC>& q,
                                const Photon<W, NC, S>& s, M<W> m, I<W> cell) {
     using T = F<W>;
-    if (k.first_order != 0 && k.light == kLightBeam) m = m & (s.strayed != 0);
+    if ((k.first_order != 0 && k.light == kLightBeam) || k.light == kLightLamps)
+        m = m & (s.strayed != 0);
     if (!any(m)) return;
     const T length = min_(k.cell_density / s.bound, all<T>(1.0f));
     const T value = select(s.shadow, T{} - length, length);

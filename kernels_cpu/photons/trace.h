@@ -109,10 +109,11 @@ PILEUS_FN void refill(Group<W, NC, S>& g, const TraceParams& k, const TraceBuffe
         set_lane(g.s.index, i, next++);
         fresh = fresh | (numbers == std::uint32_t(i));
     }
-    start_photons(g.s, k, fresh);
+    const M<W> missed = start_photons(g.s, k, fresh);
     b.tally->photons += count_bits(bits_of(fresh));
     PILEUS_FATE(g.s, *b.tally, emitted, fresh);
     if constexpr (S) hide_fresh(g.s, k, *b.tally, fresh);
+    if (any(missed)) miss_box(g.s, k, *b.tally, missed);
     g.holds = g.holds | fresh;
 }
 

@@ -123,6 +123,27 @@ PILEUS_FN void bounce(Photon<W, NC, S>& s, const TraceParams& k, TraceTally& tal
     s.tau = select(hit, free_flight(first.b, first.a), s.tau);
 }
 
+/// Lanes whose straight light the ground has already: that of all but lamps with a place.
+template <int W, int NC, bool S>
+PILEUS_FN M<W> known_to_ground(const Photon<W, NC, S>& s, const TraceParams& k) {
+    M<W> known = s.order == 0;
+    if (k.light != kLightLamps) return known;
+    for (std::int32_t l = 0; l < k.lamp_count; ++l)
+        if (k.lamps[l].lamp.parallel == 0) known = known & (s.texel != l);
+    return known;
+}
+
+/// Photons of lamps that miss the box: what meets the ground there may yet come to it.
+template <int W, int NC, bool S>
+PILEUS_FN void miss_box(Photon<W, NC, S>& s, const TraceParams& k, TraceTally& tally, M<W> m) {
+    M<W> down = m & lnot(m);
+    if (k.ground != 0) down = m & (s.d.z < 0.0f);
+    const M<W> gone = m & lnot(down);
+    if (any(gone)) PILEUS_FATE(s, tally, sky, gone);
+    s.alive = s.alive & lnot(gone);
+    if (any(down)) bounce(s, k, tally, down);
+}
+
 /// Where the straight ray of a lane that travels down meets the ground: metres along `axis`.
 template <int W, int NC, bool S>
 PILEUS_FN F<W> ground_place(const Photon<W, NC, S>& s, const TraceParams& k, int axis) {
@@ -144,7 +165,7 @@ PILEUS_FN void leave_box(Photon<W, NC, S>& s, const TraceParams& k, const TraceB
     auto down = m & lnot(m);
     if (k.ground != 0) {
         // Unscattered light is part of the unshadowed ground's radiance already.
-        down = m & (s.d.z < 0.0f) & (s.order > 0);
+        down = m & (s.d.z < 0.0f) & lnot(known_to_ground(s, k));
         if constexpr (S) {
             // A solid in the way, outside of the box: it is black to what comes from there.
             const F<W> way = (s.p.z * k.grid.cell[2] - k.ground_z) * (F<W>{} - safe_inverse(s.d.z));
@@ -168,7 +189,7 @@ PILEUS_FN void leave_box(Photon<W, NC, S>& s, const TraceParams& k, const TraceB
         s.alive = s.alive & lnot(out);
     }
     if (any(down)) {
-        if (k.ground_cells[0] > 0) light_ground(s, k, b, down);
+        if (k.ground_cells[0] > 0) light_ground(s, k, b, down & (s.order > 0));
         bounce(s, k, tally, down);
     }
 }
@@ -191,8 +212,9 @@ PILEUS_FN void settle(Photon<W, NC, S>& s, const TraceParams& k, const TraceBuff
     s.ground_y = select(owing, s.owed_y, s.ground_y);
     for (int c = 0; c < NC; ++c) s.weight[c] = select(owing, start_weight(s, k, c), s.weight[c]);
     PILEUS_FATE(s, tally, emitted, owing);
-    // The sun's own shadow on the ground is drawn sharply by the display.
-    if (k.ground_cells[0] > 0 && k.light != kLightBeam) light_ground(s, k, b, owing);
+    // Shadows of sun and lamps on the ground are drawn sharply by the display.
+    const bool sharp = k.light == kLightBeam || k.light == kLightLamps;
+    if (k.ground_cells[0] > 0 && !sharp) light_ground(s, k, b, owing);
     bounce(s, k, tally, owing);
 }
 

@@ -4,6 +4,7 @@
 // docs/methods.md 3. Lengths in metres, box-local; positions inside the kernel in voxels.
 #pragma once
 #include "kernels_cpu/core/rng.h"
+#include "kernels_cpu/light/lamp_params.h"
 #include "kernels_cpu/light/sky_map.h"
 #include "kernels_cpu/media/optics.h"
 #include "kernels_cpu/media/track_grid.h"
@@ -19,7 +20,12 @@ enum DepositMode : std::int32_t {
     kDepositCosine = 4,    ///< flux, and flux times the cosine to the light's axis; cells only
 };
 
-enum LightKind : std::int32_t { kLightBeam = 0, kLightDiffuse = 1, kLightMap = 2 };
+enum LightKind : std::int32_t {
+    kLightBeam = 0,
+    kLightDiffuse = 1,
+    kLightMap = 2,
+    kLightLamps = 3,  ///< what they send straight is in no deposit and in no map of the ground
+};
 
 struct TraceParams {
     TrackGrid grid;         ///< its max_events counts tentative collisions and bounces
@@ -27,10 +33,12 @@ struct TraceParams {
     std::int32_t media;     ///< on the grid, 1..kMostMedia
     Optics optics[kMostMedia];
 
-    std::int32_t light;          ///< LightKind
-    float direction[3];          ///< of travel, unit; beam only
-    std::int32_t hemisphere;     ///< diffuse: 0 all, -1 travelling down only, +1 up only
-    SkyMapView map;              ///< light of a sky map only
+    std::int32_t light;         ///< LightKind
+    float direction[3];         ///< of travel, unit; beam only
+    std::int32_t hemisphere;    ///< diffuse: 0 all, -1 travelling down only, +1 up only
+    SkyMapView map;             ///< light of a sky map only
+    const LampEmission* lamps;  ///< light of lamps only
+    std::int32_t lamp_count;
     float face_cdf[6];           ///< flux share of faces -x +x -y +y -z +z, cumulative; last = 1
     Key key;                     ///< made from (seed, stream of the light, photon index high half)
     std::uint32_t first_photon;  ///< low half of the index of the launch's photon 0

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a photon begins: on the box's silhouette (beam, sky map) or its faces (diffuse light).
+// Where a photon begins: on the box's silhouette (beam, sky map), its faces (diffuse light), or at
+// a lamp.
 // in: photon numbers -> out: position (voxels) and direction of travel.
 // docs/methods.md 3 "Shoot"; points from the R2 sequence (Roberts 2018), shifted at random.
 #pragma once
@@ -30,7 +31,7 @@ struct Photon : Walker<W>, Ahead<W, S> {
     I<W> enters;               // -1: the three above are to be found anew
     I<W> order;                // scatterings so far, bounces included
     I<W> strayed;              // 1: by a bounce, or by a turn that its beam does not keep
-    I<W> texel;                // of the sky map that it comes from
+    I<W> texel;                // of the sky map that it comes from, or its lamp
     M<W> alive, shadow, owes;  // owes: the ground below misses this photon's light
     F<W> owed_x, owed_y;       // where on the ground, metres
     F<W> ground_x, ground_y;   // where on the ground the next bounce starts, metres
@@ -42,33 +43,50 @@ struct Start {
     Vec<T> p, d;
 };
 
-/// Beam and diffuse light: a place on the box's faces, then a direction.
+/// A place on the box's faces, and whose.
 template <int W>
-PILEUS_FN Start<F<W>> start_on_faces(const TraceParams& k, U<W> index) {
+struct FacePlace {
+    Vec<F<W>> p;
+    M<W> on_x, on_y, high;
+};
+/// `cdf`: the faces' shares of the flux, as in TraceParams; u and v in [0, 1).
+template <int W>
+PILEUS_FN FacePlace<W> place_on_faces(const TrackGrid& grid, const float (&cdf)[6], F<W> u,
+                                      F<W> v) {
     using T = F<W>;
-    const U<W> number = index + k.first_photon;
-    T u = uniform(index * kR2[0] + k.shift[0]);
-    const T v = uniform(index * kR2[1] + k.shift[1]);
-
     // Choose a face by its share of the flux and stretch the rest of u over it.
     I<W> face{};
-    T below{}, above = all<T>(k.face_cdf[0]);
+    T below{}, above = all<T>(cdf[0]);
     for (int f = 0; f < 5; ++f) {
-        const auto past = u >= k.face_cdf[f];
+        const auto past = u >= cdf[f];
         face = select(past, all<I<W>>(f + 1), face);
-        below = select(past, all<T>(k.face_cdf[f]), below);
-        above = select(past, all<T>(k.face_cdf[f + 1]), above);
+        below = select(past, all<T>(cdf[f]), below);
+        above = select(past, all<T>(cdf[f + 1]), above);
     }
     u = min_((u - below) / max_(above - below, all<T>(1e-12f)), all<T>(1.0f));
 
     const I<W> axis = face >> 1;
     const auto on_x = axis == 0, on_y = axis == 1, high = (face & 1) != 0;
-    const T nx = all<T>(float(k.grid.size[0])), ny = all<T>(float(k.grid.size[1])),
-            nz = all<T>(float(k.grid.size[2]));
+    const T nx = all<T>(float(grid.size[0])), ny = all<T>(float(grid.size[1])),
+            nz = all<T>(float(grid.size[2]));
     const T zero{};
-    const Vec<T> p{select(on_x, select(high, nx, zero), u * nx),
-                   select(on_y, select(high, ny, zero), select(on_x, u * ny, v * ny)),
-                   select(on_x, v * nz, select(on_y, v * nz, select(high, nz, zero)))};
+    return {{select(on_x, select(high, nx, zero), u * nx),
+             select(on_y, select(high, ny, zero), select(on_x, u * ny, v * ny)),
+             select(on_x, v * nz, select(on_y, v * nz, select(high, nz, zero)))},
+            on_x,
+            on_y,
+            high};
+}
+
+/// Beam and diffuse light: a place on the box's faces, then a direction.
+template <int W>
+PILEUS_FN Start<F<W>> start_on_faces(const TraceParams& k, U<W> index) {
+    using T = F<W>;
+    const U<W> number = index + k.first_photon;
+    const FacePlace<W> place =
+        place_on_faces<W>(k.grid, k.face_cdf, uniform(index * kR2[0] + k.shift[0]),
+                          uniform(index * kR2[1] + k.shift[1]));
+    const M<W> on_x = place.on_x, on_y = place.on_y, high = place.high;
 
     Vec<T> d{all<T>(k.direction[0]), all<T>(k.direction[1]), all<T>(k.direction[2])};
     if (k.light == kLightDiffuse) {
@@ -79,7 +97,7 @@ PILEUS_FN Start<F<W>> start_on_faces(const TraceParams& k, U<W> index) {
         // A side face sees half of a hemisphere of sky: mirror the other half into it.
         if (k.hemisphere != 0) d.z = copysign_(d.z, all<T>(float(k.hemisphere)));
     }
-    return {p, d};
+    return {place.p, d};
 }
 
 /// Sky map: a direction, then a place on the silhouette that the box shows to it. The R2 sequence
@@ -119,21 +137,110 @@ PILEUS_FN Start<F<W>> start_from_map(const TraceParams& k, U<W> index, I<W>& tex
             d};
 }
 
+/// 1 - cosine of a direction from a spot, spread as it shines, for u in [0, 1).
+template <class T>
+PILEUS_FN T turn_of_spot(const LampParams& lamp, T u) {
+    // Full light within the inner cone; over the penumbra the integral of its falloff is half of
+    // its width, and up to the share x of it x^3 - x^4 / 2.
+    const float width = 1.0f / lamp.slope, full = 1.0f - (lamp.edge + width);
+    const float inner = full > 0.0f ? full : 0.0f, whole = inner + 0.5f * width;
+    const float share = inner / whole;
+    const float rest = 1.0f - share > 1e-12f ? 1.0f - share : 1e-12f;
+    const T half = 0.5f * (1.0f - min_(max_((u - share) / rest, T{}), all<T>(1.0f)));
+    // Newton's steps from above never pass the root; where that is small a step takes a third.
+    T x = all<T>(1.0f);
+    for (int i = 0; i < 20; ++i) {
+        const T square = x * x;
+        x = x - (square * x * (1.0f - 0.5f * x) - half) /
+                    max_(square * (3.0f - 2.0f * x), all<T>(1e-20f));
+    }
+    const T outside = inner + width * (1.0f - max_(min_(x, all<T>(1.0f)), T{}));
+    return select(u < share, u * whole, outside);
+}
+
+/// Lamps: one by its share of their power, then a direction. `missed`: lanes whose ray misses the
+/// box, and where it meets the ground.
+template <int W, int NC, bool S>
+PILEUS_FN Start<F<W>> start_from_lamps(Photon<W, NC, S>& s, const TraceParams& k, M<W> m,
+                                       M<W>& missed) {
+    using T = F<W>;
+    const U<W> number = s.index + k.first_photon;
+    const T u = uniform(s.index * kR2[0] + k.shift[0]), v = uniform(s.index * kR2[1] + k.shift[1]);
+    const T choice = uniform(threefry(k.key.k0, k.key.k1, number, U<W>{}).a);
+    I<W> which{};
+    for (std::int32_t l = 1; l < k.lamp_count; ++l)
+        which = select(choice >= k.lamps[l].below, all<I<W>>(l), which);
+    s.texel = select(m, which, s.texel);
+    const SinCos<T> phi = sincos_turns(v);
+    Start<T> start{};
+    for (std::int32_t l = 0; l < k.lamp_count; ++l) {
+        const LampEmission& e = k.lamps[l];
+        const M<W> mine = m & (which == l);
+        if (!any(mine)) continue;
+        const auto take = [&](const Vec<T>& p, const Vec<T>& d) {
+            start.p = {select(mine, p.x, start.p.x), select(mine, p.y, start.p.y),
+                       select(mine, p.z, start.p.z)};
+            start.d = {select(mine, d.x, start.d.x), select(mine, d.y, start.d.y),
+                       select(mine, d.z, start.d.z)};
+        };
+        const float* at = e.lamp.at;
+        if (e.lamp.parallel != 0) {
+            take(place_on_faces<W>(k.grid, e.face_cdf, u, v).p,
+                 {all<T>(-at[0]), all<T>(-at[1]), all<T>(-at[2])});
+            continue;
+        }
+        const T turn = e.span > 0.0f ? u * e.span : turn_of_spot(e.lamp, u);
+        const Vec<T> axis{all<T>(e.axis[0]), all<T>(e.axis[1]), all<T>(e.axis[2])};
+        const Vec<T> d =
+            turned(axis, 1.0f - turn, sqrt_(max_(turn * (2.0f - turn), T{})), phi.cosine, phi.sine);
+        // To the box: the farthest entry must lie before the nearest exit.
+        T enter{}, leave = all<T>(3e38f);
+        const T way[3] = {d.x, d.y, d.z};
+        for (int a = 0; a < 3; ++a) {
+            const T inverse = safe_inverse(way[a]);
+            const T low = (0.0f - at[a]) * inverse;
+            const T high = (float(k.grid.size[a]) * k.grid.cell[a] - at[a]) * inverse;
+            enter = max_(enter, min_(low, high));
+            leave = min_(leave, max_(low, high));
+        }
+        T p[3];
+        for (int a = 0; a < 3; ++a)
+            p[a] = min_(max_((at[a] + way[a] * enter) * (1.0f / k.grid.cell[a]), T{}),
+                        all<T>(float(k.grid.size[a])));
+        take({p[0], p[1], p[2]}, d);
+        const M<W> past = mine & (enter >= leave);
+        missed = missed | past;
+        const T down = (k.ground_z - at[2]) * safe_inverse(d.z);
+        s.ground_x = select(past, at[0] + d.x * down, s.ground_x);
+        s.ground_y = select(past, at[1] + d.y * down, s.ground_y);
+    }
+    return start;
+}
+
 /// What a photon carries in channel `c` when it begins.
 template <int W, int NC, bool S>
 PILEUS_FN F<W> start_weight(const Photon<W, NC, S>& s, const TraceParams& k, int c) {
-    if (NC == 1 || k.light != kLightMap) return all<F<W>>(1.0f);
-    return texel_share(k.map, s.texel, c);
+    if (NC > 1 && k.light == kLightMap) return texel_share(k.map, s.texel, c);
+    F<W> weight = all<F<W>>(1.0f);
+    if (NC > 1 && k.light == kLightLamps)
+        for (std::int32_t l = 0; l < k.lamp_count; ++l) {
+            const LampParams& lamp = k.lamps[l].lamp;
+            weight = select(s.texel == l, all<F<W>>(lamp.light[c] / lamp.strength), weight);
+        }
+    return weight;
 }
 
-/// Begin photons `s.index` (numbered within the launch) in the lanes of `m`.
+/// Begin photons `s.index` (numbered within the launch) in the lanes of `m`. Returns those of lamps
+/// that miss the box.
 template <int W, int NC, bool S>
-PILEUS_FN void start_photons(Photon<W, NC, S>& s, const TraceParams& k, M<W> m) {
+PILEUS_FN M<W> start_photons(Photon<W, NC, S>& s, const TraceParams& k, M<W> m) {
     using T = F<W>;
     const T zero{};
     const U<W> number = s.index + k.first_photon;
-    const Start<T> start = k.light == kLightMap ? start_from_map<W>(k, s.index, s.texel, m)
-                                                : start_on_faces<W>(k, s.index);
+    M<W> missed = m & lnot(m);
+    const Start<T> start = k.light == kLightMap     ? start_from_map<W>(k, s.index, s.texel, m)
+                           : k.light == kLightLamps ? start_from_lamps(s, k, m, missed)
+                                                    : start_on_faces<W>(k, s.index);
     set_position(s, k.grid, m, start.p);
     set_direction(s, k.grid, m, start.d);
 
@@ -149,6 +256,7 @@ PILEUS_FN void start_photons(Photon<W, NC, S>& s, const TraceParams& k, M<W> m) 
     s.shadow = s.shadow & lnot(m);
     s.owes = s.owes & lnot(m);
     if constexpr (S) s.wall = select(m, all<T>(-1.0f), s.wall);
+    return missed;
 }
 
 }  // namespace PILEUS_ISA

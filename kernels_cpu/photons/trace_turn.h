@@ -98,7 +98,7 @@ PILEUS_FN void scatter(Group<W, NC, S>& g, const TraceParams& k, const TraceBuff
     tally.scatterings += count_bits(bits_of(m));
     if (k.ground != 0) {
         // Straight down-going light that the ground will miss: remember where.
-        const auto owing = m & (s.order == 0) & (s.d.z < 0.0f) & lnot(s.shadow);
+        const auto owing = m & known_to_ground(s, k) & (s.d.z < 0.0f) & lnot(s.shadow);
         s.owed_x = select(owing, ground_place(s, k, 0), s.owed_x);
         s.owed_y = select(owing, ground_place(s, k, 1), s.owed_y);
         s.owes = s.owes | owing;
@@ -120,8 +120,12 @@ PILEUS_FN void scatter(Group<W, NC, S>& g, const TraceParams& k, const TraceBuff
     pack(q.place + at, select(ends, all<I<W>>(-1), iota<I<W>>() + group * W), bits);
     g.waits = select(m & lnot(ends), all<I<W>>(-1), g.waits);
     if (k.mode != kDepositOutgoing) return;
-    for (int c = 0; c < NC; ++c)
-        pack(q.share[c] + at, select(s.shadow, F<W>{} - s.weight[c], s.weight[c]), bits);
+    for (int c = 0; c < NC; ++c) {
+        F<W> share = select(s.shadow, F<W>{} - s.weight[c], s.weight[c]);
+        // The display marches what lamps send straight.
+        if (k.light == kLightLamps) share = select(s.order == 1, F<W>{}, share);
+        pack(q.share[c] + at, share, bits);
+    }
     pack(q.voxel + at, voxel_of(s.p, k.grid), bits);
     for (std::int32_t i = at; i < q.count; ++i) prefetch_(b.collector + q.voxel[i]);
 }

@@ -56,6 +56,16 @@ void tell_colours(PhotonRun& run) {
     run.plan.need("coefficients per colour channel: coloured solids");
 }
 
+/// Coloured lights as well.
+void tell_lamps(PhotonRun& run) {
+    bool coloured = false;
+    for (const LampParams& l : run.lighting.lamps)
+        coloured |= l.light[0] != l.light[1] || l.light[1] != l.light[2];
+    if (!coloured || run.deposit.channels == 3) return;
+    run.deposit.channels = 3;
+    run.plan.need("coefficients per colour channel: coloured [[light]]");
+}
+
 /// The set of lights is the ring's layout: a light that has set keeps its place and shoots no
 /// photons; those of its day stay in the ring until they leave it.
 void keep_places(const PhotonRun& run, Lighting& next) {
@@ -117,10 +127,9 @@ Status choose_photon_lights(std::uint64_t generations, PhotonRun& run) {
     run.lighting = light_world(scene, run.sun_elevation_deg, *run.world, run.around, run.plan);
     if (!run.lighting.lamps.empty()) {
         run.plan.need((std::to_string(run.lighting.lamps.size()) +
-                       " lights of [[light]], scattered once: marched")
+                       " lights of [[light]]: marched to the first scattering")
                           .c_str());
-        run.plan.leave_out("light of [[light]] scattered more than once",
-                           "no photons from these lights in this version");
+        tell_lamps(run);
     }
     note_emission(run.world->medium, run.plan);
     share_photons(std::uint64_t(photons) / run.generations, run.lighting.lights);

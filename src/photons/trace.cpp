@@ -109,8 +109,13 @@ TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_
     k.channels = sum_channels(m, in.deposit);
     k.media = m.count;
     for (std::size_t i = 0; i < m.optics.size(); ++i) k.optics[i] = m.optics[i];
-    k.light = light.map ? kLightMap : (light.beam ? kLightBeam : kLightDiffuse);
+    k.light = light.map     ? kLightMap
+              : light.lamps ? kLightLamps
+              : light.beam  ? kLightBeam
+                            : kLightDiffuse;
     k.map = in.lighting->map;
+    k.lamps = in.lighting->lamp_emission.data();
+    k.lamp_count = std::int32_t(in.lighting->lamp_emission.size());
     k.hemisphere = light.hemisphere;
     for (std::size_t f = 0; f < 6; ++f) k.face_cdf[f] = light.face_cdf[f];
     k.ground = in.lighting->ground ? 1 : 0;
@@ -125,7 +130,7 @@ TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_
     k.bands = in.deposit.bands;
     k.first_order = in.deposit.first_order;
     k.axis_degrees = in.deposit.axis_degrees;
-    k.peak_turn = in.deposit.peak_turn;
+    k.peak_turn = light.lamps ? 0 : in.deposit.peak_turn;
     k.coefficients = in.deposit.coefficients;
     k.scale = float(std::uint64_t{1} << in.deposit.places);
     k.path_scale = float(path_units(m) / __builtin_sqrt(diagonal));

@@ -2,6 +2,8 @@
 // See lights.h.
 #include "src/world/light/lights.h"
 
+#include <glm/geometric.hpp>
+
 #include "src/base/angles.h"
 #include "src/base/random_streams.h"
 #include "src/world/light/lamps.h"
@@ -73,6 +75,74 @@ void plan_ground(const Scene& scene, const Medium& medium, const SkyMap* map, do
     const Double3 sky = map != nullptr ? map->ground_irradiance / kPiD : out.sky;
     out.ground_diffuse = out.ground_albedo * sky;
     out.ground_sun = out.ground_albedo / kPiD * out.sun_irradiance * height;
+}
+
+/// The cone in which photons of a point far off meet the box: all others are lost, but to a ground.
+void aim_emission(const Medium& medium, bool ground, LampEmission& e) {
+    Double3 way{};
+    double reach = 0;
+    for (int a = 0; a < 3; ++a) {
+        way[a] = 0.5 * medium.extent_m[a] - double(e.lamp.at[a]);
+        reach += 0.25 * medium.extent_m[a] * medium.extent_m[a];
+    }
+    const double distance = glm::length(way);
+    e.span = 2;
+    e.axis[2] = 1;
+    // Wider by a hundredth, for rounding.
+    const double sine = 1.01 * __builtin_sqrt(reach) / distance;
+    if (ground || !(sine < 1)) return;
+    // 1 - cosine without a difference of near numbers.
+    e.span = float(sine * sine / (1 + __builtin_sqrt(1 - sine * sine)));
+    for (int a = 0; a < 3; ++a) e.axis[a] = float(way[a] / distance);
+}
+
+/// Flux of a lamp's photons, in its unit times m^2.
+double power_of(const Medium& medium, bool ground, LampEmission& e) {
+    const LampParams& lamp = e.lamp;
+    if (lamp.parallel != 0) {
+        const Light beam =
+            beam_light(medium, {-double(lamp.at[0]), -double(lamp.at[1]), -double(lamp.at[2])});
+        for (std::size_t f = 0; f < 6; ++f) e.face_cdf[f] = beam.face_cdf[f];
+        return double(lamp.strength) * beam.power_m2;
+    }
+    if (lamp.edge < -1) {
+        aim_emission(medium, ground, e);
+        return double(lamp.strength) * 2 * kPiD * double(e.span);
+    }
+    for (int a = 0; a < 3; ++a) e.axis[a] = lamp.axis[a];
+    const double width = 1 / double(lamp.slope), inner = 1 - (double(lamp.edge) + width);
+    return double(lamp.strength) * 2 * kPiD * ((inner > 0 ? inner : 0) + 0.5 * width);
+}
+
+/// Radiance that parallel lamps give the unshadowed ground.
+Double3 ground_of_lamps(const Lighting& light) {
+    Double3 sum{};
+    for (const LampParams& lamp : light.lamps)
+        for (int c = 0; c < 3 && light.ground && lamp.parallel != 0; ++c)
+            sum[c] += light.ground_albedo / kPiD * double(lamp.light[c]) * double(lamp.at[2]);
+    return sum;
+}
+
+/// Photons of all lamps.
+Light lamp_light(const Medium& medium, Lighting& out) {
+    Light light;
+    light.lamps = true;
+    light.face_cdf.fill(1.0f);
+    out.lamp_emission.clear();
+    std::vector<double> power;
+    for (const LampParams& lamp : out.lamps) {
+        LampEmission e{};
+        e.lamp = lamp;
+        power.push_back(power_of(medium, out.ground, e));
+        light.power_m2 += power.back();
+        out.lamp_emission.push_back(e);
+    }
+    double below = 0;
+    for (std::size_t i = 0; i < power.size(); ++i) {
+        out.lamp_emission[i].below = light.power_m2 > 0 ? float(below / light.power_m2) : 0;
+        below += power[i];
+    }
+    return light;
 }
 
 void add_light(const char* name, std::uint32_t stream, const Double3& colour, Light light,
@@ -162,11 +232,14 @@ Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elev
         plan.leave_out("sun photons", "no sunlight");
     }
 
+    if (!out.lamps.empty())
+        add_light("lights", kLampStream, {1, 1, 1}, lamp_light(medium, out), out);
+
     // A white medium in a uniform field shows that field everywhere, whatever its shape: take the
     // sky's radiance out as a constant, and light the cloud from below by what the ground's
     // radiance differs from it.
     const bool white = is_white(medium);
-    Double3 below = out.ground_diffuse + out.ground_sun;
+    Double3 below = out.ground_diffuse + out.ground_sun + ground_of_lamps(out);
     if (mapped && map->power_m2 > 0) {
         add_light("sky", kSkyStream, {1, 1, 1}, map_light(*map), out);
     } else if (white && any_positive(out.sky) && scene.solids.empty()) {

@@ -24,6 +24,7 @@ struct Light {
     std::string name;
     bool beam = false;
     bool map = false;
+    bool lamps = false;  ///< all of Lighting::lamp_emission, whose powers are shares of power_m2
     int hemisphere = 0;  ///< diffuse: 0 all directions, -1 travelling down, +1 travelling up
     std::array<float, 3> travel{0, 0, -1};
     Double3 colour{};
@@ -38,8 +39,9 @@ struct Lighting {
     const Solids* solids = nullptr;      ///< what casts shadows and hides; null: nothing does
     const CameraDepth* depth = nullptr;  ///< what hides alone; null: nothing does
     std::vector<Light> lights;
-    std::vector<LampParams> lamps;  ///< point, spot and parallel lights
-    Double3 constant{};             ///< source everywhere in the medium (furnace identity)
+    std::vector<LampParams> lamps;            ///< point, spot and parallel lights
+    std::vector<LampEmission> lamp_emission;  ///< of each, for photons
+    Double3 constant{};  ///< source everywhere in the medium (furnace identity)
     bool sunlit = false;
     std::array<float, 3> to_sun{0, 0, 1};
     Double3 sun_irradiance{};
