@@ -138,6 +138,9 @@ typedef struct pileus_particles {
     const float* density;  /**< 0 to 1e12; null: 1 */
     const uint64_t* id;    /**< up to 2^53, for density.share; null: none */
     const float* velocity; /**< x, y, z of each, lengths per second; null: at rest */
+    uint32_t colour_stride, emission_stride;
+    const float* colour;   /**< factors on the medium's albedo, r, g, b, 0 to 1; null: 1 */
+    const float* emission; /**< factors on the medium's emission, r, g, b, 0 to 1e9; null: 1 */
 } pileus_particles;
 
 /** Densities from memory instead of the scene's file: values[(z*size[1] + y)*size[0] + x], the

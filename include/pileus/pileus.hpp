@@ -121,6 +121,8 @@ public:
                 own.density = p->density, own.density_stride = p->density_stride;
                 own.id = p->id, own.id_stride = p->id_stride;
                 own.velocity = p->velocity, own.velocity_stride = p->velocity_stride;
+                own.colour = p->colour, own.colour_stride = p->colour_stride;
+                own.emission = p->emission, own.emission_stride = p->emission_stride;
                 given.back().particles = &own;
             }
         }

@@ -33,6 +33,9 @@ struct Particles {
     std::uint32_t position_stride = 3 * sizeof(float), radius_stride = sizeof(float);
     std::uint32_t density_stride = sizeof(float), id_stride = sizeof(std::uint64_t);
     std::uint32_t velocity_stride = 3 * sizeof(float);
+    const float* colour = nullptr;    ///< factors on the medium's albedo, 0 to 1; null: 1
+    const float* emission = nullptr;  ///< factors on the medium's emission, 0 to 1e9; null: 1
+    std::uint32_t colour_stride = 3 * sizeof(float), emission_stride = 3 * sizeof(float);
 };
 
 /// Densities from memory instead of a scene's: values[(z * size.y + y) * size.x + x] fill the

@@ -227,9 +227,14 @@ PILEUS_FN void board_colours(const ParticleMarchParams& k, const ParticleColourB
         reach = sqrt_(reach);
         T light[3] = {};
         for (int n = 0; n < 3; ++n) light[n] = k.albedo[n] * sky[n];
+        T tint[3], left[3];
+        for (int i = 0; i < 3; ++i) tint[i] = left[i] = lanes_of_balls<W>(b.tint, i, first, end);
         for (int n = 0; n < k.orders; ++n) {
             const T arrives = phases.order[n] * seen * mean_light(depth, reach, k.thinner[n]);
-            for (int i = 0; i < 3; ++i) light[i] = light[i] + arrives * k.sun[n][i];
+            for (int i = 0; i < 3; ++i) {
+                light[i] = light[i] + arrives * (left[i] * k.sun[n][i]);
+                left[i] = left[i] * tint[i];
+            }
         }
         for (int l = 0; l < W; ++l)
             if (first + std::uint32_t(l) < end)

@@ -42,6 +42,7 @@ struct ParticleColourBuffers {
     const ParticleShade* shade;  ///< [ball]
     const float* sky;            ///< [channel][ball]: light from around; null: none
     const float* seen;           ///< [ball]: share of the sun that solids leave; null: all
+    const float* tint;           ///< [ball][channel]: factor on the albedo; null: 1
     std::uint64_t balls;         ///< their number
     ParticleBoard* boards;       ///< [ball]
 };

@@ -66,7 +66,8 @@ PILEUS_FN void particle_lamp_light(const ParticleMarchParams& k, const ParticleL
         const auto number = [&](const float* from, int l) {
             return from[first + std::uint32_t(l) < end ? first + std::uint32_t(l) : first];
         };
-        T light[3] = {};
+        T light[3] = {}, tint[3];
+        for (int i = 0; i < 3; ++i) tint[i] = lanes_of_balls<W>(b.tint, i, first, end);
         for (int l = 0; l < W && b.sky != nullptr; ++l)
             for (int i = 0; i < 3; ++i)
                 set_lane(light[i], l, number(b.sky + std::uint64_t(i) * b.balls, l));
@@ -89,12 +90,16 @@ PILEUS_FN void particle_lamp_light(const ParticleMarchParams& k, const ParticleL
                 for (int l = 0; l < W; ++l)
                     set_lane(share, l, lane(share, l) * number(b.seen + at, l));
             const T turn = one_minus_cosine(to, sight.way);
+            T left[3];
+            for (T& one : left) one = all<T>(1.0f);
             for (int order = 0; order < b.orders; ++order) {
                 const T phase = order == 0 ? phase_density(k.phase, turn)
                                            : hg_density(all<T>(k.order_g[order]), turn);
                 const T arrives = share * phase * mean_light(depth, reach, k.thinner[order]);
-                for (int i = 0; i < 3; ++i)
-                    light[i] = light[i] + arrives * (b.share[order][i] * lamp.light[i]);
+                for (int i = 0; i < 3; ++i) {
+                    light[i] = light[i] + arrives * (left[i] * (b.share[order][i] * lamp.light[i]));
+                    left[i] = left[i] * tint[i];
+                }
             }
         }
         for (int l = 0; l < W; ++l)

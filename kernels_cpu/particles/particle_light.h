@@ -22,6 +22,18 @@ PILEUS_FN T mean_light(T depth, T reach, float thinner) {
            kShadeWeight * (light(depth - offset) + light(depth + offset));
 }
 
+/// Of vectors [ball][channel] those of balls from `first` on, a lane each; null: 1.
+template <int W>
+PILEUS_FN F<W> lanes_of_balls(const float* vectors, int channel, std::uint32_t first,
+                              std::uint32_t end) {
+    F<W> value = all<F<W>>(1.0f);
+    for (int l = 0; l < W && vectors != nullptr; ++l) {
+        const std::uint32_t i = first + std::uint32_t(l) < end ? first + std::uint32_t(l) : first;
+        set_lane(value, l, vectors[3 * std::uint64_t(i) + std::uint64_t(channel)]);
+    }
+    return value;
+}
+
 /// Occluders between two looks at whether all places are as deep as it counts.
 constexpr std::int32_t kLookAgain = 16;
 

@@ -54,16 +54,25 @@ PILEUS_FN T shade_at(const ParticleMarchParams& k, const ParticleRay<T>& r, T at
 }
 
 /// How bins find the sun's light: from their balls' depths, by a walk of their own, or from the
-/// balls that solids leave in the light.
-enum class ParticleLit { kShade, kExact, kSeen };
+/// balls that solids leave in the light. Of tinted balls they keep the mean colour.
+enum class ParticleLit { kShade, kExact, kSeen, kTinted, kTintedExact };
 template <ParticleLit Kind>
-constexpr int kSumsOf = Kind == ParticleLit::kSeen ? kParticleSums : kParticleSums - 1;
+constexpr bool kWalks = Kind == ParticleLit::kExact || Kind == ParticleLit::kTintedExact;
+template <ParticleLit Kind>
+constexpr bool kSees = Kind == ParticleLit::kSeen || Kind == ParticleLit::kTinted;
+template <ParticleLit Kind>
+constexpr bool kTints = Kind == ParticleLit::kTinted || Kind == ParticleLit::kTintedExact;
+template <ParticleLit Kind>
+constexpr int kSumsOf = 5 + (kSees<Kind> ? 1 : 0) + (kTints<Kind> ? 3 : 0);
+/// Where the sums of colours begin.
+template <ParticleLit Kind>
+constexpr int kTintAt = kSumsOf<Kind> - 3;
 
 /// Light that leaves a bin along the rays, per optical depth; `own` are its sums.
 template <ParticleLit Kind, class T>
 PILEUS_FN void light_of_bin(const ParticleMarchParams& k, const ParticlePhases<T>& phases,
                             const T (&own)[kSumsOf<Kind>], T (&light)[3]) {
-    constexpr bool kSeen = Kind == ParticleLit::kSeen;
+    constexpr bool kSeen = kSees<Kind>;
     const T per_depth = 1.0f / max_(own[0], all<T>(1e-30f));
     for (int c = 0; c < 3; ++c) light[c] = k.albedo[c] * (own[c + 2] * per_depth);
     T seen = all<T>(1.0f), shade = own[1] * per_depth;
@@ -73,10 +82,20 @@ PILEUS_FN void light_of_bin(const ParticleMarchParams& k, const ParticlePhases<T
         shade = own[1] / max_(own[5], all<T>(1e-30f));
     }
     shade = max_(shade, T{});
+    T tint[3] = {}, left[3] = {};
+    if constexpr (kTints<Kind>)
+        for (int c = 0; c < 3; ++c) tint[c] = left[c] = own[kTintAt<Kind> + c] * per_depth;
     for (int n = 0; n < k.orders; ++n) {
         T arrives = phases.order[n] * exp_(T{} - shade * k.thinner[n]);
         if constexpr (kSeen) arrives = arrives * seen;
-        for (int c = 0; c < 3; ++c) light[c] = light[c] + arrives * k.sun[n][c];
+        for (int c = 0; c < 3; ++c) {
+            T share = arrives;
+            if constexpr (kTints<Kind>) {
+                share = share * left[c];
+                left[c] = left[c] * tint[c];
+            }
+            light[c] = light[c] + share * k.sun[n][c];
+        }
     }
 }
 
@@ -119,7 +138,7 @@ PILEUS_FN void add_to_bins(const ParticleMarchParams& k, const ParticleMarchBuff
     bins.farthest = last > bins.farthest ? last : bins.farthest;
     // Depth towards the sun at place s of the ray, in radii: shade + s slope.
     T shade{}, slope{};
-    if constexpr (Kind != ParticleLit::kExact) {
+    if constexpr (!kWalks<Kind>) {
         const ParticleShade& sun = b.shade[i];
         const Vec<T>& d = r.direction;
         slope = sun.slope[0] * d.x + sun.slope[1] * d.y + sun.slope[2] * d.z;
@@ -128,7 +147,7 @@ PILEUS_FN void add_to_bins(const ParticleMarchParams& k, const ParticleMarchBuff
                          sun.slope[2] * (ball.centre[2] - r.origin.z) - p.along * slope;
         shade = sun.depth - across * ball.per_radius;
     }
-    const float seen = Kind == ParticleLit::kSeen ? b.seen[i] : 1.0f;
+    const float seen = kSees<Kind> && b.seen != nullptr ? b.seen[i] : 1.0f;
     T start = p.begin;
     const T weight = select(hit, all<T>(ball.depth), T{});
     T before = ball_integral(p.inner, p.begin);
@@ -144,12 +163,15 @@ PILEUS_FN void add_to_bins(const ParticleMarchParams& k, const ParticleMarchBuff
         __builtin_memcpy(own, bins.at(n), sizeof own);
         own[0] = own[0] + tau;
         const T middle = 0.5f * (start + s);
-        if constexpr (Kind == ParticleLit::kExact)
+        if constexpr (kWalks<Kind>)
             own[1] = own[1] + tau * (p.along + middle * radius);
         else
-            own[1] =
-                own[1] + (Kind == ParticleLit::kSeen ? tau * seen : tau) * (shade + middle * slope);
-        if constexpr (Kind == ParticleLit::kSeen) own[5] = own[5] + tau * seen;
+            own[1] = own[1] + (kSees<Kind> ? tau * seen : tau) * (shade + middle * slope);
+        if constexpr (kSees<Kind>) own[5] = own[5] + tau * seen;
+        if constexpr (kTints<Kind>)
+            for (int c = 0; c < 3; ++c)
+                own[kTintAt<Kind> + c] =
+                    own[kTintAt<Kind> + c] + tau * b.tint[3 * std::int64_t(i) + c];
         start = s;
         if (b.sky != nullptr)
             for (int c = 0; c < 3; ++c)
@@ -174,7 +196,7 @@ PILEUS_FN bool show_bins(const ParticleMarchParams& k, const ParticleMarchBuffer
         if (!seen) continue;
         v.depth = v.depth + own[0];
         const T tau = select(v.transmittance >= k.cut, own[0], T{});
-        if (Kind == ParticleLit::kExact && k.orders > 0)
+        if (kWalks<Kind> && k.orders > 0)
             own[1] = own[0] * shade_at(k, r, own[1] / max_(own[0], all<T>(1e-30f)), tau > 0.0f);
         const T alpha = one_minus_exp(tau);
         T light[3];
@@ -287,7 +309,11 @@ PILEUS_FN void particle_tile(const ParticleMarchParams& k, const ParticleMarchBu
     constexpr int across = kMarchAcross<W>;
     for (std::int32_t y = tile.y_begin; y < tile.y_end; y += W / across)
         for (std::int32_t x = tile.x_begin; x < tile.x_end; x += across)
-            if (k.exact != 0)
+            if (b.tint != nullptr && k.exact != 0)
+                particle_pixels<W, ParticleLit::kTintedExact>(k, b, tile, x, y);
+            else if (b.tint != nullptr)
+                particle_pixels<W, ParticleLit::kTinted>(k, b, tile, x, y);
+            else if (k.exact != 0)
                 particle_pixels<W, ParticleLit::kExact>(k, b, tile, x, y);
             else if (b.seen != nullptr)
                 particle_pixels<W, ParticleLit::kSeen>(k, b, tile, x, y);

@@ -54,8 +54,9 @@ struct ParticleDepthBuffers {
 
 constexpr int kMostParticleOrders = 8;
 /// Sums of a bin: optical depth; that times the depth towards the sun, or times the place along the
-/// ray; that times light from around; that times the share that solids leave of the sun.
-constexpr int kParticleSums = 6;
+/// ray; that times light from around; that times the share that solids leave of the sun; that times
+/// colours.
+constexpr int kParticleSums = 9;
 
 /// Optical depth towards the sun within a ball: `depth` at its centre, and how much more a radius
 /// farther along each axis.
@@ -82,6 +83,7 @@ struct ParticleMarchBuffers {
     const ParticleShade* shade;  ///< [ball]
     const float* sky;            ///< [channel][ball]: light from around; null: none
     const float* seen;           ///< [ball]: share of the sun that solids leave; null: all
+    const float* tint;           ///< [ball][channel]: factor on the albedo; null: 1
     std::uint64_t balls;         ///< their number
     const float* opaque_depth;   ///< [pixel], m along the ray; null: nothing solid
     float* transmittance;        ///< [pixel]
@@ -128,6 +130,7 @@ struct ParticleLampLight {
     const float* reach;                   ///< [lamp][ball]: its growth over a radius
     const float* seen;                    ///< [lamp][ball]: share that solids leave; null: all
     const float* sky;                     ///< [channel][ball], added; null: none
+    const float* tint;                    ///< [ball][channel]: factor on the albedo; null: 1
     float* light;                         ///< [channel][ball]
     std::uint64_t balls;
 };

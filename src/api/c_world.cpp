@@ -51,6 +51,8 @@ Status take_particles(const pileus_density& density, const std::string& where,
     host.density = given.density, host.density_stride = given.density_stride;
     host.id = given.id, host.id_stride = given.id_stride;
     host.velocity = given.velocity, host.velocity_stride = given.velocity_stride;
+    host.colour = given.colour, host.colour_stride = given.colour_stride;
+    host.emission = given.emission, host.emission_stride = given.emission_stride;
     const auto stride = [&](const char* name, bool used, std::size_t bytes, std::size_t least) {
         if (!used || bytes >= least || given.count < 2) return Status::ok();
         return Status::bad_input(where + name + "_stride: " + std::to_string(bytes) +
@@ -62,6 +64,9 @@ Status take_particles(const pileus_density& density, const std::string& where,
     PILEUS_TRY(stride("id", host.id != nullptr, host.id_stride, sizeof(std::uint64_t)));
     PILEUS_TRY(
         stride("velocity", host.velocity != nullptr, host.velocity_stride, 3 * sizeof(float)));
+    PILEUS_TRY(stride("colour", host.colour != nullptr, host.colour_stride, 3 * sizeof(float)));
+    PILEUS_TRY(
+        stride("emission", host.emission != nullptr, host.emission_stride, 3 * sizeof(float)));
     medium.particles.host = &host;
     return Status::ok();
 }

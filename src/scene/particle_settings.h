@@ -10,15 +10,15 @@ namespace pileus {
 
 struct ParticleSet;
 
-/// Particles in a host's memory; strides in bytes. None of `density`: 1; none of `id` or
-/// `velocity`: none.
+/// Particles in a host's memory; strides in bytes. None of `density`: 1; none of `id`,
+/// `velocity`, `colour` or `emission`: none.
 struct HostParticles {
     std::uint64_t count = 0;
     const float *position = nullptr, *radius = nullptr, *density = nullptr;
-    const float* velocity = nullptr;
+    const float *velocity = nullptr, *colour = nullptr, *emission = nullptr;
     const std::uint64_t* id = nullptr;
     std::size_t position_stride = 0, radius_stride = 0, density_stride = 0, id_stride = 0;
-    std::size_t velocity_stride = 0;
+    std::size_t velocity_stride = 0, colour_stride = 0, emission_stride = 0;
 };
 
 struct ParticleSettings {

@@ -12,7 +12,7 @@ namespace {
 
 /// As a simulation keeps them: other numbers between.
 struct Puff {
-    float position[3], speed[3], radius, density;
+    float position[3], speed[3], radius, density, colour[3], glow[3];
     std::uint64_t id;
 };
 
@@ -29,18 +29,25 @@ std::vector<Puff> puffs(std::size_t count) {
                    {draw(8), 2, -draw(8)},
                    4 + draw(9),
                    draw(8) / 64,
+                   {draw(4) / 4, 0.5f, 1},
+                   {1, draw(8), 0.25f},
                    3 * i};
     return made;
 }
 
 std::string table_of(const std::vector<Puff>& puffs) {
-    std::string text = "x,y,z,vx,vy,vz,radius,density,id\n";
+    std::string text =
+        "x,y,z,vx,vy,vz,radius,density,id,red,green,blue,emission_red,emission_green,emission_"
+        "blue\n";
     for (const Puff& p : puffs) {
-        char row[240];
-        std::snprintf(row, sizeof row, "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%llu\n",
-                      double(p.position[0]), double(p.position[1]), double(p.position[2]),
-                      double(p.speed[0]), double(p.speed[1]), double(p.speed[2]), double(p.radius),
-                      double(p.density), static_cast<unsigned long long>(p.id));
+        char row[400];
+        std::snprintf(
+            row, sizeof row,
+            "%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g,%llu,%.9g,%.9g,%.9g,%.9g,%.9g,%.9g\n",
+            double(p.position[0]), double(p.position[1]), double(p.position[2]), double(p.speed[0]),
+            double(p.speed[1]), double(p.speed[2]), double(p.radius), double(p.density),
+            static_cast<unsigned long long>(p.id), double(p.colour[0]), double(p.colour[1]),
+            double(p.colour[2]), double(p.glow[0]), double(p.glow[1]), double(p.glow[2]));
         text += row;
     }
     return text;
@@ -51,7 +58,7 @@ std::string scene_text(const std::string& file, const std::string& more) {
            "[sun]\nelevation_deg = 30\nazimuth_deg = 100\n[ground]\naltitude_m = -5\n"
            "[[medium]]\ndensity = { file = \"" +
            file + "\"" + more +
-           " }\nphase = { type = \"henyey-greenstein\", g = 0.5 }\n"
+           " }\nemission = 0.25\nphase = { type = \"henyey-greenstein\", g = 0.5 }\n"
            "[raymarch]\nsteps = 20\n[output]\nlayers = [\"radiance\", \"alpha\"]\n";
 }
 
@@ -65,6 +72,9 @@ pileus_particles particles_of(const std::vector<Puff>& puffs) {
     given.position_stride = given.radius_stride = given.density_stride = given.id_stride =
         given.velocity_stride = sizeof(Puff);
     given.velocity = puffs[0].speed;
+    given.colour = puffs[0].colour;
+    given.emission = puffs[0].glow;
+    given.colour_stride = given.emission_stride = sizeof(Puff);
     return given;
 }
 

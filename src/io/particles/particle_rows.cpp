@@ -28,6 +28,9 @@ constexpr RoleRow kRoleRows[] = {
     {"|vx|velocity_x|", -kMostParticlePlace, kMostParticlePlace, false},
     {"|vy|velocity_y|", -kMostParticlePlace, kMostParticlePlace, false},
     {"|vz|velocity_z|", -kMostParticlePlace, kMostParticlePlace, false},
+    {"|emission_red|emission_r|", 0, 1e9, false},
+    {"|emission_green|emission_g|", 0, 1e9, false},
+    {"|emission_blue|emission_b|", 0, 1e9, false},
 };
 
 std::string short_name(const RoleRow& role) {
@@ -85,13 +88,17 @@ Status ParticleRows::begin(const std::vector<ParticleColumn>& columns, std::uint
         for (int i = 0; i < 3; ++i) given += columns_[first + i].at >= 0 ? 1 : 0;
         return given;
     };
-    const int colours = three(kRed), speeds = three(kSpeedX);
+    const int colours = three(kRed), speeds = three(kSpeedX), glows = three(kGlowRed);
     if (colours != 0 && colours != 3)
         return Status::bad_input(file_ + ": colour: not whole, " + std::to_string(colours) +
                                  " columns, allowed: red, green and blue, or none");
     if (speeds != 0 && speeds != 3)
         return Status::bad_input(file_ + ": velocity: not whole, " + std::to_string(speeds) +
                                  " columns, allowed: vx, vy and vz, or none");
+    if (glows != 0 && glows != 3)
+        return Status::bad_input(file_ + ": emission: not whole, " + std::to_string(glows) +
+                                 " columns, allowed: emission_red, emission_green and "
+                                 "emission_blue, or none");
     if (count > reading.most)
         return Status::limit(file_ + ": too many particles, " + std::to_string(count) +
                              ", allowed: at most " + std::to_string(reading.most));
@@ -101,6 +108,7 @@ Status ParticleRows::begin(const std::vector<ParticleColumn>& columns, std::uint
     PILEUS_TRY(set_.radius.resize(count, "particles"));
     if (columns_[kDensity].at >= 0) PILEUS_TRY(set_.density.resize(count, "particles"));
     if (colours == 3) PILEUS_TRY(set_.colour.resize(3 * count, "particles"));
+    if (glows == 3) PILEUS_TRY(set_.emission.resize(3 * count, "particles"));
     if (speeds == 3) PILEUS_TRY(set_.velocity.resize(3 * count, "particles"));
     if (columns_[kId].at >= 0) PILEUS_TRY(set_.id.resize(count, "particles"));
     for (int a = 0; a < 3; ++a) set_.low[a] = 4 * kMostParticlePlace, set_.high[a] = -set_.low[a];
@@ -144,6 +152,8 @@ Status ParticleRows::keep(std::uint64_t particle, Span<const double> row) {
     if (!set_.density.empty()) set_.density.at(i) = float(number(kDensity, row));
     for (std::size_t c = 0; c < 3 && !set_.colour.empty(); ++c)
         set_.colour.at(3 * i + c) = float(number(kRed + int(c), row));
+    for (std::size_t c = 0; c < 3 && !set_.emission.empty(); ++c)
+        set_.emission.at(3 * i + c) = float(number(kGlowRed + int(c), row));
     for (std::size_t a = 0; a < 3 && !set_.velocity.empty(); ++a)
         set_.velocity.at(3 * i + a) = float(number(kSpeedX + int(a), row));
     if (!set_.id.empty()) set_.id.at(i) = std::uint64_t(number(kId, row));

@@ -32,7 +32,7 @@ private:
         int at = -1;  ///< -1: none
         double scale = 1;
     };
-    static constexpr int kRoles = 12;
+    static constexpr int kRoles = 15;
 
     Status fault(std::uint64_t particle, int role, double value) const;
     double number(int role, Span<const double> row) const {
@@ -54,7 +54,10 @@ private:
         kId,
         kSpeedX,
         kSpeedY,
-        kSpeedZ
+        kSpeedZ,
+        kGlowRed,
+        kGlowGreen,
+        kGlowBlue
     };
 
     const std::string& file_;

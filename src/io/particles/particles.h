@@ -18,6 +18,7 @@ struct ParticleSet {
     Buffer<float> radius;      ///< [particle]; > 0
     Buffer<float> density;     ///< [particle]; >= 0. Empty: 1
     Buffer<float> colour;      ///< [particle][channel]: albedo, 0 to 1. Empty: white
+    Buffer<float> emission;    ///< [particle][channel]: factor on the medium's, >= 0. Empty: 1
     Buffer<float> velocity;    ///< [particle][axis], lengths per second. Empty: at rest
     Buffer<std::uint64_t> id;  ///< [particle]. Empty: told apart by their own numbers
     Double3 low{}, high{};     ///< corners of a box about all particles, their radii included

@@ -101,7 +101,7 @@ Status decode_particle_ply(const std::string& name, Span<const char> bytes,
 
 Status write_particle_ply(const std::string& path, const ParticleSet& set) {
     const bool numbered = !set.id.empty(), coloured = !set.colour.empty();
-    const bool moving = !set.velocity.empty();
+    const bool moving = !set.velocity.empty(), glowing = !set.emission.empty();
     std::string head = "ply\nformat binary_little_endian 1.0\nelement vertex " +
                        std::to_string(set.count) +
                        "\nproperty double x\nproperty double y\nproperty double z\n"
@@ -109,9 +109,13 @@ Status write_particle_ply(const std::string& path, const ParticleSet& set) {
     if (coloured) head += "property float red\nproperty float green\nproperty float blue\n";
     if (numbered) head += "property double id\n";
     if (moving) head += "property float vx\nproperty float vy\nproperty float vz\n";
+    if (glowing)
+        head +=
+            "property float emission_red\nproperty float emission_green\n"
+            "property float emission_blue\n";
     head += "end_header\n";
-    const std::size_t item =
-        32 + (coloured ? 12u : 0u) + (numbered ? 8u : 0u) + (moving ? 12u : 0u);
+    const std::size_t item = 32 + (coloured ? 12u : 0u) + (numbered ? 8u : 0u) +
+                             (moving ? 12u : 0u) + (glowing ? 12u : 0u);
     Buffer<char> bytes;
     PILEUS_TRY(bytes.resize(head.size() + item * set.count, "particle file"));
     std::memcpy(bytes.data(), head.data(), head.size());
@@ -124,6 +128,7 @@ Status write_particle_ply(const std::string& path, const ParticleSet& set) {
         for (std::size_t c = 0; c < 3 && coloured; ++c) append(set.colour[3 * i + c], bytes, at);
         if (numbered) append(double(set.id[i]), bytes, at);
         for (std::size_t a = 0; a < 3 && moving; ++a) append(set.velocity[3 * i + a], bytes, at);
+        for (std::size_t c = 0; c < 3 && glowing; ++c) append(set.emission[3 * i + c], bytes, at);
     }
     return write_file(path, {bytes.data(), bytes.size()});
 }

@@ -44,16 +44,20 @@ double number_at(const unsigned char* from, const PrtType& type) {
     return (bits & top) != 0 ? double(bits - top) - double(top) : double(bits);
 }
 
-/// Channels that are read, and what their numbers are to ParticleRows. Colours may be above 1 here,
-/// and no method reads them.
+/// Channels that are read, and what their numbers are to ParticleRows. Colours may be above 1 here
+/// and are passed.
 struct ChannelName {
     const char* name;
     const char* columns[3];
 };
 constexpr ChannelName kNames[] = {
-    {"Position", {"x", "y", "z"}},          {"Radius", {"radius", nullptr, nullptr}},
-    {"Size", {"radius", nullptr, nullptr}}, {"Density", {"density", nullptr, nullptr}},
-    {"Velocity", {"vx", "vy", "vz"}},       {"ID", {"id", nullptr, nullptr}}};
+    {"Position", {"x", "y", "z"}},
+    {"Radius", {"radius", nullptr, nullptr}},
+    {"Size", {"radius", nullptr, nullptr}},
+    {"Density", {"density", nullptr, nullptr}},
+    {"Velocity", {"vx", "vy", "vz"}},
+    {"ID", {"id", nullptr, nullptr}},
+    {"Emission", {"emission_red", "emission_green", "emission_blue"}}};
 
 struct Slot {
     PrtType type{};

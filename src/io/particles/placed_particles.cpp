@@ -31,10 +31,9 @@ void move(ParticleSet& set, std::size_t from, std::size_t to) {
     for (std::size_t a = 0; a < 3; ++a) set.position[3 * to + a] = set.position[3 * from + a];
     set.radius[to] = set.radius[from];
     set.density[to] = set.density[from];
-    for (std::size_t c = 0; c < 3 && !set.colour.empty(); ++c)
-        set.colour[3 * to + c] = set.colour[3 * from + c];
-    for (std::size_t a = 0; a < 3 && !set.velocity.empty(); ++a)
-        set.velocity[3 * to + a] = set.velocity[3 * from + a];
+    for (Buffer<float>* vectors : {&set.colour, &set.emission, &set.velocity})
+        for (std::size_t a = 0; a < 3 && !vectors->empty(); ++a)
+            (*vectors)[3 * to + a] = (*vectors)[3 * from + a];
     if (!set.id.empty()) set.id[to] = set.id[from];
 }
 
@@ -48,8 +47,8 @@ void thin(double share, ParticleSet& set) {
     set.position.truncate(3 * kept);
     set.radius.truncate(kept);
     set.density.truncate(kept);
-    if (!set.colour.empty()) set.colour.truncate(3 * kept);
-    if (!set.velocity.empty()) set.velocity.truncate(3 * kept);
+    for (Buffer<float>* vectors : {&set.colour, &set.emission, &set.velocity})
+        if (!vectors->empty()) vectors->truncate(3 * kept);
     if (!set.id.empty()) set.id.truncate(kept);
 }
 
@@ -113,11 +112,16 @@ Status read_host_particles(const HostParticles& host, const ParticleReading& rea
     if (host.radius != nullptr) columns.push_back({"radius"});
     if (host.density != nullptr) columns.push_back({"density"});
     if (host.id != nullptr) columns.push_back({"id"});
-    if (host.velocity != nullptr)
-        for (const char* axis : {"vx", "vy", "vz"}) columns.push_back({axis});
+    const auto name_three = [&](const float* first, std::initializer_list<const char*> names) {
+        for (const char* own : names)
+            if (first != nullptr) columns.push_back({own});
+    };
+    name_three(host.velocity, {"vx", "vy", "vz"});
+    name_three(host.colour, {"red", "green", "blue"});
+    name_three(host.emission, {"emission_red", "emission_green", "emission_blue"});
     ParticleRows rows(name, set);
     PILEUS_TRY(rows.begin(columns, host.count, reading));
-    double row[9];
+    double row[15];
     const Span<const double> numbers{row, columns.size()};
     const auto look = [&](std::uint64_t i) {
         std::size_t to = 0;
@@ -131,6 +135,8 @@ Status read_host_particles(const HostParticles& host, const ParticleReading& rea
         if (host.density != nullptr) row[to++] = double(one(host.density, i, host.density_stride));
         if (host.id != nullptr) row[to++] = double(one(host.id, i, host.id_stride));
         if (host.velocity != nullptr) three(host.velocity, host.velocity_stride);
+        if (host.colour != nullptr) three(host.colour, host.colour_stride);
+        if (host.emission != nullptr) three(host.emission, host.emission_stride);
     };
     for (std::uint64_t i = 0; i < host.count; ++i) {
         look(i);

@@ -294,7 +294,8 @@ Status read_particle_head(const MediumSettings& medium, const std::string& path,
         if (!(set.high[a] > set.low[a])) head.bounds_m[1][a] = set.low[a] + 1;
     head.in_extinction = true;
     head.unpacked_bytes = set.position.bytes() + set.radius.bytes() + set.density.bytes() +
-                          set.colour.bytes() + set.id.bytes() + set.velocity.bytes();
+                          set.colour.bytes() + set.id.bytes() + set.velocity.bytes() +
+                          set.emission.bytes();
     head.unpacked_bytes += sizeof(std::int64_t) * std::uint64_t(head.size[0]) *
                            std::uint64_t(head.size[1]) * std::uint64_t(head.size[2]);
     head.kind = "particles";

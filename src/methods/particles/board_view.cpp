@@ -103,8 +103,9 @@ Status show_boards(const Context& context, const ParticleMarchParams& march, Par
     Buffer<ParticleBoard> boards;
     PILEUS_TRY(allocate(arrays::particle_boards(count), boards));
     const BoardMaker maker(run, lens_of(*run.scene));
-    const ParticleColourBuffers colours{run.shade.data(), light_from_around(run), run.seen.data(),
-                                        count, boards.data()};
+    const ParticleColourBuffers colours{
+        run.shade.data(), light_from_around(run), run.seen.data(), run.tree.colour.data(), count,
+        boards.data()};
     const std::size_t pieces = (count - 1) / kColoursAtOnce + 1;
     parallel_for(context.threads, std::int64_t(pieces), [&](std::int64_t piece, int) {
         const std::size_t begin = std::size_t(piece) * kColoursAtOnce;

@@ -106,12 +106,16 @@ Status light_by_lamps(const Context& context, ParticlesRun& run) {
     return Status::ok();
 }
 
-Status light_around(const Context& context, const ParticleMarchParams& k, ParticlesRun& run) {
+bool has_own_light(const ParticlesRun& run) {
+    return !run.tree.colour.empty() || emits(run.world->medium);
+}
+
+namespace {
+
+/// Light of the lamps and the sky at each ball, before it is scattered there.
+void gather_lamps(const Context& context, const ParticleMarchParams& k, ParticlesRun& run) {
     const std::vector<LampParams>& lamps = run.lighting.lamps;
-    if (lamps.empty()) return Status::ok();
-    const StageClock clock(context, "light of lights");
     const std::size_t count = run.tree.balls.size();
-    PILEUS_TRY(allocate_once(arrays::particle_around(count), run.around_balls));
     ParticleLampLight b{};
     b.lamps = lamps.data();
     b.count = std::int32_t(lamps.size());
@@ -127,12 +131,42 @@ Status light_around(const Context& context, const ParticleMarchParams& k, Partic
     b.reach = run.lamp_reach.data();
     b.seen = run.lamp_seen.data();
     b.sky = run.sky.data();
+    b.tint = run.tree.colour.data();
     b.light = run.around_balls.data();
     b.balls = count;
     over_balls(context, count, "light of lights", 0, 1,
                [&](std::uint32_t begin, std::uint32_t end) {
                    context.kernels->particles->lamp_light(k, b, begin, end);
                });
+}
+
+/// What each ball sends on of that, and what it sends of its own.
+void add_own_light(const Context& context, ParticlesRun& run) {
+    const std::size_t count = run.tree.balls.size();
+    const Optics& optics = run.world->medium.optics[0];
+    const auto factor = [](const Buffer<float>& vectors, std::size_t i, std::size_t c) {
+        return vectors.empty() ? 1.0f : vectors[3 * i + c];
+    };
+    parallel_each(context.threads, count, [&](std::size_t i) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            float& light = run.around_balls[c * count + i];
+            light = optics.albedo[c] * factor(run.tree.colour, i, c) * light +
+                    optics.emission[c] * factor(run.tree.emission, i, c);
+        }
+    });
+}
+
+}  // namespace
+
+Status light_around(const Context& context, const ParticleMarchParams& k, ParticlesRun& run) {
+    const bool lamps = !run.lighting.lamps.empty(), own = has_own_light(run);
+    if (!lamps && !own) return Status::ok();
+    const StageClock clock(context, "light of lights");
+    PILEUS_TRY(allocate_once(arrays::particle_around(run.tree.balls.size()), run.around_balls));
+    for (std::size_t i = 0; i < run.around_balls.size() && !lamps; ++i)
+        run.around_balls[i] = run.sky.empty() ? 0.0f : run.sky[i];
+    if (lamps) gather_lamps(context, k, run);
+    if (own) add_own_light(context, run);
     return Status::ok();
 }
 

@@ -170,7 +170,7 @@ ParticleMarchParams march_params(const ParticlesRun& run) {
     k.most = s.most_depth > 0 ? float(s.most_depth) : 3e38f;
     for (int a = 0; a < 3; ++a) {
         k.sun_travel[a] = -run.lighting.to_sun[std::size_t(a)];
-        k.albedo[a] = optics.albedo[a];
+        k.albedo[a] = has_own_light(run) ? 1 : optics.albedo[a];
     }
     float absorbed[3] = {1, 1, 1};
     for (int n = 0; n < run.light_orders; ++n) {
@@ -203,6 +203,7 @@ Status show_particles(const Context& context, ParticlesRun& run) {
     b.shade = run.shade.data();
     b.sky = light_from_around(run);
     b.seen = run.seen.data();
+    b.tint = run.tree.colour.data();
     b.balls = run.tree.balls.size();
     b.opaque_depth = planes.opaque_depth.data();
     b.transmittance = planes.transmittance.data();

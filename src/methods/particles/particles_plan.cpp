@@ -75,6 +75,14 @@ void note_plan(ParticlesRun& run) {
     if (lamps > 0) plan.need((std::to_string(lamps) + " lights of [[light]]").c_str());
     if (lamps > 0 && run.world->solids.meshes)
         plan.leave_out("light of [[light]] on solids", "not in this version");
+    if (run.outlined_only || !run.tree.colour.empty())
+        plan.need("colours of particles");
+    else
+        plan.leave_out("colours of particles", "all alike");
+    if (emits(run.world->medium))
+        plan.need("emission of particles");
+    else
+        plan.leave_out("emission of particles", "medium.emission is 0");
     note_solids(run.world->solids, run.around.depth, plan);
     if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
     if (!scene.output.layer_depth) plan.leave_out("depth of the medium", "no depth layer");
@@ -107,11 +115,12 @@ void weigh_memory(const Context& context, ParticlesRun& run) {
     // Places, radii, densities; while they are read, colours and numbers too; their order twice.
     t.add("particles as they are read", Stage::kDensity, Stage::kWrite, bytes_of(particles, 20));
     // Twice: in the order of the file and of the tree.
-    const bool moving = run.outlined_only || !run.world->particles.velocity.empty();
-    t.add("velocities of particles", Stage::kDensity, Stage::kWrite,
-          moving ? bytes_of(particles, 2 * 12) : 0);
-    t.add("colours and numbers of particles", Stage::kDensity, Stage::kDensity,
-          bytes_of(particles, 20));
+    const ParticleSet& set = run.world->particles;
+    for (const Buffer<float>* own : {&set.velocity, &set.colour, &set.emission})
+        if (run.outlined_only || !own->empty())
+            t.add("vectors of particles", Stage::kDensity, Stage::kWrite,
+                  bytes_of(particles, 2 * 12));
+    t.add("numbers of particles", Stage::kDensity, Stage::kDensity, bytes_of(particles, 8));
     t.add("particles while they are sorted", Stage::kMajorants, Stage::kMajorants,
           bytes_of(particles, 2 * 16));
     if (scene.particles.light != ParticleLight::kExact) {
@@ -131,10 +140,11 @@ void weigh_memory(const Context& context, ParticlesRun& run) {
         add(t, arrays::particle_seen(particles));
     if (lamps > 0) {
         add(t, arrays::particle_lamps((solids ? 3u : 2u) * particles, lamps));
-        add(t, arrays::particle_around(particles));
         if (scene.particles.light == ParticleLight::kExact)
             add(t, arrays::particle_depths(particles, 4));
     }
+    if (lamps > 0 || run.outlined_only || has_own_light(run))
+        add(t, arrays::particle_around(particles));
     if (scene.particles.sky_ambient) {
         const std::uint64_t nodes = node_count(sky_node_grid(run.world->medium));
         const int sets = sky_node_sets(run.lighting);

@@ -32,7 +32,9 @@ struct ParticlesRun : MethodRun {
     Buffer<float> sky;            ///< [channel][ball]; empty: none
     Buffer<float> seen;           ///< [ball]: share of the sun that solids leave; empty: all
     Buffer<float> lamp_depth, lamp_reach, lamp_seen;  ///< [lamp][ball]
-    Buffer<float> around_balls;  ///< [channel][ball]: light of lamps and sky; empty: no lamps
+    /// [channel][ball]: light of lamps and sky, or all that balls send on of it and their own
+    /// (has_own_light); empty: `sky` alone.
+    Buffer<float> around_balls;
     SkyNodes sky_nodes;
     bool lit = false;  ///< for the sun below
     std::array<float, 3> to_sun{};
@@ -85,6 +87,9 @@ inline int bins_of(const ParticlesRun& run) {
 inline int light_samples(const ParticlesSettings& settings) {
     return settings.light == ParticleLight::kCentre ? 1 : 4;
 }
+
+/// Whether balls differ in colour or shine.
+bool has_own_light(const ParticlesRun& run);
 
 /// [channel][ball]: light of sky and lamps; null: none.
 inline const float* light_from_around(const ParticlesRun& run) {

@@ -256,10 +256,8 @@ private:
         const double per_m = physical ? medium_.extinction_scale : medium_.extinction_per_m;
         const auto most = std::max({medium_.emission[0], medium_.emission[1], medium_.emission[2]});
         constexpr const char* kNotYet = " in this version";
-        if (scene.method == "particles")
-            refuse(std::string("not by method particles") + kNotYet, "another method");
-        else if (scene.method == "collectors" && scene.collectors.billboards &&
-                 !scene.collectors.camera_closure)
+        if (scene.method == "collectors" && scene.collectors.billboards &&
+            !scene.collectors.camera_closure)
             refuse(std::string("not by collectors as billboards") + kNotYet,
                    "collectors.display = \"march\", or another method");
         else if (check_.key(path_ + "transfer") != nullptr)

@@ -48,19 +48,24 @@ public:
         PILEUS_TRY(merge());
         PILEUS_TRY(allocate(arrays::particle_balls(count_), tree_.balls));
         parallel_each(threads_, count_, [&](std::size_t i) { tree_.balls[i] = ball_of(i); });
-        if (!set_.velocity.empty()) {
-            PILEUS_TRY(allocate(arrays::particle_velocities(count_), tree_.velocity));
-            parallel_each(threads_, count_, [&](std::size_t i) {
-                for (std::size_t a = 0; a < 3; ++a)
-                    tree_.velocity[3 * i + a] = set_.velocity[3 * items_[i].number + a];
-            });
-        }
+        PILEUS_TRY(sort_vectors(set_.velocity, tree_.velocity));
+        PILEUS_TRY(sort_vectors(set_.colour, tree_.colour));
+        PILEUS_TRY(sort_vectors(set_.emission, tree_.emission));
         PILEUS_TRY(count_nodes());
         make_boxes();
         return Status::ok();
     }
 
 private:
+    /// In the order of the balls.
+    Status sort_vectors(const Buffer<float>& from, Buffer<float>& to) const {
+        if (from.empty()) return Status::ok();
+        PILEUS_TRY(allocate(arrays::particle_vectors(count_), to));
+        parallel_each(threads_, count_, [&](std::size_t i) {
+            for (std::size_t a = 0; a < 3; ++a) to[3 * i + a] = from[3 * items_[i].number + a];
+        });
+        return Status::ok();
+    }
     double place(std::size_t i, int axis) const {
         return set_.origin[axis] + double(set_.position[3 * i + std::size_t(axis)]) - low_[axis];
     }
@@ -78,7 +83,7 @@ private:
         count_ = set_.count;
         std::size_t kept = 0;
         for (std::size_t i = 0; i < set_.count; ++i)
-            kept += i == 0 || !coincide(items_[i - 1].number, items_[i].number) ? 1 : 0;
+            kept += i == 0 || compare(items_[i - 1].number, items_[i].number) != 0 ? 1 : 0;
         if (kept == set_.count) return Status::ok();
         PILEUS_TRY(merged_.resize(kept, "order of particles"));
         std::size_t to = 0;
@@ -86,21 +91,27 @@ private:
             double sum = 0;
             const std::size_t first = i;
             do sum += double(set_.density[items_[i++].number]);
-            while (i < set_.count && coincide(items_[first].number, items_[i].number));
+            while (i < set_.count && compare(items_[first].number, items_[i].number) == 0);
             items_[to] = items_[first];
             merged_[to] = float(sum);
         }
         count_ = kept;
         return Status::ok();
     }
-    bool coincide(std::uint32_t a, std::uint32_t b) const {
-        bool same = set_.radius[a] == set_.radius[b];
-        for (std::size_t k = 0; k < 3; ++k) {
-            same = same && set_.position[3 * a + k] == set_.position[3 * b + k];
-            if (!set_.velocity.empty())
-                same = same && set_.velocity[3 * a + k] == set_.velocity[3 * b + k];
-        }
-        return same;
+    /// Below 0, 0, above 0: how vectors of two particles compare.
+    int compare(const Buffer<float>& vectors, std::uint32_t a, std::uint32_t b) const {
+        for (std::size_t k = 0; k < 3 && !vectors.empty(); ++k)
+            if (vectors[3 * a + k] != vectors[3 * b + k])
+                return vectors[3 * a + k] < vectors[3 * b + k] ? -1 : 1;
+        return 0;
+    }
+    /// The same of all but their densities.
+    int compare(std::uint32_t a, std::uint32_t b) const {
+        if (const int order = compare(set_.position, a, b)) return order;
+        if (set_.radius[a] != set_.radius[b]) return set_.radius[a] < set_.radius[b] ? -1 : 1;
+        for (const Buffer<float>* vectors : {&set_.velocity, &set_.colour, &set_.emission})
+            if (const int order = compare(*vectors, a, b)) return order;
+        return 0;
     }
     void set_codes() {
         double side = 0;
@@ -148,14 +159,8 @@ private:
         }
     }
     bool before(std::uint32_t a, std::uint32_t b) const {
-        for (std::size_t k = 0; k < 3; ++k)
-            if (set_.position[3 * a + k] != set_.position[3 * b + k])
-                return set_.position[3 * a + k] < set_.position[3 * b + k];
-        if (set_.radius[a] != set_.radius[b]) return set_.radius[a] < set_.radius[b];
-        for (std::size_t k = 0; k < 3 && !set_.velocity.empty(); ++k)
-            if (set_.velocity[3 * a + k] != set_.velocity[3 * b + k])
-                return set_.velocity[3 * a + k] < set_.velocity[3 * b + k];
-        return set_.density[a] < set_.density[b];
+        const int order = compare(a, b);
+        return order != 0 ? order < 0 : set_.density[a] < set_.density[b];
     }
 
     /// Nodes in the order of a walk: first counted, then made.

@@ -14,6 +14,8 @@ struct ParticleTree {
     Buffer<ParticleNode> nodes;  ///< one more than there are: its end
     Buffer<ParticleBall> balls;  ///< in the order of the leaves
     Buffer<float> velocity;      ///< [ball][axis], m/s; empty: at rest
+    Buffer<float> colour;        ///< [ball][channel]: factor on the albedo; empty: 1
+    Buffer<float> emission;      ///< [ball][channel]: factor on the emission; empty: 1
     std::uint32_t leaves = 0;
     int depth = 0;  ///< of the deepest leaf; the root's is 0
 
@@ -28,8 +30,9 @@ constexpr std::uint64_t kMostTreeParticles = std::uint64_t{1} << 30;
 
 namespace arrays {
 
-inline Array<float> particle_velocities(std::uint64_t particles) {
-    return {"velocities of particles", bytes_of(particles, 3), Stage::kDensity, Stage::kWrite};
+/// Velocities, colours or emission.
+inline Array<float> particle_vectors(std::uint64_t particles) {
+    return {"vectors of particles", bytes_of(particles, 3), Stage::kDensity, Stage::kWrite};
 }
 inline Array<ParticleBall> particle_balls(std::uint64_t particles) {
     return {"particles", particles, Stage::kDensity, Stage::kWrite};
