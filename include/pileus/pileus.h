@@ -7,9 +7,8 @@
  *
  * Rules of all functions
  * - A result other than PILEUS_OK leaves outputs as they were; `error`, where not null, then holds
- *   the code and one line for each fault. Nothing is written to stdout or stderr, no signal
- * handler, no floating-point mode and no OpenMP setting of yours is changed, nothing is kept
- * outside the handles.
+ *   the code and a line for each fault. Nothing is written to stdout or stderr, no signal handler,
+ *   floating-point mode or OpenMP setting of yours is changed, nothing is kept outside handles.
  * - Handles are used by one thread at a time; different handles by as many threads as you like. A
  *   world and a scene are read only once made, so that threads share them.
  * - Structs begin with their size, which PILEUS_INIT sets: a library that is newer or older than
@@ -40,7 +39,7 @@ extern "C" {
 #endif
 
 /** Grows when functions or members are added; what is there keeps its meaning. */
-#define PILEUS_API_VERSION 1
+#define PILEUS_API_VERSION 2
 
 /** Clears a struct and sets its size: `pileus_camera camera; PILEUS_INIT(camera);` */
 #define PILEUS_INIT(s) pileus_init(&(s), (uint32_t)sizeof(s))
@@ -139,8 +138,7 @@ typedef struct pileus_particles {
     const uint64_t* id;    /**< up to 2^53, for density.share; null: none */
     const float* velocity; /**< x, y, z of each, lengths per second; null: at rest */
     uint32_t colour_stride, emission_stride;
-    const float* colour;   /**< factors on the medium's albedo, r, g, b, 0 to 1; null: 1 */
-    const float* emission; /**< factors on the medium's emission, r, g, b, 0 to 1e9; null: 1 */
+    const float *colour, *emission; /**< r, g, b: factors on the medium's, up to 1, 1e9; null: 1 */
 } pileus_particles;
 
 /** Densities from memory instead of the scene's file: values[(z*size[1] + y)*size[0] + x], the
@@ -233,6 +231,24 @@ typedef struct pileus_ground {
 } pileus_ground;
 PILEUS_API pileus_code pileus_session_set_ground(pileus_session* session,
                                                  const pileus_ground* ground, pileus_error* error);
+
+typedef enum pileus_light_type { PILEUS_POINT, PILEUS_SPOT, PILEUS_DIRECTIONAL } pileus_light_type;
+/** A light besides sun and sky; docs/lights.md has the units. */
+typedef struct pileus_light {
+    uint32_t struct_size;
+    uint32_t type;                     /**< a pileus_light_type */
+    double position_m[3], radius_m;    /**< point, spot; radius 0: as small as can be */
+    double direction[3];               /**< spot: where it shines; not 0 */
+    double cone_deg, penumbra_deg;     /**< spot: (0, 360]; up to half of that */
+    double azimuth_deg, elevation_deg; /**< directional: where it stands, as the sun */
+    float light[3]; /**< radiant intensity; directional: irradiance on a plane that faces it */
+} pileus_light;
+
+/** Lights in place of all that the session had, the scene's included; up to 64, 0: none. Each
+ * element has the size that the first one tells. Errors: those of a scene's [[light]]. */
+PILEUS_API pileus_code pileus_session_set_lights(pileus_session* session,
+                                                 const pileus_light* lights, uint32_t count,
+                                                 pileus_error* error);
 
 /** Moves all media: turned about the z axis through the world's origin (counter-clockwise seen from
  * above), then shifted. Nothing is prepared again. Not in a world with solids. */

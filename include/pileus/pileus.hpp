@@ -222,6 +222,27 @@ public:
         return call(pileus_session_set_ground, &c);
     }
 
+    /// In place of all lights that the session had, the scene's included. kBadInput: more than 64,
+    /// or what the scene's method has no lights for.
+    Status set_lights(const std::vector<SceneLight>& lights) {
+        std::vector<pileus_light> given;
+        for (const SceneLight& light : lights) {
+            given.push_back(detail::cleared<pileus_light>());
+            pileus_light& c = given.back();
+            c.type = static_cast<std::uint32_t>(light.type);
+            detail::store(light.position_m, c.position_m);
+            detail::store(light.direction, c.direction);
+            c.cone_deg = light.cone_deg, c.penumbra_deg = light.penumbra_deg;
+            c.radius_m = light.radius_m;
+            c.azimuth_deg = light.azimuth_deg, c.elevation_deg = light.elevation_deg;
+            detail::store(light.light, c.light);
+        }
+        return detail::status_of([&](pileus_error* error) {
+            return pileus_session_set_lights(get(), given.data(),
+                                             static_cast<std::uint32_t>(given.size()), error);
+        });
+    }
+
     /// Moves all media: turned about the z axis through the world's origin (counter-clockwise seen
     /// from above), then shifted. kBadInput in a world with solids.
     Status set_placement(const glm::dvec3& offset_m, double yaw_deg = 0) {

@@ -69,6 +69,22 @@ struct Sun {
     bool present = true;
 };
 
+/// A light besides sun and sky; docs/lights.md has the units.
+struct SceneLight {
+    enum class Type {
+        kPoint = PILEUS_POINT,
+        kSpot = PILEUS_SPOT,
+        kDirectional = PILEUS_DIRECTIONAL
+    };
+    Type type = Type::kPoint;
+    glm::dvec3 position_m{0};                    ///< point, spot
+    glm::dvec3 direction{0, 0, -1};              ///< spot: where it shines
+    double cone_deg = 40, penumbra_deg = 0;      ///< spot: (0, 360]; up to half of that
+    double radius_m = 0;                         ///< point, spot; 0: as small as can be
+    double azimuth_deg = 0, elevation_deg = 45;  ///< directional: where it stands, as the sun
+    glm::vec3 light{1};  ///< radiant intensity; directional: irradiance on a plane that faces it
+};
+
 /// Of one radiance, or of a picture: latitude-longitude, rows from the zenith, three floats a texel
 /// (docs/scene.md, "Sky map"). Copied.
 struct Sky {

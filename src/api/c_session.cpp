@@ -84,6 +84,29 @@ Status set_sky(const pileus_sky& given, Session& session) {
     return session.set_sky(sky, &image, false);
 }
 
+Status take_light(const pileus_light& given, LightSettings& own) {
+    if (given.type > PILEUS_DIRECTIONAL)
+        return Status::bad_input("light.type: " + std::to_string(given.type) +
+                                 ", allowed: PILEUS_POINT, PILEUS_SPOT, PILEUS_DIRECTIONAL");
+    own.type = LampKind(given.type);
+    if (own.type == LampKind::kDirectional) {
+        own.azimuth_deg = given.azimuth_deg;
+        own.elevation_deg = given.elevation_deg;
+        copy3(given.light, own.irradiance);
+        return Status::ok();
+    }
+    own.position_m = Double3{given.position_m[0], given.position_m[1], given.position_m[2]};
+    own.radius_m = given.radius_m;
+    copy3(given.light, own.intensity);
+    if (own.type != LampKind::kSpot) return Status::ok();
+    own.direction = Double3{given.direction[0], given.direction[1], given.direction[2]};
+    if (own.direction == Double3{})
+        return Status::bad_input("light.direction: 0, 0, 0, allowed: any other of a spot");
+    own.cone_deg = given.cone_deg;
+    own.penumbra_deg = given.penumbra_deg;
+    return Status::ok();
+}
+
 Status set_depth(const pileus_depth_image& given, Session& session) {
     if (given.kind > PILEUS_BUFFER)
         return Status::bad_input("depth.kind: " + std::to_string(given.kind) +
@@ -191,6 +214,27 @@ pileus_code pileus_session_set_ground(pileus_session* session, const pileus_grou
         own.altitude_m = given.altitude_m;
         own.albedo = given.albedo;
         return s.set_ground(own);
+    });
+}
+
+pileus_code pileus_session_set_lights(pileus_session* session, const pileus_light* lights,
+                                      uint32_t count, pileus_error* error) {
+    if (session == nullptr) return finish(no_handle("session"), error);
+    return call(session->host.get(), error, [&]() -> Status {
+        if (count > 0 && lights == nullptr)
+            return Status::bad_input("lights: null, allowed: as many as `count`");
+        if (count > kMostLights)
+            return Status::bad_input("lights: " + std::to_string(count) + ", allowed: at most " +
+                                     std::to_string(kMostLights));
+        std::vector<LightSettings> own(count);
+        const char* at = reinterpret_cast<const char*>(lights);
+        for (LightSettings& light : own) {
+            pileus_light given;
+            if (!take(reinterpret_cast<const pileus_light*>(at), given)) return no_struct("lights");
+            PILEUS_TRY(take_light(given, light));
+            at += lights->struct_size;
+        }
+        return session->session.set_lights(own);
     });
 }
 

@@ -108,7 +108,8 @@ std::uint64_t bytes_of_world(const World& world) {
                           phase_bytes(world.medium) + world.solids.nodes.bytes() +
                           world.solids.triangles.bytes() + world.solids.albedo.bytes() +
                           world.particles.position.bytes() + world.particles.radius.bytes() +
-                          world.particles.density.bytes();
+                          world.particles.density.bytes() + world.particles.colour.bytes() +
+                          world.particles.emission.bytes() + world.particles.velocity.bytes();
     for (const NoiseTexture* noise : {&world.layer.perlin, &world.layer.worley})
         bytes += noise->words.bytes();
     return bytes;

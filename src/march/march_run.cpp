@@ -4,6 +4,7 @@
 // docs/raymarch.md
 #include "src/march/march_run.h"
 
+#include "src/world/light/lamps.h"
 #include "src/world/medium/resample.h"
 
 namespace pileus {
@@ -54,7 +55,8 @@ Status aim(int, bool anew, const Context&, MethodRun& method_run) {
     const auto& size = run.scene->camera.resolution;
     if (anew || before.sunlit != now.sunlit || before.sky != now.sky ||
         before.sun_irradiance != now.sun_irradiance || before.ground != now.ground ||
-        before.ground_z != now.ground_z || before.ground_albedo != now.ground_albedo) {
+        before.ground_z != now.ground_z || before.ground_albedo != now.ground_albedo ||
+        !same_lamps(before.lamps, now.lamps)) {
         run.sky_to_sun = {};
         run.upsample.ready = false;
     }

@@ -7,6 +7,7 @@
 #include <cstring>
 
 #include "src/world/camera/view.h"
+#include "src/world/light/lamps.h"
 #include "src/world/phase/forward_share.h"
 #include "src/world/plan_parts.h"
 
@@ -56,12 +57,16 @@ void tell_colours(PhotonRun& run) {
     run.plan.need("coefficients per colour channel: coloured solids");
 }
 
+bool coloured_lamps(const Lighting& lighting) {
+    bool coloured = false;
+    for (const LampParams& l : lighting.lamps)
+        coloured |= l.light[0] != l.light[1] || l.light[1] != l.light[2];
+    return coloured;
+}
+
 /// Coloured lights as well.
 void tell_lamps(PhotonRun& run) {
-    bool coloured = false;
-    for (const LampParams& l : run.lighting.lamps)
-        coloured |= l.light[0] != l.light[1] || l.light[1] != l.light[2];
-    if (!coloured || run.deposit.channels == 3) return;
+    if (!coloured_lamps(run.lighting) || run.deposit.channels == 3) return;
     run.deposit.channels = 3;
     run.plan.need("coefficients per colour channel: coloured [[light]]");
 }
@@ -88,6 +93,7 @@ bool has_places(const PhotonRun& run, const Lighting& next) {
         for (const Light& place : run.lighting.lights) found |= place.stream == light.stream;
         if (!found) return false;
     }
+    if (coloured_lamps(next) && run.deposit.channels != 3) return false;
     const GroundMap map = make_ground_map(run.world->medium, next), &own = run.ground_map;
     bool same = map.cells == own.cells;
     for (int a = 0; a < 2; ++a)
@@ -252,7 +258,8 @@ bool relight_photons(PhotonRun& run) {
 
 bool same_lights(const Lighting& a, const Lighting& b) {
     if (a.lights.size() != b.lights.size() || a.ground != b.ground || a.ground_z != b.ground_z ||
-        a.ground_albedo != b.ground_albedo || a.map.columns != b.map.columns)
+        a.ground_albedo != b.ground_albedo || a.map.columns != b.map.columns ||
+        !same_lamps(a.lamps, b.lamps))
         return false;
     for (std::size_t i = 0; i < a.lights.size(); ++i) {
         const Light &x = a.lights[i], &y = b.lights[i];

@@ -11,6 +11,9 @@ namespace pileus {
 
 enum class LampKind { kPoint, kSpot, kDirectional };
 
+/// Of a scene, as of all tables of one list.
+constexpr std::size_t kMostLights = 64;
+
 struct LightSettings {
     LampKind type = LampKind::kPoint;
     Double3 position_m{};                        ///< point, spot
@@ -23,5 +26,13 @@ struct LightSettings {
     double azimuth_deg = 0, elevation_deg = 45;  ///< directional: where it stands, as the sun
     std::array<float, 3> irradiance{1, 1, 1};    ///< directional: on a plane facing it
 };
+
+inline bool operator==(const LightSettings& a, const LightSettings& b) {
+    return a.type == b.type && a.position_m == b.position_m && a.intensity == b.intensity &&
+           a.radius_m == b.radius_m && a.direction == b.direction && a.target_m == b.target_m &&
+           a.cone_deg == b.cone_deg && a.penumbra_deg == b.penumbra_deg &&
+           a.azimuth_deg == b.azimuth_deg && a.elevation_deg == b.elevation_deg &&
+           a.irradiance == b.irradiance;
+}
 
 }  // namespace pileus

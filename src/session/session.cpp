@@ -74,6 +74,7 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
     camera_ = scene_.camera;
     sun_ = scene_.sun;
     ground_ = scene_.ground;
+    lights_ = scene_.lights;
     PILEUS_TRY(make_context(scene_, options, context_, report_));
     if (live) context_.frames = kLiveFrames;
     context_.digests = !live;

@@ -65,6 +65,8 @@ public:
     /// turned. A sky that is not present has none.
     Status set_sky(const Sky& sky, const Image* map, bool keep);
     Status set_ground(const Ground& ground);
+    /// In place of all that there were: point, spot and parallel lights.
+    Status set_lights(const std::vector<LightSettings>& lights);
     Status set_placement(const Double3& offset_m, double yaw_deg);
     Status set_frame(int number);
     /// Null rows: nothing solid.
@@ -91,6 +93,7 @@ private:
     Camera camera_;
     Sun sun_;
     Ground ground_;
+    std::vector<LightSettings> lights_;
     Double3 offset_m_{};
     double yaw_deg_ = 0;
     DepthScale depth_scale_;

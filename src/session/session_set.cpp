@@ -141,6 +141,16 @@ Status Session::set_ground(const Ground& ground) {
     return Status::ok();
 }
 
+Status Session::set_lights(const std::vector<LightSettings>& lights) {
+    if (lights == lights_) return Status::ok();
+    Scene changed = scene_;
+    changed.lights = lights;
+    PILEUS_TRY(check_changed(std::move(changed)));
+    lights_ = lights;
+    stale_ = true;
+    return Status::ok();
+}
+
 Status Session::set_placement(const Double3& offset_m, double yaw_deg) {
     for (const double v : {offset_m.x, offset_m.y, offset_m.z})
         if (!(v > -1e9 && v < 1e9))
@@ -190,6 +200,7 @@ void Session::place() {
     scene_.camera = camera_;
     scene_.sun = sun_;
     scene_.ground = ground_;
+    scene_.lights = lights_;
     if (yaw_deg_ == 0 && offset_m_ == Double3{}) return;
     const SineCosine yaw = sincos_deg(yaw_deg_);
     Camera& c = scene_.camera;
@@ -197,6 +208,12 @@ void Session::place() {
     c.target_m = turned_back(camera_.target_m - offset_m_, yaw);
     c.up = turned_back(camera_.up, yaw);
     scene_.sun.azimuth_deg += yaw_deg_;
+    for (LightSettings& light : scene_.lights) {
+        light.position_m = turned_back(light.position_m - offset_m_, yaw);
+        light.target_m = turned_back(light.target_m - offset_m_, yaw);
+        light.direction = turned_back(light.direction, yaw);
+        light.azimuth_deg += yaw_deg_;
+    }
     scene_.ground.altitude_m -= offset_m_.z;
 }
 

@@ -205,6 +205,12 @@ TEST_CASE("pileus.hpp: faults are codes and lines; what stops says how far it ca
     CHECK(session.set_sun({0, 91}).message().find("elevation") != std::string::npos);
     CHECK(session.set_camera(glm::dmat4(2), glm::dmat4(1)).code() == hpp::Code::kBadInput);
     CHECK(session.set_ground({100, 2}).code() == hpp::Code::kBadInput);
+    hpp::SceneLight light;
+    light.type = hpp::SceneLight::Type::kSpot;
+    CHECK(session.set_lights({light, light}));
+    CHECK(session.set_lights({}));
+    light.cone_deg = 0;
+    CHECK(session.set_lights({light}).code() == hpp::Code::kBadInput);
     CHECK(session.set_frame(-1).code() == hpp::Code::kBadInput);
     CHECK(bool(session.set_placement({100, 0, 50}, 30)));
     CHECK(bool(session.set_sky({glm::vec3(1)})));

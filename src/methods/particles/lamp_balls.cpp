@@ -160,7 +160,10 @@ void add_own_light(const Context& context, ParticlesRun& run) {
 
 Status light_around(const Context& context, const ParticleMarchParams& k, ParticlesRun& run) {
     const bool lamps = !run.lighting.lamps.empty(), own = has_own_light(run);
-    if (!lamps && !own) return Status::ok();
+    if (!lamps && !own) {
+        run.around_balls = Buffer<float>();
+        return Status::ok();
+    }
     const StageClock clock(context, "light of lights");
     PILEUS_TRY(allocate_once(arrays::particle_around(run.tree.balls.size()), run.around_balls));
     for (std::size_t i = 0; i < run.around_balls.size() && !lamps; ++i)

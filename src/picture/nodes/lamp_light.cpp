@@ -6,16 +6,13 @@
 
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/node_grid.h"
+#include "src/world/light/lamps.h"
 
 namespace pileus {
 namespace {
 
 constexpr double kFewestNodes = 1u << 17, kMostNodes = 1u << 20;
 constexpr double kVoxelsPerNode = 8;
-
-bool same_lamps(const std::vector<LampParams>& a, const std::vector<LampParams>& b) {
-    return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0;
-}
 
 }  // namespace
 

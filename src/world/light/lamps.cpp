@@ -2,6 +2,7 @@
 // See lamps.h.
 #include "src/world/light/lamps.h"
 
+#include <cstring>
 #include <glm/geometric.hpp>
 #include <string>
 
@@ -78,6 +79,11 @@ std::vector<LampParams> plan_lamps(const Scene& scene, const Medium& medium, Pla
             lamps.push_back(lamp);
     }
     return lamps;
+}
+
+bool same_lamps(const std::vector<LampParams>& a, const std::vector<LampParams>& b) {
+    return a.size() == b.size() &&
+           (a.empty() || std::memcmp(a.data(), b.data(), a.size() * sizeof a[0]) == 0);
 }
 
 }  // namespace pileus

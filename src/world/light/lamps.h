@@ -16,4 +16,6 @@ namespace pileus {
 /// in `plan` and left out: the ground hides them from all that is above.
 std::vector<LampParams> plan_lamps(const Scene& scene, const Medium& medium, Plan& plan);
 
+bool same_lamps(const std::vector<LampParams>& a, const std::vector<LampParams>& b);
+
 }  // namespace pileus
