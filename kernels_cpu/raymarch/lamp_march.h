@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light of point, spot and parallel lights scattered once, and what the media emit unscattered,
-// added up along each pixel's ray.
-// in: lamps, a medium -> out: optical depths to each lamp on nodes; light added to planes.
-// docs/lights.md, "By marching": 1 / distance^2 is integrated over each step by the angle that the
-// lamp sees of it, so that a lamp beside the ray needs no finer steps.
+// Light of point, spot and parallel lights scattered once, or by octaves too, and what the media
+// emit unscattered, added up along each pixel's ray. in: lamps, a medium -> out: optical depths to
+// each lamp on nodes; light added to planes. docs/lights.md, "By marching": 1 / distance^2 is
+// integrated over each step by the angle that the lamp sees of it, so that a lamp beside the ray
+// needs no finer steps.
 #pragma once
 #include "kernels_cpu/core/pixel_block.h"
 #include "kernels_cpu/display/march_ray.h"
 #include "kernels_cpu/light/lamp.h"
 #include "kernels_cpu/raymarch/lamp_march_params.h"
+#include "kernels_cpu/raymarch/raymarch_light.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
@@ -99,11 +100,21 @@ PILEUS_FN void march_lamps(const LampMarchParams& k, const LampMarchBuffers& b,
                                           corners(node_position(k.nodes, place), k.nodes.size));
                 const T light = weight * sight.share * exp_(T{} - tau);
                 const T turn = one_minus_cosine(ray.direction, sight.way);
+                T more[kMostOctaves];
+                (void)octave_light(k.octaves, tau, light, weight * sight.share, more);
                 for (int i = 0; i < k.media; ++i) {
                     const T scattered =
                         select(lit, light * share[i] * phase_density(k.phase[i], turn), T{});
                     for (int c = 0; c < 3; ++c)
                         colour[c] = colour[c] + scattered * (k.albedo[i][c] * lamp.light[c]);
+                    for (int n = 1; n < k.octaves.count; ++n) {
+                        const T again = select(
+                            lit, share[i] * hg_density(all<T>(k.octave_g[i][n]), turn) * more[n],
+                            T{});
+                        for (int c = 0; c < 3; ++c)
+                            colour[c] =
+                                colour[c] + again * (k.octave_source[i][n][c] * lamp.light[c]);
+                    }
                 }
             }
             seen = seen * exp_(T{} - optical);

@@ -78,24 +78,6 @@ void set_light(const RaymarchInput& in, RaymarchParams& k) {
     }
 }
 
-/// Octaves take albedo and share once more each; their phase functions are Henyey-Greenstein's.
-void set_octaves(const RaymarchInput& in, RaymarchParams& k) {
-    k.light.octaves = octaves_of(*in.settings);
-    for (int i = 0; i < in.medium->count; ++i) {
-        const Optics& optics = in.medium->optics[std::size_t(i)];
-        float g = phase_moment(optics.phase, 1), source[3];
-        for (int c = 0; c < 3; ++c) source[c] = k.sun_source[i][c];
-        for (int n = 1; n < k.light.octaves.count; ++n) {
-            g *= float(in.settings->octave_anisotropy);
-            k.light.octave_g[i][n] = g;
-            for (int c = 0; c < 3; ++c) {
-                source[c] *= optics.albedo[c] * k.light.octaves.share;
-                k.octave_source[i][n][c] = source[c];
-            }
-        }
-    }
-}
-
 void set_media(const RaymarchInput& in, RaymarchParams& k) {
     const Lighting& lighting = *in.lighting;
     k.media = in.medium->count;
@@ -173,6 +155,24 @@ int raymarch_levels(const RaymarchSettings& s, const CameraParams& camera, const
     return int(level_grids(medium.grid, levels).size());
 }
 
+void set_octaves(const RaymarchSettings& settings, const Medium& medium, const float (*first)[3],
+                 float (*g)[kMostOctaves], float (*source)[kMostOctaves][3]) {
+    const Octaves octaves = octaves_of(settings);
+    for (int i = 0; i < medium.count; ++i) {
+        const Optics& optics = medium.optics[std::size_t(i)];
+        float own = phase_moment(optics.phase, 1), light[3];
+        for (int c = 0; c < 3; ++c) light[c] = first[i][c];
+        for (int n = 1; n < octaves.count; ++n) {
+            own *= float(settings.octave_anisotropy);
+            g[i][n] = own;
+            for (int c = 0; c < 3; ++c) {
+                light[c] *= optics.albedo[c] * octaves.share;
+                source[i][n][c] = light[c];
+            }
+        }
+    }
+}
+
 Octaves octaves_of(const RaymarchSettings& s) {
     return {s.many ? s.octaves : 1, float(s.octave_extinction), float(s.octave_share)};
 }
@@ -245,7 +245,8 @@ RaymarchParams raymarch_params(const RaymarchInput& in) {
     k.visibility = in.visibility_nodes;
     set_media(in, k);
     set_light(in, k);
-    set_octaves(in, k);
+    k.light.octaves = octaves_of(*in.settings);
+    set_octaves(*in.settings, *in.medium, k.sun_source, k.light.octave_g, k.octave_source);
     if (in.simple != nullptr) set_simple(*in.simple, k);
     return k;
 }

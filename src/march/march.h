@@ -65,6 +65,11 @@ double mean_kept(const RaymarchSettings& settings, const Medium& medium);
 /// One octave unless scattering = "octaves".
 Octaves octaves_of(const RaymarchSettings& settings);
 
+/// Phase functions and albedos, shares in them, of octaves from 1 on: Henyey-Greenstein's, which
+/// take albedo and share once more each. `first`: what octave 0 is multiplied by.
+void set_octaves(const RaymarchSettings& settings, const Medium& medium, const float (*first)[3],
+                 float (*g)[kMostOctaves], float (*source)[kMostOctaves][3]);
+
 /// Everything that a launch reads, but for the pointers to planes.
 RaymarchParams raymarch_params(const RaymarchInput& in);
 

@@ -168,7 +168,9 @@ void note_plan(RaymarchRun& run) {
     if (lamps == 0)
         plan.leave_out("lights", scene.lights.empty() ? "no [[light]]" : "dark or underground");
     else
-        plan.need((std::to_string(lamps) + " lights of [[light]], scattered once").c_str());
+        plan.need((std::to_string(lamps) + " lights of [[light]], " +
+                   (run.settings.many ? "octaves too" : "scattered once"))
+                      .c_str());
     note_emission(run.world->medium, plan);
     if (run.lighting.sunlit && scene.sun.angular_radius_deg > 0)
         plan.leave_out("the sun's disc", "a point to this method: path alone knows it");

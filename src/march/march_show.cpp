@@ -48,7 +48,8 @@ Status light_sky(const Context& context, const FrameStep& step, RaymarchRun& run
                           run.sky);
 }
 
-/// Light of [[light]], scattered once, and of the media: its own march, in steps of the grid.
+/// Light of [[light]], scattered once or by octaves, and of the media: its own march, in steps of
+/// the grid.
 Status add_lamps(const Context& context, RaymarchRun& run) {
     const Medium& medium = marched_medium(run);
     if ((run.lighting.lamps.empty() && !emits(medium)) || run.settings.steps == 0)
@@ -56,6 +57,8 @@ Status add_lamps(const Context& context, RaymarchRun& run) {
     PILEUS_TRY(make_lamp_nodes(context, medium, run.majorants, run.lighting, run.lamps));
     LampMarchParams k = lamp_march_params(medium, run.majorants, run.lighting, run.camera,
                                           run.lamps, run.settings.stop_below);
+    k.octaves = octaves_of(run.settings);
+    set_octaves(run.settings, medium, k.albedo, k.octave_g, k.octave_source);
     for (int i = 0; i < k.media; ++i) {
         float unit = 1;
         if (run.settings.peak_phase) unit = 1.0f / phase_peak(k.phase[i]);

@@ -146,6 +146,23 @@ TEST_CASE("photons of lamps bring what is scattered more than once") {
         }
 }
 
+TEST_CASE("a parallel light by octaves is the sun by octaves") {
+    const std::string octaves = "[raymarch]\nscattering = \"octaves\"\nsteps = 200\n";
+    for (const char* medium : {kBox, kCloud}) {
+        const std::string view = std::string(kView) + octaves + medium;
+        const Picture lamp = by("raymarch", view + kMoon);
+        const Picture sun = by("raymarch", view + "[sun]\nazimuth_deg = 70\nelevation_deg = 40\n");
+        const Picture once = by("raymarch", std::string(kView) + medium + kMoon);
+        for (const char* channel : {"R", "B"}) {
+            const double a = sum_of(lamp, channel, nullptr).value;
+            const double b = sum_of(sun, channel, nullptr).value;
+            CHECK(a > 1.5 * sum_of(once, channel, nullptr).value);
+            // Steps and nodes of their own.
+            CHECK(std::fabs(a - b) < 0.02 * b);
+        }
+    }
+}
+
 TEST_CASE("marched lamps light the ground through a medium that absorbs") {
     const char* down = R"(
 [camera]

@@ -78,6 +78,7 @@ LampMarchParams lamp_march_params(const Medium& medium, const Majorants& majoran
         }
     }
     k.emits = emits(medium) ? 1 : 0;
+    k.octaves = {1, 1, 1};
     k.lamps = std::int32_t(nodes.lamps.size());
     k.nodes = nodes.grid;
     k.cut = float(cut);
