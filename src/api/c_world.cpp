@@ -109,7 +109,8 @@ std::uint64_t bytes_of_world(const World& world) {
                           world.solids.triangles.bytes() + world.solids.albedo.bytes() +
                           world.particles.position.bytes() + world.particles.radius.bytes() +
                           world.particles.density.bytes() + world.particles.colour.bytes() +
-                          world.particles.emission.bytes() + world.particles.velocity.bytes();
+                          world.particles.emission.bytes() + world.particles.velocity.bytes() +
+                          world.particles.id.bytes();
     for (const NoiseTexture* noise : {&world.layer.perlin, &world.layer.worley})
         bytes += noise->words.bytes();
     return bytes;

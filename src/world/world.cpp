@@ -65,7 +65,6 @@ Status load_particles_of(const Scene& scene, const Context& context, World& worl
     if (settings.y_up) turn_particles_y_up(world.particles);
     const double scale = row != nullptr ? settings.extinction_per_m : settings.extinction_scale;
     for (float& v : world.particles.density.span()) v = float(double(v) * scale);
-    world.particles.id = Buffer<std::uint64_t>();
     return Status::ok();
 }
 

@@ -237,6 +237,34 @@ TEST_CASE("particles: a share that casts shadows keeps the mean depth, whatever 
     CHECK(*std::max_element(depth.begin(), depth.end()) == 0);
 }
 
+TEST_CASE("particles: those with numbers that cast shadows stay the same while all move") {
+    std::vector<std::uint64_t> before;
+    for (const float shift : {0.0f, 0.37f}) {
+        ParticleSet set;
+        make(1000, 0, set);
+        REQUIRE(set.id.resize(set.count, "numbers"));
+        for (std::size_t i = 0; i < set.count; ++i) {
+            set.id[i] = 5 * i;
+            set.position[3 * i] += shift * float(i % 7);
+        }
+        ParticleTree tree;
+        REQUIRE(make_particle_tree(set, set.low, 12, 2, tree));
+        Buffer<ParticleBall> chosen;
+        REQUIRE(choose_occluders(tree, 0.25, chosen));
+        std::vector<std::uint64_t> ids;
+        // Balls keep their order, and those chosen are told by their places.
+        for (std::size_t i = 0, c = 0; i < tree.balls.size() && c < chosen.size(); ++i)
+            if (std::memcmp(chosen[c].centre, tree.balls[i].centre, sizeof chosen[c].centre) == 0)
+                ids.push_back(tree.id[i]), ++c;
+        CHECK(ids.size() == chosen.size());
+        std::sort(ids.begin(), ids.end());
+        CHECK((before.empty() || ids == before));
+        before = ids;
+    }
+    // 250 are expected, with a standard deviation of 14.
+    CHECK(std::fabs(double(before.size()) - 250) < 4 * 14);
+}
+
 TEST_CASE("particles: depths by tiles where some balls hold all, and where all lie in one place") {
     // Radii over three decades, so that a few balls touch every tile.
     ParticleSet set;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The measurements of Monette and Whitehead 2014 on this machine: times of light and pictures of
-// particles against their number, lights, size of picture, coarseness, share that casts shadows.
+// particles against their number, lights, size of picture, coarseness, share that casts shadows;
+// how much pictures flicker.
 // in: a folder for pictures -> out: Markdown tables for docs/particles-table.md, PNG files.
 #include <fmt/format.h>
 
@@ -41,6 +42,7 @@ light = "centre"
 /// place; they move outwards and up.
 struct Cloud {
     std::vector<float> position, velocity, radius, density;
+    std::vector<std::uint64_t> id;
 
     explicit Cloud(std::uint64_t count) {
         double spacing = 1;
@@ -63,6 +65,15 @@ struct Cloud {
             density.push_back(0.02f);
         }
     }
+    /// Numbers, and all of it after so many seconds: moved along, and grown by a tenth a second.
+    Cloud after(double seconds, bool numbered) const {
+        Cloud moved = *this;
+        for (std::size_t i = 0; i < position.size(); ++i)
+            moved.position[i] = float(double(position[i]) + seconds * double(velocity[i]));
+        for (float& r : moved.radius) r = float(double(r) * (1 + 0.1 * seconds));
+        for (std::uint64_t i = 0; i < radius.size() && numbered; ++i) moved.id.push_back(i);
+        return moved;
+    }
     HostParticles host() const {
         HostParticles h;
         h.count = radius.size();
@@ -70,9 +81,13 @@ struct Cloud {
         h.velocity = velocity.data(), h.velocity_stride = 3 * sizeof(float);
         h.radius = radius.data(), h.radius_stride = sizeof(float);
         h.density = density.data(), h.density_stride = sizeof(float);
+        if (!id.empty()) h.id = id.data(), h.id_stride = sizeof(std::uint64_t);
         return h;
     }
 };
+
+constexpr std::uint64_t kFlickering = 20'000;
+constexpr int kFlickerFrames = 12;
 
 struct Times {
     double tree_s = 0, light_s = 0, lights_s = 0, show_s = 0;
@@ -89,6 +104,7 @@ public:
         PILEUS_TRY(by_coarseness());
         PILEUS_TRY(by_occluders());
         PILEUS_TRY(by_display());
+        PILEUS_TRY(flicker());
         return pictures();
     }
 
@@ -221,6 +237,91 @@ private:
             PILEUS_TRY(measure(cloud, {fmt::format("particles.display_scale={}", scale), boards()},
                                "", fmt::format("/display_{}.png", scale), t));
             fmt::print("| {} | {:.3f} | {:.3f} |\n", scale, t.light_s, t.show_s);
+            std::fflush(stdout);
+        }
+        return Status::ok();
+    }
+    /// A sequence of pictures, green, one behind the other.
+    Status film(const Settings& set, bool numbered, std::vector<std::vector<float>>& frames) {
+        const Cloud cloud(kFlickering);
+        frames.clear();
+        for (int f = 0; f < kFlickerFrames; ++f) {
+            const Cloud now = cloud.after(f / 25.0, numbered);
+            Scene scene;
+            PILEUS_TRY(read_scene_text(kScene, "table", "", set, scene));
+            const HostParticles host = now.host();
+            scene.media[0].particles.host = &host;
+            RenderOptions options;
+            options.threads = threads_;
+            PILEUS_TRY(render(scene, options, [&](int, Image& image, Report&) {
+                const Channel* green = image.find("G");
+                frames.emplace_back(green->pixels.data(),
+                                    green->pixels.data() + green->pixels.size());
+                return Status::ok();
+            }));
+        }
+        return Status::ok();
+    }
+    /// What flickers of the difference from a converged sequence: its second difference from frame
+    /// to frame, over the mean radiance of the cloud's pixels.
+    static double flicker_of(const std::vector<std::vector<float>>& own,
+                             const std::vector<std::vector<float>>& truth) {
+        double sum = 0, light = 0, pixels = 0;
+        for (std::size_t f = 1; f + 1 < own.size(); ++f)
+            for (std::size_t i = 0; i < own[f].size(); ++i) {
+                if (!(truth[f][i] > 0)) continue;
+                const auto error = [&](std::size_t at) {
+                    return double(own[at][i]) - double(truth[at][i]);
+                };
+                const double change = error(f - 1) - 2 * error(f) + error(f + 1);
+                sum += change * change, light += double(truth[f][i]), pixels += 1;
+            }
+        return __builtin_sqrt(sum / pixels) / (light / pixels);
+    }
+    Status flicker() {
+        head("Flicker, 20 000 particles that move and grow, 12 frames of 1/25 s",
+             "| settings | flicker | relMSE |");
+        const Settings small = {"camera.resolution=[320, 180]"};
+        const auto with = [&](std::initializer_list<const char*> keys) {
+            Settings own = small;
+            own.insert(own.end(), keys.begin(), keys.end());
+            return own;
+        };
+        std::vector<std::vector<float>> truth, own;
+        PILEUS_TRY(film(with({"particles.light=exact", "particles.bins=512"}), false, truth));
+        struct Row {
+            const char* name;
+            Settings set;
+            bool numbered;
+        };
+        const Row rows[] = {
+            {"exact, 64 bins", with({"particles.light=exact", "particles.bins=64"}), false},
+            {"linear, 256 bins", with({"particles.light=linear"}), false},
+            {"linear, 64 bins", with({"particles.light=linear", "particles.bins=64"}), false},
+            {"centre, 256 bins", small, false},
+            {"billboards, linear", with({boards(), "particles.light=linear"}), false},
+            {"billboards, centre", with({boards()}), false},
+            {"a half casts shadows, chosen anew each frame",
+             with({"particles.light=linear", "particles.occluders=0.5"}), false},
+            {"a half casts shadows, chosen by numbers",
+             with({"particles.light=linear", "particles.occluders=0.5"}), true},
+            {"a half is there, chosen by numbers",
+             with({"particles.light=linear", R"(medium.0.density={file="host.ply",share=0.5})"}),
+             true},
+            {"a half is there, chosen anew each frame",
+             with({"particles.light=linear", R"(medium.0.density={file="host.ply",share=0.5})"}),
+             false},
+        };
+        for (const Row& row : rows) {
+            PILEUS_TRY(film(row.set, row.numbered, own));
+            double error = 0, light = 0;
+            for (std::size_t f = 0; f < own.size(); ++f)
+                for (std::size_t i = 0; i < own[f].size(); ++i) {
+                    const double d = double(own[f][i]) - double(truth[f][i]);
+                    error += d * d, light += double(truth[f][i]) * double(truth[f][i]);
+                }
+            fmt::print("| {} | {:.5f} | {:.4f} |\n", row.name, flicker_of(own, truth),
+                       error / light);
             std::fflush(stdout);
         }
         return Status::ok();

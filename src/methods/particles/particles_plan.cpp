@@ -120,7 +120,8 @@ void weigh_memory(const Context& context, ParticlesRun& run) {
         if (run.outlined_only || !own->empty())
             t.add("vectors of particles", Stage::kDensity, Stage::kWrite,
                   bytes_of(particles, 2 * 12));
-    t.add("numbers of particles", Stage::kDensity, Stage::kDensity, bytes_of(particles, 8));
+    if (run.outlined_only || !set.id.empty())
+        t.add("numbers of particles", Stage::kDensity, Stage::kWrite, bytes_of(particles, 2 * 8));
     t.add("particles while they are sorted", Stage::kMajorants, Stage::kMajorants,
           bytes_of(particles, 2 * 16));
     if (scene.particles.light != ParticleLight::kExact) {

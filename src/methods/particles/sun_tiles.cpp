@@ -283,11 +283,19 @@ std::uint64_t sun_tile_scratch_bytes() { return sizeof(Scratch); }
 Status choose_occluders(const ParticleTree& tree, double share, Buffer<ParticleBall>& chosen) {
     const std::uint64_t below = std::uint64_t(share * 0x1p32);
     const auto each = [&](auto take) {
-        for (const ParticleBall& ball : tree.balls.span()) {
+        for (std::size_t i = 0; i < tree.balls.size(); ++i) {
+            const ParticleBall& ball = tree.balls[i];
             Digest digest;
-            digest.floats({ball.centre, 3});
-            digest.floats({&ball.per_radius, 1});
-            digest.floats({&ball.depth, 1});
+            if (tree.id.empty()) {
+                digest.floats({ball.centre, 3});
+                digest.floats({&ball.per_radius, 1});
+                digest.floats({&ball.depth, 1});
+            } else {
+                // Another lot than that of density.share.
+                digest.u32(1);
+                digest.u32(std::uint32_t(tree.id[i]));
+                digest.u32(std::uint32_t(tree.id[i] >> 32));
+            }
             if (lot_of(digest) < below) take(ball);
         }
     };

@@ -51,6 +51,11 @@ public:
         PILEUS_TRY(sort_vectors(set_.velocity, tree_.velocity));
         PILEUS_TRY(sort_vectors(set_.colour, tree_.colour));
         PILEUS_TRY(sort_vectors(set_.emission, tree_.emission));
+        if (!set_.id.empty()) {
+            PILEUS_TRY(allocate(arrays::particle_numbers(count_), tree_.id));
+            parallel_each(threads_, count_,
+                          [&](std::size_t i) { tree_.id[i] = set_.id[items_[i].number]; });
+        }
         PILEUS_TRY(count_nodes());
         make_boxes();
         return Status::ok();
@@ -160,7 +165,9 @@ private:
     }
     bool before(std::uint32_t a, std::uint32_t b) const {
         const int order = compare(a, b);
-        return order != 0 ? order < 0 : set_.density[a] < set_.density[b];
+        if (order != 0) return order < 0;
+        if (set_.density[a] != set_.density[b]) return set_.density[a] < set_.density[b];
+        return !set_.id.empty() && set_.id[a] < set_.id[b];
     }
 
     /// Nodes in the order of a walk: first counted, then made.

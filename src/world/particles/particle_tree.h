@@ -16,6 +16,7 @@ struct ParticleTree {
     Buffer<float> velocity;      ///< [ball][axis], m/s; empty: at rest
     Buffer<float> colour;        ///< [ball][channel]: factor on the albedo; empty: 1
     Buffer<float> emission;      ///< [ball][channel]: factor on the emission; empty: 1
+    Buffer<std::uint64_t> id;    ///< [ball]: numbers in the file; empty: none
     std::uint32_t leaves = 0;
     int depth = 0;  ///< of the deepest leaf; the root's is 0
 
@@ -33,6 +34,9 @@ namespace arrays {
 /// Velocities, colours or emission.
 inline Array<float> particle_vectors(std::uint64_t particles) {
     return {"vectors of particles", bytes_of(particles, 3), Stage::kDensity, Stage::kWrite};
+}
+inline Array<std::uint64_t> particle_numbers(std::uint64_t particles) {
+    return {"numbers of particles", particles, Stage::kDensity, Stage::kWrite};
 }
 inline Array<ParticleBall> particle_balls(std::uint64_t particles) {
     return {"particles", particles, Stage::kDensity, Stage::kWrite};
