@@ -146,14 +146,14 @@ Status march_show(const FrameStep&, const Context& context, MethodRun& method_ru
     Status layers;
     // Neither is short, and neither can be shared by threads.
     parallel_for(context.threads, 2, [&](std::int64_t piece, int) {
-        if (piece == 0)
+        if (piece == 0 && context.digests)
             colours.floats(run.planes.colour.span());
-        else
+        else if (piece == 1)
             layers = make_layers(run.planes, run.camera.width, run.camera.height, 3,
                                  run.scene->output, image, report, clamped);
     });
     PILEUS_TRY(layers);
-    report.digests.emplace_back("colours", colours.hex());
+    if (context.digests) report.digests.emplace_back("colours", colours.hex());
     report.counters.emplace_back("clamped_negative", clamped);
     report.executed = {{"depth_tests", run.planes.opaque_depth.size()},
                        {"depths_stored", run.planes.half_depth.size()},

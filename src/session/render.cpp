@@ -32,9 +32,10 @@ void finish_report(const RunStart& start, Report& report) {
 }
 
 /// Names the picture by its bits before anything else is written about it.
-void take_hash(const Image& image, Report& report) {
+void take_hash(const Context& context, const Image& image, Report& report) {
+    const StageClock clock(context, "hash");
     report.hash = pixel_hash(image);
-    report.digests.emplace_back("image", report.hash);
+    if (context.digests) report.digests.emplace_back("image", report.hash);
 }
 
 /// What another run needs, beside the scene's text, to make the same picture. Nothing of the
@@ -115,7 +116,7 @@ Status render_frames(const Scene& scene, const RunStart& start, const RenderOpti
             PILEUS_TRY(add_reflectance(session.run().lighting, image));
         if (scene.output.layer_shadow && options.show.empty())
             PILEUS_TRY(show_shadow(scene, session, frame, image));
-        take_hash(image, report);
+        take_hash(session.context(), image, report);
         session.finish_report();
         if (verifies) PILEUS_TRY(verifier.check(frame, session.context(), image, report));
         count_water(scene, *session.run().world, report);

@@ -29,7 +29,8 @@ struct RenderOptions {
     std::string state;          ///< file that keeps a path tracer's progress; empty: none
     double state_every_s = 60;  ///< between two writings of it while tracing
     std::int64_t verify = 0;    ///< pixels of each picture to trace by paths afterwards
-    std::string show;  ///< empty: the picture; else a step of the method (docs/how-it-works.md)
+    std::string show;     ///< empty: the picture; else a step of the method (docs/how-it-works.md)
+    bool digests = true;  ///< the report names what each stage made by its bits; takes time
     int first_frame = 0, last_frame = 0;  ///< of the animation, inclusive
     Limits limits;                        ///< what the scene may ask for; docs/program.md
     /// Called now and then with a stage's name and the share done of it, 0..1.

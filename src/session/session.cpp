@@ -77,7 +77,7 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
     lights_ = scene_.lights;
     PILEUS_TRY(make_context(scene_, options, context_, report_));
     if (live) context_.frames = kLiveFrames;
-    context_.digests = !live;
+    context_.digests = !live && options.digests;
     PILEUS_TRY(find_method(scene_, method_));
     PILEUS_TRY(method_->check(scene_, budget_of(options)));
     if (!options.show.empty()) PILEUS_TRY(find_view(scene_.method, options.show, method_));
@@ -101,7 +101,7 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
     PILEUS_TRY(
         open_run(*method_, scene_, budget_of(options), context_, exact, std::move(world), *run_));
     // Nor does its report hash what is made in each stage: that takes longer than a picture.
-    if (live) run_->digests.clear();
+    if (!context_.digests) run_->digests.clear();
     method_->report_plan(*run_, context_, report_);
     report_.peak_bytes = peak_memory_bytes();
     return Status::ok();
@@ -114,6 +114,11 @@ Status Session::render_image(const FrameStep& step, Image& image) {
     PILEUS_TRY(method_->show(step, context_, *run_, image));
     ++stats_.pictures;
     return Status::ok();
+}
+
+void Session::finish_report() {
+    const StageClock clock(context_, "digests");
+    method_->report(*run_, report_);
 }
 
 /// Changes that a host made since the last time.

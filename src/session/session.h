@@ -55,7 +55,7 @@ public:
     /// Lights and draws a frame of the animation as an image with the scene's layers.
     Status render_image(const FrameStep& step, Image& image);
     /// What the method counted goes to the report, after render_image.
-    void finish_report() { method_->report(*run_, report_); }
+    void finish_report();
 
     // What a host sets, in a live session. Values are checked; kBadInput names the key.
     Status set_camera(const Camera& camera);

@@ -53,6 +53,7 @@ Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& 
     PILEUS_TRY(collectors_compose(camera, context, run, colours, channels, planes));
     Report& report = *context.report;
     report.counters.clear();
+    const StageClock clock(context, "layers");
     std::uint64_t clamped = colours.clamped_negative;
     PILEUS_TRY(make_layers(planes, camera.width, camera.height, channels, scene.output, image,
                            report, clamped));
@@ -63,7 +64,7 @@ Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& 
                        {"parts_stored", run.world->medium.parts.size()}};
     report_solids(run.world->solids, run.around.depth, report);
     set_image_camera(camera, run.world->medium.low_m, image);
-    if (shows_harmonics(run)) return Status::ok();
+    if (shows_harmonics(run) || !context.digests) return Status::ok();
     Digest digest;
     digest.floats(colours.colour.span());
     report.digests.emplace_back("colours", digest.hex());

@@ -156,11 +156,13 @@ Status show(const FrameStep&, const Context& context, MethodRun& method_run, Ima
     report.digests = run.digests;
     report.counters.clear();
     std::uint64_t clamped = 0;
-    Digest colours;
-    colours.floats(run.planes.colour.span());
+    if (context.digests) {
+        Digest colours;
+        colours.floats(run.planes.colour.span());
+        report.digests.emplace_back("colours", colours.hex());
+    }
     PILEUS_TRY(make_layers(run.planes, run.camera.width, run.camera.height, 3, run.scene->output,
                            image, report, clamped));
-    report.digests.emplace_back("colours", colours.hex());
     report.counters.emplace_back("clamped_negative", clamped);
     report.executed = {{"depth_tests", run.planes.opaque_depth.size()},
                        {"depths_stored", run.planes.half_depth.size()}};

@@ -85,7 +85,7 @@ Status path_show(const FrameStep&, const Context& context, MethodRun& method_run
     Report& report = *context.report;
     const StageClock clock(context, "layers");
     report.digests = run.digests;
-    report.digests.emplace_back("film", film_digest(run.film));
+    if (context.digests) report.digests.emplace_back("film", film_digest(run.film));
     PILEUS_TRY(fill_planes(context, run));
     report.counters.clear();
     std::uint64_t clamped = 0;
