@@ -24,7 +24,8 @@ namespace pileus {
     ROW(kVerifiedStream, 34, "the pixels that they are for")            \
     ROW(kBubbleStream, 0x63756d75, "bubbles of a procedural cumulus")   \
     ROW(kDetailStream, 0x6e6f6973, "detail on a procedural cumulus")    \
-    ROW(kPlumeStream, 0x706c756d, "particles of a procedural plume")
+    ROW(kPlumeStream, 0x706c756d, "particles of a procedural plume")    \
+    ROW(kParticleCumulusStream, 0x70636d75, "particles of a procedural cumulus")
 
 enum RandomStream : std::uint32_t {
 #define PILEUS_ROW(name, number, use) name = number,

@@ -21,15 +21,22 @@ struct HostParticles {
     std::size_t velocity_stride = 0, colour_stride = 0, emission_stride = 0;
 };
 
+/// Of particles that a recipe makes.
+struct RecipeSettings {
+    std::int64_t count = 100000;
+    double rise_m_per_s = 5;  ///< of the air; of a plume's at its foot
+};
+
 struct ParticleSettings {
     double unit_m = 1;        ///< metres per unit of the file; > 0
     double radius_m = 0;      ///< of every particle; 0: the file's own
     double radius_scale = 1;  ///< on each radius; > 0
     bool cross_section =
         false;  ///< holds = "cross-section": m^2 of a particle; else extinction, 1/m
-    std::int64_t count = 100000;  ///< of a recipe
-    double rise_m_per_s = 5;      ///< of the plume at its foot
-    double share = 1;             ///< of the particles that are kept, denser in return; (0, 1]
+    RecipeSettings plume, cumulus;  ///< of procedural:plume and procedural:particle-cumulus
+    std::int64_t count = 100000;    ///< of the recipe that the medium names; set by the checks
+    double rise_m_per_s = 5;        ///< the same
+    double share = 1;               ///< of the particles that are kept, denser in return; (0, 1]
     const HostParticles* host = nullptr;  ///< instead of the file
     const ParticleSet* placed = nullptr;  ///< what is read already; the grid is for shadows alone
     bool shadows_only = false;            ///< the same while the medium is outlined

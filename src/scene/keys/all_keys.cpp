@@ -34,7 +34,7 @@ std::vector<const KeyRow*> all_scene_keys() {
     add(weather_keys());
     add(particle_keys());
     add(sky_keys());
-    add(plume_keys());
+    add(recipe_keys());
     add(method_keys());
     for (const MethodKeys& method : all_methods()) add(method.rows());
     add(later_keys());

@@ -20,7 +20,7 @@ const KeyRow& transfer_key();             // medium.transfer
 Span<const KeyRow> transfer_row_keys();   // keys of one of its rows, without its path
 Span<const KeyRow> medium_last_keys();    // medium, behind it
 Span<const KeyRow> sky_keys();            // medium.sky
-Span<const KeyRow> plume_keys();          // medium.plume
+Span<const KeyRow> recipe_keys();         // medium.plume, medium.particle_cumulus
 Span<const KeyRow> method_keys();         // method
 Span<const KeyRow> collectors_keys();     // collectors
 Span<const KeyRow> path_keys();           // path

@@ -28,16 +28,23 @@ constexpr KeyRow kRows[] = {
      "in return"},
 };
 
-constexpr KeyRow kPlumeRows[] = {
-    {"medium.N.plume.particles", particles<&P::count>, from_to(1, 1e8), "",
+constexpr KeyRow kRecipeRows[] = {
+    {"medium.N.plume.particles", particles<&P::plume, &RecipeSettings::count>, from_to(1, 1e8), "",
      "how many particles a procedural plume is made of"},
-    {"medium.N.plume.rise_m_per_s", particles<&P::rise_m_per_s>, from_to(0, 1000), "m/s",
-     "how fast it rises at its foot; slower above, as it widens"},
+    {"medium.N.plume.rise_m_per_s", particles<&P::plume, &RecipeSettings::rise_m_per_s>,
+     from_to(0, 1000), "m/s", "how fast it rises at its foot; slower above, as it widens"},
+    {"medium.N.particle_cumulus.particles", particles<&P::cumulus, &RecipeSettings::count>,
+     from_to(1, 1e8), "", "how many particles a procedural cumulus of particles is made of"},
+    {"medium.N.particle_cumulus.rise_m_per_s",
+     particles<&P::cumulus, &RecipeSettings::rise_m_per_s>, from_to(0, 1000), "m/s",
+     "how fast it rises; its largest bubble turns as fast"},
 };
 
 }  // namespace
 
-Span<const KeyRow> plume_keys() { return {kPlumeRows, sizeof kPlumeRows / sizeof kPlumeRows[0]}; }
+Span<const KeyRow> recipe_keys() {
+    return {kRecipeRows, sizeof kRecipeRows / sizeof kRecipeRows[0]};
+}
 
 Span<const KeyRow> particle_keys() { return {kRows, sizeof kRows / sizeof kRows[0]}; }
 

@@ -11,7 +11,8 @@
     ROW(kBoxDensity)          \
     ROW(kSphereDensity)       \
     ROW(kEllipsoidDensity)    \
-    ROW(kPlumeDensity)
+    ROW(kPlumeDensity)        \
+    ROW(kParticleCumulusDensity)
 
 namespace pileus {
 

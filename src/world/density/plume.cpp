@@ -4,14 +4,11 @@
 // Morton, Taylor, Turner 1956: a plume widens in proportion to its height by what it entrains.
 #include <algorithm>
 
-#include "kernels_cpu/core/math.h"
-#include "kernels_cpu/core/rng.h"
 #include "platform/threads.h"
 #include "src/base/powers.h"
 #include "src/base/random_streams.h"
 #include "src/io/particles/placed_particles.h"
-#include "src/io/volumes/particle_volume.h"
-#include "src/scene/rows/density_row.h"
+#include "src/world/density/particle_recipe.h"
 
 namespace pileus {
 namespace {
@@ -29,16 +26,6 @@ constexpr double kTurnsUp = 1.3;      ///< turns of the axis
 /// Measured: density at mid-height over that at the foot; mean over the box.
 constexpr double kFootShare = 0.05, kMeanDensity = 0.00277;
 
-struct Wave {
-    double sine, cosine;
-};
-
-Wave wave(double turns) {
-    const double whole = double(std::int64_t(turns)) - (turns < 0 ? 1 : 0);
-    const auto at = sincos_turns(float(turns - whole < 1 ? turns - whole : 0));
-    return {double(at.sine), double(at.cosine)};
-}
-
 struct Plume {
     Double3 low, extent;
     double width;    ///< the narrower side
@@ -48,8 +35,7 @@ struct Plume {
     Key key;
 
     double draw(std::uint64_t particle, std::uint32_t number) const {
-        const auto words = threefry<std::uint32_t>(key.k0, key.k1, std::uint32_t(particle), number);
-        return double(uniform(words.a));
+        return recipe_draw(key, particle, number);
     }
     double half_width(double height) const { return (kFoot + kSpread * height) * width; }
     void make(std::uint64_t particle, float* place, float* velocity, float& radius,
@@ -65,11 +51,11 @@ void Plume::make(std::uint64_t i, float* place, float* velocity, float& radius,
     // As many particles per second at every height: more of them where they rise slowly.
     const double height = u * (0.6 + 0.4 * u);
     const double wide = half_width(height), thin = kFoot * width / wide;
-    const Wave axis = wave(kTurnsUp * height), where = wave(draw(p, 0));
+    const auto axis = recipe_turn(kTurnsUp * height), where = recipe_turn(draw(p, 0));
     const double off = double(sqrt_(float(draw(p, 1)))) * kPuffOff * wide;
     const double ball = wide * (kLeastBall + (1 - kPuffOff - kLeastBall) * draw(p, 2));
     // Uniform in the ball.
-    const Wave around = wave(draw(i, 1));
+    const auto around = recipe_turn(draw(i, 1));
     const double up = 2 * draw(i, 2) - 1, level = double(sqrt_(float(1 - up * up)));
     const double out = ball * cube_root(draw(i, 3) + 1e-9);
     const double r = std::min(kOverlap * spacing * (0.6 + 0.8 * height), kMostRadius * width);
@@ -95,21 +81,12 @@ void Plume::make(std::uint64_t i, float* place, float* velocity, float& radius,
 }
 
 Status make_plume(const MediumSettings& medium, int threads, ParticleSet& out) {
-    out = ParticleSet{};
-    out.count = std::uint64_t(medium.particles.count);
+    PILEUS_TRY(begin_recipe(medium, out));
     const std::uint64_t n = out.count;
-    PILEUS_TRY(out.position.resize(3 * n, "particles"));
-    PILEUS_TRY(out.radius.resize(n, "particles"));
-    PILEUS_TRY(out.density.resize(n, "particles"));
-    PILEUS_TRY(out.id.resize(n, "particles"));
-    PILEUS_TRY(out.velocity.resize(3 * n, "particles"));
     Plume plume;
     plume.low = medium.bounds_m[0];
     plume.extent = medium.bounds_m[1] - medium.bounds_m[0];
     plume.width = std::min(plume.extent[0], plume.extent[1]);
-    out.origin = plume.low + plume.extent * 0.5;
-    out.low = medium.bounds_m[0];
-    out.high = medium.bounds_m[1];
     const double middle = plume.half_width(0.5);
     const double volume = 3.14159265358979323846 * middle * middle * plume.extent[2];
     plume.spacing = cube_root(volume / double(n));
@@ -118,39 +95,17 @@ Status make_plume(const MediumSettings& medium, int threads, ParticleSet& out) {
     plume.rise = medium.particles.rise_m_per_s;
     plume.key = make_key(std::uint64_t(medium.shape_seed), kPlumeStream, 0);
     parallel_each(threads, n, [&](std::size_t i) {
-        out.id[i] = i;
         plume.make(i, &out.position[3 * i], &out.velocity[3 * i], out.radius[i], out.density[i]);
     });
     return Status::ok();
 }
 
-/// Cells of a default grid across the narrower side.
-constexpr double kCellsAcross = 64;
-
 DensityOutline outline_plume(const MediumSettings& medium) {
-    DensityOutline outline;
-    const Double3 extent = medium.bounds_m[1] - medium.bounds_m[0];
-    const double width = std::min(extent[0], extent[1]);
-    std::uint64_t cells = 1;
-    for (std::size_t a = 0; a < 3; ++a) {
-        const double wanted = width > 0 ? kCellsAcross * extent[int(a)] / width : 1;
-        const int own = wanted < 256 ? std::max(1, int(wanted + 0.5)) : 256;
-        outline.size[a] = own;
-        cells *= std::uint64_t(medium.resolution[0] > 0 ? medium.resolution[a] : own);
-    }
-    outline.mean = kMeanDensity;
-    // Places, radii, densities, numbers, velocities; sums of cells.
-    outline.bytes = 40 * std::uint64_t(medium.particles.count) + 8 * cells;
-    return outline;
+    return outline_recipe(medium, kMeanDensity);
 }
 
 Status lay_plume(const MediumSettings& medium, const DensityMaking& with, Volume& volume) {
-    const int threads = with.threads > 0 ? with.threads : hardware_threads();
-    ParticleSet set;
-    PILEUS_TRY(make_plume(medium, threads, set));
-    PILEUS_TRY(grid_particles(set, with.size, threads, volume));
-    volume.knows_bounds = volume.in_extinction = false;
-    return Status::ok();
+    return lay_recipe(medium, with, make_plume, volume);
 }
 
 constexpr DensityRow plume_row() {
@@ -158,6 +113,7 @@ constexpr DensityRow plume_row() {
     row.name = "procedural:plume";
     row.takes_seed = true;
     row.table = "plume";
+    row.check = choose_recipe<&ParticleSettings::plume>;
     row.outline = outline_plume;
     row.mean_within = 1.1;
     row.working = "particles of the plume";
