@@ -122,10 +122,11 @@ TEST_CASE("densities and their files") {
         {kCamera + kFile + "density = \"a.f32\"\n",
          "s.toml:6:11: medium.0.density: unknown kind of file, \"a.f32\", allowed: a name that "
          "ends in .pbrt, .raw, .vol, .txt, .les, .vdb, .nvdb, .nc, .nc4, .cdf, .grib, .grib2, "
-         ".grb, .grb2, .ply, .csv, .prt; or beside it the "
+         ".grb, .grb2, .ply, .csv, .prt, .bgeo, .geo, .bhclassic, .hclassic, .pdb, .pda; or beside "
+         "it the "
          "key "
          "format, one of \"pbrt\", \"raw\", \"vol\", \"les\", \"openvdb\", \"nanovdb\", "
-         "\"netcdf\", \"grib\", \"ply\", \"csv\", \"prt\"; or "
+         "\"netcdf\", \"grib\", \"ply\", \"csv\", \"prt\", \"bgeo\", \"pdb\", \"pda\"; or "
          "density = { file = \"...\", type = \"float32\", size = [nx, ny, nz] } for a raw file"},
         {kCamera + kFile + "density = { file = \"a.vdb\", share = 0.5 }\n",
          "s.toml:6:37: medium.0.density.share: for files of particles only, 0.5, allowed: left "

@@ -1,22 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzz target: particles as PRT, PLY or text, by what the bytes begin with, and on a grid.
-// in: bytes as a file -> out: lawful particles and a lawful volume, or one line.
+// Fuzz target: particles as PRT, PLY, Houdini, Maya or text, by what the bytes begin with, and on a
+// grid. in: bytes as a file -> out: lawful particles and a lawful volume, or one line.
 // docs/particles.md, "Data"
 #include "src/io/volumes/particle_volume.h"
 #include "tests/fuzz/target.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-    const bool prt = size >= 1 && data[0] == 0xc0;
-    const bool ply = size >= 3 && data[0] == 'p' && data[1] == 'l' && data[2] == 'y';
+    // The magic of Houdini's geometry is looked at by its reader.
+    const struct {
+        std::uint8_t first;
+        const char* extension;
+    } kKinds[] = {{0xc0, ".prt"}, {'p', ".ply"},   {'B', ".bgeo"}, {'P', ".bgeo"},
+                  {'[', ".bgeo"}, {0x7f, ".bgeo"}, {0x9e, ".pdb"}, {'A', ".pda"}};
+    const char* extension = ".csv";
+    for (const auto& kind : kKinds)
+        if (size >= 1 && data[0] == kind.first) extension = kind.extension;
     pileus::ParticleReading reading;
     reading.most = 1 << 12;
     reading.radius = size % 2 == 0 ? 0 : 0.5;
     pileus::ParticleSet set;
-    pileus::Status status = pileus::decode_particles("p.x",
-                                                     prt   ? ".prt"
-                                                     : ply ? ".ply"
-                                                           : ".csv",
-                                                     fuzz::text_of(data, size), reading, set);
+    pileus::Status status =
+        pileus::decode_particles("p.x", extension, fuzz::text_of(data, size), reading, set);
     if (status) status = pileus::place_particles("p.x", pileus::ParticleSettings{}, set);
     if (!status) {
         fuzz::check_fault(status, "p.x:", true);

@@ -6,12 +6,29 @@
 #include "src/io/text/text_scan.h"
 
 namespace pileus {
+namespace {
+
+/// What is none of these is PLY.
+struct ParticleDecoder {
+    const char* extensions;  ///< parted by '|'
+    Status (*decode)(const std::string&, Span<const char>, const ParticleReading&, ParticleSet&);
+};
+constexpr ParticleDecoder kDecoders[] = {
+    {"|.csv|", decode_particle_csv},
+    {"|.prt|", decode_particle_prt},
+    {"|.bgeo|.geo|.bhclassic|.hclassic|", decode_particle_geo},
+    {"|.pdb|", decode_particle_pdb},
+    {"|.pda|", decode_particle_pda},
+};
+
+}  // namespace
 
 Status decode_particles(const std::string& name, const std::string& extension,
                         Span<const char> bytes, const ParticleReading& reading, ParticleSet& set) {
-    if (extension == ".prt") return decode_particle_prt(name, bytes, reading, set);
-    return extension == ".csv" ? decode_particle_csv(name, bytes, reading, set)
-                               : decode_particle_ply(name, bytes, reading, set);
+    for (const ParticleDecoder& row : kDecoders)
+        if (std::string(row.extensions).find('|' + extension + '|') != std::string::npos)
+            return row.decode(name, bytes, reading, set);
+    return decode_particle_ply(name, bytes, reading, set);
 }
 
 Status read_particles(const std::string& path, const std::string& extension,

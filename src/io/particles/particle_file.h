@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Files of particles: who reads which, and what they hold.
-// in: .ply, .csv and .prt files that nobody has checked -> out: a ParticleSet, or one line.
-// docs/particles.md, "Data"; docs/formats.md, "Particles".
+// in: .ply, .csv, .prt, .bgeo, .pdb and .pda files that nobody has checked -> out: a ParticleSet,
+// or one line. docs/particles.md, "Data"; docs/formats.md, "Particles".
 #pragma once
 #include <string>
 #include <vector>
@@ -27,7 +27,7 @@ struct ParticleColumn {
     bool byte = false;  ///< whole numbers up to 255, which colours are divided by
 };
 
-/// Reads a file; which kind is told by `extension`, ".ply", ".csv" or ".prt". Missing, malformed,
+/// Reads a file; which kind is told by `extension`, such as ".ply". Missing, malformed,
 /// numbers out of range, no radius in the file and none in `reading`: kBadInput; too many particles
 /// or out of memory: kLimit.
 Status read_particles(const std::string& path, const std::string& extension,
@@ -41,6 +41,12 @@ Status decode_particles(const std::string& name, const std::string& extension,
 Status decode_particle_ply(const std::string& name, Span<const char> bytes,
                            const ParticleReading& reading, ParticleSet& set);
 Status decode_particle_prt(const std::string& name, Span<const char> bytes,
+                           const ParticleReading& reading, ParticleSet& set);
+Status decode_particle_geo(const std::string& name, Span<const char> bytes,
+                           const ParticleReading& reading, ParticleSet& set);
+Status decode_particle_pdb(const std::string& name, Span<const char> bytes,
+                           const ParticleReading& reading, ParticleSet& set);
+Status decode_particle_pda(const std::string& name, Span<const char> bytes,
                            const ParticleReading& reading, ParticleSet& set);
 Status decode_particle_csv(const std::string& name, Span<const char> bytes,
                            const ParticleReading& reading, ParticleSet& set);

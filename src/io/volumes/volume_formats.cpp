@@ -81,6 +81,12 @@ constexpr VolumeFormat kFormats[] = {
      read_particle_head, nullptr},
     {"prt", "Krakatoa PRT", ".prt", true, false, false, true, false, read_particles,
      read_particle_head, nullptr},
+    {"bgeo", "Houdini's classic geometry", ".bgeo|.geo|.bhclassic|.hclassic", true, false, false,
+     true, false, read_particles, read_particle_head, nullptr},
+    {"pdb", "Maya PDB", ".pdb", true, false, false, true, false, read_particles, read_particle_head,
+     nullptr},
+    {"pda", "Maya PDA", ".pda", true, false, false, true, false, read_particles, read_particle_head,
+     nullptr},
 };
 
 /// Calls `use` with each extension of a format.

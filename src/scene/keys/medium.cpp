@@ -61,7 +61,7 @@ constexpr KeyRow kRows[] = {
     {"medium.N.density.grid", kDensityGrid, any(), "",
      "the same as `grid` beside it: name of the grid in an OpenVDB or NanoVDB file", kNone},
     {"medium.N.format", medium<&MediumSettings::format>,
-     one_of("pbrt|raw|vol|les|openvdb|nanovdb|netcdf|grib|ply|csv|prt"), "",
+     one_of("pbrt|raw|vol|les|openvdb|nanovdb|netcdf|grib|ply|csv|prt|bgeo|pdb|pda"), "",
      "kind of the file; left out: told by the end of its name", kNone},
     {"medium.N.grid", medium<&MediumSettings::grid>, any(), "",
      "name of the grid in an OpenVDB or NanoVDB file; left out: the first of floats that is "
