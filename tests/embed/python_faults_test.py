@@ -46,6 +46,10 @@ class Faults(unittest.TestCase):
                       lambda: session.set_camera(POSITION, TARGET, size=(40000, 2)),
                       lambda: session.set_ground(2), lambda: session.set_frame(-1),
                       lambda: session.set_placement(yaw_deg=math.nan),
+                      lambda: session.set_lights([{"type": "lamp"}]),
+                      lambda: session.set_lights([{"type": "point"}]),
+                      lambda: session.set_lights([{"type": "directional", "radius": 1}]),
+                      lambda: session.set_lights([{"type": "spot", "position": (1, 2, 3)}]),
                       lambda: session.set_matrices(np.eye(3), np.eye(4)),
                       lambda: session.set_depth(np.ones((14, 24)), "buffer"),
                       lambda: session.render(blend="under")):

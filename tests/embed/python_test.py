@@ -208,6 +208,12 @@ class Settings(unittest.TestCase):
         self.assertEqual(np.abs(session.render()[..., :3]).max(), 0)
         session.set_sky(0.5)
         changed()
+        session.set_lights([{"type": "point", "position": (100, -250, 1200), "intensity": 1e6},
+                            {"type": "spot", "position": (-1500, 0, 900), "direction": (1, 0, 0),
+                             "cone_deg": 20, "intensity": [1e6, 0, 0]},
+                            {"type": "directional", "azimuth_deg": 90, "irradiance": 0.5}])
+        changed()
+        session.set_lights([])
         session.set_sky([0.0625, 0.125, 0.25])
         session.set_sun(120, 35)
         session.set_ground(0.25, altitude=0)

@@ -113,6 +113,30 @@ void set_ground(Session& session, bool present, double altitude, double albedo) 
     set(session, pileus_session_set_ground, ground);
 }
 
+/// Each: type; position, direction; light; cone, penumbra, radius; azimuth, elevation.
+using LightNumbers = std::array<double, 15>;
+
+void set_lights(Session& session, const std::vector<LightNumbers>& numbers) {
+    const Turn turn(session);
+    std::vector<pileus_light> lights;
+    for (const LightNumbers& n : numbers) {
+        lights.push_back(cleared<pileus_light>());
+        pileus_light& light = lights.back();
+        light.type = std::uint32_t(n[0]);
+        for (std::size_t a = 0; a < 3; ++a) {
+            light.position_m[a] = n[1 + a];
+            light.direction[a] = n[4 + a];
+            light.light[a] = float(n[7 + a]);
+        }
+        light.cone_deg = n[10], light.penumbra_deg = n[11], light.radius_m = n[12];
+        light.azimuth_deg = n[13], light.elevation_deg = n[14];
+    }
+    call([&](pileus_error* error) {
+        return pileus_session_set_lights(session.session.get(), lights.data(),
+                                         std::uint32_t(lights.size()), error);
+    });
+}
+
 void set_placement(Session& session, const Three& offset, double yaw_deg) {
     auto placement = cleared<pileus_placement>();
     copy3(offset, placement.offset_m);
@@ -244,6 +268,7 @@ void add_session(py::module_& module) {
         .def("set_sun", &set_sun)
         .def("set_sky", &set_sky)
         .def("set_ground", &set_ground)
+        .def("set_lights", &set_lights)
         .def("set_placement", &set_placement)
         .def("set_depth", &set_depth)
         .def("set_frame", &set_frame)

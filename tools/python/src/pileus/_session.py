@@ -15,6 +15,12 @@ _DTYPES = (np.uint8, np.float16, np.float32)
 _BLENDS = {"replace": 0, "over": 1, "media": 2}
 _DEPTHS = {"distance": 0, "view_z": 1, "buffer": 2}
 _CLIPS = {"minus_one": 0, "zero": 1}
+_LIGHTS = {"point": 0, "spot": 1, "directional": 2}
+_LIGHT_KEYS = {
+    "point": {"position", "intensity", "radius"},
+    "spot": {"position", "intensity", "radius", "direction", "cone_deg", "penumbra_deg"},
+    "directional": {"azimuth_deg", "elevation_deg", "irradiance"},
+}
 
 
 class Light(NamedTuple):
@@ -57,6 +63,24 @@ def _three(name, value):
     if numbers.shape not in ((), (3,)):
         raise BadInput(f"{name}: shape {numbers.shape}, allowed: a number, or three")
     return np.broadcast_to(numbers, 3).tolist()
+
+
+def _light(light):
+    """Numbers of one light, in the order of tools/python/session.cpp."""
+    kind = light.get("type")
+    number = _choice("light.type", kind, _LIGHTS)
+    for key in light:
+        if key != "type" and key not in _LIGHT_KEYS[kind]:
+            raise BadInput(f"light.{key}: not of a {kind}, allowed: "
+                           f"{', '.join(sorted(_LIGHT_KEYS[kind]))}")
+    if kind != "directional" and "position" not in light:
+        raise BadInput("light.position: missing, allowed: three numbers")
+    strength = light.get("irradiance" if kind == "directional" else "intensity", 1.0)
+    return [number, *_three("light.position", light.get("position", 0)),
+            *_three("light.direction", light.get("direction", 0)),
+            *_three("light.intensity", strength), light.get("cone_deg", 40.0),
+            light.get("penumbra_deg", 0.0), light.get("radius", 0.0),
+            light.get("azimuth_deg", 0.0), light.get("elevation_deg", 45.0)]
 
 
 def _columns(name, matrix):
@@ -126,6 +150,16 @@ class Session:
     def set_ground(self, albedo, *, altitude=0.0):
         """A flat ground. set_ground(None): none."""
         self._core.set_ground(albedo is not None, altitude, albedo or 0.0)
+
+    def set_lights(self, lights):
+        """Points, spots and parallel lights in place of all that there were; []: none.
+
+        Each is a dict as a scene's [[light]]: {"type": "point", "position": (x, y, z),
+        "intensity": 1e5, "radius": 0}; {"type": "spot", "position", "direction", "cone_deg",
+        "penumbra_deg", "intensity"}; {"type": "directional", "azimuth_deg", "elevation_deg",
+        "irradiance"}. Lights are a number or three.
+        """
+        self._core.set_lights([_light(light) for light in lights])
 
     def set_placement(self, offset=(0, 0, 0), yaw_deg=0.0):
         """Turns all media about the z axis, then shifts them. Nothing is prepared again."""
