@@ -110,6 +110,12 @@ std::string file_extension(const std::string& path) {
     return extension;
 }
 
+std::string packed_extension(const std::string& path) {
+    const std::string extension = file_extension(path);
+    if (extension != ".gz") return extension;
+    return file_extension(path.substr(0, path.size() - extension.size()));
+}
+
 std::string numbered_path(const std::string& path, int frame) {
     const std::size_t stem = path.size() - file_extension(path).size();
     const std::string digits = std::to_string(frame);

@@ -43,6 +43,8 @@ Status can_write_file(const std::string& path);
 /// What follows the last point of the file's name, in lower case (ASCII), the point included;
 /// empty where there is none.
 std::string file_extension(const std::string& path);
+/// The same of what a name that ends in ".gz" says is packed there.
+std::string packed_extension(const std::string& path);
 
 /// "out/name.png" of frame 7 becomes "out/name.0007.png".
 std::string numbered_path(const std::string& path, int frame);

@@ -17,6 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         if (size >= 1 && data[0] == kind.first) extension = kind.extension;
     pileus::ParticleReading reading;
     reading.most = 1 << 12;
+    reading.most_unpacked = 1 << 16;
     reading.radius = size % 2 == 0 ? 0 : 0.5;
     pileus::ParticleSet set;
     pileus::Status status =

@@ -5,8 +5,10 @@
 #include <doctest/doctest.h>
 
 #include <cstring>
+#include <fstream>
 
-#include "src/io/particles/particle_file.h"
+#include "src/io/particles/placed_particles.h"
+#include "src/scene/rows/volume_format.h"
 #include "tests/io/temp_folder.h"
 
 using namespace pileus;
@@ -230,4 +232,41 @@ TEST_CASE("particle attributes: what is not read says so") {
     CHECK(holds(fault_of(changed(kPda, "V V R", "V V X"), ".pda"), "no such type"));
     CHECK(holds(fault_of(number_bytes(670, 4, true), ".pdb"), "magic: not a PDB file"));
     CHECK(holds(fault_of(changed(pdb(), "position", "nowheres"), ".pdb"), "x: missing"));
+}
+
+TEST_CASE("particle attributes: files packed by gzip, by their names") {
+    // gzip of "x y z radius\n1 2 3 4\n5 6 7 8\n".
+    const std::string packed(
+        "\037\213\010\000\000\000\000\000\002\003\253\120\250\124\250\122\050\112\114\311\054"
+        "\055\346\062\124\060\122\060\126\060\341\062\125\060\123\060\127\260\340\002\000\150"
+        "\136\337\004\035\000\000\000",
+        49);
+    ParticleSet set;
+    const Status status = decode(packed, ".csv", set);
+    if (holds(status.message, "is not in this build")) return;
+    REQUIRE_MESSAGE(bool(status), status.message);
+    REQUIRE(set.count == 2);
+    CHECK(set.radius[1] == 8.0f);
+    for (std::size_t n = 2; n < packed.size(); ++n)
+        CHECK(holds(fault_of(packed.substr(0, n), ".csv"), "gzip: damaged"));
+    for (std::size_t n = 10; n < packed.size(); ++n) {
+        std::string other = packed;
+        other[n] = char(other[n] ^ 0xff);
+        fault_of(other, ".csv");
+    }
+    ParticleReading few;
+    few.most_unpacked = 28;
+    CHECK(holds(decode_particles("p.x", ".csv", {packed.data(), packed.size()}, few, set).message,
+                "too large, allowed: at most 28"));
+    few.most_unpacked = 29;
+    CHECK(decode_particles("p.x", ".csv", {packed.data(), packed.size()}, few, set));
+    CHECK(volume_format_of("a/Smoke.BGEO.gz") == volume_format_named("bgeo"));
+    CHECK(volume_format_of("a.vdb.gz") == nullptr);
+    CHECK(volume_format_of(".gz") == nullptr);
+    const test::TempFolder folder;
+    const std::string path = folder.path("p.csv.gz");
+    std::ofstream(path, std::ios::binary) << packed;
+    MediumSettings medium;
+    REQUIRE(read_placed_particles(medium, path, set));
+    CHECK(set.count == 2);
 }

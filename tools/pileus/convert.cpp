@@ -33,7 +33,7 @@ Status check_files(const ConvertArguments& arguments, bool& from_raw, bool& to_r
                        *to = volume_format_of(arguments.to);
     from_raw = from != nullptr && from->bare;
     to_raw = to != nullptr && to->bare;
-    if (to == nullptr || to->write == nullptr)
+    if (to == nullptr || to->write == nullptr || file_extension(arguments.to) == ".gz")
         return Status::bad_input(arguments.to + ": extension: unknown, " +
                                  quote_text(file_extension(arguments.to)) +
                                  ", allowed: " + volume_format_extensions(true, " "));

@@ -3,6 +3,7 @@
 #include "src/io/particles/particle_file.h"
 
 #include "src/base/file.h"
+#include "src/io/text/packed_bytes.h"
 #include "src/io/text/text_scan.h"
 
 namespace pileus {
@@ -25,6 +26,14 @@ constexpr ParticleDecoder kDecoders[] = {
 
 Status decode_particles(const std::string& name, const std::string& extension,
                         Span<const char> bytes, const ParticleReading& reading, ParticleSet& set) {
+    if (bytes.size >= 2 && bytes.data[0] == '\x1f' && bytes.data[1] == '\x8b') {
+        Buffer<char> unpacked;
+        PILEUS_TRY(inflate_gzip(ByteCursor(name, bytes), bytes, reading.most_unpacked, unpacked));
+        const Span<const char> inner = unpacked.span();
+        if (inner.size >= 2 && inner[0] == '\x1f' && inner[1] == '\x8b')
+            return ByteCursor(name, inner).fault("gzip: packed twice, allowed: once");
+        return decode_particles(name, extension, inner, reading, set);
+    }
     for (const ParticleDecoder& row : kDecoders)
         if (std::string(row.extensions).find('|' + extension + '|') != std::string::npos)
             return row.decode(name, bytes, reading, set);

@@ -17,8 +17,9 @@ constexpr double kMostParticlePlace = 1e12;
 
 /// What a scene says beside the file.
 struct ParticleReading {
-    std::uint64_t most = 200'000'000;  ///< particles
-    double radius = 0;                 ///< of every particle, in the file's unit; 0: the file's own
+    std::uint64_t most = 200'000'000;                      ///< particles
+    std::uint64_t most_unpacked = std::uint64_t{1} << 34;  ///< bytes of a file packed by gzip
+    double radius = 0;  ///< of every particle, in the file's unit; 0: the file's own
 };
 
 /// A column of numbers by its name.
@@ -33,7 +34,7 @@ struct ParticleColumn {
 Status read_particles(const std::string& path, const std::string& extension,
                       const ParticleReading& reading, ParticleSet& set);
 
-/// The same from the bytes of a file.
+/// The same from the bytes of a file; packed by gzip they are unpacked.
 Status decode_particles(const std::string& name, const std::string& extension,
                         Span<const char> bytes, const ParticleReading& reading, ParticleSet& set);
 

@@ -160,7 +160,7 @@ Status read_placed_particles(const MediumSettings& medium, const std::string& pa
         return place_particles("particles", s, set);
     }
     const std::string extension =
-        medium.format.empty() ? file_extension(path) : '.' + medium.format;
+        medium.format.empty() ? packed_extension(path) : '.' + medium.format;
     PILEUS_TRY(read_particles(path, extension, reading, set));
     return place_particles(path, s, set);
 }

@@ -2,6 +2,7 @@
 // See packed_bytes.h. The only file that touches zlib and blosc.
 #include "src/io/text/packed_bytes.h"
 
+#include <algorithm>
 #include <cstring>
 
 #ifdef PILEUS_WITH_ZLIB
@@ -99,6 +100,62 @@ Status inflate_block(const ByteCursor& in, bool blosc, const unsigned char* pack
         return in.fault("packed values: damaged, allowed: a block of " + std::to_string(bytes) +
                         " bytes");
     return Status::ok();
+}
+
+#ifdef PILEUS_WITH_ZLIB
+namespace {
+
+/// How many bytes come out, at most `room`; `to` null: they are only counted. False: damaged, cut
+/// off, or more than `room`.
+bool unpack_gzip(Span<const char> packed, unsigned char* to, std::uint64_t room,
+                 std::uint64_t& bytes) {
+    constexpr std::uint64_t kMostAtOnce = std::uint64_t{1} << 30;
+    unsigned char passed[1 << 14];
+    z_stream stream{};
+    if (inflateInit2(&stream, 15 + 16) != Z_OK) return false;
+    std::uint64_t taken = 0;
+    int state = Z_OK;
+    bytes = 0;
+    while (state == Z_OK) {
+        const std::uint64_t in = std::min(packed.size - taken, kMostAtOnce);
+        const std::uint64_t out =
+            to == nullptr ? sizeof passed : std::min(room - bytes, kMostAtOnce);
+        stream.next_in =
+            reinterpret_cast<Bytef*>(const_cast<char*>(packed.data + taken));  // only read
+        stream.avail_in = uInt(in);
+        stream.next_out = to == nullptr ? passed : to + bytes;
+        stream.avail_out = uInt(out);
+        state = inflate(&stream, Z_NO_FLUSH);
+        taken += in - stream.avail_in;
+        bytes += out - stream.avail_out;
+        if (bytes > room) state = Z_BUF_ERROR;
+    }
+    inflateEnd(&stream);
+    return state == Z_STREAM_END;
+}
+
+}  // namespace
+#endif
+
+Status inflate_gzip(const ByteCursor& in, Span<const char> packed, std::uint64_t most,
+                    Buffer<char>& out) {
+#ifdef PILEUS_WITH_ZLIB
+    // Its head does not say how much is in it: counted first, so that no memory is taken for a lie.
+    std::uint64_t bytes = 0;
+    if (!unpack_gzip(packed, nullptr, most, bytes))
+        return in.fault("gzip: damaged, cut off or too large, allowed: at most " +
+                        std::to_string(most) + " bytes unpacked");
+    PILEUS_TRY(out.resize(bytes, "unpacked file"));
+    if (bytes > 0 &&
+        !unpack_gzip(packed, reinterpret_cast<unsigned char*>(out.data()), bytes, bytes))
+        return in.fault("gzip: damaged");
+    return Status::ok();
+#else
+    (void)packed, (void)most, (void)out;
+    return in.fault(
+        "compression: gzip is not in this build, allowed: a build with -DPILEUS_ZLIB=ON and the "
+        "library");
+#endif
 }
 
 std::uint64_t deflate_block(const unsigned char* from, std::uint64_t bytes, unsigned char* to,

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string>
 
+#include "src/base/buffer.h"
 #include "src/base/status.h"
 #include "src/io/text/byte_cursor.h"
 
@@ -17,6 +18,10 @@ float packed_number(const unsigned char* from, unsigned bytes);
 /// Unpacks `count` bytes, which must give exactly `bytes`; by blosc or else zlib.
 Status inflate_block(const ByteCursor& in, bool blosc, const unsigned char* packed,
                      std::uint64_t count, unsigned char* to, std::uint64_t bytes);
+
+/// Unpacks a gzip file of one member (RFC 1952) into at most `most` bytes.
+Status inflate_gzip(const ByteCursor& in, Span<const char> packed, std::uint64_t most,
+                    Buffer<char>& out);
 
 /// zlib of `bytes` from `from`; how many bytes it took, or 0 where that is not fewer, there is no
 /// room, or zlib was left out of the build.

@@ -117,11 +117,13 @@ const VolumeFormat* volume_format_named(const std::string& name) {
 }
 
 const VolumeFormat* volume_format_of(const std::string& path) {
-    const std::string extension = file_extension(path);
+    // Only readers of particles unpack: "smoke.bgeo.gz" is one of bgeo.
+    const bool packed = file_extension(path) == ".gz";
+    const std::string extension = packed_extension(path);
     const VolumeFormat* found = nullptr;
     for (const VolumeFormat& format : kFormats)
         for_extensions(format, [&](std::string_view known) {
-            if (extension == known) found = &format;
+            if (extension == known && (!packed || format.is_particles)) found = &format;
         });
     return found;
 }
