@@ -57,7 +57,8 @@ Status load_particles_of(const Scene& scene, const Context& context, World& worl
             scene, key,
             row != nullptr
                 ? row->make_particles(settings, context.threads, world.particles)
-                : read_placed_particles(settings, density_path(scene, settings), world.particles)));
+                : read_placed_particles(settings, density_path(scene, settings), world.particles,
+                                        [&](double share) { context.tell("particles", share); })));
     }
     medium.particles.shadows_only = true;
     medium.particles.placed = &world.particles;

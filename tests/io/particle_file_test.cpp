@@ -123,6 +123,23 @@ TEST_CASE("particles: each fault is a line with its place") {
                 "list: no such length"));
 }
 
+TEST_CASE("particles: reading tells how far it is, from nothing up, and seldom") {
+    constexpr int kMany = 600000;
+    std::string text = "x y z\n";
+    for (int i = 0; i < kMany; ++i) text += "0 0 0\n";
+    std::vector<double> told;
+    ParticleReading reading;
+    reading.radius = 1;
+    reading.progress = [&](double share) { told.push_back(share); };
+    ParticleSet set;
+    REQUIRE(decode_particles("p", ".csv", {text.data(), text.size()}, reading, set));
+    REQUIRE(told.size() == 6);
+    CHECK(told[0] == 0);
+    CHECK(told[3] == 0.5);
+    for (std::size_t i = 1; i < told.size(); ++i) CHECK(told[i] > told[i - 1]);
+    CHECK(told.back() < 1);
+}
+
 TEST_CASE("particles: a written file is read again to the bit") {
     ParticleSet set, again;
     REQUIRE(decode(

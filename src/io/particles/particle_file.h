@@ -3,6 +3,7 @@
 // in: .ply, .csv, .prt, .bgeo, .pdb and .pda files that nobody has checked -> out: a ParticleSet,
 // or one line. docs/particles.md, "Data"; docs/formats.md, "Particles".
 #pragma once
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -17,7 +18,8 @@ constexpr double kMostParticlePlace = 1e12;
 
 /// What a scene says beside the file.
 struct ParticleReading {
-    std::uint64_t most = 200'000'000;                      ///< particles
+    std::uint64_t most = 200'000'000;            ///< particles
+    std::function<void(double share)> progress;  ///< told now and then how much is read; or empty
     std::uint64_t most_unpacked = std::uint64_t{1} << 34;  ///< bytes of a file packed by gzip
     double radius = 0;  ///< of every particle, in the file's unit; 0: the file's own
 };

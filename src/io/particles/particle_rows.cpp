@@ -79,6 +79,7 @@ Status ParticleRows::begin(const std::vector<ParticleColumn>& columns, std::uint
             return Status::bad_input(file_ + ": " + short_name(kRoleRows[axis]) +
                                      ": missing, nothing, allowed: columns x, y and z");
     radius_ = reading.radius;
+    progress_ = reading.progress;
     if (columns_[kRadius].at < 0 && !(radius_ > 0))
         return Status::bad_input(file_ +
                                  ": radius: missing, nothing, allowed: a column radius, or the key "
@@ -116,6 +117,7 @@ Status ParticleRows::begin(const std::vector<ParticleColumn>& columns, std::uint
 }
 
 Status ParticleRows::measure(std::uint64_t particle, Span<const double> row) {
+    tell(0, particle);
     for (int role = 0; role < kRoles; ++role) {
         if (columns_[role].at < 0 || (role == kRadius && radius_ > 0)) continue;
         const RoleRow& r = kRoleRows[role];
@@ -145,6 +147,7 @@ void ParticleRows::measured() {
 }
 
 Status ParticleRows::keep(std::uint64_t particle, Span<const double> row) {
+    tell(0.5, particle);
     const std::size_t i = std::size_t(particle);
     for (std::size_t a = 0; a < 3; ++a)
         set_.position.at(3 * i + a) = float(number(int(a), row) - set_.origin[int(a)]);

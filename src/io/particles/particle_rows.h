@@ -34,6 +34,12 @@ private:
     };
     static constexpr int kRoles = 15;
 
+    /// Every so many rows; `from` is 0 while rows are measured, then a half.
+    void tell(double from, std::uint64_t particle) const {
+        constexpr std::uint64_t kRowsUntold = std::uint64_t{1} << 18;
+        if (particle % kRowsUntold == 0 && progress_)
+            progress_(from + 0.5 * double(particle) / double(set_.count));
+    }
     Status fault(std::uint64_t particle, int role, double value) const;
     double number(int role, Span<const double> row) const {
         return row[std::size_t(columns_[role].at)] * columns_[role].scale;
@@ -64,6 +70,7 @@ private:
     ParticleSet& set_;
     Column columns_[kRoles];
     double radius_ = 0;
+    std::function<void(double share)> progress_;
 };
 
 }  // namespace pileus

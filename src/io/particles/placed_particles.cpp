@@ -151,9 +151,10 @@ Status read_host_particles(const HostParticles& host, const ParticleReading& rea
 }
 
 Status read_placed_particles(const MediumSettings& medium, const std::string& path,
-                             ParticleSet& set) {
+                             ParticleSet& set, const std::function<void(double share)>& progress) {
     const ParticleSettings& s = medium.particles;
     ParticleReading reading;
+    reading.progress = progress;
     reading.radius = s.radius_m / s.unit_m;
     if (s.host != nullptr) {
         PILEUS_TRY(read_host_particles(*s.host, reading, set));

@@ -18,7 +18,8 @@ constexpr double kBallMass = 32.0 * 3.14159265358979323846 / 105.0;
 /// density (1 - r^2 / radius^2)^2 within the radius, 0 beyond, and those of all particles add up.
 /// Errors: those of read_particles; kBadInput: an extinction that floats cannot hold.
 Status read_placed_particles(const MediumSettings& medium, const std::string& path,
-                             ParticleSet& set);
+                             ParticleSet& set,
+                             const std::function<void(double share)>& progress = {});
 
 /// Particles of a host, in its unit; kBadInput names the one that is out of range.
 Status read_host_particles(const HostParticles& host, const ParticleReading& reading,
