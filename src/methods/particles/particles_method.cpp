@@ -36,8 +36,9 @@ Status check(const Scene& scene, const Budget& budget) {
         return Status::bad_input(scene.file +
                                  ": medium: method particles shows one medium of particles, " +
                                  std::to_string(scene.media.size()) +
-                                 " media, allowed: one [[medium]] whose density is .ply, .csv, "
-                                 ".prt or procedural:plume");
+                                 " media, allowed: one [[medium]] whose density is a file of "
+                                 "particles (.ply, .csv, .prt, .bgeo, .pdb, .pda) or "
+                                 "procedural:plume, procedural:particle-cumulus");
     if (scene.media[0].periodic)
         return Status::bad_input(scene.file +
                                  ": medium.0.boundary: method particles shows each particle once, "
