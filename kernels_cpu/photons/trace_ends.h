@@ -165,7 +165,8 @@ PILEUS_FN void leave_box(Photon<W, NC, S>& s, const TraceParams& k, const TraceB
     auto down = m & lnot(m);
     if (k.ground != 0) {
         // Unscattered light is part of the unshadowed ground's radiance already.
-        down = m & (s.d.z < 0.0f) & lnot(known_to_ground(s, k));
+        const M<W> known = known_to_ground(s, k);
+        down = m & (s.d.z < 0.0f) & lnot(known);
         if constexpr (S) {
             // A solid in the way, outside of the box: it is black to what comes from there.
             const F<W> way = (s.p.z * k.grid.cell[2] - k.ground_z) * (F<W>{} - safe_inverse(s.d.z));

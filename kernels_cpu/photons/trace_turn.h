@@ -98,7 +98,8 @@ PILEUS_FN void scatter(Group<W, NC, S>& g, const TraceParams& k, const TraceBuff
     tally.scatterings += count_bits(bits_of(m));
     if (k.ground != 0) {
         // Straight down-going light that the ground will miss: remember where.
-        const auto owing = m & known_to_ground(s, k) & (s.d.z < 0.0f) & lnot(s.shadow);
+        const M<W> known = known_to_ground(s, k);
+        const auto owing = m & known & (s.d.z < 0.0f) & lnot(s.shadow);
         s.owed_x = select(owing, ground_place(s, k, 0), s.owed_x);
         s.owed_y = select(owing, ground_place(s, k, 1), s.owed_y);
         s.owes = s.owes | owing;
