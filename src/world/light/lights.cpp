@@ -2,6 +2,7 @@
 // See lights.h.
 #include "src/world/light/lights.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "src/base/angles.h"
@@ -92,7 +93,8 @@ void aim_emission(const Medium& medium, bool ground, LampEmission& e) {
     const double sine = 1.01 * __builtin_sqrt(reach) / distance;
     if (ground || !(sine < 1)) return;
     // 1 - cosine without a difference of near numbers.
-    e.span = float(sine * sine / (1 + __builtin_sqrt(1 - sine * sine)));
+    // However far: 0 would be a spot.
+    e.span = float(std::max(sine * sine / (1 + __builtin_sqrt(1 - sine * sine)), 1e-30));
     for (int a = 0; a < 3; ++a) e.axis[a] = float(way[a] / distance);
 }
 
