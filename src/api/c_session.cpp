@@ -95,11 +95,11 @@ Status take_light(const pileus_light& given, LightSettings& own) {
         copy3(given.light, own.irradiance);
         return Status::ok();
     }
-    own.position_m = Double3{given.position_m[0], given.position_m[1], given.position_m[2]};
+    own.position_m = glm::make_vec3(given.position_m);
     own.radius_m = given.radius_m;
     copy3(given.light, own.intensity);
     if (own.type != LampKind::kSpot) return Status::ok();
-    own.direction = Double3{given.direction[0], given.direction[1], given.direction[2]};
+    own.direction = glm::make_vec3(given.direction);
     if (own.direction == Double3{})
         return Status::bad_input("light.direction: 0, 0, 0, allowed: any other of a spot");
     own.cone_deg = given.cone_deg;

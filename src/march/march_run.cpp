@@ -4,7 +4,6 @@
 // docs/raymarch.md
 #include "src/march/march_run.h"
 
-#include "src/world/light/lamps.h"
 #include "src/world/medium/resample.h"
 
 namespace pileus {
@@ -53,10 +52,7 @@ Status aim(int, bool anew, const Context&, MethodRun& method_run) {
     choose_light(run.scene->sun.elevation_deg, run);
     const Lighting& now = run.lighting;
     const auto& size = run.scene->camera.resolution;
-    if (anew || before.sunlit != now.sunlit || before.sky != now.sky ||
-        before.sun_irradiance != now.sun_irradiance || before.ground != now.ground ||
-        before.ground_z != now.ground_z || before.ground_albedo != now.ground_albedo ||
-        !same_lamps(before.lamps, now.lamps)) {
+    if (anew || !same_shine(before, now)) {
         run.sky_to_sun = {};
         run.upsample.ready = false;
     }

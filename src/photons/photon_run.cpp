@@ -37,24 +37,21 @@ double first_elevation(const Scene& scene) {
                                                            : a.sun_elevation_deg[1];
 }
 
+/// Photons of one light differ in colour: each channel has sums of its own.
+void tell_colours(const char* what, PhotonRun& run) {
+    if (run.deposit.channels == 3) return;
+    run.deposit.channels = 3;
+    run.plan.need((std::string("coefficients per colour channel: coloured ") + what).c_str());
+}
+
 /// Aims the sky map at the medium's box. A coloured one asks for a set of sums per colour channel,
 /// as its photons differ in colour.
 Status aim_map(PhotonRun& run) {
     if (!run.around.sky_map.present()) return Status::ok();
     PILEUS_TRY(aim_sky_map(run.world->medium.extent_m, run.world->medium.grid.periodic,
                            run.around.sky_map));
-    if (run.around.sky_map.view.planes == 3 && run.deposit.channels == 1) {
-        run.deposit.channels = 3;
-        run.plan.need("coefficients per colour channel: coloured sky map");
-    }
+    if (run.around.sky_map.view.planes == 3) tell_colours("sky map", run);
     return Status::ok();
-}
-
-/// Coloured solids tell the channels of a photon apart as well.
-void tell_colours(PhotonRun& run) {
-    if (!run.world->solids.coloured() || run.deposit.channels == 3) return;
-    run.deposit.channels = 3;
-    run.plan.need("coefficients per colour channel: coloured solids");
 }
 
 bool coloured_lamps(const Lighting& lighting) {
@@ -62,13 +59,6 @@ bool coloured_lamps(const Lighting& lighting) {
     for (const LampParams& l : lighting.lamps)
         coloured |= l.light[0] != l.light[1] || l.light[1] != l.light[2];
     return coloured;
-}
-
-/// Coloured lights as well.
-void tell_lamps(PhotonRun& run) {
-    if (!coloured_lamps(run.lighting) || run.deposit.channels == 3) return;
-    run.deposit.channels = 3;
-    run.plan.need("coefficients per colour channel: coloured [[light]]");
 }
 
 /// The set of lights is the ring's layout: a light that has set keeps its place and shoots no
@@ -125,7 +115,7 @@ Status choose_photon_lights(std::uint64_t generations, PhotonRun& run) {
     run.plan = Plan{};
     run.deposit.channels = run.world->medium.channels;
     PILEUS_TRY(aim_map(run));
-    tell_colours(run);
+    if (run.world->solids.coloured()) tell_colours("solids", run);
     run.generations = generations;
     if (photons >= 0 && std::uint64_t(photons) < run.generations)
         run.generations = photons > 0 ? std::uint64_t(photons) : 1;
@@ -135,7 +125,7 @@ Status choose_photon_lights(std::uint64_t generations, PhotonRun& run) {
         run.plan.need((std::to_string(run.lighting.lamps.size()) +
                        " lights of [[light]]: marched to the first scattering")
                           .c_str());
-        tell_lamps(run);
+        if (coloured_lamps(run.lighting)) tell_colours("[[light]]", run);
     }
     note_emission(run.world->medium, run.plan);
     share_photons(std::uint64_t(photons) / run.generations, run.lighting.lights);

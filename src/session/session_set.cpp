@@ -9,6 +9,7 @@
 #include "src/scene/read_scene.h"
 #include "src/session/session.h"
 #include "src/world/camera/view.h"
+#include "src/world/plan_parts.h"
 
 namespace pileus {
 namespace {
@@ -145,6 +146,7 @@ Status Session::set_lights(const std::vector<LightSettings>& lights) {
     if (lights == lights_) return Status::ok();
     Scene changed = scene_;
     changed.lights = lights;
+    PILEUS_TRY(check_host_lights(context_, changed, run_->world->medium));
     PILEUS_TRY(check_changed(std::move(changed)));
     lights_ = lights;
     stale_ = true;

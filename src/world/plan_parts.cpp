@@ -87,6 +87,14 @@ WorkInput medium_work(const Medium& medium, double mean_density, double max_even
     return in;
 }
 
+Status check_host_lights(const Context& context, const Scene& scene, const Medium& medium) {
+    if (context.kernels->device == nullptr || (scene.lights.empty() && !emits(medium)))
+        return Status::ok();
+    return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
+                             "\": [[light]] and emission are for the host alone, allowed: "
+                             "another, or a scene without them");
+}
+
 void note_emission(const Medium& medium, Plan& plan) {
     if (!emits(medium)) return plan.leave_out("emission of the media", "no medium has any");
     plan.need("emission of the media, unscattered: marched");

@@ -58,21 +58,6 @@ albedo = 0.25
 emission = [0.01171875, 0.005859375, 0.0029296875]
 )";
 
-struct Sum {
-    double value = 0, error = 0;
-};
-Sum sum_of(const Picture& p, const std::string& channel) {
-    Sum s;
-    const bool noisy = p.image.find(("error." + channel).c_str()) != nullptr;
-    for (int y = 0; y < p.image.height; ++y)
-        for (int x = 0; x < p.image.width; ++x) {
-            s.value += double(p.at(channel.c_str(), x, y));
-            if (noisy) s.error += std::pow(double(p.at(("error." + channel).c_str(), x, y)), 2);
-        }
-    s.error = std::sqrt(s.error);
-    return s;
-}
-
 /// Without the layers that a method does not have.
 Picture by(const std::string& method, const std::string& text,
            const std::vector<std::string>& overrides = {}) {
@@ -94,7 +79,7 @@ TEST_CASE("emission: an absorbing slab shows emission / extinction (1 - e^-tau)"
     const Picture path = by("path", text);
     for (int c = 0; c < 3; ++c) {
         CAPTURE(c);
-        const Sum sum = sum_of(path, channels[c]);
+        const PixelSum sum = sum_of(path, channels[c]);
         CHECK(sum.error < 0.01 * sum.value);
         CHECK(std::fabs(sum.value - 48 * exact[c]) < 4 * sum.error);
         for (const char* method : kMarched) {
@@ -122,7 +107,7 @@ TEST_CASE("emission: a slab without end, seen at a slant") {
         "medium.0.boundary = \"periodic\"", "camera.position_m = [0, -300, 400]",
         "camera.target_m = [0, 0, 100]", "output.layers = [\"radiance\", \"alpha\", \"error\"]"};
     const double exact = 2 * (1 - std::exp(-0.02 * 100 * std::sqrt(2.0)));
-    const Sum sum = sum_of(by("path", text, slant), "R");
+    const PixelSum sum = sum_of(by("path", text, slant), "R");
     CHECK(std::fabs(sum.value - 48 * exact) < 4 * sum.error);
     for (const char* method : kMarched) {
         CAPTURE(std::string(method));
@@ -139,7 +124,7 @@ TEST_CASE("emission: two media in balance with the sky are not to be seen") {
     double widest = 0;
     for (int c = 0; c < 3; ++c) {
         CAPTURE(c);
-        const Sum sum = sum_of(path, channels[c]);
+        const PixelSum sum = sum_of(path, channels[c]);
         CHECK(std::fabs(sum.value - 48 * sky[c]) < 4 * sum.error);
         widest = sum.error / sum.value > widest ? sum.error / sum.value : widest;
     }
@@ -155,11 +140,11 @@ TEST_CASE("emission: marched in uneven media of two kinds as by paths") {
     const std::vector<std::string> alone = {"sky.radiance = 0", "medium.0.albedo = 0",
                                             "medium.1.albedo = 0", "path.pixel = \"centre\""};
     const std::string text = std::string(kFront) + kFurnace;
-    const Sum path = sum_of(by("path", text, alone), "R");
+    const PixelSum path = sum_of(by("path", text, alone), "R");
     CHECK(path.error < 0.005 * path.value);
     for (const char* method : {"raymarch", "collectors", "photon-grid"}) {
         CAPTURE(std::string(method));
-        const Sum marched = sum_of(by(method, text, alone), "R");
+        const PixelSum marched = sum_of(by(method, text, alone), "R");
         // Steps as long as cells: 0.03 % by 40 000 samples.
         CHECK(std::fabs(marched.value - path.value) < 4 * path.error + 0.001 * path.value);
     }

@@ -5,6 +5,7 @@
 #pragma once
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -86,6 +87,23 @@ inline Picture render_one(const Scene& scene, const RenderOptions& options = {})
     CHECK(picture.counter("majorant_violations") == 0);
     for (const EnergyRow& row : picture.report.energy) CHECK(row.balance_quanta == 0);
     return picture;
+}
+
+/// Sum of a channel over all pixels, and its standard error where the picture has one.
+struct PixelSum {
+    double value = 0, error = 0;
+};
+inline PixelSum sum_of(const Picture& p, const std::string& channel) {
+    PixelSum s;
+    const std::string error = "error." + channel;
+    const bool noisy = p.image.find(error.c_str()) != nullptr;
+    for (int y = 0; y < p.image.height; ++y)
+        for (int x = 0; x < p.image.width; ++x) {
+            s.value += double(p.at(channel.c_str(), x, y));
+            if (noisy) s.error += std::pow(double(p.at(error.c_str(), x, y)), 2);
+        }
+    s.error = std::sqrt(s.error);
+    return s;
 }
 
 }  // namespace render_test

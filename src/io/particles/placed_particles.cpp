@@ -17,8 +17,7 @@ constexpr double kMostExtinction = 1e12;
 std::uint64_t lot_of(const ParticleSet& set, std::size_t i) {
     Digest digest;
     if (!set.id.empty()) {
-        digest.u32(std::uint32_t(set.id[i]));
-        digest.u32(std::uint32_t(set.id[i] >> 32));
+        digest.u64(set.id[i]);
     } else {
         digest.floats({set.position.data() + 3 * i, 3});
         digest.floats({set.radius.data() + i, 1});

@@ -3,6 +3,7 @@
 #include "src/methods/collectors/collectors.h"
 
 #include "src/methods/collectors/billboards/gl_billboards.h"
+#include "src/world/plan_parts.h"
 
 namespace pileus {
 namespace {
@@ -115,10 +116,7 @@ Status collectors_weigh(const Context& context, CollectorsRun& run) {
 
 Status collectors_outline(const Context& context, CollectorsRun& run) {
     const Scene& scene = *run.scene;
-    if (context.kernels->device != nullptr && (!scene.lights.empty() || emits(run.world->medium)))
-        return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
-                                 "\": [[light]] and emission are marched on the host alone, "
-                                 "allowed: another, or a scene without them");
+    PILEUS_TRY(check_host_lights(context, scene, run.world->medium));
     run.budget_photons = collectors_photons(scene, run.budget);
     if (scene.collectors.camera_closure) {
         if (scene.animation.present && scene.animation.moves_camera)

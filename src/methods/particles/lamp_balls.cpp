@@ -140,8 +140,8 @@ void gather_lamps(const Context& context, const ParticleMarchParams& k, Particle
                });
 }
 
-/// What each ball sends on of that, and what it sends of its own.
-void add_own_light(const Context& context, ParticlesRun& run) {
+/// What each ball sends on of the light `around` [channel][ball], null: none, and of its own.
+void add_own_light(const Context& context, const float* around, ParticlesRun& run) {
     const std::size_t count = run.tree.balls.size();
     const Optics& optics = run.world->medium.optics[0];
     const auto factor = [](const Buffer<float>& vectors, std::size_t i, std::size_t c) {
@@ -149,9 +149,10 @@ void add_own_light(const Context& context, ParticlesRun& run) {
     };
     parallel_each(context.threads, count, [&](std::size_t i) {
         for (std::size_t c = 0; c < 3; ++c) {
-            float& light = run.around_balls[c * count + i];
-            light = optics.albedo[c] * factor(run.tree.colour, i, c) * light +
-                    optics.emission[c] * factor(run.tree.emission, i, c);
+            const float light = around != nullptr ? around[c * count + i] : 0;
+            run.around_balls[c * count + i] =
+                optics.albedo[c] * factor(run.tree.colour, i, c) * light +
+                optics.emission[c] * factor(run.tree.emission, i, c);
         }
     });
 }
@@ -166,10 +167,8 @@ Status light_around(const Context& context, const ParticleMarchParams& k, Partic
     }
     const StageClock clock(context, "light of lights");
     PILEUS_TRY(allocate_once(arrays::particle_around(run.tree.balls.size()), run.around_balls));
-    for (std::size_t i = 0; i < run.around_balls.size() && !lamps; ++i)
-        run.around_balls[i] = run.sky.empty() ? 0.0f : run.sky[i];
     if (lamps) gather_lamps(context, k, run);
-    if (own) add_own_light(context, run);
+    if (own) add_own_light(context, lamps ? run.around_balls.data() : run.sky.data(), run);
     return Status::ok();
 }
 

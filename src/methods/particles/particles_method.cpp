@@ -8,7 +8,6 @@
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/lamp_light.h"
 #include "src/world/camera/view.h"
-#include "src/world/light/lamps.h"
 #include "src/world/plan_parts.h"
 
 namespace pileus {
@@ -178,12 +177,7 @@ Status aim(int, bool anew, const Context&, MethodRun& method_run) {
     ParticlesRun& run = own(method_run);
     const Lighting before = run.lighting;
     choose_light(run.scene->sun.elevation_deg, run);
-    const Lighting& now = run.lighting;
-    if (anew || before.sunlit != now.sunlit || before.sky != now.sky ||
-        before.sun_irradiance != now.sun_irradiance || before.ground != now.ground ||
-        before.ground_z != now.ground_z || before.ground_albedo != now.ground_albedo ||
-        !same_lamps(before.lamps, now.lamps))
-        run.lit = false;
+    if (anew || !same_shine(before, run.lighting)) run.lit = false;
     return Status::ok();
 }
 

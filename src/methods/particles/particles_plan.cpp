@@ -112,7 +112,7 @@ void weigh_memory(const Context& context, ParticlesRun& run) {
         add(t, arrays::particle_nodes(particles));
     else
         t.add("octree", Stage::kDensity, Stage::kWrite, run.tree.nodes.bytes());
-    // Places, radii, densities; while they are read, colours and numbers too; their order twice.
+    // Places, radii, densities.
     t.add("particles as they are read", Stage::kDensity, Stage::kWrite, bytes_of(particles, 20));
     // Twice: in the order of the file and of the tree.
     const ParticleSet& set = run.world->particles;

@@ -293,8 +293,7 @@ Status choose_occluders(const ParticleTree& tree, double share, Buffer<ParticleB
             } else {
                 // Another lot than that of density.share.
                 digest.u32(1);
-                digest.u32(std::uint32_t(tree.id[i]));
-                digest.u32(std::uint32_t(tree.id[i] >> 32));
+                digest.u64(tree.id[i]);
             }
             if (lot_of(digest) < below) take(ball);
         }

@@ -40,9 +40,8 @@ inline Array<std::uint32_t> tile_places(std::uint64_t particles) {
 /// What one thread works in, bytes.
 std::uint64_t sun_tile_scratch_bytes();
 
-/// About a share of the balls, denser in return, chosen by their ids or, without
-/// any, by their own numbers. kLimit: out of
-/// memory.
+/// About a share of the balls, denser in return, chosen by their ids or, without any, by their own
+/// numbers. kLimit: out of memory.
 Status choose_occluders(const ParticleTree& tree, double share, Buffer<ParticleBall>& chosen);
 
 /// `direction`: unit, to the light. The tree, which holds a ball, and `casts` must outlive the

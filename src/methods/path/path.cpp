@@ -3,6 +3,7 @@
 #include "src/methods/path/path.h"
 
 #include "src/base/digest.h"
+#include "src/world/plan_parts.h"
 
 namespace pileus {
 namespace {
@@ -39,11 +40,7 @@ void digest_prepared(PathRun& run) {
 
 Status outline(const Context& context, MethodRun& method_run) {
     PathRun& run = own(method_run);
-    if (context.kernels->device != nullptr &&
-        (!run.scene->lights.empty() || emits(run.world->medium)))
-        return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
-                                 "\": paths with [[light]] or emission run on the host alone, "
-                                 "allowed: another, or a scene without them");
+    PILEUS_TRY(check_host_lights(context, *run.scene, run.world->medium));
     choose_light(sun_at(*run.scene, 0), run);
     run.camera = make_camera(run.scene->camera, 0, run.world->medium.low_m);
     return path_measure(context, run);

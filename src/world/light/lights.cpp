@@ -195,6 +195,12 @@ Light map_light(const SkyMap& map) {
     return light;
 }
 
+bool same_shine(const Lighting& a, const Lighting& b) {
+    return a.sunlit == b.sunlit && a.sky == b.sky && a.sun_irradiance == b.sun_irradiance &&
+           a.ground == b.ground && a.ground_z == b.ground_z && a.ground_albedo == b.ground_albedo &&
+           same_lamps(a.lamps, b.lamps);
+}
+
 void share_photons(std::uint64_t per_generation, std::vector<Light>& lights) {
     double total = 0;
     for (const Light& l : lights) total += strength(l.colour) * l.power_m2;

@@ -63,6 +63,9 @@ Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elev
                        Plan& plan, const SkyMap* map = nullptr, const Solids* solids = nullptr,
                        const CameraDepth* depth = nullptr);
 
+/// Whether all that shines is the same but for the sun's direction.
+bool same_shine(const Lighting& a, const Lighting& b);
+
 /// Shares `per_generation` photons among the lights by power; every light with power gets one.
 void share_photons(std::uint64_t per_generation, std::vector<Light>& lights);
 
