@@ -165,3 +165,44 @@ TEST_CASE("left out: billboards keep no depths either, and the march no billboar
     CHECK(plain.report.hash == all.report.hash);
     CHECK(bytes(rendered(kScene), "billboards") == 0);
 }
+
+TEST_CASE("left out: digests of stages where no report asks for them, in every frame") {
+    const std::string text = without(kScene, "[collectors]", R"([animation]
+frames = 3
+camera_orbit_deg = [0, 20]
+sun_elevation_deg = [30, 40]
+[path]
+samples_per_pixel = 1
+[photon_grid]
+photons = 4000
+generations = 4
+[collectors])");
+    for (const char* method : {"collectors", "photon-grid", "raymarch", "path"}) {
+        CAPTURE(method);
+        const Scene scene = scene_from(without(text, R"(, "error")", ""),
+                                       {"method.name=\"" + std::string(method) + "\""});
+        // Each frame's hash, and how many digests its report has besides.
+        const auto frames = [&](bool digests) {
+            std::vector<std::pair<std::string, std::size_t>> out;
+            RenderOptions options;
+            options.digests = digests;
+            options.last_frame = 2;
+            const Status status = render(scene, options, [&](int, Image&, Report& report) {
+                REQUIRE(!report.digests.empty());
+                CHECK(report.digests.back() == std::make_pair(std::string("image"), report.hash));
+                out.emplace_back(report.hash, report.digests.size() - 1);
+                return Status::ok();
+            });
+            REQUIRE_MESSAGE(status, status.message);
+            return out;
+        };
+        const auto all = frames(true), plain = frames(false);
+        REQUIRE(all.size() == 3);
+        REQUIRE(plain.size() == 3);
+        for (std::size_t f = 0; f < 3; ++f) {
+            CHECK(all[f].second >= 2);
+            CHECK(plain[f].second == 0);
+            CHECK(plain[f].first == all[f].first);
+        }
+    }
+}

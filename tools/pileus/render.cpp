@@ -206,7 +206,8 @@ Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOpti
     if (arguments.report && !outputs.report_printed) outputs.report = *arguments.report;
     if (!arguments.report && own_report)
         outputs.report = scene_path(scene.directory, scene.output.report);
-    if (outputs.files.empty() && outputs.report.empty() && !outputs.report_printed)
+    options.digests = !outputs.report.empty() || outputs.report_printed;
+    if (outputs.files.empty() && !options.digests)
         return Status::bad_input(scene.file +
                                  ": output.files: no output, allowed: -o FILE, --report FILE or "
                                  "output.files in the scene");
