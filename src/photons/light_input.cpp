@@ -10,14 +10,14 @@ std::size_t filled_slots(const Photons& photons) {
     return filled;
 }
 
+double slot_norm(const LightInput& in, const PhotonSlot& slot, std::size_t light) {
+    return slot.flux_per_photon_m2[light] / double(std::uint64_t{1} << in.deposit.places) /
+           slot.generations_of(light);
+}
+
 void slot_sums(const LightInput& in, const PhotonSlot& slot, std::size_t light, std::uint64_t set,
                double* sums) {
-    const int n = in.deposit.coefficients;
-    const std::uint64_t stride = slot.sums.size() / in.lighting->lights.size();
-    const std::int64_t* from = slot.sums.data() + light * stride + set * std::uint64_t(n);
-    const double norm = slot.flux_per_photon_m2[light] /
-                        double(std::uint64_t{1} << in.deposit.places) / slot.generations_of(light);
-    for (int i = 0; i < n; ++i) sums[i] = double(from[i]) * norm;
+    slot_sums(in, slot, light, set, slot_norm(in, slot, light), sums);
 }
 
 int harmonic_sets(int channels, const Lighting& lighting) {

@@ -31,6 +31,18 @@ inline Array<float> ground_light(std::uint64_t cells) {
 /// Slots up to the first that no generation has reached: tracing may have ended early.
 std::size_t filled_slots(const Photons& photons);
 
+/// What a light's sums in a slot are multiplied by, to be of unit colour.
+double slot_norm(const LightInput& in, const PhotonSlot& slot, std::size_t light);
+
+/// Sums of one set of one light in one slot, times `norm`.
+inline void slot_sums(const LightInput& in, const PhotonSlot& slot, std::size_t light,
+                      std::uint64_t set, double norm, double* sums) {
+    const int n = in.deposit.coefficients;
+    const std::uint64_t stride = slot.sums.size() / in.lighting->lights.size();
+    const std::int64_t* from = slot.sums.data() + light * stride + set * std::uint64_t(n);
+    for (int i = 0; i < n; ++i) sums[i] = double(from[i]) * norm;
+}
+
 /// Sums of one set of one light in one slot, per unit of its colour.
 void slot_sums(const LightInput& in, const PhotonSlot& slot, std::size_t light, std::uint64_t set,
                double* sums);

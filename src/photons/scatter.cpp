@@ -29,30 +29,45 @@ Window band_window(int bands, bool sinc) {
     return w;
 }
 
-double sh_power(const DepositPlan& deposit, const Window& window, const Mixture& mix,
-                const double* sums, const Direction& to) {
+BandWeights band_weights(const DepositPlan& deposit, const Window& window, const Mixture& mix,
+                         const Direction& to) {
+    BandWeights out;
     float y[kMaxBands * kMaxBands];
     sh_values(deposit.bands, to, y);
-    double power = 0;
-    for (int l = 0, i = 0; l < deposit.bands; ++l) {
-        double band = 0;
-        for (int m = -l; m <= l; ++m, ++i) band += sums[i] * double(y[i]);
+    for (int i = 0; i < deposit.bands * deposit.bands; ++i) out.y[i] = double(y[i]);
+    for (int l = 0; l < deposit.bands; ++l) {
         const float moment = deposit.mode == kDepositOutgoing ? 1.0f : mix.moment(l);
-        power += band * double(moment * window.factor[l]);
+        out.factor[l] = double(moment * window.factor[l]);
+    }
+    return out;
+}
+
+double sh_power(int bands, const BandWeights& weights, const double* sums) {
+    double power = 0;
+    for (int l = 0, i = 0; l < bands; ++l) {
+        double band = 0;
+        for (int m = -l; m <= l; ++m, ++i) band += sums[i] * weights.y[i];
+        power += band * weights.factor[l];
     }
     return power;
 }
 
-double axis_power(const DepositPlan& deposit, const Mixture& mix, const double* sums,
-                  const Direction& sun, const Direction& to) {
+AxisWeights axis_weights(const DepositPlan& deposit, const Mixture& mix, const Direction& sun,
+                         const Direction& to) {
+    AxisWeights out;
     float p[kMaxAxisDegrees];
     axis_values(deposit.bands, deposit.axis_degrees, 1.0f - one_minus_cosine(sun, to), p);
-    double power = 0;
     for (int j = 0; j < deposit.axis_degrees; ++j) {
         const int l = deposit.bands + j;
         const double weight = double(2 * l + 1) * 0.079577471545947667884;  // 1 / 4 pi
-        power += weight * double(mix.moment(l)) * double(p[j]) * sums[j];
+        out.w[j] = weight * double(mix.moment(l)) * double(p[j]);
     }
+    return out;
+}
+
+double axis_power(int degrees, const AxisWeights& weights, const double* sums) {
+    double power = 0;
+    for (int j = 0; j < degrees; ++j) power += weights.w[j] * sums[j];
     return power;
 }
 

@@ -42,14 +42,24 @@ struct Mixture {
 constexpr int kMostNumbers = kMaxBands * kMaxBands + kMaxAxisDegrees + 1;
 using Direction = Vec<float>;
 
-/// Power per steradian and unit light scattered towards `to`, from all bands.
-double sh_power(const DepositPlan& deposit, const Window& window, const Mixture& mix,
-                const double* sums, const Direction& to);
+/// What multiplies the sums of one place and channel towards `to`: the same for all slots.
+struct BandWeights {
+    double y[kMaxBands * kMaxBands], factor[kMaxBands];
+};
+BandWeights band_weights(const DepositPlan& deposit, const Window& window, const Mixture& mix,
+                         const Direction& to);
 
-/// What the degrees beyond the bands add to it, of light spread evenly around the beam's direction
-/// `sun`: sum_l (2l+1)/4pi chi_l m_l P_l(cosine), m_l the sum of P_l over the light.
-double axis_power(const DepositPlan& deposit, const Mixture& mix, const double* sums,
-                  const Direction& sun, const Direction& to);
+/// Power per steradian and unit light scattered that way, from all bands.
+double sh_power(int bands, const BandWeights& weights, const double* sums);
+
+/// What multiplies the sums of degrees beyond the bands, of light spread evenly around the beam's
+/// direction `sun`: sum_l (2l+1)/4pi chi_l m_l P_l(cosine), m_l the sum of P_l over the light.
+struct AxisWeights {
+    double w[kMaxAxisDegrees];
+};
+AxisWeights axis_weights(const DepositPlan& deposit, const Mixture& mix, const Direction& sun,
+                         const Direction& to);
+double axis_power(int degrees, const AxisWeights& weights, const double* sums);
 
 /// The same from flux and mean direction alone: one HG lobe (docs/methods.md 3, closure `lobe`).
 double lobe_power(const DepositPlan& deposit, const Mixture& mix, const double* sums,

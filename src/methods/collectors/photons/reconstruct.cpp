@@ -22,27 +22,6 @@ Mixture mixture_of(const ReconstructInput& in, std::size_t collector, std::size_
     return mix;
 }
 
-/// Light of one light in one slot, scattered towards `to`, per unit of its colour.
-double slot_power(const ReconstructInput& in, const Window& window, const Mixture& mix,
-                  const PhotonSlot& slot, std::size_t light, std::uint64_t set,
-                  const Direction& to) {
-    if (slot.generations == 0) return 0;
-    double sums[kMostNumbers];
-    slot_sums(in, slot, light, set, sums);
-    if (in.closure == Closure::kCamera) return sums[0];
-
-    double power = in.first_order_alone           ? 0
-                   : in.closure == Closure::kLobe ? lobe_power(in.deposit, mix, sums, to)
-                                                  : sh_power(in.deposit, window, mix, sums, to);
-    if (!in.lighting->lights[light].beam) return power;
-    const Direction sun{slot.sun_travel[0], slot.sun_travel[1], slot.sun_travel[2]};
-    if (!in.first_order_alone)
-        power += axis_power(in.deposit, mix, sums + in.deposit.bands * in.deposit.bands, sun, to);
-    if (in.deposit.first_order == 1)
-        power += sums[in.deposit.coefficients - 1] * double(mix.density(one_minus_cosine(sun, to)));
-    return power;
-}
-
 Direction towards_camera(const ReconstructInput& in, const Collector& c) {
     if (in.camera.orthographic != 0)
         return {-in.camera.forward[0], -in.camera.forward[1], -in.camera.forward[2]};
@@ -53,44 +32,104 @@ Direction towards_camera(const ReconstructInput& in, const Collector& c) {
     return normalized(d);
 }
 
+/// What of one collector is the same in every slot.
+struct Seen {
+    Direction to;
+    double depth_m2;
+    Mixture mix[3];
+    BandWeights bands[3];
+    AxisWeights axis[3];
+    Direction sun{};  ///< that `axis` is for
+    bool has_axis = false;
+};
+
+/// Collectors that are lit together: slot by slot, so that each slot's sums are read in one go.
+constexpr std::size_t kTogether = 64;
+
 struct Row {
     double rgb[3];
 };
 
-/// Colour of collector i from slots [first, last), averaged.
-Row collector_colour(const ReconstructInput& in, const Window& window, std::size_t i,
-                     std::size_t first, std::size_t last) {
+Seen seen_from_camera(const ReconstructInput& in, const Window& window, std::size_t i) {
+    Seen out;
     const Collector& c = in.collectors[i];
-    const Direction to = towards_camera(in, c);
-    const Medium& m = *in.medium;
-    const int channels = sum_channels(m, in.deposit);
-    const double depth_m2 = c.mass * double(m.sigma);
-    Mixture mix[3];
-    for (std::size_t ch = 0; ch < std::size_t(channels); ++ch) mix[ch] = mixture_of(in, i, ch);
+    out.to = towards_camera(in, c);
+    out.depth_m2 = c.mass * double(in.medium->sigma);
+    const bool by_bands = in.closure == Closure::kSh && !in.first_order_alone;
+    for (std::size_t ch = 0; ch < std::size_t(sum_channels(*in.medium, in.deposit)); ++ch) {
+        out.mix[ch] = mixture_of(in, i, ch);
+        if (by_bands) out.bands[ch] = band_weights(in.deposit, window, out.mix[ch], out.to);
+    }
+    return out;
+}
+
+/// The weights about the axis of the beam follow a slot's sun.
+void turn_axis(const ReconstructInput& in, const Direction& sun, Seen& seen) {
+    if (seen.has_axis && sun.x == seen.sun.x && sun.y == seen.sun.y && sun.z == seen.sun.z) return;
+    for (std::size_t ch = 0; ch < std::size_t(sum_channels(*in.medium, in.deposit)); ++ch)
+        seen.axis[ch] = axis_weights(in.deposit, seen.mix[ch], sun, seen.to);
+    seen.sun = sun;
+    seen.has_axis = true;
+}
+
+/// Light whose sums these are, scattered towards the camera, per unit of its colour.
+double scattered_power(const ReconstructInput& in, const Seen& seen, std::size_t channel, bool beam,
+                       const double* sums) {
+    if (in.closure == Closure::kCamera) return sums[0];
+    const int bands = in.deposit.bands;
+    const Mixture& mix = seen.mix[channel];
+    double power = in.first_order_alone           ? 0
+                   : in.closure == Closure::kLobe ? lobe_power(in.deposit, mix, sums, seen.to)
+                                                  : sh_power(bands, seen.bands[channel], sums);
+    if (!beam) return power;
+    if (!in.first_order_alone)
+        power += axis_power(in.deposit.axis_degrees, seen.axis[channel], sums + bands * bands);
+    if (in.deposit.first_order == 1)
+        power += sums[in.deposit.coefficients - 1] *
+                 double(mix.density(one_minus_cosine(seen.sun, seen.to)));
+    return power;
+}
+
+/// Adds one light of one slot, `share` of the whole, to the colours of collectors from `begin` on.
+void add_slot(const ReconstructInput& in, const PhotonSlot& slot, std::size_t light, double share,
+              std::size_t begin, std::size_t count, Seen* seen, Row* rows) {
+    const Light& l = in.lighting->lights[light];
+    const std::size_t channels = std::size_t(sum_channels(*in.medium, in.deposit));
     // The deposits know the albedos at real collisions, and where several media share a voxel.
-    const bool albedo_done =
-        in.deposit.mode == kDepositOutgoing || (in.deposit.mode == kDepositCamera && m.count > 1);
-    Row row{};
+    const bool albedo_done = in.deposit.mode == kDepositOutgoing ||
+                             (in.deposit.mode == kDepositCamera && in.medium->count > 1);
+    const bool turns = l.beam && in.closure != Closure::kCamera;
+    const Direction sun{slot.sun_travel[0], slot.sun_travel[1], slot.sun_travel[2]};
+    const double norm = slot_norm(in, slot, light);
+    for (std::size_t i = 0; i < count; ++i) {
+        if (turns) turn_axis(in, sun, seen[i]);
+        double power = 0;
+        for (std::size_t ch = 0; ch < 3; ++ch) {
+            if (ch == 0 || channels == 3) {
+                double sums[kMostNumbers];
+                slot_sums(in, slot, light, (begin + i) * channels + ch, norm, sums);
+                power = scattered_power(in, seen[i], ch, l.beam, sums) * share;
+                if (!albedo_done) power *= double(seen[i].mix[ch].albedo);
+            }
+            rows[i].rgb[ch] += power * l.colour[ch] / seen[i].depth_m2;
+        }
+    }
+}
+
+/// Colours of collectors from `begin` on, from slots [first, last), averaged.
+void collector_colours(const ReconstructInput& in, std::size_t begin, std::size_t count,
+                       std::size_t first, std::size_t last, Seen* seen, Row* rows) {
+    for (std::size_t i = 0; i < count; ++i) rows[i] = Row{};
     double generations = 0;
     for (std::size_t s = first; s < last; ++s)
         generations += double(in.photons->slots[s].generations);
     for (std::size_t s = first; s < last; ++s) {
         const PhotonSlot& slot = in.photons->slots[s];
-        const double share = generations > 0 ? double(slot.generations) / generations : 0;
-        for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {
-            const auto& colour = in.lighting->lights[l].colour;
-            double power = 0;
-            for (std::size_t ch = 0; ch < 3; ++ch) {
-                if (ch == 0 || channels == 3) {
-                    const std::uint64_t set = std::uint64_t(i) * std::uint64_t(channels) + ch;
-                    power = slot_power(in, window, mix[ch], slot, l, set, to) * share;
-                    if (!albedo_done) power *= double(mix[ch].albedo);
-                }
-                row.rgb[ch] += power * colour[ch] / depth_m2;
-            }
-        }
+        if (slot.generations == 0) continue;
+        const double share = double(slot.generations) / generations;
+        for (std::size_t l = 0; l < in.lighting->lights.size(); ++l)
+            add_slot(in, slot, l, share, begin, count, seen, rows);
     }
-    return row;
 }
 
 }  // namespace
@@ -100,30 +139,30 @@ Status reconstruct(const ReconstructInput& in, CollectorColours& out) {
     const std::size_t batches = std::size_t(in.batches), sets = 1 + batches;
     PILEUS_TRY(allocate_once(arrays::collector_colours(3 * sets, count), out.colour));
     const Window window = band_window(in.deposit.bands, in.window);
-    constexpr std::size_t kPiece = 256;
-    const std::size_t pieces = (count + kPiece - 1) / kPiece;
+    const std::size_t pieces = (count + kTogether - 1) / kTogether;
     Buffer<std::uint64_t> negative;
     PILEUS_TRY(negative.resize(pieces, "counters"));
     parallel_for(in.threads, std::int64_t(pieces), [&](std::int64_t piece, int) {
-        const std::size_t begin = std::size_t(piece) * kPiece;
-        const std::size_t end = begin + kPiece < count ? begin + kPiece : count;
-        for (std::size_t i = begin; i < end; ++i) {
-            for (std::size_t set = 0; set < sets; ++set) {
-                const Row row =
-                    collector_colour(in, window, i, set == 0 ? 0 : (set - 1) * slots / batches,
-                                     set == 0 ? slots : set * slots / batches);
+        const std::size_t begin = std::size_t(piece) * kTogether;
+        const std::size_t own = begin + kTogether < count ? kTogether : count - begin;
+        Seen seen[kTogether];
+        Row rows[kTogether];
+        for (std::size_t i = 0; i < own; ++i) seen[i] = seen_from_camera(in, window, begin + i);
+        for (std::size_t set = 0; set < sets; ++set) {
+            collector_colours(in, begin, own, set == 0 ? 0 : (set - 1) * slots / batches,
+                              set == 0 ? slots : set * slots / batches, seen, rows);
+            for (std::size_t i = 0; i < own; ++i)
                 for (std::size_t ch = 0; ch < 3; ++ch) {
                     // The constant part belongs to the radiance that must not be negative.
                     const double constant = in.lighting->constant[ch];
-                    double v = row.rgb[ch] + constant;
+                    double v = rows[i].rgb[ch] + constant;
                     if (set == 0 && v < 0) {
                         v = 0;
                         ++negative[std::size_t(piece)];
                     }
                     if (!in.constant) v -= constant;
-                    out.colour[(set * 3 + ch) * count + i] = float(v);
+                    out.colour[(set * 3 + ch) * count + begin + i] = float(v);
                 }
-            }
         }
     });
     out.clamped_negative = 0;
