@@ -39,9 +39,10 @@ Rgba pixel_of(const Planes& p, std::size_t i, bool whole, std::uint64_t& broken)
     return out;
 }
 
-/// Display-linear light of each 8-bit code.
+/// Display-linear light of each 8-bit code, and the way back.
 struct SrgbTable {
     float linear[256];
+    SrgbCodes codes;
 };
 
 void fill(SrgbTable& table) {
@@ -67,9 +68,9 @@ void store_8bit(const Rgba& p, PixelBlend blend, float gain, const SrgbTable* ta
         shown.b += left * table->linear[to[2]];
         out_alpha = alpha + left * (float(to[3]) / 255.0f);
     }
-    to[0] = static_cast<unsigned char>(srgb_code(shown.r));
-    to[1] = static_cast<unsigned char>(srgb_code(shown.g));
-    to[2] = static_cast<unsigned char>(srgb_code(shown.b));
+    to[0] = table->codes(shown.r);
+    to[1] = table->codes(shown.g);
+    to[2] = table->codes(shown.b);
     to[3] = static_cast<unsigned char>(out_alpha * 255.0f + 0.5f);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "src/io/images/srgb.h"
 #include "tests/io/test_image.h"
 
 using namespace pileus;
@@ -43,6 +44,23 @@ std::vector<int> codes(const Image& image, ToneSettings tone) {
 }
 
 }  // namespace
+
+TEST_CASE("tone: codes by look-up are those by search, for every float that may differ") {
+    const SrgbCodes code;
+    const auto same = [&](float v) { CHECK(code(v) == srgb_code(v)); };
+    // Either way goes up and only at thresholds and at the ends of bins, if it is right there.
+    for (const float threshold : kSrgbThresholds)
+        for (const float v :
+             {std::nextafter(threshold, 0.0f), threshold, std::nextafter(threshold, 2.0f)})
+            same(v);
+    for (std::uint32_t bits = 0; bits < 0xffff0000u; bits += 0x10000u)
+        for (const std::uint32_t at : {bits, bits + 1, bits + 0xffffu}) {
+            float v;
+            std::memcpy(&v, &at, sizeof v);
+            if (code(v) != srgb_code(v)) FAIL_CHECK("differs at ", double(v));
+        }
+    same(std::nanf(""));
+}
 
 TEST_CASE("tone: every sRGB threshold is the smallest float of its code") {
     for (int k = 1; k <= 255; ++k) {

@@ -6,6 +6,7 @@
 
 #include "src/base/digest.h"
 #include "src/base/file.h"
+#include "src/io/images/srgb.h"
 #include "src/scene/rows/picture_format.h"
 
 namespace pileus {
@@ -143,11 +144,12 @@ Status tone_map_8bit(const Image& image, const ToneSettings& tone, Buffer<std::u
     const float* g = planes[1]->pixels.data();
     const float* b = planes[2]->pixels.data();
 
+    const SrgbCodes code;
     if (image.display_colours) {
         for (std::size_t i = 0; i < pixels; ++i) {
-            rgb[3 * i] = std::uint8_t(srgb_code(r[i]));
-            rgb[3 * i + 1] = std::uint8_t(srgb_code(g[i]));
-            rgb[3 * i + 2] = std::uint8_t(srgb_code(b[i]));
+            rgb[3 * i] = code(r[i]);
+            rgb[3 * i + 1] = code(g[i]);
+            rgb[3 * i + 2] = code(b[i]);
         }
         return Status::ok();
     }
@@ -161,9 +163,9 @@ Status tone_map_8bit(const Image& image, const ToneSettings& tone, Buffer<std::u
     }
     for (std::size_t i = 0; i < pixels; ++i) {
         const Rgb<float> c = tone_curve(Rgb<float>{r[i], g[i], b[i]}, gain);
-        rgb[3 * i] = std::uint8_t(srgb_code(c.r));
-        rgb[3 * i + 1] = std::uint8_t(srgb_code(c.g));
-        rgb[3 * i + 2] = std::uint8_t(srgb_code(c.b));
+        rgb[3 * i] = code(c.r);
+        rgb[3 * i + 1] = code(c.g);
+        rgb[3 * i + 2] = code(c.b);
     }
     return Status::ok();
 }
