@@ -71,16 +71,18 @@ Status fill_in(const Context& context, const RaymarchInput& in, const PixelLatti
     return Status::ok();
 }
 
-Status copy(const Buffer<float>& from, Buffer<float>& to) {
+Status copy(int threads, const Buffer<float>& from, Buffer<float>& to) {
     PILEUS_TRY(allocate_once(marched(1, from.size()), to));
-    if (!from.empty()) std::memcpy(to.data(), from.data(), from.size() * sizeof(float));
+    parallel_each(threads, from.size(), [&](std::size_t i) { to[i] = from[i]; });
     return Status::ok();
 }
 
-Status remember(const RaymarchInput& in, const Planes& planes, UpsampleMemory& memory) {
-    PILEUS_TRY(copy(planes.transmittance, memory.transmittance));
-    PILEUS_TRY(copy(planes.colour, memory.colour));
-    PILEUS_TRY(copy(planes.opaque_depth, memory.opaque_depth));
+Status remember(const Context& context, const RaymarchInput& in, const Planes& planes,
+                UpsampleMemory& memory) {
+    const StageClock clock(context, "upsampling");
+    PILEUS_TRY(copy(context.threads, planes.transmittance, memory.transmittance));
+    PILEUS_TRY(copy(context.threads, planes.colour, memory.colour));
+    PILEUS_TRY(copy(context.threads, planes.opaque_depth, memory.opaque_depth));
     memory.camera = in.camera;
     memory.to_sun = in.lighting->to_sun;
     memory.ready = true;
@@ -125,11 +127,14 @@ Status upsample_picture(const Context& context, const RaymarchInput& in, int fra
         RaymarchInput thin = in;
         thin.lattice = lattice;
         const bool half = s.temporal > 0 || !planes.half_depth.empty();
-        PILEUS_TRY(outfit(lattice, in.camera.width, half, planes, memory.few));
+        {
+            const StageClock clock(context, "upsampling");
+            PILEUS_TRY(outfit(lattice, in.camera.width, half, planes, memory.few));
+        }
         PILEUS_TRY(raymarch_picture(context, thin, memory.few, tally));
         PILEUS_TRY(fill_in(context, in, lattice, memory, planes));
     }
-    return s.temporal > 0 ? remember(in, planes, memory) : Status::ok();
+    return s.temporal > 0 ? remember(context, in, planes, memory) : Status::ok();
 }
 
 void add_upsample_row(const RaymarchSettings& s, const std::array<int, 2>& resolution, bool solid,

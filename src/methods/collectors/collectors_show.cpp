@@ -36,8 +36,11 @@ Status collectors_compose(const CameraParams& camera, const Context& context, Co
         PILEUS_TRY(reconstruct(in, colours));
     }
     channels = 3 * (1 + in.batches);
-    PILEUS_TRY(allocate_planes(camera.width, camera.height, channels, run.lighting.opaque(),
-                               run.scene->output.layer_depth, planes));
+    {
+        const StageClock clock(context, "background");
+        PILEUS_TRY(allocate_planes(camera.width, camera.height, channels, run.lighting.opaque(),
+                                   run.scene->output.layer_depth, planes));
+    }
     PILEUS_TRY(fill_lit_background(context, run, in, 0, planes));
     PILEUS_TRY(collectors_display(context, run, in, colours, channels, planes));
     PILEUS_TRY(add_ground_noise(context, run, in, planes));
@@ -52,6 +55,7 @@ Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& 
     Planes planes;
     PILEUS_TRY(collectors_compose(camera, context, run, colours, channels, planes));
     Report& report = *context.report;
+    const StageClock clock(context, "layers");
     report.counters.clear();
     const StageClock clock(context, "layers");
     std::uint64_t clamped = colours.clamped_negative;
@@ -64,6 +68,7 @@ Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& 
                        {"parts_stored", run.world->medium.parts.size()}};
     report_solids(run.world->solids, run.around.depth, report);
     set_image_camera(camera, run.world->medium.low_m, image);
+    planes = Planes{};  // to give memory back takes time, too
     if (shows_harmonics(run) || !context.digests) return Status::ok();
     Digest digest;
     digest.floats(colours.colour.span());

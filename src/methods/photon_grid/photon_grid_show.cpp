@@ -124,14 +124,20 @@ Status photon_grid_compose(const CameraParams& camera, const Context& context, P
     const GridLightInput in = photon_grid_light_input(camera, context, run);
     const OutputSettings& output = run.scene->output;
     channels = 3 * (1 + in.batches);
-    PILEUS_TRY(allocate_planes(camera.width, camera.height, channels, run.lighting.opaque(),
-                               output.layer_depth, planes));
+    {
+        const StageClock clock(context, "background");
+        PILEUS_TRY(allocate_planes(camera.width, camera.height, channels, run.lighting.opaque(),
+                                   output.layer_depth, planes));
+    }
     PILEUS_TRY(fill_lit_background(context, run, in, 0, planes));
     PILEUS_TRY(display(context, run, in, planes));
-    // Noise may leave less than nothing in a pixel.
-    const std::size_t pixels = planes.transmittance.size();
-    for (std::size_t i = 0; i < 3 * pixels; ++i)
-        if (planes.colour[i] < 0) planes.colour[i] = 0, ++clamped;
+    {
+        // Noise may leave less than nothing in a pixel.
+        const StageClock clock(context, "layers");
+        const std::size_t pixels = planes.transmittance.size();
+        for (std::size_t i = 0; i < 3 * pixels; ++i)
+            if (planes.colour[i] < 0) planes.colour[i] = 0, ++clamped;
+    }
     PILEUS_TRY(add_ground_noise(context, run, in, planes));
     if (output.layer_optical_depth) PILEUS_TRY(show_optical_depth(context, run, in, planes));
     if (output.layer_light) PILEUS_TRY(show_sun(context, run, in, planes));
@@ -148,6 +154,7 @@ Status photon_grid_show(double orbit_deg, const Context& context, PhotonGridRun&
     Planes planes;
     PILEUS_TRY(photon_grid_compose(camera, context, run, clamped, channels, planes));
     Report& report = *context.report;
+    const StageClock clock(context, "layers");
     report.counters.clear();
     PILEUS_TRY(make_layers(planes, camera.width, camera.height, channels, scene.output, image,
                            report, clamped));
