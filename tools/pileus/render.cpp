@@ -211,7 +211,6 @@ Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOpti
         return Status::bad_input(scene.file +
                                  ": output.files: no output, allowed: -o FILE, --report FILE or "
                                  "output.files in the scene");
-    options.digests = outputs.report_printed || !outputs.report.empty();
     PILEUS_TRY(add_world_files(arguments, scene, outputs));
     return check_outputs(outputs, scene, options);
 }

@@ -57,7 +57,6 @@ Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& 
     Report& report = *context.report;
     const StageClock clock(context, "layers");
     report.counters.clear();
-    const StageClock clock(context, "layers");
     std::uint64_t clamped = colours.clamped_negative;
     PILEUS_TRY(make_layers(planes, camera.width, camera.height, channels, scene.output, image,
                            report, clamped));
