@@ -10,6 +10,20 @@ std::size_t filled_slots(const Photons& photons) {
     return filled;
 }
 
+Batch batch_of(const LightInput& in, int batch) {
+    const std::size_t slots = filled_slots(*in.photons);
+    std::size_t first = 0, last = slots;
+    if (batch >= 0) {
+        first = std::size_t(batch) * slots / std::size_t(in.batches);
+        last = (std::size_t(batch) + 1) * slots / std::size_t(in.batches);
+    }
+    Batch b;
+    b.slots = {in.photons->slots.data() + first, last - first};
+    if (batch < 0 && in.whole != nullptr) b.slots = {in.whole, 1};
+    for (const PhotonSlot& slot : b.slots) b.generations += double(slot.generations);
+    return b;
+}
+
 double slot_norm(const LightInput& in, const PhotonSlot& slot, std::size_t light) {
     return slot.flux_per_photon_m2[light] / double(std::uint64_t{1} << in.deposit.places) /
            slot.generations_of(light);
@@ -29,33 +43,25 @@ Status reconstruct_ground(const LightInput& in, const GroundMap& map, int batch,
     const std::size_t cells = std::size_t(map.cells) * std::size_t(map.cells);
     PILEUS_TRY(allocate(arrays::ground_light(cells), radiance));
     if (cells == 0) return Status::ok();
-    // The same groups of slots as the collectors' batches.
-    const std::size_t slots = in.photons->slots.size(), group = std::size_t(batch);
-    const std::size_t batches = std::size_t(in.batches);
-    const std::size_t first = batch > 0 ? (group - 1) * slots / batches : 0;
-    const std::size_t last = batch > 0 ? group * slots / batches : slots;
-    double generations = 0;
-    for (std::size_t s = first; s < last; ++s)
-        generations += double(in.photons->slots[s].generations);
-    if (!(generations > 0)) return Status::ok();
+    // The same groups of slots as those of the media's light.
+    const Batch shown = batch_of(in, batch - 1);
+    if (!(shown.generations > 0)) return Status::ok();
     // What a generation that was ended within has brought counts for the lights that it reached.
     std::vector<double> whole;
     for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {
         double shot = 0;
-        for (std::size_t s = first; s < last; ++s)
-            if (in.photons->slots[s].generations > 0)
-                shot += in.photons->slots[s].generations_of(l);
-        whole.push_back(generations / shot);
+        for (const PhotonSlot& slot : shown.slots)
+            if (slot.generations > 0) shot += slot.generations_of(l);
+        whole.push_back(shown.generations / shot);
     }
     // Irradiance = flux per cell area; a Lambertian ground sends albedo / pi of it back.
     const double unit = in.lighting->ground_albedo / 3.14159265358979323846 *
                         double(map.per_metre[0]) * double(map.per_metre[1]) /
-                        (generations * double(std::uint64_t{1} << in.deposit.places));
+                        (shown.generations * double(std::uint64_t{1} << in.deposit.places));
     const std::size_t channels = std::size_t(sum_channels(*in.medium, in.deposit));
     for (std::size_t i = 0; i < cells; ++i) {
         double rgb[3] = {};
-        for (std::size_t s = first; s < last; ++s) {
-            const PhotonSlot& slot = in.photons->slots[s];
+        for (const PhotonSlot& slot : shown.slots) {
             if (slot.generations == 0) continue;
             const std::size_t stride = slot.sums.size() / in.lighting->lights.size();
             for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {

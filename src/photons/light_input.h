@@ -12,6 +12,7 @@ struct LightInput {
     const Medium* medium = nullptr;
     const Lighting* lighting = nullptr;
     const Photons* photons = nullptr;
+    const PhotonSlot* whole = nullptr;  ///< all slots as one, where that is kept; else null
     CameraParams camera{};
     DepositPlan deposit;
     bool first_order_alone = false;  ///< only sunlight scattered once, where deposits keep it apart
@@ -30,6 +31,15 @@ inline Array<float> ground_light(std::uint64_t cells) {
 
 /// Slots up to the first that no generation has reached: tracing may have ended early.
 std::size_t filled_slots(const Photons& photons);
+
+/// Slots that are shown together.
+struct Batch {
+    Span<const PhotonSlot> slots;
+    double generations = 0;
+};
+
+/// Those of group `batch` of `in.batches`, or of all of the light: -1.
+Batch batch_of(const LightInput& in, int batch);
 
 /// What a light's sums in a slot are multiplied by, to be of unit colour.
 double slot_norm(const LightInput& in, const PhotonSlot& slot, std::size_t light);

@@ -31,6 +31,7 @@ Status fill_ring(int frame, const Context& context, PhotonRun& run, const ShootP
     std::vector<PhotonSlot>& slots = run.photons.slots;
     if (run.next_generation - std::uint64_t(frame) < slots.size()) {
         run.ring_first = std::uint64_t(frame);
+        run.ring_sum.counted.clear();
         std::rotate(slots.begin(), slots.begin() + std::ptrdiff_t(run.ring_first % slots.size()),
                     slots.end());
         set_photon_sun(sun_at(*run.scene, frame), run);

@@ -91,7 +91,23 @@ bool has_places(const PhotonRun& run, const Lighting& next) {
     return same;
 }
 
+/// Of a ring, or of groups of generations.
+std::size_t slot_of(std::uint64_t generation, const PhotonRun& run) {
+    return std::size_t((generation - run.ring_first) % run.photons.slots.size());
+}
+
 }  // namespace
+
+bool sums_ring(const PhotonRun& run) {
+    const Animation& a = run.scene->animation;
+    return run.ring && a.present && a.frames > 1 && photon_slots(run) > 1;
+}
+
+Status sum_ring(const TraceInput& in, PhotonRun& run) {
+    if (!sums_ring(run) || run.next_generation == run.ring_first) return Status::ok();
+    return sum_ring(slot_size(in), run.lighting.lights.size(),
+                    slot_of(run.next_generation - 1, run), in.threads, run.photons, run.ring_sum);
+}
 
 std::uint64_t photon_slots(const PhotonRun& run) {
     const Scene& scene = *run.scene;
@@ -163,6 +179,7 @@ Status lay_out_photons(const TraceInput& in, PhotonRun& run) {
     run.ring_first = run.next_generation;
     PILEUS_TRY(prepare_trace(in, run.scratch));
     run.photons.tallies.assign(run.lighting.lights.size(), TraceTally{});
+    run.ring_sum.counted.clear();
     run.photons.slots.clear();
     run.photons.slots.resize(std::size_t(photon_slots(run)));
     const auto sums = arrays::photon_slot(slot_size(in), run.lighting.lights.size());
@@ -172,13 +189,15 @@ Status lay_out_photons(const TraceInput& in, PhotonRun& run) {
 
 Status shoot_generation(TraceInput in, const Context& context, PhotonRun& run) {
     in.ended = patient_stop(context);
-    PhotonSlot& slot =
-        run.photons
-            .slots[std::size_t((run.next_generation - run.ring_first) % run.photons.slots.size())];
+    const std::size_t number = slot_of(run.next_generation, run);
+    PhotonSlot& slot = run.photons.slots[number];
     // In an animation each generation has a slot of its own: the oldest gives way, exactly.
     const bool ring =
         run.ring && run.photons.slots.size() == run.generations && run.scene->animation.present;
-    if (ring && slot.generations > 0) empty_slot(slot);
+    if (ring && slot.generations > 0) {
+        take_out(number, context.threads, run.photons, run.ring_sum);
+        empty_slot(slot);
+    }
     slot.flux_per_photon_m2.clear();
     for (const Light& l : run.lighting.lights) {
         slot.flux_per_photon_m2.push_back(l.photons > 0 ? l.power_m2 / double(l.photons) : 0);

@@ -5,6 +5,7 @@
 #pragma once
 #include "src/methods/methods.h"
 #include "src/photons/beam.h"
+#include "src/photons/ring_sum.h"
 #include "src/photons/trace.h"
 #include "src/picture/layers.h"
 #include "src/picture/nodes/lamp_light.h"
@@ -25,6 +26,7 @@ struct PhotonRun : MethodRun {
     DepositPlan deposit;
     GroundMap ground_map;
     Photons photons;
+    RingSum ring_sum;  ///< of an animation's ring, once a picture was shown
     TraceScratch scratch;
     std::uint64_t next_generation = 0, generations = 1;
     bool ring = true;              ///< an animation keeps every generation apart
@@ -43,6 +45,12 @@ struct PhotonRun : MethodRun {
 
 /// Slots of the sums: the generations of an animation's ring, or batches for the error.
 std::uint64_t photon_slots(const PhotonRun& run);
+
+/// Whether the light of all slots is kept summed up: each frame of a ring changes one of many.
+bool sums_ring(const PhotonRun& run);
+
+/// Brings that sum up to date; nothing where it is not kept. kLimit: out of memory.
+Status sum_ring(const TraceInput& in, PhotonRun& run);
 
 /// Groups of slots that the standard error is made from; 0: no error layer.
 int photon_batches(const PhotonRun& run);

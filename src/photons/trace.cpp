@@ -160,6 +160,7 @@ void empty_slot(PhotonSlot& slot) {
     slot.generations = 0;
     slot.scatterings = 0;
     slot.parts.clear();
+    ++slot.serial;
 }
 
 GroundMap make_ground_map(const Medium& medium, const Lighting& lighting) {
@@ -195,6 +196,7 @@ Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScr
     const std::uint64_t stride = slot_stride(in);
     std::vector<double> parts;
     bool ended = false;
+    ++slot.serial;
     for (std::size_t l = 0; l < in.lighting->lights.size() && !ended; ++l) {
         const Light& light = in.lighting->lights[l];
         Launch launch{&in, &scratch, launch_params(in, light, generation), 0,

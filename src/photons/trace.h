@@ -72,6 +72,7 @@ struct TraceInput {
 struct PhotonSlot {
     Buffer<std::int64_t> sums;
     std::uint64_t generations = 0;           ///< that were added
+    std::uint64_t serial = 0;                ///< grows whenever the sums change
     std::int64_t scatterings = 0;            ///< of these generations
     std::vector<double> flux_per_photon_m2;  ///< per light, for unit radiance or irradiance
     std::array<float, 3> sun_travel{0, 0, -1};

@@ -116,6 +116,7 @@ void check_collectors(const Fixture& f) {
     held["collectors"] = run.prepared.collectors.bytes();
     held["shares of the media"] = run.prepared.shares.bytes();
     for (const PhotonSlot& slot : run.photons.slots) held["photon map"] += slot.sums.bytes();
+    if (sums_ring(run)) held["photon map of the ring"] = run.ring_sum.sum.sums.bytes();
     held["photon tallies per thread"] = run.scratch.tallies.bytes();
     // A bound: up to 256 bytes keep each thread's sums apart from the next one's.
     const std::uint64_t sums = run.scratch.sums.bytes(), bound = run.plan.accumulation.bytes;
@@ -137,6 +138,7 @@ void check_photon_grid(const Fixture& f) {
     held["cells near medium"] = run.near.marks.bytes();
     held["shares of the media"] = run.shares.bytes();
     for (const PhotonSlot& slot : run.photons.slots) held["photon map"] += slot.sums.bytes();
+    if (sums_ring(run)) held["photon map of the ring"] = run.ring_sum.sum.sums.bytes();
     held["photon tallies per thread"] = run.scratch.tallies.bytes();
     // A bound: up to 256 bytes keep each thread's sums apart from the next one's.
     const std::uint64_t sums = run.scratch.sums.bytes(), bound = run.plan.accumulation.bytes;

@@ -31,6 +31,7 @@ struct CollectorsSizes {
     bool cells = false;     ///< closure "camera": no samples and no tree
     bool variance = false;  ///< placement "variance"
     bool rejection = false, paper = false, marched = true, ground = false, depth = false;
+    bool sums_ring = false;     ///< all slots are kept as one, too
     bool shoots_again = false;  ///< an animation: what tracing needs stays until the end
 };
 

@@ -50,6 +50,7 @@ CollectorsSizes collectors_sizes(const CollectorsRun& run, const Context& contex
     s.phases = phase_bytes(run.world->medium);
     s.sky = sky_map_bytes(run.around.sky_map);
     s.slots = photon_slots(run);
+    s.sums_ring = sums_ring(run);
     s.ground_cells = std::uint64_t(run.ground_map.cells) * std::uint64_t(run.ground_map.cells);
     s.shoots_again = context.frames > 1;
     size_prepared(run, context, s);

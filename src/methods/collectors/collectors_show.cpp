@@ -14,6 +14,7 @@ ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const 
     in.medium = &run.world->medium;
     in.lighting = &run.lighting;
     in.photons = &run.photons;
+    if (sums_ring(run) && run.ring_sum.sum.generations > 0) in.whole = &run.ring_sum.sum;
     in.collectors = run.prepared.collectors.span();
     in.shares = run.prepared.shares.span();
     in.camera = camera;
@@ -30,6 +31,10 @@ ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const 
 
 Status collectors_compose(const CameraParams& camera, const Context& context, CollectorsRun& run,
                           CollectorColours& colours, int& channels, Planes& planes) {
+    {
+        const StageClock clock(context, "reconstruct");
+        PILEUS_TRY(sum_ring(collectors_trace_input(context, run), run));
+    }
     const ReconstructInput in = collectors_reconstruct_input(camera, context, run);
     if (!shows_harmonics(run)) {
         const StageClock clock(context, "reconstruct");

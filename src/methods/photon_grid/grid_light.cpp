@@ -103,23 +103,6 @@ double published_power(const Mixture& mix, const double* sums, const Direction& 
     return flux * double(density);
 }
 
-/// Slots [first, last) of the run, and the generations in them.
-struct Batch {
-    std::size_t first, last;
-    double generations;
-};
-Batch batch_of(const GridLightInput& in, int batch) {
-    const std::size_t slots = filled_slots(*in.photons), n = std::size_t(in.batches);
-    Batch b{0, slots, 0};
-    if (batch >= 0) {
-        b.first = std::size_t(batch) * slots / n;
-        b.last = (std::size_t(batch) + 1) * slots / n;
-    }
-    for (std::size_t s = b.first; s < b.last; ++s)
-        b.generations += double(in.photons->slots[s].generations);
-    return b;
-}
-
 /// A cell while it is lit.
 struct CellView {
     CellOptics optics;
@@ -154,8 +137,7 @@ struct Row {
 Row cell_row(const GridLightInput& in, const Batch& batch, std::size_t number, CellView& cell) {
     const std::size_t channels = std::size_t(sum_channels(*in.medium, in.deposit));
     Row row;
-    for (std::size_t s = batch.first; s < batch.last; ++s) {
-        const PhotonSlot& slot = in.photons->slots[s];
+    for (const PhotonSlot& slot : batch.slots) {
         if (slot.generations == 0) continue;
         const double share = double(slot.generations) / batch.generations / in.unit_m2;
         for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {
@@ -219,8 +201,7 @@ void cell_harmonics(const GridLightInput& in, const CellOptics& optics, const Ba
                     std::size_t cell, int stored, const CellHarmonics& sets, double* out) {
     const std::size_t channels = std::size_t(sum_channels(*in.medium, in.deposit));
     for (int k = 0; k < sets.sets * stored; ++k) out[k] = 0;
-    for (std::size_t s = batch.first; s < batch.last; ++s) {
-        const PhotonSlot& slot = in.photons->slots[s];
+    for (const PhotonSlot& slot : batch.slots) {
         if (slot.generations == 0) continue;
         const double share = double(slot.generations) / batch.generations / in.unit_m2;
         for (std::size_t c = 0; c < channels; ++c)

@@ -150,6 +150,7 @@ GridLightInput photon_grid_light_input(const CameraParams& camera, const Context
     in.medium = &run.world->medium;
     in.lighting = &run.lighting;
     in.photons = &run.photons;
+    if (sums_ring(run) && run.ring_sum.sum.generations > 0) in.whole = &run.ring_sum.sum;
     in.camera = camera;
     in.deposit = run.deposit;
     in.batches = photon_batches(run);

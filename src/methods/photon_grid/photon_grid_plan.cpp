@@ -46,6 +46,7 @@ void add_photons(const PhotonGridRun& run, const Context& context, Size private_
     if (m.count > 1) add(t, arrays::cell_shares(run.cells.count(), Size(m.count)));
     add(t,
         several(photon_slots(run), arrays::photon_slot(slot_of(run), run.lighting.lights.size())));
+    if (sums_ring(run)) add(t, arrays::ring_sum(slot_of(run), run.lighting.lights.size()));
     add(t, arrays::photon_tallies(threads, traced));
     const auto own = arrays::photon_sums(0, 0, traced);
     t.add(own.name, own.first, own.last, private_sums);

@@ -121,6 +121,10 @@ Status show_single(const Context& context, PhotonGridRun& run, GridLightInput in
 
 Status photon_grid_compose(const CameraParams& camera, const Context& context, PhotonGridRun& run,
                            std::uint64_t& clamped, int& channels, Planes& planes) {
+    {
+        const StageClock clock(context, "reconstruct");
+        PILEUS_TRY(sum_ring(photon_grid_trace_input(context, run), run));
+    }
     const GridLightInput in = photon_grid_light_input(camera, context, run);
     const OutputSettings& output = run.scene->output;
     channels = 3 * (1 + in.batches);

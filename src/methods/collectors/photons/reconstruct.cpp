@@ -2,6 +2,8 @@
 // See reconstruct.h.
 #include "src/methods/collectors/photons/reconstruct.h"
 
+#include <vector>
+
 #include "platform/threads.h"
 
 namespace pileus {
@@ -116,17 +118,13 @@ void add_slot(const ReconstructInput& in, const PhotonSlot& slot, std::size_t li
     }
 }
 
-/// Colours of collectors from `begin` on, from slots [first, last), averaged.
+/// Colours of collectors from `begin` on, averaged over the slots of a batch.
 void collector_colours(const ReconstructInput& in, std::size_t begin, std::size_t count,
-                       std::size_t first, std::size_t last, Seen* seen, Row* rows) {
+                       const Batch& batch, Seen* seen, Row* rows) {
     for (std::size_t i = 0; i < count; ++i) rows[i] = Row{};
-    double generations = 0;
-    for (std::size_t s = first; s < last; ++s)
-        generations += double(in.photons->slots[s].generations);
-    for (std::size_t s = first; s < last; ++s) {
-        const PhotonSlot& slot = in.photons->slots[s];
+    for (const PhotonSlot& slot : batch.slots) {
         if (slot.generations == 0) continue;
-        const double share = double(slot.generations) / generations;
+        const double share = double(slot.generations) / batch.generations;
         for (std::size_t l = 0; l < in.lighting->lights.size(); ++l)
             add_slot(in, slot, l, share, begin, count, seen, rows);
     }
@@ -135,10 +133,11 @@ void collector_colours(const ReconstructInput& in, std::size_t begin, std::size_
 }  // namespace
 
 Status reconstruct(const ReconstructInput& in, CollectorColours& out) {
-    const std::size_t slots = filled_slots(*in.photons), count = in.collectors.size;
-    const std::size_t batches = std::size_t(in.batches), sets = 1 + batches;
+    const std::size_t count = in.collectors.size, sets = 1 + std::size_t(in.batches);
     PILEUS_TRY(allocate_once(arrays::collector_colours(3 * sets, count), out.colour));
     const Window window = band_window(in.deposit.bands, in.window);
+    std::vector<Batch> batches;
+    for (int b = -1; b < in.batches; ++b) batches.push_back(batch_of(in, b));
     const std::size_t pieces = (count + kTogether - 1) / kTogether;
     Buffer<std::uint64_t> negative;
     PILEUS_TRY(negative.resize(pieces, "counters"));
@@ -149,8 +148,7 @@ Status reconstruct(const ReconstructInput& in, CollectorColours& out) {
         Row rows[kTogether];
         for (std::size_t i = 0; i < own; ++i) seen[i] = seen_from_camera(in, window, begin + i);
         for (std::size_t set = 0; set < sets; ++set) {
-            collector_colours(in, begin, own, set == 0 ? 0 : (set - 1) * slots / batches,
-                              set == 0 ? slots : set * slots / batches, seen, rows);
+            collector_colours(in, begin, own, batches[set], seen, rows);
             for (std::size_t i = 0; i < own; ++i)
                 for (std::size_t ch = 0; ch < 3; ++ch) {
                     // The constant part belongs to the radiance that must not be negative.
@@ -174,16 +172,12 @@ namespace {
 
 /// Harmonics of collector i: [set][harmonic] into `out`.
 void collector_harmonics(const ReconstructInput& in, const Window& window, std::size_t i,
-                         std::size_t first, std::size_t last, const HarmonicSource& sets,
-                         double* out) {
+                         const Batch& batch, const HarmonicSource& sets, double* out) {
     const Medium& m = *in.medium;
     const int channels = sum_channels(m, in.deposit);
     const int count = sets.bands * sets.bands;
     const bool by_light = sets.sets < 3;
     const bool albedo_done = in.deposit.mode == kDepositOutgoing;
-    double generations = 0;
-    for (std::size_t s = first; s < last; ++s)
-        generations += double(in.photons->slots[s].generations);
     for (int k = 0; k < sets.sets * count; ++k) out[k] = 0;
     for (std::size_t ch = 0; ch < std::size_t(channels); ++ch) {
         const Mixture mix = mixture_of(in, i, ch);
@@ -191,10 +185,9 @@ void collector_harmonics(const ReconstructInput& in, const Window& window, std::
         for (int l = 0; l < sets.bands; ++l)
             factor[l] = double(albedo_done ? 1.0f : mix.moment(l) * mix.albedo) *
                         double(window.factor[l]) / (in.collectors[i].mass * double(m.sigma));
-        for (std::size_t s = first; s < last; ++s) {
-            const PhotonSlot& slot = in.photons->slots[s];
+        for (const PhotonSlot& slot : batch.slots) {
             if (slot.generations == 0) continue;
-            const double share = double(slot.generations) / generations;
+            const double share = double(slot.generations) / batch.generations;
             for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {
                 double sums[kMostNumbers];
                 slot_sums(in, slot, l, std::uint64_t(i) * std::uint64_t(channels) + ch, sums);
@@ -215,10 +208,8 @@ void collector_harmonics(const ReconstructInput& in, const Window& window, std::
 }  // namespace
 
 Status reconstruct_harmonics(const ReconstructInput& in, int batch, HarmonicSource& out) {
-    const std::size_t slots = filled_slots(*in.photons), count = in.collectors.size;
-    const std::size_t batches = std::size_t(in.batches);
-    const std::size_t first = batch < 0 ? 0 : std::size_t(batch) * slots / batches;
-    const std::size_t last = batch < 0 ? slots : (std::size_t(batch) + 1) * slots / batches;
+    const std::size_t count = in.collectors.size;
+    const Batch shown = batch_of(in, batch);
     out.bands = in.deposit.bands;
     out.sets = harmonic_sets(sum_channels(*in.medium, in.deposit), *in.lighting);
     for (int s = 0; s < out.sets; ++s)
@@ -235,7 +226,7 @@ Status reconstruct_harmonics(const ReconstructInput& in, int batch, HarmonicSour
                      const std::size_t end = begin + kPiece < count ? begin + kPiece : count;
                      double own[3 * kMaxBands * kMaxBands];
                      for (std::size_t i = begin; i < end; ++i) {
-                         collector_harmonics(in, window, i, first, last, out, own);
+                         collector_harmonics(in, window, i, shown, out, own);
                          for (std::size_t k = 0; k < numbers; ++k)
                              out.values[k * count + i] = float(own[k]);
                      }
