@@ -66,6 +66,7 @@ std::uint64_t self_test_kernel() { return self_test_digest<PILEUS_WIDTH>(); }
 #define PILEUS_SKY(isa) PILEUS_JOIN(sky_kernel_, isa)
 #define PILEUS_RAYMARCH(isa) PILEUS_JOIN(raymarch_kernel_, isa)
 #define PILEUS_UPSAMPLE(isa) PILEUS_JOIN(upsample_kernel_, isa)
+#define PILEUS_PIXELS(isa) PILEUS_JOIN(pixel_kernel_, isa)
 #define PILEUS_SWEEP(isa) PILEUS_JOIN(sweep_kernel_, isa)
 #define PILEUS_SWEEP_LAYER(isa) PILEUS_JOIN(sweep_layer_kernel_, isa)
 #define PILEUS_PATH_SOLIDS(isa) PILEUS_JOIN(path_solids_, isa)
@@ -101,6 +102,8 @@ extern const ParticleKernels PILEUS_PARTICLES(PILEUS_ISA);
 /// Of isa_upsample.cpp and isa_sweep.cpp, likewise.
 void PILEUS_UPSAMPLE(PILEUS_ISA)(const UpsampleParams&, const UpsampleBuffers&, std::uint32_t,
                                  std::uint32_t);
+void PILEUS_PIXELS(PILEUS_ISA)(const PixelParams&, const PixelBuffers&, std::uint32_t,
+                               std::uint32_t);
 void PILEUS_SWEEP(PILEUS_ISA)(const SweepParams&, const SweepBuffers&, std::uint32_t);
 void PILEUS_SWEEP_LAYER(PILEUS_ISA)(const SweepLayerParams&, const SweepBuffers&, std::uint32_t,
                                     std::uint32_t);
@@ -132,6 +135,7 @@ const KernelTable PILEUS_TABLE(PILEUS_ISA) = {
     &PILEUS_PARTICLES(PILEUS_ISA),
     PILEUS_PATH_LAMPS(PILEUS_ISA),
     &PILEUS_LAMPS(PILEUS_ISA),
+    PILEUS_PIXELS(PILEUS_ISA),
 };
 
 }  // namespace pileus

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Upsampling, compiled once per instruction set, apart from isa.cpp so that both build at
-// once. in: the kernel templates -> out: one exported function, named after the instruction set.
+// Upsampling and 8-bit pixels, compiled once per instruction set, apart from isa.cpp so that both
+// build at once. in: the kernel templates -> out: two exported functions, named after the set.
 // docs/architecture.md, "Kernels: written once"; tools/check_objects proves that nothing leaks.
+#include "kernels_cpu/display/pixel_rows.h"
 #include "kernels_cpu/display/upsample_rows.h"
 
 #ifndef PILEUS_WIDTH
@@ -13,6 +14,7 @@
 
 #define PILEUS_JOIN(a, b) a##b
 #define PILEUS_UPSAMPLE(isa) PILEUS_JOIN(upsample_kernel_, isa)
+#define PILEUS_PIXELS(isa) PILEUS_JOIN(pixel_kernel_, isa)
 
 namespace pileus {
 
@@ -21,6 +23,13 @@ void PILEUS_UPSAMPLE(PILEUS_ISA)(const UpsampleParams&, const UpsampleBuffers&, 
 void PILEUS_UPSAMPLE(PILEUS_ISA)(const UpsampleParams& k, const UpsampleBuffers& b,
                                  std::uint32_t begin, std::uint32_t end) {
     upsample_rows<PILEUS_WIDTH>(k, b, begin, end);
+}
+
+void PILEUS_PIXELS(PILEUS_ISA)(const PixelParams&, const PixelBuffers&, std::uint32_t,
+                               std::uint32_t);
+void PILEUS_PIXELS(PILEUS_ISA)(const PixelParams& k, const PixelBuffers& b, std::uint32_t begin,
+                               std::uint32_t end) {
+    pixel_rows<PILEUS_WIDTH>(k, b, begin, end);
 }
 
 }  // namespace pileus

@@ -5,6 +5,7 @@
 #pragma once
 #include "kernels_cpu/display/blend_params.h"
 #include "kernels_cpu/display/march_params.h"
+#include "kernels_cpu/display/pixel_params.h"
 #include "kernels_cpu/display/upsample_params.h"
 #include "kernels_cpu/isa/device_kernels.h"
 #include "kernels_cpu/light/sweep_params.h"
@@ -60,6 +61,9 @@ struct KernelTable {
     void (*trace_paths_lamps)(const PathParams&, const PathBuffers&, std::uint32_t begin,
                               std::uint32_t end) = nullptr;
     const LampKernels* lamps = nullptr;  ///< marched light of point, spot and parallel lights
+    /// Rows of a picture as 8-bit pixels.
+    void (*pixel_rows)(const PixelParams&, const PixelBuffers&, std::uint32_t begin,
+                       std::uint32_t end) = nullptr;
 };
 
 /// The widest table this machine runs; `name` (or null) forces one. Null: no such table here.

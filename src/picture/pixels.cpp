@@ -93,6 +93,30 @@ void store_row(const Planes& p, std::size_t first, std::size_t width, PixelBlend
     }
 }
 
+/// The most frequent way, on lanes.
+Status replace_8bit(const Planes& planes, int width, int height, const PixelTarget& target,
+                    const SrgbTable& table, const KernelTable& kernels, int threads,
+                    std::uint64_t& broken) {
+    constexpr std::int64_t kPiece = 8;
+    Buffer<std::int64_t> counts;
+    PILEUS_TRY(counts.resize(std::uint64_t(height), "counters"));
+    const PixelParams k{width, height, exposure_gain(target.stops)};
+    PixelBuffers b{};
+    b.transmittance = planes.transmittance.data();
+    b.colour = planes.colour.data();
+    b.background = planes.background.empty() ? nullptr : planes.background.data();
+    b.codes = table.codes.bins();
+    b.first = target.rows.row(0, height);
+    b.stride = target.rows.bottom_up ? -target.rows.stride : target.rows.stride;
+    b.broken = counts.data();
+    parallel_for(threads, (height + kPiece - 1) / kPiece, [&](std::int64_t piece, int) {
+        const std::int64_t begin = piece * kPiece, end = begin + kPiece;
+        kernels.pixel_rows(k, b, std::uint32_t(begin), std::uint32_t(end < height ? end : height));
+    });
+    for (std::int64_t n : counts.span()) broken += std::uint64_t(n);
+    return Status::ok();
+}
+
 }  // namespace
 
 std::size_t pixel_bytes(PixelFormat format) {
@@ -141,12 +165,16 @@ float float_of_half(std::uint16_t half) {
     return value;
 }
 
-void write_pixels(const Planes& planes, int width, int height, const PixelTarget& target,
-                  int threads, std::uint64_t& broken) {
+Status write_pixels(const Planes& planes, int width, int height, const PixelTarget& target,
+                    const KernelTable* kernels, int threads, std::uint64_t& broken) {
+    broken = 0;
     const bool decodes =
         target.format == PixelFormat::kRgba8Srgb && target.blend == PixelBlend::kOver;
     SrgbTable table{};
     if (decodes) fill(table);
+    if (target.format == PixelFormat::kRgba8Srgb && target.blend == PixelBlend::kReplace &&
+        kernels != nullptr && kernels->pixel_rows != nullptr)
+        return replace_8bit(planes, width, height, target, table, *kernels, threads, broken);
     const float gain = exposure_gain(target.stops);
     const std::size_t columns = std::size_t(width);
     std::atomic<std::uint32_t> all{0};  // below 2^30
@@ -168,6 +196,7 @@ void write_pixels(const Planes& planes, int width, int height, const PixelTarget
         if (own > 0) all.fetch_add(std::uint32_t(own), std::memory_order_relaxed);
     });
     broken = all.load();
+    return Status::ok();
 }
 
 std::uint64_t hash_planes(const Planes& planes) {

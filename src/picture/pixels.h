@@ -4,6 +4,7 @@
 // kind. docs/embedding.md, "Pixels" and "Depth".
 #pragma once
 #include "kernels_cpu/core/camera.h"
+#include "kernels_cpu/isa/kernels.h"
 #include "src/picture/layers.h"
 #include "src/world/camera/matrices.h"
 #include "src/world/solids/camera_depth.h"
@@ -37,8 +38,9 @@ std::size_t pixel_bytes(PixelFormat format);
 
 /// Writes or blends a picture; what is below 0 or no number counts as 0 and is counted in `broken`.
 /// Blending other than kReplace needs the media's own light: planes with a background, or `cloud`.
-void write_pixels(const Planes& planes, int width, int height, const PixelTarget& target,
-                  int threads, std::uint64_t& broken);
+/// `kernels` where given are quicker, with the same bits. kLimit: out of memory.
+Status write_pixels(const Planes& planes, int width, int height, const PixelTarget& target,
+                    const KernelTable* kernels, int threads, std::uint64_t& broken);
 
 /// As pixel_hash of the picture's image.
 std::uint64_t hash_planes(const Planes& planes);

@@ -160,7 +160,8 @@ Status Session::render(const FrameTarget& target) {
     std::uint64_t broken = 0;
     if (target.has_colour) {
         const StageClock clock(context_, "pixels");
-        write_pixels(*planes, size[0], size[1], target.colour, context_.threads, broken);
+        PILEUS_TRY(write_pixels(*planes, size[0], size[1], target.colour, context_.kernels,
+                                context_.threads, broken));
     }
     if (target.has_depth) {
         const StageClock clock(context_, "depths");

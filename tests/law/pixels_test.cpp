@@ -53,7 +53,7 @@ Written write(const Planes& planes, int width, int height, PixelFormat format, P
     target.format = format;
     target.blend = blend;
     target.stops = stops;
-    write_pixels(planes, width, height, target, 1, out.broken);
+    REQUIRE(write_pixels(planes, width, height, target, nullptr, 1, out.broken));
     return out;
 }
 
@@ -245,7 +245,7 @@ TEST_CASE("pixels: rows of any stride, either way up; what lies between stays") 
                 target.rows = {bytes.data(), std::int64_t(stride), bottom_up};
                 target.format = format;
                 std::uint64_t broken = 9;
-                write_pixels(p, kWidth, kHeight, target, threads, broken);
+                REQUIRE(write_pixels(p, kWidth, kHeight, target, nullptr, threads, broken));
                 CHECK(broken == 0);
                 for (std::size_t y = 0; y < kHeight; ++y) {
                     const std::size_t from = bottom_up ? kHeight - 1 - y : y;
@@ -311,5 +311,37 @@ TEST_CASE("pixels: depths of every kind are metres along the rays, and back") {
         write_depths(planes, params, kind, scale, rows);
         CHECK(double(back[4]) == doctest::Approx(double(held[4])).epsilon(1e-5));
         CHECK(back[3] == (kind == DepthKind::kBuffer ? 1 : kInf));
+    }
+}
+
+TEST_CASE("pixels: 8 bits on lanes are those made one by one, whatever the values and widths") {
+    const float odd[] = {0.0f,  -0.0f, -1.0f,   kInf,  -kInf, std::nanf(""), 1e-30f,
+                         1e30f, 5e-5f, 0.0003f, 0.28f, 3.0f,  0.999f};
+    for (const int width : {1, 3, 7, 16, 37}) {
+        const int height = 11;
+        for (const bool background : {false, true}) {
+            const std::size_t pixels = std::size_t(width) * height;
+            Planes p = planes_of(pixels, 0.3f, background);
+            for (std::size_t i = 0; i < 3 * pixels; ++i) {
+                if (i % 3 == 0) p.colour[i] = odd[i / 3 % 13];
+                if (i % 7 == 0) p.transmittance[i / 3] = float(i % 257) / 256.0f;
+            }
+            for (const float stops : {0.0f, 5.0f, -40.0f}) {
+                PixelTarget target;
+                const std::int64_t stride = 4 * width + 3;
+                std::vector<unsigned char> one(std::size_t(stride) * height, 77), many = one;
+                target.stops = stops;
+                target.rows = {one.data(), stride, true};
+                std::uint64_t broken = 0, alike = 0;
+                REQUIRE(write_pixels(p, width, height, target, nullptr, 1, broken));
+                target.rows.first = many.data();
+                for (int i = 0; kernel_table_at(i) != nullptr; ++i) {
+                    CAPTURE(std::string(kernel_table_at(i)->name));
+                    REQUIRE(write_pixels(p, width, height, target, kernel_table_at(i), 2, alike));
+                    CHECK(alike == broken);
+                    CHECK(many == one);
+                }
+            }
+        }
     }
 }

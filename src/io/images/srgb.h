@@ -5,6 +5,7 @@
 #pragma once
 #include <cstring>
 
+#include "kernels_cpu/display/pixel_params.h"
 #include "kernels_cpu/display/tone.h"
 #include "src/base/powers.h"
 
@@ -20,11 +21,11 @@ inline double linear_of_srgb(double v) {
 class SrgbCodes {
 public:
     SrgbCodes() {
-        for (std::uint32_t i = 0; i < kBins; ++i) {
-            const std::uint32_t bits = kLowest + (i << kShift);
+        for (std::uint32_t i = 0; i < kCodeBins; ++i) {
+            const std::uint32_t bits = kCodeLowest + (i << kCodeShift);
             float edge;
             std::memcpy(&edge, &bits, sizeof edge);
-            code_[i] = std::uint8_t(srgb_code(edge));
+            code_[i] = std::int32_t(srgb_code(edge));
         }
     }
     std::uint8_t operator()(float linear) const {
@@ -32,15 +33,15 @@ public:
         if (linear >= 1.0f) return 255;
         std::uint32_t bits;
         std::memcpy(&bits, &linear, sizeof bits);
-        const std::uint32_t code = code_[(bits - kLowest) >> kShift];
+        const std::int32_t code = code_[(bits - kCodeLowest) >> kCodeShift];
         // Light below 1 may have reached the last threshold, after which none comes.
         return std::uint8_t(code + (code < 255 && linear >= kSrgbThresholds[code] ? 1 : 0));
     }
+    /// [kCodeBins]: the code at the start of each bin, as kernels read it.
+    const std::int32_t* bins() const { return code_; }
 
 private:
-    static constexpr std::uint32_t kShift = 16, kBins = 13 * 128;
-    static constexpr std::uint32_t kLowest = (127 - 13) << 23;  // bits of 2^-13
-    std::uint8_t code_[kBins];
+    std::int32_t code_[kCodeBins];
 };
 
 }  // namespace pileus

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// Planes of a picture as 8-bit sRGB pixels, replacing what the caller's memory held.
+// in: PixelParams, PixelBuffers -> out: rows of R G B A, values that are no number per row.
+// The bits of write_pixels' own way; docs/embedding.md, "Pixels".
+#pragma once
+#include "kernels_cpu/core/lanes_verbs.h"
+#include "kernels_cpu/display/pixel_params.h"
+#include "kernels_cpu/display/tone.h"
+
+namespace pileus {
+inline namespace PILEUS_ISA {
+
+/// Code of display-linear light in [0, 1.04), by one look-up and one comparison: no bin holds more
+/// than one threshold.
+template <class T>
+PILEUS_FN auto code_of(const std::int32_t* codes, T linear) {
+    using II = I_of<T>;
+    const T within = max_(linear, all<T>(0x1p-13f));
+    const II bin =
+        (reinterpret<II>(within) - std::int32_t(kCodeLowest)) >> std::int32_t(kCodeShift);
+    const II last = all<II>(std::int32_t(kCodeBins) - 1);
+    const II code = gather(codes, min_(bin, last));
+    const II next = min_(code, all<II>(254));
+    const auto reached = linear >= gather(kSrgbThresholds, next);
+    return select(reached, next + 1, code);
+}
+
+template <class T>
+PILEUS_FN T lanes_at(const float* from, std::int32_t real) {
+    T v{};
+    if (real >= width_of<T>)
+        __builtin_memcpy(&v, from, sizeof v);
+    else
+        for (int l = 0; l < real; ++l) set_lane(v, l, from[l]);
+    return v;
+}
+
+/// W pixels from number `first` on, `real` of them.
+template <int W>
+PILEUS_FN void pixel_lanes(const PixelParams& k, const PixelBuffers& b, std::int64_t first,
+                           std::int32_t real, unsigned char* to, std::int64_t& broken) {
+    using T = F<W>;
+    const std::int64_t pixels = std::int64_t(k.width) * k.height;
+    const T transmittance = lanes_at<T>(b.transmittance + first, real);
+    T c[3];
+    for (int i = 0; i < 3; ++i) {
+        T v = lanes_at<T>(b.colour + i * pixels + first, real);
+        if (b.background != nullptr)
+            v = v + transmittance * lanes_at<T>(b.background + i * pixels + first, real);
+        const auto sound = v - v == 0.0f;
+        broken += W - count_bits(bits_of(sound));
+        c[i] = select(v > 0.0f, v, T{});
+    }
+    const Rgb<T> shown = tone_curve(Rgb<T>{c[0], c[1], c[2]}, k.gain);
+    const I<W> r = code_of(b.codes, shown.r), g = code_of(b.codes, shown.g),
+               blue = code_of(b.codes, shown.b);
+    const I<W> a = to_int((1.0f - transmittance) * 255.0f + 0.5f) & 255;
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+    const I<W> word = r | (g << 8) | (blue << 16) | (a << 24);
+#else
+    const I<W> word = (r << 24) | (g << 16) | (blue << 8) | a;
+#endif
+    if (real >= W) {
+        __builtin_memcpy(to, &word, sizeof word);
+        return;
+    }
+    for (int l = 0; l < real; ++l) {
+        const std::int32_t one = lane(word, l);
+        __builtin_memcpy(to + 4 * l, &one, sizeof one);
+    }
+}
+
+template <int W>
+PILEUS_FN void pixel_rows(const PixelParams& k, const PixelBuffers& b, std::uint32_t begin,
+                          std::uint32_t end) {
+    for (std::uint32_t y = begin; y < end; ++y) {
+        unsigned char* row = b.first + b.stride * std::int64_t(y);
+        std::int64_t broken = 0;
+        for (std::int32_t x = 0; x < k.width; x += W) {
+            const std::int32_t real = k.width - x < W ? k.width - x : W;
+            pixel_lanes<W>(k, b, std::int64_t(y) * k.width + x, real, row + std::int64_t(4) * x,
+                           broken);
+        }
+        b.broken[y] = broken;
+    }
+}
+
+}  // namespace PILEUS_ISA
+}  // namespace pileus
