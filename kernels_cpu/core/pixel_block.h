@@ -25,5 +25,23 @@ PILEUS_FN void for_block(const Picture& c, std::int32_t x, std::int32_t y, std::
             function(l, std::int64_t(y + l / across) * c.width + x + l % across);
 }
 
+/// The first `real` lanes from or to places side by side; other lanes are 0.
+template <class T>
+PILEUS_FN T take_lanes(const float* from, std::int32_t real) {
+    T v{};
+    if (real >= width_of<T>)
+        __builtin_memcpy(&v, from, sizeof v);
+    else
+        for (int l = 0; l < real; ++l) set_lane(v, l, from[l]);
+    return v;
+}
+template <class T>
+PILEUS_FN void put_lanes(const T& v, float* to, std::int32_t real) {
+    if (real >= width_of<T>)
+        __builtin_memcpy(to, &v, sizeof v);
+    else
+        for (int l = 0; l < real; ++l) to[l] = lane(v, l);
+}
+
 }  // namespace PILEUS_ISA
 }  // namespace pileus

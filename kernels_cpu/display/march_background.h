@@ -3,6 +3,7 @@
 // in: density, majorants, the map of scattered light -> out: planes of pixels.
 // docs/collectors.md, "Light that needs no photon"; docs/formats.md, "Pictures out".
 #pragma once
+#include "kernels_cpu/core/pixel_block.h"
 #include "kernels_cpu/display/march_ray.h"
 
 namespace pileus {
@@ -54,15 +55,12 @@ PILEUS_FN void background_rows(const BackgroundParams& k, const BackgroundBuffer
             Vec<T> sky{all<T>(k.sky[0]), all<T>(k.sky[1]), all<T>(k.sky[2])};
             if (k.sky_map.columns > 0) sky = map_radiance(k.sky_map, ray.direction);
             const T above[3] = {sky.x, sky.y, sky.z};
-            for (int l = 0; l < W && x + l < k.camera.width; ++l) {
-                const std::int64_t pixel = std::int64_t(y) * k.camera.width + x + l;
-                const bool hit = (bits_of(ground) >> l) & 1u;
-                if (b.opaque_depth != nullptr) b.opaque_depth[pixel] = lane(depth, l);
-                for (int c = 0; c < 3 && b.colour != nullptr; ++c)
-                    b.colour[c * pixels + pixel] = hit ? k.ground_diffuse[c] +
-                                                             k.ground_sun[c] * lane(sunlight, l) +
-                                                             lane(scattered[c], l)
-                                                       : lane(above[c], l);
+            const std::int64_t first = std::int64_t(y) * k.camera.width + x;
+            const std::int32_t real = k.camera.width - x < W ? k.camera.width - x : W;
+            if (b.opaque_depth != nullptr) put_lanes(depth, b.opaque_depth + first, real);
+            for (int c = 0; c < 3 && b.colour != nullptr; ++c) {
+                const T below = k.ground_diffuse[c] + k.ground_sun[c] * sunlight + scattered[c];
+                put_lanes(select(ground, below, above[c]), b.colour + c * pixels + first, real);
             }
         }
     }

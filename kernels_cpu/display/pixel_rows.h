@@ -3,7 +3,7 @@
 // in: PixelParams, PixelBuffers -> out: rows of R G B A, values that are no number per row.
 // The bits of write_pixels' own way; docs/embedding.md, "Pixels".
 #pragma once
-#include "kernels_cpu/core/lanes_verbs.h"
+#include "kernels_cpu/core/pixel_block.h"
 #include "kernels_cpu/display/pixel_params.h"
 #include "kernels_cpu/display/tone.h"
 
@@ -25,28 +25,18 @@ PILEUS_FN auto code_of(const std::int32_t* codes, T linear) {
     return select(reached, next + 1, code);
 }
 
-template <class T>
-PILEUS_FN T lanes_at(const float* from, std::int32_t real) {
-    T v{};
-    if (real >= width_of<T>)
-        __builtin_memcpy(&v, from, sizeof v);
-    else
-        for (int l = 0; l < real; ++l) set_lane(v, l, from[l]);
-    return v;
-}
-
 /// W pixels from number `first` on, `real` of them.
 template <int W>
 PILEUS_FN void pixel_lanes(const PixelParams& k, const PixelBuffers& b, std::int64_t first,
                            std::int32_t real, unsigned char* to, std::int64_t& broken) {
     using T = F<W>;
     const std::int64_t pixels = std::int64_t(k.width) * k.height;
-    const T transmittance = lanes_at<T>(b.transmittance + first, real);
+    const T transmittance = take_lanes<T>(b.transmittance + first, real);
     T c[3];
     for (int i = 0; i < 3; ++i) {
-        T v = lanes_at<T>(b.colour + i * pixels + first, real);
+        T v = take_lanes<T>(b.colour + i * pixels + first, real);
         if (b.background != nullptr)
-            v = v + transmittance * lanes_at<T>(b.background + i * pixels + first, real);
+            v = v + transmittance * take_lanes<T>(b.background + i * pixels + first, real);
         const auto sound = v - v == 0.0f;
         broken += W - count_bits(bits_of(sound));
         c[i] = select(v > 0.0f, v, T{});
