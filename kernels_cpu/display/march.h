@@ -174,15 +174,16 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
     constexpr int kMost = 3 * 17;
     const I<W> number = iota<I<W>>();
     const I<W> column = number % kMarchAcross<W> + x, row = number / kMarchAcross<W> + y;
-    const M<W> real = (column < k.camera.width) & (row < end);
-    const std::int64_t pixels = std::int64_t(k.camera.width) * k.camera.height;
+    const M<W> real = (column < k.lattice.width) & (row < end);
+    const std::int64_t pixels = std::int64_t(k.lattice.width) * k.lattice.height;
 
-    const Ray<T> ray = camera_ray(k.camera, to_float(column), to_float(row));
+    const Ray<T> ray = camera_ray(k.camera, to_float(column * k.lattice.every + k.lattice.first[0]),
+                                  to_float(row * k.lattice.every + k.lattice.first[1]));
     const Segment<T> box = clip_to_medium(k.medium, ray);
     T leave = box.leave;
     if (b.opaque_depth != nullptr) {
         T opaque{};
-        for_block<W>(k.camera, x, y, end, [&](int l, std::int64_t pixel) {
+        for_block<W>(k.lattice, x, y, end, [&](int l, std::int64_t pixel) {
             set_lane(opaque, l, b.opaque_depth[pixel]);
         });
         leave = min_(leave, opaque);
@@ -233,7 +234,7 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
             transmittance = left;
             return transmittance < k.cut;
         });
-    for_block<W>(k.camera, x, y, end, [&](int l, std::int64_t pixel) {
+    for_block<W>(k.lattice, x, y, end, [&](int l, std::int64_t pixel) {
         b.transmittance[pixel] = lane(transmittance, l);
         if (b.half_depth != nullptr) b.half_depth[pixel] = lane(half, l);
         if (b.ray_depth != nullptr) b.ray_depth[pixel] = lane(depth, l);
@@ -246,7 +247,7 @@ PILEUS_FN void march_blocks(const MarchParams& k, const MarchBuffers& b, std::ui
                             std::uint32_t end) {
     constexpr int across = kMarchAcross<W>;
     for (std::uint32_t y = begin; y < end; y += W / across)
-        for (std::int32_t x = 0; x < k.camera.width; x += across)
+        for (std::int32_t x = 0; x < k.lattice.width; x += across)
             if (b.visibility != nullptr)
                 march_pixels<W, true, Constant>(k, b, x, std::int32_t(y), std::int32_t(end));
             else

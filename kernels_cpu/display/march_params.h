@@ -30,6 +30,16 @@ struct NodeGrid {
     float per_metre[3];  ///< nodes per metre along each axis
 };
 
+/// Pixel (i, j) of the marched ones is pixel (first + every * (i, j)) of the picture.
+struct PixelLattice {
+    std::int32_t every;
+    std::int32_t first[2];
+    std::int32_t width, height;  ///< marched pixels, all of them within the picture
+};
+
+/// Every pixel.
+inline PixelLattice whole_lattice(const CameraParams& c) { return {1, {0, 0}, c.width, c.height}; }
+
 struct ShadowParams {
     MediumView medium;
     NodeGrid nodes;
@@ -52,7 +62,8 @@ constexpr int kBeamNumbers = (kBeamAngles + 1) * (kBeamDepths + 1);
 struct MarchParams {
     MediumView medium;
     CameraParams camera;
-    std::int32_t media;  ///< on the grid, 1..kMostMedia
+    PixelLattice lattice;  ///< the pixels of it that are marched; planes are of its size
+    std::int32_t media;    ///< on the grid, 1..kMostMedia
     PhaseParams phase[kMostMedia];
     float sun_travel[3];
     float sun_source[kMostMedia][3];  ///< irradiance times albedo; all zero: no direct sunlight

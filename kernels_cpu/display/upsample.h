@@ -95,6 +95,17 @@ struct PixelLight {
     T value[4];
 };
 
+/// Whether none of the four marched pixels around shows anything of the medium.
+template <class T>
+PILEUS_FN M_of<T> shows_nothing(const UpsampleBuffers& b, std::int64_t few, const Around<T>& a) {
+    auto clear = a.at[0] >= 0;
+    for (int i = 0; i < 4; ++i) clear = clear & (gather(b.transmittance, a.at[i]) == 1.0f);
+    // What emits may show where nothing is held back.
+    for (int c = 0; c < 3 && any(clear); ++c)
+        for (int i = 0; i < 4; ++i) clear = clear & (gather(b.colour + c * few, a.at[i]) == 0.0f);
+    return clear;
+}
+
 /// Least and largest of the four marched pixels around.
 template <class T>
 PILEUS_FN void clamp_around(const float* plane, const Around<T>& a, T& value) {

@@ -14,13 +14,6 @@ enum UpsampleRule : std::int32_t {
     kUpsampleNearest = 2,
 };
 
-/// Pixel (i, j) of the marched ones is pixel (first + every * (i, j)) of the picture.
-struct PixelLattice {
-    std::int32_t every;
-    std::int32_t first[2];
-    std::int32_t width, height;  ///< marched pixels, all of them within the picture
-};
-
 struct UpsampleParams {
     PixelLattice lattice;
     std::int32_t rule;  ///< an UpsampleRule

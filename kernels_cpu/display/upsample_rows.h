@@ -3,6 +3,7 @@
 // in: UpsampleParams, UpsampleBuffers -> out: planes of the whole picture, pixels kept per row.
 // docs/upsampling.md
 #pragma once
+#include "kernels_cpu/core/pixel_block.h"
 #include "kernels_cpu/display/upsample.h"
 
 namespace pileus {
@@ -79,6 +80,35 @@ PILEUS_FN M_of<T> recall(const UpsampleParams& k, const UpsampleBuffers& b, cons
     return good;
 }
 
+/// Those of `filled` from the marched pixels around, or from the picture before.
+template <int W>
+PILEUS_FN void fill_pixels(const UpsampleParams& k, const UpsampleBuffers& b, Around<F<W>>& a,
+                           F<W> column, F<W> row, F<W> opaque, M<W> filled, PixelLight<F<W>>& light,
+                           F<W>& half, F<W>& depth, std::int32_t y) {
+    using T = F<W>;
+    const std::int64_t few = std::int64_t(k.lattice.width) * k.lattice.height;
+    if (k.rule == kUpsampleDepth && b.opaque_depth != nullptr) weigh_depths(b, opaque, a);
+    for (int i = 0; i < 4; ++i) {
+        const float* plane = i == 0 ? b.transmittance : b.colour + (i - 1) * few;
+        light.value[i] = select(filled, blended(plane, a), light.value[i]);
+    }
+    if (b.whole_half != nullptr) half = select(filled, heaviest(b.half_depth, a), half);
+    if (b.whole_depth != nullptr) depth = select(filled, blended(b.ray_depth, a), depth);
+    if (k.remembers == 0) return;
+    PixelLight<T> old;
+    auto good = filled & lnot(a.marched);
+    if (k.still != 0)
+        read_before(k, b, around_before(k.before, column, row), old);
+    else
+        good = good & recall(k, b, a, camera_ray(k.camera, column, row), opaque, old);
+    for (int i = 0; i < 4; ++i) {
+        const float* plane = i == 0 ? b.transmittance : b.colour + (i - 1) * few;
+        if (k.still == 0) clamp_around(plane, a, old.value[i]);
+        light.value[i] = select(good, old.value[i], light.value[i]);
+    }
+    b.kept[y] += count_bits(bits_of(good));
+}
+
 /// W pixels of a row from column x on.
 template <int W>
 PILEUS_FN void upsample_pixels(const UpsampleParams& k, const UpsampleBuffers& b, std::int32_t x,
@@ -91,40 +121,23 @@ PILEUS_FN void upsample_pixels(const UpsampleParams& k, const UpsampleBuffers& b
     const T column = min_(to_float(iota<I<W>>() + x), all<T>(float(width - 1)));
     const T row = all<T>(float(y));
     T opaque = all<T>(__builtin_inff());
-    for (int l = 0; l < real && b.whole_opaque != nullptr; ++l)
-        set_lane(opaque, l, b.whole_opaque[first + l]);
+    if (b.whole_opaque != nullptr) opaque = take_lanes<T>(b.whole_opaque + first, real);
     Around<T> a = around(k.lattice, column, row, k.rule == kUpsampleNearest);
-    if (k.rule == kUpsampleDepth && b.opaque_depth != nullptr) weigh_depths(b, opaque, a);
+    // Among pixels without medium one is as they are, whatever was there before.
+    const M<W> within = iota<I<W>>() < real;
+    M<W> clear = shows_nothing(b, few, a);
+    if (k.still != 0) clear = clear & a.marched;
     PixelLight<T> light;
-    light.value[0] = blended(b.transmittance, a);
-    for (int i = 0; i < 3; ++i) light.value[1 + i] = blended(b.colour + i * few, a);
-    if (k.remembers != 0) {
-        PixelLight<T> old;
-        const Ray<T> ray = camera_ray(k.camera, column, row);
-        auto good = lnot(a.marched);
-        if (k.still != 0)
-            read_before(k, b, around_before(k.before, column, row), old);
-        else
-            good = good & recall(k, b, a, ray, opaque, old);
-        for (int i = 0; i < 4; ++i) {
-            const float* plane = i == 0 ? b.transmittance : b.colour + (i - 1) * few;
-            if (k.still == 0) clamp_around(plane, a, old.value[i]);
-            light.value[i] = select(good, old.value[i], light.value[i]);
-        }
-        const auto within = iota<I<W>>() < real;
-        b.kept[y] += count_bits(bits_of(good & within));
-    }
-    for (int l = 0; l < real; ++l) {
-        b.whole_transmittance[first + l] = lane(light.value[0], l);
-        for (int i = 0; i < 3; ++i)
-            b.whole_colour[i * pixels + first + l] = lane(light.value[1 + i], l);
-    }
-    const T half = b.whole_half != nullptr ? heaviest(b.half_depth, a) : T{};
-    const T depth = b.whole_depth != nullptr ? blended(b.ray_depth, a) : T{};
-    for (int l = 0; l < real && b.whole_half != nullptr; ++l)
-        b.whole_half[first + l] = lane(half, l);
-    for (int l = 0; l < real && b.whole_depth != nullptr; ++l)
-        b.whole_depth[first + l] = lane(depth, l);
+    light.value[0] = all<T>(1.0f);
+    for (int i = 1; i < 4; ++i) light.value[i] = T{};
+    T half = all<T>(__builtin_inff()), depth{};
+    const M<W> filled = within & lnot(clear);
+    if (any(filled)) fill_pixels<W>(k, b, a, column, row, opaque, filled, light, half, depth, y);
+    put_lanes(light.value[0], b.whole_transmittance + first, real);
+    for (int i = 0; i < 3; ++i)
+        put_lanes(light.value[1 + i], b.whole_colour + i * pixels + first, real);
+    if (b.whole_half != nullptr) put_lanes(half, b.whole_half + first, real);
+    if (b.whole_depth != nullptr) put_lanes(depth, b.whole_depth + first, real);
 }
 
 template <int W>

@@ -229,8 +229,7 @@ RaymarchParams raymarch_params(const RaymarchInput& in) {
     RaymarchParams k{};
     k.medium = make_medium_view(*in.medium, *in.majorants);
     k.camera = in.camera;
-    k.lattice = in.lattice.every > 0 ? in.lattice
-                                     : PixelLattice{1, {0, 0}, in.camera.width, in.camera.height};
+    k.lattice = in.lattice.every > 0 ? in.lattice : whole_lattice(in.camera);
     k.rule = rule_of(in.settings->integrator);
     k.step = raymarch_steps(*in.settings, in.camera, in.medium->grid);
     if (!(in.medium->sigma > 0)) k.step.most = 0;  // nothing to see, and no light was made for it

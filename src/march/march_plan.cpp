@@ -134,14 +134,6 @@ void note_light(const Scene& scene, const RaymarchRun& run, Plan& plan) {
         plan.leave_out("skylight in the medium", "sky_light = \"none\"");
 }
 
-void note_upsampling(const Scene& scene, Plan& plan) {
-    const RaymarchSettings& s = scene.raymarch;
-    if (s.scale > 1) plan.need("pixels between marched ones: approximation");
-    if (s.temporal > 0) plan.need("pixels from the frame before: approximation");
-    if (s.temporal > 0 && !(scene.animation.present && scene.animation.frames > 1))
-        plan.leave_out("pixels from the frame before", "one frame");
-}
-
 void note_plan(RaymarchRun& run) {
     const Scene& scene = *run.scene;
     Plan& plan = run.plan;
@@ -182,7 +174,7 @@ void note_plan(RaymarchRun& run) {
             run.settings.detail ? "no step or pixel is wider than a cell" : "detail = false");
     if (run.settings.jitter == RaymarchJitterKind::kNone)
         plan.leave_out("jitter of samples", "jitter = \"none\"");
-    if (run.simple == nullptr) note_upsampling(scene, plan);
+    if (run.simple == nullptr) note_upsampling(scene, scene.raymarch.thin, plan);
     if (run.world->medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
     note_solids(run.world->solids, run.around.depth, plan);
     if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
@@ -229,8 +221,8 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
                                 (output.layer_optical_depth ? 1u : 0u);
     add(t, arrays::picture_planes(shown, pixels));
     if (run.settings.jitter == RaymarchJitterKind::kBlueNoise) add(t, arrays::blue_noise(last));
-    const bool half = output.layer_depth || run.settings.temporal > 0;
-    add_upsample_row(run.settings, scene.camera.resolution, run.lighting.opaque(), half,
+    const bool half = output.layer_depth || run.settings.thin.temporal > 0;
+    add_upsample_row(run.settings.thin, scene.camera.resolution, run.lighting.opaque(), half,
                      output.layer_optical_depth, last, t);
     add(t, arrays::raymarch_counts(std::uint64_t(scene.camera.resolution[1])));
     add_image_rows(std::uint64_t(scene.camera.resolution[0]),

@@ -4,9 +4,9 @@
 // docs/raymarch.md; docs/optical-depth.md
 #pragma once
 #include "src/march/march.h"
-#include "src/march/upsample.h"
 #include "src/methods/methods.h"
 #include "src/picture/nodes/lamp_light.h"
+#include "src/picture/upsample.h"
 #include "src/plan/plan.h"
 #include "src/world/camera/view.h"
 #include "src/world/majorant/majorants.h"

@@ -131,7 +131,16 @@ Status march_light(const FrameStep& step, const Context& context, MethodRun& met
     in.seed = std::uint64_t(scene.seed) + std::uint64_t(step.frame);
     in.layer = run.world->direct_sky ? &run.world->layer : nullptr;
     in.camera = run.camera;
-    PILEUS_TRY(upsample_picture(context, in, step.frame, run.upsample, run.planes, run.tally));
+    UpsampleInput thin;
+    thin.settings = run.settings.thin;
+    thin.camera = run.camera;
+    thin.medium = make_medium_view(*in.medium, run.majorants);
+    thin.to_sun = run.lighting.to_sun;
+    thin.march = [&](const PixelLattice& lattice, Planes& planes) {
+        in.lattice = lattice;
+        return raymarch_picture(context, in, planes, run.tally);
+    };
+    PILEUS_TRY(upsample_picture(context, thin, step.frame, run.upsample, run.planes));
     return add_lamps(context, run);
 }
 

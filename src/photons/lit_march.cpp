@@ -73,8 +73,57 @@ Status march_lit(const Context& context, const PhotonRun& run, const float* sour
     b.colour = target;
     b.visibility = run.visibility.data();
     PILEUS_TRY(
-        run_rows(context, context.kernels->march_rows, k, b, std::uint32_t(k.camera.height)));
+        run_rows(context, context.kernels->march_rows, k, b, std::uint32_t(k.lattice.height)));
     return Status::ok();
+}
+
+Status march_thinned(const Context& context, const UpsampleSettings& thin, const float* source,
+                     const MarchParams& k, PhotonRun& run, Planes& planes) {
+    if (thin.every() == 1) return march_lit(context, run, source, k, planes.colour.data(), planes);
+    UpsampleMemory& memory = run.upsample;
+    planes.optical_depth = Buffer<float>();  // has its own march
+    if (memory.camera.width != k.camera.width || memory.camera.height != k.camera.height ||
+        memory.opaque_depth.size() != planes.opaque_depth.size())
+        memory.ready = false;
+    UpsampleInput in;
+    in.settings = thin;
+    in.camera = k.camera;
+    in.medium = k.medium;
+    in.to_sun = run.lighting.to_sun;
+    in.light = (run.relights << 40) + run.next_generation;
+    in.march = [&](const PixelLattice& lattice, Planes& few) {
+        MarchParams own = k;
+        own.lattice = lattice;
+        return march_lit(context, run, source, own, few.colour.data(), few);
+    };
+    return upsample_picture(context, in, run.frame, memory, planes);
+}
+
+Status check_thinned(const Context& context, const Scene& scene, const char* method,
+                     const UpsampleSettings& thin) {
+    PILEUS_TRY(check_upsampling(scene, method, thin));
+    if (thin.every() == 1) return Status::ok();
+    const std::string key =
+        scene.file + ": " + method + (thin.temporal > 0 ? ".temporal: " : ".scale: ");
+    const OutputSettings& output = scene.output;
+    const char* layer = output.layer_error   ? "error"
+                        : output.layer_light ? "light"
+                        : output.layer_order ? "order"
+                                             : nullptr;
+    if (layer != nullptr)
+        return Status::bad_input(key + "the layer \"" + layer +
+                                 "\" has every pixel marched, allowed: none of both, or no such "
+                                 "layer");
+    if (context.kernels->device != nullptr)
+        return Status::bad_input(key + "for the host alone, allowed: another --isa, or none");
+    return Status::ok();
+}
+
+void add_thinned_rows(const Context& context, const UpsampleSettings& thin, PhotonRun& run) {
+    const OutputSettings& output = run.scene->output;
+    add_upsample_row(thin, run.scene->camera.resolution, run.lighting.opaque(),
+                     output.layer_depth || thin.temporal > 0, false,
+                     context.frames > 1 ? Stage::kWrite : Stage::kDisplay, run.plan.memory);
 }
 
 MarchParams lit_march_params(const PhotonRun& run, const LightInput& lit, const NodeGrid& source) {
@@ -82,6 +131,7 @@ MarchParams lit_march_params(const PhotonRun& run, const LightInput& lit, const 
     MarchParams k{};
     k.medium = view_of(run);
     k.camera = lit.camera;
+    k.lattice = whole_lattice(lit.camera);
     k.media = run.world->medium.count;
     for (std::size_t c = 0; c < 3; ++c) {
         k.sun_travel[c] = -light.to_sun[c];

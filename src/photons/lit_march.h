@@ -33,6 +33,19 @@ Status make_sun_shadow(const Context& context, PhotonRun& run);
 /// Numbers that it keeps.
 std::uint64_t sun_shadow_numbers(const PhotonRun& run);
 
+/// The same for the picture itself, of which `thin` may leave pixels to be filled in:
+/// transmittance, three colours and depths.
+Status march_thinned(const Context& context, const UpsampleSettings& thin, const float* source,
+                     const MarchParams& k, PhotonRun& run, Planes& planes);
+
+/// Thinned pictures are of the light as a whole: kBadInput names the layer that is not, or the
+/// device. `method` names the keys.
+Status check_thinned(const Context& context, const Scene& scene, const char* method,
+                     const UpsampleSettings& thin);
+
+/// What a thinned picture adds to the plan; nothing where every pixel is marched.
+void add_thinned_rows(const Context& context, const UpsampleSettings& thin, PhotonRun& run);
+
 /// What all marches of a picture share.
 MarchParams lit_march_params(const PhotonRun& run, const LightInput& lit, const NodeGrid& source);
 

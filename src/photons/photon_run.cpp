@@ -259,6 +259,9 @@ bool relight_photons(PhotonRun& run) {
     if (!has_places(run, next)) return false;
     keep_places(run, next);
     const Lighting& before = run.lighting;
+    if (!same_lights(before, next) || before.constant != next.constant || before.sky != next.sky ||
+        before.ground_diffuse != next.ground_diffuse || before.ground_sun != next.ground_sun)
+        ++run.relights;
     if (next.sunlit != before.sunlit || next.to_sun != before.to_sun) run.shadow_ready = false;
     run.lighting = next;
     run.sun_elevation_deg = elevation_deg;

@@ -9,6 +9,7 @@
 #include "src/photons/trace.h"
 #include "src/picture/layers.h"
 #include "src/picture/nodes/lamp_light.h"
+#include "src/picture/upsample.h"
 #include "src/plan/plan.h"
 #include "src/world/world.h"
 
@@ -36,10 +37,13 @@ struct PhotonRun : MethodRun {
     Buffer<float> shadow;      ///< optical depth to the sun per node
     Buffer<float> visibility;  ///< and what solids leave of the sun; empty without solids
     bool shadow_ready = false;
-    Beam beam;                  ///< made with the shadow where deposit.peak_turn asks for it
-    LampNodes lamps;            ///< of the march that shows light of [[light]]
-    Planes planes;              ///< of a session's picture
-    std::uint32_t layouts = 0;  ///< times that the sums were laid out
+    Beam beam;                   ///< made with the shadow where deposit.peak_turn asks for it
+    LampNodes lamps;             ///< of the march that shows light of [[light]]
+    Planes planes;               ///< of a session's picture
+    UpsampleMemory upsample;     ///< of pixels that are not marched
+    int frame = 0;               ///< that is shown
+    std::uint64_t relights = 0;  ///< times that a host changed the light
+    std::uint32_t layouts = 0;   ///< times that the sums were laid out
     bool interrupted = false;  ///< fewer generations than asked for, because the user wanted an end
 };
 

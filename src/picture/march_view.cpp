@@ -47,6 +47,7 @@ Status march_medium(const Context& context, const Medium& medium, const Majorant
     MarchParams k{};
     k.medium = make_medium_view(medium, majorants);
     k.camera = camera;
+    k.lattice = whole_lattice(camera);
     for (int a = 0; a < 3; ++a) k.source.size[a] = k.shadow.size[a] = 1;
     MarchBuffers b{};
     b.opaque_depth = planes.opaque_depth.data();

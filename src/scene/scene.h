@@ -130,6 +130,18 @@ enum class AccumulationChoice { kAuto, kPrivate, kShared };
 /// Who blends billboards: pileus itself, or OpenGL by a foreign library for comparison.
 enum class Compositor { kBuiltin, kOsmesa, kEgl };
 
+enum class UpsampleKind { kDepth, kLinear, kNearest };
+
+/// Few pixels are marched, the others filled in.
+struct UpsampleSettings {
+    int scale = 1;     ///< one pixel of so many along x and y is marched: 1, 2 or 4
+    int temporal = 0;  ///< 2 or 4: the same, another one each frame, the rest from the frame before
+    UpsampleKind upsample = UpsampleKind::kDepth;
+
+    /// Marched pixels lie so far apart.
+    int every() const { return temporal > 0 ? temporal : scale; }
+};
+
 struct CollectorSettings {
     std::int64_t photons = 5'000'000;  ///< over the whole ring
     int generations = 50;
@@ -152,6 +164,7 @@ struct CollectorSettings {
     int axis_degrees = 8;
     bool first_order_split = true;
     bool window = false;  ///< sinc window against ringing
+    UpsampleSettings thin;
     AccumulationChoice accumulation = AccumulationChoice::kAuto;
 };
 
@@ -168,6 +181,7 @@ struct PhotonGridSettings {
     double peak_deg = 20;  ///< as CollectorSettings::peak_deg
     bool local_tracking = true;
     bool first_order_split = true;
+    UpsampleSettings thin;
     AccumulationChoice accumulation = AccumulationChoice::kAuto;
 };
 
@@ -184,7 +198,6 @@ enum class RaymarchIntegrator { kClosed, kRiemann, kTrapezoid, kSimpson, kSimpso
 enum class RaymarchSpacing { kUniform, kVoxel, kOptimal, kGeometric };
 enum class RaymarchJitterKind { kNone, kHash, kBlueNoise };
 enum class RaymarchLightKind { kAuto, kMarch, kBuffer, kBufferExact };
-enum class RaymarchUpsample { kDepth, kLinear, kNearest };
 enum class RaymarchPowderKind { kNone, kPowder, kBeerPowder, kDirectional };
 
 struct RaymarchSettings {
@@ -213,9 +226,7 @@ struct RaymarchSettings {
     double powder_strength = 1;
     Float3 ambient{0, 0, 0};  ///< emission over extinction
     double stop_below = 1e-4;
-    int scale = 1;     ///< one pixel of so many along x and y is marched: 1, 2 or 4
-    int temporal = 0;  ///< 2 or 4: the same, another one each frame, the rest from the frame before
-    RaymarchUpsample upsample = RaymarchUpsample::kDepth;
+    UpsampleSettings thin;
     bool peak_phase = false;  ///< phase = "peak": over its largest value
 };
 

@@ -189,7 +189,7 @@ void check_raymarch(const Fixture& f) {
     const std::uint64_t rows = std::uint64_t(f.scene.camera.resolution[1]);
     // Freed with the march: a count of 64 bits of each kind for a row.
     held["counts of rows"] = 8 * rows * std::uint64_t(kRaymarchCounts);
-    const bool thin = f.scene.raymarch.scale > 1;
+    const bool thin = f.scene.raymarch.thin.scale > 1;
     held["marched pixels"] = bytes_held(run.upsample.few) + (thin ? 8 * rows : 0);
     check_rows(run.plan.memory, Stage::kDisplay, held);
 }

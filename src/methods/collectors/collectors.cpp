@@ -3,6 +3,7 @@
 #include "src/methods/collectors/collectors.h"
 
 #include "src/methods/collectors/billboards/gl_billboards.h"
+#include "src/photons/lit_march.h"
 #include "src/world/plan_parts.h"
 
 namespace pileus {
@@ -82,6 +83,7 @@ void note_plan(const Scene& scene, CollectorsRun& run) {
         plan.leave_out("coefficients per colour channel", "achromatic medium: one set per light");
     if (is_white(run.world->medium)) plan.leave_out("absorption", "albedo 1");
     note_solids(run.world->solids, run.around.depth, plan);
+    note_upsampling(scene, scene.collectors.thin, plan);
     if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
     if (!scene.output.layer_depth) plan.leave_out("depth of the medium", "no depth layer");
     if (!scene.output.layer_error) plan.leave_out("batches and second moments", "no error layer");
@@ -117,6 +119,11 @@ Status collectors_weigh(const Context& context, CollectorsRun& run) {
 Status collectors_outline(const Context& context, CollectorsRun& run) {
     const Scene& scene = *run.scene;
     PILEUS_TRY(check_host_lights(context, scene, run.world->medium));
+    PILEUS_TRY(check_thinned(context, scene, "collectors", scene.collectors.thin));
+    if (scene.collectors.thin.every() > 1 && !is_marched(run))
+        return Status::bad_input(scene.file +
+                                 ": collectors.display: \"billboards\" has no marched pixels, "
+                                 "allowed: march, or collectors.scale = 1 and temporal = 0");
     run.budget_photons = collectors_photons(scene, run.budget);
     if (scene.collectors.camera_closure) {
         if (scene.animation.present && scene.animation.moves_camera)
@@ -158,6 +165,7 @@ void collectors_end_tracing(CollectorsRun& run) {
 
 Status collectors_relight(bool anew, const Context& context, CollectorsRun& run) {
     if (!anew && relight_photons(run)) return Status::ok();
+    run.upsample.ready = false;
     PILEUS_TRY(collectors_weigh(context, run));
     run.shadow_ready = false;
     return lay_out_photons(collectors_trace_input(context, run), run);

@@ -59,6 +59,11 @@ Status splat(const Context& context, const CollectorsRun& run, Span<const float>
                          context.threads, source);
 }
 
+/// Whether this is the picture itself and not that of a part of its light.
+bool is_whole(const CollectorsRun& run, const ReconstructInput& lit) {
+    return lit.lighting == &run.lighting && !lit.first_order_alone;
+}
+
 /// Without colours there is one dark node, so that the sun's first order is alone.
 Status show_marched(const Context& context, CollectorsRun& run, const ReconstructInput& lit,
                     const CollectorColours& colours, int channels, Planes& planes) {
@@ -72,6 +77,8 @@ Status show_marched(const Context& context, CollectorsRun& run, const Reconstruc
     } else {
         PILEUS_TRY(splat(context, run, colours.colour.span(), channels, k.source, source));
     }
+    if (is_whole(run, lit))
+        return march_thinned(context, run.scene->collectors.thin, source.data(), k, run, planes);
     return march_lit(context, run, source.data(), k, planes.colour.data(), planes);
 }
 
@@ -97,7 +104,10 @@ Status show_harmonics(const Context& context, CollectorsRun& run, const Reconstr
                          k.source, source));
         PILEUS_TRY(gather_by_node(context, k, source.span(), by_node));
         source = Buffer<float>();
-        PILEUS_TRY(march_lit(context, run, by_node.data(), k, target, planes));
+        PILEUS_TRY(
+            batch < 0 && is_whole(run, in)
+                ? march_thinned(context, run.scene->collectors.thin, by_node.data(), k, run, planes)
+                : march_lit(context, run, by_node.data(), k, target, planes));
     }
     // The picture's own digest, not those of its parts.
     if (in.lighting == &run.lighting && context.digests)

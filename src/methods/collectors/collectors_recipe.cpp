@@ -49,6 +49,7 @@ Status light(const FrameStep& step, const Context& context, MethodRun& run) {
 Status show(const FrameStep& step, const Context& context, MethodRun& run, Image& image) {
     CollectorsRun& collectors = own(run);
     if (step.last || collectors.interrupted) collectors_end_tracing(collectors);
+    collectors.frame = step.frame;
     return collectors_show(orbit_at(*collectors.scene, step.frame), context, collectors, image);
 }
 
@@ -80,9 +81,10 @@ Status advance(std::uint64_t units, const Context& context, MethodRun& run, std:
 
 LightUnits units(const MethodRun& run) { return photon_units(own(run)); }
 
-Status compose(const FrameStep&, const Context& context, MethodRun& method_run,
+Status compose(const FrameStep& step, const Context& context, MethodRun& method_run,
                const Planes*& planes) {
     CollectorsRun& run = own(method_run);
+    run.frame = step.frame;
     const CameraParams camera = make_camera(run.scene->camera, 0, run.world->medium.low_m);
     CollectorColours colours;
     int channels = 3;

@@ -3,6 +3,7 @@
 // in: scene, budget, frames -> out: generations shot, pictures.
 // docs/photon-grid.md
 #include "src/methods/photon_grid/photon_grid.h"
+#include "src/photons/lit_march.h"
 #include "src/photons/photon_report.h"
 
 namespace pileus {
@@ -63,6 +64,7 @@ Status outline(const Context& context, MethodRun& run) {
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
                                  "\": method photon-grid runs on the host alone, allowed: another, "
                                  "or another method");
+    PILEUS_TRY(check_thinned(context, *run.scene, "photon_grid", run.scene->photon_grid.thin));
     return photon_grid_weigh(context, own(run));
 }
 
@@ -84,6 +86,7 @@ Status show(const FrameStep& step, const Context& context, MethodRun& method_run
         run.scratch.sums = Buffer<std::int64_t>();
         run.majorants.tracking = Buffer<float>();
     }
+    run.frame = step.frame;
     return photon_grid_show(orbit_at(*run.scene, step.frame), context, run, image);
 }
 
@@ -115,6 +118,7 @@ Status aim(int, bool anew, const Context& context, MethodRun& method_run) {
     const Lighting before = run.lighting;
     const DepositPlan deposit = run.deposit;
     const bool placed = !anew && relight_photons(run);
+    run.upsample.ready &= placed;
     const CameraParams camera = make_camera(run.scene->camera, 0, run.world->medium.low_m);
     bool turned = false;
     for (int a = 0; a < 3 && run.scene->photon_grid.closure == GridClosure::kCamera; ++a)
@@ -147,9 +151,10 @@ Status advance(std::uint64_t units, const Context& context, MethodRun& method_ru
 
 LightUnits units(const MethodRun& run) { return photon_units(own(run)); }
 
-Status compose(const FrameStep&, const Context& context, MethodRun& method_run,
+Status compose(const FrameStep& step, const Context& context, MethodRun& method_run,
                const Planes*& planes) {
     PhotonGridRun& run = own(method_run);
+    run.frame = step.frame;
     const CameraParams camera = make_camera(run.scene->camera, 0, run.world->medium.low_m);
     int channels = 3;
     std::uint64_t clamped = 0;

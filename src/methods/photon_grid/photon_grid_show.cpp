@@ -38,6 +38,8 @@ Status show_towards(const Context& context, PhotonGridRun& run, const GridLightI
     tell_colours(context, run, in, light.span());
     MarchParams k = lit_march_params(run, in, cell_nodes(run));
     k.channels = 3 * (1 + in.batches);
+    if (in.lighting == &run.lighting)
+        return march_thinned(context, run.scene->photon_grid.thin, light.data(), k, run, planes);
     return march_lit(context, run, light.data(), k, planes.colour.data(), planes);
 }
 
@@ -56,7 +58,10 @@ Status show_all_ways(const Context& context, PhotonGridRun& run, const GridLight
         set_harmonic_sets(bands, light.sets, light.colour, k);
         float* target =
             planes.colour.data() + 3 * std::size_t(batch + 1) * planes.transmittance.size();
-        PILEUS_TRY(march_lit(context, run, light.values.data(), k, target, planes));
+        PILEUS_TRY(batch < 0 && in.lighting == &run.lighting
+                       ? march_thinned(context, run.scene->photon_grid.thin, light.values.data(), k,
+                                       run, planes)
+                       : march_lit(context, run, light.values.data(), k, target, planes));
     }
     return Status::ok();
 }

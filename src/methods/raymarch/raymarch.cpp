@@ -11,19 +11,6 @@ namespace {
 
 std::unique_ptr<MethodRun> make() { return std::make_unique<RaymarchRun>(); }
 
-Status check_upsampling(const Scene& scene) {
-    const RaymarchSettings& s = scene.raymarch;
-    const auto fault = [&](const char* key, int value, const char* allowed) {
-        return Status::bad_input(scene.file + ": raymarch." + key + ": " + std::to_string(value) +
-                                 ", allowed: " + allowed);
-    };
-    if (s.scale == 3) return fault("scale", s.scale, "1, 2, 4");
-    if (s.temporal == 1 || s.temporal == 3) return fault("temporal", s.temporal, "0, 2, 4");
-    if (s.temporal > 0 && s.scale > 1)
-        return fault("scale", s.scale, "1 where raymarch.temporal thins out pixels already");
-    return Status::ok();
-}
-
 Status check(const Scene& scene, const Budget& budget) {
     PILEUS_TRY(check_marched(scene, budget));
     const RaymarchLightKind light = scene.raymarch.light;
@@ -32,7 +19,7 @@ Status check(const Scene& scene, const Budget& budget) {
         return Status::bad_input(scene.file +
                                  ": raymarch.light: nodes hold straight ways, not those of "
                                  "light_path = \"cone\", allowed: auto, march");
-    return check_upsampling(scene);
+    return check_upsampling(scene, "raymarch", scene.raymarch.thin);
 }
 
 Status outline(const Context& context, MethodRun& method_run) {

@@ -2,7 +2,7 @@
 // Keys of method `collectors`.
 // in: checked values <-> out: fields of CollectorSettings.
 // docs/scene.md; docs/collectors.md says what they do.
-#include "src/scene/keys/all_keys.h"
+#include "src/scene/keys/upsample_keys.h"
 
 namespace pileus {
 namespace {
@@ -75,6 +75,12 @@ constexpr KeyRow kRows[] = {
      "true: light straight from the sun is kept apart, with its exact direction"},
     {"collectors.window", collectors<&CollectorSettings::window>, any(), "",
      "true: damps the higher bands against ringing"},
+    {"collectors.scale", collectors<&CollectorSettings::thin, &UpsampleSettings::scale>,
+     upsample_keys::kScales, "", upsample_keys::kScale},
+    {"collectors.upsample", collectors<&CollectorSettings::thin, &UpsampleSettings::upsample>,
+     one_of("depth|linear|nearest"), "", upsample_keys::kUpsample},
+    {"collectors.temporal", collectors<&CollectorSettings::thin, &UpsampleSettings::temporal>,
+     upsample_keys::kCells, "", upsample_keys::kTemporal},
     {"collectors.accumulation", collectors<&CollectorSettings::accumulation>,
      one_of("auto|private|shared"), "",
      "sums per thread, or one set that all threads add to atomically, slower but "

@@ -2,7 +2,7 @@
 // Keys of method `photon-grid`.
 // in: checked values <-> out: fields of PhotonGridSettings.
 // docs/scene.md; docs/photon-grid.md says what they do.
-#include "src/scene/keys/all_keys.h"
+#include "src/scene/keys/upsample_keys.h"
 
 namespace pileus {
 namespace {
@@ -42,6 +42,12 @@ constexpr KeyRow kRows[] = {
      "majorant of the free flights: one per block of cells, or one for all"},
     {"photon_grid.first_order_split", grid<&PhotonGridSettings::first_order_split>, any(), "",
      "true: light straight from the sun is left to the march, with its exact direction"},
+    {"photon_grid.scale", grid<&PhotonGridSettings::thin, &UpsampleSettings::scale>,
+     upsample_keys::kScales, "", upsample_keys::kScale},
+    {"photon_grid.upsample", grid<&PhotonGridSettings::thin, &UpsampleSettings::upsample>,
+     one_of("depth|linear|nearest"), "", upsample_keys::kUpsample},
+    {"photon_grid.temporal", grid<&PhotonGridSettings::thin, &UpsampleSettings::temporal>,
+     upsample_keys::kCells, "", upsample_keys::kTemporal},
     {"photon_grid.accumulation", grid<&PhotonGridSettings::accumulation>,
      one_of("auto|private|shared"), "",
      "sums per thread, or one set that all threads add to atomically; `auto`: per thread up to a "

@@ -2,7 +2,7 @@
 // Keys of method `raymarch`.
 // in: checked values <-> out: fields of RaymarchSettings.
 // docs/scene.md; docs/raymarch.md says what each costs.
-#include "src/scene/keys/all_keys.h"
+#include "src/scene/keys/upsample_keys.h"
 
 namespace pileus {
 namespace {
@@ -95,13 +95,12 @@ constexpr KeyRow kRows[] = {
      "density; appearance, not physics"},
     {"raymarch.stop_below", raymarch<&RaymarchSettings::stop_below>, from_to(0, 1), "",
      "a ray ends where less of what lies behind is seen"},
-    {"raymarch.scale", raymarch<&RaymarchSettings::scale>, from_to(1, 4), "",
-     "1, 2 or 4: one pixel of so many along x and y is marched, the others are filled in"},
-    {"raymarch.upsample", raymarch<&RaymarchSettings::upsample>, one_of("depth|linear|nearest"), "",
-     "how pixels between marched ones are filled in; `depth` minds what stands behind"},
-    {"raymarch.temporal", raymarch<&RaymarchSettings::temporal>, from_to(0, 4), "",
-     "2 or 4: each frame marches one pixel of so many along x and y, in turn; the others "
-     "come from the frame before; 0: frames know nothing of one another"},
+    {"raymarch.scale", raymarch<&RaymarchSettings::thin, &UpsampleSettings::scale>,
+     upsample_keys::kScales, "", upsample_keys::kScale},
+    {"raymarch.upsample", raymarch<&RaymarchSettings::thin, &UpsampleSettings::upsample>,
+     one_of("depth|linear|nearest"), "", upsample_keys::kUpsample},
+    {"raymarch.temporal", raymarch<&RaymarchSettings::thin, &UpsampleSettings::temporal>,
+     upsample_keys::kCells, "", upsample_keys::kTemporal},
     {"raymarch.phase", raymarch<&RaymarchSettings::peak_phase>, one_of("physical|peak"), "",
      "`peak`: phase functions over their largest value; appearance, not physics"},
 };

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // See upsample.h.
-#include "src/march/upsample.h"
+#include "src/picture/upsample.h"
 
-#include "src/picture/march_view.h"
+#include <cstring>
+
+#include "platform/threads.h"
 
 namespace pileus {
 namespace {
@@ -37,21 +39,21 @@ Status outfit(const PixelLattice& g, int width, bool half_depth, const Planes& w
     return Status::ok();
 }
 
-Status fill_in(const Context& context, const RaymarchInput& in, const PixelLattice& lattice,
+Status fill_in(const Context& context, const UpsampleInput& in, const PixelLattice& lattice,
                UpsampleMemory& memory, Planes& planes) {
     constexpr std::uint32_t kPiece = 4;
     const StageClock clock(context, "upsampling");
     UpsampleParams k{};
     k.lattice = lattice;
-    k.rule = std::int32_t(in.settings->upsample);
+    k.rule = std::int32_t(in.settings.upsample);
     k.camera = in.camera;
     k.before = memory.camera;
     k.remembers = memory.ready ? 1 : 0;
     k.still = std::memcmp(&memory.camera, &in.camera, sizeof in.camera) == 0 &&
-                      memory.to_sun == in.lighting->to_sun
+                      memory.to_sun == in.to_sun && memory.light == in.light
                   ? 1
                   : 0;
-    k.medium = make_medium_view(*in.medium, *in.majorants);
+    k.medium = in.medium;
     const std::uint32_t rows = std::uint32_t(in.camera.height);
     Buffer<std::int64_t> kept;
     PILEUS_TRY(allocate(recalled_counts(rows), kept));
@@ -72,19 +74,26 @@ Status fill_in(const Context& context, const RaymarchInput& in, const PixelLatti
 }
 
 Status copy(int threads, const Buffer<float>& from, Buffer<float>& to) {
-    PILEUS_TRY(allocate_once(marched(1, from.size()), to));
-    parallel_each(threads, from.size(), [&](std::size_t i) { to[i] = from[i]; });
+    constexpr std::size_t kPiece = std::size_t{1} << 16;
+    const std::size_t count = from.size();
+    PILEUS_TRY(allocate_once(marched(1, count), to));
+    parallel_for(threads, std::int64_t((count + kPiece - 1) / kPiece), [&](std::int64_t i, int) {
+        const std::size_t begin = std::size_t(i) * kPiece;
+        const std::size_t own = begin + kPiece < count ? kPiece : count - begin;
+        std::memcpy(to.data() + begin, from.data() + begin, own * sizeof(float));
+    });
     return Status::ok();
 }
 
-Status remember(const Context& context, const RaymarchInput& in, const Planes& planes,
+Status remember(const Context& context, const UpsampleInput& in, const Planes& planes,
                 UpsampleMemory& memory) {
     const StageClock clock(context, "upsampling");
     PILEUS_TRY(copy(context.threads, planes.transmittance, memory.transmittance));
     PILEUS_TRY(copy(context.threads, planes.colour, memory.colour));
     PILEUS_TRY(copy(context.threads, planes.opaque_depth, memory.opaque_depth));
     memory.camera = in.camera;
-    memory.to_sun = in.lighting->to_sun;
+    memory.to_sun = in.to_sun;
+    memory.light = in.light;
     memory.ready = true;
     return Status::ok();
 }
@@ -94,9 +103,9 @@ constexpr int kTurnX[4] = {0, 1, 1, 0}, kTurnY[4] = {0, 1, 0, 1};
 
 }  // namespace
 
-PixelLattice upsample_lattice(const RaymarchSettings& s, const CameraParams& camera, int frame,
+PixelLattice upsample_lattice(const UpsampleSettings& s, const CameraParams& camera, int frame,
                               bool remembers) {
-    PixelLattice g{1, {0, 0}, camera.width, camera.height};
+    PixelLattice g = whole_lattice(camera);
     if (s.temporal > 0 && remembers) {
         // Of a cell of four by four the corners of each quarter in turn, opposite ones first.
         const int coarse = frame % 4, fine = frame / 4 % 4;
@@ -116,30 +125,48 @@ PixelLattice upsample_lattice(const RaymarchSettings& s, const CameraParams& cam
     return g;
 }
 
-Status upsample_picture(const Context& context, const RaymarchInput& in, int frame,
-                        UpsampleMemory& memory, Planes& planes, RaymarchTally& tally) {
-    const RaymarchSettings& s = *in.settings;
+Status upsample_picture(const Context& context, const UpsampleInput& in, int frame,
+                        UpsampleMemory& memory, Planes& planes) {
+    const UpsampleSettings& s = in.settings;
     const PixelLattice lattice = upsample_lattice(s, in.camera, frame, memory.ready);
     memory.marched += pixels_of(lattice);
     if (lattice.every == 1) {
-        PILEUS_TRY(raymarch_picture(context, in, planes, tally));
+        PILEUS_TRY(in.march(lattice, planes));
     } else {
-        RaymarchInput thin = in;
-        thin.lattice = lattice;
         const bool half = s.temporal > 0 || !planes.half_depth.empty();
         {
             const StageClock clock(context, "upsampling");
             PILEUS_TRY(outfit(lattice, in.camera.width, half, planes, memory.few));
         }
-        PILEUS_TRY(raymarch_picture(context, thin, memory.few, tally));
+        PILEUS_TRY(in.march(lattice, memory.few));
         PILEUS_TRY(fill_in(context, in, lattice, memory, planes));
     }
     return s.temporal > 0 ? remember(context, in, planes, memory) : Status::ok();
 }
 
-void add_upsample_row(const RaymarchSettings& s, const std::array<int, 2>& resolution, bool solid,
+Status check_upsampling(const Scene& scene, const char* method, const UpsampleSettings& s) {
+    const auto fault = [&](const char* key, int value, const std::string& allowed) {
+        return Status::bad_input(scene.file + ": " + method + "." + key + ": " +
+                                 std::to_string(value) + ", allowed: " + allowed);
+    };
+    if (s.scale == 3) return fault("scale", s.scale, "1, 2, 4");
+    if (s.temporal == 1 || s.temporal == 3) return fault("temporal", s.temporal, "0, 2, 4");
+    if (s.temporal > 0 && s.scale > 1)
+        return fault("scale", s.scale,
+                     "1 where " + std::string(method) + ".temporal thins out pixels already");
+    return Status::ok();
+}
+
+void note_upsampling(const Scene& scene, const UpsampleSettings& s, Plan& plan) {
+    if (s.scale > 1) plan.need("pixels between marched ones: approximation");
+    if (s.temporal > 0) plan.need("pixels from the frame before: approximation");
+    if (s.temporal > 0 && !(scene.animation.present && scene.animation.frames > 1))
+        plan.leave_out("pixels from the frame before", "one frame");
+}
+
+void add_upsample_row(const UpsampleSettings& s, const std::array<int, 2>& resolution, bool solid,
                       bool half_depth, bool optical_depth, Stage last, MemoryTable& table) {
-    const int every = s.temporal > 0 ? s.temporal : s.scale;
+    const int every = s.every();
     if (every <= 1) return;
     const auto few = [&](int n) {
         return (std::uint64_t(n) + std::uint64_t(every) - 1) / std::uint64_t(every);
