@@ -26,6 +26,16 @@ PILEUS_FN void scattered_on_ground(const BackgroundParams& k, const BackgroundBu
     for (int i = 0; i < 3; ++i) radiance[i] = select(known, interpolate(b.map + i * cells, c), T{});
 }
 
+/// Optical depth towards the sun at a place on the ground, between nodes. Those of the rim have
+/// none, so that there is none beyond them.
+template <class T>
+PILEUS_FN T shadow_on_ground(const BackgroundParams& k, const BackgroundBuffers& b,
+                             const Vec<T>& at) {
+    const Vec<T> p{(at.x - k.shadow_origin[0]) * k.shadow.per_metre[0],
+                   (at.y - k.shadow_origin[1]) * k.shadow.per_metre[1], all<T>(0.5f)};
+    return interpolate(b.ground_depth, corners(p, k.shadow.size, false));
+}
+
 /// What lies behind the media: sky, or a Lambertian ground with the clouds' shadow of the sun.
 template <int W>
 PILEUS_FN void background_rows(const BackgroundParams& k, const BackgroundBuffers& b,
@@ -46,7 +56,9 @@ PILEUS_FN void background_rows(const BackgroundParams& k, const BackgroundBuffer
                 depth = select(ground, height / max_(T{} - ray.direction.z, all<T>(1e-18f)), depth);
                 if (sunlit && any(ground)) {
                     const Ray<T> up{along(ray, select(ground, depth, T{})), to_sun};
-                    sunlight = exp_(T{} - optical_depth(k.medium, up, ground));
+                    const T tau = k.shadow.size[0] > 0 ? shadow_on_ground(k, b, up.origin)
+                                                       : optical_depth(k.medium, up, ground);
+                    sunlight = exp_(T{} - tau);
                 }
             }
             T scattered[3] = {};

@@ -43,6 +43,7 @@ inline PixelLattice whole_lattice(const CameraParams& c) { return {1, {0, 0}, c.
 struct ShadowParams {
     MediumView medium;
     NodeGrid nodes;
+    float origin[3];  ///< of the nodes, m, box-local
     float to_sun[3];
 };
 struct ShadowBuffers {
@@ -106,6 +107,8 @@ struct BackgroundParams {
     NodeGrid map;             ///< of light scattered onto the ground; size 0: none
     float map_origin[2];      ///< m, box-local
     float to_sun[3];
+    NodeGrid shadow;         ///< of optical depths on the ground; size 0: rays look for themselves
+    float shadow_origin[2];  ///< m, box-local
 };
 struct BackgroundBuffers {
     const float* map;     ///< [3][cell], radiance
@@ -113,6 +116,7 @@ struct BackgroundBuffers {
     float* opaque_depth;  ///< [pixel], m; infinity for the sky; null: nothing solid
     /// [pixel]: of what stands at opaque_depth, which then is read; null: not wanted.
     float* shadow = nullptr;
+    const float* ground_depth = nullptr;  ///< nodes of BackgroundParams::shadow, towards the sun
 };
 
 }  // namespace pileus

@@ -167,11 +167,11 @@ PILEUS_FN void shadow_rows(const ShadowParams& k, const ShadowBuffers& b, std::u
     const std::int32_t nx = k.nodes.size[0], ny = k.nodes.size[1];
     const Vec<T> d{all<T>(k.to_sun[0]), all<T>(k.to_sun[1]), all<T>(k.to_sun[2])};
     for (std::uint32_t row = begin; row < end; ++row) {
-        const float y = (float(std::int32_t(row) % ny) + 0.5f) / k.nodes.per_metre[1];
-        const float z = (float(std::int32_t(row) / ny) + 0.5f) / k.nodes.per_metre[2];
+        const float y = (float(std::int32_t(row) % ny) + 0.5f) / k.nodes.per_metre[1] + k.origin[1];
+        const float z = (float(std::int32_t(row) / ny) + 0.5f) / k.nodes.per_metre[2] + k.origin[2];
         for (std::int32_t x = 0; x < nx; x += W) {
             const I<W> i = iota<I<W>>() + x;
-            const T px = (to_float(i) + 0.5f) / k.nodes.per_metre[0];
+            const T px = (to_float(i) + 0.5f) / k.nodes.per_metre[0] + k.origin[0];
             const Ray<T> ray{{px, all<T>(y), all<T>(z)}, d};
             const T tau = optical_depth(k.medium, ray, i < nx);
             for (int l = 0; l < W && x + l < nx; ++l)

@@ -220,6 +220,7 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
     const std::uint64_t shown = plane_count(3, run.lighting.opaque(), output.layer_depth) +
                                 (output.layer_optical_depth ? 1u : 0u);
     add(t, arrays::picture_planes(shown, pixels));
+    add(t, arrays::ground_shadow(most_ground_nodes(run.world->medium, run.lighting, pixels)));
     if (run.settings.jitter == RaymarchJitterKind::kBlueNoise) add(t, arrays::blue_noise(last));
     const bool half = output.layer_depth || run.settings.thin.temporal > 0;
     add_upsample_row(run.settings.thin, scene.camera.resolution, run.lighting.opaque(), half,

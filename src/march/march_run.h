@@ -5,6 +5,7 @@
 #pragma once
 #include "src/march/march.h"
 #include "src/methods/methods.h"
+#include "src/picture/nodes/ground_shadow.h"
 #include "src/picture/nodes/lamp_light.h"
 #include "src/picture/upsample.h"
 #include "src/plan/plan.h"
@@ -39,6 +40,7 @@ struct RaymarchRun : MethodRun {
     CameraParams camera{};
     Planes planes;
     UpsampleMemory upsample;
+    GroundShadow ground_shadow;
     RaymarchTally tally;  ///< of all frames so far
 };
 

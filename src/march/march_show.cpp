@@ -85,12 +85,14 @@ Status shade_by_solids(const Context& context, RaymarchRun& run) {
 }
 
 Status fill_background(const Context& context, RaymarchRun& run) {
-    const StageClock clock(context, "background");
     const Lighting& light = run.lighting;
-    const BackgroundParams k =
-        background_params(make_medium_view(run.world->medium, run.majorants), run.camera, light);
-    const BackgroundBuffers b{nullptr, run.planes.background.data(),
-                              run.planes.opaque_depth.data()};
+    const MediumView view = make_medium_view(run.world->medium, run.majorants);
+    PILEUS_TRY(make_ground_shadow(context, run.world->medium, view, light,
+                                  run.planes.transmittance.size(), run.ground_shadow));
+    const StageClock clock(context, "background");
+    BackgroundParams k = background_params(view, run.camera, light);
+    BackgroundBuffers b{nullptr, run.planes.background.data(), run.planes.opaque_depth.data()};
+    read_ground_shadow(run.ground_shadow, k, b);
     return show_background(context, light, k, b);
 }
 

@@ -119,8 +119,12 @@ Status check_thinned(const Context& context, const Scene& scene, const char* met
     return Status::ok();
 }
 
-void add_thinned_rows(const Context& context, const UpsampleSettings& thin, PhotonRun& run) {
+void add_picture_rows(const Context& context, const UpsampleSettings& thin, PhotonRun& run) {
     const OutputSettings& output = run.scene->output;
+    const auto& size = run.scene->camera.resolution;
+    const std::uint64_t pixels = std::uint64_t(size[0]) * std::uint64_t(size[1]);
+    add(run.plan.memory,
+        arrays::ground_shadow(most_ground_nodes(run.world->medium, run.lighting, pixels)));
     add_upsample_row(thin, run.scene->camera.resolution, run.lighting.opaque(),
                      output.layer_depth || thin.temporal > 0, false,
                      context.frames > 1 ? Stage::kWrite : Stage::kDisplay, run.plan.memory);
@@ -193,8 +197,11 @@ Status add_lit_lamps(const Context& context, PhotonRun& run, const LightInput& l
     return add_lamp_light(context, medium, k, run.lamps, planes);
 }
 
-Status fill_lit_background(const Context& context, const PhotonRun& run, const LightInput& lit,
-                           int batch, Planes& planes) {
+Status fill_lit_background(const Context& context, PhotonRun& run, const LightInput& lit, int batch,
+                           Planes& planes) {
+    const std::uint64_t pixels = std::uint64_t(lit.camera.width) * std::uint64_t(lit.camera.height);
+    PILEUS_TRY(make_ground_shadow(context, run.world->medium, view_of(run), run.lighting, pixels,
+                                  run.ground_shadow));
     const StageClock clock(context, "background");
     const Lighting& light = *lit.lighting;
     Buffer<float> map;
@@ -206,11 +213,12 @@ Status fill_lit_background(const Context& context, const PhotonRun& run, const L
         k.map.per_metre[a] = run.ground_map.per_metre[a];
         k.map_origin[a] = run.ground_map.origin[a];
     }
-    const BackgroundBuffers b{map.data(), planes.background.data(), planes.opaque_depth.data()};
+    BackgroundBuffers b{map.data(), planes.background.data(), planes.opaque_depth.data()};
+    read_ground_shadow(run.ground_shadow, k, b);
     return show_background(context, light, k, b);
 }
 
-Status add_ground_noise(const Context& context, const PhotonRun& run, const LightInput& lit,
+Status add_ground_noise(const Context& context, PhotonRun& run, const LightInput& lit,
                         Planes& planes) {
     if (lit.batches < 2 || run.ground_map.cells == 0) return Status::ok();
     // What is the same in every batch has no spread: sky, and the ground's light without the media.

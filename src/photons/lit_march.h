@@ -43,8 +43,8 @@ Status march_thinned(const Context& context, const UpsampleSettings& thin, const
 Status check_thinned(const Context& context, const Scene& scene, const char* method,
                      const UpsampleSettings& thin);
 
-/// What a thinned picture adds to the plan; nothing where every pixel is marched.
-void add_thinned_rows(const Context& context, const UpsampleSettings& thin, PhotonRun& run);
+/// What the plan counts for the ground's shadow and for a thinned picture.
+void add_picture_rows(const Context& context, const UpsampleSettings& thin, PhotonRun& run);
 
 /// What all marches of a picture share.
 MarchParams lit_march_params(const PhotonRun& run, const LightInput& lit, const NodeGrid& source);
@@ -68,12 +68,12 @@ Status gather_by_node(const Context& context, const MarchParams& k, Span<const f
 Status add_lit_lamps(const Context& context, PhotonRun& run, const LightInput& lit, Planes& planes);
 
 /// Sky and ground of `lit`; the light scattered onto the ground is that of `batch`, 0: of all.
-Status fill_lit_background(const Context& context, const PhotonRun& run, const LightInput& lit,
-                           int batch, Planes& planes);
+Status fill_lit_background(const Context& context, PhotonRun& run, const LightInput& lit, int batch,
+                           Planes& planes);
 
 /// Adds to every batch's colour what its own photons brought to the ground, seen through the media:
 /// the spread of the batches then holds that light's noise, too. After the display.
-Status add_ground_noise(const Context& context, const PhotonRun& run, const LightInput& lit,
+Status add_ground_noise(const Context& context, PhotonRun& run, const LightInput& lit,
                         Planes& planes);
 
 /// The same light without sky and lamps: the ground then sends back sunlight alone.

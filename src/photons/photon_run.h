@@ -8,6 +8,7 @@
 #include "src/photons/ring_sum.h"
 #include "src/photons/trace.h"
 #include "src/picture/layers.h"
+#include "src/picture/nodes/ground_shadow.h"
 #include "src/picture/nodes/lamp_light.h"
 #include "src/picture/upsample.h"
 #include "src/plan/plan.h"
@@ -37,7 +38,8 @@ struct PhotonRun : MethodRun {
     Buffer<float> shadow;      ///< optical depth to the sun per node
     Buffer<float> visibility;  ///< and what solids leave of the sun; empty without solids
     bool shadow_ready = false;
-    Beam beam;                   ///< made with the shadow where deposit.peak_turn asks for it
+    Beam beam;  ///< made with the shadow where deposit.peak_turn asks for it
+    GroundShadow ground_shadow;
     LampNodes lamps;             ///< of the march that shows light of [[light]]
     Planes planes;               ///< of a session's picture
     UpsampleMemory upsample;     ///< of pixels that are not marched

@@ -86,6 +86,7 @@ Status launch_on_device(const DeviceTable& device, const BackgroundParams& param
     add_grid(a, k.medium);
     add_sky(a, k.sky_map);
     a.in(b.map, 3 * product(k.map.size));
+    if (k.shadow.size[0] > 0) a.in(b.ground_depth, product(k.shadow.size));
     a.both(b.colour, 3 * pixels_of(k.camera));
     a.both(b.opaque_depth, pixels_of(k.camera));
     a.launch(device.kernels->background_rows, k, b, 0, count);

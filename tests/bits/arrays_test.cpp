@@ -186,6 +186,7 @@ void check_raymarch(const Fixture& f) {
     held["density below the largest extinction"] = run.capped.volume.density.bytes();
     held["density on the cells of the buffer"] = run.lit.volume.density.bytes();
     held["picture planes"] = bytes_held(run.planes);
+    held["shadow on the ground"] = run.ground_shadow.depth.bytes();
     const std::uint64_t rows = std::uint64_t(f.scene.camera.resolution[1]);
     // Freed with the march: a count of 64 bits of each kind for a row.
     held["counts of rows"] = 8 * rows * std::uint64_t(kRaymarchCounts);

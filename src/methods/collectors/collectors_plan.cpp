@@ -74,7 +74,7 @@ Status collectors_measure(const Context& context, CollectorsRun& run) {
         run.plan.accumulation = {"shared", "all threads of the device add to one set", 0, true};
     sizes.private_sums = run.plan.accumulation.bytes;
     run.plan.memory = collectors_memory(sizes);
-    add_thinned_rows(context, run.scene->collectors.thin, run);
+    add_picture_rows(context, run.scene->collectors.thin, run);
     add_solid_rows(*run.scene, context.limits, run.world->solids, run.around.depth,
                    run.plan.memory);
     PILEUS_TRY(

@@ -112,7 +112,7 @@ Status photon_grid_measure(const Context& context, PhotonGridRun& run) {
         {Size(context.threads), bytes_of_thread(run), memory_of(run, context, 0).peak(),
          context.limits[LimitId::kMemory], run.plan.exact});
     run.plan.memory = memory_of(run, context, run.plan.accumulation.bytes);
-    add_thinned_rows(context, run.scene->photon_grid.thin, run);
+    add_picture_rows(context, run.scene->photon_grid.thin, run);
     add_solid_rows(*run.scene, context.limits, run.world->solids, run.around.depth,
                    run.plan.memory);
     PILEUS_TRY(

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// See ground_shadow.h.
+#include "src/picture/nodes/ground_shadow.h"
+
+#include <cmath>
+
+namespace pileus {
+namespace {
+
+constexpr std::uint64_t kPixelsPerNode = 4;
+
+/// Where the box's shadow lies along one axis, in cells, a node wider on either side.
+struct Reach {
+    double first, count;
+};
+Reach reach_of(const Medium& medium, double ground_z, const std::array<float, 3>& to_sun,
+               std::size_t axis) {
+    const double per_height = double(to_sun[axis]) / double(to_sun[2]);
+    const double top = medium.extent_m[2] - ground_z, foot = ground_z < 0 ? -ground_z : 0;
+    const double a = -per_height * top, b = -per_height * foot;
+    const double low = a < b ? a : b, high = medium.extent_m[axis] + (a < b ? b : a);
+    const double cell = double(medium.grid.cell_m[axis]);
+    const double first = std::floor(low / cell) - 1;
+    return {first, std::ceil(high / cell) + 1 - first};
+}
+
+}  // namespace
+
+std::uint64_t most_ground_nodes(const Medium& medium, const Lighting& lighting,
+                                std::uint64_t pixels) {
+    const bool wanted = lighting.ground && !medium.grid.periodic && !medium.grid.constant;
+    return wanted ? pixels / kPixelsPerNode : 0;
+}
+
+Status make_ground_shadow(const Context& context, const Medium& medium, const MediumView& view,
+                          const Lighting& lighting, std::uint64_t pixels, GroundShadow& out) {
+    const std::uint64_t most = most_ground_nodes(medium, lighting, pixels);
+    PILEUS_TRY(allocate_once(arrays::ground_shadow(most), out.depth));
+    if (most == 0 || !lighting.sunlit || !(medium.sigma > 0) ||
+        !(medium.extent_m[2] > lighting.ground_z)) {
+        out.nodes = NodeGrid{};
+        out.ready = false;
+        return Status::ok();
+    }
+    if (out.ready && out.to_sun == lighting.to_sun && out.ground_z == lighting.ground_z)
+        return Status::ok();
+    const StageClock clock(context, "shadow");
+    out.ready = true;
+    out.to_sun = lighting.to_sun;
+    out.ground_z = lighting.ground_z;
+    out.nodes = NodeGrid{};
+    const Reach x = reach_of(medium, lighting.ground_z, lighting.to_sun, 0),
+                y = reach_of(medium, lighting.ground_z, lighting.to_sun, 1);
+    if (!(x.count * y.count <= double(most))) return Status::ok();
+    const Reach reach[2] = {x, y};
+    ShadowParams k{};
+    k.medium = view;
+    k.nodes.size[2] = 1;
+    k.nodes.per_metre[2] = 1;
+    for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = lighting.to_sun[a];
+    for (std::size_t a = 0; a < 2; ++a) {
+        const double cell = double(medium.grid.cell_m[a]);
+        k.nodes.size[a] = std::int32_t(reach[a].count);
+        k.nodes.per_metre[a] = float(1 / cell);
+        k.origin[a] = float(reach[a].first * cell);
+    }
+    k.origin[2] = float(lighting.ground_z - 0.5);  // the row's middle
+    PILEUS_TRY(run_rows(context, context.kernels->shadow_rows, k, ShadowBuffers{out.depth.data()},
+                        std::uint32_t(k.nodes.size[1])));
+    out.nodes = k.nodes;
+    for (int a = 0; a < 3; ++a) out.origin[a] = k.origin[a];
+    return Status::ok();
+}
+
+void read_ground_shadow(const GroundShadow& shadow, BackgroundParams& k, BackgroundBuffers& b) {
+    k.shadow = shadow.nodes;
+    for (int a = 0; a < 2; ++a) k.shadow_origin[a] = shadow.origin[a];
+    b.ground_depth = shadow.depth.data();
+}
+
+}  // namespace pileus
