@@ -88,7 +88,8 @@ Status fill_background(const Context& context, RaymarchRun& run) {
     const Lighting& light = run.lighting;
     const MediumView view = make_medium_view(run.world->medium, run.majorants);
     PILEUS_TRY(make_ground_shadow(context, run.world->medium, view, light,
-                                  run.planes.transmittance.size(), run.ground_shadow));
+                                  run.planes.transmittance.size(),
+                                  SunTurn{1, 0, light.to_sun, nullptr}, run.ground_shadow));
     const StageClock clock(context, "background");
     BackgroundParams k = background_params(view, run.camera, light);
     BackgroundBuffers b{nullptr, run.planes.background.data(), run.planes.opaque_depth.data()};

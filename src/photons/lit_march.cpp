@@ -5,6 +5,7 @@
 #include "src/photons/lit_march.h"
 
 #include "platform/threads.h"
+#include "src/base/angles.h"
 #include "src/picture/background.h"
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/solid_shadow.h"
@@ -31,21 +32,38 @@ NodeGrid shadow_grid(const PhotonRun& run) {
     return g;
 }
 
+/// Frames of an animation are what they are wherever it begins; those before its first have that
+/// one's sun. A host's are counted.
+SunTurn turn_of(const PhotonRun& run) {
+    SunTurn turn{run.light_refresh, run.turn, run.lighting.to_sun, nullptr};
+    const Scene* scene = run.scene;
+    if (scene->animation.present && scene->animation.moves_sun)
+        turn.sun_of = [scene](std::int64_t frame) {
+            const double elevation = sun_at(*scene, frame > 0 ? int(frame) : 0);
+            const Double3 to = towards_deg(scene->sun.azimuth_deg, elevation);
+            return SunDirection{float(to[0]), float(to[1]), float(to[2])};
+        };
+    return turn;
+}
+
 }  // namespace
 
 Status make_sun_shadow(const Context& context, PhotonRun& run) {
-    if (run.shadow_ready || !run.lighting.sunlit || run.deposit.first_order != 2)
-        return Status::ok();
+    if (!run.lighting.sunlit || run.deposit.first_order != 2) return Status::ok();
     const StageClock clock(context, "shadow");
     run.shadow_nodes = shadow_grid(run);
-    PILEUS_TRY(allocate(arrays::shadow(node_count(run.shadow_nodes), Stage::kShadow), run.shadow));
+    if (run.shadow.size() != node_count(run.shadow_nodes)) run.shadow_slices.held.clear();
+    PILEUS_TRY(
+        allocate_once(arrays::shadow(node_count(run.shadow_nodes), Stage::kShadow), run.shadow));
     ShadowParams k{};
     k.medium = view_of(run);
     k.nodes = run.shadow_nodes;
-    for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = run.lighting.to_sun[a];
-    PILEUS_TRY(run_rows(context, context.kernels->shadow_rows, k, ShadowBuffers{run.shadow.data()},
-                        std::uint32_t(k.nodes.size[1] * k.nodes.size[2])));
-    if (run.lighting.solids != nullptr)
+    for (const int slice : follow_sun(turn_of(run), run.shadow_slices)) {
+        const SunDirection& sun = run.shadow_slices.held[std::size_t(slice)];
+        for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = sun[a];
+        PILEUS_TRY(make_shadow_slice(context, k, run.shadow.data(), slice, run.light_refresh));
+    }
+    if (run.lighting.solids != nullptr && !run.shadow_ready)
         PILEUS_TRY(solid_visibility(context, *run.lighting.solids, run.shadow_nodes,
                                     run.lighting.to_sun, run.visibility));
     if (run.deposit.peak_turn > 0 && run.beam.sets == 0)
@@ -53,6 +71,12 @@ Status make_sun_shadow(const Context& context, PhotonRun& run) {
                              Stage::kShadow, run.beam));
     run.shadow_ready = true;
     return Status::ok();
+}
+
+void forget_sun_shadow(PhotonRun& run) {
+    run.shadow_ready = false;
+    run.shadow_slices.held.clear();
+    run.ground_shadow.slices.held.clear();
 }
 
 std::uint64_t sun_shadow_numbers(const PhotonRun& run) {
@@ -90,7 +114,7 @@ Status march_thinned(const Context& context, const UpsampleSettings& thin, const
     in.camera = k.camera;
     in.medium = k.medium;
     in.to_sun = run.lighting.to_sun;
-    in.light = (run.relights << 40) + run.next_generation;
+    in.light = ((run.relights + run.shadow_slices.made) << 32) + run.next_generation;
     in.march = [&](const PixelLattice& lattice, Planes& few) {
         MarchParams own = k;
         own.lattice = lattice;
@@ -201,7 +225,7 @@ Status fill_lit_background(const Context& context, PhotonRun& run, const LightIn
                            Planes& planes) {
     const std::uint64_t pixels = std::uint64_t(lit.camera.width) * std::uint64_t(lit.camera.height);
     PILEUS_TRY(make_ground_shadow(context, run.world->medium, view_of(run), run.lighting, pixels,
-                                  run.ground_shadow));
+                                  turn_of(run), run.ground_shadow));
     const StageClock clock(context, "background");
     const Lighting& light = *lit.lighting;
     Buffer<float> map;

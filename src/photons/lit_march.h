@@ -30,6 +30,9 @@ inline Array<float> source_by_node(std::uint64_t numbers) {
 /// order.
 Status make_sun_shadow(const Context& context, PhotonRun& run);
 
+/// The media have moved: nothing that the sun's light was kept for holds.
+void forget_sun_shadow(PhotonRun& run);
+
 /// Numbers that it keeps.
 std::uint64_t sun_shadow_numbers(const PhotonRun& run);
 

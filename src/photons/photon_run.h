@@ -35,10 +35,13 @@ struct PhotonRun : MethodRun {
     std::uint64_t ring_first = 0;  ///< generation in the first slot of a ring that time cut short
     std::uint32_t max_events = 1u << 20;
     NodeGrid shadow_nodes{};
-    Buffer<float> shadow;      ///< optical depth to the sun per node
-    Buffer<float> visibility;  ///< and what solids leave of the sun; empty without solids
-    bool shadow_ready = false;
-    Beam beam;  ///< made with the shadow where deposit.peak_turn asks for it
+    Buffer<float> shadow;       ///< optical depth to the sun per node
+    Buffer<float> visibility;   ///< and what solids leave of the sun; empty without solids
+    bool shadow_ready = false;  ///< visibility and beam
+    SunSlices shadow_slices;
+    int light_refresh = 1;  ///< frames in which sunlight on nodes is made anew
+    std::int64_t turn = 0;  ///< number of the picture, for that
+    Beam beam;              ///< made with the shadow where deposit.peak_turn asks for it
     GroundShadow ground_shadow;
     LampNodes lamps;             ///< of the march that shows light of [[light]]
     Planes planes;               ///< of a session's picture

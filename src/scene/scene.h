@@ -165,6 +165,7 @@ struct CollectorSettings {
     bool first_order_split = true;
     bool window = false;  ///< sinc window against ringing
     UpsampleSettings thin;
+    int light_refresh = 1;  ///< frames in which sunlight on nodes follows a sun that moves; 1..64
     AccumulationChoice accumulation = AccumulationChoice::kAuto;
 };
 
@@ -182,6 +183,7 @@ struct PhotonGridSettings {
     bool local_tracking = true;
     bool first_order_split = true;
     UpsampleSettings thin;
+    int light_refresh = 1;  ///< frames in which sunlight on nodes follows a sun that moves; 1..64
     AccumulationChoice accumulation = AccumulationChoice::kAuto;
 };
 

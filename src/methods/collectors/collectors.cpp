@@ -120,6 +120,10 @@ Status collectors_outline(const Context& context, CollectorsRun& run) {
     const Scene& scene = *run.scene;
     PILEUS_TRY(check_host_lights(context, scene, run.world->medium));
     PILEUS_TRY(check_thinned(context, scene, "collectors", scene.collectors.thin));
+    run.light_refresh = scene.collectors.light_refresh;
+    if (run.light_refresh > 1 && context.kernels->device != nullptr)
+        return Status::bad_input(scene.file +
+                                 ": collectors.light_refresh: for the host alone, allowed: 1");
     if (scene.collectors.thin.every() > 1 && !is_marched(run))
         return Status::bad_input(scene.file +
                                  ": collectors.display: \"billboards\" has no marched pixels, "
@@ -167,7 +171,7 @@ Status collectors_relight(bool anew, const Context& context, CollectorsRun& run)
     if (!anew && relight_photons(run)) return Status::ok();
     run.upsample.ready = false;
     PILEUS_TRY(collectors_weigh(context, run));
-    run.shadow_ready = false;
+    forget_sun_shadow(run);
     return lay_out_photons(collectors_trace_input(context, run), run);
 }
 

@@ -49,7 +49,7 @@ Status light(const FrameStep& step, const Context& context, MethodRun& run) {
 Status show(const FrameStep& step, const Context& context, MethodRun& run, Image& image) {
     CollectorsRun& collectors = own(run);
     if (step.last || collectors.interrupted) collectors_end_tracing(collectors);
-    collectors.frame = step.frame;
+    collectors.turn = collectors.frame = step.frame;
     return collectors_show(orbit_at(*collectors.scene, step.frame), context, collectors, image);
 }
 
@@ -85,6 +85,7 @@ Status compose(const FrameStep& step, const Context& context, MethodRun& method_
                const Planes*& planes) {
     CollectorsRun& run = own(method_run);
     run.frame = step.frame;
+    ++run.turn;
     const CameraParams camera = make_camera(run.scene->camera, 0, run.world->medium.low_m);
     CollectorColours colours;
     int channels = 3;

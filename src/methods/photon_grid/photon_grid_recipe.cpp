@@ -65,6 +65,7 @@ Status outline(const Context& context, MethodRun& run) {
                                  "\": method photon-grid runs on the host alone, allowed: another, "
                                  "or another method");
     PILEUS_TRY(check_thinned(context, *run.scene, "photon_grid", run.scene->photon_grid.thin));
+    own(run).light_refresh = run.scene->photon_grid.light_refresh;
     return photon_grid_weigh(context, own(run));
 }
 
@@ -86,7 +87,7 @@ Status show(const FrameStep& step, const Context& context, MethodRun& method_run
         run.scratch.sums = Buffer<std::int64_t>();
         run.majorants.tracking = Buffer<float>();
     }
-    run.frame = step.frame;
+    run.turn = run.frame = step.frame;
     return photon_grid_show(orbit_at(*run.scene, step.frame), context, run, image);
 }
 
@@ -126,7 +127,7 @@ Status aim(int, bool anew, const Context& context, MethodRun& method_run) {
                   (run.scene->camera.orthographic ? -camera.forward[a] : camera.origin[a]);
     if (!placed || turned) {
         PILEUS_TRY(photon_grid_weigh(context, run));
-        run.shadow_ready = false;
+        forget_sun_shadow(run);
         return lay_out_photons(photon_grid_trace_input(context, run), run);
     }
     if (run.ring || same_lights(before, run.lighting)) return Status::ok();
@@ -155,6 +156,7 @@ Status compose(const FrameStep& step, const Context& context, MethodRun& method_
                const Planes*& planes) {
     PhotonGridRun& run = own(method_run);
     run.frame = step.frame;
+    ++run.turn;
     const CameraParams camera = make_camera(run.scene->camera, 0, run.world->medium.low_m);
     int channels = 3;
     std::uint64_t clamped = 0;

@@ -9,6 +9,9 @@ namespace {
 
 constexpr std::uint64_t kPixelsPerNode = 4;
 
+/// Cells that the nodes' first and last are multiples of, so that they seldom change.
+constexpr double kSnap = 8;
+
 /// Where the box's shadow lies along one axis, in cells, a node wider on either side.
 struct Reach {
     double first, count;
@@ -20,8 +23,8 @@ Reach reach_of(const Medium& medium, double ground_z, const std::array<float, 3>
     const double a = -per_height * top, b = -per_height * foot;
     const double low = a < b ? a : b, high = medium.extent_m[axis] + (a < b ? b : a);
     const double cell = double(medium.grid.cell_m[axis]);
-    const double first = std::floor(low / cell) - 1;
-    return {first, std::ceil(high / cell) + 1 - first};
+    const double first = kSnap * std::floor((low / cell - 1) / kSnap);
+    return {first, kSnap * std::ceil((high / cell + 1) / kSnap) - first};
 }
 
 }  // namespace
@@ -33,42 +36,45 @@ std::uint64_t most_ground_nodes(const Medium& medium, const Lighting& lighting,
 }
 
 Status make_ground_shadow(const Context& context, const Medium& medium, const MediumView& view,
-                          const Lighting& lighting, std::uint64_t pixels, GroundShadow& out) {
+                          const Lighting& lighting, std::uint64_t pixels, const SunTurn& turn,
+                          GroundShadow& out) {
     const std::uint64_t most = most_ground_nodes(medium, lighting, pixels);
     PILEUS_TRY(allocate_once(arrays::ground_shadow(most), out.depth));
-    if (most == 0 || !lighting.sunlit || !(medium.sigma > 0) ||
-        !(medium.extent_m[2] > lighting.ground_z)) {
-        out.nodes = NodeGrid{};
-        out.ready = false;
-        return Status::ok();
+    NodeGrid nodes{};
+    if (most > 0 && lighting.sunlit && medium.sigma > 0 && medium.extent_m[2] > lighting.ground_z) {
+        const Reach x = reach_of(medium, lighting.ground_z, lighting.to_sun, 0),
+                    y = reach_of(medium, lighting.ground_z, lighting.to_sun, 1);
+        if (x.count * y.count <= double(most)) {
+            const Reach reach[2] = {x, y};
+            nodes.size[2] = 1;
+            nodes.per_metre[2] = 1;
+            for (std::size_t a = 0; a < 2; ++a) {
+                const double cell = double(medium.grid.cell_m[a]);
+                nodes.size[a] = std::int32_t(reach[a].count);
+                nodes.per_metre[a] = float(1 / cell);
+                const float origin = float(reach[a].first * cell);
+                if (origin != out.origin[a]) out.slices.held.clear();
+                out.origin[a] = origin;
+            }
+            out.origin[2] = float(lighting.ground_z - 0.5);  // the row's middle
+        }
     }
-    if (out.ready && out.to_sun == lighting.to_sun && out.ground_z == lighting.ground_z)
-        return Status::ok();
-    const StageClock clock(context, "shadow");
-    out.ready = true;
-    out.to_sun = lighting.to_sun;
+    for (int a = 0; a < 2; ++a)
+        if (nodes.size[a] != out.nodes.size[a]) out.slices.held.clear();
+    if (out.ground_z != lighting.ground_z) out.slices.held.clear();
+    out.nodes = nodes;
     out.ground_z = lighting.ground_z;
-    out.nodes = NodeGrid{};
-    const Reach x = reach_of(medium, lighting.ground_z, lighting.to_sun, 0),
-                y = reach_of(medium, lighting.ground_z, lighting.to_sun, 1);
-    if (!(x.count * y.count <= double(most))) return Status::ok();
-    const Reach reach[2] = {x, y};
+    const std::vector<int> due = follow_sun(turn, out.slices);
+    if (nodes.size[0] == 0) return Status::ok();
+    const StageClock clock(context, "shadow");
     ShadowParams k{};
     k.medium = view;
-    k.nodes.size[2] = 1;
-    k.nodes.per_metre[2] = 1;
-    for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = lighting.to_sun[a];
-    for (std::size_t a = 0; a < 2; ++a) {
-        const double cell = double(medium.grid.cell_m[a]);
-        k.nodes.size[a] = std::int32_t(reach[a].count);
-        k.nodes.per_metre[a] = float(1 / cell);
-        k.origin[a] = float(reach[a].first * cell);
+    k.nodes = nodes;
+    for (int a = 0; a < 3; ++a) k.origin[a] = out.origin[a];
+    for (const int slice : due) {
+        for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = out.slices.held[std::size_t(slice)][a];
+        PILEUS_TRY(make_shadow_slice(context, k, out.depth.data(), slice, turn.slices));
     }
-    k.origin[2] = float(lighting.ground_z - 0.5);  // the row's middle
-    PILEUS_TRY(run_rows(context, context.kernels->shadow_rows, k, ShadowBuffers{out.depth.data()},
-                        std::uint32_t(k.nodes.size[1])));
-    out.nodes = k.nodes;
-    for (int a = 0; a < 3; ++a) out.origin[a] = k.origin[a];
     return Status::ok();
 }
 

@@ -3,20 +3,19 @@
 // in: a medium, the sun, a ground -> out: optical depths towards the sun on the ground.
 // docs/collectors.md, "Light that needs no photon"
 #pragma once
+#include "src/picture/nodes/sun_slices.h"
 #include "src/plan/array.h"
-#include "src/run/context.h"
 #include "src/world/light/lights.h"
 #include "src/world/majorant/majorants.h"
 
 namespace pileus {
 
-/// Nodes lie a cell of the density apart and stay where they are while the sun moves.
+/// Nodes lie a cell of the density apart, at places of their own whatever the sun.
 struct GroundShadow {
     NodeGrid nodes{};   ///< size 0: every pixel looks for itself
     float origin[3]{};  ///< m, box-local
-    std::array<float, 3> to_sun{};
     double ground_z = 0;
-    bool ready = false;
+    SunSlices slices;
     Buffer<float> depth;  ///< [y][x]
 };
 
@@ -33,10 +32,11 @@ inline Array<float> ground_shadow(std::uint64_t nodes) {
 
 }  // namespace arrays
 
-/// Makes it where the sun or the ground has moved. A low sun's shadow, of more nodes than
+/// Makes what the sun or the ground has moved for. A low sun's shadow, of more nodes than
 /// `most_ground_nodes`, is left to the pixels. kLimit: out of memory.
 Status make_ground_shadow(const Context& context, const Medium& medium, const MediumView& view,
-                          const Lighting& lighting, std::uint64_t pixels, GroundShadow& out);
+                          const Lighting& lighting, std::uint64_t pixels, const SunTurn& turn,
+                          GroundShadow& out);
 
 /// The background reads it.
 void read_ground_shadow(const GroundShadow& shadow, BackgroundParams& k, BackgroundBuffers& b);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys of upsampling and temporal reprojection: the same three in each method that has them.
+// Keys of upsampling, temporal reprojection and light in slices: the same in each method with them.
 // in: the method's field of UpsampleSettings -> out: fields and texts of rows.
 // docs/upsampling.md
 #pragma once
@@ -15,5 +15,9 @@ constexpr const char* kUpsample =
 constexpr const char* kTemporal =
     "2 or 4: each frame marches one pixel of so many along x and y, in turn; the others "
     "come from the frame before; 0: frames know nothing of one another";
+
+constexpr const char* kLightRefresh =
+    "a sun that moves less than a degree in so many frames has its light on nodes and its "
+    "shadow on the ground made anew by one part of so many each frame; 1: whole for each sun";
 
 }  // namespace pileus::upsample_keys
