@@ -235,13 +235,13 @@ PILEUS_API pileus_code pileus_session_set_ground(pileus_session* session,
 typedef enum pileus_light_type { PILEUS_POINT, PILEUS_SPOT, PILEUS_DIRECTIONAL } pileus_light_type;
 /** A light besides sun and sky; docs/lights.md has the units. */
 typedef struct pileus_light {
-    uint32_t struct_size;
-    uint32_t type;                     /**< a pileus_light_type */
-    double position_m[3], radius_m;    /**< point, spot; radius 0: as small as can be */
+    uint32_t struct_size, type;        /**< a pileus_light_type */
+    double position_m[3], radius_m;    /**< point, spot; radius 0: a point */
     double direction[3];               /**< spot: where it shines; not 0 */
     double cone_deg, penumbra_deg;     /**< spot: (0, 360]; up to half of that */
     double azimuth_deg, elevation_deg; /**< directional: where it stands, as the sun */
     float light[3]; /**< radiant intensity; directional: irradiance on a plane that faces it */
+    uint32_t reserved, shadow_samples; /**< not read; places on a sphere, 0: 8, 1: its middle */
 } pileus_light;
 
 /** Lights in place of all that the session had, the scene's included; up to 64, 0: none. Each

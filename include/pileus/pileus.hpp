@@ -233,7 +233,7 @@ public:
             detail::store(light.position_m, c.position_m);
             detail::store(light.direction, c.direction);
             c.cone_deg = light.cone_deg, c.penumbra_deg = light.penumbra_deg;
-            c.radius_m = light.radius_m;
+            c.radius_m = light.radius_m, c.shadow_samples = light.shadow_samples;
             c.azimuth_deg = light.azimuth_deg, c.elevation_deg = light.elevation_deg;
             detail::store(light.light, c.light);
         }

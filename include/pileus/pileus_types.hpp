@@ -80,7 +80,8 @@ struct SceneLight {
     glm::dvec3 position_m{0};                    ///< point, spot
     glm::dvec3 direction{0, 0, -1};              ///< spot: where it shines
     double cone_deg = 40, penumbra_deg = 0;      ///< spot: (0, 360]; up to half of that
-    double radius_m = 0;                         ///< point, spot; 0: as small as can be
+    double radius_m = 0;                         ///< point, spot; 0: a point
+    std::uint32_t shadow_samples = 0;            ///< up to 64; 0: 8; 1: shadows of a point
     double azimuth_deg = 0, elevation_deg = 45;  ///< directional: where it stands, as the sun
     glm::vec3 light{1};  ///< radiant intensity; directional: irradiance on a plane that faces it
 };

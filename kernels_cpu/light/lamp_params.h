@@ -16,6 +16,8 @@ struct LampParams {
     float light[3];         ///< radiant intensity; parallel: irradiance on a plane facing it
     float strength;         ///< the largest of them
     float least_square;     ///< of its radius, m^2, > 0
+    float radius;           ///< of a sphere that casts soft shadows, m; 0: a point for shadows
+    std::int32_t places;    ///< on the sphere, where they are not drawn at random
 };
 
 /// How photons leave a lamp. Directions are even over a cone, or as the spot shines; those of a

@@ -4,6 +4,7 @@
 // bring. docs/lights.md, "By path": near a light the part of a flight that was flown free is
 // sampled by angle (Kulla and Fajardo 2012); beyond, light comes to the vertices.
 #pragma once
+#include "kernels_cpu/light/lamp_sphere.h"
 #include "kernels_cpu/path/path_lanes.h"
 
 namespace pileus {
@@ -59,6 +60,20 @@ PILEUS_FN void choose_lamp(const PathParams& k, M<W> m, F<W> luck, Weight weight
     }
 }
 
+/// Two more random numbers, for places on spheres; drawn where there are spheres alone.
+template <int W, int NC, int K>
+PILEUS_FN Words<U<W>> draw_place(PathLanes<W, NC, K>& s, const PathParams& k, M<W> m) {
+    return k.lamp_spheres != 0 ? draw(s, k, m) : Words<U<W>>{};
+}
+
+/// The lamp, or a place on it, as it is seen from a point.
+template <class T, class UU>
+PILEUS_FN LampSight<T> see_drawn(const LampParams& lamp, const Vec<T>& from, const Words<UU>& w) {
+    if (lamp.radius > 0.0f)
+        return lamp_place(lamp, lamp_cone(lamp, from), uniform(w.a), uniform(w.b));
+    return see_lamp(lamp, from);
+}
+
 /// Flights of paths that have just ended: the lanes that got a ray from a point between their ends
 /// to a lamp wait for it with their end kept; these are returned.
 template <int W, int NC, int K>
@@ -85,6 +100,7 @@ PILEUS_FN M<W> begin_near(PathLanes<W, NC, K>& s, const PathParams& k) {
     m = m & (reach > 0.0f);
     if (!any(m)) return m;
     const Words<U<W>> w = draw(s, k, m), more = draw(s, k, m);
+    const Words<U<W>> where = draw_place(s, k, m);
     M<W> rays = m & lnot(m);
     choose_lamp<W>(k, m, uniform(w.a), weight, [&](const LampParams& lamp, M<W> mine, T chance) {
         T length;
@@ -98,7 +114,7 @@ PILEUS_FN M<W> begin_near(PathLanes<W, NC, K>& s, const PathParams& k) {
         const Vec<T> p{voxels(x.x, 0), voxels(x.y, 1), voxels(x.z, 2)};
         const I<W> corner = corner_voxel(p, more.a, k.grid);
         const T density = gather(k.grid.density, corner);
-        const LampSight<T> sight = see_lamp(lamp, x);
+        const LampSight<T> sight = see_drawn(lamp, x, where);
         const T worth =
             density * k.grid.sigma * length * sight.share / max_(chance, all<T>(1e-30f));
         mine = mine & (worth > 0.0f);
@@ -153,15 +169,22 @@ PILEUS_FN void seek_lamps(PathLanes<W, NC, K>& s, const PathParams& k, M<W> m, f
     m = m & s.alive;
     if (!any(m)) return;
     const Vec<T> o = vertex_metres(s, k);
-    const Words<U<W>> w = draw(s, k, m);
+    const Words<U<W>> w = draw(s, k, m), where = draw_place(s, k, m);
     M<W> rays = m & lnot(m);
     const auto weight = [&](const LampParams& lamp) {
+        if (lamp.radius > 0.0f) {
+            // A bound: of a sphere whose middle is not seen a part may be.
+            const LampCone<T> cone = lamp_cone(lamp, o);
+            const T facet = max_(most_cosine(cone, facing(cone.way)), T{});
+            return select(cone.distance >= sphere, lamp.strength * most_share(lamp, cone) * facet,
+                          T{});
+        }
         const LampSight<T> sight = see_lamp(lamp, o);
         const T light = lamp.strength * sight.share * max_(facing(sight.way), T{});
         return select(sight.distance >= sphere, light, T{});
     };
     choose_lamp<W>(k, m, uniform(w.a), weight, [&](const LampParams& lamp, M<W> mine, T chance) {
-        const LampSight<T> sight = see_lamp(lamp, o);
+        const LampSight<T> sight = see_drawn(lamp, o, where);
         const T worth = value(sight.way, mine) * sight.share / max_(chance, all<T>(1e-30f));
         mine = mine & (worth > 0.0f);
         for (int c = 0; c < 3; ++c)

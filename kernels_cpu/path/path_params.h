@@ -74,6 +74,7 @@ struct PathParams {
     // Read by trace_paths_lamps alone.
     std::int32_t lamp_count;  ///< 0: none
     const LampParams* lamps;
+    std::int32_t lamp_spheres;  ///< 0: none of them is a sphere
     float lamp_near;     ///< m: nearer to a lamp, light is found between vertices, else at them
     std::int32_t emits;  ///< 0: no medium shines by itself
 };

@@ -158,6 +158,9 @@ PILEUS_FN T turn_of_spot(const LampParams& lamp, T u) {
     return select(u < share, u * whole, outside);
 }
 
+/// Counter of the numbers that choose a photon's place on a lamp: events never come so far.
+constexpr std::uint32_t kPlaceOnLamp = 0xffffffffu;
+
 /// Lamps: one by its share of their power, then a direction. `missed`: lanes whose ray misses the
 /// box, and where it meets the ground.
 template <int W, int NC, bool S>
@@ -183,8 +186,8 @@ PILEUS_FN Start<F<W>> start_from_lamps(Photon<W, NC, S>& s, const TraceParams& k
             start.d = {select(mine, d.x, start.d.x), select(mine, d.y, start.d.y),
                        select(mine, d.z, start.d.z)};
         };
-        const float* at = e.lamp.at;
         if (e.lamp.parallel != 0) {
+            const float* at = e.lamp.at;
             take(place_on_faces<W>(k.grid, e.face_cdf, u, v).p,
                  {all<T>(-at[0]), all<T>(-at[1]), all<T>(-at[2])});
             continue;
@@ -193,6 +196,18 @@ PILEUS_FN Start<F<W>> start_from_lamps(Photon<W, NC, S>& s, const TraceParams& k
         const Vec<T> axis{all<T>(e.axis[0]), all<T>(e.axis[1]), all<T>(e.axis[2])};
         const Vec<T> d =
             turned(axis, 1.0f - turn, sqrt_(max_(turn * (2.0f - turn), T{})), phi.cosine, phi.sine);
+        // A sphere sends as much from all of its disc across the direction, from its far side on.
+        T at[3] = {all<T>(e.lamp.at[0]), all<T>(e.lamp.at[1]), all<T>(e.lamp.at[2])};
+        if (e.lamp.radius > 0.0f) {
+            const Words<U<W>> w = threefry(k.key.k0, k.key.k1, number, all<U<W>>(kPlaceOnLamp));
+            const T share = uniform(w.a);
+            const SinCos<T> side = sincos_turns(uniform(w.b));
+            const Vec<T> place =
+                turned(d, sqrt_(1.0f - share), sqrt_(share), side.cosine, side.sine);
+            at[0] = at[0] + place.x * e.lamp.radius;
+            at[1] = at[1] + place.y * e.lamp.radius;
+            at[2] = at[2] + place.z * e.lamp.radius;
+        }
         // To the box: the farthest entry must lie before the nearest exit.
         T enter{}, leave = all<T>(3e38f);
         const T way[3] = {d.x, d.y, d.z};

@@ -7,7 +7,7 @@
 #pragma once
 #include "kernels_cpu/core/pixel_block.h"
 #include "kernels_cpu/display/march_ray.h"
-#include "kernels_cpu/light/lamp.h"
+#include "kernels_cpu/light/lamp_sphere.h"
 #include "kernels_cpu/raymarch/lamp_march_params.h"
 #include "kernels_cpu/raymarch/raymarch_light.h"
 
@@ -25,6 +25,17 @@ PILEUS_FN T depth_to_lamp(const MediumView& m, const Vec<T>& from, const LampSig
     return density_along<false>(m, ray, box.enter, leave) * m.sigma;
 }
 
+/// The same for the light of a sphere: the depth of the mean transmittance to its places.
+template <class T>
+PILEUS_FN T depth_to_sphere(const MediumView& m, const Vec<T>& from, const LampParams& lamp, T turn,
+                            M_of<T> wanted) {
+    const LampCone<T> cone = lamp_cone(lamp, from);
+    MeanDepth<T> mean{};
+    for (std::int32_t i = 0; i < lamp.places; ++i)
+        add_depth(mean, depth_to_lamp(m, from, lamp_place(lamp, cone, i, turn), wanted), i == 0);
+    return mean_depth(mean, lamp.places);
+}
+
 template <int W>
 PILEUS_FN void lamp_depth_rows(const LampMarchParams& k, const LampMarchBuffers& b,
                                std::uint32_t begin, std::uint32_t end) {
@@ -38,7 +49,15 @@ PILEUS_FN void lamp_depth_rows(const LampMarchParams& k, const LampMarchBuffers&
         for (std::int32_t x = 0; x < nx; x += W) {
             const I<W> i = iota<I<W>>() + x;
             const Vec<T> p{(to_float(i) + 0.5f) / k.nodes.per_metre[0], all<T>(y), all<T>(z)};
-            const T tau = depth_to_lamp(k.medium, p, see_lamp(lamp, p), i < nx);
+            T tau;
+            if (lamp.radius > 0.0f) {
+                T turn{};
+                for (int l = 0; l < W; ++l)
+                    set_lane(turn, l, turn_of_spiral(std::uint32_t(x + l), row));
+                tau = depth_to_sphere(k.medium, p, lamp, turn, i < nx);
+            } else {
+                tau = depth_to_lamp(k.medium, p, see_lamp(lamp, p), i < nx);
+            }
             for (int l = 0; l < W && x + l < nx; ++l)
                 b.optical_depth[std::int64_t(row) * nx + x + l] = lane(tau, l);
         }
@@ -51,6 +70,13 @@ template <class T>
 PILEUS_FN LampSight<T> lamp_over_step(const LampParams& lamp, const Vec<T>& from, const Vec<T>& d,
                                       T width, Vec<T>& place) {
     T t = 0.5f * width, mean = all<T>(1.0f);
+    if (lamp.radius > 0.0f) {
+        const LampStep<T> step = lamp_step(lamp, from, d, width);
+        place = {from.x + d.x * step.at, from.y + d.y * step.at, from.z + d.z * step.at};
+        const LampCone<T> cone = lamp_cone(lamp, place);
+        // Of the cone's share over 1 / distance^2, which is the mean's.
+        return {cone.way, cone.distance, step.mean * (cone.share * cone.distance * cone.distance)};
+    }
     if (lamp.parallel == 0) {
         // No sphere: the whole step counts.
         const LampChord<T> chord = lamp_chord(lamp, from, d, width, 1e18f);
@@ -93,52 +119,74 @@ PILEUS_FN void march_lamps(const LampMarchParams& k, const LampMarchBuffers& b,
             for (std::int32_t l = 0; l < k.lamps; ++l) {
                 const LampParams& lamp = b.lamps[l];
                 Vec<T> place;
-                const LampSight<T> sight = lamp_over_step(lamp, from, ray.direction, width, place);
-                const M<W> lit = dense & (sight.share > 0.0f) & (weight > 0.0f);
+                const LampSight<T> whole = lamp_over_step(lamp, from, ray.direction, width, place);
+                const M<W> lit = dense & (whole.share > 0.0f) & (weight > 0.0f);
                 if (!any(lit)) continue;
                 const T tau = interpolate(b.optical_depth + l * nodes,
                                           corners(node_position(k.nodes, place), k.nodes.size));
-                const T light = weight * sight.share * exp_(T{} - tau);
-                const T turn = one_minus_cosine(ray.direction, sight.way);
-                T more[kMostOctaves];
-                (void)octave_light(k.octaves, tau, light, weight * sight.share, more);
-                for (int i = 0; i < k.media; ++i) {
-                    const T scattered =
-                        select(lit, light * share[i] * phase_density(k.phase[i], turn), T{});
-                    for (int c = 0; c < 3; ++c)
-                        colour[c] = colour[c] + scattered * (k.albedo[i][c] * lamp.light[c]);
-                    for (int n = 1; n < k.octaves.count; ++n) {
-                        const T again = select(
-                            lit, share[i] * hg_density(all<T>(k.octave_g[i][n]), turn) * more[n],
-                            T{});
+                const auto add = [&](const LampSight<T>& sight) {
+                    const T light = weight * sight.share * exp_(T{} - tau);
+                    const T turn = one_minus_cosine(ray.direction, sight.way);
+                    T more[kMostOctaves];
+                    (void)octave_light(k.octaves, tau, light, weight * sight.share, more);
+                    for (int i = 0; i < k.media; ++i) {
+                        const T scattered =
+                            select(lit, light * share[i] * phase_density(k.phase[i], turn), T{});
                         for (int c = 0; c < 3; ++c)
-                            colour[c] =
-                                colour[c] + again * (k.octave_source[i][n][c] * lamp.light[c]);
+                            colour[c] = colour[c] + scattered * (k.albedo[i][c] * lamp.light[c]);
+                        for (int n = 1; n < k.octaves.count; ++n) {
+                            const T again = select(
+                                lit,
+                                share[i] * hg_density(all<T>(k.octave_g[i][n]), turn) * more[n],
+                                T{});
+                            for (int c = 0; c < 3; ++c)
+                                colour[c] =
+                                    colour[c] + again * (k.octave_source[i][n][c] * lamp.light[c]);
+                        }
                     }
+                };
+                if (!(lamp.radius > 0.0f)) {
+                    add(whole);
+                    continue;
                 }
+                // Phase functions and a spot's falloff differ from place to place.
+                LampCone<T> cone = lamp_cone(lamp, place);
+                cone.share = whole.share * (1.0f / float(lamp.places));
+                for (std::int32_t i = 0; i < lamp.places; ++i) add(lamp_place(lamp, cone, i, T{}));
             }
             seen = seen * exp_(T{} - optical);
             return seen < k.cut;
         });
 }
 
-/// Light of the lamps that the ground sends along rays which meet it `depth` metres away.
+/// Light of the lamps that the ground sends along rays which meet it `depth` metres away. `turn`:
+/// of the places on spheres.
 template <int W>
 PILEUS_FN void light_ground(const LampMarchParams& k, const LampMarchBuffers& b,
-                            const Ray<F<W>>& ray, F<W> depth, M<W> m, F<W> (&colour)[3]) {
+                            const Ray<F<W>>& ray, F<W> depth, M<W> m, F<W> turn,
+                            F<W> (&colour)[3]) {
     using T = F<W>;
     constexpr float kInvPi = 4.0f * kInvFourPi;
     Vec<T> p = along(ray, select(m, depth, T{}));
     p.z = all<T>(k.ground_z);
     for (std::int32_t l = 0; l < k.lamps; ++l) {
-        const LampSight<T> sight = see_lamp(b.lamps[l], p);
-        const T cosine = max_(sight.way.z, T{});
-        const M<W> lit = m & (cosine * sight.share > 0.0f);
-        if (!any(lit)) continue;
-        const T tau = depth_to_lamp(k.medium, p, sight, lit);
-        const T light =
-            select(lit, cosine * sight.share * exp_(T{} - tau) * (k.ground_albedo * kInvPi), T{});
-        for (int c = 0; c < 3; ++c) colour[c] = colour[c] + light * b.lamps[l].light[c];
+        const LampParams& lamp = b.lamps[l];
+        const auto add = [&](const LampSight<T>& sight) {
+            const T cosine = max_(sight.way.z, T{});
+            const M<W> lit = m & (cosine * sight.share > 0.0f);
+            if (!any(lit)) return;
+            const T tau = depth_to_lamp(k.medium, p, sight, lit);
+            const T light = select(
+                lit, cosine * sight.share * exp_(T{} - tau) * (k.ground_albedo * kInvPi), T{});
+            for (int c = 0; c < 3; ++c) colour[c] = colour[c] + light * lamp.light[c];
+        };
+        if (!(lamp.radius > 0.0f)) {
+            add(see_lamp(lamp, p));
+            continue;
+        }
+        LampCone<T> cone = lamp_cone(lamp, p);
+        cone.share = cone.share * (1.0f / float(lamp.places));
+        for (std::int32_t i = 0; i < lamp.places; ++i) add(lamp_place(lamp, cone, i, turn));
     }
 }
 
@@ -175,7 +223,12 @@ PILEUS_FN void lamp_march_rows(const LampMarchParams& k, const LampMarchBuffers&
                 const T way = height / max_(T{} - ray.direction.z, all<T>(1e-18f));
                 const M<W> ends = real & (ray.direction.z < 0.0f) & (height >= 0.0f) &
                                   (opaque < 3e38f) & (abs_(opaque - way) <= way * 1e-4f);
-                if (any(ends)) light_ground<W>(k, b, ray, opaque, ends, behind);
+                T turn{};
+                for (int l = 0; l < W && k.spheres != 0; ++l)
+                    set_lane(
+                        turn, l,
+                        turn_of_spiral(std::uint32_t(lane(px, l)), std::uint32_t(lane(py, l))));
+                if (any(ends)) light_ground<W>(k, b, ray, opaque, ends, turn, behind);
             }
             for_block<W>(k.camera, x, y, last, [&](int l, std::int64_t pixel) {
                 for (int c = 0; c < 3; ++c) {

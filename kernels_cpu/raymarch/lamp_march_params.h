@@ -21,10 +21,11 @@ struct LampMarchParams {
     float octave_g[kMostMedia][kMostOctaves];          ///< as RaymarchLight has them
     float octave_source[kMostMedia][kMostOctaves][3];  ///< of a unit of light; from octave 1 on
     std::int32_t lamps;
-    NodeGrid nodes;       ///< of optical depths to each lamp
-    float cut;            ///< stop below this transmittance
-    std::int32_t ground;  ///< 0: none
-    float ground_z;       ///< m
+    std::int32_t spheres;  ///< 0: none of them is one
+    NodeGrid nodes;        ///< of optical depths to each lamp
+    float cut;             ///< stop below this transmittance
+    std::int32_t ground;   ///< 0: none
+    float ground_z;        ///< m
     float ground_albedo;
 };
 

@@ -97,6 +97,10 @@ Status take_light(const pileus_light& given, LightSettings& own) {
     }
     own.position_m = glm::make_vec3(given.position_m);
     own.radius_m = given.radius_m;
+    if (given.shadow_samples > 64)
+        return Status::bad_input("light.shadow_samples: " + std::to_string(given.shadow_samples) +
+                                 ", allowed: 0 to 64");
+    if (given.shadow_samples > 0) own.shadow_samples = int(given.shadow_samples);
     copy3(given.light, own.intensity);
     if (own.type != LampKind::kSpot) return Status::ok();
     own.direction = glm::make_vec3(given.direction);

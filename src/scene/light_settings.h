@@ -18,7 +18,8 @@ struct LightSettings {
     LampKind type = LampKind::kPoint;
     Double3 position_m{};                        ///< point, spot
     std::array<float, 3> intensity{1, 1, 1};     ///< radiant: irradiance at one metre; point, spot
-    double radius_m = 0;                         ///< within it the irradiance grows no more; >= 0
+    double radius_m = 0;                         ///< of a sphere; point, spot; 0: a point
+    int shadow_samples = 8;                      ///< places on it; 1: shadows of a point
     Double3 direction{};                         ///< spot: where it shines; zero: towards target_m
     Double3 target_m{};                          ///< spot
     double cone_deg = 40;                        ///< spot: the whole angle of its cone; (0, 360]
@@ -29,10 +30,10 @@ struct LightSettings {
 
 inline bool operator==(const LightSettings& a, const LightSettings& b) {
     return a.type == b.type && a.position_m == b.position_m && a.intensity == b.intensity &&
-           a.radius_m == b.radius_m && a.direction == b.direction && a.target_m == b.target_m &&
-           a.cone_deg == b.cone_deg && a.penumbra_deg == b.penumbra_deg &&
-           a.azimuth_deg == b.azimuth_deg && a.elevation_deg == b.elevation_deg &&
-           a.irradiance == b.irradiance;
+           a.radius_m == b.radius_m && a.shadow_samples == b.shadow_samples &&
+           a.direction == b.direction && a.target_m == b.target_m && a.cone_deg == b.cone_deg &&
+           a.penumbra_deg == b.penumbra_deg && a.azimuth_deg == b.azimuth_deg &&
+           a.elevation_deg == b.elevation_deg && a.irradiance == b.irradiance;
 }
 
 }  // namespace pileus

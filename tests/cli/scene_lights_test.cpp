@@ -43,6 +43,12 @@ TEST_CASE("faults of lights") {
          "cone_deg 20"},
         {kCamera + spot + "target_m = [1, 2, 4]\ncone_deg = 0\n",
          "s.toml:10:12: light.0.cone_deg: out of range, 0, allowed: ..."},
+        {kCamera + light + "\"directional\"\nshadow_samples = 4\n",
+         "s.toml:8:18: light.0.shadow_samples: not of a light of type directional, 4, allowed: "
+         "left out, or type point, spot"},
+        {kCamera + light + "\"point\"\nposition_m = [0, 0, 30]\nradius_m = 31\n[ground]\n",
+         "s.toml:9:12: light.0.radius_m: reaches below the ground, 31, allowed: at most 30, or "
+         "shadow_samples = 1"},
         {kCamera + "[method]\nname = \"collectors\"\n[collectors]\ndisplay = \"billboards\"\n"
                    "[[light]]\ntype = \"point\"\nposition_m = [0, 0, 0]\n",
          "s.toml:9:8: light.0.type: not for collectors as billboards in this version, \"point\", "

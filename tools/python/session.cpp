@@ -113,8 +113,9 @@ void set_ground(Session& session, bool present, double altitude, double albedo) 
     set(session, pileus_session_set_ground, ground);
 }
 
-/// Each: type; position, direction; light; cone, penumbra, radius; azimuth, elevation.
-using LightNumbers = std::array<double, 15>;
+/// Each: type; position, direction; light; cone, penumbra, radius; azimuth, elevation; samples of
+/// its shadow.
+using LightNumbers = std::array<double, 16>;
 
 void set_lights(Session& session, const std::vector<LightNumbers>& numbers) {
     const Turn turn(session);
@@ -130,6 +131,7 @@ void set_lights(Session& session, const std::vector<LightNumbers>& numbers) {
         }
         light.cone_deg = n[10], light.penumbra_deg = n[11], light.radius_m = n[12];
         light.azimuth_deg = n[13], light.elevation_deg = n[14];
+        light.shadow_samples = std::uint32_t(n[15] >= 0 && n[15] <= 64 ? n[15] : 65);
     }
     call([&](pileus_error* error) {
         return pileus_session_set_lights(session.session.get(), lights.data(),

@@ -2,6 +2,7 @@
 // Light of points, spots and parallel lights at every particle, and the shadow of solids on them.
 // in: an octree, lamps, solids -> out: depths to each lamp; light that balls scatter to the camera.
 // Monette and Whitehead 2014, 3.3 and 3.4; docs/particles.md, "Lights".
+#include "kernels_cpu/particles/particle_lamps.h"
 #include "kernels_cpu/solids/solids.h"
 #include "platform/threads.h"
 #include "src/methods/particles/light_places.h"
@@ -29,20 +30,29 @@ void over_balls(const Context& context, std::size_t count, const char* stage, do
 float seen_by(const SolidsView& solids, const ParticleBall& ball, const LampParams& lamp,
               const LightPlaces& places, float left) {
     float seen = 0;
-    for (int n = 0; n < places.count; ++n) {
-        float o[3], d[3], square = 0, limit = 3e38f;
-        for (int a = 0; a < 3; ++a) {
-            o[a] = ball.centre[a] + places.offset[n][std::size_t(a)] / ball.per_radius;
-            d[a] = lamp.parallel != 0 ? lamp.at[a] : lamp.at[a] - o[a];
-            square += d[a] * d[a];
+    const bool sphere = lamp.radius > 0;
+    const int looks = sphere ? lamp.places : 1;
+    const float turn = sphere ? turn_of_ball(ball) : 0;
+    for (int n = 0; n < places.count; ++n)
+        for (int i = 0; i < looks; ++i) {
+            float o[3], d[3], square = 0, limit = 3e38f;
+            for (int a = 0; a < 3; ++a) {
+                o[a] = ball.centre[a] + places.offset[n][std::size_t(a)] / ball.per_radius;
+                d[a] = lamp.parallel != 0 ? lamp.at[a] : lamp.at[a] - o[a];
+                square += d[a] * d[a];
+            }
+            if (sphere) {
+                const Vec<float> from{o[0], o[1], o[2]};
+                const LampSight<float> place = lamp_place(lamp, lamp_cone(lamp, from), i, turn);
+                d[0] = place.way.x, d[1] = place.way.y, d[2] = place.way.z;
+                limit = place.distance;
+            } else if (lamp.parallel == 0) {
+                limit = __builtin_sqrtf(square);
+                for (float& v : d) v /= limit > 0 ? limit : 1;
+            }
+            seen += limit > 0 && solid_between(solids, o, d, limit) ? left : 1;
         }
-        if (lamp.parallel == 0) {
-            limit = __builtin_sqrtf(square);
-            for (float& v : d) v /= limit > 0 ? limit : 1;
-        }
-        seen += limit > 0 && solid_between(solids, o, d, limit) ? left : 1;
-    }
-    return seen / float(places.count);
+    return seen / float(places.count * looks);
 }
 
 }  // namespace

@@ -114,6 +114,7 @@ void add_light(const Lighting& light, Digest& d) {
         d.f32(lamp.edge);
         d.f32(lamp.slope);
         d.f32(lamp.least_square);
+        if (lamp.radius > 0) d.f32(lamp.radius);
     }
     const SkyMapView& map = light.map;
     d.u32(std::uint32_t(map.columns));

@@ -80,6 +80,8 @@ LampMarchParams lamp_march_params(const Medium& medium, const Majorants& majoran
     k.emits = emits(medium) ? 1 : 0;
     k.octaves = {1, 1, 1};
     k.lamps = std::int32_t(nodes.lamps.size());
+    for (const LampParams& lamp : nodes.lamps)
+        if (lamp.radius > 0) k.spheres = 1;
     k.nodes = nodes.grid;
     k.cut = float(cut);
     k.ground = lighting.ground ? 1 : 0;

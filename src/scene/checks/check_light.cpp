@@ -18,6 +18,7 @@ constexpr LightKey kLightKeys[] = {
     {"position_m", kPointBit | kSpotBit, "point, spot"},
     {"intensity", kPointBit | kSpotBit, "point, spot"},
     {"radius_m", kPointBit | kSpotBit, "point, spot"},
+    {"shadow_samples", kPointBit | kSpotBit, "point, spot"},
     {"direction", kSpotBit, "spot"},
     {"target_m", kSpotBit, "spot"},
     {"cone_deg", kSpotBit, "spot"},
@@ -50,6 +51,7 @@ public:
         if (placed && check_.written && check_.key(path_ + "position_m") == nullptr)
             fault(*type_, "position_m", "missing, nothing, allowed: 3 numbers, metres");
         if (light_.type == LampKind::kSpot) spot();
+        if (placed) sphere();
     }
 
 private:
@@ -81,6 +83,17 @@ private:
     void refuse(const std::string& what, const std::string& allowed) {
         fault(*type_, "type",
               "not " + what + " in this version, " + value_text(*type_) + ", allowed: " + allowed);
+    }
+
+    /// What would shine from below the ground.
+    void sphere() {
+        const double height = light_.position_m[2] - check_.scene.ground.altitude_m;
+        if (!check_.scene.ground.present || light_.shadow_samples == 1 || height < 0) return;
+        const Node* radius = check_.valid_key(path_ + "radius_m");
+        if (light_.radius_m > height)
+            fault(radius != nullptr ? *radius : *type_, "radius_m",
+                  "reaches below the ground, " + number_text(light_.radius_m) +
+                      ", allowed: at most " + number_text(height) + ", or shadow_samples = 1");
     }
 
     void spot() {

@@ -18,8 +18,12 @@ constexpr KeyRow kRows[] = {
      "radiant intensity of a point or spot light, in the sun's unit times m^2 per sr: its "
      "irradiance at distance d is intensity / d^2"},
     {"light.N.radius_m", field<&Light::radius_m>, from_to(0, 1e9), "m",
-     "nearer than this to a point or spot light the irradiance is intensity / radius_m^2; 0: a "
-     "thousandth of a cell's shortest edge"},
+     "a point or spot light is a sphere of this radius, with soft shadows and no light inside; 0: "
+     "a "
+     "point, within a thousandth of a cell's shortest edge no brighter than there"},
+    {"light.N.shadow_samples", field<&Light::shadow_samples>, from_to(1, 64), "",
+     "places on the sphere that methods other than path look at; 1: shadows of a point, also by "
+     "path, and the irradiance within radius_m is intensity / radius_m^2"},
     {"light.N.direction", field<&Light::direction>, from_to(-1e9, 1e9), "",
      "where a spot light shines, of any length but 0", kNone},
     {"light.N.target_m", field<&Light::target_m>, from_to(-1e9, 1e9), "m",

@@ -54,6 +54,10 @@ LampParams lamp_of(const LightSettings& light, const Medium& medium) {
     const double radius = light.radius_m > least ? light.radius_m : least;
     lamp.least_square = float(radius * radius);
     if (!(lamp.least_square > 1e-30f)) lamp.least_square = 1e-30f;
+    if (!parallel && light.radius_m > 0 && light.shadow_samples > 1) {
+        lamp.radius = float(radius);
+        lamp.places = light.shadow_samples;
+    }
     if (!parallel) return lamp;
     const Double3 way = towards_deg(light.azimuth_deg, light.elevation_deg);
     for (int a = 0; a < 3; ++a) lamp.at[a] = float(way[a]);
@@ -68,6 +72,8 @@ std::vector<LampParams> plan_lamps(const Scene& scene, const Medium& medium, Pla
         const LightSettings& light = scene.lights[i];
         const std::string name = "light " + std::to_string(i);
         const LampParams lamp = lamp_of(light, medium);
+        if (light.radius_m > 0 && !(lamp.radius > 0) && lamp.parallel == 0)
+            plan.left_out.push_back({name + "'s soft shadow", "shadow_samples is 1"});
         const bool below = light.type == LampKind::kDirectional
                                ? !(lamp.at[2] > 0)
                                : light.position_m[2] < scene.ground.altitude_m;

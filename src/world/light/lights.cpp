@@ -90,7 +90,7 @@ void aim_emission(const Medium& medium, bool ground, LampEmission& e) {
     e.span = 2;
     e.axis[2] = 1;
     // Wider by a hundredth, for rounding.
-    const double sine = 1.01 * __builtin_sqrt(reach) / distance;
+    const double sine = 1.01 * (__builtin_sqrt(reach) + double(e.lamp.radius)) / distance;
     if (ground || !(sine < 1)) return;
     // 1 - cosine without a difference of near numbers.
     // However far: 0 would be a spot.

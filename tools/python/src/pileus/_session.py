@@ -17,8 +17,9 @@ _DEPTHS = {"distance": 0, "view_z": 1, "buffer": 2}
 _CLIPS = {"minus_one": 0, "zero": 1}
 _LIGHTS = {"point": 0, "spot": 1, "directional": 2}
 _LIGHT_KEYS = {
-    "point": {"position", "intensity", "radius"},
-    "spot": {"position", "intensity", "radius", "direction", "cone_deg", "penumbra_deg"},
+    "point": {"position", "intensity", "radius", "shadow_samples"},
+    "spot": {"position", "intensity", "radius", "shadow_samples", "direction", "cone_deg",
+             "penumbra_deg"},
     "directional": {"azimuth_deg", "elevation_deg", "irradiance"},
 }
 
@@ -80,7 +81,8 @@ def _light(light):
             *_three("light.direction", light.get("direction", 0)),
             *_three("light.intensity", strength), light.get("cone_deg", 40.0),
             light.get("penumbra_deg", 0.0), light.get("radius", 0.0),
-            light.get("azimuth_deg", 0.0), light.get("elevation_deg", 45.0)]
+            light.get("azimuth_deg", 0.0), light.get("elevation_deg", 45.0),
+            light.get("shadow_samples", 0)]
 
 
 def _columns(name, matrix):
@@ -157,7 +159,7 @@ class Session:
         Each is a dict as a scene's [[light]]: {"type": "point", "position": (x, y, z),
         "intensity": 1e5, "radius": 0}; {"type": "spot", "position", "direction", "cone_deg",
         "penumbra_deg", "intensity"}; {"type": "directional", "azimuth_deg", "elevation_deg",
-        "irradiance"}. Lights are a number or three.
+        "irradiance"}. Lights are a number or three. "shadow_samples": on a sphere, 0 for the usual.
         """
         self._core.set_lights([_light(light) for light in lights])
 
