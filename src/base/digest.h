@@ -45,12 +45,12 @@ private:
 };
 
 /// A number below 2^32 to draw lots by, the same for the same digest.
-inline std::uint64_t lot_of(const Digest& digest) {
+inline std::uint64_t lot_of(std::uint64_t v) {
     // High bits of the digest alone are well mixed.
-    std::uint64_t v = digest.value();
     v ^= v >> 32;
     v *= 0xd6e8feb86659fd93ull;
     return v >> 32;
 }
+inline std::uint64_t lot_of(const Digest& digest) { return lot_of(digest.value()); }
 
 }  // namespace pileus

@@ -8,24 +8,25 @@
 namespace pileus {
 
 // One row for a stream. A new one takes a number that no other has; the compiler checks it.
-#define PILEUS_RANDOM_STREAMS(ROW)                                      \
-    ROW(kSunStream, 1, "photons of the sun")                            \
-    ROW(kSkyStream, 2, "photons of the sky")                            \
-    ROW(kGroundStream, 3, "photons of the ground")                      \
-    ROW(kLampStream, 4, "photons of points, spots and parallel lights") \
-    ROW(kSampleStream, 8, "places of the collectors' samples")          \
-    ROW(kSunShiftStream, 17, "shifts of the sun's cells of start")      \
-    ROW(kSkyShiftStream, 18, "shifts of the sky's cells of start")      \
-    ROW(kGroundShiftStream, 19, "shifts of the ground's cells")         \
-    ROW(kLampShiftStream, 20, "shifts of the lamps' directions")        \
-    ROW(kJitterStream, 31, "places of a ray's steps in raymarching")    \
-    ROW(kPathStream, 32, "light paths from the camera")                 \
-    ROW(kVerifyStream, 33, "light paths that verify a picture")         \
-    ROW(kVerifiedStream, 34, "the pixels that they are for")            \
-    ROW(kBubbleStream, 0x63756d75, "bubbles of a procedural cumulus")   \
-    ROW(kDetailStream, 0x6e6f6973, "detail on a procedural cumulus")    \
-    ROW(kPlumeStream, 0x706c756d, "particles of a procedural plume")    \
-    ROW(kParticleCumulusStream, 0x70636d75, "particles of a procedural cumulus")
+#define PILEUS_RANDOM_STREAMS(ROW)                                               \
+    ROW(kSunStream, 1, "photons of the sun")                                     \
+    ROW(kSkyStream, 2, "photons of the sky")                                     \
+    ROW(kGroundStream, 3, "photons of the ground")                               \
+    ROW(kLampStream, 4, "photons of points, spots and parallel lights")          \
+    ROW(kSampleStream, 8, "places of the collectors' samples")                   \
+    ROW(kSunShiftStream, 17, "shifts of the sun's cells of start")               \
+    ROW(kSkyShiftStream, 18, "shifts of the sky's cells of start")               \
+    ROW(kGroundShiftStream, 19, "shifts of the ground's cells")                  \
+    ROW(kLampShiftStream, 20, "shifts of the lamps' directions")                 \
+    ROW(kJitterStream, 31, "places of a ray's steps in raymarching")             \
+    ROW(kPathStream, 32, "light paths from the camera")                          \
+    ROW(kVerifyStream, 33, "light paths that verify a picture")                  \
+    ROW(kVerifiedStream, 34, "the pixels that they are for")                     \
+    ROW(kBubbleStream, 0x63756d75, "bubbles of a procedural cumulus")            \
+    ROW(kDetailStream, 0x6e6f6973, "detail on a procedural cumulus")             \
+    ROW(kPlumeStream, 0x706c756d, "particles of a procedural plume")             \
+    ROW(kParticleCumulusStream, 0x70636d75, "particles of a procedural cumulus") \
+    ROW(kReplicaStream, 0x7265706c, "particles that stand for one of a file")
 
 enum RandomStream : std::uint32_t {
 #define PILEUS_ROW(name, number, use) name = number,

@@ -37,6 +37,8 @@ struct ParticleSettings {
     std::int64_t count = 100000;    ///< of the recipe that the medium names; set by the checks
     double rise_m_per_s = 5;        ///< the same
     double share = 1;               ///< of the particles that are kept, denser in return; (0, 1]
+    std::int64_t replicate = 1;     ///< children of each particle that is kept; 1: itself
+    double replicate_radius = 0.5;  ///< of each, over the parent's; (0, 1]
     const HostParticles* host = nullptr;  ///< instead of the file
     const ParticleSet* placed = nullptr;  ///< what is read already; the grid is for shadows alone
     bool shadows_only = false;            ///< the same while the medium is outlined

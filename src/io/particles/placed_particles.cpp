@@ -7,24 +7,12 @@
 #include "src/base/digest.h"
 #include "src/base/file.h"
 #include "src/io/particles/particle_rows.h"
+#include "src/io/particles/replicate.h"
 
 namespace pileus {
 namespace {
 
 constexpr double kMostExtinction = 1e12;
-
-/// The same number for a particle wherever it stands in its file, in [0, 2^32).
-std::uint64_t lot_of(const ParticleSet& set, std::size_t i) {
-    Digest digest;
-    if (!set.id.empty()) {
-        digest.u64(set.id[i]);
-    } else {
-        digest.floats({set.position.data() + 3 * i, 3});
-        digest.floats({set.radius.data() + i, 1});
-        if (!set.density.empty()) digest.floats({set.density.data() + i, 1});
-    }
-    return lot_of(digest);
-}
 
 void move(ParticleSet& set, std::size_t from, std::size_t to) {
     for (std::size_t a = 0; a < 3; ++a) set.position[3 * to + a] = set.position[3 * from + a];
@@ -41,7 +29,7 @@ void thin(double share, ParticleSet& set) {
     const std::uint64_t below = std::uint64_t(share * 0x1p32);
     std::size_t kept = 0;
     for (std::size_t i = 0; i < set.count; ++i)
-        if (lot_of(set, i) < below) move(set, i, kept++);
+        if (lot_of(mark_of(set, i)) < below) move(set, i, kept++);
     set.count = kept;
     set.position.truncate(3 * kept);
     set.radius.truncate(kept);
@@ -100,7 +88,7 @@ Status place_particles(const std::string& name, const ParticleSettings& s, Parti
         for (float& v : set.velocity.span()) v *= unit;
     }
     if (s.share < 1) thin(s.share, set);
-    return Status::ok();
+    return replicate_particles(name, s, set);
 }
 
 Status read_host_particles(const HostParticles& host, const ParticleReading& reading,

@@ -26,6 +26,11 @@ constexpr KeyRow kRows[] = {
     {"medium.N.density.share", particles<&P::share>, above(0, 1), "",
      "share of the particles that are kept, chosen by number or by their own bits; they are denser "
      "in return"},
+    {"medium.N.density.replicate", particles<&P::replicate>, from_to(1, 10000), "",
+     "so many smaller particles in place of each, with its extinction in all, spread about as its "
+     "extinction is"},
+    {"medium.N.density.replicate_radius", particles<&P::replicate_radius>, above(0, 1), "",
+     "their radius over that of the particle that they stand for"},
 };
 
 constexpr KeyRow kRecipeRows[] = {
