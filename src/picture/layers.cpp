@@ -149,7 +149,7 @@ std::uint64_t extra_layers(const OutputSettings& output, bool has_error) {
            (output.layer_optical_depth ? 1u : 0u) + (output.layer_transmittance ? 1u : 0u) +
            (output.layer_light ? 6u : 0u) + (output.layer_order ? 6u : 0u) +
            (output.layer_reflectance ? 3u : 0u) + (output.layer_shadow ? 2u : 0u) +
-           (has_error ? 3u : 0u);
+           (output.layer_occlusion ? 1u : 0u) + (has_error ? 3u : 0u);
 }
 
 Status add_reflectance(const Lighting& lighting, Image& image) {

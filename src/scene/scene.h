@@ -277,7 +277,7 @@ struct OutputSettings {
     bool layer_depth = false, layer_error = false, layer_cloud = false;
     bool layer_optical_depth = false, layer_transmittance = false;
     bool layer_light = false, layer_order = false;
-    bool layer_reflectance = false, layer_shadow = false;
+    bool layer_reflectance = false, layer_shadow = false, layer_occlusion = false;
 };
 
 struct Animation {

@@ -25,7 +25,7 @@ void make_live(Scene& scene) {
     OutputSettings& output = scene.output;
     output.layer_error = output.layer_light = output.layer_order = false;
     output.layer_optical_depth = output.layer_transmittance = output.layer_reflectance = false;
-    output.layer_shadow = false;
+    output.layer_shadow = output.layer_occlusion = false;
     output.layer_depth = !scene.camera.flux;
     output.layer_cloud = scene.method == "path";
     scene.camera.depth.clear();

@@ -220,7 +220,9 @@ void check_particles(const Fixture& f) {
     held["particles' light around"] = run.around_balls.bytes();
     held["skylight on nodes"] = run.sky_nodes.light.bytes();
     held["picture planes"] = bytes_held(run.planes);
-    // Freed with the march.
+    // Freed with the march, but for one number a pixel.
+    if (scene.output.layer_occlusion)
+        held["occlusion"] = arrays::particle_occlusion(run.particles, run.occlusion.size()).bytes();
     if (scene.particles.billboards)
         held["billboards"] = arrays::particle_boards(run.particles).bytes();
     else
@@ -307,6 +309,7 @@ TEST_CASE("arrays: what particles hold while they are shown is what the plan say
     const std::string boards = "particles.display = \"billboards\"";
     check_particles({scene.c_str(), "particles", {layers, boards}});
     check_particles({lit.c_str(), "particles", {layers, boards}});
+    check_particles({lit.c_str(), "particles", {"output.layers = [\"alpha\", \"occlusion\"]"}});
     check_particles({lit.c_str(), "particles", {layers, "particles.light = \"exact\""}});
 }
 

@@ -89,7 +89,8 @@ TEST_CASE("keys that do not go together") {
          "s.toml:5:19: output.files: given twice, \"a.png\", allowed: list of up to 16 texts"},
         {kCamera + "[output]\nlayers = [\"depht\"]\n",
          "s.toml:5:11: output.layers: unknown value, \"depht\", allowed: list of radiance, alpha, "
-         "depth, error, cloud, optical_depth, transmittance, light, order, reflectance, shadow"},
+         "depth, error, cloud, optical_depth, transmittance, light, order, reflectance, shadow, "
+         "occlusion"},
     };
     for (const Row& row : rows) check(row);
 }
@@ -128,6 +129,9 @@ TEST_CASE("densities and their files") {
          "format, one of \"pbrt\", \"raw\", \"vol\", \"les\", \"openvdb\", \"nanovdb\", "
          "\"netcdf\", \"grib\", \"ply\", \"csv\", \"prt\", \"bgeo\", \"pdb\", \"pda\"; or "
          "density = { file = \"...\", type = \"float32\", size = [nx, ny, nz] } for a raw file"},
+        {kCamera + "[output]\nlayers = [\"occlusion\"]\n",
+         "s.toml:5:10: output.layers: by method particles alone, \"occlusion\", allowed: other "
+         "layers, or method.name = \"particles\""},
         {kCamera + kFile + "density = { file = \"a.vdb\", share = 0.5 }\n",
          "s.toml:6:37: medium.0.density.share: for files of particles only, 0.5, allowed: left "
          "out"},

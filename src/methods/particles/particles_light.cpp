@@ -197,6 +197,18 @@ Status show_particles(const Context& context, ParticlesRun& run) {
     }
     const ParticleMarchParams k = march_params(run);
     PILEUS_TRY(light_around(context, k, run));
+    return draw_particles(context, k, run);
+}
+
+ParticleMarchParams lit_from_around(const ParticlesRun& run) {
+    ParticleMarchParams k = march_params(run);
+    k.orders = 0;
+    for (float& v : k.albedo) v = 1;
+    return k;
+}
+
+Status draw_particles(const Context& context, const ParticleMarchParams& k, ParticlesRun& run) {
+    Planes& planes = run.planes;
     if (run.scene->particles.billboards) return show_boards(context, k, run);
     const StageClock clock(context, "march");
     ParticleMarchBuffers b{};

@@ -48,7 +48,7 @@ Status check(const Scene& scene, const Budget& budget) {
             scene.file +
             ": output.layers: method particles has no noise and one kind of light, allowed: "
             "radiance, alpha, depth, cloud, optical_depth, transmittance, reflectance, "
-            "shadow");
+            "shadow, occlusion");
     return Status::ok();
 }
 
@@ -146,6 +146,7 @@ Status light(const FrameStep& step, const Context& context, MethodRun& method_ru
                             run.planes.optical_depth));
     PILEUS_TRY(fill_background(context, run));
     PILEUS_TRY(show_particles(context, run));
+    if (scene.output.layer_occlusion) PILEUS_TRY(show_occlusion(context, run));
     return light_ground_by_lamps(context, run);
 }
 
@@ -163,6 +164,7 @@ Status show(const FrameStep&, const Context& context, MethodRun& method_run, Ima
     }
     PILEUS_TRY(make_layers(run.planes, run.camera.width, run.camera.height, 3, run.scene->output,
                            image, report, clamped));
+    if (!run.occlusion.empty()) image.channels.push_back({"occlusion", std::move(run.occlusion)});
     report.counters.emplace_back("clamped_negative", clamped);
     report.executed = {{"depth_tests", run.planes.opaque_depth.size()},
                        {"depths_stored", run.planes.half_depth.size()}};

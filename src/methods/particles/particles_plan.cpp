@@ -88,6 +88,10 @@ void note_plan(ParticlesRun& run) {
     if (!scene.output.layer_depth) plan.leave_out("depth of the medium", "no depth layer");
     if (!scene.output.layer_optical_depth)
         plan.leave_out("optical depth", "no optical_depth layer");
+    if (scene.output.layer_occlusion)
+        plan.need("occlusion of the sky from 24 directions at each particle: approximation");
+    else
+        plan.leave_out("occlusion of the sky", "no occlusion layer");
     for (Stage stage : kUnused) plan.skip(stage);
 }
 
@@ -102,7 +106,7 @@ void weigh_memory(const Context& context, ParticlesRun& run) {
                      sky_map_bytes(run.around.sky_map), t);
     add_majorant_rows(grid, run.outlined_only ? 1 : run.majorants.tracking.size(),
                       std::uint64_t(context.threads), Stage::kWrite, t);
-    // Before the file is read its bytes bound the particles.
+    // Before the file is read its bytes, which hold all children too, bound the particles.
     const std::uint64_t particles = !run.outlined_only ? run.particles
                                     : scene.media[0].density.empty()
                                         ? run.world->source.reading_bytes / 12
@@ -163,6 +167,7 @@ void weigh_memory(const Context& context, ParticlesRun& run) {
         add(t, arrays::particle_boards(particles));
     else
         add(t, arrays::particle_bins(std::uint64_t(context.threads), bins_of(run)));
+    if (output.layer_occlusion) add(t, arrays::particle_occlusion(particles, pixels));
     add_image_rows(std::uint64_t(scene.camera.resolution[0]),
                    std::uint64_t(scene.camera.resolution[1]), 4 + extra_layers(output, false), t);
     add_solid_rows(scene, context.limits, run.world->solids, run.around.depth, t);

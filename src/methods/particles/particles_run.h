@@ -40,6 +40,7 @@ struct ParticlesRun : MethodRun {
     std::array<float, 3> to_sun{};
     CameraParams camera{};
     Planes planes;
+    Buffer<float> occlusion;  ///< [pixel]; empty: not wanted
 };
 
 namespace arrays {
@@ -69,6 +70,12 @@ inline Array<float> particle_sky(std::uint64_t particles) {
 inline Array<float> particle_bins(std::uint64_t threads, std::int32_t bins) {
     return {"bins along rays", bytes_of(threads, particle_scratch_floats(bins)), Stage::kDisplay,
             Stage::kDisplay};
+}
+
+/// Share of the sky that each ball sees, tiles that find it, and a picture of it.
+inline Array<float> particle_occlusion(std::uint64_t particles, std::uint64_t pixels) {
+    return {"occlusion", sum_of_bytes(bytes_of(particles, 9), bytes_of(pixels, 5)), Stage::kDisplay,
+            Stage::kLayers};
 }
 
 inline Array<ParticleBoard> particle_boards(std::uint64_t particles) {
@@ -112,6 +119,15 @@ bool moves(const ParticlesRun& run);
 /// As billboards, into the planes; `march` tells their light. The tree holds a ball. kLimit: out
 /// of memory.
 Status show_boards(const Context& context, const ParticleMarchParams& march, ParticlesRun& run);
+
+/// Light at each ball alone, of what is around it: no sun.
+ParticleMarchParams lit_from_around(const ParticlesRun& run);
+
+/// By the scene's display, into the planes. The tree holds a ball. kLimit: out of memory.
+Status draw_particles(const Context& context, const ParticleMarchParams& k, ParticlesRun& run);
+
+/// Into run.occlusion, after the picture. kLimit: out of memory.
+Status show_occlusion(const Context& context, ParticlesRun& run);
 
 /// Into the planes. kLimit: out of memory.
 Status show_particles(const Context& context, ParticlesRun& run);

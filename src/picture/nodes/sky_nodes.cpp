@@ -17,6 +17,7 @@ namespace {
 constexpr double kNodeBudget = 1u << 15;
 constexpr int kBands = 6, kAround = 4;  // equal parts of the sphere: in height, and around
 constexpr int kParts = kBands * kAround;
+static_assert(kParts == kSkyParts);
 constexpr int kWithin = 16;  // radiances of a map are means of so many squared per part
 
 struct Direction {
@@ -83,6 +84,11 @@ float seen_through(float tau, const Octaves& o) {
 }
 
 }  // namespace
+
+std::array<float, 3> sky_direction(int part) {
+    const Direction a = direction_in(part, 0.5, 0.5);
+    return {a.d[0], a.d[1], a.d[2]};
+}
 
 NodeGrid sky_node_grid(const Medium& medium) {
     const auto& e = medium.extent_m;

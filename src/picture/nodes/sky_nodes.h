@@ -3,6 +3,8 @@
 // in: a medium, sky and ground -> out: brightness per node in sets of one colour each.
 // docs/raymarch.md, "Skylight".
 #pragma once
+#include <array>
+
 #include "kernels_cpu/raymarch/raymarch_params.h"
 #include "src/plan/array.h"
 #include "src/run/context.h"
@@ -23,6 +25,10 @@ struct SkyNodes {
 /// are one each, a map has one for each channel with the ground in it.
 NodeGrid sky_node_grid(const Medium& medium);
 int sky_node_sets(const Lighting& lighting);
+
+/// Middles of equal parts of the sphere, the lower half first: unit vectors.
+constexpr int kSkyParts = 24;
+std::array<float, 3> sky_direction(int part);
 
 namespace arrays {
 

@@ -132,6 +132,11 @@ void check_output(SceneCheck& check) {
                 layers->at, "output.layers",
                 "a flat detector sees no shadows, \"shadow\", allowed: other layers, or "
                 "another camera.projection");
+    if (check.scene.output.layer_occlusion && check.scene.method != "particles")
+        if (const Node* layers = check.key("output.layers"))
+            check.faults.add(layers->at, "output.layers",
+                             "by method particles alone, \"occlusion\", allowed: other layers, or "
+                             "method.name = \"particles\"");
     const Node* files = check.valid_key("output.files");
     if (files == nullptr) return;
     for (const Node& file : files->children) {

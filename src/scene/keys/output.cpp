@@ -24,7 +24,8 @@ constexpr Layer kLayerFlags[] = {{"depth", &OutputSettings::layer_depth},
                                  {"light", &OutputSettings::layer_light},
                                  {"order", &OutputSettings::layer_order},
                                  {"reflectance", &OutputSettings::layer_reflectance},
-                                 {"shadow", &OutputSettings::layer_shadow}};
+                                 {"shadow", &OutputSettings::layer_shadow},
+                                 {"occlusion", &OutputSettings::layer_occlusion}};
 
 constexpr KeyField kLayers{KeyKind::kTexts,
                            [](const KeySource& s) {
@@ -66,7 +67,7 @@ constexpr KeyRow kRows[] = {
      "JSON report to write, relative to the scene's folder; empty: none"},
     {"output.layers", kLayers,
      one_of("radiance|alpha|depth|error|cloud|optical_depth|transmittance|light|order|reflectance|"
-            "shadow"),
+            "shadow|occlusion"),
      "", "layers of the picture; radiance and alpha are always there"},
     {"animation.frames", animation<&Animation::frames>, from_to(1, 1000000), "",
      "number of pictures"},
