@@ -2,6 +2,8 @@
 // Lights that a host sets and moves: the bits of a scene that has them.
 // in: small scenes without lights -> out: hashes of pictures.
 // docs/embedding.md, "What may change"; docs/lights.md
+#include <cstddef>
+
 #include "tests/embed/host_harness.h"
 
 using namespace host_test;
@@ -121,6 +123,56 @@ TEST_CASE("lights of a host: moved back and taken away") {
         set(host, {});
         host.step(host.whole());
         CHECK(host.hash() == program_hashes(scene_for(method, ""), with(method))[0]);
+    }
+}
+
+TEST_CASE("lights of a host: places on spheres") {
+    const auto text = [](const char* samples) {
+        std::string own = kText;
+        const std::string radius = "radius_m = 2\n";
+        return own.replace(own.find(radius), radius.size(),
+                           std::string("radius_m = 300\n") + samples);
+    };
+    for (const char* method : {"raymarch", "path", "particles"}) {
+        CAPTURE(std::string(method));
+        Hosted host(scene_for(method, ""), with(method));
+        REQUIRE_MESSAGE(host.code == PILEUS_OK, host.out.line());
+        std::string last;
+        for (const int samples : {0, 1, 5}) {
+            auto all = lights();
+            all[0].radius_m = 300;
+            all[0].shadow_samples = std::uint32_t(samples);
+            set(host, all);
+            host.step(host.whole());
+            const std::string key =
+                samples > 0 ? "shadow_samples = " + std::to_string(samples) + "\n" : "";
+            CHECK(host.hash() ==
+                  program_hashes(scene_for(method, text(key.c_str())), with(method))[0]);
+            CHECK(host.hash() != last);
+            last = host.hash();
+        }
+        auto all = lights();
+        all[0].shadow_samples = 65;
+        CHECK(pileus_session_set_lights(host.session.get(), all.data(), 3, &host.out.error) ==
+              PILEUS_BAD_INPUT);
+        CHECK(std::string(host.out.error.message)
+                  .find("light.shadow_samples: 65, allowed: 0 to 64") != std::string::npos);
+        // Programs that were built before the field have padding at its end.
+        struct Shorter {
+            alignas(8) unsigned char bytes[offsetof(pileus_light, shadow_samples)];
+        };
+        Shorter older[3];
+        for (std::size_t i = 0; i < 3; ++i) {
+            pileus_light light = lights()[i];
+            light.struct_size = sizeof(Shorter);
+            light.reserved = 0xffffffffu;
+            if (i == 0) light.radius_m = 300;
+            std::memcpy(&older[i], &light, sizeof(Shorter));
+        }
+        host.check(pileus_session_set_lights(
+            host.session.get(), reinterpret_cast<const pileus_light*>(older), 3, &host.out.error));
+        host.step(host.whole());
+        CHECK(host.hash() == program_hashes(scene_for(method, text("")), with(method))[0]);
     }
 }
 
