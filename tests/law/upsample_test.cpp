@@ -163,3 +163,50 @@ TEST_CASE("Scales that are none are faults of one line") {
         CHECK(status.message.find('\n') == std::string::npos);
     }
 }
+
+TEST_CASE("Photons' light, marched for few pixels: these have the bits of the whole picture") {
+    for (const char* method : {"collectors", "photon-grid"}) {
+        CAPTURE(method);
+        const std::string key = std::string(method) == "collectors" ? "collectors" : "photon_grid";
+        const auto shown = [&](const std::string& setting) {
+            return render_one(
+                scene_from(kSmallCumulus,
+                           {"method.name = \"" + std::string(method) + "\"",
+                            "camera.resolution = [45, 27]", key + "." + setting,
+                            "output.layers = [\"radiance\", \"alpha\", \"depth\", \"cloud\"]"}));
+        };
+        const Picture whole = shown("scale = 1");
+        for (int scale : {2, 4}) {
+            const Picture thin = shown("scale = " + std::to_string(scale));
+            int other = 0;
+            for (int y = 0; y < 27; ++y)
+                for (int x = 0; x < 45; ++x)
+                    for (const char* channel : {"R", "G", "B", "A", "Z", "cloud.R"}) {
+                        const bool same = thin.at(channel, x, y) == whole.at(channel, x, y);
+                        const bool marched = x % scale == scale / 2 && y % scale == scale / 2;
+                        CHECK((same || !marched));
+                        other += same ? 0 : 1;
+                    }
+            CHECK(other > 100);
+        }
+    }
+}
+
+TEST_CASE("Photons' light, thinned: what has every pixel marched is refused in one line") {
+    const auto told = [](const Overrides& overrides) {
+        Report report;
+        Overrides all{"method.name = \"collectors\""};
+        all.insert(all.end(), overrides.begin(), overrides.end());
+        return render(scene_from(kSmallCumulus, all), {},
+                      [](int, Image&, Report&) { return Status::ok(); })
+            .message;
+    };
+    CHECK(told({"collectors.scale = 2"}).find("the layer \"error\" has every pixel marched") !=
+          std::string::npos);
+    CHECK(told({"collectors.temporal = 3"}).find("allowed: 0, 2, 4") != std::string::npos);
+    CHECK(told({"collectors.scale = 2", "collectors.temporal = 2"})
+              .find("1 where collectors.temporal thins out pixels already") != std::string::npos);
+    CHECK(told({"collectors.scale = 2", "collectors.display = \"billboards\"",
+                "output.layers = [\"radiance\"]"})
+              .find("\"billboards\" has no marched pixels") != std::string::npos);
+}

@@ -33,6 +33,12 @@ const std::vector<Way>& ways() {
     static const std::vector<Way> all{
         {"march", {"method.name=\"collectors\"", "collectors.display=\"march\""}},
         {"billboards", {"method.name=\"collectors\"", "collectors.display=\"billboards\""}},
+        {"quick march",
+         {"method.name=\"collectors\"", "collectors.scale=4", "collectors.light_refresh=8",
+          "collectors.photons=1000000"}},
+        {"quick billboards",
+         {"method.name=\"collectors\"", "collectors.display=\"billboards\"",
+          "collectors.light_refresh=8", "collectors.photons=1000000"}},
         {"octaves", {"method.name=\"raymarch\"", "raymarch.scattering=\"octaves\""}},
         {"temporal",
          {"method.name=\"raymarch\"", "raymarch.scattering=\"octaves\"", "raymarch.temporal=4",
