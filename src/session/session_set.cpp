@@ -132,6 +132,7 @@ Status Session::set_ground(const Ground& ground) {
     if (same_ground(ground, ground_)) return Status::ok();
     Scene changed = scene_;
     changed.ground = ground;
+    changed.lights = lights_;
     changed.camera = camera_;
     PILEUS_TRY(check_changed(std::move(changed)));
     if (ground.present != ground_.present && run_->around.sky_map.present())
@@ -146,6 +147,7 @@ Status Session::set_lights(const std::vector<LightSettings>& lights) {
     if (lights == lights_) return Status::ok();
     Scene changed = scene_;
     changed.lights = lights;
+    changed.ground = ground_;
     PILEUS_TRY(check_host_lights(context_, changed, run_->world->medium));
     PILEUS_TRY(check_changed(std::move(changed)));
     lights_ = lights;
