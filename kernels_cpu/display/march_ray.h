@@ -16,7 +16,8 @@ PILEUS_FN Vec<T> along(const Ray<T>& r, T t) {
             r.origin.z + r.direction.z * t};
 }
 
-/// Bound on the density around `p` (voxels), and metres from there to the end of its block.
+/// Bound on the density around `p` (voxels), and metres from there to the end of its block, or of
+/// the cube of empty blocks around it. Where all blocks hold medium nobody leaps: `rest` is 0.
 template <class T>
 struct Block {
     T bound, rest;
@@ -28,16 +29,19 @@ PILEUS_FN Block<T> block_ahead(const MediumView& m, const Vec<T>& p, const Vec<T
         return min_(max_(to_int(v * (1.0f / m.block)), II{}), all<II>(m.blocks[axis] - 1));
     };
     const II x = index(p.x, 0), y = index(p.y, 1), z = index(p.z, 2);
+    const T bound = gather(m.majorant, (z * m.blocks[1] + y) * m.blocks[0] + x);
+    if (!any(bound <= 0.0f)) return {bound, T{}};
+    const T free = max_(T{} - bound, T{});
     const auto rest = [&](II i, T v, T direction, int axis) {
         const auto forward = direction >= 0.0f;
+        const T block = to_float(i) + select(forward, free + 1.0f, T{} - free);
         // The grid may end within its last block; behind it the next period's begins.
-        const T face =
-            min_(to_float(select(forward, i + 1, i)) * m.block, all<T>(float(m.size[axis])));
-        const T safe = max_(abs_(direction), all<T>(1e-18f));
-        return select(forward, face - v, v - face) * m.cell[axis] / safe;
+        const T face = min_(max_(block * m.block, T{}), all<T>(float(m.size[axis])));
+        const T per_voxel = m.cell[axis] / max_(abs_(direction), all<T>(1e-18f));
+        return select(forward, face - v, v - face) * per_voxel;
     };
     const T t = min_(min_(rest(x, p.x, d.x, 0), rest(y, p.y, d.y, 1)), rest(z, p.z, d.z, 2));
-    return {gather(m.majorant, (z * m.blocks[1] + y) * m.blocks[0] + x), max_(t, T{})};
+    return {bound, max_(t, T{})};
 }
 
 /// The cells that are read for the density at `p`, voxels.
@@ -128,9 +132,13 @@ PILEUS_FN void march_ray(const MediumView& m, const Ray<T>& ray, T enter, T leav
             alive = alive & lnot(dense & ended) & (enter + n < leave);
             continue;
         }
-        // Jump to the last step whose middle lies in an empty block; it adds nothing either.
-        const T skipped = to_float(to_int(min_(block.rest * per_metre, all<T>(1e6f))));
-        n = select(dense, n + 1.0f, n + max_(skipped, all<T>(1.0f)));
+        // Jump to the last step whose middle lies in empty blocks; it adds nothing either.
+        T ahead = all<T>(1.0f);
+        if (any(lnot(dense))) {
+            const T skipped = to_float(to_int(min_(block.rest * per_metre, all<T>(1e6f))));
+            ahead = select(dense, ahead, max_(skipped, ahead));
+        }
+        n = n + ahead;
         alive = alive & lnot(dense & ended) & (enter + n * step < leave);
     }
 }

@@ -9,6 +9,7 @@
 #include "src/methods/collectors/collectors_memory.h"
 #include "src/methods/collectors/photons/source_grid.h"
 #include "src/photons/lit_march.h"
+#include "src/picture/march_view.h"
 
 namespace pileus {
 namespace {
@@ -48,6 +49,7 @@ SplatOptions splat_options(const CollectorsRun& run) {
     SplatOptions options;
     options.radius_factor = kSplatFactor;
     options.periodic = run.world->medium.grid.periodic;
+    options.medium = make_medium_view(run.world->medium, run.majorants);
     options.prior_mass = scatterings > 0 ? float(kPriorScatterings * mass / scatterings) : 0.0f;
     return options;
 }

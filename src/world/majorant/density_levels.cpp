@@ -61,7 +61,7 @@ Status make_density_levels(const Medium& medium, int levels, int block, const Co
             halve_slice(fine, from, to, int(z), level.density.span());
         });
         PILEUS_TRY(
-            majorant_grid(level.density.span(), to, block, context.threads, level.majorants));
+            make_skip_blocks(level.density.span(), to, block, context.threads, level.majorants));
         fine = level.density.span();
         from = to;
     }

@@ -6,6 +6,17 @@
 
 namespace pileus {
 
+Status make_skip_blocks(Span<const float> density, const Grid& grid, int block, int threads,
+                        Buffer<float>& skipping) {
+    PILEUS_TRY(majorant_grid(density, grid, block, threads, skipping));
+    // Beyond a periodic grid lies the next period, not emptiness.
+    if (grid.periodic) return Status::ok();
+    int counts[3];
+    block_counts(grid, block, counts);
+    mark_empty_blocks(skipping.span(), counts, threads);
+    return Status::ok();
+}
+
 Status make_majorants(const Medium& medium, bool local, const Context& context, Majorants& out,
                       const TrackingCosts& costs) {
     const StageClock clock(context, "majorants");
@@ -20,7 +31,7 @@ Status make_majorants(const Medium& medium, bool local, const Context& context, 
         out.block = choice.block;
     }
     PILEUS_TRY(majorant_grid(density, medium.grid, out.block, context.threads, out.tracking));
-    return majorant_grid(density, medium.grid, out.skip_block, context.threads, out.skipping);
+    return make_skip_blocks(density, medium.grid, out.skip_block, context.threads, out.skipping);
 }
 
 Status make_photon_majorants(const Medium& medium, bool local, const Context& context,

@@ -17,6 +17,11 @@ struct Majorants {
     int skip_block = kSkipBlock;  ///< its edge, voxels
 };
 
+/// Blocks that marches skip by: the largest density of each, and where that is 0, minus the empty
+/// blocks on all sides (mark_empty_blocks), unless the grid is periodic. kLimit: out of memory.
+Status make_skip_blocks(Span<const float> density, const Grid& grid, int block, int threads,
+                        Buffer<float>& skipping);
+
 /// The tracking blocks and the skipping blocks; `costs` of tracking choose the former. Not `local`:
 /// one tracking block for the whole grid. kLimit: out of memory.
 Status make_majorants(const Medium& medium, bool local, const Context& context, Majorants& out,

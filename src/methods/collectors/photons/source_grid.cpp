@@ -29,43 +29,112 @@ Range nodes_within(float centre, float radius, float per_metre, int size, bool w
     return {first < size ? first : size, last};
 }
 
-/// Adds every ball's share to the nodes of one slice, in the order of the collectors.
-void splat_slice(Span<const Collector> collectors, Span<const float> colour, int channels,
-                 const NodeGrid& g, const SplatOptions& options, int z, Span<float> source,
-                 float* weights) {
-    const bool wraps = options.periodic;
+/// How far each ball reaches, and the numbers of those over each slice, rising: those over slice z
+/// begin at first[z].
+struct Balls {
+    std::vector<float> radius;
+    std::vector<std::uint32_t> first, numbers;
+};
+
+void list_balls(Span<const Collector> collectors, const NodeGrid& g, const SplatOptions& options,
+                Balls& out) {
     float coarsest = g.per_metre[0];
     for (float n : g.per_metre) coarsest = n < coarsest ? n : coarsest;
     const float least = 1.2f / coarsest;
-    const std::size_t nodes = std::size_t(node_count(g)), count = collectors.size;
-    const float pz = (float(z) + 0.5f) / g.per_metre[2];
-    for (std::size_t c = 0; c < count; ++c) {
-        const Collector& k = collectors[c];
+    out.first.assign(std::size_t(g.size[2]) + 1, 0);
+    std::vector<Range> slices;
+    slices.reserve(collectors.size);
+    out.radius.reserve(collectors.size);
+    for (const Collector& k : collectors) {
         const float wide = k.radius * options.radius_factor;
         const float radius = wide > least ? wide : least;
+        out.radius.push_back(radius);
+        slices.push_back(nodes_within(k.centre[2], radius, g.per_metre[2], g.size[2], false));
+        for (int z = slices.back().first; z < slices.back().last; ++z)
+            ++out.first[std::size_t(z) + 1];
+    }
+    for (std::size_t z = 1; z < out.first.size(); ++z) out.first[z] += out.first[z - 1];
+    out.numbers.resize(out.first.back());
+    std::vector<std::uint32_t> next = out.first;
+    for (std::size_t c = 0; c < slices.size(); ++c)
+        for (int z = slices[c].first; z < slices[c].last; ++z)
+            out.numbers[next[std::size_t(z)]++] = std::uint32_t(c);
+}
+
+/// Adds every ball's share to the nodes of one slice, in the order of the collectors.
+void splat_slice(Span<const Collector> collectors, Span<const float> colour, int channels,
+                 const NodeGrid& g, const SplatOptions& options, const Balls& balls, int z,
+                 Span<float> source, float* weights, std::vector<Range>& touched) {
+    const bool wraps = options.periodic;
+    const std::size_t nodes = std::size_t(node_count(g)), count = collectors.size;
+    const std::size_t columns = std::size_t(g.size[0]);
+    const float pz = (float(z) + 0.5f) / g.per_metre[2];
+    for (std::size_t b = balls.first[std::size_t(z)]; b < balls.first[std::size_t(z) + 1]; ++b) {
+        const std::size_t c = balls.numbers[b];
+        const Collector& k = collectors[c];
+        const float radius = balls.radius[c];
         const float dz = pz - k.centre[2], inverse = 1.0f / (radius * radius);
         if (dz * dz >= radius * radius) continue;
         const Range ys = nodes_within(k.centre[1], radius, g.per_metre[1], g.size[1], wraps);
         const Range xs = nodes_within(k.centre[0], radius, g.per_metre[0], g.size[0], wraps);
         for (int y = ys.first; y < ys.last; ++y) {
             const float dy = (float(y) + 0.5f) / g.per_metre[1] - k.centre[1];
+            const int row_y = wraps ? wrapped(y, g.size[1]) : y;
+            const std::size_t row = std::size_t(row_y) + std::size_t(z) * std::size_t(g.size[1]);
+            Range& own = touched[row];
+            own.first = wraps ? 0 : (xs.first < own.first ? xs.first : own.first);
+            own.last = wraps ? g.size[0] : (xs.last > own.last ? xs.last : own.last);
             for (int x = xs.first; x < xs.last; ++x) {
                 const float dx = (float(x) + 0.5f) / g.per_metre[0] - k.centre[0];
                 const float near = 1.0f - (dx * dx + dy * dy + dz * dz) * inverse;
                 if (near <= 0) continue;
                 const float w = near * near * float(k.mass);
-                const int column_x = wraps ? wrapped(x, g.size[0]) : x;
-                const int column_y = wraps ? wrapped(y, g.size[1]) : y;
-                const std::size_t column =
-                    std::size_t(column_y) * std::size_t(g.size[0]) + std::size_t(column_x);
-                const std::size_t node =
-                    std::size_t(z) * std::size_t(g.size[0]) * std::size_t(g.size[1]) + column;
-                weights[column] += w;
+                const std::size_t column = std::size_t(wraps ? wrapped(x, g.size[0]) : x);
+                weights[row * columns + column] += w;
                 for (int i = 0; i < channels; ++i)
-                    source[std::size_t(i) * nodes + node] += w * colour[std::size_t(i) * count + c];
+                    source[std::size_t(i) * nodes + row * columns + column] +=
+                        w * colour[std::size_t(i) * count + c];
             }
         }
     }
+}
+
+/// Nodes of each row that a march through the medium can read.
+std::vector<Range> rows_to_read(const NodeGrid& g, const SplatOptions& options) {
+    const std::size_t rows = std::size_t(g.size[1]) * std::size_t(g.size[2]);
+    const MediumView& m = options.medium;
+    if (m.density == nullptr || options.periodic)
+        return std::vector<Range>(rows, Range{0, g.size[0]});
+    std::vector<Range> out(rows, Range{g.size[0], 0});
+    // A place at a block's face may be read as lying in either block: a tenth of a voxel holds
+    // that.
+    constexpr float kAround = 0.1f;
+    const auto reach = [&](int block, int axis) {
+        const float per_voxel = m.cell[axis] * g.per_metre[axis];
+        const float low = (float(block) * m.block - kAround) * per_voxel - 0.5f;
+        const float high = (float(block + 1) * m.block + kAround) * per_voxel - 0.5f;
+        const int size = g.size[axis], first = floor_int(low), last = floor_int(high) + 2;
+        return Range{first < 0 ? 0 : (first < size ? first : size - 1), last < size ? last : size};
+    };
+    std::size_t n = 0;
+    for (int z = 0; z < m.blocks[2]; ++z)
+        for (int y = 0; y < m.blocks[1]; ++y) {
+            const float* row = m.majorant + n;
+            n += std::size_t(m.blocks[0]);
+            int first = 0, last = m.blocks[0];
+            while (first < last && !(row[first] > 0)) ++first;
+            while (last > first && !(row[last - 1] > 0)) --last;
+            if (first == last) continue;
+            const Range xs{reach(first, 0).first, reach(last - 1, 0).last};
+            const Range ys = reach(y, 1), zs = reach(z, 2);
+            for (int k = zs.first; k < zs.last; ++k)
+                for (int j = ys.first; j < ys.last; ++j) {
+                    Range& own = out[std::size_t(k) * std::size_t(g.size[1]) + std::size_t(j)];
+                    own.first = xs.first < own.first ? xs.first : own.first;
+                    own.last = xs.last > own.last ? xs.last : own.last;
+                }
+        }
+    return out;
 }
 
 /// One level of the pyramid: sums over 2^level nodes along each axis.
@@ -103,18 +172,22 @@ Status make_pyramid(const NodeGrid& g, int channels, Pyramid& p) {
     return allocate(arrays::source_grid(std::uint64_t(channels), nodes), p.source);
 }
 
-/// Adds the eight children of each node of `up` in slice z.
-void sum_slice(const Level& fine, const Level& up, int channels, int z, Pyramid& p) {
+/// Adds the eight children of each node of `up` in slice z; of each row of `fine` those within
+/// `touched`, or all where that is null.
+void sum_slice(const Level& fine, const Level& up, const Range* touched, int channels, int z,
+               Pyramid& p) {
     const auto add = [&](const float* from, float* to) {
         for (int dz = 2 * z; dz < 2 * z + 2 && dz < fine.size[2]; ++dz)
-            for (int y = 0; y < fine.size[1]; ++y)
-                for (int x = 0; x < fine.size[0]; ++x)
-                    to[(std::size_t(z) * std::size_t(up.size[1]) + std::size_t(y / 2)) *
-                           std::size_t(up.size[0]) +
-                       std::size_t(x / 2)] +=
-                        from[(std::size_t(dz) * std::size_t(fine.size[1]) + std::size_t(y)) *
-                                 std::size_t(fine.size[0]) +
-                             std::size_t(x)];
+            for (int y = 0; y < fine.size[1]; ++y) {
+                const std::size_t row =
+                    std::size_t(dz) * std::size_t(fine.size[1]) + std::size_t(y);
+                const std::size_t above =
+                    std::size_t(z) * std::size_t(up.size[1]) + std::size_t(y / 2);
+                const Range xs = touched != nullptr ? touched[row] : Range{0, fine.size[0]};
+                for (int x = xs.first; x < xs.last; ++x)
+                    to[above * std::size_t(up.size[0]) + std::size_t(x / 2)] +=
+                        from[row * std::size_t(fine.size[0]) + std::size_t(x)];
+            }
     };
     add(p.weights.data() + fine.weights, p.weights.data() + up.weights);
     for (int c = 0; c < channels; ++c)
@@ -122,11 +195,14 @@ void sum_slice(const Level& fine, const Level& up, int channels, int z, Pyramid&
             p.source.data() + up.source + std::size_t(c) * up.nodes());
 }
 
-/// Turns sums into means that lean on the coarser level's where they hold less than `prior`.
-void settle_slice(const Level& fine, const Level* up, float prior, bool wraps, int z, Pyramid& p) {
+/// Turns sums into means that lean on the coarser level's where they hold less than `prior`; of
+/// each row those within `read`, or all where that is null.
+void settle_slice(const Level& fine, const Level* up, const Range* read, float prior, bool wraps,
+                  int z, Pyramid& p) {
     const float* weights = p.weights.data() + fine.weights;
-    for (int y = 0; y < fine.size[1]; ++y)
-        for (int x = 0; x < fine.size[0]; ++x) {
+    for (int y = 0; y < fine.size[1]; ++y) {
+        const Range xs = read != nullptr ? read[z * fine.size[1] + y] : Range{0, fine.size[0]};
+        for (int x = xs.first; x < xs.last; ++x) {
             const std::size_t node = (std::size_t(z) * std::size_t(fine.size[1]) + std::size_t(y)) *
                                          std::size_t(fine.size[0]) +
                                      std::size_t(x);
@@ -147,6 +223,7 @@ void settle_slice(const Level& fine, const Level* up, float prior, bool wraps, i
                 v = (v + prior * interpolate(coarse, around)) / (w + prior);
             }
         }
+    }
 }
 
 }  // namespace
@@ -161,22 +238,27 @@ Status splat_colours(Span<const Collector> collectors, Span<const float> colour,
                      Buffer<float>& source) {
     Pyramid p;
     PILEUS_TRY(make_pyramid(nodes, channels, p));
-    const std::size_t slice = std::size_t(nodes.size[0]) * std::size_t(nodes.size[1]);
+    Balls balls;
+    list_balls(collectors, nodes, options, balls);
+    const std::size_t rows = std::size_t(nodes.size[1]) * std::size_t(nodes.size[2]);
+    std::vector<Range> touched(rows, Range{nodes.size[0], 0});
     parallel_for(threads, nodes.size[2], [&](std::int64_t z, int) {
-        splat_slice(collectors, colour, channels, nodes, options, int(z), p.source.span(),
-                    p.weights.data() + std::size_t(z) * slice);
+        splat_slice(collectors, colour, channels, nodes, options, balls, int(z), p.source.span(),
+                    p.weights.data(), touched);
     });
     for (std::size_t l = 1; l < p.levels.size(); ++l)
         parallel_for(threads, p.levels[l].size[2], [&](std::int64_t z, int) {
-            sum_slice(p.levels[l - 1], p.levels[l], channels, int(z), p);
+            sum_slice(p.levels[l - 1], p.levels[l], l == 1 ? touched.data() : nullptr, channels,
+                      int(z), p);
         });
     // A prior of nothing would divide zero by zero where no collector reaches.
     const float prior = options.prior_mass > 1e-30f ? options.prior_mass : 1e-30f;
+    const std::vector<Range> read = rows_to_read(nodes, options);
     for (std::size_t l = p.levels.size(); l-- > 0;)
         parallel_for(threads, p.levels[l].size[2], [&](std::int64_t z, int) {
             const bool top = l + 1 == p.levels.size();
-            settle_slice(p.levels[l], top ? nullptr : &p.levels[l + 1], prior, options.periodic,
-                         int(z), p);
+            settle_slice(p.levels[l], top ? nullptr : &p.levels[l + 1],
+                         l == 0 ? read.data() : nullptr, prior, options.periodic, int(z), p);
         });
     source.swap(p.source);
     return Status::ok();

@@ -30,6 +30,9 @@ struct SplatOptions {
     float radius_factor = 1.2f;  ///< ball over the collector's radius
     float prior_mass = 0;        ///< m^3 of medium, the weight of what lies around; see below
     bool periodic = false;       ///< balls reach over the faces across x and y to the far side
+    /// Where medium is, so that no other nodes of the finest level are made: they hold sums that
+    /// nobody may read. Without a density all nodes are made.
+    MediumView medium{};
 };
 
 /// Weighted mean per node over the collectors whose ball (radius_factor times the collector's
