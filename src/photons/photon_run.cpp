@@ -196,7 +196,7 @@ Status shoot_generation(TraceInput in, const Context& context, PhotonRun& run) {
         run.ring && run.photons.slots.size() == run.generations && run.scene->animation.present;
     if (ring && slot.generations > 0) {
         take_out(number, context.threads, run.photons, run.ring_sum);
-        empty_slot(slot);
+        empty_slot(slot, context.threads);
     }
     slot.flux_per_photon_m2.clear();
     for (const Light& l : run.lighting.lights) {

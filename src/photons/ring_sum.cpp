@@ -82,7 +82,7 @@ Status sum_ring(const SlotSize& size, std::size_t lights, std::size_t newest, in
     if (ring.sum.sums.size() != sums.count || ring.unit != unit ||
         ring.counted.size() != photons.slots.size() || !is_sound(photons, ring)) {
         PILEUS_TRY(allocate_once(sums, ring.sum.sums));
-        empty_slot(ring.sum);
+        empty_slot(ring.sum, threads);
         ring.unit = unit;
         ring.counted.assign(photons.slots.size(), 0);
     }

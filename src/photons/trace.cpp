@@ -75,12 +75,29 @@ Status run_launch(const Launch& launch, int threads, bool& ended) {
     return Status::ok();
 }
 
-/// Adds one thread's sums to the total and leaves zeros behind.
-void move_sums(std::int64_t* own, std::int64_t* total, std::uint64_t count) {
-    for (std::uint64_t i = 0; i < count; ++i) {
-        total[i] += own[i];
-        own[i] = 0;
-    }
+/// Numbers that one thread takes at a time.
+constexpr std::uint64_t kPiece = 1u << 15;
+
+/// Calls function(begin, end) for pieces of `count` numbers.
+template <class Function>
+void in_pieces(std::uint64_t count, int threads, Function function) {
+    parallel_for(threads, std::int64_t((count + kPiece - 1) / kPiece), [&](std::int64_t p, int) {
+        const std::uint64_t begin = std::uint64_t(p) * kPiece;
+        function(begin, begin + kPiece < count ? begin + kPiece : count);
+    });
+}
+
+/// Adds all threads' own sums to the total and leaves zeros behind.
+void move_sums(TraceScratch& scratch, std::int64_t* total, std::uint64_t count, int threads) {
+    in_pieces(count, threads, [&](std::uint64_t begin, std::uint64_t end) {
+        for (int t = 0; t < threads; ++t) {
+            std::int64_t* own = scratch.sums.data() + std::uint64_t(t) * scratch.stride;
+            for (std::uint64_t i = begin; i < end; ++i) {
+                total[i] += own[i];
+                own[i] = 0;
+            }
+        }
+    });
 }
 
 void add_fates(const Fates& from, Fates& to) {
@@ -155,8 +172,10 @@ void add_tally(const TraceTally& from, TraceTally& to) {
     to.bounces += from.bounces;
 }
 
-void empty_slot(PhotonSlot& slot) {
-    std::memset(slot.sums.data(), 0, std::size_t(slot.sums.bytes()));
+void empty_slot(PhotonSlot& slot, int threads) {
+    in_pieces(slot.sums.size(), threads, [&](std::uint64_t begin, std::uint64_t end) {
+        std::memset(slot.sums.data() + begin, 0, sizeof(std::int64_t) * std::size_t(end - begin));
+    });
     slot.generations = 0;
     slot.scatterings = 0;
     slot.parts.clear();
@@ -216,10 +235,8 @@ Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScr
             launch.params.shift[0] += std::uint32_t(launch.count) * kR2[0];
             launch.params.shift[1] += std::uint32_t(launch.count) * kR2[1];
         }
+        if (!adds_directly(in)) move_sums(scratch, launch.total, stride, in.threads);
         for (int t = 0; t < in.threads; ++t) {
-            if (!adds_directly(in))
-                move_sums(scratch.sums.data() + std::uint64_t(t) * scratch.stride, launch.total,
-                          stride);
             slot.scatterings += scratch.tallies[std::size_t(t) * 2].scatterings;
             photons += scratch.tallies[std::size_t(t) * 2].photons;
             add_tally(scratch.tallies[std::size_t(t) * 2], tallies[l]);

@@ -85,7 +85,7 @@ struct PhotonSlot {
 };
 
 /// Forgets what was shot into it.
-void empty_slot(PhotonSlot& slot);
+void empty_slot(PhotonSlot& slot, int threads);
 
 struct Photons {
     std::vector<PhotonSlot> slots;

@@ -146,7 +146,7 @@ Status shoot(const FluxTask& task, const TraceInput& in, std::size_t lights, Flu
         if (slot.generations == 0)
             return {Code::kCheckFailed, "interrupted before all was measured; nothing written"};
         tally.add(slot);
-        empty_slot(slot);
+        empty_slot(slot, in.threads);
         task.context.tell("photons", double(b + 1) / kFluxBatches);
     }
     return Status::ok();

@@ -17,7 +17,7 @@ constexpr std::size_t kLights = 2, kSlots = 4;
 
 /// Numbers of generation g, of every size and sign that sums have.
 void shoot(std::uint64_t g, double flux, PhotonSlot& slot) {
-    empty_slot(slot);
+    empty_slot(slot, 1);
     for (std::size_t i = 0; i < slot.sums.size(); ++i) {
         const std::int64_t v = std::int64_t((g * 7919 + i * 104729) % 1000003) - 400000;
         slot.sums[i] = v << (i % 30);

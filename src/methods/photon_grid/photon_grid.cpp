@@ -240,7 +240,7 @@ Status photon_grid_light(const FrameStep& step, const Context& context, PhotonGr
     // where it is.
     if (scene.animation.present) {
         set_photon_sun(sun_at(scene, step.frame), run);
-        for (PhotonSlot& slot : run.photons.slots) empty_slot(slot);
+        for (PhotonSlot& slot : run.photons.slots) empty_slot(slot, context.threads);
         run.next_generation = run.ring_first = 0;
     }
     if (run.budget.error > 0) {

@@ -131,7 +131,7 @@ Status aim(int, bool anew, const Context& context, MethodRun& method_run) {
         return lay_out_photons(photon_grid_trace_input(context, run), run);
     }
     if (run.ring || same_lights(before, run.lighting)) return Status::ok();
-    for (PhotonSlot& slot : run.photons.slots) empty_slot(slot);
+    for (PhotonSlot& slot : run.photons.slots) empty_slot(slot, context.threads);
     run.next_generation = run.ring_first = 0;
     run.photons.tallies.assign(run.lighting.lights.size(), TraceTally{});
     return Status::ok();
