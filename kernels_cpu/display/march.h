@@ -5,6 +5,7 @@
 #pragma once
 #include "kernels_cpu/core/pixel_block.h"
 #include "kernels_cpu/core/sh.h"
+#include "kernels_cpu/display/lit_nodes.h"
 #include "kernels_cpu/display/march_ray.h"
 #include "kernels_cpu/media/phase_table.h"
 
@@ -136,12 +137,27 @@ PILEUS_FN void light_along(const MarchParams& k, const float* source, const Corn
     }
 }
 
-/// Adds `weight` times all light that leaves towards the camera: `direct` and that of the nodes.
+/// Numbers of the quads at a place.
+template <class T>
+PILEUS_FN void read_quads(const MarchParams& k, const MarchBuffers& b, const Vec<T>& metres,
+                          M_of<T> wanted, T (&out)[4]) {
+    const Corners<T> c =
+        corners(node_position(k.source, metres), k.source.size, k.medium.periodic != 0);
+    interpolate_quads(b.quads, c, bits_of(wanted), out);
+}
+
+/// Adds `weight` times all light that leaves towards the camera: `direct` and that of the nodes,
+/// which `quad` holds where there are quads.
 template <int W>
 PILEUS_FN void add_source(const MarchParams& k, const MarchBuffers& b, const Vec<F<W>>& metres,
-                          const RayHarmonics<W>& h, const F<W> (&direct)[3], F<W> weight,
-                          F<W>* colour) {
+                          const RayHarmonics<W>& h, const F<W> (&direct)[3], const F<W> (&quad)[4],
+                          F<W> weight, F<W>* colour) {
     using T = F<W>;
+    if (b.quads != nullptr) {
+        for (int i = 0; i < 3; ++i)
+            colour[i] = colour[i] + weight * (quad[i] + (direct[i] + k.constant[i]));
+        return;
+    }
     const Corners<T> c =
         corners(node_position(k.source, metres), k.source.size, k.medium.periodic != 0);
     const std::int64_t nodes = std::int64_t(k.source.size[0]) * k.source.size[1] * k.source.size[2];
@@ -198,31 +214,35 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
     T transmittance = all<T>(1.0f), half = all<T>(__builtin_inff()), depth{};
     T colour[kMost];
     for (int c = 0; c < k.channels; ++c) colour[c] = T{};
+    Pace<T> pace;
     march_ray<Constant>(
-        k.medium, ray, box.enter, leave,
+        k.medium, ray, box.enter, leave, pace,
         [&](M<W> dense, T t, T width, const Vec<T>& p, const Vec<T>& metres) PILEUS_INLINED {
             if (!any(dense)) return transmittance < k.cut;
             const Corners<T> at = density_corners<Constant>(k.medium, p);
             const T density = read_density<Constant>(k.medium.density, at);
             const T optical = select(dense, density * k.medium.sigma * width, T{});
+            pace.inside = optical > 0.0f;
             if (!any(optical > 0.0f)) return transmittance < k.cut;
             depth = depth + optical;
             const T alpha = one_minus_exp(optical);
             const T weight = transmittance * alpha;
-            T direct[3] = {};
+            T direct[3] = {}, quad[4] = {};
+            if (b.quads != nullptr) read_quads(k, b, metres, optical > 0.0f, quad);
             if (sun.lit) {
-                const Vec<T> node = node_position(k.shadow, metres);
-                const Corners<T> near = corners(node, k.shadow.size, wraps);
-                const T tau = interpolate(b.optical_depth, near);
-                T light = exp_(T{} - tau), visible = all<T>(1.0f);
-                if constexpr (Veiled) {
-                    visible = interpolate(b.visibility, near);
-                    light = light * visible;
+                T tau = quad[3], visible = all<T>(1.0f);
+                if (Veiled || k.together == 0) {
+                    const Vec<T> node = node_position(k.shadow, metres);
+                    const Corners<T> near = corners(node, k.shadow.size, wraps);
+                    if (k.together == 0) tau = interpolate(b.optical_depth, near);
+                    if constexpr (Veiled) visible = interpolate(b.visibility, near);
                 }
+                T light = exp_(T{} - tau);
+                if constexpr (Veiled) light = light * visible;
                 sun_source_at<Constant>(k, b, sun, at, density, light, direct);
                 if (k.beam_sets > 0) add_beam(k, b, sun, tau, visible, direct);
             }
-            add_source<W>(k, b, metres, harmonics, direct, weight, colour);
+            add_source<W>(k, b, metres, harmonics, direct, quad, weight, colour);
             const T left = transmittance * (1.0f - alpha);
             if (b.half_depth != nullptr) {
                 const auto crosses = (transmittance > 0.5f) & (left <= 0.5f);
@@ -232,6 +252,8 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
                 }
             }
             transmittance = left;
+            for (int i = 0; i < kWiderSteps; ++i)
+                pace.stride = select(left < k.wider[i], all<T>(float(2 << i)), pace.stride);
             return transmittance < k.cut;
         });
     for_block<W>(k.lattice, x, y, end, [&](int l, std::int64_t pixel) {

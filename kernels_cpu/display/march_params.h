@@ -46,8 +46,13 @@ struct ShadowParams {
     float origin[3];  ///< of the nodes, m, box-local
     float to_sun[3];
 };
+/// Nodes along x, the last excluded; none where first >= last.
+struct NodeRange {
+    std::int32_t first, last;
+};
 struct ShadowBuffers {
-    float* optical_depth;  ///< nodes
+    float* optical_depth;             ///< nodes
+    const NodeRange* rows = nullptr;  ///< those of each row that are wanted; null: all
 };
 
 /// Harmonics of a node are stored in groups of so many, the last one filled up with zeros.
@@ -59,6 +64,8 @@ constexpr int kMostHarmonics = 64;
 constexpr int kBeamAngles = 1024, kBeamDepths = 32;
 constexpr float kBeamDepth = 4;
 constexpr int kBeamNumbers = (kBeamAngles + 1) * (kBeamDepths + 1);
+
+constexpr int kWiderSteps = 3;
 
 struct MarchParams {
     MediumView medium;
@@ -76,6 +83,9 @@ struct MarchParams {
     std::int32_t sets;       ///< 1..3 of such harmonics
     float set_colour[3][3];  ///< R G B of each
     float cut;               ///< stop below this transmittance
+    /// Below these transmittances, falling, steps are 2, 4 and 8 times as long; 0: they are not.
+    float wider[kWiderSteps];
+    std::int32_t together;  ///< 1: quads hold the optical depths, too
     std::int32_t
         beam_sets;       ///< tables of the sun's light that stays in its beam: 0, 1 or a channel
     float beam_rest[3];  ///< share of extinction that takes light out of the beam, by channel
@@ -93,6 +103,9 @@ struct MarchBuffers {
     float* ray_depth;           ///< [pixel], optical depth along the ray; null: not wanted
     const float* beam;          ///< [set][angle][depth], 1/sr; src/photons/beam.h
     const float* visibility;    ///< shadow nodes, share of the sun that no solid hides; null: all
+    /// [node][R, G, B, optical depth to the sun] in place of `source`, and, where the shadow nodes
+    /// are the same, of `optical_depth`; null: none. For three channels without bands.
+    const float* quads;
 };
 
 struct BackgroundParams {

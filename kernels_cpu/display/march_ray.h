@@ -29,7 +29,7 @@ PILEUS_FN Block<T> block_ahead(const MediumView& m, const Vec<T>& p, const Vec<T
         return min_(max_(to_int(v * (1.0f / m.block)), II{}), all<II>(m.blocks[axis] - 1));
     };
     const II x = index(p.x, 0), y = index(p.y, 1), z = index(p.z, 2);
-    const T bound = gather(m.majorant, (z * m.blocks[1] + y) * m.blocks[0] + x);
+    const T bound = gather(m.majorant, z * (m.blocks[1] * m.blocks[0]) + (y * m.blocks[0] + x));
     if (!any(bound <= 0.0f)) return {bound, T{}};
     const T free = max_(T{} - bound, T{});
     const auto rest = [&](II i, T v, T direction, int axis) {
@@ -100,12 +100,20 @@ PILEUS_FN Vec<T> in_voxels(const MediumView& m, const Vec<T>& q) {
     return {q.x * (1.0f / m.cell[0]), q.y * (1.0f / m.cell[1]), q.z * (1.0f / m.cell[2])};
 }
 
+/// How a march goes on, which its samples may change for the next step.
+template <class T>
+struct Pace {
+    T stride = all<T>(1.0f);  ///< steps to take at once: 1, 2, 4 ...
+    M_of<T> inside{};         ///< there was medium: no block is asked whether there is some ahead
+};
+
 /// Visits the middles of steps that start at enter + n step; the last one ends at `leave`. Through
 /// constant voxels a step ends at the voxel's face, too, so that sums of densities are exact.
 /// `sample(dense, t, width, voxel position, metres)`, both places within one period, may return
-/// lanes that are finished.
+/// lanes that are finished. Every lane goes its own way, whatever the others do.
 template <bool Constant, class T, class Sample>
-PILEUS_FN void march_ray(const MediumView& m, const Ray<T>& ray, T enter, T leave, Sample sample) {
+PILEUS_FN void march_ray(const MediumView& m, const Ray<T>& ray, T enter, T leave,
+                         const Pace<T>& pace, Sample sample) {
     T n{};  // steps; through constant voxels metres
     auto alive = enter < leave;
     // A flat voxel sets the step for rays along it, too: bound their number (docs/testing.md S41).
@@ -114,32 +122,31 @@ PILEUS_FN void march_ray(const MediumView& m, const Ray<T>& ray, T enter, T leav
     // Bounded: every turn of the loop advances every living lane by a step.
     while (any(alive)) {
         const T start = Constant ? enter + n : enter + n * step;
-        T width = max_(min_(step, leave - start), T{});
+        T width = max_(min_(step * pace.stride, leave - start), T{});
         if constexpr (Constant) {
             const Vec<T> from = in_voxels(m, reduced(m, along(ray, start)));
             const T shortest = least_way(step, leave - enter);
             width = min_(width, voxel_ahead(m, from, ray.direction, shortest));
         }
+        T ahead = Constant ? width : pace.stride;
         const T t = start + 0.5f * width;
         const Vec<T> q = reduced(m, along(ray, t));
         const Vec<T> p = in_voxels(m, q);
-        const Block<T> block = block_ahead(m, p, ray.direction);
-        const auto dense = alive & (block.bound > 0.0f);
+        auto dense = alive;
+        if (any(alive & lnot(pace.inside))) {
+            const Block<T> block = block_ahead(m, p, ray.direction);
+            dense = alive & (pace.inside | (block.bound > 0.0f));
+            // An empty block ends at the face of a voxel. Else jump to the last step whose middle
+            // lies in empty blocks; it adds nothing either.
+            const T leap = Constant
+                               ? max_(0.5f * width + block.rest, width)
+                               : max_(to_float(to_int(min_(block.rest * per_metre, all<T>(1e6f)))),
+                                      all<T>(1.0f));
+            ahead = select(dense, ahead, leap);
+        }
         const auto ended = sample(dense, t, width, p, q);
-        if constexpr (Constant) {
-            // An empty block ends at the face of a voxel.
-            n = n + select(dense, width, max_(0.5f * width + block.rest, width));
-            alive = alive & lnot(dense & ended) & (enter + n < leave);
-            continue;
-        }
-        // Jump to the last step whose middle lies in empty blocks; it adds nothing either.
-        T ahead = all<T>(1.0f);
-        if (any(lnot(dense))) {
-            const T skipped = to_float(to_int(min_(block.rest * per_metre, all<T>(1e6f))));
-            ahead = select(dense, ahead, max_(skipped, ahead));
-        }
         n = n + ahead;
-        alive = alive & lnot(dense & ended) & (enter + n * step < leave);
+        alive = alive & lnot(dense & ended) & ((Constant ? enter + n : enter + n * step) < leave);
     }
 }
 
@@ -147,14 +154,17 @@ PILEUS_FN void march_ray(const MediumView& m, const Ray<T>& ray, T enter, T leav
 template <bool Constant, class T>
 PILEUS_FN T density_along(const MediumView& m, const Ray<T>& ray, T enter, T leave) {
     T sum{};
-    march_ray<Constant>(
-        m, ray, enter, leave, [&](M_of<T> dense, T, T width, const Vec<T>& p, const Vec<T>&) {
-            if (any(dense)) {
-                const Corners<T> at = density_corners<Constant>(m, p);
-                sum = select(dense, sum + width * read_density<Constant>(m.density, at), sum);
-            }
-            return sum * m.sigma > 60.0f;  // e^-60 is nothing
-        });
+    Pace<T> pace;
+    march_ray<Constant>(m, ray, enter, leave, pace,
+                        [&](M_of<T> dense, T, T width, const Vec<T>& p, const Vec<T>&) {
+                            if (any(dense)) {
+                                const Corners<T> at = density_corners<Constant>(m, p);
+                                const T density = read_density<Constant>(m.density, at);
+                                sum = select(dense, sum + width * density, sum);
+                                pace.inside = dense & (density > 0.0f);
+                            }
+                            return sum * m.sigma > 60.0f;  // e^-60 is nothing
+                        });
     return sum;
 }
 
@@ -177,12 +187,13 @@ PILEUS_FN void shadow_rows(const ShadowParams& k, const ShadowBuffers& b, std::u
     for (std::uint32_t row = begin; row < end; ++row) {
         const float y = (float(std::int32_t(row) % ny) + 0.5f) / k.nodes.per_metre[1] + k.origin[1];
         const float z = (float(std::int32_t(row) / ny) + 0.5f) / k.nodes.per_metre[2] + k.origin[2];
-        for (std::int32_t x = 0; x < nx; x += W) {
+        const NodeRange own = b.rows != nullptr ? b.rows[row] : NodeRange{0, nx};
+        for (std::int32_t x = own.first; x < own.last; x += W) {
             const I<W> i = iota<I<W>>() + x;
             const T px = (to_float(i) + 0.5f) / k.nodes.per_metre[0] + k.origin[0];
             const Ray<T> ray{{px, all<T>(y), all<T>(z)}, d};
-            const T tau = optical_depth(k.medium, ray, i < nx);
-            for (int l = 0; l < W && x + l < nx; ++l)
+            const T tau = optical_depth(k.medium, ray, i < own.last);
+            for (int l = 0; l < W && x + l < own.last; ++l)
                 b.optical_depth[std::int64_t(row) * nx + x + l] = lane(tau, l);
         }
     }

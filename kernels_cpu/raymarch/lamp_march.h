@@ -98,12 +98,14 @@ PILEUS_FN void march_lamps(const LampMarchParams& k, const LampMarchBuffers& b,
     const std::int64_t nodes = std::int64_t(k.nodes.size[0]) * k.nodes.size[1] * k.nodes.size[2];
     const std::int64_t voxels = std::int64_t(m.size[0]) * m.size[1] * m.size[2];
     T seen = all<T>(1.0f);
+    Pace<T> pace;
     march_ray<Constant>(
-        m, ray, enter, leave, [&](M<W> dense, T t, T width, const Vec<T>& p, const Vec<T>&) {
+        m, ray, enter, leave, pace, [&](M<W> dense, T t, T width, const Vec<T>& p, const Vec<T>&) {
             if (!any(dense)) return seen < k.cut;
             const Corners<T> at = density_corners<Constant>(m, p);
             const T density = read_density<Constant>(m.density, at);
             const T optical = select(dense, density * (m.sigma * width), T{});
+            pace.inside = optical > 0.0f;
             const T weight = seen * one_minus_exp(optical);
             const Vec<T> from = along(ray, t - 0.5f * width);
             T share[kMostMedia] = {};

@@ -19,7 +19,11 @@ inline Array<float> shadow(std::uint64_t nodes, Stage first) {
 inline Array<float> batch_background(std::uint64_t pixels) {
     return {"ground light of a batch", bytes_of(3, pixels), Stage::kLayers, Stage::kLayers};
 }
-/// Light on nodes as kernels read it: one node's numbers after the other.
+/// Three colours and the sun's optical depth of each node side by side.
+inline Array<float> lit_quads(std::uint64_t nodes) {
+    return {"lit nodes", bytes_of(4, nodes), Stage::kSplat, Stage::kWrite};
+}
+/// Harmonics on nodes as kernels read them: one node's numbers after the other.
 inline Array<float> source_by_node(std::uint64_t numbers) {
     return {"source by node", numbers, Stage::kSplat, Stage::kDisplay};
 }
@@ -36,9 +40,22 @@ void forget_sun_shadow(PhotonRun& run);
 /// Numbers that it keeps.
 std::uint64_t sun_shadow_numbers(const PhotonRun& run);
 
+/// Light on the nodes that a march reads, in one of two orders.
+struct NodeLight {
+    const float* planes = nullptr;  ///< [channel][node]; with bands [node][set][harmonic]
+    const float* quads = nullptr;   ///< [node][R, G, B, the sun's optical depth]; null: not made
+    bool depths = false;            ///< quads hold these depths: shadow nodes are the same
+};
+
+/// Whether a march of so many channels reads quads: a device reads grids one by one.
+bool reads_quads(const Context& context, int channels, const NodeGrid& nodes);
+
+/// Optical depths to the sun at these nodes, or null where they are kept at others.
+const float* sun_depths_at(const PhotonRun& run, const NodeGrid& nodes);
+
 /// The same for the picture itself, of which `thin` may leave pixels to be filled in:
 /// transmittance, three colours and depths.
-Status march_thinned(const Context& context, const UpsampleSettings& thin, const float* source,
+Status march_thinned(const Context& context, const UpsampleSettings& thin, const NodeLight& source,
                      const MarchParams& k, PhotonRun& run, Planes& planes);
 
 /// Thinned pictures are of the light as a whole: kBadInput names the layer that is not, or the
@@ -53,7 +70,7 @@ void add_picture_rows(const Context& context, const UpsampleSettings& thin, Phot
 MarchParams lit_march_params(const PhotonRun& run, const LightInput& lit, const NodeGrid& source);
 
 /// Marches through `source` into `target`'s planes.
-Status march_lit(const Context& context, const PhotonRun& run, const float* source,
+Status march_lit(const Context& context, PhotonRun& run, const NodeLight& source,
                  const MarchParams& k, float* target, Planes& planes);
 
 /// Numbers per node and set, filled up to whole groups.
@@ -62,8 +79,8 @@ int stored_harmonics(int bands);
 /// Nodes hold so many sets of harmonics of these colours.
 void set_harmonic_sets(int bands, int sets, const float (&colour)[3][3], MarchParams& k);
 
-/// Numbers of one harmonic of one set after the other become those of one node after the other.
-Status gather_by_node(const Context& context, const MarchParams& k, Span<const float> planes,
+/// Numbers of a node, [set][harmonic] and one more, become [set][stored harmonic].
+Status gather_by_node(const Context& context, const MarchParams& k, Span<const float> numbers,
                       Buffer<float>& by_node);
 
 /// Adds light of `lit`'s lamps, scattered once, and in the whole picture the media's own to the

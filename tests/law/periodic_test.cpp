@@ -173,7 +173,9 @@ TEST_CASE("splatting over a period's faces repeats what lies on the other side")
     options.periodic = true;
     options.prior_mass = 0.1f;
     REQUIRE(splat_colours({&ball, 1}, {&colour, 1}, 1, nodes, options, 1, source));
-    const auto at = [&](int x, int y, int z) { return source[std::size_t((z * 8 + y) * 8 + x)]; };
+    const auto at = [&](int x, int y, int z) {
+        return source[2 * std::size_t((z * 8 + y) * 8 + x)];
+    };
     for (int z = 0; z < 8; ++z)
         for (int i = 0; i < 4; ++i)
             for (int j = 0; j < 4; ++j) {

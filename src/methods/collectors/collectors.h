@@ -17,6 +17,7 @@ const Method& collectors_method();
 /// Everything one run holds; made by `prepare`, lit by `shoot`, read by `show`.
 struct CollectorsRun : PhotonRun {
     Prepared prepared;
+    Buffer<float> source;  ///< light on nodes of the last picture
     int camera_cells = 0;  ///< > 0: the camera-directed estimate on cells of so many voxels
 };
 
@@ -82,7 +83,8 @@ Status collectors_light(const FrameStep& step, const Context& context, Collector
 struct CollectorsSizes;
 
 /// The sizes of the display's grids; part of `collectors_sizes`.
-void collectors_size_display(const CollectorsRun& run, CollectorsSizes& sizes);
+void collectors_size_display(const CollectorsRun& run, const Context& context,
+                             CollectorsSizes& sizes);
 
 /// What is known of the method's bias in this scene's settings.
 BiasNote collectors_bias(const CollectorSettings& settings);

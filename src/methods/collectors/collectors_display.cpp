@@ -54,11 +54,14 @@ SplatOptions splat_options(const CollectorsRun& run) {
     return options;
 }
 
-Status splat(const Context& context, const CollectorsRun& run, Span<const float> colour, int planes,
-             const NodeGrid& nodes, Buffer<float>& source) {
+/// The colours on nodes, in run.source.
+Status splat(const Context& context, Span<const float> colour, int numbers, const NodeGrid& nodes,
+             const float* beside, CollectorsRun& run) {
     const StageClock clock(context, "splat");
-    return splat_colours(run.prepared.collectors.span(), colour, planes, nodes, splat_options(run),
-                         context.threads, source);
+    SplatOptions options = splat_options(run);
+    options.beside = beside;
+    return splat_colours(run.prepared.collectors.span(), colour, numbers, nodes, options,
+                         context.threads, run.source);
 }
 
 /// Whether this is the picture itself and not that of a part of its light.
@@ -72,16 +75,28 @@ Status show_marched(const Context& context, CollectorsRun& run, const Reconstruc
     PILEUS_TRY(make_sun_shadow(context, run));
     MarchParams k = lit_march_params(run, lit, source_grid_of(run));
     k.channels = channels;
-    Buffer<float> source;
+    NodeLight light;
+    Buffer<float> by_channel;
     if (colours.colour.empty()) {
         k.source = NodeGrid{{1, 1, 1}, {0, 0, 0}};
-        PILEUS_TRY(allocate(arrays::source_grid(std::uint64_t(channels), 1), source));
+        PILEUS_TRY(allocate(arrays::source_planes(std::uint64_t(channels), 1), by_channel));
+        light.planes = by_channel.data();
     } else {
-        PILEUS_TRY(splat(context, run, colours.colour.span(), channels, k.source, source));
+        const float* depths = channels == 3 ? sun_depths_at(run, k.source) : nullptr;
+        PILEUS_TRY(splat(context, colours.colour.span(), channels, k.source, depths, run));
+        if (reads_quads(context, channels, k.source)) {
+            light.quads = run.source.data();
+            light.depths = depths != nullptr;
+        } else {
+            const StageClock clock(context, "splat");
+            PILEUS_TRY(planes_of_nodes(run.source.span(), channels, k.source, context.threads,
+                                       by_channel));
+            light.planes = by_channel.data();
+        }
     }
     if (is_whole(run, lit))
-        return march_thinned(context, run.scene->collectors.thin, source.data(), k, run, planes);
-    return march_lit(context, run, source.data(), k, planes.colour.data(), planes);
+        return march_thinned(context, run.scene->collectors.thin, light, k, run, planes);
+    return march_lit(context, run, light, k, planes.colour.data(), planes);
 }
 
 /// A periodic medium shows each collector from many directions at once: the nodes hold harmonics.
@@ -92,7 +107,7 @@ Status show_harmonics(const Context& context, CollectorsRun& run, const Reconstr
     MarchParams k = lit_march_params(run, in, source_grid_of(run));
     const std::size_t pixels = std::size_t(k.camera.width) * std::size_t(k.camera.height);
     HarmonicSource lit;
-    Buffer<float> source, by_node;
+    Buffer<float> by_node;
     Digest digest;
     for (int batch = -1; batch < in.batches; ++batch) {
         {
@@ -102,14 +117,13 @@ Status show_harmonics(const Context& context, CollectorsRun& run, const Reconstr
         if (batch < 0 && context.digests) digest.floats(lit.values.span());
         set_harmonic_sets(lit.bands, lit.sets, lit.colour, k);
         float* target = planes.colour.data() + 3 * std::size_t(batch + 1) * pixels;
-        PILEUS_TRY(splat(context, run, lit.values.span(), lit.sets * lit.bands * lit.bands,
-                         k.source, source));
-        PILEUS_TRY(gather_by_node(context, k, source.span(), by_node));
-        source = Buffer<float>();
-        PILEUS_TRY(
-            batch < 0 && is_whole(run, in)
-                ? march_thinned(context, run.scene->collectors.thin, by_node.data(), k, run, planes)
-                : march_lit(context, run, by_node.data(), k, target, planes));
+        PILEUS_TRY(splat(context, lit.values.span(), lit.sets * lit.bands * lit.bands, k.source,
+                         nullptr, run));
+        PILEUS_TRY(gather_by_node(context, k, run.source.span(), by_node));
+        const NodeLight light{by_node.data()};
+        PILEUS_TRY(batch < 0 && is_whole(run, in)
+                       ? march_thinned(context, run.scene->collectors.thin, light, k, run, planes)
+                       : march_lit(context, run, light, k, target, planes));
     }
     // The picture's own digest, not those of its parts.
     if (in.lighting == &run.lighting && context.digests)
@@ -180,7 +194,8 @@ Status collectors_billboards(const Context& context, const CollectorsRun& run,
     return blend_by_gl(blender, scene, camera, context.threads, out);
 }
 
-void collectors_size_display(const CollectorsRun& run, CollectorsSizes& sizes) {
+void collectors_size_display(const CollectorsRun& run, const Context& context,
+                             CollectorsSizes& sizes) {
     const OutputSettings& output = run.scene->output;
     sizes.width = std::uint64_t(run.scene->camera.resolution[0]);
     sizes.height = std::uint64_t(run.scene->camera.resolution[1]);
@@ -195,6 +210,9 @@ void collectors_size_display(const CollectorsRun& run, CollectorsSizes& sizes) {
     if (!sizes.marched) return;
     const NodeGrid nodes = source_grid_of(run);
     sizes.source_nodes = source_nodes(nodes);
+    // Without scattered light there is one dark node.
+    sizes.planes_by_channel = sizes.planes;
+    sizes.fine_nodes = reads_quads(context, int(sizes.planes), nodes) ? 1 : node_count(nodes);
     if (shows_harmonics(run)) {
         const std::uint64_t sets = std::uint64_t(harmonic_sets(run.deposit.channels, run.lighting));
         sizes.harmonics = sets * std::uint64_t(run.deposit.bands * run.deposit.bands);

@@ -86,9 +86,10 @@ void add_light(const CollectorsSizes& s, MemoryTable& t) {
     add(t, arrays::shadow(s.shadow_nodes, shadows), arrays::beam_tables(s.beam_sets, shadows));
     add(t, arrays::lamp_depths(s.lamp_depths));
     if (s.marched) {
-        add(t, arrays::source_grid(source, s.source_nodes));
+        add(t, arrays::splat_colours(source + 1, s.collectors));
+        add(t, arrays::source_grid(source + 1, s.source_nodes, Stage::kWrite));
         add(t, arrays::source_by_node(s.numbers_by_node));
-        add(t, arrays::source_weights(s.source_nodes));
+        add(t, arrays::source_planes(s.planes_by_channel, s.fine_nodes));
     }
 }
 

@@ -55,7 +55,7 @@ CollectorsSizes collectors_sizes(const CollectorsRun& run, const Context& contex
     s.ground_cells = std::uint64_t(run.ground_map.cells) * std::uint64_t(run.ground_map.cells);
     s.shoots_again = context.frames > 1;
     size_prepared(run, context, s);
-    collectors_size_display(run, s);
+    collectors_size_display(run, context, s);
     return s;
 }
 

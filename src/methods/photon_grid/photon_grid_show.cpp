@@ -39,8 +39,9 @@ Status show_towards(const Context& context, PhotonGridRun& run, const GridLightI
     MarchParams k = lit_march_params(run, in, cell_nodes(run));
     k.channels = 3 * (1 + in.batches);
     if (in.lighting == &run.lighting)
-        return march_thinned(context, run.scene->photon_grid.thin, light.data(), k, run, planes);
-    return march_lit(context, run, light.data(), k, planes.colour.data(), planes);
+        return march_thinned(context, run.scene->photon_grid.thin, NodeLight{light.data()}, k, run,
+                             planes);
+    return march_lit(context, run, NodeLight{light.data()}, k, planes.colour.data(), planes);
 }
 
 /// Each cell's light in all directions: one march for the picture and one for each batch.
@@ -58,10 +59,11 @@ Status show_all_ways(const Context& context, PhotonGridRun& run, const GridLight
         set_harmonic_sets(bands, light.sets, light.colour, k);
         float* target =
             planes.colour.data() + 3 * std::size_t(batch + 1) * planes.transmittance.size();
-        PILEUS_TRY(batch < 0 && in.lighting == &run.lighting
-                       ? march_thinned(context, run.scene->photon_grid.thin, light.values.data(), k,
-                                       run, planes)
-                       : march_lit(context, run, light.values.data(), k, target, planes));
+        PILEUS_TRY(
+            batch < 0 && in.lighting == &run.lighting
+                ? march_thinned(context, run.scene->photon_grid.thin,
+                                NodeLight{light.values.data()}, k, run, planes)
+                : march_lit(context, run, NodeLight{light.values.data()}, k, target, planes));
     }
     return Status::ok();
 }
@@ -71,7 +73,7 @@ Status show_first_order(const Context& context, PhotonGridRun& run, const GridLi
                         Planes& planes) {
     const float dark[3] = {};
     const MarchParams k = lit_march_params(run, in, NodeGrid{{1, 1, 1}, {0, 0, 0}});
-    return march_lit(context, run, dark, k, planes.colour.data(), planes);
+    return march_lit(context, run, NodeLight{dark}, k, planes.colour.data(), planes);
 }
 
 Status display(const Context& context, PhotonGridRun& run, const GridLightInput& in,

@@ -73,7 +73,8 @@ Status make_ground_shadow(const Context& context, const Medium& medium, const Me
     for (int a = 0; a < 3; ++a) k.origin[a] = out.origin[a];
     for (const int slice : due) {
         for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = out.slices.held[std::size_t(slice)][a];
-        PILEUS_TRY(make_shadow_slice(context, k, out.depth.data(), slice, turn.slices));
+        PILEUS_TRY(
+            make_shadow_slice(context, k, ShadowBuffers{out.depth.data()}, slice, turn.slices));
     }
     return Status::ok();
 }

@@ -45,10 +45,9 @@ std::vector<int> follow_sun(const SunTurn& turn, SunSlices& s) {
     return due;
 }
 
-Status make_shadow_slice(const Context& context, const ShadowParams& k, float* depth, int slice,
-                         int slices) {
+Status make_shadow_slice(const Context& context, const ShadowParams& k, const ShadowBuffers& b,
+                         int slice, int slices) {
     const std::uint32_t rows = std::uint32_t(k.nodes.size[1] * k.nodes.size[2]);
-    const ShadowBuffers b{depth};
     const auto kernel = context.kernels->shadow_rows;
     if (slices <= 1) return run_rows(context, kernel, k, b, rows);
     constexpr std::uint32_t kPiece = 4;

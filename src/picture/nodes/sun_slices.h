@@ -39,7 +39,7 @@ constexpr double kMostSliceDeg = 1;
 std::vector<int> follow_sun(const SunTurn& turn, SunSlices& slices);
 
 /// The optical depths of one slice of the nodes' rows, towards k.to_sun. Slices are of the host.
-Status make_shadow_slice(const Context& context, const ShadowParams& k, float* depth, int slice,
-                         int slices);
+Status make_shadow_slice(const Context& context, const ShadowParams& k, const ShadowBuffers& b,
+                         int slice, int slices);
 
 }  // namespace pileus

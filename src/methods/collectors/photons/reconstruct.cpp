@@ -52,9 +52,10 @@ struct Row {
     double rgb[3];
 };
 
-Seen seen_from_camera(const ReconstructInput& in, const Window& window, std::size_t i) {
-    Seen out;
+/// Two kilobytes, of which one channel needs a third: what is not needed is left as it was.
+void see_from_camera(const ReconstructInput& in, const Window& window, std::size_t i, Seen& out) {
     const Collector& c = in.collectors[i];
+    out.has_axis = false;
     out.to = towards_camera(in, c);
     out.depth_m2 = c.mass * double(in.medium->sigma);
     const bool by_bands = in.closure == Closure::kSh && !in.first_order_alone;
@@ -62,7 +63,6 @@ Seen seen_from_camera(const ReconstructInput& in, const Window& window, std::siz
         out.mix[ch] = mixture_of(in, i, ch);
         if (by_bands) out.bands[ch] = band_weights(in.deposit, window, out.mix[ch], out.to);
     }
-    return out;
 }
 
 /// The weights about the axis of the beam follow a slot's sun.
@@ -146,7 +146,7 @@ Status reconstruct(const ReconstructInput& in, CollectorColours& out) {
         const std::size_t own = begin + kTogether < count ? kTogether : count - begin;
         Seen seen[kTogether];
         Row rows[kTogether];
-        for (std::size_t i = 0; i < own; ++i) seen[i] = seen_from_camera(in, window, begin + i);
+        for (std::size_t i = 0; i < own; ++i) see_from_camera(in, window, begin + i, seen[i]);
         for (std::size_t set = 0; set < sets; ++set) {
             collector_colours(in, begin, own, batches[set], seen, rows);
             for (std::size_t i = 0; i < own; ++i)

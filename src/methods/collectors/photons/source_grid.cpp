@@ -2,24 +2,22 @@
 // See source_grid.h.
 #include "src/methods/collectors/photons/source_grid.h"
 
+#include <algorithm>
 #include <vector>
 
-#include "kernels_cpu/media/medium.h"
+#include "kernels_cpu/display/lit_nodes.h"
 #include "platform/threads.h"
+#include "src/picture/nodes/node_rows.h"
 
 namespace pileus {
 namespace {
-
-struct Range {
-    int first, last;  ///< nodes, last excluded
-};
 
 int wrapped(int node, int size) {
     const int rest = node % size;
     return rest < 0 ? rest + size : rest;
 }
 
-Range nodes_within(float centre, float radius, float per_metre, int size, bool wraps) {
+NodeRange nodes_within(float centre, float radius, float per_metre, int size, bool wraps) {
     const float low = (centre - radius) * per_metre - 0.5f;
     const float high = (centre + radius) * per_metre - 0.5f;
     // A ball reaches over the faces of a period; its nodes are counted on and wrapped where used.
@@ -42,7 +40,7 @@ void list_balls(Span<const Collector> collectors, const NodeGrid& g, const Splat
     for (float n : g.per_metre) coarsest = n < coarsest ? n : coarsest;
     const float least = 1.2f / coarsest;
     out.first.assign(std::size_t(g.size[2]) + 1, 0);
-    std::vector<Range> slices;
+    std::vector<NodeRange> slices;
     slices.reserve(collectors.size);
     out.radius.reserve(collectors.size);
     for (const Collector& k : collectors) {
@@ -61,12 +59,33 @@ void list_balls(Span<const Collector> collectors, const NodeGrid& g, const Splat
             out.numbers[next[std::size_t(z)]++] = std::uint32_t(c);
 }
 
+/// Colours of each collector side by side, and a one that makes its weight.
+Status colours_side_by_side(Span<const float> colour, std::size_t collectors, int channels,
+                            Buffer<float>& out) {
+    const std::size_t own = std::size_t(channels) + 1;
+    PILEUS_TRY(allocate(arrays::splat_colours(own, collectors), out));
+    for (std::size_t k = 0; k < collectors; ++k) {
+        for (std::size_t c = 0; c + 1 < own; ++c) out[k * own + c] = colour[c * collectors + k];
+        out[k * own + own - 1] = 1;
+    }
+    return Status::ok();
+}
+
+/// to += factor * from, numbers side by side; four are a colour and its weight.
+void add_scaled(float factor, const float* from, std::size_t count, float* to) {
+    if (count == 4) {
+        const F<4> sum = load_quad(to) + all<F<4>>(factor) * load_quad(from);
+        __builtin_memcpy(to, &sum, sizeof sum);
+        return;
+    }
+    for (std::size_t i = 0; i < count; ++i) to[i] += factor * from[i];
+}
+
 /// Adds every ball's share to the nodes of one slice, in the order of the collectors.
-void splat_slice(Span<const Collector> collectors, Span<const float> colour, int channels,
+void splat_slice(Span<const Collector> collectors, const float* colour, std::size_t own,
                  const NodeGrid& g, const SplatOptions& options, const Balls& balls, int z,
-                 Span<float> source, float* weights, std::vector<Range>& touched) {
+                 float* source, std::vector<NodeRange>& touched) {
     const bool wraps = options.periodic;
-    const std::size_t nodes = std::size_t(node_count(g)), count = collectors.size;
     const std::size_t columns = std::size_t(g.size[0]);
     const float pz = (float(z) + 0.5f) / g.per_metre[2];
     for (std::size_t b = balls.first[std::size_t(z)]; b < balls.first[std::size_t(z) + 1]; ++b) {
@@ -75,153 +94,127 @@ void splat_slice(Span<const Collector> collectors, Span<const float> colour, int
         const float radius = balls.radius[c];
         const float dz = pz - k.centre[2], inverse = 1.0f / (radius * radius);
         if (dz * dz >= radius * radius) continue;
-        const Range ys = nodes_within(k.centre[1], radius, g.per_metre[1], g.size[1], wraps);
-        const Range xs = nodes_within(k.centre[0], radius, g.per_metre[0], g.size[0], wraps);
+        const NodeRange ys = nodes_within(k.centre[1], radius, g.per_metre[1], g.size[1], wraps);
+        const NodeRange xs = nodes_within(k.centre[0], radius, g.per_metre[0], g.size[0], wraps);
         for (int y = ys.first; y < ys.last; ++y) {
             const float dy = (float(y) + 0.5f) / g.per_metre[1] - k.centre[1];
             const int row_y = wraps ? wrapped(y, g.size[1]) : y;
             const std::size_t row = std::size_t(row_y) + std::size_t(z) * std::size_t(g.size[1]);
-            Range& own = touched[row];
-            own.first = wraps ? 0 : (xs.first < own.first ? xs.first : own.first);
-            own.last = wraps ? g.size[0] : (xs.last > own.last ? xs.last : own.last);
+            NodeRange& reached = touched[row];
+            reached.first = wraps ? 0 : (xs.first < reached.first ? xs.first : reached.first);
+            reached.last = wraps ? g.size[0] : (xs.last > reached.last ? xs.last : reached.last);
             for (int x = xs.first; x < xs.last; ++x) {
                 const float dx = (float(x) + 0.5f) / g.per_metre[0] - k.centre[0];
                 const float near = 1.0f - (dx * dx + dy * dy + dz * dz) * inverse;
                 if (near <= 0) continue;
-                const float w = near * near * float(k.mass);
                 const std::size_t column = std::size_t(wraps ? wrapped(x, g.size[0]) : x);
-                weights[row * columns + column] += w;
-                for (int i = 0; i < channels; ++i)
-                    source[std::size_t(i) * nodes + row * columns + column] +=
-                        w * colour[std::size_t(i) * count + c];
+                add_scaled(near * near * float(k.mass), colour + c * own, own,
+                           source + (row * columns + column) * own);
             }
         }
     }
-}
-
-/// Nodes of each row that a march through the medium can read.
-std::vector<Range> rows_to_read(const NodeGrid& g, const SplatOptions& options) {
-    const std::size_t rows = std::size_t(g.size[1]) * std::size_t(g.size[2]);
-    const MediumView& m = options.medium;
-    if (m.density == nullptr || options.periodic)
-        return std::vector<Range>(rows, Range{0, g.size[0]});
-    std::vector<Range> out(rows, Range{g.size[0], 0});
-    // A place at a block's face may be read as lying in either block: a tenth of a voxel holds
-    // that.
-    constexpr float kAround = 0.1f;
-    const auto reach = [&](int block, int axis) {
-        const float per_voxel = m.cell[axis] * g.per_metre[axis];
-        const float low = (float(block) * m.block - kAround) * per_voxel - 0.5f;
-        const float high = (float(block + 1) * m.block + kAround) * per_voxel - 0.5f;
-        const int size = g.size[axis], first = floor_int(low), last = floor_int(high) + 2;
-        return Range{first < 0 ? 0 : (first < size ? first : size - 1), last < size ? last : size};
-    };
-    std::size_t n = 0;
-    for (int z = 0; z < m.blocks[2]; ++z)
-        for (int y = 0; y < m.blocks[1]; ++y) {
-            const float* row = m.majorant + n;
-            n += std::size_t(m.blocks[0]);
-            int first = 0, last = m.blocks[0];
-            while (first < last && !(row[first] > 0)) ++first;
-            while (last > first && !(row[last - 1] > 0)) --last;
-            if (first == last) continue;
-            const Range xs{reach(first, 0).first, reach(last - 1, 0).last};
-            const Range ys = reach(y, 1), zs = reach(z, 2);
-            for (int k = zs.first; k < zs.last; ++k)
-                for (int j = ys.first; j < ys.last; ++j) {
-                    Range& own = out[std::size_t(k) * std::size_t(g.size[1]) + std::size_t(j)];
-                    own.first = xs.first < own.first ? xs.first : own.first;
-                    own.last = xs.last > own.last ? xs.last : own.last;
-                }
-        }
-    return out;
 }
 
 /// One level of the pyramid: sums over 2^level nodes along each axis.
 struct Level {
     int size[3];
-    std::size_t weights, source;  ///< offsets of its [node] and [channel][node] arrays
+    std::size_t first;  ///< its first node among those of all levels
     std::size_t nodes() const {
         return std::size_t(size[0]) * std::size_t(size[1]) * std::size_t(size[2]);
     }
+    std::size_t row(int y, int z) const {
+        return std::size_t(z) * std::size_t(size[1]) + std::size_t(y);
+    }
+    std::size_t node(int x, std::size_t row) const {
+        return row * std::size_t(size[0]) + std::size_t(x);
+    }
 };
 
-struct Pyramid {
+std::vector<Level> pyramid_levels(const NodeGrid& g) {
     std::vector<Level> levels;
-    Buffer<float> weights, source;
-    int channels;
-};
-
-std::vector<Level> pyramid_levels(const NodeGrid& g, int channels) {
-    std::vector<Level> levels;
-    Level level{{g.size[0], g.size[1], g.size[2]}, 0, 0};
+    Level level{{g.size[0], g.size[1], g.size[2]}, 0};
     for (;;) {
         levels.push_back(level);
         if (level.nodes() == 1) return levels;
-        level.weights += level.nodes();
-        level.source = level.weights * std::size_t(channels);
+        level.first += level.nodes();
         for (int& n : level.size) n = (n + 1) / 2;
     }
 }
 
-Status make_pyramid(const NodeGrid& g, int channels, Pyramid& p) {
-    p.channels = channels;
-    p.levels = pyramid_levels(g, channels);
-    const std::uint64_t nodes = source_nodes(g);
-    PILEUS_TRY(allocate(arrays::source_weights(nodes), p.weights));
-    return allocate(arrays::source_grid(std::uint64_t(channels), nodes), p.source);
-}
+/// Threads for a level: waking them takes as long as thousands of nodes.
+int threads_of(const Level& level, int threads) { return level.nodes() < 8192 ? 1 : threads; }
+
+/// Levels of `own` numbers a node: channels and, last, the weight.
+struct Pyramid {
+    std::vector<Level> levels;
+    std::size_t own;
+    float* numbers;
+    float* of(const Level& level) const { return numbers + level.first * own; }
+};
 
 /// Adds the eight children of each node of `up` in slice z; of each row of `fine` those within
 /// `touched`, or all where that is null.
-void sum_slice(const Level& fine, const Level& up, const Range* touched, int channels, int z,
-               Pyramid& p) {
-    const auto add = [&](const float* from, float* to) {
-        for (int dz = 2 * z; dz < 2 * z + 2 && dz < fine.size[2]; ++dz)
-            for (int y = 0; y < fine.size[1]; ++y) {
-                const std::size_t row =
-                    std::size_t(dz) * std::size_t(fine.size[1]) + std::size_t(y);
-                const std::size_t above =
-                    std::size_t(z) * std::size_t(up.size[1]) + std::size_t(y / 2);
-                const Range xs = touched != nullptr ? touched[row] : Range{0, fine.size[0]};
-                for (int x = xs.first; x < xs.last; ++x)
-                    to[above * std::size_t(up.size[0]) + std::size_t(x / 2)] +=
-                        from[row * std::size_t(fine.size[0]) + std::size_t(x)];
-            }
-    };
-    add(p.weights.data() + fine.weights, p.weights.data() + up.weights);
-    for (int c = 0; c < channels; ++c)
-        add(p.source.data() + fine.source + std::size_t(c) * fine.nodes(),
-            p.source.data() + up.source + std::size_t(c) * up.nodes());
+void sum_slice(const Level& fine, const Level& up, const NodeRange* touched, int z,
+               const Pyramid& p) {
+    const float* from = p.of(fine);
+    float* to = p.of(up);
+    for (int dz = 2 * z; dz < 2 * z + 2 && dz < fine.size[2]; ++dz)
+        for (int y = 0; y < fine.size[1]; ++y) {
+            const std::size_t row = fine.row(y, dz), above = up.row(y / 2, z);
+            const NodeRange xs = touched != nullptr ? touched[row] : NodeRange{0, fine.size[0]};
+            for (int x = xs.first; x < xs.last; ++x)
+                add_scaled(1, from + fine.node(x, row) * p.own, p.own,
+                           to + up.node(x / 2, above) * p.own);
+        }
+}
+
+/// Means of a node that lean on `prior` of the coarser level's, between its nodes.
+void lean(const float* coarse, const Corners<float>& around, float prior, std::size_t own,
+          float* numbers) {
+    const float weight = numbers[own - 1];
+    if (own == 4) {
+        float mean[4];
+        interpolate_quad(coarse, around, mean);
+        const F<4> v =
+            (load_quad(numbers) + all<F<4>>(prior) * load_quad(mean)) / all<F<4>>(weight + prior);
+        __builtin_memcpy(numbers, &v, sizeof v);
+    } else {
+        const std::int32_t wide = std::int32_t(own);
+        Corners<float> at = around;
+        for (std::int32_t* i : {&at.x0, &at.x1, &at.y0, &at.y1, &at.z0, &at.z1}) *i *= wide;
+        for (std::size_t c = 0; c + 1 < own; ++c)
+            numbers[c] = (numbers[c] + prior * interpolate(coarse + c, at)) / (weight + prior);
+    }
 }
 
 /// Turns sums into means that lean on the coarser level's where they hold less than `prior`; of
-/// each row those within `read`, or all where that is null.
-void settle_slice(const Level& fine, const Level* up, const Range* read, float prior, bool wraps,
-                  int z, Pyramid& p) {
-    const float* weights = p.weights.data() + fine.weights;
+/// each row those within `read`, or all where that is null. `last`: what takes the weight's place.
+void settle_slice(const Level& fine, const Level* up, const NodeRange* read, const float* last,
+                  float prior, bool wraps, int z, const Pyramid& p) {
+    // Places along x are the same in each row.
+    std::vector<Corners<float>> columns;
+    for (int x = 0; x < fine.size[0] && up != nullptr; ++x)
+        columns.push_back(corners(Vec<float>{(float(x) + 0.5f) * 0.5f, 0, 0}, up->size, wraps));
     for (int y = 0; y < fine.size[1]; ++y) {
-        const Range xs = read != nullptr ? read[z * fine.size[1] + y] : Range{0, fine.size[0]};
+        const std::size_t row = fine.row(y, z);
+        const NodeRange xs = read != nullptr ? read[row] : NodeRange{0, fine.size[0]};
+        Corners<float> at{};
+        if (up != nullptr)
+            at = corners(Vec<float>{0, (float(y) + 0.5f) * 0.5f, (float(z) + 0.5f) * 0.5f},
+                         up->size, wraps);
         for (int x = xs.first; x < xs.last; ++x) {
-            const std::size_t node = (std::size_t(z) * std::size_t(fine.size[1]) + std::size_t(y)) *
-                                         std::size_t(fine.size[0]) +
-                                     std::size_t(x);
-            const float w = weights[node];
-            Corners<float> around{};
-            if (up != nullptr) {
-                const Vec<float> at{(float(x) + 0.5f) * 0.5f, (float(y) + 0.5f) * 0.5f,
-                                    (float(z) + 0.5f) * 0.5f};
-                around = corners(at, up->size, wraps);
+            const std::size_t node = fine.node(x, row);
+            float* numbers = p.of(fine) + node * p.own;
+            if (up == nullptr) {
+                const float w = numbers[p.own - 1];
+                for (std::size_t c = 0; c + 1 < p.own; ++c)
+                    numbers[c] = w > 0 ? numbers[c] / w : 0.0f;
+            } else {
+                const Corners<float>& column = columns[std::size_t(x)];
+                at.x0 = column.x0, at.x1 = column.x1, at.fx = column.fx;
+                lean(p.of(*up), at, prior, p.own, numbers);
             }
-            for (int c = 0; c < p.channels; ++c) {
-                float& v = p.source[fine.source + std::size_t(c) * fine.nodes() + node];
-                if (up == nullptr) {
-                    v = w > 0 ? v / w : 0.0f;
-                    continue;
-                }
-                const float* coarse = p.source.data() + up->source + std::size_t(c) * up->nodes();
-                v = (v + prior * interpolate(coarse, around)) / (w + prior);
-            }
+            numbers[p.own - 1] = last != nullptr ? last[node] : 0.0f;
         }
     }
 }
@@ -229,38 +222,61 @@ void settle_slice(const Level& fine, const Level* up, const Range* read, float p
 }  // namespace
 
 std::uint64_t source_nodes(const NodeGrid& g) {
-    const Level last = pyramid_levels(g, 1).back();
-    return last.weights + last.nodes();
+    const Level last = pyramid_levels(g).back();
+    return last.first + last.nodes();
 }
 
 Status splat_colours(Span<const Collector> collectors, Span<const float> colour, int channels,
                      const NodeGrid& nodes, const SplatOptions& options, int threads,
                      Buffer<float>& source) {
-    Pyramid p;
-    PILEUS_TRY(make_pyramid(nodes, channels, p));
+    Pyramid p{pyramid_levels(nodes), std::size_t(channels) + 1, nullptr};
+    const auto numbers = arrays::source_grid(p.own, source_nodes(nodes), Stage::kDisplay);
+    PILEUS_TRY(allocate_once(numbers, source));
+    p.numbers = source.data();
+    Buffer<float> own;
+    PILEUS_TRY(colours_side_by_side(colour, collectors.size, channels, own));
     Balls balls;
     list_balls(collectors, nodes, options, balls);
+    const Level& finest = p.levels.front();
     const std::size_t rows = std::size_t(nodes.size[1]) * std::size_t(nodes.size[2]);
-    std::vector<Range> touched(rows, Range{nodes.size[0], 0});
+    std::vector<NodeRange> touched(rows, NodeRange{nodes.size[0], 0});
+    const std::size_t slice = finest.nodes() / std::size_t(nodes.size[2]) * p.own;
     parallel_for(threads, nodes.size[2], [&](std::int64_t z, int) {
-        splat_slice(collectors, colour, channels, nodes, options, balls, int(z), p.source.span(),
-                    p.weights.data(), touched);
+        std::fill_n(p.numbers + std::size_t(z) * slice, slice, 0.0f);
+        splat_slice(collectors, own.data(), p.own, nodes, options, balls, int(z), p.numbers,
+                    touched);
     });
+    std::fill(p.numbers + finest.nodes() * p.own, p.numbers + source.size(), 0.0f);
     for (std::size_t l = 1; l < p.levels.size(); ++l)
-        parallel_for(threads, p.levels[l].size[2], [&](std::int64_t z, int) {
-            sum_slice(p.levels[l - 1], p.levels[l], l == 1 ? touched.data() : nullptr, channels,
-                      int(z), p);
-        });
+        parallel_for(threads_of(p.levels[l], threads), p.levels[l].size[2],
+                     [&](std::int64_t z, int) {
+                         sum_slice(p.levels[l - 1], p.levels[l], l == 1 ? touched.data() : nullptr,
+                                   int(z), p);
+                     });
     // A prior of nothing would divide zero by zero where no collector reaches.
     const float prior = options.prior_mass > 1e-30f ? options.prior_mass : 1e-30f;
-    const std::vector<Range> read = rows_to_read(nodes, options);
+    const std::vector<NodeRange> read = nodes_in_medium(nodes, options.medium);
     for (std::size_t l = p.levels.size(); l-- > 0;)
-        parallel_for(threads, p.levels[l].size[2], [&](std::int64_t z, int) {
-            const bool top = l + 1 == p.levels.size();
-            settle_slice(p.levels[l], top ? nullptr : &p.levels[l + 1],
-                         l == 0 ? read.data() : nullptr, prior, options.periodic, int(z), p);
-        });
-    source.swap(p.source);
+        parallel_for(
+            threads_of(p.levels[l], threads), p.levels[l].size[2], [&](std::int64_t z, int) {
+                const bool top = l + 1 == p.levels.size();
+                settle_slice(p.levels[l], top ? nullptr : &p.levels[l + 1],
+                             l == 0 ? read.data() : nullptr, l == 0 ? options.beside : nullptr,
+                             prior, options.periodic, int(z), p);
+            });
+    return Status::ok();
+}
+
+Status planes_of_nodes(Span<const float> source, int channels, const NodeGrid& nodes, int threads,
+                       Buffer<float>& planes) {
+    const std::size_t count = std::size_t(node_count(nodes)), own = std::size_t(channels) + 1;
+    PILEUS_TRY(allocate_once(arrays::source_planes(std::uint64_t(channels), count), planes));
+    const std::size_t slice = count / std::size_t(nodes.size[2]);
+    parallel_for(threads, nodes.size[2], [&](std::int64_t z, int) {
+        for (std::size_t c = 0; c + 1 < own; ++c)
+            for (std::size_t n = std::size_t(z) * slice; n < (std::size_t(z) + 1) * slice; ++n)
+                planes[c * count + n] = source[n * own + c];
+    });
     return Status::ok();
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Collector colours spread onto a coarse grid, for the marched display.
-// in: collectors and their colours -> out: [channel][node], smooth, defined wherever medium is.
+// in: collectors and their colours -> out: [node][channel], smooth, defined wherever medium is.
 // docs/methods.md 3, repair 4: each collector covers a ball, weights normalised.
 #pragma once
 #include "src/base/buffer.h"
@@ -17,11 +17,15 @@ std::uint64_t source_nodes(const NodeGrid& g);
 namespace arrays {
 
 /// So many numbers for each of source_nodes().
-inline Array<float> source_grid(std::uint64_t numbers, std::uint64_t nodes) {
-    return {"source grid", bytes_of(numbers, nodes), Stage::kSplat, Stage::kDisplay};
+inline Array<float> source_grid(std::uint64_t numbers, std::uint64_t nodes, Stage last) {
+    return {"source grid", bytes_of(numbers, nodes), Stage::kSplat, last};
 }
-inline Array<float> source_weights(std::uint64_t nodes) {
-    return {"source weights", nodes, Stage::kSplat, Stage::kSplat};
+inline Array<float> splat_colours(std::uint64_t numbers, std::uint64_t collectors) {
+    return {"colours side by side", bytes_of(numbers, collectors), Stage::kSplat, Stage::kSplat};
+}
+/// Channels one after the other, for marches of more than a picture's colours.
+inline Array<float> source_planes(std::uint64_t channels, std::uint64_t nodes) {
+    return {"source planes", bytes_of(channels, nodes), Stage::kSplat, Stage::kDisplay};
 }
 
 }  // namespace arrays
@@ -33,6 +37,7 @@ struct SplatOptions {
     /// Where medium is, so that no other nodes of the finest level are made: they hold sums that
     /// nobody may read. Without a density all nodes are made.
     MediumView medium{};
+    const float* beside = nullptr;  ///< one more number of each node, kept after its channels
 };
 
 /// Weighted mean per node over the collectors whose ball (radius_factor times the collector's
@@ -40,10 +45,15 @@ struct SplatOptions {
 /// weights hold less than `prior_mass` leans on the mean of its surroundings, on coarser and
 /// coarser levels (push-pull, Gortler et al. 1996): a collector that a handful of photons met
 /// cannot glow on its own, and nodes that no ball holds are defined. `source` gets the finest
-/// level first, [channel][node]; coarser levels follow it. On a periodic grid these wrap around
-/// too, exactly where the number of nodes is a power of two. kLimit: out of memory.
+/// level first, [node][channels + 1], the last number `beside` or 0; coarser levels follow it. On a
+/// periodic grid these wrap around too, exactly where the number of nodes is a power of two. What
+/// `source` held is overwritten. kLimit: out of memory.
 Status splat_colours(Span<const Collector> collectors, Span<const float> colour, int channels,
                      const NodeGrid& nodes, const SplatOptions& options, int threads,
                      Buffer<float>& source);
+
+/// The finest level of such numbers as [channel][node]. kLimit: out of memory.
+Status planes_of_nodes(Span<const float> source, int channels, const NodeGrid& nodes, int threads,
+                       Buffer<float>& planes);
 
 }  // namespace pileus
