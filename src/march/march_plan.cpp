@@ -215,7 +215,7 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
         const std::uint64_t nodes = node_count(sky_node_grid(run.world->medium));
         const int sets = sky_node_sets(run.lighting);
         add(t, arrays::sky_light(nodes, sets, last));
-        if (sets > 0) add(t, arrays::sky_depths(nodes));
+        if (sets > 0) add(t, arrays::sky_seen(nodes));
     }
     const std::uint64_t shown = plane_count(3, run.lighting.opaque(), output.layer_depth) +
                                 (output.layer_optical_depth ? 1u : 0u);

@@ -73,7 +73,8 @@ Status compose(const FrameStep& step, const Context& context, MethodRun& method_
                const Planes*& planes) {
     RaymarchRun& run = own(method_run);
     planes = &run.planes;
-    return march_light(step, context, run);
+    ++run.turn;
+    return march_frame(step, context, run);
 }
 
 }  // namespace

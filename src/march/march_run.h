@@ -36,7 +36,9 @@ struct RaymarchRun : MethodRun {
     SunDepth nodes;
     SunDepthDifference nodes_difference;  ///< of swept nodes to rays
     std::array<float, 3> sky_to_sun{};    ///< the sun that the sky's nodes were made for
-    std::array<float, 3> nodes_to_sun{};  ///< the sun that the nodes were made for
+    std::array<float, 3> nodes_to_sun{};  ///< the sun that swept nodes were made for
+    SunSlices slices;                     ///< and those of nodes by rays
+    std::int64_t turn = 0;                ///< number of the picture, for that
     CameraParams camera{};
     Planes planes;
     UpsampleMemory upsample;
@@ -82,7 +84,10 @@ Status march_prepare(const Context& context, MethodRun& run);
 Status march_measure(const Context& context, RaymarchRun& run);
 void march_report_plan(const MethodRun& run, const Context& context, Report& report);
 
-/// Sunlight, background and the march of one frame.
+/// Sunlight, background and the march of one frame, of number run.turn.
+Status march_frame(const FrameStep& step, const Context& context, RaymarchRun& run);
+
+/// The same for a frame of an animation, or a still.
 Status march_light(const FrameStep& step, const Context& context, MethodRun& run);
 
 /// The planes as an image; frees them.

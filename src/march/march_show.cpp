@@ -8,6 +8,7 @@
 #include "src/picture/blue_noise.h"
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/node_grid.h"
+#include "src/picture/nodes/node_rows.h"
 #include "src/picture/nodes/solid_shadow.h"
 
 namespace pileus {
@@ -15,20 +16,29 @@ namespace {
 
 constexpr std::uint64_t kComparedNodes = 1024;
 
-/// Nodes serve every frame of the same sun.
+SunTurn turn_of(const RaymarchRun& run) {
+    return turn_of_sun(*run.scene, run.settings.light_refresh, run.turn, run.lighting.to_sun);
+}
+
+/// Nodes serve every frame of the same sun; a sweep is made whole for each.
 Status light_nodes(const Context& context, RaymarchRun& run) {
     if (run.march_light || !run.lighting.sunlit || run.world->medium.sigma <= 0)
         return Status::ok();
-    if (!run.nodes.optical_depth.empty() && run.nodes_to_sun == run.lighting.to_sun)
-        return Status::ok();
-    const bool swept = run.settings.light == RaymarchLightKind::kBuffer;
-    const auto kind = swept ? SunDepthKind::kSwept : SunDepthKind::kExact;
     const auto& to_sun = run.lighting.to_sun;
     PILEUS_TRY(make_lit_medium(context, run));
     const bool apart = !run.lit.volume.density.empty();
     const Medium& medium = apart ? run.lit : marched_medium(run);
     const Majorants& majorants = apart ? run.lit_majorants : run.majorants;
-    PILEUS_TRY(make_sun_depth(context, medium, majorants, to_sun, kind, run.nodes));
+    if (run.settings.light != RaymarchLightKind::kBuffer) {
+        // Coarser densities reach farther than the medium's own.
+        const MediumView view =
+            run.levels > 0 ? MediumView{} : make_medium_view(run.world->medium, run.majorants);
+        return follow_sun_depth(context, medium, majorants, turn_of(run),
+                                nodes_in_medium(sun_depth_nodes(medium), view), run.slices,
+                                run.nodes);
+    }
+    if (!run.nodes.optical_depth.empty() && run.nodes_to_sun == to_sun) return Status::ok();
+    PILEUS_TRY(make_sun_depth(context, medium, majorants, to_sun, SunDepthKind::kSwept, run.nodes));
     // A thousand rays tell what the sweep smears.
     run.nodes_difference = {};
     if (run.nodes.swept)
@@ -88,8 +98,8 @@ Status fill_background(const Context& context, RaymarchRun& run) {
     const Lighting& light = run.lighting;
     const MediumView view = make_medium_view(run.world->medium, run.majorants);
     PILEUS_TRY(make_ground_shadow(context, run.world->medium, view, light,
-                                  run.planes.transmittance.size(),
-                                  SunTurn{1, 0, light.to_sun, nullptr}, run.ground_shadow));
+                                  run.planes.transmittance.size(), turn_of(run),
+                                  run.ground_shadow));
     const StageClock clock(context, "background");
     BackgroundParams k = background_params(view, run.camera, light);
     BackgroundBuffers b{nullptr, run.planes.background.data(), run.planes.opaque_depth.data()};
@@ -101,6 +111,11 @@ Status fill_background(const Context& context, RaymarchRun& run) {
 
 Status march_light(const FrameStep& step, const Context& context, MethodRun& method_run) {
     RaymarchRun& run = static_cast<RaymarchRun&>(method_run);
+    run.turn = step.frame;
+    return march_frame(step, context, run);
+}
+
+Status march_frame(const FrameStep& step, const Context& context, RaymarchRun& run) {
     const Scene& scene = *run.scene;
     const OutputSettings& output = scene.output;
     Plan photons;  // speaks of photons alone

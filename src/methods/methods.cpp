@@ -2,6 +2,8 @@
 // See methods.h.
 #include "src/methods/methods.h"
 
+#include "src/base/angles.h"
+
 namespace pileus {
 
 Status open_run(const Method& method, const Scene& scene, const Budget& budget,
@@ -22,6 +24,18 @@ Status open_run(const Method& method, const Scene& scene, const Budget& budget,
     if (own != nullptr) PILEUS_TRY(load_world(scene, context, *own));
     PILEUS_TRY(load_surroundings(scene, context, run.around));
     return method.prepare(context, run);
+}
+
+SunTurn turn_of_sun(const Scene& scene, int slices, std::int64_t number, const SunDirection& sun) {
+    SunTurn turn{slices, number, sun, nullptr};
+    if (!scene.animation.present || !scene.animation.moves_sun) return turn;
+    const Scene* from = &scene;
+    turn.sun_of = [from](std::int64_t frame) {
+        const double elevation = sun_at(*from, frame > 0 ? int(frame) : 0);
+        const Double3 to = towards_deg(from->sun.azimuth_deg, elevation);
+        return SunDirection{float(to[0]), float(to[1]), float(to[2])};
+    };
+    return turn;
 }
 
 }  // namespace pileus

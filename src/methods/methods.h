@@ -7,6 +7,7 @@
 #include <string>
 
 #include "src/io/images/image.h"
+#include "src/picture/nodes/sun_slices.h"
 #include "src/run/context.h"
 #include "src/scene/scene.h"
 #include "src/world/world.h"
@@ -123,5 +124,9 @@ inline Status unknown_budget(const char* option, const std::string& method, cons
     return Status::bad_input(std::string(option) + ": not for method " + method +
                              ", allowed: " + allowed);
 }
+
+/// Frame `turn`, whose sun is `sun`. Frames of an animation are what they are wherever it begins;
+/// those before its first have that one's sun. A host's are counted.
+SunTurn turn_of_sun(const Scene& scene, int slices, std::int64_t turn, const SunDirection& sun);
 
 }  // namespace pileus

@@ -36,18 +36,8 @@ NodeGrid shadow_grid(const PhotonRun& run) {
     return g;
 }
 
-/// Frames of an animation are what they are wherever it begins; those before its first have that
-/// one's sun. A host's are counted.
 SunTurn turn_of(const PhotonRun& run) {
-    SunTurn turn{run.light_refresh, run.turn, run.lighting.to_sun, nullptr};
-    const Scene* scene = run.scene;
-    if (scene->animation.present && scene->animation.moves_sun)
-        turn.sun_of = [scene](std::int64_t frame) {
-            const double elevation = sun_at(*scene, frame > 0 ? int(frame) : 0);
-            const Double3 to = towards_deg(scene->sun.azimuth_deg, elevation);
-            return SunDirection{float(to[0]), float(to[1]), float(to[2])};
-        };
-    return turn;
+    return turn_of_sun(*run.scene, run.light_refresh, run.turn, run.lighting.to_sun);
 }
 
 }  // namespace

@@ -229,6 +229,7 @@ struct RaymarchSettings {
     Float3 ambient{0, 0, 0};  ///< emission over extinction
     double stop_below = 1e-4;
     UpsampleSettings thin;
+    int light_refresh = 1;    ///< frames in which sunlight on nodes follows a sun that moves; 1..64
     bool peak_phase = false;  ///< phase = "peak": over its largest value
 };
 

@@ -4,6 +4,8 @@
 // docs/realtime.md, "A sun that moves"
 #include "src/picture/nodes/sun_slices.h"
 
+#include <algorithm>
+
 #include "src/base/angles.h"
 #include "src/session/session.h"
 #include "tests/support/render_harness.h"
@@ -59,35 +61,45 @@ TEST_CASE("sun slices: one that leaps is everywhere at once, and one slice is ev
 }
 
 TEST_CASE("sun slices: an animation's frame is the same wherever the run begins") {
-    const Scene scene = scene_from(
-        kSmallCumulus, {"animation.frames = 9", "animation.sun_elevation_deg = [30, 31]",
-                        "collectors.light_refresh = 3", "collectors.first_order_split = true",
-                        "output.layers = [\"radiance\", \"alpha\"]"});
-    const auto hashes = [&](int first, int last) {
-        std::vector<std::string> out;
-        RenderOptions options;
-        options.first_frame = first;
-        options.last_frame = last;
-        REQUIRE(render(scene, options, [&](int, Image&, Report& report) {
-            out.push_back(report.hash);
-            return Status::ok();
-        }));
-        return out;
-    };
-    const std::vector<std::string> all = hashes(0, 8), late = hashes(5, 8);
-    REQUIRE(late.size() == 4);
-    for (std::size_t i = 0; i < 4; ++i) CHECK(late[i] == all[5 + i]);
+    using Settings = std::vector<std::string>;
+    for (const Settings& own :
+         {Settings{"method.name = \"collectors\"", "collectors.light_refresh = 3",
+                   "collectors.first_order_split = true"},
+          Settings{"method.name = \"raymarch\"", "raymarch.light_refresh = 3",
+                   "raymarch.light = \"buffer-exact\""}}) {
+        CAPTURE(own[0]);
+        Settings settings{"animation.frames = 9", "animation.sun_elevation_deg = [30, 31]",
+                          "output.layers = [\"radiance\", \"alpha\"]"};
+        settings.insert(settings.end(), own.begin(), own.end());
+        const Scene scene = scene_from(kSmallCumulus, settings);
+        const auto hashes = [&](int first, int last) {
+            std::vector<std::string> out;
+            RenderOptions options;
+            options.first_frame = first;
+            options.last_frame = last;
+            REQUIRE(render(scene, options, [&](int, Image&, Report& report) {
+                out.push_back(report.hash);
+                return Status::ok();
+            }));
+            return out;
+        };
+        const std::vector<std::string> all = hashes(0, 8), late = hashes(5, 8);
+        REQUIRE(late.size() == 4);
+        for (std::size_t i = 0; i < 4; ++i) CHECK(late[i] == all[5 + i]);
+    }
 }
 
 TEST_CASE("sun slices: a host's sun that stops is the picture of a scene with it, to the bit") {
-    for (const char* method : {"collectors", "photon-grid"}) {
+    for (const char* method : {"collectors", "photon-grid", "raymarch"}) {
         CAPTURE(method);
-        const std::string key = std::string(method) == "collectors" ? "collectors" : "photon_grid";
+        std::string key = method;
+        std::replace(key.begin(), key.end(), '-', '_');
         const auto scene_of = [&](const char* refresh) {
-            return scene_from(kSmallCumulus,
-                              {"method.name = \"" + std::string(method) + "\"",
-                               key + ".light_refresh = " + refresh, "camera.resolution = [120, 80]",
-                               "output.layers = [\"radiance\", \"alpha\"]"});
+            return scene_from(
+                kSmallCumulus,
+                {"method.name = \"" + std::string(method) + "\"",
+                 key + ".light_refresh = " + refresh, "raymarch.light = \"buffer-exact\"",
+                 "camera.resolution = [120, 80]", "output.layers = [\"radiance\", \"alpha\"]"});
         };
         Session whole, sliced;
         for (Session* session : {&whole, &sliced}) {

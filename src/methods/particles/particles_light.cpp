@@ -141,6 +141,7 @@ Status light_particles(const Context& context, ParticlesRun& run) {
     }
     PILEUS_TRY(light_by_lamps(context, run));
     if (run.scene->particles.sky_ambient) {
+        run.sky_nodes.seen = Buffer<float>();  // the medium may be another frame's
         PILEUS_TRY(make_sky_nodes(context, run.world->medium, run.majorants, run.lighting, 0,
                                   octaves_of(run), run.sky_nodes));
         run.sky = Buffer<float>();

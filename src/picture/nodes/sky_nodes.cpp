@@ -4,6 +4,8 @@
 // docs/raymarch.md, "Skylight".
 #include "src/picture/nodes/sky_nodes.h"
 
+#include <algorithm>
+
 #include "kernels_cpu/core/math.h"
 #include "kernels_cpu/light/sky_map.h"
 #include "platform/threads.h"
@@ -83,6 +85,31 @@ float seen_through(float tau, const Octaves& o) {
     return seen < 1 ? seen : 1.0f;
 }
 
+/// What each node sees of each part of the sphere, by a ray to its middle.
+Status see_sky(const Context& context, const Medium& medium, const Majorants& majorants,
+               double kept, const Octaves& octaves, SkyNodes& out) {
+    const std::size_t nodes = std::size_t(node_count(out.grid));
+    if (out.seen.size() == kParts * nodes) return Status::ok();
+    PILEUS_TRY(allocate_once(arrays::sky_seen(nodes), out.seen));
+    ShadowParams k{};
+    k.medium = make_medium_view(medium, majorants);
+    k.nodes = out.grid;
+    const float left = float(1 - kept);
+    const std::size_t slice = nodes / std::size_t(out.grid.size[2]);
+    for (int p = 0; p < kParts; ++p) {
+        float* own = out.seen.data() + std::size_t(p) * nodes;
+        const std::array<float, 3> to = sky_direction(p);
+        for (std::size_t i = 0; i < 3; ++i) k.to_sun[i] = to[i];
+        PILEUS_TRY(run_rows(context, context.kernels->shadow_rows, k, ShadowBuffers{own},
+                            std::uint32_t(out.grid.size[1] * out.grid.size[2])));
+        parallel_for(context.threads, out.grid.size[2], [&](std::int64_t z, int) {
+            for (std::size_t n = std::size_t(z) * slice; n < std::size_t(z + 1) * slice; ++n)
+                own[n] = seen_through(own[n] * left, octaves);
+        });
+    }
+    return Status::ok();
+}
+
 }  // namespace
 
 std::array<float, 3> sky_direction(int part) {
@@ -120,28 +147,21 @@ Status make_sky_nodes(const Context& context, const Medium& medium, const Majora
     const std::uint64_t nodes = node_count(out.grid);
     for (int s = 0; s < 3; ++s)
         for (int c = 0; c < 3; ++c) out.colour[s][c] = float(r.colour[s][c]);
-    Buffer<float> tau;
-    PILEUS_TRY(allocate(arrays::sky_depths(nodes), tau));
-    PILEUS_TRY(allocate(arrays::sky_light(nodes, out.sets, Stage::kWrite), out.light));
-    ShadowParams k{};
-    k.medium = make_medium_view(medium, majorants);
-    k.nodes = out.grid;
-    const float left = float(1 - kept);
-    for (int p = 0; p < kParts; ++p) {
-        const Direction a = direction_in(p, 0.5, 0.5);
-        for (int i = 0; i < 3; ++i) k.to_sun[i] = a.d[i];
-        PILEUS_TRY(run_rows(context, context.kernels->shadow_rows, k, ShadowBuffers{tau.data()},
-                            std::uint32_t(out.grid.size[1] * out.grid.size[2])));
-        const std::size_t slice = std::size_t(nodes) / std::size_t(out.grid.size[2]);
-        parallel_for(context.threads, out.grid.size[2], [&](std::int64_t z, int) {
-            for (std::size_t n = std::size_t(z) * slice; n < std::size_t(z + 1) * slice; ++n) {
-                const float seen = seen_through(tau[n] * left, octaves);
-                for (int s = 0; s < out.sets; ++s)
-                    out.light[std::size_t(s) * std::size_t(nodes) + n] +=
-                        float(r.share[s][p]) * seen;
+    PILEUS_TRY(allocate_once(arrays::sky_light(nodes, out.sets, Stage::kWrite), out.light));
+    PILEUS_TRY(see_sky(context, medium, majorants, kept, octaves, out));
+    const std::size_t count = std::size_t(nodes), slice = count / std::size_t(out.grid.size[2]);
+    parallel_for(context.threads, out.grid.size[2], [&](std::int64_t z, int) {
+        const std::size_t begin = std::size_t(z) * slice;
+        for (int s = 0; s < out.sets; ++s) {
+            float* light = out.light.data() + std::size_t(s) * count;
+            std::fill_n(light + begin, slice, 0.0f);
+            for (int p = 0; p < kParts; ++p) {
+                const float share = float(r.share[s][p]);
+                const float* seen = out.seen.data() + std::size_t(p) * count;
+                for (std::size_t n = begin; n < begin + slice; ++n) light[n] += share * seen[n];
             }
-        });
-    }
+        }
+    });
     return Status::ok();
 }
 

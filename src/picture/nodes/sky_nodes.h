@@ -19,6 +19,7 @@ struct SkyNodes {
     int sets = 0;
     float colour[3][3] = {};
     Buffer<float> light;
+    Buffer<float> seen;  ///< [part of the sphere][node]: share of its light that comes through
 };
 
 /// Nodes that make_sky_nodes would make, at most about 2^15, and its sets: constant sky and ground
@@ -36,15 +37,17 @@ namespace arrays {
 inline Array<float> sky_light(std::uint64_t nodes, int sets, Stage last) {
     return {"skylight on nodes", bytes_of(nodes, std::uint64_t(sets)), Stage::kShadow, last};
 }
-/// Towards one direction after the other.
-inline Array<float> sky_depths(std::uint64_t nodes) {
-    return {"optical depths of the sky", nodes, Stage::kShadow, Stage::kShadow};
+/// From each part of the sphere.
+inline Array<float> sky_seen(std::uint64_t nodes) {
+    return {"sky seen from nodes", bytes_of(kSkyParts, nodes), Stage::kShadow, Stage::kWrite};
 }
 
 }  // namespace arrays
 
 /// Light from directions all around, each weakened by what it passes; forward scattering keeps
-/// `kept` of what is scattered; octaves add up, to no more than there is. kLimit: out of memory.
+/// `kept` of what is scattered; octaves add up, to no more than there is. What nodes see through
+/// the media is made where `out` does not hold it, so that it serves every sun. kLimit: out of
+/// memory.
 Status make_sky_nodes(const Context& context, const Medium& medium, const Majorants& majorants,
                       const Lighting& lighting, double kept, const Octaves& octaves, SkyNodes& out);
 

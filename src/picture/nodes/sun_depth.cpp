@@ -106,16 +106,41 @@ std::size_t fine_node(const NodeGrid& fine, const SparseNodes& s, std::size_t i)
 Status make_sun_depth(const Context& context, const Medium& medium, const Majorants& majorants,
                       const std::array<float, 3>& to_sun, SunDepthKind kind, SunDepth& out) {
     const StageClock clock(context, "shadow");
-    out.nodes = make_node_grid(medium.grid, medium.extent_m, 0);
-    for (int a = 0; a < 3; ++a) {
-        out.nodes.size[a] = medium.grid.size[a];
-        out.nodes.per_metre[a] = float(medium.grid.size[a] / medium.extent_m[a]);
-    }
+    out.nodes = sun_depth_nodes(medium);
     PILEUS_TRY(allocate_once(arrays::sun_depth(medium.grid, Stage::kWrite), out.optical_depth));
     out.swept =
         kind == SunDepthKind::kSwept && sweep(context, medium, to_sun, out.optical_depth.data());
     if (out.swept) return Status::ok();
     return cast_rays(context, medium, majorants, to_sun, out.nodes, out.optical_depth.data());
+}
+
+NodeGrid sun_depth_nodes(const Medium& medium) {
+    NodeGrid nodes{};
+    for (int a = 0; a < 3; ++a) {
+        nodes.size[a] = medium.grid.size[a];
+        nodes.per_metre[a] = float(medium.grid.size[a] / medium.extent_m[a]);
+    }
+    return nodes;
+}
+
+Status follow_sun_depth(const Context& context, const Medium& medium, const Majorants& majorants,
+                        const SunTurn& turn, const std::vector<NodeRange>& rows, SunSlices& slices,
+                        SunDepth& out) {
+    const StageClock clock(context, "shadow");
+    out.nodes = sun_depth_nodes(medium);
+    out.swept = false;
+    if (out.optical_depth.size() != node_count(out.nodes)) slices.held.clear();
+    PILEUS_TRY(allocate_once(arrays::sun_depth(medium.grid, Stage::kWrite), out.optical_depth));
+    ShadowParams k{};
+    k.medium = make_medium_view(medium, majorants);
+    k.nodes = out.nodes;
+    const ShadowBuffers b{out.optical_depth.data(), rows.data()};
+    for (const int slice : follow_sun(turn, slices)) {
+        const SunDirection& sun = slices.held[std::size_t(slice)];
+        for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = sun[a];
+        PILEUS_TRY(make_shadow_slice(context, k, b, slice, turn.slices));
+    }
+    return Status::ok();
 }
 
 Status sun_depth_difference(const Context& context, const Medium& medium,

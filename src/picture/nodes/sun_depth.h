@@ -6,6 +6,7 @@
 #include <array>
 
 #include "src/picture/nodes/node_grid.h"
+#include "src/picture/nodes/sun_slices.h"
 #include "src/plan/array.h"
 #include "src/run/context.h"
 #include "src/world/majorant/majorants.h"
@@ -37,6 +38,15 @@ inline Array<float> sun_depth(const Grid& grid, Stage last) {
 /// sweep was asked for. kLimit: out of memory. Needs kernels of the host.
 Status make_sun_depth(const Context& context, const Medium& medium, const Majorants& majorants,
                       const std::array<float, 3>& to_sun, SunDepthKind kind, SunDepth& out);
+
+/// The same by rays, while the sun moves: what `slices` do not hold for the frame's sun is made, of
+/// each row of nodes those in `rows`. kLimit: out of memory.
+Status follow_sun_depth(const Context& context, const Medium& medium, const Majorants& majorants,
+                        const SunTurn& turn, const std::vector<NodeRange>& rows, SunSlices& slices,
+                        SunDepth& out);
+
+/// Nodes that such a depth has.
+NodeGrid sun_depth_nodes(const Medium& medium);
 
 /// How far a depth is from that of rays, over a sparse regular set of its nodes.
 struct SunDepthDifference {
