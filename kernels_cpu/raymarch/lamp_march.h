@@ -136,14 +136,17 @@ PILEUS_FN void march_lamps(const LampMarchParams& k, const LampMarchBuffers& b,
                             select(lit, light * share[i] * phase_density(k.phase[i], turn), T{});
                         for (int c = 0; c < 3; ++c)
                             colour[c] = colour[c] + scattered * (k.albedo[i][c] * lamp.light[c]);
-                        for (int n = 1; n < k.octaves.count; ++n) {
-                            const T again = select(
-                                lit,
-                                share[i] * hg_density(all<T>(k.octave_g[i][n]), turn) * more[n],
-                                T{});
-                            for (int c = 0; c < 3; ++c)
+                        for (int c = 0; c < 3; ++c) {
+                            absorb_octaves(k.octaves, k.octave_depths, i, c, tau,
+                                           weight * sight.share, more);
+                            for (int n = 1; n < k.octaves.count; ++n) {
+                                const T again = select(
+                                    lit,
+                                    share[i] * hg_density(all<T>(k.octave_g[i][n]), turn) * more[n],
+                                    T{});
                                 colour[c] =
                                     colour[c] + again * (k.octave_source[i][n][c] * lamp.light[c]);
+                            }
                         }
                     }
                 };

@@ -15,9 +15,10 @@ struct LampMarchParams {
     std::int32_t media;  ///< on the grid, up to kMostMedia; 0: the ground alone is lit
     PhaseParams phase[kMostMedia];
     float albedo[kMostMedia][3];
-    float emission[kMostMedia][3];                     ///< as in Optics
-    std::int32_t emits;                                ///< 0: none is added
-    Octaves octaves;                                   ///< of the lamps' light
+    float emission[kMostMedia][3];  ///< as in Optics
+    std::int32_t emits;             ///< 0: none is added
+    Octaves octaves;                ///< of the lamps' light
+    OctaveDepths octave_depths;
     float octave_g[kMostMedia][kMostOctaves];          ///< as RaymarchLight has them
     float octave_source[kMostMedia][kMostOctaves][3];  ///< of a unit of light; from octave 1 on
     std::int32_t lamps;

@@ -133,6 +133,14 @@ PILEUS_FN T octave_light(const Octaves& o, T tau, T first, T factor, T (&light)[
     return sum * (1.0f / all_shares);
 }
 
+/// What absorption leaves of the octaves of medium i in channel c, where it is known for that one.
+template <class T>
+PILEUS_FN void absorb_octaves(const Octaves& o, const OctaveDepths& depths, int i, int c, T tau,
+                              T factor, T (&light)[kMostOctaves]) {
+    if (c >= depths.channels) return;
+    for (int n = 1; n < o.count; ++n) light[n] = exp_(T{} - tau * depths.thinner[i][n][c]) * factor;
+}
+
 /// Share of the sun's light at a place, per channel (light.channels of them); returns the optical
 /// depth of the way.
 template <class T, class Field>

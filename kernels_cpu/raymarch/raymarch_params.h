@@ -70,6 +70,13 @@ struct Octaves {
     float extinction, share;
 };
 
+/// Share of the extinction that octave n sees of the way to a light where media absorb: no less
+/// than that by which light fades that was scattered often.
+struct OctaveDepths {
+    std::int32_t channels;  ///< of these; 0: no medium absorbs, all are octaves.extinction^n
+    float thinner[kMostMedia][kMostOctaves][3];
+};
+
 /// How sunlight finds its way to a place.
 struct RaymarchLight {
     std::int32_t march;  ///< 0: from nodes
@@ -113,6 +120,7 @@ struct RaymarchParams {
     float to_sun[3];
     float sun_source[kMostMedia][3];                   ///< irradiance times albedo
     float octave_source[kMostMedia][kMostOctaves][3];  ///< that of octave n, its share in it
+    OctaveDepths octave_depths;
     float albedo[kMostMedia][3];
     RaymarchSky sky;
     std::int32_t sunlit;  ///< 0: all of them are zero

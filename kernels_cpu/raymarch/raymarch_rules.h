@@ -73,6 +73,7 @@ PILEUS_FN RaySample<T> take_sample(const RaymarchParams& k, const RaymarchBuffer
     field_shares(field, place, s.density, [&](int i, T share) {
         const T weight = share * r.phase[i];
         for (int c = 0; c < 3; ++c) {
+            if (octaves) absorb_octaves(k.light.octaves, k.octave_depths, i, c, tau, factor, more);
             const T sun = weight * light[k.light.channels == 1 ? 0 : c];
             s.source[c] = s.source[c] + sun * k.sun_source[i][c];
             for (int n = 1; octaves && n < k.light.octaves.count; ++n)

@@ -173,6 +173,26 @@ void set_octaves(const RaymarchSettings& settings, const Medium& medium, const f
     }
 }
 
+OctaveDepths octave_depths(const Octaves& octaves, const Medium& medium) {
+    OctaveDepths out{};
+    bool absorbs = false, coloured = false;
+    for (int i = 0; i < medium.count && octaves.count > 1; ++i) {
+        const Optics& optics = medium.optics[std::size_t(i)];
+        for (std::size_t c = 0; c < 3; ++c) {
+            absorbs |= optics.albedo[c] < 1;
+            coloured |= optics.albedo[c] != optics.albedo[0];
+            const float least = diffusion_exponent(optics.phase, optics.albedo[c]);
+            float thinner = 1;
+            for (int n = 1; n < octaves.count; ++n) {
+                thinner *= octaves.extinction;
+                out.thinner[i][n][c] = thinner > least ? thinner : least;
+            }
+        }
+    }
+    out.channels = !absorbs ? 0 : coloured ? 3 : 1;
+    return out;
+}
+
 Octaves octaves_of(const RaymarchSettings& s) {
     return {s.many ? s.octaves : 1, float(s.octave_extinction), float(s.octave_share)};
 }
@@ -246,6 +266,7 @@ RaymarchParams raymarch_params(const RaymarchInput& in) {
     set_light(in, k);
     k.light.octaves = octaves_of(*in.settings);
     set_octaves(*in.settings, *in.medium, k.sun_source, k.light.octave_g, k.octave_source);
+    k.octave_depths = octave_depths(k.light.octaves, *in.medium);
     if (in.simple != nullptr) set_simple(*in.simple, k);
     return k;
 }

@@ -70,6 +70,9 @@ Octaves octaves_of(const RaymarchSettings& settings);
 void set_octaves(const RaymarchSettings& settings, const Medium& medium, const float (*first)[3],
                  float (*g)[kMostOctaves], float (*source)[kMostOctaves][3]);
 
+/// What absorption leaves of them (docs/raymarch.md, "Octaves").
+OctaveDepths octave_depths(const Octaves& octaves, const Medium& medium);
+
 /// Everything that a launch reads, but for the pointers to planes.
 RaymarchParams raymarch_params(const RaymarchInput& in);
 

@@ -69,6 +69,7 @@ Status add_lamps(const Context& context, RaymarchRun& run) {
                                           run.lamps, run.settings.stop_below);
     k.octaves = octaves_of(run.settings);
     set_octaves(run.settings, medium, k.albedo, k.octave_g, k.octave_source);
+    k.octave_depths = octave_depths(k.octaves, medium);
     for (int i = 0; i < k.media; ++i) {
         float unit = 1;
         if (run.settings.peak_phase) unit = 1.0f / phase_peak(k.phase[i]);

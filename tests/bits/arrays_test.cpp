@@ -177,6 +177,7 @@ void check_raymarch(const Fixture& f) {
     Bytes held = held_by(run, run.majorants);
     held["sunlight's optical depth on nodes"] = run.nodes.optical_depth.bytes();
     held["skylight on nodes"] = run.sky.light.bytes();
+    held["sky seen from nodes"] = run.sky.seen.bytes();
     held["blue noise"] = run.noise.bytes();
     for (const DensityLevel& level : run.coarse) {
         held["coarser density"] += level.density.bytes();
@@ -219,6 +220,7 @@ void check_particles(const Fixture& f) {
         run.lamp_depth.bytes() + run.lamp_reach.bytes() + run.lamp_seen.bytes();
     held["particles' light around"] = run.around_balls.bytes();
     held["skylight on nodes"] = run.sky_nodes.light.bytes();
+    held["sky seen from nodes"] = run.sky_nodes.seen.bytes();
     held["picture planes"] = bytes_held(run.planes);
     // Freed with the march, but for one number a pixel.
     if (scene.output.layer_occlusion)

@@ -101,9 +101,9 @@ const Flight kFlights[] = {
      {"c4bb9bef6b7cc09b", "73c5783fc8440726", "fbad5e737466df06", "41df37c7493ab4ae"}},
     {"octaves by temporal reprojection",
      "[method]\nname = \"raymarch\"\n"
-     "[raymarch]\nscattering = \"octaves\"\nsteps = 48\ntemporal = 4\n",
+     "[raymarch]\nscattering = \"octaves\"\nsteps = 48\ntemporal = 4\nlight_refresh = 8\n",
      3,
-     {"cfa10ab20f42740a", "8640c6cbdcdc0876", "317e888b0b29c974", "059208eb90cd9cf8"}}};
+     {"c9de0d2578e17796", "03753a8e64a99b73", "5995dbbac810d0b2", "35bcae443f92f5a0"}}};
 
 }  // namespace
 

@@ -177,7 +177,8 @@ TEST_CASE("marched spheres are paths of one scattering, photons bring the rest")
     const std::string ground = "[ground]\naltitude_m = -20\nalbedo = 0.5\n";
     for (const char* medium : {kBox, kCloud})
         for (const Sphere& sphere : kSpheres) {
-            const std::string text = std::string(kView) + medium + sphere.table;
+            const std::string text = std::string(kView) + "[raymarch]\nscattering = \"single\"\n" +
+                                     medium + sphere.table;
             std::string once = text;
             once.replace(once.find("[path]\n"), 7, "[path]\nmax_depth = 1\n");
             const Picture single = by("path", once), all = by("path", text + ground);

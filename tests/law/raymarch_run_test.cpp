@@ -49,7 +49,7 @@ bool holds(const std::vector<std::string>& list, const std::string& text) {
 }
 
 TEST_CASE("raymarch: plan and report name what is appearance, and what is left out") {
-    const Picture plain = render_one(marched({}));
+    const Picture plain = render_one(marched({"raymarch.scattering=single"}));
     CHECK_FALSE(holds(plain.report.needed, "appearance"));
     CHECK_FALSE(holds(plain.report.needed, "approximation"));
     const Picture all =

@@ -118,8 +118,9 @@ TEST_CASE("optical-depth: powder by extinction, a phase function for all, ambien
 }
 
 TEST_CASE("optical-depth: without powder it is twice raymarch's single scattering, bit for bit") {
-    const Keys march = {"method.name=raymarch", "raymarch.light=buffer", "raymarch.sky_light=none",
-                        "raymarch.spacing=voxel", "output.layers=[\"cloud\"]"};
+    const Keys march = {"method.name=raymarch",       "raymarch.light=buffer",
+                        "raymarch.sky_light=none",    "raymarch.spacing=voxel",
+                        "raymarch.scattering=single", "output.layers=[\"cloud\"]"};
     const Keys simple = {"method.name=optical-depth", "optical_depth.powder_strength=0",
                          "output.layers=[\"cloud\"]"};
     const Picture a = picture_of(kSmallCumulus, march), b = picture_of(kSmallCumulus, simple);

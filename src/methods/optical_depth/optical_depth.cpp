@@ -26,6 +26,7 @@ Status outline(const Context& context, MethodRun& method_run) {
     const std::int64_t steps = run.budget.steps >= 0 ? run.budget.steps : s.steps;
     run.simple = &s;
     run.settings = RaymarchSettings{};
+    run.settings.many = false;
     run.settings.spacing =
         steps > 0 || run.budget.steps == 0 ? RaymarchSpacing::kUniform : RaymarchSpacing::kVoxel;
     run.settings.steps = steps > 0 ? int(steps) : run.budget.steps == 0 ? 0 : 1;

@@ -12,6 +12,7 @@
 #include "src/base/angles.h"
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/node_grid.h"
+#include "src/world/phase/forward_share.h"
 
 namespace pileus {
 namespace {
@@ -75,14 +76,55 @@ void set_map(const Lighting& light, Radiances& r) {
         for (double& share : r.share[c]) share = r.colour[c][c] > 0 ? share / r.colour[c][c] : 0;
 }
 
-/// Share of a light that comes through an optical depth.
-float seen_through(float tau, const Octaves& o) {
-    float seen = exp_(-tau), share = 1, thinner = 1;
-    for (int n = 1; n < o.count; ++n) {
-        share *= o.share, thinner *= o.extinction;
-        seen += share * exp_(-(tau * thinner));
+/// Means over all media and channels.
+struct Absorption {
+    float albedo = 1, least = 0;  ///< least: share of the extinction by which light fades
+};
+
+Absorption absorption_of(const Medium& medium) {
+    Absorption mean{0, 0};
+    const float share = 1.0f / (3.0f * float(medium.count > 0 ? medium.count : 1));
+    for (int i = 0; i < medium.count; ++i) {
+        const Optics& optics = medium.optics[std::size_t(i)];
+        for (float albedo : optics.albedo) {
+            mean.albedo += share * albedo;
+            mean.least += share * diffusion_exponent(optics.phase, albedo);
+        }
     }
-    return seen < 1 ? seen : 1.0f;
+    // Thirds need not add up to one: where nothing is absorbed all light is kept.
+    if (!(mean.least > 0)) mean.albedo = 1;
+    return mean;
+}
+
+/// Depths of the ways from one node, [part] `apart` numbers apart, become what it sees of each
+/// part. What comes straight through is e^-tau. With octaves, the rest of the sphere shows the
+/// medium, and that the light of all parts, as much of each as the copies after the first let
+/// through: where nothing is absorbed all light came from somewhere, so that what is seen adds up
+/// to one.
+void see_parts(const Octaves& o, float left, const Absorption& by, std::size_t apart,
+               float* parts) {
+    float straight = 0, all = 0, turned[kParts];
+    for (int p = 0; p < kParts; ++p) {
+        const float tau = parts[std::size_t(p) * apart] * left;
+        float share = 1, kept = 1, thinner = 1, white = 0;
+        turned[p] = 0;
+        for (int n = 1; n < o.count; ++n) {
+            share *= o.share, kept *= o.share * by.albedo, thinner *= o.extinction;
+            const float through = exp_(-(tau * thinner));
+            white += share * through;
+            turned[p] += kept * (thinner < by.least ? exp_(-(tau * by.least)) : through);
+        }
+        const float seen = exp_(-tau);
+        parts[std::size_t(p) * apart] = seen;
+        straight += seen;
+        all += white;
+    }
+    // So thick that no copy comes through: every part alike.
+    const float rest = 1 - straight * (1.0f / kParts);
+    for (int p = 0; p < kParts && o.count > 1 && rest > 0; ++p) {
+        const float share = all > 1e-30f ? turned[p] * kParts / all : (by.albedo < 1 ? 0.0f : 1.0f);
+        parts[std::size_t(p) * apart] += rest * share;
+    }
 }
 
 /// What each node sees of each part of the sphere, by a ray to its middle.
@@ -95,6 +137,7 @@ Status see_sky(const Context& context, const Medium& medium, const Majorants& ma
     k.medium = make_medium_view(medium, majorants);
     k.nodes = out.grid;
     const float left = float(1 - kept);
+    const Absorption absorption = absorption_of(medium);
     const std::size_t slice = nodes / std::size_t(out.grid.size[2]);
     for (int p = 0; p < kParts; ++p) {
         float* own = out.seen.data() + std::size_t(p) * nodes;
@@ -102,11 +145,11 @@ Status see_sky(const Context& context, const Medium& medium, const Majorants& ma
         for (std::size_t i = 0; i < 3; ++i) k.to_sun[i] = to[i];
         PILEUS_TRY(run_rows(context, context.kernels->shadow_rows, k, ShadowBuffers{own},
                             std::uint32_t(out.grid.size[1] * out.grid.size[2])));
-        parallel_for(context.threads, out.grid.size[2], [&](std::int64_t z, int) {
-            for (std::size_t n = std::size_t(z) * slice; n < std::size_t(z + 1) * slice; ++n)
-                own[n] = seen_through(own[n] * left, octaves);
-        });
     }
+    parallel_for(context.threads, out.grid.size[2], [&](std::int64_t z, int) {
+        for (std::size_t n = std::size_t(z) * slice; n < std::size_t(z + 1) * slice; ++n)
+            see_parts(octaves, left, absorption, nodes, out.seen.data() + n);
+    });
     return Status::ok();
 }
 

@@ -86,4 +86,9 @@ double forward_share(const PhaseParams& p, double half_deg) {
     return at_most_one(double(p.weight) * first + (1 - double(p.weight)) * second);
 }
 
+float diffusion_exponent(const PhaseParams& phase, float albedo) {
+    const float g = phase_moment(phase, 1), square = 3 * (1 - albedo) * (1 - albedo * g);
+    return square < 1 ? (square > 0 ? __builtin_sqrtf(square) : 0.0f) : 1.0f;
+}
+
 }  // namespace pileus

@@ -15,4 +15,9 @@ double forward_share(const PhaseParams& phase, double half_deg);
 /// straight back.
 double forward_share_by_density(const PhaseParams& phase, double half_deg);
 
+/// How light fades deep inside a medium where it was scattered often, per optical depth: by
+/// diffusion, sqrt(3 (1 - a) (1 - a g)), at most 1 (van de Hulst, "Multiple Light Scattering",
+/// 1980, 14.1). 0 where nothing is absorbed.
+float diffusion_exponent(const PhaseParams& phase, float albedo);
+
 }  // namespace pileus
