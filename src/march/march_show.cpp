@@ -8,7 +8,6 @@
 #include "src/picture/blue_noise.h"
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/node_grid.h"
-#include "src/picture/nodes/node_rows.h"
 #include "src/picture/nodes/solid_shadow.h"
 
 namespace pileus {
@@ -33,8 +32,7 @@ Status light_nodes(const Context& context, RaymarchRun& run) {
         // Coarser densities reach farther than the medium's own.
         const MediumView view =
             run.levels > 0 ? MediumView{} : make_medium_view(run.world->medium, run.majorants);
-        return follow_sun_depth(context, medium, majorants, turn_of(run),
-                                nodes_in_medium(sun_depth_nodes(medium), view), run.slices,
+        return follow_sun_depth(context, medium, majorants, view, turn_of(run), run.slices,
                                 run.nodes);
     }
     if (!run.nodes.optical_depth.empty() && run.nodes_to_sun == to_sun) return Status::ok();
@@ -119,19 +117,28 @@ Status march_light(const FrameStep& step, const Context& context, MethodRun& met
 Status march_frame(const FrameStep& step, const Context& context, RaymarchRun& run) {
     const Scene& scene = *run.scene;
     const OutputSettings& output = scene.output;
-    Plan photons;  // speaks of photons alone
-    run.lighting = light_world(scene, sun_at(scene, step.frame), *run.world, run.around, photons);
-    run.camera = make_camera(scene.camera, orbit_at(scene, step.frame), run.world->medium.low_m);
+    {
+        const StageClock clock(context, "lights");
+        Plan photons;  // speaks of photons alone
+        run.lighting =
+            light_world(scene, sun_at(scene, step.frame), *run.world, run.around, photons);
+        run.camera =
+            make_camera(scene.camera, orbit_at(scene, step.frame), run.world->medium.low_m);
+    }
     if (run.settings.jitter == RaymarchJitterKind::kBlueNoise && run.noise.empty())
         PILEUS_TRY(make_blue_noise(run.noise));
     PILEUS_TRY(light_nodes(context, run));
     PILEUS_TRY(shade_by_solids(context, run));
     PILEUS_TRY(light_sky(context, step, run));
-    PILEUS_TRY(allocate_planes(run.camera.width, run.camera.height, 3, run.lighting.opaque(),
-                               output.layer_depth, run.planes));
-    const std::uint64_t pixels = run.planes.transmittance.size();
-    if (output.layer_optical_depth)
-        PILEUS_TRY(allocate(arrays::picture_planes(1, pixels), run.planes.optical_depth));
+    {
+        // Clearing memory is part of it.
+        const StageClock clock(context, "background");
+        PILEUS_TRY(allocate_planes(run.camera.width, run.camera.height, 3, run.lighting.opaque(),
+                                   output.layer_depth, run.planes));
+        if (output.layer_optical_depth)
+            PILEUS_TRY(allocate(arrays::picture_planes(1, run.planes.transmittance.size()),
+                                run.planes.optical_depth));
+    }
     PILEUS_TRY(fill_background(context, run));
     RaymarchInput in;
     in.medium = &marched_medium(run);

@@ -52,10 +52,14 @@ Status make_sun_shadow(const Context& context, PhotonRun& run) {
     ShadowParams k{};
     k.medium = view_of(run);
     k.nodes = run.shadow_nodes;
+    const std::vector<int> due = follow_sun(turn_of(run), run.shadow_slices);
     ShadowBuffers b{run.shadow.data()};
-    const std::vector<NodeRange> rows = nodes_in_medium(k.nodes, k.medium);
-    if (context.kernels->device == nullptr) b.rows = rows.data();
-    for (const int slice : follow_sun(turn_of(run), run.shadow_slices)) {
+    std::vector<NodeRange> rows;
+    if (!due.empty() && context.kernels->device == nullptr) {
+        rows = nodes_in_medium(k.nodes, k.medium);
+        b.rows = rows.data();
+    }
+    for (const int slice : due) {
         const SunDirection& sun = run.shadow_slices.held[std::size_t(slice)];
         for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = sun[a];
         PILEUS_TRY(make_shadow_slice(context, k, b, slice, run.light_refresh));

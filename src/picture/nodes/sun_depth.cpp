@@ -4,6 +4,7 @@
 
 #include "kernels_cpu/core/math.h"
 #include "src/picture/march_view.h"
+#include "src/picture/nodes/node_rows.h"
 #include "src/picture/nodes/sweep_taps.h"
 
 namespace pileus {
@@ -124,18 +125,21 @@ NodeGrid sun_depth_nodes(const Medium& medium) {
 }
 
 Status follow_sun_depth(const Context& context, const Medium& medium, const Majorants& majorants,
-                        const SunTurn& turn, const std::vector<NodeRange>& rows, SunSlices& slices,
+                        const MediumView& read, const SunTurn& turn, SunSlices& slices,
                         SunDepth& out) {
     const StageClock clock(context, "shadow");
     out.nodes = sun_depth_nodes(medium);
     out.swept = false;
     if (out.optical_depth.size() != node_count(out.nodes)) slices.held.clear();
     PILEUS_TRY(allocate_once(arrays::sun_depth(medium.grid, Stage::kWrite), out.optical_depth));
+    const std::vector<int> due = follow_sun(turn, slices);
+    if (due.empty()) return Status::ok();
     ShadowParams k{};
     k.medium = make_medium_view(medium, majorants);
     k.nodes = out.nodes;
+    const std::vector<NodeRange> rows = nodes_in_medium(out.nodes, read);
     const ShadowBuffers b{out.optical_depth.data(), rows.data()};
-    for (const int slice : follow_sun(turn, slices)) {
+    for (const int slice : due) {
         const SunDirection& sun = slices.held[std::size_t(slice)];
         for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = sun[a];
         PILEUS_TRY(make_shadow_slice(context, k, b, slice, turn.slices));

@@ -40,9 +40,9 @@ Status make_sun_depth(const Context& context, const Medium& medium, const Majora
                       const std::array<float, 3>& to_sun, SunDepthKind kind, SunDepth& out);
 
 /// The same by rays, while the sun moves: what `slices` do not hold for the frame's sun is made, of
-/// each row of nodes those in `rows`. kLimit: out of memory.
+/// nodes that are read for places in `read` (nodes_in_medium). kLimit: out of memory.
 Status follow_sun_depth(const Context& context, const Medium& medium, const Majorants& majorants,
-                        const SunTurn& turn, const std::vector<NodeRange>& rows, SunSlices& slices,
+                        const MediumView& read, const SunTurn& turn, SunSlices& slices,
                         SunDepth& out);
 
 /// Nodes that such a depth has.
