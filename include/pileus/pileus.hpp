@@ -268,6 +268,25 @@ public:
             [&](pileus_error* error) { return pileus_session_set_frame(get(), number, error); });
     }
 
+    /// For the steps and pictures from now on. kBadInput: what the session's method has not.
+    Status set_work(const Work& work) {
+        auto c = detail::cleared<pileus_work>();
+        c.scale = work.scale, c.temporal = work.temporal, c.steps = work.steps;
+        c.light_refresh = work.light_refresh, c.photons = work.photons;
+        return call(pileus_session_set_work, &c);
+    }
+
+    /// The next frame's work by how long the last one took, 0 before the first; `governor` is
+    /// cleared by PILEUS_INIT and has its target_s set. kBadInput: a time out of range.
+    Result<Work> govern(pileus_governor& governor, double frame_s) const {
+        auto c = detail::cleared<pileus_work>();
+        Status status = detail::status_of([&](pileus_error* error) {
+            return pileus_session_govern(get(), &governor, frame_s, &c, error);
+        });
+        if (!status) return status;
+        return Work{c.scale, c.temporal, c.steps, c.light_refresh, c.photons};
+    }
+
     Result<Light> light() const {
         auto c = detail::cleared<pileus_light_info>();
         Status status = call(pileus_session_light, &c);

@@ -152,6 +152,12 @@ struct Light {
     std::string unit;                ///< "generation", "sample" or ""
 };
 
+/// What a frame may cost, as pileus_work; 0: as the scene has it.
+struct Work {
+    std::uint32_t scale = 0, temporal = 0, steps = 0, light_refresh = 0;
+    std::uint64_t photons = 0;
+};
+
 /// Counts of what was done, to see that a frame makes nothing again.
 struct Stats {
     std::uint32_t prepared = 0;  ///< 1: once for all; more where a light appeared

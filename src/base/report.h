@@ -59,6 +59,13 @@ struct ReportWork {
     std::string of = "photons";  ///< what is counted as photons: they, or paths
 };
 
+/// Work of one frame in units that no clock decides; 0: the method has none of it.
+struct ReportFrameWork {
+    int scale = 0, temporal = 0, steps = 0, light_refresh = 0;
+    std::int64_t photons = 0;
+    std::string light;  ///< `raymarch.light` as it was chosen for this; empty: not by time
+};
+
 struct Report {
     std::string version, scene, method, isa, hash;
     int threads = 1;
@@ -76,6 +83,7 @@ struct Report {
     std::vector<ReportBound> bounds;
     std::vector<ReportLimit> limits;
     ReportWork work;
+    ReportFrameWork frame_work;
     std::string bias_of, bias, bias_page;
     std::string accumulation, accumulation_why;  ///< who adds to which sums; empty: no such sums
     std::int64_t peak_bytes = 0;                 ///< of the whole process

@@ -77,14 +77,27 @@ Status compose(const FrameStep& step, const Context& context, MethodRun& method_
     return march_frame(step, context, run);
 }
 
+Status take_work(const FrameWork& work, MethodRun& method_run) {
+    RaymarchRun& run = own(method_run);
+    if (run.simple != nullptr) {
+        if (work.steps == 0) return Status::ok();
+        run.settings.spacing = RaymarchSpacing::kUniform;
+    } else {
+        if (work.scale > 0) run.settings.thin.scale = work.scale;
+        run.settings.thin.temporal = work.temporal;
+        run.settings.light_refresh = work.light_refresh;
+    }
+    run.settings.steps = work.steps;
+    return Status::ok();
+}
+
 }  // namespace
 
 Status check_marched(const Scene& scene, const Budget& budget) {
-    constexpr const char* kAllowed = "steps=N";
+    constexpr const char* kAllowed = "steps=N, seconds=S";
     if (budget.photons >= 0) return unknown_budget("--budget photons", scene.method, kAllowed);
     if (budget.samples >= 0) return unknown_budget("--budget samples", scene.method, kAllowed);
     if (budget.error > 0) return unknown_budget("--budget error", scene.method, kAllowed);
-    if (budget.seconds > 0) return unknown_budget("--budget seconds", scene.method, kAllowed);
     if (!budget.state.empty())
         return unknown_budget("--state", scene.method, "method.name = \"path\"");
     if (scene.camera.flux)
@@ -137,6 +150,7 @@ Status march_outline(const Context& context, RaymarchRun& run) {
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name + "\": method " +
                                  run.scene->method +
                                  " runs on the host alone, allowed: another, or another method");
+    run.whole_steps = run.settings.steps;
     choose_light(sun_at(*run.scene, 0), run);
     return march_measure(context, run);
 }
@@ -155,6 +169,6 @@ Status march_prepare(const Context& context, MethodRun& method_run) {
     return Status::ok();
 }
 
-const LiveMethod live_march{aim, advance, units, compose};
+const LiveMethod live_march{aim, advance, units, compose, take_work};
 
 }  // namespace pileus

@@ -18,6 +18,7 @@ namespace pileus {
 /// Everything one run holds. Each frame has planes of its own, made and freed with it.
 struct RaymarchRun : MethodRun {
     RaymarchSettings settings;                     ///< the scene's, with the steps of the budget
+    int whole_steps = 0;                           ///< of them, where a time leaves all
     const OpticalDepthSettings* simple = nullptr;  ///< of method optical-depth
     Medium capped;  ///< the medium with its extinction cut; unused where that cuts nothing
     Medium lit;     ///< on the cells that its optical depth is swept over, if they are others

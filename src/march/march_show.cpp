@@ -2,8 +2,9 @@
 // One frame of a raymarch: sunlight, background, march, layers.
 // in: a prepared RaymarchRun -> out: Image, Report.
 // docs/raymarch.md; docs/formats.md, "Pictures out"
+#include "platform/clock.h"
 #include "src/base/digest.h"
-#include "src/march/march_run.h"
+#include "src/march/march_budget.h"
 #include "src/picture/background.h"
 #include "src/picture/blue_noise.h"
 #include "src/picture/march_view.h"
@@ -117,6 +118,7 @@ Status march_light(const FrameStep& step, const Context& context, MethodRun& met
 Status march_frame(const FrameStep& step, const Context& context, RaymarchRun& run) {
     const Scene& scene = *run.scene;
     const OutputSettings& output = scene.output;
+    const double start_s = wall_seconds();
     {
         const StageClock clock(context, "lights");
         Plan photons;  // speaks of photons alone
@@ -158,7 +160,6 @@ Status march_frame(const FrameStep& step, const Context& context, RaymarchRun& r
     in.layer = run.world->direct_sky ? &run.world->layer : nullptr;
     in.camera = run.camera;
     UpsampleInput thin;
-    thin.settings = run.settings.thin;
     thin.camera = run.camera;
     thin.medium = make_medium_view(*in.medium, run.majorants);
     thin.to_sun = run.lighting.to_sun;
@@ -166,6 +167,8 @@ Status march_frame(const FrameStep& step, const Context& context, RaymarchRun& r
         in.lattice = lattice;
         return raymarch_picture(context, in, planes, run.tally);
     };
+    PILEUS_TRY(choose_march_work(context, start_s, thin, run));
+    thin.settings = run.settings.thin;
     PILEUS_TRY(upsample_picture(context, thin, step.frame, run.upsample, run.planes));
     return add_lamps(context, run);
 }

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "src/io/images/image.h"
+#include "src/methods/frame_work.h"
 #include "src/picture/nodes/sun_slices.h"
 #include "src/run/context.h"
 #include "src/scene/scene.h"
@@ -69,6 +70,9 @@ struct LiveMethod {
     LightUnits (*units)(const MethodRun&);
     /// The picture as it is lit now; the run keeps the planes.
     Status (*compose)(const FrameStep&, const Context&, MethodRun&, const Planes*&);
+    /// Takes up the work of the next frames, all members filled in, before the run's scene has it;
+    /// null where the scene is all that the method reads.
+    Status (*take_work)(const FrameWork&, MethodRun&);
 };
 
 /// A recipe. Functions are called from the top down, `light` to `report` once for each frame. The

@@ -61,6 +61,23 @@ bool coloured_lamps(const Lighting& lighting) {
     return coloured;
 }
 
+/// Photons of a generation of a light that is up: its part of `unit_photons`, 1 at least.
+std::uint64_t unit_photons_of(std::size_t light, const PhotonRun& run) {
+    const std::uint64_t planned = run.light_photons[light];
+    std::uint64_t all = 0;
+    for (const std::uint64_t n : run.light_photons) all += n;
+    if (run.unit_photons == 0 || run.unit_photons >= all || planned == 0) return planned;
+    const auto part =
+        std::uint64_t(double(planned) * (double(run.unit_photons) / double(all)) + 0.5);
+    return part == 0 ? 1 : part < planned ? part : planned;
+}
+
+/// Photons have the numbers of a whole generation, so that none flies twice.
+void set_unit_photons(std::size_t light, const PhotonRun& run, Light& of) {
+    of.photons = unit_photons_of(light, run);
+    of.apart = run.light_photons[light];
+}
+
 /// The set of lights is the ring's layout: a light that has set keeps its place and shoots no
 /// photons; those of its day stay in the ring until they leave it.
 void keep_places(const PhotonRun& run, Lighting& next) {
@@ -69,7 +86,8 @@ void keep_places(const PhotonRun& run, Lighting& next) {
         bool found = false;
         for (const Light& n : next.lights)
             if (n.stream == lights[i].stream) lights[i] = n, found = true;
-        lights[i].photons = found ? run.light_photons[i] : 0;
+        lights[i].photons = 0;
+        if (found) set_unit_photons(i, run, lights[i]);
         // A diffuse light's colour is today's for the whole ring; a beam's never changes.
         if (!found && !lights[i].beam) lights[i].colour = {0, 0, 0};
     }
@@ -266,6 +284,22 @@ bool relight_photons(PhotonRun& run) {
     run.lighting = next;
     run.sun_elevation_deg = elevation_deg;
     return true;
+}
+
+Status take_photon_work(const FrameWork& work, MethodRun& method_run) {
+    PhotonRun& run = static_cast<PhotonRun&>(method_run);
+    run.light_refresh = work.light_refresh;
+    const std::uint64_t photons = std::uint64_t(work.photons);
+    std::uint64_t all = 0;
+    for (const std::uint64_t n : run.light_photons) all += n;
+    if (!run.ring && photons < all)
+        return Status::bad_input("work.photons: " + std::to_string(photons) +
+                                 ", but all generations are one sum, allowed: 0, or ring = true");
+    run.unit_photons = photons < all ? photons : 0;
+    std::vector<Light>& lights = run.lighting.lights;
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        if (lights[i].photons > 0) set_unit_photons(i, run, lights[i]);
+    return Status::ok();
 }
 
 bool same_lights(const Lighting& a, const Lighting& b) {

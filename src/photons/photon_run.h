@@ -23,6 +23,7 @@ constexpr std::uint64_t kMostBatches = 16;
 struct PhotonRun : MethodRun {
     std::int64_t budget_photons = 0;           ///< of all generations
     std::vector<std::uint64_t> light_photons;  ///< per light and generation while it is up
+    std::uint64_t unit_photons = 0;  ///< of a generation of a session, fewer than these; 0: these
     double sun_elevation_deg = 0;
     Majorants majorants;
     DepositPlan deposit;
@@ -99,6 +100,10 @@ void set_photon_sun(double elevation_deg, PhotonRun& run);
 /// Takes up a new sun, sky or ground of the run's scene. False: a light appears that the slots have
 /// no place for, so that they are to be laid out anew.
 bool relight_photons(PhotonRun& run);
+
+/// LiveMethod::take_work: photons of the generations to come, slices of sunlight. kBadInput: other
+/// photons in one sum, whose generations are all alike.
+Status take_photon_work(const FrameWork& work, MethodRun& run);
 
 /// Whether photons of one are photons of the other.
 bool same_lights(const Lighting& a, const Lighting& b);

@@ -221,7 +221,8 @@ Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScr
         Launch launch{&in, &scratch, launch_params(in, light, generation), 0,
                       slot.sums.data() + l * stride};
         // Split where the photon index passes a multiple of 2^32: its high half is in the key.
-        std::uint64_t index = generation * light.photons, left = light.photons;
+        const std::uint64_t apart = light.apart > 0 ? light.apart : light.photons;
+        std::uint64_t index = generation * apart, left = light.photons;
         std::int64_t photons = 0;
         while (left > 0 && !ended) {
             const std::uint64_t room = (std::uint64_t{1} << 32) - (index & 0xffffffffu);

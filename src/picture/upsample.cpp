@@ -30,12 +30,7 @@ Status outfit(const PixelLattice& g, int width, bool half_depth, const Planes& w
     PILEUS_TRY(allocate_once(marched(half_depth ? 1 : 0, n), few.half_depth));
     PILEUS_TRY(allocate_once(marched(whole.optical_depth.empty() ? 0 : 1, n), few.optical_depth));
     PILEUS_TRY(allocate_once(marched(whole.opaque_depth.empty() ? 0 : 1, n), few.opaque_depth));
-    for (std::size_t i = 0; i < few.opaque_depth.size(); ++i) {
-        const std::size_t across = std::size_t(g.width), every = std::size_t(g.every);
-        const std::size_t x = i % across * every + std::size_t(g.first[0]);
-        const std::size_t y = i / across * every + std::size_t(g.first[1]);
-        few.opaque_depth[i] = whole.opaque_depth[y * std::size_t(width) + x];
-    }
+    take_behind(g, width, whole, few);
     return Status::ok();
 }
 
@@ -102,6 +97,15 @@ Status remember(const Context& context, const UpsampleInput& in, const Planes& p
 constexpr int kTurnX[4] = {0, 1, 1, 0}, kTurnY[4] = {0, 1, 0, 1};
 
 }  // namespace
+
+void take_behind(const PixelLattice& g, int width, const Planes& whole, Planes& few) {
+    for (std::size_t i = 0; i < few.opaque_depth.size(); ++i) {
+        const std::size_t across = std::size_t(g.width), every = std::size_t(g.every);
+        const std::size_t x = i % across * every + std::size_t(g.first[0]);
+        const std::size_t y = i / across * every + std::size_t(g.first[1]);
+        few.opaque_depth[i] = whole.opaque_depth[y * std::size_t(width) + x];
+    }
+}
 
 PixelLattice upsample_lattice(const UpsampleSettings& s, const CameraParams& camera, int frame,
                               bool remembers) {

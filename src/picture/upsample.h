@@ -37,6 +37,10 @@ struct UpsampleInput {
 PixelLattice upsample_lattice(const UpsampleSettings& settings, const CameraParams& camera,
                               int frame, bool remembers);
 
+/// What stands behind the pixels of a lattice, out of a picture of that width, as far as `few` has
+/// room for it.
+void take_behind(const PixelLattice& lattice, int width, const Planes& whole, Planes& few);
+
 /// Transmittance, three colours and depths of a picture whose `opaque_depth` is there, by the
 /// upsampling and reprojection that the settings ask for; `frame` of the animation decides which
 /// pixels are marched. kLimit: out of memory.

@@ -51,6 +51,14 @@ void note_origin(const Report& report, Image& image) {
     add("firstFrame", std::to_string(report.first_frame));
     add("budget", report.budget);
     add("show", report.show);
+    // A time has chosen them: `--set` with these makes the picture again.
+    if (report.budget.find("seconds") != std::string::npos && report.frame_work.steps > 0) {
+        const ReportFrameWork& work = report.frame_work;
+        add("steps", std::to_string(work.steps));
+        add("scale", std::to_string(work.scale));
+        add("temporal", std::to_string(work.temporal));
+        add("light", work.light);
+    }
     if (report.generations > 0) add("generations", std::to_string(report.generations));
     if (report.samples_per_pixel > 0)
         add("samplesPerPixel", std::to_string(report.samples_per_pixel));

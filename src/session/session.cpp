@@ -103,6 +103,8 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
     // Nor does its report hash what is made in each stage: that takes longer than a picture.
     if (!context_.digests) run_->digests.clear();
     method_->report_plan(*run_, context_, report_);
+    if (method_->live != nullptr) whole_work_ = work_ = scene_work();
+    report_.frame_work = told_work(work_);
     report_.peak_bytes = peak_memory_bytes();
     return Status::ok();
 }

@@ -5,6 +5,7 @@
 #pragma once
 #include <memory>
 
+#include "src/methods/governor.h"
 #include "src/methods/methods.h"
 #include "src/picture/pixels.h"
 #include "src/session/render.h"
@@ -71,6 +72,13 @@ public:
     Status set_frame(int number);
     /// Null rows: nothing solid.
     Status set_depth(const Rows* rows, DepthKind kind);
+    /// What the next steps and pictures may cost; members that are 0 are the scene's. kBadInput: a
+    /// member that the method has not, or more than the scene's.
+    Status set_work(const FrameWork& work);
+    /// As it is set now, every member filled in.
+    const FrameWork& work() const { return work_; }
+    /// From all of the scene's work to less and less, for `govern`.
+    std::vector<FrameWork> work_levels() const;
 
     /// Camera as it was set, in the host's coordinates.
     const Camera& camera() const { return camera_; }
@@ -88,6 +96,7 @@ public:
 private:
     Status aim();
     void place();
+    FrameWork scene_work() const;
 
     Scene scene_;  ///< as the method sees it: in the media's coordinates
     Camera camera_;
@@ -97,6 +106,7 @@ private:
     Double3 offset_m_{};
     double yaw_deg_ = 0;
     DepthScale depth_scale_;
+    FrameWork whole_work_, work_;  ///< the scene's, and that of the next frame
     int frame_ = 0;
     bool stale_ = true, anew_ = false;
     RenderOptions options_;
@@ -106,5 +116,8 @@ private:
     std::unique_ptr<MethodRun> run_;
     SessionStats stats_;
 };
+
+/// As the report tells it.
+ReportFrameWork told_work(const FrameWork& work);
 
 }  // namespace pileus

@@ -54,6 +54,8 @@ const char* const kReportKeys[] = {
     "/paths_per_second",
     "/ahead",
     "/ring",
+    "/frame_work/scale",
+    "/frame_work/photons",
     "/warnings",
     "/energy",
     "/error/mean_relative",

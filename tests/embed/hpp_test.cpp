@@ -238,3 +238,23 @@ TEST_CASE("pileus.hpp: densities of the caller are the medium") {
     CHECK(hpp::World::create(scene, {}, {{0, {4, 5, 6}, wrong.data()}}).code() ==
           hpp::Code::kBadInput);
 }
+
+TEST_CASE("pileus.hpp: work and the governor are those of the C interface") {
+    hpp::Session session = session_of("raymarch");
+    const std::string whole = hash_of(session);
+    pileus_governor governor;
+    PILEUS_INIT(governor);
+    governor.target_s = 0.01;
+    CHECK(take(session.govern(governor, 0)).scale == 1);
+    hpp::Work work;
+    for (int i = 0; i < 8; ++i) work = take(session.govern(governor, 1.0));
+    CHECK(governor.level > 0);
+    CHECK(work.scale > 1);
+    check(session.set_work(work));
+    CHECK(hash_of(session) != whole);
+    check(session.set_work({}));
+    CHECK(hash_of(session) == whole);
+    work.photons = 1;
+    CHECK(session.set_work(work).code() == hpp::Code::kBadInput);
+    CHECK_FALSE(session.govern(governor, -1));
+}

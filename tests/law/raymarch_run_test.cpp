@@ -32,14 +32,41 @@ TEST_CASE("raymarch: what it cannot do is refused in one line") {
                   .find("test.toml: output.layers: method raymarch has no") == 0);
     CHECK(fault_of(marched({"raymarch.light=buffer", "raymarch.light_path=cone"}))
               .find("test.toml: raymarch.light: ") == 0);
-    RenderOptions photons, error, seconds;
+    RenderOptions photons, error;
     photons.budget_photons = 5;
     error.budget_error = 0.1;
-    seconds.budget_seconds = 1;
     CHECK(fault_of(marched({}), photons) ==
-          "--budget photons: not for method raymarch, allowed: steps=N");
+          "--budget photons: not for method raymarch, allowed: steps=N, seconds=S");
     CHECK(fault_of(marched({}), error).find("--budget error: not for method raymarch") == 0);
-    CHECK(fault_of(marched({}), seconds).find("--budget seconds: not for method raymarch") == 0);
+}
+
+TEST_CASE("raymarch: a time chooses pixels and steps, which make the picture again") {
+    for (const Keys& more : {Keys{}, Keys{"animation.frames=3", "raymarch.temporal=2"},
+                             Keys{"method.name=optical-depth"}, Keys{"camera.resolution=[1,1]"}}) {
+        CAPTURE(more.size());
+        // No time at all leaves the least, an hour leaves all.
+        const std::string whole = render_one(marched(more)).report.hash;
+        RenderOptions options;
+        options.budget_seconds = 3600;
+        const Picture rich = render_one(marched(more), options);
+        CHECK(rich.report.hash == whole);
+        options.budget_seconds = 1e-9;
+        const Picture poor = render_one(marched(more), options);
+        const ReportFrameWork& work = poor.report.frame_work;
+        CHECK(work.steps <= 16);
+        Keys keys = more;
+        if (work.temporal > 0)
+            keys.push_back("raymarch.temporal=" + std::to_string(work.temporal));
+        else if (poor.report.method == "raymarch")
+            keys.push_back("raymarch.scale=" + std::to_string(work.scale));
+        keys.push_back("raymarch.light=" + work.light);
+        keys.push_back("raymarch.steps=" + std::to_string(work.steps));
+        keys.push_back("optical_depth.steps=" + std::to_string(work.steps));
+        if (poor.report.method == "raymarch")
+            CHECK(render_one(marched(keys)).report.hash == poor.report.hash);
+        else
+            CHECK(work.scale == 4);
+    }
 }
 
 bool holds(const std::vector<std::string>& list, const std::string& text) {

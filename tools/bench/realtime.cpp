@@ -57,6 +57,7 @@ struct Cost {
 
 struct Frame {
     Cost total;
+    std::uint32_t level = 0;  ///< of the governor's ladder
     std::map<std::string, Cost> stages;
 };
 
@@ -64,6 +65,7 @@ struct Arguments {
     std::string scene = PILEUS_SCENES "/cumulus.toml";
     std::string only;  ///< part of a row's name
     int frames = 60, threads = 0;
+    int fps = 0;  ///< > 0: the governor chooses each frame's work for so many frames a second
     Overrides overrides;
 };
 
@@ -109,8 +111,13 @@ Status fly_session(const Scene& scene, const Arguments& arguments, bool sun_move
     target.colour.rows = {colour.data(), std::int64_t(4) * size[0], false};
     const Double3 from = scene.camera.position_m, to = scene.camera.target_m;
     Stopwatch watch;
+    const std::vector<FrameWork> ladder = session.work_levels();
+    Governor governor;
+    if (arguments.fps > 0) governor.target_s = 1.0 / arguments.fps;
     // Frame 0 makes what stays.
     for (int f = 0; f <= arguments.frames; ++f) {
+        const double last_s = f > 1 ? frames.back().total.wall_ms * 1e-3 : 0;
+        if (arguments.fps > 0) PILEUS_TRY(session.set_work(govern(ladder, last_s, governor)));
         watch.start(session.report());
         Camera camera = scene.camera;
         const auto turn = sincos_deg(kOrbitDeg * f);
@@ -127,6 +134,7 @@ Status fly_session(const Scene& scene, const Arguments& arguments, bool sun_move
         PILEUS_TRY(session.step(units, done));
         PILEUS_TRY(session.render(target));
         if (f > 0) frames.push_back(watch.stop(session.report()));
+        if (f > 0) frames.back().level = governor.level;
     }
     return Status::ok();
 }
@@ -198,6 +206,20 @@ void print_row(const std::string& name, const std::vector<Frame>& frames) {
     std::fflush(stdout);
 }
 
+/// How many frames had which of the governor's levels, and which were late.
+void print_levels(int fps, const std::vector<Frame>& frames) {
+    std::map<std::uint32_t, int> levels;
+    int late = 0;
+    for (const Frame& frame : frames) {
+        ++levels[frame.level];
+        late += frame.total.wall_ms > 1e3 / fps;
+    }
+    std::string text;
+    for (const auto& [level, count] : levels)
+        text += " " + std::to_string(level) + " (" + std::to_string(count) + " frames)";
+    std::printf("governed for %d frames a second: %d late; levels%s\n", fps, late, text.c_str());
+}
+
 Status fly(const Arguments& arguments) {
     std::printf(
         "| frames | wall ms | 99th | CPU ms | 99th | %% of CPU in stages | %% of wall in "
@@ -221,6 +243,8 @@ Status fly(const Arguments& arguments) {
                                : fly_animation(scene, arguments, sun_moves,
                                                driver == Driver::kDigests, frames));
                 print_row(name, frames);
+                if (arguments.fps > 0 && driver == Driver::kSession)
+                    print_levels(arguments.fps, frames);
             }
     return Status::ok();
 }
@@ -243,9 +267,12 @@ bool read_arguments(int count, char** words, Arguments& out) {
             out.only = value;
         else if (word == "--set")
             out.overrides.push_back(value);
-        else if (word != "--frames" && word != "--threads")
-            return false;
-        else if (!read_count(value, word == "--frames" ? out.frames : out.threads))
+        else if (word == "--frames" || word == "--threads" || word == "--fps") {
+            int& count_of = word == "--frames"    ? out.frames
+                            : word == "--threads" ? out.threads
+                                                  : out.fps;
+            if (!read_count(value, count_of)) return false;
+        } else
             return false;
     }
     return true;
@@ -262,9 +289,10 @@ int main(int count, char** words) {
     }
     Arguments arguments;
     if (!read_arguments(count, words, arguments)) {
-        std::fprintf(stderr,
-                     "usage: pileus_realtime [--frames 1-100000] [--threads 1-100000] "
-                     "[--scene FILE] [--only PART-OF-A-NAME] [--set KEY=VALUE]...\n");
+        std::fprintf(
+            stderr,
+            "usage: pileus_realtime [--frames 1-100000] [--threads 1-100000] [--fps 1-100000] "
+            "[--scene FILE] [--only PART-OF-A-NAME] [--set KEY=VALUE]...\n");
         return 2;
     }
     std::printf(

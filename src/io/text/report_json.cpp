@@ -157,6 +157,15 @@ Json ring_of(const Report& report) {
     return {{"generations", report.ring_generations}, {"whole", report.ring_whole}};
 }
 
+Json frame_work_of(const ReportFrameWork& work) {
+    return {{"scale", work.scale},
+            {"temporal", work.temporal},
+            {"steps", work.steps},
+            {"light_refresh", work.light_refresh},
+            {"photons", work.photons},
+            {"light", work.light}};
+}
+
 Json light_of(const Report& report) {
     Json difference;
     if (report.buffer_nodes > 0)
@@ -206,6 +215,7 @@ std::string report_json(const Report& report) {
     json["samples_per_pixel"] = report.samples_per_pixel;
     json["ahead"] = ahead_of(report);
     json["ring"] = ring_of(report);
+    json["frame_work"] = frame_work_of(report.frame_work);
     json["scatterings"] = report.scatterings;
     json["tentative"] = report.tentative;
     json["crossings"] = report.crossings;

@@ -96,7 +96,7 @@ Status compose(const FrameStep& step, const Context& context, MethodRun& method_
 }  // namespace
 
 const Method& collectors_method() {
-    static constexpr LiveMethod live{aim, advance, units, compose};
+    static constexpr LiveMethod live{aim, advance, units, compose, take_photon_work};
     static constexpr Method method{"collectors", WorldUse::kGrid, make, check,  outline, prepare,
                                    report_plan,  light,           show, report, &live};
     return method;

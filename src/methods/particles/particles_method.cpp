@@ -196,7 +196,7 @@ Status compose(const FrameStep& step, const Context& context, MethodRun& method_
     return light(step, context, method_run);
 }
 
-constexpr LiveMethod kLive{aim, advance, units, compose};
+constexpr LiveMethod kLive{aim, advance, units, compose, nullptr};
 
 void report_run(const MethodRun& method_run, Report& report) {
     const ParticlesRun& run = static_cast<const ParticlesRun&>(method_run);

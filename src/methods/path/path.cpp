@@ -136,7 +136,7 @@ PathInput path_input(const Context& context, const PathRun& run) {
 }
 
 const Method& path_method() {
-    static constexpr LiveMethod live{aim, advance, units, compose};
+    static constexpr LiveMethod live{aim, advance, units, compose, nullptr};
     static constexpr Method method{"path",  WorldUse::kGrid,  make,  check,     outline,
                                    prepare, path_report_plan, light, path_show, path_report,
                                    &live};

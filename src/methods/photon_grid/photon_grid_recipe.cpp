@@ -187,7 +187,7 @@ const Method* photon_grid_views(int& count) {
 }
 
 const Method& photon_grid_method() {
-    static constexpr LiveMethod live{aim, advance, units, compose};
+    static constexpr LiveMethod live{aim, advance, units, compose, take_photon_work};
     static constexpr Method method{"photon-grid", WorldUse::kGrid, make, check,  outline, prepare,
                                    report_plan,   light,           show, report, &live};
     return method;

@@ -31,6 +31,7 @@ struct Light {
     double power_m2 = 0;
     std::array<float, 6> face_cdf{};
     std::uint64_t photons = 0;  ///< per generation
+    std::uint64_t apart = 0;    ///< numbers between those of two generations; 0: as many as photons
     std::uint32_t stream = 0;   ///< of random numbers; one per kind of light
 };
 

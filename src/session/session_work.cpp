@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// The work of a live session's frames: what a host or the governor chose, checked and taken up.
+// in: FrameWork -> out: settings of the session's scene and method.
+// docs/realtime.md, "Work and the governor"
+#include "platform/fp_mode.h"
+#include "src/picture/upsample.h"
+#include "src/scene/read_scene.h"
+#include "src/session/session.h"
+
+namespace pileus {
+namespace {
+
+/// The settings of a scene that a frame may have of its own; null: its method has none.
+struct WorkSettings {
+    UpsampleSettings* thin = nullptr;
+    int* steps = nullptr;
+    int* light_refresh = nullptr;
+};
+
+WorkSettings work_settings(Scene& scene) {
+    if (scene.method == "raymarch")
+        return {&scene.raymarch.thin, &scene.raymarch.steps, &scene.raymarch.light_refresh};
+    if (scene.method == "collectors")
+        return {scene.collectors.billboards ? nullptr : &scene.collectors.thin, nullptr,
+                &scene.collectors.light_refresh};
+    if (scene.method == "photon-grid")
+        return {&scene.photon_grid.thin, nullptr, &scene.photon_grid.light_refresh};
+    if (scene.method == "optical-depth") return {nullptr, &scene.optical_depth.steps, nullptr};
+    if (scene.method == "particles" && !scene.particles.billboards)
+        return {nullptr, &scene.particles.bins, nullptr};
+    return {};
+}
+
+Status refuse(const char* what, std::int64_t value, const std::string& allowed) {
+    return Status::bad_input(std::string("work.") + what + ": " + std::to_string(value) +
+                             ", allowed: " + allowed);
+}
+
+/// A member that the method does not have, or that is beyond the scene's.
+Status check_work(const FrameWork& given, const FrameWork& whole, const std::string& method) {
+    const std::string none = "0, as method " + method + " has none here";
+    if (given.scale != 0 && (whole.scale == 0 || whole.temporal > 0))
+        return refuse("scale", given.scale, whole.temporal > 0 ? "0, with temporal" : none);
+    if (given.temporal != 0 && whole.temporal == 0)
+        return refuse("temporal", given.temporal, "0 where the scene has none");
+    if (given.steps < 0 || (given.steps != 0 && whole.steps == 0))
+        return refuse("steps", given.steps, given.steps < 0 ? "0 and more" : none);
+    if (given.light_refresh != 0 && whole.light_refresh == 0)
+        return refuse("light_refresh", given.light_refresh, none);
+    if (given.photons < 0 || given.photons > whole.photons)
+        return refuse("photons", given.photons,
+                      whole.photons > 0 ? "0 to " + std::to_string(whole.photons) : none);
+    return Status::ok();
+}
+
+template <class T>
+T chosen(T given, T whole) {
+    return given != 0 ? given : whole;
+}
+
+}  // namespace
+
+FrameWork Session::scene_work() const {
+    Scene scene = scene_;
+    const WorkSettings at = work_settings(scene);
+    FrameWork out;
+    if (at.thin != nullptr) {
+        out.temporal = at.thin->temporal;
+        out.scale = out.temporal > 0 ? 0 : at.thin->scale;
+    }
+    const std::int64_t budget = run_->budget.steps;
+    if (at.steps != nullptr) out.steps = budget >= 0 ? int(budget) : *at.steps;
+    if (at.light_refresh != nullptr) out.light_refresh = *at.light_refresh;
+    if (scene.method == "collectors" || scene.method == "photon-grid")
+        out.photons = std::int64_t(light().unit_photons);
+    return out;
+}
+
+Status Session::set_work(const FrameWork& given) {
+    const FpModeGuard guard;
+    PILEUS_TRY(check_work(given, whole_work_, scene_.method));
+    FrameWork work;
+    work.scale = chosen(given.scale, whole_work_.scale);
+    work.temporal = chosen(given.temporal, whole_work_.temporal);
+    work.steps = chosen(given.steps, whole_work_.steps);
+    work.light_refresh = chosen(given.light_refresh, whole_work_.light_refresh);
+    work.photons = chosen(given.photons, whole_work_.photons);
+    if (work == work_) return Status::ok();
+    Scene changed = scene_;
+    const WorkSettings there = work_settings(changed), here = work_settings(scene_);
+    if (there.thin != nullptr) {
+        if (work.scale > 0) there.thin->scale = work.scale;
+        there.thin->temporal = work.temporal;
+    }
+    if (there.steps != nullptr) *there.steps = work.steps;
+    if (there.light_refresh != nullptr) *there.light_refresh = work.light_refresh;
+    changed.camera = camera_;
+    changed.sun = sun_;
+    changed.ground = ground_;
+    changed.lights = lights_;
+    changed.file = "session";
+    PILEUS_TRY(check_scene(changed));
+    if (there.thin != nullptr) PILEUS_TRY(check_upsampling(changed, "work", *there.thin));
+    if (here.thin != nullptr && here.thin->every() != there.thin->every() &&
+        context_.kernels->device != nullptr)
+        return refuse("scale", work.scale, "0 on a device");
+    // Nothing is refused from here on but by the method, which comes first.
+    if (method_->live->take_work != nullptr) PILEUS_TRY(method_->live->take_work(work, *run_));
+    if (here.thin != nullptr) *here.thin = *there.thin;
+    if (here.steps != nullptr) *here.steps = *there.steps;
+    if (here.light_refresh != nullptr) *here.light_refresh = *there.light_refresh;
+    work_ = work;
+    report_.frame_work = told_work(work_);
+    return Status::ok();
+}
+
+std::vector<FrameWork> Session::work_levels() const {
+    FrameWork whole = whole_work_;
+    // All generations of one sum are alike.
+    if (scene_.method == "photon-grid" && !scene_.photon_grid.ring) whole.photons = 0;
+    std::vector<FrameWork> out = work_ladder(whole);
+    for (FrameWork& work : out)
+        if (whole.photons == 0) work.photons = whole_work_.photons;
+    return out;
+}
+
+ReportFrameWork told_work(const FrameWork& work) {
+    return {work.scale, work.temporal, work.steps, work.light_refresh, work.photons, {}};
+}
+
+}  // namespace pileus
