@@ -60,7 +60,8 @@ Status choose_march_work(const Context& context, double start_s, const UpsampleI
         const int fewest = std::min(kFewestSteps, run.whole_steps);
         run.settings.steps = std::max(int(share * run.whole_steps), fewest);
     }
-    // Where light comes from was chosen for all steps; with fewer the same scene might choose again.
+    // Where light comes from was chosen for all steps; with fewer the same scene might choose
+    // again.
     const bool swept = run.settings.light == RaymarchLightKind::kBuffer;
     const char* light = run.march_light ? "march" : swept ? "buffer" : "buffer-exact";
     context.report->frame_work = {thin.temporal > 0 ? 0 : thin.scale,

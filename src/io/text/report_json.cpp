@@ -158,12 +158,9 @@ Json ring_of(const Report& report) {
 }
 
 Json frame_work_of(const ReportFrameWork& work) {
-    return {{"scale", work.scale},
-            {"temporal", work.temporal},
-            {"steps", work.steps},
-            {"light_refresh", work.light_refresh},
-            {"photons", work.photons},
-            {"light", work.light}};
+    return {{"scale", work.scale},     {"temporal", work.temporal},
+            {"steps", work.steps},     {"light_refresh", work.light_refresh},
+            {"photons", work.photons}, {"light", work.light}};
 }
 
 Json light_of(const Report& report) {
