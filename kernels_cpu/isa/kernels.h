@@ -11,6 +11,7 @@
 #include "kernels_cpu/light/sweep_params.h"
 #include "kernels_cpu/particles/particle_params.h"
 #include "kernels_cpu/path/path_params.h"
+#include "kernels_cpu/photons/pack_params.h"
 #include "kernels_cpu/photons/trace_params.h"
 #include "kernels_cpu/procedural/sky_params.h"
 #include "kernels_cpu/raymarch/lamp_march_params.h"
@@ -64,6 +65,7 @@ struct KernelTable {
     /// Rows of a picture as 8-bit pixels.
     void (*pixel_rows)(const PixelParams&, const PixelBuffers&, std::uint32_t begin,
                        std::uint32_t end) = nullptr;
+    const PackKernels* pack = nullptr;  ///< sums of photons, for a ring of generations
 };
 
 /// The widest table this machine runs; `name` (or null) forces one. Null: no such table here.

@@ -63,10 +63,10 @@ Status reconstruct_ground(const LightInput& in, const GroundMap& map, int batch,
         double rgb[3] = {};
         for (const PhotonSlot& slot : shown.slots) {
             if (slot.generations == 0) continue;
-            const std::size_t stride = slot.sums.size() / in.lighting->lights.size();
-            for (std::size_t l = 0; l < in.lighting->lights.size(); ++l) {
+            const std::size_t lights = in.lighting->lights.size();
+            for (std::size_t l = 0; l < lights; ++l) {
                 const std::int64_t* cell =
-                    slot.sums.data() + (l + 1) * stride - (cells - i) * channels;
+                    ground_of(slot, l, lights, cells * channels) + i * channels;
                 for (std::size_t c = 0; c < 3; ++c)
                     rgb[c] += double(cell[channels == 3 ? c : 0]) * slot.flux_per_photon_m2[l] *
                               in.lighting->lights[l].colour[c] * whole[l];

@@ -49,8 +49,8 @@ inline void slot_sums(const LightInput& in, const PhotonSlot& slot, std::size_t 
                       std::uint64_t set, double norm, double* sums) {
     const int n = in.deposit.coefficients;
     const std::uint64_t stride = slot.sums.size() / in.lighting->lights.size();
-    const std::int64_t* from = slot.sums.data() + light * stride + set * std::uint64_t(n);
-    for (int i = 0; i < n; ++i) sums[i] = double(from[i]) * norm;
+    numbers_of_set(slot, light, stride, set, n, sums);
+    for (int i = 0; i < n; ++i) sums[i] *= norm;
 }
 
 /// Sums of one set of one light in one slot, per unit of its colour.

@@ -50,11 +50,29 @@ std::uint64_t photons_in(const std::int64_t (&fate)[3]) {
     return std::uint64_t((most + kPhotonQuanta - 1) / kPhotonQuanta);
 }
 
+/// The same order as that of numbers that are not packed.
+void digest_packed(const PhotonSlot& slot, Digest& d) {
+    const PackedSums& packed = slot.packed;
+    std::int64_t numbers[kMostPacked];
+    for (std::size_t l = 0; l < packed.lights; ++l) {
+        for (std::uint64_t set = 0; set < packed.count; ++set) {
+            numbers_of_set(slot, l, 0, set, int(packed.numbers), numbers);
+            d.integers({numbers, std::size_t(packed.numbers)});
+        }
+        const std::size_t ground = packed.ground.size() / packed.lights;
+        d.integers({packed.ground.data() + l * ground, ground});
+    }
+}
+
 }  // namespace
 
 std::string photon_digest(const Photons& photons) {
     Digest d;
-    for (const PhotonSlot& slot : photons.slots) d.integers(slot.sums.span());
+    for (const PhotonSlot& slot : photons.slots)
+        if (slot.packed.empty())
+            d.integers(slot.sums.span());
+        else
+            digest_packed(slot, d);
     return d.hex();
 }
 

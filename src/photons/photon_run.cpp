@@ -114,6 +114,26 @@ std::size_t slot_of(std::uint64_t generation, const PhotonRun& run) {
     return std::size_t((generation - run.ring_first) % run.photons.slots.size());
 }
 
+RingWork ring_work(const TraceInput& in) { return {slot_size(in), in.threads, in.kernels}; }
+
+/// A generation in place of what its slot holds.
+Status shoot_packed(const TraceInput& in, std::size_t number, const std::vector<double>& flux,
+                    PhotonRun& run) {
+    Photons& photons = run.photons;
+    const RingShot shot = begin_shot(number, flux, photons, run.ring_sum);
+    PILEUS_TRY(trace_generation(in, run.next_generation, run.scratch, photons.slots[number],
+                                photons.tallies, [&](std::size_t light) {
+                                    pack_light(ring_work(in), light, shot, run.scratch, photons,
+                                               run.ring_sum);
+                                }));
+    run.interrupted = photons.slots[number].generations == 0;
+    if (run.interrupted)
+        drop_shot(shot, in.threads, photons, run.ring_sum);
+    else
+        end_shot(shot, photons, run.ring_sum);
+    return Status::ok();
+}
+
 }  // namespace
 
 bool sums_ring(const PhotonRun& run) {
@@ -123,8 +143,8 @@ bool sums_ring(const PhotonRun& run) {
 
 Status sum_ring(const TraceInput& in, PhotonRun& run) {
     if (!sums_ring(run) || run.next_generation == run.ring_first) return Status::ok();
-    return sum_ring(slot_size(in), run.lighting.lights.size(),
-                    slot_of(run.next_generation - 1, run), in.threads, run.photons, run.ring_sum);
+    return sum_ring(ring_work(in), slot_of(run.next_generation - 1, run), run.photons,
+                    run.ring_sum);
 }
 
 std::uint64_t photon_slots(const PhotonRun& run) {
@@ -189,6 +209,7 @@ TraceInput photon_trace_input(const Context& context, const PhotonRun& run) {
     in.max_events = run.max_events;
     in.ground = run.ground_map;
     in.shared_sums = run.plan.accumulation.shared;
+    in.packs = sums_ring(run);
     return in;
 }
 
@@ -200,8 +221,9 @@ Status lay_out_photons(const TraceInput& in, PhotonRun& run) {
     run.ring_sum.counted.clear();
     run.photons.slots.clear();
     run.photons.slots.resize(std::size_t(photon_slots(run)));
-    const auto sums = arrays::photon_slot(slot_size(in), run.lighting.lights.size());
-    for (PhotonSlot& slot : run.photons.slots) PILEUS_TRY(allocate(sums, slot.sums));
+    const std::size_t lights = run.lighting.lights.size();
+    for (PhotonSlot& slot : run.photons.slots)
+        PILEUS_TRY(allocate_slot(slot_size(in), lights, in.packs, slot));
     return Status::ok();
 }
 
@@ -212,18 +234,21 @@ Status shoot_generation(TraceInput in, const Context& context, PhotonRun& run) {
     // In an animation each generation has a slot of its own: the oldest gives way, exactly.
     const bool ring =
         run.ring && run.photons.slots.size() == run.generations && run.scene->animation.present;
-    if (ring && slot.generations > 0) {
-        take_out(number, context.threads, run.photons, run.ring_sum);
-        empty_slot(slot, context.threads);
-    }
-    slot.flux_per_photon_m2.clear();
+    std::vector<double> flux;
     for (const Light& l : run.lighting.lights) {
-        slot.flux_per_photon_m2.push_back(l.photons > 0 ? l.power_m2 / double(l.photons) : 0);
+        flux.push_back(l.photons > 0 ? l.power_m2 / double(l.photons) : 0);
         if (l.beam) slot.sun_travel = l.travel;
     }
-    const std::uint64_t before = slot.generations;
-    PILEUS_TRY(trace_generation(in, run.next_generation, run.scratch, slot, run.photons.tallies));
-    run.interrupted = slot.generations == before;
+    if (in.packs) {
+        PILEUS_TRY(shoot_packed(in, number, flux, run));
+    } else {
+        if (ring && slot.generations > 0) empty_slot(slot, context.threads);
+        slot.flux_per_photon_m2 = flux;
+        const std::uint64_t before = slot.generations;
+        PILEUS_TRY(
+            trace_generation(in, run.next_generation, run.scratch, slot, run.photons.tallies));
+        run.interrupted = slot.generations == before;
+    }
     if (!run.interrupted) ++run.next_generation;
     return Status::ok();
 }

@@ -57,7 +57,8 @@ struct PhotonRun : MethodRun {
 /// Slots of the sums: the generations of an animation's ring, or batches for the error.
 std::uint64_t photon_slots(const PhotonRun& run);
 
-/// Whether the light of all slots is kept summed up: each frame of a ring changes one of many.
+/// Whether slots are packed, and the light of all of them kept summed up: each frame of a ring
+/// changes one of many.
 bool sums_ring(const PhotonRun& run);
 
 /// Brings that sum up to date; nothing where it is not kept. kLimit: out of memory.

@@ -7,91 +7,218 @@
 namespace pileus {
 namespace {
 
-/// So coarse that a sun that climbs seldom changes the unit.
-constexpr double kCoarse = 16;
+/// Sets that one thread takes at a time: the numbers of a few stay in its cache.
+constexpr std::uint64_t kSets = 1024;
 
-double flux_of(const PhotonSlot& slot, std::size_t light) {
-    if (slot.generations == 0 || !(slot.generations_of(light) > 0)) return 0;
-    return slot.flux_per_photon_m2[light] > 0 ? slot.flux_per_photon_m2[light] : 0;
-}
-
-/// One unit for a light's numbers in all slots.
-double unit_of(const Photons& photons, std::size_t light) {
-    double most = 0, least = 0;
-    for (const PhotonSlot& slot : photons.slots) {
-        const double flux = flux_of(slot, light);
-        if (!(flux > 0)) continue;
-        most = flux > most ? flux : most;
-        least = !(least > 0) || flux < least ? flux : least;
-    }
-    if (!(most > least)) return most;
-    // Products and quotients by powers of two are exact.
+/// The power of two at or above a positive number.
+double power_above(double flux) {
     double unit = 1;
-    while (unit < most) unit *= kCoarse;
-    while (unit / kCoarse >= most) unit /= kCoarse;
+    while (unit < flux) unit *= 2;
+    while (unit / 2 >= flux) unit /= 2;
     return unit;
 }
 
-/// Adds a slot's numbers in the sum's units, or takes them out again.
-void add_slot(const PhotonSlot& slot, std::int64_t sign, int threads, RingSum& ring) {
-    const std::size_t lights = ring.unit.size(), stride = slot.sums.size() / lights;
-    constexpr std::size_t kPiece = 1u << 14;
-    const std::size_t pieces = (stride + kPiece - 1) / kPiece;
-    for (std::size_t l = 0; l < lights; ++l) {
-        const double flux = flux_of(slot, l);
-        if (!(flux > 0)) continue;
-        // At most 1, so that the sum is below the bound on all photons of the ring.
-        const double factor =
-            flux / ring.unit[l] * (double(slot.generations) / slot.generations_of(l));
-        const std::int64_t* from = slot.sums.data() + l * stride;
-        std::int64_t* to = ring.sum.sums.data() + l * stride;
-        parallel_for(threads, std::int64_t(pieces), [&](std::int64_t piece, int) {
-            const std::size_t begin = std::size_t(piece) * kPiece;
-            const std::size_t end = begin + kPiece < stride ? begin + kPiece : stride;
-            for (std::size_t i = begin; i < end && factor == 1; ++i) to[i] += sign * from[i];
-            for (std::size_t i = begin; i < end && factor != 1; ++i) {
-                const double v = double(from[i]) * factor;
-                to[i] += sign * std::int64_t(v < 0 ? v - 0.5 : v + 0.5);
-            }
-        });
+/// How often `small` has to be doubled to be `large`, both powers of two; far ones are alike.
+int doublings(double small, double large) {
+    int n = 0;
+    for (; small > 0 && small < large && n < 64; ++n) small *= 2;
+    return n;
+}
+
+double unit_in(const PhotonSlot& slot, std::size_t light) {
+    return slot.generations > 0 ? slot.flux_per_photon_m2[light] : 0;
+}
+
+/// The largest unit of a light's numbers in all slots but one.
+double unit_beside(const Photons& photons, std::size_t light, std::size_t but) {
+    double most = 0;
+    for (std::size_t s = 0; s < photons.slots.size(); ++s) {
+        const double unit = s == but ? 0 : unit_in(photons.slots[s], light);
+        most = unit > most ? unit : most;
     }
+    return most;
+}
+
+/// The table that packs; beside a device it is the host's.
+const PackKernels& pack_kernels(const RingWork& work) {
+    return work.kernels->device == nullptr ? *work.kernels->pack : *kernel_table(nullptr)->pack;
+}
+
+/// A number of the ground in units of 2^coarser, halves away from zero.
+std::int64_t in_units(std::int64_t v, int coarser) {
+    if (coarser == 0) return v;
+    if (coarser > 62) return 0;
+    const std::uint64_t size = v < 0 ? 0 - std::uint64_t(v) : std::uint64_t(v);
+    const auto whole = std::int64_t((size + (std::uint64_t{1} << (coarser - 1))) >> coarser);
+    return v < 0 ? -whole : whole;
+}
+
+std::int64_t rounded(double v) { return std::int64_t(v < 0 ? v - 0.5 : v + 0.5); }
+
+/// Of a light in the sum: [set][number], then [ground cell][channel].
+std::int64_t* total_of(const PhotonSlot& slot, std::size_t light, RingSum& ring) {
+    return ring.sum.sums.data() + light * (ring.sum.sums.size() / slot.packed.lights);
+}
+
+/// Adds pieces of a slot to the sum.
+void add_sets(const PackKernels& kernels, std::size_t light, std::uint64_t begin, std::uint64_t end,
+              PhotonSlot& slot, RingSum& ring) {
+    PackedSums& packed = slot.packed;
+    const double unit = unit_in(slot, light);
+    if (!(unit > 0)) return;
+    PackParams k;
+    k.numbers = std::int32_t(packed.numbers);
+    k.coarser = doublings(unit, ring.unit[light]);
+    PackBuffers b;
+    b.packed = packed.of_light(light);
+    b.total = total_of(slot, light, ring);
+    kernels.add(k, b, begin, end);
+    if (end < packed.count) return;
+    std::int64_t* to = b.total + packed.count * packed.numbers;
+    const std::size_t cells = packed.ground.size() / packed.lights;
+    const std::int64_t* from = packed.ground.data() + light * cells;
+    for (std::size_t i = 0; i < cells; ++i) to[i] += in_units(from[i], k.coarser);
+}
+
+/// Whether what was counted is still what its slots hold, in the sum's units.
+bool is_sound(const Photons& photons, const RingSum& ring) {
+    if (ring.counted.size() != photons.slots.size()) return false;
+    for (std::size_t s = 0; s < ring.counted.size(); ++s)
+        if (ring.counted[s] != 0 && ring.counted[s] != photons.slots[s].serial) return false;
+    for (std::size_t l = 0; l < ring.unit.size(); ++l)
+        if (ring.unit[l] != unit_beside(photons, l, photons.slots.size())) return false;
+    return true;
+}
+
+void count_slot(const PhotonSlot& slot, std::int64_t sign, RingSum& ring) {
     ring.sum.generations += std::uint64_t(sign) * slot.generations;
     ring.sum.scatterings += sign * slot.scatterings;
 }
 
-/// Whether what was counted is still what its slots hold.
-bool is_sound(const Photons& photons, const RingSum& ring) {
-    for (std::size_t s = 0; s < ring.counted.size(); ++s)
-        if (ring.counted[s] != 0 && ring.counted[s] != photons.slots[s].serial) return false;
-    return true;
+/// Adds slots to the sum, pieces of which stay in the cache meanwhile.
+void add_slots(const RingWork& work, const std::vector<std::size_t>& slots, Photons& photons,
+               RingSum& ring) {
+    const PackedSums& packed = photons.slots[0].packed;
+    const std::uint64_t pieces = packed.count / kSets + 1;
+    parallel_for(work.threads, std::int64_t(pieces * packed.lights), [&](std::int64_t piece, int) {
+        const std::uint64_t begin = std::uint64_t(piece) % pieces * kSets;
+        const std::uint64_t end = begin + kSets < packed.count ? begin + kSets : packed.count;
+        for (const std::size_t s : slots)
+            add_sets(pack_kernels(work), std::size_t(std::uint64_t(piece) / pieces), begin, end,
+                     photons.slots[s], ring);
+    });
+    for (const std::size_t s : slots) count_slot(photons.slots[s], 1, ring);
+}
+
+/// The ground's numbers of a light: those of all threads, in the slot's unit.
+void pack_ground(std::size_t light, const PackParams& k, const PackBuffers& b, PackedSums& packed) {
+    const std::size_t cells = packed.ground.size() / packed.lights;
+    std::int64_t* ground = packed.ground.data() + light * cells;
+    const std::uint64_t first = packed.count * packed.numbers;
+    for (std::size_t i = 0; i < cells; ++i) {
+        std::int64_t all = 0;
+        for (std::int32_t t = 0; t < k.blocks; ++t) {
+            std::int64_t& own = b.sums[std::uint64_t(t) * k.block_stride + first + i];
+            all += own;
+            own = 0;
+        }
+        const std::int64_t was = k.replaces ? in_units(ground[i], k.old_coarser) : 0;
+        ground[i] = rounded(double(all) * k.scale);
+        if (b.total != nullptr) b.total[first + i] += in_units(ground[i], k.coarser) - was;
+    }
 }
 
 }  // namespace
 
-void take_out(std::size_t s, int threads, Photons& photons, RingSum& ring) {
-    if (s >= ring.counted.size() || ring.counted[s] == 0) return;
-    if (ring.counted[s] == photons.slots[s].serial) add_slot(photons.slots[s], -1, threads, ring);
-    ring.counted[s] = 0;
+void add_slot_rows(const SlotSize& size, std::uint64_t lights, std::uint64_t slots, bool packed,
+                   MemoryTable& table) {
+    if (!packed) return add(table, several(slots, arrays::photon_slot(size, lights)));
+    add(table, several(slots, arrays::packed_slot(size, lights)),
+        several(slots, arrays::packed_ground(size, lights)));
+    add(table, arrays::ring_sum(size, lights));
 }
 
-Status sum_ring(const SlotSize& size, std::size_t lights, std::size_t newest, int threads,
-                Photons& photons, RingSum& ring) {
-    const auto sums = arrays::ring_sum(size, lights);
-    std::vector<double> unit;
-    for (std::size_t l = 0; l < lights; ++l) unit.push_back(unit_of(photons, l));
-    if (ring.sum.sums.size() != sums.count || ring.unit != unit ||
-        ring.counted.size() != photons.slots.size() || !is_sound(photons, ring)) {
+RingShot begin_shot(std::size_t number, const std::vector<double>& flux, Photons& photons,
+                    RingSum& ring) {
+    RingShot shot;
+    shot.number = number;
+    shot.flux = flux;
+    for (const double f : flux) shot.unit.push_back(f > 0 ? power_above(f) : 0);
+    PhotonSlot& slot = photons.slots[number];
+    shot.follows = is_sound(photons, ring) && ring.unit.size() == flux.size();
+    for (std::size_t l = 0; l < flux.size() && shot.follows; ++l) {
+        const double others = unit_beside(photons, l, number);
+        shot.follows = ring.unit[l] == (shot.unit[l] > others ? shot.unit[l] : others);
+    }
+    if (!shot.follows) ring.counted.clear();
+    if (shot.follows && ring.counted[number] != 0) count_slot(slot, -1, ring);
+    // Its numbers are in it until its lights are packed, one after the other.
+    slot.flux_per_photon_m2.resize(flux.size(), 0);
+    slot.generations = 0;
+    slot.scatterings = 0;
+    slot.parts.clear();
+    return shot;
+}
+
+void pack_light(const RingWork& work, std::size_t light, const RingShot& shot,
+                TraceScratch& scratch, Photons& photons, RingSum& ring) {
+    PhotonSlot& slot = photons.slots[shot.number];
+    PackedSums& packed = slot.packed;
+    const double unit = shot.unit[light];
+    PackParams k;
+    k.numbers = std::int32_t(packed.numbers);
+    k.blocks = scratch.blocks;
+    k.block_stride = scratch.stride;
+    k.scale = unit > 0 ? shot.flux[light] / unit : 0;
+    PackBuffers b;
+    b.sums = scratch.sums.data();
+    b.packed = packed.of_light(light);
+    if (shot.follows) {
+        k.coarser = doublings(unit, ring.unit[light]);
+        k.old_coarser = doublings(slot.flux_per_photon_m2[light], ring.unit[light]);
+        k.replaces = ring.counted[shot.number] != 0;
+        b.total = total_of(slot, light, ring);
+    }
+    const PackKernels& kernels = pack_kernels(work);
+    const std::uint64_t pieces = (packed.count + kSets - 1) / kSets;
+    parallel_for(work.threads, std::int64_t(pieces), [&](std::int64_t piece, int) {
+        const std::uint64_t begin = std::uint64_t(piece) * kSets;
+        kernels.pack(k, b, begin, begin + kSets < packed.count ? begin + kSets : packed.count);
+    });
+    pack_ground(light, k, b, packed);
+    slot.flux_per_photon_m2[light] = unit;
+}
+
+void end_shot(const RingShot& shot, Photons& photons, RingSum& ring) {
+    if (!shot.follows) return;
+    const PhotonSlot& slot = photons.slots[shot.number];
+    count_slot(slot, 1, ring);
+    ring.counted[shot.number] = slot.serial;
+}
+
+void drop_shot(const RingShot& shot, int threads, Photons& photons, RingSum& ring) {
+    // The sum has some of it.
+    ring.counted.clear();
+    empty_slot(photons.slots[shot.number], threads);
+}
+
+Status sum_ring(const RingWork& work, std::size_t newest, Photons& photons, RingSum& ring) {
+    const std::size_t lights = photons.slots[0].packed.lights;
+    const auto sums = arrays::ring_sum(work.size, lights);
+    if (ring.sum.sums.size() != sums.count || ring.unit.size() != lights ||
+        !is_sound(photons, ring)) {
         PILEUS_TRY(allocate_once(sums, ring.sum.sums));
-        empty_slot(ring.sum, threads);
-        ring.unit = unit;
+        empty_slot(ring.sum, work.threads);
+        ring.unit.clear();
+        for (std::size_t l = 0; l < lights; ++l)
+            ring.unit.push_back(unit_beside(photons, l, photons.slots.size()));
         ring.counted.assign(photons.slots.size(), 0);
     }
-    for (std::size_t s = 0; s < photons.slots.size(); ++s) {
-        const PhotonSlot& slot = photons.slots[s];
-        if (ring.counted[s] != 0 || slot.generations == 0) continue;
-        add_slot(slot, 1, threads, ring);
-        ring.counted[s] = slot.serial;
-    }
+    std::vector<std::size_t> news;
+    for (std::size_t s = 0; s < photons.slots.size(); ++s)
+        if (ring.counted[s] == 0 && photons.slots[s].generations > 0) news.push_back(s);
+    if (!news.empty()) add_slots(work, news, photons, ring);
+    for (const std::size_t s : news) ring.counted[s] = photons.slots[s].serial;
     ring.sum.flux_per_photon_m2 = ring.unit;
     ring.sum.sun_travel = photons.slots[newest].sun_travel;
     return Status::ok();

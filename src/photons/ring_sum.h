@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light of a whole ring of generations as one slot, kept up to date by differences.
-// in: slots of a ring -> out: their sum, exact in whole numbers whatever came and went before.
+// A ring of packed generations, and the light of all of them as one slot.
+// in: sums of a generation -> out: its slot; the ring's sum, exact whatever came and went before.
 // docs/collectors.md, "The ring of generations"
 #pragma once
 #include "src/photons/trace.h"
@@ -9,7 +9,7 @@ namespace pileus {
 
 namespace arrays {
 
-/// Its numbers are a slot's.
+/// Its numbers are those of a slot that is not packed.
 inline Array<std::int64_t> ring_sum(const SlotSize& size, std::uint64_t lights) {
     return renamed(photon_slot(size, lights), "photon map of the ring", Stage::kPhotons,
                    Stage::kWrite);
@@ -17,22 +17,57 @@ inline Array<std::int64_t> ring_sum(const SlotSize& size, std::uint64_t lights) 
 
 }  // namespace arrays
 
-/// Each slot has a flux per photon of its own. Where it is the same in all, as under a sun that
-/// stands, their whole numbers are added up. Else all are brought to one unit, a power of 16 above
-/// the brightest slot's, and rounded to whole numbers slot by slot. So a slot is taken out by the
-/// very numbers that it brought, and the sum is a function of what the ring holds.
+/// Rows of `slots` slots; where they are packed also that of their sum.
+void add_slot_rows(const SlotSize& size, std::uint64_t lights, std::uint64_t slots, bool packed,
+                   MemoryTable& table);
+
+/// Bytes of all threads' own sums, of which there is one at least where slots are packed from it.
+inline std::uint64_t scratch_bytes(std::uint64_t private_sums, std::uint64_t set, bool packed) {
+    return packed && private_sums < set ? set : private_sums;
+}
+
+/// Each slot counts in a unit of its own, the power of two at or above its flux per photon, and the
+/// sum in the largest of these units. So a slot's numbers come into the sum by shifts, rounded
+/// where the units differ: a slot is taken out by the very numbers that it brought, and the sum is
+/// a function of what the ring holds.
 struct RingSum {
     PhotonSlot sum;  ///< generations: those of all slots; sun_travel: the newest
     std::vector<std::uint64_t> counted;  ///< per slot, its `serial` when it was added; 0: it is not
     std::vector<double> unit;            ///< per light, m^2 per photon; 0: it is dark
 };
 
-/// Before slot `s` changes: what it brought leaves the sum.
-void take_out(std::size_t s, int threads, Photons& photons, RingSum& ring);
+/// A generation on its way into slot `number`.
+struct RingShot {
+    std::size_t number = 0;
+    std::vector<double> flux;  ///< per light, m^2 per photon
+    std::vector<double> unit;  ///< of the slot
+    bool follows = false;      ///< the sum is brought up to date light by light
+};
 
-/// Adds what is new in the slots; `newest` of them gives the sun. Slots are added in any order to
-/// the same bits. kLimit: out of memory.
-Status sum_ring(const SlotSize& size, std::size_t lights, std::size_t newest, int threads,
-                Photons& photons, RingSum& ring);
+/// Who does the work, on slots of which size.
+struct RingWork {
+    SlotSize size;
+    int threads = 1;
+    const KernelTable* kernels = nullptr;
+};
+
+/// Before the generation is traced: whether the sum can follow, else it will be made anew.
+RingShot begin_shot(std::size_t number, const std::vector<double>& flux, Photons& photons,
+                    RingSum& ring);
+
+/// Packs a light's sums from the scratch into its slot, in place of what that held, and leaves
+/// zeros in the scratch.
+void pack_light(const RingWork& work, std::size_t light, const RingShot& shot,
+                TraceScratch& scratch, Photons& photons, RingSum& ring);
+
+/// Once all lights are packed: the slot counts.
+void end_shot(const RingShot& shot, Photons& photons, RingSum& ring);
+
+/// The generation ended within: the slot is empty.
+void drop_shot(const RingShot& shot, int threads, Photons& photons, RingSum& ring);
+
+/// Adds what is not yet in the sum; `newest` of the slots gives the sun. Slots are added in any
+/// order to the same bits. kLimit: out of memory.
+Status sum_ring(const RingWork& work, std::size_t newest, Photons& photons, RingSum& ring);
 
 }  // namespace pileus

@@ -2,8 +2,6 @@
 // See trace.h.
 #include "src/photons/trace.h"
 
-#include <cstring>
-
 #include "kernels_cpu/core/accumulate.h"
 #include "platform/threads.h"
 #include "src/base/random_streams.h"
@@ -23,7 +21,7 @@ std::uint64_t collector_numbers(const TraceInput& in) {
            std::uint64_t(in.deposit.coefficients);
 }
 
-/// Whether photons add to the slot's own sums: no other thread does, or all do it atomically.
+/// Whether photons add to one set of sums: no other thread does, or all do it atomically.
 bool adds_directly(const TraceInput& in) {
     return in.threads == 1 || in.shared_sums || in.kernels->device != nullptr;
 }
@@ -34,7 +32,7 @@ struct Launch {
     TraceScratch* scratch;
     TraceParams params;
     std::uint64_t count;
-    std::int64_t* total;  ///< the light's sums in the slot
+    std::int64_t* total;  ///< the light's sums, of all threads
 };
 
 void run_piece(const Launch& launch, std::uint64_t piece, int thread) {
@@ -172,16 +170,6 @@ void add_tally(const TraceTally& from, TraceTally& to) {
     to.bounces += from.bounces;
 }
 
-void empty_slot(PhotonSlot& slot, int threads) {
-    in_pieces(slot.sums.size(), threads, [&](std::uint64_t begin, std::uint64_t end) {
-        std::memset(slot.sums.data() + begin, 0, sizeof(std::int64_t) * std::size_t(end - begin));
-    });
-    slot.generations = 0;
-    slot.scatterings = 0;
-    slot.parts.clear();
-    ++slot.serial;
-}
-
 GroundMap make_ground_map(const Medium& medium, const Lighting& lighting) {
     constexpr int kCells = 40;
     GroundMap map;
@@ -204,14 +192,17 @@ SlotSize slot_size(const TraceInput& in) {
 Status prepare_trace(const TraceInput& in, TraceScratch& scratch) {
     // Neighbouring threads keep 128 bytes apart (unpadded counters cost half the speed).
     scratch.stride = (slot_stride(in) + 31) / 16 * 16;
-    const std::uint64_t blocks = adds_directly(in) ? 0 : std::uint64_t(in.threads);
-    PILEUS_TRY(allocate(arrays::photon_sums(scratch.stride, blocks, Stage::kWrite), scratch.sums));
+    scratch.blocks = adds_directly(in) ? (in.packs ? 1 : 0) : in.threads;
+    PILEUS_TRY(
+        allocate(arrays::photon_sums(scratch.stride, std::uint64_t(scratch.blocks), Stage::kWrite),
+                 scratch.sums));
     return allocate(arrays::photon_tallies(std::uint64_t(in.threads), Stage::kWrite),
                     scratch.tallies);
 }
 
 Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScratch& scratch,
-                        PhotonSlot& slot, std::vector<TraceTally>& tallies) {
+                        PhotonSlot& slot, std::vector<TraceTally>& tallies,
+                        const std::function<void(std::size_t light)>& pack) {
     const std::uint64_t stride = slot_stride(in);
     std::vector<double> parts;
     bool ended = false;
@@ -219,7 +210,7 @@ Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScr
     for (std::size_t l = 0; l < in.lighting->lights.size() && !ended; ++l) {
         const Light& light = in.lighting->lights[l];
         Launch launch{&in, &scratch, launch_params(in, light, generation), 0,
-                      slot.sums.data() + l * stride};
+                      in.packs ? scratch.sums.data() : slot.sums.data() + l * stride};
         // Split where the photon index passes a multiple of 2^32: its high half is in the key.
         const std::uint64_t apart = light.apart > 0 ? light.apart : light.photons;
         std::uint64_t index = generation * apart, left = light.photons;
@@ -236,7 +227,10 @@ Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScr
             launch.params.shift[0] += std::uint32_t(launch.count) * kR2[0];
             launch.params.shift[1] += std::uint32_t(launch.count) * kR2[1];
         }
-        if (!adds_directly(in)) move_sums(scratch, launch.total, stride, in.threads);
+        if (in.packs)
+            pack(l);
+        else if (!adds_directly(in))
+            move_sums(scratch, launch.total, stride, in.threads);
         for (int t = 0; t < in.threads; ++t) {
             slot.scatterings += scratch.tallies[std::size_t(t) * 2].scatterings;
             photons += scratch.tallies[std::size_t(t) * 2].photons;

@@ -4,10 +4,9 @@
 // docs/methods.md 3; the result is a function of (seed, light, photon index) alone.
 #pragma once
 #include <functional>
-#include <vector>
 
 #include "kernels_cpu/isa/kernels.h"
-#include "src/plan/array.h"
+#include "src/photons/photon_slot.h"
 #include "src/world/light/lights.h"
 #include "src/world/majorant/majorants.h"
 
@@ -64,42 +63,16 @@ struct TraceInput {
     std::uint32_t max_events = 1u << 20;
     GroundMap ground{};
     bool shared_sums = false;       ///< all threads add atomically to one set of sums
+    bool packs = false;             ///< sums stay in the scratch until the caller has packed them
     std::function<bool()> ended{};  ///< asked between pieces of work whether to end there
 };
-
-/// Sums of all lights of one batch: [light], each [collector][channel][coefficient] and then
-/// [ground cell][channel], both with the same binary places, so that one proof bounds them.
-struct PhotonSlot {
-    Buffer<std::int64_t> sums;
-    std::uint64_t generations = 0;           ///< that were added
-    std::uint64_t serial = 0;                ///< grows whenever the sums change
-    std::int64_t scatterings = 0;            ///< of these generations
-    std::vector<double> flux_per_photon_m2;  ///< per light, for unit radiance or irradiance
-    std::array<float, 3> sun_travel{0, 0, -1};
-    std::vector<double> parts;  ///< per light, of a generation that was ended within; empty: none
-
-    /// Generations of a light, parts of one included.
-    double generations_of(std::size_t light) const {
-        return double(generations) + (parts.empty() ? 0.0 : parts[light]);
-    }
-};
-
-/// Forgets what was shot into it.
-void empty_slot(PhotonSlot& slot, int threads);
 
 struct Photons {
     std::vector<PhotonSlot> slots;
     std::vector<TraceTally> tallies;  ///< per light
 };
 
-/// How many numbers a light has in a slot.
-struct SlotSize {
-    std::uint64_t collectors = 0, channels = 1, coefficients = 1, ground_cells = 0;
-
-    std::uint64_t numbers() const {
-        return sum_of_bytes(bytes_of(collectors, channels, coefficients), ground_cells * channels);
-    }
-};
+/// Of what the launches of an input leave behind.
 SlotSize slot_size(const TraceInput& in);
 
 /// Numbers per light in a slot.
@@ -107,10 +80,6 @@ inline std::uint64_t slot_stride(const TraceInput& in) { return slot_size(in).nu
 
 namespace arrays {
 
-/// One slot.
-inline Array<std::int64_t> photon_slot(const SlotSize& size, std::uint64_t lights) {
-    return {"photon map", bytes_of(size.numbers(), lights), Stage::kPhotons, Stage::kWrite};
-}
 /// Every thread has two, a cache line pair apart; `last` traces.
 inline Array<TraceTally> photon_tallies(std::uint64_t threads, Stage last) {
     return {"photon tallies per thread", bytes_of(2, threads), Stage::kPhotons, last};
@@ -124,11 +93,12 @@ inline Array<std::int64_t> photon_sums(std::uint64_t stride, std::uint64_t threa
 }  // namespace arrays
 
 /// Scratch of the tracer, allocated once: tallies per thread, and sums per thread where there are
-/// several and they do not share.
+/// several and they do not share; one set of sums at least where they are packed.
 struct TraceScratch {
     Buffer<std::int64_t> sums;
     Buffer<TraceTally> tallies;
     std::uint64_t stride = 0;  ///< numbers per thread, padded to a cache line pair
+    int blocks = 0;            ///< of sums
 };
 Status prepare_trace(const TraceInput& in, TraceScratch& scratch);
 
@@ -138,9 +108,11 @@ TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_
 
 /// Shoots one generation of every light into `slot` and adds to the tallies. Generation numbers
 /// may grow without bound; each has photons of its own. Where `in.ended` ends it, it does not
-/// count: slot.parts says how much of it each light has shot.
+/// count: slot.parts says how much of it each light has shot. `pack` is called for each light once
+/// its sums are in the scratch, where in.packs, and leaves zeros there.
 Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScratch& scratch,
-                        PhotonSlot& slot, std::vector<TraceTally>& tallies);
+                        PhotonSlot& slot, std::vector<TraceTally>& tallies,
+                        const std::function<void(std::size_t light)>& pack = {});
 
 /// Units of the ledger's paths per diagonal of the box: 2000 diagonals fit its 32 bits, and 128 000
 /// where light may graze along a periodic medium.

@@ -92,13 +92,13 @@ const Flight kFlights[] = {
      "[collectors]\nphotons = 100_000\ngenerations = 20\nbands = 3\nsamples = 3_000\n"
      "scale = 4\nlight_refresh = 8\n",
      1,
-     {"4a6d0518786cb1cd", "a6f4f92cbf666b76", "e054b9e56cc36514", "352dbb5a81674c56"}},
+     {"4a6d0518786cb1cd", "9f5e8e23e136c737", "b19536d9a474b8db", "5716047d28ff5529"}},
     {"billboards",
      "[method]\nname = \"collectors\"\n"
      "[collectors]\nphotons = 100_000\ngenerations = 20\nbands = 3\nsamples = 3_000\n"
      "display = \"billboards\"\nlight_refresh = 8\n",
      2,
-     {"c4bb9bef6b7cc09b", "73c5783fc8440726", "fbad5e737466df06", "41df37c7493ab4ae"}},
+     {"229b44ba5ef10c4b", "e7f0b2ea649a1261", "7eb94b4bfa856dbf", "20a3de06594966cd"}},
     {"octaves by temporal reprojection",
      "[method]\nname = \"raymarch\"\n"
      "[raymarch]\nscattering = \"octaves\"\nsteps = 48\ntemporal = 4\nlight_refresh = 8\n",

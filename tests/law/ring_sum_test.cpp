@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The light of a ring as one slot: whole numbers that come and go leave nothing behind.
-// in: slots of made-up sums -> out: their sum against one made anew, and against each slot.
-// docs/collectors.md, "The ring of generations"
+// The light of a ring as one slot: packed numbers that come and go leave nothing behind.
+// in: made-up sums of generations -> out: packed slots against their numbers, the ring's sum
+// against one made anew. docs/collectors.md, "The ring of generations"
 #include "src/photons/ring_sum.h"
 
 #include <doctest/doctest.h>
@@ -12,37 +12,68 @@ using namespace pileus;
 
 namespace {
 
-constexpr SlotSize kSize{5, 1, 4, 3};  // 23 numbers a light
+constexpr SlotSize kSize{2100, 1, 9, 3};  // more sets than one piece of work has
 constexpr std::size_t kLights = 2, kSlots = 4;
+constexpr int kBlocks = 3;
+constexpr double kMostError = 0x1p-10;  // of a set's largest number
 
-/// Numbers of generation g, of every size and sign that sums have.
-void shoot(std::uint64_t g, double flux, PhotonSlot& slot) {
-    empty_slot(slot, 1);
-    for (std::size_t i = 0; i < slot.sums.size(); ++i) {
-        const std::int64_t v = std::int64_t((g * 7919 + i * 104729) % 1000003) - 400000;
-        slot.sums[i] = v << (i % 30);
-    }
-    slot.generations = 1;
-    slot.scatterings = std::int64_t(g);
-    slot.flux_per_photon_m2 = {flux, 3.0};
-    slot.sun_travel = {float(g), 0, -1};
-    slot.parts.clear();
-    ++slot.serial;
+struct Ring {
+    Photons photons;
+    RingSum sum;
+    TraceScratch scratch;
+    RingWork work{kSize, 2, kernel_table(nullptr)};
+};
+
+void open_ring(Ring& ring, const SlotSize& size = kSize) {
+    ring.work.size = size;
+    ring.photons.slots.resize(kSlots);
+    for (PhotonSlot& slot : ring.photons.slots) REQUIRE(allocate_slot(size, kLights, true, slot));
+    ring.scratch.stride = size.numbers() + 5;
+    ring.scratch.blocks = kBlocks;
+    REQUIRE(ring.scratch.sums.resize(ring.scratch.stride * kBlocks, "sums"));
 }
 
-Photons empty_ring() {
-    Photons photons;
-    photons.slots.resize(kSlots);
-    for (PhotonSlot& slot : photons.slots)
-        REQUIRE(allocate(arrays::photon_slot(kSize, kLights), slot.sums));
-    return photons;
+/// Number i of a light of generation g: every size and sign that sums have, and sets of zeros.
+std::int64_t number_of(const SlotSize& size, std::uint64_t g, std::size_t light, std::uint64_t i) {
+    const std::uint64_t set = i / size.coefficients;
+    if ((set + g) % 11 == 0) return 0;
+    const std::uint64_t drawn = (g * 7919 + i * 104729 + light * 31) * 0x9e3779b97f4a7c15ull >> 44;
+    return (std::int64_t(drawn) - 400000) * (std::int64_t{1} << (set % 38));
+}
+
+/// Lays generation g into the scratch of all threads.
+void scatter(Ring& ring, std::uint64_t g, std::size_t light) {
+    for (std::uint64_t i = 0; i < ring.work.size.numbers(); ++i) {
+        std::int64_t left = number_of(ring.work.size, g, light, i);
+        for (int t = 0; t + 1 < kBlocks; ++t) {
+            const std::int64_t part = left / 3 - t * 17;
+            ring.scratch.sums[std::uint64_t(t) * ring.scratch.stride + i] = part;
+            left -= part;
+        }
+        ring.scratch.sums[(kBlocks - 1) * ring.scratch.stride + i] = left;
+    }
+}
+
+void shoot(Ring& ring, std::uint64_t g, const std::vector<double>& flux, std::size_t s) {
+    const RingShot shot = begin_shot(s, flux, ring.photons, ring.sum);
+    PhotonSlot& slot = ring.photons.slots[s];
+    slot.sun_travel = {float(g), 0, -1};
+    for (std::size_t l = 0; l < kLights; ++l) {
+        scatter(ring, g, l);
+        pack_light(ring.work, l, shot, ring.scratch, ring.photons, ring.sum);
+    }
+    // As trace_generation does.
+    slot.generations = 1;
+    slot.scatterings = std::int64_t(g);
+    ++slot.serial;
+    end_shot(shot, ring.photons, ring.sum);
 }
 
 /// The sum of the same slots, made at once.
-RingSum anew(Photons& photons, std::size_t newest) {
-    RingSum ring;
-    REQUIRE(sum_ring(kSize, kLights, newest, 2, photons, ring));
-    return ring;
+RingSum anew(Ring& ring, std::size_t newest) {
+    RingSum sum;
+    REQUIRE(sum_ring(ring.work, newest, ring.photons, sum));
+    return sum;
 }
 
 void check_same(const RingSum& a, const RingSum& b) {
@@ -56,11 +87,23 @@ void check_same(const RingSum& a, const RingSum& b) {
     CHECK(same);
 }
 
+/// All numbers of a light of a slot, in its own unit.
+std::vector<std::int64_t> numbers_of(const PhotonSlot& slot, std::size_t light) {
+    std::vector<std::int64_t> out(std::size_t(slot.packed.count * slot.packed.numbers));
+    const auto n = int(slot.packed.numbers);
+    for (std::uint64_t set = 0; set < slot.packed.count; ++set)
+        numbers_of_set(slot, light, 0, set, n, out.data() + set * slot.packed.numbers);
+    const std::size_t ground = slot.packed.ground.size() / kLights;
+    const std::int64_t* cells = ground_of(slot, light, kLights, ground);
+    out.insert(out.end(), cells, cells + ground);
+    return out;
+}
+
 }  // namespace
 
 TEST_CASE("ring sum: generations that give way leave no trace, under a sun that climbs") {
-    Photons photons = empty_ring();
-    RingSum ring;
+    Ring ring;
+    open_ring(ring);
     for (std::uint64_t g = 0; g < 60; ++g) {
         const std::size_t s = std::size_t(g % kSlots);
         // Stands, climbs through a unit of the sum, sinks, sets, and stands again.
@@ -69,61 +112,164 @@ TEST_CASE("ring sum: generations that give way leave no trace, under a sun that 
                             : g < 40 ? 1.1 - 0.1 * double(g - 30)
                             : g < 45 ? 0
                                      : 0.7;
-        take_out(s, 2, photons, ring);
-        shoot(g, flux, photons.slots[s]);
+        shoot(ring, g, {flux, 3.0}, s);
         if (g % 3 == 0) continue;  // not every generation is shown
-        REQUIRE(sum_ring(kSize, kLights, s, 2, photons, ring));
-        check_same(ring, anew(photons, s));
+        REQUIRE(sum_ring(ring.work, s, ring.photons, ring.sum));
+        check_same(ring.sum, anew(ring, s));
     }
 }
 
-TEST_CASE("ring sum: under a sun that stands it is the slots' own numbers") {
-    Photons photons = empty_ring();
-    for (std::uint64_t g = 0; g < kSlots; ++g) shoot(g, 0.3, photons.slots[g]);
-    const RingSum ring = anew(photons, 2);
-    CHECK(ring.unit == std::vector<double>{0.3, 3.0});
-    CHECK(ring.sum.generations == kSlots);
-    for (std::size_t i = 0; i < ring.sum.sums.size(); ++i) {
-        std::int64_t all = 0;
-        for (const PhotonSlot& slot : photons.slots) all += slot.sums[i];
-        CHECK(ring.sum.sums[i] == all);
+TEST_CASE("ring sum: the scratch is left empty") {
+    Ring ring;
+    open_ring(ring);
+    shoot(ring, 3, {0.3, 3.0}, 0);
+    std::int64_t left = 0;
+    for (std::uint64_t t = 0; t < kBlocks; ++t)
+        for (std::uint64_t i = 0; i < kSize.numbers(); ++i)
+            left |= ring.scratch.sums[t * ring.scratch.stride + i];
+    CHECK(left == 0);
+}
+
+TEST_CASE("ring sum: a packed number is wrong by 2^-10 of its set's largest at most") {
+    // Sets of one number to the most; the kernels know some sizes by heart.
+    for (const std::uint64_t coefficients : {1, 2, 16, 24, 25, 81}) {
+        const SlotSize size{97, 1, coefficients, 2};
+        CAPTURE(coefficients);
+        Ring ring;
+        open_ring(ring, size);
+        const double flux[kLights] = {0.77, 4.0}, unit[kLights] = {1, 4};
+        shoot(ring, 5, {flux[0], flux[1]}, 0);
+        for (std::size_t l = 0; l < kLights; ++l) {
+            CHECK(ring.photons.slots[0].flux_per_photon_m2[l] == unit[l]);
+            const std::vector<std::int64_t> kept = numbers_of(ring.photons.slots[0], l);
+            double worst = 0;
+            for (std::uint64_t set = 0; set < size.sets(); ++set) {
+                double largest = 0, error = 0;
+                for (std::uint64_t i = set * coefficients; i < (set + 1) * coefficients; ++i) {
+                    const double wanted = double(number_of(size, 5, l, i)) * flux[l] / unit[l];
+                    largest = std::max(largest, std::abs(wanted));
+                    error = std::max(error, std::abs(double(kept[i]) - wanted));
+                }
+                // Numbers of a few digits are rounded to whole ones.
+                worst = std::max(worst, (error - 0.5) / (largest + 1e-9));
+            }
+            CHECK(worst <= kMostError);
+            CHECK(worst > kMostError / 16);  // no more digits than are paid for
+            for (std::uint64_t i = size.numbers() - 2; i < size.numbers(); ++i)
+                CHECK(std::abs(double(kept[i]) -
+                               double(number_of(size, 5, l, i)) * flux[l] / unit[l]) <= 0.5 + 1e-9);
+        }
+    }
+}
+
+TEST_CASE("ring sum: few digits of a flux that is a power of two are kept as they are") {
+    for (const std::int64_t v : {0, 1, -1, 2047, -2047, 1024}) {
+        std::int64_t sums[2] = {v, -v / 2};
+        std::uint8_t packed[4] = {};
+        PackParams k;
+        k.numbers = 2;
+        PackBuffers b;
+        b.sums = sums;
+        b.packed = packed;
+        for (int i = 0; const KernelTable* table = kernel_table_at(i); ++i) {
+            sums[0] = v, sums[1] = -v / 2;
+            table->pack->pack(k, b, 0, 1);
+            std::int32_t q[2];
+            CHECK(unpack_set<0>(packed, 2, q) == 0);
+            CHECK(q[0] == v);
+            CHECK(q[1] == -v / 2);
+        }
+    }
+}
+
+TEST_CASE("ring sum: the longest numbers, and every instruction set alike") {
+    constexpr std::uint64_t kSets = 40;
+    for (const std::int32_t numbers : {16, 24, 25, 7}) {
+        std::vector<std::uint8_t> first;
+        std::vector<std::int64_t> first_total;
+        for (int i = 0; const KernelTable* table = kernel_table_at(i); ++i) {
+            const std::uint64_t count = kSets * std::uint64_t(numbers);
+            std::vector<std::int64_t> sums(count), total(count, 5);
+            for (std::uint64_t j = 0; j < count; ++j) {
+                const std::uint64_t drawn = (j + 1) * 0x9e3779b97f4a7c15ull;
+                sums[j] = std::int64_t(drawn) >> (1 + j / std::uint64_t(numbers) * 3 / 2);
+            }
+            std::vector<std::uint8_t> packed(kSets * packed_bytes(std::uint64_t(numbers)));
+            PackParams k;
+            k.numbers = numbers;
+            k.scale = 0.6180339887498949;
+            k.coarser = 9;
+            PackBuffers b;
+            b.sums = sums.data();
+            b.packed = packed.data();
+            b.total = total.data();
+            table->pack->pack(k, b, 0, kSets);
+            table->pack->add(k, b, 0, kSets);
+            if (i == 0) first = packed, first_total = total;
+            CAPTURE(table->name);
+            CHECK(packed == first);
+            CHECK(total == first_total);
+        }
     }
 }
 
 TEST_CASE("ring sum: slots of other fluxes keep their power to half a unit each") {
-    Photons photons = empty_ring();
+    Ring ring;
+    open_ring(ring);
     const double fluxes[kSlots] = {0.011, 0.3, 15.9, 4};
-    for (std::uint64_t g = 0; g < kSlots; ++g) shoot(g, fluxes[g], photons.slots[g]);
-    const RingSum ring = anew(photons, 0);
-    CHECK(ring.unit[0] == 16);
-    CHECK(ring.unit[1] == 3);
-    for (std::size_t i = 0; i < kSize.numbers(); ++i) {
-        double power = 0, size = 0;
-        for (std::size_t s = 0; s < kSlots; ++s) {
-            power += double(photons.slots[s].sums[i]) * fluxes[s];
-            size += std::abs(double(photons.slots[s].sums[i])) * fluxes[s];
-        }
-        // Half a unit a slot, and the roundings of this sum itself.
-        CHECK(std::abs(double(ring.sum.sums[i]) * 16 - power) <= 0.5 * 16 * kSlots + 1e-14 * size);
+    for (std::uint64_t g = 0; g < kSlots; ++g) shoot(ring, g, {fluxes[g], 3}, g);
+    const RingSum sum = anew(ring, 0);
+    CHECK(sum.unit == std::vector<double>{16, 4});
+    std::vector<double> power(kSize.numbers());
+    for (const PhotonSlot& slot : ring.photons.slots) {
+        const std::vector<std::int64_t> own = numbers_of(slot, 0);
+        for (std::size_t i = 0; i < own.size(); ++i)
+            power[i] += double(own[i]) * slot.flux_per_photon_m2[0];
     }
+    bool close = true;
+    for (std::size_t i = 0; i < power.size(); ++i)
+        close &= std::abs(double(sum.sum.sums[i]) * 16 - power[i]) <=
+                 0.5 * 16 * kSlots + 1e-14 * std::abs(power[i]);
+    CHECK(close);
 }
 
-TEST_CASE("ring sum: a generation that was ended within counts for what it shot") {
-    Photons photons = empty_ring();
-    for (std::uint64_t g = 0; g < kSlots; ++g) shoot(g, 0.3, photons.slots[g]);
-    photons.slots[1].parts = {0.25, 0};
-    const RingSum ring = anew(photons, 0);
-    CHECK(ring.unit[0] == 0.3);
-    const auto own = [&](std::size_t s) { return double(photons.slots[s].sums[3]); };
-    const double power = own(0) + own(1) / 1.25 + own(2) + own(3);
-    CHECK(std::abs(double(ring.sum.sums[3]) - power) <= 0.5 + 1e-14 * std::abs(power));
+TEST_CASE("ring sum: a generation that ended within is gone") {
+    Ring ring;
+    open_ring(ring);
+    for (std::uint64_t g = 0; g < kSlots; ++g) shoot(ring, g, {0.3, 3.0}, g);
+    REQUIRE(sum_ring(ring.work, 3, ring.photons, ring.sum));
+    // One of its two lights has been packed.
+    const RingShot shot = begin_shot(1, {0.3, 3.0}, ring.photons, ring.sum);
+    scatter(ring, 9, 0);
+    pack_light(ring.work, 0, shot, ring.scratch, ring.photons, ring.sum);
+    ++ring.photons.slots[1].serial;
+    drop_shot(shot, 2, ring.photons, ring.sum);
+    REQUIRE(sum_ring(ring.work, 3, ring.photons, ring.sum));
+    CHECK(ring.sum.sum.generations == kSlots - 1);
+    std::vector<std::int64_t> all(kSize.numbers());
+    for (const std::size_t s : {0u, 2u, 3u}) {
+        const std::vector<std::int64_t> own = numbers_of(ring.photons.slots[s], 0);
+        for (std::size_t i = 0; i < own.size(); ++i) all[i] += own[i];
+    }
+    bool same = true;
+    for (std::size_t i = 0; i < all.size(); ++i) same &= ring.sum.sum.sums[i] == all[i];
+    CHECK(same);
+    // It is shot once more, whole.
+    shoot(ring, 9, {0.3, 3.0}, 1);
+    REQUIRE(sum_ring(ring.work, 1, ring.photons, ring.sum));
+    check_same(ring.sum, anew(ring, 1));
 }
 
 TEST_CASE("ring sum: slots that changed by themselves are counted anew") {
-    Photons photons = empty_ring();
-    for (std::uint64_t g = 0; g < kSlots; ++g) shoot(g, 0.3, photons.slots[g]);
-    RingSum ring = anew(photons, 0);
-    shoot(9, 0.3, photons.slots[2]);  // without take_out
-    REQUIRE(sum_ring(kSize, kLights, 2, 2, photons, ring));
-    check_same(ring, anew(photons, 2));
+    Ring ring;
+    open_ring(ring);
+    for (std::uint64_t g = 0; g < kSlots; ++g) shoot(ring, g, {0.3, 3.0}, g);
+    REQUIRE(sum_ring(ring.work, 0, ring.photons, ring.sum));
+    RingSum other;  // does not see the sum that follows
+    shoot(ring, 8, {0.3, 3.0}, 0);
+    std::swap(other, ring.sum);
+    shoot(ring, 9, {0.3, 3.0}, 2);
+    std::swap(other, ring.sum);
+    REQUIRE(sum_ring(ring.work, 2, ring.photons, ring.sum));
+    check_same(ring.sum, anew(ring, 2));
 }

@@ -58,8 +58,7 @@ SlotSize slot_of(const CollectorsSizes& s) {
 
 void add_photons(const CollectorsSizes& s, MemoryTable& t) {
     const Stage traced = last_tracing(s);
-    add(t, several(s.slots, arrays::photon_slot(slot_of(s), s.lights)));
-    if (s.sums_ring) add(t, arrays::ring_sum(slot_of(s), s.lights));
+    add_slot_rows(slot_of(s), s.lights, s.slots, s.sums_ring, t);
     add(t, arrays::photon_tallies(s.threads, traced));
     const auto own = arrays::photon_sums(0, 0, traced);
     t.add(own.name, own.first, own.last, s.private_sums);

@@ -72,7 +72,8 @@ Status collectors_measure(const Context& context, CollectorsRun& run) {
                            context.limits[LimitId::kMemory], run.plan.exact});
     if (context.kernels->device != nullptr)
         run.plan.accumulation = {"shared", "all threads of the device add to one set", 0, true};
-    sizes.private_sums = run.plan.accumulation.bytes;
+    sizes.private_sums =
+        scratch_bytes(run.plan.accumulation.bytes, bytes_of_sums(sizes), sizes.sums_ring);
     run.plan.memory = collectors_memory(sizes);
     add_picture_rows(context, run.scene->collectors.thin, run);
     add_solid_rows(*run.scene, context.limits, run.world->solids, run.around.depth,

@@ -44,9 +44,7 @@ void add_photons(const PhotonGridRun& run, const Context& context, Size private_
     add_majorant_rows(m.grid, blocks, threads, traced, t);
     add(t, arrays::cell_marks(run.cells.count()));
     if (m.count > 1) add(t, arrays::cell_shares(run.cells.count(), Size(m.count)));
-    add(t,
-        several(photon_slots(run), arrays::photon_slot(slot_of(run), run.lighting.lights.size())));
-    if (sums_ring(run)) add(t, arrays::ring_sum(slot_of(run), run.lighting.lights.size()));
+    add_slot_rows(slot_of(run), run.lighting.lights.size(), photon_slots(run), sums_ring(run), t);
     add(t, arrays::photon_tallies(threads, traced));
     const auto own = arrays::photon_sums(0, 0, traced);
     t.add(own.name, own.first, own.last, private_sums);
@@ -114,7 +112,9 @@ Status photon_grid_measure(const Context& context, PhotonGridRun& run) {
         run.scene->photon_grid.accumulation,
         {Size(context.threads), bytes_of_thread(run), memory_of(run, context, 0).peak(),
          context.limits[LimitId::kMemory], run.plan.exact});
-    run.plan.memory = memory_of(run, context, run.plan.accumulation.bytes);
+    run.plan.memory =
+        memory_of(run, context,
+                  scratch_bytes(run.plan.accumulation.bytes, bytes_of_thread(run), sums_ring(run)));
     add_picture_rows(context, run.scene->photon_grid.thin, run);
     add_solid_rows(*run.scene, context.limits, run.world->solids, run.around.depth,
                    run.plan.memory);
