@@ -5,6 +5,7 @@
 #pragma once
 #include <memory>
 
+#include "platform/threads.h"
 #include "src/methods/methods.h"
 #include "src/picture/pixels.h"
 #include "src/session/render.h"
@@ -89,7 +90,8 @@ private:
     Status aim();
     void place();
 
-    Scene scene_;  ///< as the method sees it: in the media's coordinates
+    ThreadPool threads_;  ///< where a host lends none
+    Scene scene_;         ///< as the method sees it: in the media's coordinates
     Camera camera_;
     Sun sun_;
     Ground ground_;
