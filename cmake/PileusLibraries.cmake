@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Finds foreign libraries: five required sets of headers, eleven optional libraries.
+# Finds foreign libraries: five required sets of headers, ten optional libraries.
 # in: PILEUS_<LIBRARY> options -> out: target pileus_headers, PILEUS_WITH_<LIBRARY> (0 or 1),
 # PILEUS_LINK_LIBRARIES, PILEUS_LIBRARY_DEFINITIONS. Debian package names: tools/install_packages
 add_library(pileus_headers INTERFACE)
@@ -52,7 +52,7 @@ endif()
 target_compile_definitions(pileus_headers INTERFACE FMT_HEADER_ONLY=1)
 
 # An optional library is used when it is wanted and found.
-foreach(name OPENEXR PNG ZLIB BLOSC NETCDF ECCODES ASSIMP OSMESA EGL OPENMP TESTS BENCHMARKS)
+foreach(name OPENEXR PNG ZLIB BLOSC NETCDF ECCODES ASSIMP OSMESA EGL THREADS TESTS BENCHMARKS)
     set(PILEUS_WITH_${name} 0)
 endforeach()
 if(PILEUS_OPENEXR)
@@ -106,11 +106,11 @@ foreach(row "NETCDF netcdf_mem.h" "ECCODES eccodes.h" "ASSIMP assimp/cimport.h" 
         endif()
     endif()
 endforeach()
-if(PILEUS_OPENMP)
-    find_package(OpenMP COMPONENTS CXX QUIET)
-    if(TARGET OpenMP::OpenMP_CXX)
-        set(PILEUS_WITH_OPENMP 1)
-        list(APPEND PILEUS_LINK_LIBRARIES OpenMP::OpenMP_CXX)
+if(PILEUS_THREADS)
+    find_package(Threads QUIET)
+    if(TARGET Threads::Threads)
+        set(PILEUS_WITH_THREADS 1)
+        list(APPEND PILEUS_LINK_LIBRARIES Threads::Threads)
     endif()
 endif()
 if(PILEUS_TESTS)

@@ -38,6 +38,3 @@ set(CMAKE_FIND_ROOT_PATH_MODE_INCLUDE ONLY)
 set(CMAKE_FIND_ROOT_PATH_MODE_PACKAGE ONLY)
 # A program with its libraries inside runs without a foreign root folder.
 set(CMAKE_EXE_LINKER_FLAGS_INIT -static)
-# By name, which lets the linker take the static ones.
-set(OpenMP_gomp_LIBRARY gomp CACHE STRING "")
-set(OpenMP_atomic_LIBRARY atomic CACHE STRING "")

@@ -24,10 +24,13 @@ struct Executor {
     void* user = nullptr;
 };
 
-/// Null members: the C++ runtime's memory, OpenMP's threads.
+class ThreadPool;
+
+/// Null members: the C++ runtime's memory, threads for each loop anew.
 struct Host {
     const Allocator* allocator = nullptr;
     const Executor* executor = nullptr;
+    ThreadPool* pool = nullptr;  ///< threads of our own, used where there is no executor
 };
 
 /// The host of this thread's innermost guard.

@@ -7,8 +7,8 @@
  *
  * Rules of all functions
  * - A result other than PILEUS_OK leaves outputs as they were; `error`, where not null, then holds
- *   the code and a line for each fault. Nothing is written to stdout or stderr, no signal handler,
- *   floating-point mode or OpenMP setting of yours is changed, nothing is kept outside handles.
+ *   the code and a line for each fault. Nothing is written to stdout or stderr, no signal handler
+ * or floating-point mode of yours is changed, nothing is kept outside handles.
  * - Handles are used by one thread at a time; different handles by as many threads as you like. A
  *   world and a scene are read only once made, so that threads share them.
  * - Structs begin with their size, which PILEUS_INIT sets: a library that is newer or older than
@@ -83,7 +83,7 @@ typedef struct pileus_host {
     void* (*allocate)(void* user, size_t bytes, size_t alignment);
     void (*release)(void* user, void* memory);
     /** Calls body(data, index) once for each index in [0, count), at once or one after the other,
-     * and returns when all have returned. Null: OpenMP, or one thread without it. */
+     * and returns when all have returned. Null: threads of the session's own. */
     void (*run)(void* user, uint32_t count, void (*body)(void* data, uint32_t index), void* data);
     /** A line for a person: what is doubtful about a picture. */
     void (*log)(void* user, const char* line);

@@ -22,7 +22,7 @@ struct HostParts {
 
     Host host() const {
         return {given.allocate != nullptr ? &allocator : nullptr,
-                given.run != nullptr ? &executor : nullptr};
+                given.run != nullptr ? &executor : nullptr, nullptr};
     }
 };
 

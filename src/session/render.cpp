@@ -4,6 +4,7 @@
 
 #include "platform/clock.h"
 #include "platform/fp_mode.h"
+#include "platform/threads.h"
 #include "src/io/images/image_file.h"
 #include "src/picture/background.h"
 #include "src/picture/march_view.h"
@@ -144,6 +145,8 @@ Status render_frames(const Scene& scene, const RunStart& start, const RenderOpti
 
 Status render(const Scene& scene, const RenderOptions& options, const FrameSink& sink) {
     const FpModeGuard guard;
+    ThreadPool threads;
+    const PoolGuard lent(threads);
     const RunStart start;
     Frames frames{};
     PILEUS_TRY(frames_of(scene, options, frames));
@@ -165,6 +168,8 @@ Status render(const Scene& scene, const RenderOptions& options, const FrameSink&
 
 Status plan_scene(const Scene& scene, const RenderOptions& options, bool exact, Report& report) {
     const FpModeGuard guard;
+    ThreadPool threads;
+    const PoolGuard lent(threads);
     Frames frames{};
     PILEUS_TRY(frames_of(scene, options, frames));
     Scene own = scene;

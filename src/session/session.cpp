@@ -46,6 +46,8 @@ double stage_seconds(const Report& report) {
 Status make_world(const Scene& scene, const RenderOptions& options,
                   std::shared_ptr<const World>& world) {
     const FpModeGuard guard;
+    ThreadPool threads;
+    const PoolGuard lent(threads);
     Report report;
     Context context;
     const Method* method = nullptr;
@@ -66,6 +68,7 @@ Status make_world(const Scene& scene, const RenderOptions& options,
 Status Session::open(const Scene& scene, const RenderOptions& options, SessionKind kind, bool exact,
                      std::shared_ptr<const World> world) {
     const FpModeGuard guard;
+    const PoolGuard lent(threads_);
     const bool live = kind == SessionKind::kLive;
     scene_ = scene;
     PILEUS_TRY(place_camera(scene_));
@@ -111,6 +114,7 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
 
 Status Session::render_image(const FrameStep& step, Image& image) {
     const FpModeGuard guard;
+    const PoolGuard lent(threads_);
     PILEUS_TRY(method_->light(step, context_, *run_));
     report_.digests.clear();
     PILEUS_TRY(method_->show(step, context_, *run_, image));
@@ -135,6 +139,7 @@ Status Session::aim() {
 
 Status Session::step(std::uint64_t units, std::uint64_t& done) {
     const FpModeGuard guard;
+    const PoolGuard lent(threads_);
     done = 0;
     PILEUS_TRY(aim());
     const Status status = method_->live->advance(units, context_, *run_, done);
@@ -147,6 +152,7 @@ LightUnits Session::light() const { return method_->live->units(*run_); }
 
 Status Session::render(const FrameTarget& target) {
     const FpModeGuard guard;
+    const PoolGuard lent(threads_);
     const double start = wall_seconds(), staged = stage_seconds(report_);
     if (target.has_depth && target.depth_kind == DepthKind::kBuffer && !depth_scale_.known)
         return Status::bad_input(

@@ -5,6 +5,7 @@
 #pragma once
 #include <memory>
 
+#include "platform/threads.h"
 #include "src/methods/governor.h"
 #include "src/methods/methods.h"
 #include "src/picture/pixels.h"
@@ -98,7 +99,8 @@ private:
     void place();
     FrameWork scene_work() const;
 
-    Scene scene_;  ///< as the method sees it: in the media's coordinates
+    ThreadPool threads_;  ///< where a host lends none
+    Scene scene_;         ///< as the method sees it: in the media's coordinates
     Camera camera_;
     Sun sun_;
     Ground ground_;

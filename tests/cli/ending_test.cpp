@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the program ends: warnings and --strict, a signal before there is light, threads that wait.
+// How the program ends: warnings and --strict, a signal before there is light.
 // in: command lines, signals -> out: exit status, lines, files left behind.
-// docs/program.md, "Interrupting", "Threads"
+// docs/program.md, "Interrupting"
 #include <signal.h>
 #include <unistd.h>
 
@@ -102,17 +102,4 @@ TEST_CASE("a signal while a scene is prepared ends the program with a line") {
     CHECK(folder.files().get(".err") ==
           "interrupted before there was anything to keep; no file written\n");
     CHECK(folder.left().empty());
-}
-
-TEST_CASE("threads wait passively, unless the user has chosen") {
-    const ProgramFolder folder;
-    const Outcome plain =
-        folder.run("--version", "env -u OMP_WAIT_POLICY -u GOMP_SPINCOUNT OMP_DISPLAY_ENV=true");
-    CHECK(plain.exit_status == 0);
-    // Nothing is said by a build without OpenMP.
-    if (!holds(plain.errors, "OMP_WAIT_POLICY")) return;
-    CHECK(holds(plain.errors, "OMP_WAIT_POLICY = 'PASSIVE'"));
-    const Outcome chosen =
-        folder.run("--version", "env OMP_WAIT_POLICY=active OMP_DISPLAY_ENV=true");
-    CHECK(holds(chosen.errors, "OMP_WAIT_POLICY = 'ACTIVE'"));
 }

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "platform/fp_mode.h"
+#include "platform/threads.h"
 #include "src/base/digest.h"
 #include "src/io/images/image_file.h"
 #include "src/scene/read_scene.h"
@@ -150,6 +151,8 @@ Context with(const Context& context, const KernelTable* kernels, int threads) {
 
 int main(int argc, char** argv) {
     const pileus::FpModeGuard guard;
+    pileus::ThreadPool threads;
+    const pileus::PoolGuard lent(threads);
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;
     benchmark::AddCustomContext("pileus", pileus::kVersion);

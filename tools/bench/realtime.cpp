@@ -2,8 +2,6 @@
 // What one frame costs after the other: sessions and animations over a scene, camera and sun
 // moving. in: a scene, frames, threads, names of ways -> out: a table of ms per frame and shares of
 // stages. docs/realtime.md
-#include <stdlib.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -281,12 +279,6 @@ bool read_arguments(int count, char** words, Arguments& out) {
 }  // namespace
 
 int main(int count, char** words) {
-    // OpenMP reads this before `main`: begin anew with it, once.
-    if (std::getenv("PILEUS_REALTIME") == nullptr) {
-        for (const char* name : {"OMP_WAIT_POLICY", "GOMP_SPINCOUNT", "PILEUS_REALTIME"})
-            (void)::setenv(name, name[0] == 'O' ? "passive" : "0", 1);
-        (void)::execv("/proc/self/exe", words);
-    }
     Arguments arguments;
     if (!read_arguments(count, words, arguments)) {
         std::fprintf(
@@ -295,10 +287,7 @@ int main(int count, char** words) {
             "[--scene FILE] [--only PART-OF-A-NAME] [--set KEY=VALUE]...\n");
         return 2;
     }
-    std::printf(
-        "%d frames after the first; threads wait passively (OMP_WAIT_POLICY=%s, "
-        "GOMP_SPINCOUNT=%s)\n\n",
-        arguments.frames, std::getenv("OMP_WAIT_POLICY"), std::getenv("GOMP_SPINCOUNT"));
+    std::printf("%d frames after the first\n\n", arguments.frames);
     const Status status = fly(arguments);
     if (!status) std::fprintf(stderr, "%s\n", status.message.c_str());
     return int(status.code);

@@ -14,6 +14,7 @@
 #include <new>
 
 #include "platform/fp_mode.h"
+#include "platform/threads.h"
 #include "src/scene/toml/toml_tree.h"
 #include "src/session/render.h"
 #include "tools/pileus/command.h"
@@ -78,24 +79,11 @@ Status check_command(int count, char** words) {
     ::_exit(int(Code::kLimit));
 }
 
-/// Threads that wait by looking again and again take the processors that other programs need, and
-/// ours wait often. The library of threads reads this from the environment before `main`: begin
-/// anew with it, unless the user has chosen. Where that fails, all goes on a little worse.
-void wait_passively(char** words) {
-#ifdef _OPENMP
-    if (std::getenv("OMP_WAIT_POLICY") != nullptr || std::getenv("GOMP_SPINCOUNT") != nullptr)
-        return;
-    if (::setenv("OMP_WAIT_POLICY", "passive", 0) == 0) (void)::execv("/proc/self/exe", words);
-#else
-    (void)words;
-#endif
-}
-
 /// Set once the exit status is ours.
 bool finished = false;
 
-/// A library that ends the program itself, as libgomp does where it gets no memory or threads, has
-/// said why; its status would read as that of a failed check.
+/// A library that ends the program itself has said why; its status would read as that of a failed
+/// check.
 void on_exit() {
     if (!finished) ::_exit(int(Code::kLimit));
 }
@@ -103,6 +91,8 @@ void on_exit() {
 int run(int count, char** words) {
     // What the parent left of rounding, flushing and traps must not reach our own times and texts.
     const FpModeGuard guard;
+    ThreadPool threads;
+    const PoolGuard lent(threads);
     CLI::App app("Renders clouds, the same bits on every machine.", "pileus");
     Chosen chosen;
     app.set_version_flag("--version", std::string("pileus ") + kVersion);
@@ -133,7 +123,6 @@ int run(int count, char** words) {
 }  // namespace pileus
 
 int main(int count, char** words) {
-    pileus::wait_passively(words);
 #ifdef M_MMAP_THRESHOLD
     // Large arrays go back to the system when they are freed; by default glibc learns to keep them,
     // and finds no place for the next among the gaps.

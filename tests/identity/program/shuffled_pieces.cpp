@@ -22,6 +22,11 @@ std::uint64_t next(std::uint64_t& state) {
 
 }  // namespace
 
+// There are no threads to keep.
+ThreadPool::~ThreadPool() { (void)state_; }
+
+PoolGuard::PoolGuard(ThreadPool&) : lent_(current_host()) {}
+
 int hardware_threads() { return 5; }
 
 /// One after the other in truth, so that any order and any thread can be played, and again.

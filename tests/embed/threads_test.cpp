@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// The library's own threads: every piece once, whoever runs it; nested loops, faults, forks.
+// in: loops of small pieces -> out: checks.
+// docs/performance.md, "Waiting"; under the preset tsan, too
+#include "platform/threads.h"
+
+#include <doctest/doctest.h>
+#include <signal.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cfenv>
+#include <chrono>
+#include <set>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+#include "platform/threads.h"
+
+using namespace pileus;
+
+namespace {
+
+/// How often each piece ran, and whether all were on threads below `threads`.
+struct Runs {
+    std::vector<std::atomic<int>> of_piece;
+    std::atomic<bool> within{true};
+
+    explicit Runs(std::size_t pieces) : of_piece(pieces) {}
+    void loop(int threads) {
+        parallel_for(threads, std::int64_t(of_piece.size()), [&](std::int64_t piece, int thread) {
+            ++of_piece[std::size_t(piece)];
+            if (thread < 0 || thread >= threads) within = false;
+        });
+    }
+    bool each(int times) const {
+        bool all = within;
+        for (const std::atomic<int>& runs : of_piece) all = all && runs == times;
+        return all;
+    }
+};
+
+/// Two pieces, each waiting until the other has begun: only two threads can end it. Calls `other`
+/// on the thread that is not the caller's.
+template <class Other>
+bool meet(Other other) {
+    std::atomic<int> begun{0};
+    std::atomic<bool> met{true};
+    parallel_for(2, 2, [&](std::int64_t, int thread) {
+        ++begun;
+        const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+        while (begun < 2 && met)
+            if (std::chrono::steady_clock::now() > end) met = false;
+        if (thread == 1) other();
+    });
+    return met;
+}
+
+}  // namespace
+
+TEST_CASE("threads: every piece runs once for any number of threads, lent or not") {
+    for (const bool kept : {false, true}) {
+        ThreadPool pool;
+        const Host none;
+        const HostGuard nothing(none);
+        HostGuard lent(kept ? Host{nullptr, nullptr, &pool} : none);
+        for (const int threads : {1, 2, 3, 7})
+            for (const std::size_t pieces : {0, 1, 2, 3, 1000}) {
+                CAPTURE(kept);
+                CAPTURE(threads);
+                CAPTURE(pieces);
+                Runs runs(pieces);
+                for (int i = 0; i < 20; ++i) runs.loop(threads);
+                CHECK(runs.each(20));
+            }
+    }
+}
+
+TEST_CASE("threads: those of a pool are kept, and get no signals of the host") {
+    ThreadPool pool;
+    const PoolGuard lent(pool);
+    std::set<std::thread::id> seen;
+    bool deaf = true;
+    for (int i = 0; i < 50; ++i)
+        REQUIRE(meet([&] {
+            seen.insert(std::this_thread::get_id());
+            sigset_t blocked;
+            deaf = deaf && pthread_sigmask(SIG_SETMASK, nullptr, &blocked) == 0 &&
+                   sigismember(&blocked, SIGINT) == 1;
+        }));
+    CHECK(seen.size() == 1);
+    CHECK(seen.count(std::this_thread::get_id()) == 0);
+    CHECK(deaf);
+}
+
+TEST_CASE("threads: a loop within a piece has all its pieces run") {
+    ThreadPool pool;
+    const PoolGuard lent(pool);
+    std::atomic<int> inner{0};
+    for (int i = 0; i < 100; ++i)
+        parallel_for(3, 5, [&](std::int64_t, int) {
+            parallel_for(3, 7, [&](std::int64_t, int) { ++inner; });
+        });
+    CHECK(inner == 100 * 5 * 7);
+}
+
+TEST_CASE("threads: what a piece throws reaches the caller, and the pool goes on") {
+    ThreadPool pool;
+    const PoolGuard lent(pool);
+    for (int i = 0; i < 20; ++i) {
+        CHECK_THROWS_AS(parallel_for(3, 50,
+                                     [&](std::int64_t piece, int) {
+                                         if (piece == 20) throw std::runtime_error("piece 20");
+                                     }),
+                        std::runtime_error);
+        Runs runs(30);
+        runs.loop(3);
+        CHECK(runs.each(1));
+    }
+}
+
+TEST_CASE("threads: several callers, each with threads of its own, at once") {
+    std::atomic<int> whole{0};
+    std::vector<std::thread> callers;
+    for (int c = 0; c < 4; ++c)
+        callers.emplace_back([&] {
+            ThreadPool pool;
+            const PoolGuard lent(pool);
+            Runs runs(64);
+            for (int i = 0; i < 200; ++i) runs.loop(3);
+            if (runs.each(200)) ++whole;
+        });
+    for (std::thread& caller : callers) caller.join();
+    CHECK(whole == 4);
+}
+
+TEST_CASE("threads: pieces have the caller's memory and round to nearest on every thread") {
+    static const Allocator allocator{[](void*, std::size_t bytes, std::size_t alignment) {
+                                         return std::aligned_alloc(alignment, bytes);
+                                     },
+                                     [](void*, void* memory) { std::free(memory); }};
+    ThreadPool pool;
+    const HostGuard memory(Host{&allocator, nullptr, nullptr});
+    const PoolGuard lent(pool);
+    REQUIRE(meet([] {}));
+    REQUIRE(std::fesetround(FE_UPWARD) == 0);
+    bool here = false, nearest = false;
+    const bool met = meet([&] {
+        here = current_host().allocator == &allocator;
+        nearest = std::fegetround() == FE_TONEAREST;
+    });
+    std::fesetround(FE_TONEAREST);
+    REQUIRE(met);
+    CHECK(here);
+    CHECK(nearest);
+}
+
+// The sanitizer ends a forked process that makes threads.
+#if !defined(__SANITIZE_THREAD__)
+TEST_CASE("threads: a forked process makes threads of its own and ends") {
+    ThreadPool pool;
+    const PoolGuard lent(pool);
+    REQUIRE(meet([] {}));
+    const pid_t child = fork();
+    REQUIRE(child >= 0);
+    if (child == 0) {
+        alarm(60);
+        bool well = false;
+        {
+            ThreadPool other;
+            well = meet([] {});
+        }
+        pool.~ThreadPool();
+        _exit(well ? 0 : 1);
+    }
+    int status = 0;
+    REQUIRE(waitpid(child, &status, 0) == child);
+    REQUIRE(WIFEXITED(status));
+    CHECK(WEXITSTATUS(status) == 0);
+    CHECK(meet([] {}));
+}
+#endif
