@@ -106,15 +106,22 @@ PILEUS_FN M_of<T> shows_nothing(const UpsampleBuffers& b, std::int64_t few, cons
     return clear;
 }
 
-/// Least and largest of the four marched pixels around.
+/// What is older may lie beyond what is seen now by this share of its range.
+constexpr float kBeyond = 0.25f;
+
+/// Between the least and the largest of the four marched pixels around, and a little beyond, but
+/// neither below zero nor above `cap` for it.
 template <class T>
-PILEUS_FN void clamp_around(const float* plane, const Around<T>& a, T& value) {
+PILEUS_FN void clamp_around(const float* plane, const Around<T>& a, float cap, T& value) {
     T least = gather(plane, a.at[0]), most = least;
     for (int i = 1; i < 4; ++i) {
         const T v = gather(plane, a.at[i]);
         least = min_(least, v), most = max_(most, v);
     }
-    value = max_(min_(value, most), least);
+    const T beyond = kBeyond * (most - least);
+    const T low = max_(least - beyond, min_(least, T{}));
+    const T high = min_(most + beyond, max_(most, all<T>(cap)));
+    value = max_(min_(value, high), low);
 }
 
 }  // namespace PILEUS_ISA

@@ -103,7 +103,7 @@ const Flight kFlights[] = {
      "[method]\nname = \"raymarch\"\n"
      "[raymarch]\nscattering = \"octaves\"\nsteps = 48\ntemporal = 4\nlight_refresh = 8\n",
      3,
-     {"c9de0d2578e17796", "03753a8e64a99b73", "5995dbbac810d0b2", "35bcae443f92f5a0"}}};
+     {"bbcd0fcfdcdf3964", "ed88026bdd4e0b27", "086b65ef6f872503", "3bc4c9e36a777f06"}}};
 
 }  // namespace
 
