@@ -17,6 +17,7 @@ struct PackParams {
     std::int32_t coarser = 0;  ///< the total's unit is 2^coarser packed ones
     std::int32_t old_coarser = 0;  ///< of what is packed so far
     bool replaces = false;         ///< the total holds what is packed so far, which leaves it
+    bool exact = false;            ///< the total takes the numbers as they were before packing
 };
 
 struct PackBuffers {

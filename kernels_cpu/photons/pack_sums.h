@@ -70,9 +70,11 @@ PILEUS_FN int round_set(const std::int64_t* v, int numbers, int length, double s
     return power;
 }
 
-/// Packs one set that begins at `sums`, and leaves zeros there.
+/// Packs one set that begins at `sums`, and leaves zeros there. `total`, or null, takes the numbers
+/// as they were.
 template <int N>
-PILEUS_FN void pack_set(const PackParams& k, std::int64_t* sums, std::uint8_t* packed) {
+PILEUS_FN void pack_set(const PackParams& k, std::int64_t* sums, std::uint8_t* packed,
+                        std::int64_t* total) {
     const int n = count_of<N>(k.numbers), half = (n + 1) / 2;
     std::int64_t v[N > 0 ? N : kMostPacked];
     std::int32_t q[(N > 0 ? N : kMostPacked) + 1];
@@ -81,6 +83,8 @@ PILEUS_FN void pack_set(const PackParams& k, std::int64_t* sums, std::uint8_t* p
         std::int64_t* more = sums + std::uint64_t(b) * k.block_stride;
         for (int i = 0; i < n; ++i) v[i] += more[i], more[i] = 0;
     }
+    if (total != nullptr)
+        for (int i = 0; i < n; ++i) total[i] += v[i];
     // As long as the longest: of a negative number that of its complement.
     std::uint64_t digits = 0;
     for (int i = 0; i < n; ++i) digits |= std::uint64_t(v[i] ^ (v[i] >> 63));
@@ -100,10 +104,11 @@ PILEUS_FN void pack_sets_of(const PackParams& k, const PackBuffers& b, std::uint
     for (std::uint64_t s = begin; s < end; ++s) {
         std::uint8_t* packed = b.packed + s * bytes;
         const std::uint64_t first = s * std::uint64_t(k.numbers);
-        if (b.total != nullptr && k.replaces)
-            add_set<N>(packed, k.numbers, k.old_coarser, -1, b.total + first);
-        pack_set<N>(k, b.sums + first, packed);
-        if (b.total != nullptr) add_set<N>(packed, k.numbers, k.coarser, 1, b.total + first);
+        std::int64_t* total = b.total != nullptr ? b.total + first : nullptr;
+        const bool follows = total != nullptr && !k.exact;
+        if (follows && k.replaces) add_set<N>(packed, k.numbers, k.old_coarser, -1, total);
+        pack_set<N>(k, b.sums + first, packed, k.exact ? total : nullptr);
+        if (follows) add_set<N>(packed, k.numbers, k.coarser, 1, total);
     }
 }
 

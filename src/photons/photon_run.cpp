@@ -120,7 +120,8 @@ RingWork ring_work(const TraceInput& in) { return {slot_size(in), in.threads, in
 Status shoot_packed(const TraceInput& in, std::size_t number, const std::vector<double>& flux,
                     PhotonRun& run) {
     Photons& photons = run.photons;
-    const RingShot shot = begin_shot(number, flux, photons, run.ring_sum);
+    const bool first_turn = run.next_generation < photons.slots.size();
+    const RingShot shot = begin_shot(number, first_turn, flux, photons, run.ring_sum);
     PILEUS_TRY(trace_generation(in, run.next_generation, run.scratch, photons.slots[number],
                                 photons.tallies, [&](std::size_t light) {
                                     pack_light(ring_work(in), light, shot, run.scratch, photons,
@@ -218,13 +219,13 @@ Status lay_out_photons(const TraceInput& in, PhotonRun& run) {
     run.ring_first = run.next_generation;
     PILEUS_TRY(prepare_trace(in, run.scratch));
     run.photons.tallies.assign(run.lighting.lights.size(), TraceTally{});
-    run.ring_sum.counted.clear();
     run.photons.slots.clear();
     run.photons.slots.resize(std::size_t(photon_slots(run)));
     const std::size_t lights = run.lighting.lights.size();
     for (PhotonSlot& slot : run.photons.slots)
         PILEUS_TRY(allocate_slot(slot_size(in), lights, in.packs, slot));
-    return Status::ok();
+    if (!in.packs) return Status::ok();
+    return begin_ring(ring_work(in), run.next_generation == 0, run.photons, run.ring_sum);
 }
 
 Status shoot_generation(TraceInput in, const Context& context, PhotonRun& run) {

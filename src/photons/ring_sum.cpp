@@ -85,6 +85,7 @@ bool is_sound(const Photons& photons, const RingSum& ring) {
     if (ring.counted.size() != photons.slots.size()) return false;
     for (std::size_t s = 0; s < ring.counted.size(); ++s)
         if (ring.counted[s] != 0 && ring.counted[s] != photons.slots[s].serial) return false;
+    if (ring.exact) return true;
     for (std::size_t l = 0; l < ring.unit.size(); ++l)
         if (ring.unit[l] != unit_beside(photons, l, photons.slots.size())) return false;
     return true;
@@ -124,8 +125,37 @@ void pack_ground(std::size_t light, const PackParams& k, const PackBuffers& b, P
         }
         const std::int64_t was = k.replaces ? in_units(ground[i], k.old_coarser) : 0;
         ground[i] = rounded(double(all) * k.scale);
-        if (b.total != nullptr) b.total[first + i] += in_units(ground[i], k.coarser) - was;
+        if (b.total == nullptr) continue;
+        b.total[first + i] += k.exact ? all : in_units(ground[i], k.coarser) - was;
     }
+}
+
+void forget(RingSum& ring) {
+    ring.counted.clear();
+    ring.exact = false;
+}
+
+/// Whether the sum with that generation in place of what its slot holds has the same unit.
+bool follows(const RingShot& shot, const Photons& photons, RingSum& ring) {
+    if (ring.exact) {
+        if (ring.sum.generations == 0) ring.unit = shot.flux;
+        return ring.unit == shot.flux && ring.counted[shot.number] == 0;
+    }
+    if (ring.unit.size() != shot.unit.size()) return false;
+    for (std::size_t l = 0; l < shot.unit.size(); ++l) {
+        const double others = unit_beside(photons, l, shot.number);
+        if (ring.unit[l] != (shot.unit[l] > others ? shot.unit[l] : others)) return false;
+    }
+    return true;
+}
+
+/// A sum of nothing.
+Status clear_sum(const RingWork& work, const Photons& photons, RingSum& ring) {
+    const auto sums = arrays::ring_sum(work.size, photons.slots[0].packed.lights);
+    PILEUS_TRY(allocate_once(sums, ring.sum.sums));
+    empty_slot(ring.sum, work.threads);
+    ring.counted.assign(photons.slots.size(), 0);
+    return Status::ok();
 }
 
 }  // namespace
@@ -138,19 +168,25 @@ void add_slot_rows(const SlotSize& size, std::uint64_t lights, std::uint64_t slo
     add(table, arrays::ring_sum(size, lights));
 }
 
-RingShot begin_shot(std::size_t number, const std::vector<double>& flux, Photons& photons,
-                    RingSum& ring) {
+Status begin_ring(const RingWork& work, bool first, Photons& photons, RingSum& ring) {
+    for (PhotonSlot& slot : photons.slots) slot.serial = 0;
+    forget(ring);
+    if (!first) return Status::ok();
+    PILEUS_TRY(clear_sum(work, photons, ring));
+    ring.exact = true;
+    return Status::ok();
+}
+
+RingShot begin_shot(std::size_t number, bool first_turn, const std::vector<double>& flux,
+                    Photons& photons, RingSum& ring) {
     RingShot shot;
     shot.number = number;
     shot.flux = flux;
     for (const double f : flux) shot.unit.push_back(f > 0 ? power_above(f) : 0);
     PhotonSlot& slot = photons.slots[number];
-    shot.follows = is_sound(photons, ring) && ring.unit.size() == flux.size();
-    for (std::size_t l = 0; l < flux.size() && shot.follows; ++l) {
-        const double others = unit_beside(photons, l, number);
-        shot.follows = ring.unit[l] == (shot.unit[l] > others ? shot.unit[l] : others);
-    }
-    if (!shot.follows) ring.counted.clear();
+    if (!first_turn && ring.exact) forget(ring);
+    shot.follows = is_sound(photons, ring) && follows(shot, photons, ring);
+    if (!shot.follows) forget(ring);
     if (shot.follows && ring.counted[number] != 0) count_slot(slot, -1, ring);
     // Its numbers are in it until its lights are packed, one after the other.
     slot.flux_per_photon_m2.resize(flux.size(), 0);
@@ -177,6 +213,7 @@ void pack_light(const RingWork& work, std::size_t light, const RingShot& shot,
         k.coarser = doublings(unit, ring.unit[light]);
         k.old_coarser = doublings(slot.flux_per_photon_m2[light], ring.unit[light]);
         k.replaces = ring.counted[shot.number] != 0;
+        k.exact = ring.exact;
         b.total = total_of(slot, light, ring);
     }
     const PackKernels& kernels = pack_kernels(work);
@@ -198,21 +235,18 @@ void end_shot(const RingShot& shot, Photons& photons, RingSum& ring) {
 
 void drop_shot(const RingShot& shot, int threads, Photons& photons, RingSum& ring) {
     // The sum has some of it.
-    ring.counted.clear();
+    forget(ring);
     empty_slot(photons.slots[shot.number], threads);
 }
 
 Status sum_ring(const RingWork& work, std::size_t newest, Photons& photons, RingSum& ring) {
     const std::size_t lights = photons.slots[0].packed.lights;
-    const auto sums = arrays::ring_sum(work.size, lights);
-    if (ring.sum.sums.size() != sums.count || ring.unit.size() != lights ||
-        !is_sound(photons, ring)) {
-        PILEUS_TRY(allocate_once(sums, ring.sum.sums));
-        empty_slot(ring.sum, work.threads);
+    if (ring.unit.size() != lights || !is_sound(photons, ring)) {
+        forget(ring);
+        PILEUS_TRY(clear_sum(work, photons, ring));
         ring.unit.clear();
         for (std::size_t l = 0; l < lights; ++l)
             ring.unit.push_back(unit_beside(photons, l, photons.slots.size()));
-        ring.counted.assign(photons.slots.size(), 0);
     }
     std::vector<std::size_t> news;
     for (std::size_t s = 0; s < photons.slots.size(); ++s)

@@ -29,11 +29,14 @@ inline std::uint64_t scratch_bytes(std::uint64_t private_sums, std::uint64_t set
 /// Each slot counts in a unit of its own, the power of two at or above its flux per photon, and the
 /// sum in the largest of these units. So a slot's numbers come into the sum by shifts, rounded
 /// where the units differ: a slot is taken out by the very numbers that it brought, and the sum is
-/// a function of what the ring holds.
+/// a function of what the ring holds. The first generations, all of one flux, are a still
+/// picture's: while nothing else is in the ring the sum is that of their numbers before packing, in
+/// their own unit.
 struct RingSum {
     PhotonSlot sum;  ///< generations: those of all slots; sun_travel: the newest
     std::vector<std::uint64_t> counted;  ///< per slot, its `serial` when it was added; 0: it is not
     std::vector<double> unit;            ///< per light, m^2 per photon; 0: it is dark
+    bool exact = false;                  ///< of a still picture's generations
 };
 
 /// A generation on its way into slot `number`.
@@ -51,9 +54,14 @@ struct RingWork {
     const KernelTable* kernels = nullptr;
 };
 
+/// For a ring of empty slots; `first`: the next generation is the first of all. kLimit: out of
+/// memory.
+Status begin_ring(const RingWork& work, bool first, Photons& photons, RingSum& ring);
+
 /// Before the generation is traced: whether the sum can follow, else it will be made anew.
-RingShot begin_shot(std::size_t number, const std::vector<double>& flux, Photons& photons,
-                    RingSum& ring);
+/// `first_turn`: it is one of those that a still picture would have.
+RingShot begin_shot(std::size_t number, bool first_turn, const std::vector<double>& flux,
+                    Photons& photons, RingSum& ring);
 
 /// Packs a light's sums from the scratch into its slot, in place of what that held, and leaves
 /// zeros in the scratch.

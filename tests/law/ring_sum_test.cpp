@@ -55,7 +55,7 @@ void scatter(Ring& ring, std::uint64_t g, std::size_t light) {
 }
 
 void shoot(Ring& ring, std::uint64_t g, const std::vector<double>& flux, std::size_t s) {
-    const RingShot shot = begin_shot(s, flux, ring.photons, ring.sum);
+    const RingShot shot = begin_shot(s, g < kSlots, flux, ring.photons, ring.sum);
     PhotonSlot& slot = ring.photons.slots[s];
     slot.sun_travel = {float(g), 0, -1};
     for (std::size_t l = 0; l < kLights; ++l) {
@@ -213,6 +213,39 @@ TEST_CASE("ring sum: the longest numbers, and every instruction set alike") {
     }
 }
 
+TEST_CASE("ring sum: the first generations of one flux are a still picture's, to the bit") {
+    for (const bool moves : {false, true}) {
+        Ring ring;
+        open_ring(ring);
+        REQUIRE(begin_ring(ring.work, true, ring.photons, ring.sum));
+        const auto flux = [&](std::uint64_t g) { return moves && g == 2 ? 0.31 : 0.3; };
+        for (std::uint64_t g = 0; g < kSlots; ++g) {
+            shoot(ring, g, {flux(g), 3.0}, g);
+            REQUIRE(sum_ring(ring.work, g, ring.photons, ring.sum));
+            const bool still = !moves || g < 2;
+            CHECK(ring.sum.exact == still);
+            if (!still) {
+                check_same(ring.sum, anew(ring, g));
+                continue;
+            }
+            CHECK(ring.sum.unit == std::vector<double>{0.3, 3.0});
+            bool same = true;
+            for (std::size_t l = 0; l < kLights; ++l)
+                for (std::uint64_t i = 0; i < kSize.numbers(); ++i) {
+                    std::int64_t all = 0;
+                    for (std::uint64_t h = 0; h <= g; ++h) all += number_of(kSize, h, l, i);
+                    same &= ring.sum.sum.sums[l * kSize.numbers() + i] == all;
+                }
+            CHECK(same);
+        }
+        // The first that gives way takes the ring to packed numbers.
+        shoot(ring, kSlots, {0.3, 3.0}, 0);
+        REQUIRE(sum_ring(ring.work, 0, ring.photons, ring.sum));
+        CHECK(!ring.sum.exact);
+        check_same(ring.sum, anew(ring, 0));
+    }
+}
+
 TEST_CASE("ring sum: slots of other fluxes keep their power to half a unit each") {
     Ring ring;
     open_ring(ring);
@@ -239,7 +272,7 @@ TEST_CASE("ring sum: a generation that ended within is gone") {
     for (std::uint64_t g = 0; g < kSlots; ++g) shoot(ring, g, {0.3, 3.0}, g);
     REQUIRE(sum_ring(ring.work, 3, ring.photons, ring.sum));
     // One of its two lights has been packed.
-    const RingShot shot = begin_shot(1, {0.3, 3.0}, ring.photons, ring.sum);
+    const RingShot shot = begin_shot(1, false, {0.3, 3.0}, ring.photons, ring.sum);
     scatter(ring, 9, 0);
     pack_light(ring.work, 0, shot, ring.scratch, ring.photons, ring.sum);
     ++ring.photons.slots[1].serial;

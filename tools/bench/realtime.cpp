@@ -64,6 +64,7 @@ struct Arguments {
     std::string only;  ///< part of a row's name
     int frames = 60, threads = 0;
     int fps = 0;  ///< > 0: the governor chooses each frame's work for so many frames a second
+    bool small = false;  ///< a long flight through a small scene: memory and time of late frames
     Overrides overrides;
 };
 
@@ -96,6 +97,20 @@ private:
     double wall_ = 0, cpu_ = 0;
 };
 
+/// The camera of frame f, and a sun so much higher than the scene's.
+Status set_pose(const Scene& scene, int f, double higher_deg, Session& session) {
+    const Double3 from = scene.camera.position_m, to = scene.camera.target_m;
+    Camera camera = scene.camera;
+    const auto turn = sincos_deg(kOrbitDeg * (f % 720));
+    const double x = from.x - to.x, y = from.y - to.y;
+    camera.position_m = {to.x + x * turn.cosine - y * turn.sine,
+                         to.y + x * turn.sine + y * turn.cosine, from.z};
+    PILEUS_TRY(session.set_camera(camera));
+    Sun sun = scene.sun;
+    sun.elevation_deg += higher_deg;
+    return session.set_sun(sun);
+}
+
 Status fly_session(const Scene& scene, const Arguments& arguments, bool sun_moves,
                    std::vector<Frame>& frames) {
     RenderOptions options;
@@ -107,7 +122,6 @@ Status fly_session(const Scene& scene, const Arguments& arguments, bool sun_move
     FrameTarget target;
     target.has_colour = true;
     target.colour.rows = {colour.data(), std::int64_t(4) * size[0], false};
-    const Double3 from = scene.camera.position_m, to = scene.camera.target_m;
     Stopwatch watch;
     const std::vector<FrameWork> ladder = session.work_levels();
     Governor governor;
@@ -117,15 +131,7 @@ Status fly_session(const Scene& scene, const Arguments& arguments, bool sun_move
         const double last_s = f > 1 ? frames.back().total.wall_ms * 1e-3 : 0;
         if (arguments.fps > 0) PILEUS_TRY(session.set_work(govern(ladder, last_s, governor)));
         watch.start(session.report());
-        Camera camera = scene.camera;
-        const auto turn = sincos_deg(kOrbitDeg * f);
-        const double x = from.x - to.x, y = from.y - to.y;
-        camera.position_m = {to.x + x * turn.cosine - y * turn.sine,
-                             to.y + x * turn.sine + y * turn.cosine, from.z};
-        PILEUS_TRY(session.set_camera(camera));
-        Sun sun = scene.sun;
-        if (sun_moves) sun.elevation_deg += kSunDeg * f;
-        PILEUS_TRY(session.set_sun(sun));
+        PILEUS_TRY(set_pose(scene, f, sun_moves ? kSunDeg * f : 0, session));
         PILEUS_TRY(session.set_frame(f));
         const std::uint64_t units = f == 0 ? session.light().whole : sun_moves ? 1 : 0;
         std::uint64_t done = 0;
@@ -157,6 +163,64 @@ Status fly_animation(const Scene& still, const Arguments& arguments, bool sun_mo
         watch.start(report);
         return Status::ok();
     });
+}
+
+/// MB that the process has in memory now; 0 where the system does not tell.
+double resident_mb() {
+    long pages = 0, ignored = 0;
+    if (std::FILE* file = std::fopen("/proc/self/statm", "r")) {
+        if (std::fscanf(file, "%ld %ld", &ignored, &pages) != 2) pages = 0;
+        std::fclose(file);
+    }
+    return double(pages) * double(::sysconf(_SC_PAGESIZE)) * 1e-6;
+}
+
+/// Prints memory and time of each tenth of a flight, the sun between its place and 30 degrees more.
+Status fly_small(const Way& way, const Arguments& arguments) {
+    Overrides overrides = way.overrides;
+    for (const char* o : {"camera.resolution=[32,18]", "medium.0.resolution=[24,24,24]",
+                          "collectors.photons=1600", "collectors.generations=8",
+                          "collectors.samples=500", "output.layers=[\"radiance\",\"alpha\"]"})
+        overrides.push_back(o);
+    overrides.insert(overrides.end(), arguments.overrides.begin(), arguments.overrides.end());
+    Scene scene;
+    PILEUS_TRY(read_scene_file(arguments.scene, overrides, scene));
+    RenderOptions options;
+    options.threads = arguments.threads;
+    Session session;
+    PILEUS_TRY(session.open(scene, options, SessionKind::kLive, true, nullptr));
+    std::vector<unsigned char> colour(4 * std::size_t(scene.camera.resolution[0]) *
+                                      std::size_t(scene.camera.resolution[1]));
+    FrameTarget target;
+    target.has_colour = true;
+    target.colour.rows = {colour.data(), std::int64_t(4) * scene.camera.resolution[0], false};
+    const int part = arguments.frames < 10 ? 1 : arguments.frames / 10;
+    double wall = wall_seconds(), cpu = cpu_seconds();
+    for (int f = 0; f <= arguments.frames; ++f) {
+        const int turn = f % 600;
+        PILEUS_TRY(set_pose(scene, f, kSunDeg * (turn < 300 ? turn : 600 - turn), session));
+        PILEUS_TRY(session.set_frame(f));
+        std::uint64_t done = 0;
+        PILEUS_TRY(session.step(f == 0 ? session.light().whole : 1, done));
+        PILEUS_TRY(session.render(target));
+        if (f % part != 0) continue;
+        const double frames = f == 0 ? 1 : part;
+        std::printf("| %s | %d | %.3f | %.3f | %.2f |\n", way.name, f,
+                    (wall_seconds() - wall) / frames * 1e3, (cpu_seconds() - cpu) / frames * 1e3,
+                    resident_mb());
+        std::fflush(stdout);
+        wall = wall_seconds(), cpu = cpu_seconds();
+    }
+    return Status::ok();
+}
+
+Status fly_all_small(const Arguments& arguments) {
+    std::printf(
+        "| frames | up to frame | wall ms | CPU ms | resident MB |\n|---|---|---|---|---|\n");
+    for (const Way& way : ways())
+        if (std::string(way.name).find(arguments.only) != std::string::npos)
+            PILEUS_TRY(fly_small(way, arguments));
+    return Status::ok();
 }
 
 /// Of numbers sorted by this: the one below which that share of them lies.
@@ -257,6 +321,11 @@ bool read_count(const char* text, int& count) {
 bool read_arguments(int count, char** words, Arguments& out) {
     for (int i = 1; i < count; i += 2) {
         const std::string word = words[i];
+        if (word == "--small") {
+            out.small = true;
+            --i;
+            continue;
+        }
         if (i + 1 >= count) return false;
         const char* value = words[i + 1];
         if (word == "--scene")
@@ -284,11 +353,11 @@ int main(int count, char** words) {
         std::fprintf(
             stderr,
             "usage: pileus_realtime [--frames 1-100000] [--threads 1-100000] [--fps 1-100000] "
-            "[--scene FILE] [--only PART-OF-A-NAME] [--set KEY=VALUE]...\n");
+            "[--scene FILE] [--only PART-OF-A-NAME] [--small] [--set KEY=VALUE]...\n");
         return 2;
     }
     std::printf("%d frames after the first\n\n", arguments.frames);
-    const Status status = fly(arguments);
+    const Status status = arguments.small ? fly_all_small(arguments) : fly(arguments);
     if (!status) std::fprintf(stderr, "%s\n", status.message.c_str());
     return int(status.code);
 }
