@@ -220,7 +220,7 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
         [&](M<W> dense, T t, T width, const Vec<T>& p, const Vec<T>& metres) PILEUS_INLINED {
             if (!any(dense)) return transmittance < k.cut;
             const Corners<T> at = density_corners<Constant>(k.medium, p);
-            const T density = read_density<Constant>(k.medium.density, at);
+            const T density = density_at<Constant>(k.medium, at);
             const T optical = select(dense, density * k.medium.sigma * width, T{});
             pace.inside = optical > 0.0f;
             if (!any(optical > 0.0f)) return transmittance < k.cut;

@@ -4,8 +4,8 @@
 // docs/methods.md 4. Samples sit on a lattice along each ray; skipping leaves out zeros only.
 // Through a periodic medium rays run on unbent; what they read is reduced to one period.
 #pragma once
+#include "kernels_cpu/display/density_pairs.h"
 #include "kernels_cpu/display/march_params.h"
-#include "kernels_cpu/media/medium.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
@@ -159,7 +159,7 @@ PILEUS_FN T density_along(const MediumView& m, const Ray<T>& ray, T enter, T lea
                         [&](M_of<T> dense, T, T width, const Vec<T>& p, const Vec<T>&) {
                             if (any(dense)) {
                                 const Corners<T> at = density_corners<Constant>(m, p);
-                                const T density = read_density<Constant>(m.density, at);
+                                const T density = density_at<Constant>(m, at);
                                 sum = select(dense, sum + width * density, sum);
                                 pace.inside = dense & (density > 0.0f);
                             }

@@ -15,35 +15,29 @@ inline namespace PILEUS_ISA {
 template <class T>
 PILEUS_FN auto code_of(const std::int32_t* codes, T linear) {
     using II = I_of<T>;
-    const T within = max_(linear, all<T>(0x1p-13f));
-    const II bin =
-        (reinterpret<II>(within) - std::int32_t(kCodeLowest)) >> std::int32_t(kCodeShift);
-    const II last = all<II>(std::int32_t(kCodeBins) - 1);
-    const II code = gather(codes, min_(bin, last));
-    const II next = min_(code, all<II>(254));
-    const auto reached = linear >= gather(kSrgbThresholds, next);
-    return select(reached, next + 1, code);
+    const T within = min_(max_(linear, all<T>(0x1p-13f)), all<T>(0x1.fffffep-1f));
+    const II place = reinterpret<II>(within) - std::int32_t(kCodeLowest);
+    const II bin = gather(codes, place >> std::int32_t(kCodeShift));
+    const II rest = place & std::int32_t(kCodeRest);
+    const II code = bin >> std::int32_t(kCodeShift + 1);
+    return select(rest >= (bin & std::int32_t(2 * kCodeRest + 1)), code + 1, code);
 }
 
-/// W pixels from number `first` on, `real` of them.
+/// W pixels of this light, the first `real` of them.
 template <int W>
-PILEUS_FN void pixel_lanes(const PixelParams& k, const PixelBuffers& b, std::int64_t first,
-                           std::int32_t real, unsigned char* to, std::int64_t& broken) {
+PILEUS_FN void store_pixels(const std::int32_t* codes, float gain, F<W> transmittance,
+                            const F<W> (&light)[3], std::int32_t real, unsigned char* to,
+                            std::int64_t& broken) {
     using T = F<W>;
-    const std::int64_t pixels = std::int64_t(k.width) * k.height;
-    const T transmittance = take_lanes<T>(b.transmittance + first, real);
     T c[3];
     for (int i = 0; i < 3; ++i) {
-        T v = take_lanes<T>(b.colour + i * pixels + first, real);
-        if (b.background != nullptr)
-            v = v + transmittance * take_lanes<T>(b.background + i * pixels + first, real);
-        const auto sound = v - v == 0.0f;
+        const auto sound = light[i] - light[i] == 0.0f;
         broken += W - count_bits(bits_of(sound));
-        c[i] = select(v > 0.0f, v, T{});
+        c[i] = select(light[i] > 0.0f, light[i], T{});
     }
-    const Rgb<T> shown = tone_curve(Rgb<T>{c[0], c[1], c[2]}, k.gain);
-    const I<W> r = code_of(b.codes, shown.r), g = code_of(b.codes, shown.g),
-               blue = code_of(b.codes, shown.b);
+    const Rgb<T> shown = tone_curve(Rgb<T>{c[0], c[1], c[2]}, gain);
+    const I<W> r = code_of(codes, shown.r), g = code_of(codes, shown.g),
+               blue = code_of(codes, shown.b);
     const I<W> a = to_int((1.0f - transmittance) * 255.0f + 0.5f) & 255;
 #if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
     const I<W> word = r | (g << 8) | (blue << 16) | (a << 24);
@@ -58,6 +52,23 @@ PILEUS_FN void pixel_lanes(const PixelParams& k, const PixelBuffers& b, std::int
         const std::int32_t one = lane(word, l);
         __builtin_memcpy(to + 4 * l, &one, sizeof one);
     }
+}
+
+/// W pixels from number `first` on, `real` of them.
+template <int W>
+PILEUS_FN void pixel_lanes(const PixelParams& k, const PixelBuffers& b, std::int64_t first,
+                           std::int32_t real, unsigned char* to, std::int64_t& broken) {
+    using T = F<W>;
+    const std::int64_t pixels = std::int64_t(k.width) * k.height;
+    const T transmittance = take_lanes<T>(b.transmittance + first, real);
+    T light[3];
+    for (int i = 0; i < 3; ++i) {
+        light[i] = take_lanes<T>(b.colour + i * pixels + first, real);
+        if (b.background != nullptr)
+            light[i] =
+                light[i] + transmittance * take_lanes<T>(b.background + i * pixels + first, real);
+    }
+    store_pixels<W>(b.codes, k.gain, transmittance, light, real, to, broken);
 }
 
 template <int W>

@@ -14,7 +14,10 @@ template <class T>
 struct Around {
     I_of<T> at[4];
     T weight[4];
-    M_of<T> marched;  ///< the pixel is one of them
+    M_of<T> marched;        ///< the pixel is one of them
+    bool close = false;     ///< those of all lanes lie within one vector of each row:
+    std::int32_t begin[2];  ///< the first number of these vectors, of the upper and the lower row
+    I_of<T> within[2];      ///< the left and the right one's place in them
 };
 
 /// Place between marched pixels along one axis: the lower one, and the share of the higher.
@@ -49,6 +52,44 @@ PILEUS_FN Around<T> around(const PixelLattice& g, T x, T y, bool nearest) {
     return a;
 }
 
+/// Whether a vector's lanes can be picked by numbers in another; elsewhere memory is gathered.
+#if defined(__clang__) || defined(__CUDACC__)
+template <int W>
+constexpr bool kPicksLanes = false;
+#else
+template <int W>
+constexpr bool kPicksLanes = W >= 8;
+#endif
+
+/// Pixels side by side have their neighbours side by side: a few loads serve all lanes.
+template <class T>
+PILEUS_FN void find_close(const PixelLattice& g, Around<T>& a) {
+    constexpr int W = width_of<T>;
+    if (!kPicksLanes<W> || g.width < W || g.every < 2) return;
+    const std::int32_t upper = lane(a.at[0], 0) / g.width * g.width;
+    const std::int32_t lower = lane(a.at[2], 0) / g.width * g.width;
+    const std::int32_t first = lane(a.at[0], 0) - upper;
+    const std::int32_t low = first < g.width - W ? first : g.width - W;
+    a.close = lane(a.at[1], W - 1) - upper - low < W;
+    a.begin[0] = upper + low, a.begin[1] = lower + low;
+    a.within[0] = a.at[0] - a.begin[0], a.within[1] = a.at[1] - a.begin[0];
+}
+
+/// One of the four marched pixels around.
+template <class T>
+PILEUS_FN T neighbour(const float* plane, const Around<T>& a, int i) {
+#if !defined(__clang__) && !defined(__CUDACC__)
+    if constexpr (kPicksLanes<width_of<T>>) {
+        if (a.close) {
+            T row;
+            __builtin_memcpy(&row, plane + a.begin[i >> 1], sizeof row);
+            return __builtin_shuffle(row, a.within[i & 1]);
+        }
+    }
+#endif
+    return gather(plane, a.at[i]);
+}
+
 /// How different two distances are, 0 to 1; infinity, the sky, is like itself alone.
 template <class T>
 PILEUS_FN T depth_gap(T a, T b) {
@@ -63,7 +104,7 @@ template <class T>
 PILEUS_FN void weigh_depths(const UpsampleBuffers& b, T opaque, Around<T>& a) {
     T sum{};
     for (int i = 0; i < 4; ++i) {
-        const T gap = depth_gap(opaque, gather(b.opaque_depth, a.at[i]));
+        const T gap = depth_gap(opaque, neighbour(b.opaque_depth, a, i));
         a.weight[i] = a.weight[i] * (kOtherSolid / (kOtherSolid + gap * gap));
         sum = sum + a.weight[i];
     }
@@ -74,16 +115,16 @@ PILEUS_FN void weigh_depths(const UpsampleBuffers& b, T opaque, Around<T>& a) {
 template <class T>
 PILEUS_FN T blended(const float* plane, const Around<T>& a) {
     T sum{};
-    for (int i = 0; i < 4; ++i) sum = sum + a.weight[i] * gather(plane, a.at[i]);
+    for (int i = 0; i < 4; ++i) sum = sum + a.weight[i] * neighbour(plane, a, i);
     return sum;
 }
 
 /// The number of the neighbour that weighs most: depths, which may be infinite, are not blended.
 template <class T>
 PILEUS_FN T heaviest(const float* plane, const Around<T>& a) {
-    T value = gather(plane, a.at[0]), most = a.weight[0];
+    T value = neighbour(plane, a, 0), most = a.weight[0];
     for (int i = 1; i < 4; ++i) {
-        value = select(a.weight[i] > most, gather(plane, a.at[i]), value);
+        value = select(a.weight[i] > most, neighbour(plane, a, i), value);
         most = max_(most, a.weight[i]);
     }
     return value;
@@ -99,10 +140,10 @@ struct PixelLight {
 template <class T>
 PILEUS_FN M_of<T> shows_nothing(const UpsampleBuffers& b, std::int64_t few, const Around<T>& a) {
     auto clear = a.at[0] >= 0;
-    for (int i = 0; i < 4; ++i) clear = clear & (gather(b.transmittance, a.at[i]) == 1.0f);
+    for (int i = 0; i < 4; ++i) clear = clear & (neighbour(b.transmittance, a, i) == 1.0f);
     // What emits may show where nothing is held back.
     for (int c = 0; c < 3 && any(clear); ++c)
-        for (int i = 0; i < 4; ++i) clear = clear & (gather(b.colour + c * few, a.at[i]) == 0.0f);
+        for (int i = 0; i < 4; ++i) clear = clear & (neighbour(b.colour + c * few, a, i) == 0.0f);
     return clear;
 }
 
@@ -113,9 +154,9 @@ constexpr float kBeyond = 0.25f;
 /// neither below zero nor above `cap` for it.
 template <class T>
 PILEUS_FN void clamp_around(const float* plane, const Around<T>& a, float cap, T& value) {
-    T least = gather(plane, a.at[0]), most = least;
+    T least = neighbour(plane, a, 0), most = least;
     for (int i = 1; i < 4; ++i) {
-        const T v = gather(plane, a.at[i]);
+        const T v = neighbour(plane, a, i);
         least = min_(least, v), most = max_(most, v);
     }
     const T beyond = kBeyond * (most - least);

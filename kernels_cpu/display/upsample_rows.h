@@ -178,35 +178,52 @@ PILEUS_FN void fill_pixels(const UpsampleParams& k, const UpsampleBuffers& b, Ar
     b.kept[y] += count_bits(bits_of(good));
 }
 
-/// W pixels of a row from column x on.
+/// Light and depths of W pixels.
+template <class T>
+struct Filled {
+    PixelLight<T> light;
+    T half, depth;
+};
+
+/// W pixels of a row from column x on, before solids at `opaque`.
+template <int W>
+PILEUS_FN Filled<F<W>> upsample_lanes(const UpsampleParams& k, const UpsampleBuffers& b,
+                                      std::int32_t x, std::int32_t y, std::int32_t real,
+                                      F<W> opaque) {
+    using T = F<W>;
+    const std::int64_t few = std::int64_t(k.lattice.width) * k.lattice.height;
+    const T column = min_(to_float(iota<I<W>>() + x), all<T>(float(k.camera.width - 1)));
+    const T row = all<T>(float(y));
+    Around<T> a = around(k.lattice, column, row, k.rule == kUpsampleNearest);
+    find_close(k.lattice, a);
+    // Among pixels without medium one is as they are, whatever was there before.
+    const M<W> within = iota<I<W>>() < real;
+    M<W> clear = shows_nothing(b, few, a);
+    if (k.still != 0) clear = clear & a.marched;
+    Filled<T> out{};
+    out.light.value[0] = all<T>(1.0f);
+    out.half = all<T>(__builtin_inff());
+    const M<W> filled = within & lnot(clear);
+    if (any(filled))
+        fill_pixels<W>(k, b, a, column, row, opaque, filled, out.light, out.half, out.depth, y);
+    return out;
+}
+
 template <int W>
 PILEUS_FN void upsample_pixels(const UpsampleParams& k, const UpsampleBuffers& b, std::int32_t x,
                                std::int32_t y) {
     using T = F<W>;
     const std::int32_t width = k.camera.width, real = width - x < W ? width - x : W;
     const std::int64_t pixels = std::int64_t(width) * k.camera.height;
-    const std::int64_t few = std::int64_t(k.lattice.width) * k.lattice.height;
     const std::int64_t first = std::int64_t(y) * width + x;
-    const T column = min_(to_float(iota<I<W>>() + x), all<T>(float(width - 1)));
-    const T row = all<T>(float(y));
     T opaque = all<T>(__builtin_inff());
     if (b.whole_opaque != nullptr) opaque = take_lanes<T>(b.whole_opaque + first, real);
-    Around<T> a = around(k.lattice, column, row, k.rule == kUpsampleNearest);
-    // Among pixels without medium one is as they are, whatever was there before.
-    const M<W> within = iota<I<W>>() < real;
-    M<W> clear = shows_nothing(b, few, a);
-    if (k.still != 0) clear = clear & a.marched;
-    PixelLight<T> light;
-    light.value[0] = all<T>(1.0f);
-    for (int i = 1; i < 4; ++i) light.value[i] = T{};
-    T half = all<T>(__builtin_inff()), depth{};
-    const M<W> filled = within & lnot(clear);
-    if (any(filled)) fill_pixels<W>(k, b, a, column, row, opaque, filled, light, half, depth, y);
-    put_lanes(light.value[0], b.whole_transmittance + first, real);
+    const Filled<T> out = upsample_lanes<W>(k, b, x, y, real, opaque);
+    put_lanes(out.light.value[0], b.whole_transmittance + first, real);
     for (int i = 0; i < 3; ++i)
-        put_lanes(light.value[1 + i], b.whole_colour + i * pixels + first, real);
-    if (b.whole_half != nullptr) put_lanes(half, b.whole_half + first, real);
-    if (b.whole_depth != nullptr) put_lanes(depth, b.whole_depth + first, real);
+        put_lanes(out.light.value[1 + i], b.whole_colour + i * pixels + first, real);
+    if (b.whole_half != nullptr) put_lanes(out.half, b.whole_half + first, real);
+    if (b.whole_depth != nullptr) put_lanes(out.depth, b.whole_depth + first, real);
 }
 
 template <int W>

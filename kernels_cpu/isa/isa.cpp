@@ -67,6 +67,7 @@ std::uint64_t self_test_kernel() { return self_test_digest<PILEUS_WIDTH>(); }
 #define PILEUS_RAYMARCH(isa) PILEUS_JOIN(raymarch_kernel_, isa)
 #define PILEUS_UPSAMPLE(isa) PILEUS_JOIN(upsample_kernel_, isa)
 #define PILEUS_PIXELS(isa) PILEUS_JOIN(pixel_kernel_, isa)
+#define PILEUS_FINISH(isa) PILEUS_JOIN(finish_kernel_, isa)
 #define PILEUS_SWEEP(isa) PILEUS_JOIN(sweep_kernel_, isa)
 #define PILEUS_SWEEP_LAYER(isa) PILEUS_JOIN(sweep_layer_kernel_, isa)
 #define PILEUS_PATH_SOLIDS(isa) PILEUS_JOIN(path_solids_, isa)
@@ -108,6 +109,8 @@ void PILEUS_UPSAMPLE(PILEUS_ISA)(const UpsampleParams&, const UpsampleBuffers&, 
                                  std::uint32_t);
 void PILEUS_PIXELS(PILEUS_ISA)(const PixelParams&, const PixelBuffers&, std::uint32_t,
                                std::uint32_t);
+void PILEUS_FINISH(PILEUS_ISA)(const FinishParams&, const FinishBuffers&, std::uint32_t,
+                               std::uint32_t);
 void PILEUS_SWEEP(PILEUS_ISA)(const SweepParams&, const SweepBuffers&, std::uint32_t);
 void PILEUS_SWEEP_LAYER(PILEUS_ISA)(const SweepLayerParams&, const SweepBuffers&, std::uint32_t,
                                     std::uint32_t);
@@ -141,6 +144,7 @@ const KernelTable PILEUS_TABLE(PILEUS_ISA) = {
     &PILEUS_LAMPS(PILEUS_ISA),
     PILEUS_PIXELS(PILEUS_ISA),
     &PILEUS_PACK(PILEUS_ISA),
+    PILEUS_FINISH(PILEUS_ISA),
 };
 
 }  // namespace pileus

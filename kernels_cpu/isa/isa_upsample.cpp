@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Upsampling and 8-bit pixels, compiled once per instruction set, apart from isa.cpp so that both
-// build at once. in: the kernel templates -> out: two exported functions, named after the set.
+// build at once. in: the kernel templates -> out: three exported functions, named after the set.
 // docs/architecture.md, "Kernels: written once"; tools/check_objects proves that nothing leaks.
-#include "kernels_cpu/display/pixel_rows.h"
-#include "kernels_cpu/display/upsample_rows.h"
+#include "kernels_cpu/display/finish_rows.h"
 
 #ifndef PILEUS_WIDTH
 #error "PILEUS_WIDTH is set by the build, one object per instruction set"
@@ -15,6 +14,7 @@
 #define PILEUS_JOIN(a, b) a##b
 #define PILEUS_UPSAMPLE(isa) PILEUS_JOIN(upsample_kernel_, isa)
 #define PILEUS_PIXELS(isa) PILEUS_JOIN(pixel_kernel_, isa)
+#define PILEUS_FINISH(isa) PILEUS_JOIN(finish_kernel_, isa)
 
 namespace pileus {
 
@@ -30,6 +30,13 @@ void PILEUS_PIXELS(PILEUS_ISA)(const PixelParams&, const PixelBuffers&, std::uin
 void PILEUS_PIXELS(PILEUS_ISA)(const PixelParams& k, const PixelBuffers& b, std::uint32_t begin,
                                std::uint32_t end) {
     pixel_rows<PILEUS_WIDTH>(k, b, begin, end);
+}
+
+void PILEUS_FINISH(PILEUS_ISA)(const FinishParams&, const FinishBuffers&, std::uint32_t,
+                               std::uint32_t);
+void PILEUS_FINISH(PILEUS_ISA)(const FinishParams& k, const FinishBuffers& b, std::uint32_t begin,
+                               std::uint32_t end) {
+    finish_rows<PILEUS_WIDTH>(k, b, begin, end);
 }
 
 }  // namespace pileus

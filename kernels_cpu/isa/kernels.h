@@ -4,6 +4,7 @@
 // docs/architecture.md, "Kernels: written once".
 #pragma once
 #include "kernels_cpu/display/blend_params.h"
+#include "kernels_cpu/display/finish_params.h"
 #include "kernels_cpu/display/march_params.h"
 #include "kernels_cpu/display/pixel_params.h"
 #include "kernels_cpu/display/upsample_params.h"
@@ -66,6 +67,9 @@ struct KernelTable {
     void (*pixel_rows)(const PixelParams&, const PixelBuffers&, std::uint32_t begin,
                        std::uint32_t end) = nullptr;
     const PackKernels* pack = nullptr;  ///< sums of photons, for a ring of generations
+    /// Rows of 8-bit pixels from marched ones, with what is behind them.
+    void (*finish_rows)(const FinishParams&, const FinishBuffers&, std::uint32_t begin,
+                        std::uint32_t end) = nullptr;
 };
 
 /// The widest table this machine runs; `name` (or null) forces one. Null: no such table here.

@@ -26,10 +26,13 @@ struct Budget {
     double state_every_s = 60;  ///< between two writings of it
 };
 
+struct LateRows;
+
 /// One picture of a run. `first` and `last` are those of the run, not of the animation.
 struct FrameStep {
     int frame = 0;
     bool first = true, last = true;
+    LateRows* late = nullptr;  ///< 8-bit pixels are all that is wanted: takes what may be left
 };
 
 /// What a method keeps between its functions; each derives its own. What all have is here.

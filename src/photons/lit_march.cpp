@@ -7,6 +7,7 @@
 #include "platform/threads.h"
 #include "src/base/angles.h"
 #include "src/picture/background.h"
+#include "src/picture/late_rows.h"
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/node_rows.h"
 #include "src/picture/nodes/solid_shadow.h"
@@ -181,6 +182,14 @@ Status march_thinned(const Context& context, const UpsampleSettings& thin, const
     return upsample_picture(context, in, run.frame, memory, planes);
 }
 
+bool may_be_late(const PhotonRun& run) {
+    const Lighting& light = run.lighting;
+    const bool solid = light.solids != nullptr && !light.solids->triangles.empty();
+    const bool image = light.depth != nullptr && !light.depth->metres.empty();
+    return !solid && !image && light.lamps.empty() && !emits(run.world->medium) &&
+           photon_batches(run) == 0;
+}
+
 Status check_thinned(const Context& context, const Scene& scene, const char* method,
                      const UpsampleSettings& thin) {
     PILEUS_TRY(check_upsampling(scene, method, thin));
@@ -300,6 +309,10 @@ Status fill_lit_background(const Context& context, PhotonRun& run, const LightIn
     }
     BackgroundBuffers b{map.data(), planes.background.data(), planes.opaque_depth.data()};
     read_ground_shadow(run.ground_shadow, k, b);
+    if (planes.late != nullptr) {
+        planes.late->map.swap(map);
+        return leave_background(context, k, b, *planes.late);
+    }
     return show_background(context, light, k, b);
 }
 

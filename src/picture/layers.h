@@ -12,6 +12,8 @@
 
 namespace pileus {
 
+struct LateRows;
+
 /// Planes of one picture, rows from the top. `colour` is [3 * (1 + batches)][pixel]. Those from
 /// `optical_depth` on are empty where no layer shows them or a method has no such thing.
 struct Planes {
@@ -24,6 +26,8 @@ struct Planes {
     Buffer<float> sun;            ///< [3][pixel], of R G B what began at the sun
     Buffer<float> single;         ///< [3][pixel], of the media's light what was scattered once
     Buffer<float> error;          ///< [3][pixel], one standard error; empty: from the batches
+    /// Takes what may wait until pixels are written, as a caller allows it; null: nothing may.
+    LateRows* late = nullptr;
 };
 
 /// Mean of standard error / radiance over the cloud's pixels, by green.

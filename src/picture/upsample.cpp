@@ -5,6 +5,7 @@
 #include <cstring>
 
 #include "platform/threads.h"
+#include "src/picture/late_rows.h"
 
 namespace pileus {
 namespace {
@@ -34,10 +35,8 @@ Status outfit(const PixelLattice& g, int width, bool half_depth, const Planes& w
     return Status::ok();
 }
 
-Status fill_in(const Context& context, const UpsampleInput& in, const PixelLattice& lattice,
-               UpsampleMemory& memory, Planes& planes) {
-    constexpr std::uint32_t kPiece = 4;
-    const StageClock clock(context, "upsampling");
+UpsampleParams params_of(const UpsampleInput& in, const PixelLattice& lattice,
+                         const UpsampleMemory& memory) {
     UpsampleParams k{};
     k.lattice = lattice;
     k.rule = std::int32_t(in.settings.upsample);
@@ -49,17 +48,34 @@ Status fill_in(const Context& context, const UpsampleInput& in, const PixelLatti
                   ? 1
                   : 0;
     k.medium = in.medium;
+    return k;
+}
+
+UpsampleBuffers buffers_of(const UpsampleMemory& memory, Planes& planes) {
+    const Planes& few = memory.few;
+    return {few.transmittance.data(),    few.colour.data(),
+            few.half_depth.data(),       few.optical_depth.data(),
+            few.opaque_depth.data(),     planes.opaque_depth.data(),
+            memory.transmittance.data(), memory.colour.data(),
+            memory.opaque_depth.data(),  planes.transmittance.data(),
+            planes.colour.data(),        planes.half_depth.data(),
+            planes.optical_depth.data(), nullptr};
+}
+
+Status fill_in(const Context& context, const UpsampleInput& in, const PixelLattice& lattice,
+               UpsampleMemory& memory, Planes& planes) {
+    constexpr std::uint32_t kPiece = 4;
+    const StageClock clock(context, "upsampling");
+    const UpsampleParams k = params_of(in, lattice, memory);
+    UpsampleBuffers b = buffers_of(memory, planes);
+    if (planes.late != nullptr) {
+        leave_upsampling(k, b, *planes.late);
+        return Status::ok();
+    }
     const std::uint32_t rows = std::uint32_t(in.camera.height);
     Buffer<std::int64_t> kept;
     PILEUS_TRY(allocate(recalled_counts(rows), kept));
-    const Planes& few = memory.few;
-    const UpsampleBuffers b{few.transmittance.data(),    few.colour.data(),
-                            few.half_depth.data(),       few.optical_depth.data(),
-                            few.opaque_depth.data(),     planes.opaque_depth.data(),
-                            memory.transmittance.data(), memory.colour.data(),
-                            memory.opaque_depth.data(),  planes.transmittance.data(),
-                            planes.colour.data(),        planes.half_depth.data(),
-                            planes.optical_depth.data(), kept.data()};
+    b.kept = kept.data();
     parallel_for(context.threads, (rows + kPiece - 1) / kPiece, [&](std::int64_t piece, int) {
         const std::uint32_t begin = std::uint32_t(piece) * kPiece;
         context.kernels->upsample_rows(k, b, begin, begin + kPiece < rows ? begin + kPiece : rows);

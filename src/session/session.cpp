@@ -162,14 +162,21 @@ Status Session::render(const FrameTarget& target) {
     const Planes* planes = nullptr;
     scene_.output.layer_depth = target.has_depth || scene_.method == "path";
     report_.counters.clear();
-    PILEUS_TRY(
-        method_->live->compose({frame_, stats_.pictures == 0, false}, context_, *run_, planes));
+    // A hash and depths are of whole planes.
+    const bool late = target.has_colour && !target.has_depth && target.hash == nullptr &&
+                      is_late(target.colour, *context_.kernels);
+    late_.ready = false;
+    late_.params.filled = 0;
+    PILEUS_TRY(method_->live->compose(
+        {frame_, stats_.pictures == 0, false, late ? &late_ : nullptr}, context_, *run_, planes));
     const auto& size = scene_.camera.resolution;
     std::uint64_t broken = 0;
     if (target.has_colour) {
         const StageClock clock(context_, "pixels");
-        PILEUS_TRY(write_pixels(*planes, size[0], size[1], target.colour, context_.kernels,
-                                context_.threads, broken));
+        PILEUS_TRY(late_.ready ? finish_picture(context_, *planes, size[0], size[1], target.colour,
+                                                late_, broken)
+                               : write_pixels(*planes, size[0], size[1], target.colour,
+                                              context_.kernels, context_.threads, broken));
     }
     if (target.has_depth) {
         const StageClock clock(context_, "depths");

@@ -8,6 +8,7 @@
 #include "platform/threads.h"
 #include "src/methods/governor.h"
 #include "src/methods/methods.h"
+#include "src/picture/late_rows.h"
 #include "src/picture/pixels.h"
 #include "src/session/render.h"
 
@@ -116,6 +117,7 @@ private:
     Context context_;
     const Method* method_ = nullptr;
     std::unique_ptr<MethodRun> run_;
+    LateRows late_;
     SessionStats stats_;
 };
 

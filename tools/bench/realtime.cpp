@@ -2,6 +2,7 @@
 // What one frame costs after the other: sessions and animations over a scene, camera and sun
 // moving. in: a scene, frames, threads, names of ways -> out: a table of ms per frame and shares of
 // stages. docs/realtime.md
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>

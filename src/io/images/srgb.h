@@ -25,7 +25,12 @@ public:
             const std::uint32_t bits = kCodeLowest + (i << kCodeShift);
             float edge;
             std::memcpy(&edge, &bits, sizeof edge);
-            code_[i] = std::int32_t(srgb_code(edge));
+            const std::uint32_t code = srgb_code(edge);
+            std::uint32_t next = 0;
+            if (code < 255) std::memcpy(&next, &kSrgbThresholds[code], sizeof next);
+            const bool within = next >> kCodeShift == bits >> kCodeShift;
+            bin_[i] = std::int32_t((code << (kCodeShift + 1)) |
+                                   (within ? next & kCodeRest : kCodeRest + 1));
         }
     }
     std::uint8_t operator()(float linear) const {
@@ -33,15 +38,15 @@ public:
         if (linear >= 1.0f) return 255;
         std::uint32_t bits;
         std::memcpy(&bits, &linear, sizeof bits);
-        const std::int32_t code = code_[(bits - kCodeLowest) >> kCodeShift];
-        // Light below 1 may have reached the last threshold, after which none comes.
-        return std::uint8_t(code + (code < 255 && linear >= kSrgbThresholds[code] ? 1 : 0));
+        const std::uint32_t bin = std::uint32_t(bin_[(bits - kCodeLowest) >> kCodeShift]);
+        const bool reached = (bits & kCodeRest) >= (bin & (2 * kCodeRest + 1));
+        return std::uint8_t((bin >> (kCodeShift + 1)) + (reached ? 1u : 0u));
     }
-    /// [kCodeBins]: the code at the start of each bin, as kernels read it.
-    const std::int32_t* bins() const { return code_; }
+    /// [kCodeBins], as kernels read them.
+    const std::int32_t* bins() const { return bin_; }
 
 private:
-    std::int32_t code_[kCodeBins];
+    std::int32_t bin_[kCodeBins];
 };
 
 }  // namespace pileus
