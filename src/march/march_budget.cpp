@@ -54,7 +54,10 @@ Status choose_march_work(const Context& context, double start_s, const UpsampleI
     const double whole_s = pixel_s * double(in.camera.width) * double(in.camera.height);
     const auto takes = [&](int every) { return whole_s / (double(every) * double(every)); };
     int& every = thin.temporal > 0 ? thin.temporal : thin.scale;
-    while (every < 4 && takes(every) > left_s) every *= 2;
+    // Parts of the light have every pixel marched.
+    const OutputSettings& output = run.scene->output;
+    const int coarsest = output.layer_light || output.layer_order ? every : 4;
+    while (every < coarsest && takes(every) > left_s) every *= 2;
     if (takes(every) > left_s) {
         const double share = std::max(left_s, 0.0) / takes(every);
         const int fewest = std::min(kFewestSteps, run.whole_steps);

@@ -2,7 +2,7 @@
 // Weighs a run of the raymarch: what it needs and leaves out, where sunlight comes from, memory.
 // in: RaymarchRun, outlined or prepared -> out: its plan; kLimit where something is too much.
 // docs/report.md, "Plan"; docs/raymarch.md
-#include "src/march/march_run.h"
+#include "src/march/march_parts.h"
 #include "src/picture/blue_noise.h"
 #include "src/world/medium/sky_medium.h"
 #include "src/world/plan_parts.h"
@@ -217,7 +217,20 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
         add(t, arrays::sky_light(nodes, sets, last));
         if (sets > 0) add(t, arrays::sky_seen(nodes));
     }
-    const std::uint64_t shown = plane_count(3, run.lighting.opaque(), output.layer_depth) +
+    const std::uint64_t parts = march_part_planes(run);
+    if (run.settings.sky_ambient && output.layer_order) {
+        const std::uint64_t nodes = node_count(sky_node_grid(run.world->medium));
+        const int sets = sky_node_sets(run.lighting);
+        add(t, renamed(arrays::sky_light(nodes, sets, last), "skylight scattered once",
+                       Stage::kDisplay, last));
+        if (sets > 0)
+            add(t, renamed(arrays::sky_seen(nodes), "skylight scattered once", Stage::kDisplay,
+                           Stage::kWrite));
+    }
+    if (parts > 0)
+        add(t, renamed(arrays::picture_planes(plane_count(3, run.lighting.opaque(), false), pixels),
+                       "planes of a part", Stage::kDisplay, Stage::kDisplay));
+    const std::uint64_t shown = parts + plane_count(3, run.lighting.opaque(), output.layer_depth) +
                                 (output.layer_optical_depth ? 1u : 0u);
     add(t, arrays::picture_planes(shown, pixels));
     add(t, arrays::ground_shadow(most_ground_nodes(run.world->medium, run.lighting, pixels)));
@@ -227,7 +240,10 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
                      output.layer_optical_depth, last, t);
     add(t, arrays::raymarch_counts(std::uint64_t(scene.camera.resolution[1])));
     add_image_rows(std::uint64_t(scene.camera.resolution[0]),
-                   std::uint64_t(scene.camera.resolution[1]), 4 + extra_layers(output, false), t);
+                   std::uint64_t(scene.camera.resolution[1]),
+                   4 + extra_layers(output, false) + parts - (output.layer_light ? 3u : 0u) -
+                       (output.layer_order ? 3u : 0u),
+                   t);
     add_solid_rows(scene, context.limits, run.world->solids, run.around.depth, t);
     if (run.world->solids.meshes && run.lighting.sunlit)
         t.add("shadow of solids", Stage::kShadow, last, bytes_of(kFloat, voxel_count(grid)));

@@ -2,8 +2,7 @@
 // See march_run.h. Preparation and sessions; march_show.cpp makes the picture.
 // in: settings of the march -> out: a prepared run.
 // docs/raymarch.md
-#include "src/march/march_run.h"
-
+#include "src/march/march_parts.h"
 #include "src/world/medium/resample.h"
 
 namespace pileus {
@@ -106,12 +105,12 @@ Status check_marched(const Scene& scene, const Budget& budget) {
                                  "method " +
                                  scene.method + " marches, allowed: perspective, orthographic");
     const OutputSettings& output = scene.output;
-    if (output.layer_error || output.layer_light || output.layer_order)
+    if (output.layer_error)
         return Status::bad_input(
             scene.file + ": output.layers: method " + scene.method +
-            " has no noise and one order of scattering, allowed: radiance, alpha, depth, cloud, "
-            "optical_depth, transmittance, reflectance, shadow");
-    return Status::ok();
+            " has no noise, allowed: radiance, alpha, depth, cloud, optical_depth, "
+            "transmittance, light, order, reflectance, shadow");
+    return check_march_parts(scene, scene.method == "optical-depth");
 }
 
 bool caps_extinction(const RaymarchRun& run) {

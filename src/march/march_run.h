@@ -31,6 +31,7 @@ struct RaymarchRun : MethodRun {
 
     Buffer<float> noise;  ///< tile of the jitter; empty: none
     SkyNodes sky;
+    SkyNodes single_sky;  ///< of light scattered once, where layer `order` shows it
     LampNodes lamps;
     int levels = 0;                    ///< of detail
     std::vector<DensityLevel> coarse;  ///< their densities

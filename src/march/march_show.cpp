@@ -5,6 +5,7 @@
 #include "platform/clock.h"
 #include "src/base/digest.h"
 #include "src/march/march_budget.h"
+#include "src/march/march_parts.h"
 #include "src/picture/background.h"
 #include "src/picture/blue_noise.h"
 #include "src/picture/march_view.h"
@@ -64,6 +65,25 @@ Status add_lamps(const Context& context, RaymarchRun& run) {
     if ((run.lighting.lamps.empty() && !emits(medium)) || run.settings.steps == 0)
         return Status::ok();
     PILEUS_TRY(make_lamp_nodes(context, medium, run.majorants, run.lighting, run.lamps));
+    return add_lamp_light(context, medium, march_lamps(run), run.lamps, run.planes);
+}
+
+/// The shadow of solids, on nodes two voxels apart.
+Status shade_by_solids(const Context& context, RaymarchRun& run) {
+    if (!run.world->solids.meshes || !run.lighting.sunlit || run.world->medium.sigma <= 0)
+        return Status::ok();
+    float coarse = 0;
+    for (float cell : run.world->medium.grid.cell_m) coarse = cell > coarse ? cell : coarse;
+    run.visibility_nodes =
+        make_node_grid(run.world->medium.grid, run.world->medium.extent_m, 2 * double(coarse));
+    return solid_visibility(context, run.world->solids, run.visibility_nodes, run.lighting.to_sun,
+                            run.visibility);
+}
+
+}  // namespace
+
+LampMarchParams march_lamps(const RaymarchRun& run) {
+    const Medium& medium = marched_medium(run);
     LampMarchParams k = lamp_march_params(medium, run.majorants, run.lighting, run.camera,
                                           run.lamps, run.settings.stop_below);
     k.octaves = octaves_of(run.settings);
@@ -79,35 +99,19 @@ Status add_lamps(const Context& context, RaymarchRun& run) {
         }
         for (float& albedo : k.albedo[i]) albedo *= unit;
     }
-    return add_lamp_light(context, medium, k, run.lamps, run.planes);
+    return k;
 }
-
-/// The shadow of solids, on nodes two voxels apart.
-Status shade_by_solids(const Context& context, RaymarchRun& run) {
-    if (!run.world->solids.meshes || !run.lighting.sunlit || run.world->medium.sigma <= 0)
-        return Status::ok();
-    float coarse = 0;
-    for (float cell : run.world->medium.grid.cell_m) coarse = cell > coarse ? cell : coarse;
-    run.visibility_nodes =
-        make_node_grid(run.world->medium.grid, run.world->medium.extent_m, 2 * double(coarse));
-    return solid_visibility(context, run.world->solids, run.visibility_nodes, run.lighting.to_sun,
-                            run.visibility);
-}
-
-Status fill_background(const Context& context, RaymarchRun& run) {
-    const Lighting& light = run.lighting;
+Status march_background(const Context& context, const Lighting& light, RaymarchRun& run,
+                        Planes& planes) {
     const MediumView view = make_medium_view(run.world->medium, run.majorants);
-    PILEUS_TRY(make_ground_shadow(context, run.world->medium, view, light,
-                                  run.planes.transmittance.size(), turn_of(run),
-                                  run.ground_shadow));
+    PILEUS_TRY(make_ground_shadow(context, run.world->medium, view, run.lighting,
+                                  planes.transmittance.size(), turn_of(run), run.ground_shadow));
     const StageClock clock(context, "background");
     BackgroundParams k = background_params(view, run.camera, light);
-    BackgroundBuffers b{nullptr, run.planes.background.data(), run.planes.opaque_depth.data()};
+    BackgroundBuffers b{nullptr, planes.background.data(), planes.opaque_depth.data()};
     read_ground_shadow(run.ground_shadow, k, b);
     return show_background(context, light, k, b);
 }
-
-}  // namespace
 
 Status march_light(const FrameStep& step, const Context& context, MethodRun& method_run) {
     RaymarchRun& run = static_cast<RaymarchRun&>(method_run);
@@ -141,7 +145,7 @@ Status march_frame(const FrameStep& step, const Context& context, RaymarchRun& r
             PILEUS_TRY(allocate(arrays::picture_planes(1, run.planes.transmittance.size()),
                                 run.planes.optical_depth));
     }
-    PILEUS_TRY(fill_background(context, run));
+    PILEUS_TRY(march_background(context, run.lighting, run, run.planes));
     RaymarchInput in;
     in.medium = &marched_medium(run);
     in.majorants = &run.majorants;
@@ -170,7 +174,8 @@ Status march_frame(const FrameStep& step, const Context& context, RaymarchRun& r
     PILEUS_TRY(choose_march_work(context, start_s, thin, run));
     thin.settings = run.settings.thin;
     PILEUS_TRY(upsample_picture(context, thin, step.frame, run.upsample, run.planes));
-    return add_lamps(context, run);
+    PILEUS_TRY(add_lamps(context, run));
+    return march_parts(context, in, run);
 }
 
 Status march_show(const FrameStep&, const Context& context, MethodRun& method_run, Image& image) {

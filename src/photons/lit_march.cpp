@@ -338,18 +338,6 @@ Status add_ground_noise(const Context& context, PhotonRun& run, const LightInput
     return Status::ok();
 }
 
-Lighting sun_alone(const Lighting& all) {
-    Lighting sun = all;
-    for (Light& light : sun.lights) {
-        if (light.beam) continue;
-        light.colour = light.map || light.hemisphere <= 0 ? Double3{} : all.ground_sun;
-    }
-    sun.constant = sun.sky = sun.ground_diffuse = {};
-    sun.map = SkyMapView{};
-    sun.lamps.clear();
-    return sun;
-}
-
 Status show_optical_depth(const Context& context, const PhotonRun& run, const LightInput& lit,
                           Planes& planes) {
     Planes part;

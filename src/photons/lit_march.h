@@ -100,9 +100,6 @@ Status fill_lit_background(const Context& context, PhotonRun& run, const LightIn
 Status add_ground_noise(const Context& context, PhotonRun& run, const LightInput& lit,
                         Planes& planes);
 
-/// The same light without sky and lamps: the ground then sends back sunlight alone.
-Lighting sun_alone(const Lighting& all);
-
 /// The layer of optical depths.
 Status show_optical_depth(const Context& context, const PhotonRun& run, const LightInput& lit,
                           Planes& planes);

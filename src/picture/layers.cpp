@@ -40,6 +40,34 @@ Status add_rest(const char* layer, std::size_t c, const float* whole, const Buff
     return Status::ok();
 }
 
+/// sun.*, and what else is told apart: lamp0.*, emission.*; sky.* is what these leave of R G B.
+Status add_lights(const Planes& planes, Image& image) {
+    const std::size_t three = planes.sun.size();
+    std::vector<const float*> parts{planes.sun.data()};
+    PILEUS_TRY(add_three("sun.", planes.sun.data(), image));
+    for (std::size_t at = 0; at < planes.lamps.size(); at += three) {
+        parts.push_back(planes.lamps.data() + at);
+        const std::string name = "lamp" + std::to_string(at / three) + ".";
+        PILEUS_TRY(add_three(name.c_str(), parts.back(), image));
+    }
+    if (!planes.emission.empty()) {
+        parts.push_back(planes.emission.data());
+        PILEUS_TRY(add_three("emission.", parts.back(), image));
+    }
+    const std::size_t pixels = three / 3;
+    for (std::size_t c = 0; c < 3; ++c) {
+        Channel* sky = nullptr;
+        PILEUS_TRY(add_channel(image, std::string("sky.") + kRgb[c], sky));
+        const float* whole = image.channels[c].pixels.data();
+        for (std::size_t i = 0; i < pixels; ++i) {
+            float left = whole[i];
+            for (const float* part : parts) left -= part[c * pixels + i];
+            sky->pixels[i] = left;
+        }
+    }
+    return Status::ok();
+}
+
 const float* cloud_light(const Planes& planes) {
     return planes.cloud.empty() ? planes.colour.data() : planes.cloud.data();
 }
@@ -177,7 +205,10 @@ Status make_layers(const Planes& planes, int width, int height, int channels,
     image.channels.clear();
     const int batches = channels / 3 - 1;
     const bool has_error = output.layer_error && (!planes.error.empty() || batches >= 2);
-    image.channels.reserve(4 + std::size_t(extra_layers(output, has_error)));
+    const std::size_t lights =
+        planes.sun.empty() ? 0
+                           : (planes.lamps.size() + planes.emission.size()) * 3 / planes.sun.size();
+    image.channels.reserve(4 + std::size_t(extra_layers(output, has_error)) + lights);
     std::uint64_t broken = 0;
     PILEUS_TRY(add_radiance(planes, image, clamped, broken));
     if (output.layer_cloud) PILEUS_TRY(add_three("cloud.", cloud_light(planes), image));
@@ -185,11 +216,7 @@ Status make_layers(const Planes& planes, int width, int height, int channels,
     if (output.layer_optical_depth)
         PILEUS_TRY(add_plane("tau", planes.optical_depth.span(), image));
     if (output.layer_transmittance) PILEUS_TRY(add_plane("T", planes.transmittance.span(), image));
-    if (output.layer_light) {
-        PILEUS_TRY(add_three("sun.", planes.sun.data(), image));
-        for (std::size_t c = 0; c < 3; ++c)
-            PILEUS_TRY(add_rest("sky.", c, image.channels[c].pixels.data(), planes.sun, image));
-    }
+    if (output.layer_light) PILEUS_TRY(add_lights(planes, image));
     if (output.layer_order) {
         const std::size_t pixels = planes.transmittance.size();
         PILEUS_TRY(add_three("single.", planes.single.data(), image));

@@ -25,6 +25,8 @@ struct Planes {
     Buffer<float> cloud;          ///< [3][pixel], the media's light; empty: `colour` is that
     Buffer<float> sun;            ///< [3][pixel], of R G B what began at the sun
     Buffer<float> single;         ///< [3][pixel], of the media's light what was scattered once
+    Buffer<float> lamps;          ///< [lamp][3][pixel], of R G B what each of [[light]] sends
+    Buffer<float> emission;       ///< [3][pixel], of R G B what the media emit
     Buffer<float> error;          ///< [3][pixel], one standard error; empty: from the batches
     /// Takes what may wait until pixels are written, as a caller allows it; null: nothing may.
     LateRows* late = nullptr;
@@ -76,7 +78,8 @@ Status add_reflectance(const Lighting& lighting, Image& image);
 
 /// Fills the image's channels and the report's error figures; counts pixels that are not finite.
 /// Radiances below zero, noise of the light that the cloud keeps from the ground, become 0 and are
-/// added to `clamped`. sky.* is R G B less sun.*, multiple.* the media's light less single.*.
+/// added to `clamped`. sky.* is R G B less sun.* and other parts that there are, multiple.* the
+/// media's light less single.*.
 Status make_layers(const Planes& planes, int width, int height, int channels,
                    const OutputSettings& output, Image& image, Report& report,
                    std::uint64_t& clamped);

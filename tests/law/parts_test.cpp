@@ -20,6 +20,7 @@ const Texts kMethods[] = {
     {"collectors.display=march"},
     {"collectors.display=billboards"},
     {"collectors.closure=camera"},
+    {"method.name=raymarch"},
 };
 
 const Channel& channel(const Picture& picture, const std::string& name) {
@@ -142,6 +143,7 @@ resolution = [16, 8, 8]
         Texts set = method;
         set.push_back(kLayers);
         set.push_back("collectors.photons=2000");
+        set.push_back("raymarch.stop_below=0");  // else tau ends there
         const Picture p = render_one(scene_from(text, set));
         // 100 m of 0.125/m, in 8 steps of a few roundings each. Billboards keep their own T.
         for (float v : channel(p, "tau").pixels.span())
@@ -158,4 +160,82 @@ TEST_CASE("parts: single scattering that is not kept apart is one line") {
     CHECK(status.code == Code::kBadInput);
     CHECK(status.message.find("output.layers: \"order\"") != std::string::npos);
     CHECK(status.message.find('\n') == std::string::npos);
+}
+
+TEST_CASE("parts: a raymarch tells lamps and emission apart, and all add up") {
+    const Texts lit{
+        "method.name=raymarch",
+        "light=[{type=\"point\",position_m=[0,-600,900],intensity=[4e4,2e4,1e4]},"
+        "{type=\"directional\",azimuth_deg=200,elevation_deg=60,irradiance=[0.2,0.3,0.4]}]",
+        "medium.0.emission=[1e-4,2e-4,3e-4]", "raymarch.ambient=0.02"};
+    const Picture p = pictured(lit);
+    double worst = 0, scale = 0;
+    for (const char* c : {"R", "G", "B"})
+        for (std::size_t i = 0; i < channel(p, c).pixels.size(); ++i) {
+            double sum = 0;
+            for (const char* part : {"sun.", "lamp0.", "lamp1.", "emission.", "sky."})
+                sum += double(channel(p, std::string(part) + c).pixels[i]);
+            const double whole = double(channel(p, c).pixels[i]);
+            worst = std::fmax(worst, std::fabs(sum - whole));
+            scale = std::fmax(scale, whole);
+        }
+    // sky.* is what four subtractions leave: half an ulp each.
+    CHECK(worst <= 4 * 0x1p-23 * scale);
+    // Each part is what the same scene shows without the others, but for the order of sums.
+    const auto alone = [&](const Texts& dark, const char* part) {
+        Texts all = lit;
+        all.insert(all.end(), dark.begin(), dark.end());
+        const Picture own = pictured(all);
+        CHECK(mean(channel(own, "G")) > 1e-4);
+        double off = 0;
+        for (std::size_t i = 0; i < channel(own, "G").pixels.size(); ++i)
+            off = std::fmax(off, std::fabs(double(channel(own, "G").pixels[i]) -
+                                           double(channel(p, std::string(part) + "G").pixels[i])));
+        CHECK(off <= 1e-6 * scale);
+    };
+    const Texts no_sky{"sky.radiance=[0,0,0]"}, no_sun{"sun.irradiance=[0,0,0]"},
+        no_lamps{"light=[]"}, no_glow{"medium.0.emission=[0,0,0]", "raymarch.ambient=0"};
+    const auto without = [](std::initializer_list<Texts> lists) {
+        Texts all;
+        for (const Texts& one : lists) all.insert(all.end(), one.begin(), one.end());
+        return all;
+    };
+    alone(without({no_sky, no_lamps, no_glow}), "sun.");
+    alone(without({no_sky, no_sun, no_lamps}), "emission.");
+    alone(without({no_sun, no_lamps, no_glow}), "sky.");
+}
+
+TEST_CASE("parts: the first order of a raymarch is its picture by single scattering") {
+    const Texts sun{"method.name=raymarch", "sky.radiance=[0,0,0]", "raymarch.sky_light=none"};
+    Texts single = sun;
+    single.push_back("raymarch.scattering=single");
+    const Picture once = pictured(single);
+    for (const char* scattering : {"octaves", "forward"}) {
+        Texts more = sun;
+        more.push_back(std::string("raymarch.scattering=") + scattering);
+        const Picture p = pictured(more);
+        CHECK(worst(channel(p, "single.G"), channel(once, "cloud.G")) == 0);
+        CHECK(mean(channel(p, "multiple.G")) > 0.1 * mean(channel(p, "single.G")));
+    }
+    CHECK(worst(channel(once, "single.G"), channel(once, "cloud.G")) == 0);
+}
+
+TEST_CASE("parts: optical-depth has light of the sun and no orders, thinned raymarches neither") {
+    const auto told = [](const Texts& set) {
+        const Status status = render(scene_from(kSmallCumulus, set), {},
+                                     [](int, Image&, Report&) { return Status::ok(); });
+        return status.message;
+    };
+    CHECK(told({"method.name=optical-depth", "output.layers=[\"order\"]"})
+              .find("has no orders of scattering") != std::string::npos);
+    const Picture p = render_one(scene_from(
+        kSmallCumulus, {"method.name=optical-depth", "output.layers=[\"light\",\"cloud\"]"}));
+    CHECK(compare(p, "sun.", "sky.", "").worst <= 0x1p-23 * compare(p, "sun.", "sky.", "").scale);
+    CHECK(mean(channel(p, "sun.G")) > 0.001);
+    for (const char* thin : {"raymarch.scale=2", "raymarch.temporal=4"})
+        for (const char* layer : {"light", "order"})
+            CHECK(told({"method.name=raymarch", thin,
+                        std::string("output.layers=[\"") + layer + "\"]"})
+                      .find(std::string("the layer \"") + layer + "\" has every pixel marched") !=
+                  std::string::npos);
 }

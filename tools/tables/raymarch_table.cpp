@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The six measurements of Palenik's thesis, appendix B, on this machine: time of a picture against
 // texture size, integrator, powder, steps, resolution, coverage.
-// in: a scene of a procedural sky, a folder -> out: Markdown, plots; docs/raymarch-table.md.
+// in: a scene of a procedural sky, a folder, seconds -> out: Markdown, plots;
+// docs/raymarch-table.md. What was measured is kept in the folder, so that a run goes on where one
+// before it stopped.
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <map>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -113,6 +120,43 @@ Status measure(const std::string& file, std::vector<std::string> set, const Sett
     return Status::ok();
 }
 
+/// Rows that earlier runs with the same keys have left, a line each; new ones are added.
+class Kept {
+public:
+    Kept(const std::string& folder, const std::vector<std::string>& more)
+        : file_(folder + "/rows.txt"), keys_("keys:") {
+        for (const std::string& key : more) keys_ += " " + key;
+        std::ifstream in(file_);
+        std::string line;
+        if (!std::getline(in, line) || line != keys_) return;
+        while (std::getline(in, line)) {
+            std::istringstream words(line);
+            std::string chart, setting;
+            Measured m;
+            if (words >> chart >> setting >> m.wall_ms >> m.cpu_ms >> m.samples)
+                rows_[chart + " " + setting] = m;
+        }
+    }
+    const Measured* find(const Chart& chart, const Setting& setting) const {
+        const auto found = rows_.find(std::string(chart.file) + " " + setting.name);
+        return found == rows_.end() ? nullptr : &found->second;
+    }
+    /// False where the file cannot be written.
+    bool add(const Chart& chart, const Setting& setting, const Measured& m) {
+        rows_[std::string(chart.file) + " " + setting.name] = m;
+        std::ofstream out(file_);
+        out << keys_ << "\n";
+        for (const auto& [name, row] : rows_)
+            out << fmt::format("{} {} {} {}\n", name, row.wall_ms, row.cpu_ms, row.samples);
+        out.flush();
+        return bool(out);
+    }
+
+private:
+    std::string file_, keys_;
+    std::map<std::string, Measured> rows_;
+};
+
 void print_chart(const Chart& chart, const std::vector<Measured>& measured) {
     fmt::print("## {}\n\nThe thesis: {}.\n\n", chart.title, chart.found);
     fmt::print(
@@ -142,15 +186,41 @@ Status plot_chart(const Chart& chart, const std::vector<Measured>& measured,
     return write_drawing(folder + "/raymarch_" + chart.file, draw_plot(plot));
 }
 
-Status run(const std::string& scene, const std::string& folder,
+/// Measures what `kept` lacks; `done` is false where the seconds ended it.
+Status measure_all(const std::string& scene, const std::vector<std::string>& more, double seconds,
+                   Kept& kept, bool& done) {
+    using Clock = std::chrono::steady_clock;
+    const auto begin = Clock::now();
+    done = false;
+    for (const Chart& chart : all_charts())
+        for (const Setting& setting : chart.settings) {
+            if (kept.find(chart, setting) != nullptr) continue;
+            if (std::chrono::duration<double>(Clock::now() - begin).count() > seconds)
+                return Status::ok();
+            Measured m;
+            PILEUS_TRY(measure(scene, more, setting, m));
+            fmt::print(stderr, "{}: {}\n", chart.title, setting.name);
+            if (!kept.add(chart, setting, m))
+                return {Code::kIo, "raymarch_table: rows.txt cannot be written"};
+        }
+    done = true;
+    return Status::ok();
+}
+
+Status run(const std::string& scene, const std::string& folder, double seconds,
            const std::vector<std::string>& more) {
+    Kept kept(folder, more);
+    bool done = false;
+    PILEUS_TRY(measure_all(scene, more, seconds, kept, done));
+    if (!done) {
+        fmt::print(stderr, "not done: call again to go on\n");
+        return Status::ok();
+    }
     fmt::print("{} threads; the least of {} runs.\n\n", hardware_threads(), kRepeats);
     for (const Chart& chart : all_charts()) {
-        std::vector<Measured> measured(chart.settings.size());
-        for (std::size_t i = 0; i < measured.size(); ++i) {
-            PILEUS_TRY(measure(scene, more, chart.settings[i], measured[i]));
-            fmt::print(stderr, "{}: {}\n", chart.title, chart.settings[i].name);
-        }
+        std::vector<Measured> measured;
+        for (const Setting& setting : chart.settings)
+            measured.push_back(*kept.find(chart, setting));
         print_chart(chart, measured);
         // Choices have no place on an axis.
         if (chart.x_label[0] != '\0') PILEUS_TRY(plot_chart(chart, measured, folder));
@@ -161,11 +231,12 @@ Status run(const std::string& scene, const std::string& folder,
 }  // namespace
 
 int main(int argc, char** argv) {
-    if (argc < 3) {
-        fmt::print(stderr, "usage: pileus_raymarch_table SCENE FOLDER [key=value ...]\n");
+    const double seconds = argc < 4 ? 0 : std::atof(argv[3]);
+    if (!(seconds > 0)) {
+        fmt::print(stderr, "usage: pileus_raymarch_table SCENE FOLDER SECONDS [key=value ...]\n");
         return 2;
     }
-    const Status status = run(argv[1], argv[2], {argv + 3, argv + argc});
+    const Status status = run(argv[1], argv[2], seconds, {argv + 4, argv + argc});
     if (!status) fmt::print(stderr, "{}\n", status.message);
     return int(status.code);
 }

@@ -48,8 +48,8 @@ LampMarchParams lamp_march_params(const Medium& medium, const Majorants& majoran
                                   const LampNodes& nodes, double cut);
 
 /// Adds the lamps' light and the media's own to the planes' colour and, where rays end at the
-/// ground, that of the lamps to their background.
+/// ground, that of the lamps to their background. Of k.lamps lamps of `nodes` from `first` on.
 Status add_lamp_light(const Context& context, const Medium& medium, const LampMarchParams& k,
-                      const LampNodes& nodes, Planes& planes);
+                      const LampNodes& nodes, Planes& planes, std::size_t first = 0);
 
 }  // namespace pileus

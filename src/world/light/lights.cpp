@@ -195,6 +195,18 @@ Light map_light(const SkyMap& map) {
     return light;
 }
 
+Lighting sun_alone(const Lighting& all) {
+    Lighting sun = all;
+    for (Light& light : sun.lights) {
+        if (light.beam) continue;
+        light.colour = light.map || light.hemisphere <= 0 ? Double3{} : all.ground_sun;
+    }
+    sun.constant = sun.sky = sun.ground_diffuse = {};
+    sun.map = SkyMapView{};
+    sun.lamps.clear();
+    return sun;
+}
+
 bool same_shine(const Lighting& a, const Lighting& b) {
     return a.sunlit == b.sunlit && a.sky == b.sky && a.sun_irradiance == b.sun_irradiance &&
            a.ground == b.ground && a.ground_z == b.ground_z && a.ground_albedo == b.ground_albedo &&

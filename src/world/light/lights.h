@@ -64,6 +64,9 @@ Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elev
                        Plan& plan, const SkyMap* map = nullptr, const Solids* solids = nullptr,
                        const CameraDepth* depth = nullptr);
 
+/// The same light without sky and lamps: the ground then sends back sunlight alone.
+Lighting sun_alone(const Lighting& all);
+
 /// Whether all that shines is the same but for the sun's direction.
 bool same_shine(const Lighting& a, const Lighting& b);
 

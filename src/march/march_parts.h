@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parts of a marched picture's light.
+// in: RaymarchRun whose picture is marched -> out: planes of the layers light and order.
+// docs/formats.md, "Pictures out"; docs/raymarch.md, "Parts of the light".
+#pragma once
+#include "src/march/march_run.h"
+
+namespace pileus {
+
+/// Planes of the parts that layers show; `whole` marched the picture. kLimit: out of memory.
+Status march_parts(const Context& context, const RaymarchInput& whole, RaymarchRun& run);
+
+/// Numbers a pixel of them, and whether media emit, which is a part of its own.
+std::uint64_t march_part_planes(const RaymarchRun& run);
+bool march_emits(const RaymarchRun& run);
+
+/// kBadInput: layers that thinned pictures, or those of method optical-depth (`simple`), lack.
+Status check_march_parts(const Scene& scene, bool simple);
+
+/// The launch that adds lamps and emission to the picture, whose nodes are made.
+LampMarchParams march_lamps(const RaymarchRun& run);
+
+/// What `light` shows behind the media, into planes whose background and opaque depth are there.
+Status march_background(const Context& context, const Lighting& light, RaymarchRun& run,
+                        Planes& planes);
+
+}  // namespace pileus
