@@ -43,11 +43,6 @@ PILEUS_FN T sky_ramp(const SkyParams& k, T value, T lost) {
     return smooth_ramp((value - k.middle + half) / (half + half));
 }
 
-template <class T>
-PILEUS_FN Vec<T> sky_world(const SkyParams& k, const Vec<T>& local) {
-    return {local.x + k.shift_m[0], local.y + k.shift_m[1], local.z + k.shift_m[2]};
-}
-
 /// Density at a place in box-local metres, filtered for steps of `width`.
 template <class T>
 PILEUS_FN T sky_density(const SkyParams& k, const Vec<T>& local, T width) {
@@ -56,18 +51,7 @@ PILEUS_FN T sky_density(const SkyParams& k, const Vec<T>& local, T width) {
     const auto inside = (share >= 0.0f) & (share <= 1.0f);
     if (k.empty != 0 || !any(inside)) return T{};
     const T lift = sky_lift(k, share);
-    NoiseValue<T> noise{};
-    if (k.perlin.share != 0.0f) {
-        noise = read_noise(k.perlin, local, width);
-        // Often one noise tells that there is no cloud, whatever the other holds.
-        const T lost = noise.lost + lost_at(k.worley, noise_level(k.worley, width));
-        const T best = noise.value + k.worley.most - lift;
-        if (!any(inside & (sky_ramp(k, best, lost) > 0.0f))) return T{};
-    }
-    if (k.worley.share != 0.0f) {
-        const NoiseValue<T> one = read_noise(k.worley, local, width);
-        noise = {noise.value + one.value, noise.lost + one.lost};
-    }
+    const NoiseValue<T> noise = sky_noise(k, local, width);
     const T ramp = sky_ramp(k, noise.value - lift, noise.lost);
     const T weight = k.base_weight + (1.0f - k.base_weight) * share;
     return select(inside, ramp * weight, T{});

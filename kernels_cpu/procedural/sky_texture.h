@@ -32,6 +32,12 @@ PILEUS_FN T tile_place(const NoiseView& v, T metres, int axis) {
     const T at = min_(max_(metres * v.per_m + v.offset[axis], T{} - most), most);
     return at - to_float(floor_int(at));
 }
+/// Along the axes of the tile, which is turned about the vertical.
+template <class T>
+PILEUS_FN Vec<T> to_tile(const NoiseView& v, const Vec<T>& p) {
+    if (v.turn[1] == 0.0f) return p;
+    return {v.turn[0] * p.x + v.turn[1] * p.y, v.turn[0] * p.y - v.turn[1] * p.x, p.z};
+}
 template <class T>
 PILEUS_FN Vec<T> tile_place(const NoiseView& v, const Vec<T>& p) {
     return {tile_place(v, p.x, 0), tile_place(v, p.y, 1), tile_place(v, p.z, 2)};
@@ -46,32 +52,29 @@ PILEUS_FN T word_value(I_of<T> word, T fx, T fy) {
     return low + (high - low) * fy;
 }
 
-/// Value 0..255 at a place in tiles, of the level with `m` texels along an edge.
+/// Value 0..255 at a place in tiles, of the level with 2^bits texels along an edge.
 template <class T>
-PILEUS_FN T read_level(const NoiseView& v, const Vec<T>& place, I_of<T> m) {
+PILEUS_FN T read_level(const NoiseView& v, const Vec<T>& place, I_of<T> bits) {
     using II = I_of<T>;
+    const II m = all<II>(1) << bits, mask = m - 1;
     const T side = to_float(m), before = side - 0.5f;  // a tile more keeps all above zero
-    const II mask = m - 1;
     const T x = place.x * side + before, y = place.y * side + before, z = place.z * side + before;
     const II ix = to_int(x), iy = to_int(y), iz = to_int(z);
-    const II slice = m * m;
-    const II in_slice = ((slice * m) >> 2) + (iy & mask) * m + (ix & mask);
+    const II twice = bits + bits, start = (m << twice) >> 2;  // noise_level_start
+    const II in_slice = start + ((iy & mask) << bits) + (ix & mask);
     const T fx = x - to_float(ix), fy = y - to_float(iy), fz = z - to_float(iz);
-    const T low = word_value(gather(v.words, in_slice + (iz & mask) * slice), fx, fy);
-    const T high = word_value(gather(v.words, in_slice + ((iz + 1) & mask) * slice), fx, fy);
+    const T low = word_value(gather(v.words, in_slice + ((iz & mask) << twice)), fx, fy);
+    const T high = word_value(gather(v.words, in_slice + (((iz + 1) & mask) << twice)), fx, fy);
     return low + (high - low) * fz;
 }
 
 /// Variance that a level shows no more.
 template <class T>
 PILEUS_FN T lost_at(const NoiseView& v, const NoiseLevel<T>& at) {
-    T lost{};
-    if (!any((at.level > 0) | (at.blend > 0.0f))) return lost;
-    for (std::int32_t l = 0; any(at.level >= l) && l <= v.last; ++l) {
-        const float here = v.lost[l], next = v.lost[l < v.last ? l + 1 : l];
-        lost = select(at.level == l, here + (next - here) * at.blend, lost);
-    }
-    return lost;
+    if (!any((at.level > 0) | (at.blend > 0.0f))) return T{};
+    const T here = gather(v.lost, at.level);
+    const T next = gather(v.lost, min_(at.level + 1, all<I_of<T>>(v.last)));
+    return here + (next - here) * at.blend;
 }
 
 /// A noise at a place, times its share, and the variance of what its level no longer shows.
@@ -83,11 +86,11 @@ template <class T>
 PILEUS_FN NoiseValue<T> read_noise(const NoiseView& v, const Vec<T>& p, T width) {
     using II = I_of<T>;
     const NoiseLevel<T> at = noise_level(v, width);
-    const Vec<T> place = tile_place(v, p);
-    T value = read_level(v, place, all<II>(v.size) >> at.level);
+    const Vec<T> place = tile_place(v, to_tile(v, p));
+    T value = read_level(v, place, v.last - at.level);
     if (any(at.blend > 0.0f)) {
         const II next = min_(at.level + 1, all<II>(v.last));
-        const T coarse = read_level(v, place, all<II>(v.size) >> next);
+        const T coarse = read_level(v, place, v.last - next);
         value = value + (coarse - value) * at.blend;
     }
     return {value * v.share, lost_at(v, at)};
@@ -100,8 +103,9 @@ struct NoiseBound {
     T bound, rest;
 };
 template <class T>
-PILEUS_FN NoiseBound<T> noise_ahead(const NoiseView& v, const Vec<T>& p, const Vec<T>& d, T width,
-                                    std::int32_t raise) {
+PILEUS_FN NoiseBound<T> noise_ahead(const NoiseView& v, const Vec<T>& at, const Vec<T>& way,
+                                    T width, std::int32_t raise) {
+    const Vec<T> p = to_tile(v, at), d = to_tile(v, way);
     using II = I_of<T>;
     const II level = min_(noise_level(v, width).level + raise, all<II>(v.last));
     const II m = all<II>(v.size) >> level;

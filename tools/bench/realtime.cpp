@@ -27,6 +27,8 @@ constexpr double kOrbitDeg = 0.5, kSunDeg = 0.1;  // between two frames
 struct Way {
     const char* name;
     Overrides overrides;
+    const char* scene = nullptr;   ///< null: that of the arguments
+    double orbit_deg = kOrbitDeg;  ///< between two frames
 };
 
 const std::vector<Way>& ways() {
@@ -42,7 +44,14 @@ const std::vector<Way>& ways() {
         {"octaves", {"method.name=\"raymarch\"", "raymarch.scattering=\"octaves\""}},
         {"temporal",
          {"method.name=\"raymarch\"", "raymarch.scattering=\"octaves\"", "raymarch.temporal=4",
-          "raymarch.steps=96"}}};
+          "raymarch.steps=96"}},
+        // A broken sky, 13 m a frame (docs/upsampling.md).
+        {"sky",
+         {"raymarch.scattering=\"octaves\"", "raymarch.temporal=4", "raymarch.steps=96",
+          "raymarch.stop_below=0.003", "raymarch.light=\"auto\"", "raymarch.light_steps=5",
+          "raymarch.light_first_step_m=40", "raymarch.light_growth=2", "raymarch.light_refresh=8"},
+         PILEUS_SCENES "/../studies/scenes/sky_flight.toml",
+         0.1}};
     return all;
 }
 
@@ -96,7 +105,7 @@ private:
     double wall_ = 0, cpu_ = 0;
 };
 
-Status fly_session(const Scene& scene, const Arguments& arguments, bool sun_moves,
+Status fly_session(const Scene& scene, const Arguments& arguments, double orbit_deg, bool sun_moves,
                    std::vector<Frame>& frames) {
     RenderOptions options;
     options.threads = arguments.threads;
@@ -113,7 +122,7 @@ Status fly_session(const Scene& scene, const Arguments& arguments, bool sun_move
     for (int f = 0; f <= arguments.frames; ++f) {
         watch.start(session.report());
         Camera camera = scene.camera;
-        const auto turn = sincos_deg(kOrbitDeg * f);
+        const auto turn = sincos_deg(orbit_deg * f);
         const double x = from.x - to.x, y = from.y - to.y;
         camera.position_m = {to.x + x * turn.cosine - y * turn.sine,
                              to.y + x * turn.sine + y * turn.cosine, from.z};
@@ -131,13 +140,13 @@ Status fly_session(const Scene& scene, const Arguments& arguments, bool sun_move
     return Status::ok();
 }
 
-Status fly_animation(const Scene& still, const Arguments& arguments, bool sun_moves, bool digests,
-                     std::vector<Frame>& frames) {
+Status fly_animation(const Scene& still, const Arguments& arguments, double orbit_deg,
+                     bool sun_moves, bool digests, std::vector<Frame>& frames) {
     Scene scene = still;
     const double last = arguments.frames, low = still.sun.elevation_deg;
     scene.animation.present = scene.animation.moves_camera = true;
     scene.animation.frames = arguments.frames + 1;
-    scene.animation.camera_orbit_deg = {0, kOrbitDeg * last};
+    scene.animation.camera_orbit_deg = {0, orbit_deg * last};
     scene.animation.moves_sun = sun_moves;
     scene.animation.sun_elevation_deg = {low, low + kSunDeg * last};
     RenderOptions options;
@@ -214,11 +223,12 @@ Status fly(const Arguments& arguments) {
                 overrides.insert(overrides.end(), arguments.overrides.begin(),
                                  arguments.overrides.end());
                 Scene scene;
-                PILEUS_TRY(read_scene_file(arguments.scene, overrides, scene));
+                PILEUS_TRY(read_scene_file(way.scene != nullptr ? way.scene : arguments.scene,
+                                           overrides, scene));
                 std::vector<Frame> frames;
                 PILEUS_TRY(driver == Driver::kSession
-                               ? fly_session(scene, arguments, sun_moves, frames)
-                               : fly_animation(scene, arguments, sun_moves,
+                               ? fly_session(scene, arguments, way.orbit_deg, sun_moves, frames)
+                               : fly_animation(scene, arguments, way.orbit_deg, sun_moves,
                                                driver == Driver::kDigests, frames));
                 print_row(name, frames);
             }
