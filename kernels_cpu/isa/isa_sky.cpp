@@ -32,11 +32,16 @@ void raymarch_kernel(const RaymarchParams& k, const SkyParams& sky, const Raymar
                      std::uint32_t begin, std::uint32_t end) {
     raymarch_sky_rows<PILEUS_WIDTH>(k, sky, b, begin, end);
 }
+std::int64_t light_kernel(const RaymarchParams& k, const SkyParams& sky, const SkyLightView& view,
+                          const SkyLightRow* rows, std::int32_t* words, std::uint32_t begin,
+                          std::uint32_t end) {
+    return sky_light_rows<PILEUS_WIDTH>(k, sky, view, rows, words, begin, end);
+}
 
 }  // namespace
 
 extern const SkyKernels PILEUS_SKY(PILEUS_ISA);
-const SkyKernels PILEUS_SKY(PILEUS_ISA) = {PILEUS_WIDTH, noise_kernel, bake_kernel, columns_kernel,
-                                           raymarch_kernel};
+const SkyKernels PILEUS_SKY(PILEUS_ISA) = {PILEUS_WIDTH,   noise_kernel,    bake_kernel,
+                                           columns_kernel, raymarch_kernel, light_kernel};
 
 }  // namespace pileus

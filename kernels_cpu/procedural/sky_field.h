@@ -43,11 +43,6 @@ PILEUS_FN T sky_ramp(const SkyParams& k, T value, T lost) {
     return smooth_ramp((value - k.middle + half) / (half + half));
 }
 
-template <class T>
-PILEUS_FN Vec<T> sky_world(const SkyParams& k, const Vec<T>& local) {
-    return {local.x + k.shift_m[0], local.y + k.shift_m[1], local.z + k.shift_m[2]};
-}
-
 /// Density at a place in box-local metres, filtered for steps of `width`.
 template <class T>
 PILEUS_FN T sky_density(const SkyParams& k, const Vec<T>& local, T width) {

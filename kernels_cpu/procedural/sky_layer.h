@@ -9,6 +9,11 @@
 namespace pileus {
 inline namespace PILEUS_ISA {
 
+template <class T>
+PILEUS_FN Vec<T> sky_world(const SkyParams& k, const Vec<T>& local) {
+    return {local.x + k.shift_m[0], local.y + k.shift_m[1], local.z + k.shift_m[2]};
+}
+
 /// A place's rise over the tangent plane's sphere: |p - centre|^2 = R^2 + 2 R u.
 template <class T>
 PILEUS_FN T lifted(const SkyParams& k, const Vec<T>& p) {

@@ -30,6 +30,7 @@ struct NoiseView {
     std::int32_t size, last;       ///< of level 0; number of the last level
     float per_m;                   ///< tiles per metre
     float offset[3];               ///< of the origin, in tiles
+    float turn[2];                 ///< cosine and sine from the world's axes to the tile's
     float share;                   ///< of the blend: gain times weight, over 255; 0: not read
     float most;                    ///< share times the largest value
     float lost[kMostNoiseLevels];  ///< variance of share * value that a level has no more
@@ -66,6 +67,29 @@ struct SkyParams {
     float reach_m;  ///< rays are followed so far through the layer
 };
 
+/// Nodes of sunlight in a layer: levels around the camera, each of twice the spacing. Node (i, j,
+/// n) of a level lies at x, y = (i, j) times its spacing and an n-th of the layer's height; it is
+/// kept at (i, j) modulo the nodes along an edge, so that it stays where it is while the camera
+/// moves.
+constexpr std::int32_t kMostSkyLightBits = 8;
+constexpr std::int32_t kSkyLightHeights = 32;
+constexpr int kMostSkyLightLevels = 12;
+constexpr float kSkyLightUnit = 256;  ///< of optical depths, kept in 16 bits
+struct SkyLightView {
+    /// [level][height][y][x]: the node's depth, and in the high half that of the next along x.
+    const std::int32_t* words;
+    float spacing_m;  ///< of level 0
+    float camera[2];  ///< m, box-local
+    float reach_m;    ///< of level 0, along x and y from the camera
+    std::int32_t levels;
+    std::int32_t bits;        ///< 2^bits nodes along x and y
+    std::int32_t near_steps;  ///< marched from the sample itself; nodes hold the others
+};
+/// A row of nodes to be made: columns [first, last).
+struct SkyLightRow {
+    std::int32_t level, height, row, first, last;
+};
+
 /// Cell centres of a grid over a box.
 struct BakeParams {
     SkyParams sky;
@@ -94,6 +118,10 @@ struct SkyKernels {
     /// Rows of a raymarched picture of the sky itself.
     void (*raymarch_rows)(const RaymarchParams&, const SkyParams&, const RaymarchBuffers&,
                           std::uint32_t begin, std::uint32_t end);
+    /// Rows of nodes of sunlight; returns the densities that were read.
+    std::int64_t (*light_rows)(const RaymarchParams&, const SkyParams&, const SkyLightView&,
+                               const SkyLightRow* rows, std::int32_t* words, std::uint32_t begin,
+                               std::uint32_t end);
 };
 
 }  // namespace pileus

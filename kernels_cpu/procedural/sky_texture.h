@@ -32,6 +32,12 @@ PILEUS_FN T tile_place(const NoiseView& v, T metres, int axis) {
     const T at = min_(max_(metres * v.per_m + v.offset[axis], T{} - most), most);
     return at - to_float(floor_int(at));
 }
+/// Along the axes of the tile, which is turned about the vertical.
+template <class T>
+PILEUS_FN Vec<T> to_tile(const NoiseView& v, const Vec<T>& p) {
+    if (v.turn[1] == 0.0f) return p;
+    return {v.turn[0] * p.x + v.turn[1] * p.y, v.turn[0] * p.y - v.turn[1] * p.x, p.z};
+}
 template <class T>
 PILEUS_FN Vec<T> tile_place(const NoiseView& v, const Vec<T>& p) {
     return {tile_place(v, p.x, 0), tile_place(v, p.y, 1), tile_place(v, p.z, 2)};
@@ -80,7 +86,7 @@ template <class T>
 PILEUS_FN NoiseValue<T> read_noise(const NoiseView& v, const Vec<T>& p, T width) {
     using II = I_of<T>;
     const NoiseLevel<T> at = noise_level(v, width);
-    const Vec<T> place = tile_place(v, p);
+    const Vec<T> place = tile_place(v, to_tile(v, p));
     T value = read_level(v, place, v.last - at.level);
     if (any(at.blend > 0.0f)) {
         const II next = min_(at.level + 1, all<II>(v.last));
@@ -97,8 +103,9 @@ struct NoiseBound {
     T bound, rest;
 };
 template <class T>
-PILEUS_FN NoiseBound<T> noise_ahead(const NoiseView& v, const Vec<T>& p, const Vec<T>& d, T width,
-                                    std::int32_t raise) {
+PILEUS_FN NoiseBound<T> noise_ahead(const NoiseView& v, const Vec<T>& at, const Vec<T>& way,
+                                    T width, std::int32_t raise) {
+    const Vec<T> p = to_tile(v, at), d = to_tile(v, way);
     using II = I_of<T>;
     const II level = min_(noise_level(v, width).level + raise, all<II>(v.last));
     const II m = all<II>(v.size) >> level;

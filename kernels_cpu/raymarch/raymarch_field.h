@@ -20,14 +20,16 @@ inline namespace PILEUS_ISA {
 //   Field::kBoundsAreCheap                       whether to ask for a bound before each density
 //   Field::kHasVoxels                            whether densities are constant within voxels; then
 //   field_voxel(field, place, direction, least)  metres to the end of the voxel, at least `least`
-//   field_density(field, place, width)           density, filtered for steps of `width` metres
+//   Field::kHasSunNodes                          whether `field.light` may be nodes of sunlight;
+//   then field_sun_depth(field, place)                what they hold of the optical depth to the
+//   sun field_density(field, place, width)           density, filtered for steps of `width` metres
 //   field_shares(field, place, density, use)     use(i, share) for each medium; sum of shares 1
 
 /// The density grid of the scene's media, and coarser ones of the same box: trilinear, or with one
 /// density for each voxel.
 template <bool Constant>
 struct GridField {
-    static constexpr bool kBoundsAreCheap = true, kHasVoxels = Constant;
+    static constexpr bool kBoundsAreCheap = true, kHasVoxels = Constant, kHasSunNodes = false;
     const MediumView* medium;
     const MediumView* level;  ///< [levels], the finest first
     std::int32_t levels;

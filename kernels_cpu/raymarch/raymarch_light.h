@@ -26,10 +26,11 @@ PILEUS_FN void add_kept(const RaymarchParams& k, const Field& field, const Vec<T
     });
 }
 
-/// The way to the sun, step by step; `wanted` lanes alone.
+/// The way to the sun, step by step; `wanted` lanes alone. Of so many steps those of [begin, end).
 template <class T, class Field>
 PILEUS_FN SunDepths<T> march_to_sun(const RaymarchParams& k, const Field& field,
-                                    const Vec<T>& place, M_of<T> wanted, std::int64_t* counts) {
+                                    const Vec<T>& place, M_of<T> wanted, std::int64_t* counts,
+                                    std::int32_t begin, std::int32_t end) {
     const RaymarchLight& light = k.light;
     const Vec<T> d{all<T>(k.to_sun[0]), all<T>(k.to_sun[1]), all<T>(k.to_sun[2])};
     const T leave = field_clip(field, Ray<T>{place, d}).leave;
@@ -40,10 +41,11 @@ PILEUS_FN SunDepths<T> march_to_sun(const RaymarchParams& k, const Field& field,
     if (!whole) width = light.first_m > 0 ? all<T>(light.first_m) : leave / light.series;
     SunDepths<T> sum{};
     T at{}, n{};
+    for (std::int32_t turn = 0; turn < begin; ++turn) at = at + width, width = width * light.growth;
     Vec<T> from = place;
-    auto alive = wanted & (leave > 0.0f);
+    auto alive = wanted & (at < leave);
     const bool leaps = whole && light.turns == 0;
-    for (std::int32_t turn = 0; any(alive) && (whole || turn < light.steps); ++turn) {
+    for (std::int32_t turn = begin; any(alive) && (whole || turn < end); ++turn) {
         T real = max_(min_(width, leave - at), T{});
         if constexpr (Field::kHasVoxels) {
             if (leaps) {
@@ -86,6 +88,21 @@ PILEUS_FN SunDepths<T> march_to_sun(const RaymarchParams& k, const Field& field,
         alive = alive & (at < leave) & (sum.tau < 60.0f);  // e^-60 is nothing
     }
     return sum;
+}
+
+template <class T, class Field>
+PILEUS_FN SunDepths<T> field_sunlight(const RaymarchParams& k, const Field& field,
+                                      const Vec<T>& place, M_of<T> wanted, std::int64_t* counts) {
+    if constexpr (Field::kHasSunNodes) {
+        if (field.light != nullptr) {
+            const std::int32_t near = field.light->near_steps;
+            SunDepths<T> depth{};
+            if (near > 0) depth = march_to_sun(k, field, place, wanted, counts, 0, near);
+            depth.tau = depth.tau + field_sun_depth(field, place);
+            return depth;
+        }
+    }
+    return march_to_sun(k, field, place, wanted, counts, 0, k.light.steps);
 }
 
 /// Powder: less light where little lies before the sun; `turn` is 1 - cos of the scattering angle,
@@ -149,7 +166,7 @@ PILEUS_FN T sunlight_at(const RaymarchParams& k, const float* optical_depth, con
                         std::int64_t* counts, T (&out)[3]) {
     SunDepths<T> depth{};
     if (k.light.march != 0) {
-        depth = march_to_sun(k, field, place, wanted, counts);
+        depth = field_sunlight(k, field, place, wanted, counts);
     } else {
         const Vec<T> q = reduced(k.medium, place);
         depth.tau = interpolate(optical_depth, corners(node_position(k.light.nodes, q),

@@ -140,6 +140,8 @@ enum RaymarchCount {
     kRaymarchCounts = 4,
 };
 
+struct SkyLightView;
+
 struct RaymarchBuffers {
     const float* optical_depth;  ///< light nodes; unused by a march
     const float* sky;            ///< [set][node]; unused without skylight
@@ -151,8 +153,9 @@ struct RaymarchBuffers {
         half_depth;    ///< [pixel], m; infinity where transmittance stays above 1/2; null: unwanted
     float* colour;     ///< [3][pixel], premultiplied
     float* ray_depth;  ///< [pixel], optical depth along the ray; null: not wanted
-    std::int64_t* counts;     ///< [row][kRaymarchCounts], added to
-    const float* visibility;  ///< its nodes, share of the sun that no solid hides; null: all
+    std::int64_t* counts;           ///< [row][kRaymarchCounts], added to
+    const float* visibility;        ///< its nodes, share of the sun that no solid hides; null: all
+    const SkyLightView* sky_light;  ///< of a sky in place; null: its samples march to the sun
 };
 
 }  // namespace pileus

@@ -4,14 +4,16 @@
 // Palenik 2016, section 5.1; docs/skies.md, "Evaluated directly".
 #pragma once
 #include "kernels_cpu/procedural/sky_field.h"
+#include "kernels_cpu/procedural/sky_light.h"
 #include "kernels_cpu/raymarch/raymarch.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
 
 struct SkyMedium {
-    static constexpr bool kBoundsAreCheap = false, kHasVoxels = false;
+    static constexpr bool kBoundsAreCheap = false, kHasVoxels = false, kHasSunNodes = true;
     const SkyParams* sky;
+    const SkyLightView* light;  ///< null: none
 };
 
 template <class T>
@@ -64,6 +66,11 @@ PILEUS_FN T field_density(const SkyMedium& f, const Vec<T>& place, T width) {
     return sky_density(*f.sky, place, width);
 }
 
+template <class T>
+PILEUS_FN T field_sun_depth(const SkyMedium& f, const Vec<T>& place) {
+    return sky_sun_depth(*f.sky, *f.light, place);
+}
+
 template <class T, class Use>
 PILEUS_FN void field_shares(const SkyMedium&, const Vec<T>&, T, Use use) {
     use(0, all<T>(1.0f));
@@ -74,10 +81,46 @@ template <int W>
 PILEUS_FN void raymarch_sky_rows(const RaymarchParams& k, const SkyParams& sky,
                                  const RaymarchBuffers& b, std::uint32_t begin, std::uint32_t end) {
     constexpr int across = kMarchAcross<W>;
-    const SkyMedium field{&sky};
+    const SkyMedium field{&sky, b.sky_light};
     for (std::uint32_t y = begin; y < end; y += W / across)
         for (std::int32_t x = 0; x < k.lattice.width; x += across)
             raymarch_pixels<W>(k, b, field, x, std::int32_t(y), std::int32_t(end));
+}
+
+/// A row of nodes: the steps to the sun that no sample marches by itself.
+template <int W>
+PILEUS_FN void sky_light_row(const RaymarchParams& k, const SkyParams& sky,
+                             const SkyLightView& view, const SkyLightRow& row, std::int32_t* words,
+                             std::int64_t* counts) {
+    using T = F<W>;
+    const SkyMedium field{&sky, nullptr};
+    std::int32_t depth[(1 << kMostSkyLightBits) + 1 + W];
+    const float spacing = view.spacing_m * float(1 << row.level);
+    const float share = float(row.height) * (1.0f / float(kSkyLightHeights - 1));
+    for (std::int32_t i = row.first; i <= row.last; i += W) {
+        const T x = to_float(iota<I<W>>() + i) * spacing;
+        const Vec<T> p = sky_light_place(sky, x, all<T>(float(row.row) * spacing), share);
+        const SunDepths<T> sum = march_to_sun(k, field, p, iota<I<W>>() + i <= row.last, counts,
+                                              view.near_steps, k.light.steps);
+        const T units = min_(sum.tau * kSkyLightUnit + 0.5f, all<T>(65535.0f));
+        for (int l = 0; l < W; ++l) depth[i - row.first + l] = std::int32_t(lane(units, l));
+    }
+    std::int32_t* to = words + sky_light_row_start(view, row.level, row.height, row.row);
+    for (std::int32_t i = row.first; i < row.last; ++i) {
+        const std::uint32_t low = std::uint32_t(depth[i - row.first]);
+        const std::uint32_t high = std::uint32_t(depth[i - row.first + 1]);
+        to[i & ((1 << view.bits) - 1)] = std::int32_t(low | high << 16);
+    }
+}
+
+template <int W>
+PILEUS_FN std::int64_t sky_light_rows(const RaymarchParams& k, const SkyParams& sky,
+                                      const SkyLightView& view, const SkyLightRow* rows,
+                                      std::int32_t* words, std::uint32_t begin, std::uint32_t end) {
+    std::int64_t counts[kRaymarchCounts] = {};
+    for (std::uint32_t r = begin; r < end; ++r)
+        sky_light_row<W>(k, sky, view, rows[r], words, counts);
+    return counts[kCountLightSamples];
 }
 
 }  // namespace PILEUS_ISA

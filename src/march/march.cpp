@@ -282,6 +282,7 @@ Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes&
     RaymarchBuffers b{};
     if (in.nodes != nullptr) b.optical_depth = in.nodes->optical_depth.data();
     b.visibility = in.visibility;
+    b.sky_light = in.sky_light;
     b.opaque_depth = planes.opaque_depth.data();
     if (in.sky != nullptr) b.sky = in.sky->light.data();
     if (in.noise != nullptr) b.noise = in.noise->data();

@@ -37,8 +37,9 @@ struct RaymarchInput {
     const std::vector<DensityLevel>* levels = nullptr;
     const SkyField* layer = nullptr;  ///< a sky marched itself, in place of the grid
     bool march_light = false;
-    const Buffer<float>* noise = nullptr;  ///< tile of make_blue_noise, where jitter asks for it
-    std::uint64_t seed = 0;                ///< of the frame
+    const SkyLightView* sky_light = nullptr;  ///< of the layer; null: each sample marches
+    const Buffer<float>* noise = nullptr;     ///< tile of make_blue_noise, where jitter asks for it
+    std::uint64_t seed = 0;                   ///< of the frame
     CameraParams camera;
     PixelLattice lattice{};  ///< the pixels to march; every = 0: all of them
 };

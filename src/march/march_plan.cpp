@@ -42,12 +42,15 @@ double reach_of(const RaymarchRun& run) {
 void choose_light(RaymarchRun& run) {
     const RaymarchSettings& s = run.settings;
     const Grid& grid = run.world->medium.grid;
+    run.sky_nodes = run.world->direct_sky && s.light == RaymarchLightKind::kAuto && !s.light_cone &&
+                    s.light_steps > kNearSteps;
     run.march_light = s.light == RaymarchLightKind::kMarch || s.light_cone;
     run.light_why = s.light_cone ? "light_path = \"cone\"" : "as the scene asks";
     if (s.light_cone || s.light != RaymarchLightKind::kAuto) return;
     if (run.world->direct_sky) {
         run.march_light = true;
         run.light_why = "the sky is evaluated in place";
+        if (run.sky_nodes) run.light_why = "steps from nodes around the camera";
         return;
     }
     if (grid.constant) {
@@ -201,6 +204,10 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
     add_majorant_rows(grid, run.outlined_only ? 1 : run.majorants.tracking.size(),
                       std::uint64_t(context.threads), last, t);
     if (!run.march_light && run.lighting.sunlit) add(t, arrays::sun_depth(sun_grid(run), last));
+    if (run.sky_nodes && run.lighting.sunlit)
+        add(t,
+            arrays::sky_light_nodes(sky_light_levels(run.world->layer.params, sky_light_bits(run)),
+                                    sky_light_bits(run), last));
     add(t, arrays::lamp_depths(lamp_numbers(run.world->medium, run.lighting)));
     if (caps_extinction(run)) add(t, arrays::capped_density(grid));
     if (has_sun_grid(run)) {
@@ -252,6 +259,10 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
 }
 
 }  // namespace
+
+int sky_light_bits(const RaymarchRun& run) {
+    return run.settings.thin.every() > 1 ? kMostSkyLightBits - 1 : kMostSkyLightBits;
+}
 
 Status march_measure(const Context& context, RaymarchRun& run) {
     choose_light(run);

@@ -7,6 +7,7 @@
 #include "src/methods/methods.h"
 #include "src/picture/nodes/ground_shadow.h"
 #include "src/picture/nodes/lamp_light.h"
+#include "src/picture/nodes/sky_light.h"
 #include "src/picture/upsample.h"
 #include "src/plan/plan.h"
 #include "src/world/camera/view.h"
@@ -27,6 +28,7 @@ struct RaymarchRun : MethodRun {
     NodeGrid visibility_nodes{};
     Majorants majorants;
     bool march_light = false;  ///< else sunlight comes from nodes
+    bool sky_nodes = false;    ///< those of a sky in place; march_light is set, too
     std::string light_why;     ///< and why that is
 
     Buffer<float> noise;  ///< tile of the jitter; empty: none
@@ -40,13 +42,19 @@ struct RaymarchRun : MethodRun {
     std::array<float, 3> sky_to_sun{};    ///< the sun that the sky's nodes were made for
     std::array<float, 3> nodes_to_sun{};  ///< the sun that swept nodes were made for
     SunSlices slices;                     ///< and those of nodes by rays
-    std::int64_t turn = 0;                ///< number of the picture, for that
+    SkyLight sky_light;
+    std::int64_t turn = 0;  ///< number of the picture, for that
     CameraParams camera{};
     Planes planes;
     UpsampleMemory upsample;
     GroundShadow ground_shadow;
     RaymarchTally tally;  ///< of all frames so far
 };
+
+/// Steps towards the sun that samples march where nodes of a sky hold the others.
+constexpr int kNearSteps = 0;
+/// Such nodes are as fine as the pixels that are marched.
+int sky_light_bits(const RaymarchRun& run);
 
 namespace arrays {
 

@@ -171,6 +171,11 @@ Status march_frame(const FrameStep& step, const Context& context, RaymarchRun& r
         in.lattice = lattice;
         return raymarch_picture(context, in, planes, run.tally);
     };
+    if (run.sky_nodes && run.lighting.sunlit && run.world->medium.sigma > 0) {
+        PILEUS_TRY(follow_sky_light(context, raymarch_params(in), run.world->layer.params,
+                                    sky_light_bits(run), kNearSteps, turn_of(run), run.sky_light));
+        in.sky_light = &run.sky_light.view;
+    }
     PILEUS_TRY(choose_march_work(context, start_s, thin, run));
     thin.settings = run.settings.thin;
     PILEUS_TRY(upsample_picture(context, thin, step.frame, run.upsample, run.planes));
@@ -217,6 +222,8 @@ void march_report(const MethodRun& method_run, Report& report) {
     report.executed.emplace_back("recalled_pixels", run.upsample.recalled);
     report.executed.emplace_back("ray_samples", run.tally.samples);
     report.executed.emplace_back("light_samples", run.tally.light_samples);
+    report.executed.emplace_back("sky_light_nodes", run.sky_light.made);
+    report.executed.emplace_back("sky_light_samples", run.sky_light.densities);
     report.buffer_nodes = run.nodes_difference.nodes;
     report.buffer_rms = run.nodes_difference.rms;
     report.buffer_largest = run.nodes_difference.largest;

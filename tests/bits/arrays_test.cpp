@@ -183,6 +183,7 @@ void check_raymarch(const Fixture& f) {
     held["skylight on nodes"] = run.sky.light.bytes();
     held["sky seen from nodes"] = run.sky.seen.bytes();
     held["blue noise"] = run.noise.bytes();
+    held["sunlight on nodes of the sky"] = run.sky_light.words.bytes();
     for (const DensityLevel& level : run.coarse) {
         held["coarser density"] += level.density.bytes();
         held["its blocks"] += level.majorants.bytes();

@@ -55,7 +55,7 @@ std::string fault(const std::string& lines) {
 TEST_CASE("cells hold the field at their middles, whatever the kernels and threads") {
     const MediumSettings m = medium();
     const Volume volume = baked(m);
-    const Rig rig(m.sky, m.bounds_m[0]);
+    const Rig rig(m.sky, m.bounds_m[0], true);
     int cloudy = 0;
     const float cell[3] = {float(8192.0 / 37), float(4096.0 / 20), float(1700.0 / 11)};
     for (int z = 0; z < 11; ++z)

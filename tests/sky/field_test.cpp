@@ -49,7 +49,9 @@ TEST_CASE("the coverage that is asked for is there") {
         // 8192 columns set the threshold and 6000 others measure it. Columns share lumps, but both
         // lots are strewn over the whole tile: 4 binomial deviations of both, 0.034 at one half.
         const double tolerance = 4 * std::sqrt(asked * (1 - asked) * (1 / 8192.0 + 1 / 6000.0));
-        CHECK(covered(Rig(s), 6000) == doctest::Approx(asked).epsilon(tolerance / asked));
+        for (const bool turned : {false, true})
+            CHECK(covered(Rig(s, {0, 0, 0}, turned), 6000) ==
+                  doctest::Approx(asked).epsilon(tolerance / asked));
     }
 }
 
@@ -100,6 +102,26 @@ TEST_CASE("wind moves the clouds, and a long wind by the rest of a tile") {
     CHECK(cloudy > 100);
 }
 
+TEST_CASE("turned tiles hold the noise of unturned ones, at turned places") {
+    const Double3 low{300, -700, 0};
+    const Rig turned(small_sky(), low, true), straight(small_sky());
+    const double turns[2][2] = {{0.8, 0.6}, {12.0 / 13, -5.0 / 13}};
+    Numbers r;
+    for (int i = 0; i < 2000; ++i) {
+        const Vec<float> p{r.in(0, 4000), r.in(0, 4000), r.in(1000, 2500)};
+        for (int n = 0; n < 2; ++n) {
+            const double x = double(p.x) + low[0], y = double(p.y) + low[1];
+            const Vec<float> q{float(turns[n][0] * x + turns[n][1] * y),
+                               float(turns[n][0] * y - turns[n][1] * x), p.z};
+            const NoiseView& a = n == 0 ? turned.params().perlin : turned.params().worley;
+            const NoiseView& b = n == 0 ? straight.params().perlin : straight.params().worley;
+            // Places round to half a millimetre of texels of 94 m or more.
+            CHECK(read_noise(a, p, 0.0f).value ==
+                  doctest::Approx(read_noise(b, q, 0.0f).value).epsilon(1e-3));
+        }
+    }
+}
+
 TEST_CASE("a lone noise follows the thresholds") {
     SkySettings s = small_sky();
     s.blend = 1;
@@ -126,7 +148,7 @@ TEST_CASE("hard settings stay finite, within 0 and 1, and bounded") {
                     s.perlin.tile_m = s.worley.tile_m = tile;
                     s.base_m = 0, s.top_m = thick, s.planet_radius_m = radius;
                     s.wind_m_per_s = {100, 33}, s.time_s = time;
-                    const Rig rig(s, {-1e6, 3e5, 0});
+                    const Rig rig(s, {-1e6, 3e5, 0}, radius > 0);
                     Numbers r;
                     for (int i = 0; i < 300; ++i) {
                         const float reach = i % 3 == 0 ? 1e7f : 1e3f;

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <map>
@@ -26,6 +27,8 @@ constexpr double kOrbitDeg = 0.5, kSunDeg = 0.1;  // between two frames
 struct Way {
     const char* name;
     Overrides overrides;
+    const char* scene = nullptr;   ///< null: that of the arguments
+    double orbit_deg = kOrbitDeg;  ///< between two frames
 };
 
 const std::vector<Way>& ways() {
@@ -41,7 +44,14 @@ const std::vector<Way>& ways() {
         {"octaves", {"method.name=\"raymarch\"", "raymarch.scattering=\"octaves\""}},
         {"temporal",
          {"method.name=\"raymarch\"", "raymarch.scattering=\"octaves\"", "raymarch.temporal=4",
-          "raymarch.steps=96"}}};
+          "raymarch.steps=96"}},
+        // A broken sky, 13 m a frame (docs/upsampling.md).
+        {"sky",
+         {"raymarch.scattering=\"octaves\"", "raymarch.temporal=4", "raymarch.steps=96",
+          "raymarch.stop_below=0.003", "raymarch.light=\"auto\"", "raymarch.light_steps=5",
+          "raymarch.light_first_step_m=40", "raymarch.light_growth=2", "raymarch.light_refresh=8"},
+         PILEUS_SCENES "/../studies/scenes/sky_flight.toml",
+         0.1}};
     return all;
 }
 
@@ -98,11 +108,11 @@ private:
     double wall_ = 0, cpu_ = 0;
 };
 
-/// The camera of frame f, and a sun so much higher than the scene's.
-Status set_pose(const Scene& scene, int f, double higher_deg, Session& session) {
+/// The camera of frame f, turned by so much in each, and a sun so much higher than the scene's.
+Status set_pose(const Scene& scene, int f, double orbit_deg, double higher_deg, Session& session) {
     const Double3 from = scene.camera.position_m, to = scene.camera.target_m;
     Camera camera = scene.camera;
-    const auto turn = sincos_deg(kOrbitDeg * (f % 720));
+    const auto turn = sincos_deg(std::fmod(orbit_deg * f, 360.0));
     const double x = from.x - to.x, y = from.y - to.y;
     camera.position_m = {to.x + x * turn.cosine - y * turn.sine,
                          to.y + x * turn.sine + y * turn.cosine, from.z};
@@ -112,7 +122,7 @@ Status set_pose(const Scene& scene, int f, double higher_deg, Session& session) 
     return session.set_sun(sun);
 }
 
-Status fly_session(const Scene& scene, const Arguments& arguments, bool sun_moves,
+Status fly_session(const Scene& scene, const Arguments& arguments, double orbit_deg, bool sun_moves,
                    std::vector<Frame>& frames) {
     RenderOptions options;
     options.threads = arguments.threads;
@@ -132,7 +142,7 @@ Status fly_session(const Scene& scene, const Arguments& arguments, bool sun_move
         const double last_s = f > 1 ? frames.back().total.wall_ms * 1e-3 : 0;
         if (arguments.fps > 0) PILEUS_TRY(session.set_work(govern(ladder, last_s, governor)));
         watch.start(session.report());
-        PILEUS_TRY(set_pose(scene, f, sun_moves ? kSunDeg * f : 0, session));
+        PILEUS_TRY(set_pose(scene, f, orbit_deg, sun_moves ? kSunDeg * f : 0, session));
         PILEUS_TRY(session.set_frame(f));
         const std::uint64_t units = f == 0 ? session.light().whole : sun_moves ? 1 : 0;
         std::uint64_t done = 0;
@@ -144,13 +154,13 @@ Status fly_session(const Scene& scene, const Arguments& arguments, bool sun_move
     return Status::ok();
 }
 
-Status fly_animation(const Scene& still, const Arguments& arguments, bool sun_moves, bool digests,
-                     std::vector<Frame>& frames) {
+Status fly_animation(const Scene& still, const Arguments& arguments, double orbit_deg,
+                     bool sun_moves, bool digests, std::vector<Frame>& frames) {
     Scene scene = still;
     const double last = arguments.frames, low = still.sun.elevation_deg;
     scene.animation.present = scene.animation.moves_camera = true;
     scene.animation.frames = arguments.frames + 1;
-    scene.animation.camera_orbit_deg = {0, kOrbitDeg * last};
+    scene.animation.camera_orbit_deg = {0, orbit_deg * last};
     scene.animation.moves_sun = sun_moves;
     scene.animation.sun_elevation_deg = {low, low + kSunDeg * last};
     RenderOptions options;
@@ -199,7 +209,8 @@ Status fly_small(const Way& way, const Arguments& arguments) {
     double wall = wall_seconds(), cpu = cpu_seconds();
     for (int f = 0; f <= arguments.frames; ++f) {
         const int turn = f % 600;
-        PILEUS_TRY(set_pose(scene, f, kSunDeg * (turn < 300 ? turn : 600 - turn), session));
+        PILEUS_TRY(
+            set_pose(scene, f, kOrbitDeg, kSunDeg * (turn < 300 ? turn : 600 - turn), session));
         PILEUS_TRY(session.set_frame(f));
         std::uint64_t done = 0;
         PILEUS_TRY(session.step(f == 0 ? session.light().whole : 1, done));
@@ -299,11 +310,12 @@ Status fly(const Arguments& arguments) {
                 overrides.insert(overrides.end(), arguments.overrides.begin(),
                                  arguments.overrides.end());
                 Scene scene;
-                PILEUS_TRY(read_scene_file(arguments.scene, overrides, scene));
+                PILEUS_TRY(read_scene_file(way.scene != nullptr ? way.scene : arguments.scene,
+                                           overrides, scene));
                 std::vector<Frame> frames;
                 PILEUS_TRY(driver == Driver::kSession
-                               ? fly_session(scene, arguments, sun_moves, frames)
-                               : fly_animation(scene, arguments, sun_moves,
+                               ? fly_session(scene, arguments, way.orbit_deg, sun_moves, frames)
+                               : fly_animation(scene, arguments, way.orbit_deg, sun_moves,
                                                driver == Driver::kDigests, frames));
                 print_row(name, frames);
                 if (arguments.fps > 0 && driver == Driver::kSession)

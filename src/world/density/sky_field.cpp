@@ -28,18 +28,32 @@ NoiseParams noise_params(const SkySettings& settings, const SkyNoise& noise, Noi
 
 double within_one(double v) { return v - std::floor(v); }
 
+/// Cosine and sine of an angle between a tile's axes and the world's.
+struct TileTurn {
+    double cosine, sine;
+};
+/// Tiles of skies that need not repeat over a box: turned against one another and against the axes,
+/// that rows of tiles do not line up towards the horizon. Angles of 3-4-5 and 5-12-13.
+constexpr TileTurn kPerlinTurn{0.8, 0.6}, kWorleyTurn{12.0 / 13, -5.0 / 13}, kNoTurn{1, 0};
+
 /// Places a noise in the medium's local metres; `weight` is its share of the blend.
 void place_noise(const SkySettings& settings, const SkyNoise& noise, const Double3& low_m,
-                 double weight, const NoiseTexture& texture, NoiseView& view) {
+                 double weight, const TileTurn& turn, const NoiseTexture& texture,
+                 NoiseView& view) {
     const double tile = noise.tile_m * settings.scale, share = weight * noise.gain / 255;
     view = texture.view();
     view.per_m = float(1 / tile);
     view.share = float(share);
     view.most = float(share * texture.most * (1 + 1e-6));
+    view.turn[0] = float(turn.cosine), view.turn[1] = float(turn.sine);
+    const auto& wind = settings.wind_m_per_s;
+    const double low[3] = {turn.cosine * low_m[0] + turn.sine * low_m[1],
+                           turn.cosine * low_m[1] - turn.sine * low_m[0], low_m[2]};
+    const double blows[3] = {turn.cosine * wind[0] + turn.sine * wind[1],
+                             turn.cosine * wind[1] - turn.sine * wind[0], 0};
     for (std::size_t a = 0; a < 3; ++a) {
-        const double blown =
-            a < 2 ? std::fmod(settings.wind_m_per_s[a] * settings.time_s, tile) : 0;
-        view.offset[a] = float(within_one(low_m[a] / tile) - within_one(blown / tile));
+        const double blown = std::fmod(blows[a] * settings.time_s, tile);
+        view.offset[a] = float(within_one(low[a] / tile) - within_one(blown / tile));
     }
     for (int l = 0; l <= view.last; ++l) view.lost[l] = float(share * share * texture.lost[l]);
 }
@@ -120,6 +134,18 @@ Status make_row(const MediumSettings& medium, const DensityMaking& with, Volume&
     return bake_sky(medium, with.size, *kernels->sky, with.threads, volume, with.field);
 }
 
+/// Whether the box holds whole tiles of both noises: then it may repeat, and tiles lie along its
+/// axes.
+bool tiles_fill_box(const MediumSettings& settings) {
+    for (std::size_t a = 0; a < 2; ++a)
+        for (const SkyNoise* noise : {&settings.sky.perlin, &settings.sky.worley}) {
+            const double edge = settings.bounds_m[1][a] - settings.bounds_m[0][a];
+            const double tiles = edge / (noise->tile_m * settings.sky.scale);
+            if (std::fabs(tiles - std::floor(tiles + 0.5)) > 1e-6 * tiles) return false;
+        }
+    return true;
+}
+
 constexpr DensityRow sky_row() {
     DensityRow row;
     row.name = "procedural:sky";
@@ -139,7 +165,7 @@ constexpr DensityRow sky_row() {
 }  // namespace
 
 Status make_sky(const SkySettings& settings, const Double3& low_m, const SkyKernels& kernels,
-                int threads, SkyField& sky) {
+                int threads, SkyField& sky, bool turned) {
     const auto load = [&](const SkyNoise& noise, NoiseKind kind, NoiseTexture& texture) -> Status {
         Buffer<std::uint8_t> texels;
         NoiseOrigin origin;
@@ -153,8 +179,10 @@ Status make_sky(const SkySettings& settings, const Double3& low_m, const SkyKern
     if (settings.has_worley()) PILEUS_TRY(load(settings.worley, kNoiseWorley, sky.worley));
     SkyParams& p = sky.params;
     place_layer(settings, low_m, p);
-    place_noise(settings, settings.perlin, low_m, settings.blend, sky.perlin, p.perlin);
-    place_noise(settings, settings.worley, low_m, 1 - settings.blend, sky.worley, p.worley);
+    place_noise(settings, settings.perlin, low_m, settings.blend, turned ? kPerlinTurn : kNoTurn,
+                sky.perlin, p.perlin);
+    place_noise(settings, settings.worley, low_m, 1 - settings.blend,
+                turned ? kWorleyTurn : kNoTurn, sky.worley, p.worley);
     PILEUS_TRY(cover(settings, kernels, threads, p));
     sky.threshold_low = double(p.middle) - double(p.half_width);
     sky.threshold_high = double(p.middle) + double(p.half_width);
@@ -186,7 +214,8 @@ Status bake_sky(const MediumSettings& settings, const std::array<int, 3>& size,
                 const SkyKernels& kernels, int threads, Volume& volume, SkyField* keep) {
     SkyField own;
     SkyField& sky = keep != nullptr ? *keep : own;
-    PILEUS_TRY(make_sky(settings.sky, settings.bounds_m[0], kernels, threads, sky));
+    PILEUS_TRY(make_sky(settings.sky, settings.bounds_m[0], kernels, threads, sky,
+                        !tiles_fill_box(settings)));
     BakeParams k{};
     k.sky = sky.params;
     volume.size = size;

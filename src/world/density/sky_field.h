@@ -20,9 +20,10 @@ struct SkyField {
 };
 
 /// Reads or makes the noises and finds the thresholds. `low_m` is the origin of box-local metres.
-/// kLimit: out of memory.
+/// `turned`: tiles are turned about the vertical, each by an angle of its own. kLimit: out of
+/// memory.
 Status make_sky(const SkySettings& settings, const Double3& low_m, const SkyKernels& kernels,
-                int threads, SkyField& sky);
+                int threads, SkyField& sky, bool turned = false);
 
 /// Shows the box [0, extent_m] of the sky and nothing beside it, or with null all of the layer.
 void bound_sky(const double* extent_m, SkyField& sky);
