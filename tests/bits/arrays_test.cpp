@@ -105,11 +105,10 @@ std::uint64_t bytes_held(const Planes& p) {
 std::uint64_t bytes_held(const PhotonSlot& slot) {
     return slot.sums.bytes() + slot.packed.sets.bytes() + slot.packed.ground.bytes();
 }
-
 /// Up to 256 bytes keep threads' sums apart. A ring is packed from one set of sums at least.
 std::uint64_t sums_bound(const PhotonRun& run) {
-    const std::uint64_t sums = run.scratch.sums.bytes(), planned = run.plan.accumulation.bytes;
-    const std::uint64_t bound = planned == 0 && sums_ring(run) ? sums : planned;
+    std::uint64_t sums = run.scratch.sums.bytes(), bound = run.plan.accumulation.bytes;
+    if (bound == 0 && sums_ring(run)) bound = sums;
     CHECK((sums <= bound && bound <= sums + 2 * 256));
     return bound;
 }

@@ -54,9 +54,10 @@ Change change(const std::vector<float>& a, const std::vector<float>& b) {
 }  // namespace
 
 TEST_CASE("what changes from frame to frame is the motion, with its size") {
-    // Along the layer through a tile's border at x = 4096, through base and top, through a level's.
+    // Along the layer through a tile's border at 0.8 x + 0.6 y = 4096 (tiles are turned), through
+    // base and top, through a level's.
     const double starts[][3] = {
-        {4080, 300, 1400}, {500, 4090, 980}, {-900, 100, 1990}, {8190, -4100, 1500}};
+        {4080, 1380, 1400}, {500, 6150, 980}, {-900, 100, 1990}, {8190, -4100, 1500}};
     const double ways[][3] = {{1, 0, 0}, {0, 0.5, 0.9}, {0.3, 0.3, 0.9}, {0.1, 1, 0}};
     for (int i = 0; i < 4; ++i) {
         CAPTURE(i);
@@ -85,9 +86,7 @@ TEST_CASE("what changes from frame to frame is the motion, with its size") {
         // they next meet the layer, and so does what steps this long err by.
         const bool leaves = i == 2;
         CHECK(worst.mean < (leaves ? 0.45 : 0.25) * whole.mean);
-        // Through the base (1) one pixel crosses a cloud's edge in a step: 0.61 by light = "march",
-        // 0.49 from nodes.
-        CHECK(worst.most < (leaves ? 1.2 : i == 1 ? 0.8 : 0.4) * whole.most);
+        CHECK(worst.most < (leaves ? 1.2 : 0.4) * whole.most);
     }
 }
 

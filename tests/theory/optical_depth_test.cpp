@@ -196,7 +196,7 @@ TEST_CASE("optical-depth: what it cannot do is refused in one line") {
     RenderOptions photons;
     photons.budget_photons = 5;
     CHECK(fault({"method.name=optical-depth"}, photons) ==
-          "--budget photons: not for method optical-depth, allowed: steps=N");
+          "--budget photons: not for method optical-depth, allowed: steps=N, seconds=S");
     CHECK(fault({"method.name=optical-depth", "output.layers=[\"error\"]"}, {})
               .find("test.toml: output.layers: method optical-depth has no noise") == 0);
     const Status two =

@@ -74,7 +74,7 @@ TEST_CASE("raymarch: the recurrence of forward scattering has the limit that is 
 
 /// Density 1 in a column of height 4 above the place.
 struct Column {
-    static constexpr bool kBoundsAreCheap = true, kHasVoxels = false;
+    static constexpr bool kBoundsAreCheap = true, kHasVoxels = false, kHasSunNodes = false;
 };
 template <class T>
 Segment<T> field_clip(const Column&, const Ray<T>& ray) {

@@ -15,7 +15,7 @@ using namespace pileus;
 
 /// Density along x in [0, 2].
 struct Profile {
-    static constexpr bool kBoundsAreCheap = true, kHasVoxels = false;
+    static constexpr bool kBoundsAreCheap = true, kHasVoxels = false, kHasSunNodes = false;
     bool smooth;
 };
 template <class T>
