@@ -7,7 +7,7 @@
 namespace pileus {
 namespace {
 
-constexpr std::uint64_t kPixelsPerNode = 8;
+constexpr std::uint64_t kPixelsPerNode = 2;
 
 /// Cells that the nodes' first and last are multiples of, so that they seldom change.
 constexpr double kSnap = 8;
