@@ -19,11 +19,6 @@ PILEUS_FN void march_lattice(const RayMarch<T, Field>& r, const Lattice<T>& latt
     const float steps = float(rule_steps(r.k.rule));
     T n = to_float(to_int(lattice_step(lattice, low) * (1.0f / steps))) * steps, from = low;
     auto alive = low < high;
-    // Where asking is dear, lanes that saw medium last, or are still in blocks that may hold some,
-    // do not ask: a block of rays asks where most of its lanes would.
-    constexpr bool kRemembers = !Field::kBoundsAreCheap;
-    T known = low;
-    auto within = alive & lnot(alive);
     RaySample<T> last{};
     if (ends && any(alive)) last = sample_at(r, from, lattice.first, alive);
     // Bounded: every turn of the loop takes every living lane to a later step.
@@ -49,23 +44,17 @@ PILEUS_FN void march_lattice(const RayMarch<T, Field>& r, const Lattice<T>& latt
                        r.origin.z + r.direction.z * look};
         // A little wider: the filter may widen before the block ends.
         const T filter = max_(width, pixel_width(r.k.camera, r.k.step, r.shift + to));
-        Block<T> ahead{all<T>(1.0f), T{}};
-        const std::int32_t asking =
-            kRemembers ? count_bits(bits_of(alive & (look >= known) & lnot(within))) : 0;
-        if (!kRemembers || 2 * asking > count_bits(bits_of(alive)))
-            ahead = field_ahead(r.field, p, r.direction, filter * (1.25f + 8.0f * lattice.excess));
-        if (kRemembers) known = max_(known, look + ahead.rest);
+        const Block<T> ahead =
+            field_ahead(r.field, p, r.direction, filter * (1.25f + 8.0f * lattice.excess));
         auto empty = ahead.bound <= 0.0f;
         if (ends) empty = empty & (width <= ahead.rest);
         const auto dense = alive & lnot(empty);
-        const T seen = sum.transmittance;
         if (any(dense)) {
             if (ends)
                 add_panel(r, from, to, dense, last, sum);
             else
                 add_single(r, from, to, dense, sum);
         }
-        within = sum.transmittance < seen;
         T next = Field::kHasVoxels ? select(cut, n, n + steps) : n + steps;
         if (any(alive & empty)) {
             // The last panel that ends within the empty block; it adds nothing either.
