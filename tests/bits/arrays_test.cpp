@@ -75,15 +75,15 @@ void check_rows(const MemoryTable& table, Stage stage, Bytes held) {
     Bytes planned;
     for (const MemoryRow& row : table.rows())
         if (row.first <= stage && stage <= row.last) planned[row.item] += row.bytes;
-    for (const auto& [item, bytes] : planned) {
-        CAPTURE(item);
-        CHECK(held.count(item) == 1);
-        CHECK(bytes == held[item]);
-        held.erase(item);
+    for (const auto& row : planned) {
+        CAPTURE(row.first);
+        CHECK(held.count(row.first) == 1);
+        CHECK(row.second == held[row.first]);
+        held.erase(row.first);
     }
-    for (const auto& [item, bytes] : held) {
-        CAPTURE(item);
-        CHECK(bytes == 0);
+    for (const auto& row : held) {
+        CAPTURE(row.first);
+        CHECK(row.second == 0);
     }
 }
 
