@@ -314,13 +314,13 @@ bool relight_photons(PhotonRun& run) {
 
 Status take_photon_work(const FrameWork& work, MethodRun& method_run) {
     PhotonRun& run = static_cast<PhotonRun&>(method_run);
-    run.light_refresh = work.light_refresh;
     const std::uint64_t photons = std::uint64_t(work.photons);
     std::uint64_t all = 0;
     for (const std::uint64_t n : run.light_photons) all += n;
     if (!run.ring && photons < all)
         return Status::bad_input("work.photons: " + std::to_string(photons) +
                                  ", but all generations are one sum, allowed: 0, or ring = true");
+    run.light_refresh = work.light_refresh;
     run.unit_photons = photons < all ? photons : 0;
     std::vector<Light>& lights = run.lighting.lights;
     for (std::size_t i = 0; i < lights.size(); ++i)
