@@ -1,20 +1,53 @@
 # SPDX-License-Identifier: Apache-2.0
-# Compiles files that read the same large headers as one, which takes a third of the time.
-# in: a target, a number of pieces -> out: its files that include fmt or nlohmann/json, in so many pieces
-# Their names without linkage must differ from one another: a clash is an error of the compiler.
-function(pileus_compile_together target pieces)
+# Compiles several files as one, for most of the time goes into reading the same headers anew.
+# in: a target, the most files of a piece -> out: its files in pieces: those that include fmt or
+# nlohmann/json in pieces of their own; files that give the same name to something of theirs apart
+# PILEUS_TOGETHER=OFF compiles each file by itself, which is what one wants who edits a few.
+function(pileus_compile_together target most)
+    if(NOT PILEUS_TOGETHER)
+        return()
+    endif()
     get_target_property(sources ${target} SOURCES)
-    set(number 0)
     foreach(source IN LISTS sources)
         if(NOT source MATCHES "[.]cpp$")
             continue()
         endif()
-        file(STRINGS "${source}" found REGEX "^#include <(fmt|nlohmann)/" LIMIT_COUNT 1)
-        if(found)
-            math(EXPR piece "${number} % ${pieces}")
-            math(EXPR number "${number} + 1")
-            set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${target}_${piece}")
+        file(READ "${source}" text)
+        # The large headers, and what tests share, whose names others may give to something of theirs.
+        string(REGEX MATCHALL "\n#include (<(fmt|nlohmann)/|\"tests/[^\"]*)" kind "${text}")
+        list(TRANSFORM kind REPLACE "<(fmt|nlohmann)/.*" "text")
+        list(REMOVE_DUPLICATES kind)
+        string(MD5 kind "${kind}")
+        string(SUBSTRING ${kind} 0 6 kind)
+        if(NOT DEFINED pieces_${kind})
+            set(pieces_${kind} 0)
         endif()
+        # What stands at the start of a line before a parenthesis, a brace, a bracket or "=" is a name.
+        string(REGEX REPLACE "\n(namespace|#|//|  |\\}|template)[^\n]*" "" text "${text}")
+        string(REPLACE "[" "(" text "${text}")
+        string(REGEX MATCHALL "[A-Za-z_][A-Za-z0-9_]*( [{=:]|[(])" names "${text}")
+        list(TRANSFORM names REPLACE "[^A-Za-z0-9_]+$" "")
+        list(REMOVE_ITEM names TEST_CASE TEST_CASE_TEMPLATE)
+        list(REMOVE_DUPLICATES names)
+        # The first piece with room that has none of these names, else a new one.
+        set(chosen ${pieces_${kind}})
+        foreach(piece RANGE ${pieces_${kind}})
+            set(both ${names} ${names_${kind}_${piece}})
+            list(LENGTH both before)
+            list(REMOVE_DUPLICATES both)
+            list(LENGTH both after)
+            list(LENGTH files_${kind}_${piece} number)
+            if(before EQUAL after AND number LESS most)
+                set(chosen ${piece})
+                break()
+            endif()
+        endforeach()
+        if(chosen EQUAL pieces_${kind})
+            math(EXPR pieces_${kind} "${chosen} + 1")
+        endif()
+        list(APPEND files_${kind}_${chosen} "${source}")
+        list(APPEND names_${kind}_${chosen} ${names})
+        set_source_files_properties("${source}" PROPERTIES UNITY_GROUP "${kind}_${chosen}")
     endforeach()
     set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_MODE GROUP)
 endfunction()

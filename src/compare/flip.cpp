@@ -64,7 +64,7 @@ double bright_end(const ToneCurve& curve) {
 }
 
 /// Light of one picture, without what no eye can be shown.
-struct Light {
+struct ShownLight {
     const float* plane[3] = {};
 
     static double clean(float v) {
@@ -76,7 +76,7 @@ struct Light {
     }
 };
 
-Status find_light(const Image& image, Light& light) {
+Status find_light(const Image& image, ShownLight& light) {
     const Channel* rgb[3];
     PILEUS_TRY(check_image(image));
     PILEUS_TRY(color_channels(image, rgb));
@@ -85,7 +85,7 @@ Status find_light(const Image& image, Light& light) {
 }
 
 /// From where the brightest pixel nears white to where the median does, a stop apart at most.
-Status choose_exposures(const Light& reference, std::size_t pixels, const ToneCurve& curve,
+Status choose_exposures(const ShownLight& reference, std::size_t pixels, const ToneCurve& curve,
                         FlipResult& result) {
     Buffer<double> buffer;
     PILEUS_TRY(buffer.resize(pixels, "luminances"));
@@ -130,7 +130,7 @@ struct Worker {
 };
 
 /// One exposure of all rows; keeps the larger value of each pixel.
-void add_exposure(const Light (&light)[2], const FlipOptions& options, const ToneCurve& curve,
+void add_exposure(const ShownLight (&light)[2], const FlipOptions& options, const ToneCurve& curve,
                   double gain, std::vector<Worker>& workers, FlipResult& result) {
     const ColourLaw law;
     const int width = result.width, height = result.height;
@@ -184,7 +184,7 @@ Status flip(const Image& a, const Image& reference, const FlipOptions& options,
     result = FlipResult();
     if (!(options.pixels_per_degree >= 1 && options.pixels_per_degree <= 1000))
         return Status::bad_input("FLIP: pixels per degree: out of range, allowed: 1 to 1000");
-    Light light[2];
+    ShownLight light[2];
     PILEUS_TRY(find_light(a, light[0]));
     PILEUS_TRY(find_light(reference, light[1]));
     PILEUS_TRY(check_same_size("FLIP", a, reference));
@@ -192,7 +192,7 @@ Status flip(const Image& a, const Image& reference, const FlipOptions& options,
     result.height = a.height;
     const std::size_t pixels = std::size_t(a.width) * std::size_t(a.height);
     PILEUS_TRY(result.value.resize(pixels, "FLIP values"));
-    for (const Light& one : light)
+    for (const ShownLight& one : light)
         for (const float* plane : one.plane)
             for (std::size_t i = 0; i < pixels; ++i)
                 result.not_finite += std::isfinite(plane[i]) ? 0 : 1;

@@ -206,12 +206,6 @@ double mean_kept(const RaymarchSettings& s, const Medium& medium) {
     return medium.count > 0 ? sum / medium.count : 0;
 }
 
-float smallest_cell(const Grid& grid) {
-    float smallest = grid.cell_m[0];
-    for (float cell : grid.cell_m) smallest = cell < smallest ? cell : smallest;
-    return smallest;
-}
-
 StepParams raymarch_steps(const RaymarchSettings& s, const CameraParams& camera, const Grid& grid) {
     StepParams k{};
     k.most = float(s.steps);

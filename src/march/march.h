@@ -48,9 +48,6 @@ struct RaymarchTally {
     std::uint64_t samples = 0, light_samples = 0, breaches = 0, cut = 0;
 };
 
-/// Smallest edge of a cell, m.
-float smallest_cell(const Grid& grid);
-
 /// The steps that a scene asks for.
 StepParams raymarch_steps(const RaymarchSettings& settings, const CameraParams& camera,
                           const Grid& grid);

@@ -74,14 +74,14 @@ Status run_launch(const Launch& launch, int threads, bool& ended) {
 }
 
 /// Numbers that one thread takes at a time.
-constexpr std::uint64_t kPiece = 1u << 15;
+constexpr std::uint64_t kTracePiece = 1u << 15;
 
 /// Calls function(begin, end) for pieces of `count` numbers.
 template <class Function>
 void in_pieces(std::uint64_t count, int threads, Function function) {
-    parallel_for(threads, std::int64_t((count + kPiece - 1) / kPiece), [&](std::int64_t p, int) {
-        const std::uint64_t begin = std::uint64_t(p) * kPiece;
-        function(begin, begin + kPiece < count ? begin + kPiece : count);
+    parallel_for(threads, std::int64_t((count + kTracePiece - 1) / kTracePiece), [&](std::int64_t p, int) {
+        const std::uint64_t begin = std::uint64_t(p) * kTracePiece;
+        function(begin, begin + kTracePiece < count ? begin + kTracePiece : count);
     });
 }
 

@@ -155,7 +155,7 @@ TEST_CASE("a default is allowed, or left out says something else") {
             ++shown;
             CHECK(allows(*row, value));
         } else {
-            CHECK(row->fallback == std::string(kNone));
+            CHECK(row->fallback == std::string(kNoNote));
         }
     }
     CHECK(shown > 80);

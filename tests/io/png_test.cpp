@@ -11,7 +11,7 @@
 #endif
 
 using namespace pileus;
-[[maybe_unused]] constexpr auto holds = test::holds;
+using test::holds;
 
 TEST_CASE("png: signature, sRGB chunk and every byte of the picture") {
 #ifdef PILEUS_TEST_PNG

@@ -14,7 +14,7 @@ namespace {
 constexpr double kMost = 0x1p62;
 
 const KeyRow kTop[] = {
-    {"title", KeyKind::kText, any(), "", "heading of the page; left out: the file's name", kNone},
+    {"title", KeyKind::kText, any(), "", "heading of the page; left out: the file's name", kNoNote},
     {"seeds", KeyKind::kInteger, from_to(1, 64), "",
      "times that every picture is made, each with a seed of its own; 3 and more tell bias "
      "and noise apart with a standard error",
@@ -35,24 +35,24 @@ const KeyRow kReference[] = {
 
 const KeyRow kScene[] = {
     {"name", KeyKind::kText, any(), "", "short name: a-z 0-9 _ -", kRequired},
-    {"title", KeyKind::kText, any(), "", "in words; left out: the name", kNone},
+    {"title", KeyKind::kText, any(), "", "in words; left out: the name", kNoNote},
     {"file", KeyKind::kText, any(), "", "scene file, relative to the study's folder", kRequired},
     {"set", KeyKind::kTexts, any(), "", "changes to the scene, as after `--set`", "[]"},
-    {"reference_budget", KeyKind::kText, any(), "", "instead of the reference's own", kNone},
+    {"reference_budget", KeyKind::kText, any(), "", "instead of the reference's own", kNoNote},
 };
 
 const KeyRow kMethod[] = {
     {"name", KeyKind::kText, any(), "", "short name: a-z 0-9 _ -", kRequired},
-    {"title", KeyKind::kText, any(), "", "in words; left out: the name", kNone},
+    {"title", KeyKind::kText, any(), "", "in words; left out: the name", kNoNote},
     {"set", KeyKind::kTexts, any(), "", "the method and its settings, as after `--set`", "[]"},
     {"budgets", KeyKind::kTexts, any(), "",
      "growing amounts of work, as after `--budget`, all of one kind", kRequired},
-    {"scenes", KeyKind::kTexts, any(), "", "names of the scenes; left out: all", kNone},
+    {"scenes", KeyKind::kTexts, any(), "", "names of the scenes; left out: all", kNoNote},
 };
 
 const KeyRow kSetting[] = {
     {"name", KeyKind::kText, any(), "", "short name: a-z 0-9 _ -", kRequired},
-    {"title", KeyKind::kText, any(), "", "in words; left out: the name", kNone},
+    {"title", KeyKind::kText, any(), "", "in words; left out: the name", kNoNote},
     {"set", KeyKind::kTexts, any(), "", "further settings, after those of the method", "[]"},
 };
 

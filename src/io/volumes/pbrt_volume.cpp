@@ -13,7 +13,7 @@ namespace {
 using Range = TextRange;
 
 /// What the parameters said; the list of densities is only found, not yet read.
-struct Grid {
+struct PbrtGrid {
     std::array<std::int64_t, 3> size{-1, -1, -1};
     std::array<Double3, 2> points{};
     std::array<bool, 2> has_point{false, false};
@@ -30,17 +30,17 @@ public:
     Reader(const std::string& file, Span<const char> text) : TextScan(file, text) {}
 
     /// `head_only`: ends at the densities once size and place are known.
-    Status parameters(bool head_only, Grid& grid);
-    Status densities(const Grid& grid, Volume& volume);
+    Status parameters(bool head_only, PbrtGrid& grid);
+    Status densities(const PbrtGrid& grid, Volume& volume);
 
 private:
     Status quoted(Range& range, const char* what, std::string& word) const;
     Status values(Range& range, const std::string& key, Range& list) const;
     Status single(Range list, const std::string& key, std::int64_t& value) const;
     Status point(Range list, const std::string& key, Double3& value) const;
-    Status parameter(const std::string& key, std::size_t at, Range list, Grid& grid) const;
-    Status check(const Grid& grid) const;
-    Status wrong_count(const Grid& grid, std::uint64_t count) const;
+    Status parameter(const std::string& key, std::size_t at, Range list, PbrtGrid& grid) const;
+    Status check(const PbrtGrid& grid) const;
+    Status wrong_count(const PbrtGrid& grid, std::uint64_t count) const;
 };
 
 Status Reader::quoted(Range& range, const char* what, std::string& word) const {
@@ -115,7 +115,7 @@ Status Reader::point(Range list, const std::string& key, Double3& value) const {
     return Status::ok();
 }
 
-Status Reader::parameter(const std::string& key, std::size_t at, Range list, Grid& grid) const {
+Status Reader::parameter(const std::string& key, std::size_t at, Range list, PbrtGrid& grid) const {
     static const char* const sides[3] = {"integer nx", "integer ny", "integer nz"};
     static const char* const points[2] = {"point p0", "point p1"};
     const std::string twice = key + ": given twice, allowed: once";
@@ -146,7 +146,7 @@ Status Reader::parameter(const std::string& key, std::size_t at, Range list, Gri
     return Status::ok();
 }
 
-Status Reader::parameters(bool head_only, Grid& grid) {
+Status Reader::parameters(bool head_only, PbrtGrid& grid) {
     Range range{0, text_.size};
     skip(range);
     const std::string directive = token(range.at, range.end);
@@ -175,7 +175,7 @@ Status Reader::parameters(bool head_only, Grid& grid) {
 }
 
 /// Whether all that is needed is there, and whether the text can hold that many values at all.
-Status Reader::check(const Grid& grid) const {
+Status Reader::check(const PbrtGrid& grid) const {
     static const char* const sides[3] = {"integer nx", "integer ny", "integer nz"};
     for (std::size_t i = 0; i < 3; ++i)
         if (grid.size[i] < 0) return fault(text_.size, std::string(sides[i]) + ": missing");
@@ -189,7 +189,7 @@ Status Reader::check(const Grid& grid) const {
     return check_volume_size(file_, grid.size);
 }
 
-Status Reader::wrong_count(const Grid& grid, std::uint64_t count) const {
+Status Reader::wrong_count(const PbrtGrid& grid, std::uint64_t count) const {
     const auto& n = grid.size;
     return fault(grid.density.at, "float density: wrong number of values, " +
                                       std::to_string(count) + ", allowed: exactly " +
@@ -198,7 +198,7 @@ Status Reader::wrong_count(const Grid& grid, std::uint64_t count) const {
                                       std::to_string(n[2]));
 }
 
-Status Reader::densities(const Grid& grid, Volume& volume) {
+Status Reader::densities(const PbrtGrid& grid, Volume& volume) {
     const std::uint64_t wanted = std::uint64_t(grid.size[0] * grid.size[1] * grid.size[2]);
     Range list = grid.density;
 
@@ -230,7 +230,7 @@ Status decode_pbrt_volume(const std::string& name, Span<const char> text, Volume
     volume.density = Buffer<float>();
     volume.in_extinction = false;
     Reader reader(name, text);
-    Grid grid;
+    PbrtGrid grid;
     PILEUS_TRY(reader.parameters(false, grid));
     return reader.densities(grid, volume);
 }
@@ -245,10 +245,10 @@ Status read_pbrt_head(const std::string& path, VolumeHead& head) {
     // The parameters mostly stand before the densities; where they do not, read on.
     Buffer<char> text;
     PILEUS_TRY(read_file_start(path, kTextStartBytes, text));
-    Grid grid;
+    PbrtGrid grid;
     if (!Reader(path, text.span()).parameters(true, grid) || !grid.knows_all_but_density()) {
         PILEUS_TRY(read_whole_file(path, kMaxTextBytes, text));
-        grid = Grid();
+        grid = PbrtGrid();
         PILEUS_TRY(Reader(path, text.span()).parameters(false, grid));
     }
     head = VolumeHead();

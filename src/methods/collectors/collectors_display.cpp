@@ -19,12 +19,6 @@ constexpr double kPriorScatterings = 8;
 constexpr std::uint64_t kNodeBudget = 1u << 19;      // nodes of the source grid, about
 constexpr std::uint64_t kHarmonicBudget = 1u << 18;  // of one that holds harmonics
 
-float smallest_cell(const Grid& grid) {
-    float smallest = grid.cell_m[0];
-    for (float cell : grid.cell_m) smallest = cell < smallest ? cell : smallest;
-    return smallest;
-}
-
 /// Spacing of the source nodes: what the budget allows, at least the cells of a cell estimate.
 double source_spacing(const CollectorsRun& run) {
     const auto& e = run.world->medium.extent_m;

@@ -31,7 +31,7 @@ using Offset = std::array<float, 3>;
 struct Spot {
     float u, v, w;
 };
-struct Place {
+struct TileBall {
     float w;
     std::uint32_t ball;
 };
@@ -48,7 +48,7 @@ struct Part {
     int child;                   ///< the next to look at; -1: places are not yet parted
 };
 struct Scratch {
-    Place order[kAtHand];
+    TileBall order[kAtHand];
     ParticleOccluder at_hand[kAtHand];
     ParticleOccluder met[kAtHand];
     Disc named[(kHalvings + 1) * kAtHand];  ///< part behind part
@@ -121,7 +121,7 @@ ParticleOccluder occluder_of(const SunTiles& t, const ParticleBall& ball) {
 
 /// Nearest to the light first; equal ones by their numbers.
 struct FirstOf {
-    bool operator()(const Place& a, const Place& b) const {
+    bool operator()(const TileBall& a, const TileBall& b) const {
         return a.w != b.w ? a.w > b.w : a.ball < b.ball;
     }
 };

@@ -19,7 +19,7 @@ double dot3(const float (&a)[3], const double (&b)[3]) {
     return double(a[0]) * b[0] + double(a[1]) * b[1] + double(a[2]) * b[2];
 }
 
-struct Rows {
+struct Band {
     int begin, end;
 };
 
@@ -28,7 +28,7 @@ int clamp_int(double v, int low, int high) {
 }
 
 /// Pixels [first, end) of `count` whose centres may lie within `low` .. `high`.
-Rows pixels_between(double low, double high, int count) {
+Band pixels_between(double low, double high, int count) {
     return {clamp_int(std::floor(low - 0.5), 0, count), clamp_int(std::ceil(high + 0.5), 0, count)};
 }
 
@@ -37,7 +37,7 @@ void for_bands(const Canvas& canvas, int threads, Draw draw) {
     const std::int64_t bands = (canvas.height + kBandRows - 1) / kBandRows;
     parallel_for(threads, bands, [&](std::int64_t band, int) {
         const int begin = int(band) * kBandRows;
-        draw(Rows{begin, std::min(begin + kBandRows, canvas.height)});
+        draw(Band{begin, std::min(begin + kBandRows, canvas.height)});
     });
 }
 
@@ -57,10 +57,10 @@ float ball_shade(double dx, double dy) {
     return float(0.25 + 0.75 * std::max(lit, 0.0));
 }
 
-void draw_disc(const Disc& d, Rows band, Canvas& canvas) {
+void draw_disc(const Disc& d, Band band, Canvas& canvas) {
     const double radius = double(d.radius), reach = radius + 0.5;
-    const Rows rows = pixels_between(d.y - reach, d.y + reach, canvas.height);
-    const Rows columns = pixels_between(d.x - reach, d.x + reach, canvas.width);
+    const Band rows = pixels_between(d.y - reach, d.y + reach, canvas.height);
+    const Band columns = pixels_between(d.x - reach, d.x + reach, canvas.width);
     for (int y = std::max(rows.begin, band.begin); y < std::min(rows.end, band.end); ++y) {
         const double dy = double(y) + 0.5 - d.y;
         float* row = canvas.rgb.data() + std::size_t(y) * std::size_t(canvas.width) * 3;
@@ -77,7 +77,7 @@ void draw_disc(const Disc& d, Rows band, Canvas& canvas) {
 }
 
 /// Columns of row y that a line of the given reach may touch.
-Rows line_columns(const Line& l, double y, double reach, int width) {
+Band line_columns(const Line& l, double y, double reach, int width) {
     double a = 0.0, b = 1.0;
     const double dy = l.y1 - l.y0;
     if (std::fabs(dy) > 1e-9) {
@@ -90,14 +90,14 @@ Rows line_columns(const Line& l, double y, double reach, int width) {
     return pixels_between(std::min(x0, x1) - reach, std::max(x0, x1) + reach, width);
 }
 
-void draw_line(const Line& l, Rows band, Canvas& canvas) {
+void draw_line(const Line& l, Band band, Canvas& canvas) {
     const double half = 0.5 * double(l.width), reach = half + 0.5;
     const double dx = l.x1 - l.x0, dy = l.y1 - l.y0, length2 = dx * dx + dy * dy;
-    const Rows rows =
+    const Band rows =
         pixels_between(std::min(l.y0, l.y1) - reach, std::max(l.y0, l.y1) + reach, canvas.height);
     for (int y = std::max(rows.begin, band.begin); y < std::min(rows.end, band.end); ++y) {
         const double py = double(y) + 0.5;
-        const Rows columns = line_columns(l, py, reach + 0.5, canvas.width);
+        const Band columns = line_columns(l, py, reach + 0.5, canvas.width);
         float* row = canvas.rgb.data() + std::size_t(y) * std::size_t(canvas.width) * 3;
         for (int x = columns.begin; x < columns.end; ++x) {
             // Measure to the nearest point of the line between its ends.
@@ -176,13 +176,13 @@ void sort_by_depth(Span<Disc> discs) { sort_marks(discs); }
 void sort_by_depth(Span<Line> lines) { sort_marks(lines); }
 
 void draw_discs(Span<const Disc> discs, int threads, Canvas& canvas) {
-    for_bands(canvas, threads, [&](Rows band) {
+    for_bands(canvas, threads, [&](Band band) {
         for (const Disc& d : discs) draw_disc(d, band, canvas);
     });
 }
 
 void draw_lines(Span<const Line> lines, int threads, Canvas& canvas) {
-    for_bands(canvas, threads, [&](Rows band) {
+    for_bands(canvas, threads, [&](Band band) {
         for (const Line& l : lines) draw_line(l, band, canvas);
     });
 }

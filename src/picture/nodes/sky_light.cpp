@@ -96,9 +96,9 @@ NodeRange columns_seen(const SkyParams& sky, const View& view, double spacing, s
 }
 
 /// The nodes to be made, by slice, and what is held then.
-class Rows {
+class LightRows {
 public:
-    Rows(const CameraParams& camera, const SkyParams& sky, const std::vector<char>& due,
+    LightRows(const CameraParams& camera, const SkyParams& sky, const std::vector<char>& due,
          SkyLight& out)
         : sky_(sky),
           view_(view_of(camera)),
@@ -212,7 +212,7 @@ Status follow_sky_light(const Context& context, const RaymarchParams& k, const S
     for (int a = 0; a < 2; ++a) out.view.camera[a] = k.camera.origin[a];
     std::vector<char> due(std::size_t(turn.slices), 0);
     for (const int slice : follow_sun(turn, out.slices)) due[std::size_t(slice)] = 1;
-    Rows wanted(k.camera, sky, due, out);
+    LightRows wanted(k.camera, sky, due, out);
     for (int level = 0; level < levels; ++level) wanted.visit(level);
     RaymarchParams own = k;
     for (std::size_t slice = 0; slice < due.size(); ++slice) {

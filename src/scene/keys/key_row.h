@@ -14,7 +14,7 @@ namespace pileus {
 /// As `fallback` of a row: the key must be given wherever its table is.
 constexpr const char* kRequired = "required";
 /// As `fallback` of a row: what a key means that is left out is said in its text.
-constexpr const char* kNone = "";
+constexpr const char* kNoNote = "";
 
 struct KeyRange {
     double low = 0, high = 0;

@@ -43,7 +43,7 @@ constexpr Names kNowText = names_now(), kLaterText = names_later();
 template <std::size_t... kPlaces>
 constexpr std::array<KeyRow, sizeof...(kPlaces)> later_rows(std::index_sequence<kPlaces...>) {
     return {KeyRow{kLater[kPlaces], KeyKind::kTable, any(), "", "settings of a later method",
-                   kNone}...};
+                   kNoNote}...};
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ constexpr KeyRow kRows[] = {
     {"optical_depth.g", simple<&Settings::g>, from_to(-1, 1), "",
      "mean cosine of a henyey-greenstein function instead of the media's phase functions; left "
      "out: those",
-     kNone},
+     kNoNote},
     {"optical_depth.resolution", simple<&Settings::resolution>, from_to(0, 4096), "cells",
      "of the buffer of optical depths; 0: as many as the medium has"},
     {"optical_depth.buffer", simple<&Settings::exact>, one_of("swept|exact"), "",

@@ -72,9 +72,9 @@ constexpr KeyRow kRows[] = {
     {"animation.frames", animation<&Animation::frames>, from_to(1, 1000000), "",
      "number of pictures"},
     {"animation.camera_orbit_deg", kOrbit, from_to(-36000, 36000), "deg",
-     "first and last angle by which the camera has turned about its target", kNone},
+     "first and last angle by which the camera has turned about its target", kNoNote},
     {"animation.sun_elevation_deg", kElevation, from_to(-90, 90), "deg",
-     "first and last elevation of the sun; needs a sun", kNone},
+     "first and last elevation of the sun; needs a sun", kNoNote},
 };
 
 }  // namespace

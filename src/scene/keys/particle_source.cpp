@@ -16,7 +16,7 @@ constexpr KeyRow kRows[] = {
     {"medium.N.density.unit_m", particles<&P::unit_m>, above(0, 1e9), "m",
      "particles: metres of the file's unit of length"},
     {"medium.N.density.radius_m", particles<&P::radius_m>, above(0, 1e12), "m",
-     "radius of every particle; left out: the file's own", kNone},
+     "radius of every particle; left out: the file's own", kNoNote},
     {"medium.N.density.radius_scale", particles<&P::radius_scale>, above(0, 1e6), "",
      "factor on every radius"},
     {"medium.N.density.holds", particles<&P::cross_section>, one_of("extinction|cross-section"), "",

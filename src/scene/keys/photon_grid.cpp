@@ -24,7 +24,7 @@ constexpr KeyRow kRows[] = {
      "true: an animation keeps the sums of every generation and replaces the oldest with each "
      "frame; false: one sum, and all photons anew for each frame"},
     {"photon_grid.cells", grid<&PhotonGridSettings::cells>, from_to(1, 1024), "cells",
-     "cells of the photon grid along x, y, z; left out: a number that suits the photons", kNone},
+     "cells of the photon grid along x, y, z; left out: a number that suits the photons", kNoNote},
     {"photon_grid.closure", grid<&PhotonGridSettings::closure>, one_of("sh|published|mean|camera"),
      "",
      "what a cell keeps of the directions: harmonics; flux and mean cosine to the light, as "

@@ -56,7 +56,7 @@ constexpr KeyRow kRows[] = {
     {"raymarch.forward_share", raymarch<&RaymarchSettings::forward_share>, from_to(0, 1), "",
      "share of scattered light that stays within the cone; left out: that of the phase "
      "function",
-     kNone},
+     kNoNote},
     {"raymarch.light", raymarch<&RaymarchSettings::light>, one_of("auto|march|buffer|buffer-exact"),
      "",
      "sunlight by a march from each sample, or from nodes made before: swept from slice to "

@@ -47,7 +47,7 @@ constexpr KeyRow kKey{"medium.N.transfer",
                       "by rising values, what the medium is at a value of its density or variable, "
                       "linear between and constant beyond; in place of the medium's extinction and "
                       "albedo",
-                      kNone};
+                      kNoNote};
 
 constexpr KeyRow kRows[] = {
     {"value", KeyKind::kNumber, from_to(-1e30, 1e30), "", "", kRequired},

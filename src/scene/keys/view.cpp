@@ -60,7 +60,7 @@ constexpr KeyRow kRows[] = {
     {"camera.depth", camera<&Camera::depth>, any(), "",
      "image of the distance to solid things, .exr (channel Z, or its only one) or grey .pfm, of "
      "the picture's size; what lies behind is left out, and black",
-     kNone},
+     kNoNote},
     {"camera.depth_kind", camera<&Camera::depth_on_axis>, one_of("distance|z"), "",
      "its values: along each pixel's ray, or along the view's axis"},
     {"camera.depth_scale", camera<&Camera::depth_scale>, above(0, 1e9), "m",
@@ -68,7 +68,7 @@ constexpr KeyRow kRows[] = {
     {"camera.aperture_radius_m", camera<&Camera::aperture_radius_m>, from_to(0, 1e6), "m",
      "of a thin lens: depth of field; billboards of method `particles` only. 0: a pinhole"},
     {"camera.focus_distance_m", camera<&Camera::focus_distance_m>, above(0, 1e9), "m",
-     "from the camera along the view to what is sharp; left out: the target", kNone},
+     "from the camera along the view to what is sharp; left out: the target", kNoNote},
     {"camera.shutter_s", camera<&Camera::shutter_s>, from_to(0, 1e6), "s",
      "how long the shutter is open, the picture's time in the middle: motion blur of particles "
      "with velocities; billboards of method `particles` only"},
@@ -76,9 +76,9 @@ constexpr KeyRow kRows[] = {
      from_to(-1e9, 1e9), "deg, deg, m",
      "instead of position_m: longitude, latitude and height by the map of the first medium that is "
      "weather data",
-     kNone},
+     kNoNote},
     {"camera.target_deg", place<&Camera::target_place, &Camera::target_by_place>,
-     from_to(-1e9, 1e9), "deg, deg, m", "the same instead of target_m", kNone},
+     from_to(-1e9, 1e9), "deg, deg, m", "the same instead of target_m", kNoNote},
     {"sun.azimuth_deg", sun<&Sun::azimuth_deg>, from_to(-360, 360), "deg",
      "where the sun stands, from north (+y) towards east (+x)"},
     {"sun.elevation_deg", sun<&Sun::elevation_deg>, from_to(-90, 90), "deg",
@@ -93,12 +93,12 @@ constexpr KeyRow kRows[] = {
     {"sky.map", sky<&Sky::map>, any(), "",
      "latitude-longitude image of the sky's radiance, .exr or .pfm, in place of radiance; "
      "relative to the scene file, `${PILEUS_DATA_DIR}` may stand at its front",
-     kNone},
+     kNoNote},
     {"sky.map_scale", sky<&Sky::map_scale>, from_to(0, 1e12), "", "factor on the map's values"},
     {"sky.map_rotation_deg", sky<&Sky::map_rotation_deg>, from_to(-360, 360), "deg",
      "turns the map about the vertical, from north towards east; at 0 its middle column "
      "stands in the north (+y)"},
-    {"sky.model", KeyKind::kLater, any(), "", "a computed sky", kNone},
+    {"sky.model", KeyKind::kLater, any(), "", "a computed sky", kNoNote},
     {"ground.altitude_m", ground<&Ground::altitude_m>, from_to(-1e9, 1e9), "m",
      "height of the level ground; every medium and the camera stand above it"},
     {"ground.albedo", ground<&Ground::albedo>, from_to(0, 1), "",

@@ -67,7 +67,7 @@ constexpr KeyField phase_field{
     }};
 template <const PhaseNumber& kNumber>
 constexpr KeyRow phase_key{kNumber.path, phase_field<kNumber>, kNumber.allowed,
-                           kNumber.unit, kNumber.help,         kNone};
+                           kNumber.unit, kNumber.help,         kNoNote};
 
 template <std::size_t kCount>
 constexpr Span<const KeyRow> keys_of(const KeyRow (&rows)[kCount]) {

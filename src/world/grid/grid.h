@@ -25,4 +25,11 @@ inline std::size_t voxel_index(const Grid& grid, int i, int j, int k) {
 
 inline std::size_t voxel_count(const Grid& grid) { return voxel_index(grid, 0, 0, grid.size[2]); }
 
+/// Smallest edge of a voxel, m.
+inline float smallest_cell(const Grid& grid) {
+    float smallest = grid.cell_m[0];
+    for (float cell : grid.cell_m) smallest = cell < smallest ? cell : smallest;
+    return smallest;
+}
+
 }  // namespace pileus

@@ -49,7 +49,7 @@ constexpr KeyField kCloud{KeyKind::kChoice, [](const KeySource&) { return no_val
 constexpr KeyRow kKeys[] = {
     phase_key<kRadius>,
     {"medium.N.phase.cloud", kCloud, one_of(kClouds), "",
-     "kind of cloud, which sets the effective radius (docs/phase.md)", kNone}};
+     "kind of cloud, which sets the effective radius (docs/phase.md)", kNoNote}};
 
 Status make(const std::string&, const PhaseSettings& settings, PhaseStore& store,
             PhaseParams& params) {

@@ -13,7 +13,7 @@ constexpr KeyRow kKeys[] = {
     {"medium.N.phase.file", field<&MediumSettings::phase, &PhaseSettings::file>, any(), "",
      "path of a table of angles and values, or of Legendre moments, relative to the scene "
      "file; required by both",
-     kNone}};
+     kNoNote}};
 
 Status make_table(const std::string& directory, const PhaseSettings& settings, PhaseStore& store,
                   PhaseParams& params) {

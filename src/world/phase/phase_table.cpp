@@ -20,10 +20,10 @@ std::int32_t slots_of(std::size_t cells) {
 }
 
 /// Where a node lies: 1 - cos and 1 + cos, each with all its digits where it is the smaller.
-struct Place {
+struct NodePlace {
     double minus, plus;
 };
-Place place_of(double angle_deg) {
+NodePlace place_of(double angle_deg) {
     const SineCosine half = sincos_deg(0.5 * angle_deg);
     if (angle_deg <= 90) {
         const double minus = double(float(2 * half.sine * half.sine));
@@ -46,7 +46,7 @@ Arrays arrays_in(Buffer<float>& numbers, std::size_t nodes) {
 void set_cells(const PhaseNodes& nodes, Arrays& a, PhaseTable& table) {
     for (std::size_t i = 0; i < a.nodes; ++i) a.turn[i] = float(place_of(nodes.angle_deg[i]).minus);
     for (std::size_t i = 0; i + 1 < a.nodes; ++i) {
-        const Place first = place_of(nodes.angle_deg[i]), last = place_of(nodes.angle_deg[i + 1]);
+        const NodePlace first = place_of(nodes.angle_deg[i]), last = place_of(nodes.angle_deg[i + 1]);
         const bool front = a.turn[i] < 1.0f;
         a.base[i] = float(front ? first.minus : last.plus);
         const float width = float(front ? last.minus - first.minus : first.plus - last.plus);

@@ -35,12 +35,12 @@ void pixel_range(double low, double high, std::int32_t count, std::int32_t& firs
 }
 
 /// A sphere's centre along the camera's axes.
-struct Place {
+struct SphereAt {
     double x, y, z, radius;
 };
 
 /// The rectangle of a sphere that the camera touches or sees at a grazing angle.
-void find_rectangle(const CameraParams& c, const Place& at, BlendSphere& s) {
+void find_rectangle(const CameraParams& c, const SphereAt& at, BlendSphere& s) {
     // Widen the sphere by the rounding of the kernel's distance, 16 units in the last place.
     const double reach = std::fabs(at.x) + std::fabs(at.y) + std::fabs(at.z);
     const double wide = at.radius + reach * 0x1p-20;
@@ -65,7 +65,7 @@ struct Ellipse {
 };
 
 /// From r^2 |ray|^2 - |centre x ray|^2, completed to squares; the sphere lies before the camera.
-Ellipse find_ellipse(const Place& p, bool flat) {
+Ellipse find_ellipse(const SphereAt& p, bool flat) {
     const double r2 = p.radius * p.radius;
     if (flat) return {p.x, p.y, 0, 1 / r2, 1 / r2, p.radius};
     const double b = (p.z - p.radius) * (p.z + p.radius), a = b + p.y * p.y, t = a + p.x * p.x;
@@ -82,7 +82,7 @@ float split(double at, std::int32_t& whole) {
 
 /// Sets the ellipse in pixels and its rectangle. False where it is no ellipse to speak of: the
 /// camera touches the sphere, or sees it so far aside that its ellipse is drawn out.
-bool set_ellipse(const CameraParams& c, const Place& at, BlendSphere& s) {
+bool set_ellipse(const CameraParams& c, const SphereAt& at, BlendSphere& s) {
     if (!(at.z > at.radius * 1.001)) return false;
     const double across = at.x * at.x + at.y * at.y;
     if (c.orthographic == 0 && across > 64 * (at.z - at.radius) * (at.z + at.radius)) return false;
@@ -144,7 +144,7 @@ std::uint32_t project(const BillboardScene& scene, const CameraParams& c, std::u
     s.radius_squared = scene.radius[i] * scene.radius[i];
     s.extinction = scene.extinction[i];
     s.index = i;
-    const Place at{double(s.x), double(s.y), double(s.z), double(scene.radius[i])};
+    const SphereAt at{double(s.x), double(s.y), double(s.z), double(scene.radius[i])};
     const double away = std::sqrt(at.x * at.x + at.y * at.y + at.z * at.z);
     s.far = static_cast<float>((away + at.radius) * (1 + 0x1p-18));
     s.doublings = doublings_of(2 * at.radius * double(s.extinction));
