@@ -79,10 +79,11 @@ constexpr std::uint64_t kTracePiece = 1u << 15;
 /// Calls function(begin, end) for pieces of `count` numbers.
 template <class Function>
 void in_pieces(std::uint64_t count, int threads, Function function) {
-    parallel_for(threads, std::int64_t((count + kTracePiece - 1) / kTracePiece), [&](std::int64_t p, int) {
-        const std::uint64_t begin = std::uint64_t(p) * kTracePiece;
-        function(begin, begin + kTracePiece < count ? begin + kTracePiece : count);
-    });
+    parallel_for(threads, std::int64_t((count + kTracePiece - 1) / kTracePiece),
+                 [&](std::int64_t p, int) {
+                     const std::uint64_t begin = std::uint64_t(p) * kTracePiece;
+                     function(begin, begin + kTracePiece < count ? begin + kTracePiece : count);
+                 });
 }
 
 /// Adds all threads' own sums to the total and leaves zeros behind.

@@ -99,7 +99,7 @@ NodeRange columns_seen(const SkyParams& sky, const View& view, double spacing, s
 class LightRows {
 public:
     LightRows(const CameraParams& camera, const SkyParams& sky, const std::vector<char>& due,
-         SkyLight& out)
+              SkyLight& out)
         : sky_(sky),
           view_(view_of(camera)),
           due_(due),

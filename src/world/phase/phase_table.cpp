@@ -46,7 +46,8 @@ Arrays arrays_in(Buffer<float>& numbers, std::size_t nodes) {
 void set_cells(const PhaseNodes& nodes, Arrays& a, PhaseTable& table) {
     for (std::size_t i = 0; i < a.nodes; ++i) a.turn[i] = float(place_of(nodes.angle_deg[i]).minus);
     for (std::size_t i = 0; i + 1 < a.nodes; ++i) {
-        const NodePlace first = place_of(nodes.angle_deg[i]), last = place_of(nodes.angle_deg[i + 1]);
+        const NodePlace first = place_of(nodes.angle_deg[i]),
+                        last = place_of(nodes.angle_deg[i + 1]);
         const bool front = a.turn[i] < 1.0f;
         a.base[i] = float(front ? first.minus : last.plus);
         const float width = float(front ? last.minus - first.minus : first.plus - last.plus);

@@ -18,8 +18,8 @@ struct FieldRows {
 };
 
 /// `low_end`, `high_end`: what lies before the row's first voxel and behind its last.
-void gradient_row(const FieldRows& rows, int size, const float per_2h[3], float low_end, float high_end,
-                  float* out) {
+void gradient_row(const FieldRows& rows, int size, const float per_2h[3], float low_end,
+                  float high_end, float* out) {
     const auto store = [&](int i, float low, float high) {
         const float gx = (high - low) * per_2h[0];
         const float gy = (rows.y_high[i] - rows.y_low[i]) * per_2h[1];
@@ -50,7 +50,8 @@ Status gradient_magnitude(Span<const float> density, const Grid& grid, int threa
                 const bool inside = y >= 0 && y < ny && z >= 0 && z < nz;
                 return inside ? density.data + voxel_index(grid, 0, y, z) : nothing.data();
             };
-            const FieldRows rows{row(j, k), row(j - 1, k), row(j + 1, k), row(j, k - 1), row(j, k + 1)};
+            const FieldRows rows{row(j, k), row(j - 1, k), row(j + 1, k), row(j, k - 1),
+                                 row(j, k + 1)};
             const float low_end = grid.periodic ? rows.here[nx - 1] : 0.0f;
             const float high_end = grid.periodic ? rows.here[0] : 0.0f;
             gradient_row(rows, nx, per_2h, low_end, high_end,
