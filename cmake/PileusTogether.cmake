@@ -22,7 +22,9 @@ function(pileus_compile_together target most)
         if(NOT DEFINED pieces_${kind})
             set(pieces_${kind} 0)
         endif()
-        # What stands at the start of a line before a parenthesis, a brace, a bracket or "=" is a name.
+        # What stands at the start of a line before a parenthesis, a brace, a bracket or "=" is a name,
+        # and so is a constant within a function, which would hide another file's.
+        string(REGEX REPLACE "\n +constexpr" "\nconstexpr" text "${text}")
         string(REGEX REPLACE "\n(namespace|#|//|  |\\}|template)[^\n]*" "" text "${text}")
         string(REPLACE "[" "(" text "${text}")
         string(REGEX MATCHALL "[A-Za-z_][A-Za-z0-9_]*( [{=:]|[(])" names "${text}")

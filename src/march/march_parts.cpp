@@ -48,7 +48,7 @@ Status light_nodes_by(const Context& context, const Lighting& light, RaymarchRun
     const Medium& medium = run.world->medium;
     if (!run.settings.sky_ambient || medium.sigma <= 0) return Status::ok();
     return make_sky_nodes(context, medium, run.majorants, light, mean_kept(run.settings, medium),
-                          octaves_of(run.settings), run.sky);
+                          octaves_of(run.settings), sky_view(run), run.sky);
 }
 
 Status show_sun(const Context& context, const RaymarchInput& whole, RaymarchRun& run,
@@ -114,7 +114,7 @@ Status show_single(const Context& context, const RaymarchInput& whole, RaymarchR
         Lighting groundless = run.lighting;
         groundless.ground_diffuse = groundless.ground_sun = {};
         PILEUS_TRY(make_sky_nodes(context, run.world->medium, run.majorants, groundless, 0,
-                                  octaves_of(settings), run.single_sky));
+                                  octaves_of(settings), sky_view(run), run.single_sky));
         in.sky = &run.single_sky;
     }
     PILEUS_TRY(show_part(context, in, nullptr, run, part));

@@ -221,8 +221,10 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
     if (run.settings.sky_ambient) {
         const std::uint64_t nodes = node_count(sky_node_grid(run.world->medium));
         const int sets = sky_node_sets(run.lighting);
+        const int sky_numbers =
+            sky_seen_numbers(sky_view(run).turned, octaves_of(run.settings).count);
         add(t, arrays::sky_light(nodes, sets, last));
-        if (sets > 0) add(t, arrays::sky_seen(nodes));
+        if (sets > 0) add(t, arrays::sky_seen(nodes, sky_numbers));
     }
     const std::uint64_t parts = march_part_planes(run);
     if (run.settings.sky_ambient && output.layer_order) {
@@ -231,8 +233,8 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
         add(t, renamed(arrays::sky_light(nodes, sets, last), "skylight scattered once",
                        Stage::kDisplay, last));
         if (sets > 0)
-            add(t, renamed(arrays::sky_seen(nodes), "skylight scattered once", Stage::kDisplay,
-                           Stage::kWrite));
+            add(t, renamed(arrays::sky_seen(nodes, kSkyParts), "skylight scattered once",
+                           Stage::kDisplay, Stage::kWrite));
     }
     if (parts > 0)
         add(t, renamed(arrays::picture_planes(plane_count(3, run.lighting.opaque(), false), pixels),

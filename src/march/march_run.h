@@ -40,6 +40,7 @@ struct RaymarchRun : MethodRun {
     SunDepth nodes;
     SunDepthDifference nodes_difference;  ///< of swept nodes to rays
     std::array<float, 3> sky_to_sun{};    ///< the sun that the sky's nodes were made for
+    CameraParams sky_camera{};            ///< and the camera
     std::array<float, 3> nodes_to_sun{};  ///< the sun that swept nodes were made for
     SunSlices slices;                     ///< and those of nodes by rays
     SkyLight sky_light;
@@ -89,6 +90,10 @@ Status check_marched(const Scene& scene, const Budget& budget);
 Status march_outline(const Context& context, RaymarchRun& run);
 /// Majorants, coarser densities, and the exact plan.
 Status march_prepare(const Context& context, MethodRun& run);
+
+/// Skylight is scattered towards the camera, but to all sides where copies of the medium are seen,
+/// each along ways of its own, and by method optical-depth.
+SkyView sky_view(const RaymarchRun& run);
 
 /// Chooses where sunlight comes from, notes the plan and weighs it.
 Status march_measure(const Context& context, RaymarchRun& run);

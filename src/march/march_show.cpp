@@ -2,6 +2,8 @@
 // One frame of a raymarch: sunlight, background, march, layers.
 // in: a prepared RaymarchRun -> out: Image, Report.
 // docs/raymarch.md; docs/formats.md, "Pictures out"
+#include <algorithm>
+
 #include "platform/clock.h"
 #include "src/base/digest.h"
 #include "src/march/march_budget.h"
@@ -48,14 +50,25 @@ Status light_nodes(const Context& context, RaymarchRun& run) {
     return Status::ok();
 }
 
-/// Light of sky and ground changes with the sun alone.
+/// Whether nodes are seen from the same place, or along the same direction.
+bool same_way(const CameraParams& a, const CameraParams& b) {
+    const bool flat = a.orthographic != 0;
+    const float* from = flat ? a.forward : a.origin;
+    const float* to = flat ? b.forward : b.origin;
+    return a.orthographic == b.orthographic && std::equal(from, from + 3, to);
+}
+
+/// Light of sky and ground changes with the sun, and with the camera where that is known.
 Status light_sky(const Context& context, const FrameStep& step, RaymarchRun& run) {
     if (!run.settings.sky_ambient || run.world->medium.sigma <= 0) return Status::ok();
-    if (!step.first && run.sky_to_sun == run.lighting.to_sun) return Status::ok();
+    const SkyView view = sky_view(run);
+    const bool seen = !view.turned || same_way(run.sky_camera, run.camera);
+    if (!step.first && seen && run.sky_to_sun == run.lighting.to_sun) return Status::ok();
     run.sky_to_sun = run.lighting.to_sun;
+    run.sky_camera = run.camera;
     return make_sky_nodes(context, run.world->medium, run.majorants, run.lighting,
                           mean_kept(run.settings, run.world->medium), octaves_of(run.settings),
-                          run.sky);
+                          view, run.sky);
 }
 
 /// Light of [[light]], scattered once or by octaves, and of the media: its own march, in steps of
@@ -81,6 +94,16 @@ Status shade_by_solids(const Context& context, RaymarchRun& run) {
 }
 
 }  // namespace
+
+SkyView sky_view(const RaymarchRun& run) {
+    SkyView view;
+    const World& world = *run.world;
+    view.turned = run.simple == nullptr && !world.medium.grid.periodic &&
+                  !(world.direct_sky && world.layer.params.boxed == 0);
+    view.camera = run.camera;
+    view.anisotropy = float(run.settings.octave_anisotropy);
+    return view;
+}
 
 LampMarchParams march_lamps(const RaymarchRun& run) {
     const Medium& medium = marched_medium(run);

@@ -103,7 +103,7 @@ const Flight kFlights[] = {
      "[method]\nname = \"raymarch\"\n"
      "[raymarch]\nscattering = \"octaves\"\nsteps = 48\ntemporal = 4\nlight_refresh = 8\n",
      3,
-     {"bbcd0fcfdcdf3964", "ed88026bdd4e0b27", "086b65ef6f872503", "3bc4c9e36a777f06"}}};
+     {"1d7f4b1bc98c72e8", "42231e9a5f41a13b", "e6423a3d44110c4f", "9747765791bcc5f1"}}};
 
 }  // namespace
 

@@ -42,10 +42,12 @@ struct Rig {
         lighting = plan_lighting(scene, medium, scene.sun.elevation_deg, plan);
         REQUIRE(make_sun_depth(context, medium, majorants, lighting.to_sun, SunDepthKind::kExact,
                                nodes));
+        in.camera = make_camera(scene.camera, 0, medium.low_m);
+        const SkyView view{true, in.camera, float(scene.raymarch.octave_anisotropy)};
         if (scene.raymarch.sky_ambient)
             REQUIRE(make_sky_nodes(context, medium, majorants, lighting,
                                    mean_kept(scene.raymarch, medium), octaves_of(scene.raymarch),
-                                   sky));
+                                   view, sky));
         if (scene.raymarch.jitter == RaymarchJitterKind::kBlueNoise)
             REQUIRE(make_blue_noise(noise));
         REQUIRE(make_density_levels(medium, 4, majorants.skip_block, context, levels));
@@ -58,7 +60,6 @@ struct Rig {
         in.noise = &noise;
         if (scene.raymarch.detail) in.levels = &levels;
         in.march_light = scene.raymarch.light == RaymarchLightKind::kMarch;
-        in.camera = make_camera(scene.camera, 0, medium.low_m);
     }
 
     /// The picture, with something solid so many metres away in its left half.

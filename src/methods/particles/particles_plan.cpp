@@ -154,7 +154,7 @@ void weigh_memory(const Context& context, ParticlesRun& run) {
         const std::uint64_t nodes = node_count(sky_node_grid(run.world->medium));
         const int sets = sky_node_sets(run.lighting);
         add(t, arrays::sky_light(nodes, sets, Stage::kWrite));
-        if (sets > 0) add(t, arrays::sky_seen(nodes));
+        if (sets > 0) add(t, arrays::sky_seen(nodes, kSkyParts));
         if (sets > 0) add(t, arrays::particle_sky(particles));
     }
     const std::uint64_t shown = plane_count(3, run.lighting.opaque(), output.layer_depth) +

@@ -9,7 +9,6 @@
 #include "kernels_cpu/core/math.h"
 #include "kernels_cpu/light/sky_map.h"
 #include "platform/threads.h"
-#include "src/base/angles.h"
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/node_grid.h"
 #include "src/world/phase/forward_share.h"
@@ -18,25 +17,11 @@ namespace pileus {
 namespace {
 
 constexpr double kNodeBudget = 1u << 15;
-constexpr int kBands = 6, kAround = 4;  // equal parts of the sphere: in height, and around
-constexpr int kParts = kBands * kAround;
-static_assert(kParts == kSkyParts);
+constexpr int kParts = kSkyParts;
 constexpr int kWithin = 16;  // radiances of a map are means of so many squared per part
 
-struct Direction {
-    float d[3];
-};
-
-/// Within part (band, turn), at shares u and v of its height and width.
-Direction direction_in(int part, double u, double v) {
-    const int band = part / kAround, turn = part % kAround;
-    const double z = -1 + 2 * (band + u) / kBands;
-    // Every other band turns by half a part.
-    const double around = 360.0 / kAround * (turn + v + 0.5 * (band % 2));
-    const SineCosine a = sincos_deg(around);
-    const double r = __builtin_sqrt(1 - z * z);
-    return {{float(a.cosine * r), float(a.sine * r), float(z)}};
-}
+/// The lower half of the sphere, where there is ground.
+bool looks_down(int part) { return part < kParts / 2; }
 
 /// Light of each set from a part of the sphere, as shares of its colour over all parts.
 struct Radiances {
@@ -46,7 +31,7 @@ struct Radiances {
 
 void set_constant(const Lighting& light, Radiances& r) {
     for (int p = 0; p < kParts; ++p) {
-        const bool down = light.ground && p / kAround < kBands / 2;
+        const bool down = light.ground && looks_down(p);
         r.share[down ? 1 : 0][p] = 1.0 / kParts;
     }
     for (std::size_t c = 0; c < 3; ++c) {
@@ -57,12 +42,12 @@ void set_constant(const Lighting& light, Radiances& r) {
 
 void set_map(const Lighting& light, Radiances& r) {
     for (int p = 0; p < kParts; ++p) {
-        const bool down = light.ground && p / kAround < kBands / 2;
+        const bool down = light.ground && looks_down(p);
         double sum[3] = {};
         for (int i = 0; i < kWithin * kWithin && !down; ++i) {
-            const Direction a =
-                direction_in(p, (i / kWithin + 0.5) / kWithin, (i % kWithin + 0.5) / kWithin);
-            const Vec<float> seen = map_radiance(light.map, Vec<float>{a.d[0], a.d[1], a.d[2]});
+            const std::array<float, 3> d =
+                sky_direction(p, (i / kWithin + 0.5) / kWithin, (i % kWithin + 0.5) / kWithin);
+            const Vec<float> seen = map_radiance(light.map, Vec<float>{d[0], d[1], d[2]});
             const float own[3] = {seen.x, seen.y, seen.z};
             for (int c = 0; c < 3; ++c) sum[c] += double(own[c]) / (kWithin * kWithin);
         }
@@ -127,38 +112,93 @@ void see_parts(const Octaves& o, float left, const Absorption& by, std::size_t a
     }
 }
 
+/// Three mean cosines of an octave's phase function over all media, at most 1, so that none of its
+/// first two bands is negative.
+struct Turns {
+    float most[kMostOctaves] = {};
+    float albedo = 1;  ///< what an octave keeps of the one before
+};
+
+Turns turns_of(const Medium& medium, const Octaves& o, const SkyView& view, const Absorption& by) {
+    float g = 0;
+    for (int i = 0; i < medium.count; ++i)
+        g += phase_moment(medium.optics[std::size_t(i)].phase, 1) / float(medium.count);
+    Turns t;
+    // An octave that is turned so much more than the one before was scattered so much more often.
+    t.albedo = by.albedo;
+    if (g > view.anisotropy && view.anisotropy > 0 && g < 1 && by.albedo > 0)
+        t.albedo = exp_(log_(by.albedo) * (log_(view.anisotropy) / log_(g)));
+    for (int n = 1; n < o.count; ++n) {
+        g *= view.anisotropy;
+        t.most[n] = 3 * g > 1 ? 1 : 3 * g < -1 ? -1 : 3 * g;
+    }
+    return t;
+}
+
+/// As see_parts for one who looks from a camera, which weighs the parts when it is known where:
+/// sky_seen_numbers instead of what is seen.
+void see_octaves(const Octaves& o, const Turns& turns, float left, const Absorption& by,
+                 const SkyDirections& middles, std::size_t apart, float* numbers) {
+    float all[4] = {};
+    for (int p = 0; p < kParts; ++p) {
+        const std::array<float, 3>& d = middles[std::size_t(p)];
+        const float tau = numbers[std::size_t(p) * apart] * left;
+        float share = 1, kept = 1, thinner = 1, alike = 0, turned = 0;
+        for (int n = 1; n < o.count; ++n) {
+            share *= o.share, kept *= o.share * turns.albedo, thinner *= o.extinction;
+            const float through = exp_(-(tau * thinner)), white = share * through;
+            const float comes = kept * (thinner < by.least ? exp_(-(tau * by.least)) : through);
+            alike += comes;
+            turned += turns.most[n] * comes;
+            all[0] += white;
+            for (std::size_t a = 0; a < 3; ++a) all[1 + a] += turns.most[n] * white * d[a];
+        }
+        numbers[std::size_t(p) * apart] = exp_(-tau);
+        numbers[std::size_t(kParts + p) * apart] = alike;
+        numbers[std::size_t(2 * kParts + p) * apart] = turned;
+    }
+    const bool thick = !(all[0] > 1e-30f);
+    for (std::size_t p = 0; p < 2 * kParts && thick; ++p)
+        numbers[(kParts + p) * apart] = p < kParts && !(by.albedo < 1) ? 1 : 0;
+    for (std::size_t a = 0; a < 4; ++a)
+        numbers[(3 * kParts + a) * apart] = !thick ? all[a] : a == 0 ? float(kParts) : 0.0f;
+}
+
 /// What each node sees of each part of the sphere, by a ray to its middle.
 Status see_sky(const Context& context, const Medium& medium, const Majorants& majorants,
-               double kept, const Octaves& octaves, SkyNodes& out) {
+               double kept, const Octaves& octaves, const SkyView& view, SkyNodes& out) {
     const std::size_t nodes = std::size_t(node_count(out.grid));
-    if (out.seen.size() == kParts * nodes) return Status::ok();
-    PILEUS_TRY(allocate_once(arrays::sky_seen(nodes), out.seen));
+    const int numbers = sky_seen_numbers(view.turned, octaves.count);
+    if (out.seen.size() == std::size_t(numbers) * nodes) return Status::ok();
+    PILEUS_TRY(allocate_once(arrays::sky_seen(nodes, numbers), out.seen));
+    if (view.turned) out.phase = sky_phase(medium);
+    const Turns turns = turns_of(medium, octaves, view, absorption_of(medium));
     ShadowParams k{};
     k.medium = make_medium_view(medium, majorants);
     k.nodes = out.grid;
     const float left = float(1 - kept);
     const Absorption absorption = absorption_of(medium);
+    const SkyDirections middles = sky_directions();
     const std::size_t slice = nodes / std::size_t(out.grid.size[2]);
     for (int p = 0; p < kParts; ++p) {
         float* own = out.seen.data() + std::size_t(p) * nodes;
-        const std::array<float, 3> to = sky_direction(p);
+        const std::array<float, 3>& to = middles[std::size_t(p)];
         for (std::size_t i = 0; i < 3; ++i) k.to_sun[i] = to[i];
         PILEUS_TRY(run_rows(context, context.kernels->shadow_rows, k, ShadowBuffers{own},
                             std::uint32_t(out.grid.size[1] * out.grid.size[2])));
     }
     parallel_for(context.threads, out.grid.size[2], [&](std::int64_t z, int) {
-        for (std::size_t n = std::size_t(z) * slice; n < std::size_t(z + 1) * slice; ++n)
-            see_parts(octaves, left, absorption, nodes, out.seen.data() + n);
+        for (std::size_t n = std::size_t(z) * slice; n < std::size_t(z + 1) * slice; ++n) {
+            if (numbers > kParts)
+                see_octaves(octaves, turns, left, absorption, middles, nodes, out.seen.data() + n);
+            else
+                see_parts(octaves, left, absorption, nodes, out.seen.data() + n);
+        }
     });
     return Status::ok();
 }
 
 }  // namespace
-
-std::array<float, 3> sky_direction(int part) {
-    const Direction a = direction_in(part, 0.5, 0.5);
-    return {a.d[0], a.d[1], a.d[2]};
-}
 
 NodeGrid sky_node_grid(const Medium& medium) {
     const auto& e = medium.extent_m;
@@ -177,7 +217,7 @@ int sky_node_sets(const Lighting& light) {
 
 Status make_sky_nodes(const Context& context, const Medium& medium, const Majorants& majorants,
                       const Lighting& lighting, double kept, const Octaves& octaves,
-                      SkyNodes& out) {
+                      const SkyView& view, SkyNodes& out) {
     const StageClock clock(context, "skylight");
     out.sets = sky_node_sets(lighting);
     if (out.sets == 0) return Status::ok();
@@ -191,10 +231,17 @@ Status make_sky_nodes(const Context& context, const Medium& medium, const Majora
     for (int s = 0; s < 3; ++s)
         for (int c = 0; c < 3; ++c) out.colour[s][c] = float(r.colour[s][c]);
     PILEUS_TRY(allocate_once(arrays::sky_light(nodes, out.sets, Stage::kWrite), out.light));
-    PILEUS_TRY(see_sky(context, medium, majorants, kept, octaves, out));
+    PILEUS_TRY(see_sky(context, medium, majorants, kept, octaves, view, out));
     const std::size_t count = std::size_t(nodes), slice = count / std::size_t(out.grid.size[2]);
+    const SkyDirections middles = sky_directions();
     parallel_for(context.threads, out.grid.size[2], [&](std::int64_t z, int) {
         const std::size_t begin = std::size_t(z) * slice;
+        if (view.turned) {
+            turn_sky_nodes({out.grid, &view, &out.phase, &middles, out.sets, octaves.count, r.share,
+                            out.seen.span()},
+                           begin, begin + slice, out.light.data());
+            return;
+        }
         for (int s = 0; s < out.sets; ++s) {
             float* light = out.light.data() + std::size_t(s) * count;
             std::fill_n(light + begin, slice, 0.0f);

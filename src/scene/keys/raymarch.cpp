@@ -74,7 +74,7 @@ constexpr KeyRow kRows[] = {
      "cone_deg, one after the other; softens shades"},
     {"raymarch.sky_light", raymarch<&RaymarchSettings::sky_ambient>, one_of("none|ambient"), "",
      "light of sky and ground in the medium: none, or what reaches coarse nodes from 24 "
-     "directions, scattered alike everywhere; approximation"},
+     "directions, scattered towards the camera; approximation"},
     {"raymarch.detail", raymarch<&RaymarchSettings::detail>, any(), "",
      "true: where steps or pixels are wider than cells, coarser densities are marched"},
     {"raymarch.jitter", raymarch<&RaymarchSettings::jitter>, one_of("none|hash|blue-noise"), "",
