@@ -3,16 +3,53 @@
 # in: a target, the most files of a piece -> out: its files in pieces: those that include fmt or
 # nlohmann/json in pieces of their own; files that give the same name to something of theirs apart
 # PILEUS_TOGETHER=OFF compiles each file by itself, which is what one wants who edits a few.
+# A file that names a type or constant of its own as a header does is compiled by itself.
+
+# Names of types and constants at the start of lines of `text`.
+function(pileus_own_names text result)
+    string(REPLACE "[" "(" text "\n${text}")
+    string(REGEX MATCHALL "\n(struct|class|enum class|union|using) [A-Za-z_][A-Za-z0-9_]*" types "${text}")
+    list(TRANSFORM types REPLACE ".* " "")
+    string(REGEX MATCHALL "\n(constexpr|const) [^\n;=]*[ =({]" lines "${text}")
+    string(REGEX MATCHALL "k[A-Z][A-Za-z0-9]*" constants "${lines}")
+    set(${result} ${types} ${constants} PARENT_SCOPE)
+endfunction()
+
+# The same of all headers, once.
+function(pileus_header_names result)
+    get_property(names GLOBAL PROPERTY PILEUS_HEADER_NAMES)
+    if(NOT names)
+        file(GLOB_RECURSE headers "${PROJECT_SOURCE_DIR}/src/*.h" "${PROJECT_SOURCE_DIR}/platform/*.h"
+            "${PROJECT_SOURCE_DIR}/kernels_cpu/*.h")
+        foreach(header IN LISTS headers)
+            file(READ "${header}" text)
+            pileus_own_names("${text}" own)
+            list(APPEND names ${own})
+        endforeach()
+        list(REMOVE_DUPLICATES names)
+        set_property(GLOBAL PROPERTY PILEUS_HEADER_NAMES "${names}")
+    endif()
+    set(${result} ${names} PARENT_SCOPE)
+endfunction()
+
 function(pileus_compile_together target most)
     if(NOT PILEUS_TOGETHER)
         return()
     endif()
     get_target_property(sources ${target} SOURCES)
+    pileus_header_names(header_names)
     foreach(source IN LISTS sources)
         if(NOT source MATCHES "[.]cpp$")
             continue()
         endif()
         file(READ "${source}" text)
+        pileus_own_names("${text}" own)
+        set(both ${own})
+        list(REMOVE_ITEM both ${header_names})
+        if(NOT "${both}" STREQUAL "${own}")
+            set_source_files_properties("${source}" PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
+            continue()
+        endif()
         # The large headers, and what tests share, whose names others may give to something of theirs.
         string(REGEX MATCHALL "\n#include (<(fmt|nlohmann)/|\"tests/[^\"]*)" kind "${text}")
         list(TRANSFORM kind REPLACE "<(fmt|nlohmann)/.*" "text")

@@ -153,6 +153,7 @@ struct CollectorSettings {
     int cell_voxels = 2;          ///< edge of such a cell, voxels; 1..64
     bool paper = false;           ///< variant = "paper"
     bool billboards = false;      ///< display = "billboards"
+    bool guided_nodes = false;    ///< node_filter = "guided" or "surroundings"
     Compositor compositor = Compositor::kBuiltin;
     bool rejection_sampler = false;  ///< sampler = "rejection" (paper) or "stratified"
     bool variance_field = false;     ///< placement = "variance" or "gradient"

@@ -34,6 +34,15 @@ NodeGrid source_grid_of(const CollectorsRun& run) {
     return make_node_grid(run.world->medium.grid, run.world->medium.extent_m, source_spacing(run));
 }
 
+/// Share of a depth towards the sun by which light fades that is scattered on its way: 1 - g, the
+/// mean over the media.
+float sun_fades(const Medium& medium) {
+    float g = 0;
+    for (int i = 0; i < medium.count; ++i)
+        g += phase_moment(medium.optics[std::size_t(i)].phase, 1) / float(medium.count);
+    return 1 - g;
+}
+
 /// The prior weighs as much as the medium that eight scatterings happen in on average.
 SplatOptions splat_options(const CollectorsRun& run) {
     double mass = 0, scatterings = 0;
@@ -54,6 +63,10 @@ Status splat(const Context& context, Span<const float> colour, int numbers, cons
     const StageClock clock(context, "splat");
     SplatOptions options = splat_options(run);
     options.beside = beside;
+    options.guided = run.scene->collectors.guided_nodes;
+    options.sun_depth = sun_depths_at(run, nodes);
+    options.sun_fades = sun_fades(run.world->medium);
+    options.positive = shows_harmonics(run) ? 0 : 3;
     return splat_colours(run.prepared.collectors.span(), colour, numbers, nodes, options,
                          context.threads, run.source);
 }
@@ -204,6 +217,7 @@ void collectors_size_display(const CollectorsRun& run, const Context& context,
     if (!sizes.marched) return;
     const NodeGrid nodes = source_grid_of(run);
     sizes.source_nodes = source_nodes(nodes);
+    sizes.guided_nodes = run.scene->collectors.guided_nodes ? node_count(nodes) : 0;
     // Without scattered light there is one dark node.
     sizes.planes_by_channel = sizes.planes;
     sizes.fine_nodes = reads_quads(context, int(sizes.planes), nodes) ? 1 : node_count(nodes);

@@ -7,7 +7,7 @@
 #include "kernels_cpu/display/blend_params.h"
 #include "src/methods/collectors/billboards/billboard_spheres.h"
 #include "src/methods/collectors/collectors_display.h"
-#include "src/methods/collectors/photons/source_grid.h"
+#include "src/methods/collectors/photons/guided_grid.h"
 #include "src/methods/collectors/prepare/place_collectors.h"
 #include "src/methods/collectors/prepare/shares.h"
 #include "src/methods/collectors/prepare/tree.h"
@@ -87,6 +87,9 @@ void add_light(const CollectorsSizes& s, MemoryTable& t) {
     if (s.marched) {
         add(t, arrays::splat_colours(source + 1, s.collectors));
         add(t, arrays::source_grid(source + 1, s.source_nodes, Stage::kWrite));
+        if (s.guided_nodes > 0)
+            add(t, arrays::node_guides(s.guided_nodes),
+                arrays::guided_sums(source + 1, s.source_nodes - s.guided_nodes));
         add(t, arrays::source_by_node(s.numbers_by_node));
         add(t, arrays::source_planes(s.planes_by_channel, s.fine_nodes));
     }

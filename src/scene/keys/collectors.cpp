@@ -53,6 +53,10 @@ constexpr KeyRow kRows[] = {
      "first_order_split have the defaults \"billboards\", \"rejection\" and false"},
     {"collectors.display", collectors<&CollectorSettings::billboards>, one_of("march|billboards"),
      "", "how the lit collectors become a picture"},
+    {"collectors.node_filter", collectors<&CollectorSettings::guided_nodes>,
+     one_of("surroundings|guided"), "",
+     "what nodes lean on that few photons met: the mean around them, or a fit over what is known "
+     "there without noise (docs/collectors.md); of the marched picture alone"},
     {"collectors.compositor", collectors<&CollectorSettings::compositor>,
      one_of("builtin|osmesa|egl"), "",
      "who blends billboards: pileus, or OpenGL by a foreign library, to compare; its "

@@ -7,6 +7,8 @@
 
 #include "kernels_cpu/display/lit_nodes.h"
 #include "platform/threads.h"
+#include "src/methods/collectors/photons/guided_grid.h"
+#include "src/methods/collectors/photons/node_pyramid.h"
 #include "src/picture/nodes/node_rows.h"
 
 namespace pileus {
@@ -71,16 +73,6 @@ Status colours_side_by_side(Span<const float> colour, std::size_t collectors, in
     return Status::ok();
 }
 
-/// to += factor * from, numbers side by side; four are a colour and its weight.
-void add_scaled(float factor, const float* from, std::size_t count, float* to) {
-    if (count == 4) {
-        const F<4> sum = load_quad(to) + all<F<4>>(factor) * load_quad(from);
-        __builtin_memcpy(to, &sum, sizeof sum);
-        return;
-    }
-    for (std::size_t i = 0; i < count; ++i) to[i] += factor * from[i];
-}
-
 /// Adds every ball's share to the nodes of one slice, in the order of the collectors.
 void splat_slice(Span<const Collector> collectors, const float* colour, std::size_t own,
                  const NodeGrid& g, const SplatOptions& options, const Balls& balls, int z,
@@ -115,46 +107,17 @@ void splat_slice(Span<const Collector> collectors, const float* colour, std::siz
     }
 }
 
-/// One level of the pyramid: sums over 2^level nodes along each axis.
-struct Level {
-    int size[3];
-    std::size_t first;  ///< its first node among those of all levels
-    std::size_t nodes() const {
-        return std::size_t(size[0]) * std::size_t(size[1]) * std::size_t(size[2]);
-    }
-    std::size_t row(int y, int z) const {
-        return std::size_t(z) * std::size_t(size[1]) + std::size_t(y);
-    }
-    std::size_t node(int x, std::size_t row) const {
-        return row * std::size_t(size[0]) + std::size_t(x);
-    }
-};
-
-std::vector<Level> pyramid_levels(const NodeGrid& g) {
-    std::vector<Level> levels;
-    Level level{{g.size[0], g.size[1], g.size[2]}, 0};
-    for (;;) {
-        levels.push_back(level);
-        if (level.nodes() == 1) return levels;
-        level.first += level.nodes();
-        for (int& n : level.size) n = (n + 1) / 2;
-    }
-}
-
-/// Threads for a level: waking them takes as long as thousands of nodes.
-int threads_of(const Level& level, int threads) { return level.nodes() < 8192 ? 1 : threads; }
-
 /// Levels of `own` numbers a node: channels and, last, the weight.
 struct Pyramid {
-    std::vector<Level> levels;
+    std::vector<NodeLevel> levels;
     std::size_t own;
     float* numbers;
-    float* of(const Level& level) const { return numbers + level.first * own; }
+    float* of(const NodeLevel& level) const { return numbers + level.first * own; }
 };
 
 /// Adds the eight children of each node of `up` in slice z; of each row of `fine` those within
 /// `touched`, or all where that is null.
-void sum_slice(const Level& fine, const Level& up, const NodeRange* touched, int z,
+void sum_slice(const NodeLevel& fine, const NodeLevel& up, const NodeRange* touched, int z,
                const Pyramid& p) {
     const float* from = p.of(fine);
     float* to = p.of(up);
@@ -189,8 +152,8 @@ void lean(const float* coarse, const Corners<float>& around, float prior, std::s
 
 /// Turns sums into means that lean on the coarser level's where they hold less than `prior`; of
 /// each row those within `read`, or all where that is null. `last`: what takes the weight's place.
-void settle_slice(const Level& fine, const Level* up, const NodeRange* read, const float* last,
-                  float prior, bool wraps, int z, const Pyramid& p) {
+void settle_slice(const NodeLevel& fine, const NodeLevel* up, const NodeRange* read,
+                  const float* last, float prior, bool wraps, int z, const Pyramid& p) {
     // Places along x are the same in each row.
     std::vector<Corners<float>> columns;
     for (int x = 0; x < fine.size[0] && up != nullptr; ++x)
@@ -221,15 +184,26 @@ void settle_slice(const Level& fine, const Level* up, const NodeRange* read, con
 
 }  // namespace
 
+std::vector<NodeLevel> node_levels(const NodeGrid& g) {
+    std::vector<NodeLevel> levels;
+    NodeLevel level{{g.size[0], g.size[1], g.size[2]}, 0};
+    for (;;) {
+        levels.push_back(level);
+        if (level.nodes() == 1) return levels;
+        level.first += level.nodes();
+        for (int& n : level.size) n = (n + 1) / 2;
+    }
+}
+
 std::uint64_t source_nodes(const NodeGrid& g) {
-    const Level last = pyramid_levels(g).back();
+    const NodeLevel last = node_levels(g).back();
     return last.first + last.nodes();
 }
 
 Status splat_colours(Span<const Collector> collectors, Span<const float> colour, int channels,
                      const NodeGrid& nodes, const SplatOptions& options, int threads,
                      Buffer<float>& source) {
-    Pyramid p{pyramid_levels(nodes), std::size_t(channels) + 1, nullptr};
+    Pyramid p{node_levels(nodes), std::size_t(channels) + 1, nullptr};
     const auto numbers = arrays::source_grid(p.own, source_nodes(nodes), Stage::kDisplay);
     PILEUS_TRY(allocate_once(numbers, source));
     p.numbers = source.data();
@@ -237,7 +211,7 @@ Status splat_colours(Span<const Collector> collectors, Span<const float> colour,
     PILEUS_TRY(colours_side_by_side(colour, collectors.size, channels, own));
     Balls balls;
     list_balls(collectors, nodes, options, balls);
-    const Level& finest = p.levels.front();
+    const NodeLevel& finest = p.levels.front();
     const std::size_t rows = std::size_t(nodes.size[1]) * std::size_t(nodes.size[2]);
     std::vector<NodeRange> touched(rows, NodeRange{nodes.size[0], 0});
     const std::size_t slice = finest.nodes() / std::size_t(nodes.size[2]) * p.own;
@@ -246,6 +220,9 @@ Status splat_colours(Span<const Collector> collectors, Span<const float> colour,
         splat_slice(collectors, own.data(), p.own, nodes, options, balls, int(z), p.numbers,
                     touched);
     });
+    const std::vector<NodeRange> read = nodes_in_medium(nodes, options.medium);
+    if (options.guided)
+        return guide_nodes(nodes, options, channels, touched, read, threads, source);
     std::fill(p.numbers + finest.nodes() * p.own, p.numbers + source.size(), 0.0f);
     for (std::size_t l = 1; l < p.levels.size(); ++l)
         parallel_for(threads_of(p.levels[l], threads), p.levels[l].size[2],
@@ -255,7 +232,6 @@ Status splat_colours(Span<const Collector> collectors, Span<const float> colour,
                      });
     // A prior of nothing would divide zero by zero where no collector reaches.
     const float prior = options.prior_mass > 1e-30f ? options.prior_mass : 1e-30f;
-    const std::vector<NodeRange> read = nodes_in_medium(nodes, options.medium);
     for (std::size_t l = p.levels.size(); l-- > 0;)
         parallel_for(
             threads_of(p.levels[l], threads), p.levels[l].size[2], [&](std::int64_t z, int) {

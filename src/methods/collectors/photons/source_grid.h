@@ -37,7 +37,11 @@ struct SplatOptions {
     /// Where medium is, so that no other nodes of the finest level are made: they hold sums that
     /// nobody may read. Without a density all nodes are made.
     MediumView medium{};
-    const float* beside = nullptr;  ///< one more number of each node, kept after its channels
+    const float* beside = nullptr;     ///< one more number of each node, kept after its channels
+    bool guided = false;               ///< see guided_grid.h
+    const float* sun_depth = nullptr;  ///< where guided: the sun's optical depth of each node
+    float sun_fades = 0;               ///< by e^-(so much of it) guides
+    int positive = 0;                  ///< channels, the first ones, that are no less than zero
 };
 
 /// Weighted mean per node over the collectors whose ball (radius_factor times the collector's
