@@ -23,6 +23,8 @@ function(pileus_header_names result)
             "${PROJECT_SOURCE_DIR}/kernels_cpu/*.h")
         foreach(header IN LISTS headers)
             file(READ "${header}" text)
+            # Constants within its functions, too: another file's would be hidden by them.
+            string(REGEX REPLACE "\n +constexpr" "\nconstexpr" text "${text}")
             pileus_own_names("${text}" own)
             list(APPEND names ${own})
         endforeach()
