@@ -22,6 +22,9 @@ TEST_CASE("keys that do not go together") {
         {kCamera + "height_m = 30\n",
          "s.toml:4:1: camera.height_m: conflicts with projection "
          "\"perspective\", 30, allowed: left out"},
+        {kCamera + "[collectors]\ndisplay = \"billboards\"\nnode_filter = \"guided\"\n",
+         "s.toml:6:15: collectors.node_filter: filters nodes of the march, which billboards have "
+         "not, \"guided\", allowed: surroundings, or display = \"march\""},
         {kCamera + "projection = \"flux\"\n",
          "s.toml:4:14: camera.projection: measured by no method but path, \"flux\", allowed: "
          "perspective, orthographic with method collectors"},

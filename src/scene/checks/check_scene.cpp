@@ -200,6 +200,16 @@ void check_compositor(SceneCheck& check) {
                              ", allowed: builtin, or layers without depth");
 }
 
+/// Billboards show collectors themselves.
+void check_node_filter(SceneCheck& check) {
+    const CollectorSettings& settings = check.scene.collectors;
+    const Node* node = check.key("collectors.node_filter");
+    if (!settings.guided_nodes || !settings.billboards || node == nullptr) return;
+    check.faults.add(node->at, "collectors.node_filter",
+                     "filters nodes of the march, which billboards have not, " + value_text(*node) +
+                         ", allowed: surroundings, or display = \"march\"");
+}
+
 /// A lens and a shutter belong to one display; elsewhere pictures would be sharp unasked.
 void check_lens(SceneCheck& check) {
     const Scene& scene = check.scene;
@@ -245,6 +255,7 @@ void check_laws(SceneCheck& check) {
     for (std::size_t i = 0; i < scene.media.size(); ++i) check_medium(check, i);
     check_periodic(check);
     check_compositor(check);
+    check_node_filter(check);
     check_lens(check);
     check_solids(check);
     check_lights(check);
