@@ -197,6 +197,14 @@ struct PathSettings {
     bool guide = true;  ///< a peaked phase function's light is also sought from near the sun
 };
 
+enum class FilterKind { kNone, kRegression };
+
+/// What makes a noisy picture smooth.
+struct FilterSettings {
+    FilterKind kind = FilterKind::kNone;
+    int radius_pixels = 0;  ///< of the windows; 0: by the noise
+};
+
 enum class RaymarchIntegrator { kClosed, kRiemann, kTrapezoid, kSimpson, kSimpson38 };
 enum class RaymarchSpacing { kUniform, kVoxel, kOptimal, kGeometric };
 enum class RaymarchJitterKind { kNone, kHash, kBlueNoise };
@@ -302,6 +310,7 @@ struct Scene {
     std::string method = "collectors";
     CollectorSettings collectors;
     PathSettings path;
+    FilterSettings filter;
     RaymarchSettings raymarch;
     OpticalDepthSettings optical_depth;
     PhotonGridSettings photon_grid;

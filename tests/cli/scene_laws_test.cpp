@@ -25,6 +25,9 @@ TEST_CASE("keys that do not go together") {
         {kCamera + "[collectors]\ndisplay = \"billboards\"\nnode_filter = \"guided\"\n",
          "s.toml:6:15: collectors.node_filter: filters nodes of the march, which billboards have "
          "not, \"guided\", allowed: surroundings, or display = \"march\""},
+        {kCamera + "[filter]\nkind = \"regression\"\n",
+         "s.toml:5:8: filter.kind: filters pictures of method path alone, \"regression\", allowed: "
+         "none, or method.name = \"path\""},
         {kCamera + "projection = \"flux\"\n",
          "s.toml:4:14: camera.projection: measured by no method but path, \"flux\", allowed: "
          "perspective, orthographic with method collectors"},

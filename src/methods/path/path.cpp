@@ -23,7 +23,7 @@ Status check(const Scene& scene, const Budget& budget) {
                                  ": output.layers: a flat detector (camera.projection \"flux\") "
                                  "sees along no single ray, allowed: radiance, alpha, error, "
                                  "cloud, light, order");
-    return Status::ok();
+    return check_path_filter(scene);
 }
 
 /// Light for the medium as it is known now; a map lights by its own radiances.
@@ -41,6 +41,10 @@ void digest_prepared(PathRun& run) {
 Status outline(const Context& context, MethodRun& method_run) {
     PathRun& run = own(method_run);
     PILEUS_TRY(check_host_lights(context, *run.scene, run.world->medium));
+    if (context.kernels->device != nullptr && path_filters(*run.scene))
+        return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
+                                 "\": filter.kind = \"regression\" runs on the host alone, "
+                                 "allowed: another, or none");
     choose_light(sun_at(*run.scene, 0), run);
     run.camera = make_camera(run.scene->camera, 0, run.world->medium.low_m);
     return path_measure(context, run);
@@ -131,7 +135,7 @@ PathInput path_input(const Context& context, const PathRun& run) {
     in.jitter = !run.scene->path.centre;
     in.guide = run.scene->path.guide;
     in.sun_radius_deg = run.scene->sun.angular_radius_deg;
-    in.parts = path_parts(run.scene->output);
+    in.parts = path_parts(run.scene->output) || (path_filters(*run.scene) && run.lighting.opaque());
     return in;
 }
 

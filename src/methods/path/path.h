@@ -5,6 +5,7 @@
 #pragma once
 #include "src/methods/methods.h"
 #include "src/methods/path/trace_paths.h"
+#include "src/picture/filter/guides.h"
 #include "src/picture/layers.h"
 #include "src/plan/plan.h"
 #include "src/world/camera/view.h"
@@ -19,6 +20,7 @@ struct PathRun : MethodRun {
     CameraParams camera{};
     std::uint64_t seed = 0;  ///< of the frame
     Planes planes;
+    FilterGuides guides;  ///< empty without a filter
     Film film;
     PathScratch scratch;
     PathTally earlier{};  ///< of what a state file brought
@@ -52,6 +54,13 @@ Status path_light(const FrameStep& step, const Context& context, MethodRun& run)
 Status path_begin(const Context& context, PathRun& run);
 Status path_advance(std::uint64_t samples, const Context& context, PathRun& run);
 Status path_planes(const Context& context, PathRun& run);
+
+/// Whether the picture is filtered, and what that asks of a scene. kBadInput: it cannot be.
+inline bool path_filters(const Scene& scene) { return scene.filter.kind != FilterKind::kNone; }
+Status check_path_filter(const Scene& scene);
+
+/// Takes the noise out of the planes' colour. kLimit: out of memory.
+Status path_filter(const Context& context, PathRun& run);
 
 /// The error of the film over the cloud's pixels, of numbers as the image holds them.
 ErrorSum path_error(const PathRun& run);

@@ -6,6 +6,7 @@
 #include "src/methods/path/path_blocks.h"
 #include "src/methods/path/path_passes.h"
 #include "src/methods/path/path_state.h"
+#include "src/picture/filter/regression.h"
 #include "src/world/plan_parts.h"
 
 namespace pileus {
@@ -75,6 +76,7 @@ void note_parts(const Scene& scene, const PathRun& run, Plan& plan) {
     if (!output.layer_optical_depth) plan.leave_out("optical depth", "no optical_depth layer");
     if (!output.layer_error) plan.leave_out("standard error per pixel", "no error layer");
     if (scene.path.centre) plan.leave_out("rays spread over pixels", "pixel = \"centre\"");
+    if (!path_filters(scene)) plan.leave_out("filter of the picture", "filter.kind = \"none\"");
     if (run.budget.state.empty()) plan.leave_out("state of the tracing", "no --state");
 }
 
@@ -83,6 +85,10 @@ void note_plan(PathRun& run) {
     Plan& plan = run.plan;
     plan = Plan{};
     plan.bias = {"path", "none", "docs/path.md"};
+    if (path_filters(scene))
+        plan.bias = {"path, filtered",
+                     "small, where light follows nothing that is known without noise",
+                     "docs/filter.md"};
     if (scene.path.max_depth > 0)
         plan.bias.size = "light scattered more than " + std::to_string(scene.path.max_depth) +
                          " times is missing";
@@ -140,6 +146,13 @@ void weigh_memory(const Context& context, PathRun& run) {
                                 (output.layer_light ? 3u : 0u) + (output.layer_order ? 3u : 0u) +
                                 (output.layer_error ? 3u : 0u);
     add(t, arrays::film_means(light, pixels));
+    if (path_filters(scene)) {
+        add(t, arrays::guide_nodes(run.world->medium, run.world->solids.meshes),
+            arrays::guide_planes(pixels));
+        if (!output.layer_optical_depth) add(t, arrays::picture_planes(1, pixels, Stage::kPaths));
+        add(t, arrays::film_means(9, pixels), arrays::filter_features(pixels));
+        add(t, arrays::filter_sums(scene.camera.resolution[0], scene.camera.resolution[1]));
+    }
     add_image_rows(std::uint64_t(scene.camera.resolution[0]),
                    std::uint64_t(scene.camera.resolution[1]),
                    4 + extra_layers(output, output.layer_error), t);

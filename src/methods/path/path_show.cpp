@@ -33,6 +33,7 @@ Status error_planes(const Film& film, Buffer<float>& out) {
 
 /// The film as planes; only what a layer shows.
 Status fill_planes(const Context& context, PathRun& run) {
+    const StageClock clock(context, "layers");
     const OutputSettings& output = run.scene->output;
     Planes& p = run.planes;
     PILEUS_TRY(mean_planes(context, run.film, kPathTotal, p.colour));
@@ -76,17 +77,17 @@ ErrorSum path_error(const PathRun& run) {
 }
 
 Status path_planes(const Context& context, PathRun& run) {
-    const StageClock clock(context, "layers");
-    return fill_planes(context, run);
+    PILEUS_TRY(fill_planes(context, run));
+    return path_filters(*run.scene) ? path_filter(context, run) : Status::ok();
 }
 
 Status path_show(const FrameStep&, const Context& context, MethodRun& method_run, Image& image) {
     PathRun& run = static_cast<PathRun&>(method_run);
     Report& report = *context.report;
-    const StageClock clock(context, "layers");
     report.digests = run.digests;
     if (context.digests) report.digests.emplace_back("film", film_digest(run.film));
-    PILEUS_TRY(fill_planes(context, run));
+    PILEUS_TRY(path_planes(context, run));
+    const StageClock clock(context, "layers");
     report.counters.clear();
     std::uint64_t clamped = 0;
     PILEUS_TRY(make_layers(run.planes, run.film.width, run.film.height, 3, run.scene->output, image,
@@ -100,6 +101,7 @@ Status path_show(const FrameStep&, const Context& context, MethodRun& method_run
     report_solids(run.world->solids, run.around.depth, report);
     set_image_camera(run.camera, run.world->medium.low_m, image);
     run.planes = Planes{};
+    run.guides = FilterGuides{};
     run.film.sum = Buffer<double>();
     run.film.square = Buffer<double>();
     return Status::ok();

@@ -210,6 +210,16 @@ void check_node_filter(SceneCheck& check) {
                          ", allowed: surroundings, or display = \"march\"");
 }
 
+/// Pictures without noise, or with noise of another kind, have no use of it.
+void check_filter(SceneCheck& check) {
+    const Scene& scene = check.scene;
+    const Node* node = check.key("filter.kind");
+    if (scene.filter.kind == FilterKind::kNone || scene.method == "path" || node == nullptr) return;
+    check.faults.add(node->at, "filter.kind",
+                     "filters pictures of method path alone, " + value_text(*node) +
+                         ", allowed: none, or method.name = \"path\"");
+}
+
 /// A lens and a shutter belong to one display; elsewhere pictures would be sharp unasked.
 void check_lens(SceneCheck& check) {
     const Scene& scene = check.scene;
@@ -256,6 +266,7 @@ void check_laws(SceneCheck& check) {
     check_periodic(check);
     check_compositor(check);
     check_node_filter(check);
+    check_filter(check);
     check_lens(check);
     check_solids(check);
     check_lights(check);

@@ -37,6 +37,7 @@ std::vector<const KeyRow*> all_scene_keys() {
     add(recipe_keys());
     add(method_keys());
     for (const MethodKeys& method : all_methods()) add(method.rows());
+    add(filter_keys());
     add(later_keys());
     add(output_keys());
     return rows;

@@ -24,6 +24,7 @@ Span<const KeyRow> recipe_keys();         // medium.plume, medium.particle_cumul
 Span<const KeyRow> method_keys();         // method
 Span<const KeyRow> collectors_keys();     // collectors
 Span<const KeyRow> path_keys();           // path
+Span<const KeyRow> filter_keys();         // filter
 Span<const KeyRow> raymarch_keys();       // raymarch
 Span<const KeyRow> particles_keys();      // particles
 Span<const KeyRow> optical_depth_keys();  // optical_depth

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// See guides.h.
+#include "src/picture/filter/guides.h"
+
+#include "kernels_cpu/core/math.h"
+#include "platform/threads.h"
+#include "src/picture/background.h"
+#include "src/picture/nodes/node_grid.h"
+#include "src/picture/nodes/node_rows.h"
+#include "src/picture/nodes/solid_shadow.h"
+
+namespace pileus {
+namespace {
+
+constexpr int kNodeVoxels = 2;  // spacing of the nodes
+
+NodeGrid guide_grid(const Medium& medium) {
+    NodeGrid g{};
+    for (int a = 0; a < 3; ++a) {
+        g.size[a] = int((medium.grid.size[a] + 1) / kNodeVoxels);
+        g.per_metre[a] = float(g.size[a] / medium.extent_m[a]);
+    }
+    return g;
+}
+
+/// Light on nodes, side by side: nothing, the two guides, the optical depth.
+Status pack(const Context& context, const std::vector<NodeRange>& rows, FilterGuides& guides) {
+    const NodeGrid& g = guides.nodes;
+    const std::size_t ny = std::size_t(g.size[1]), nx = std::size_t(g.size[0]);
+    const bool veiled = !guides.visibility.empty();
+    parallel_for(context.threads, g.size[2], [&](std::int64_t z, int) {
+        for (std::size_t row = std::size_t(z) * ny; row < (std::size_t(z) + 1) * ny; ++row)
+            for (int x = rows[row].first; x < rows[row].last; ++x) {
+                const std::size_t n = row * nx + std::size_t(x);
+                float* quad = guides.quads.data() + 4 * n;
+                const float seen = veiled ? guides.visibility[n] : 1.0f;
+                const float depth = guides.sun_depth[n];
+                for (int i = 0; i < kGuidePlanes - 1; ++i)
+                    quad[i + 1] = seen * exp_(-kGuideShares[i] * depth);
+                quad[3] = depth;
+            }
+    });
+    return Status::ok();
+}
+
+/// Light on nodes for the sun as it stands.
+Status light_nodes(const Context& context, const Medium& medium, const MediumView& view,
+                   const Lighting& lighting, FilterGuides& guides) {
+    const StageClock clock(context, "filter guides");
+    guides.nodes = guide_grid(medium);
+    const std::uint64_t count = node_count(guides.nodes);
+    constexpr const char* kName = "filter's nodes";
+    PILEUS_TRY(guides.quads.resize(count * 4, kName));
+    if (!lighting.sunlit) return Status::ok();
+    PILEUS_TRY(guides.sun_depth.resize(count, kName));
+    ShadowParams k{};
+    k.medium = view;
+    k.nodes = guides.nodes;
+    for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = lighting.to_sun[a];
+    const std::vector<NodeRange> rows = nodes_in_medium(k.nodes, k.medium);
+    const ShadowBuffers b{guides.sun_depth.data(), rows.data()};
+    PILEUS_TRY(run_rows(context, context.kernels->shadow_rows, k, b,
+                        std::uint32_t(k.nodes.size[1] * k.nodes.size[2])));
+    if (lighting.solids != nullptr)
+        PILEUS_TRY(solid_visibility(context, *lighting.solids, guides.nodes, lighting.to_sun,
+                                    guides.visibility));
+    return pack(context, rows, guides);
+}
+
+/// One plane has the sun's first order, per irradiance; the others what nodes hold.
+MarchParams march_params(const Medium& medium, const MediumView& view, const Lighting& lighting,
+                         const CameraParams& camera, const NodeGrid& nodes) {
+    MarchParams k{};
+    k.medium = view;
+    k.camera = camera;
+    k.lattice = whole_lattice(camera);
+    k.media = medium.count;
+    for (std::size_t a = 0; a < 3; ++a) k.sun_travel[a] = -lighting.to_sun[a];
+    for (int i = 0; i < medium.count; ++i) {
+        const Optics& optics = medium.optics[std::size_t(i)];
+        k.phase[i] = optics.phase;
+        const float albedo = (optics.albedo[0] + optics.albedo[1] + optics.albedo[2]) / 3;
+        k.sun_source[i][0] = lighting.sunlit ? albedo : 0;
+    }
+    k.shadow = k.source = nodes;
+    k.channels = kGuidePlanes;
+    k.together = 1;
+    return k;
+}
+
+}  // namespace
+
+Array<float> arrays::guide_nodes(const Medium& medium, bool solids) {
+    return {"light on nodes for the filter",
+            bytes_of(node_count(guide_grid(medium)), solids ? 6 : 5), Stage::kPaths, Stage::kPaths};
+}
+
+Status march_guides(const Context& context, const Medium& medium, const Majorants& majorants,
+                    const Lighting& lighting, const CameraParams& camera, bool half_depth,
+                    Planes& planes, FilterGuides& guides) {
+    const MediumView view = make_medium_view(medium, majorants);
+    const std::uint32_t rows = std::uint32_t(camera.height);
+    const std::uint64_t pixels = std::uint64_t(camera.width) * rows;
+    PILEUS_TRY(light_nodes(context, medium, view, lighting, guides));
+    const StageClock clock(context, "alpha");
+    PILEUS_TRY(allocate(arrays::picture_planes(1, pixels), planes.optical_depth));
+    PILEUS_TRY(allocate(arrays::guide_planes(pixels), guides.planes));
+    if (lighting.opaque()) {
+        BackgroundParams k{};
+        k.medium = view;
+        k.camera = camera;
+        k.ground = lighting.ground ? 1 : 0;
+        k.ground_z = float(lighting.ground_z);
+        const BackgroundBuffers b{nullptr, nullptr, planes.opaque_depth.data()};
+        PILEUS_TRY(show_background(context, lighting, k, b));
+    }
+    const MarchParams k = march_params(medium, view, lighting, camera, guides.nodes);
+    MarchBuffers b{};
+    b.opaque_depth = planes.opaque_depth.data();
+    b.parts = medium.parts.data();
+    b.transmittance = planes.transmittance.data();
+    b.half_depth = half_depth ? planes.half_depth.data() : nullptr;
+    b.ray_depth = planes.optical_depth.data();
+    b.colour = guides.planes.data();
+    b.quads = guides.quads.data();
+    b.optical_depth = guides.sun_depth.data();
+    b.visibility = guides.visibility.data();
+    PILEUS_TRY(run_rows(context, context.kernels->march_rows, k, b, rows));
+    guides.quads = Buffer<float>();
+    guides.sun_depth = Buffer<float>();
+    guides.visibility = Buffer<float>();
+    return Status::ok();
+}
+
+}  // namespace pileus

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// Takes noise out of light by local regressions on what is known of each pixel without noise.
+// in: noisy light, alpha, optical depth, guides -> out: smooth light of nearly the same sum.
+// docs/filter.md; James and Stein 1961 for the shrinkage.
+#pragma once
+#include "src/base/span.h"
+#include "src/plan/array.h"
+
+namespace pileus {
+
+/// Numbers of a pixel that its light is a linear function of, within a window.
+constexpr int kFilterFeatures = 7;
+
+/// Distances from here on are no solid thing's.
+constexpr float kNothingSolid = 3e38f;
+
+struct RegressionInput {
+    int width = 0, height = 0;
+    int threads = 1;
+    const float* transmittance = nullptr;  ///< [pixel]
+    const float* optical_depth = nullptr;  ///< [pixel]
+    const float* guides = nullptr;         ///< [3][pixel]
+    const float* opaque_depth = nullptr;   ///< [pixel]; infinity for the sky; null: sky alone
+    int radius_pixels = 0;                 ///< of all windows; 0: several, by the noise
+};
+
+namespace arrays {
+
+/// Features, sums and coefficients.
+Array<float> filter_features(std::uint64_t pixels);
+Array<double> filter_sums(int width, int height);
+
+}  // namespace arrays
+
+/// Replaces `light`, [3][pixel], of pixels that show medium by what the regressions say of it.
+/// Pixels with sky behind them and others are filtered apart. Same bits for any number of threads.
+/// kLimit: out of memory.
+Status filter_light(const RegressionInput& in, float* light);
+
+}  // namespace pileus
