@@ -60,7 +60,8 @@ std::string film_digest(const Film& film) {
 /// The report tells the error also where no layer shows it.
 void report_error(const PathRun& run, Report& report) {
     const ErrorSum sum = path_error(run);
-    report.has_error = run.film.samples >= 2 && sum.count > 0;
+    // The film's scatter is not what is left of it in a filtered picture.
+    report.has_error = run.film.samples >= 2 && sum.count > 0 && !path_filters(*run.scene);
     if (!report.has_error) return;
     report.mean_relative = sum.mean_relative();
     report.rmse_estimate = __builtin_sqrt(sum.square / sum.count);
