@@ -19,22 +19,13 @@ constexpr float kCut = 1e-4f;  // transmittance that no eye misses
 /// What lies behind three quarters of the light's extinction is seen more coarsely: against even
 /// steps relMSE 1e-6 on the default cumulus (docs/performance.md, "A march's steps").
 constexpr float kWiderBelow[kWiderSteps] = {0.25f, 0.05f, 0.01f};
-constexpr int kShadowVoxels = 2;  // spacing of the shadow nodes
 
 MediumView view_of(const PhotonRun& run) {
     return make_medium_view(run.world->medium, run.majorants);
 }
 
-/// Nodes so many cells apart along each axis: the depth changes from cell to cell, and where cells
-/// are flat it does so over less than their longest edge.
 NodeGrid shadow_grid(const PhotonRun& run) {
-    const Medium& medium = run.world->medium;
-    NodeGrid g{};
-    for (int a = 0; a < 3; ++a) {
-        g.size[a] = int((medium.grid.size[a] + 1) / kShadowVoxels);
-        g.per_metre[a] = float(g.size[a] / medium.extent_m[a]);
-    }
-    return g;
+    return make_half_grid(run.world->medium.grid, run.world->medium.extent_m);
 }
 
 SunTurn turn_of(const PhotonRun& run) {

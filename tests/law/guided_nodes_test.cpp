@@ -7,17 +7,12 @@
 #include <cmath>
 
 #include "src/methods/collectors/photons/guided_grid.h"
+#include "tests/support/hashed_number.h"
 
 using namespace pileus;
+using pileus::test::number;
 
 namespace {
-
-/// A number in [0, 1) for each place.
-float number(std::size_t i, std::uint32_t seed) {
-    std::uint32_t h = std::uint32_t(i) * 2654435761u + seed * 40503u + 12345u;
-    h ^= h >> 15, h *= 2246822519u, h ^= h >> 13, h *= 3266489917u, h ^= h >> 16;
-    return float(h >> 8) * (1.0f / 16777216);
-}
 
 /// Sums on a grid, to be filtered.
 struct Rig {

@@ -34,15 +34,6 @@ NodeGrid source_grid_of(const CollectorsRun& run) {
     return make_node_grid(run.world->medium.grid, run.world->medium.extent_m, source_spacing(run));
 }
 
-/// Share of a depth towards the sun by which light fades that is scattered on its way: 1 - g, the
-/// mean over the media.
-float sun_fades(const Medium& medium) {
-    float g = 0;
-    for (int i = 0; i < medium.count; ++i)
-        g += phase_moment(medium.optics[std::size_t(i)].phase, 1) / float(medium.count);
-    return 1 - g;
-}
-
 /// The prior weighs as much as the medium that eight scatterings happen in on average.
 SplatOptions splat_options(const CollectorsRun& run) {
     double mass = 0, scatterings = 0;
@@ -65,7 +56,8 @@ Status splat(const Context& context, Span<const float> colour, int numbers, cons
     options.beside = beside;
     options.guided = run.scene->collectors.guided_nodes;
     options.sun_depth = sun_depths_at(run, nodes);
-    options.sun_fades = sun_fades(run.world->medium);
+    // Light that is scattered forward on its way has not faded.
+    options.sun_fades = 1 - mean_cosine(run.world->medium);
     options.positive = shows_harmonics(run) ? 0 : 3;
     return splat_colours(run.prepared.collectors.span(), colour, numbers, nodes, options,
                          context.threads, run.source);

@@ -12,19 +12,10 @@
 namespace pileus {
 namespace {
 
-constexpr int kNodeVoxels = 2;  // spacing of the nodes
-
-NodeGrid guide_grid(const Medium& medium) {
-    NodeGrid g{};
-    for (int a = 0; a < 3; ++a) {
-        g.size[a] = int((medium.grid.size[a] + 1) / kNodeVoxels);
-        g.per_metre[a] = float(g.size[a] / medium.extent_m[a]);
-    }
-    return g;
-}
+NodeGrid guide_grid(const Medium& medium) { return make_half_grid(medium.grid, medium.extent_m); }
 
 /// Light on nodes, side by side: nothing, the two guides, the optical depth.
-Status pack(const Context& context, const std::vector<NodeRange>& rows, FilterGuides& guides) {
+void pack(const Context& context, const std::vector<NodeRange>& rows, FilterGuides& guides) {
     const NodeGrid& g = guides.nodes;
     const std::size_t ny = std::size_t(g.size[1]), nx = std::size_t(g.size[0]);
     const bool veiled = !guides.visibility.empty();
@@ -40,7 +31,6 @@ Status pack(const Context& context, const std::vector<NodeRange>& rows, FilterGu
                 quad[3] = depth;
             }
     });
-    return Status::ok();
 }
 
 /// Light on nodes for the sun as it stands.
@@ -64,7 +54,8 @@ Status light_nodes(const Context& context, const Medium& medium, const MediumVie
     if (lighting.solids != nullptr)
         PILEUS_TRY(solid_visibility(context, *lighting.solids, guides.nodes, lighting.to_sun,
                                     guides.visibility));
-    return pack(context, rows, guides);
+    pack(context, rows, guides);
+    return Status::ok();
 }
 
 /// One plane has the sun's first order, per irradiance; the others what nodes hold.

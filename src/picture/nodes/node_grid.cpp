@@ -16,4 +16,13 @@ NodeGrid make_node_grid(const Grid& grid, const double (&extent_m)[3], double sp
     return g;
 }
 
+NodeGrid make_half_grid(const Grid& grid, const double (&extent_m)[3]) {
+    NodeGrid g{};
+    for (int a = 0; a < 3; ++a) {
+        g.size[a] = (grid.size[a] + 1) / 2;
+        g.per_metre[a] = float(g.size[a] / extent_m[a]);
+    }
+    return g;
+}
+
 }  // namespace pileus

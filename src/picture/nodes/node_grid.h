@@ -11,6 +11,10 @@ namespace pileus {
 /// Nodes at (i + 1/2) * spacing; per axis the spacing is at least `spacing_m` and at least a voxel.
 NodeGrid make_node_grid(const Grid& grid, const double (&extent_m)[3], double spacing_m);
 
+/// Nodes two voxels apart along each axis, for what changes from voxel to voxel along a way through
+/// them, as depths towards the sun do: where voxels are flat, over less than their longest edge.
+NodeGrid make_half_grid(const Grid& grid, const double (&extent_m)[3]);
+
 inline std::uint64_t node_count(const NodeGrid& g) {
     return std::uint64_t(g.size[0]) * std::uint64_t(g.size[1]) * std::uint64_t(g.size[2]);
 }

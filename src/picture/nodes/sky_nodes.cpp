@@ -120,9 +120,7 @@ struct Turns {
 };
 
 Turns turns_of(const Medium& medium, const Octaves& o, const SkyView& view, const Absorption& by) {
-    float g = 0;
-    for (int i = 0; i < medium.count; ++i)
-        g += phase_moment(medium.optics[std::size_t(i)].phase, 1) / float(medium.count);
+    float g = mean_cosine(medium);
     Turns t;
     // An octave that is turned so much more than the one before was scattered so much more often.
     t.albedo = by.albedo;
@@ -172,12 +170,12 @@ Status see_sky(const Context& context, const Medium& medium, const Majorants& ma
     if (out.seen.size() == std::size_t(numbers) * nodes) return Status::ok();
     PILEUS_TRY(allocate_once(arrays::sky_seen(nodes, numbers), out.seen));
     if (view.turned) out.phase = sky_phase(medium);
-    const Turns turns = turns_of(medium, octaves, view, absorption_of(medium));
     ShadowParams k{};
     k.medium = make_medium_view(medium, majorants);
     k.nodes = out.grid;
     const float left = float(1 - kept);
     const Absorption absorption = absorption_of(medium);
+    const Turns turns = turns_of(medium, octaves, view, absorption);
     const SkyDirections middles = sky_directions();
     const std::size_t slice = nodes / std::size_t(out.grid.size[2]);
     for (int p = 0; p < kParts; ++p) {

@@ -172,6 +172,13 @@ float phase_peak(const Medium& medium) {
     return largest;
 }
 
+float mean_cosine(const Medium& medium) {
+    float g = 0;
+    for (int i = 0; i < medium.count; ++i)
+        g += phase_moment(medium.optics[std::size_t(i)].phase, 1) / float(medium.count);
+    return g;
+}
+
 std::string medium_key(const Scene& scene, const MediumSettings& settings) {
     std::size_t index = 0;
     while (index < scene.media.size() && &scene.media[index] != &settings) ++index;

@@ -57,6 +57,9 @@ bool emits(const Medium& medium);
 /// Largest phase function of all media over all angles, 1/sr.
 float phase_peak(const Medium& medium);
 
+/// Mean cosine of scattering, the mean over the media.
+float mean_cosine(const Medium& medium);
+
 /// "medium.N" of settings that belong to the scene, as its keys are named.
 std::string medium_key(const Scene& scene, const MediumSettings& settings);
 

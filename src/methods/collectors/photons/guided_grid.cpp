@@ -65,18 +65,6 @@ void sum_finest(const Nodes& n, const std::vector<NodeRange>& touched,
         }
 }
 
-void sum_coarser(const Nodes& n, std::size_t level, int z) {
-    const NodeLevel& fine = n.levels[level - 1];
-    const NodeLevel& up = n.levels[level];
-    for (int dz = 2 * z; dz < 2 * z + 2 && dz < fine.size[2]; ++dz)
-        for (int y = 0; y < fine.size[1]; ++y)
-            for (int x = 0; x < fine.size[0]; ++x) {
-                const float* from = n.of(fine) + fine.node(x, fine.row(y, dz)) * n.wide;
-                float* to = n.of(up) + up.node(x / 2, up.row(y / 2, z)) * n.wide;
-                for (std::size_t i = 0; i < n.wide; ++i) to[i] += from[i];
-            }
-}
-
 /// Variance of the guides over all medium. One that hardly varies guides nothing.
 void find_spread(Nodes& n) {
     const float* top = n.of(n.levels.back());
@@ -304,7 +292,8 @@ Status guide_nodes(const NodeGrid& g, const SplatOptions& options, int channels,
                          if (l == 1)
                              sum_finest(n, touched, read, int(z));
                          else
-                             sum_coarser(n, l, int(z));
+                             sum_children(n.levels[l - 1], n.of(n.levels[l - 1]), nullptr,
+                                          n.levels[l], int(z), n.wide, n.of(n.levels[l]));
                      });
     if (n.levels.size() > 1) find_spread(n);
     for (std::size_t l = n.levels.size(); l-- > 1;)

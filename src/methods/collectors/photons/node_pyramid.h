@@ -42,4 +42,9 @@ inline void add_scaled(float factor, const float* from, std::size_t count, float
     for (std::size_t i = 0; i < count; ++i) to[i] += factor * from[i];
 }
 
+/// Adds the eight nodes below each node of `up` in slice z, `own` numbers a node; of each row of
+/// `fine` those within `touched`, or all where that is null.
+void sum_children(const NodeLevel& fine, const float* from, const NodeRange* touched,
+                  const NodeLevel& up, int z, std::size_t own, float* to);
+
 }  // namespace pileus

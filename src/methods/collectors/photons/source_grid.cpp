@@ -115,22 +115,6 @@ struct Pyramid {
     float* of(const NodeLevel& level) const { return numbers + level.first * own; }
 };
 
-/// Adds the eight children of each node of `up` in slice z; of each row of `fine` those within
-/// `touched`, or all where that is null.
-void sum_slice(const NodeLevel& fine, const NodeLevel& up, const NodeRange* touched, int z,
-               const Pyramid& p) {
-    const float* from = p.of(fine);
-    float* to = p.of(up);
-    for (int dz = 2 * z; dz < 2 * z + 2 && dz < fine.size[2]; ++dz)
-        for (int y = 0; y < fine.size[1]; ++y) {
-            const std::size_t row = fine.row(y, dz), above = up.row(y / 2, z);
-            const NodeRange xs = touched != nullptr ? touched[row] : NodeRange{0, fine.size[0]};
-            for (int x = xs.first; x < xs.last; ++x)
-                add_scaled(1, from + fine.node(x, row) * p.own, p.own,
-                           to + up.node(x / 2, above) * p.own);
-        }
-}
-
 /// Means of a node that lean on `prior` of the coarser level's, between its nodes.
 void lean(const float* coarse, const Corners<float>& around, float prior, std::size_t own,
           float* numbers) {
@@ -195,6 +179,18 @@ std::vector<NodeLevel> node_levels(const NodeGrid& g) {
     }
 }
 
+void sum_children(const NodeLevel& fine, const float* from, const NodeRange* touched,
+                  const NodeLevel& up, int z, std::size_t own, float* to) {
+    for (int dz = 2 * z; dz < 2 * z + 2 && dz < fine.size[2]; ++dz)
+        for (int y = 0; y < fine.size[1]; ++y) {
+            const std::size_t row = fine.row(y, dz), above = up.row(y / 2, z);
+            const NodeRange xs = touched != nullptr ? touched[row] : NodeRange{0, fine.size[0]};
+            for (int x = xs.first; x < xs.last; ++x)
+                add_scaled(1, from + fine.node(x, row) * own, own,
+                           to + up.node(x / 2, above) * own);
+        }
+}
+
 std::uint64_t source_nodes(const NodeGrid& g) {
     const NodeLevel last = node_levels(g).back();
     return last.first + last.nodes();
@@ -227,8 +223,9 @@ Status splat_colours(Span<const Collector> collectors, Span<const float> colour,
     for (std::size_t l = 1; l < p.levels.size(); ++l)
         parallel_for(threads_of(p.levels[l], threads), p.levels[l].size[2],
                      [&](std::int64_t z, int) {
-                         sum_slice(p.levels[l - 1], p.levels[l], l == 1 ? touched.data() : nullptr,
-                                   int(z), p);
+                         sum_children(p.levels[l - 1], p.of(p.levels[l - 1]),
+                                      l == 1 ? touched.data() : nullptr, p.levels[l], int(z), p.own,
+                                      p.of(p.levels[l]));
                      });
     // A prior of nothing would divide zero by zero where no collector reaches.
     const float prior = options.prior_mass > 1e-30f ? options.prior_mass : 1e-30f;
