@@ -22,6 +22,7 @@ struct Flight {
     Vec<F<W>> from, speed, d;  // voxels; voxels per metre; unit
     Vec<F<W>> plane, gap;      // metres: to the next planes from the beginning, between planes
     F<W> t, exit;              // metres; where the grid ends
+    F<W> cut;                  // metres from where it began to what ends it within the grid
     F<W> tau;                  // optical depth to go
     F<W> bound;                // of the block: majorant, or minus the blocks a leap clears
     F<W> lift;                 // what rounding took from the height, voxels; periodic grids only
@@ -106,7 +107,7 @@ PILEUS_FN M<W> wrap_flights(Flight<W>& s, const TrackGrid& k, M<W> m, M<W>& lost
     };
     const T x = ahead(s.from.x, s.d.x, 0), y = ahead(s.from.y, s.d.y, 1);
     const T z = ahead(s.from.z, s.d.z, 2), first = min_(x, y);
-    M<W> side = m & (first < z);
+    M<W> side = m & (first < z) & (s.t < s.cut);
     if (!any(side)) return m;
     s.wraps = select(side, s.wraps + 1, s.wraps);
     lost = side & (s.wraps > most_wraps(k));
@@ -120,7 +121,9 @@ PILEUS_FN M<W> wrap_flights(Flight<W>& s, const TrackGrid& k, M<W> m, M<W>& lost
         return select(way <= first, select(d < 0.0f, end, T{}), min_(max_(at, T{}), end));
     };
     const Vec<T> p = place_of(s);
+    s.cut = select(side, s.cut - s.t, s.cut);
     begin_flight(s, k, side, {far(x, p.x, s.d.x, 0), far(y, p.y, s.d.y, 1), height});
+    s.exit = select(side, min_(s.exit, s.cut), s.exit);
     return m & lnot(side);
 }
 

@@ -252,6 +252,7 @@ PILEUS_FN M<W> send_flights(Flight<W>& w, const PathParams& k, M<W> m, const Vec
              select(outside, entry.z, p.z)};
     }
     const F<W> middle = all<F<W>>(0.5f);
+    w.cut = select(m, all<F<W>>(3e38f), w.cut);
     w.lift = select(m, F<W>{}, w.lift);
     w.wraps = select(m, I<W>{}, w.wraps);
     begin_flight(w, k.grid, hit,
@@ -302,8 +303,10 @@ PILEUS_FN void cut_flights(Flight<W>& w, const PathParams& k, M<W> m, const Vec<
                            F<W> wall) {
     const Vec<F<W>> way{w.from.x * k.grid.cell[0] - o.x, w.from.y * k.grid.cell[1] - o.y,
                         w.from.z * k.grid.cell[2] - o.z};
-    const F<W> left = max_(wall - dot(way, w.d), F<W>{});
-    w.exit = select(m, min_(w.exit, left), w.exit);
+    // Along the sides of a periodic medium the way in may be whole periods longer than it looks.
+    const F<W> in = k.grid.periodic != 0 ? way.z / w.d.z : dot(way, w.d);
+    w.cut = select(m, max_(wall - in, F<W>{}), w.cut);
+    w.exit = select(m, min_(w.exit, w.cut), w.exit);
 }
 
 /// Paths of the lanes of `paths` learn what they will meet; of `rays` those behind solids are dark.

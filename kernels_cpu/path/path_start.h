@@ -165,7 +165,7 @@ PILEUS_FN void hand_over(PathLanes<W, NC, K>& s, int to, const FreshPaths<W, K>&
     const Flight<W>& w = f.flight;
     move3(s.from, w.from), move3(s.speed, w.speed), move3(s.d, w.d);
     move3(s.plane, w.plane), move3(s.gap, w.gap), move3(s.vertex, f.origin);
-    move(s.t, w.t), move(s.exit, w.exit), move(s.tau, w.tau);
+    move(s.t, w.t), move(s.exit, w.exit), move(s.cut, w.cut), move(s.tau, w.tau);
     move(s.bound, w.bound), move(s.lift, w.lift), move(s.block, w.block);
     move(s.wraps, w.wraps);
     move(s.number, f.number), move(s.sample, f.sample);

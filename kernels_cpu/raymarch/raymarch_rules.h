@@ -53,12 +53,13 @@ PILEUS_FN RaySample<T> take_sample(const RaymarchParams& k, const RaymarchBuffer
             sunlight_at(k, b.optical_depth, field, place, s.density, dense, r.turn, counts, light);
     T factor = all<T>(1.0f);
     if (b.visibility != nullptr) {
-        const Vec<T> node = node_position(k.visibility, place);
+        const bool wraps = k.medium.periodic != 0;
+        const Vec<T> node = node_position(k.visibility, reduced(k.medium, place));
         // A layer to the horizon goes on beyond its nodes: nothing is known of shadows there.
         const std::int32_t* n = k.visibility.size;
         const auto known =
             (node.x >= 0.0f) & (node.x <= float(n[0])) & (node.y >= 0.0f) & (node.y <= float(n[1]));
-        factor = select(known, interpolate(b.visibility, corners(node, n)), factor);
+        factor = select(known, interpolate(b.visibility, corners(node, n, wraps)), factor);
         for (int c = 0; c < k.light.channels; ++c) light[c] = light[c] * factor;
     }
     const bool octaves = k.sunlit != 0 && k.light.octaves.count > 1;

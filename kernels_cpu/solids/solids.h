@@ -126,13 +126,88 @@ PILEUS_FN std::int32_t solid_walk(const SolidsView& s, const SolidRay& r, float 
     }
 }
 
+/// A ray's way through repetitions that lie side by side, each in a cell of its own.
+struct SolidCells {
+    double low[2], period[2], from[2], along[2];
+    std::int64_t cell[2];
+};
+
+PILEUS_FN std::int64_t whole_below(double v) {
+    const auto i = std::int64_t(v);
+    return double(i) > v ? i - 1 : i;
+}
+
+/// Metres along the ray to the next cell, and the axis of the face between.
+PILEUS_FN double next_solid_cell(const SolidCells& c, int& axis) {
+    double nearest = 1e300;
+    for (int a = 0; a < 2; ++a) {
+        if (abs_(float(c.along[a])) < 1e-18f) continue;
+        const double face = c.low[a] + double(c.cell[a] + (c.along[a] > 0 ? 1 : 0)) * c.period[a];
+        const double way = (face - c.from[a]) / c.along[a];
+        if (way < nearest) nearest = way, axis = a;
+    }
+    return nearest;
+}
+
+/// What of the ray lies between the lowest and the highest of all triangles, metres.
+PILEUS_FN bool within_solid_layer(const SolidNode& all, const SolidRay& r, float& near,
+                                  float& far) {
+    const float low = ((all.low[2] - r.pad) - r.o[2]) * r.inverse[2];
+    const float high = ((all.high[2] + r.pad) - r.o[2]) * r.inverse[2];
+    near = larger(near, smaller(low, high));
+    far = smaller(far, larger(low, high));
+    return near <= far;
+}
+
+/// solid_walk through repetitions: each is met by the ray moved back into the first, from shortly
+/// before its cell, so that it is as exact there as here.
+PILEUS_FN std::int32_t solid_copies(const SolidsView& s, const float (&o)[3], const float (&d)[3],
+                                    float limit, bool any_hit, float& distance) {
+    const SolidNode& all = s.nodes[0];
+    float near = 0, far = limit;
+    distance = limit;
+    if (!within_solid_layer(all, solid_ray(s, o, d), near, far)) return -1;
+    SolidCells c{};
+    double at = double(near);
+    for (int a = 0; a < 2; ++a) {
+        c.low[a] = double(all.low[a]), c.period[a] = double(s.period[a]);
+        c.from[a] = double(o[a]), c.along[a] = double(d[a]);
+        const double place = (c.from[a] + c.along[a] * at - c.low[a]) / c.period[a];
+        // Farther away than floats can tell places apart nothing is looked for.
+        if (!(abs_(float(place)) < 0x1p40f)) return -1;
+        c.cell[a] = whole_below(place);
+    }
+    const double before = 0x1p-10 * (c.period[0] < c.period[1] ? c.period[0] : c.period[1]);
+    for (int n = 0; n < kMostSolidCopies && at <= double(far); ++n) {
+        const double start = at > before ? at - before : 0.0;
+        float from[3];
+        for (int a = 0; a < 2; ++a)
+            from[a] = float(c.from[a] + c.along[a] * start - double(c.cell[a]) * c.period[a]);
+        from[2] = float(double(o[2]) + double(d[2]) * start);
+        float way = 0;
+        const std::int32_t found =
+            solid_walk(s, solid_ray(s, from, d), float(double(far) - start), any_hit, way);
+        if (found >= 0) {
+            distance = float(start + double(way));
+            return found;
+        }
+        int axis = -1;
+        at = next_solid_cell(c, axis);
+        if (axis < 0) return -1;
+        c.cell[axis] += c.along[axis] > 0 ? 1 : -1;
+    }
+    return -1;
+}
+
 PILEUS_CALLED std::int32_t nearest_solid(const SolidsView& s, const float (&o)[3],
                                          const float (&d)[3], float limit, float& distance) {
+    if (s.period[0] > 0) return solid_copies(s, o, d, limit, false, distance);
     return solid_walk(s, solid_ray(s, o, d), limit, false, distance);
 }
 PILEUS_CALLED bool solid_between(const SolidsView& s, const float (&o)[3], const float (&d)[3],
                                  float limit) {
     float distance = 0;
+    if (s.period[0] > 0) return solid_copies(s, o, d, limit, true, distance) >= 0;
     return solid_walk(s, solid_ray(s, o, d), limit, true, distance) >= 0;
 }
 

@@ -31,10 +31,16 @@ struct SolidsView {
     const SolidTriangle* triangles;
     const float* albedo;  ///< [solid][3]
     std::int32_t count;   ///< triangles
+    /// Metres after which all of it repeats along x and y, at least as wide as it is; 0: it stands
+    /// once.
+    float period[2];
 };
 
 /// Nodes on the way down at once: the builder keeps the tree lower.
 constexpr int kSolidDepth = 72;
+
+/// Most repetitions that a ray looks through: a level one between them would never come to an end.
+constexpr int kMostSolidCopies = 4096;
 
 /// Light that falls on a surface from all around but the sun, over pi: harmonics of its normal.
 constexpr int kAroundTerms = 9;

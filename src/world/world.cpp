@@ -107,7 +107,9 @@ Status load_world(const Scene& scene, const Context& context, World& world) {
         PILEUS_TRY(load_particles_of(scene, context, world));
     else
         PILEUS_TRY(load_medium_of(scene, context, world));
-    return load_solids(scene, world.medium.low_m, context, world.solids);
+    PILEUS_TRY(load_solids(scene, world.medium.low_m, context, world.solids));
+    if (!world.medium.grid.periodic) return Status::ok();
+    return repeat_solids(scene, world.medium.extent_m, world.solids);
 }
 
 Status outline_surroundings(const Scene& scene, const Context& context, Surroundings& around) {

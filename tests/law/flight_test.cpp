@@ -51,6 +51,7 @@ struct Field {
 /// Steps until the way is out; `most` where it has not ended by then.
 int fly(const Field& f, const Vec<float>& from, const Vec<float>& d, int axis, int most) {
     Flight<1> s{};
+    s.cut = 3e38f;
     s.tau = std::numeric_limits<float>::max();
     aim_flight<1>(s, f.grid, true, d);
     begin_flight<1>(s, f.grid, true, from);
@@ -122,6 +123,7 @@ TEST_CASE("a level flight through a periodic grid leaves it after as many period
 TEST_CASE("a flight that wraps without end is given up, and one without numbers ends") {
     const Field f(true, false);
     Flight<1> s{};
+    s.cut = 3e38f;
     s.tau = std::numeric_limits<float>::max();
     aim_flight<1>(s, f.grid, true, {1, 0, 0});
     begin_flight<1>(s, f.grid, true, {5, 4, 7});

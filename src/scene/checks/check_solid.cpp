@@ -55,15 +55,6 @@ void check_depth(SceneCheck& check) {
 void check_solids(SceneCheck& check) {
     check_depth(check);
     for (std::size_t i = 0; i < check.scene.solids.size(); ++i) check_solid(check, i);
-    if (check.scene.solids.empty()) return;
-    for (const MediumSettings& m : check.scene.media) {
-        if (!m.periodic) continue;
-        if (const Node* node = check.key("solid.0.file"))
-            check.faults.add(node->at, "solid.0.file",
-                             "not with a periodic medium in this version, " + value_text(*node) +
-                                 ", allowed: boundary = \"open\"");
-        return;
-    }
 }
 
 }  // namespace pileus

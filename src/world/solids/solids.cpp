@@ -9,6 +9,7 @@
 #include "src/base/file.h"
 #include "src/io/meshes/mesh_file.h"
 #include "src/scene/read_scene.h"
+#include "src/scene/toml/toml_tree.h"
 #include "src/world/solids/camera_depth.h"
 
 namespace pileus {
@@ -127,6 +128,23 @@ Status load_solids(const Scene& scene, const Double3& low_m, const Context& cont
     }
     solids.triangles.truncate(std::size_t(used));
     return build_solid_tree(solids);
+}
+
+Status repeat_solids(const Scene& scene, const double (&extent_m)[3], Solids& solids) {
+    if (solids.triangles.empty()) return Status::ok();
+    const SolidNode& all = solids.nodes[0];
+    for (int a = 0; a < 2; ++a) {
+        // Corners are rounded one by one: what is as wide as a period may be a little wider.
+        const double wide = double(all.high[a]) - double(all.low[a]);
+        if (wide > extent_m[a] * (1 + 1e-6))
+            return at_key(scene, "solid.0.file",
+                          Status::bad_input("all solids together are " + number_text(wide) +
+                                            " m wide along " + (a == 0 ? "x" : "y") +
+                                            ", allowed: at most a period of the medium, " +
+                                            number_text(extent_m[a]) + " m"));
+        solids.period[a] = float(extent_m[a]);
+    }
+    return Status::ok();
 }
 
 void note_solids(const Solids& solids, const CameraDepth& depth, Plan& plan) {

@@ -21,6 +21,7 @@ struct Solids {
     Buffer<float> albedo;          ///< [solid][3]
     std::uint64_t degenerate = 0;  ///< triangles without an area, left out
     std::uint64_t file_bytes = 0;  ///< of all meshes
+    float period[2] = {};          ///< metres after which they repeat along x and y; 0: not
 
     /// Whether any colour is no grey.
     bool coloured() const {
@@ -29,7 +30,11 @@ struct Solids {
         return false;
     }
     SolidsView view() const {
-        return {nodes.data(), triangles.data(), albedo.data(), std::int32_t(triangles.size())};
+        return {nodes.data(),
+                triangles.data(),
+                albedo.data(),
+                std::int32_t(triangles.size()),
+                {period[0], period[1]}};
     }
 };
 
@@ -54,6 +59,9 @@ Status place_triangles(const SolidSettings& settings, const std::string& name, s
 
 /// Sorts the triangles under a tree of boxes. kLimit: out of memory.
 Status build_solid_tree(Solids& solids);
+
+/// Lets them repeat with a medium of this extent, metres. kBadInput: wider than that.
+Status repeat_solids(const Scene& scene, const double (&extent_m)[3], Solids& solids);
 
 /// What the plan says of them; their bytes, bounds where they are not there yet.
 void note_solids(const Solids& solids, const CameraDepth& depth, Plan& plan);
