@@ -10,6 +10,7 @@
 #include "src/march/march_parts.h"
 #include "src/picture/background.h"
 #include "src/picture/blue_noise.h"
+#include "src/picture/late_rows.h"
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/node_grid.h"
 #include "src/picture/nodes/solid_shadow.h"
@@ -93,6 +94,14 @@ Status shade_by_solids(const Context& context, RaymarchRun& run) {
                             run.visibility);
 }
 
+/// Parts need the whole background, a trial for a budget of seconds any row's depths.
+LateRows* late_march(const FrameStep& step, const RaymarchRun& run) {
+    const OutputSettings& output = run.scene->output;
+    if (output.layer_light || output.layer_order || run.budget.seconds > 0) return nullptr;
+    return late_rows_of(step.late, run.lighting, run.world->medium, run.settings.thin, run.camera,
+                        step.frame);
+}
+
 }  // namespace
 
 SkyView sky_view(const RaymarchRun& run) {
@@ -133,6 +142,7 @@ Status march_background(const Context& context, const Lighting& light, RaymarchR
     BackgroundParams k = background_params(view, run.camera, light);
     BackgroundBuffers b{nullptr, planes.background.data(), planes.opaque_depth.data()};
     read_ground_shadow(run.ground_shadow, k, b);
+    if (planes.late != nullptr) return leave_background(context, k, b, *planes.late);
     return show_background(context, light, k, b);
 }
 
@@ -168,6 +178,7 @@ Status march_frame(const FrameStep& step, const Context& context, RaymarchRun& r
             PILEUS_TRY(allocate(arrays::picture_planes(1, run.planes.transmittance.size()),
                                 run.planes.optical_depth));
     }
+    run.planes.late = late_march(step, run);
     PILEUS_TRY(march_background(context, run.lighting, run, run.planes));
     RaymarchInput in;
     in.medium = &marched_medium(run);

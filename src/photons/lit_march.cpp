@@ -173,12 +173,10 @@ Status march_thinned(const Context& context, const UpsampleSettings& thin, const
     return upsample_picture(context, in, run.frame, memory, planes);
 }
 
-bool may_be_late(const PhotonRun& run) {
-    const Lighting& light = run.lighting;
-    const bool solid = light.solids != nullptr && !light.solids->triangles.empty();
-    const bool image = light.depth != nullptr && !light.depth->metres.empty();
-    return !solid && !image && light.lamps.empty() && !emits(run.world->medium) &&
-           photon_batches(run) == 0;
+LateRows* late_photons(LateRows* late, const UpsampleSettings& thin, const CameraParams& camera,
+                       int frame, const PhotonRun& run) {
+    if (photon_batches(run) > 0) return nullptr;
+    return late_rows_of(late, run.lighting, run.world->medium, thin, camera, frame);
 }
 
 Status check_thinned(const Context& context, const Scene& scene, const char* method,

@@ -73,9 +73,10 @@ MarchParams lit_march_params(const PhotonRun& run, const LightInput& lit, const 
 Status march_lit(const Context& context, PhotonRun& run, const NodeLight& source,
                  const MarchParams& k, float* target, Planes& planes);
 
-/// Whether a picture's light is the march's or the blend's alone, before a background without
-/// solids.
-bool may_be_late(const PhotonRun& run);
+/// late_rows_of a picture whose light is the march's or the blend's alone; null where it has
+/// batches.
+LateRows* late_photons(LateRows* late, const UpsampleSettings& thin, const CameraParams& camera,
+                       int frame, const PhotonRun& run);
 
 /// Numbers per node and set, filled up to whole groups.
 int stored_harmonics(int bands);

@@ -6,6 +6,7 @@
 #include "kernels_cpu/display/finish_params.h"
 #include "src/picture/pixels.h"
 #include "src/picture/upsample.h"
+#include "src/world/light/lights.h"
 
 namespace pileus {
 
@@ -17,6 +18,12 @@ struct LateRows {
     Buffer<float> map;     ///< light scattered onto the ground
     PixelLattice marched;  ///< pixels whose solid depth is read before the pixels are written
 };
+
+/// `late` where nothing but the background, and pixels between marched ones, lies between the march
+/// and the pixels, and no later picture reads these; null where solids, an image of them, lamps or
+/// shining media come in between, pictures are reprojected, or `late` is null.
+LateRows* late_rows_of(LateRows* late, const Lighting& light, const Medium& medium,
+                       const UpsampleSettings& thin, const CameraParams& camera, int frame);
 
 /// Leaves the background to the last pass. Only the solid depths of marched pixels are made now,
 /// where there are any. `light` has neither solids nor an image of them.

@@ -43,10 +43,15 @@ TEST_CASE("late rows: the bytes of all stages one after the other") {
         {"collectors.scale=4", "collectors.upsample=\"linear\""},
         {"collectors.scale=4", "collectors.upsample=\"nearest\""},
         {},
+        {"method.name=\"photon-grid\"", "photon_grid.photons=3000"},
+        {"method.name=\"photon-grid\"", "photon_grid.photons=3000", "photon_grid.scale=2"},
+        {"method.name=\"raymarch\"", "raymarch.steps=24"},
+        {"method.name=\"raymarch\"", "raymarch.steps=24", "raymarch.scale=4"},
+        {"method.name=\"optical-depth\""},
     };
     // Within lanes and beyond, pictures smaller than a cell among them.
     const int sizes[][2] = {{1, 1}, {3, 2}, {17, 9}, {45, 27}, {96, 54}};
-    for (std::size_t way = 0; way < 7; ++way) {
+    for (std::size_t way = 0; way < sizeof ways / sizeof ways[0]; ++way) {
         CAPTURE(way);
         Hosted host(kSmallCumulus, with(ways[way]));
         REQUIRE_MESSAGE(host.code == PILEUS_OK, host.out.line());
@@ -104,6 +109,33 @@ TEST_CASE("late rows: what has more between the light and the pixels goes the ot
             (void)pixels(host, kWidth, kHeight, false, false);
         CHECK(pixels(host, kWidth, kHeight, false, false) ==
               pixels(host, kWidth, kHeight, true, false));
+    }
+}
+
+TEST_CASE("late rows: a flight by reprojection, its background before or after") {
+    const Overrides ways[] = {
+        {"collectors.temporal=4"},
+        {"method.name=\"raymarch\"", "raymarch.steps=24", "raymarch.temporal=4"},
+        {"method.name=\"raymarch\"", "raymarch.steps=24", "raymarch.temporal=2",
+         "raymarch.upsample=\"linear\""},
+        {"method.name=\"photon-grid\"", "photon_grid.photons=3000", "photon_grid.temporal=2"},
+    };
+    for (const Overrides& way : ways) {
+        CAPTURE(way.front());
+        Hosted late(kSmallCumulus, with(way)), whole(kSmallCumulus, with(way));
+        REQUIRE_MESSAGE(late.code == PILEUS_OK, late.out.line());
+        constexpr int kWidth = 45, kHeight = 27;
+        for (int frame = 0; frame < 7; ++frame) {
+            CAPTURE(frame);
+            const double from[3] = {16.0 + 60 * frame, -4000, 256}, to[3] = {0, 0, 700};
+            for (Hosted* host : {&late, &whole}) {
+                host->aim(from, to, 40, kWidth, kHeight);
+                host->sun(120, 30 + frame / 2);
+                host->step(host->whole());
+            }
+            CHECK(pixels(late, kWidth, kHeight, false, false) ==
+                  pixels(whole, kWidth, kHeight, true, false));
+        }
     }
 }
 

@@ -83,15 +83,6 @@ Status advance(std::uint64_t units, const Context& context, MethodRun& run, std:
 
 LightUnits units(const MethodRun& run) { return photon_units(own(run)); }
 
-/// Where nothing but the background, and pixels between marched ones, lies between the march or the
-/// blend and the pixels, and no later picture reads these.
-LateRows* late_of(const FrameStep& step, const CameraParams& camera, const CollectorsRun& run) {
-    const UpsampleSettings& thin = run.scene->collectors.thin;
-    if (step.late == nullptr || thin.temporal > 0 || !may_be_late(run)) return nullptr;
-    step.late->marched = upsample_lattice(thin, camera, step.frame, false);
-    return step.late;
-}
-
 Status compose(const FrameStep& step, const Context& context, MethodRun& method_run,
                const Planes*& planes) {
     CollectorsRun& run = own(method_run);
@@ -101,7 +92,7 @@ Status compose(const FrameStep& step, const Context& context, MethodRun& method_
     CollectorColours colours;
     int channels = 3;
     planes = &run.planes;
-    run.planes.late = late_of(step, camera, run);
+    run.planes.late = late_photons(step.late, run.scene->collectors.thin, camera, step.frame, run);
     return collectors_compose(camera, context, run, colours, channels, run.planes);
 }
 

@@ -161,6 +161,7 @@ Status compose(const FrameStep& step, const Context& context, MethodRun& method_
     int channels = 3;
     std::uint64_t clamped = 0;
     planes = &run.planes;
+    run.planes.late = late_photons(step.late, run.scene->photon_grid.thin, camera, step.frame, run);
     return photon_grid_compose(camera, context, run, clamped, channels, run.planes);
 }
 
