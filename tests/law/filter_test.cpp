@@ -7,6 +7,7 @@
 #include <limits>
 #include <vector>
 
+#include "src/picture/filter/oidn.h"
 #include "src/picture/filter/regression.h"
 #include "tests/support/hashed_number.h"
 
@@ -136,5 +137,32 @@ TEST_CASE("filter: any number of threads, pictures of any size, numbers of any s
                 small.light[i] = scale * number(i, 2);
             for (const float v : small.filtered()) CHECK(std::isfinite(v));
         }
+    }
+}
+
+TEST_CASE("filter: Open Image Denoise, where it is, takes noise and leaves light in its channel") {
+    if (const Status status = check_oidn("s.toml: filter.kind: "); !status) {
+        CHECK(status.code == Code::kBadInput);
+        CHECK(status.message.find("s.toml: filter.kind: ") == 0);
+        CHECK(status.message.find("allowed: ") != std::string::npos);
+        CHECK(status.message.find('\n') == std::string::npos);
+        return;
+    }
+    const std::size_t width = 64, n = width * 48;
+    std::vector<float> light(3 * n);
+    for (std::size_t c = 0; c < 3; ++c)
+        for (std::size_t i = 0; i < n; ++i)
+            light[c * n + i] = float(c + 1) * (0.5f + number(c * n + i, 4));
+    REQUIRE(denoise_by_oidn("", int(width), 48, 2, light.data()));
+    for (std::size_t c = 0; c < 3; ++c) {
+        double mean = 0, square = 0;
+        for (std::size_t i = 0; i < n; ++i) mean += double(light[c * n + i]) / double(n);
+        for (std::size_t i = 0; i < n; ++i) {
+            const double v = double(light[c * n + i]) - mean;
+            square += v * v / double(n);
+        }
+        // Even noise from 0.5 to 1.5 has a variance of 1/12; a network keeps a few percent of it.
+        CHECK(mean == doctest::Approx(double(c + 1)).epsilon(0.05));
+        CHECK(square < 0.2 / 12 * double((c + 1) * (c + 1)));
     }
 }

@@ -5,6 +5,7 @@
 #include "platform/threads.h"
 #include "src/methods/path/path.h"
 #include "src/picture/background.h"
+#include "src/picture/filter/oidn.h"
 #include "src/picture/filter/regression.h"
 
 namespace pileus {
@@ -50,24 +51,7 @@ Status take_light(const Context& context, const PathRun& run, Buffer<float>& out
     return Status::ok();
 }
 
-}  // namespace
-
-Status check_path_filter(const Scene& scene) {
-    if (!path_filters(scene)) return Status::ok();
-    const std::string key = scene.file + ": filter.kind: ";
-    if (scene.camera.flux)
-        return Status::bad_input(key +
-                                 "a flat detector (camera.projection \"flux\") sees along no "
-                                 "single ray, \"regression\", allowed: none");
-    const OutputSettings& output = scene.output;
-    const char* layer = output.layer_error ? "error" : output.layer_light ? "light" : nullptr;
-    if (layer == nullptr) return Status::ok();
-    return Status::bad_input(key + "a filtered picture has no layer \"" + layer +
-                             "\", \"regression\", allowed: none, or other layers");
-}
-
-Status path_filter(const Context& context, PathRun& run) {
-    const StageClock clock(context, "filter");
+Status regress(const Context& context, PathRun& run) {
     Planes& p = run.planes;
     Buffer<float> light, before;
     PILEUS_TRY(take_light(context, run, light));
@@ -92,6 +76,35 @@ Status path_filter(const Context& context, PathRun& run) {
         }
     });
     return Status::ok();
+}
+
+std::string key_of(const Scene& scene) { return scene.file + ": filter.kind: "; }
+
+}  // namespace
+
+Status check_path_filter(const Scene& scene) {
+    if (!path_filters(scene)) return Status::ok();
+    const std::string key = key_of(scene);
+    const std::string value = std::string("\"") + path_filter_name(scene) + "\"";
+    if (scene.camera.flux)
+        return Status::bad_input(key +
+                                 "a flat detector (camera.projection \"flux\") sees along no "
+                                 "single ray, " +
+                                 value + ", allowed: none");
+    const OutputSettings& output = scene.output;
+    const char* layer = output.layer_error ? "error" : output.layer_light ? "light" : nullptr;
+    if (layer != nullptr)
+        return Status::bad_input(key + "a filtered picture has no layer \"" + layer + "\", " +
+                                 value + ", allowed: none, or other layers");
+    return path_regresses(scene) ? Status::ok() : check_oidn(key);
+}
+
+Status path_filter(const Context& context, PathRun& run) {
+    const StageClock clock(context, "filter");
+    return path_regresses(*run.scene)
+               ? regress(context, run)
+               : denoise_by_oidn(key_of(*run.scene), run.film.width, run.film.height,
+                                 context.threads, run.planes.colour.data());
 }
 
 }  // namespace pileus
