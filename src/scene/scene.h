@@ -197,7 +197,7 @@ struct PathSettings {
     bool guide = true;  ///< a peaked phase function's light is also sought from near the sun
 };
 
-enum class FilterKind { kNone, kRegression };
+enum class FilterKind { kNone, kRegression, kOidn };
 
 /// What makes a noisy picture smooth.
 struct FilterSettings {

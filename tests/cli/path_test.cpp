@@ -217,6 +217,30 @@ TEST_CASE("path: what belongs to other methods is one line") {
     fault("render s.toml -o a.pfm --state a.pfm" + std::string(kPath), "named twice");
 }
 
+TEST_CASE("path: a filter that is not there, and what no filter does, are one line each") {
+    const ProgramFolder folder;
+    const auto fault = [&](const std::string& arguments, const char* line) {
+        // Wherever the library may be installed, here it is looked for in vain.
+        const Outcome outcome = folder.run(
+            "render s.toml -o a.pfm --set method.name=path --set filter.kind=oidn" + arguments,
+            "PILEUS_OIDN=./no_such_library.so.2");
+        CHECK(outcome.exit_status == 2);
+        CHECK_MESSAGE(holds(outcome.errors, line), outcome.errors);
+        CHECK(line_count(outcome.errors) == 1);
+        CHECK(folder.left().empty());
+    };
+    fault("", "s.toml: filter.kind: ");
+    fault("", "Open Image Denoise");
+    fault("", "PILEUS_OIDN");
+    fault(
+        " --set output.layers=[radiance,error]",
+        "s.toml: filter.kind: a filtered picture has no layer \"error\", \"oidn\", allowed: none, "
+        "or other layers");
+    fault(" --set camera.projection=flux", "s.toml: filter.kind: a flat detector");
+    fault(" --set method.name=raymarch",
+          "filter.kind: filters pictures of method path alone, \"oidn\"");
+}
+
 TEST_CASE("path: the plan names what runs, what is left out, and every array") {
     const ProgramFolder folder;
     const Outcome lines = folder.run("plan s.toml" + std::string(kPath));

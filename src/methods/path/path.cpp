@@ -43,8 +43,8 @@ Status outline(const Context& context, MethodRun& method_run) {
     PILEUS_TRY(check_host_lights(context, *run.scene, run.world->medium));
     if (context.kernels->device != nullptr && path_filters(*run.scene))
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
-                                 "\": filter.kind = \"regression\" runs on the host alone, "
-                                 "allowed: another, or none");
+                                 "\": filter.kind = \"" + path_filter_name(*run.scene) +
+                                 "\" runs on the host alone, allowed: another, or none");
     choose_light(sun_at(*run.scene, 0), run);
     run.camera = make_camera(run.scene->camera, 0, run.world->medium.low_m);
     return path_measure(context, run);
@@ -135,7 +135,8 @@ PathInput path_input(const Context& context, const PathRun& run) {
     in.jitter = !run.scene->path.centre;
     in.guide = run.scene->path.guide;
     in.sun_radius_deg = run.scene->sun.angular_radius_deg;
-    in.parts = path_parts(run.scene->output) || (path_filters(*run.scene) && run.lighting.opaque());
+    in.parts =
+        path_parts(run.scene->output) || (path_regresses(*run.scene) && run.lighting.opaque());
     return in;
 }
 

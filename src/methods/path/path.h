@@ -57,6 +57,14 @@ Status path_planes(const Context& context, PathRun& run);
 
 /// Whether the picture is filtered, and what that asks of a scene. kBadInput: it cannot be.
 inline bool path_filters(const Scene& scene) { return scene.filter.kind != FilterKind::kNone; }
+/// Whether guides are marched for it.
+inline bool path_regresses(const Scene& scene) {
+    return scene.filter.kind == FilterKind::kRegression;
+}
+/// As scenes name it.
+inline const char* path_filter_name(const Scene& scene) {
+    return path_regresses(scene) ? "regression" : path_filters(scene) ? "oidn" : "none";
+}
 Status check_path_filter(const Scene& scene);
 
 /// Takes the noise out of the planes' colour. kLimit: out of memory.

@@ -5,6 +5,7 @@
 #include "platform/threads.h"
 #include "src/methods/path/path.h"
 #include "src/picture/background.h"
+#include "src/picture/filter/oidn.h"
 #include "src/picture/filter/regression.h"
 
 namespace pileus {
@@ -27,52 +28,36 @@ Status show_sky(const Context& context, const PathRun& run, Buffer<float>& out) 
     return show_background(context, sky, k, {nullptr, out.data(), nullptr});
 }
 
-/// Light that the filter takes: before the sky all that has not come straight through; before
-/// something solid, whose light has edges of its own, what the media turned last.
-Status take_light(const Context& context, const PathRun& run, Buffer<float>& out) {
-    const Planes& p = run.planes;
-    const std::size_t pixels = run.film.pixels();
-    Buffer<float> sky;
-    PILEUS_TRY(show_sky(context, run, sky));
-    PILEUS_TRY(allocate(arrays::film_means(3, pixels), out));
+/// Whether all that is solid is a ground under the sun and an even sky. Then its light is filtered,
+/// too, and media have the same light before it and before the sky.
+bool has_plain_ground(const Lighting& light) {
+    const bool solids = (light.solids != nullptr && !light.solids->triangles.empty()) ||
+                        (light.depth != nullptr && !light.depth->metres.empty());
+    return light.ground && !solids && light.lamps.empty() && light.map.columns == 0;
+}
+
+bool is_solid(const Planes& p, std::size_t i) {
+    return !p.opaque_depth.empty() && p.opaque_depth[i] < kNothingSolid;
+}
+
+/// Calls set(c, pixel) for all channels of all pixels.
+template <class Set>
+void for_light(const Context& context, const PathRun& run, Set set) {
+    const std::size_t width = std::size_t(run.film.width);
     parallel_for(context.threads, run.film.height, [&](std::int64_t row, int) {
-        const std::size_t first = std::size_t(row) * std::size_t(run.film.width);
-        for (std::size_t i = first; i < first + std::size_t(run.film.width); ++i) {
-            const bool solid = !p.opaque_depth.empty() && p.opaque_depth[i] < kNothingSolid;
-            for (std::size_t c = 0; c < 3; ++c) {
-                const std::size_t at = c * pixels + i;
-                const float straight = sky.empty() ? 0.0f : p.transmittance[i] * sky[at];
-                out[at] = solid ? float(film_mean(run.film, kPathCloud, int(c), i))
-                                : p.colour[at] - straight;
-            }
-        }
+        for (std::size_t c = 0; c < 3; ++c)
+            for (std::size_t i = std::size_t(row) * width; i < (std::size_t(row) + 1) * width; ++i)
+                set(c, i);
     });
-    return Status::ok();
 }
 
-}  // namespace
-
-Status check_path_filter(const Scene& scene) {
-    if (!path_filters(scene)) return Status::ok();
-    const std::string key = scene.file + ": filter.kind: ";
-    if (scene.camera.flux)
-        return Status::bad_input(key +
-                                 "a flat detector (camera.projection \"flux\") sees along no "
-                                 "single ray, \"regression\", allowed: none");
-    const OutputSettings& output = scene.output;
-    const char* layer = output.layer_error ? "error" : output.layer_light ? "light" : nullptr;
-    if (layer == nullptr) return Status::ok();
-    return Status::bad_input(key + "a filtered picture has no layer \"" + layer +
-                             "\", \"regression\", allowed: none, or other layers");
+/// What the media turned last.
+float turned(const PathRun& run, std::size_t c, std::size_t i) {
+    return float(film_mean(run.film, kPathCloud, int(c), i));
 }
 
-Status path_filter(const Context& context, PathRun& run) {
-    const StageClock clock(context, "filter");
-    Planes& p = run.planes;
-    Buffer<float> light, before;
-    PILEUS_TRY(take_light(context, run, light));
-    PILEUS_TRY(allocate(arrays::film_means(light.size(), 1), before));
-    std::memcpy(before.data(), light.data(), light.size() * sizeof(float));
+RegressionInput regression_input(const Context& context, const PathRun& run) {
+    const Planes& p = run.planes;
     RegressionInput in;
     in.width = run.film.width;
     in.height = run.film.height;
@@ -82,16 +67,110 @@ Status path_filter(const Context& context, PathRun& run) {
     in.guides = run.guides.planes.data();
     in.opaque_depth = p.opaque_depth.data();
     in.radius_pixels = run.scene->filter.radius_pixels;
-    PILEUS_TRY(filter_light(in, light.data()));
-    parallel_for(context.threads, 3, [&](std::int64_t c, int) {
-        const std::size_t pixels = run.film.pixels(), first = std::size_t(c) * pixels;
-        for (std::size_t i = first; i < first + pixels; ++i) {
-            // A fit may end below zero; no light does.
-            const float v = p.colour[i] + (light[i] - before[i]);
-            if (light[i] != before[i]) p.colour[i] = v > 0 ? v : 0;
-        }
+    return in;
+}
+
+/// The share of the sun's light on the ground, the first of three planes.
+Status light_ground(const Context& context, const PathRun& run, Buffer<float>& out) {
+    PILEUS_TRY(allocate(arrays::film_means(3, run.film.pixels()), out));
+    if (!run.lighting.sunlit) return Status::ok();
+    BackgroundParams k = background_params(make_medium_view(run.world->medium, run.majorants),
+                                           run.camera, run.lighting);
+    for (int c = 0; c < 3; ++c) k.sky[c] = k.ground_diffuse[c] = k.ground_sun[c] = 0;
+    k.ground_sun[0] = 1;
+    return show_background(context, run.lighting, k, {nullptr, out.data(), nullptr});
+}
+
+/// Puts what comes straight through the media from a plain ground and from the sky in place of the
+/// samples of it: filtered, and as it is known.
+Status filter_straight(const Context& context, PathRun& run, const Buffer<float>& sky) {
+    Planes& p = run.planes;
+    const std::size_t pixels = run.film.pixels();
+    Buffer<float> straight, sun;
+    PILEUS_TRY(light_ground(context, run, sun));
+    PILEUS_TRY(allocate(arrays::film_means(3, pixels), straight));
+    for_light(context, run, [&](std::size_t c, std::size_t i) {
+        const std::size_t at = c * pixels + i;
+        if (is_solid(p, i))
+            straight[at] = p.colour[at] - turned(run, c, i);
+        else
+            straight[at] = sky.empty() ? 0.0f : p.transmittance[i] * sky[at];
+    });
+    RegressionInput in = regression_input(context, run);
+    in.sun_on_ground = sun.data();
+    PILEUS_TRY(filter_ground(in, straight.data()));
+    for_light(context, run, [&](std::size_t c, std::size_t i) {
+        const float s = straight[c * pixels + i];
+        p.colour[c * pixels + i] = (s > 0 ? s : 0.0f) + turned(run, c, i);
     });
     return Status::ok();
+}
+
+/// Light that the filter takes. Before the sky that is all that has not come straight through;
+/// before something solid, whose light has edges of its own, and where it is at hand anyway, what
+/// the media turned last.
+Status take_light(const Context& context, PathRun& run, bool plain, Buffer<float>& out) {
+    Planes& p = run.planes;
+    const std::size_t pixels = run.film.pixels();
+    Buffer<float> sky;
+    PILEUS_TRY(show_sky(context, run, sky));
+    if (plain) PILEUS_TRY(filter_straight(context, run, sky));
+    PILEUS_TRY(allocate(arrays::film_means(3, pixels), out));
+    for_light(context, run, [&](std::size_t c, std::size_t i) {
+        const std::size_t at = c * pixels + i;
+        const float straight = sky.empty() ? 0.0f : p.transmittance[i] * sky[at];
+        out[at] = plain || is_solid(p, i) ? turned(run, c, i) : p.colour[at] - straight;
+    });
+    return Status::ok();
+}
+
+Status regress(const Context& context, PathRun& run) {
+    Planes& p = run.planes;
+    const bool plain = has_plain_ground(run.lighting);
+    Buffer<float> light, before;
+    PILEUS_TRY(take_light(context, run, plain, light));
+    PILEUS_TRY(allocate(arrays::film_means(light.size(), 1), before));
+    std::memcpy(before.data(), light.data(), light.size() * sizeof(float));
+    RegressionInput in = regression_input(context, run);
+    if (plain) in.opaque_depth = nullptr;
+    PILEUS_TRY(filter_light(in, light.data()));
+    const std::size_t pixels = run.film.pixels();
+    for_light(context, run, [&](std::size_t c, std::size_t i) {
+        // A fit may end below zero; no light does.
+        const std::size_t at = c * pixels + i;
+        const float v = p.colour[at] + (light[at] - before[at]);
+        if (light[at] != before[at]) p.colour[at] = v > 0 ? v : 0;
+    });
+    return Status::ok();
+}
+
+std::string key_of(const Scene& scene) { return scene.file + ": filter.kind: "; }
+
+}  // namespace
+
+Status check_path_filter(const Scene& scene) {
+    if (!path_filters(scene)) return Status::ok();
+    const std::string key = key_of(scene);
+    const std::string value = std::string("\"") + path_filter_name(scene) + "\"";
+    if (scene.camera.flux)
+        return Status::bad_input(key +
+                                 "a flat detector (camera.projection \"flux\") sees along no "
+                                 "single ray, " +
+                                 value + ", allowed: none");
+    const OutputSettings& output = scene.output;
+    const char* layer = output.layer_error ? "error" : output.layer_light ? "light" : nullptr;
+    if (layer != nullptr)
+        return Status::bad_input(key + "a filtered picture has no layer \"" + layer + "\", " +
+                                 value + ", allowed: none, or other layers");
+    return path_regresses(scene) ? Status::ok() : check_oidn(key);
+}
+
+Status path_filter(const Context& context, PathRun& run) {
+    const StageClock clock(context, "filter");
+    return path_regresses(*run.scene)
+               ? regress(context, run)
+               : denoise_by_oidn(key_of(*run.scene), run.film.width, run.film.height,
+                                 context.threads, run.planes.colour.data());
 }
 
 }  // namespace pileus

@@ -6,6 +6,7 @@
 #include "src/methods/path/path_blocks.h"
 #include "src/methods/path/path_passes.h"
 #include "src/methods/path/path_state.h"
+#include "src/picture/filter/oidn.h"
 #include "src/picture/filter/regression.h"
 #include "src/world/plan_parts.h"
 
@@ -87,7 +88,9 @@ void note_plan(PathRun& run) {
     plan.bias = {"path", "none", "docs/path.md"};
     if (path_filters(scene))
         plan.bias = {"path, filtered",
-                     "small, where light follows nothing that is known without noise",
+                     path_regresses(scene)
+                         ? "small, where light follows nothing that is known without noise"
+                         : "what a network of others takes for noise; other bits elsewhere",
                      "docs/filter.md"};
     if (scene.path.max_depth > 0)
         plan.bias.size = "light scattered more than " + std::to_string(scene.path.max_depth) +
@@ -146,7 +149,8 @@ void weigh_memory(const Context& context, PathRun& run) {
                                 (output.layer_light ? 3u : 0u) + (output.layer_order ? 3u : 0u) +
                                 (output.layer_error ? 3u : 0u);
     add(t, arrays::film_means(light, pixels));
-    if (path_filters(scene)) {
+    if (path_filters(scene) && !path_regresses(scene)) add(t, arrays::oidn_pixels(pixels));
+    if (path_regresses(scene)) {
         add(t, arrays::guide_nodes(run.world->medium, run.world->solids.meshes),
             arrays::guide_planes(pixels));
         if (!output.layer_optical_depth) add(t, arrays::picture_planes(1, pixels, Stage::kPaths));

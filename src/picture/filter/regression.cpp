@@ -5,8 +5,8 @@
 #include <cstring>
 #include <vector>
 
-#include "kernels_cpu/core/math.h"
 #include "platform/threads.h"
+#include "src/picture/filter/features.h"
 
 namespace pileus {
 namespace {
@@ -14,14 +14,16 @@ namespace {
 constexpr int kK = kFilterFeatures;
 constexpr int kTile = 8;                    // pixels
 constexpr int kMatrix = kK * (kK + 1) / 2;  // numbers of a symmetric matrix
-constexpr int kRight = 3 * kK + 3 + 1;      // right-hand sides, squares, count
-constexpr int kStored = kK + 1;             // features and weight of a pixel
-constexpr double kLeastAlpha = 0.02;
+constexpr int kSide = 3 * kK;               // right-hand sides of three colours
+constexpr int kFolds = 4;                   // pixels of 2 x 2 are in as many parts of the picture
+constexpr int kRight = kFolds * kSide;
+constexpr int kStored = kFilterStored;
+constexpr int kKept = 6;           // squares that fits explain, and of the noise in them
 constexpr double kDropped = 1e-7;  // share of a pivot below which a feature says nothing new
 
-constexpr double kStrict = 1.5;  // noise counts for so much more where windows shrink
-constexpr double kFirstRidge = 1e-4, kRidge = 0.02;  // of a feature's mean square
-constexpr double kFewest = 0.05;            // pixels, like all on average, that say nothing changes
+constexpr double kStrict = 1.25;  // noise counts for so much more where windows shrink
+constexpr double kFirstRidge = 1e-4, kRidge = 0.002;  // of a feature's mean square
+constexpr double kFewest = 0.2;             // pixels, like all on average, that say nothing changes
 constexpr int kWidest = 8, kNarrowest = 2;  // half widths of windows, tiles
 
 struct Tiles {
@@ -54,8 +56,8 @@ struct Work {
     Span<double> matrix, right, wide, wider;  // [tile][...], those of windows in `wide`, `wider`
     Span<double> across;                      // scratch
     Span<double> coefficients;                // [tile][3][kK]
-    Span<double> scale;  // [tile][kK], squares of the features in the widest windows
-    Span<double> noise;  // [tile][3], mean weighted square, of the widest windows
+    Span<double> scale;              // [tile][kK], squares of the features in the widest windows
+    Span<double> kept, kept_around;  // [tile][kKept], of windows, and around them
     double common[kK] = {};
     std::vector<double> norm_x, norm_y;
 
@@ -68,37 +70,14 @@ struct Work {
             at += own.size;
             return own;
         };
-        matrix = take(kMatrix), wide = take(kMatrix), across = take(kMatrix);
+        matrix = take(kMatrix), wide = take(kMatrix), across = take(kRight);
         right = take(kRight), wider = take(kRight);
-        coefficients = take(3 * kK), scale = take(kK), noise = take(3);
+        coefficients = take(kSide), scale = take(kK);
+        kept = take(kKept), kept_around = take(kKept);
     }
     explicit Work(const RegressionInput& input)
         : in(input), tiles(tiles_of(input.width, input.height)) {}
 };
-
-void set_features(Work& w, bool opaque) {
-    const RegressionInput& in = w.in;
-    const std::size_t pixels = std::size_t(in.width) * std::size_t(in.height);
-    parallel_for(in.threads, w.in.height, [&](std::int64_t y, int) {
-        for (int x = 0; x < in.width; ++x) {
-            const std::size_t i = std::size_t(y) * std::size_t(in.width) + std::size_t(x);
-            float* f = w.features.data + i * kStored;
-            const bool solid = in.opaque_depth != nullptr && in.opaque_depth[i] < kNothingSolid;
-            const float alpha = 1.0f - in.transmittance[i];
-            const bool mine = solid == opaque && alpha > 0.0f;
-            if (!mine) {
-                for (int k = 0; k < kStored; ++k) f[k] = 0;
-                continue;
-            }
-            f[0] = alpha;
-            f[1] = log_(1.0f + in.optical_depth[i]);
-            for (int g = 0; g < 3; ++g) f[2 + g] = in.guides[std::size_t(g) * pixels + i];
-            f[5] = alpha * (float(x) - 0.5f * float(in.width)) / float(in.width);
-            f[6] = alpha * (float(y) - 0.5f * float(in.height)) / float(in.width);
-            f[7] = 1.0f / (alpha + float(kLeastAlpha));
-        }
-    });
-}
 
 void sum_matrix(Work& w) {
     parallel_for(w.in.threads, w.tiles.down, [&](std::int64_t ty, int) {
@@ -138,17 +117,15 @@ void sum_right(Work& w, const float* light) {
                 w.right.data +
                 (std::size_t(ty) * std::size_t(w.tiles.across) + std::size_t(tx)) * kRight;
             for (int i = 0; i < kRight; ++i) out[i] = 0;
-            for_tile(w.in, tx, int(ty), [&](std::size_t pixel, int, int) {
+            for_tile(w.in, tx, int(ty), [&](std::size_t pixel, int x, int y) {
                 const float* f = w.features.data + pixel * kStored;
                 if (!(f[kK] > 0)) return;
+                double* fold = out + ((x & 1) + 2 * (y & 1)) * kSide;
                 for (int c = 0; c < 3; ++c) {
                     const std::size_t at = std::size_t(c) * pixels + pixel;
-                    const double left = double(light[at]) - double(w.fit[at]);
-                    const double wl = left * double(f[kK]);
-                    for (int k = 0; k < kK; ++k) out[c * kK + k] += wl * double(f[k]);
-                    out[3 * kK + c] += wl * left;
+                    const double wl = (double(light[at]) - double(w.fit[at])) * double(f[kK]);
+                    for (int k = 0; k < kK; ++k) fold[c * kK + k] += wl * double(f[k]);
                 }
-                out[3 * kK + 3] += 1;
             });
         }
     });
@@ -242,22 +219,26 @@ void solve(const Factors& f, const double* b, double* x) {
     }
 }
 
-/// Sum of squares of the window's weights over their sum, of tents.
-double thinness(int h) {
-    double one = 0, two = 0;
-    for (int d = 1 - h; d < h; ++d) one += tent(d, h), two += tent(d, h) * tent(d, h);
-    return two / one * two / one / (double(h) * double(h));
+/// Solves a window for one colour. `squares` gets what the fit explains, and how much of that is
+/// noise by how far the folds of the picture, each fitted by itself, are apart.
+void fit_folds(const Factors& f, const double* right, double* x, double* squares) {
+    double sum[kK] = {}, own = 0, explained = 0;
+    for (int fold = 0; fold < kFolds; ++fold) {
+        const double* b = right + fold * kSide;
+        solve(f, b, x);
+        for (int k = 0; k < kK; ++k) own += x[k] * b[k], sum[k] += b[k];
+    }
+    solve(f, sum, x);
+    for (int k = 0; k < kK; ++k) explained += x[k] * sum[k];
+    squares[0] = explained;
+    squares[3] = (kFolds * own - explained) / (kFolds - 1);
 }
 
-void solve_windows(Work& w, int h, bool shrinks) {
-    const double kappa = thinness(h);
+void solve_windows(Work& w, bool shrinks) {
     parallel_for(w.in.threads, w.tiles.down, [&](std::int64_t ty, int) {
         for (int tx = 0; tx < w.tiles.across; ++tx) {
             const std::size_t tile =
                 std::size_t(ty) * std::size_t(w.tiles.across) + std::size_t(tx);
-            const double* right = w.wider.data + tile * kRight;
-            double* out = w.coefficients.data + tile * 3 * kK;
-            const double count = right[3 * kK + 3];
             double* matrix = w.wide.data + tile * kMatrix;
             double* scale = w.scale.data + tile * kK;
             for (int k = 0, at = 0; k < kK; ++k, at += k + 1) {
@@ -265,27 +246,26 @@ void solve_windows(Work& w, int h, bool shrinks) {
                 matrix[at] += (shrinks ? kRidge : kFirstRidge) * scale[k] + w.common[k];
             }
             const Factors f = factor(matrix);
-            for (int c = 0; c < 3; ++c) {
-                double* x = out + c * kK;
-                if (f.rank == 0 || !(count > 0)) {
-                    for (int k = 0; k < kK; ++k) x[k] = 0;
-                    continue;
-                }
-                solve(f, right + c * kK, x);
-                double explained = 0;
-                for (int k = 0; k < kK; ++k) explained += x[k] * right[c * kK + k];
-                double& noise_here = w.noise[tile * 3 + std::size_t(c)];
-                if (!shrinks) {
-                    const double left = right[3 * kK + c] - explained;
-                    noise_here = left > 0 ? left / count : 0;
-                    continue;
-                }
-                const double noise = noise_here * kappa * f.rank * kStrict;
-                const double keep = explained > noise ? 1 - noise / explained : 0;
-                for (int k = 0; k < kK; ++k) x[k] *= keep;
-            }
+            for (int c = 0; c < 3; ++c)
+                fit_folds(f, w.wider.data + tile * kRight + c * kK,
+                          w.coefficients.data + tile * kSide + c * kK,
+                          w.kept.data + tile * kKept + c);
         }
     });
+}
+
+/// Keeps as much of each window's fit as the windows around say is no noise: what a window says of
+/// its own noise is short of it where no bright path went through, and fits would be too dark.
+void keep_confirmed(Work& w, int h) {
+    spread(w, w.kept.data, kKept, h, w.kept_around.data, false);
+    for (std::size_t t = 0; t < w.tiles.count(); ++t)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double explained = w.kept_around[t * kKept + c];
+            const double squares = kStrict * w.kept_around[t * kKept + 3 + c];
+            const double noise = squares > 0 ? squares : 0;  // below it by rounding alone
+            const double keep = explained > noise ? 1 - noise / explained : 0;
+            for (std::size_t k = 0; k < kK; ++k) w.coefficients[t * kSide + c * kK + k] *= keep;
+        }
 }
 
 /// Adds what the coefficients say of each pixel, between the middles of tiles linearly.
@@ -302,7 +282,7 @@ void add_fit(Work& w) {
         int y0, y1;
         double fy;
         place(int(y), ny, y0, y1, fy);
-        std::vector<double> row(std::size_t(nx) * 3 * kK);
+        std::vector<double> row(std::size_t(nx) * kSide);
         for (std::size_t i = 0; i < row.size(); ++i) {
             const double a = w.coefficients[std::size_t(y0) * row.size() + i];
             row[i] = a + fy * (w.coefficients[std::size_t(y1) * row.size() + i] - a);
@@ -314,7 +294,7 @@ void add_fit(Work& w) {
             int x0, x1;
             double fx;
             place(x, nx, x0, x1, fx);
-            const double *a = row.data() + x0 * 3 * kK, *b = row.data() + x1 * 3 * kK;
+            const double *a = row.data() + x0 * kSide, *b = row.data() + x1 * kSide;
             for (int c = 0; c < 3; ++c) {
                 double sum = 0;
                 for (int k = 0; k < kK; ++k) {
@@ -333,10 +313,36 @@ void run_level(Work& w, const float* light, int h, bool shrinks) {
     sum_right(w, light);
     spread(w, w.matrix.data, kMatrix, h, w.wide.data, true);
     spread(w, w.right.data, kRight, h, w.wider.data, true);
-    solve_windows(w, h, shrinks);
-    spread(w, w.coefficients.data, 3 * kK, h, w.wide.data, false);
-    std::memcpy(w.coefficients.data, w.wide.data, w.tiles.count() * 3 * kK * sizeof(double));
+    solve_windows(w, shrinks);
+    if (shrinks) keep_confirmed(w, h);
+    spread(w, w.coefficients.data, kSide, h, w.wide.data, false);
+    std::memcpy(w.coefficients.data, w.wide.data, w.tiles.count() * kSide * sizeof(double));
     add_fit(w);
+}
+
+Status make_work(const RegressionInput& in, Work& w) {
+    const std::size_t pixels = std::size_t(in.width) * std::size_t(in.height);
+    PILEUS_TRY(allocate(arrays::filter_features(pixels), w.numbers));
+    PILEUS_TRY(allocate(arrays::filter_sums(in.width, in.height), w.sums));
+    w.share_out(pixels);
+    return Status::ok();
+}
+
+/// Replaces the light of the pixels that have features.
+void filter_group(Work& w, float* light) {
+    const RegressionInput& in = w.in;
+    const std::size_t pixels = std::size_t(in.width) * std::size_t(in.height);
+    sum_matrix(w);
+    find_common(w);
+    std::memset(w.fit.data, 0, pixels * 3 * sizeof(float));
+    if (in.radius_pixels > 0) {
+        const int h = (in.radius_pixels + kTile - 1) / kTile;
+        run_level(w, light, h < 1 ? 1 : h, false);
+    } else
+        for (int h = kWidest; h >= kNarrowest; h /= 2) run_level(w, light, h, h < kWidest);
+    for (std::size_t i = 0; i < pixels; ++i)
+        if (w.features[i * kStored + kK] > 0)
+            for (std::size_t c = 0; c < 3; ++c) light[c * pixels + i] = w.fit[c * pixels + i];
 }
 
 }  // namespace
@@ -347,31 +353,26 @@ Array<float> arrays::filter_features(std::uint64_t pixels) {
 }
 
 Array<double> arrays::filter_sums(int width, int height) {
-    constexpr std::uint64_t kEach = 3 * kMatrix + 2 * kRight + 4 * kK + 3;
+    constexpr std::uint64_t kEach = 2 * kMatrix + 3 * kRight + kSide + kK + 2 * kKept;
     return {"sums of the filter", bytes_of(kEach, tiles_of(width, height).count()), Stage::kLayers,
             Stage::kLayers};
 }
 
 Status filter_light(const RegressionInput& in, float* light) {
-    const std::size_t pixels = std::size_t(in.width) * std::size_t(in.height);
     Work w(in);
-    PILEUS_TRY(allocate(arrays::filter_features(pixels), w.numbers));
-    PILEUS_TRY(allocate(arrays::filter_sums(in.width, in.height), w.sums));
-    w.share_out(pixels);
+    PILEUS_TRY(make_work(in, w));
     for (int group = 0; group < (in.opaque_depth != nullptr ? 2 : 1); ++group) {
-        set_features(w, group == 1);
-        sum_matrix(w);
-        find_common(w);
-        std::memset(w.fit.data, 0, pixels * 3 * sizeof(float));
-        if (in.radius_pixels > 0) {
-            const int h = (in.radius_pixels + kTile - 1) / kTile;
-            run_level(w, light, h < 1 ? 1 : h, false);
-        } else
-            for (int h = kWidest; h >= kNarrowest; h /= 2) run_level(w, light, h, h < kWidest);
-        for (std::size_t i = 0; i < pixels; ++i)
-            if (w.features[i * kStored + kK] > 0)
-                for (std::size_t c = 0; c < 3; ++c) light[c * pixels + i] = w.fit[c * pixels + i];
+        media_features(in, group == 1, w.features.data);
+        filter_group(w, light);
     }
+    return Status::ok();
+}
+
+Status filter_ground(const RegressionInput& in, float* light) {
+    Work w(in);
+    PILEUS_TRY(make_work(in, w));
+    ground_features(in, w.features.data);
+    filter_group(w, light);
     return Status::ok();
 }
 

@@ -21,6 +21,7 @@ struct RegressionInput {
     const float* optical_depth = nullptr;  ///< [pixel]
     const float* guides = nullptr;         ///< [3][pixel]
     const float* opaque_depth = nullptr;   ///< [pixel]; infinity for the sky; null: sky alone
+    const float* sun_on_ground = nullptr;  ///< [pixel], the share of it that media let through
     int radius_pixels = 0;                 ///< of all windows; 0: several, by the noise
 };
 
@@ -36,5 +37,9 @@ Array<double> filter_sums(int width, int height);
 /// Pixels with sky behind them and others are filtered apart. Same bits for any number of threads.
 /// kLimit: out of memory.
 Status filter_light(const RegressionInput& in, float* light);
+
+/// The same of light that comes from an even ground straight through the media, of all pixels with
+/// something solid. Needs transmittance, opaque_depth and sun_on_ground alone.
+Status filter_ground(const RegressionInput& in, float* light);
 
 }  // namespace pileus

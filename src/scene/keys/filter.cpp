@@ -11,9 +11,11 @@ template <auto... Members>
 constexpr KeyField filter = field<&Scene::filter, Members...>;
 
 constexpr KeyRow kRows[] = {
-    {"filter.kind", filter<&FilterSettings::kind>, one_of("none|regression"), "",
+    {"filter.kind", filter<&FilterSettings::kind>, one_of("none|regression|oidn"), "",
      "what takes the noise out of a picture of method path: local regressions on what is known of "
-     "each pixel without noise, with a small bias; none: the picture stays unbiased"},
+     "each pixel without noise, with a small bias; oidn: the library Open Image Denoise, to "
+     "compare "
+     "with, in other bits on other machines; none: the picture stays unbiased"},
     {"filter.radius_pixels", filter<&FilterSettings::radius_pixels>, from_to(0, 512), "",
      "radius of the windows of the regressions; 0: chosen place by place, by the noise"},
 };
