@@ -154,6 +154,7 @@ struct CollectorSettings {
     bool paper = false;           ///< variant = "paper"
     bool billboards = false;      ///< display = "billboards"
     bool guided_nodes = false;    ///< node_filter = "guided" or "surroundings"
+    bool all_directions = false;  ///< directions = "all" or "camera"
     Compositor compositor = Compositor::kBuiltin;
     bool rejection_sampler = false;  ///< sampler = "rejection" (paper) or "stratified"
     bool variance_field = false;     ///< placement = "variance" or "gradient"

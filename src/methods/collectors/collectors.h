@@ -27,9 +27,10 @@ inline bool is_marched(const CollectorsRun& run) {
 }
 
 /// Whether the display keeps what each collector scatters into every direction: a perspective view
-/// of a periodic medium shows each from many sides.
+/// of a periodic medium shows each from many sides, one from within a medium those around it.
 inline bool shows_harmonics(const CollectorsRun& run) {
-    return is_marched(run) && run.world->medium.grid.periodic && !run.scene->camera.orthographic;
+    return is_marched(run) && !run.scene->camera.orthographic &&
+           (run.world->medium.grid.periodic || run.scene->collectors.all_directions);
 }
 
 /// Chooses what is needed and fills the plan from sizes alone: reads no values, prepares nothing,

@@ -210,6 +210,17 @@ void check_node_filter(SceneCheck& check) {
                          ", allowed: surroundings, or display = \"march\"");
 }
 
+/// Only marched bands are known for all directions.
+void check_directions(SceneCheck& check) {
+    const CollectorSettings& c = check.scene.collectors;
+    const Node* node = check.key("collectors.directions");
+    if (!c.all_directions || node == nullptr) return;
+    if (c.billboards || c.lobe_closure || c.camera_closure)
+        check.faults.add(node->at, "collectors.directions",
+                         "needs bands that are marched through, " + value_text(*node) +
+                             ", allowed: camera, or display = \"march\" and closure = \"sh\"");
+}
+
 /// Pictures without noise, or with noise of another kind, have no use of it.
 void check_filter(SceneCheck& check) {
     const Scene& scene = check.scene;
@@ -266,6 +277,7 @@ void check_laws(SceneCheck& check) {
     check_periodic(check);
     check_compositor(check);
     check_node_filter(check);
+    check_directions(check);
     check_filter(check);
     check_lens(check);
     check_solids(check);
