@@ -157,6 +157,33 @@ TEST_CASE("render: options change what they name and nothing else") {
     CHECK(hash(march + "--budget steps=3") != hash(march));
 }
 
+TEST_CASE("render: --quality is a word for settings, and what is typed counts more") {
+    const ProgramFolder folder;
+    const auto hash = [&](const std::string& options) {
+        const Outcome o = folder.run("render s.toml --quiet -o a.pfm " + options);
+        REQUIRE_MESSAGE(o.exit_status == 0, o.errors);
+        return first_word(o.output);
+    };
+    const std::string path = "--set method.name=path ", filter = "--set filter.kind=regression ",
+                      four = "--set path.samples_per_pixel=4 ";
+    const std::string draft = hash(path + "--quality draft");
+    CHECK(draft == hash(path + filter + four));
+    CHECK(draft != hash(path + four));
+    CHECK(hash(path + "--quality draft --budget samples=2") ==
+          hash(path + filter + "--budget samples=2"));
+    CHECK(hash(path + "--quality draft --set filter.kind=none") == hash(path + four));
+    CHECK(hash(path + four + "--quality final") == hash(path + four));
+    CHECK(hash("--quality draft") == hash("--set collectors.node_filter=guided"));
+    CHECK(hash("--quality final") == hash(""));
+    CHECK(hash("--set method.name=raymarch --quality draft") ==
+          hash("--set method.name=raymarch --set raymarch.steps=96 --set raymarch.scale=2"));
+    const Outcome o = folder.run("render s.toml -o b.pfm --quality best");
+    CHECK(o.exit_status == 2);
+    CHECK(holds(o.errors, "--quality: unknown, \"best\", allowed: draft, final"));
+    CHECK(line_count(o.errors) == 1);
+    CHECK(folder.files().get("b.pfm").empty());
+}
+
 TEST_CASE("render: -o replaces the scene's files, and may stand before the scene") {
     const ProgramFolder folder;
     const std::string output = "[output]\nfiles = [\"own.pfm\"]\nreport = \"own.json\"\n";

@@ -105,6 +105,7 @@ void add_plan(CLI::App& app, Chosen& chosen) {
     const auto arguments = std::make_shared<PlanArguments>();
     add_scene_options(*command, arguments->scene,
                       "pileus plan cloud.toml --budget photons=1000000");
+    add_quality_option(*command, arguments->scene);
     command->add_flag("--json", arguments->json, "Print JSON");
     command->add_flag("--exact", arguments->exact,
                       "Read the values and prepare everything but the photons: exact bytes");

@@ -310,6 +310,7 @@ void add_render(CLI::App& app, Chosen& chosen) {
     add_scene_options(*command, arguments->scene,
                       "pileus render cloud.toml -o cloud.exr cloud.png --report cloud.json "
                       "--set sun.elevation_deg=10");
+    add_quality_option(*command, arguments->scene);
     command
         ->add_option("-o,--output", arguments->files,
                      picture_extensions(is_written) +

@@ -12,6 +12,7 @@
 #include "src/scene/toml/toml_tree.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
+#include "tools/pileus/quality.h"
 
 namespace pileus {
 
@@ -79,6 +80,27 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments, const std::
                    describe_limits());
 }
 
+void add_quality_option(CLI::App& command, SceneArguments& arguments) {
+    command
+        .add_option("--quality", arguments.quality,
+                    "draft: a first look, few samples and filtered; final: nothing filtered or "
+                    "thinned out; left out: as the scene says. --set and --budget count more")
+        ->type_name("draft|final");
+}
+
+namespace {
+
+/// The scene, read again with what its quality adds.
+Status read_quality(const SceneArguments& arguments, Scene& scene) {
+    std::vector<std::string> sets;
+    PILEUS_TRY(quality_sets(*arguments.quality, scene, arguments.sets, sets));
+    sets.insert(sets.end(), arguments.sets.begin(), arguments.sets.end());
+    scene = Scene();
+    return read_scene_file(arguments.scene, sets, scene);
+}
+
+}  // namespace
+
 Status read_scene_options(const SceneArguments& arguments, Scene& scene, RenderOptions& options) {
     Status faults;
     if (arguments.threads) {
@@ -99,6 +121,7 @@ Status read_scene_options(const SceneArguments& arguments, Scene& scene, RenderO
                   : read_scene_file(arguments.scene, arguments.sets, scene),
               faults);
     PILEUS_TRY(faults);
+    if (arguments.quality) PILEUS_TRY(read_quality(arguments, scene));
     if (arguments.seed) scene.seed = seed;
     return Status::ok();
 }

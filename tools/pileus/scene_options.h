@@ -15,13 +15,16 @@ namespace pileus {
 /// As typed.
 struct SceneArguments {
     std::string scene;
-    std::optional<std::string> threads, seed, isa;
+    std::optional<std::string> threads, seed, isa, quality;
     std::vector<std::string> sets, budgets, limits;
 };
 
 /// Adds SCENE --set --threads --seed --isa --budget --limit to a subcommand; its help ends with the
 /// example and the limits.
 void add_scene_options(CLI::App& command, SceneArguments& arguments, const std::string& example);
+
+/// Adds --quality, for commands that make pictures.
+void add_quality_option(CLI::App& command, SceneArguments& arguments);
 
 /// Checks all options, reads the scene and applies overrides and seed. Faults: one line each,
 /// those of the options first; kBadInput, or what reading the scene gave.
