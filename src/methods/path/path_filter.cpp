@@ -56,7 +56,7 @@ float turned(const PathRun& run, std::size_t c, std::size_t i) {
     return float(film_mean(run.film, kPathCloud, int(c), i));
 }
 
-RegressionInput regression_input(const Context& context, const PathRun& run) {
+RegressionInput regression_input(const Context& context, const PathRun& run, int fold) {
     const Planes& p = run.planes;
     RegressionInput in;
     in.width = run.film.width;
@@ -67,6 +67,7 @@ RegressionInput regression_input(const Context& context, const PathRun& run) {
     in.guides = run.guides.planes.data();
     in.opaque_depth = p.opaque_depth.data();
     in.radius_pixels = run.scene->filter.radius_pixels;
+    in.fold = fold;
     return in;
 }
 
@@ -83,7 +84,7 @@ Status light_ground(const Context& context, const PathRun& run, Buffer<float>& o
 
 /// Puts what comes straight through the media from a plain ground and from the sky in place of the
 /// samples of it: filtered, and as it is known.
-Status filter_straight(const Context& context, PathRun& run, const Buffer<float>& sky) {
+Status filter_straight(const Context& context, PathRun& run, int fold, const Buffer<float>& sky) {
     Planes& p = run.planes;
     const std::size_t pixels = run.film.pixels();
     Buffer<float> straight, sun;
@@ -96,7 +97,7 @@ Status filter_straight(const Context& context, PathRun& run, const Buffer<float>
         else
             straight[at] = sky.empty() ? 0.0f : p.transmittance[i] * sky[at];
     });
-    RegressionInput in = regression_input(context, run);
+    RegressionInput in = regression_input(context, run, fold);
     in.sun_on_ground = sun.data();
     PILEUS_TRY(filter_ground(in, straight.data()));
     for_light(context, run, [&](std::size_t c, std::size_t i) {
@@ -109,12 +110,12 @@ Status filter_straight(const Context& context, PathRun& run, const Buffer<float>
 /// Light that the filter takes. Before the sky that is all that has not come straight through;
 /// before something solid, whose light has edges of its own, and where it is at hand anyway, what
 /// the media turned last.
-Status take_light(const Context& context, PathRun& run, bool plain, Buffer<float>& out) {
+Status take_light(const Context& context, PathRun& run, bool plain, int fold, Buffer<float>& out) {
     Planes& p = run.planes;
     const std::size_t pixels = run.film.pixels();
     Buffer<float> sky;
     PILEUS_TRY(show_sky(context, run, sky));
-    if (plain) PILEUS_TRY(filter_straight(context, run, sky));
+    if (plain) PILEUS_TRY(filter_straight(context, run, fold, sky));
     PILEUS_TRY(allocate(arrays::film_means(3, pixels), out));
     for_light(context, run, [&](std::size_t c, std::size_t i) {
         const std::size_t at = c * pixels + i;
@@ -124,14 +125,14 @@ Status take_light(const Context& context, PathRun& run, bool plain, Buffer<float
     return Status::ok();
 }
 
-Status regress(const Context& context, PathRun& run) {
+Status regress(const Context& context, PathRun& run, int fold) {
     Planes& p = run.planes;
     const bool plain = has_plain_ground(run.lighting);
     Buffer<float> light, before;
-    PILEUS_TRY(take_light(context, run, plain, light));
+    PILEUS_TRY(take_light(context, run, plain, fold, light));
     PILEUS_TRY(allocate(arrays::film_means(light.size(), 1), before));
     std::memcpy(before.data(), light.data(), light.size() * sizeof(float));
-    RegressionInput in = regression_input(context, run);
+    RegressionInput in = regression_input(context, run, fold);
     if (plain) in.opaque_depth = nullptr;
     PILEUS_TRY(filter_light(in, light.data()));
     const std::size_t pixels = run.film.pixels();
@@ -140,6 +141,83 @@ Status regress(const Context& context, PathRun& run) {
         const std::size_t at = c * pixels + i;
         const float v = p.colour[at] + (light[at] - before[at]);
         if (light[at] != before[at]) p.colour[at] = v > 0 ? v : 0;
+    });
+    return Status::ok();
+}
+
+/// Squares are averaged over tiles of so many pixels and the eight around.
+constexpr int kErrorTile = 8;
+
+/// From squares of a pixel and channel, what they are on the mean around it: its root.
+Status smooth_error(const Context& context, int width, int height, Buffer<float>& error) {
+    const int across = (width + kErrorTile - 1) / kErrorTile,
+              down = (height + kErrorTile - 1) / kErrorTile;
+    const std::size_t pixels = std::size_t(width) * std::size_t(height);
+    Buffer<double> sums;
+    PILEUS_TRY(allocate(arrays::filter_errors(width, height), sums));
+    parallel_for(context.threads, down, [&](std::int64_t ty, int) {
+        const int end = int(ty + 1) * kErrorTile < height ? int(ty + 1) * kErrorTile : height;
+        for (int y = int(ty) * kErrorTile; y < end; ++y)
+            for (int x = 0; x < width; ++x) {
+                double* tile = sums.data() + 4 * (std::size_t(ty) * std::size_t(across) +
+                                                  std::size_t(x / kErrorTile));
+                const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
+                tile[3] += 1;
+                for (std::size_t c = 0; c < 3; ++c) tile[c] += double(error[c * pixels + i]);
+            }
+    });
+    parallel_for(context.threads, down, [&](std::int64_t ty, int) {
+        for (int tx = 0; tx < across; ++tx) {
+            double all[4] = {};
+            for (int v = int(ty) - 1; v <= int(ty) + 1; ++v)
+                for (int u = tx - 1; u <= tx + 1; ++u)
+                    for (int n = 0; n < 4 && v >= 0 && v < down && u >= 0 && u < across; ++n)
+                        all[n] += sums[4 * (std::size_t(v) * std::size_t(across) + std::size_t(u)) +
+                                       std::size_t(n)];
+            for (int y = int(ty) * kErrorTile; y < int(ty + 1) * kErrorTile && y < height; ++y)
+                for (int x = tx * kErrorTile; x < (tx + 1) * kErrorTile && x < width; ++x)
+                    for (std::size_t c = 0; c < 3; ++c)
+                        error[c * pixels + std::size_t(y) * std::size_t(width) + std::size_t(x)] =
+                            float(__builtin_sqrt(all[c] / all[3]));
+        }
+    });
+    return Status::ok();
+}
+
+/// Four parts of the picture, each filtered by itself, against the whole, of which each is a
+/// quarter: a difference of the two has three times the square of the whole's own error. Parts are
+/// smoothed more than the whole, which counts as error, too.
+Status regress_with_error(const Context& context, PathRun& run) {
+    Planes& p = run.planes;
+    const std::size_t pixels = run.film.pixels();
+    const auto copy = [&](const Buffer<float>& from, Buffer<float>& to) {
+        std::memcpy(to.data(), from.data(), from.bytes());
+    };
+    Buffer<float> samples, whole;
+    for (Buffer<float>* b : {&samples, &whole, &p.error})
+        PILEUS_TRY(allocate(arrays::film_means(3, pixels), *b));
+    copy(p.colour, samples);
+    PILEUS_TRY(regress(context, run, -1));
+    copy(p.colour, whole);
+    for (int fold = 0; fold < 4; ++fold) {
+        copy(samples, p.colour);
+        PILEUS_TRY(regress(context, run, fold));
+        for_light(context, run, [&](std::size_t c, std::size_t i) {
+            const int width = run.film.width;
+            if (filter_fold(int(i % std::size_t(width)), int(i / std::size_t(width))) != fold)
+                return;
+            const float d = p.colour[c * pixels + i] - whole[c * pixels + i];
+            p.error[c * pixels + i] = d * d * (1.0f / 3.0f);
+        });
+    }
+    copy(whole, p.colour);
+    PILEUS_TRY(smooth_error(context, run.film.width, run.film.height, p.error));
+    // What is not filtered has the error of its samples.
+    const bool plain = has_plain_ground(run.lighting);
+    for_light(context, run, [&](std::size_t c, std::size_t i) {
+        if (p.transmittance[i] < 1.0f || (plain && is_solid(p, i))) return;
+        p.error[c * pixels + i] =
+            run.film.samples >= 2 ? float(film_error(run.film, int(c), i)) : 0.0f;
     });
     return Status::ok();
 }
@@ -158,7 +236,8 @@ Status check_path_filter(const Scene& scene) {
                                  "single ray, " +
                                  value + ", allowed: none");
     const OutputSettings& output = scene.output;
-    const char* layer = output.layer_error ? "error" : output.layer_light ? "light" : nullptr;
+    const bool error = output.layer_error && !path_regresses(scene);
+    const char* layer = error ? "error" : output.layer_light ? "light" : nullptr;
     if (layer != nullptr)
         return Status::bad_input(key + "a filtered picture has no layer \"" + layer + "\", " +
                                  value + ", allowed: none, or other layers");
@@ -167,10 +246,11 @@ Status check_path_filter(const Scene& scene) {
 
 Status path_filter(const Context& context, PathRun& run) {
     const StageClock clock(context, "filter");
-    return path_regresses(*run.scene)
-               ? regress(context, run)
-               : denoise_by_oidn(key_of(*run.scene), run.film.width, run.film.height,
-                                 context.threads, run.planes.colour.data());
+    if (path_regresses(*run.scene))
+        return run.scene->output.layer_error ? regress_with_error(context, run)
+                                             : regress(context, run, -1);
+    return denoise_by_oidn(key_of(*run.scene), run.film.width, run.film.height, context.threads,
+                           run.planes.colour.data());
 }
 
 }  // namespace pileus

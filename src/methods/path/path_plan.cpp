@@ -155,7 +155,10 @@ void weigh_memory(const Context& context, PathRun& run) {
             arrays::guide_planes(pixels));
         if (!output.layer_optical_depth) add(t, arrays::picture_planes(1, pixels, Stage::kPaths));
         add(t, arrays::film_means(9, pixels), arrays::filter_features(pixels));
-        add(t, arrays::filter_sums(scene.camera.resolution[0], scene.camera.resolution[1]));
+        const auto& size = scene.camera.resolution;
+        add(t, arrays::filter_sums(size[0], size[1]));
+        if (scene.output.layer_error)
+            add(t, arrays::film_means(6, pixels), arrays::filter_errors(size[0], size[1]));
     }
     add_image_rows(std::uint64_t(scene.camera.resolution[0]),
                    std::uint64_t(scene.camera.resolution[1]),

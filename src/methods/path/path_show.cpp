@@ -42,7 +42,8 @@ Status fill_planes(const Context& context, PathRun& run) {
     if (output.layer_light) PILEUS_TRY(mean_planes(context, run.film, kPathSun, p.sun));
     if (output.layer_order) PILEUS_TRY(mean_planes(context, run.film, kPathSingle, p.single));
     // One sample has no scatter to tell an error from.
-    if (output.layer_error && run.film.samples >= 2) PILEUS_TRY(error_planes(run.film, p.error));
+    if (output.layer_error && run.film.samples >= 2 && !path_filters(*run.scene))
+        PILEUS_TRY(error_planes(run.film, p.error));
     return Status::ok();
 }
 

@@ -22,7 +22,7 @@ void fill_features(const RegressionInput& in, float* out, Mine mine, Fill fill) 
             const std::size_t i = std::size_t(y) * std::size_t(in.width) + std::size_t(x);
             float* f = out + i * kFilterStored;
             for (int k = 0; k < kFilterStored; ++k) f[k] = 0;
-            if (mine(i))
+            if (mine(i) && (in.fold < 0 || in.fold == filter_fold(x, y)))
                 fill(i, f, (float(x) - 0.5f * float(in.width)) / float(in.width),
                      (float(y) - 0.5f * float(in.height)) / float(in.width));
         }

@@ -120,7 +120,9 @@ void sum_right(Work& w, const float* light) {
             for_tile(w.in, tx, int(ty), [&](std::size_t pixel, int x, int y) {
                 const float* f = w.features.data + pixel * kStored;
                 if (!(f[kK] > 0)) return;
-                double* fold = out + ((x & 1) + 2 * (y & 1)) * kSide;
+                // What is one fold has folds of its own.
+                const int part = w.in.fold < 0 ? filter_fold(x, y) : filter_fold(x >> 1, y >> 1);
+                double* fold = out + part * kSide;
                 for (int c = 0; c < 3; ++c) {
                     const std::size_t at = std::size_t(c) * pixels + pixel;
                     const double wl = (double(light[at]) - double(w.fit[at])) * double(f[kK]);
@@ -355,6 +357,11 @@ Array<float> arrays::filter_features(std::uint64_t pixels) {
 Array<double> arrays::filter_sums(int width, int height) {
     constexpr std::uint64_t kEach = 2 * kMatrix + 3 * kRight + kSide + kK + 2 * kKept;
     return {"sums of the filter", bytes_of(kEach, tiles_of(width, height).count()), Stage::kLayers,
+            Stage::kLayers};
+}
+
+Array<double> arrays::filter_errors(int width, int height) {
+    return {"sums of the filter", bytes_of(4, tiles_of(width, height).count()), Stage::kLayers,
             Stage::kLayers};
 }
 

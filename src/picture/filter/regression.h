@@ -23,13 +23,19 @@ struct RegressionInput {
     const float* opaque_depth = nullptr;   ///< [pixel]; infinity for the sky; null: sky alone
     const float* sun_on_ground = nullptr;  ///< [pixel], the share of it that media let through
     int radius_pixels = 0;                 ///< of all windows; 0: several, by the noise
+    int fold = -1;  ///< pixels of that corner of each 2 x 2 square alone, 0 to 3; -1: all
 };
+
+/// The corner of its square of 2 x 2 that a pixel is.
+constexpr int filter_fold(int x, int y) { return (x & 1) + 2 * (y & 1); }
 
 namespace arrays {
 
 /// Features, sums and coefficients.
 Array<float> filter_features(std::uint64_t pixels);
 Array<double> filter_sums(int width, int height);
+/// Squares of errors and numbers of pixels, of tiles.
+Array<double> filter_errors(int width, int height);
 
 }  // namespace arrays
 
