@@ -5,13 +5,12 @@
 #include <cmath>
 
 #include "kernels_cpu/solids/solids.h"
-#include "src/base/file.h"
 #include "src/io/images/image_file.h"
-#include "tests/io/temp_folder.h"
-#include "tests/support/render_harness.h"
+#include "tests/support/plate_world.h"
 #include "tests/support/solid_harness.h"
 
 using namespace render_test;
+using namespace plate_test;
 
 namespace {
 
@@ -28,52 +27,7 @@ TestMesh ramp(int from, int to) {
     return mesh;
 }
 
-struct Files {
-    test::TempFolder folder;
-    std::string square = folder.path("square.obj");
-
-    Files() {
-        const std::string text = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n";
-        REQUIRE(write_file(square, {text.data(), text.size()}));
-    }
-    std::string plate(const char* more) const {
-        return "[[solid]]\nfile = \"" + square + "\"\n" + more + "\n";
-    }
-};
-
-/// A period of 8 m seen from above; the sun stands in the north, half way up.
-std::string world(const char* medium, const char* light) {
-    return std::string(R"(
-seed = 5
-[camera]
-position_m = [0, 0, 50]
-target_m = [0, 0, 0]
-up = [0, 1, 0]
-projection = "orthographic"
-height_m = 8
-resolution = [16, 16]
-[collectors]
-photons = 200_000
-generations = 8
-[path]
-samples_per_pixel = 256
-[[medium]]
-density = "uniform:box"
-boundary = "periodic"
-bounds_m = [[-4, -4, -4], [4, 4, 4]]
-resolution = [32, 32, 32]
-)") + medium +
-           light;
-}
-constexpr const char* kSun = "[sun]\nazimuth_deg = 0\nelevation_deg = 45\n";
-constexpr const char* kThin = "extinction_per_m = 0.02\nalbedo = 1\n";
-
-double mean_of(const Picture& p, int first_row, int end_row, const char* channel = "G") {
-    double sum = 0;
-    for (int y = first_row; y < end_row; ++y)
-        for (int x = 0; x < p.image.width; ++x) sum += double(p.at(channel, x, y));
-    return sum / (p.image.width * (end_row - first_row));
-}
+constexpr const char* kThin = "boundary = \"periodic\"\nextinction_per_m = 0.02\nalbedo = 1\n";
 
 }  // namespace
 
@@ -159,7 +113,7 @@ TEST_CASE("periodic solids: a plate before the sun shades in every method, its c
 TEST_CASE("periodic solids: white ones in a white medium in an even sky cannot be seen") {
     // Conservation: what comes from everywhere alike goes everywhere alike.
     const Files files;
-    const std::string text = world("extinction_per_m = 0.2\nalbedo = 1\n",
+    const std::string text = world("boundary = \"periodic\"\nextinction_per_m = 0.2\nalbedo = 1\n",
                                    "[sky]\nradiance = 0.5\n[ground]\nalbedo = 1\n"
                                    "altitude_m = -6\n") +
                              files.plate(
@@ -181,7 +135,7 @@ TEST_CASE("periodic solids: white ones in a white medium in an even sky cannot b
 TEST_CASE("periodic solids: photons and paths agree on a tilted grey plate in the medium") {
     const Files files;
     const std::string text =
-        world("extinction_per_m = 0.1\nalbedo = 0.9\n", kSun) +
+        world("boundary = \"periodic\"\nextinction_per_m = 0.1\nalbedo = 0.9\n", kSun) +
         files.plate("position_m = [7, 0, 1]\nrotation_deg = [25, 0, 0]\nscale = 2\nalbedo = 0.6");
     const double paths = mean_of(render_one(scene_from(text, {"method.name=path"})), 0, 16);
     for (const char* method : {"collectors", "photon-grid"}) {
