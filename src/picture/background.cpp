@@ -109,20 +109,32 @@ BackgroundParams background_params(const MediumView& medium, const CameraParams&
     return k;
 }
 
+namespace {
+
+bool has_meshes(const Lighting& light) {
+    return light.solids != nullptr && !light.solids->triangles.empty();
+}
+bool has_image(const Lighting& light) {
+    return light.depth != nullptr && !light.depth->metres.empty();
+}
+
+}  // namespace
+
+bool has_surfaces(const Lighting& light) { return has_meshes(light) || has_image(light); }
+
 Status show_background(const Context& context, const Lighting& light, const BackgroundParams& k,
                        const BackgroundBuffers& b) {
     const std::uint32_t rows = std::uint32_t(k.camera.height);
-    const Solids* solids = light.solids;
-    if (solids == nullptr || solids->triangles.empty()) {
+    if (!has_meshes(light)) {
         PILEUS_TRY(run_rows(context, context.kernels->background_rows, k, b, rows));
     } else {
         SolidRowsParams params{};
         params.back = k;
-        params.solids = solids->view();
+        params.solids = light.solids->view();
         if (b.colour != nullptr) set_around(light, params);
         show_solid_rows(context, params, b);
     }
-    if (light.depth != nullptr && !light.depth->metres.empty()) hide(*light.depth, k.camera, b);
+    if (has_image(light)) hide(*light.depth, k.camera, b);
     return Status::ok();
 }
 

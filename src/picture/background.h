@@ -12,6 +12,9 @@ namespace pileus {
 BackgroundParams background_params(const MediumView& medium, const CameraParams& camera,
                                    const Lighting& light);
 
+/// Whether meshes, or an image of what stands there, may end rays.
+bool has_surfaces(const Lighting& light);
+
 /// Runs background_rows, or its like with solids, and lays the camera's depth image over the
 /// result. `light` tells the solids and the light around them; `k` the rest.
 Status show_background(const Context& context, const Lighting& light, const BackgroundParams& k,

@@ -4,16 +4,14 @@
 
 #include "platform/threads.h"
 #include "src/io/images/srgb.h"
+#include "src/picture/background.h"
 #include "src/world/medium/medium.h"
-#include "src/world/solids/solids.h"
 
 namespace pileus {
 
 LateRows* late_rows_of(LateRows* late, const Lighting& light, const Medium& medium,
                        const UpsampleSettings& thin, const CameraParams& camera, int frame) {
-    const bool solid = light.solids != nullptr && !light.solids->triangles.empty();
-    const bool image = light.depth != nullptr && !light.depth->metres.empty();
-    if (late == nullptr || thin.temporal > 0 || solid || image || !light.lamps.empty() ||
+    if (late == nullptr || thin.temporal > 0 || has_surfaces(light) || !light.lamps.empty() ||
         emits(medium))
         return nullptr;
     late->marched = upsample_lattice(thin, camera, frame, false);

@@ -2,6 +2,7 @@
 // See quality.h.
 #include "tools/pileus/quality.h"
 
+#include "src/scene/rows/layer_flags.h"
 #include "src/scene/toml/toml_tree.h"
 
 namespace pileus {
@@ -15,22 +16,14 @@ std::string whole(const char* key, std::int64_t n) {
 }
 std::int64_t least(std::int64_t a, std::int64_t b) { return a < b ? a : b; }
 
-/// Layers that a filtered picture has; the others are left out.
-std::string filtered_layers(const OutputSettings& o) {
-    std::string list;
-    const auto add = [&](bool wanted, const char* name) {
-        if (wanted) list += std::string(list.empty() ? "" : ", ") + '"' + name + '"';
-    };
-    add(true, "radiance");
-    add(true, "alpha");
-    add(o.layer_depth, "depth");
-    add(o.layer_cloud, "cloud");
-    add(o.layer_optical_depth, "optical_depth");
-    add(o.layer_transmittance, "transmittance");
-    add(o.layer_order, "order");
-    add(o.layer_reflectance, "reflectance");
-    add(o.layer_shadow, "shadow");
-    add(o.layer_occlusion, "occlusion");
+/// The scene's layers but for two: a filtered picture's error takes four filters more, and parts of
+/// its light it has not.
+std::string filtered_layers(const OutputSettings& output) {
+    std::string list = "\"radiance\", \"alpha\"";
+    for (const LayerFlag& layer : kLayerFlags)
+        if (output.*layer.wanted && layer.wanted != &OutputSettings::layer_error &&
+            layer.wanted != &OutputSettings::layer_light)
+            list += std::string(", \"") + layer.name + '"';
     return "output.layers=[" + list + "]";
 }
 

@@ -46,6 +46,15 @@ Status read_budget(const std::string& text, RenderOptions& options) {
                              ", allowed: photons=N, samples=N, steps=N, error=E, seconds=S");
 }
 
+/// The scene, read again with what its quality adds.
+Status read_quality(const SceneArguments& arguments, Scene& scene) {
+    std::vector<std::string> sets;
+    PILEUS_TRY(quality_sets(*arguments.quality, scene, arguments.sets, sets));
+    sets.insert(sets.end(), arguments.sets.begin(), arguments.sets.end());
+    scene = Scene();
+    return read_scene_file(arguments.scene, sets, scene);
+}
+
 }  // namespace
 
 void add_scene_options(CLI::App& command, SceneArguments& arguments, const std::string& example) {
@@ -87,19 +96,6 @@ void add_quality_option(CLI::App& command, SceneArguments& arguments) {
                     "thinned out; left out: as the scene says. --set and --budget count more")
         ->type_name("draft|final");
 }
-
-namespace {
-
-/// The scene, read again with what its quality adds.
-Status read_quality(const SceneArguments& arguments, Scene& scene) {
-    std::vector<std::string> sets;
-    PILEUS_TRY(quality_sets(*arguments.quality, scene, arguments.sets, sets));
-    sets.insert(sets.end(), arguments.sets.begin(), arguments.sets.end());
-    scene = Scene();
-    return read_scene_file(arguments.scene, sets, scene);
-}
-
-}  // namespace
 
 Status read_scene_options(const SceneArguments& arguments, Scene& scene, RenderOptions& options) {
     Status faults;

@@ -5,6 +5,7 @@
 #include "platform/threads.h"
 #include "src/methods/path/path.h"
 #include "src/picture/background.h"
+#include "src/picture/filter/filter_error.h"
 #include "src/picture/filter/oidn.h"
 #include "src/picture/filter/regression.h"
 
@@ -31,9 +32,7 @@ Status show_sky(const Context& context, const PathRun& run, Buffer<float>& out) 
 /// Whether all that is solid is a ground under the sun and an even sky. Then its light is filtered,
 /// too, and media have the same light before it and before the sky.
 bool has_plain_ground(const Lighting& light) {
-    const bool solids = (light.solids != nullptr && !light.solids->triangles.empty()) ||
-                        (light.depth != nullptr && !light.depth->metres.empty());
-    return light.ground && !solids && light.lamps.empty() && light.map.columns == 0;
+    return light.ground && !has_surfaces(light) && light.lamps.empty() && light.map.columns == 0;
 }
 
 bool is_solid(const Planes& p, std::size_t i) {
@@ -82,13 +81,26 @@ Status light_ground(const Context& context, const PathRun& run, Buffer<float>& o
     return show_background(context, run.lighting, k, {nullptr, out.data(), nullptr});
 }
 
+/// What of a picture is known without its samples, made once for all of its filters.
+struct Known {
+    bool plain = false;  ///< a plain ground
+    Buffer<float> sky;   ///< of show_sky
+    Buffer<float> sun;   ///< of light_ground; with a plain ground alone
+};
+
+Status find_known(const Context& context, const PathRun& run, Known& known) {
+    known.plain = has_plain_ground(run.lighting);
+    PILEUS_TRY(show_sky(context, run, known.sky));
+    return known.plain ? light_ground(context, run, known.sun) : Status::ok();
+}
+
 /// Puts what comes straight through the media from a plain ground and from the sky in place of the
 /// samples of it: filtered, and as it is known.
-Status filter_straight(const Context& context, PathRun& run, int fold, const Buffer<float>& sky) {
+Status filter_straight(const Context& context, PathRun& run, const Known& known, int fold) {
     Planes& p = run.planes;
     const std::size_t pixels = run.film.pixels();
-    Buffer<float> straight, sun;
-    PILEUS_TRY(light_ground(context, run, sun));
+    const Buffer<float>& sky = known.sky;
+    Buffer<float> straight;
     PILEUS_TRY(allocate(arrays::film_means(3, pixels), straight));
     for_light(context, run, [&](std::size_t c, std::size_t i) {
         const std::size_t at = c * pixels + i;
@@ -98,7 +110,7 @@ Status filter_straight(const Context& context, PathRun& run, int fold, const Buf
             straight[at] = sky.empty() ? 0.0f : p.transmittance[i] * sky[at];
     });
     RegressionInput in = regression_input(context, run, fold);
-    in.sun_on_ground = sun.data();
+    in.sun_on_ground = known.sun.data();
     PILEUS_TRY(filter_ground(in, straight.data()));
     for_light(context, run, [&](std::size_t c, std::size_t i) {
         const float s = straight[c * pixels + i];
@@ -110,30 +122,29 @@ Status filter_straight(const Context& context, PathRun& run, int fold, const Buf
 /// Light that the filter takes. Before the sky that is all that has not come straight through;
 /// before something solid, whose light has edges of its own, and where it is at hand anyway, what
 /// the media turned last.
-Status take_light(const Context& context, PathRun& run, bool plain, int fold, Buffer<float>& out) {
+Status take_light(const Context& context, PathRun& run, const Known& known, int fold,
+                  Buffer<float>& out) {
     Planes& p = run.planes;
     const std::size_t pixels = run.film.pixels();
-    Buffer<float> sky;
-    PILEUS_TRY(show_sky(context, run, sky));
-    if (plain) PILEUS_TRY(filter_straight(context, run, fold, sky));
+    const Buffer<float>& sky = known.sky;
+    if (known.plain) PILEUS_TRY(filter_straight(context, run, known, fold));
     PILEUS_TRY(allocate(arrays::film_means(3, pixels), out));
     for_light(context, run, [&](std::size_t c, std::size_t i) {
         const std::size_t at = c * pixels + i;
         const float straight = sky.empty() ? 0.0f : p.transmittance[i] * sky[at];
-        out[at] = plain || is_solid(p, i) ? turned(run, c, i) : p.colour[at] - straight;
+        out[at] = known.plain || is_solid(p, i) ? turned(run, c, i) : p.colour[at] - straight;
     });
     return Status::ok();
 }
 
-Status regress(const Context& context, PathRun& run, int fold) {
+Status regress(const Context& context, PathRun& run, const Known& known, int fold) {
     Planes& p = run.planes;
-    const bool plain = has_plain_ground(run.lighting);
     Buffer<float> light, before;
-    PILEUS_TRY(take_light(context, run, plain, fold, light));
+    PILEUS_TRY(take_light(context, run, known, fold, light));
     PILEUS_TRY(allocate(arrays::film_means(light.size(), 1), before));
     std::memcpy(before.data(), light.data(), light.size() * sizeof(float));
     RegressionInput in = regression_input(context, run, fold);
-    if (plain) in.opaque_depth = nullptr;
+    if (known.plain) in.opaque_depth = nullptr;
     PILEUS_TRY(filter_light(in, light.data()));
     const std::size_t pixels = run.film.pixels();
     for_light(context, run, [&](std::size_t c, std::size_t i) {
@@ -145,49 +156,10 @@ Status regress(const Context& context, PathRun& run, int fold) {
     return Status::ok();
 }
 
-/// Squares are averaged over tiles of so many pixels and the eight around.
-constexpr int kErrorTile = 8;
-
-/// From squares of a pixel and channel, what they are on the mean around it: its root.
-Status smooth_error(const Context& context, int width, int height, Buffer<float>& error) {
-    const int across = (width + kErrorTile - 1) / kErrorTile,
-              down = (height + kErrorTile - 1) / kErrorTile;
-    const std::size_t pixels = std::size_t(width) * std::size_t(height);
-    Buffer<double> sums;
-    PILEUS_TRY(allocate(arrays::filter_errors(width, height), sums));
-    parallel_for(context.threads, down, [&](std::int64_t ty, int) {
-        const int end = int(ty + 1) * kErrorTile < height ? int(ty + 1) * kErrorTile : height;
-        for (int y = int(ty) * kErrorTile; y < end; ++y)
-            for (int x = 0; x < width; ++x) {
-                double* tile = sums.data() + 4 * (std::size_t(ty) * std::size_t(across) +
-                                                  std::size_t(x / kErrorTile));
-                const std::size_t i = std::size_t(y) * std::size_t(width) + std::size_t(x);
-                tile[3] += 1;
-                for (std::size_t c = 0; c < 3; ++c) tile[c] += double(error[c * pixels + i]);
-            }
-    });
-    parallel_for(context.threads, down, [&](std::int64_t ty, int) {
-        for (int tx = 0; tx < across; ++tx) {
-            double all[4] = {};
-            for (int v = int(ty) - 1; v <= int(ty) + 1; ++v)
-                for (int u = tx - 1; u <= tx + 1; ++u)
-                    for (int n = 0; n < 4 && v >= 0 && v < down && u >= 0 && u < across; ++n)
-                        all[n] += sums[4 * (std::size_t(v) * std::size_t(across) + std::size_t(u)) +
-                                       std::size_t(n)];
-            for (int y = int(ty) * kErrorTile; y < int(ty + 1) * kErrorTile && y < height; ++y)
-                for (int x = tx * kErrorTile; x < (tx + 1) * kErrorTile && x < width; ++x)
-                    for (std::size_t c = 0; c < 3; ++c)
-                        error[c * pixels + std::size_t(y) * std::size_t(width) + std::size_t(x)] =
-                            float(__builtin_sqrt(all[c] / all[3]));
-        }
-    });
-    return Status::ok();
-}
-
 /// Four parts of the picture, each filtered by itself, against the whole, of which each is a
 /// quarter: a difference of the two has three times the square of the whole's own error. Parts are
 /// smoothed more than the whole, which counts as error, too.
-Status regress_with_error(const Context& context, PathRun& run) {
+Status regress_with_error(const Context& context, PathRun& run, const Known& known) {
     Planes& p = run.planes;
     const std::size_t pixels = run.film.pixels();
     const auto copy = [&](const Buffer<float>& from, Buffer<float>& to) {
@@ -197,11 +169,11 @@ Status regress_with_error(const Context& context, PathRun& run) {
     for (Buffer<float>* b : {&samples, &whole, &p.error})
         PILEUS_TRY(allocate(arrays::film_means(3, pixels), *b));
     copy(p.colour, samples);
-    PILEUS_TRY(regress(context, run, -1));
+    PILEUS_TRY(regress(context, run, known, -1));
     copy(p.colour, whole);
     for (int fold = 0; fold < 4; ++fold) {
         copy(samples, p.colour);
-        PILEUS_TRY(regress(context, run, fold));
+        PILEUS_TRY(regress(context, run, known, fold));
         for_light(context, run, [&](std::size_t c, std::size_t i) {
             const int width = run.film.width;
             if (filter_fold(int(i % std::size_t(width)), int(i / std::size_t(width))) != fold)
@@ -211,11 +183,10 @@ Status regress_with_error(const Context& context, PathRun& run) {
         });
     }
     copy(whole, p.colour);
-    PILEUS_TRY(smooth_error(context, run.film.width, run.film.height, p.error));
+    PILEUS_TRY(smooth_error(context.threads, run.film.width, run.film.height, p.error));
     // What is not filtered has the error of its samples.
-    const bool plain = has_plain_ground(run.lighting);
     for_light(context, run, [&](std::size_t c, std::size_t i) {
-        if (p.transmittance[i] < 1.0f || (plain && is_solid(p, i))) return;
+        if (p.transmittance[i] < 1.0f || (known.plain && is_solid(p, i))) return;
         p.error[c * pixels + i] =
             run.film.samples >= 2 ? float(film_error(run.film, int(c), i)) : 0.0f;
     });
@@ -246,9 +217,12 @@ Status check_path_filter(const Scene& scene) {
 
 Status path_filter(const Context& context, PathRun& run) {
     const StageClock clock(context, "filter");
-    if (path_regresses(*run.scene))
-        return run.scene->output.layer_error ? regress_with_error(context, run)
-                                             : regress(context, run, -1);
+    if (path_regresses(*run.scene)) {
+        Known known;
+        PILEUS_TRY(find_known(context, run, known));
+        return run.scene->output.layer_error ? regress_with_error(context, run, known)
+                                             : regress(context, run, known, -1);
+    }
     return denoise_by_oidn(key_of(*run.scene), run.film.width, run.film.height, context.threads,
                            run.planes.colour.data());
 }

@@ -6,6 +6,7 @@
 #include "src/methods/path/path_blocks.h"
 #include "src/methods/path/path_passes.h"
 #include "src/methods/path/path_state.h"
+#include "src/picture/filter/filter_error.h"
 #include "src/picture/filter/oidn.h"
 #include "src/picture/filter/regression.h"
 #include "src/world/plan_parts.h"
@@ -158,7 +159,7 @@ void weigh_memory(const Context& context, PathRun& run) {
         const auto& size = scene.camera.resolution;
         add(t, arrays::filter_sums(size[0], size[1]));
         if (scene.output.layer_error)
-            add(t, arrays::film_means(6, pixels), arrays::filter_errors(size[0], size[1]));
+            add(t, arrays::film_means(6, pixels), arrays::error_tiles(size[0], size[1]));
     }
     add_image_rows(std::uint64_t(scene.camera.resolution[0]),
                    std::uint64_t(scene.camera.resolution[1]),

@@ -360,11 +360,6 @@ Array<double> arrays::filter_sums(int width, int height) {
             Stage::kLayers};
 }
 
-Array<double> arrays::filter_errors(int width, int height) {
-    return {"sums of the filter", bytes_of(4, tiles_of(width, height).count()), Stage::kLayers,
-            Stage::kLayers};
-}
-
 Status filter_light(const RegressionInput& in, float* light) {
     Work w(in);
     PILEUS_TRY(make_work(in, w));

@@ -34,8 +34,6 @@ namespace arrays {
 /// Features, sums and coefficients.
 Array<float> filter_features(std::uint64_t pixels);
 Array<double> filter_sums(int width, int height);
-/// Squares of errors and numbers of pixels, of tiles.
-Array<double> filter_errors(int width, int height);
 
 }  // namespace arrays
 

@@ -3,6 +3,7 @@
 // in: checked values <-> out: fields of OutputSettings, Animation.
 // docs/scene.md.
 #include "src/scene/keys/all_keys.h"
+#include "src/scene/rows/layer_flags.h"
 
 namespace pileus {
 namespace {
@@ -12,30 +13,15 @@ constexpr KeyField output = field<&Scene::output, Members...>;
 template <auto... Members>
 constexpr KeyField animation = field<&Scene::animation, Members...>;
 
-struct Layer {
-    const char* name;
-    bool OutputSettings::*wanted;
-};
-constexpr Layer kLayerFlags[] = {{"depth", &OutputSettings::layer_depth},
-                                 {"error", &OutputSettings::layer_error},
-                                 {"cloud", &OutputSettings::layer_cloud},
-                                 {"optical_depth", &OutputSettings::layer_optical_depth},
-                                 {"transmittance", &OutputSettings::layer_transmittance},
-                                 {"light", &OutputSettings::layer_light},
-                                 {"order", &OutputSettings::layer_order},
-                                 {"reflectance", &OutputSettings::layer_reflectance},
-                                 {"shadow", &OutputSettings::layer_shadow},
-                                 {"occlusion", &OutputSettings::layer_occlusion}};
-
 constexpr KeyField kLayers{KeyKind::kTexts,
                            [](const KeySource& s) {
                                std::vector<std::string> names{"radiance", "alpha"};
-                               for (const Layer& layer : kLayerFlags)
+                               for (const LayerFlag& layer : kLayerFlags)
                                    if (s.scene.output.*layer.wanted) names.emplace_back(layer.name);
                                return node_of(names);
                            },
                            [](const KeyTarget& t, const Node& n) {
-                               for (const Layer& layer : kLayerFlags)
+                               for (const LayerFlag& layer : kLayerFlags)
                                    t.scene.output.*layer.wanted = texts_hold(n, layer.name);
                            }};
 
