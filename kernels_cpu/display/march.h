@@ -19,6 +19,8 @@
 namespace pileus {
 inline namespace PILEUS_ISA {
 
+constexpr int kMostMarched = 3 * 17;  // channels: the picture's and those of sixteen batches
+
 /// The sun's first order along one ray, per unit of the sunlight that arrives.
 template <class T>
 struct SunAlongRay {
@@ -93,7 +95,8 @@ PILEUS_FN void sun_source_at(const MarchParams& k, const MarchBuffers& b, const 
         });
 }
 
-/// The harmonics of the directions in which a ray's light travels, lane by lane.
+/// The harmonics of the directions in which a ray's light travels, lane by lane; after the bands'
+/// come the Legendre polynomials of the angle to the sunlight's direction.
 template <int W>
 struct RayHarmonics {
     float y[W][kMostHarmonics];
@@ -101,10 +104,18 @@ struct RayHarmonics {
 template <int W>
 PILEUS_FN void set_harmonics(const MarchParams& k, const Vec<F<W>>& d, RayHarmonics<W>& h) {
     F<W> y[kMaxBands * kMaxBands];
-    sh_values(k.bands, Vec<F<W>>{F<W>{} - d.x, F<W>{} - d.y, F<W>{} - d.z}, y);
+    const Vec<F<W>> to{F<W>{} - d.x, F<W>{} - d.y, F<W>{} - d.z};
+    sh_values(k.bands, to, y);
+    F<W> p[kMaxAxisDegrees];
+    const Vec<F<W>> sun{all<F<W>>(k.sun_travel[0]), all<F<W>>(k.sun_travel[1]),
+                        all<F<W>>(k.sun_travel[2])};
+    axis_values(k.bands, k.degrees, 1.0f - one_minus_cosine(sun, to), p);
+    const int bands = k.bands * k.bands;
     for (int l = 0; l < W; ++l)
         for (int i = 0; i < k.harmonics; ++i)
-            h.y[l][i] = i < k.bands * k.bands ? lane(y[i], l) : 0.0f;
+            h.y[l][i] = i < bands               ? lane(y[i], l)
+                        : i < bands + k.degrees ? lane(p[i - bands], l)
+                                                : 0.0f;
 }
 
 /// Light of each set that leaves a place along directions with harmonics `y`. Numbers of one node
@@ -146,24 +157,67 @@ PILEUS_FN void read_quads(const MarchParams& k, const MarchBuffers& b, const Vec
     interpolate_quads(b.quads, c, bits_of(wanted), out);
 }
 
+/// What nodes around the camera send along the rays, and their share of what is seen `t` metres
+/// from it: all up to half their reach, nothing at its end.
+template <int W>
+struct NearLight {
+    F<W> share{};
+    F<W> colour[kMostMarched];  ///< set where any share is above 0
+};
+template <int W>
+PILEUS_FN void read_near(const MarchParams& k, const MarchBuffers& b, const Vec<F<W>>& metres,
+                         F<W> t, M<W> wanted, const RayHarmonics<W>& h, NearLight<W>& out) {
+    using T = F<W>;
+    out.share =
+        select(wanted, max_(min_(2.0f - t * (2.0f / k.near.reach), all<T>(1.0f)), T{}), T{});
+    if (!any(out.share > 0.0f)) return;
+    Vec<T> node = node_position(k.source, metres);
+    node.x = node.x - float(k.near.first[0]);
+    node.y = node.y - float(k.near.first[1]);
+    node.z = node.z - float(k.near.first[2]);
+    const Corners<T> c = corners(node, k.near.size, false);
+    const std::int64_t numbers =
+        std::int64_t(k.near.size[0]) * k.near.size[1] * k.near.size[2] * k.sets * k.harmonics;
+    for (int i = 0; i < k.channels; ++i) out.colour[i] = T{};
+    for (std::uint32_t lanes = bits_of(out.share > 0.0f); lanes != 0; lanes &= lanes - 1) {
+        const int l = lowest_bit(lanes);
+        for (int part = 0; part < k.channels / 3; ++part) {
+            float light[3] = {};
+            light_along(k, b.near + part * numbers, c, l, h.y[l], light);
+            for (int i = 0; i < 3; ++i) {
+                float sum = 0;
+                for (int s = 0; s < k.sets; ++s) sum = sum + light[s] * k.set_colour[s][i];
+                // Bands ring; there is no less than no light.
+                if (part == 0 && sum < -k.constant[i]) sum = -k.constant[i];
+                set_lane(out.colour[3 * part + i], l, sum);
+            }
+        }
+    }
+}
+
 /// Adds `weight` times all light that leaves towards the camera: `direct` and that of the nodes,
 /// which `quad` holds where there are quads.
 template <int W>
 PILEUS_FN void add_source(const MarchParams& k, const MarchBuffers& b, const Vec<F<W>>& metres,
-                          const RayHarmonics<W>& h, const F<W> (&direct)[3], const F<W> (&quad)[4],
-                          F<W> weight, F<W>* colour) {
+                          const RayHarmonics<W>& h, const NearLight<W>& near,
+                          const F<W> (&direct)[3], const F<W> (&quad)[4], F<W> weight,
+                          F<W>* colour) {
     using T = F<W>;
+    const bool blends = b.near != nullptr && any(near.share > 0.0f);
+    const auto blended = [&](T own, int i) {
+        return blends ? own + near.share * (near.colour[i] - own) : own;
+    };
     if (b.quads != nullptr) {
         for (int i = 0; i < 3; ++i)
-            colour[i] = colour[i] + weight * (quad[i] + (direct[i] + k.constant[i]));
+            colour[i] = colour[i] + weight * (blended(quad[i], i) + (direct[i] + k.constant[i]));
         return;
     }
     const Corners<T> c =
         corners(node_position(k.source, metres), k.source.size, k.medium.periodic != 0);
     const std::int64_t nodes = std::int64_t(k.source.size[0]) * k.source.size[1] * k.source.size[2];
-    if (k.bands == 0) {
+    if (k.bands == 0 || b.near != nullptr) {
         for (int i = 0; i < k.channels; ++i) {
-            T source = interpolate(b.source + i * nodes, c);
+            T source = blended(interpolate(b.source + i * nodes, c), i);
             source = source + (direct[i % 3] + k.constant[i % 3]);
             colour[i] = colour[i] + weight * source;
         }
@@ -187,7 +241,6 @@ template <int W, bool Veiled, bool Constant>
 PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::int32_t x,
                             std::int32_t y, std::int32_t end) {
     using T = F<W>;
-    constexpr int kMost = 3 * 17;
     const I<W> number = iota<I<W>>();
     const I<W> column = number % kMarchAcross<W> + x, row = number / kMarchAcross<W> + y;
     const M<W> real = (column < k.lattice.width) & (row < end);
@@ -208,11 +261,12 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
 
     const SunAlongRay<T> sun = sun_along(k, ray.direction);
     RayHarmonics<W> harmonics;
+    NearLight<W> around;
     if (k.bands > 0) set_harmonics(k, ray.direction, harmonics);
     const bool wraps = k.medium.periodic != 0;
 
     T transmittance = all<T>(1.0f), half = all<T>(__builtin_inff()), depth{};
-    T colour[kMost];
+    T colour[kMostMarched];
     for (int c = 0; c < k.channels; ++c) colour[c] = T{};
     Pace<T> pace;
     march_ray<Constant>(
@@ -242,7 +296,8 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
                 sun_source_at<Constant>(k, b, sun, at, density, light, direct);
                 if (k.beam_sets > 0) add_beam(k, b, sun, tau, visible, direct);
             }
-            add_source<W>(k, b, metres, harmonics, direct, quad, weight, colour);
+            if (b.near != nullptr) read_near(k, b, metres, t, optical > 0.0f, harmonics, around);
+            add_source<W>(k, b, metres, harmonics, around, direct, quad, weight, colour);
             const T left = transmittance * (1.0f - alpha);
             if (b.half_depth != nullptr) {
                 const auto crosses = (transmittance > 0.5f) & (left <= 0.5f);

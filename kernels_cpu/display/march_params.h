@@ -30,6 +30,13 @@ struct NodeGrid {
     float per_metre[3];  ///< nodes per metre along each axis
 };
 
+/// Some of the nodes of a grid, around a camera within it.
+struct NearNodes {
+    std::int32_t first[3];
+    std::int32_t size[3];  ///< 0: none
+    float reach;           ///< m from the camera to where they no longer count
+};
+
 /// Pixel (i, j) of the marched ones is pixel (first + every * (i, j)) of the picture.
 struct PixelLattice {
     std::int32_t every;
@@ -57,7 +64,7 @@ struct ShadowBuffers {
 
 /// Harmonics of a node are stored in groups of so many, the last one filled up with zeros.
 constexpr int kHarmonicsAbreast = 16;
-constexpr int kMostHarmonics = 64;
+constexpr int kMostHarmonics = 80;
 
 /// A beam's light by angle and optical depth: what scatterings within its peak add to what is left
 /// of it. Angles even near both ends, depths as tau / (tau + kBeamDepth).
@@ -78,10 +85,12 @@ struct MarchParams {
     float constant[3];  ///< source everywhere in the media: sky by the furnace identity
     NodeGrid shadow, source;
     std::int32_t channels;   ///< planes of `source` and of `colour`: 3, or 3*(1+batches)
-    std::int32_t bands;      ///< 0; or `source` holds bands*bands harmonics of what goes each way
+    std::int32_t bands;      ///< 0; or nodes hold bands*bands harmonics of what goes each way
+    std::int32_t degrees;    ///< and so many more of what is even about the sun's direction
     std::int32_t harmonics;  ///< stored per set and node
     std::int32_t sets;       ///< 1..3 of such harmonics
     float set_colour[3][3];  ///< R G B of each
+    NearNodes near;          ///< of `source`, those that hold harmonics; else all do, with bands
     float cut;               ///< stop below this transmittance
     /// Below these transmittances, falling, steps are 2, 4 and 8 times as long; 0: they are not.
     float wider[kWiderSteps];
@@ -92,8 +101,8 @@ struct MarchParams {
 };
 struct MarchBuffers {
     const float* optical_depth;  ///< shadow nodes; unused without direct sunlight
-    const float* source;  ///< [channel][node], scattered light towards the camera; with bands:
-                          ///< [node][set][harmonic], scattered light per direction
+    const float* source;  ///< [channel][node], scattered light towards the camera; with bands and
+                          ///< no near nodes: [node][set][harmonic], scattered light per direction
     const float* opaque_depth;  ///< [pixel], m along the ray; null: nothing opaque
     const float* parts;         ///< [medium - 1][voxel]: densities of media 1, 2 ...
     float* transmittance;       ///< [pixel]
@@ -106,6 +115,7 @@ struct MarchBuffers {
     /// [node][R, G, B, optical depth to the sun] in place of `source`, and, where the shadow nodes
     /// are the same, of `optical_depth`; null: none. For three channels without bands.
     const float* quads;
+    const float* near;  ///< [channel / 3][near node][set][harmonic]; null: none
 };
 
 struct BackgroundParams {

@@ -11,6 +11,7 @@
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/node_rows.h"
 #include "src/picture/nodes/solid_shadow.h"
+#include "src/world/camera/view.h"
 
 namespace pileus {
 namespace {
@@ -84,6 +85,9 @@ bool same_nodes(const NodeGrid& a, const NodeGrid& b) {
     return true;
 }
 
+/// Nodes hold colours, not harmonics alone.
+bool reads_planes(const MarchParams& k) { return k.bands == 0 || k.near.size[0] > 0; }
+
 /// Puts what a march reads of each node side by side.
 Status pack_nodes(const Context& context, const NodeGrid& nodes, const MediumView& medium,
                   PhotonRun& run, NodeLight& light) {
@@ -115,6 +119,7 @@ Status march_rows(const Context& context, const PhotonRun& run, const NodeLight&
     k.together = source.depths ? 1 : 0;
     MarchBuffers b{};
     b.quads = source.quads;
+    b.near = source.near;
     b.optical_depth = run.shadow.data();
     b.beam = run.beam.tables.data();
     b.source = source.planes;
@@ -143,7 +148,7 @@ const float* sun_depths_at(const PhotonRun& run, const NodeGrid& nodes) {
 Status march_lit(const Context& context, PhotonRun& run, const NodeLight& source,
                  const MarchParams& k, float* target, Planes& planes) {
     NodeLight packed = source;
-    if (k.bands == 0 && reads_quads(context, k.channels, k.source))
+    if (reads_planes(k) && reads_quads(context, k.channels, k.source))
         PILEUS_TRY(pack_nodes(context, k.source, k.medium, run, packed));
     return march_rows(context, run, packed, k, target, planes);
 }
@@ -163,7 +168,7 @@ Status march_thinned(const Context& context, const UpsampleSettings& thin, const
     in.to_sun = run.lighting.to_sun;
     in.light = ((run.relights + run.shadow_slices.made) << 32) + run.next_generation;
     NodeLight packed = source;
-    if (k.bands == 0 && reads_quads(context, k.channels, k.source))
+    if (reads_planes(k) && reads_quads(context, k.channels, k.source))
         PILEUS_TRY(pack_nodes(context, k.source, k.medium, run, packed));
     in.march = [&](const PixelLattice& lattice, Planes& few) {
         MarchParams own = k;
@@ -238,33 +243,41 @@ MarchParams lit_march_params(const PhotonRun& run, const LightInput& lit, const 
     return k;
 }
 
-int stored_harmonics(int bands) {
-    return (bands * bands + kHarmonicsAbreast - 1) / kHarmonicsAbreast * kHarmonicsAbreast;
+std::uint64_t near_nodes_of(const PhotonRun& run, const NodeGrid& nodes, const Context& context) {
+    if (context.frames > 1) return most_near_nodes(nodes);
+    const CameraParams camera = make_camera(run.scene->camera, 0, run.world->medium.low_m);
+    return node_count(near_nodes(nodes, camera.origin));
 }
 
-void set_harmonic_sets(int bands, int sets, const float (&colour)[3][3], MarchParams& k) {
-    k.bands = bands;
+int stored_harmonics(const DepositPlan& deposit) {
+    const int numbers = deposit.bands * deposit.bands + deposit.axis_degrees;
+    return (numbers + kHarmonicsAbreast - 1) / kHarmonicsAbreast * kHarmonicsAbreast;
+}
+
+void set_harmonic_sets(const DepositPlan& deposit, int sets, const float (&colour)[3][3],
+                       MarchParams& k) {
+    k.bands = deposit.bands;
+    k.degrees = deposit.axis_degrees;
     k.sets = sets;
-    k.harmonics = stored_harmonics(bands);
+    k.harmonics = stored_harmonics(deposit);
     for (int s = 0; s < sets; ++s)
         for (int c = 0; c < 3; ++c) k.set_colour[s][c] = colour[s][c];
 }
 
-Status gather_by_node(const Context& context, const MarchParams& k, Span<const float> numbers,
-                      Buffer<float>& by_node) {
-    const std::size_t nodes = std::size_t(node_count(k.source)),
-                      own = std::size_t(k.bands) * std::size_t(k.bands);
+void gather_by_node(const Context& context, const MarchParams& k, std::uint64_t nodes,
+                    Span<const float> numbers, Span<float> by_node) {
+    constexpr std::uint64_t kPiece = 1024;
+    const std::size_t own = std::size_t(k.bands * k.bands + k.degrees);
     const std::size_t stored = std::size_t(k.harmonics), sets = std::size_t(k.sets);
-    PILEUS_TRY(allocate_once(arrays::source_by_node(nodes * sets * stored), by_node));
-    const std::size_t slice = nodes / std::size_t(k.source.size[2]);
-    parallel_for(context.threads, k.source.size[2], [&](std::int64_t z, int) {
-        for (std::size_t n = std::size_t(z) * slice; n < (std::size_t(z) + 1) * slice; ++n)
+    const auto pieces = std::int64_t((nodes + kPiece - 1) / kPiece);
+    parallel_for(context.threads, pieces, [&](std::int64_t piece, int) {
+        const std::uint64_t begin = std::uint64_t(piece) * kPiece;
+        for (std::size_t n = begin; n < nodes && n < begin + kPiece; ++n)
             for (std::size_t s = 0; s < sets; ++s)
-                for (std::size_t i = 0; i < own; ++i)
+                for (std::size_t i = 0; i < stored; ++i)
                     by_node[(n * sets + s) * stored + i] =
-                        numbers[n * (sets * own + 1) + s * own + i];
+                        i < own ? numbers[n * (sets * own + 1) + s * own + i] : 0.0f;
     });
-    return Status::ok();
 }
 
 Status add_lit_lamps(const Context& context, PhotonRun& run, const LightInput& lit,

@@ -23,6 +23,10 @@ inline Array<float> batch_background(std::uint64_t pixels) {
 inline Array<float> lit_quads(std::uint64_t nodes) {
     return {"lit nodes", bytes_of(4, nodes), Stage::kSplat, Stage::kWrite};
 }
+/// The same of nodes around the camera, for the picture and each batch.
+inline Array<float> near_nodes(std::uint64_t numbers, std::uint64_t nodes) {
+    return {"near nodes", bytes_of(numbers, nodes), Stage::kSplat, Stage::kWrite};
+}
 /// Harmonics on nodes as kernels read them: one node's numbers after the other.
 inline Array<float> source_by_node(std::uint64_t numbers) {
     return {"source by node", numbers, Stage::kSplat, Stage::kDisplay};
@@ -45,6 +49,7 @@ struct NodeLight {
     const float* planes = nullptr;  ///< [channel][node]; with bands [node][set][harmonic]
     const float* quads = nullptr;   ///< [node][R, G, B, the sun's optical depth]; null: not made
     bool depths = false;            ///< quads hold these depths: shadow nodes are the same
+    const float* near = nullptr;    ///< MarchBuffers::near
 };
 
 /// Whether a march of so many channels reads quads: a device reads grids one by one.
@@ -78,15 +83,19 @@ Status march_lit(const Context& context, PhotonRun& run, const NodeLight& source
 LateRows* late_photons(LateRows* late, const UpsampleSettings& thin, const CameraParams& camera,
                        int frame, const PhotonRun& run);
 
+/// Nodes around the camera, for the plan: the largest number where it moves.
+std::uint64_t near_nodes_of(const PhotonRun& run, const NodeGrid& nodes, const Context& context);
+
 /// Numbers per node and set, filled up to whole groups.
-int stored_harmonics(int bands);
+int stored_harmonics(const DepositPlan& deposit);
 
 /// Nodes hold so many sets of harmonics of these colours.
-void set_harmonic_sets(int bands, int sets, const float (&colour)[3][3], MarchParams& k);
+void set_harmonic_sets(const DepositPlan& deposit, int sets, const float (&colour)[3][3],
+                       MarchParams& k);
 
-/// Numbers of a node, [set][harmonic] and one more, become [set][stored harmonic].
-Status gather_by_node(const Context& context, const MarchParams& k, Span<const float> numbers,
-                      Buffer<float>& by_node);
+/// Numbers of each of `nodes`, [set][harmonic] and one more, become [set][stored harmonic].
+void gather_by_node(const Context& context, const MarchParams& k, std::uint64_t nodes,
+                    Span<const float> numbers, Span<float> by_node);
 
 /// Adds light of `lit`'s lamps, scattered once, and in the whole picture the media's own to the
 /// picture's planes; not to those of batches, as it has no noise. kLimit: out of memory.

@@ -47,6 +47,7 @@ struct PhotonRun : MethodRun {
     LampNodes lamps;             ///< of the march that shows light of [[light]]
     Planes planes;               ///< of a session's picture
     Buffer<float> lit_quads;     ///< light on nodes as the march reads it
+    Buffer<float> near_light;    ///< MarchBuffers::near
     UpsampleMemory upsample;     ///< of pixels that are not marched
     int frame = 0;               ///< that is shown
     std::uint64_t relights = 0;  ///< times that a host changed the light

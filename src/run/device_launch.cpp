@@ -64,7 +64,9 @@ Status launch_on_device(const DeviceTable& device, const MarchParams& params,
     add_grid(a, k.medium);
     for (int i = 0; i < k.media; ++i) a.in(k.phase[i].table);
     const Size pixels = pixels_of(k.camera);
-    const Size numbers = k.bands > 0 ? Size(k.sets) * Size(k.harmonics) : Size(k.channels);
+    const Size stored = Size(k.sets) * Size(k.harmonics);
+    const Size numbers = k.bands > 0 && b.near == nullptr ? stored : Size(k.channels);
+    a.in(b.near, Size(k.channels / 3) * stored * product(k.near.size));
     a.in(b.optical_depth, product(k.shadow.size));
     a.in(b.source, numbers * product(k.source.size));
     a.in(b.beam, Size(k.beam_sets) * Size(kBeamNumbers));

@@ -142,6 +142,10 @@ struct UpsampleSettings {
     int every() const { return temporal > 0 ? temporal : scale; }
 };
 
+/// Directions in which nodes keep their light: along the line to the camera; around it each ray's
+/// own, too; or all.
+enum class NodeDirections { kNear, kCamera, kAll };
+
 struct CollectorSettings {
     std::int64_t photons = 5'000'000;  ///< over the whole ring
     int generations = 50;
@@ -154,7 +158,7 @@ struct CollectorSettings {
     bool paper = false;           ///< variant = "paper"
     bool billboards = false;      ///< display = "billboards"
     bool guided_nodes = false;    ///< node_filter = "guided" or "surroundings"
-    bool all_directions = false;  ///< directions = "all" or "camera"
+    NodeDirections directions = NodeDirections::kNear;
     Compositor compositor = Compositor::kBuiltin;
     bool rejection_sampler = false;  ///< sampler = "rejection" (paper) or "stratified"
     bool variance_field = false;     ///< placement = "variance" or "gradient"
@@ -184,6 +188,7 @@ struct PhotonGridSettings {
     double peak_deg = 20;  ///< as CollectorSettings::peak_deg
     bool local_tracking = true;
     bool first_order_split = true;
+    NodeDirections directions = NodeDirections::kNear;  ///< never kAll
     UpsampleSettings thin;
     int light_refresh = 1;  ///< frames in which sunlight on nodes follows a sun that moves; 1..64
     AccumulationChoice accumulation = AccumulationChoice::kAuto;

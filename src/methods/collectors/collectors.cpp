@@ -15,7 +15,8 @@ const char* why_no_axis(const CollectorSettings& c, const CollectorsRun& run) {
     if (c.paper) return "variant \"paper\"";
     if (c.lobe_closure) return "closure \"lobe\"";
     if (!run.lighting.sunlit) return "no sun";
-    if (shows_harmonics(run)) return "nodes that show all directions hold bands alone";
+    if (run.world->medium.grid.periodic && shows_harmonics(run))
+        return "nodes of a periodic medium hold bands alone";
     if (c.window) return "the window damps the higher bands";
     if (c.axis_degrees == 0) return "switched off";
     return nullptr;

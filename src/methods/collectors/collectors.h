@@ -30,7 +30,15 @@ inline bool is_marched(const CollectorsRun& run) {
 /// of a periodic medium shows each from many sides, one from within a medium those around it.
 inline bool shows_harmonics(const CollectorsRun& run) {
     return is_marched(run) && !run.scene->camera.orthographic &&
-           (run.world->medium.grid.periodic || run.scene->collectors.all_directions);
+           (run.world->medium.grid.periodic ||
+            run.scene->collectors.directions == NodeDirections::kAll);
+}
+
+/// Whether nodes around the camera show each ray what they scatter along it, where it is so near.
+inline bool shows_near(const CollectorsRun& run) {
+    const CollectorSettings& c = run.scene->collectors;
+    return is_marched(run) && !run.scene->camera.orthographic && !shows_harmonics(run) &&
+           run.camera_cells == 0 && !c.lobe_closure && c.directions == NodeDirections::kNear;
 }
 
 /// Chooses what is needed and fills the plan from sizes alone: reads no values, prepares nothing,

@@ -4,6 +4,8 @@
 // docs/methods.md 3, each image frame, steps 4 and 5; repairs 3 and 4.
 #include "src/methods/collectors/collectors_display.h"
 
+#include <algorithm>
+
 #include "src/methods/collectors/billboards/billboard_spheres.h"
 #include "src/methods/collectors/billboards/gl_billboards.h"
 #include "src/methods/collectors/collectors_memory.h"
@@ -63,6 +65,75 @@ Status splat(const Context& context, Span<const float> colour, int numbers, cons
                          context.threads, run.source);
 }
 
+/// Numbers on all of `nodes`, in a buffer of their own.
+SplatOptions near_options(const CollectorsRun& run) {
+    SplatOptions options = splat_options(run);
+    options.medium = MediumView{};
+    return options;
+}
+
+/// The collectors whose light near nodes may hold, moved to where these begin.
+void choose_near(Span<const Collector> all, const MarchParams& k, Buffer<Collector>& moved,
+                 std::vector<std::uint32_t>& which) {
+    float widest = 0;
+    for (float per_metre : k.source.per_metre) widest = std::max(widest, 1.0f / per_metre);
+    for (std::size_t i = 0; i < all.size; ++i) {
+        Collector c = all[i];
+        const float radius = std::max(c.radius, widest) * (2 * kSplatFactor);
+        bool reaches = true;
+        for (std::size_t a = 0; a < 3; ++a) {
+            const float spacing = 1.0f / k.source.per_metre[a];
+            c.centre[a] -= float(k.near.first[a]) * spacing;
+            reaches = reaches && c.centre[a] + radius > 0 &&
+                      c.centre[a] - radius < float(k.near.size[a]) * spacing;
+        }
+        if (!reaches) continue;
+        moved[which.size()] = c;
+        which.push_back(std::uint32_t(i));
+    }
+}
+
+/// What the nodes around the camera scatter in all directions, the whole picture's first and then
+/// that of each batch; nothing where the camera is too far away.
+Status light_near(const Context& context, CollectorsRun& run, const ReconstructInput& lit,
+                  MarchParams& k, NodeLight& light) {
+    if (!shows_near(run)) return Status::ok();
+    k.near = near_nodes(k.source, lit.camera.origin);
+    if (k.near.size[0] == 0) return Status::ok();
+    const StageClock clock(context, "splat");
+    const Span<const Collector> all = run.prepared.collectors.span();
+    Buffer<Collector> moved;
+    PILEUS_TRY(allocate(arrays::near_collectors(all.size), moved));
+    std::vector<std::uint32_t> which;
+    choose_near(all, k, moved, which);
+    if (which.empty()) {
+        k.near = NearNodes{};
+        return Status::ok();
+    }
+    moved.truncate(which.size());
+    NodeGrid nodes = k.source;
+    for (int a = 0; a < 3; ++a) nodes.size[a] = k.near.size[a];
+    HarmonicSource harmonics;
+    Buffer<float> splatted;
+    for (int part = 0; part <= lit.batches; ++part) {
+        PILEUS_TRY(reconstruct_harmonics(lit, part - 1, {which.data(), which.size()}, harmonics));
+        set_harmonic_sets(lit.deposit, harmonics.sets, harmonics.colour, k);
+        PILEUS_TRY(splat_colours(moved.span(), harmonics.values.span(),
+                                 harmonics.sets * harmonics.numbers, nodes, near_options(run),
+                                 context.threads, splatted));
+        const std::size_t numbers =
+            std::size_t(node_count(nodes)) * std::size_t(k.sets) * std::size_t(k.harmonics);
+        const std::size_t parts = 1 + std::size_t(lit.batches);
+        PILEUS_TRY(allocate_once(
+            arrays::near_nodes(parts * std::uint64_t(k.sets * k.harmonics), node_count(nodes)),
+            run.near_light));
+        gather_by_node(context, k, node_count(nodes), splatted.span(),
+                       run.near_light.span().part(std::size_t(part) * numbers, numbers));
+    }
+    light.near = run.near_light.data();
+    return Status::ok();
+}
+
 /// Whether this is the picture itself and not that of a part of its light.
 bool is_whole(const CollectorsRun& run, const ReconstructInput& lit) {
     return lit.lighting == &run.lighting && !lit.first_order_alone;
@@ -81,6 +152,7 @@ Status show_marched(const Context& context, CollectorsRun& run, const Reconstruc
         PILEUS_TRY(allocate(arrays::source_planes(std::uint64_t(channels), 1), by_channel));
         light.planes = by_channel.data();
     } else {
+        PILEUS_TRY(light_near(context, run, lit, k, light));
         const float* depths = channels == 3 ? sun_depths_at(run, k.source) : nullptr;
         PILEUS_TRY(splat(context, colours.colour.span(), channels, k.source, depths, run));
         if (reads_quads(context, channels, k.source)) {
@@ -111,14 +183,17 @@ Status show_harmonics(const Context& context, CollectorsRun& run, const Reconstr
     for (int batch = -1; batch < in.batches; ++batch) {
         {
             const StageClock clock(context, "reconstruct");
-            PILEUS_TRY(reconstruct_harmonics(in, batch, lit));
+            PILEUS_TRY(reconstruct_harmonics(in, batch, {}, lit));
         }
         if (batch < 0 && context.digests) digest.floats(lit.values.span());
-        set_harmonic_sets(lit.bands, lit.sets, lit.colour, k);
+        set_harmonic_sets(in.deposit, lit.sets, lit.colour, k);
         float* target = planes.colour.data() + 3 * std::size_t(batch + 1) * pixels;
-        PILEUS_TRY(splat(context, lit.values.span(), lit.sets * lit.bands * lit.bands, k.source,
-                         nullptr, run));
-        PILEUS_TRY(gather_by_node(context, k, run.source.span(), by_node));
+        PILEUS_TRY(
+            splat(context, lit.values.span(), lit.sets * lit.numbers, k.source, nullptr, run));
+        PILEUS_TRY(allocate_once(
+            arrays::source_by_node(node_count(k.source) * std::uint64_t(k.sets * k.harmonics)),
+            by_node));
+        gather_by_node(context, k, node_count(k.source), run.source.span(), by_node.span());
         const NodeLight light{by_node.data()};
         PILEUS_TRY(batch < 0 && is_whole(run, in)
                        ? march_thinned(context, run.scene->collectors.thin, light, k, run, planes)
@@ -213,11 +288,20 @@ void collectors_size_display(const CollectorsRun& run, const Context& context,
     // Without scattered light there is one dark node.
     sizes.planes_by_channel = sizes.planes;
     sizes.fine_nodes = reads_quads(context, int(sizes.planes), nodes) ? 1 : node_count(nodes);
+    const std::uint64_t numbers =
+        std::uint64_t(run.deposit.bands) * std::uint64_t(run.deposit.bands) +
+        std::uint64_t(run.deposit.axis_degrees);
+    const std::uint64_t stored = std::uint64_t(stored_harmonics(run.deposit));
+    const std::uint64_t sets = std::uint64_t(harmonic_sets(run.deposit.channels, run.lighting));
     if (shows_harmonics(run)) {
-        const std::uint64_t sets = std::uint64_t(harmonic_sets(run.deposit.channels, run.lighting));
-        sizes.harmonics = sets * std::uint64_t(run.deposit.bands * run.deposit.bands);
-        sizes.numbers_by_node =
-            bytes_of(node_count(nodes), sets * std::uint64_t(stored_harmonics(run.deposit.bands)));
+        sizes.harmonics = sets * numbers;
+        sizes.numbers_by_node = bytes_of(node_count(nodes), sets * stored);
+    }
+    if (shows_near(run)) {
+        sizes.near_nodes = near_nodes_of(run, nodes, context);
+        sizes.near_levels = 2 * sizes.near_nodes + 64;
+        sizes.near_harmonics = sets * numbers;
+        sizes.near_stored = sets * stored;
     }
     if (run.lighting.sunlit && run.deposit.first_order == 2)
         sizes.shadow_nodes = sun_shadow_numbers(run);

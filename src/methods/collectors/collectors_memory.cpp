@@ -64,6 +64,20 @@ void add_photons(const CollectorsSizes& s, MemoryTable& t) {
     t.add(own.name, own.first, own.last, s.private_sums);
 }
 
+/// Light around a camera that is near enough.
+void add_near(const CollectorsSizes& s, MemoryTable& t) {
+    if (s.near_nodes == 0) return;
+    const Size parts = s.planes / 3;
+    add(t, arrays::near_collectors(s.collectors));
+    add(t, renamed(arrays::collector_colours(s.near_harmonics, s.collectors),
+                   "harmonics of near collectors", Stage::kSplat, Stage::kSplat));
+    add(t, renamed(arrays::splat_colours(s.near_harmonics + 1, s.collectors),
+                   "near harmonics side by side", Stage::kSplat, Stage::kSplat));
+    add(t, renamed(arrays::source_grid(s.near_harmonics + 1, s.near_levels, Stage::kSplat),
+                   "near source grid", Stage::kSplat, Stage::kSplat));
+    add(t, arrays::near_nodes(parts * s.near_stored, s.near_nodes));
+}
+
 /// Up to the display.
 void add_light(const CollectorsSizes& s, MemoryTable& t) {
     const Size pixels = s.width * s.height;
@@ -91,6 +105,7 @@ void add_light(const CollectorsSizes& s, MemoryTable& t) {
             add(t, arrays::node_guides(s.guided_nodes),
                 arrays::guided_sums(source + 1, s.source_nodes - s.guided_nodes));
         add(t, arrays::source_by_node(s.numbers_by_node));
+        add_near(s, t);
         add(t, arrays::source_planes(s.planes_by_channel, s.fine_nodes));
     }
 }

@@ -27,6 +27,8 @@ struct CollectorsSizes {
     std::uint64_t phases = 0;           ///< bytes of tables of phase functions
     SkyMapBytes sky;
     std::uint64_t shadow_nodes = 0, beam_sets = 0, source_nodes = 0, lamp_depths = 0;
+    std::uint64_t near_nodes = 0, near_levels = 0;      ///< around the camera; with coarser levels
+    std::uint64_t near_harmonics = 0, near_stored = 0;  ///< numbers of such a node; as it is read
     std::uint64_t guided_nodes = 0;  ///< nodes of the finest level where they are filtered
     std::uint64_t planes_by_channel = 0, fine_nodes = 0;  ///< of a march that reads no quads
     bool parts = false;                                   ///< some of the light is shown alone

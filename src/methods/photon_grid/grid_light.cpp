@@ -191,9 +191,16 @@ void add_harmonics(const GridLightInput& in, const CellOptics& optics, std::size
         if (by_light ? set != int(light) : (apart && set != int(channel))) continue;
         const double power = share * double(optics.mix[channel].albedo) *
                              (by_light ? 1.0 : colour[std::size_t(set)]);
-        for (int l = 0, i = 0; l < in.deposit.bands; ++l)
+        double* own = out + set * stored;
+        int i = 0;
+        for (int l = 0; l < in.deposit.bands; ++l)
             for (int m = -l; m <= l; ++m, ++i)
-                out[set * stored + i] += sums[i] * double(optics.moment[channel][l]) * power;
+                own[i] += sums[i] * double(optics.moment[channel][l]) * power;
+        for (int d = 0; d < in.deposit.axis_degrees; ++d, ++i) {
+            const int l = in.deposit.bands + d;
+            own[i] += sums[i] * double(2 * l + 1) * kPerSphere * double(optics.moment[channel][l]) *
+                      power;
+        }
     }
 }
 
@@ -215,25 +222,37 @@ void cell_harmonics(const GridLightInput& in, const CellOptics& optics, const Ba
 
 }  // namespace
 
-Status light_cell_harmonics(const GridLightInput& in, int batch, int stored, CellHarmonics& out) {
-    const std::size_t count = std::size_t(in.cells.count());
+Status light_cell_harmonics(const GridLightInput& in, const HarmonicPart& which,
+                            const NearNodes& those, CellHarmonics& out, Buffer<float>& values) {
+    const std::size_t count = std::size_t(node_count(those));
     out.sets = harmonic_sets(sum_channels(*in.medium, in.deposit), *in.lighting);
     for (int s = 0; s < out.sets; ++s)
         for (std::size_t c = 0; c < 3; ++c)
             out.colour[s][c] = out.sets < 3 ? float(in.lighting->lights[std::size_t(s)].colour[c])
                                             : (std::size_t(s) == c ? 1.0f : 0.0f);
-    const std::size_t numbers = std::size_t(out.sets) * std::size_t(stored);
-    PILEUS_TRY(allocate_once(arrays::cell_light(numbers, count), out.values));
-    const std::size_t slice = count / std::size_t(in.cells.size[2]);
+    const std::size_t numbers = std::size_t(out.sets) * std::size_t(which.stored);
+    PILEUS_TRY(
+        allocate_once(arrays::cell_light(std::uint64_t(which.parts) * numbers, count), values));
+    const std::size_t nx = std::size_t(those.size[0]), ny = std::size_t(those.size[1]);
+    const std::size_t columns = std::size_t(in.cells.size[0]), rows = std::size_t(in.cells.size[1]);
     const CellOptics all = in.medium->count == 1 ? optics_of(in, 0) : CellOptics{};
-    const Batch slots = batch_of(in, batch);
-    parallel_for(in.threads, in.cells.size[2], [&](std::int64_t z, int) {
-        double own[3 * kMaxBands * kMaxBands];
-        for (std::size_t i = std::size_t(z) * slice; i < (std::size_t(z) + 1) * slice; ++i) {
-            if (in.marks[i] == kCellEmpty) continue;
+    const Batch slots = batch_of(in, which.batch);
+    float* part = values.data() + std::size_t(which.part) * count * numbers;
+    parallel_for(in.threads, those.size[2], [&](std::int64_t z, int) {
+        double own[3 * kMostHarmonics];
+        for (std::size_t n = std::size_t(z) * nx * ny; n < (std::size_t(z) + 1) * nx * ny; ++n) {
+            const std::size_t x = n % nx + std::size_t(those.first[0]);
+            const std::size_t y = n / nx % ny + std::size_t(those.first[1]);
+            const std::size_t i =
+                ((std::size_t(z) + std::size_t(those.first[2])) * rows + y) * columns + x;
+            float* out_of_cell = part + n * numbers;
+            if (in.marks[i] == kCellEmpty) {
+                for (std::size_t k = 0; k < numbers; ++k) out_of_cell[k] = 0;
+                continue;
+            }
             const CellOptics optics = in.medium->count == 1 ? all : optics_of(in, i);
-            cell_harmonics(in, optics, slots, i, stored, out, own);
-            for (std::size_t k = 0; k < numbers; ++k) out.values[i * numbers + k] = float(own[k]);
+            cell_harmonics(in, optics, slots, i, which.stored, out, own);
+            for (std::size_t k = 0; k < numbers; ++k) out_of_cell[k] = float(own[k]);
         }
     });
     return Status::ok();

@@ -4,6 +4,7 @@
 // docs/methods.md 5; docs/photon-grid.md, "What a cell shows".
 #pragma once
 #include "src/photons/light_input.h"
+#include "src/picture/nodes/node_grid.h"
 #include "src/world/majorant/cell_majorants.h"
 
 namespace pileus {
@@ -42,13 +43,20 @@ Status make_cell_shares(const Medium& medium, const CellGrid& cells, Span<const 
 /// kLimit: out of memory.
 Status light_cells(const GridLightInput& in, Buffer<float>& out);
 
-/// Sets of harmonics of what leaves the cells, from batch `batch` of the slots, or all: -1, as the
-/// march reads them: [cell][set][stored harmonics]. Closure kSh. kLimit: out of memory.
+/// Sets of harmonics of what leaves cells, and of degrees about the sun's axis, as the march reads
+/// them: [part][cell][set][stored harmonics].
 struct CellHarmonics {
     int sets = 0;
     float colour[3][3] = {};  ///< [set][channel]
-    Buffer<float> values;
 };
-Status light_cell_harmonics(const GridLightInput& in, int batch, int stored, CellHarmonics& out);
+
+/// Fills part `part` of `parts`, of the cells of `those` alone, from batch `batch` of the slots, or
+/// all: -1. Slots shot under another sun are taken to be under this one beyond the bands. Closure
+/// kSh. kLimit: out of memory.
+struct HarmonicPart {
+    int batch, part, parts, stored;
+};
+Status light_cell_harmonics(const GridLightInput& in, const HarmonicPart& which,
+                            const NearNodes& those, CellHarmonics& sets, Buffer<float>& values);
 
 }  // namespace pileus

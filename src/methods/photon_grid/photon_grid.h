@@ -34,6 +34,16 @@ inline bool shows_harmonics(const PhotonGridRun& run) {
     return run.world->medium.grid.periodic && !run.scene->camera.orthographic;
 }
 
+/// Whether cells around the camera show each ray what they scatter along it, where it is so near.
+inline bool shows_near(const PhotonGridRun& run) {
+    const PhotonGridSettings& s = run.scene->photon_grid;
+    return s.closure == GridClosure::kSh && s.directions == NodeDirections::kNear &&
+           !run.scene->camera.orthographic && !run.world->medium.grid.periodic;
+}
+
+/// Nodes in the middles of the cells.
+NodeGrid cell_nodes(const PhotonGridRun& run);
+
 /// Generations that may be added to a sum; a ring holds its own length for ever.
 std::uint64_t most_generations(const PhotonGridRun& run);
 

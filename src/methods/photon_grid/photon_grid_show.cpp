@@ -7,7 +7,6 @@
 #include "src/photons/lit_march.h"
 
 namespace pileus {
-namespace {
 
 NodeGrid cell_nodes(const PhotonGridRun& run) {
     NodeGrid nodes{};
@@ -18,6 +17,8 @@ NodeGrid cell_nodes(const PhotonGridRun& run) {
     return nodes;
 }
 
+namespace {
+
 /// The picture's own digest, not those of its parts.
 void tell_colours(const Context& context, const PhotonGridRun& run, const GridLightInput& in,
                   Span<const float> light) {
@@ -25,6 +26,24 @@ void tell_colours(const Context& context, const PhotonGridRun& run, const GridLi
     Digest digest;
     digest.floats(light);
     context.report->digests.emplace_back("colours", digest.hex());
+}
+
+/// What cells around the camera scatter in all directions, for the picture and each batch; nothing
+/// where the camera is too far away.
+Status light_near(const Context& context, PhotonGridRun& run, const GridLightInput& in,
+                  MarchParams& k, NodeLight& light) {
+    if (!shows_near(run)) return Status::ok();
+    k.near = near_nodes(k.source, in.camera.origin);
+    if (k.near.size[0] == 0) return Status::ok();
+    const StageClock clock(context, "reconstruct");
+    CellHarmonics sets;
+    for (int part = 0; part <= in.batches; ++part)
+        PILEUS_TRY(
+            light_cell_harmonics(in, {part - 1, part, 1 + in.batches, stored_harmonics(in.deposit)},
+                                 k.near, sets, run.near_light));
+    set_harmonic_sets(in.deposit, sets.sets, sets.colour, k);
+    light.near = run.near_light.data();
+    return Status::ok();
 }
 
 /// Each cell's light towards the camera.
@@ -38,32 +57,34 @@ Status show_towards(const Context& context, PhotonGridRun& run, const GridLightI
     tell_colours(context, run, in, light.span());
     MarchParams k = lit_march_params(run, in, cell_nodes(run));
     k.channels = 3 * (1 + in.batches);
+    NodeLight lit{light.data()};
+    PILEUS_TRY(light_near(context, run, in, k, lit));
     if (in.lighting == &run.lighting)
-        return march_thinned(context, run.scene->photon_grid.thin, NodeLight{light.data()}, k, run,
-                             planes);
-    return march_lit(context, run, NodeLight{light.data()}, k, planes.colour.data(), planes);
+        return march_thinned(context, run.scene->photon_grid.thin, lit, k, run, planes);
+    return march_lit(context, run, lit, k, planes.colour.data(), planes);
 }
 
 /// Each cell's light in all directions: one march for the picture and one for each batch.
 Status show_all_ways(const Context& context, PhotonGridRun& run, const GridLightInput& in,
                      Planes& planes) {
     MarchParams k = lit_march_params(run, in, cell_nodes(run));
-    const int bands = in.deposit.bands;
-    CellHarmonics light;
+    CellHarmonics sets;
+    Buffer<float> light;
+    const NearNodes all{{0, 0, 0}, {k.source.size[0], k.source.size[1], k.source.size[2]}, 0};
     for (int batch = -1; batch < in.batches; ++batch) {
         {
             const StageClock clock(context, "reconstruct");
-            PILEUS_TRY(light_cell_harmonics(in, batch, stored_harmonics(bands), light));
+            PILEUS_TRY(light_cell_harmonics(in, {batch, 0, 1, stored_harmonics(in.deposit)}, all,
+                                            sets, light));
         }
-        if (batch < 0) tell_colours(context, run, in, light.values.span());
-        set_harmonic_sets(bands, light.sets, light.colour, k);
+        if (batch < 0) tell_colours(context, run, in, light.span());
+        set_harmonic_sets(in.deposit, sets.sets, sets.colour, k);
         float* target =
             planes.colour.data() + 3 * std::size_t(batch + 1) * planes.transmittance.size();
-        PILEUS_TRY(
-            batch < 0 && in.lighting == &run.lighting
-                ? march_thinned(context, run.scene->photon_grid.thin,
-                                NodeLight{light.values.data()}, k, run, planes)
-                : march_lit(context, run, NodeLight{light.values.data()}, k, target, planes));
+        PILEUS_TRY(batch < 0 && in.lighting == &run.lighting
+                       ? march_thinned(context, run.scene->photon_grid.thin,
+                                       NodeLight{light.data()}, k, run, planes)
+                       : march_lit(context, run, NodeLight{light.data()}, k, target, planes));
     }
     return Status::ok();
 }

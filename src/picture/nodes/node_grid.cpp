@@ -2,7 +2,18 @@
 // See node_grid.h.
 #include "src/picture/nodes/node_grid.h"
 
+#include <algorithm>
+
+#include "kernels_cpu/core/lanes.h"
+
 namespace pileus {
+namespace {
+
+/// Spacings of the nodes that near ones reach from the camera: from there on the line from a node
+/// to the camera and a ray past it differ by less than bands can tell (docs/collectors.md).
+constexpr int kNearReach = 6;
+
+}  // namespace
 
 NodeGrid make_node_grid(const Grid& grid, const double (&extent_m)[3], double spacing_m) {
     NodeGrid g{};
@@ -23,6 +34,34 @@ NodeGrid make_half_grid(const Grid& grid, const double (&extent_m)[3]) {
         g.per_metre[a] = float(g.size[a] / extent_m[a]);
     }
     return g;
+}
+
+NearNodes near_nodes(const NodeGrid& g, const float (&camera)[3]) {
+    NearNodes out{};
+    float widest = 0;
+    for (float per_metre : g.per_metre) widest = std::max(widest, 1.0f / per_metre);
+    NearNodes near{};
+    near.reach = float(kNearReach) * widest;
+    for (int a = 0; a < 3; ++a) {
+        // Both nodes beside the last place that counts; far from the grid floats know no node.
+        const float low = (camera[a] - near.reach) * g.per_metre[a] - 0.5f;
+        const float high = (camera[a] + near.reach) * g.per_metre[a] - 0.5f;
+        if (!(high > -1.0f && low < float(g.size[a]))) return out;
+        near.first[a] = std::max(floor_int(low), 0);
+        near.size[a] = std::min(floor_int(high) + 2, g.size[a]) - near.first[a];
+    }
+    return near;
+}
+
+std::uint64_t most_near_nodes(const NodeGrid& g) {
+    float widest = 0;
+    for (float per_metre : g.per_metre) widest = std::max(widest, 1.0f / per_metre);
+    std::uint64_t most = 1;
+    for (int a = 0; a < 3; ++a) {
+        const float wide = 2.0f * float(kNearReach) * widest * g.per_metre[a];
+        most *= std::uint64_t(std::min(double(g.size[a]), double(wide) + 3.0));
+    }
+    return most;
 }
 
 }  // namespace pileus

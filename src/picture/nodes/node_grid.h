@@ -15,6 +15,17 @@ NodeGrid make_node_grid(const Grid& grid, const double (&extent_m)[3], double sp
 /// them, as depths towards the sun do: where voxels are flat, over less than their longest edge.
 NodeGrid make_half_grid(const Grid& grid, const double (&extent_m)[3]);
 
+/// Nodes of `g` about a camera within or beside it, and how far from the camera they count. None
+/// where no node is so near. Lengths in m, box-local.
+NearNodes near_nodes(const NodeGrid& g, const float (&camera)[3]);
+
+/// The largest number of them, wherever the camera is.
+std::uint64_t most_near_nodes(const NodeGrid& g);
+
+inline std::uint64_t node_count(const NearNodes& n) {
+    return std::uint64_t(n.size[0]) * std::uint64_t(n.size[1]) * std::uint64_t(n.size[2]);
+}
+
 inline std::uint64_t node_count(const NodeGrid& g) {
     return std::uint64_t(g.size[0]) * std::uint64_t(g.size[1]) * std::uint64_t(g.size[2]);
 }

@@ -214,11 +214,12 @@ void check_node_filter(SceneCheck& check) {
 void check_directions(SceneCheck& check) {
     const CollectorSettings& c = check.scene.collectors;
     const Node* node = check.key("collectors.directions");
-    if (!c.all_directions || node == nullptr) return;
+    if (c.directions != NodeDirections::kAll || node == nullptr) return;
     if (c.billboards || c.lobe_closure || c.camera_closure)
-        check.faults.add(node->at, "collectors.directions",
-                         "needs bands that are marched through, " + value_text(*node) +
-                             ", allowed: camera, or display = \"march\" and closure = \"sh\"");
+        check.faults.add(
+            node->at, "collectors.directions",
+            "needs bands that are marched through, " + value_text(*node) +
+                ", allowed: near, camera, or display = \"march\" and closure = \"sh\"");
 }
 
 /// Pictures without noise, or with noise of another kind, have no use of it.

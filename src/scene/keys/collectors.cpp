@@ -57,10 +57,11 @@ constexpr KeyRow kRows[] = {
      one_of("surroundings|guided"), "",
      "what nodes lean on that few photons met: the mean around them, or a fit over what is known "
      "there without noise (docs/collectors.md); of the marched picture alone"},
-    {"collectors.directions", collectors<&CollectorSettings::all_directions>, one_of("camera|all"),
+    {"collectors.directions", collectors<&CollectorSettings::directions>, one_of("near|camera|all"),
      "",
-     "of what nodes show to a perspective camera: the light along the line to it, or all bands, "
-     "read along each ray (for a camera within a medium; periodic media always do)"},
+     "of what nodes show to a perspective camera: the light along the line to it; the same but for "
+     "nodes around a camera within or beside a medium, whose light is read along each ray; or that "
+     "of all nodes (periodic media always do)"},
     {"collectors.compositor", collectors<&CollectorSettings::compositor>,
      one_of("builtin|osmesa|egl"), "",
      "who blends billboards: pileus, or OpenGL by a foreign library, to compare; its "

@@ -42,6 +42,9 @@ constexpr KeyRow kRows[] = {
      "majorant of the free flights: one per block of cells, or one for all"},
     {"photon_grid.first_order_split", grid<&PhotonGridSettings::first_order_split>, any(), "",
      "true: light straight from the sun is left to the march, with its exact direction"},
+    {"photon_grid.directions", grid<&PhotonGridSettings::directions>, one_of("near|camera"), "",
+     "of what cells show to a perspective camera: the light along the line to it, or the same but "
+     "for cells around a camera within or beside a medium, whose light is read along each ray"},
     {"photon_grid.scale", grid<&PhotonGridSettings::thin, &UpsampleSettings::scale>,
      upsample_keys::kScales, "", upsample_keys::kScale},
     {"photon_grid.upsample", grid<&PhotonGridSettings::thin, &UpsampleSettings::upsample>,

@@ -9,6 +9,8 @@
 namespace pileus {
 namespace {
 
+constexpr double kPerSphere = 0.079577471545947667884;  // 1 / 4 pi
+
 /// The share of a medium is that of the collector's extinction: the light is taken to be the same
 /// all over the leaf, as its colour is.
 Mixture mixture_of(const ReconstructInput& in, std::size_t collector, std::size_t channel) {
@@ -175,16 +177,18 @@ void collector_harmonics(const ReconstructInput& in, const Window& window, std::
                          const Batch& batch, const HarmonicSource& sets, double* out) {
     const Medium& m = *in.medium;
     const int channels = sum_channels(m, in.deposit);
-    const int count = sets.bands * sets.bands;
+    const int count = sets.numbers, bands = in.deposit.bands;
     const bool by_light = sets.sets < 3;
     const bool albedo_done = in.deposit.mode == kDepositOutgoing;
     for (int k = 0; k < sets.sets * count; ++k) out[k] = 0;
     for (std::size_t ch = 0; ch < std::size_t(channels); ++ch) {
         const Mixture mix = mixture_of(in, i, ch);
-        double factor[kMaxBands];
-        for (int l = 0; l < sets.bands; ++l)
-            factor[l] = double(albedo_done ? 1.0f : mix.moment(l) * mix.albedo) *
-                        double(window.factor[l]) / (in.collectors[i].mass * double(m.sigma));
+        double factor[kMaxBands + kMaxAxisDegrees];
+        for (int l = 0; l < bands + in.deposit.axis_degrees; ++l) {
+            factor[l] = double(albedo_done ? 1.0f : mix.moment(l) * mix.albedo) /
+                        (in.collectors[i].mass * double(m.sigma));
+            factor[l] *= l < bands ? double(window.factor[l]) : double(2 * l + 1) * kPerSphere;
+        }
         for (const PhotonSlot& slot : batch.slots) {
             if (slot.generations == 0) continue;
             const double share = double(slot.generations) / batch.generations;
@@ -196,9 +200,13 @@ void collector_harmonics(const ReconstructInput& in, const Window& window, std::
                 for (std::size_t set = 0; set < std::size_t(sets.sets); ++set) {
                     if (by_light ? set != l : (channels == 3 && set != ch)) continue;
                     const double power = share * (by_light ? 1.0 : colour[set]);
-                    for (int band = 0, k = 0; band < sets.bands; ++band)
+                    int k = 0;
+                    for (int band = 0; band < bands; ++band)
                         for (int order = -band; order <= band; ++order, ++k)
                             out[int(set) * count + k] += sums[k] * factor[band] * power;
+                    // Only beams have sums about their axis.
+                    for (int d = 0; k < count && in.lighting->lights[l].beam; ++k, ++d)
+                        out[int(set) * count + k] += sums[k] * factor[bands + d] * power;
                 }
             }
         }
@@ -207,30 +215,30 @@ void collector_harmonics(const ReconstructInput& in, const Window& window, std::
 
 }  // namespace
 
-Status reconstruct_harmonics(const ReconstructInput& in, int batch, HarmonicSource& out) {
-    const std::size_t count = in.collectors.size;
+Status reconstruct_harmonics(const ReconstructInput& in, int batch, Span<const std::uint32_t> which,
+                             HarmonicSource& out) {
+    const std::size_t count = which.size > 0 ? which.size : in.collectors.size;
     const Batch shown = batch_of(in, batch);
-    out.bands = in.deposit.bands;
+    out.numbers = in.deposit.bands * in.deposit.bands + in.deposit.axis_degrees;
     out.sets = harmonic_sets(sum_channels(*in.medium, in.deposit), *in.lighting);
     for (int s = 0; s < out.sets; ++s)
         for (std::size_t c = 0; c < 3; ++c)
             out.colour[s][c] = out.sets < 3 ? float(in.lighting->lights[std::size_t(s)].colour[c])
                                             : (std::size_t(s) == c ? 1.0f : 0.0f);
-    const std::size_t numbers = std::size_t(out.sets) * std::size_t(out.bands * out.bands);
+    const std::size_t numbers = std::size_t(out.sets) * std::size_t(out.numbers);
     PILEUS_TRY(allocate_once(arrays::collector_colours(numbers, count), out.values));
     const Window window = band_window(in.deposit.bands, in.window);
     constexpr std::size_t kPiece = 256;
-    parallel_for(in.threads, std::int64_t((count + kPiece - 1) / kPiece),
-                 [&](std::int64_t piece, int) {
-                     const std::size_t begin = std::size_t(piece) * kPiece;
-                     const std::size_t end = begin + kPiece < count ? begin + kPiece : count;
-                     double own[3 * kMaxBands * kMaxBands];
-                     for (std::size_t i = begin; i < end; ++i) {
-                         collector_harmonics(in, window, i, shown, out, own);
-                         for (std::size_t k = 0; k < numbers; ++k)
-                             out.values[k * count + i] = float(own[k]);
-                     }
-                 });
+    parallel_for(
+        in.threads, std::int64_t((count + kPiece - 1) / kPiece), [&](std::int64_t piece, int) {
+            const std::size_t begin = std::size_t(piece) * kPiece;
+            const std::size_t end = begin + kPiece < count ? begin + kPiece : count;
+            double own[3 * kMostNumbers];
+            for (std::size_t i = begin; i < end; ++i) {
+                collector_harmonics(in, window, which.size > 0 ? which[i] : i, shown, out, own);
+                for (std::size_t k = 0; k < numbers; ++k) out.values[k * count + i] = float(own[k]);
+            }
+        });
     return Status::ok();
 }
 

@@ -38,16 +38,20 @@ inline Array<float> collector_colours(std::uint64_t numbers, std::uint64_t colle
 /// clamped: their spread is what matters). kLimit: out of memory.
 Status reconstruct(const ReconstructInput& in, CollectorColours& out);
 
-/// Scattered light of every collector in all directions: set s holds bands*bands harmonics of what
-/// leaves along a direction, to be multiplied by the set's colour. No constant part.
+/// Scattered light of collectors in all directions: set s holds bands*bands harmonics of what
+/// leaves along a direction and, for each degree beyond them, what multiplies the Legendre
+/// polynomial of its angle to the sunlight; to be multiplied by the set's colour. No constant part.
 struct HarmonicSource {
     Buffer<float> values;  ///< [set][harmonic][collector]
-    int bands = 0, sets = 0;
+    int numbers = 0, sets = 0;
     float colour[3][3] = {};  ///< [set][channel]
 };
 
 /// What `reconstruct` evaluates towards one camera, for all directions, from batch `batch` of the
-/// slots, or from all: -1. Closure kSh only. Nothing is clamped. kLimit: out of memory.
-Status reconstruct_harmonics(const ReconstructInput& in, int batch, HarmonicSource& out);
+/// slots, or from all: -1. Of `which` collectors alone, or of all where that is empty. Slots shot
+/// under another sun are taken to be under this one beyond the bands. Closure kSh only. Nothing is
+/// clamped. kLimit: out of memory.
+Status reconstruct_harmonics(const ReconstructInput& in, int batch, Span<const std::uint32_t> which,
+                             HarmonicSource& out);
 
 }  // namespace pileus

@@ -20,6 +20,10 @@ namespace arrays {
 inline Array<float> source_grid(std::uint64_t numbers, std::uint64_t nodes, Stage last) {
     return {"source grid", bytes_of(numbers, nodes), Stage::kSplat, last};
 }
+/// Those over the nodes around a camera, moved.
+inline Array<Collector> near_collectors(std::uint64_t collectors) {
+    return {"near collectors", collectors, Stage::kSplat, Stage::kSplat};
+}
 inline Array<float> splat_colours(std::uint64_t numbers, std::uint64_t collectors) {
     return {"colours side by side", bytes_of(numbers, collectors), Stage::kSplat, Stage::kSplat};
 }
