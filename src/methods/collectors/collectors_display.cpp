@@ -50,9 +50,10 @@ SplatOptions splat_options(const CollectorsRun& run) {
     return options;
 }
 
-/// The colours on nodes, in run.source.
+/// The colours on nodes, in run.source. Under a sky the media's constant light is not in them, and
+/// photons may take some of it away: together there is no less than no light.
 Status splat(const Context& context, Span<const float> colour, int numbers, const NodeGrid& nodes,
-             const float* beside, CollectorsRun& run) {
+             const Lighting& light, const float* beside, CollectorsRun& run) {
     const StageClock clock(context, "splat");
     SplatOptions options = splat_options(run);
     options.beside = beside;
@@ -60,7 +61,8 @@ Status splat(const Context& context, Span<const float> colour, int numbers, cons
     options.sun_depth = sun_depths_at(run, nodes);
     // Light that is scattered forward on its way has not faded.
     options.sun_fades = 1 - mean_cosine(run.world->medium);
-    options.positive = shows_harmonics(run) ? 0 : 3;
+    options.bounded = shows_harmonics(run) ? 0 : 3;
+    for (std::size_t c = 0; c < 3; ++c) options.least[c] = -float(light.constant[c]);
     return splat_colours(run.prepared.collectors.span(), colour, numbers, nodes, options,
                          context.threads, run.source);
 }
@@ -154,7 +156,8 @@ Status show_marched(const Context& context, CollectorsRun& run, const Reconstruc
     } else {
         PILEUS_TRY(light_near(context, run, lit, k, light));
         const float* depths = channels == 3 ? sun_depths_at(run, k.source) : nullptr;
-        PILEUS_TRY(splat(context, colours.colour.span(), channels, k.source, depths, run));
+        PILEUS_TRY(
+            splat(context, colours.colour.span(), channels, k.source, *lit.lighting, depths, run));
         if (reads_quads(context, channels, k.source)) {
             light.quads = run.source.data();
             light.depths = depths != nullptr;
@@ -188,8 +191,8 @@ Status show_harmonics(const Context& context, CollectorsRun& run, const Reconstr
         if (batch < 0 && context.digests) digest.floats(lit.values.span());
         set_harmonic_sets(in.deposit, lit.sets, lit.colour, k);
         float* target = planes.colour.data() + 3 * std::size_t(batch + 1) * pixels;
-        PILEUS_TRY(
-            splat(context, lit.values.span(), lit.sets * lit.numbers, k.source, nullptr, run));
+        PILEUS_TRY(splat(context, lit.values.span(), lit.sets * lit.numbers, k.source, *in.lighting,
+                         nullptr, run));
         PILEUS_TRY(allocate_once(
             arrays::source_by_node(node_count(k.source) * std::uint64_t(k.sets * k.harmonics)),
             by_node));

@@ -172,8 +172,9 @@ void fit_slice(const Nodes& n, std::size_t level, int z, std::vector<float>& fit
 }
 
 /// Sums of the finest nodes that are read become means.
-void settle_finest(const Nodes& n, const std::vector<NodeRange>& read, const float* last,
-                   int positive, int z, std::vector<float>& fit) {
+void settle_finest(const Nodes& n, const std::vector<NodeRange>& read, const SplatOptions& options,
+                   int z, std::vector<float>& fit) {
+    const float* last = options.beside;
     const NodeLevel& l = n.levels.front();
     const std::size_t own = n.own;
     for (int y = 0; y < l.size[1]; ++y) {
@@ -190,7 +191,7 @@ void settle_finest(const Nodes& n, const std::vector<NodeRange>& read, const flo
             for (std::size_t c = 0; c + 1 < own; ++c) {
                 const float ahead = top ? 0 : fit[c] + fit[own + c] * a + fit[2 * own + c] * b;
                 const float v = (numbers[c] + prior * ahead) * scale;
-                numbers[c] = int(c) < positive && v < 0 ? 0 : v;
+                numbers[c] = int(c) < options.bounded ? std::max(v, options.least[c]) : v;
             }
             numbers[own - 1] = last != nullptr ? last[node] : 0.0f;
         }
@@ -304,7 +305,7 @@ Status guide_nodes(const NodeGrid& g, const SplatOptions& options, int channels,
                      });
     parallel_for(threads, g.size[2], [&](std::int64_t z, int) {
         std::vector<float> fit(3 * n.own);
-        settle_finest(n, read, options.beside, options.positive, int(z), fit);
+        settle_finest(n, read, options, int(z), fit);
     });
     return Status::ok();
 }

@@ -26,7 +26,7 @@ inline Array<float> guided_sums(std::uint64_t own, std::uint64_t coarser_nodes) 
 /// that lean, where they hold less than 64 times options.prior_mass, on the coarser level's fit: a
 /// mean and its slopes over two guides, e^-(fades depth) of the sun and how much medium is around,
 /// both without noise. Slopes lean on those of coarser levels by 4 times that mass. All of it is
-/// linear in the colours, but for what ends below zero in the first `positive` channels, so that
+/// linear in the colours, but for what ends at `least` in the first `bounded` channels, so that
 /// batches of photons may be filtered alike. Sums are taken within both `touched` and `read`, means
 /// made within `read`. The two mean masses were chosen on three views (docs/collectors.md).
 Status guide_nodes(const NodeGrid& nodes, const SplatOptions& options, int channels,

@@ -45,7 +45,8 @@ struct SplatOptions {
     bool guided = false;               ///< see guided_grid.h
     const float* sun_depth = nullptr;  ///< where guided: the sun's optical depth of each node
     float sun_fades = 0;               ///< by e^-(so much of it) guides
-    int positive = 0;                  ///< channels, the first ones, that are no less than zero
+    int bounded = 0;                   ///< channels, the first three or none, that are no less
+    float least[3] = {};               ///< than this
 };
 
 /// Weighted mean per node over the collectors whose ball (radius_factor times the collector's
