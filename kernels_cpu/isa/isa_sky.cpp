@@ -2,6 +2,7 @@
 // Procedural skies, compiled once per instruction set, apart from isa.cpp so that both build at
 // once. in: the kernel templates -> out: a table of functions, named after the instruction set.
 // docs/architecture.md, "Kernels: written once"; tools/check_objects proves that nothing leaks.
+#include "kernels_cpu/procedural/cumulus.h"
 #include "kernels_cpu/procedural/sky_bake.h"
 #include "kernels_cpu/procedural/sky_noise.h"
 #include "kernels_cpu/raymarch/raymarch_sky.h"
@@ -38,10 +39,16 @@ std::int64_t light_kernel(const RaymarchParams& k, const SkyParams& sky, const S
     return sky_light_rows<PILEUS_WIDTH>(k, sky, view, rows, words, begin, end);
 }
 
+void cumulus_kernel(const CumulusParams& k, float* density, std::int32_t* scratch,
+                    std::uint32_t begin, std::uint32_t end) {
+    fill_cumulus<PILEUS_WIDTH>(k, density, scratch, begin, end);
+}
+
 }  // namespace
 
 extern const SkyKernels PILEUS_SKY(PILEUS_ISA);
 const SkyKernels PILEUS_SKY(PILEUS_ISA) = {PILEUS_WIDTH,   noise_kernel,    bake_kernel,
-                                           columns_kernel, raymarch_kernel, light_kernel};
+                                           columns_kernel, raymarch_kernel, light_kernel,
+                                           cumulus_kernel};
 
 }  // namespace pileus

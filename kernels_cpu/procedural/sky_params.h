@@ -3,7 +3,7 @@
 // in: a scene's sky -> out: the layout of a launch. Filled by src/world/density.
 // docs/skies.md; Palenik 2016, section 5.1.
 #pragma once
-#include <cstdint>
+#include "kernels_cpu/procedural/cumulus_params.h"
 
 namespace pileus {
 
@@ -108,7 +108,7 @@ struct ColumnParams {
 struct RaymarchParams;
 struct RaymarchBuffers;
 
-/// The kernels of procedural skies, one table per instruction set.
+/// The kernels of procedural densities, one table per instruction set.
 struct SkyKernels {
     int width;
     void (*noise_rows)(const NoiseParams&, float* values, std::uint32_t begin, std::uint32_t end);
@@ -122,6 +122,9 @@ struct SkyKernels {
     std::int64_t (*light_rows)(const RaymarchParams&, const SkyParams&, const SkyLightView&,
                                const SkyLightRow* rows, std::int32_t* words, std::uint32_t begin,
                                std::uint32_t end);
+    /// Rows of blocks of a cumulus; `scratch` holds three lists of kMaxBubbles numbers.
+    void (*fill_cumulus)(const CumulusParams&, float* density, std::int32_t* scratch,
+                         std::uint32_t begin, std::uint32_t end);
 };
 
 }  // namespace pileus

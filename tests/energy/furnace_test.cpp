@@ -3,6 +3,7 @@
 // in: sky, ground of albedo 1, clouds -> out: pixels and collectors that show the same radiance.
 // docs/methods.md 3 "Shoot" (furnace identity); the ground's rules by forcing its photons.
 #include "kernels_cpu/core/vec.h"
+#include "kernels_cpu/isa/kernels.h"
 #include "src/methods/collectors/photons/reconstruct.h"
 #include "src/methods/collectors/prepare/prepare.h"
 #include "src/methods/collectors/prepare/shares.h"
@@ -56,7 +57,7 @@ void make_furnace(Furnace& f) {
     f.rig = make_rig({32, 32, 24}, {1000, 1000, 700}, 0.04);
     CumulusSettings cumulus;
     cumulus.resolution = {32, 32, 24};
-    REQUIRE(make_cumulus(cumulus, 1, f.rig.medium.volume));
+    REQUIRE(make_cumulus(cumulus, *kernel_table(nullptr)->sky, 1, f.rig.medium.volume));
     f.rig.medium.optics[0].phase.g1 = 0.6f;
     Context context;
     Report report;

@@ -2,6 +2,7 @@
 // Diffuse light in a white medium: exact means, whatever the density and the phase function.
 // in: fields of high contrast -> out: mean path 4V/S, mean scatterings, cost of tracking.
 // Blanco and Fournier 2003, "An invariance property of diffusive random walks".
+#include "kernels_cpu/isa/kernels.h"
 #include "src/world/density/cumulus.h"
 #include "tests/support/trace_harness.h"
 
@@ -13,7 +14,7 @@ Rig make_cumulus_rig(float floor_density) {
     Rig rig = make_rig({48, 48, 32}, {1600, 1600, 1100}, 0.05);
     CumulusSettings settings;
     settings.resolution = {48, 48, 32};
-    REQUIRE(make_cumulus(settings, 1, rig.medium.volume));
+    REQUIRE(make_cumulus(settings, *kernel_table(nullptr)->sky, 1, rig.medium.volume));
     for (float& v : rig.medium.volume.density.span()) v = std::max(v, floor_density);
     return rig;
 }

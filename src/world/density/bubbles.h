@@ -6,17 +6,11 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "kernels_cpu/procedural/cumulus_params.h"
 #include "src/base/buffer.h"
 #include "src/base/status.h"
 
 namespace pileus {
-
-/// A sphere, in units of the box's height; z above the cloud base.
-struct Bubble {
-    float x, y, z, r;
-};
-
-constexpr std::size_t kMaxBubbles = 8192;  // clouds take 1000 to 3100
 
 struct BubbleList {
     Buffer<Bubble> bubbles;  ///< kMaxBubbles reserved
