@@ -118,6 +118,30 @@ PILEUS_FN void set_harmonics(const MarchParams& k, const Vec<F<W>>& d, RayHarmon
                                                 : 0.0f;
 }
 
+/// part += y times the weighted sum of eight nodes' numbers from `at` on, sixteen side by side.
+PILEUS_FN void add_harmonics(const float* const (&from)[8], const float (&weight)[8], int at,
+                             const float* y, float (&part)[kHarmonicsAbreast]) {
+#if !defined(__CUDACC__)
+    using G = F<kHarmonicsAbreast>;
+    G sum{}, v;
+    for (int j = 0; j < 8; ++j) {
+        __builtin_memcpy(&v, from[j] + at, sizeof v);
+        sum = sum + all<G>(weight[j]) * v;
+    }
+    __builtin_memcpy(&v, y, sizeof v);
+    G before;
+    __builtin_memcpy(&before, part, sizeof before);
+    before = before + v * sum;
+    __builtin_memcpy(part, &before, sizeof before);
+#else
+    for (int i = 0; i < kHarmonicsAbreast; ++i) {
+        float sum = 0;
+        for (int j = 0; j < 8; ++j) sum = sum + weight[j] * from[j][at + i];
+        part[i] = part[i] + y[i] * sum;
+    }
+#endif
+}
+
 /// Light of each set that leaves a place along directions with harmonics `y`. Numbers of one node
 /// lie side by side and are added up sixteen abreast, in an order that no width changes.
 template <class T>
@@ -129,19 +153,17 @@ PILEUS_FN void light_along(const MarchParams& k, const float* source, const Corn
     const std::int32_t zs[2] = {lane(c.z0, l), lane(c.z1, l)};
     const float wx[2] = {1.0f - fx, fx}, wy[2] = {1.0f - fy, fy}, wz[2] = {1.0f - fz, fz};
     const int numbers = k.sets * k.harmonics;
-    float sum[3 * kMostHarmonics];
-    for (int i = 0; i < numbers; ++i) sum[i] = 0;
+    float weight[8];
+    const float* from[8];
     for (int j = 0; j < 8; ++j) {
-        const float weight = wx[j & 1] * wy[(j >> 1) & 1] * wz[j >> 2];
+        weight[j] = wx[j & 1] * wy[(j >> 1) & 1] * wz[j >> 2];
         const std::int64_t node = zs[j >> 2] + ys[(j >> 1) & 1] + xs[j & 1];
-        const float* from = source + node * numbers;
-        for (int i = 0; i < numbers; ++i) sum[i] = sum[i] + weight * from[i];
+        from[j] = source + node * numbers;
     }
     for (int s = 0; s < k.sets; ++s) {
         float part[kHarmonicsAbreast] = {};
-        const float* own = sum + s * k.harmonics;
         for (int i = 0; i < k.harmonics; i += kHarmonicsAbreast)
-            for (int j = 0; j < kHarmonicsAbreast; ++j) part[j] = part[j] + y[i + j] * own[i + j];
+            add_harmonics(from, weight, s * k.harmonics + i, y + i, part);
         for (int half = kHarmonicsAbreast / 2; half > 0; half /= 2)
             for (int j = 0; j < half; ++j) part[j] = part[j] + part[j + half];
         out[s] = part[0];
@@ -162,24 +184,27 @@ PILEUS_FN void read_quads(const MarchParams& k, const MarchBuffers& b, const Vec
 template <int W>
 struct NearLight {
     F<W> share{};
+    F<W> next{};                ///< m along the ray, where it is looked up again
     F<W> colour[kMostMarched];  ///< set where any share is above 0
 };
 template <int W>
-PILEUS_FN void read_near(const MarchParams& k, const MarchBuffers& b, const Vec<F<W>>& metres,
-                         F<W> t, M<W> wanted, const RayHarmonics<W>& h, NearLight<W>& out) {
+PILEUS_FN void read_near(const MarchParams& k, const MarchBuffers& b, const Ray<F<W>>& ray, F<W> t,
+                         M<W> wanted, const RayHarmonics<W>& h, NearLight<W>& out) {
     using T = F<W>;
     out.share =
         select(wanted, max_(min_(2.0f - t * (2.0f / k.near.reach), all<T>(1.0f)), T{}), T{});
-    if (!any(out.share > 0.0f)) return;
-    Vec<T> node = node_position(k.source, metres);
+    // Between nodes light varies little: one look, half way to the next, stands for several steps.
+    const M<W> due = (out.share > 0.0f) & (t >= out.next);
+    if (!any(due)) return;
+    Vec<T> node = node_position(k.source, along(ray, t + 0.5f * k.near.every));
+    out.next = select(due, t + k.near.every, out.next);
     node.x = node.x - float(k.near.first[0]);
     node.y = node.y - float(k.near.first[1]);
     node.z = node.z - float(k.near.first[2]);
     const Corners<T> c = corners(node, k.near.size, false);
     const std::int64_t numbers =
         std::int64_t(k.near.size[0]) * k.near.size[1] * k.near.size[2] * k.sets * k.harmonics;
-    for (int i = 0; i < k.channels; ++i) out.colour[i] = T{};
-    for (std::uint32_t lanes = bits_of(out.share > 0.0f); lanes != 0; lanes &= lanes - 1) {
+    for (std::uint32_t lanes = bits_of(due); lanes != 0; lanes &= lanes - 1) {
         const int l = lowest_bit(lanes);
         for (int part = 0; part < k.channels / 3; ++part) {
             float light[3] = {};
@@ -262,6 +287,7 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
     const SunAlongRay<T> sun = sun_along(k, ray.direction);
     RayHarmonics<W> harmonics;
     NearLight<W> around;
+    for (int i = 0; b.near != nullptr && i < k.channels; ++i) around.colour[i] = T{};
     if (k.bands > 0) set_harmonics(k, ray.direction, harmonics);
     const bool wraps = k.medium.periodic != 0;
 
@@ -296,7 +322,7 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
                 sun_source_at<Constant>(k, b, sun, at, density, light, direct);
                 if (k.beam_sets > 0) add_beam(k, b, sun, tau, visible, direct);
             }
-            if (b.near != nullptr) read_near(k, b, metres, t, optical > 0.0f, harmonics, around);
+            if (b.near != nullptr) read_near(k, b, ray, t, optical > 0.0f, harmonics, around);
             add_source<W>(k, b, metres, harmonics, around, direct, quad, weight, colour);
             const T left = transmittance * (1.0f - alpha);
             if (b.half_depth != nullptr) {

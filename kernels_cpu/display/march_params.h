@@ -35,6 +35,7 @@ struct NearNodes {
     std::int32_t first[3];
     std::int32_t size[3];  ///< 0: none
     float reach;           ///< m from the camera to where they no longer count
+    float every;           ///< m along a ray from one look at them to the next
 };
 
 /// Pixel (i, j) of the marched ones is pixel (first + every * (i, j)) of the picture.

@@ -70,7 +70,7 @@ Status show_all_ways(const Context& context, PhotonGridRun& run, const GridLight
     MarchParams k = lit_march_params(run, in, cell_nodes(run));
     CellHarmonics sets;
     Buffer<float> light;
-    const NearNodes all{{0, 0, 0}, {k.source.size[0], k.source.size[1], k.source.size[2]}, 0};
+    const NearNodes all{{0, 0, 0}, {k.source.size[0], k.source.size[1], k.source.size[2]}, 0, 0};
     for (int batch = -1; batch < in.batches; ++batch) {
         {
             const StageClock clock(context, "reconstruct");

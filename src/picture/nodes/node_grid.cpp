@@ -42,6 +42,7 @@ NearNodes near_nodes(const NodeGrid& g, const float (&camera)[3]) {
     for (float per_metre : g.per_metre) widest = std::max(widest, 1.0f / per_metre);
     NearNodes near{};
     near.reach = float(kNearReach) * widest;
+    near.every = widest;
     for (int a = 0; a < 3; ++a) {
         // Both nodes beside the last place that counts; far from the grid floats know no node.
         const float low = (camera[a] - near.reach) * g.per_metre[a] - 0.5f;
