@@ -185,7 +185,7 @@ template <int W>
 struct NearLight {
     F<W> share{};
     F<W> next{};                ///< m along the ray, where it is looked up again
-    F<W> colour[kMostMarched];  ///< set where any share is above 0
+    F<W> colour[kMostMarched];  ///< of the last look, 0 before the first
 };
 template <int W>
 PILEUS_FN void read_near(const MarchParams& k, const MarchBuffers& b, const Ray<F<W>>& ray, F<W> t,

@@ -75,6 +75,12 @@ struct KernelTable {
 /// The widest table this machine runs; `name` (or null) forces one. Null: no such table here.
 const KernelTable* kernel_table(const char* name);
 
+/// Kernels of procedural densities: those of `table`, or of the host's widest where that is null or
+/// a device's.
+inline const SkyKernels& sky_kernels(const KernelTable* table) {
+    return table != nullptr && table->sky != nullptr ? *table->sky : *kernel_table(nullptr)->sky;
+}
+
 /// Table number i of those compiled in and runnable here, narrowest first; null past the end.
 const KernelTable* kernel_table_at(int i);
 

@@ -13,12 +13,6 @@ inline namespace PILEUS_ISA {
 constexpr int kCloudPart = 4;       // cells along the edge of a part of a block
 constexpr float kCloudCore = 0.1f;  // depth from which on density no longer grows
 
-template <class T>
-PILEUS_FN T smooth_step(T t) {
-    const T c = max_(min_(t, all<T>(1.0f)), all<T>(0.0f));
-    return c * c * (3.0f - 2.0f * c);
-}
-
 /// Bends space at two scales, so that no sphere stays a sphere.
 template <class T>
 PILEUS_FN Vec<T> warp_cloud(const CumulusParams& k, const Vec<T>& p) {
@@ -70,7 +64,7 @@ PILEUS_FN T cloud_density(const CumulusParams& k, const Vec<T>& p, const Vec<T>&
     const T smooth_d = cloud_distance(k, q, near, count);
     if (!any(smooth_d < kCumulusPushOut + k.shell)) return T{};
     // Calm the billows towards the base, where the cloud is young and ragged instead of firm.
-    const T calm = 0.55f + 0.45f * smooth_step<T>(p.z * 8.0f);
+    const T calm = 0.55f + 0.45f * smooth_ramp<T>(p.z * 8.0f);
     T d = smooth_d;
     if (any(d > -(kCumulusPushIn + k.shell))) d = d - calm * cloud_billows(k, q);
     // Outside the edge nothing is left that the rest could scale.
@@ -78,14 +72,14 @@ PILEUS_FN T cloud_density(const CumulusParams& k, const Vec<T>& p, const Vec<T>&
     const T slow = gradient_noise<T>(p.x * 5.0f, p.y * 5.0f, p.z * 5.0f, k.seed + 40u);
     const T fast = gradient_noise<T>(p.x * 14.0f, p.y * 14.0f, p.z * 14.0f, k.seed + 41u);
     // Edge: a thin firm shell, then a core that entrainment has not reached.
-    const T edge = smooth_step<T>(0.5f - d / k.shell);
-    const T core = 0.80f + 0.20f * smooth_step<T>(smooth_d * (-1.0f / kCloudCore));
+    const T edge = smooth_ramp<T>(0.5f - d / k.shell);
+    const T core = 0.80f + 0.20f * smooth_ramp<T>(smooth_d * (-1.0f / kCloudCore));
     // Base: a plane that undulates by about one percent and fades in over a few.
     const T ragged = 0.012f * slow + 0.016f * fast;
-    const T base = smooth_step<T>((p.z + ragged) * (1.0f / 0.035f));
+    const T base = smooth_ramp<T>((p.z + ragged) * (1.0f / 0.035f));
     const T rise = min_(max_(p.z * (1.0f / k.top), all<T>(0.0f)), all<T>(1.0f));
     const T profile = 0.35f + 0.65f * min_(rise * 1.3f, all<T>(1.0f));
-    const T patchy = 1.0f - 0.10f * smooth_step<T>(0.5f + slow);
+    const T patchy = 1.0f - 0.10f * smooth_ramp<T>(0.5f + slow);
     return edge * core * base * profile * patchy;
 }
 

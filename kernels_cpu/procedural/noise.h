@@ -44,6 +44,13 @@ PILEUS_FN T fade(T t) {
     return t * t * t * (t * (t * 6.0f - 15.0f) + 10.0f);
 }
 
+/// The smooth step from 0 to 1, of t cut to [0, 1].
+template <class T>
+PILEUS_FN T smooth_ramp(T t) {
+    const T s = max_(min_(t, all<T>(1.0f)), T{});
+    return s * s * (3.0f - 2.0f * s);
+}
+
 /// Dot product of a corner's random gradient (each component in (-1, 1)) with the offset to it.
 template <class T>
 PILEUS_FN T corner_slope(U_of<T> h, T x, T y, T z) {

@@ -3,18 +3,12 @@
 // in: SkyParams, box-local metres, the width of steps -> out: densities in [0, 1], their bounds.
 // Palenik 2016, section 5.1 (blend, gains, parameters A and B, dimensions); docs/skies.md.
 #pragma once
+#include "kernels_cpu/procedural/noise.h"
 #include "kernels_cpu/procedural/sky_layer.h"
 #include "kernels_cpu/procedural/sky_texture.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
-
-/// The smooth step from 0 to 1, of t cut to [0, 1].
-template <class T>
-PILEUS_FN T smooth_ramp(T t) {
-    const T s = max_(min_(t, all<T>(1.0f)), T{});
-    return s * s * (3.0f - 2.0f * s);
-}
 
 /// How much the noise is lowered at a share of the height: rounds the clouds off at both ends.
 template <class T>

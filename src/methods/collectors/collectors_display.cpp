@@ -4,8 +4,6 @@
 // docs/methods.md 3, each image frame, steps 4 and 5; repairs 3 and 4.
 #include "src/methods/collectors/collectors_display.h"
 
-#include <algorithm>
-
 #include "src/methods/collectors/billboards/billboard_spheres.h"
 #include "src/methods/collectors/billboards/gl_billboards.h"
 #include "src/methods/collectors/collectors_memory.h"
@@ -77,11 +75,9 @@ SplatOptions near_options(const CollectorsRun& run) {
 /// The collectors whose light near nodes may hold, moved to where these begin.
 void choose_near(Span<const Collector> all, const MarchParams& k, Buffer<Collector>& moved,
                  std::vector<std::uint32_t>& which) {
-    float widest = 0;
-    for (float per_metre : k.source.per_metre) widest = std::max(widest, 1.0f / per_metre);
     for (std::size_t i = 0; i < all.size; ++i) {
         Collector c = all[i];
-        const float radius = std::max(c.radius, widest) * (2 * kSplatFactor);
+        const float radius = ball_radius(c, k.source, kSplatFactor);
         bool reaches = true;
         for (std::size_t a = 0; a < 3; ++a) {
             const float spacing = 1.0f / k.source.per_metre[a];
@@ -115,13 +111,14 @@ Status light_near(const Context& context, CollectorsRun& run, const ReconstructI
     moved.truncate(which.size());
     NodeGrid nodes = k.source;
     for (int a = 0; a < 3; ++a) nodes.size[a] = k.near.size[a];
+    const SplatOptions options = near_options(run);
     HarmonicSource harmonics;
     Buffer<float> splatted;
     for (int part = 0; part <= lit.batches; ++part) {
         PILEUS_TRY(reconstruct_harmonics(lit, part - 1, {which.data(), which.size()}, harmonics));
         set_harmonic_sets(lit.deposit, harmonics.sets, harmonics.colour, k);
         PILEUS_TRY(splat_colours(moved.span(), harmonics.values.span(),
-                                 harmonics.sets * harmonics.numbers, nodes, near_options(run),
+                                 harmonics.sets * harmonics.numbers, nodes, options,
                                  context.threads, splatted));
         const std::size_t numbers =
             std::size_t(node_count(nodes)) * std::size_t(k.sets) * std::size_t(k.harmonics);

@@ -50,12 +50,13 @@ struct CellHarmonics {
     float colour[3][3] = {};  ///< [set][channel]
 };
 
-/// Fills part `part` of `parts`, of the cells of `those` alone, from batch `batch` of the slots, or
-/// all: -1. Slots shot under another sun are taken to be under this one beyond the bands. Closure
-/// kSh. kLimit: out of memory.
+/// Which part of such numbers is made, from batch `batch` of the slots, or all: -1.
 struct HarmonicPart {
     int batch, part, parts, stored;
 };
+
+/// Fills one part, of the cells of `those` alone. Slots shot under another sun are taken to be
+/// under this one beyond the bands. Closure kSh. kLimit: out of memory.
 Status light_cell_harmonics(const GridLightInput& in, const HarmonicPart& which,
                             const NearNodes& those, CellHarmonics& sets, Buffer<float>& values);
 

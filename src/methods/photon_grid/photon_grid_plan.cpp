@@ -24,11 +24,15 @@ Size bytes_of_thread(const PhotonGridRun& run) {
     return sum_of_bytes(arrays::photon_slot(slot_of(run), 1).bytes(), 256);
 }
 
-/// Numbers per cell while it is shown.
-Size light_numbers(const PhotonGridRun& run) {
-    if (!shows_harmonics(run)) return 3 * (1 + Size(photon_batches(run)));
+/// Harmonics of a cell as the march reads them.
+Size harmonic_numbers(const PhotonGridRun& run) {
     return Size(harmonic_sets(run.deposit.channels, run.lighting)) *
            Size(stored_harmonics(run.deposit));
+}
+
+/// Numbers per cell while it is shown.
+Size light_numbers(const PhotonGridRun& run) {
+    return shows_harmonics(run) ? harmonic_numbers(run) : 3 * (1 + Size(photon_batches(run)));
 }
 
 void add_photons(const PhotonGridRun& run, const Context& context, Size private_sums,
@@ -60,12 +64,9 @@ void add_picture(const PhotonGridRun& run, const Context& context, MemoryTable& 
     const Size ground = slot_of(run).ground_cells;
     const bool solid = run.lighting.opaque();
     add(t, arrays::cell_light(light_numbers(run), run.cells.count()));
-    if (shows_near(run)) {
-        const Size numbers = Size(harmonic_sets(run.deposit.channels, run.lighting)) *
-                             Size(stored_harmonics(run.deposit));
-        add(t,
-            arrays::near_nodes(planes / 3 * numbers, near_nodes_of(run, cell_nodes(run), context)));
-    }
+    if (shows_near(run))
+        add(t, arrays::near_nodes(planes / 3 * harmonic_numbers(run),
+                                  near_nodes_of(run, cell_nodes(run), context)));
     const bool reads_quads = (planes == 3 || parts > 0) && !shows_harmonics(run) &&
                              run.cells.count() > 1 && context.kernels->device == nullptr;
     add(t, arrays::lit_quads(reads_quads ? run.cells.count() : 0));

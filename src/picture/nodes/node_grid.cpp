@@ -13,6 +13,12 @@ namespace {
 /// to the camera and a ray past it differ by less than bands can tell (docs/collectors.md).
 constexpr int kNearReach = 6;
 
+float widest_spacing(const NodeGrid& g) {
+    float widest = 0;
+    for (float per_metre : g.per_metre) widest = std::max(widest, 1.0f / per_metre);
+    return widest;
+}
+
 }  // namespace
 
 NodeGrid make_node_grid(const Grid& grid, const double (&extent_m)[3], double spacing_m) {
@@ -38,8 +44,7 @@ NodeGrid make_half_grid(const Grid& grid, const double (&extent_m)[3]) {
 
 NearNodes near_nodes(const NodeGrid& g, const float (&camera)[3]) {
     NearNodes out{};
-    float widest = 0;
-    for (float per_metre : g.per_metre) widest = std::max(widest, 1.0f / per_metre);
+    const float widest = widest_spacing(g);
     NearNodes near{};
     near.reach = float(kNearReach) * widest;
     near.every = widest;
@@ -55,8 +60,7 @@ NearNodes near_nodes(const NodeGrid& g, const float (&camera)[3]) {
 }
 
 std::uint64_t most_near_nodes(const NodeGrid& g) {
-    float widest = 0;
-    for (float per_metre : g.per_metre) widest = std::max(widest, 1.0f / per_metre);
+    const float widest = widest_spacing(g);
     std::uint64_t most = 1;
     for (int a = 0; a < 3; ++a) {
         const float wide = 2.0f * float(kNearReach) * widest * g.per_metre[a];

@@ -79,9 +79,7 @@ Status make_row(const MediumSettings& medium, const DensityMaking& with, Volume&
     settings.resolution = with.size;
     settings.seed = medium.shape_seed;
     settings.extent_m = medium.bounds_m[1] - medium.bounds_m[0];
-    const KernelTable* kernels = with.kernels;
-    if (kernels == nullptr || kernels->sky == nullptr) kernels = kernel_table(nullptr);
-    return make_cumulus(settings, *kernels->sky, with.threads, volume);
+    return make_cumulus(settings, sky_kernels(with.kernels), with.threads, volume);
 }
 
 constexpr DensityRow cumulus_row() {

@@ -129,9 +129,7 @@ DensityOutline outline_row(const MediumSettings& medium) {
 }
 
 Status make_row(const MediumSettings& medium, const DensityMaking& with, Volume& volume) {
-    const KernelTable* kernels = with.kernels;
-    if (kernels == nullptr || kernels->sky == nullptr) kernels = kernel_table(nullptr);
-    return bake_sky(medium, with.size, *kernels->sky, with.threads, volume, with.field);
+    return bake_sky(medium, with.size, sky_kernels(with.kernels), with.threads, volume, with.field);
 }
 
 /// Whether the box holds whole tiles of both noises: then it may repeat, and tiles lie along its

@@ -38,16 +38,12 @@ struct Balls {
 
 void list_balls(Span<const Collector> collectors, const NodeGrid& g, const SplatOptions& options,
                 Balls& out) {
-    float coarsest = g.per_metre[0];
-    for (float n : g.per_metre) coarsest = n < coarsest ? n : coarsest;
-    const float least = 1.2f / coarsest;
     out.first.assign(std::size_t(g.size[2]) + 1, 0);
     std::vector<NodeRange> slices;
     slices.reserve(collectors.size);
     out.radius.reserve(collectors.size);
     for (const Collector& k : collectors) {
-        const float wide = k.radius * options.radius_factor;
-        const float radius = wide > least ? wide : least;
+        const float radius = ball_radius(k, g, options.radius_factor);
         out.radius.push_back(radius);
         slices.push_back(nodes_within(k.centre[2], radius, g.per_metre[2], g.size[2], false));
         for (int z = slices.back().first; z < slices.back().last; ++z)
@@ -167,6 +163,12 @@ void settle_slice(const NodeLevel& fine, const NodeLevel* up, const NodeRange* r
 }
 
 }  // namespace
+
+float ball_radius(const Collector& collector, const NodeGrid& g, float factor) {
+    float coarsest = g.per_metre[0];
+    for (float n : g.per_metre) coarsest = n < coarsest ? n : coarsest;
+    return std::max(collector.radius * factor, 1.2f / coarsest);
+}
 
 std::vector<NodeLevel> node_levels(const NodeGrid& g) {
     std::vector<NodeLevel> levels;

@@ -49,6 +49,10 @@ struct SplatOptions {
     float least[3] = {};               ///< than this
 };
 
+/// Of the ball that a collector covers among these nodes, m: `factor` times its own radius, at
+/// least 1.2 spacings of the widest axis.
+float ball_radius(const Collector& collector, const NodeGrid& nodes, float factor);
+
 /// Weighted mean per node over the collectors whose ball (radius_factor times the collector's
 /// radius, at least 1.2 node spacings) holds it; weight = mass times (1 - d^2/R^2)^2. A node whose
 /// weights hold less than `prior_mass` leans on the mean of its surroundings, on coarser and
