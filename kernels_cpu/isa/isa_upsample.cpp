@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Upsampling and 8-bit pixels, compiled once per instruction set, apart from isa.cpp so that both
-// build at once. in: the kernel templates -> out: three exported functions, named after the set.
-// docs/architecture.md, "Kernels: written once"; tools/check_objects proves that nothing leaks.
+// Upsampling, the air in front and 8-bit pixels, compiled once per instruction set, apart from
+// isa.cpp so that both build at once. in: the kernel templates -> out: four exported functions,
+// named after the set. docs/architecture.md, "Kernels: written once"; tools/check_objects proves
+// that nothing leaks.
+#include "kernels_cpu/display/air_rows.h"
 #include "kernels_cpu/display/finish_rows.h"
 
 #ifndef PILEUS_WIDTH
@@ -15,6 +17,7 @@
 #define PILEUS_UPSAMPLE(isa) PILEUS_JOIN(upsample_kernel_, isa)
 #define PILEUS_PIXELS(isa) PILEUS_JOIN(pixel_kernel_, isa)
 #define PILEUS_FINISH(isa) PILEUS_JOIN(finish_kernel_, isa)
+#define PILEUS_AIR(isa) PILEUS_JOIN(air_kernel_, isa)
 
 namespace pileus {
 
@@ -37,6 +40,13 @@ void PILEUS_FINISH(PILEUS_ISA)(const FinishParams&, const FinishBuffers&, std::u
 void PILEUS_FINISH(PILEUS_ISA)(const FinishParams& k, const FinishBuffers& b, std::uint32_t begin,
                                std::uint32_t end) {
     finish_rows<PILEUS_WIDTH>(k, b, begin, end);
+}
+
+void PILEUS_AIR(PILEUS_ISA)(const AirRowsParams&, const AirRowsBuffers&, std::uint32_t,
+                            std::uint32_t);
+void PILEUS_AIR(PILEUS_ISA)(const AirRowsParams& k, const AirRowsBuffers& b, std::uint32_t begin,
+                            std::uint32_t end) {
+    air_rows(k, b, begin, end);
 }
 
 }  // namespace pileus

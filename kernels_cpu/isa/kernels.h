@@ -3,6 +3,7 @@
 // in: a name or nothing -> out: functions over index ranges; threads live in the caller.
 // docs/architecture.md, "Kernels: written once".
 #pragma once
+#include "kernels_cpu/display/air_params.h"
 #include "kernels_cpu/display/blend_params.h"
 #include "kernels_cpu/display/finish_params.h"
 #include "kernels_cpu/display/march_params.h"
@@ -70,6 +71,9 @@ struct KernelTable {
     /// Rows of 8-bit pixels from marched ones, with what is behind them.
     void (*finish_rows)(const FinishParams&, const FinishBuffers&, std::uint32_t begin,
                         std::uint32_t end) = nullptr;
+    /// Rows of a picture through the air.
+    void (*air_rows)(const AirRowsParams&, const AirRowsBuffers&, std::uint32_t begin,
+                     std::uint32_t end) = nullptr;
 };
 
 /// The widest table this machine runs; `name` (or null) forces one. Null: no such table here.

@@ -181,7 +181,7 @@ void note_plan(RaymarchRun& run) {
     if (run.world->medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
     note_solids(run.world->solids, run.around.depth, plan);
     if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
-    if (!scene.output.layer_depth) plan.leave_out("depth of the medium", "no depth layer");
+    if (!scene.wants_depth()) plan.leave_out("depth of the medium", "no depth layer");
     if (!scene.output.layer_optical_depth)
         plan.leave_out("optical depth", "no optical_depth layer");
     for (const std::string& what : run.world->media_plan.needed) plan.needed.push_back(what);
@@ -239,12 +239,12 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
     if (parts > 0)
         add(t, renamed(arrays::picture_planes(plane_count(3, run.lighting.opaque(), false), pixels),
                        "planes of a part", Stage::kDisplay, Stage::kDisplay));
-    const std::uint64_t shown = parts + plane_count(3, run.lighting.opaque(), output.layer_depth) +
+    const std::uint64_t shown = parts + plane_count(3, run.lighting.opaque(), scene.wants_depth()) +
                                 (output.layer_optical_depth ? 1u : 0u);
     add(t, arrays::picture_planes(shown, pixels));
     add(t, arrays::ground_shadow(most_ground_nodes(run.world->medium, run.lighting, pixels)));
     if (run.settings.jitter == RaymarchJitterKind::kBlueNoise) add(t, arrays::blue_noise(last));
-    const bool half = output.layer_depth || run.settings.thin.temporal > 0;
+    const bool half = scene.wants_depth() || run.settings.thin.temporal > 0;
     add_upsample_row(run.settings.thin, scene.camera.resolution, run.lighting.opaque(), half,
                      output.layer_optical_depth, last, t);
     add(t, arrays::raymarch_counts(std::uint64_t(scene.camera.resolution[1])));

@@ -8,6 +8,7 @@
 #include "src/base/digest.h"
 #include "src/march/march_budget.h"
 #include "src/march/march_parts.h"
+#include "src/picture/air_view.h"
 #include "src/picture/background.h"
 #include "src/picture/blue_noise.h"
 #include "src/picture/late_rows.h"
@@ -173,7 +174,7 @@ Status march_frame(const FrameStep& step, const Context& context, RaymarchRun& r
         // Clearing memory is part of it.
         const StageClock clock(context, "background");
         PILEUS_TRY(allocate_planes(run.camera.width, run.camera.height, 3, run.lighting.opaque(),
-                                   output.layer_depth, run.planes));
+                                   scene.wants_depth(), run.planes));
         if (output.layer_optical_depth)
             PILEUS_TRY(allocate(arrays::picture_planes(1, run.planes.transmittance.size()),
                                 run.planes.optical_depth));
@@ -214,7 +215,9 @@ Status march_frame(const FrameStep& step, const Context& context, RaymarchRun& r
     thin.settings = run.settings.thin;
     PILEUS_TRY(upsample_picture(context, thin, step.frame, run.upsample, run.planes));
     PILEUS_TRY(add_lamps(context, run));
-    return march_parts(context, in, run);
+    PILEUS_TRY(march_parts(context, in, run));
+    return show_air(context, scene, run.world->medium, run.lighting, run.camera, run.around,
+                    run.planes);
 }
 
 Status march_show(const FrameStep&, const Context& context, MethodRun& method_run, Image& image) {

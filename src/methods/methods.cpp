@@ -18,7 +18,7 @@ Status open_run(const Method& method, const Scene& scene, const Budget& budget,
         world = own;
     }
     run.world = std::move(world);
-    PILEUS_TRY(outline_surroundings(scene, context, run.around));
+    PILEUS_TRY(outline_surroundings(scene, context, *run.world, run.around));
     PILEUS_TRY(method.outline(context, run));
     if (!exact) return Status::ok();
     if (own != nullptr) PILEUS_TRY(load_world(scene, context, *own));

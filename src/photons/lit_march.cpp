@@ -205,13 +205,12 @@ Status check_thinned(const Context& context, const Scene& scene, const char* met
 }
 
 void add_picture_rows(const Context& context, const UpsampleSettings& thin, PhotonRun& run) {
-    const OutputSettings& output = run.scene->output;
     const auto& size = run.scene->camera.resolution;
     const std::uint64_t pixels = std::uint64_t(size[0]) * std::uint64_t(size[1]);
     add(run.plan.memory,
         arrays::ground_shadow(most_ground_nodes(run.world->medium, run.lighting, pixels)));
     add_upsample_row(thin, run.scene->camera.resolution, run.lighting.opaque(),
-                     output.layer_depth || thin.temporal > 0, false,
+                     run.scene->wants_depth() || thin.temporal > 0, false,
                      context.frames > 1 ? Stage::kWrite : Stage::kDisplay, run.plan.memory);
 }
 

@@ -105,7 +105,11 @@ BackgroundParams background_params(const MediumView& medium, const CameraParams&
         k.ground_sun[c] = float(light.ground_sun[c]);
         k.to_sun[c] = light.to_sun[c];
     }
-    k.sky_map = light.map;
+    // The sky before air is the air's own (air_view.h).
+    if (light.air)
+        for (float& c : k.sky) c = 0;
+    else
+        k.sky_map = light.map;
     return k;
 }
 

@@ -11,8 +11,8 @@ namespace pileus {
 
 LateRows* late_rows_of(LateRows* late, const Lighting& light, const Medium& medium,
                        const UpsampleSettings& thin, const CameraParams& camera, int frame) {
-    if (late == nullptr || thin.temporal > 0 || has_surfaces(light) || !light.lamps.empty() ||
-        emits(medium))
+    if (late == nullptr || light.air || thin.temporal > 0 || has_surfaces(light) ||
+        !light.lamps.empty() || emits(medium))
         return nullptr;
     late->marched = upsample_lattice(thin, camera, frame, false);
     return late;

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/base/vectors.h"
+#include "src/scene/atmosphere_settings.h"
 #include "src/scene/light_settings.h"
 #include "src/scene/particle_settings.h"
 #include "src/scene/sky_settings.h"
@@ -309,6 +310,7 @@ struct Scene {
     Sun sun;
     Sky sky;
     Ground ground;
+    AtmosphereSettings atmosphere;      ///< in place of the sky; colours the sun
     std::vector<LightSettings> lights;  ///< besides sun and sky
     std::vector<SolidSettings> solids;
     std::vector<MediumSettings> media;
@@ -328,6 +330,9 @@ struct Scene {
     std::string file;                           ///< name for messages
     std::string directory;                      ///< paths in the scene are relative to it
     std::map<std::string, std::string> places;  ///< of its keys, "file:line:column", for messages
+
+    /// Whether pictures need the distance to the media: a layer shows it, or the air before them.
+    bool wants_depth() const { return output.layer_depth || atmosphere.present; }
 };
 
 }  // namespace pileus

@@ -105,11 +105,17 @@ Status deliver(const Scene& scene, const RunStart& start, int frame, const Frame
     return sink(frame, image, report);
 }
 
-/// Frames that share a world.
+/// Whether frames have skies of their own.
+bool has_moving_sky(const Scene& scene) {
+    return scene.atmosphere.present && scene.animation.present && scene.animation.moves_sun;
+}
+
+/// Frames that share a world, which may be given.
 Status render_frames(const Scene& scene, const RunStart& start, const RenderOptions& options,
-                     const Frames& frames, const FrameSink& sink) {
+                     const Frames& frames, const std::shared_ptr<const World>& world,
+                     const FrameSink& sink) {
     Session session;
-    PILEUS_TRY(session.open(scene, options, SessionKind::kAnimation, true, nullptr));
+    PILEUS_TRY(session.open(scene, options, SessionKind::kAnimation, true, world));
     Report& report = session.report();
     Verifier verifier;
     const bool verifies = options.verify > 0 && options.show.empty();
@@ -150,8 +156,12 @@ Status render(const Scene& scene, const RenderOptions& options, const FrameSink&
     const RunStart start;
     Frames frames{};
     PILEUS_TRY(frames_of(scene, options, frames));
-    // Each frame of a sequence is a world of its own.
-    if (!has_sequence(scene)) return render_frames(scene, start, options, frames, sink);
+    // Each frame of a sequence is a world of its own; a sun that moves in air has another sky in
+    // each.
+    const bool sequence = has_sequence(scene), skies = has_moving_sky(scene);
+    if (!sequence && !skies) return render_frames(scene, start, options, frames, nullptr, sink);
+    std::shared_ptr<const World> world;
+    if (!sequence && frames.last > frames.first) PILEUS_TRY(make_world(scene, options, world));
     Scene own = scene;
     bool interrupted = false;
     const FrameSink watched = [&](int frame, Image& image, Report& report) {
@@ -160,8 +170,9 @@ Status render(const Scene& scene, const RenderOptions& options, const FrameSink&
     };
     for (int frame = frames.first; frame <= frames.last && !interrupted; ++frame) {
         own.sequence_frame = frame;
+        own.sun.elevation_deg = sun_at(scene, frame);
         const Frames one{frame, frame, frames.total};
-        PILEUS_TRY(render_frames(own, start, options, one, watched));
+        PILEUS_TRY(render_frames(own, start, options, one, world, watched));
     }
     return Status::ok();
 }
@@ -174,6 +185,7 @@ Status plan_scene(const Scene& scene, const RenderOptions& options, bool exact, 
     PILEUS_TRY(frames_of(scene, options, frames));
     Scene own = scene;
     own.sequence_frame = frames.first;
+    if (has_moving_sky(scene)) own.sun.elevation_deg = sun_at(scene, frames.first);
     Session session;
     PILEUS_TRY(session.open(own, options, SessionKind::kAnimation, exact, nullptr));
     report = session.report();

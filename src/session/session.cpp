@@ -8,6 +8,7 @@
 #include "platform/fp_mode.h"
 #include "src/methods/registry.h"
 #include "src/session/run_context.h"
+#include "src/world/atmosphere/atmosphere.h"
 #include "src/world/camera/places.h"
 #include "src/world/camera/view.h"
 
@@ -72,6 +73,7 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
     const bool live = kind == SessionKind::kLive;
     scene_ = scene;
     PILEUS_TRY(place_camera(scene_));
+    place_sun(scene_);
     options_ = options;
     if (live) make_live(scene_);
     camera_ = scene_.camera;

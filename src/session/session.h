@@ -97,6 +97,7 @@ public:
 
 private:
     Status aim();
+    Status relight_air();
     void place();
     FrameWork scene_work() const;
 

@@ -95,7 +95,20 @@ Status Session::set_sun(const Sun& sun) {
     PILEUS_TRY(check_changed(std::move(changed)));
     sun_ = sun;
     stale_ = true;
-    return Status::ok();
+    return relight_air();
+}
+
+/// The sky follows the sun and the ground.
+Status Session::relight_air() {
+    if (!scene_.atmosphere.present) return Status::ok();
+    const FpModeGuard guard;
+    const PoolGuard lent(threads_);
+    Scene lit;
+    lit.atmosphere = scene_.atmosphere;
+    lit.sun = sun_;
+    lit.ground = ground_;
+    anew_ = true;
+    return light_surroundings(lit, context_.threads, *run_->world, run_->around);
 }
 
 Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
@@ -140,7 +153,7 @@ Status Session::set_ground(const Ground& ground) {
             "ground: the sky map was read with it or without, allowed: as the scene has it");
     ground_ = ground;
     stale_ = true;
-    return Status::ok();
+    return relight_air();
 }
 
 Status Session::set_lights(const std::vector<LightSettings>& lights) {

@@ -112,9 +112,25 @@ Status load_world(const Scene& scene, const Context& context, World& world) {
     return repeat_solids(scene, world.medium.extent_m, world.solids);
 }
 
-Status outline_surroundings(const Scene& scene, const Context& context, Surroundings& around) {
+Status outline_surroundings(const Scene& scene, const Context& context, const World& world,
+                            Surroundings& around) {
     PILEUS_TRY(outline_camera_depth(scene, context, around.depth));
-    return read_sky_map(scene, context, around.sky_map);
+    if (!scene.atmosphere.present) return read_sky_map(scene, context, around.sky_map);
+    const StageClock clock(context, "atmosphere");
+    return light_surroundings(scene, context.threads, world, around);
+}
+
+Status light_surroundings(const Scene& scene, int threads, const World& world,
+                          Surroundings& around) {
+    const Medium& medium = world.medium;
+    const double sea_m = scene.ground.present ? scene.ground.altitude_m : 0;
+    Image image;
+    PILEUS_TRY(light_atmosphere(scene, medium.low_m[2] + 0.5 * medium.extent_m[2] - sea_m, threads,
+                                around.air, image));
+    SkyMap map;
+    PILEUS_TRY(make_sky_map("atmosphere", image, Sky{}, scene.ground.present, map));
+    around.sky_map = std::move(map);
+    return Status::ok();
 }
 
 Status load_surroundings(const Scene& scene, const Context& context, Surroundings& around) {
@@ -123,8 +139,22 @@ Status load_surroundings(const Scene& scene, const Context& context, Surrounding
 
 Lighting light_world(const Scene& scene, double sun_elevation_deg, const World& world,
                      const Surroundings& around, Plan& plan) {
-    return plan_lighting(scene, world.medium, sun_elevation_deg, plan, &around.sky_map,
-                         &world.solids, &around.depth);
+    const Scene* lit = &scene;
+    Scene coloured;
+    if (around.air.present()) {
+        coloured.sun = scene.sun;
+        coloured.sky.present = true;
+        coloured.ground = scene.ground;
+        coloured.lights = scene.lights;
+        coloured.solids = scene.solids;
+        for (std::size_t c = 0; c < 3; ++c)
+            coloured.sun.irradiance[c] = float(around.air.above[c] * around.air.sunlight[c]);
+        lit = &coloured;
+    }
+    Lighting out = plan_lighting(*lit, world.medium, sun_elevation_deg, plan, &around.sky_map,
+                                 &world.solids, &around.depth);
+    out.air = around.air.present();
+    return out;
 }
 
 std::string density_digest(const World& world) {

@@ -5,6 +5,7 @@
 #pragma once
 #include "src/io/particles/particles.h"
 #include "src/run/context.h"
+#include "src/world/atmosphere/atmosphere.h"
 #include "src/world/density/sky_field.h"
 #include "src/world/light/lights.h"
 #include "src/world/light/sky_map.h"
@@ -30,6 +31,7 @@ struct World {
 
 /// What is seen of a world through one camera and under one sky: each run has its own.
 struct Surroundings {
+    Atmosphere air;  ///< of a scene with [atmosphere], whose sky is the map
     SkyMap sky_map;
     CameraDepth depth;
 };
@@ -49,7 +51,13 @@ Status outline_world(const Scene& scene, WorldUse use, const Context& context, W
 Status load_world(const Scene& scene, const Context& context, World& world);
 
 /// The same of what surrounds it: the sky map is read at once, as the lights depend on its colours.
-Status outline_surroundings(const Scene& scene, const Context& context, Surroundings& around);
+/// An atmosphere is made at once, too, for the height of the world's media.
+Status outline_surroundings(const Scene& scene, const Context& context, const World& world,
+                            Surroundings& around);
+
+/// The atmosphere and its sky for the scene's sun and ground as they are now.
+Status light_surroundings(const Scene& scene, int threads, const World& world,
+                          Surroundings& around);
 
 /// Reads the rest.
 Status load_surroundings(const Scene& scene, const Context& context, Surroundings& around);

@@ -86,7 +86,7 @@ void note_plan(const Scene& scene, CollectorsRun& run) {
     note_solids(run.world->solids, run.around.depth, plan);
     note_upsampling(scene, scene.collectors.thin, plan);
     if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
-    if (!scene.output.layer_depth) plan.leave_out("depth of the medium", "no depth layer");
+    if (!scene.wants_depth()) plan.leave_out("depth of the medium", "no depth layer");
     if (!scene.output.layer_error) plan.leave_out("batches and second moments", "no error layer");
     if (!scene.collectors.billboards) plan.leave_out("billboards", "display = \"march\"");
     for (const std::string& what : run.world->media_plan.needed) plan.needed.push_back(what);

@@ -256,7 +256,7 @@ Status collectors_billboards(const Context& context, const CollectorsRun& run,
     scene.count = std::uint32_t(n);
     scene.channels = channels;
     scene.opaque_depth = opaque_depth;
-    scene.half_depth = run.scene->output.layer_depth;
+    scene.half_depth = run.scene->wants_depth();
     const Compositor by = run.scene->collectors.compositor;
     if (by == Compositor::kBuiltin)
         return composite_billboards(
@@ -277,7 +277,7 @@ void collectors_size_display(const CollectorsRun& run, const Context& context,
     sizes.layers = 4 + extra_layers(output, sizes.planes > 3);
     sizes.marched = is_marched(run);
     sizes.ground = run.lighting.opaque();
-    sizes.depth = output.layer_depth;
+    sizes.depth = run.scene->wants_depth();
     const std::uint64_t parts = (output.layer_light ? 3u : 0u) + (output.layer_order ? 3u : 0u);
     sizes.extra_planes = parts + (output.layer_optical_depth ? 1u : 0u);
     sizes.parts = parts > 0;

@@ -5,6 +5,7 @@
 #include "src/base/digest.h"
 #include "src/methods/collectors/collectors_display.h"
 #include "src/photons/lit_march.h"
+#include "src/picture/air_view.h"
 
 namespace pileus {
 
@@ -44,12 +45,14 @@ Status collectors_compose(const CameraParams& camera, const Context& context, Co
     {
         const StageClock clock(context, "background");
         PILEUS_TRY(allocate_planes(camera.width, camera.height, channels, run.lighting.opaque(),
-                                   run.scene->output.layer_depth, planes));
+                                   run.scene->wants_depth(), planes));
     }
     PILEUS_TRY(fill_lit_background(context, run, in, 0, planes));
     PILEUS_TRY(collectors_display(context, run, in, colours, channels, planes));
     PILEUS_TRY(add_ground_noise(context, run, in, planes));
-    return collectors_parts(context, run, in, planes);
+    PILEUS_TRY(collectors_parts(context, run, in, planes));
+    return show_air(context, *run.scene, run.world->medium, run.lighting, camera, run.around,
+                    planes);
 }
 
 Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& run, Image& image) {

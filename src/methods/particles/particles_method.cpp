@@ -4,6 +4,7 @@
 
 #include "src/base/digest.h"
 #include "src/methods/particles/particles_run.h"
+#include "src/picture/air_view.h"
 #include "src/picture/background.h"
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/lamp_light.h"
@@ -140,14 +141,16 @@ Status light(const FrameStep& step, const Context& context, MethodRun& method_ru
     run.camera = make_camera(scene.camera, orbit_at(scene, step.frame), run.world->medium.low_m);
     PILEUS_TRY(light_particles(context, run));
     PILEUS_TRY(allocate_planes(run.camera.width, run.camera.height, 3, run.lighting.opaque(),
-                               scene.output.layer_depth, run.planes));
+                               scene.wants_depth(), run.planes));
     if (scene.output.layer_optical_depth)
         PILEUS_TRY(allocate(arrays::picture_planes(1, run.planes.transmittance.size()),
                             run.planes.optical_depth));
     PILEUS_TRY(fill_background(context, run));
     PILEUS_TRY(show_particles(context, run));
     if (scene.output.layer_occlusion) PILEUS_TRY(show_occlusion(context, run));
-    return light_ground_by_lamps(context, run);
+    PILEUS_TRY(light_ground_by_lamps(context, run));
+    return show_air(context, scene, run.world->medium, run.lighting, run.camera, run.around,
+                    run.planes);
 }
 
 Status show(const FrameStep&, const Context& context, MethodRun& method_run, Image& image) {

@@ -85,7 +85,7 @@ void note_plan(ParticlesRun& run) {
         plan.leave_out("emission of particles", "medium.emission is 0");
     note_solids(run.world->solids, run.around.depth, plan);
     if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
-    if (!scene.output.layer_depth) plan.leave_out("depth of the medium", "no depth layer");
+    if (!scene.wants_depth()) plan.leave_out("depth of the medium", "no depth layer");
     if (!scene.output.layer_optical_depth)
         plan.leave_out("optical depth", "no optical_depth layer");
     if (scene.output.layer_occlusion)
@@ -157,7 +157,7 @@ void weigh_memory(const Context& context, ParticlesRun& run) {
         if (sets > 0) add(t, arrays::sky_seen(nodes, kSkyParts));
         if (sets > 0) add(t, arrays::particle_sky(particles));
     }
-    const std::uint64_t shown = plane_count(3, run.lighting.opaque(), output.layer_depth) +
+    const std::uint64_t shown = plane_count(3, run.lighting.opaque(), scene.wants_depth()) +
                                 (output.layer_optical_depth ? 1u : 0u);
     add(t, arrays::picture_planes(shown, pixels));
     add(t, arrays::view_balls(particles));

@@ -135,8 +135,8 @@ PathInput path_input(const Context& context, const PathRun& run) {
     in.jitter = !run.scene->path.centre;
     in.guide = run.scene->path.guide;
     in.sun_radius_deg = run.scene->sun.angular_radius_deg;
-    in.parts =
-        path_parts(run.scene->output) || (path_regresses(*run.scene) && run.lighting.opaque());
+    in.parts = path_parts(run.scene->output) || run.lighting.air ||
+               (path_regresses(*run.scene) && run.lighting.opaque());
     return in;
 }
 

@@ -55,6 +55,15 @@ Status path_begin(const Context& context, PathRun& run);
 Status path_advance(std::uint64_t samples, const Context& context, PathRun& run);
 Status path_planes(const Context& context, PathRun& run);
 
+/// What the sky shows of itself, [3][pixel]; left empty where it is black.
+Status path_sky_behind(const Context& context, const PathRun& run, Buffer<float>& out);
+
+/// What of the film's light has come straight through the media from something solid, and from the
+/// sky for a filter: the air changes it in another way. Before the filter; nothing without air.
+Status path_straight(const Context& context, const PathRun& run, Buffer<float>& straight);
+/// The planes seen through the air. After the filter; nothing without air.
+Status path_air(const Context& context, PathRun& run, Buffer<float>& straight);
+
 /// Whether the picture is filtered, and what that asks of a scene. kBadInput: it cannot be.
 inline bool path_filters(const Scene& scene) { return scene.filter.kind != FilterKind::kNone; }
 /// Whether guides are marched for it.

@@ -16,19 +16,6 @@ bool has_sky(const Lighting& light) {
     return light.map.columns > 0 || light.sky[0] > 0 || light.sky[1] > 0 || light.sky[2] > 0;
 }
 
-/// What the sky shows of itself straight through the media, [3][pixel]; where there is one.
-Status show_sky(const Context& context, const PathRun& run, Buffer<float>& out) {
-    if (!has_sky(run.lighting)) return Status::ok();
-    const std::size_t pixels = run.film.pixels();
-    PILEUS_TRY(allocate(arrays::film_means(3, pixels), out));
-    Lighting sky;
-    sky.sky = run.lighting.sky;
-    sky.map = run.lighting.map;
-    const BackgroundParams k =
-        background_params(make_medium_view(run.world->medium, run.majorants), run.camera, sky);
-    return show_background(context, sky, k, {nullptr, out.data(), nullptr});
-}
-
 /// Whether all that is solid is a ground under the sun and an even sky. Then its light is filtered,
 /// too, and media have the same light before it and before the sky.
 bool has_plain_ground(const Lighting& light) {
@@ -84,13 +71,13 @@ Status light_ground(const Context& context, const PathRun& run, Buffer<float>& o
 /// What of a picture is known without its samples, made once for all of its filters.
 struct Known {
     bool plain = false;  ///< a plain ground
-    Buffer<float> sky;   ///< of show_sky
+    Buffer<float> sky;   ///< of path_sky_behind
     Buffer<float> sun;   ///< of light_ground; with a plain ground alone
 };
 
 Status find_known(const Context& context, const PathRun& run, Known& known) {
     known.plain = has_plain_ground(run.lighting);
-    PILEUS_TRY(show_sky(context, run, known.sky));
+    PILEUS_TRY(path_sky_behind(context, run, known.sky));
     return known.plain ? light_ground(context, run, known.sun) : Status::ok();
 }
 
@@ -196,6 +183,18 @@ Status regress_with_error(const Context& context, PathRun& run, const Known& kno
 std::string key_of(const Scene& scene) { return scene.file + ": filter.kind: "; }
 
 }  // namespace
+
+Status path_sky_behind(const Context& context, const PathRun& run, Buffer<float>& out) {
+    if (!has_sky(run.lighting)) return Status::ok();
+    const std::size_t pixels = run.film.pixels();
+    PILEUS_TRY(allocate(arrays::film_means(3, pixels), out));
+    Lighting sky;
+    sky.sky = run.lighting.sky;
+    sky.map = run.lighting.map;
+    const BackgroundParams k =
+        background_params(make_medium_view(run.world->medium, run.majorants), run.camera, sky);
+    return show_background(context, sky, k, {nullptr, out.data(), nullptr});
+}
 
 Status check_path_filter(const Scene& scene) {
     if (!path_filters(scene)) return Status::ok();

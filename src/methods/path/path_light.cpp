@@ -16,12 +16,12 @@ namespace {
 Status make_alpha(const Context& context, PathRun& run) {
     const OutputSettings& output = run.scene->output;
     PILEUS_TRY(allocate_planes(run.camera.width, run.camera.height, 0, run.lighting.opaque(),
-                               output.layer_depth, run.planes));
+                               run.scene->wants_depth(), run.planes));
     if (run.camera.flux != 0) return Status::ok();  // alpha 1: all pixels are measured
     if (path_regresses(*run.scene))
         return march_guides(context, run.world->medium, run.majorants, run.lighting, run.camera,
-                            output.layer_depth, run.planes, run.guides);
-    const MarchWanted wanted{output.layer_depth, output.layer_optical_depth};
+                            run.scene->wants_depth(), run.planes, run.guides);
+    const MarchWanted wanted{run.scene->wants_depth(), output.layer_optical_depth};
     return march_medium(context, run.world->medium, run.majorants, run.lighting, run.camera, wanted,
                         run.planes);
 }

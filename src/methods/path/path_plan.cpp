@@ -74,7 +74,7 @@ void note_parts(const Scene& scene, const PathRun& run, Plan& plan) {
     if (run.world->medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
     if (is_white(run.world->medium)) plan.leave_out("absorption", "albedo 1");
     if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
-    if (!output.layer_depth) plan.leave_out("depth of the medium", "no depth layer");
+    if (!scene.wants_depth()) plan.leave_out("depth of the medium", "no depth layer");
     if (!output.layer_optical_depth) plan.leave_out("optical depth", "no optical_depth layer");
     if (!output.layer_error) plan.leave_out("standard error per pixel", "no error layer");
     if (scene.path.centre) plan.leave_out("rays spread over pixels", "pixel = \"centre\"");
@@ -143,7 +143,7 @@ void weigh_memory(const Context& context, PathRun& run) {
     if (!run.budget.state.empty())
         t.add("state file", Stage::kPaths, Stage::kPaths,
               path_state_bytes(sums.bytes() + squares.bytes()));
-    const std::uint64_t shown = plane_count(0, run.lighting.opaque(), output.layer_depth) +
+    const std::uint64_t shown = plane_count(0, run.lighting.opaque(), scene.wants_depth()) +
                                 (output.layer_optical_depth ? 1u : 0u);
     add(t, arrays::picture_planes(shown, pixels, Stage::kPaths));
     const std::uint64_t light = 3u + (output.layer_cloud || output.layer_order ? 3u : 0u) +

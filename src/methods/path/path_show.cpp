@@ -80,7 +80,10 @@ ErrorSum path_error(const PathRun& run) {
 
 Status path_planes(const Context& context, PathRun& run) {
     PILEUS_TRY(fill_planes(context, run));
-    return path_filters(*run.scene) ? path_filter(context, run) : Status::ok();
+    Buffer<float> straight;
+    PILEUS_TRY(path_straight(context, run, straight));
+    if (path_filters(*run.scene)) PILEUS_TRY(path_filter(context, run));
+    return path_air(context, run, straight);
 }
 
 Status path_show(const FrameStep&, const Context& context, MethodRun& method_run, Image& image) {

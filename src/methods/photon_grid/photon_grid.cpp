@@ -88,7 +88,7 @@ void note_plan(PhotonGridRun& run) {
     note_solids(run.world->solids, run.around.depth, plan);
     note_upsampling(scene, scene.photon_grid.thin, plan);
     if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
-    if (!scene.output.layer_depth) plan.leave_out("depth of the medium", "no depth layer");
+    if (!scene.wants_depth()) plan.leave_out("depth of the medium", "no depth layer");
     if (!scene.output.layer_error) plan.leave_out("batches and second moments", "no error layer");
     for (const std::string& what : run.world->media_plan.needed) plan.needed.push_back(what);
     for (const LeftOut& l : run.world->media_plan.left_out) plan.left_out.push_back(l);

@@ -70,7 +70,8 @@ void add_picture(const PhotonGridRun& run, const Context& context, MemoryTable& 
     const bool reads_quads = (planes == 3 || parts > 0) && !shows_harmonics(run) &&
                              run.cells.count() > 1 && context.kernels->device == nullptr;
     add(t, arrays::lit_quads(reads_quads ? run.cells.count() : 0));
-    add(t, arrays::picture_planes(plane_count(planes, solid, output.layer_depth) + extra, pixels));
+    add(t, arrays::picture_planes(plane_count(planes, solid, run.scene->wants_depth()) + extra,
+                                  pixels));
     if (extra > 0)
         add(t, renamed(arrays::picture_planes(plane_count(parts > 0 ? 3 : 0, solid, false), pixels),
                        "planes of a part", Stage::kDisplay, Stage::kDisplay));

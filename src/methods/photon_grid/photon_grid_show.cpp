@@ -5,6 +5,7 @@
 #include "src/base/digest.h"
 #include "src/methods/photon_grid/photon_grid.h"
 #include "src/photons/lit_march.h"
+#include "src/picture/air_view.h"
 
 namespace pileus {
 
@@ -159,7 +160,7 @@ Status photon_grid_compose(const CameraParams& camera, const Context& context, P
     {
         const StageClock clock(context, "background");
         PILEUS_TRY(allocate_planes(camera.width, camera.height, channels, run.lighting.opaque(),
-                                   output.layer_depth, planes));
+                                   run.scene->wants_depth(), planes));
     }
     PILEUS_TRY(fill_lit_background(context, run, in, 0, planes));
     PILEUS_TRY(display(context, run, in, planes));
@@ -174,7 +175,8 @@ Status photon_grid_compose(const CameraParams& camera, const Context& context, P
     if (output.layer_optical_depth) PILEUS_TRY(show_optical_depth(context, run, in, planes));
     if (output.layer_light) PILEUS_TRY(show_sun(context, run, in, planes));
     if (output.layer_order) PILEUS_TRY(show_single(context, run, in, planes));
-    return Status::ok();
+    return show_air(context, *run.scene, run.world->medium, run.lighting, camera, run.around,
+                    planes);
 }
 
 Status photon_grid_show(double orbit_deg, const Context& context, PhotonGridRun& run,

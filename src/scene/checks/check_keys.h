@@ -51,6 +51,8 @@ void check_medium(SceneCheck& check, std::size_t index);
 /// Each phase function has its own keys: all of them, and no others.
 void check_phase(SceneCheck& check, std::size_t index);
 
+/// Laws between the keys of the air, the sun and the sky; dates and times.
+void check_atmosphere(SceneCheck& check);
 /// Laws between the keys of lights besides sun and sky.
 void check_lights(SceneCheck& check);
 /// Laws between the keys of meshes and of the camera's depth.

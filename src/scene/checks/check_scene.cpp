@@ -267,11 +267,13 @@ void check_laws(SceneCheck& check) {
         scene.sky.present = check.key("sky") != nullptr;
         scene.ground.present = check.key("ground") != nullptr;
         scene.animation.present = check.key("animation") != nullptr;
+        scene.atmosphere.present = check.key("atmosphere") != nullptr;
         fill_paper_defaults(check);
     }
     check_camera(check);
     check_ground(check);
     check_sky(check);
+    check_atmosphere(check);
     check_output(check);
     check_animation(check);
     for (std::size_t i = 0; i < scene.media.size(); ++i) check_medium(check, i);

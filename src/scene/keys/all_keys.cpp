@@ -25,6 +25,7 @@ std::vector<const KeyRow*> all_scene_keys() {
         for (const KeyRow& row : table) rows.push_back(&row);
     };
     add(view_keys());
+    add(atmosphere_keys());
     add(light_keys());
     add(solid_keys());
     add(medium_keys());
@@ -72,6 +73,7 @@ std::string dump_scene(const Scene& scene) {
     add("sun", node_of(scene.sun.present));
     add("sky", node_of(scene.sky.present));
     add("ground", node_of(scene.ground.present));
+    add("atmosphere", node_of(scene.atmosphere.present));
     add("animation", node_of(scene.animation.present));
     for_each_key(scene, [&](const KeyRow& row, const std::string& path, const KeySource& source) {
         add(path, value_of(row, source));

@@ -11,6 +11,7 @@
 namespace pileus {
 
 Span<const KeyRow> view_keys();           // seed, camera, sun, sky, ground
+Span<const KeyRow> atmosphere_keys();     // atmosphere
 Span<const KeyRow> light_keys();          // light
 Span<const KeyRow> solid_keys();          // solid
 Span<const KeyRow> medium_keys();         // medium, up to its phase function

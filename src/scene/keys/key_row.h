@@ -26,9 +26,11 @@ struct Allowed {
     KeyRange range;                 ///< of every number in the value
     const char* choices = nullptr;  ///< parted by '|', in the order of the field's enumeration
     const char* later = nullptr;    ///< texts of the format that this version cannot use
+    bool moments = false;           ///< a date or a time may stand without quotes
 };
 
 constexpr Allowed any() { return {}; }
+constexpr Allowed moment_text() { return {{}, nullptr, nullptr, true}; }
 constexpr Allowed from_to(double low, double high) { return {{low, high}}; }
 /// Without its low end; without both ends.
 constexpr Allowed above(double low, double high) { return {{low, high, true, false}}; }

@@ -50,7 +50,9 @@ inline void take(const Node& node, std::int64_t& value) { value = integer_of(nod
 inline void take(const Node& node, int& value) { value = static_cast<int>(integer_of(node)); }
 inline void take(const Node& node, double& value) { value = number_of(node); }
 inline void take(const Node& node, float& value) { value = static_cast<float>(number_of(node)); }
-inline void take(const Node& node, std::string& value) { value = node.text; }
+inline void take(const Node& node, std::string& value) {
+    value = node.written.empty() ? node.text : node.written;
+}
 inline void take(const Node& node, std::vector<std::string>& value) {
     value.clear();
     for (const Node& child : node.children) value.push_back(child.text);

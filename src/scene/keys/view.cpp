@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys of what surrounds the cloud: seed, camera, sun, sky and ground.
-// in: checked values <-> out: fields of Scene, Camera, Sun, Sky, Ground.
+// Keys of what surrounds the cloud: seed, camera, sun, sky, ground, clear air.
+// in: checked values <-> out: fields of Scene, Camera, Sun, Sky, Ground, AtmosphereSettings.
 // docs/scene.md.
 #include "src/scene/keys/all_keys.h"
 
@@ -98,15 +98,40 @@ constexpr KeyRow kRows[] = {
     {"sky.map_rotation_deg", sky<&Sky::map_rotation_deg>, from_to(-360, 360), "deg",
      "turns the map about the vertical, from north towards east; at 0 its middle column "
      "stands in the north (+y)"},
-    {"sky.model", KeyKind::kLater, any(), "", "a computed sky", kNoNote},
+    {"sky.model", KeyKind::kLater, any(), "", "a computed sky is the table [atmosphere]", kNoNote},
     {"ground.altitude_m", ground<&Ground::altitude_m>, from_to(-1e9, 1e9), "m",
      "height of the level ground; every medium and the camera stand above it"},
     {"ground.albedo", ground<&Ground::albedo>, from_to(0, 1), "",
      "share of the light that the ground sends back, alike in all directions"},
 };
 
+template <auto Member>
+constexpr KeyField air = field<&Scene::atmosphere, Member>;
+using Air = AtmosphereSettings;
+
+constexpr KeyRow kAirRows[] = {
+    {"atmosphere.date", air<&Air::date>, moment_text(), "",
+     "year-month-day, 1900 to 2100, as \"2026-06-21\": places the sun; left out: [sun] does",
+     kNoNote},
+    {"atmosphere.time", air<&Air::time>, moment_text(), "",
+     "hours:minutes or hours:minutes:seconds of a clock at utc_offset_h"},
+    {"atmosphere.utc_offset_h", air<&Air::utc_offset_h>, from_to(-14, 14), "h",
+     "how far that clock is ahead of universal time; summer time is not known"},
+    {"atmosphere.latitude_deg", air<&Air::latitude_deg>, from_to(-90, 90), "deg",
+     "of the scene, north above 0; must be given with a date", kNoNote},
+    {"atmosphere.longitude_deg", air<&Air::longitude_deg>, from_to(-180, 180), "deg",
+     "of the scene, east above 0; must be given with a date", kNoNote},
+    {"atmosphere.turbidity", air<&Air::turbidity>, from_to(1, 10), "",
+     "optical depth of air and haze over that of air alone: 1 none, 2 clear, 4 hazy"},
+    {"atmosphere.ground_albedo", air<&Air::ground_albedo>, from_to(0, 1), "",
+     "of the round earth, where there is no [ground]"},
+    {"atmosphere.refraction", air<&Air::refraction>, any(), "",
+     "whether the air lifts the sun of a date near the horizon"},
+};
+
 }  // namespace
 
+Span<const KeyRow> atmosphere_keys() { return {kAirRows, sizeof kAirRows / sizeof kAirRows[0]}; }
 Span<const KeyRow> view_keys() { return {kRows, sizeof kRows / sizeof kRows[0]}; }
 
 }  // namespace pileus

@@ -38,6 +38,12 @@ Place place_of(const toml::source_region& region) {
     return place;
 }
 
+/// With zeros in front, so many digits.
+std::string padded(std::uint32_t number, std::size_t digits) {
+    const std::string text = std::to_string(number);
+    return text.size() < digits ? std::string(digits - text.size(), '0') + text : text;
+}
+
 void convert(const toml::node& from, Node& to) {
     to.at = place_of(from.source());
     if (const toml::table* table = from.as_table()) {
@@ -72,6 +78,14 @@ void convert(const toml::node& from, Node& to) {
     } else {
         to.kind = NodeKind::kOther;
         to.text = from.is_time() ? "a time" : "a date";
+        // Dates and times of TOML may stand where a text of one may.
+        if (const auto* date = from.as_date())
+            to.written = padded(date->get().year, 4) + '-' + padded(date->get().month, 2) + '-' +
+                         padded(date->get().day, 2);
+        if (const auto* time = from.as_time())
+            to.written = padded(time->get().hour, 2) + ':' + padded(time->get().minute, 2) + ':' +
+                         padded(time->get().second, 2) + '.' +
+                         padded(time->get().nanosecond / 1000, 6);
     }
 }
 

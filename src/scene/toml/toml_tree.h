@@ -26,6 +26,7 @@ struct Node {
     std::int64_t integer = 0;
     double number = 0;
     std::string text;            ///< kText: the value; kOther: what it is
+    std::string written;         ///< kOther: a date or a time without a zone, as texts have it
     std::vector<Node> children;  ///< members of a table, elements of an array
 
     bool is_table() const { return kind == NodeKind::kTable; }

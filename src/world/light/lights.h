@@ -48,6 +48,7 @@ struct Lighting {
     Double3 sun_irradiance{};
     Double3 sky{};     ///< radiance of a constant sky
     SkyMapView map{};  ///< or a map of it
+    bool air = false;  ///< between the camera and all else
     bool ground = false;
     double ground_z = 0;  ///< m, box-local
     double ground_albedo = 0;

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+// Rows of a picture through the air: what it takes away and adds before media, ground and solids,
+// and the sky behind them.
+// in: AirRowsParams, AirRowsBuffers -> out: the media's light and what is behind, in place.
+// docs/atmosphere.md, "In front of things"
+#pragma once
+#include "kernels_cpu/core/pixel_block.h"
+#include "kernels_cpu/display/air_params.h"
+#include "kernels_cpu/display/march_ray.h"
+
+namespace pileus {
+inline namespace PILEUS_ISA {
+
+PILEUS_FN F<8> load_eight(const float* from) {
+    F<8> v;
+    __builtin_memcpy(&v, from, sizeof v);
+    return v;
+}
+PILEUS_FN F<4> load_four(const float* from) {
+    F<4> v;
+    __builtin_memcpy(&v, from, sizeof v);
+    return v;
+}
+
+/// Place between entries of a table: the lower one, and how far it is to the next.
+template <class T>
+struct Between {
+    I_of<T> low;
+    T part;
+};
+/// `place` counts entries from 0; the table ends at `last`.
+template <class T>
+PILEUS_FN Between<T> between_entries(T place, std::int32_t last) {
+    Between<T> b;
+    b.low = max_(min_(floor_int(place), all<I_of<T>>(last - 1)), I_of<T>{});
+    b.part = max_(min_(place - to_float(b.low), all<T>(1.0f)), T{});
+    return b;
+}
+
+/// Directions of W pixels as the tables see them.
+template <class T>
+struct AirWay {
+    T phase;  ///< of haze
+    Between<T> sky_row, sky_column, row, column;
+};
+template <class T>
+PILEUS_FN AirWay<T> air_way(const AirRowsParams& k, const Vec<T>& d) {
+    AirWay<T> way;
+    const T along = d.x * k.to_sun[0] + d.y * k.to_sun[1] + d.z * k.to_sun[2];
+    const T away = max_((1.0f + k.haze_g * k.haze_g) - 2.0f * k.haze_g * along, all<T>(1e-6f));
+    way.phase = (kInvFourPi * (1.0f - k.haze_g * k.haze_g)) / (away * sqrt_(away));
+    const float sun_side = max_(1.0f - k.to_sun[2] * k.to_sun[2], 0.0f);
+    const T sides = sqrt_(max_((1.0f - d.z * d.z) * sun_side, T{}));
+    const T east = (along - d.z * k.to_sun[2]) / max_(sides, all<T>(1e-9f));
+    const T half = sqrt_(
+        max_(min_(0.5f - 0.5f * select(sides > 1e-6f, east, all<T>(1.0f)), all<T>(1.0f)), T{}));
+    const auto up = d.z >= k.horizon;
+    const T off = sqrt_(max_(
+        select(up, (d.z - k.horizon) / (1.0f - k.horizon), (k.horizon - d.z) / (1.0f + k.horizon)),
+        T{}));
+    const T ups = off * float(k.ups - 1), downs = (1.0f - off) * float(k.downs - 1);
+    // No row lies between the last below the horizon and the first above it.
+    way.sky_row = between_entries(select(up, ups, downs), k.ups - 1);
+    const Between<T> low = between_entries(downs, k.downs - 1);
+    way.sky_row.low = select(up, way.sky_row.low + k.downs, low.low);
+    way.sky_row.part = select(up, way.sky_row.part, low.part);
+    way.sky_column = between_entries(half * float(k.turns - 1), k.turns - 1);
+    const float level = 0.5f * float(k.rows - 1);
+    const T rise = sqrt_(abs_(d.z)) * level;
+    way.row = between_entries(select(d.z < 0.0f, level - rise, level + rise), k.rows - 1);
+    way.column = between_entries(half * float(k.columns - 1), k.columns - 1);
+    return way;
+}
+
+/// How far the slices of a direction reach: to the level ground, to the top of the air, or so far
+/// that no air is left to see.
+template <class T>
+PILEUS_FN T air_reach(const AirRowsParams& k, T rise) {
+    const T steep = max_(abs_(rise), all<T>(1e-9f));
+    const T way = select(rise < 0.0f, k.height / steep, k.room / steep);
+    return max_(min_(way, all<T>(k.reach)), all<T>(1.0f));
+}
+
+/// Slices lie close at both ends of the reach: at shares 2 q^2, and 1 - 2 (1 - q)^2 from the middle
+/// on, q in even steps; between them light is linear.
+template <class T>
+PILEUS_FN T slice_share(T q) {
+    const T rest = 1.0f - q;
+    return select(q < 0.5f, 2.0f * q * q, 1.0f - 2.0f * rest * rest);
+}
+template <class T>
+PILEUS_FN Between<T> slice_at(const AirRowsParams& k, T rise, T metres) {
+    const float last = float(k.slices - 1);
+    const T share = min_(metres / air_reach(k, rise), all<T>(1.0f));
+    const T q = select(share < 0.5f, sqrt_(0.5f * share), 1.0f - sqrt_(0.5f * (1.0f - share)));
+    Between<T> b = between_entries(q * last, k.slices - 1);
+    const T low = slice_share(to_float(b.low) * (1.0f / last));
+    const T high = slice_share((to_float(b.low) + 1.0f) * (1.0f / last));
+    b.part = max_(min_((share - low) / (high - low), all<T>(1.0f)), T{});
+    return b;
+}
+
+PILEUS_FN F<8> mix_texels(const float* row, std::int64_t next, float fx, float fy) {
+    const F<8> a = load_eight(row), b = load_eight(row + kAirTexel);
+    const F<8> c = load_eight(row + next), d = load_eight(row + next + kAirTexel);
+    const F<8> top = a + (b - a) * fx, low = c + (d - c) * fx;
+    return top + (low - top) * fy;
+}
+
+/// Light that the air sends, and what it leaves of light behind it, of one pixel.
+struct AirSeen {
+    float light[3], left[3];
+};
+template <class T>
+PILEUS_FN AirSeen air_seen(const AirRowsParams& k, const AirRowsBuffers& b, const AirWay<T>& way,
+                           const Between<T>& slice, int i) {
+    const std::int64_t row = lane(way.row.low, i), column = lane(way.column.low, i);
+    const std::int64_t s = lane(slice.low, i);
+    const float fx = lane(way.column.part, i), fy = lane(way.row.part, i), fs = lane(slice.part, i);
+    const std::int64_t next = std::int64_t(k.columns) * kAirTexel, sheet = next * k.rows;
+    const float* at = b.air + s * sheet + row * next + column * kAirTexel;
+    const F<8> near = mix_texels(at, next, fx, fy), far = mix_texels(at + sheet, next, fx, fy);
+    const F<8> v = near + (far - near) * fs;
+    const float* left = b.left + (s * k.rows + row) * 4;
+    const std::int64_t beyond = std::int64_t(k.rows) * 4;
+    const F<4> a = load_four(left), c = load_four(left + 4);
+    const F<4> d = load_four(left + beyond), e = load_four(left + beyond + 4);
+    const F<4> first = a + (c - a) * fy, last = d + (e - d) * fy;
+    const F<4> t = first + (last - first) * fs;
+    const float phase = lane(way.phase, i);
+    AirSeen out;
+    for (int n = 0; n < 3; ++n) {
+        out.light[n] = (v[n] + phase * v[3 + n]) * k.above[n];
+        out.left[n] = t[n];
+    }
+    return out;
+}
+
+/// The sky of one pixel.
+template <class T>
+PILEUS_FN void sky_seen(const AirRowsParams& k, const AirRowsBuffers& b, const AirWay<T>& way,
+                        int i, float (&light)[3]) {
+    const std::int64_t next = std::int64_t(k.turns) * kAirTexel;
+    const float* at = b.sky + lane(way.sky_row.low, i) * next +
+                      std::int64_t(lane(way.sky_column.low, i)) * kAirTexel;
+    const F<8> v = mix_texels(at, next, lane(way.sky_column.part, i), lane(way.sky_row.part, i));
+    const float phase = lane(way.phase, i);
+    for (int n = 0; n < 3; ++n) light[n] = (v[n] + phase * v[3 + n]) * k.above[n];
+}
+
+/// Pixels that are looked at together, on every instruction set.
+constexpr int kAirRun = 8;
+
+/// Each pixel of a run for itself.
+PILEUS_FN void air_run(const AirRowsParams& k, const AirRowsBuffers& b, std::int32_t x,
+                       std::int32_t y) {
+    using T = F<kAirRun>;
+    const std::int64_t pixels = std::int64_t(k.camera.width) * k.camera.height;
+    const std::int64_t first = std::int64_t(y) * k.camera.width + x;
+    const std::int32_t real = k.camera.width - x < kAirRun ? k.camera.width - x : kAirRun;
+    const Ray<T> ray = camera_ray(k.camera, to_float(iota<I<kAirRun>>() + x), all<T>(float(y)));
+    const AirWay<T> way = air_way<T>(k, ray.direction);
+    const T through = take_lanes<T>(b.transmittance + first, real);
+    T opaque = all<T>(__builtin_inff());
+    if (k.solid != 0) opaque = take_lanes<T>(b.opaque_depth + first, real);
+    // Where half of the medium is not hidden, it counts as in the middle of its box.
+    const Segment<T> box = clip_to_medium(k.medium, ray);
+    const T middle = 0.5f * (box.enter + max_(box.leave, box.enter));
+    const T half = take_lanes<T>(b.half_depth + first, real);
+    const T metres = min_(select(half < 1e30f, half, middle), opaque);
+    const Between<T> media = slice_at(k, ray.direction.z, max_(metres, T{})),
+                     solid = slice_at(k, ray.direction.z, opaque);
+    for (int i = 0; i < real; ++i) {
+        const std::int64_t at = first + i;
+        const float share = lane(through, i), hidden = 1.0f - share;
+        float* const behind = b.behind + at;
+        if (hidden > 0.0f) {
+            const AirSeen air = air_seen(k, b, way, media, i);
+            for (int n = 0; n < 3; ++n) {
+                float& light = b.light[n * pixels + at];
+                light = light * air.left[n] + air.light[n] * hidden;
+                if (b.dimmed != nullptr) b.dimmed[n * pixels + at] = air.left[n];
+            }
+        }
+        const float part = k.through != 0 ? share : 1.0f;
+        if (lane(opaque, i) < 1e30f) {
+            const AirSeen air = air_seen(k, b, way, solid, i);
+            for (int n = 0; n < 3; ++n)
+                behind[n * pixels] = behind[n * pixels] * air.left[n] + part * air.light[n];
+        } else {
+            float sky[3];
+            sky_seen(k, b, way, i, sky);
+            for (int n = 0; n < 3; ++n) behind[n * pixels] = part * sky[n];
+        }
+    }
+}
+
+/// What a run of pixels without media before it shows.
+enum class AirRun { kMixed, kSky, kSolid };
+PILEUS_FN AirRun run_kind(const AirRowsParams& k, const AirRowsBuffers& b, std::int64_t first) {
+    using T = F<kAirRun>;
+    const T through = load_eight(b.transmittance + first);
+    if (any(through < 1.0f)) return AirRun::kMixed;
+    if (k.solid == 0) return AirRun::kSky;
+    const T opaque = load_eight(b.opaque_depth + first);
+    const auto sky = opaque >= 1e30f;
+    if (!any(lnot(sky))) return AirRun::kSky;
+    if (any(sky)) return AirRun::kMixed;
+    float least = lane(opaque, 0), most = least;
+    for (int i = 1; i < kAirRun; ++i) {
+        least = min_(least, lane(opaque, i));
+        most = max_(most, lane(opaque, i));
+    }
+    return most <= 1.1f * least ? AirRun::kSolid : AirRun::kMixed;
+}
+
+/// Lines between both ends of a run.
+PILEUS_FN F<kAirRun> line(float begin, float end) {
+    const F<kAirRun> part = to_float(iota<I<kAirRun>>()) * (1.0f / float(kAirRun - 1));
+    return begin + (end - begin) * part;
+}
+PILEUS_FN void store_eight(const F<kAirRun>& v, float* to) { __builtin_memcpy(to, &v, sizeof v); }
+
+/// Four runs: where they are alike, both ends of a run tell what is between.
+PILEUS_FN void air_runs(const AirRowsParams& k, const AirRowsBuffers& b, std::int32_t x,
+                        std::int32_t y) {
+    using T = F<kAirRun>;
+    const std::int64_t pixels = std::int64_t(k.camera.width) * k.camera.height;
+    const std::int64_t first = std::int64_t(y) * k.camera.width + x;
+    const I<kAirRun> point = iota<I<kAirRun>>();
+    const I<kAirRun> column = (point >> 1) * kAirRun + (point & 1) * (kAirRun - 1) + x;
+    const Ray<T> ray = camera_ray(k.camera, to_float(column), all<T>(float(y)));
+    const AirWay<T> way = air_way<T>(k, ray.direction);
+    T opaque = all<T>(__builtin_inff());
+    if (k.solid != 0)
+        for (int i = 0; i < kAirRun; ++i)
+            set_lane(opaque, i,
+                     b.opaque_depth[first + (i >> 1) * kAirRun + (i & 1) * (kAirRun - 1)]);
+    const Between<T> solid = slice_at(k, ray.direction.z, opaque);
+    for (int run = 0; run < kAirRun / 2; ++run) {
+        const std::int64_t at = first + run * kAirRun;
+        const AirRun kind = run_kind(k, b, at);
+        if (kind == AirRun::kMixed) {
+            air_run(k, b, x + run * kAirRun, y);
+        } else if (kind == AirRun::kSky) {
+            float begin[3], end[3];
+            sky_seen(k, b, way, 2 * run, begin);
+            sky_seen(k, b, way, 2 * run + 1, end);
+            for (int n = 0; n < 3; ++n)
+                store_eight(line(begin[n], end[n]), b.behind + n * pixels + at);
+        } else {
+            const AirSeen begin = air_seen(k, b, way, solid, 2 * run);
+            const AirSeen end = air_seen(k, b, way, solid, 2 * run + 1);
+            for (int n = 0; n < 3; ++n) {
+                float* const behind = b.behind + n * pixels + at;
+                store_eight(load_eight(behind) * line(begin.left[n], end.left[n]) +
+                                line(begin.light[n], end.light[n]),
+                            behind);
+            }
+        }
+    }
+}
+
+PILEUS_FN void air_rows(const AirRowsParams& k, const AirRowsBuffers& b, std::uint32_t begin,
+                        std::uint32_t end) {
+    constexpr std::int32_t kRuns = kAirRun * kAirRun / 2;
+    for (std::uint32_t y = begin; y < end; ++y) {
+        std::int32_t x = 0;
+        for (; x + kRuns <= k.camera.width; x += kRuns) air_runs(k, b, x, std::int32_t(y));
+        for (; x < k.camera.width; x += kAirRun) air_run(k, b, x, std::int32_t(y));
+    }
+}
+
+}  // namespace PILEUS_ISA
+}  // namespace pileus

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// A path tracing seen through the air: the media's light, the ground's and the sky's are dimmed
+// each by its own way. in: planes of the film, before and after a filter -> out: planes as the
+// camera sees them. docs/atmosphere.md, "In front of things"
+#include "src/methods/path/path.h"
+#include "src/picture/air_view.h"
+#include "src/picture/filter/regression.h"
+
+namespace pileus {
+namespace {
+
+bool has_air(const PathRun& run) { return run.lighting.air && run.camera.flux == 0; }
+
+bool is_solid(const Planes& p, std::size_t i) {
+    return !p.opaque_depth.empty() && p.opaque_depth[i] < kNothingSolid;
+}
+
+}  // namespace
+
+Status path_straight(const Context& context, const PathRun& run, Buffer<float>& straight) {
+    if (!has_air(run)) return Status::ok();
+    const Planes& p = run.planes;
+    const std::size_t pixels = run.film.pixels();
+    Buffer<float> sky;
+    if (path_filters(*run.scene)) PILEUS_TRY(path_sky_behind(context, run, sky));
+    PILEUS_TRY(allocate(arrays::film_means(3, pixels), straight));
+    for (std::size_t at = 0; at < 3 * pixels; ++at) {
+        const std::size_t i = at % pixels;
+        // A filter keeps to the sky as it is known, the film has its own samples of it.
+        if (!sky.empty() && !is_solid(p, i))
+            straight[at] = p.transmittance[i] * sky[at];
+        else
+            straight[at] =
+                p.colour[at] - float(film_mean(run.film, kPathCloud, int(at / pixels), i));
+    }
+    return Status::ok();
+}
+
+Status path_air(const Context& context, PathRun& run, Buffer<float>& straight) {
+    if (straight.empty()) return Status::ok();
+    Planes& p = run.planes;
+    const std::size_t pixels = run.film.pixels();
+    Buffer<float> dimmed;
+    PILEUS_TRY(allocate(arrays::film_means(3, pixels), dimmed));
+    for (std::size_t at = 0; at < 3 * pixels; ++at) {
+        dimmed[at] = 1;
+        p.colour[at] -= straight[at];
+    }
+    PILEUS_TRY(run_air(context, *run.scene, run.world->medium, run.lighting, run.camera, run.around,
+                       p, {p.colour.data(), straight.data(), dimmed.data(), true}));
+    if (!p.cloud.empty()) {
+        for (std::size_t at = 0; at < 3 * pixels; ++at) p.cloud[at] = p.colour[at];
+    }
+    for (std::size_t at = 0; at < p.error.size(); ++at) p.error[at] *= dimmed[at];
+    for (std::size_t at = 0; at < 3 * pixels; ++at) p.colour[at] += straight[at];
+    return Status::ok();
+}
+
+}  // namespace pileus

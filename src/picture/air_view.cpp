@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// See air_view.h.
+#include "src/picture/air_view.h"
+
+#include "platform/threads.h"
+#include "src/picture/march_view.h"
+
+namespace pileus {
+
+Status run_air(const Context& context, const Scene& scene, const Medium& medium,
+               const Lighting& lighting, const CameraParams& camera, Surroundings& around,
+               const Planes& planes, const AirPlanes& on) {
+    const StageClock clock(context, "air");
+    if (context.kernels->air_rows == nullptr)
+        return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
+                                 "\": air is for the host alone, allowed: another, or a scene "
+                                 "without [atmosphere]");
+    Atmosphere& air = around.air;
+    const double sea_m = scene.ground.present ? scene.ground.altitude_m : 0;
+    PILEUS_TRY(look_from(medium.low_m[2] + double(camera.origin[2]) - sea_m, context.threads, air));
+    AirRowsParams k{};
+    k.medium = make_medium_view(medium, Majorants{});
+    k.camera = camera;
+    k.haze_g = air.sky.haze_g;
+    for (int c = 0; c < 3; ++c) {
+        k.to_sun[c] = lighting.to_sun[std::size_t(c)];
+        k.above[c] = float(air.above[c]);
+    }
+    k.horizon = air.sky.horizon;
+    k.downs = kSkyDowns;
+    k.ups = kSkyUps;
+    k.turns = kSkyTurns;
+    k.rows = kAirRows;
+    k.columns = kAirColumns;
+    k.slices = kAirSlices;
+    k.height = float(1000 * air.camera_km);
+    const double room = kAirTopKm - kEarthRadiusKm - air.camera_km;
+    k.room = float(room > 0 ? 1000 * room : 0);
+    k.reach = float(air.reach_m);
+    k.solid = planes.opaque_depth.empty() ? 0 : 1;
+    k.through = on.through ? 1 : 0;
+    const AirRowsBuffers b{air.sky.texels.data(),
+                           air.near.data(),
+                           air.left.data(),
+                           planes.transmittance.data(),
+                           planes.half_depth.data(),
+                           planes.opaque_depth.data(),
+                           on.light,
+                           on.behind,
+                           on.dimmed};
+    constexpr std::uint32_t kPiece = 8;
+    const std::uint32_t rows = std::uint32_t(camera.height);
+    parallel_for(context.threads, (rows + kPiece - 1) / kPiece, [&](std::int64_t piece, int) {
+        const std::uint32_t begin = std::uint32_t(piece) * kPiece;
+        context.kernels->air_rows(k, b, begin, begin + kPiece < rows ? begin + kPiece : rows);
+    });
+    return Status::ok();
+}
+
+Status show_air(const Context& context, const Scene& scene, const Medium& medium,
+                const Lighting& lighting, const CameraParams& camera, Surroundings& around,
+                Planes& planes) {
+    if (!around.air.present() || camera.flux != 0) return Status::ok();
+    const std::size_t pixels = planes.transmittance.size();
+    const std::size_t parts = planes.colour.size() / (3 * pixels);
+    Buffer<float> dimmed;
+    if (parts > 1) {
+        PILEUS_TRY(dimmed.resize(3 * pixels, "air"));
+        for (float& v : dimmed.span()) v = 1;
+    }
+    PILEUS_TRY(run_air(context, scene, medium, lighting, camera, around, planes,
+                       {planes.colour.data(), planes.background.data(),
+                        dimmed.empty() ? nullptr : dimmed.data(), false}));
+    // Parts of the light tell its noise, to which the air adds none.
+    for (std::size_t i = 3 * pixels; i < planes.colour.size(); ++i)
+        planes.colour[i] *= dimmed[i % (3 * pixels)];
+    return Status::ok();
+}
+
+}  // namespace pileus

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// The clear air of a scene: its tables, its sun, and its sky as light.
+// in: a checked scene, the height of its media -> out: Atmosphere, a map of the sky.
+// docs/atmosphere.md
+#pragma once
+#include "src/base/vectors.h"
+#include "src/io/images/image.h"
+#include "src/scene/scene.h"
+#include "src/world/atmosphere/air_sky.h"
+
+namespace pileus {
+
+/// Light that the air sends towards a camera, by direction and distance; what is level stays level
+/// here, as the ground and the media are. Slices at reach * (i / last)^4, the reach kAirReachM or
+/// four heights of the camera.
+constexpr int kAirRows = 49, kAirColumns = 17, kAirSlices = 33;
+constexpr double kAirReachM = 300000;
+
+struct Atmosphere {
+    AirTables tables;
+    Double3 above{};                 ///< the sun's irradiance above the air
+    std::array<double, 3> sunlight;  ///< share of it that reaches the media
+    double sun_elevation_deg = 0;
+    double height_km = 0;  ///< of the media's middle
+    AirSky sky;            ///< as the camera of the last picture saw it
+    Buffer<float> near;    ///< [slice][row][column][8], from that camera on
+    Buffer<float> left;    ///< [slice][row][4]
+    double camera_km = -1, reach_m = kAirReachM;
+
+    bool present() const { return tables.present(); }
+};
+
+/// Takes up the scene's turbidity, ground and sun; what has not changed is kept. `map`: the sky
+/// from the media's height, zenith first, the north in its middle, in the sun's unit.
+Status light_atmosphere(const Scene& scene, double height_m, int threads, Atmosphere& air,
+                        Image& map);
+
+/// The sky and the air as seen from a height above the ground.
+Status look_from(double height_m, int threads, Atmosphere& air);
+
+/// Where a scene with a date has its sun; nothing without one.
+void place_sun(Scene& scene);
+
+}  // namespace pileus
