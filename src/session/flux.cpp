@@ -4,6 +4,7 @@
 // docs/flux.md
 #include "src/session/flux_run.h"
 #include "src/session/run_context.h"
+#include "src/world/atmosphere/atmosphere.h"
 
 namespace pileus {
 namespace {
@@ -88,7 +89,9 @@ Scene scene_to_measure(const Scene& scene, const FluxSettings& settings) {
         own.sun.present = false;
         own.sky.present = false;
         own.sky.map.clear();
+        own.atmosphere.present = false;
     }
+    place_sun(own);
     return own;
 }
 

@@ -74,6 +74,7 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
     scene_ = scene;
     PILEUS_TRY(place_camera(scene_));
     place_sun(scene_);
+    PILEUS_TRY(check_camera_in_air(scene_));
     options_ = options;
     if (live) make_live(scene_);
     camera_ = scene_.camera;

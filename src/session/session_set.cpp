@@ -8,6 +8,7 @@
 #include "src/base/angles.h"
 #include "src/scene/read_scene.h"
 #include "src/session/session.h"
+#include "src/world/atmosphere/atmosphere.h"
 #include "src/world/camera/view.h"
 #include "src/world/plan_parts.h"
 
@@ -73,6 +74,7 @@ Status Session::set_camera(const Camera& camera) {
     Scene changed = scene_;
     changed.camera = camera;
     changed.ground = ground_;
+    PILEUS_TRY(check_camera_in_air(changed));
     PILEUS_TRY(check_changed(std::move(changed)));
     const std::uint64_t pixels =
         std::uint64_t(camera.resolution[0]) * std::uint64_t(camera.resolution[1]);

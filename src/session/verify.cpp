@@ -6,6 +6,7 @@
 
 #include "kernels_cpu/core/rng.h"
 #include "src/base/random_streams.h"
+#include "src/picture/air_view.h"
 #include "src/world/camera/places.h"
 
 namespace pileus {
@@ -84,6 +85,7 @@ Status Verifier::open(const Scene& scene, std::uint64_t pixels, const Context& c
     pixels_ = pixels;
     scene_ = scene;
     PILEUS_TRY(place_camera(scene_));
+    place_sun(scene_);
     own_paths_ = scene.method == "path";
     scene_.method = "path";
     scene_.output = OutputSettings{};
@@ -95,6 +97,30 @@ Status Verifier::open(const Scene& scene, std::uint64_t pixels, const Context& c
     // Paths know particles on a grid alone, one finer than shadows ask for.
     if (world->shows_particles) world = nullptr;
     return open_run(path_method(), scene_, Budget{}, context, true, std::move(world), run_);
+}
+
+/// As the picture's method has it: by where the media and what is solid are along each ray.
+Status Verifier::see_through_air(const Context& context, const std::vector<std::uint32_t>& pixels,
+                                 std::vector<PixelLight>& paths) {
+    PILEUS_TRY(path_begin(context, run_));
+    const std::size_t all = run_.planes.transmittance.size();
+    Buffer<float> light, straight, dimmed;
+    for (Buffer<float>* b : {&light, &straight, &dimmed})
+        PILEUS_TRY(b->resize(3 * all, "verified picture"));
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c) {
+            straight[c * all + pixels[i]] = float(paths[i].straight[c]);
+            light[c * all + pixels[i]] = float(paths[i].mean[c] - paths[i].straight[c]);
+        }
+    PILEUS_TRY(run_air(context, scene_, run_.world->medium, run_.lighting, run_.camera, run_.around,
+                       run_.planes, {light.data(), straight.data(), dimmed.data(), true}));
+    for (std::size_t i = 0; i < pixels.size(); ++i)
+        for (std::size_t c = 0; c < 3; ++c) {
+            const std::size_t at = c * all + pixels[i];
+            paths[i].mean[c] = double(light[at]) + double(straight[at]);
+            paths[i].square_error[c] *= double(dimmed[at]) * double(dimmed[at]);
+        }
+    return Status::ok();
 }
 
 Status Verifier::check(int frame, const Context& context, const Image& image, Report& report) {
@@ -113,6 +139,7 @@ Status Verifier::check(int frame, const Context& context, const Image& image, Re
         PILEUS_TRY(trace_pixels(in, pixels, samples, run_.scratch, paths, ended));
     }
     if (ended) return Status::ok();
+    if (run_.lighting.air) PILEUS_TRY(see_through_air(context, pixels, paths));
     const Figures f = compare_pixels(image, pixels, paths);
     report.verified_pixels = pixels.size();
     report.verified_samples = samples;

@@ -23,6 +23,8 @@ public:
     Status check(int frame, const Context& context, const Image& image, Report& report);
 
 private:
+    Status see_through_air(const Context& context, const std::vector<std::uint32_t>& pixels,
+                           std::vector<PixelLight>& paths);
     Scene scene_;
     std::uint64_t pixels_ = 0;
     PathRun run_;

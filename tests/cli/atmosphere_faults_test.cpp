@@ -42,10 +42,6 @@ TEST_CASE("atmosphere: keys that do not go together, dates that do not exist") {
         {air + "[sun]\n[output]\nlayers = [\"light\"]\n",
          "s.toml:7:10: output.layers: no light or order through the air, [\"light\"], allowed: "
          "other layers, or no [atmosphere]"},
-        {"[camera]\nposition_m = [0, -9, 100001]\ntarget_m = [0, 0, 5]\n[atmosphere]\n[sun]\n"
-         "[ground]\n",
-         "s.toml:2:14: camera.position_m: above the air, over a ground that is level for ever, "
-         "[0, -9, 100001], allowed: up to 100 km above it, or no [ground]: the round earth shows"},
         {air + "turbidity = 0.9\n[sun]\n",
          "s.toml:5:13: atmosphere.turbidity: out of range, 0.9, allowed: number in [1, 10]"},
     };

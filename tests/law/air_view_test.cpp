@@ -84,6 +84,17 @@ TEST_CASE("air: a camera in orbit sees a round earth in black space") {
     CHECK(dark.at("B", 3, 3) == 0);
 }
 
+TEST_CASE("air: a camera above the air over a level ground is refused in a line") {
+    const Scene high =
+        scene_from(in_air(), {"method.name=raymarch", "camera.position_m=[0, -1000, 100001]"});
+    const Status status = render(high, {}, [](int, Image&, Report&) { return Status::ok(); });
+    CHECK(status.code == Code::kBadInput);
+    CHECK(status.message ==
+          "--set camera.position_m=[0, -1000, 100001]: camera.position_m: above the air, over a "
+          "ground that is level for ever, z 100001, allowed: up to 100 km above it, or no "
+          "[ground]: the round earth shows");
+}
+
 TEST_CASE("air: any sun makes a picture") {
     for (const char* elevation : {"90", "0", "-0.5", "-6", "-18", "-90"})
         for (const char* method : {"raymarch", "photon-grid"}) {

@@ -96,6 +96,7 @@ Status scene_lines(const std::string& path, std::string& lines) {
     std::vector<std::string> lights;
     if (scene.sun.present) lights.push_back("sun");
     if (scene.sky.present) lights.push_back("sky");
+    if (scene.atmosphere.present) lights.push_back("atmosphere");
     lines += info_line("lights", list_text(lights));
     if (scene.ground.present)
         lines += info_line("ground", fmt::format("albedo {:g}", scene.ground.albedo));

@@ -44,6 +44,8 @@ Status path_air(const Context& context, PathRun& run, Buffer<float>& straight) {
     PILEUS_TRY(allocate(arrays::film_means(3, pixels), dimmed));
     for (std::size_t at = 0; at < 3 * pixels; ++at) {
         dimmed[at] = 1;
+        // Rays through one pixel may see ground and sky: what has no medium in it is no medium's.
+        if (p.transmittance[at % pixels] == 1) straight[at] = p.colour[at];
         p.colour[at] -= straight[at];
     }
     PILEUS_TRY(run_air(context, *run.scene, run.world->medium, run.lighting, run.camera, run.around,

@@ -16,10 +16,11 @@ bool has_sky(const Lighting& light) {
     return light.map.columns > 0 || light.sky[0] > 0 || light.sky[1] > 0 || light.sky[2] > 0;
 }
 
-/// Whether all that is solid is a ground under the sun and an even sky. Then its light is filtered,
-/// too, and media have the same light before it and before the sky.
+/// Whether all that is solid is a ground under the sun and an even sky, or that of clear air. Then
+/// its light is filtered, too, and media have the same light before it and before the sky.
 bool has_plain_ground(const Lighting& light) {
-    return light.ground && !has_surfaces(light) && light.lamps.empty() && light.map.columns == 0;
+    return light.ground && !has_surfaces(light) && light.lamps.empty() &&
+           (light.map.columns == 0 || light.air);
 }
 
 bool is_solid(const Planes& p, std::size_t i) {

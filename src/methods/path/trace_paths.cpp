@@ -284,13 +284,18 @@ Status trace_pixels(const PathInput& in, const std::vector<std::uint32_t>& pixel
             const double n = double(samples);
             for (std::size_t c = 0; c < 3; ++c) {
                 const float* from = radiance + c * scratch.capacity;
-                double sum = 0, square = 0;
+                double sum = 0, square = 0, turned = 0;
                 for (std::uint32_t s = 0; s < samples; ++s) sum += double(from[s]);
                 const double mean = sum / n;
                 for (std::uint32_t s = 0; s < samples; ++s)
                     square += (double(from[s]) - mean) * (double(from[s]) - mean);
-                out[std::size_t(i)].mean[c] = mean;
-                out[std::size_t(i)].square_error[c] = square / (n * (n - 1));
+                PixelLight& pixel = out[std::size_t(i)];
+                pixel.mean[c] = mean;
+                pixel.square_error[c] = square / (n * (n - 1));
+                if (!in.parts) continue;
+                const float* cloud = from + 3 * kPathCloud * scratch.capacity;
+                for (std::uint32_t s = 0; s < samples; ++s) turned += double(cloud[s]);
+                pixel.straight[c] = mean - turned / n;
             }
         });
     return Status::ok();

@@ -98,6 +98,7 @@ Status trace_paths(const PathInput& in, std::uint64_t samples, PathScratch& scra
 /// The light of one pixel, and the squares of its standard errors.
 struct PixelLight {
     double mean[3] = {}, square_error[3] = {};
+    double straight[3] = {};  ///< of the mean, what came straight through the media; with parts
 };
 
 /// Samples for each pixel that trace_pixels takes at most.

@@ -63,10 +63,6 @@ void check_atmosphere(SceneCheck& check) {
     if (scene.camera.orthographic && !scene.camera.flux)
         refuse("camera.projection", "looks from no single place in the air",
                ", allowed: perspective, flux");
-    const double height = scene.camera.position_m[2] - scene.ground.altitude_m;
-    if (scene.ground.present && height > 100000 && !scene.camera.position_by_place)
-        refuse("camera.position_m", "above the air, over a ground that is level for ever",
-               ", allowed: up to 100 km above it, or no [ground]: the round earth shows");
     if (scene.output.layer_light || scene.output.layer_order)
         refuse("output.layers", "no light or order through the air",
                ", allowed: other layers, or no [atmosphere]");

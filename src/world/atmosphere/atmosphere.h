@@ -38,6 +38,9 @@ Status light_atmosphere(const Scene& scene, double height_m, int threads, Atmosp
 /// The sky and the air as seen from a height above the ground.
 Status look_from(double height_m, int threads, Atmosphere& air);
 
+/// kBadInput: a camera above the air over a level ground, which no air would hide.
+Status check_camera_in_air(const Scene& scene);
+
 /// Where a scene with a date has its sun; nothing without one.
 void place_sun(Scene& scene);
 
