@@ -301,7 +301,8 @@ struct Animation {
     bool present = false;
     int frames = 1;
     std::array<double, 2> camera_orbit_deg{0, 0}, sun_elevation_deg{0, 0};
-    bool moves_camera = false, moves_sun = false;
+    std::array<double, 2> hours{0, 0};  ///< after atmosphere.time
+    bool moves_camera = false, moves_sun = false, moves_time = false;
 };
 
 struct Scene {

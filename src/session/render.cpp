@@ -107,7 +107,17 @@ Status deliver(const Scene& scene, const RunStart& start, int frame, const Frame
 
 /// Whether frames have skies of their own.
 bool has_moving_sky(const Scene& scene) {
-    return scene.atmosphere.present && scene.animation.present && scene.animation.moves_sun;
+    const Animation& a = scene.animation;
+    return scene.atmosphere.present && a.present && (a.moves_sun || a.moves_time);
+}
+
+/// The scene of one frame, where frames have scenes of their own.
+void set_frame(const Scene& scene, int frame, Scene& own) {
+    own.sequence_frame = frame;
+    if (!has_moving_sky(scene)) return;
+    const Animation& a = scene.animation;
+    own.sun.elevation_deg = sun_at(scene, frame);
+    own.atmosphere.later_h = a.hours[0] + (a.hours[1] - a.hours[0]) * share_of_frame(a, frame);
 }
 
 /// Frames that share a world, which may be given.
@@ -169,8 +179,7 @@ Status render(const Scene& scene, const RenderOptions& options, const FrameSink&
         return sink(frame, image, report);
     };
     for (int frame = frames.first; frame <= frames.last && !interrupted; ++frame) {
-        own.sequence_frame = frame;
-        own.sun.elevation_deg = sun_at(scene, frame);
+        set_frame(scene, frame, own);
         const Frames one{frame, frame, frames.total};
         PILEUS_TRY(render_frames(own, start, options, one, world, watched));
     }
@@ -184,8 +193,7 @@ Status plan_scene(const Scene& scene, const RenderOptions& options, bool exact, 
     Frames frames{};
     PILEUS_TRY(frames_of(scene, options, frames));
     Scene own = scene;
-    own.sequence_frame = frames.first;
-    if (has_moving_sky(scene)) own.sun.elevation_deg = sun_at(scene, frames.first);
+    set_frame(scene, frames.first, own);
     Session session;
     PILEUS_TRY(session.open(own, options, SessionKind::kAnimation, exact, nullptr));
     report = session.report();

@@ -42,6 +42,9 @@ TEST_CASE("atmosphere: keys that do not go together, dates that do not exist") {
         {air + "[sun]\n[output]\nlayers = [\"light\"]\n",
          "s.toml:7:10: output.layers: no light or order through the air, [\"light\"], allowed: "
          "other layers, or no [atmosphere]"},
+        {air + "[sun]\n[animation]\nhours = [0, 6]\n",
+         "s.toml:7:1: animation.hours: conflicts with a scene without atmosphere.date, [0, 6], "
+         "allowed: left out"},
         {air + "turbidity = 0.9\n[sun]\n",
          "s.toml:5:13: atmosphere.turbidity: out of range, 0.9, allowed: number in [1, 10]"},
     };

@@ -104,3 +104,42 @@ TEST_CASE("air: any sun makes a picture") {
             CHECK(p.counter("nan") == 0);
         }
 }
+
+TEST_CASE("air: frames of a day are pictures of its times") {
+    std::string text = in_air();
+    const std::string sun = "[sun]\nazimuth_deg = 120\nelevation_deg = 35";
+    text.erase(text.find(sun), sun.size());
+    const std::vector<std::string> date = {"method.name=raymarch", "atmosphere.date=2026-06-21",
+                                           "atmosphere.latitude_deg=47",
+                                           "atmosphere.longitude_deg=8", "atmosphere.time=06:00"};
+    const auto with = [&](const std::vector<std::string>& more) {
+        std::vector<std::string> all = date;
+        all.insert(all.end(), more.begin(), more.end());
+        return scene_from(text, all);
+    };
+    std::vector<std::string> film;
+    RenderOptions whole;
+    whole.last_frame = 2;
+    const Status status = render(with({"animation.frames=3", "animation.hours=[0, 12]"}), whole,
+                                 [&](int, Image&, Report& report) {
+                                     film.push_back(report.hash);
+                                     return Status::ok();
+                                 });
+    REQUIRE_MESSAGE(status, status.message);
+    REQUIRE(film.size() == 3);
+    // Raymarch has no noise, so that a frame's number changes nothing.
+    CHECK(film[0] == render_one(with({})).report.hash);
+    CHECK(film[1] == render_one(with({"atmosphere.time=12:00"})).report.hash);
+    CHECK(film[2] == render_one(with({"atmosphere.time=18:00"})).report.hash);
+}
+
+TEST_CASE("air: what --verify traces is seen through the air, too") {
+    RenderOptions options;
+    options.verify = 40;
+    const Picture p = render_one(
+        scene_from(in_air(), {"method.name=photon-grid", "photon_grid.photons=400_000"}), options);
+    REQUIRE(p.report.verified_pixels > 10);
+    // Four standard errors, and 2 % that cells cost (docs/photon-grid.md).
+    CHECK(std::abs(p.report.verify_bias) < 0.02 + 4 * p.report.verify_standard_error);
+    CHECK(p.report.verify_standard_error < 0.05);
+}

@@ -45,6 +45,16 @@ constexpr KeyField kElevation{KeyKind::kNumber2,
                                   take(n, t.scene.animation.sun_elevation_deg);
                               }};
 
+constexpr KeyField kHours{KeyKind::kNumber2,
+                          [](const KeySource& s) {
+                              const Animation& a = s.scene.animation;
+                              return a.moves_time ? node_of(a.hours) : no_value();
+                          },
+                          [](const KeyTarget& t, const Node& n) {
+                              t.scene.animation.moves_time = true;
+                              take(n, t.scene.animation.hours);
+                          }};
+
 constexpr KeyRow kRows[] = {
     {"output.files", output<&OutputSettings::files>, any(), "",
      "pictures to write, relative to the scene's folder; names end in .exr, .png, "
@@ -61,6 +71,8 @@ constexpr KeyRow kRows[] = {
      "first and last angle by which the camera has turned about its target", kNoNote},
     {"animation.sun_elevation_deg", kElevation, from_to(-90, 90), "deg",
      "first and last elevation of the sun; needs a sun", kNoNote},
+    {"animation.hours", kHours, from_to(-8784, 8784), "h",
+     "first and last time, counted from atmosphere.date and time, which it needs", kNoNote},
 };
 
 }  // namespace

@@ -203,8 +203,8 @@ void place_sun(Scene& scene) {
     int date[3];
     double hours = 0;
     if (!read_date(s.date, date) || !read_time(s.time, hours)) return;
-    const SunPosition at =
-        sun_position(moment_of(date, hours, s.utc_offset_h), s.latitude_deg, s.longitude_deg);
+    const SunPosition at = sun_position(moment_of(date, hours + s.later_h, s.utc_offset_h),
+                                        s.latitude_deg, s.longitude_deg);
     scene.sun.present = true;
     scene.sun.azimuth_deg = at.azimuth_deg;
     scene.sun.elevation_deg =
