@@ -14,8 +14,10 @@ namespace {
 constexpr int kFrames = 8, kWidth = 640, kHeight = 360;
 /// What a frame does once, such as checking a camera, took 0.2 ms at most where these frames take
 /// 10 and more. A processor that turns to another program between two stages adds to one frame,
-/// hence the best of several; what is missing in the best one is missing in all.
+/// hence the best of several; what is missing in the best one is missing in all. Where more
+/// programs than processors run all the while, further rounds are given.
 constexpr double kLeast = 0.97;
+constexpr int kRounds = 6;
 
 const Overrides kMethods[] = {
     {"method.name=\"collectors\""},
@@ -47,7 +49,7 @@ TEST_CASE("stages: a session's frame is in named stages, camera and sun moving")
         auto frame = cleared<pileus_frame>();
         frame.colour = pixels.data();
         double best = 0;
-        for (int f = 0; f < kFrames; ++f) {
+        for (int f = 0; f < kRounds * kFrames && (f < kFrames || best < kLeast); ++f) {
             const double from[3] = {16.0 + 40 * f, -4000, 256}, to[3] = {0, 0, 1024};
             host.aim(from, to, 30, kWidth, kHeight);
             host.sun(120, 30 + f);
@@ -75,16 +77,19 @@ TEST_CASE("stages: a frame of an animation is in named stages") {
         pileus::RenderOptions options;
         options.last_frame = kFrames - 1;
         options.digests = false;
-        double best = 0, before = 0;
-        const pileus::Status status =
-            pileus::render(scene, options, [&](int f, pileus::Image&, pileus::Report& report) {
-                double staged = 0;
-                for (const pileus::StageTime& stage : report.stages) staged += stage.wall_s;
-                if (f > 0) best = std::max(best, (staged - before) / report.frame_wall_s);
-                before = staged;
-                return pileus::Status::ok();
-            });
-        REQUIRE_MESSAGE(bool(status), status.message);
+        double best = 0;
+        for (int round = 0; round < kRounds && best < kLeast; ++round) {
+            double before = 0;
+            const pileus::Status status =
+                pileus::render(scene, options, [&](int f, pileus::Image&, pileus::Report& report) {
+                    double staged = 0;
+                    for (const pileus::StageTime& stage : report.stages) staged += stage.wall_s;
+                    if (f > 0) best = std::max(best, (staged - before) / report.frame_wall_s);
+                    before = staged;
+                    return pileus::Status::ok();
+                });
+            REQUIRE_MESSAGE(bool(status), status.message);
+        }
         CHECK(best >= kLeast);
     }
 }
