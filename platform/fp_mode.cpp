@@ -4,6 +4,17 @@
 
 namespace pileus {
 
+#ifdef __powerpc__
+// glibc's fesetenv has an instruction of Power ISA 3.0 that older processors are to take for `mffs`;
+// emulators of them refuse it. fenv_t is the register: all 0 is IEEE.
+FpModeGuard::FpModeGuard() {
+    static_assert(sizeof saved_ == sizeof(double));
+    asm volatile("mffs %0" : "=d"(saved_));
+    asm volatile("mtfsf 255,%0" : : "d"(0.0));
+}
+
+FpModeGuard::~FpModeGuard() { asm volatile("mtfsf 255,%0" : : "d"(saved_)); }
+#else
 // The default environment is IEEE on every target: nearest, gradual underflow, traps masked.
 FpModeGuard::FpModeGuard() {
     std::fegetenv(&saved_);
@@ -11,5 +22,6 @@ FpModeGuard::FpModeGuard() {
 }
 
 FpModeGuard::~FpModeGuard() { std::fesetenv(&saved_); }
+#endif
 
 }  // namespace pileus
