@@ -52,7 +52,7 @@ endif()
 target_compile_definitions(pileus_headers INTERFACE FMT_HEADER_ONLY=1)
 
 # An optional library is used when it is wanted and found.
-foreach(name OPENEXR PNG ZLIB BLOSC NETCDF ECCODES ASSIMP OIDN OSMESA EGL THREADS TESTS BENCHMARKS)
+foreach(name OPENEXR PNG ZLIB BLOSC NETCDF ECCODES ASSIMP OIDN SDL2 OSMESA EGL THREADS TESTS BENCHMARKS)
     set(PILEUS_WITH_${name} 0)
 endforeach()
 if(PILEUS_OPENEXR)
@@ -106,9 +106,13 @@ foreach(row "NETCDF netcdf_mem.h" "ECCODES eccodes.h" "ASSIMP assimp/cimport.h" 
         endif()
     endif()
 endforeach()
-# Of this one not even a header.
+# Of these two not even a header.
 if(PILEUS_OIDN AND NOT CMAKE_CROSSCOMPILING)
     set(PILEUS_WITH_OIDN 1)
+    list(APPEND PILEUS_LINK_LIBRARIES ${CMAKE_DL_LIBS})
+endif()
+if(PILEUS_SDL2 AND NOT CMAKE_CROSSCOMPILING)
+    set(PILEUS_WITH_SDL2 1)
     list(APPEND PILEUS_LINK_LIBRARIES ${CMAKE_DL_LIBS})
 endif()
 if(PILEUS_THREADS)

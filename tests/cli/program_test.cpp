@@ -53,15 +53,16 @@ TEST_CASE("program: wrong usage is one line and exit 2") {
     const ProgramFolder folder;
     const Fault faults[] = {
         {"", 2,
-         "no subcommand, allowed: render, plan, follow, flux, compare, study, hash, info, convert"},
+         "no subcommand, allowed: render, plan, view, follow, flux, compare, study, hash, info, "
+         "convert"},
         {"paint s.toml", 2,
-         "unknown subcommand, \"paint\", allowed: render, plan, follow, flux, compare, study, "
-         "hash, "
-         "info, convert"},
+         "unknown subcommand, \"paint\", allowed: render, plan, view, follow, flux, compare, "
+         "study, hash, info, convert"},
         {"--loud render s.toml", 2, "unknown option before the subcommand, \"--loud\""},
         {"compare a.exr b.exr", 2, "a.exr: cannot read: no such file"},
         {"convert a.exr b.png", 2, "b.png: extension: unknown, \".png\", allowed: .raw .vdb"},
-        {"view s.toml", 2, "pileus view: not in this version"},
+        {"view s.toml --size 1x1", 2, "--size: \"1x1\", allowed: WIDTHxHEIGHT, 16 to 16384 each"},
+        {"view none.toml --script none.txt", 2, "none.txt"},
         {"render s.toml -o a.pfm --loud", 2, "--loud, allowed: see pileus render --help"},
         {"render s.toml t.toml -o a.pfm", 2, "t.toml, allowed: see pileus render --help"},
         {"render -o a.pfm", 2, "SCENE.toml: missing"},

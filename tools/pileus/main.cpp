@@ -29,7 +29,8 @@ Status print(const std::string& text) {
 
 namespace {
 
-constexpr const char* kCommands = "render, plan, follow, flux, compare, study, hash, info, convert";
+constexpr const char* kCommands =
+    "render, plan, view, follow, flux, compare, study, hash, info, convert";
 
 /// Says nothing for Code::kOk without a message.
 int finish(const Status& status) {
@@ -62,10 +63,8 @@ Status check_command(int count, char** words) {
     if (!word.empty() && word[0] == '-')
         return Status::bad_input("pileus: unknown option before the subcommand, " +
                                  quote_text(word) + ", allowed: --help, --version");
-    if (word == "view")
-        return Status::bad_input("pileus " + word + ": not in this version, allowed: " + kCommands);
-    for (const char* known :
-         {"render", "plan", "follow", "flux", "compare", "study", "hash", "info", "convert"})
+    for (const char* known : {"render", "plan", "view", "follow", "flux", "compare", "study",
+                              "hash", "info", "convert"})
         if (word == known) return Status::ok();
     return Status::bad_input("pileus: unknown subcommand, " + quote_text(word) +
                              ", allowed: " + kCommands);
@@ -107,6 +106,7 @@ int run(int count, char** words) {
     add_info(app, chosen);
     add_convert(app, chosen);
     add_study(app, chosen);
+    add_view(app, chosen);
 
     const Status known = check_command(count, words);
     if (!known) return finish(known);
