@@ -5,8 +5,8 @@
 namespace pileus {
 
 #ifdef __powerpc__
-// glibc's fesetenv has an instruction of Power ISA 3.0 that older processors are to take for `mffs`;
-// emulators of them refuse it. fenv_t is the register: all 0 is IEEE.
+// glibc's fesetenv has an instruction of Power ISA 3.0 that older processors are to take for
+// `mffs`; emulators of them refuse it. fenv_t is the register: all 0 is IEEE.
 FpModeGuard::FpModeGuard() {
     static_assert(sizeof saved_ == sizeof(double));
     asm volatile("mffs %0" : "=d"(saved_));

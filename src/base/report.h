@@ -59,6 +59,11 @@ struct ReportWork {
     std::string of = "photons";  ///< what is counted as photons: they, or paths
 };
 
+/// Wall time that a rendering is expected to take, of pictures beside files; 0: nobody asked.
+struct ReportForetold {
+    double total_s = 0, first_frame_s = 0, next_frame_s = 0;
+};
+
 /// Work of one frame in units that no clock decides; 0: the method has none of it.
 struct ReportFrameWork {
     int scale = 0, temporal = 0, steps = 0, light_refresh = 0;
@@ -83,6 +88,7 @@ struct Report {
     std::vector<ReportBound> bounds;
     std::vector<ReportLimit> limits;
     ReportWork work;
+    ReportForetold foretold;
     ReportFrameWork frame_work;
     std::string bias_of, bias, bias_page;
     std::string accumulation, accumulation_why;  ///< who adds to which sums; empty: no such sums

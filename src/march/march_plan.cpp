@@ -112,7 +112,7 @@ void note_simple(const RaymarchRun& run, Plan& plan) {
 
 void note_light(const Scene& scene, const RaymarchRun& run, Plan& plan) {
     const RaymarchSettings& s = run.settings;
-    const bool moves = scene.animation.present && scene.animation.moves_sun;
+    const bool moves = moves_sun(scene);
     const bool sun = run.lighting.sunlit || (moves && scene.sun.present);
     if (!sun)
         plan.leave_out("sunlight",

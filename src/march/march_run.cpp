@@ -10,9 +10,9 @@ namespace {
 
 RaymarchRun& own(MethodRun& run) { return static_cast<RaymarchRun&>(run); }
 
-void choose_light(double sun_elevation_deg, RaymarchRun& run) {
+void choose_light(const SunPlace& sun, RaymarchRun& run) {
     Plan photons;  // speaks of photons alone
-    run.lighting = light_world(*run.scene, sun_elevation_deg, *run.world, run.around, photons);
+    run.lighting = light_world(*run.scene, sun, *run.world, run.around, photons);
 }
 
 /// The medium with no extinction above the largest one asked for.
@@ -48,7 +48,7 @@ std::array<int, 3> sun_cells(const RaymarchRun& run) {
 Status aim(int, bool anew, const Context&, MethodRun& method_run) {
     RaymarchRun& run = own(method_run);
     const Lighting before = run.lighting;
-    choose_light(run.scene->sun.elevation_deg, run);
+    choose_light(place_of(run.scene->sun), run);
     const Lighting& now = run.lighting;
     const auto& size = run.scene->camera.resolution;
     if (anew || !same_shine(before, now)) {

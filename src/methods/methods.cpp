@@ -28,11 +28,11 @@ Status open_run(const Method& method, const Scene& scene, const Budget& budget,
 
 SunTurn turn_of_sun(const Scene& scene, int slices, std::int64_t number, const SunDirection& sun) {
     SunTurn turn{slices, number, sun, nullptr};
-    if (!scene.animation.present || !scene.animation.moves_sun) return turn;
+    if (!moves_sun(scene)) return turn;
     const Scene* from = &scene;
     turn.sun_of = [from](std::int64_t frame) {
-        const double elevation = sun_at(*from, frame > 0 ? int(frame) : 0);
-        const Double3 to = towards_deg(from->sun.azimuth_deg, elevation);
+        const SunPlace at = sun_at(*from, frame > 0 ? int(frame) : 0);
+        const Double3 to = towards_deg(at.azimuth_deg, at.elevation_deg);
         return SunDirection{float(to[0]), float(to[1]), float(to[2])};
     };
     return turn;

@@ -3,6 +3,7 @@
 // in: a scene, budgets, frames -> out: images and what the report says of them.
 // docs/architecture.md, "Methods are recipes".
 #pragma once
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -10,6 +11,7 @@
 #include "src/methods/frame_work.h"
 #include "src/picture/nodes/sun_slices.h"
 #include "src/run/context.h"
+#include "src/scene/frames.h"
 #include "src/scene/scene.h"
 #include "src/world/world.h"
 
@@ -43,6 +45,8 @@ struct MethodRun {
     Surroundings around;                 ///< likewise
     Plan plan;
     Lighting lighting;
+    /// Moves the scene to a frame, where keys do; else null.
+    std::function<void(int frame)> place_at;
     bool outlined_only = true;                                 ///< sizes are known, values are not
     std::vector<std::pair<std::string, std::string>> digests;  ///< of what no frame changes
 
@@ -105,26 +109,6 @@ struct Method {
 Status open_run(const Method& method, const Scene& scene, const Budget& budget,
                 const Context& context, bool exact, std::shared_ptr<const World> world,
                 MethodRun& run);
-
-inline double share_of_frame(const Animation& a, int frame) {
-    return a.frames > 1 ? double(frame) / (a.frames - 1) : 0.0;
-}
-
-/// Elevation of the sun in a frame, degrees.
-inline double sun_at(const Scene& scene, int frame) {
-    const Animation& a = scene.animation;
-    if (!a.present || !a.moves_sun) return scene.sun.elevation_deg;
-    const auto& range = a.sun_elevation_deg;
-    return range[0] + (range[1] - range[0]) * share_of_frame(a, frame);
-}
-
-/// Angle by which the camera has turned about its target in a frame, degrees.
-inline double orbit_at(const Scene& scene, int frame) {
-    const Animation& a = scene.animation;
-    if (!a.present || !a.moves_camera) return 0.0;
-    const auto& range = a.camera_orbit_deg;
-    return range[0] + (range[1] - range[0]) * share_of_frame(a, frame);
-}
 
 /// The fault of a budget of a kind that the method does not know.
 inline Status unknown_budget(const char* option, const std::string& method, const char* allowed) {

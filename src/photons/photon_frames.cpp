@@ -24,9 +24,12 @@ Status fill_ring(int frame, const Context& context, PhotonRun& run, const ShootP
         // Generation g >= p was shot for frame g - p + 1; those before it under frame 0's sun.
         const std::uint64_t g = run.next_generation;
         const int shown = g < run.generations ? 0 : int(g - run.generations + 1);
+        if (run.place_at) run.place_at(shown);
         set_photon_sun(sun_at(*run.scene, shown), run);
     };
-    PILEUS_TRY(shoot_generations(context, run, run.generations, aim, shoot));
+    const Status shot = shoot_generations(context, run, run.generations, aim, shoot);
+    if (run.place_at) run.place_at(frame);
+    PILEUS_TRY(shot);
     // Time cut it short: what there is begins at the first slot, so that no gap lies before it.
     std::vector<PhotonSlot>& slots = run.photons.slots;
     if (run.next_generation - std::uint64_t(frame) < slots.size()) {

@@ -29,12 +29,11 @@ std::uint64_t batch_count(std::uint64_t generations) {
 
 /// The sun that the lights are planned for: one that only rises during an animation needs its
 /// place among them from the start.
-double first_elevation(const Scene& scene) {
-    const Animation& a = scene.animation;
-    const double own = scene.sun.elevation_deg;
-    if (!scene.ground.present || own > 0 || !a.present || !a.moves_sun) return own;
-    return a.sun_elevation_deg[0] > a.sun_elevation_deg[1] ? a.sun_elevation_deg[0]
-                                                           : a.sun_elevation_deg[1];
+SunPlace first_place(const Scene& scene) {
+    SunPlace own = place_of(scene.sun);
+    if (scene.ground.present && own.elevation_deg <= 0 && moves_sun(scene))
+        own.elevation_deg = highest_sun(scene);
+    return own;
 }
 
 /// Photons of one light differ in colour: each channel has sums of its own.
@@ -174,8 +173,8 @@ Status choose_photon_lights(std::uint64_t generations, PhotonRun& run) {
     run.generations = generations;
     if (photons >= 0 && std::uint64_t(photons) < run.generations)
         run.generations = photons > 0 ? std::uint64_t(photons) : 1;
-    run.sun_elevation_deg = first_elevation(scene);
-    run.lighting = light_world(scene, run.sun_elevation_deg, *run.world, run.around, run.plan);
+    run.sun = first_place(scene);
+    run.lighting = light_world(scene, run.sun, *run.world, run.around, run.plan);
     if (!run.lighting.lamps.empty()) {
         run.plan.need((std::to_string(run.lighting.lamps.size()) +
                        " lights of [[light]]: marched to the first scattering")
@@ -286,20 +285,21 @@ std::uint64_t beam_sets(const PhotonRun& run) {
     return run.deposit.peak_turn > 0 ? std::uint64_t(run.world->medium.channels) : 0;
 }
 
-void set_photon_sun(double elevation_deg, PhotonRun& run) {
-    if (elevation_deg == run.sun_elevation_deg) return;
+void set_photon_sun(const SunPlace& sun, PhotonRun& run) {
+    // Lamps and ground move where the media do.
+    if (sun == run.sun && !moves_media(*run.scene)) return;
     Plan ignored;
-    Lighting next = light_world(*run.scene, elevation_deg, *run.world, run.around, ignored);
+    Lighting next = light_world(*run.scene, sun, *run.world, run.around, ignored);
     keep_places(run, next);
     run.lighting = next;
-    run.sun_elevation_deg = elevation_deg;
+    run.sun = sun;
     run.shadow_ready = false;
 }
 
 bool relight_photons(PhotonRun& run) {
     Plan ignored;
-    const double elevation_deg = run.scene->sun.elevation_deg;
-    Lighting next = light_world(*run.scene, elevation_deg, *run.world, run.around, ignored);
+    const SunPlace sun = place_of(run.scene->sun);
+    Lighting next = light_world(*run.scene, sun, *run.world, run.around, ignored);
     if (!has_places(run, next)) return false;
     keep_places(run, next);
     const Lighting& before = run.lighting;
@@ -308,7 +308,7 @@ bool relight_photons(PhotonRun& run) {
         ++run.relights;
     if (next.sunlit != before.sunlit || next.to_sun != before.to_sun) run.shadow_ready = false;
     run.lighting = next;
-    run.sun_elevation_deg = elevation_deg;
+    run.sun = sun;
     return true;
 }
 

@@ -24,7 +24,7 @@ struct PhotonRun : MethodRun {
     std::int64_t budget_photons = 0;           ///< of all generations
     std::vector<std::uint64_t> light_photons;  ///< per light and generation while it is up
     std::uint64_t unit_photons = 0;  ///< of a generation of a session, fewer than these; 0: these
-    double sun_elevation_deg = 0;
+    SunPlace sun;
     Majorants majorants;
     DepositPlan deposit;
     GroundMap ground_map;
@@ -97,7 +97,7 @@ void choose_peak(double peak_deg, PhotonRun& run);
 std::uint64_t beam_sets(const PhotonRun& run);
 
 /// Moves the sun; generations already shot keep the sun they were shot under.
-void set_photon_sun(double elevation_deg, PhotonRun& run);
+void set_photon_sun(const SunPlace& sun, PhotonRun& run);
 
 /// Takes up a new sun, sky or ground of the run's scene. False: a light appears that the slots have
 /// no place for, so that they are to be laid out anew.

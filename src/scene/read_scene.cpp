@@ -43,6 +43,18 @@ Status read_text(const std::string& path, std::string& text) {
     return Status::ok();
 }
 
+/// The last run of '#' gives way to a number of as many digits or more.
+std::string numbered(std::string file, std::int64_t number) {
+    if (!is_sequence(file)) return file;
+    const std::size_t last = file.rfind('#');
+    std::size_t first = last;
+    while (first > 0 && file[first - 1] == '#') --first;
+    std::string digits = std::to_string(number);
+    const std::size_t width = last - first + 1;
+    if (digits.size() < width) digits.insert(0, width - digits.size(), '0');
+    return file.replace(first, width, digits);
+}
+
 }  // namespace
 
 std::string scene_path(const std::string& directory, const std::string& file) {
@@ -61,18 +73,12 @@ bool has_sequence(const Scene& scene) {
 }
 
 std::string density_path(const Scene& scene, const MediumSettings& medium) {
-    std::string file = medium.file;
-    if (is_sequence(file)) {
-        const std::size_t last = file.rfind('#');
-        std::size_t first = last;
-        while (first > 0 && file[first - 1] == '#') --first;
-        std::string digits =
-            std::to_string(std::int64_t(medium.first_frame) + scene.sequence_frame);
-        const std::size_t width = last - first + 1;
-        if (digits.size() < width) digits.insert(0, width - digits.size(), '0');
-        file.replace(first, width, digits);
-    }
-    return scene_path(scene.directory, file);
+    return scene_path(scene.directory, numbered(medium.file, std::int64_t(medium.first_frame) +
+                                                                 scene.sequence_frame));
+}
+
+std::string depth_path(const Scene& scene) {
+    return scene_path(scene.directory, numbered(scene.camera.depth, scene.sequence_frame));
 }
 
 Status read_scene_text(const std::string& text, const std::string& name,

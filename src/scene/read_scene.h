@@ -42,7 +42,9 @@ std::string scene_path(const std::string& directory, const std::string& file);
 /// Whether a file's name has '#', whose last run stands for the digits of a frame's number.
 bool is_sequence(const std::string& file);
 bool has_sequence(const Scene& scene);
-/// The path of a medium's file; of a sequence that of Scene::sequence_frame.
+/// The path of a medium's file, and of the camera's depth; of a sequence that of
+/// Scene::sequence_frame.
 std::string density_path(const Scene& scene, const MediumSettings& medium);
+std::string depth_path(const Scene& scene);
 
 }  // namespace pileus

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "src/base/vectors.h"
+#include "src/scene/animation.h"
 #include "src/scene/atmosphere_settings.h"
 #include "src/scene/light_settings.h"
 #include "src/scene/particle_settings.h"
@@ -55,6 +56,7 @@ struct Sun {
     Float3 irradiance{1, 1, 1};
     double angular_radius_deg = 0;  ///< of its disc; 0: a point. Method path alone
 };
+inline SunPlace place_of(const Sun& sun) { return {sun.azimuth_deg, sun.elevation_deg}; }
 
 struct Sky {
     bool present = false;
@@ -295,14 +297,6 @@ struct OutputSettings {
     bool layer_optical_depth = false, layer_transmittance = false;
     bool layer_light = false, layer_order = false;
     bool layer_reflectance = false, layer_shadow = false, layer_occlusion = false;
-};
-
-struct Animation {
-    bool present = false;
-    int frames = 1;
-    std::array<double, 2> camera_orbit_deg{0, 0}, sun_elevation_deg{0, 0};
-    std::array<double, 2> hours{0, 0};  ///< after atmosphere.time
-    bool moves_camera = false, moves_sun = false, moves_time = false;
 };
 
 struct Scene {

@@ -107,17 +107,22 @@ Status deliver(const Scene& scene, const RunStart& start, int frame, const Frame
 
 /// Whether frames have skies of their own.
 bool has_moving_sky(const Scene& scene) {
-    const Animation& a = scene.animation;
-    return scene.atmosphere.present && a.present && (a.moves_sun || a.moves_time);
+    return scene.atmosphere.present && (moves_sun(scene) || moves_time(scene));
 }
+
+/// Each frame of a sequence, or of clouds in a wind, is a world of its own.
+bool has_worlds(const Scene& scene) { return has_sequence(scene) || moves_wind(scene); }
 
 /// The scene of one frame, where frames have scenes of their own.
 void set_frame(const Scene& scene, int frame, Scene& own) {
     own.sequence_frame = frame;
+    for (std::size_t i = 0; i < own.media.size(); ++i)
+        own.media[i].sky.time_s = scene.media[i].sky.time_s + wind_at(scene, frame);
     if (!has_moving_sky(scene)) return;
-    const Animation& a = scene.animation;
-    own.sun.elevation_deg = sun_at(scene, frame);
-    own.atmosphere.later_h = a.hours[0] + (a.hours[1] - a.hours[0]) * share_of_frame(a, frame);
+    const SunPlace sun = sun_at(scene, frame);
+    own.sun.azimuth_deg = sun.azimuth_deg;
+    own.sun.elevation_deg = sun.elevation_deg;
+    own.atmosphere.later_h = hours_at(scene, frame);
 }
 
 /// Frames that share a world, which may be given.
@@ -149,7 +154,10 @@ Status render_frames(const Scene& scene, const RunStart& start, const RenderOpti
         report.frame_wall_s = wall_seconds() - frame_start.wall_s;
         report.frame_cpu_s = cpu_seconds() - frame_start.cpu_s;
         if (options.holding) options.holding(true);
-        for (const auto& told : picture_place(*session.run().scene, orbit_at(scene, frame)))
+        // Where the picture is, in the file's coordinates.
+        Scene seen = *session.run().scene;
+        seen.camera = camera_at(scene.animation, session.camera(), frame);
+        for (const auto& told : picture_place(seen, orbit_at(scene, frame)))
             image.origin.push_back(told);
         PILEUS_TRY(deliver(scene, start, frame, sink, image, report));
         if (options.holding) options.holding(false);
@@ -159,6 +167,8 @@ Status render_frames(const Scene& scene, const RunStart& start, const RenderOpti
 
 }  // namespace
 
+bool frames_stand_alone(const Scene& scene) { return has_worlds(scene) || has_moving_sky(scene); }
+
 Status render(const Scene& scene, const RenderOptions& options, const FrameSink& sink) {
     const FpModeGuard guard;
     ThreadPool threads;
@@ -166,13 +176,14 @@ Status render(const Scene& scene, const RenderOptions& options, const FrameSink&
     const RunStart start;
     Frames frames{};
     PILEUS_TRY(frames_of(scene, options, frames));
-    // Each frame of a sequence is a world of its own; a sun that moves in air has another sky in
-    // each.
-    const bool sequence = has_sequence(scene), skies = has_moving_sky(scene);
-    if (!sequence && !skies) return render_frames(scene, start, options, frames, nullptr, sink);
-    std::shared_ptr<const World> world;
-    if (!sequence && frames.last > frames.first) PILEUS_TRY(make_world(scene, options, world));
     Scene own = scene;
+    own.sequence_frame = frames.first;
+    // A sun that moves in air has another sky in each frame.
+    const bool worlds = has_worlds(scene);
+    if (!frames_stand_alone(scene))
+        return render_frames(own, start, options, frames, nullptr, sink);
+    std::shared_ptr<const World> world;
+    if (!worlds && frames.last > frames.first) PILEUS_TRY(make_world(scene, options, world));
     bool interrupted = false;
     const FrameSink watched = [&](int frame, Image& image, Report& report) {
         interrupted = report.interrupted;

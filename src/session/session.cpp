@@ -7,6 +7,7 @@
 #include "platform/clock.h"
 #include "platform/fp_mode.h"
 #include "src/methods/registry.h"
+#include "src/scene/read_scene.h"
 #include "src/session/run_context.h"
 #include "src/world/atmosphere/atmosphere.h"
 #include "src/world/camera/places.h"
@@ -77,10 +78,8 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
     PILEUS_TRY(check_camera_in_air(scene_));
     options_ = options;
     if (live) make_live(scene_);
-    camera_ = scene_.camera;
-    sun_ = scene_.sun;
-    ground_ = scene_.ground;
-    lights_ = scene_.lights;
+    around_ = Surround(scene_);
+    scene_.animation.sun_at_rest = place_of(scene_.sun);
     PILEUS_TRY(make_context(scene_, options, context_, report_));
     if (live) context_.frames = kLiveFrames;
     context_.digests = !live && options.digests;
@@ -104,6 +103,10 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
                  ? "\" needs the particles on a grid, allowed: a world made for it"
                  : "\" needs the particles, allowed: a world made for it"));
     run_ = method_->make();
+    if (!scene_.animation.keys.empty()) {
+        run_->place_at = [this](int frame) { place_keys(around_, frame, scene_); };
+        run_->place_at(frame_);
+    }
     PILEUS_TRY(
         open_run(*method_, scene_, budget_of(options), context_, exact, std::move(world), *run_));
     // Nor does its report hash what is made in each stage: that takes longer than a picture.
@@ -115,9 +118,18 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
     return Status::ok();
 }
 
+/// Where frames differ in what no method moves by itself.
+Status Session::take_frame(int frame) {
+    if (run_->place_at) run_->place_at(frame);
+    if (!is_sequence(scene_.camera.depth)) return Status::ok();
+    scene_.sequence_frame = frame;
+    return load_surroundings(scene_, context_, run_->around);
+}
+
 Status Session::render_image(const FrameStep& step, Image& image) {
     const FpModeGuard guard;
     const PoolGuard lent(threads_);
+    PILEUS_TRY(take_frame(step.frame));
     PILEUS_TRY(method_->light(step, context_, *run_));
     report_.digests.clear();
     PILEUS_TRY(method_->show(step, context_, *run_, image));

@@ -10,6 +10,7 @@
 #include "src/methods/methods.h"
 #include "src/picture/late_rows.h"
 #include "src/picture/pixels.h"
+#include "src/scene/placed.h"
 #include "src/session/render.h"
 
 namespace pileus {
@@ -83,7 +84,7 @@ public:
     std::vector<FrameWork> work_levels() const;
 
     /// Camera as it was set, in the host's coordinates.
-    const Camera& camera() const { return camera_; }
+    const Camera& camera() const { return around_.camera; }
 
     /// Traces so many whole units; `done` fewer where the host's `interrupted` ended it.
     Status step(std::uint64_t units, std::uint64_t& done);
@@ -97,18 +98,15 @@ public:
 
 private:
     Status aim();
+    Status take_frame(int frame);
     Status relight_air();
     void place();
     FrameWork scene_work() const;
 
     ThreadPool threads_;  ///< where a host lends none
     Scene scene_;         ///< as the method sees it: in the media's coordinates
-    Camera camera_;
-    Sun sun_;
-    Ground ground_;
-    std::vector<LightSettings> lights_;
-    Double3 offset_m_{};
-    double yaw_deg_ = 0;
+    Surround around_;     ///< as a host set it, or as the file has it
+    Placement placement_;
     DepthScale depth_scale_;
     FrameWork whole_work_, work_;  ///< the scene's, and that of the next frame
     int frame_ = 0;

@@ -5,7 +5,6 @@
 #include <utility>
 
 #include "platform/fp_mode.h"
-#include "src/base/angles.h"
 #include "src/scene/read_scene.h"
 #include "src/session/session.h"
 #include "src/world/atmosphere/atmosphere.h"
@@ -14,11 +13,6 @@
 
 namespace pileus {
 namespace {
-
-/// By -yaw about the z axis.
-Double3 turned_back(const Double3& v, const SineCosine& yaw) {
-    return {v.x * yaw.cosine + v.y * yaw.sine, v.y * yaw.cosine - v.x * yaw.sine, v.z};
-}
 
 bool is_positive(double v) { return v > 0 && v < 1e15; }
 
@@ -65,7 +59,7 @@ bool same_ground(const Ground& a, const Ground& b) {
 Status Session::set_camera(const Camera& camera) {
     const FpModeGuard guard;
     // Light that was gathered for this view stays.
-    if (same_view(camera, camera_)) return Status::ok();
+    if (same_view(camera, around_.camera)) return Status::ok();
     if (scene_.method == "collectors" && scene_.collectors.camera_closure)
         return Status::bad_input(
             "camera: collectors.closure \"camera\" lights cells towards a fixed one, allowed: "
@@ -73,14 +67,14 @@ Status Session::set_camera(const Camera& camera) {
     PILEUS_TRY(check_frustum(camera, scene_.collectors.billboards));
     Scene changed = scene_;
     changed.camera = camera;
-    changed.ground = ground_;
+    changed.ground = around_.ground;
     PILEUS_TRY(check_camera_in_air(changed));
     PILEUS_TRY(check_changed(std::move(changed)));
     const std::uint64_t pixels =
         std::uint64_t(camera.resolution[0]) * std::uint64_t(camera.resolution[1]);
     PILEUS_TRY(check_limit(context_.limits, LimitId::kPixels, pixels, "camera.resolution"));
-    if (camera.resolution != camera_.resolution) run_->around.depth = CameraDepth{};
-    camera_ = camera;
+    if (camera.resolution != around_.camera.resolution) run_->around.depth = CameraDepth{};
+    around_.camera = camera;
     stale_ = true;
     return Status::ok();
 }
@@ -91,11 +85,11 @@ Status Session::set_depth_scale(const DepthScale& scale) {
 }
 
 Status Session::set_sun(const Sun& sun) {
-    if (same_sun(sun, sun_)) return Status::ok();
+    if (same_sun(sun, around_.sun)) return Status::ok();
     Scene changed = scene_;
     changed.sun = sun;
     PILEUS_TRY(check_changed(std::move(changed)));
-    sun_ = sun;
+    around_.sun = sun;
     stale_ = true;
     return relight_air();
 }
@@ -107,8 +101,8 @@ Status Session::relight_air() {
     const PoolGuard lent(threads_);
     Scene lit;
     lit.atmosphere = scene_.atmosphere;
-    lit.sun = sun_;
-    lit.ground = ground_;
+    lit.sun = around_.sun;
+    lit.ground = around_.ground;
     anew_ = true;
     return light_surroundings(lit, context_.threads, *run_->world, run_->around);
 }
@@ -131,7 +125,7 @@ Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
     PILEUS_TRY(check_changed(changed));
     if (map != nullptr) {
         SkyMap made;
-        PILEUS_TRY(make_sky_map("sky.map", *map, changed.sky, ground_.present, made));
+        PILEUS_TRY(make_sky_map("sky.map", *map, changed.sky, around_.ground.present, made));
         run_->around.sky_map = std::move(made);
         anew_ = true;
     } else if (!kept && run_->around.sky_map.present()) {
@@ -144,28 +138,28 @@ Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
 }
 
 Status Session::set_ground(const Ground& ground) {
-    if (same_ground(ground, ground_)) return Status::ok();
+    if (same_ground(ground, around_.ground)) return Status::ok();
     Scene changed = scene_;
     changed.ground = ground;
-    changed.lights = lights_;
-    changed.camera = camera_;
+    changed.lights = around_.lights;
+    changed.camera = around_.camera;
     PILEUS_TRY(check_changed(std::move(changed)));
-    if (ground.present != ground_.present && run_->around.sky_map.present())
+    if (ground.present != around_.ground.present && run_->around.sky_map.present())
         return Status::bad_input(
             "ground: the sky map was read with it or without, allowed: as the scene has it");
-    ground_ = ground;
+    around_.ground = ground;
     stale_ = true;
     return relight_air();
 }
 
 Status Session::set_lights(const std::vector<LightSettings>& lights) {
-    if (lights == lights_) return Status::ok();
+    if (lights == around_.lights) return Status::ok();
     Scene changed = scene_;
     changed.lights = lights;
-    changed.ground = ground_;
+    changed.ground = around_.ground;
     PILEUS_TRY(check_host_lights(context_, changed, run_->world->medium));
     PILEUS_TRY(check_changed(std::move(changed)));
-    lights_ = lights;
+    around_.lights = lights;
     stale_ = true;
     return Status::ok();
 }
@@ -181,9 +175,8 @@ Status Session::set_placement(const Double3& offset_m, double yaw_deg) {
         return Status::bad_input("placement: solids stay where they are, allowed: 0");
     if (yaw_deg != 0 && run_->around.sky_map.present())
         return Status::bad_input("placement.yaw_deg: not below a sky map, allowed: 0");
-    stale_ = stale_ || offset_m != offset_m_ || yaw_deg != yaw_deg_;
-    offset_m_ = offset_m;
-    yaw_deg_ = yaw_deg;
+    stale_ = stale_ || offset_m != placement_.offset_m || yaw_deg != placement_.yaw_deg;
+    placement_ = {offset_m, yaw_deg};
     return Status::ok();
 }
 
@@ -202,7 +195,7 @@ Status Session::set_depth(const Rows* rows, DepthKind kind) {
             "depth: a depth buffer without a camera's near_m, allowed: a camera with it, or "
             "another kind");
     if (rows != nullptr) {
-        const CameraParams camera = make_camera(camera_, 0, {});
+        const CameraParams camera = make_camera(around_.camera, 0, {});
         PILEUS_TRY(take_depths(*rows, kind, depth_scale_, camera, depth));
     } else if (depth.present) {
         depth = CameraDepth{};
@@ -215,25 +208,6 @@ Status Session::set_depth(const Rows* rows, DepthKind kind) {
 }
 
 /// The host's values in the media's coordinates, which alone have moved.
-void Session::place() {
-    scene_.camera = camera_;
-    scene_.sun = sun_;
-    scene_.ground = ground_;
-    scene_.lights = lights_;
-    if (yaw_deg_ == 0 && offset_m_ == Double3{}) return;
-    const SineCosine yaw = sincos_deg(yaw_deg_);
-    Camera& c = scene_.camera;
-    c.position_m = turned_back(camera_.position_m - offset_m_, yaw);
-    c.target_m = turned_back(camera_.target_m - offset_m_, yaw);
-    c.up = turned_back(camera_.up, yaw);
-    scene_.sun.azimuth_deg += yaw_deg_;
-    for (LightSettings& light : scene_.lights) {
-        light.position_m = turned_back(light.position_m - offset_m_, yaw);
-        light.target_m = turned_back(light.target_m - offset_m_, yaw);
-        light.direction = turned_back(light.direction, yaw);
-        light.azimuth_deg += yaw_deg_;
-    }
-    scene_.ground.altitude_m -= offset_m_.z;
-}
+void Session::place() { place_around(around_, placement_, scene_); }
 
 }  // namespace pileus

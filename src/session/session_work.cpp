@@ -94,10 +94,10 @@ Status Session::set_work(const FrameWork& given) {
     }
     if (there.steps != nullptr) *there.steps = work.steps;
     if (there.light_refresh != nullptr) *there.light_refresh = work.light_refresh;
-    changed.camera = camera_;
-    changed.sun = sun_;
-    changed.ground = ground_;
-    changed.lights = lights_;
+    changed.camera = around_.camera;
+    changed.sun = around_.sun;
+    changed.ground = around_.ground;
+    changed.lights = around_.lights;
     changed.file = "session";
     PILEUS_TRY(check_scene(changed));
     if (there.thin != nullptr) PILEUS_TRY(check_upsampling(changed, "work", *there.thin));

@@ -86,6 +86,8 @@ Status Verifier::open(const Scene& scene, std::uint64_t pixels, const Context& c
     scene_ = scene;
     PILEUS_TRY(place_camera(scene_));
     place_sun(scene_);
+    scene_.animation.sun_at_rest = place_of(scene_.sun);
+    rest_ = Surround(scene_);
     own_paths_ = scene.method == "path";
     scene_.method = "path";
     scene_.output = OutputSettings{};
@@ -125,6 +127,11 @@ Status Verifier::see_through_air(const Context& context, const std::vector<std::
 
 Status Verifier::check(int frame, const Context& context, const Image& image, Report& report) {
     report.verified_pixels = 0;
+    if (!scene_.animation.keys.empty()) place_keys(rest_, frame, scene_);
+    if (is_sequence(scene_.camera.depth)) {
+        scene_.sequence_frame = frame;
+        PILEUS_TRY(load_surroundings(scene_, context, run_.around));
+    }
     path_aim(frame, run_);
     PathInput in = path_input(context, run_);
     in.ended = context.interrupted;

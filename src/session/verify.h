@@ -26,6 +26,7 @@ private:
     Status see_through_air(const Context& context, const std::vector<std::uint32_t>& pixels,
                            std::vector<PixelLight>& paths);
     Scene scene_;
+    Surround rest_;  ///< as it is but for keys
     std::uint64_t pixels_ = 0;
     PathRun run_;
     bool own_paths_ = false;  ///< the pictures are by paths themselves

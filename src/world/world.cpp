@@ -137,7 +137,7 @@ Status load_surroundings(const Scene& scene, const Context& context, Surrounding
     return read_camera_depth(scene, context, around.depth);
 }
 
-Lighting light_world(const Scene& scene, double sun_elevation_deg, const World& world,
+Lighting light_world(const Scene& scene, const SunPlace& sun, const World& world,
                      const Surroundings& around, Plan& plan) {
     const Scene* lit = &scene;
     Scene coloured;
@@ -151,8 +151,8 @@ Lighting light_world(const Scene& scene, double sun_elevation_deg, const World& 
             coloured.sun.irradiance[c] = float(around.air.above[c] * around.air.sunlight[c]);
         lit = &coloured;
     }
-    Lighting out = plan_lighting(*lit, world.medium, sun_elevation_deg, plan, &around.sky_map,
-                                 &world.solids, &around.depth);
+    Lighting out =
+        plan_lighting(*lit, world.medium, sun, plan, &around.sky_map, &world.solids, &around.depth);
     out.air = around.air.present();
     return out;
 }

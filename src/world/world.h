@@ -64,7 +64,7 @@ Status load_surroundings(const Scene& scene, const Context& context, Surrounding
 
 /// The lights for a sun at this elevation; what they say of photons goes to `plan`. The result
 /// points into `world` and `around`.
-Lighting light_world(const Scene& scene, double sun_elevation_deg, const World& world,
+Lighting light_world(const Scene& scene, const SunPlace& sun, const World& world,
                      const Surroundings& around, Plan& plan);
 
 /// Digest of every density, and of each medium's part where there are several.

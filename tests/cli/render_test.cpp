@@ -316,6 +316,31 @@ TEST_CASE("info: grids that know their place and unit") {
     }
 }
 
+TEST_CASE("plan: expected seconds of stills and films, and of budgets that are an amount of work") {
+    const ProgramFolder folder;
+    CHECK(holds(folder.run("plan s.toml --time").output, "time on this machine\n  in all"));
+    CHECK_FALSE(holds(folder.run("plan s.toml").output, "time on this machine"));
+    for (const char* film : {"camera_orbit_deg=[0,9]", "keys=[{frame=0,camera_fov_deg=9}]"})
+        for (const char* method : {"collectors", "raymarch", "path"}) {
+            CAPTURE(method);
+            const Outcome plan = folder.run(
+                std::string(
+                    "plan s.toml --time --json --set animation.frames=100 --set animation.") +
+                film + " --set output.layers='[\"radiance\"]' --set method.name=" + method);
+            REQUIRE_MESSAGE(plan.exit_status == 0, plan.errors);
+            const json time = json::parse(plan.output)["foretold_time"];
+            CHECK(time["first_frame_s"] > 0);
+            CHECK(time["next_frame_s"] > 0);
+            const double all =
+                time["first_frame_s"].get<double>() + 99 * time["next_frame_s"].get<double>();
+            CHECK(time["total_s"].get<double>() == doctest::Approx(all));
+        }
+    const Outcome budget = folder.run("plan s.toml --time --budget seconds=1");
+    CHECK(budget.exit_status == 2);
+    CHECK(holds(budget.errors, "--time: a budget of seconds"));
+    CHECK(folder.left().empty());
+}
+
 TEST_CASE("plan: lines for people, JSON with the report's keys, and no file") {
     const ProgramFolder folder;
     const Outcome lines = folder.run("plan s.toml");

@@ -55,7 +55,9 @@ bool allows(const KeyRow& row, const Node& node) {
 /// Values that a row may hold, as TOML.
 std::vector<std::string> candidates(const KeyRow& row) {
     if (row.kind() == KeyKind::kDensity) return {"\"uniform:sphere\""};
-    if (row.kind() == KeyKind::kTransfer)
+    if (row.kind() == KeyKind::kRows && row.list->rising == std::string("frame"))
+        return {"[{frame=0,hours=1,camera_position_m=[1,2,3]},{frame=9,way=\"step\",hours=2}]"};
+    if (row.kind() == KeyKind::kRows)
         return {"[{value=0,extinction_per_m=0},{value=0.5,extinction_per_m=2,albedo=[1,0.5,0]}]"};
     if (row.allowed.choices != nullptr) {
         std::vector<std::string> texts;

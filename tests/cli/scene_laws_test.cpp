@@ -290,7 +290,7 @@ TEST_CASE("faults of solids and of the camera's depth") {
          "out"},
         {kCamera + "depth = \"z.exr\"\n[animation]\nframes = 2\ncamera_orbit_deg = [0, 9]\n",
          "s.toml:7:1: animation.camera_orbit_deg: conflicts with camera.depth, which one camera "
-         "sees, ..."},
+         "sees where its name has no #, ..."},
         {kCamera + "solid = 1\n", "s.toml:4:1: camera.solid: ..."},
         {"solid = 1\n" + kCamera,
          "s.toml:1:9: solid: wrong type or too many, 1, allowed: up to 64 tables, each headed "

@@ -39,7 +39,7 @@ Lighting lighting_of(const std::vector<std::string>& overrides) {
     Medium medium;
     REQUIRE(load_medium(scene, scene.media[0], 1, medium));
     Plan plan;
-    return plan_lighting(scene, medium, scene.sun.elevation_deg, plan);
+    return plan_lighting(scene, medium, place_of(scene.sun), plan);
 }
 
 bool has_light(const Lighting& lighting, const char* name) {

@@ -39,7 +39,7 @@ struct Rig {
         Plan plan;
         REQUIRE(load_media(scene, context.limits, 1, plan, medium));
         REQUIRE(make_majorants(medium, false, context, majorants));
-        lighting = plan_lighting(scene, medium, scene.sun.elevation_deg, plan);
+        lighting = plan_lighting(scene, medium, place_of(scene.sun), plan);
         REQUIRE(make_sun_depth(context, medium, majorants, lighting.to_sun, SunDepthKind::kExact,
                                nodes));
         in.camera = make_camera(scene.camera, 0, medium.low_m);

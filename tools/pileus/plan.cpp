@@ -7,6 +7,7 @@
 #include <memory>
 
 #include "src/io/text/report_json.h"
+#include "src/session/foretell.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
 #include "tools/pileus/scene_options.h"
@@ -17,7 +18,7 @@ namespace {
 
 struct PlanArguments {
     SceneArguments scene;
-    bool json = false, exact = false;
+    bool json = false, exact = false, time = false;
 };
 
 std::string part_lines(const Report& report) {
@@ -79,12 +80,23 @@ std::string limit_lines(const Report& report) {
     return text;
 }
 
+std::string time_lines(const Report& report) {
+    const ReportForetold& time = report.foretold;
+    if (!(time.total_s > 0)) return "";
+    std::string text =
+        fmt::format("time on this machine\n  {:<28} about {:.3g} s\n", "in all", time.total_s);
+    if (time.next_frame_s > 0)
+        text += fmt::format("  {:<28} about {:.3g} s\n  {:<28} about {:.3g} s\n", "first frame",
+                            time.first_frame_s, "each further frame", time.next_frame_s);
+    return text;
+}
+
 std::string plan_lines(const Report& report) {
     return part_lines(report) + memory_lines(report) + bound_lines(report) +
            accumulation_lines(report) +
            fmt::format("bias, where no noise is left\n  {:<28} {} ({})\n", report.bias_of,
                        report.bias, report.bias_page) +
-           work_lines(report) + limit_lines(report);
+           work_lines(report) + time_lines(report) + limit_lines(report);
 }
 
 Status run_plan(const PlanArguments& arguments) {
@@ -94,6 +106,11 @@ Status run_plan(const PlanArguments& arguments) {
     PILEUS_TRY(read_scene_options(arguments.scene, scene, options));
     options.last_frame = scene.animation.present ? scene.animation.frames - 1 : 0;
     PILEUS_TRY(plan_scene(scene, options, arguments.exact, report));
+    if (arguments.time) {
+        ForetoldTime time;
+        PILEUS_TRY(foretell_time(scene, options, time));
+        report.foretold = {time.total_s, time.first_s, time.next_s};
+    }
     return print(arguments.json ? plan_json(report) : plan_lines(report));
 }
 
@@ -109,6 +126,8 @@ void add_plan(CLI::App& app, Chosen& chosen) {
     command->add_flag("--json", arguments->json, "Print JSON");
     command->add_flag("--exact", arguments->exact,
                       "Read the values and prepare everything but the photons: exact bytes");
+    command->add_flag("--time", arguments->time,
+                      "Render it small twice to say how long it will take");
     command->callback(
         [arguments, &chosen] { chosen = [arguments] { return run_plan(*arguments); }; });
 }

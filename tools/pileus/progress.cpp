@@ -4,13 +4,18 @@
 // docs/program.md
 #include "tools/pileus/progress.h"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <cstdio>
 
 namespace pileus {
 
 namespace {
 
-constexpr int kWidth = 40;  // of the line; blanks over it clear any terminal
+constexpr int kWidth = 78;  // of the line; blanks over it clear any terminal
 
 }  // namespace
 
@@ -21,8 +26,24 @@ void Progress::tell(const char* stage, double share) {
     if (percent == percent_ && stage_ == stage) return;
     percent_ = percent;
     stage_ = stage;
-    std::fprintf(stderr, "\r%-*.*s%4d%%", kWidth - 5, kWidth - 6, stage, percent);
+    const std::string text = frame_ + stage;
+    std::fprintf(stderr, "\r%-*.*s%4d%%", kWidth - 5, kWidth - 6, text.c_str(), percent);
     std::fflush(stderr);
+}
+
+void Progress::frames(int done, int count, double seconds) {
+    if (!shown_ || count < 2) return;
+    frame_ = fmt::format("frame {}/{}  ", std::min(done + 1, count), count);
+    if (done > 0 && done < count) frame_ += time_text(seconds / done * (count - done)) + " left  ";
+}
+
+std::string time_text(double seconds) {
+    // A year is more than any film takes, and fits.
+    const auto whole = std::int64_t(std::ceil(std::min(std::max(seconds, 0.0), 3e9)));
+    if (whole < 60) return fmt::format("{} s", whole);
+    if (whole < 3600) return fmt::format("{} min {:02} s", whole / 60, whole % 60);
+    const std::int64_t minutes = (whole + 59) / 60;
+    return fmt::format("{} h {:02} min", minutes / 60, minutes % 60);
 }
 
 void Progress::clear() {

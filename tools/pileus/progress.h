@@ -14,6 +14,9 @@ public:
     Progress& operator=(const Progress&) = delete;
     ~Progress() { clear(); }
 
+    /// Of a film: `done` of `count` frames are made, in `seconds`; before the first, and where
+    /// there is but one, nothing is said of the time that is left.
+    void frames(int done, int count, double seconds);
     /// Rewrites the line when the stage or its whole percent has changed. share: 0..1.
     void tell(const char* stage, double share);
     /// Takes the line away, so that other text can follow.
@@ -21,8 +24,11 @@ public:
 
 private:
     bool shown_;
-    std::string stage_;
+    std::string frame_, stage_;
     int percent_ = -1;
 };
+
+/// "2 h 05 min", "3 min 20 s", "12 s": rounded up to a whole second, or minute from an hour on.
+std::string time_text(double seconds);
 
 }  // namespace pileus

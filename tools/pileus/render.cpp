@@ -284,6 +284,9 @@ Status run_render(RenderArguments& arguments) {
         progress.clear();
         return status;
     }
+    const int count = options.last_frame - options.first_frame + 1;
+    const double tracing = wall_seconds();
+    progress.frames(0, count, 0);
     const Status status =
         render(scene, options, [&](int frame, Image& image, Report& report) -> Status {
             progress.clear();
@@ -292,6 +295,7 @@ Status run_render(RenderArguments& arguments) {
             if (report.interrupted) ended = interrupted_line(frame, outputs.numbered, report);
             PILEUS_TRY(write_frame(outputs, frame, image, report));
             doubtful = tell_warnings(report, told) || doubtful;
+            progress.frames(frame - options.first_frame + 1, count, wall_seconds() - tracing);
             return Status::ok();
         });
     progress.clear();

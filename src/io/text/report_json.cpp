@@ -241,6 +241,11 @@ std::string plan_json(const Report& report) {
     Json json;
     add_head(report, json);
     json["plan"] = plan_of(report);
+    const ReportForetold& time = report.foretold;
+    if (time.total_s > 0)
+        json["foretold_time"] = {{"total_s", time.total_s},
+                                 {"first_frame_s", time.first_frame_s},
+                                 {"next_frame_s", time.next_frame_s}};
     return text_of(json);
 }
 

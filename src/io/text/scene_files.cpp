@@ -44,12 +44,15 @@ std::vector<std::string> scene_files(const Scene& scene) {
     const auto add = [&](const std::string& file) {
         if (!file.empty()) files.push_back(scene_path(scene.directory, file));
     };
+    Scene at = scene;
+    const int frames = scene.animation.present ? scene.animation.frames : 1;
+    const auto each_frame = [&](const auto& path) {
+        for (at.sequence_frame = 0; at.sequence_frame < frames; ++at.sequence_frame)
+            files.push_back(path());
+    };
     for (const MediumSettings& medium : scene.media) {
         if (is_sequence(medium.file)) {
-            Scene at = scene;
-            const int frames = scene.animation.present ? scene.animation.frames : 1;
-            for (; at.sequence_frame < frames; ++at.sequence_frame)
-                files.push_back(density_path(at, medium));
+            each_frame([&] { return density_path(at, medium); });
         } else {
             add(medium.file);
         }
@@ -60,7 +63,10 @@ std::vector<std::string> scene_files(const Scene& scene) {
         add(solid.file);
         if (file_extension(solid.file) == ".gltf") add_buffers(std::string(files.back()), files);
     }
-    add(scene.camera.depth);
+    if (is_sequence(scene.camera.depth))
+        each_frame([&] { return depth_path(at); });
+    else
+        add(scene.camera.depth);
     return files;
 }
 

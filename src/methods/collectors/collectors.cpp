@@ -131,7 +131,7 @@ Status collectors_outline(const Context& context, CollectorsRun& run) {
                                  "allowed: march, or collectors.scale = 1 and temporal = 0");
     run.budget_photons = collectors_photons(scene, run.budget);
     if (scene.collectors.camera_closure) {
-        if (scene.animation.present && scene.animation.moves_camera)
+        if (moves_camera(scene))
             return Status::bad_input(scene.file +
                                      ": collectors.closure: \"camera\" needs a fixed "
                                      "camera, but animation.camera_orbit_deg moves it");

@@ -53,9 +53,9 @@ Status check(const Scene& scene, const Budget& budget) {
     return Status::ok();
 }
 
-void choose_light(double sun_elevation_deg, ParticlesRun& run) {
+void choose_light(const SunPlace& sun, ParticlesRun& run) {
     Plan photons;  // speaks of photons alone
-    run.lighting = light_world(*run.scene, sun_elevation_deg, *run.world, run.around, photons);
+    run.lighting = light_world(*run.scene, sun, *run.world, run.around, photons);
     choose_orders(run);
 }
 
@@ -181,7 +181,7 @@ Status show(const FrameStep&, const Context& context, MethodRun& method_run, Ima
 Status aim(int, bool anew, const Context&, MethodRun& method_run) {
     ParticlesRun& run = own(method_run);
     const Lighting before = run.lighting;
-    choose_light(run.scene->sun.elevation_deg, run);
+    choose_light(place_of(run.scene->sun), run);
     if (anew || !same_shine(before, run.lighting)) run.lit = false;
     return Status::ok();
 }

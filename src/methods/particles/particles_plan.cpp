@@ -48,7 +48,7 @@ void note_plan(ParticlesRun& run) {
         plan.need("motion blur by longer billboards: approximation");
     else if (scene.camera.shutter_s > 0)
         plan.leave_out("motion blur", "the particles have no velocities");
-    if (run.lighting.sunlit || (scene.sun.present && scene.animation.moves_sun))
+    if (run.lighting.sunlit || (scene.sun.present && moves_sun(scene)))
         plan.need(scene.particles.light == ParticleLight::kExact
                       ? "sunlight by a walk from each bin"
                       : "sunlight at each particle");

@@ -27,9 +27,9 @@ Status check(const Scene& scene, const Budget& budget) {
 }
 
 /// Light for the medium as it is known now; a map lights by its own radiances.
-void choose_light(double sun_elevation_deg, PathRun& run) {
+void choose_light(const SunPlace& sun, PathRun& run) {
     Plan photons;  // speaks of photons alone
-    run.lighting = light_world(*run.scene, sun_elevation_deg, *run.world, run.around, photons);
+    run.lighting = light_world(*run.scene, sun, *run.world, run.around, photons);
 }
 
 void digest_prepared(PathRun& run) {
@@ -69,7 +69,7 @@ Status light(const FrameStep& step, const Context& context, MethodRun& method_ru
 /// A film shows one camera and one light.
 Status aim(int frame, bool anew, const Context&, MethodRun& method_run) {
     PathRun& run = own(method_run);
-    choose_light(run.scene->sun.elevation_deg, run);
+    choose_light(place_of(run.scene->sun), run);
     run.camera = make_camera(run.scene->camera, 0, run.world->medium.low_m);
     run.seed = std::uint64_t(run.scene->seed) + std::uint64_t(frame);
     run.begun = false;

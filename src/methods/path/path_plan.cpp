@@ -23,7 +23,7 @@ bool has_sky(const Lighting& light) {
 }
 
 void note_sun(const Scene& scene, const PathRun& run, Plan& plan) {
-    const bool moves = scene.animation.present && scene.animation.moves_sun;
+    const bool moves = moves_sun(scene);
     if (!run.lighting.sunlit && !(moves && scene.sun.present)) {
         plan.leave_out("flights towards the sun",
                        scene.sun.present ? "below the ground's horizon, or dark" : "no sun");

@@ -33,7 +33,7 @@ Status check_closure(const Scene& scene) {
     if (periodic && !scene.camera.orthographic)
         return Status::bad_input(where +
                                  "not for periodic media, allowed: sh, or an orthographic camera");
-    if (closure == GridClosure::kCamera && scene.animation.present && scene.animation.moves_camera)
+    if (closure == GridClosure::kCamera && moves_camera(scene))
         return Status::bad_input(where +
                                  "\"camera\" needs a fixed camera, but "
                                  "animation.camera_orbit_deg moves it");

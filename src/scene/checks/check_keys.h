@@ -53,6 +53,8 @@ void check_phase(SceneCheck& check, std::size_t index);
 
 /// Laws between the keys of the air, the sun and the sky; dates and times.
 void check_atmosphere(SceneCheck& check);
+/// Laws between the keys of an animation and what they move.
+void check_animation(SceneCheck& check);
 /// Laws between the keys of lights besides sun and sky.
 void check_lights(SceneCheck& check);
 /// Laws between the keys of meshes and of the camera's depth.
@@ -65,9 +67,8 @@ void check_laws(SceneCheck& check);
 
 /// Checks one value against its row. Returns false after adding a fault for it.
 bool check_value(const KeyRow& row, const Node& node, const std::string& path, FaultList& faults);
-/// The same of a transfer function.
-bool check_transfer(const KeyRow& row, const Node& list, const std::string& path,
-                    FaultList& faults);
+/// The same of a list of tables.
+bool check_rows(const KeyRow& row, const Node& list, const std::string& path, FaultList& faults);
 
 /// The nearest of `names` within a third of the length (at least 2) in edits; empty if none.
 std::string nearest_name(std::string_view name, const std::vector<std::string>& names);

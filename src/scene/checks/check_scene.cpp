@@ -149,13 +149,6 @@ void check_output(SceneCheck& check) {
     }
 }
 
-void check_animation(SceneCheck& check) {
-    if (!check.scene.atmosphere.present || check.scene.atmosphere.date.empty())
-        conflict(check, "animation.hours", "a scene without atmosphere.date");
-    if (check.scene.sun.present) return;
-    conflict(check, "animation.sun_elevation_deg", "a scene without a sun");
-}
-
 /// Elek's variant asks for its own display, sampler and split unless told otherwise.
 void fill_paper_defaults(SceneCheck& check) {
     CollectorSettings& settings = check.scene.collectors;

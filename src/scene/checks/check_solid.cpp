@@ -3,6 +3,8 @@
 // in: keys that passed their own checks -> out: paths and defaults of the Scene; faults.
 // docs/scene.md; docs/solids.md.
 #include "src/scene/checks/check_keys.h"
+#include "src/scene/frames.h"
+#include "src/scene/read_scene.h"
 #include "src/scene/rows/mesh_format.h"
 #include "src/scene/rows/picture_format.h"
 
@@ -39,8 +41,13 @@ void check_depth(SceneCheck& check) {
         return;
     }
     if (camera.flux) conflict(check, "camera.depth", "projection \"flux\"");
-    if (check.scene.animation.moves_camera)
-        conflict(check, "animation.camera_orbit_deg", "camera.depth, which one camera sees");
+    if (!is_sequence(camera.depth)) {
+        constexpr const char* kWhy = "camera.depth, which one camera sees where its name has no #";
+        if (check.scene.animation.moves_camera)
+            conflict(check, "animation.camera_orbit_deg", kWhy);
+        else if (moves_camera(check.scene) || moves_media(check.scene))
+            conflict(check, "animation.keys", kWhy);
+    }
     const Node* file = check.valid_key("camera.depth");
     if (file == nullptr || !check_path(check, *file, "camera.depth", camera.depth)) return;
     const PictureFormat* format = picture_format_of(camera.depth);

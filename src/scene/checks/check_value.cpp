@@ -131,8 +131,8 @@ bool check_value(const KeyRow& row, const Node& node, const std::string& path, F
             return node.is_text() ? check.text(node) : check.integer(node);
         case KeyKind::kDensity:
             return node.is_table() || check.density(node);
-        case KeyKind::kTransfer:
-            return check_transfer(row, node, path, faults);
+        case KeyKind::kRows:
+            return check_rows(row, node, path, faults);
         case KeyKind::kTable:
             return node.is_table() || check.fault(node, "wrong type");
         case KeyKind::kLater:

@@ -18,7 +18,6 @@ Span<const KeyRow> medium_keys();         // medium, up to its phase function
 Span<const KeyRow> weather_keys();        // medium.density, of weather data
 Span<const KeyRow> particle_keys();       // medium.density, of particles
 const KeyRow& transfer_key();             // medium.transfer
-Span<const KeyRow> transfer_row_keys();   // keys of one of its rows, without its path
 Span<const KeyRow> medium_last_keys();    // medium, behind it
 Span<const KeyRow> sky_keys();            // medium.sky
 Span<const KeyRow> recipe_keys();         // medium.plume, medium.particle_cumulus

@@ -25,7 +25,7 @@ enum class KeyKind {
     kChoice,       ///< one of the row's texts; the field holds its place among them
     kIndexOrText,  ///< a whole number or a text
     kDensity,      ///< a text or a table
-    kTransfer,     ///< a list of tables, each a row of a transfer function
+    kRows,         ///< a list of tables, whose keys have rows of their own
     kTable,        ///< a table whose contents are left alone
     kLater,        ///< a key of the format that this version cannot use
 };

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "src/base/span.h"
 #include "src/scene/keys/key_field.h"
 
 namespace pileus {
@@ -39,6 +40,15 @@ constexpr Allowed one_of(const char* choices, const char* later = nullptr) {
     return {{}, choices, later};
 }
 
+struct KeyRow;
+
+/// Of a list of tables: the keys of one of them, without its path.
+struct RowList {
+    Span<const KeyRow> (*keys)();
+    const char* rising;       ///< key, a number, that is more in each table than in the one before
+    std::size_t least, most;  ///< tables
+};
+
 struct KeyRow {
     const char* path;  ///< e.g. "camera.fov_deg"; an index into an array of tables is "N"
     KeyField field;
@@ -46,6 +56,7 @@ struct KeyRow {
     const char* unit;
     const char* help;
     const char* fallback = nullptr;  ///< null: the default is that of the field in a new Scene
+    const RowList* list = nullptr;   ///< of kRows
 
     /// A flag that is written as one of two texts is a choice.
     constexpr KeyKind kind() const {

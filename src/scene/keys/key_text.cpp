@@ -156,11 +156,12 @@ std::string allowed_text(const KeyRow& row) {
             return "text, or whole number" + range;
         case KeyKind::kDensity:
             return density_names() + ", the path of a file, or a table";
-        case KeyKind::kTransfer: {
+        case KeyKind::kRows: {
             std::string keys;
-            for (const KeyRow& key : transfer_row_keys())
+            for (const KeyRow& key : row.list->keys())
                 keys += (keys.empty() ? "" : ", ") + std::string(key.path);
-            return "list of 2 to " + std::to_string(kMostTransferRows) + " tables of " + keys;
+            return "list of " + std::to_string(row.list->least) + " to " +
+                   std::to_string(row.list->most) + " tables of " + keys;
         }
         case KeyKind::kTable:
             return "table";

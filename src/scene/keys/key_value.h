@@ -26,6 +26,11 @@ Node node_of(float value);
 Node node_of(const std::string& value);
 Node node_of(const Double3& value);
 inline Node node_of(int value) { return node_of(std::int64_t{value}); }
+/// As a member of a table.
+inline Node named(const char* name, Node node) {
+    node.key = name;
+    return node;
+}
 
 /// Enumerations as their number, lists element by element.
 template <class Enum, std::enable_if_t<std::is_enum_v<Enum>, int> = 0>

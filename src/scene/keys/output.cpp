@@ -55,6 +55,72 @@ constexpr KeyField kHours{KeyKind::kNumber2,
                               take(n, t.scene.animation.hours);
                           }};
 
+constexpr const char* kWays = "smooth|linear|step";
+
+Node node_of_key(const AnimationKey& key) {
+    Node node;
+    node.children = {named("frame", node_of(key.frame)),
+                     named("way", node_of(std::string(split_list(kWays)[std::size_t(key.way)])))};
+    for (std::size_t t = 0; t < std::size_t(kTrackCount); ++t) {
+        const double* n = &key.numbers[std::size_t(kTracks[t].first)];
+        if (!key.given[t]) continue;
+        node.children.push_back(named(kTracks[t].name, kTracks[t].numbers == 3
+                                                           ? node_of(Double3{n[0], n[1], n[2]})
+                                                           : node_of(*n)));
+    }
+    return node;
+}
+
+AnimationKey key_of(const Node& node) {
+    AnimationKey key;
+    take(*node.find("frame"), key.frame);
+    if (const Node* way = node.find("way")) key.way = KeyWay(place_in(kWays, way->text));
+    for (std::size_t t = 0; t < std::size_t(kTrackCount); ++t) {
+        const Node* value = node.find(kTracks[t].name);
+        key.given[t] = value != nullptr;
+        if (value == nullptr) continue;
+        double* n = &key.numbers[std::size_t(kTracks[t].first)];
+        if (kTracks[t].numbers == 3) {
+            const Double3 v = number3_of(*value);
+            for (int a = 0; a < 3; ++a) n[a] = v[a];
+        } else {
+            *n = number_of(*value);
+        }
+    }
+    return key;
+}
+
+constexpr KeyField kAnimationKeys{KeyKind::kRows,
+                                  [](const KeySource& s) {
+                                      Node list;
+                                      list.kind = NodeKind::kArray;
+                                      for (const AnimationKey& key : s.scene.animation.keys)
+                                          list.children.push_back(node_of_key(key));
+                                      return list;
+                                  },
+                                  [](const KeyTarget& t, const Node& n) {
+                                      t.scene.animation.keys.clear();
+                                      for (const Node& child : n.children)
+                                          t.scene.animation.keys.push_back(key_of(child));
+                                  }};
+
+constexpr KeyRow kKeyRows[] = {
+    {"frame", KeyKind::kInteger, from_to(0, 1000000), "", "", kRequired},
+    {"way", KeyKind::kText, one_of(kWays), "", ""},
+    {"camera_position_m", KeyKind::kNumber3, from_to(-1e9, 1e9), "m", ""},
+    {"camera_target_m", KeyKind::kNumber3, from_to(-1e9, 1e9), "m", ""},
+    {"camera_fov_deg", KeyKind::kNumber, between(0, 180), "deg", ""},
+    {"sun_azimuth_deg", KeyKind::kNumber, from_to(-36000, 36000), "deg", ""},
+    {"sun_elevation_deg", KeyKind::kNumber, from_to(-90, 90), "deg", ""},
+    {"hours", KeyKind::kNumber, from_to(-8784, 8784), "h", ""},
+    {"wind_s", KeyKind::kNumber, from_to(-1e9, 1e9), "s", ""},
+    {"media_offset_m", KeyKind::kNumber3, from_to(-1e9, 1e9), "m", ""},
+    {"media_yaw_deg", KeyKind::kNumber, from_to(-36000, 36000), "deg", ""},
+};
+
+Span<const KeyRow> key_rows() { return {kKeyRows, sizeof kKeyRows / sizeof kKeyRows[0]}; }
+constexpr RowList kKeyList{key_rows, "frame", 1, kMostKeys};
+
 constexpr KeyRow kRows[] = {
     {"output.files", output<&OutputSettings::files>, any(), "",
      "pictures to write, relative to the scene's folder; names end in .exr, .png, "
@@ -73,6 +139,10 @@ constexpr KeyRow kRows[] = {
      "first and last elevation of the sun; needs a sun", kNoNote},
     {"animation.hours", kHours, from_to(-8784, 8784), "h",
      "first and last time, counted from atmosphere.date and time, which it needs", kNoNote},
+    {"animation.keys", kAnimationKeys, any(), "",
+     "what moves, by rising frames: each key gives what it has at its frame, and the `way` to the "
+     "next key that has it; docs/animation.md",
+     kNoNote, &kKeyList},
 };
 
 }  // namespace

@@ -2,15 +2,12 @@
 // The key of a medium's transfer function: a list of rows, whose keys have rows of their own.
 // in: checked values <-> out: MediumSettings::transfer.
 // docs/scene.md, "A transfer function".
+#include "src/scene/transfer.h"
+
 #include "src/scene/keys/all_keys.h"
 
 namespace pileus {
 namespace {
-
-Node named(const char* name, Node node) {
-    node.key = name;
-    return node;
-}
 
 Node row_node(const TransferRow& row) {
     Node node;
@@ -20,7 +17,7 @@ Node row_node(const TransferRow& row) {
     return node;
 }
 
-constexpr KeyField kTransfer{KeyKind::kTransfer,
+constexpr KeyField kTransfer{KeyKind::kRows,
                              [](const KeySource& s) {
                                  Node list;
                                  list.kind = NodeKind::kArray;
@@ -40,6 +37,15 @@ constexpr KeyField kTransfer{KeyKind::kTransfer,
                                  }
                              }};
 
+constexpr KeyRow kRows[] = {
+    {"value", KeyKind::kNumber, from_to(-1e30, 1e30), "", "", kRequired},
+    {"extinction_per_m", KeyKind::kNumber, from_to(0, 1e12), "1/m", "", kRequired},
+    {"albedo", KeyKind::kColor, from_to(0, 1), "", ""},
+};
+
+Span<const KeyRow> row_keys() { return {kRows, sizeof kRows / sizeof kRows[0]}; }
+constexpr RowList kList{row_keys, "value", 2, kMostTransferRows};
+
 constexpr KeyRow kKey{"medium.N.transfer",
                       kTransfer,
                       any(),
@@ -47,17 +53,11 @@ constexpr KeyRow kKey{"medium.N.transfer",
                       "by rising values, what the medium is at a value of its density or variable, "
                       "linear between and constant beyond; in place of the medium's extinction and "
                       "albedo",
-                      kNoNote};
-
-constexpr KeyRow kRows[] = {
-    {"value", KeyKind::kNumber, from_to(-1e30, 1e30), "", "", kRequired},
-    {"extinction_per_m", KeyKind::kNumber, from_to(0, 1e12), "1/m", "", kRequired},
-    {"albedo", KeyKind::kColor, from_to(0, 1), "", ""},
-};
+                      kNoNote,
+                      &kList};
 
 }  // namespace
 
 const KeyRow& transfer_key() { return kKey; }
-Span<const KeyRow> transfer_row_keys() { return {kRows, sizeof kRows / sizeof kRows[0]}; }
 
 }  // namespace pileus

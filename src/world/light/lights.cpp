@@ -41,9 +41,9 @@ void set_faces(const double (&flux)[6], Light& light) {
 
 bool any_positive(const Double3& c) { return c[0] > 0 || c[1] > 0 || c[2] > 0; }
 
-void plan_sun(const Scene& scene, const Medium& medium, double elevation_deg, Plan& plan,
+void plan_sun(const Scene& scene, const Medium& medium, const SunPlace& place, Plan& plan,
               Lighting& out) {
-    const Double3 to_sun = towards_deg(scene.sun.azimuth_deg, elevation_deg);
+    const Double3 to_sun = towards_deg(place.azimuth_deg, place.elevation_deg);
     for (std::size_t c = 0; c < 3; ++c) {
         out.to_sun[c] = float(to_sun[c]);
         if (scene.sun.present) out.sun_irradiance[c] = double(scene.sun.irradiance[c]);
@@ -224,9 +224,8 @@ void share_photons(std::uint64_t per_generation, std::vector<Light>& lights) {
     }
 }
 
-Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elevation_deg,
-                       Plan& plan, const SkyMap* map, const Solids* solids,
-                       const CameraDepth* depth) {
+Lighting plan_lighting(const Scene& scene, const Medium& medium, const SunPlace& place, Plan& plan,
+                       const SkyMap* map, const Solids* solids, const CameraDepth* depth) {
     Lighting out;
     if (solids != nullptr && solids->meshes) out.solids = solids;
     if (depth != nullptr && depth->present) out.depth = depth;
@@ -234,10 +233,10 @@ Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elev
     const bool dark = medium.sigma <= 0 || medium.density_max <= 0;
     if (mapped) out.map = map->view;
     if (scene.sky.present && !mapped) plan.leave_out("sky map", "constant sky");
-    plan_sun(scene, medium, sun_elevation_deg, plan, out);
+    plan_sun(scene, medium, place, plan, out);
     for (std::size_t c = 0; c < 3; ++c)
         if (scene.sky.present && !mapped) out.sky[c] = double(scene.sky.radiance[c]);
-    plan_ground(scene, medium, mapped ? map : nullptr, sun_elevation_deg, plan, out);
+    plan_ground(scene, medium, mapped ? map : nullptr, place.elevation_deg, plan, out);
     if (!scene.lights.empty()) out.lamps = plan_lamps(scene, medium, plan);
     if (medium.grid.periodic) plan.leave_out("side faces", "periodic medium: it has none");
     if (dark) {
@@ -245,8 +244,7 @@ Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elev
         return out;
     }
     if (out.sunlit) {
-        const Light sun =
-            beam_light(medium, -towards_deg(scene.sun.azimuth_deg, sun_elevation_deg));
+        const Light sun = beam_light(medium, -towards_deg(place.azimuth_deg, place.elevation_deg));
         add_light("sun", kSunStream, out.sun_irradiance, sun, out);
     } else if (!scene.sun.present || scene.ground.present == false) {
         plan.leave_out("sun photons", "no sunlight");

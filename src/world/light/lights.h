@@ -61,8 +61,8 @@ struct Lighting {
 /// Works out the lights and notes in `plan` what was left out. `map` is the scene's sky map, aimed
 /// at the medium's box; null or empty: a constant sky. `solids`, `depth`: null or
 /// without any: none.
-Lighting plan_lighting(const Scene& scene, const Medium& medium, double sun_elevation_deg,
-                       Plan& plan, const SkyMap* map = nullptr, const Solids* solids = nullptr,
+Lighting plan_lighting(const Scene& scene, const Medium& medium, const SunPlace& sun, Plan& plan,
+                       const SkyMap* map = nullptr, const Solids* solids = nullptr,
                        const CameraDepth* depth = nullptr);
 
 /// The same light without sky and lamps: the ground then sends back sunlight alone.

@@ -82,7 +82,7 @@ Status outline_camera_depth(const Scene& scene, const Context& context, CameraDe
 Status read_camera_depth(const Scene& scene, const Context& context, CameraDepth& depth) {
     if (scene.camera.depth.empty()) return Status::ok();
     const StageClock clock(context, "solids");
-    const std::string path = scene_path(scene.directory, scene.camera.depth);
+    const std::string path = depth_path(scene);
     Image image;
     PILEUS_TRY(at_key(scene, "camera.depth", read_image(path, image)));
     if (file_extension(path) == ".pfm")

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks the rows of a transfer function.
+// Checks lists of tables: the rows of a transfer function, the keys of an animation.
 // in: a list of tables -> out: true, or faults that say what is allowed.
-// docs/scene.md, "A transfer function".
+// docs/scene.md, "A transfer function"; docs/animation.md
 #include "src/scene/checks/check_keys.h"
-#include "src/scene/transfer.h"
 
 namespace pileus {
 namespace {
 
 /// Known keys within their ranges, and none that is required left out.
-bool check_row(const Node& table, const std::string& path, FaultList& faults) {
+bool check_row(const RowList& list, const Node& table, const std::string& path, FaultList& faults) {
     bool good = true;
     std::string names;
-    for (const KeyRow& row : transfer_row_keys()) {
+    for (const KeyRow& row : list.keys()) {
         names += (names.empty() ? "" : ", ") + std::string(row.path);
         const std::string key = path + "." + row.path;
         if (const Node* value = table.find(row.path)) {
@@ -24,7 +23,7 @@ bool check_row(const Node& table, const std::string& path, FaultList& faults) {
     }
     for (const Node& child : table.children) {
         bool known = false;
-        for (const KeyRow& row : transfer_row_keys()) known |= child.key == row.path;
+        for (const KeyRow& row : list.keys()) known |= child.key == row.path;
         if (known) continue;
         faults.add(child.key_at, path,
                    "unknown key, " + quote_text(child.key) + ", allowed: " + names);
@@ -35,11 +34,10 @@ bool check_row(const Node& table, const std::string& path, FaultList& faults) {
 
 }  // namespace
 
-bool check_transfer(const KeyRow& row, const Node& list, const std::string& path,
-                    FaultList& faults) {
+bool check_rows(const KeyRow& row, const Node& list, const std::string& path, FaultList& faults) {
     bool good = list.is_array();
     for (const Node& child : list.children) good = good && child.is_table();
-    if (!good || list.children.size() < 2 || list.children.size() > kMostTransferRows) {
+    if (!good || list.children.size() < row.list->least || list.children.size() > row.list->most) {
         faults.add(list.at, path,
                    std::string(good ? "wrong length" : "wrong type") + ", " +
                        (good ? std::to_string(list.children.size()) + " rows" : value_text(list)) +
@@ -47,13 +45,14 @@ bool check_transfer(const KeyRow& row, const Node& list, const std::string& path
         return false;
     }
     for (std::size_t i = 0; i < list.children.size(); ++i)
-        good = check_row(list.children[i], path + "." + std::to_string(i), faults) && good;
+        good =
+            check_row(*row.list, list.children[i], path + "." + std::to_string(i), faults) && good;
     if (!good) return false;
     for (std::size_t i = 1; i < list.children.size(); ++i) {
-        const Node& value = *list.children[i].find("value");
-        const double before = number_of(*list.children[i - 1].find("value"));
+        const Node& value = *list.children[i].find(row.list->rising);
+        const double before = number_of(*list.children[i - 1].find(row.list->rising));
         if (number_of(value) > before) continue;
-        faults.add(value.at, path + "." + std::to_string(i) + ".value",
+        faults.add(value.at, path + "." + std::to_string(i) + "." + row.list->rising,
                    "not rising, " + value_text(value) + ", allowed: more than " +
                        number_text(before) + ", that of the row before");
         return false;

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// See foretell.h.
+#include "src/session/foretell.h"
+
+#include <algorithm>
+#include <map>
+
+namespace pileus {
+namespace {
+
+/// Seconds by stage; what no stage has counts as one of its own, without a name.
+using Seconds = std::map<std::string, double>;
+
+/// What stages took from one moment to a later one.
+struct Clocks {
+    Seconds staged;
+    double total_s = 0;
+
+    Clocks() = default;
+    explicit Clocks(const Report& report) : total_s(report.total_s) {
+        for (const StageTime& stage : report.stages) staged[stage.name] += stage.wall_s;
+    }
+    Seconds since(const Clocks& before) const {
+        Seconds out;
+        double rest = total_s - before.total_s;
+        for (const auto& [name, seconds] : staged) {
+            const auto then = before.staged.find(name);
+            out[name] = seconds - (then == before.staged.end() ? 0 : then->second);
+            rest -= out[name];
+        }
+        out[""] = std::max(rest, 0.0);
+        return out;
+    }
+};
+
+/// A first frame and a further one.
+struct Trial {
+    Seconds first, next;
+};
+
+/// With a share 1 / edge^2 of the pixels and photons.
+Status try_small(const Scene& scene, const RenderOptions& options, int edge, Trial& trial) {
+    Scene small = scene;
+    for (int& pixels : small.camera.resolution) pixels = std::max(pixels / edge, 1);
+    const auto fewer = [edge](std::int64_t& photons) {
+        if (photons > 0) photons = std::max(photons / (edge * edge), std::int64_t(1));
+    };
+    fewer(small.collectors.photons);
+    fewer(small.photon_grid.photons);
+    // Of depth images there are none of this size.
+    small.camera.depth.clear();
+    RenderOptions some = options;
+    fewer(some.budget_photons);
+    some.digests = false;
+    some.verify = 0;
+    some.state.clear();
+    some.last_frame = std::min(options.last_frame, options.first_frame + 1);
+    Clocks before;
+    return render(small, some, [&](int frame, Image&, Report& report) {
+        const Clocks now(report);
+        // Clocks of stages begin anew where a frame has a session of its own.
+        if (frame > some.first_frame && frames_stand_alone(scene)) before.staged.clear();
+        (frame == some.first_frame ? trial.first : trial.next) = now.since(before);
+        before = now;
+        return Status::ok();
+    });
+}
+
+double grown(const Seconds& small, const Seconds& large) {
+    constexpr double kMore = (1 - 1.0 / 16) / (1.0 / 16 - 1.0 / 64);
+    double seconds = 0;
+    for (const auto& [name, s] : large) {
+        const auto before = small.find(name);
+        seconds += s + kMore * std::max(before == small.end() ? s : s - before->second, 0.0);
+    }
+    return seconds;
+}
+
+}  // namespace
+
+Status foretell_time(const Scene& scene, const RenderOptions& options, ForetoldTime& out) {
+    if (options.budget_seconds > 0 || options.budget_error > 0)
+        return Status::bad_input(
+            "--time: a budget of seconds or of an error is no amount of work, "
+            "allowed: another, or none");
+    Trial small, large;
+    PILEUS_TRY(try_small(scene, options, 8, small));
+    PILEUS_TRY(try_small(scene, options, 4, large));
+    out.first_s = grown(small.first, large.first);
+    out.next_s = grown(small.next, large.next);
+    out.total_s = out.first_s + (options.last_frame - options.first_frame) * out.next_s;
+    return Status::ok();
+}
+
+}  // namespace pileus
