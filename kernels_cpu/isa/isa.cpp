@@ -69,6 +69,7 @@ std::uint64_t self_test_kernel() { return self_test_digest<PILEUS_WIDTH>(); }
 #define PILEUS_PIXELS(isa) PILEUS_JOIN(pixel_kernel_, isa)
 #define PILEUS_FINISH(isa) PILEUS_JOIN(finish_kernel_, isa)
 #define PILEUS_AIR(isa) PILEUS_JOIN(air_kernel_, isa)
+#define PILEUS_TURN_SKY(isa) PILEUS_JOIN(turn_sky_kernel_, isa)
 #define PILEUS_SWEEP(isa) PILEUS_JOIN(sweep_kernel_, isa)
 #define PILEUS_SWEEP_LAYER(isa) PILEUS_JOIN(sweep_layer_kernel_, isa)
 #define PILEUS_PATH_SOLIDS(isa) PILEUS_JOIN(path_solids_, isa)
@@ -112,6 +113,8 @@ void PILEUS_PIXELS(PILEUS_ISA)(const PixelParams&, const PixelBuffers&, std::uin
                                std::uint32_t);
 void PILEUS_FINISH(PILEUS_ISA)(const FinishParams&, const FinishBuffers&, std::uint32_t,
                                std::uint32_t);
+void PILEUS_TURN_SKY(PILEUS_ISA)(const SkyTurnParams&, const SkyTurnBuffers&, std::uint32_t,
+                                 std::uint32_t);
 void PILEUS_AIR(PILEUS_ISA)(const AirRowsParams&, const AirRowsBuffers&, std::uint32_t,
                             std::uint32_t);
 void PILEUS_SWEEP(PILEUS_ISA)(const SweepParams&, const SweepBuffers&, std::uint32_t);
@@ -149,6 +152,7 @@ const KernelTable PILEUS_TABLE(PILEUS_ISA) = {
     &PILEUS_PACK(PILEUS_ISA),
     PILEUS_FINISH(PILEUS_ISA),
     PILEUS_AIR(PILEUS_ISA),
+    PILEUS_TURN_SKY(PILEUS_ISA),
 };
 
 }  // namespace pileus

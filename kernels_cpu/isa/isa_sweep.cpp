@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The sweep of optical depth, compiled once per instruction set, apart from isa.cpp so that both
-// build at once. in: the kernel templates -> out: two exported functions, named after the set.
+// The sweep of optical depth and the turning of skylight, compiled once per instruction set, apart
+// from isa.cpp so that both build at once. in: the kernel templates -> out: three exported
+// functions, named after the set.
 // docs/architecture.md, "Kernels: written once"; tools/check_objects proves that nothing leaks.
 #include "kernels_cpu/light/sweep_layer.h"
 #include "kernels_cpu/light/sweep_turned.h"
+#include "kernels_cpu/raymarch/sky_turn.h"
 
 #ifndef PILEUS_WIDTH
 #error "PILEUS_WIDTH is set by the build, one object per instruction set"
@@ -15,6 +17,7 @@
 #define PILEUS_JOIN(a, b) a##b
 #define PILEUS_SWEEP(isa) PILEUS_JOIN(sweep_kernel_, isa)
 #define PILEUS_SWEEP_LAYER(isa) PILEUS_JOIN(sweep_layer_kernel_, isa)
+#define PILEUS_TURN_SKY(isa) PILEUS_JOIN(turn_sky_kernel_, isa)
 
 namespace pileus {
 
@@ -31,6 +34,13 @@ void PILEUS_SWEEP_LAYER(PILEUS_ISA)(const SweepLayerParams&, const SweepBuffers&
 void PILEUS_SWEEP_LAYER(PILEUS_ISA)(const SweepLayerParams& k, const SweepBuffers& b,
                                     std::uint32_t begin, std::uint32_t end) {
     sweep_layer_rows<PILEUS_WIDTH>(k, b, begin, end);
+}
+
+void PILEUS_TURN_SKY(PILEUS_ISA)(const SkyTurnParams&, const SkyTurnBuffers&, std::uint32_t,
+                                 std::uint32_t);
+void PILEUS_TURN_SKY(PILEUS_ISA)(const SkyTurnParams& k, const SkyTurnBuffers& b,
+                                 std::uint32_t begin, std::uint32_t end) {
+    turn_sky<PILEUS_WIDTH>(k, b, begin, end);
 }
 
 }  // namespace pileus

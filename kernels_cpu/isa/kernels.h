@@ -18,6 +18,7 @@
 #include "kernels_cpu/procedural/sky_params.h"
 #include "kernels_cpu/raymarch/lamp_march_params.h"
 #include "kernels_cpu/raymarch/raymarch_params.h"
+#include "kernels_cpu/raymarch/sky_turn_params.h"
 #include "kernels_cpu/solids/solids_params.h"
 
 namespace pileus {
@@ -73,6 +74,9 @@ struct KernelTable {
                         std::uint32_t end) = nullptr;
     /// Rows of a picture through the air.
     void (*air_rows)(const AirRowsParams&, const AirRowsBuffers&, std::uint32_t begin,
+                     std::uint32_t end) = nullptr;
+    /// Nodes of skylight as a camera sees it.
+    void (*turn_sky)(const SkyTurnParams&, const SkyTurnBuffers&, std::uint32_t begin,
                      std::uint32_t end) = nullptr;
 };
 

@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "src/world/phase/forward_share.h"
@@ -46,7 +47,7 @@ struct Row {
                         1,
                         share,
                         {seen.data(), seen.size()}},
-                       0, kNodes, light);
+                       *kernel_table(nullptr), 0, kNodes, light);
     }
 };
 
@@ -127,4 +128,48 @@ TEST_CASE("sky view: a cloud under its sky has the mean of paths, thin, white or
         // What docs/raymarch.md promises, and the noise of 64 samples a pixel, a hundredth at most.
         CHECK(marched == doctest::Approx(paths).epsilon(0.11));
     }
+}
+
+TEST_CASE("sky view: every instruction set has the same bits, wherever a piece of nodes ends") {
+    constexpr std::int32_t kSize[3] = {7, 5, 3};
+    constexpr std::size_t kCount = 7 * 5 * 3;
+    const Row row({kPhaseHg, 0.85f, 0, 1});
+    SkyView view = row.view;
+    view.turned = true;
+    double share[3][kSkyParts];
+    for (std::size_t s = 0; s < 3; ++s)
+        for (std::size_t p = 0; p < kSkyParts; ++p)
+            share[s][p] = double((7 * s + 3 * p) % 11) / 121;
+    std::vector<float> seen(std::size_t(sky_seen_numbers(true, 3)) * kCount);
+    for (std::size_t i = 0; i < seen.size(); ++i) seen[i] = float((i * 7919) % 1009) / 1009;
+    for (const bool parallel : {false, true})
+        for (const int octaves : {1, 3}) {
+            view.camera.orthographic = parallel ? 1 : 0;
+            view.camera.forward[1] = 1;
+            for (float& v : view.camera.origin) v = 25;
+            std::vector<float> wanted;
+            for (int i = 0; kernel_table_at(i) != nullptr; ++i)
+                for (const std::uint32_t piece : {1u, 5u, 16u, 105u}) {
+                    if (kernel_table_at(i)->turn_sky == nullptr) continue;  // a device
+                    std::vector<float> light(3 * kCount, -1);
+                    for (std::uint32_t begin = 0; begin < kCount; begin += piece)
+                        turn_sky_nodes({{{kSize[0], kSize[1], kSize[2]}, {0.1f, 0.1f, 0.1f}},
+                                        &view,
+                                        &row.phase,
+                                        &row.middles,
+                                        3,
+                                        octaves,
+                                        share,
+                                        {seen.data(), seen.size()}},
+                                       *kernel_table_at(i), begin,
+                                       std::min(begin + piece, std::uint32_t(kCount)),
+                                       light.data());
+                    if (wanted.empty()) wanted = light;
+                    CHECK(light == wanted);
+                }
+            for (const float v : wanted) {
+                REQUIRE(v >= 0);
+                REQUIRE(v <= 1);
+            }
+        }
 }

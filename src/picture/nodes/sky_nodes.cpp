@@ -237,7 +237,8 @@ Status make_sky_nodes(const Context& context, const Medium& medium, const Majora
         if (view.turned) {
             turn_sky_nodes({out.grid, &view, &out.phase, &middles, out.sets, octaves.count, r.share,
                             out.seen.span()},
-                           begin, begin + slice, out.light.data());
+                           *context.kernels, std::uint32_t(begin), std::uint32_t(begin + slice),
+                           out.light.data());
             return;
         }
         for (int s = 0; s < out.sets; ++s) {

@@ -6,15 +6,14 @@
 #include <array>
 
 #include "kernels_cpu/core/camera.h"
+#include "kernels_cpu/isa/kernels.h"
 #include "kernels_cpu/raymarch/raymarch_params.h"
+#include "kernels_cpu/raymarch/sky_turn_params.h"
 #include "src/base/span.h"
 #include "src/world/medium/medium.h"
 
 namespace pileus {
 
-/// Equal parts of the sphere that nodes see apart, the lower half first: so many bands in height,
-/// so many around.
-constexpr int kSphereBands = 6, kSphereAround = 4, kSkyParts = kSphereBands * kSphereAround;
 /// Unit vector within a part, at shares u and v of its height and width: its middle.
 std::array<float, 3> sky_direction(int part, double u = 0.5, double v = 0.5);
 using SkyDirections = std::array<std::array<float, 3>, kSkyParts>;
@@ -37,7 +36,6 @@ constexpr int sky_seen_numbers(bool turned, int octaves) {
 /// Share of light that comes from a direction within a part of the sphere and is scattered by an
 /// angle, the angle to the part's middle: by its cosine, from -1 to 1. Its mean over the sphere
 /// is 1.
-constexpr int kSkyPhaseSteps = 256;
 using SkyPhase = std::array<float, kSkyPhaseSteps + 1>;
 
 /// Mean over all media, each over a disc as large as a part.
@@ -53,7 +51,8 @@ struct SkyViewInput {
     Span<const float> seen;                      ///< [number][node]
 };
 
-/// Brightness of nodes [begin, end) in each set, [set][node].
-void turn_sky_nodes(const SkyViewInput& in, std::size_t begin, std::size_t end, float* light);
+/// Brightness of nodes [begin, end) in each set, [set][node]. `kernels`: a table of the host.
+void turn_sky_nodes(const SkyViewInput& in, const KernelTable& kernels, std::uint32_t begin,
+                    std::uint32_t end, float* light);
 
 }  // namespace pileus
