@@ -2,10 +2,30 @@
 // See air_view.h.
 #include "src/picture/air_view.h"
 
+#include <algorithm>
+
 #include "platform/threads.h"
 #include "src/picture/march_view.h"
+#include "src/picture/sun_disc.h"
 
 namespace pileus {
+namespace {
+
+/// Through the media it is dimmed as the sky is; where a host lays them over it, later.
+void show_sun(const Scene& scene, const CameraParams& camera, const AirRowsParams& k,
+              const Planes& planes, const AirPlanes& on, const Atmosphere& air) {
+    SunDisc disc;
+    for (int a = 0; a < 3; ++a) disc.to_sun[a] = k.to_sun[a];
+    if (scene.sun.angular_radius_deg > 0) disc.radius_deg = scene.sun.angular_radius_deg;
+    disc.horizon = double(k.horizon);
+    const double height_km = std::min(air.camera_km, 0.999 * (kAirTopKm - kEarthRadiusKm));
+    disc.irradiance = sunlight(air.tables, height_km, double(k.to_sun[2]));
+    for (std::size_t c = 0; c < 3; ++c) disc.irradiance[c] *= air.above[int(c)];
+    add_sun_disc(camera, disc, planes.opaque_depth.span(),
+                 on.through ? planes.transmittance.span() : Span<const float>{}, on.behind);
+}
+
+}  // namespace
 
 Status run_air(const Context& context, const Scene& scene, const Medium& medium,
                const Lighting& lighting, const CameraParams& camera, Surroundings& around,
@@ -54,6 +74,7 @@ Status run_air(const Context& context, const Scene& scene, const Medium& medium,
         const std::uint32_t begin = std::uint32_t(piece) * kPiece;
         context.kernels->air_rows(k, b, begin, begin + kPiece < rows ? begin + kPiece : rows);
     });
+    if (scene.atmosphere.sun_disc) show_sun(scene, camera, k, planes, on, air);
     return Status::ok();
 }
 

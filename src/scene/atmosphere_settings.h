@@ -17,6 +17,7 @@ struct AtmosphereSettings {
     double turbidity = 2;        ///< of air and haze over that of air; [1, 10]
     double ground_albedo = 0.2;  ///< of the round earth where there is no [ground]
     bool refraction = true;      ///< lifts the sun of a date
+    bool sun_disc = true;        ///< the sun itself is seen in the sky
 };
 
 }  // namespace pileus

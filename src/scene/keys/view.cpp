@@ -127,6 +127,8 @@ constexpr KeyRow kAirRows[] = {
      "of the round earth, where there is no [ground]"},
     {"atmosphere.refraction", air<&Air::refraction>, any(), "",
      "whether the air lifts the sun of a date near the horizon"},
+    {"atmosphere.sun_disc", air<&Air::sun_disc>, any(), "",
+     "whether the sun itself is seen in the sky; of sun.angular_radius_deg, or 0.2665 degrees"},
 };
 
 }  // namespace

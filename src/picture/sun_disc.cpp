@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// See sun_disc.h.
+#include "src/picture/sun_disc.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "src/base/angles.h"
+
+namespace pileus {
+namespace {
+
+constexpr int kMostParts = 64;                        // of a pixel's edge
+constexpr double kMostPixel = 8;                      // radii of the disc
+constexpr double kDiscArea = 3.14159265358979323846;  // of radius 1
+
+/// Whole numbers of pixels that a stretch [low, high] of the picture touches, within its size.
+struct Stretch {
+    int begin, end;
+};
+Stretch touched(double middle, double reach, int size) {
+    const double low = std::min(std::max(middle - reach, -1.0), size + 1.0);
+    const double high = std::min(std::max(middle + reach, -1.0), size + 1.0);
+    return {std::max(int(std::floor(low)), 0), std::min(int(std::floor(high)) + 1, size)};
+}
+
+}  // namespace
+
+void add_sun_disc(const CameraParams& c, const SunDisc& disc, Span<const float> opaque_depth,
+                  Span<const float> transmittance, float* behind) {
+    double ahead = 0, right = 0, up = 0;
+    for (int a = 0; a < 3; ++a) {
+        ahead += double(c.forward[a]) * double(disc.to_sun[a]);
+        right += double(c.right[a]) * double(disc.to_sun[a]);
+        up += double(c.up[a]) * double(disc.to_sun[a]);
+    }
+    const SineCosine r = sincos_deg(disc.radius_deg);
+    // From the side or behind, the disc is in no picture of less than 179 degrees.
+    if (c.orthographic != 0 || !(ahead > 0.01)) return;
+    const double x = right / ahead, y = up / ahead, slant = 1 + x * x + y * y;
+    const double reach = 1.5 * slant * r.sine;  // on the image plane, at distance 1
+    const double wide = 0.5 * c.width / double(c.half_width),
+                 high = 0.5 * c.height / double(c.half_height);
+    const Stretch columns =
+        touched((x - double(c.shift_x)) * wide + 0.5 * c.width, reach * wide + 1, c.width);
+    const Stretch rows =
+        touched(0.5 * c.height - (y - double(c.shift_y)) * high, reach * high + 1, c.height);
+    // Parts of a pixel lie within a sixteenth of the radius, or as many as there may be.
+    const double pixel = 1 / std::min(wide, high);
+    const int parts = int(std::min(std::max(16 * pixel / r.sine, 4.0), double(kMostParts)));
+    // What is smaller than parts are is in one pixel: its area over the pixel's.
+    const bool point = pixel > kMostPixel * r.sine;
+    const int own_x = int(std::floor((x - double(c.shift_x)) * wide + 0.5 * c.width));
+    const int own_y = int(std::floor(0.5 * c.height - (y - double(c.shift_y)) * high));
+    const double point_share =
+        double(disc.to_sun[2]) < disc.horizon
+            ? 0
+            : kDiscArea * r.sine * r.sine * slant * __builtin_sqrt(slant) * wide * high;
+    std::array<double, 3> radiance{};
+    for (std::size_t n = 0; n < 3; ++n)
+        radiance[n] = disc.irradiance[n] / (kDiscArea * r.sine * r.sine);
+    const std::size_t pixels = std::size_t(c.width) * std::size_t(c.height);
+    for (int j = rows.begin; j < rows.end; ++j)
+        for (int i = columns.begin; i < columns.end; ++i) {
+            const std::size_t at = std::size_t(j) * std::size_t(c.width) + std::size_t(i);
+            if (opaque_depth.size > 0 && opaque_depth.data[at] < 1e30f) continue;
+            int within = 0;
+            for (int v = 0; v < parts && !point; ++v)
+                for (int u = 0; u < parts; ++u) {
+                    const double px = (i + (u + 0.5) / parts - 0.5 * c.width) / wide +
+                                      double(c.shift_x),
+                                 py = (0.5 * c.height - j - (v + 0.5) / parts) / high +
+                                      double(c.shift_y);
+                    double d[3], along = 0, square = 0;
+                    for (int a = 0; a < 3; ++a) {
+                        d[a] =
+                            double(c.forward[a]) + px * double(c.right[a]) + py * double(c.up[a]);
+                        along += d[a] * double(disc.to_sun[a]);
+                        square += d[a] * d[a];
+                    }
+                    // |d| sin <= |d| sin r, without a difference of near numbers.
+                    double off = 0;
+                    for (int a = 0; a < 3; ++a) {
+                        const int b = (a + 1) % 3, e = (a + 2) % 3;
+                        const double cross =
+                            d[b] * double(disc.to_sun[e]) - d[e] * double(disc.to_sun[b]);
+                        off += cross * cross;
+                    }
+                    within +=
+                        along > 0 && off <= r.sine * r.sine * square &&
+                        d[2] * std::abs(d[2]) >= disc.horizon * std::abs(disc.horizon) * square;
+                }
+            double share = double(within) / (parts * parts);
+            if (point) share = i == own_x && j == own_y ? point_share : 0;
+            if (!(share > 0)) continue;
+            if (transmittance.size > 0) share *= double(transmittance.data[at]);
+            for (std::size_t n = 0; n < 3; ++n)
+                behind[n * pixels + at] += float(share * radiance[n]);
+        }
+}
+
+}  // namespace pileus
