@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <fstream>
 
-#include "tests/support/render_harness.h"
+#include "tests/support/air_scene.h"
 #include "tools/view/controls.h"
 #include "tools/view/noise.h"
 #include "tools/view/overlay.h"
@@ -23,7 +23,7 @@ namespace {
 
 Outcome play(const std::string& script, Settings settings = {}) {
     std::unique_ptr<Window> window;
-    settings.text = render_test::kSmallCumulus;
+    if (settings.text.empty()) settings.text = render_test::kSmallCumulus;
     settings.sets.push_back("output.layers=[\"radiance\"]");
     settings.width = 64, settings.height = 36;
     settings.threads = 2;
@@ -253,6 +253,38 @@ TEST_CASE("view: every method, and those that a scene is not for") {
         s);
     CHECK(out.frames == 11);
     CHECK(out.first_lit_s > 0);
+}
+
+TEST_CASE("view: places that no camera may have leave the picture as it was, at any size") {
+    // A camera that cells are lit towards stands; the window changes, and things move so long that
+    // pictures would become smaller.
+    const std::string moves =
+        "frame\nresize 90 50\nkey w\nframe 2\nresize 20 18\nkey w\nframe 2\nkey p control\nframe\n"
+        "key 2\nresize 30 20\nframe 2\nkey p control\nframe\n";
+    Settings fixed;
+    fixed.fixed_exposure = true;
+    fixed.screenshots = "/tmp/pileus_view_test_" + std::to_string(::getpid());
+    fixed.sets = {"collectors.closure=\"camera\""};
+    const Outcome out = play(moves, fixed);
+    CHECK(out.frames == 9);
+    REQUIRE(out.screenshots.size() == 2);
+    const std::string wanted[] = {{'\0', '\0', '\0', 64, '\0', '\0', '\0', 36},
+                                  {'\0', '\0', '\0', 30, '\0', '\0', '\0', 20}};
+    for (std::size_t i = 0; i < 2; ++i) {
+        // Width and height of a PNG.
+        std::string head(24, ' ');
+        std::ifstream(out.screenshots[i], std::ios::binary).read(&head[0], 24);
+        CHECK(head.substr(16) == wanted[i]);
+        std::remove(out.screenshots[i].c_str());
+    }
+    // Above the air over a level ground.
+    std::string up;
+    for (int i = 0; i < 400; ++i) up += "wheel -9\nframe\n";
+    Settings air = fixed;
+    air.text = air_test::in_air();
+    air.sets = {"method.name=raymarch"};
+    air.fps = 1000;
+    CHECK(play(up + "key q\nframe\nresize 70 40\nkey q\nframe 3\n", air).frames >= 400);
 }
 
 TEST_CASE("view: screenshots take the next free name") {

@@ -1,16 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// See viewer.h. It uses the library as any host does, by pileus.h alone.
+// See viewer.h. It draws as any host does, by pileus.h; where the scene begins it reads itself.
 #include "tools/view/viewer.h"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <memory>
 
-#include "src/base/file.h"
-#include "src/io/images/image_file.h"
 #include "src/scene/calendar.h"
 #include "src/scene/read_scene.h"
 #include "src/world/atmosphere/atmosphere.h"
@@ -18,6 +15,7 @@
 #include "tools/view/drawn.h"
 #include "tools/view/noise.h"
 #include "tools/view/overlay.h"
+#include "tools/view/screenshot.h"
 #include "tools/view/smaller.h"
 
 namespace pileus::view {
@@ -38,7 +36,6 @@ public:
         PILEUS_TRY(begin());
         while (!state_.ended && (settings_.frames == 0 || outcome_.frames < settings_.frames))
             PILEUS_TRY(frame());
-        outcome_.seconds = window_.seconds();
         if (!moving_.empty()) {
             const auto middle = moving_.begin() + std::ptrdiff_t(moving_.size() / 2);
             std::nth_element(moving_.begin(), middle, moving_.end());
@@ -62,6 +59,7 @@ private:
             v.up[std::size_t(a)] = scene.camera.up[a];
         }
         v.fov_deg = scene.camera.fov_deg;
+        seen_ = v;
         state_.has_sun = scene.sun.present || scene.atmosphere.present;
         irradiance_ = scene.sun.irradiance;
         if (scene.ground.present) state_.lowest_m = scene.ground.altitude_m + 0.5;
@@ -101,11 +99,12 @@ private:
 
     Status open_method() {
         Settings own = settings_;
-        own.width = width_ = state_.width, own.height = height_ = state_.height;
+        own.width = state_.width, own.height = state_.height;
         auto drawn = std::make_unique<Drawn>();
         PILEUS_TRY(drawn->open(own, state_.method > 0 ? method_named(state_.method) : nullptr));
         noise_.begin();
         drawn_ = std::move(drawn);
+        width_ = seen_width_ = own.width, height_ = seen_height_ = own.height;
         governor_ = cleared<pileus_governor>();
         governor_.target_s = 1 / settings_.fps;
         frame_s_ = 0;
@@ -126,21 +125,37 @@ private:
         message_.clear();
     }
 
+    Status set_camera(const View& v) {
+        auto error = cleared<pileus_error>();
+        auto camera = cleared<pileus_camera>();
+        camera.width = std::uint32_t(width_);
+        camera.height = std::uint32_t(height_);
+        std::copy_n(v.position.data(), 3, camera.position_m);
+        std::copy_n(v.target.data(), 3, camera.target_m);
+        std::copy_n(v.up.data(), 3, camera.up);
+        camera.fov_deg = v.fov_deg;
+        return of(pileus_session_set_camera(drawn_->get(), &camera, &error), error);
+    }
+
+    /// A place that no camera may have is passed over, and a size that the session refuses: what is
+    /// drawn into has the size of what the session draws.
+    void move_camera() {
+        Status set = set_camera(state_.view);
+        if (!set) {
+            message_ = set.message.substr(0, 100);
+            View& v = state_.view;
+            v.position = seen_.position, v.target = seen_.target;
+            set = set_camera(v);
+        }
+        if (!set) width_ = seen_width_, height_ = seen_height_;
+        seen_ = state_.view;
+        seen_width_ = width_, seen_height_ = height_;
+    }
+
     Status aim() {
         auto error = cleared<pileus_error>();
         const View& v = state_.view;
-        if (state_.moved) {
-            auto camera = cleared<pileus_camera>();
-            camera.width = std::uint32_t(width_);
-            camera.height = std::uint32_t(height_);
-            std::copy_n(v.position.data(), 3, camera.position_m);
-            std::copy_n(v.target.data(), 3, camera.target_m);
-            std::copy_n(v.up.data(), 3, camera.up);
-            camera.fov_deg = v.fov_deg;
-            // A place that no camera may have is passed over.
-            if (pileus_session_set_camera(drawn_->get(), &camera, &error) != PILEUS_OK)
-                message_ = std::string(error.message).substr(0, 100);
-        }
+        if (state_.moved) move_camera();
         if (state_.sun_moved) {
             auto sun = cleared<pileus_sun>();
             sun.present = state_.has_sun ? 1 : 0;
@@ -264,24 +279,12 @@ private:
         return sum > 0 ? double(times_.size()) / sum : 0;
     }
 
-    /// The picture as it is on the screen, without what is drawn over it, under a name that is
-    /// free.
+    /// The picture as it is on the screen, without what is drawn over it.
     Status take_screenshot() {
-        const std::size_t pixels = bytes_.size() / 4;
-        Buffer<std::uint8_t> rgb;
-        PILEUS_TRY(rgb.resize(3 * pixels, "screenshot"));
-        for (std::size_t i = 0; i < 3 * pixels; ++i) rgb[i] = bytes_[i / 3 * 4 + i % 3];
-        Buffer<char> file;
-        PILEUS_TRY(encode_png(width_, height_, {rgb.data(), rgb.size()}, file));
-        for (int n = 1; n < 10000; ++n) {
-            const std::string path = fmt::format("{}_{:04}.png", settings_.screenshots, n);
-            if (std::ifstream(path).good()) continue;
-            PILEUS_TRY(write_file(path, {file.data(), file.size()}));
-            outcome_.screenshots.push_back(path);
-            message_ = path;
-            return Status::ok();
-        }
-        message_ = "no free name for a screenshot";
+        std::string path;
+        PILEUS_TRY(write_screenshot(settings_.screenshots, bytes_, width_, height_, path));
+        message_ = path.empty() ? "no free name for a screenshot" : path;
+        if (!path.empty()) outcome_.screenshots.push_back(path);
         return Status::ok();
     }
 
@@ -373,6 +376,8 @@ private:
     Float3 irradiance_{1, 1, 1};
     std::vector<std::uint8_t> bytes_, shown_;  ///< as drawn; of the window's size
     int width_ = 0, height_ = 0;               ///< of what is drawn
+    View seen_;                                ///< that the session has, and the size
+    int seen_width_ = 0, seen_height_ = 0;
     Smaller smaller_;
     std::vector<float> depth_, linear_;
     Noise noise_;

@@ -25,7 +25,7 @@ struct Settings {
 /// What a run was like, for tests and for a line at its end.
 struct Outcome {
     int frames = 0;
-    double first_lit_s = 0, seconds = 0;
+    double first_lit_s = 0;
     int moving = 0;       ///< frames while things moved, without the first of each time
     double moving_s = 0;  ///< median from one to the next
     std::vector<std::string> screenshots;
