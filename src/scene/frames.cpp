@@ -70,11 +70,6 @@ Placement placement_at(const Scene& scene, int frame) {
     return at;
 }
 
-bool moves_camera(const Scene& scene) {
-    const Animation& a = scene.animation;
-    return (a.present && a.moves_camera) || has(scene, Track::kPosition) ||
-           has(scene, Track::kTarget) || has(scene, Track::kFov);
-}
 bool moves_sun(const Scene& scene) {
     const Animation& a = scene.animation;
     return (a.present && a.moves_sun) || has(scene, Track::kAzimuth) ||
@@ -87,6 +82,14 @@ bool moves_time(const Scene& scene) {
 bool moves_wind(const Scene& scene) { return has(scene, Track::kWind); }
 bool moves_media(const Scene& scene) {
     return has(scene, Track::kOffset) || has(scene, Track::kYaw);
+}
+
+const char* mover_of_view(const Scene& scene) {
+    if (scene.animation.present && scene.animation.moves_camera)
+        return "animation.camera_orbit_deg";
+    const bool by_keys = has(scene, Track::kPosition) || has(scene, Track::kTarget) ||
+                         has(scene, Track::kFov) || moves_media(scene);
+    return by_keys ? "animation.keys" : nullptr;
 }
 
 double highest_sun(const Scene& scene) {

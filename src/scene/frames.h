@@ -26,11 +26,12 @@ struct Placement {
 Placement placement_at(const Scene& scene, int frame);
 
 /// Whether frames differ in these, by ranges or keys.
-bool moves_camera(const Scene& scene);
 bool moves_sun(const Scene& scene);
 bool moves_time(const Scene& scene);
 bool moves_wind(const Scene& scene);
 bool moves_media(const Scene& scene);
+/// The key that makes frames see the media from different places; null: none does.
+const char* mover_of_view(const Scene& scene);
 /// The most of the sun's elevations.
 double highest_sun(const Scene& scene);
 

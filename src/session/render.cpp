@@ -155,9 +155,8 @@ Status render_frames(const Scene& scene, const RunStart& start, const RenderOpti
         report.frame_cpu_s = cpu_seconds() - frame_start.cpu_s;
         if (options.holding) options.holding(true);
         // Where the picture is, in the file's coordinates.
-        Scene seen = *session.run().scene;
-        seen.camera = camera_at(scene.animation, session.camera(), frame);
-        for (const auto& told : picture_place(seen, orbit_at(scene, frame)))
+        const Camera seen = camera_at(scene.animation, session.camera(), frame);
+        for (const auto& told : picture_place(scene, seen, orbit_at(scene, frame)))
             image.origin.push_back(told);
         PILEUS_TRY(deliver(scene, start, frame, sink, image, report));
         if (options.holding) options.holding(false);

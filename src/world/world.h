@@ -62,7 +62,7 @@ Status light_surroundings(const Scene& scene, int threads, const World& world,
 /// Reads the rest.
 Status load_surroundings(const Scene& scene, const Context& context, Surroundings& around);
 
-/// The lights for a sun at this elevation; what they say of photons goes to `plan`. The result
+/// The lights for a sun at this place; what they say of photons goes to `plan`. The result
 /// points into `world` and `around`.
 Lighting light_world(const Scene& scene, const SunPlace& sun, const World& world,
                      const Surroundings& around, Plan& plan);

@@ -247,3 +247,21 @@ TEST_CASE("animation: each frame has a depth image of its own") {
         CHECK(film[1] == hashes_of(scene_from(text, set), 1).at(0));
     }
 }
+
+TEST_CASE("animation: light towards one camera does not go with keys that move it, or the media") {
+    for (const char* track : {"camera_fov_deg = 9", "camera_position_m = [16, -4000, 300]",
+                              "media_offset_m = [0, 9, 0]", "media_yaw_deg = 9"})
+        for (const char* method : {"collectors", "photon-grid"}) {
+            CAPTURE(track);
+            Scene scene = scene_from(
+                kSmallCumulus + std::string("[animation]\nframes = 2\nkeys = [{frame = 0, ") +
+                    track + "}]\n",
+                {std::string("method.name=") + method, "collectors.closure=\"camera\"",
+                 "photon_grid.closure=\"camera\""});
+            const Status status =
+                render(scene, {}, [](int, Image&, Report&) { return Status::ok(); });
+            CHECK(status.code == Code::kBadInput);
+            CHECK_MESSAGE(status.message.find("but animation.keys moves it") != std::string::npos,
+                          status.message);
+        }
+}

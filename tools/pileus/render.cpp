@@ -123,7 +123,7 @@ Status add_world_files(const RenderArguments& arguments, const Scene& scene, Out
     if (!arguments.world_file) return Status::ok();
     Scene placed = scene;
     PILEUS_TRY(place_camera(placed));
-    if (picture_place(placed, 0).empty())
+    if (picture_place(placed, placed.camera, 0).empty())
         return Status::bad_input(scene.file +
                                  ": --world-file: no map, allowed: an orthographic camera that "
                                  "looks straight down on weather data");

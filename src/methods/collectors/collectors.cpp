@@ -131,10 +131,11 @@ Status collectors_outline(const Context& context, CollectorsRun& run) {
                                  "allowed: march, or collectors.scale = 1 and temporal = 0");
     run.budget_photons = collectors_photons(scene, run.budget);
     if (scene.collectors.camera_closure) {
-        if (moves_camera(scene))
+        if (const char* mover = mover_of_view(scene))
             return Status::bad_input(scene.file +
                                      ": collectors.closure: \"camera\" needs a fixed "
-                                     "camera, but animation.camera_orbit_deg moves it");
+                                     "camera, but " +
+                                     mover + " moves it");
         run.camera_cells = scene.collectors.cell_voxels;
     }
     // Tell before any work that the compositor asked for is not here.

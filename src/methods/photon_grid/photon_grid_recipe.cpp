@@ -33,10 +33,10 @@ Status check_closure(const Scene& scene) {
     if (periodic && !scene.camera.orthographic)
         return Status::bad_input(where +
                                  "not for periodic media, allowed: sh, or an orthographic camera");
-    if (closure == GridClosure::kCamera && moves_camera(scene))
-        return Status::bad_input(where +
-                                 "\"camera\" needs a fixed camera, but "
-                                 "animation.camera_orbit_deg moves it");
+    const char* mover = mover_of_view(scene);
+    if (closure == GridClosure::kCamera && mover != nullptr)
+        return Status::bad_input(where + "\"camera\" needs a fixed camera, but " + mover +
+                                 " moves it");
     return Status::ok();
 }
 

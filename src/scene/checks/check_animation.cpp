@@ -2,25 +2,15 @@
 // Laws between the keys of an animation and what they move.
 // in: keys that passed their own checks -> out: faults.
 // docs/animation.md
-#include <glm/geometric.hpp>
-
 #include "src/scene/checks/check_keys.h"
 #include "src/scene/frames.h"
 #include "src/scene/rows/density_row.h"
+#include "src/scene/view_fault.h"
 
 namespace pileus {
 namespace {
 
-// As that of a camera that stands (check_scene.cpp).
-constexpr double kLeastSine = 1e-6;
 constexpr int kMostChecked = 10000;
-
-void conflict(SceneCheck& check, const char* key, const char* with) {
-    if (const Node* node = check.key(key))
-        check.faults.add(node->key_at, key,
-                         std::string("conflicts with ") + with + ", " + value_text(*node) +
-                             ", allowed: left out");
-}
 
 /// Of keys that have a track: a fault at the first of them.
 class Keys {
@@ -70,17 +60,20 @@ void check_cameras(SceneCheck& check, Keys& keys) {
     const int step = 1 + (scene.animation.frames - 1) / kMostChecked;
     for (int frame = 0; frame < scene.animation.frames; frame += step) {
         const Camera c = camera_at(scene.animation, scene.camera, frame);
-        const Double3 view = c.target_m - c.position_m;
-        const double length = glm::length(view), up = glm::length(c.up);
         const std::string at = "frame " + std::to_string(frame) + ", ";
-        if (!(length > 0))
-            return keys.refuse_all(at + "the camera is at its target", "anywhere else");
-        if (up > 0 && !(glm::length(glm::cross(view, c.up)) > kLeastSine * length * up))
-            return keys.refuse_all(at + "the view is along camera.up", "any direction across it");
-        if (scene.ground.present && c.position_m[2] < scene.ground.altitude_m)
-            return keys.refuse_all(
-                at + "the camera is below the ground, z " + number_text(c.position_m[2]),
-                "at least ground.altitude_m " + number_text(scene.ground.altitude_m));
+        switch (view_fault(scene, c)) {
+            case ViewFault::kAtTarget:
+                return keys.refuse_all(at + "the camera is at its target", "anywhere else");
+            case ViewFault::kAlongUp:
+                return keys.refuse_all(at + "the view is along camera.up",
+                                       "any direction across it");
+            case ViewFault::kUnderground:
+                return keys.refuse_all(
+                    at + "the camera is below the ground, z " + number_text(c.position_m[2]),
+                    "at least ground.altitude_m " + number_text(scene.ground.altitude_m));
+            case ViewFault::kNone:
+                break;
+        }
     }
 }
 

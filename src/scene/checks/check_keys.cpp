@@ -237,4 +237,11 @@ void check_keys(const Node& root, SceneCheck& check) {
     if (root.find("camera") == nullptr) walker.table(Node(), "camera", "camera", nowhere);
 }
 
+void conflict(SceneCheck& check, const std::string& key, const char* with) {
+    if (const Node* node = check.key(key))
+        check.faults.add(node->key_at, key,
+                         std::string("conflicts with ") + with + ", " + value_text(*node) +
+                             ", allowed: left out");
+}
+
 }  // namespace pileus

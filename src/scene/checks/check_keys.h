@@ -46,6 +46,9 @@ void check_fields(std::vector<std::unique_ptr<Node>>& values, SceneCheck& check)
 /// `${PILEUS_DATA_DIR}` at its front. Returns false after adding a fault.
 bool check_path(SceneCheck& check, const Node& node, const char* key, std::string& file);
 
+/// A fault of a key, where it is given, that does not go with something else.
+void conflict(SceneCheck& check, const std::string& key, const char* with);
+
 /// Laws between the keys of one medium: density, file, phase, bounds.
 void check_medium(SceneCheck& check, std::size_t index);
 /// Each phase function has its own keys: all of them, and no others.

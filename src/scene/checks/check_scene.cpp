@@ -7,19 +7,10 @@
 #include "src/scene/checks/check_keys.h"
 #include "src/scene/rows/picture_format.h"
 #include "src/scene/rows/volume_format.h"
+#include "src/scene/view_fault.h"
 
 namespace pileus {
 namespace {
-
-// Sine of the smallest angle between up and the view: below it the picture's axes lose precision.
-constexpr double kLeastSine = 1e-6;
-
-void conflict(SceneCheck& check, const char* key, const char* with) {
-    if (const Node* node = check.key(key))
-        check.faults.add(node->key_at, key,
-                         std::string("conflicts with ") + with + ", " + value_text(*node) +
-                             ", allowed: left out");
-}
 
 /// Places in degrees need a map, which weather data alone has.
 void check_places(SceneCheck& check) {
@@ -78,16 +69,14 @@ void check_camera(SceneCheck& check) {
     // Where places are on the map is known once the map is.
     if (camera.position_by_place || camera.target_by_place) return;
     if (target == nullptr || position == nullptr) return;
-    const Double3 view = camera.target_m - camera.position_m;
-    if (glm::length(view) == 0) {
+    const ViewFault fault = view_fault(check.scene, camera);
+    if (fault == ViewFault::kAtTarget) {
         check.faults.add(
             target->at, "camera.target_m",
             "same as position_m, " + value_text(*target) + ", allowed: any other point");
         return;
     }
-    const Double3 across = glm::cross(view, camera.up);
-    if (up_valid &&
-        glm::length(across) <= kLeastSine * glm::length(view) * glm::length(camera.up)) {
+    if (up_valid && fault == ViewFault::kAlongUp) {
         const Node& blamed = up_node != nullptr ? *up_node : *target;
         check.faults.add(blamed.at, "camera.up",
                          "parallel to the view, " +

@@ -11,13 +11,6 @@
 namespace pileus {
 namespace {
 
-void conflict(SceneCheck& check, const std::string& key, const char* with) {
-    if (const Node* node = check.key(key))
-        check.faults.add(node->key_at, key,
-                         std::string("conflicts with ") + with + ", " + value_text(*node) +
-                             ", allowed: left out");
-}
-
 void check_solid(SceneCheck& check, std::size_t index) {
     SolidSettings& solid = check.scene.solids[index];
     const std::string path = "solid." + std::to_string(index) + ".";
@@ -41,13 +34,9 @@ void check_depth(SceneCheck& check) {
         return;
     }
     if (camera.flux) conflict(check, "camera.depth", "projection \"flux\"");
-    if (!is_sequence(camera.depth)) {
-        constexpr const char* kWhy = "camera.depth, which one camera sees where its name has no #";
-        if (check.scene.animation.moves_camera)
-            conflict(check, "animation.camera_orbit_deg", kWhy);
-        else if (moves_camera(check.scene) || moves_media(check.scene))
-            conflict(check, "animation.keys", kWhy);
-    }
+    const char* mover = is_sequence(camera.depth) ? nullptr : mover_of_view(check.scene);
+    if (mover != nullptr)
+        conflict(check, mover, "camera.depth, which one camera sees where its name has no #");
     const Node* file = check.valid_key("camera.depth");
     if (file == nullptr || !check_path(check, *file, "camera.depth", camera.depth)) return;
     const PictureFormat* format = picture_format_of(camera.depth);

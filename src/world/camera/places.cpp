@@ -10,6 +10,7 @@
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/volume_format.h"
 #include "src/scene/toml/toml_tree.h"
+#include "src/scene/view_fault.h"
 #include "src/world/camera/view.h"
 
 namespace pileus {
@@ -33,17 +34,19 @@ Status map_of(const Scene& scene, WeatherMap& map) {
 }
 
 Status check_view(const Scene& scene) {
-    constexpr double kLeastSine = 1e-6;
-    const Camera& c = scene.camera;
-    const Double3 view = c.target_m - c.position_m;
-    const double length = glm::length(view), up = glm::length(c.up);
-    if (!(length > 0)) return Status::bad_input("same as the target, allowed: any other place");
-    if (!(glm::length(glm::cross(view, c.up)) > kLeastSine * length * up))
-        return Status::bad_input("the view is along camera.up, allowed: any direction across it");
-    if (scene.ground.present && c.position_m[2] < scene.ground.altitude_m)
-        return Status::bad_input("below the ground, z " + number_text(c.position_m[2]) +
-                                 ", allowed: at least ground.altitude_m " +
-                                 number_text(scene.ground.altitude_m));
+    switch (view_fault(scene, scene.camera)) {
+        case ViewFault::kAtTarget:
+            return Status::bad_input("same as the target, allowed: any other place");
+        case ViewFault::kAlongUp:
+            return Status::bad_input(
+                "the view is along camera.up, allowed: any direction across it");
+        case ViewFault::kUnderground:
+            return Status::bad_input(
+                "below the ground, z " + number_text(scene.camera.position_m[2]) +
+                ", allowed: at least ground.altitude_m " + number_text(scene.ground.altitude_m));
+        case ViewFault::kNone:
+            break;
+    }
     return Status::ok();
 }
 
@@ -64,10 +67,9 @@ Status place_camera(Scene& scene) {
     return at_key(scene, key, check_view(scene));
 }
 
-std::vector<std::pair<std::string, std::string>> picture_place(const Scene& scene,
+std::vector<std::pair<std::string, std::string>> picture_place(const Scene& scene, const Camera& c,
                                                                double orbit_deg) {
     std::vector<std::pair<std::string, std::string>> told;
-    const Camera& c = scene.camera;
     if (!c.orthographic || c.flux || c.has_frustum || weather_of(scene) == nullptr) return told;
     const Double3 position = orbit(c.position_m, c.target_m, orbit_deg);
     const Double3 view = glm::normalize(c.target_m - position);

@@ -17,11 +17,12 @@ namespace pileus {
 /// or stands below the ground.
 Status place_camera(Scene& scene);
 
-/// What a picture says of its place where the camera is orthographic and looks straight down on
-/// weather data: names and texts "extent_m" ("west south east north", where up is north),
-/// "world_file" (six numbers of a world file, parted by blanks) and "projection" as PROJ writes it,
-/// left out where the file tells of no map. Empty for all other cameras.
+/// What a picture of a camera of the scene says of its place where that is orthographic and looks
+/// straight down on weather data: names and texts "extent_m" ("west south east north", where up is
+/// north), "world_file" (six numbers of a world file, parted by blanks) and "projection" as PROJ
+/// writes it, left out where the file tells of no map. Empty for all other cameras.
 std::vector<std::pair<std::string, std::string>> picture_place(const Scene& scene,
+                                                               const Camera& camera,
                                                                double orbit_deg);
 
 }  // namespace pileus
