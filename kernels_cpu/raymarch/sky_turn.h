@@ -4,30 +4,11 @@
 // in: SkyTurnParams, SkyTurnBuffers -> out: brightness of nodes, at most 1.
 // docs/raymarch.md, "Skylight"
 #pragma once
-#include "kernels_cpu/core/lanes_verbs.h"
-#include "kernels_cpu/core/vec.h"
+#include "kernels_cpu/core/pixel_block.h"
 #include "kernels_cpu/raymarch/sky_turn_params.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
-
-/// `count` numbers, 0 in the lanes behind them.
-template <int W>
-PILEUS_FN F<W> load_first(const float* from, int count) {
-    F<W> v{};
-    if (count == W)
-        __builtin_memcpy(&v, from, sizeof v);
-    else
-        for (int i = 0; i < count; ++i) set_lane(v, i, from[i]);
-    return v;
-}
-template <int W>
-PILEUS_FN void store_first(float* to, int count, F<W> v) {
-    if (count == W)
-        __builtin_memcpy(to, &v, sizeof v);
-    else
-        for (int i = 0; i < count; ++i) to[i] = lane(v, i);
-}
 
 /// The way from the camera to each of W nodes, a unit vector, and how much of it is known.
 template <int W>
@@ -75,17 +56,17 @@ PILEUS_FN void add_later_sky(const SkyTurnParams& k, const float* seen, std::siz
     T sum[3]{};
     for (int p = 0; p < kSkyParts; ++p) {
         const float* d = k.middles[p];
-        const T alike = load_first<W>(seen + std::size_t(kSkyParts + p) * nodes, count);
-        const T turned = load_first<W>(seen + std::size_t(2 * kSkyParts + p) * nodes, count);
+        const T alike = take_lanes<T>(seen + std::size_t(kSkyParts + p) * nodes, count);
+        const T turned = take_lanes<T>(seen + std::size_t(2 * kSkyParts + p) * nodes, count);
         const T along = (d[0] * w.way.x + d[1] * w.way.y + d[2] * w.way.z) * w.known;
         const T comes = alike + turned * along;
         for (int s = 0; s < k.sets; ++s) sum[s] = sum[s] + k.share[s][p] * comes;
     }
     const float* all_parts = seen + std::size_t(3 * kSkyParts) * nodes;
-    const T along = load_first<W>(all_parts + nodes, count) * w.way.x +
-                    load_first<W>(all_parts + 2 * nodes, count) * w.way.y +
-                    load_first<W>(all_parts + 3 * nodes, count) * w.way.z;
-    const T white = load_first<W>(all_parts, count) + along * w.known;
+    const T along = take_lanes<T>(all_parts + nodes, count) * w.way.x +
+                    take_lanes<T>(all_parts + 2 * nodes, count) * w.way.y +
+                    take_lanes<T>(all_parts + 3 * nodes, count) * w.way.z;
+    const T white = take_lanes<T>(all_parts, count) + along * w.known;
     const T scale = select((rest > 0.0f) & (white > 0.0f), (float(kSkyParts) * rest) / white, T{});
     for (int s = 0; s < k.sets; ++s) light[s] = light[s] + scale * sum[s];
 }
@@ -111,7 +92,7 @@ PILEUS_FN void turn_sky(const SkyTurnParams& k, const SkyTurnBuffers& b, std::ui
             const T low = gather(b.phase, step), high = gather(b.phase + 1, step);
             const T own = low + (high - low) * (at - to_float(step));
             const T scattered = 1.0f + (own - 1.0f) * w.known;
-            const T sees = load_first<W>(seen + std::size_t(p) * nodes, count);
+            const T sees = take_lanes<T>(seen + std::size_t(p) * nodes, count);
             weight = weight + scattered;
             straight = straight + scattered * sees;
             for (int s = 0; s < k.sets; ++s) sum[s] = sum[s] + k.share[s][p] * scattered * sees;
@@ -121,8 +102,8 @@ PILEUS_FN void turn_sky(const SkyTurnParams& k, const SkyTurnBuffers& b, std::ui
         if (k.later != 0) add_later_sky<W>(k, seen, nodes, count, w, rest, light);
         // What adds up to one may exceed it by rounding.
         for (int s = 0; s < k.sets; ++s)
-            store_first<W>(b.light + std::size_t(s) * nodes + n, count,
-                           select(light[s] > 1.0f, all<T>(1.0f), light[s]));
+            put_lanes(select(light[s] > 1.0f, all<T>(1.0f), light[s]),
+                      b.light + std::size_t(s) * nodes + n, count);
     }
 }
 
