@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is wrong with a camera's place and view, whoever places it.
-// in: a camera in metres, the scene's ground -> out: the first fault.
+// in: a camera in metres, the ground -> out: the first fault.
 // docs/scene.md
 #pragma once
 #include <glm/geometric.hpp>
@@ -13,14 +13,14 @@ enum class ViewFault { kNone, kAtTarget, kAlongUp, kUnderground };
 
 /// Along up: by less than a sine of 1e-6, below which the picture's axes lose precision; a zero
 /// vector for up is along every view.
-inline ViewFault view_fault(const Scene& scene, const Camera& c) {
+inline ViewFault view_fault(const Ground& ground, const Camera& c) {
     constexpr double kLeastSine = 1e-6;
     const Double3 view = c.target_m - c.position_m;
     const double length = glm::length(view);
     if (!(length > 0)) return ViewFault::kAtTarget;
     if (!(glm::length(glm::cross(view, c.up)) > kLeastSine * length * glm::length(c.up)))
         return ViewFault::kAlongUp;
-    const bool below = scene.ground.present && c.position_m[2] < scene.ground.altitude_m;
+    const bool below = ground.present && c.position_m[2] < ground.altitude_m;
     return below ? ViewFault::kUnderground : ViewFault::kNone;
 }
 

@@ -2,11 +2,9 @@
 // What a host changes in a live session: camera, lights, depths, the place of the media.
 // in: values in the host's coordinates -> out: the session's scene in the media's; faults.
 // docs/embedding.md, "What may change"
-#include <utility>
-
 #include "platform/fp_mode.h"
-#include "src/scene/read_scene.h"
 #include "src/session/session.h"
+#include "src/session/value_fault.h"
 #include "src/world/atmosphere/atmosphere.h"
 #include "src/world/camera/view.h"
 #include "src/world/plan_parts.h"
@@ -29,12 +27,6 @@ Status check_frustum(const Camera& camera, bool billboards) {
             "camera.projection: off-centre, allowed: a symmetric one with display = "
             "\"billboards\"");
     return Status::ok();
-}
-
-/// A change passes the checks that a file's values pass.
-Status check_changed(Scene changed) {
-    changed.file = "session";
-    return check_scene(changed);
 }
 
 /// What a session may change of a camera.
@@ -65,11 +57,17 @@ Status Session::set_camera(const Camera& camera) {
             "camera: collectors.closure \"camera\" lights cells towards a fixed one, allowed: "
             "another closure");
     PILEUS_TRY(check_frustum(camera, scene_.collectors.billboards));
-    Scene changed = scene_;
-    changed.camera = camera;
-    changed.ground = around_.ground;
-    PILEUS_TRY(check_camera_in_air(changed));
-    PILEUS_TRY(check_changed(std::move(changed)));
+    if (const char* key = camera_fault(scene_, around_.ground, camera)) {
+        const auto change = [&](Scene& changed) {
+            changed.camera = camera;
+            changed.ground = around_.ground;
+        };
+        Scene seen;
+        seen.atmosphere = scene_.atmosphere;
+        change(seen);
+        PILEUS_TRY(check_camera_in_air(seen));
+        PILEUS_TRY(check_changed(key, scene_, change));
+    }
     const std::uint64_t pixels =
         std::uint64_t(camera.resolution[0]) * std::uint64_t(camera.resolution[1]);
     PILEUS_TRY(check_limit(context_.limits, LimitId::kPixels, pixels, "camera.resolution"));
@@ -86,9 +84,8 @@ Status Session::set_depth_scale(const DepthScale& scale) {
 
 Status Session::set_sun(const Sun& sun) {
     if (same_sun(sun, around_.sun)) return Status::ok();
-    Scene changed = scene_;
-    changed.sun = sun;
-    PILEUS_TRY(check_changed(std::move(changed)));
+    if (const char* key = sun_fault(sun))
+        PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) { changed.sun = sun; }));
     around_.sun = sun;
     stale_ = true;
     return relight_air();
@@ -109,41 +106,42 @@ Status Session::relight_air() {
 
 Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
     const FpModeGuard guard;
-    Scene changed = scene_;
     const bool kept = sky.present && map == nullptr && keep && run_->around.sky_map.present();
-    if (!kept) changed.sky = sky;
-    changed.sky.present = sky.present;
+    Sky next = kept ? scene_.sky : sky;
+    next.present = sky.present;
     if (!kept && map == nullptr) {
         // What belongs to a map says nothing without one.
-        changed.sky.map_scale = Sky{}.map_scale;
-        changed.sky.map_rotation_deg = Sky{}.map_rotation_deg;
+        next.map_scale = Sky{}.map_scale;
+        next.map_rotation_deg = Sky{}.map_rotation_deg;
     } else {
         // The checks know maps by their files.
-        changed.sky.radiance = Sky{}.radiance;
-        if (changed.sky.map.empty()) changed.sky.map = "host.pfm";
+        next.radiance = Sky{}.radiance;
+        if (next.map.empty()) next.map = "host.pfm";
     }
-    PILEUS_TRY(check_changed(changed));
+    if (const char* key = sky_fault(scene_, next))
+        PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) { changed.sky = next; }));
     if (map != nullptr) {
         SkyMap made;
-        PILEUS_TRY(make_sky_map("sky.map", *map, changed.sky, around_.ground.present, made));
+        PILEUS_TRY(make_sky_map("sky.map", *map, next, around_.ground.present, made));
         run_->around.sky_map = std::move(made);
         anew_ = true;
     } else if (!kept && run_->around.sky_map.present()) {
         run_->around.sky_map = SkyMap{};
         anew_ = true;
     }
-    scene_.sky = changed.sky;
+    scene_.sky = next;
     stale_ = true;
     return Status::ok();
 }
 
 Status Session::set_ground(const Ground& ground) {
     if (same_ground(ground, around_.ground)) return Status::ok();
-    Scene changed = scene_;
-    changed.ground = ground;
-    changed.lights = around_.lights;
-    changed.camera = around_.camera;
-    PILEUS_TRY(check_changed(std::move(changed)));
+    if (const char* key = ground_fault(scene_, around_.camera, ground))
+        PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) {
+            changed.ground = ground;
+            changed.lights = around_.lights;
+            changed.camera = around_.camera;
+        }));
     if (ground.present != around_.ground.present && run_->around.sky_map.present())
         return Status::bad_input(
             "ground: the sky map was read with it or without, allowed: as the scene has it");
@@ -154,11 +152,12 @@ Status Session::set_ground(const Ground& ground) {
 
 Status Session::set_lights(const std::vector<LightSettings>& lights) {
     if (lights == around_.lights) return Status::ok();
-    Scene changed = scene_;
-    changed.lights = lights;
-    changed.ground = around_.ground;
-    PILEUS_TRY(check_host_lights(context_, changed, run_->world->medium));
-    PILEUS_TRY(check_changed(std::move(changed)));
+    PILEUS_TRY(check_host_lights(context_, lights, run_->world->medium));
+    if (const char* key = lights_fault(scene_, around_.ground, lights))
+        PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) {
+            changed.lights = lights;
+            changed.ground = around_.ground;
+        }));
     around_.lights = lights;
     stale_ = true;
     return Status::ok();

@@ -4,8 +4,8 @@
 // docs/realtime.md, "Work and the governor"
 #include "platform/fp_mode.h"
 #include "src/picture/upsample.h"
-#include "src/scene/read_scene.h"
 #include "src/session/session.h"
+#include "src/session/value_fault.h"
 
 namespace pileus {
 namespace {
@@ -53,6 +53,17 @@ Status check_work(const FrameWork& given, const FrameWork& whole, const std::str
     return Status::ok();
 }
 
+/// As in value_fault.h: null where all members are sound for sure.
+const char* work_fault(const FrameWork& work, const FrameWork& whole) {
+    const auto one_of = [](int v, int a, int b, int c) { return v == a || v == b || v == c; };
+    if (whole.scale > 0 && !one_of(work.scale, 1, 2, 4)) return "work.scale";
+    if (!one_of(work.temporal, 0, 2, 4) || (work.temporal > 0 && work.scale > 1))
+        return "work.temporal";
+    if (whole.steps > 0 && (work.steps < 1 || work.steps > whole.steps)) return "work.steps";
+    const bool refreshed = work.light_refresh >= 1 && work.light_refresh <= 64;
+    return whole.light_refresh > 0 && !refreshed ? "work.light_refresh" : nullptr;
+}
+
 template <class T>
 T chosen(T given, T whole) {
     return given != 0 ? given : whole;
@@ -86,29 +97,37 @@ Status Session::set_work(const FrameWork& given) {
     work.light_refresh = chosen(given.light_refresh, whole_work_.light_refresh);
     work.photons = chosen(given.photons, whole_work_.photons);
     if (work == work_) return Status::ok();
-    Scene changed = scene_;
-    const WorkSettings there = work_settings(changed), here = work_settings(scene_);
-    if (there.thin != nullptr) {
-        if (work.scale > 0) there.thin->scale = work.scale;
-        there.thin->temporal = work.temporal;
+    const WorkSettings here = work_settings(scene_);
+    UpsampleSettings thin;
+    if (here.thin != nullptr) {
+        thin = *here.thin;
+        if (work.scale > 0) thin.scale = work.scale;
+        thin.temporal = work.temporal;
     }
-    if (there.steps != nullptr) *there.steps = work.steps;
-    if (there.light_refresh != nullptr) *there.light_refresh = work.light_refresh;
-    changed.camera = around_.camera;
-    changed.sun = around_.sun;
-    changed.ground = around_.ground;
-    changed.lights = around_.lights;
-    changed.file = "session";
-    PILEUS_TRY(check_scene(changed));
-    if (there.thin != nullptr) PILEUS_TRY(check_upsampling(changed, "work", *there.thin));
-    if (here.thin != nullptr && here.thin->every() != there.thin->every() &&
+    if (const char* key = work_fault(work, whole_work_)) {
+        const auto change = [&](Scene& changed) {
+            const WorkSettings there = work_settings(changed);
+            if (there.thin != nullptr) *there.thin = thin;
+            if (there.steps != nullptr) *there.steps = work.steps;
+            if (there.light_refresh != nullptr) *there.light_refresh = work.light_refresh;
+            changed.camera = around_.camera;
+            changed.sun = around_.sun;
+            changed.ground = around_.ground;
+            changed.lights = around_.lights;
+        };
+        PILEUS_TRY(check_changed(key, scene_, change));
+        Scene named;
+        named.file = "session";
+        PILEUS_TRY(check_upsampling(named, "work", thin));
+    }
+    if (here.thin != nullptr && here.thin->every() != thin.every() &&
         context_.kernels->device != nullptr)
         return refuse("scale", work.scale, "0 on a device");
     // Nothing is refused from here on but by the method, which comes first.
     if (method_->live->take_work != nullptr) PILEUS_TRY(method_->live->take_work(work, *run_));
-    if (here.thin != nullptr) *here.thin = *there.thin;
-    if (here.steps != nullptr) *here.steps = *there.steps;
-    if (here.light_refresh != nullptr) *here.light_refresh = *there.light_refresh;
+    if (here.thin != nullptr) *here.thin = thin;
+    if (here.steps != nullptr) *here.steps = work.steps;
+    if (here.light_refresh != nullptr) *here.light_refresh = work.light_refresh;
     work_ = work;
     report_.frame_work = told_work(work_);
     return Status::ok();

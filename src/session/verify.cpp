@@ -7,6 +7,7 @@
 #include "kernels_cpu/core/rng.h"
 #include "src/base/random_streams.h"
 #include "src/picture/air_view.h"
+#include "src/scene/read_scene.h"
 #include "src/world/camera/places.h"
 
 namespace pileus {

@@ -87,8 +87,9 @@ WorkInput medium_work(const Medium& medium, double mean_density, double max_even
     return in;
 }
 
-Status check_host_lights(const Context& context, const Scene& scene, const Medium& medium) {
-    if (context.kernels->device == nullptr || (scene.lights.empty() && !emits(medium)))
+Status check_host_lights(const Context& context, const std::vector<LightSettings>& lights,
+                         const Medium& medium) {
+    if (context.kernels->device == nullptr || (lights.empty() && !emits(medium)))
         return Status::ok();
     return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
                              "\": [[light]] and emission are for the host alone, allowed: "

@@ -41,7 +41,8 @@ WorkInput medium_work(const Medium& medium, double mean_density, double max_even
 Status check_work(const WorkEstimate& work, const Limits& limits, const std::string& where);
 
 /// kBadInput on a device, whose kernels know neither [[light]] nor media that emit.
-Status check_host_lights(const Context& context, const Scene& scene, const Medium& medium);
+Status check_host_lights(const Context& context, const std::vector<LightSettings>& lights,
+                         const Medium& medium);
 
 /// What methods that march emission do with it.
 void note_emission(const Medium& medium, Plan& plan);

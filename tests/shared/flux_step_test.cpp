@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "src/session/flux.h"
+#include "src/session/flux/flux.h"
 #include "tests/io/temp_folder.h"
 #include "tests/shared/published.h"
 #include "tests/support/long_tests.h"

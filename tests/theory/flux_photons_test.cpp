@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "src/session/flux.h"
+#include "src/session/flux/flux.h"
 #include "tests/support/render_harness.h"
 
 namespace flux_photons_test {

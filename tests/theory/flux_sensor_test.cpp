@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "src/io/images/image_file.h"
-#include "src/session/flux.h"
+#include "src/session/flux/flux.h"
 #include "tests/io/temp_folder.h"
 #include "tests/support/render_harness.h"
 #include "tests/support/sky_images.h"

@@ -2,7 +2,7 @@
 // Fluxes by paths against the photons' ledger, which is other code, and what must add up to one.
 // in: a periodic slab and an open sphere -> out: shares within their standard errors.
 // docs/flux.md
-#include "src/session/flux.h"
+#include "src/session/flux/flux.h"
 
 #include <doctest/doctest.h>
 

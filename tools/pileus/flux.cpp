@@ -3,7 +3,7 @@
 // in: a scene -> out: shares with standard errors on stdout, as lines or JSON; maps as a picture;
 // absorbed power as a volume.
 // docs/flux.md
-#include "src/session/flux.h"
+#include "src/session/flux/flux.h"
 
 #include <memory>
 

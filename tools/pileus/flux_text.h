@@ -3,7 +3,7 @@
 // in: FluxResult -> out: text and bytes.
 // docs/flux.md
 #pragma once
-#include "src/session/flux.h"
+#include "src/session/flux/flux.h"
 
 namespace pileus {
 

@@ -119,7 +119,7 @@ Status collectors_weigh(const Context& context, CollectorsRun& run) {
 
 Status collectors_outline(const Context& context, CollectorsRun& run) {
     const Scene& scene = *run.scene;
-    PILEUS_TRY(check_host_lights(context, scene, run.world->medium));
+    PILEUS_TRY(check_host_lights(context, scene.lights, run.world->medium));
     PILEUS_TRY(check_thinned(context, scene, "collectors", scene.collectors.thin));
     run.light_refresh = scene.collectors.light_refresh;
     if (run.light_refresh > 1 && context.kernels->device != nullptr)

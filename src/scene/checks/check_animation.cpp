@@ -61,7 +61,7 @@ void check_cameras(SceneCheck& check, Keys& keys) {
     for (int frame = 0; frame < scene.animation.frames; frame += step) {
         const Camera c = camera_at(scene.animation, scene.camera, frame);
         const std::string at = "frame " + std::to_string(frame) + ", ";
-        switch (view_fault(scene, c)) {
+        switch (view_fault(scene.ground, c)) {
             case ViewFault::kAtTarget:
                 return keys.refuse_all(at + "the camera is at its target", "anywhere else");
             case ViewFault::kAlongUp:

@@ -69,7 +69,7 @@ void check_camera(SceneCheck& check) {
     // Where places are on the map is known once the map is.
     if (camera.position_by_place || camera.target_by_place) return;
     if (target == nullptr || position == nullptr) return;
-    const ViewFault fault = view_fault(check.scene, camera);
+    const ViewFault fault = view_fault(check.scene.ground, camera);
     if (fault == ViewFault::kAtTarget) {
         check.faults.add(
             target->at, "camera.target_m",

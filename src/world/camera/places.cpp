@@ -34,7 +34,7 @@ Status map_of(const Scene& scene, WeatherMap& map) {
 }
 
 Status check_view(const Scene& scene) {
-    switch (view_fault(scene, scene.camera)) {
+    switch (view_fault(scene.ground, scene.camera)) {
         case ViewFault::kAtTarget:
             return Status::bad_input("same as the target, allowed: any other place");
         case ViewFault::kAlongUp:

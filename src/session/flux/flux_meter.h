@@ -4,7 +4,7 @@
 // docs/flux.md
 #pragma once
 #include "src/methods/path/path.h"
-#include "src/session/flux.h"
+#include "src/session/flux/flux.h"
 
 namespace pileus {
 

@@ -2,8 +2,8 @@
 // Fluxes by paths: flat detectors on the faces of the media's box.
 // in: FluxTask -> out: shares of the incident flux, maps, sensors.
 // docs/flux.md
-#include "src/session/flux_meter.h"
-#include "src/session/flux_run.h"
+#include "src/session/flux/flux_meter.h"
+#include "src/session/flux/flux_run.h"
 
 namespace pileus {
 namespace {

@@ -2,7 +2,7 @@
 // See flux_meter.h.
 // in: planes, places -> out: light on them.
 // docs/flux.md
-#include "src/session/flux_meter.h"
+#include "src/session/flux/flux_meter.h"
 
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/node_grid.h"

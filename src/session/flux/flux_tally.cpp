@@ -2,7 +2,7 @@
 // See flux_tally.h.
 // in: slots of sums -> out: what they are worth.
 // docs/flux.md, "By photons"
-#include "src/session/flux_tally.h"
+#include "src/session/flux/flux_tally.h"
 
 namespace pileus {
 namespace {

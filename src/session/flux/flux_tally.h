@@ -5,7 +5,7 @@
 #pragma once
 #include "kernels_cpu/photons/meter_params.h"
 #include "src/photons/trace.h"
-#include "src/session/flux_run.h"
+#include "src/session/flux/flux_run.h"
 
 namespace pileus {
 

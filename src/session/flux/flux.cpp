@@ -2,7 +2,7 @@
 // See flux.h. Checks, lights, and the choice of the way.
 // in: a scene -> out: what flux_paths.cpp or flux_photons.cpp measure.
 // docs/flux.md
-#include "src/session/flux_run.h"
+#include "src/session/flux/flux_run.h"
 #include "src/session/run_context.h"
 #include "src/world/atmosphere/atmosphere.h"
 

@@ -4,7 +4,7 @@
 // docs/flux.md, "By photons"
 #include "src/base/random_streams.h"
 #include "src/plan/accumulation.h"
-#include "src/session/flux_tally.h"
+#include "src/session/flux/flux_tally.h"
 #include "src/world/majorant/cell_majorants.h"
 #include "src/world/plan_parts.h"
 
