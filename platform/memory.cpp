@@ -20,16 +20,20 @@ HostGuard::~HostGuard() { lent = before_; }
 void* take_memory(std::size_t bytes, const Allocator*& from) {
     constexpr std::size_t kAlignment = 64;
     from = lent.allocator;
-    return from != nullptr ? from->allocate(from->user, bytes, kAlignment)
-                           : std::aligned_alloc(kAlignment, bytes);
+    if (from != nullptr) return from->allocate(from->user, bytes, kAlignment);
+#ifdef PILEUS_FLIGHT
+    return nullptr;  // has no memory but its block
+#else
+    return std::aligned_alloc(kAlignment, bytes);
+#endif
 }
 
 void give_memory(void* memory, const Allocator* from) {
     if (memory == nullptr) return;
-    if (from != nullptr)
-        from->release(from->user, memory);
-    else
-        std::free(memory);
+    if (from != nullptr) return from->release(from->user, memory);
+#ifndef PILEUS_FLIGHT
+    std::free(memory);
+#endif
 }
 
 }  // namespace pileus

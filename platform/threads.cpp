@@ -160,19 +160,27 @@ public:
     template <class Work>
     void guard(Work work) {
         if (any_.load(std::memory_order_relaxed)) return;
+#ifdef __cpp_exceptions
         try {
             work();
         } catch (...) {
             if (!any_.exchange(true)) first_ = std::current_exception();
         }
+#else
+        work();
+#endif
     }
     void pass_on() const {
+#ifdef __cpp_exceptions
         if (first_ != nullptr) std::rethrow_exception(first_);
+#endif
     }
 
 private:
     std::atomic<bool> any_{false};
+#ifdef __cpp_exceptions
     std::exception_ptr first_;
+#endif
 };
 
 /// Pieces that threads take one after the other.

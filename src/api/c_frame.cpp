@@ -59,6 +59,19 @@ void tell_accidents(pileus_session& session) {
 }
 
 }  // namespace
+
+Status render_frame(const pileus_frame& f, pileus_session& session) {
+    FrameTarget target;
+    PILEUS_TRY(take_colour(f, session.session.camera(), target));
+    PILEUS_TRY(take_depth(f, session.session.camera(), target));
+    std::uint64_t hash = 0;
+    target.hash = f.hash != nullptr ? &hash : nullptr;
+    PILEUS_TRY(session.session.render(target));
+    if (f.hash != nullptr) *f.hash = hash;
+    tell_accidents(session);
+    return Status::ok();
+}
+
 }  // namespace pileus::api
 
 using namespace pileus;
@@ -68,8 +81,8 @@ extern "C" {
 
 pileus_code pileus_session_light(const pileus_session* session, pileus_light_info* info,
                                  pileus_error* error) {
-    if (session == nullptr) return finish(no_handle("session"), error);
-    return call(session->host.get(), error, [&]() -> Status {
+    if (session == nullptr) return no_session(error);
+    return call(*session, error, [&]() -> Status {
         const LightUnits light = session->session.light();
         pileus_light_info out{};
         out.whole = std::uint32_t(light.whole < UINT32_MAX ? light.whole : UINT32_MAX);
@@ -82,8 +95,8 @@ pileus_code pileus_session_light(const pileus_session* session, pileus_light_inf
 
 pileus_code pileus_session_step(pileus_session* session, uint32_t units, uint32_t* done,
                                 pileus_error* error) {
-    if (session == nullptr) return finish(no_handle("session"), error);
-    return call(session->host.get(), error, [&]() -> Status {
+    if (session == nullptr) return no_session(error);
+    return call(*session, error, [&]() -> Status {
         std::uint64_t traced = 0;
         const Status status = session->session.step(units, traced);
         if (done != nullptr) *done = std::uint32_t(traced);
@@ -93,26 +106,18 @@ pileus_code pileus_session_step(pileus_session* session, uint32_t units, uint32_
 
 pileus_code pileus_session_render(pileus_session* session, const pileus_frame* frame,
                                   pileus_error* error) {
-    if (session == nullptr) return finish(no_handle("session"), error);
-    return call(session->host.get(), error, [&]() -> Status {
+    if (session == nullptr) return no_session(error);
+    return call(*session, error, [&]() -> Status {
         pileus_frame f;
         if (!take(frame, f)) return no_struct("frame");
-        FrameTarget target;
-        PILEUS_TRY(take_colour(f, session->session.camera(), target));
-        PILEUS_TRY(take_depth(f, session->session.camera(), target));
-        std::uint64_t hash = 0;
-        target.hash = f.hash != nullptr ? &hash : nullptr;
-        PILEUS_TRY(session->session.render(target));
-        if (f.hash != nullptr) *f.hash = hash;
-        tell_accidents(*session);
-        return Status::ok();
+        return render_frame(f, *session);
     });
 }
 
 pileus_code pileus_session_stats(const pileus_session* session, pileus_stats* stats,
                                  pileus_error* error) {
-    if (session == nullptr) return finish(no_handle("session"), error);
-    return call(session->host.get(), error, [&]() -> Status {
+    if (session == nullptr) return no_session(error);
+    return call(*session, error, [&]() -> Status {
         const SessionStats& counted = session->session.stats();
         pileus_stats out{};
         out.prepared = counted.prepared;
@@ -130,8 +135,8 @@ pileus_code pileus_session_stats(const pileus_session* session, pileus_stats* st
 
 pileus_code pileus_session_report(const pileus_session* session, char* text, size_t size,
                                   size_t* needed, pileus_error* error) {
-    if (session == nullptr) return finish(no_handle("session"), error);
-    return call(session->host.get(), error, [&]() -> Status {
+    if (session == nullptr) return no_session(error);
+    return call(*session, error, [&]() -> Status {
         const std::string json = report_json(session->session.told());
         if (needed != nullptr) *needed = json.size() + 1;
         if (text == nullptr && size == 0) return Status::ok();

@@ -12,24 +12,32 @@ Status no_struct(const char* name) {
                              ": null or without struct_size, allowed: after PILEUS_INIT");
 }
 
+pileus_code no_session(pileus_error* error) {
+    return finish(Code::kBadInput, "session: null, allowed: what a function of pileus made", error);
+}
+
 Status no_handle(const char* name) {
     return Status::bad_input(std::string(name) + ": null, allowed: what a function of pileus made");
 }
 
-pileus_code finish(const Status& status, pileus_error* error) {
-    const pileus_code code = static_cast<pileus_code>(status.code);
+pileus_code finish(Code status, std::string_view text, pileus_error* error) {
+    const pileus_code code = static_cast<pileus_code>(status);
     if (error == nullptr || error->struct_size < 2 * sizeof(std::uint32_t)) return code;
     error->code = code;
     const std::size_t head = offsetof(pileus_error, message);
     if (error->struct_size <= head) return code;
     std::size_t room = error->struct_size - head;
     if (room > sizeof error->message) room = sizeof error->message;
-    const std::string& text = status.message;
     const std::size_t size = text.size() < room ? text.size() : room - 1;
     std::memcpy(error->message, text.data(), size);
     error->message[size] = 0;
     if (size < text.size() && size >= 3) std::memcpy(error->message + size - 3, "...", 3);
     return code;
+}
+
+pileus_code settle(const HostParts& host, pileus_code code, pileus_error* error) {
+    if (host.block->is_clear()) return code;
+    return finish(Code::kCheckFailed, "flight: a call kept memory, a fault of the library", error);
 }
 
 Status take_host(const pileus_host* given, std::shared_ptr<const HostParts>& host,

@@ -18,8 +18,8 @@ bool is_zero(const double (&v)[3]) { return v[0] == 0 && v[1] == 0 && v[2] == 0;
 template <class Given, class Set>
 pileus_code change(pileus_session* session, const Given* given, const char* name,
                    pileus_error* error, Set set) {
-    if (session == nullptr) return finish(no_handle("session"), error);
-    return call(session->host.get(), error, [&]() -> Status {
+    if (session == nullptr) return no_session(error);
+    return call(*session, error, [&]() -> Status {
         Given own;
         if (!take(given, own)) return no_struct(name);
         return set(own, session->session);
@@ -167,8 +167,8 @@ pileus_code pileus_session_set_camera(pileus_session* session, const pileus_came
 pileus_code pileus_session_set_matrices(pileus_session* session, const double view[16],
                                         const double projection[16], pileus_clip clip,
                                         uint32_t width, uint32_t height, pileus_error* error) {
-    if (session == nullptr) return finish(no_handle("session"), error);
-    return call(session->host.get(), error, [&]() -> Status {
+    if (session == nullptr) return no_session(error);
+    return call(*session, error, [&]() -> Status {
         if (view == nullptr || projection == nullptr)
             return Status::bad_input("view, projection: null, allowed: 16 numbers each");
         Camera camera = session->session.camera();
@@ -183,8 +183,8 @@ pileus_code pileus_session_set_matrices(pileus_session* session, const double vi
 
 pileus_code pileus_session_size(const pileus_session* session, uint32_t* width, uint32_t* height,
                                 pileus_error* error) {
-    if (session == nullptr) return finish(no_handle("session"), error);
-    return call(session->host.get(), error, [&]() -> Status {
+    if (session == nullptr) return no_session(error);
+    return call(*session, error, [&]() -> Status {
         if (width == nullptr || height == nullptr)
             return Status::bad_input("width, height: null, allowed: where to put them");
         *width = std::uint32_t(session->session.camera().resolution[0]);
@@ -223,8 +223,8 @@ pileus_code pileus_session_set_ground(pileus_session* session, const pileus_grou
 
 pileus_code pileus_session_set_lights(pileus_session* session, const pileus_light* lights,
                                       uint32_t count, pileus_error* error) {
-    if (session == nullptr) return finish(no_handle("session"), error);
-    return call(session->host.get(), error, [&]() -> Status {
+    if (session == nullptr) return no_session(error);
+    return call(*session, error, [&]() -> Status {
         if (count > 0 && lights == nullptr)
             return Status::bad_input("lights: null, allowed: as many as `count`");
         if (count > kMostLights)
@@ -257,8 +257,8 @@ pileus_code pileus_session_set_depth(pileus_session* session, const pileus_depth
 }
 
 pileus_code pileus_session_set_frame(pileus_session* session, int32_t number, pileus_error* error) {
-    if (session == nullptr) return finish(no_handle("session"), error);
-    return call(session->host.get(), error, [&] { return session->session.set_frame(number); });
+    if (session == nullptr) return no_session(error);
+    return call(*session, error, [&] { return session->session.set_frame(number); });
 }
 
 }  // extern "C"

@@ -10,18 +10,24 @@
 #include "include/pileus/pileus.h"
 #include "platform/fp_mode.h"
 #include "platform/memory.h"
+#include "src/flight/block.h"
+#include "src/flight/pack.h"
 #include "src/session/session.h"
 
 namespace pileus::api {
+
+/// The fault of a null session, told without memory.
+pileus_code no_session(pileus_error* error);
 
 /// What a host lends. Handles keep it, as their arrays go back to it.
 struct HostParts {
     pileus_host given{};
     Allocator allocator;
     Executor executor;
+    Block* block = nullptr;  ///< of a flight
 
     Host host() const {
-        return {given.allocate != nullptr ? &allocator : nullptr,
+        return {allocator.allocate != nullptr ? &allocator : nullptr,
                 given.run != nullptr ? &executor : nullptr, nullptr};
     }
 };
@@ -56,26 +62,37 @@ Status give(T own, T* to, const char* name) {
     return Status::ok();
 }
 
-/// Bytes of the arrays that sessions share.
-std::uint64_t bytes_of_world(const World& world);
-
 /// kBadInput: rows that would overlap.
 Status take_stride(const char* name, std::int64_t stride, std::int64_t least, Rows& rows);
 
 /// The end of every call: code and message.
-pileus_code finish(const Status& status, pileus_error* error);
+pileus_code finish(Code code, std::string_view text, pileus_error* error);
+inline pileus_code finish(const Status& status, pileus_error* error) {
+    return finish(status.code, status.message, error);
+}
 
 /// A call's body: `work` returns a Status; running out of small memory is a code as well.
 template <class Work>
 pileus_code call(const HostParts* host, pileus_error* error, Work work) {
     const HostGuard lent(host != nullptr ? host->host() : Host{});
     const FpModeGuard mode;
+#ifdef __cpp_exceptions
     try {
         return finish(work(), error);
     } catch (const std::bad_alloc&) {
         return finish(Status{Code::kLimit, "out of memory"}, error);
     }
+#else
+    return finish(work(), error);
+#endif
 }
+
+/// The end of a call of a session: what a flight took for it is back.
+pileus_code settle(const HostParts& host, pileus_code code, pileus_error* error);
+
+/// A call of a session.
+template <class Work>
+pileus_code call(const pileus_session& session, pileus_error* error, Work work);
 
 /// Copies what a host lends and turns it into options. kBadInput: one of two functions alone.
 Status take_host(const pileus_host* given, std::shared_ptr<const HostParts>& host,
@@ -107,6 +124,21 @@ struct pileus_world {
 
 struct pileus_session {
     std::shared_ptr<const pileus::api::HostParts> host;
+    std::unique_ptr<pileus::Packed> flight;  ///< what a flight's session points into
     pileus::Session session;
     std::vector<std::string> told;  ///< accidents that the log has been told of
 };
+
+namespace pileus::api {
+
+template <class Work>
+pileus_code call(const pileus_session& session, pileus_error* error, Work work) {
+    const HostParts& host = *session.host;
+    const pileus_code code = call(&host, error, work);
+    return host.block != nullptr ? settle(host, code, error) : code;
+}
+
+/// Draws into the caller's buffers.
+Status render_frame(const pileus_frame& frame, pileus_session& session);
+
+}  // namespace pileus::api

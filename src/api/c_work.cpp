@@ -57,8 +57,8 @@ extern "C" {
 
 pileus_code pileus_session_set_work(pileus_session* session, const pileus_work* work,
                                     pileus_error* error) {
-    if (session == nullptr) return finish(no_handle("session"), error);
-    return call(session->host.get(), error, [&]() -> Status {
+    if (session == nullptr) return no_session(error);
+    return call(*session, error, [&]() -> Status {
         pileus_work own;
         if (!take(work, own)) return no_struct("work");
         return set_work(own, session->session);
@@ -67,15 +67,15 @@ pileus_code pileus_session_set_work(pileus_session* session, const pileus_work* 
 
 pileus_code pileus_session_work(const pileus_session* session, pileus_work* work,
                                 pileus_error* error) {
-    if (session == nullptr) return finish(no_handle("session"), error);
-    return call(session->host.get(), error,
+    if (session == nullptr) return no_session(error);
+    return call(*session, error,
                 [&]() -> Status { return give(give_work(session->session.work()), work, "work"); });
 }
 
 pileus_code pileus_session_govern(const pileus_session* session, pileus_governor* governor,
                                   double frame_s, pileus_work* work, pileus_error* error) {
-    if (session == nullptr) return finish(no_handle("session"), error);
-    return call(session->host.get(), error, [&]() -> Status {
+    if (session == nullptr) return no_session(error);
+    return call(*session, error, [&]() -> Status {
         pileus_governor own;
         if (!take(governor, own) || governor->struct_size < sizeof(pileus_governor))
             return no_struct("governor");

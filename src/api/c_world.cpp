@@ -103,19 +103,6 @@ Status take_density(const pileus_density& given, std::uint32_t at, HostParticles
 
 }  // namespace
 
-std::uint64_t bytes_of_world(const World& world) {
-    std::uint64_t bytes = world.medium.volume.density.bytes() + world.medium.parts.bytes() +
-                          phase_bytes(world.medium) + world.solids.nodes.bytes() +
-                          world.solids.triangles.bytes() + world.solids.albedo.bytes() +
-                          world.particles.position.bytes() + world.particles.radius.bytes() +
-                          world.particles.density.bytes() + world.particles.colour.bytes() +
-                          world.particles.emission.bytes() + world.particles.velocity.bytes() +
-                          world.particles.id.bytes();
-    for (const NoiseTexture* noise : {&world.layer.perlin, &world.layer.worley})
-        bytes += noise->words.bytes();
-    return bytes;
-}
-
 }  // namespace pileus::api
 
 using namespace pileus;

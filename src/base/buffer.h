@@ -34,11 +34,17 @@ public:
     }
     ~Buffer() { give_memory(data_, from_); }
 
-    /// Replaces the contents by `count` zeroed elements. `what` names the array in the error line.
+    /// Replaces the contents by `count` zeroed elements, in the same memory where those are as many
+    /// as were asked for before. `what` names the array in the error line.
     Status resize(std::uint64_t count, const char* what) {
+        if (data_ != nullptr && count == taken_) {
+            size_ = taken_;
+            std::memset(static_cast<void*>(data_), 0, (taken_ * sizeof(T) + 63) / 64 * 64);
+            return Status::ok();
+        }
         give_memory(data_, from_);
         data_ = nullptr;
-        size_ = 0;
+        size_ = taken_ = 0;
         std::uint64_t bytes = 0;
         if (!checked_multiply(count, sizeof(T), bytes) || bytes > kMaxBytes)
             return Status::limit(std::string(what) + ": more memory than can be addressed");
@@ -49,6 +55,17 @@ public:
             return Status::limit(std::string(what) + ": out of memory, " + std::to_string(bytes) +
                                  " bytes asked for");
         std::memset(static_cast<void*>(data_), 0, static_cast<std::size_t>(rounded));
+        size_ = taken_ = static_cast<std::size_t>(count);
+        return Status::ok();
+    }
+
+    /// `count` elements, of any values, in memory for `most`: the next count needs none.
+    Status fit(std::uint64_t count, std::uint64_t most, const char* what) {
+        assert(count <= most);
+        if (data_ == nullptr || taken_ != most) {
+            Status status = resize(most, what);
+            if (!status) return status;
+        }
         size_ = static_cast<std::size_t>(count);
         return Status::ok();
     }
@@ -81,6 +98,7 @@ public:
     void swap(Buffer& other) noexcept {
         std::swap(data_, other.data_);
         std::swap(size_, other.size_);
+        std::swap(taken_, other.taken_);
         std::swap(from_, other.from_);
     }
 
@@ -88,6 +106,7 @@ private:
     static constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 46;
     T* data_ = nullptr;
     std::size_t size_ = 0;
+    std::size_t taken_ = 0;            ///< elements that there is memory for
     const Allocator* from_ = nullptr;  ///< that the memory goes back to
 };
 

@@ -11,6 +11,14 @@
 
 namespace pileus {
 
+/// 16 hex digits.
+inline std::string hex_text(std::uint64_t v) {
+    static constexpr char digits[] = "0123456789abcdef";
+    std::string text(16, '0');
+    for (int i = 0; i < 16; ++i) text[std::size_t(i)] = digits[(v >> (60 - 4 * i)) & 15];
+    return text;
+}
+
 class Digest {
 public:
     void byte(std::uint8_t b) { state_ = (state_ ^ b) * 0x100000001b3ull; }
@@ -33,12 +41,7 @@ public:
         for (std::int64_t v : values) u64(static_cast<std::uint64_t>(v));
     }
     std::uint64_t value() const { return state_; }
-    std::string hex() const {
-        static constexpr char digits[] = "0123456789abcdef";
-        std::string text(16, '0');
-        for (int i = 0; i < 16; ++i) text[std::size_t(i)] = digits[(state_ >> (60 - 4 * i)) & 15];
-        return text;
-    }
+    std::string hex() const { return hex_text(state_); }
 
 private:
     std::uint64_t state_ = 0xcbf29ce484222325ull;

@@ -47,7 +47,8 @@ struct MethodRun {
     Lighting lighting;
     /// Moves the scene to a frame, where keys do; else null.
     std::function<void(int frame)> place_at;
-    bool outlined_only = true;                                 ///< sizes are known, values are not
+    bool outlined_only = true;  ///< sizes are known, values are not
+    bool sealed = false;        ///< nothing may be laid out anew: docs/flight.md
     std::vector<std::pair<std::string, std::string>> digests;  ///< of what no frame changes
 
     MethodRun() = default;

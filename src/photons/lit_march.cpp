@@ -134,6 +134,21 @@ Status march_rows(const Context& context, const PhotonRun& run, const NodeLight&
     return Status::ok();
 }
 
+/// Nodes around a camera are as many as it is near: a flight has no room of its own for them, and
+/// gives back what a picture took.
+class NearNodesOfPicture {
+public:
+    explicit NearNodesOfPicture(PhotonRun& run) : run_(run) {}
+    ~NearNodesOfPicture() {
+        if (run_.sealed) run_.near_light = Buffer<float>();
+    }
+    NearNodesOfPicture(const NearNodesOfPicture&) = delete;
+    NearNodesOfPicture& operator=(const NearNodesOfPicture&) = delete;
+
+private:
+    PhotonRun& run_;
+};
+
 }  // namespace
 
 bool reads_quads(const Context& context, int channels, const NodeGrid& nodes) {
@@ -147,6 +162,7 @@ const float* sun_depths_at(const PhotonRun& run, const NodeGrid& nodes) {
 
 Status march_lit(const Context& context, PhotonRun& run, const NodeLight& source,
                  const MarchParams& k, float* target, Planes& planes) {
+    const NearNodesOfPicture near(run);
     NodeLight packed = source;
     if (reads_planes(k) && reads_quads(context, k.channels, k.source))
         PILEUS_TRY(pack_nodes(context, k.source, k.medium, run, packed));
@@ -156,6 +172,7 @@ Status march_lit(const Context& context, PhotonRun& run, const NodeLight& source
 Status march_thinned(const Context& context, const UpsampleSettings& thin, const NodeLight& source,
                      const MarchParams& k, PhotonRun& run, Planes& planes) {
     if (thin.every() == 1) return march_lit(context, run, source, k, planes.colour.data(), planes);
+    const NearNodesOfPicture near(run);
     UpsampleMemory& memory = run.upsample;
     planes.optical_depth = Buffer<float>();  // has its own march
     if (memory.camera.width != k.camera.width || memory.camera.height != k.camera.height ||

@@ -312,6 +312,12 @@ bool relight_photons(PhotonRun& run) {
     return true;
 }
 
+Status refuse_new_lights() {
+    return Status::bad_input(
+        "lights: one that was not there when the flight was opened, allowed: those of the packed "
+        "scene");
+}
+
 Status take_photon_work(const FrameWork& work, MethodRun& method_run) {
     PhotonRun& run = static_cast<PhotonRun&>(method_run);
     const std::uint64_t photons = std::uint64_t(work.photons);

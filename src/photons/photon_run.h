@@ -103,6 +103,9 @@ void set_photon_sun(const SunPlace& sun, PhotonRun& run);
 /// no place for, so that they are to be laid out anew.
 bool relight_photons(PhotonRun& run);
 
+/// The fault of such a light where nothing may be laid out any more.
+Status refuse_new_lights();
+
 /// LiveMethod::take_work: photons of the generations to come, slices of sunlight. kBadInput: other
 /// photons in one sum, whose generations are all alike.
 Status take_photon_work(const FrameWork& work, MethodRun& run);

@@ -14,6 +14,12 @@ std::uint64_t pixels_of(const PixelLattice& g) {
     return std::uint64_t(g.width) * std::uint64_t(g.height);
 }
 
+/// The most of them in a picture, wherever a lattice begins.
+std::uint64_t most_pixels_of(const PixelLattice& g, std::uint64_t width, std::uint64_t height) {
+    const std::uint64_t every = std::uint64_t(g.every);
+    return (width + every - 1) / every * ((height + every - 1) / every);
+}
+
 /// So many numbers for each of `pixels`: marched ones, or those of the frame before.
 Array<float> marched(std::uint64_t numbers, std::uint64_t pixels, Stage last = Stage::kWrite) {
     return {"marched pixels", bytes_of(numbers, pixels), Stage::kDisplay, last};
@@ -25,12 +31,18 @@ Array<std::int64_t> recalled_counts(std::uint64_t rows) {
 
 /// Planes of the marched pixels, with what stands behind each.
 Status outfit(const PixelLattice& g, int width, bool half_depth, const Planes& whole, Planes& few) {
-    const std::uint64_t n = pixels_of(g);
-    PILEUS_TRY(allocate_once(marched(1, n), few.transmittance));
-    PILEUS_TRY(allocate_once(marched(3, n), few.colour));
-    PILEUS_TRY(allocate_once(marched(half_depth ? 1 : 0, n), few.half_depth));
-    PILEUS_TRY(allocate_once(marched(whole.optical_depth.empty() ? 0 : 1, n), few.optical_depth));
-    PILEUS_TRY(allocate_once(marched(whole.opaque_depth.empty() ? 0 : 1, n), few.opaque_depth));
+    const std::uint64_t n = pixels_of(g),
+                        height = whole.transmittance.size() / std::uint64_t(width);
+    const std::uint64_t most = most_pixels_of(g, std::uint64_t(width), height);
+    const auto fit = [&](std::uint64_t numbers, Buffer<float>& plane) {
+        const Array<float> own = marched(numbers, n), room = marched(numbers, most);
+        return plane.fit(own.count, room.count, own.name);
+    };
+    PILEUS_TRY(fit(1, few.transmittance));
+    PILEUS_TRY(fit(3, few.colour));
+    PILEUS_TRY(fit(half_depth ? 1 : 0, few.half_depth));
+    PILEUS_TRY(fit(whole.optical_depth.empty() ? 0 : 1, few.optical_depth));
+    PILEUS_TRY(fit(whole.opaque_depth.empty() ? 0 : 1, few.opaque_depth));
     take_behind(g, width, whole, few);
     return Status::ok();
 }

@@ -20,6 +20,8 @@ namespace pileus {
 
 using Float3 = std::array<float, 3>;
 
+struct Image;
+
 /// The image plane of a host's projection, at distance 1, or in metres of parallel rays.
 struct Frustum {
     double half_width = 0, half_height = 0;  ///< > 0
@@ -60,10 +62,11 @@ inline SunPlace place_of(const Sun& sun) { return {sun.azimuth_deg, sun.elevatio
 
 struct Sky {
     bool present = false;
-    Float3 radiance{0, 0, 0};     ///< constant; unused with a map
-    std::string map;              ///< path of an image, relative to the scene file; empty: none
-    double map_scale = 1;         ///< factor on its values; >= 0
-    double map_rotation_deg = 0;  ///< turns it from north towards east
+    Float3 radiance{0, 0, 0};        ///< constant; unused with a map
+    std::string map;                 ///< path of an image, relative to the scene file; empty: none
+    const Image* picture = nullptr;  ///< in place of that file; a map's name must be given, too
+    double map_scale = 1;            ///< factor on its values; >= 0
+    double map_rotation_deg = 0;     ///< turns it from north towards east
 };
 
 struct Ground {

@@ -20,6 +20,9 @@ Status make_context(const Scene& scene, const RenderOptions& options, Context& c
 /// kBadInput: frames that the scene does not have.
 Status frames_of(const Scene& scene, const RenderOptions& options, Frames& frames);
 
+/// The budgets as the program takes them, parted by blanks.
+std::string budget_text(const RenderOptions& options);
+
 Budget budget_of(const RenderOptions& options);
 
 /// What the process and its stages have used up to now.

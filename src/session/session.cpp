@@ -2,8 +2,6 @@
 // See session.h. Opening and drawing; session_set.cpp takes what a host sets.
 #include "src/session/session.h"
 
-#include <fmt/format.h>
-
 #include "platform/clock.h"
 #include "platform/fp_mode.h"
 #include "src/methods/registry.h"
@@ -90,9 +88,9 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
         return Status::bad_input(scene_.file + ": method.name: \"" + scene_.method +
                                  "\" is for no session, allowed: another");
     if (world != nullptr && world->media != scene.media.size())
-        return Status::bad_input(
-            fmt::format("{}: medium: {} media, allowed: {}, as the world was made of", scene.file,
-                        scene.media.size(), world->media));
+        return Status::bad_input(scene.file + ": medium: " + std::to_string(scene.media.size()) +
+                                 " media, allowed: " + std::to_string(world->media) +
+                                 ", as the world was made of");
     if (world != nullptr && world->direct_sky && method_->world != WorldUse::kSkyInPlace)
         return Status::bad_input(scene_.file + ": method.name: \"" + scene_.method +
                                  "\" needs the sky on a grid, allowed: a world made for it");
@@ -198,11 +196,10 @@ Status Session::render(const FrameTarget& target) {
         write_depths(*planes, make_camera(scene_.camera, 0, run_->world->medium.low_m),
                      target.depth_kind, depth_scale_, target.depth);
     }
-    report_.hash.clear();
-    if (target.hash != nullptr) {
+    has_hash_ = target.hash != nullptr;
+    if (has_hash_) {
         const StageClock clock(context_, "hash");
-        *target.hash = hash_planes(*planes);
-        report_.hash = fmt::format("{:016x}", *target.hash);
+        *target.hash = hash_ = hash_planes(*planes);
     }
     report_.counters.emplace_back("nan", broken);
     report_.frame = frame_;
@@ -216,6 +213,7 @@ Status Session::render(const FrameTarget& target) {
 
 Report Session::told() const {
     Report out = report_;
+    out.hash = has_hash_ ? hex_text(hash_) : std::string();
     method_->report(*run_, out);
     take_clocks(out);
     // Not that of this call: the text would grow between a host's two calls for it.

@@ -75,6 +75,10 @@ public:
     Status set_frame(int number);
     /// Null rows: nothing solid.
     Status set_depth(const Rows* rows, DepthKind kind);
+    /// Room for a depth image of the camera as it is, which has nothing solid.
+    Status reserve_depth();
+    /// From now on nothing is laid out anew: lights, sizes and maps that are not there are refused.
+    void seal();
     /// What the next steps and pictures may cost; members that are 0 are the scene's. kBadInput: a
     /// member that the method has not, or more than the scene's.
     Status set_work(const FrameWork& work);
@@ -111,6 +115,8 @@ private:
     FrameWork whole_work_, work_;  ///< the scene's, and that of the next frame
     int frame_ = 0;
     bool stale_ = true, anew_ = false;
+    bool has_hash_ = false;
+    std::uint64_t hash_ = 0;  ///< of the last picture
     RenderOptions options_;
     Report report_;
     Context context_;

@@ -29,6 +29,11 @@ Status check_frustum(const Camera& camera, bool billboards) {
     return Status::ok();
 }
 
+Status sealed(const char* what) {
+    return Status::bad_input(std::string(what) +
+                             ": another than when the flight was opened, allowed: what it had");
+}
+
 /// What a session may change of a camera.
 bool same_view(const Camera& a, const Camera& b) {
     return a.position_m == b.position_m && a.target_m == b.target_m && a.up == b.up &&
@@ -71,6 +76,8 @@ Status Session::set_camera(const Camera& camera) {
     const std::uint64_t pixels =
         std::uint64_t(camera.resolution[0]) * std::uint64_t(camera.resolution[1]);
     PILEUS_TRY(check_limit(context_.limits, LimitId::kPixels, pixels, "camera.resolution"));
+    if (run_->sealed && camera.resolution != around_.camera.resolution)
+        return sealed("camera.resolution");
     if (camera.resolution != around_.camera.resolution) run_->around.depth = CameraDepth{};
     around_.camera = camera;
     stale_ = true;
@@ -84,6 +91,7 @@ Status Session::set_depth_scale(const DepthScale& scale) {
 
 Status Session::set_sun(const Sun& sun) {
     if (same_sun(sun, around_.sun)) return Status::ok();
+    if (run_->sealed && scene_.atmosphere.present) return sealed("sun");
     if (const char* key = sun_fault(sun))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) { changed.sun = sun; }));
     around_.sun = sun;
@@ -120,6 +128,8 @@ Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
     }
     if (const char* key = sky_fault(scene_, next))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) { changed.sky = next; }));
+    if (run_->sealed && (map != nullptr || (!kept && run_->around.sky_map.present())))
+        return sealed("sky.map");
     if (map != nullptr) {
         SkyMap made;
         PILEUS_TRY(make_sky_map("sky.map", *map, next, around_.ground.present, made));
@@ -136,6 +146,7 @@ Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
 
 Status Session::set_ground(const Ground& ground) {
     if (same_ground(ground, around_.ground)) return Status::ok();
+    if (run_->sealed && scene_.atmosphere.present) return sealed("ground");
     if (const char* key = ground_fault(scene_, around_.camera, ground))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) {
             changed.ground = ground;
@@ -152,6 +163,7 @@ Status Session::set_ground(const Ground& ground) {
 
 Status Session::set_lights(const std::vector<LightSettings>& lights) {
     if (lights == around_.lights) return Status::ok();
+    if (run_->sealed && scene_.lights.empty()) return sealed("light");
     PILEUS_TRY(check_host_lights(context_, lights, run_->world->medium));
     if (const char* key = lights_fault(scene_, around_.ground, lights))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) {
@@ -193,15 +205,34 @@ Status Session::set_depth(const Rows* rows, DepthKind kind) {
         return Status::bad_input(
             "depth: a depth buffer without a camera's near_m, allowed: a camera with it, or "
             "another kind");
+    if (run_->sealed && rows != nullptr && depth.metres.empty()) return sealed("depth");
     if (rows != nullptr) {
         const CameraParams camera = make_camera(around_.camera, 0, {});
         PILEUS_TRY(take_depths(*rows, kind, depth_scale_, camera, depth));
-    } else if (depth.present) {
-        depth = CameraDepth{};
-    } else {
+    } else if (!depth.present) {
         return Status::ok();
     }
     depth.present = rows != nullptr;
+    stale_ = true;
+    return Status::ok();
+}
+
+void Session::seal() {
+    run_->sealed = true;
+    const std::size_t lamps = scene_.lights.empty() ? 0 : kMostLights;
+    around_.lights.reserve(lamps);
+    scene_.lights.reserve(lamps);
+    run_->lighting.reserve(lamps);
+}
+
+Status Session::reserve_depth() {
+    CameraDepth& depth = run_->around.depth;
+    const auto& size = around_.camera.resolution;
+    const std::uint64_t pixels = std::uint64_t(size[0]) * std::uint64_t(size[1]);
+    PILEUS_TRY(depth.metres.resize(pixels, "camera depth"));
+    for (float& metres : depth.metres.span()) metres = __builtin_inff();
+    depth.columns = std::size_t(size[0]);
+    depth.present = true;
     stale_ = true;
     return Status::ok();
 }

@@ -2,7 +2,6 @@
 // See world.h.
 #include "src/world/world.h"
 
-#include "src/base/digest.h"
 #include "src/base/file.h"
 #include "src/io/particles/placed_particles.h"
 #include "src/plan/scene_limits.h"
@@ -69,18 +68,6 @@ Status load_particles_of(const Scene& scene, const Context& context, World& worl
     return Status::ok();
 }
 
-/// Lights, and with them the plan, depend on the map's colours, so that it is read at once.
-Status read_sky_map(const Scene& scene, const Context& context, SkyMap& map) {
-    if (scene.sky.map.empty()) return Status::ok();
-    const StageClock clock(context, "sky map");
-    InputFile file;
-    const std::string path = scene_path(scene.directory, scene.sky.map);
-    PILEUS_TRY(at_key(scene, "sky.map", open_file(path, file)));
-    PILEUS_TRY(
-        at_key(scene, "sky.map", check_limit(context.limits, LimitId::kFile, file.size(), path)));
-    return at_key(scene, "sky.map", load_sky_map(scene, map));
-}
-
 }  // namespace
 
 bool shows_particles(const Scene& scene) {
@@ -110,60 +97,6 @@ Status load_world(const Scene& scene, const Context& context, World& world) {
     PILEUS_TRY(load_solids(scene, world.medium.low_m, context, world.solids));
     if (!world.medium.grid.periodic) return Status::ok();
     return repeat_solids(scene, world.medium.extent_m, world.solids);
-}
-
-Status outline_surroundings(const Scene& scene, const Context& context, const World& world,
-                            Surroundings& around) {
-    PILEUS_TRY(outline_camera_depth(scene, context, around.depth));
-    if (!scene.atmosphere.present) return read_sky_map(scene, context, around.sky_map);
-    const StageClock clock(context, "atmosphere");
-    return light_surroundings(scene, context.threads, world, around);
-}
-
-Status light_surroundings(const Scene& scene, int threads, const World& world,
-                          Surroundings& around) {
-    const Medium& medium = world.medium;
-    const double sea_m = scene.ground.present ? scene.ground.altitude_m : 0;
-    Image image;
-    PILEUS_TRY(light_atmosphere(scene, medium.low_m[2] + 0.5 * medium.extent_m[2] - sea_m, threads,
-                                around.air, image));
-    SkyMap map;
-    PILEUS_TRY(make_sky_map("atmosphere", image, Sky{}, scene.ground.present, map));
-    around.sky_map = std::move(map);
-    return Status::ok();
-}
-
-Status load_surroundings(const Scene& scene, const Context& context, Surroundings& around) {
-    return read_camera_depth(scene, context, around.depth);
-}
-
-Lighting light_world(const Scene& scene, const SunPlace& sun, const World& world,
-                     const Surroundings& around, Plan& plan) {
-    const Scene* lit = &scene;
-    Scene coloured;
-    if (around.air.present()) {
-        coloured.sun = scene.sun;
-        coloured.sky.present = true;
-        coloured.ground = scene.ground;
-        coloured.lights = scene.lights;
-        coloured.solids = scene.solids;
-        for (std::size_t c = 0; c < 3; ++c)
-            coloured.sun.irradiance[c] = float(around.air.above[c] * around.air.sunlight[c]);
-        lit = &coloured;
-    }
-    Lighting out =
-        plan_lighting(*lit, world.medium, sun, plan, &around.sky_map, &world.solids, &around.depth);
-    out.air = around.air.present();
-    return out;
-}
-
-std::string density_digest(const World& world) {
-    Digest digest;
-    digest.floats(world.medium.volume.density.span());
-    for (const NoiseTexture* noise : {&world.layer.perlin, &world.layer.worley})
-        for (const std::int32_t word : noise->words.span()) digest.u32(std::uint32_t(word));
-    if (world.medium.count > 1) digest.floats(world.medium.parts.span());
-    return digest.hex();
 }
 
 }  // namespace pileus

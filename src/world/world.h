@@ -55,6 +55,9 @@ Status load_world(const Scene& scene, const Context& context, World& world);
 Status outline_surroundings(const Scene& scene, const Context& context, const World& world,
                             Surroundings& around);
 
+/// The scene's sky map, if it has one; lights, and with them the plan, depend on its colours.
+Status read_sky_map(const Scene& scene, const Context& context, SkyMap& map);
+
 /// The atmosphere and its sky for the scene's sun and ground as they are now.
 Status light_surroundings(const Scene& scene, int threads, const World& world,
                           Surroundings& around);
@@ -66,6 +69,9 @@ Status load_surroundings(const Scene& scene, const Context& context, Surrounding
 /// points into `world` and `around`.
 Lighting light_world(const Scene& scene, const SunPlace& sun, const World& world,
                      const Surroundings& around, Plan& plan);
+
+/// Bytes of the arrays that sessions share.
+std::uint64_t bytes_of_world(const World& world);
 
 /// Digest of every density, and of each medium's part where there are several.
 std::string density_digest(const World& world);

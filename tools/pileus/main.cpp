@@ -30,7 +30,7 @@ Status print(const std::string& text) {
 namespace {
 
 constexpr const char* kCommands =
-    "render, plan, view, follow, flux, compare, study, hash, info, convert";
+    "render, plan, view, follow, flux, compare, study, hash, info, convert, pack";
 
 /// Says nothing for Code::kOk without a message.
 int finish(const Status& status) {
@@ -64,7 +64,7 @@ Status check_command(int count, char** words) {
         return Status::bad_input("pileus: unknown option before the subcommand, " +
                                  quote_text(word) + ", allowed: --help, --version");
     for (const char* known : {"render", "plan", "view", "follow", "flux", "compare", "study",
-                              "hash", "info", "convert"})
+                              "hash", "info", "convert", "pack"})
         if (word == known) return Status::ok();
     return Status::bad_input("pileus: unknown subcommand, " + quote_text(word) +
                              ", allowed: " + kCommands);
@@ -107,6 +107,7 @@ int run(int count, char** words) {
     add_convert(app, chosen);
     add_study(app, chosen);
     add_view(app, chosen);
+    add_pack(app, chosen);
 
     const Status known = check_command(count, words);
     if (!known) return finish(known);

@@ -66,19 +66,6 @@ Status check_image(const Image& image) {
     return Status::ok();
 }
 
-Status color_channels(const Image& image, const Channel* (&rgb)[3]) {
-    const Channel* grey = image.find("Y");
-    const char* const names[3] = {"R", "G", "B"};
-    for (int i = 0; i < 3; ++i) {
-        rgb[i] = image.find(names[i]);
-        if (rgb[i] == nullptr) rgb[i] = grey;
-        if (rgb[i] == nullptr)
-            return Status::bad_input(std::string("image: channel ") + names[i] +
-                                     ": missing, allowed: R G B, or Y");
-    }
-    return Status::ok();
-}
-
 Status can_write_image(const std::string& path) {
     const PictureFormat* format = picture_format_of(path);
     if (format == nullptr || !is_written(*format))

@@ -171,6 +171,7 @@ void collectors_end_tracing(CollectorsRun& run) {
 
 Status collectors_relight(bool anew, const Context& context, CollectorsRun& run) {
     if (!anew && relight_photons(run)) return Status::ok();
+    if (run.sealed) return refuse_new_lights();
     run.upsample.ready = false;
     PILEUS_TRY(collectors_weigh(context, run));
     forget_sun_shadow(run);

@@ -141,10 +141,10 @@ Status light_particles(const Context& context, ParticlesRun& run) {
     }
     PILEUS_TRY(light_by_lamps(context, run));
     if (run.scene->particles.sky_ambient) {
-        run.sky_nodes.seen = Buffer<float>();  // the medium may be another frame's
+        run.sky_nodes.seen.truncate(0);  // the medium may be another frame's
         PILEUS_TRY(make_sky_nodes(context, run.world->medium, run.majorants, run.lighting, 0,
                                   octaves_of(run), SkyView{}, run.sky_nodes));
-        run.sky = Buffer<float>();
+        run.sky.truncate(0);
         if (run.sky_nodes.sets > 0) {
             PILEUS_TRY(allocate_once(arrays::particle_sky(run.tree.balls.size()), run.sky));
             light_by_sky(context, run);

@@ -15,8 +15,12 @@ namespace {
 /// What the medium shows along the rays through pixel centres; a flat detector has no such rays.
 Status make_alpha(const Context& context, PathRun& run) {
     const OutputSettings& output = run.scene->output;
+    // Colours are the film's, and stay where they are.
+    Buffer<float> colour;
+    colour.swap(run.planes.colour);
     PILEUS_TRY(allocate_planes(run.camera.width, run.camera.height, 0, run.lighting.opaque(),
                                run.scene->wants_depth(), run.planes));
+    colour.swap(run.planes.colour);
     if (run.camera.flux != 0) return Status::ok();  // alpha 1: all pixels are measured
     if (path_regresses(*run.scene))
         return march_guides(context, run.world->medium, run.majorants, run.lighting, run.camera,

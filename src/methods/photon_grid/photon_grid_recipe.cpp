@@ -126,6 +126,7 @@ Status aim(int, bool anew, const Context& context, MethodRun& method_run) {
         turned |= deposit.camera[a] !=
                   (run.scene->camera.orthographic ? -camera.forward[a] : camera.origin[a]);
     if (!placed || turned) {
+        if (run.sealed) return refuse_new_lights();
         PILEUS_TRY(photon_grid_weigh(context, run));
         forget_sun_shadow(run);
         return lay_out_photons(photon_grid_trace_input(context, run), run);

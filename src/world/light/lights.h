@@ -54,6 +54,18 @@ struct Lighting {
     double ground_albedo = 0;
     Double3 ground_diffuse{}, ground_sun{};  ///< radiance of the unshadowed ground
 
+    /// Lists are copied where they lie, never moved: a session has room for the most that it may
+    /// have, and frames take none.
+    Lighting() = default;
+    Lighting(const Lighting&) = default;
+    Lighting& operator=(const Lighting&) = default;
+    /// Room for all kinds of lights, and for so many lamps.
+    void reserve(std::size_t lamp_count) {
+        lights.reserve(4);
+        lamps.reserve(lamp_count);
+        lamp_emission.reserve(lamp_count);
+    }
+
     /// Whether rays may end before the sky.
     bool opaque() const { return ground || solids != nullptr || depth != nullptr; }
 };

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reads a sky map and checks every value.
-// in: .exr or .pfm -> out: planes of radiance above the horizon.
+// Checks every value of a sky map.
+// in: a picture -> out: planes of radiance above the horizon.
 // docs/formats.md "Sky maps in".
 #include "src/world/light/sky_map.h"
 
 #include "src/io/images/image_file.h"
-#include "src/scene/read_scene.h"
 #include "src/scene/toml/toml_tree.h"
 
 namespace pileus {
@@ -73,15 +72,6 @@ Status make_sky_map(const std::string& name, const Image& image, const Sky& sky,
     v.turn_of_first = float(sky.map_rotation_deg / 360.0 - 0.5);
     v.radiance = map.radiance.data();
     return Status::ok();
-}
-
-Status load_sky_map(const Scene& scene, SkyMap& map) {
-    map.size = {0, 0};
-    if (scene.sky.map.empty()) return Status::ok();
-    const std::string path = scene_path(scene.directory, scene.sky.map);
-    Image image;
-    PILEUS_TRY(read_image(path, image, kMaxSkyTexels));
-    return make_sky_map(path, image, scene.sky, scene.ground.present, map);
 }
 
 }  // namespace pileus

@@ -34,6 +34,9 @@ struct SkyMap {
     }
 };
 
+/// Reads the picture of the scene's sky.map. Errors: as load_sky_map's.
+Status read_sky_image(const Scene& scene, Image& image);
+
 /// Reads the scene's sky.map, if it has one. `map` is left without a size where it has none.
 /// Missing or malformed file, a value below 0, above 1e30 or not finite: kBadInput, with the pixel;
 /// more than 2^26 pixels or than memory: kLimit; failed half way: kIo.

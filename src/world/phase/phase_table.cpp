@@ -115,6 +115,24 @@ std::int32_t set_guide(std::int32_t slots, std::size_t cells, SlotOf slot_of, st
 
 }  // namespace
 
+void point_into(PhaseStore& store) {
+    PhaseTable& table = store.table[0];
+    const Arrays a = arrays_in(store.numbers, std::size_t(table.cells) + 1);
+    table.turn = a.turn, table.base = a.base, table.width = a.width;
+    table.density = a.density, table.share = a.share;
+    table.draw_guide = store.guides.data();
+    table.find_guide = table.draw_guide + table.slots + 1;
+}
+
+bool is_whole(const PhaseStore& store) {
+    if (store.table.size() != 1) return false;
+    const PhaseTable& table = store.table[0];
+    const std::int64_t most = std::int64_t(kMostPhaseNodes);
+    return table.cells >= 1 && table.cells < most && table.slots >= 1 && table.slots <= 2 * most &&
+           store.numbers.size() == 5 * (std::size_t(table.cells) + 1) &&
+           store.guides.size() == 2 * (std::size_t(table.slots) + 1);
+}
+
 Status make_phase_table(const std::string& name, const PhaseNodes& nodes, PhaseStore& out) {
     const std::size_t count = nodes.value.size(), cells = count - 1;
     assert(count >= 2 && count <= kMostPhaseNodes && nodes.angle_deg.size() == count);
@@ -132,13 +150,11 @@ Status make_phase_table(const std::string& name, const PhaseNodes& nodes, PhaseS
 
     std::int32_t* draw = out.guides.data();
     std::int32_t* find = draw + slots + 1;
+    point_into(out);
     table.draw_steps = set_guide(
         slots, cells, [&](std::size_t i) { return draw_slot(slots, a.share[i]); }, draw);
     table.find_steps = set_guide(
         slots, cells, [&](std::size_t i) { return find_slot(slots, a.turn[i]); }, find);
-    table.turn = a.turn, table.base = a.base, table.width = a.width;
-    table.density = a.density, table.share = a.share;
-    table.draw_guide = draw, table.find_guide = find;
     double moment[kPhaseMoments];
     phase_table_moments(table, kPhaseMoments, moment);
     for (int l = 0; l < kPhaseMoments; ++l) table.moment[l] = float(moment[l]);

@@ -18,6 +18,11 @@ struct PhaseStore {
     std::uint64_t bytes() const { return table.bytes() + numbers.bytes() + guides.bytes(); }
 };
 
+/// Points the table at its arrays, whose sizes are those that its numbers ask for.
+void point_into(PhaseStore& store);
+/// Whether they are.
+bool is_whole(const PhaseStore& store);
+
 /// Largest share of the light that moments may be short of a phase function in a scene.
 constexpr double kMostClipped = 0.01;
 

@@ -10,6 +10,7 @@
 #include "platform/threads.h"
 #include "src/methods/collectors/billboards/billboard_spheres.h"
 #include "src/run/device_launch.h"
+#include "src/scene/toml/toml_tree.h"
 
 namespace pileus {
 namespace {
@@ -18,7 +19,7 @@ constexpr float kLargestLength = 1e15f;
 
 Status fault(std::uint32_t sphere, const char* what, float value, const char* allowed) {
     return Status::bad_input("billboard " + std::to_string(sphere) + ": " + what + ": " +
-                             std::to_string(value) + ", " + allowed);
+                             number_text(value) + ", " + allowed);
 }
 
 Status check_sphere(const BillboardScene& s, std::uint32_t i) {

@@ -1,0 +1,121 @@
+# SPDX-License-Identifier: Apache-2.0
+# The library of the flight profile: sessions over packed scenes, nothing else. docs/flight.md
+# in: PILEUS_FLIGHT, PILEUS_FLIGHT_METHODS, kernels of PILEUS_KERNELS
+# -> out: libpileus_flight.a, one object with the functions of pileus_flight.h and pileus_session_*
+if(NOT PILEUS_FLIGHT)
+    return()
+endif()
+set(PILEUS_FLIGHT_METHODS "" CACHE STRING "Methods of the flight library; empty: all")
+set(flight_methods collectors path raymarch optical-depth photon-grid particles)
+if(PILEUS_FLIGHT_METHODS)
+    foreach(method IN LISTS PILEUS_FLIGHT_METHODS)
+        if(NOT method IN_LIST flight_methods)
+            list(JOIN flight_methods ", " known)
+            message(FATAL_ERROR "PILEUS_FLIGHT_METHODS: ${method}, allowed: ${known}")
+        endif()
+    endforeach()
+    set(flight_methods ${PILEUS_FLIGHT_METHODS})
+endif()
+find_program(PILEUS_OBJCOPY NAMES ${CMAKE_OBJCOPY})
+if(NOT CMAKE_OBJCOPY OR NOT CMAKE_LINKER)
+    message(FATAL_ERROR "PILEUS_FLIGHT: needs a linker and objcopy, allowed: GNU binutils")
+endif()
+
+# What reads files, texts and clocks, or shows what no session needs, stays out; src/flight/bare has what
+# stands in its place. The linker drops the rest that no function reaches.
+file(GLOB_RECURSE flight_sources CONFIGURE_DEPENDS "platform/*.cpp" "src/*.cpp")
+foreach(pattern
+        "platform/(clock|cuda_device|egl|file|file_identity|interrupt|new_file|osmesa|process)[.]cpp"
+        "src/(compare|scene/(keys|checks|toml)|session/flux|world/density)/"
+        "src/io/(meshes|netcdf|particles|text|volumes)/"
+        "src/io/images/(blocks|exr|exr_guard|image_file|netcdf_picture|pfm|picture|picture_formats|png)[.]cpp"
+        "src/session/(budget_text|check_changed|foretell|follow|render|verify)[.]cpp"
+        "src/api/c_(compare|world|flight_close)[.]cpp"
+        "src/base/(file|output_check|span)[.]cpp"
+        "src/methods/(registry|path/path_state|collectors/billboards/gl_billboards)[.]cpp"
+        "src/scene/read_scene[.]cpp"
+        "src/world/(world|sky_picture|camera/places|solids/(depth_file|solid_tree))[.]cpp"
+        "src/flight/measure[.]cpp")
+    list(FILTER flight_sources EXCLUDE REGEX "/${pattern}")
+endforeach()
+
+add_library(pileus_flight_objects OBJECT ${flight_sources} kernels_cpu/isa/dispatch.cpp)
+target_link_libraries(pileus_flight_objects PRIVATE pileus_flags pileus_headers pileus_nothrow)
+target_compile_definitions(pileus_flight_objects PRIVATE PILEUS_FLIGHT=1 PILEUS_STATIC=1
+    PILEUS_VERSION_TEXT="${PROJECT_VERSION}" PILEUS_WITH_THREADS=0 ${PILEUS_ISA_DEFINITIONS})
+foreach(method IN LISTS flight_methods)
+    string(MAKE_C_IDENTIFIER "PILEUS_FLIGHT_${method}" name)
+    string(TOUPPER ${name} name)
+    target_compile_definitions(pileus_flight_objects PRIVATE ${name}=1)
+endforeach()
+set(flight_options -fno-threadsafe-statics -fno-asynchronous-unwind-tables -fno-unwind-tables
+    -fstack-usage)
+target_compile_options(pileus_flight_objects PRIVATE ${flight_options} -Os)
+set_target_properties(pileus_flight_objects PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+pileus_compile_together(pileus_flight_objects 12)
+
+# Kernels once more, without those that no chosen method calls; kernels_cpu/isa/left_out.cpp stands in for
+# them. Solid meshes are in no flight.
+set(flight_without SOLIDS)
+set(flight_left_out trace_solids solids)
+foreach(row "photon-grid CELLS trace_cells" "path PATH path path_solids path_guided path_lamps"
+        "raymarch|optical-depth RAYMARCH raymarch" "raymarch SKY sky" "particles PARTICLES particles")
+    separate_arguments(row)
+    list(POP_FRONT row users part)
+    if(NOT "${flight_methods}" MATCHES "(^|;)(${users})(;|$)")
+        list(APPEND flight_without ${part})
+        list(APPEND flight_left_out ${row})
+    endif()
+endforeach()
+set(flight_kernels ${PILEUS_ISA_SOURCES} "${PROJECT_SOURCE_DIR}/kernels_cpu/isa/left_out.cpp")
+foreach(part IN LISTS flight_left_out)
+    list(FILTER flight_kernels EXCLUDE REGEX "/isa_${part}[.]cpp$")
+endforeach()
+set(flight_isa_objects)
+foreach(isa IN LISTS PILEUS_ISA_NAMES)
+    add_library(pileus_flight_${isa} OBJECT ${flight_kernels})
+    foreach(property COMPILE_DEFINITIONS COMPILE_OPTIONS)
+        get_target_property(value pileus_isa_${isa} ${property})
+        set_target_properties(pileus_flight_${isa} PROPERTIES ${property} "${value}")
+    endforeach()
+    foreach(part IN LISTS flight_without)
+        target_compile_definitions(pileus_flight_${isa} PRIVATE PILEUS_WITHOUT_${part}=1)
+    endforeach()
+    target_compile_options(pileus_flight_${isa} PRIVATE ${flight_options})
+    target_link_libraries(pileus_flight_${isa} PRIVATE pileus_flags pileus_nothrow)
+    set_target_properties(pileus_flight_${isa} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    list(APPEND flight_isa_objects $<TARGET_OBJECTS:pileus_flight_${isa}>)
+endforeach()
+
+# One object: of all that was compiled what the functions of the headers reach.
+set(flight_functions init version api_version orbit packed_read flight_open flight_close flight_usage)
+foreach(name size set_camera set_matrices set_sun set_sky set_ground set_lights set_placement set_depth
+        set_frame set_work work govern light step render stats)
+    list(APPEND flight_functions session_${name})
+endforeach()
+set(flight_roots)
+set(flight_globals)
+foreach(name IN LISTS flight_functions)
+    list(APPEND flight_roots -u pileus_${name})
+    list(APPEND flight_globals --keep-global-symbol=pileus_${name})
+endforeach()
+set(flight_object "${PROJECT_BINARY_DIR}/pileus_flight.o")
+add_custom_command(OUTPUT "${flight_object}"
+    COMMAND "${CMAKE_LINKER}" -r --gc-sections ${flight_roots} -o "${flight_object}.all"
+        $<TARGET_OBJECTS:pileus_flight_objects> ${flight_isa_objects}
+    COMMAND "${CMAKE_OBJCOPY}" ${flight_globals} --remove-section=.comment "${flight_object}.all"
+        "${flight_object}.whole"
+    COMMAND "${CMAKE_OBJCOPY}" --strip-unneeded "${flight_object}.whole" "${flight_object}"
+    DEPENDS $<TARGET_OBJECTS:pileus_flight_objects> ${flight_isa_objects}
+    COMMAND_EXPAND_LISTS VERBATIM)
+add_custom_target(pileus_flight_object DEPENDS "${flight_object}")
+add_library(pileus_flight STATIC "${flight_object}")
+add_dependencies(pileus_flight pileus_flight_object)
+set_target_properties(pileus_flight PROPERTIES LINKER_LANGUAGE CXX)
+target_include_directories(pileus_flight INTERFACE "${PROJECT_SOURCE_DIR}/include")
+target_compile_definitions(pileus_flight INTERFACE PILEUS_STATIC=1)
+
+# The example, and what tools/flight flies with.
+set_source_files_properties(tests/flight/examples/flight_loop.c PROPERTIES LANGUAGE CXX)
+add_executable(flight_loop EXCLUDE_FROM_ALL tests/flight/examples/flight_loop.c)
+target_link_libraries(flight_loop PRIVATE pileus_flight)

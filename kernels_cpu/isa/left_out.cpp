@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Stands in for kernels that a library was configured without, so that the table of the others is
+// whole. in: PILEUS_WITHOUT_<PART>, PILEUS_ISA -> out: functions that nothing calls: what would
+// need them is refused before. cmake/PileusFlight.cmake; docs/flight.md, "Build"
+#include "kernels_cpu/isa/kernels.h"
+
+#define PILEUS_JOIN(a, b) a##b
+#define PILEUS_OF(kernel, isa) PILEUS_JOIN(kernel, isa)
+#define PILEUS_NOTHING(kernel, Params, Buffers)                                      \
+    void PILEUS_OF(kernel, PILEUS_ISA)(const Params&, const Buffers&, std::uint32_t, \
+                                       std::uint32_t);                               \
+    void PILEUS_OF(kernel, PILEUS_ISA)(const Params&, const Buffers&, std::uint32_t, \
+                                       std::uint32_t) {}
+
+namespace pileus {
+
+#ifdef PILEUS_WITHOUT_SOLIDS
+PILEUS_NOTHING(trace_solids_, TraceParams, TraceBuffers)
+PILEUS_NOTHING(solid_rows_, SolidRowsParams, BackgroundBuffers)
+#endif
+#ifdef PILEUS_WITHOUT_CELLS
+PILEUS_NOTHING(trace_cells_, TraceParams, TraceBuffers)
+#endif
+#ifdef PILEUS_WITHOUT_PATH
+PILEUS_NOTHING(path_kernel_, PathParams, PathBuffers)
+PILEUS_NOTHING(path_solids_, PathParams, PathBuffers)
+PILEUS_NOTHING(path_guided_, PathParams, PathBuffers)
+PILEUS_NOTHING(path_lamps_, PathParams, PathBuffers)
+#endif
+#ifdef PILEUS_WITHOUT_RAYMARCH
+PILEUS_NOTHING(raymarch_kernel_, RaymarchParams, RaymarchBuffers)
+#endif
+#ifdef PILEUS_WITHOUT_SKY
+extern const SkyKernels PILEUS_OF(sky_kernel_, PILEUS_ISA);
+const SkyKernels PILEUS_OF(sky_kernel_, PILEUS_ISA) = {};
+#endif
+#ifdef PILEUS_WITHOUT_PARTICLES
+extern const ParticleKernels PILEUS_OF(particle_kernel_, PILEUS_ISA);
+const ParticleKernels PILEUS_OF(particle_kernel_, PILEUS_ISA) = {};
+#endif
+
+}  // namespace pileus

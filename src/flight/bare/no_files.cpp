@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a flight library has in place of readers and writers of files, and of worlds made of scenes.
+// in: the name of a file -> out: one line.
+// docs/flight.md, "Packed scenes"
+#include "platform/cuda_device.h"
+#include "src/methods/collectors/billboards/gl_billboards.h"
+#include "src/methods/path/path_state.h"
+#include "src/scene/read_scene.h"
+#include "src/session/run_context.h"
+#include "src/world/camera/places.h"
+#include "src/world/density/sky_field.h"
+#include "src/world/world.h"
+
+namespace pileus {
+namespace {
+
+Status no_files(const char* what) {
+    return Status::bad_input(std::string(what) +
+                             ": not in a flight, allowed: what `pileus pack` packed");
+}
+
+}  // namespace
+
+Status outline_world(const Scene&, WorldUse, const Context&, World&) { return no_files("world"); }
+Status load_world(const Scene&, const Context&, World&) { return no_files("world"); }
+Status place_camera(Scene&) { return Status::ok(); }
+
+bool shows_particles(const Scene& scene) {
+    // A packed world of another kind is refused by the session.
+    return scene.method == "particles";
+}
+
+Status read_sky_map(const Scene& scene, const Context&, SkyMap& map) {
+    if (scene.sky.map.empty()) return Status::ok();
+    if (scene.sky.picture == nullptr) return no_files("sky.map");
+    return make_sky_map("sky.map", *scene.sky.picture, scene.sky, scene.ground.present, map);
+}
+Status read_camera_depth(const Scene& scene, const Context&, CameraDepth&) {
+    return scene.camera.depth.empty() ? Status::ok() : no_files("camera.depth");
+}
+Status read_path_state(const std::string&, std::uint64_t, Film&) { return no_files("state"); }
+Status write_path_state(const std::string&, std::uint64_t, const Film&) {
+    return no_files("state");
+}
+std::uint64_t path_state_digest(const PathInput&, const std::string&) { return 0; }
+std::uint64_t path_state_bytes(std::uint64_t) { return 0; }
+Status can_write_file(const std::string&) { return no_files("state"); }
+std::string numbered_path(const std::string& path, int) { return path; }
+std::string budget_text(const RenderOptions&) { return {}; }
+
+Status open_gl_blender(Compositor, GlBlender&) { return no_files("collectors.compositor"); }
+Status blend_by_gl(GlBlender&, const BillboardScene&, const CameraParams&, int, BillboardImage&) {
+    return no_files("collectors.compositor");
+}
+bool has_cuda_device(std::string& why) {
+    why = "not in a flight";
+    return false;
+}
+
+bool is_sequence(const std::string&) { return false; }
+Status at_key(const Scene&, const std::string& key, Status status) {
+    if (!status) status.message = key + ": " + status.message;
+    return status;
+}
+/// Of what faults tell the whole part is enough.
+std::string number_text(double number) { return std::to_string(std::int64_t(number)); }
+
+SkyBytes sky_bytes(const SkySettings& settings) {
+    std::uint64_t kept = 0;
+    for (const bool has : {settings.has_perlin(), settings.has_worley()})
+        if (has) kept += noise_texture_bytes(std::uint64_t(settings.size));
+    return {kept, 0};
+}
+std::uint64_t noise_texture_bytes(std::uint64_t size) {
+    const std::int64_t blocks = noise_blocks(std::int32_t(size));
+    return 4 * std::uint64_t(noise_words(std::int64_t(size))) + std::uint64_t(noise_words(blocks));
+}
+
+[[noreturn]] void stop_out_of_range(std::size_t, std::size_t, std::size_t) { __builtin_abort(); }
+
+}  // namespace pileus

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// Members of a scene, for archives. What only reading a text needs is left out: its text, places
+// of its keys, overrides, names of files.
+// in: Scene -> out: every value that a session reads, in a fixed order.
+// docs/flight.md, "Packed scenes"; tests/flight/pack_test.cpp finds a key that is missing here
+#pragma once
+#include "src/flight/archive.h"
+#include "src/scene/scene.h"
+
+namespace pileus {
+
+template <class A>
+void fields(A& a, Frustum& v) {
+    all(a, v.half_width, v.half_height, v.shift_x, v.shift_y);
+}
+template <class A>
+void fields(A& a, Camera& v) {
+    all(a, v.position_m, v.target_m, v.up, v.position_by_place, v.target_by_place, v.position_place,
+        v.target_place, v.orthographic, v.flux, v.fov_deg, v.height_m, v.resolution, v.has_frustum,
+        v.frustum, v.depth_on_axis, v.depth_scale, v.aperture_radius_m, v.focus_distance_m,
+        v.shutter_s);
+}
+template <class A>
+void fields(A& a, Sun& v) {
+    all(a, v.present, v.azimuth_deg, v.elevation_deg, v.irradiance, v.angular_radius_deg);
+}
+template <class A>
+void fields(A& a, Sky& v) {
+    all(a, v.present, v.radiance, v.map, v.map_scale, v.map_rotation_deg);
+}
+template <class A>
+void fields(A& a, Ground& v) {
+    all(a, v.present, v.altitude_m, v.albedo);
+}
+template <class A>
+void fields(A& a, AtmosphereSettings& v) {
+    all(a, v.present, v.date, v.time, v.later_h, v.utc_offset_h, v.latitude_deg, v.longitude_deg,
+        v.turbidity, v.ground_albedo, v.refraction, v.sun_disc);
+}
+template <class A>
+void fields(A& a, LightSettings& v) {
+    all(a, v.type, v.position_m, v.intensity, v.radius_m, v.shadow_samples, v.direction, v.target_m,
+        v.cone_deg, v.penumbra_deg, v.azimuth_deg, v.elevation_deg, v.irradiance);
+}
+template <class A>
+void fields(A& a, PhaseSettings& v) {
+    all(a, v.type, v.numbers, v.file);
+}
+template <class A>
+void fields(A& a, TransferRow& v) {
+    all(a, v.value, v.extinction_per_m, v.albedo);
+}
+template <class A>
+void fields(A& a, RecipeSettings& v) {
+    all(a, v.count, v.rise_m_per_s);
+}
+template <class A>
+void fields(A& a, ParticleSettings& v) {
+    all(a, v.unit_m, v.radius_m, v.radius_scale, v.cross_section, v.plume, v.cumulus, v.count,
+        v.rise_m_per_s, v.share, v.replicate, v.replicate_radius);
+}
+template <class A>
+void fields(A& a, SkyNoise& v) {
+    all(a, v.tile_m, v.gain, v.cells, v.octaves);
+}
+template <class A>
+void fields(A& a, SkySettings& v) {
+    all(a, v.type, v.perlin, v.worley, v.scale, v.blend, v.roughness, v.size, v.seed,
+        v.threshold_low, v.threshold_high, v.density, v.coverage, v.base_m, v.top_m, v.base_rise,
+        v.top_fall, v.rounding, v.base_density, v.planet_radius_m, v.wind_m_per_s, v.time_s,
+        v.evaluate);
+}
+template <class A>
+void fields(A& a, MediumSettings& v) {
+    all(a, v.density, v.file, v.first_frame, v.format, v.grid, v.raw_type, v.raw_size,
+        v.raw_big_endian, v.particles, v.has_bounds, v.bounds_m, v.resolution, v.shape_seed, v.sky,
+        v.extinction_per_m, v.extinction_scale, v.albedo, v.emission, v.phase, v.periodic,
+        v.constant, v.transfer, v.y_up);
+}
+template <class A>
+void fields(A& a, UpsampleSettings& v) {
+    all(a, v.scale, v.temporal, v.upsample);
+}
+template <class A>
+void fields(A& a, CollectorSettings& v) {
+    all(a, v.photons, v.generations, v.bands, v.samples, v.local_tracking, v.lobe_closure,
+        v.camera_closure, v.cell_voxels, v.paper, v.billboards, v.guided_nodes, v.directions,
+        v.compositor, v.rejection_sampler, v.variance_field, v.variance_radius, v.density_range,
+        v.peak_deg, v.influence_radius, v.radius_factor, v.axis_degrees, v.first_order_split,
+        v.window, v.thin, v.light_refresh, v.accumulation);
+}
+template <class A>
+void fields(A& a, PhotonGridSettings& v) {
+    all(a, v.photons, v.generations, v.ring, v.cells, v.closure, v.bands, v.axis_degrees,
+        v.peak_deg, v.local_tracking, v.first_order_split, v.directions, v.thin, v.light_refresh,
+        v.accumulation);
+}
+template <class A>
+void fields(A& a, PathSettings& v) {
+    all(a, v.samples_per_pixel, v.max_depth, v.centre, v.target_error, v.max_samples_per_pixel,
+        v.guide);
+}
+template <class A>
+void fields(A& a, FilterSettings& v) {
+    all(a, v.kind, v.radius_pixels);
+}
+template <class A>
+void fields(A& a, RaymarchSettings& v) {
+    all(a, v.integrator, v.steps, v.spacing, v.first_step_m, v.growth, v.stretch, v.forward, v.many,
+        v.octaves, v.octave_extinction, v.octave_share, v.octave_anisotropy, v.cone_deg,
+        v.forward_share, v.light, v.light_steps, v.light_first_step_m, v.light_growth,
+        v.sky_ambient, v.detail, v.light_cone, v.jitter, v.jitter_share, v.grid_lock_m, v.powder,
+        v.powder_strength, v.ambient, v.stop_below, v.thin, v.light_refresh, v.peak_phase);
+}
+template <class A>
+void fields(A& a, OpticalDepthSettings& v) {
+    all(a, v.steps, v.exact, v.resolution, v.intensity, v.ambient, v.powder_strength,
+        v.powder_depth, v.powder_by_extinction, v.g, v.max_extinction_per_m, v.light_scale,
+        v.stop_below);
+}
+template <class A>
+void fields(A& a, ParticlesSettings& v) {
+    all(a, v.scattering, v.octaves, v.octave_extinction, v.octave_share, v.octave_anisotropy,
+        v.cone_deg, v.sky_ambient, v.bins, v.leaf, v.light, v.shadow_density, v.occluders,
+        v.light_bias, v.solid_shadow, v.billboards, v.display_scale, v.falloff, v.most_depth,
+        v.stop_below);
+}
+
+/// Sessions have one camera and no film.
+template <class A>
+void fields(A& a, Scene& v) {
+    all(a, v.seed, v.camera, v.sun, v.sky, v.ground, v.atmosphere, v.lights, v.media, v.method,
+        v.collectors, v.path, v.filter, v.raymarch, v.optical_depth, v.photon_grid, v.particles,
+        v.file);
+}
+
+}  // namespace pileus

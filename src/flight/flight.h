@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sessions over packed scenes, up to the first picture; and what such a session needs.
+// in: a packed scene -> out: a lit session; bytes of a block.
+// docs/flight.md
+#pragma once
+#include "src/flight/pack.h"
+#include "src/session/session.h"
+
+namespace pileus {
+
+/// Unpacks the scene, prepares its method and traces light for a first picture. The
+/// session points into `packed`. `depth`: leaves room
+/// for depth images. Errors: those of unpack_scene and of sessions.
+Status begin_flight(const void* scene, std::size_t bytes, const RenderOptions& options, bool depth,
+                    Packed& packed, Session& session);
+
+/// Bytes of a block for a packed scene, as docs/flight.md, "Memory", works them out.
+struct FlightNeed {
+    std::uint64_t kept = 0;   ///< of what lives as long as the session
+    std::uint64_t open = 0;   ///< most while it is made
+    std::uint64_t frame = 0;  ///< most that a call took, over frames near and far
+    std::uint64_t block = 0;  ///< what to give
+};
+
+/// Opens the scene in a block of its own and draws some frames. Errors: those of sessions.
+Status measure_flight(const std::string& packed, const RenderOptions& options, FlightNeed& need);
+
+}  // namespace pileus

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// See flight.h: what a session needs, by trying.
+// in: a packed scene -> out: bytes.
+// docs/flight.md, "Memory"
+#include "platform/memory.h"
+#include "src/flight/block.h"
+#include "src/flight/flight.h"
+
+namespace pileus {
+namespace {
+
+/// What a library of the flight profile keeps in its block and an ordinary one elsewhere: handles,
+/// texts, short lists.
+constexpr std::uint64_t kSmallBytes = 512u << 10;
+/// Blocks are whole multiples of this.
+constexpr std::uint64_t kUnit = 64u << 10;
+
+/// Counts as a block would.
+struct Counted {
+    Block* block;
+    static void* take(void* user, std::size_t bytes, std::size_t) {
+        return static_cast<Counted*>(user)->block->take(bytes);
+    }
+    static void give(void* user, void* memory) { static_cast<Counted*>(user)->block->give(memory); }
+};
+
+/// Frame `number`: the scene's view, then nearer and from other sides, under a sun that moves.
+Status set_frame(const Scene& scene, int number, Session& session) {
+    PILEUS_TRY(session.set_frame(number));
+    Camera camera = scene.camera;
+    const Double3 away = scene.camera.position_m - scene.camera.target_m;
+    const double near = number % 3 == 0 ? 1 : (number % 3 == 1 ? 0.5 : 0.25);
+    const bool turned = number % 2 == 1;
+    camera.position_m = camera.target_m + near * (turned ? Double3{-away.y, away.x, away.z} : away);
+    // Where that is not possible it stays as it was.
+    (void)bool(session.set_camera(camera));
+    Sun sun = scene.sun;
+    sun.elevation_deg += sun.elevation_deg > 45 ? -0.1 * number : 0.1 * number;
+    if (!sun.present) return Status::ok();
+    return session.set_sun(sun);
+}
+
+Status draw(Session& session, Buffer<unsigned char>& pixels) {
+    const auto& size = session.camera().resolution;
+    for (const PixelFormat format : {PixelFormat::kRgba8Srgb, PixelFormat::kRgba32F}) {
+        FrameTarget target;
+        target.has_colour = true;
+        target.colour.format = format;
+        target.colour.rows.first = pixels.data();
+        target.colour.rows.stride = std::int64_t(size[0]) * std::int64_t(pixel_bytes(format));
+        PILEUS_TRY(session.render(target));
+    }
+    return Status::ok();
+}
+
+Status fly(const std::string& packed, const RenderOptions& options, Block& block) {
+    Counted counted{&block};
+    const Allocator allocator{Counted::take, Counted::give, &counted};
+    const Executor alone{
+        [](void*, std::uint32_t count, void (*body)(void*, std::uint32_t), void* data) {
+            for (std::uint32_t i = 0; i < count; ++i) body(data, i);
+        },
+        nullptr};
+    Packed scene_and_world;
+    Session session;
+    Buffer<unsigned char> pixels;
+    const HostGuard lent({&allocator, &alone, nullptr});
+    PILEUS_TRY(
+        begin_flight(packed.data(), packed.size(), options, false, scene_and_world, session));
+    const Scene& scene = scene_and_world.scene;
+    const auto& size = scene.camera.resolution;
+    {
+        const HostGuard own(Host{});
+        PILEUS_TRY(pixels.resize(std::uint64_t(size[0]) * std::uint64_t(size[1]) * 16, "picture"));
+    }
+    PILEUS_TRY(draw(session, pixels));
+    block.seal();
+    session.seal();
+    for (int number = 1; number < 8; ++number) {
+        PILEUS_TRY(set_frame(scene, number, session));
+        std::uint64_t done = 0;
+        if (session.light().whole > 0) PILEUS_TRY(session.step(1, done));
+        PILEUS_TRY(draw(session, pixels));
+    }
+    return Status::ok();
+}
+
+}  // namespace
+
+Status measure_flight(const std::string& packed, const RenderOptions& given, FlightNeed& need) {
+    RenderOptions options = given;
+    options.threads = 1;
+    // Memory that is not touched costs nothing, so that more than enough may be asked for.
+    for (std::uint64_t bytes = 64u << 20;; bytes *= 4) {
+        Buffer<unsigned char> memory;
+        PILEUS_TRY(memory.resize(bytes, "trial block"));
+        Block* const block = Block::make(memory.data(), memory.size());
+        const Status status = fly(packed, options, *block);
+        const BlockUse& use = block->use();
+        if (use.refused > 0 && bytes < std::uint64_t{1} << 36) continue;
+        PILEUS_TRY(status);
+        need.kept = use.kept_bytes;
+        need.open = use.open_bytes;
+        need.frame = use.frame_bytes;
+        const std::uint64_t flown = need.kept + 2 * need.frame;
+        need.block = (need.open > flown ? need.open : flown) + kSmallBytes;
+        need.block = (need.block + kUnit - 1) / kUnit * kUnit;
+        return Status::ok();
+    }
+}
+
+}  // namespace pileus

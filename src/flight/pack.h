@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// Packed scenes: a checked scene and its prepared world as bytes, for machines without files.
+// in: Scene, World -> out: bytes, the same on every machine; in: bytes -> out: both again.
+// docs/flight.md, "Packed scenes"
+#pragma once
+#include <memory>
+
+#include "src/io/images/image.h"
+#include "src/scene/scene.h"
+#include "src/world/world.h"
+
+namespace pileus {
+
+/// What a packed scene begins with.
+struct PackedHead {
+    std::uint64_t width = 0, height = 0;  ///< of the camera, pixels
+    std::uint64_t block_bytes = 0;        ///< that a session of it needs
+    std::string method;                   ///< at most 23 bytes
+};
+
+/// A scene, and what it was made of; `scene` points into `sky`.
+struct Packed {
+    PackedHead head;
+    Scene scene;
+    std::shared_ptr<World> world;
+    Image sky;
+};
+
+/// Bytes of the scene, which is checked, and of its world. kBadInput: what sessions of a flight do
+/// not have: meshes, a depth image from a file, a film. Errors of the reader of its sky map.
+Status pack_scene(const Scene& scene, const World& world, std::uint64_t block_bytes,
+                  std::string& bytes);
+
+/// The head alone; the digest of all bytes is compared. kBadInput: no packed scene, one of another
+/// version, cut short or changed.
+Status read_packed_head(const void* bytes, std::size_t size, PackedHead& head);
+
+/// All of it. Sizes and numbers of tables are checked; that every value is in its range is the
+/// packer's word, which the digest keeps. Errors: those of the head; kLimit: out of memory.
+Status unpack_scene(const void* bytes, std::size_t size, Packed& out);
+
+}  // namespace pileus

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// See world.h and sky_map.h: sky maps from files.
+// in: .exr or .pfm -> out: SkyMap.
+// docs/formats.md "Sky maps in".
+#include "src/base/file.h"
+#include "src/io/images/image_file.h"
+#include "src/plan/scene_limits.h"
+#include "src/scene/read_scene.h"
+#include "src/world/world.h"
+
+namespace pileus {
+
+Status read_sky_image(const Scene& scene, Image& image) {
+    return read_image(scene_path(scene.directory, scene.sky.map), image, kMaxSkyTexels);
+}
+
+Status load_sky_map(const Scene& scene, SkyMap& map) {
+    map.size = {0, 0};
+    if (scene.sky.map.empty()) return Status::ok();
+    Image image;
+    PILEUS_TRY(read_sky_image(scene, image));
+    const std::string path = scene_path(scene.directory, scene.sky.map);
+    return make_sky_map(path, image, scene.sky, scene.ground.present, map);
+}
+
+Status read_sky_map(const Scene& scene, const Context& context, SkyMap& map) {
+    if (scene.sky.map.empty()) return Status::ok();
+    const StageClock clock(context, "sky map");
+    if (scene.sky.picture != nullptr)
+        return make_sky_map("sky.map", *scene.sky.picture, scene.sky, scene.ground.present, map);
+    InputFile file;
+    const std::string path = scene_path(scene.directory, scene.sky.map);
+    PILEUS_TRY(at_key(scene, "sky.map", open_file(path, file)));
+    PILEUS_TRY(
+        at_key(scene, "sky.map", check_limit(context.limits, LimitId::kFile, file.size(), path)));
+    return at_key(scene, "sky.map", load_sky_map(scene, map));
+}
+
+}  // namespace pileus

@@ -1,0 +1,281 @@
+// SPDX-License-Identifier: Apache-2.0
+// Flights by pileus_flight.h: one block, nothing kept by frames, nothing asked of anyone.
+// in: packed scenes of every method -> out: hashes as without a block; counts of the block.
+// docs/flight.md
+#include "src/flight/flight.h"
+
+#include <doctest/doctest.h>
+
+#include <cstring>
+#include <string>
+#include <vector>
+
+#include "include/pileus/pileus_flight.h"
+#include "src/scene/read_scene.h"
+
+namespace {
+
+using pileus::FlightNeed;
+
+constexpr const char* kScene = R"(
+[camera]
+position_m = [16, -4000, 256]
+target_m = [0, 0, 1024]
+resolution = [24, 16]
+[sun]
+azimuth_deg = 120
+elevation_deg = 35
+[sky]
+radiance = [0.05, 0.07, 0.11]
+[ground]
+[[medium]]
+density = "procedural:cumulus"
+bounds_m = [[-512, -512, 512], [512, 512, 1536]]
+resolution = [16, 16, 16]
+extinction_per_m = 0.02
+phase = { type = "henyey-greenstein", g = 0.85 }
+[collectors]
+photons = 2000
+generations = 4
+[photon_grid]
+photons = 2000
+generations = 4
+[path]
+samples_per_pixel = 1
+)";
+
+std::string packed(const std::vector<std::string>& overrides, FlightNeed& need) {
+    pileus::Scene scene;
+    const pileus::Status read = pileus::read_scene_text(kScene, "scene", "", overrides, scene);
+    REQUIRE_MESSAGE(bool(read), read.message);
+    std::shared_ptr<const pileus::World> world;
+    std::string bytes;
+    REQUIRE(pileus::make_world(scene, {}, world));
+    REQUIRE(pileus::pack_scene(scene, *world, 0, bytes));
+    const pileus::Status measured = pileus::measure_flight(bytes, {}, need);
+    REQUIRE_MESSAGE(bool(measured), measured.message);
+    REQUIRE(pileus::pack_scene(scene, *world, need.block, bytes));
+    return bytes;
+}
+
+/// A flight over a packed scene, as a host flies it.
+struct Flight {
+    std::string scene;
+    std::vector<unsigned char> block, pixels = std::vector<unsigned char>(24 * 16 * 4);
+    std::uint64_t hash = 0;
+    pileus_frame frame;
+    pileus_flight setup;
+    pileus_session* session = nullptr;
+    pileus_error error;
+
+    explicit Flight(const std::string& bytes) : scene(bytes) {
+        PILEUS_INIT(frame);
+        PILEUS_INIT(setup);
+        PILEUS_INIT(error);
+        pileus_packed head;
+        PILEUS_INIT(head);
+        REQUIRE(pileus_packed_read(scene.data(), scene.size(), &head, &error) == PILEUS_OK);
+        CHECK(head.width == 24);
+        block.resize(std::size_t(head.block_bytes));
+        frame.colour = pixels.data();
+        frame.hash = &hash;
+        setup.scene = scene.data();
+        setup.scene_bytes = scene.size();
+        setup.block = block.data();
+        setup.block_bytes = block.size();
+        setup.frame = &frame;
+    }
+    ~Flight() { pileus_flight_close(session); }
+    Flight(const Flight&) = delete;
+
+    pileus_code open() { return pileus_flight_open(&setup, &session, &error); }
+
+    pileus_code fly(int number) {
+        pileus_camera camera;
+        PILEUS_INIT(camera);
+        camera.position_m[0] = 16 + 100 * number;
+        camera.position_m[1] = -4000 + 300 * number;
+        camera.position_m[2] = 256;
+        camera.target_m[2] = 1024;
+        camera.fov_deg = 40;
+        pileus_sun sun;
+        PILEUS_INIT(sun);
+        sun.present = 1;
+        sun.azimuth_deg = 120;
+        sun.elevation_deg = 35 + 0.5 * number;
+        for (float& c : sun.irradiance) c = 1;
+        pileus_code code = pileus_session_set_frame(session, number, &error);
+        if (code == PILEUS_OK) code = pileus_session_set_camera(session, &camera, &error);
+        if (code == PILEUS_OK) code = pileus_session_set_sun(session, &sun, &error);
+        if (code == PILEUS_OK) code = pileus_session_step(session, 1, nullptr, &error);
+        if (code == PILEUS_OK) code = pileus_session_render(session, &frame, &error);
+        return code;
+    }
+
+    pileus_flight_use use() {
+        pileus_flight_use out;
+        PILEUS_INIT(out);
+        REQUIRE(pileus_flight_usage(session, &out, &error) == PILEUS_OK);
+        return out;
+    }
+};
+
+const std::vector<std::string> kRows[] = {
+    {},
+    {"collectors.display=billboards"},
+    {"collectors.temporal=4"},
+    {"collectors.scale=2"},
+    {"collectors.node_filter=guided"},
+    {"collectors.light_refresh=4"},
+    {"method.name=raymarch"},
+    {"method.name=raymarch", "raymarch.temporal=4", "raymarch.light_refresh=4"},
+    {"method.name=raymarch", "raymarch.jitter=blue-noise"},
+    {"method.name=optical-depth"},
+    {"method.name=photon-grid"},
+    {"method.name=photon-grid", "photon_grid.ring=true"},
+    {"method.name=path"},
+    {"method.name=particles", "medium.0.density=procedural:particle-cumulus",
+     "medium.0.extinction_per_m=0.02"},
+    {"method.name=particles", "medium.0.density=procedural:particle-cumulus",
+     "particles.display=billboards"},
+};
+
+}  // namespace
+
+TEST_CASE("every method flies in the block that its packed scene tells, and keeps nothing") {
+    for (const std::vector<std::string>& row : kRows) {
+        CAPTURE(row.empty() ? std::string("collectors") : row.front() + " " + row.back());
+        FlightNeed need;
+        Flight flight(packed(row, need));
+        const pileus_code code = flight.open();
+        REQUIRE_MESSAGE(code == PILEUS_OK, flight.error.message);
+        for (int number = 0; number < 10; ++number) {
+            const pileus_code flown = flight.fly(number);
+            REQUIRE_MESSAGE(flown == PILEUS_OK, flight.error.message);
+        }
+        const pileus_flight_use use = flight.use();
+        CHECK(use.refused == 0);
+        CHECK(use.kept == 0);
+        CHECK(use.lost == 0);
+        CHECK(use.kept_bytes + use.frame_bytes <= use.block_bytes);
+        CHECK(use.frame_bytes <= use.frame_room);
+    }
+}
+
+TEST_CASE("a block that is too small is refused with a line, whatever its size") {
+    FlightNeed need;
+    const std::string bytes = packed({}, need);
+    for (const double share : {0.0, 0.001, 0.1, 0.3, 0.6, 0.8}) {
+        Flight flight(bytes);
+        flight.setup.block_bytes = std::size_t(share * double(need.kept));
+        CHECK(flight.open() == PILEUS_LIMIT);
+        CHECK(std::string(flight.error.message).find("flight.block: ") == 0);
+        CHECK(flight.session == nullptr);
+    }
+}
+
+TEST_CASE("a block at any address does") {
+    FlightNeed need;
+    const std::string bytes = packed({}, need);
+    std::uint64_t hashes[3];
+    for (std::size_t skipped = 0; skipped < 3; ++skipped) {
+        Flight flight(bytes);
+        flight.block.resize(flight.block.size() + 64);
+        flight.setup.block = flight.block.data() + 7 * skipped;
+        REQUIRE(flight.open() == PILEUS_OK);
+        REQUIRE(flight.fly(3) == PILEUS_OK);
+        hashes[skipped] = flight.hash;
+    }
+    CHECK(hashes[0] == hashes[1]);
+    CHECK(hashes[0] == hashes[2]);
+}
+
+TEST_CASE("what would need memory of its own is refused once a flight is open, and does no harm") {
+    FlightNeed need;
+    Flight flight(packed({}, need));
+    REQUIRE(flight.open() == PILEUS_OK);
+    REQUIRE(flight.fly(1) == PILEUS_OK);
+    const std::uint64_t before = flight.hash;
+    pileus_camera camera;
+    PILEUS_INIT(camera);
+    camera.width = 48;
+    camera.position_m[1] = -4000;
+    camera.target_m[2] = 1024;
+    camera.fov_deg = 40;
+    CHECK(pileus_session_set_camera(flight.session, &camera, &flight.error) == PILEUS_BAD_INPUT);
+    CHECK(std::string(flight.error.message).find("camera.resolution: another than when") == 0);
+    const float map[2 * 1 * 3] = {1, 1, 1, 1, 1, 1};
+    pileus_sky sky;
+    PILEUS_INIT(sky);
+    sky.present = 1;
+    sky.map_size[0] = 2;
+    sky.map_size[1] = 1;
+    sky.map = map;
+    CHECK(pileus_session_set_sky(flight.session, &sky, &flight.error) == PILEUS_BAD_INPUT);
+    std::vector<float> depth(24 * 16, 1000.0f);
+    pileus_depth_image image;
+    PILEUS_INIT(image);
+    image.values = depth.data();
+    CHECK(pileus_session_set_depth(flight.session, &image, &flight.error) == PILEUS_BAD_INPUT);
+    pileus_light light;
+    PILEUS_INIT(light);
+    CHECK(pileus_session_set_lights(flight.session, &light, 1, &flight.error) != PILEUS_OK);
+    REQUIRE(flight.fly(1) == PILEUS_OK);
+    const pileus_flight_use use = flight.use();
+    CHECK(use.kept + use.lost + use.refused == 0);
+    // One generation more was shot, from another place of the ring.
+    CHECK(flight.hash != 0);
+    CHECK(before != 0);
+}
+
+TEST_CASE("depth images come and go where a flight was opened for them") {
+    FlightNeed need;
+    Flight flight(packed({"method.name=raymarch"}, need));
+    flight.setup.depth = 1;
+    flight.block.resize(flight.block.size() + 65536);
+    flight.setup.block = flight.block.data();
+    flight.setup.block_bytes = flight.block.size();
+    REQUIRE(flight.open() == PILEUS_OK);
+    std::vector<float> depth(24 * 16, 1000.0f);
+    pileus_depth_image image;
+    PILEUS_INIT(image);
+    std::uint64_t hashes[3];
+    for (int i = 0; i < 3; ++i) {
+        image.values = i == 1 ? depth.data() : nullptr;
+        REQUIRE(pileus_session_set_depth(flight.session, &image, &flight.error) == PILEUS_OK);
+        REQUIRE(flight.fly(2) == PILEUS_OK);
+        hashes[i] = flight.hash;
+    }
+    CHECK(hashes[0] == hashes[2]);
+    CHECK(hashes[0] != hashes[1]);
+    const pileus_flight_use use = flight.use();
+    CHECK(use.kept + use.lost + use.refused == 0);
+}
+
+TEST_CASE("wrong use of pileus_flight.h has a line and a code") {
+    FlightNeed need;
+    Flight flight(packed({}, need));
+    const auto refused = [&](const char* words) {
+        CHECK(flight.open() == PILEUS_BAD_INPUT);
+        CHECK(std::string(flight.error.message).find(words) == 0);
+    };
+    CHECK(pileus_flight_open(nullptr, &flight.session, &flight.error) == PILEUS_BAD_INPUT);
+    CHECK(pileus_flight_open(&flight.setup, nullptr, &flight.error) == PILEUS_BAD_INPUT);
+    flight.setup.block = nullptr;
+    refused("flight.block: null");
+    flight.setup.block = flight.block.data();
+    flight.setup.frame = nullptr;
+    refused("flight.frame: null");
+    flight.setup.frame = &flight.frame;
+    flight.setup.threads = 2000;
+    refused("flight.threads: ");
+    flight.setup.threads = 0;
+    flight.setup.scene_bytes -= 1;
+    refused("packed scene: ");
+    flight.setup.scene_bytes += 1;
+    flight.setup.isa = "none";
+    refused("--isa: ");
+    flight.setup.isa = nullptr;
+    CHECK(pileus_flight_usage(nullptr, nullptr, &flight.error) == PILEUS_BAD_INPUT);
+    REQUIRE(flight.open() == PILEUS_OK);
+}

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// Packed scenes: what comes out is what went in, and damaged ones are refused.
+// in: scenes, their bytes cut, changed and told of another version -> out: the same values; one
+// line. docs/flight.md, "Packed scenes"
+#include "src/flight/pack.h"
+
+#include <doctest/doctest.h>
+
+#include "src/scene/keys/all_keys.h"
+#include "src/scene/read_scene.h"
+#include "src/session/session.h"
+
+namespace pileus {
+namespace {
+
+constexpr const char* kScene = R"(
+[camera]
+position_m = [16, -4000, 256]
+target_m = [0, 0, 1024]
+resolution = [24, 16]
+[sun]
+azimuth_deg = 120
+elevation_deg = 35
+[sky]
+radiance = [0.05, 0.07, 0.11]
+[ground]
+[[medium]]
+density = "procedural:cumulus"
+bounds_m = [[-512, -512, 512], [512, 512, 1536]]
+resolution = [16, 16, 16]
+extinction_per_m = 0.02
+phase = { type = "cloud", effective_radius_um = 10 }
+[collectors]
+photons = 2000
+generations = 4
+)";
+
+Scene scene_of(const std::vector<std::string>& overrides = {}) {
+    Scene scene;
+    const Status status = read_scene_text(kScene, "scene", "", overrides, scene);
+    REQUIRE_MESSAGE(bool(status), status.message);
+    return scene;
+}
+
+std::string packed(const Scene& scene) {
+    std::shared_ptr<const World> world;
+    std::string bytes;
+    REQUIRE(make_world(scene, {}, world));
+    REQUIRE(pack_scene(scene, *world, 12345, bytes));
+    return bytes;
+}
+
+/// Of every key of a scene its value as a text.
+std::map<std::string, std::string> values_of(Scene& scene) {
+    std::map<std::string, std::string> out;
+    for_each_key(scene, [&](const KeyRow& row, const std::string& path, const KeySource& source) {
+        out[path] = toml_text(value_of(row, source));
+    });
+    return out;
+}
+
+}  // namespace
+
+TEST_CASE("a packed scene is the scene, every key that sessions read") {
+    Scene scene = scene_of({"seed=9", "method.name=raymarch", "raymarch.steps=77",
+                            "camera.fov_deg=33", "raymarch.jitter=hash", "collectors.bands=3",
+                            "optical_depth.steps=5", "particles.bins=9", "path.max_depth=3",
+                            "photon_grid.ring=true", "medium.0.albedo=[0.9,0.8,0.7]"});
+    const std::string bytes = packed(scene);
+    Packed out;
+    REQUIRE(unpack_scene(bytes.data(), bytes.size(), out));
+    CHECK(out.head.width == 24);
+    CHECK(out.head.height == 16);
+    CHECK(out.head.block_bytes == 12345);
+    CHECK(out.head.method == "raymarch");
+    auto before = values_of(scene), after = values_of(out.scene);
+    // Files, films and what is written say nothing to a session.
+    for (auto* values : {&before, &after})
+        for (auto it = values->begin(); it != values->end();)
+            it = it->first.rfind("output.", 0) == 0 || it->first.rfind("animation", 0) == 0
+                     ? values->erase(it)
+                     : std::next(it);
+    CHECK(before == after);
+    CHECK(before.size() > 150);
+}
+
+TEST_CASE("sessions over a packed scene have the hashes of those over the scene") {
+    for (const char* method : {"collectors", "raymarch", "photon-grid", "optical-depth", "path"}) {
+        const Scene scene =
+            scene_of({std::string("method.name=") + method, "path.samples_per_pixel=2",
+                      "photon_grid.photons=2000", "photon_grid.generations=2"});
+        const std::string bytes = packed(scene);
+        Packed out;
+        REQUIRE(unpack_scene(bytes.data(), bytes.size(), out));
+        std::uint64_t hashes[2] = {};
+        for (int from = 0; from < 2; ++from) {
+            Session session;
+            const Scene& own = from == 0 ? scene : out.scene;
+            std::shared_ptr<const World> world;
+            if (from == 1) world = out.world;
+            REQUIRE(session.open(own, {}, SessionKind::kLive, true, world));
+            std::uint64_t done = 0;
+            REQUIRE(session.step(session.light().whole, done));
+            FrameTarget target;
+            target.hash = &hashes[from];
+            REQUIRE(session.render(target));
+        }
+        CHECK(hashes[0] == hashes[1]);
+    }
+}
+
+TEST_CASE("what a flight does not have is refused when it is packed") {
+    const Scene plain = scene_of();
+    std::shared_ptr<const World> world;
+    REQUIRE(make_world(plain, {}, world));
+    std::string bytes;
+    Scene scene = plain;
+    scene.solids.emplace_back();
+    CHECK(pack_scene(scene, *world, 0, bytes).message.find("scene: solid: not packed") == 0);
+    scene = plain;
+    scene.camera.depth = "depth.exr";
+    CHECK(pack_scene(scene, *world, 0, bytes).message.find("scene: camera.depth: not") == 0);
+    scene = plain;
+    scene.animation.present = true;
+    CHECK(pack_scene(scene, *world, 0, bytes).message.find("scene: animation: not packed") == 0);
+    CHECK(bytes.empty());
+}
+
+TEST_CASE("a damaged packed scene is refused, wherever it is cut or changed") {
+    const std::string whole = packed(scene_of());
+    PackedHead head;
+    REQUIRE(read_packed_head(whole.data(), whole.size(), head));
+    const auto refused = [](const std::string& bytes) {
+        Packed out;
+        const Status status = unpack_scene(bytes.data(), bytes.size(), out);
+        return status.code == Code::kBadInput && status.message.find("packed scene: ") == 0 &&
+               status.message.find(", allowed: ") != std::string::npos;
+    };
+    for (std::size_t size = 0; size < whole.size(); size += 1 + size / 7)
+        CHECK(refused(whole.substr(0, size)));
+    CHECK(refused(whole + 'x'));
+    for (std::size_t at = 0; at < whole.size(); at += 1 + at / 5) {
+        // The block's size and the method's name are for people to read; the rest is digested.
+        if (at >= 32 && at < 80) continue;
+        std::string changed = whole;
+        changed[at] = char(changed[at] ^ 1);
+        CHECK(refused(changed));
+    }
+    CHECK_FALSE(read_packed_head(nullptr, 100, head));
+}
+
+}  // namespace pileus
