@@ -13,8 +13,11 @@ namespace pileus {
 /// The 16 hex digits in lower case; empty where `text` is anything else.
 std::string read_hash(const std::string& text);
 
-/// `--expect-hash`: a hash for each of `frames` pictures, parted by commas; else kBadInput.
-Status read_frame_hashes(const std::string& text, int frames, std::vector<std::string>& hashes);
+/// `--expect-hash`: hashes parted by commas; else kBadInput.
+Status read_frame_hashes(const std::string& text, std::vector<std::string>& hashes);
+
+/// kBadInput: not a hash for each of so many frames.
+Status check_frame_hashes(const std::vector<std::string>& hashes, int frames);
 
 /// One line of a list.
 struct ListedHash {

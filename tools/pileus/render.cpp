@@ -4,24 +4,20 @@
 // docs/program.md
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <memory>
 
 #include "platform/clock.h"
 #include "platform/interrupt.h"
 #include "src/base/file.h"
-#include "src/base/output_check.h"
-#include "src/io/text/report_json.h"
-#include "src/io/text/scene_files.h"
 #include "src/methods/registry.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/picture_format.h"
-#include "src/world/camera/places.h"
 #include "tools/pileus/block_files.h"
 #include "tools/pileus/command.h"
+#include "tools/pileus/hash_list.h"
 #include "tools/pileus/option_text.h"
-#include "tools/pileus/output_set.h"
 #include "tools/pileus/progress.h"
+#include "tools/pileus/render_outputs.h"
 #include "tools/pileus/scene_options.h"
 
 namespace pileus {
@@ -32,27 +28,13 @@ struct RenderArguments {
     SceneArguments scene;
     std::vector<std::string> files;
     std::optional<std::string> report, frames, exposure, show, state, state_every, verify;
+    std::optional<std::string> expect_hash;
     BlockArguments blocks;
     bool quiet = false, strict = false, world_file = false;
 };
 
-/// Everything a frame needs to be written.
-struct Outputs {
-    std::vector<std::string> files;
-    std::vector<std::string> world_files;  ///< beside them; none, or one for each
-    std::string report;
-    bool report_printed = false;  ///< --report -: on the standard output, and nothing else there
-    ToneSettings tone;
-    BlockSettings blocks;
-    bool numbered = false;  ///< the scene has several frames, so names carry the frame's number
-};
-
 /// Pixels of --verify: a thousand paths each.
 constexpr std::int64_t kMostVerified = 1000000;
-
-std::string frame_path(const std::string& path, int frame, bool numbered) {
-    return numbered ? numbered_path(path, frame) : path;
-}
 
 Status read_state(const RenderArguments& arguments, RenderOptions& options) {
     constexpr double kMostSeconds = 1e9;
@@ -66,86 +48,6 @@ Status read_state(const RenderArguments& arguments, RenderOptions& options) {
                        options.state_every_s);
 }
 
-/// Refuses to write over what is read, or two outputs into one file, in any of the frames.
-Status check_names(const std::vector<std::string>& all, bool numbered, const Scene& scene,
-                   const RenderOptions& options) {
-    OutputCheck check;
-    Status faults;
-    check.reads(scene.file, "the scene itself");
-    for (const std::string& file : scene_files(scene))
-        check.reads(file, "a file that the scene reads");
-    for (int frame = options.first_frame; frame <= options.last_frame && faults; ++frame)
-        for (const std::string& name : all) {
-            const std::string path = frame_path(name, frame, numbered);
-            // Names of files that are not there yet clash in all frames or in none.
-            std::error_code ignored;
-            const bool there = std::filesystem::exists(
-                std::filesystem::symlink_status(std::filesystem::path(path), ignored));
-            if (frame == options.first_frame || there) add_fault(check.writes(path), faults);
-        }
-    return faults;
-}
-
-/// Finds what would make writing fail before the work is done.
-Status check_outputs(const Outputs& outputs, const Scene& scene, const RenderOptions& options) {
-    Status faults;
-    std::vector<std::string> all = outputs.files;
-    all.insert(all.end(), outputs.world_files.begin(), outputs.world_files.end());
-    if (!outputs.report.empty()) all.push_back(outputs.report);
-    if (!options.state.empty()) all.push_back(options.state);
-    std::vector<std::string> sound;
-    for (const std::string& name : all) {
-        const Status status = name.empty() ? Status::ok() : check_file_name(name);
-        add_fault(status ? status : Status::io(status.message), faults);
-        if (status) sound.push_back(name);
-    }
-    add_fault(check_names(sound, outputs.numbered, scene, options), faults);
-    PILEUS_TRY(faults);
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const Status format = i < outputs.files.size() ? can_write_image(all[i]) : Status::ok();
-        add_fault(format, faults);
-        if (format)
-            add_fault(can_write_file(frame_path(all[i], options.first_frame, outputs.numbered)),
-                      faults);
-    }
-    return faults;
-}
-
-/// "a.pgw" of "a.png"; "a.wld" of the others, which readers of maps look for, too.
-std::string world_name(const std::string& picture) {
-    const std::string extension = file_extension(picture);
-    return picture.substr(0, picture.size() - extension.size()) +
-           (extension == ".png" ? ".pgw" : ".wld");
-}
-
-/// World files are for pictures that are maps.
-Status add_world_files(const RenderArguments& arguments, const Scene& scene, Outputs& outputs) {
-    if (!arguments.world_file) return Status::ok();
-    Scene placed = scene;
-    PILEUS_TRY(place_camera(placed));
-    if (picture_place(placed, placed.camera, 0).empty())
-        return Status::bad_input(scene.file +
-                                 ": --world-file: no map, allowed: an orthographic camera that "
-                                 "looks straight down on weather data");
-    for (const std::string& file : outputs.files) {
-        const std::string name = world_name(file);
-        bool known = false;  // a.exr and a.pfm have one
-        for (const std::string& other : outputs.world_files) known = known || other == name;
-        if (!known) outputs.world_files.push_back(name);
-    }
-    return Status::ok();
-}
-
-/// Its six numbers, a line each.
-std::string world_text(const Image& image) {
-    std::string text;
-    for (const auto& [name, value] : image.origin)
-        if (name == "world_file") text = value + '\n';
-    for (char& c : text)
-        if (c == ' ') c = '\n';
-    return text;
-}
-
 /// -o takes all words up to the next option; a scene among them is no picture.
 void take_scene(RenderArguments& arguments) {
     if (!arguments.scene.scene.empty()) return;
@@ -157,9 +59,8 @@ void take_scene(RenderArguments& arguments) {
     }
 }
 
-/// Options win over the scene; faults of all options come before those of the files.
-Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOptions& options,
-                      Outputs& outputs) {
+/// What is to be seen, and how bright.
+Status read_view(const RenderArguments& arguments, RenderOptions& options, Outputs& outputs) {
     Status faults;
     if (arguments.show) {
         const Method* view = nullptr;
@@ -172,7 +73,6 @@ Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOpti
     }
     if (arguments.exposure)
         add_fault(read_exposure("--exposure", *arguments.exposure, outputs.tone), faults);
-    add_fault(read_state(arguments, options), faults);
     if (arguments.verify)
         add_fault(read_integer("--verify", *arguments.verify, 1, kMostVerified, options.verify),
                   faults);
@@ -180,22 +80,25 @@ Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOpti
         add_fault(Status::bad_input("--verify: a view is no picture of light, allowed: without "
                                     "--show"),
                   faults);
-    add_fault(read_block_arguments(arguments.blocks, outputs.blocks), faults);
-    add_fault(read_scene_options(arguments.scene, scene, options), faults);
-    PILEUS_TRY(faults);
+    return faults;
+}
 
+/// Which frames are rendered, which of them are written, and what they should be.
+Status choose_frames(const RenderArguments& arguments, const Scene& scene, RenderOptions& options,
+                     Outputs& outputs) {
     const int frames = scene.animation.present ? scene.animation.frames : 1;
     options.last_frame = frames - 1;
     if (arguments.frames)
         PILEUS_TRY(read_frames(*arguments.frames, frames, options.first_frame, options.last_frame));
+    outputs.first_frame = options.first_frame;
     outputs.numbered = frames > 1;
-    // Blocks are all that such a run writes.
-    if (!outputs.blocks.file.empty()) {
-        if (!arguments.files.empty() || arguments.report)
-            return Status::bad_input("--blocks: together with -o or --report, allowed: without");
-        return check_names({outputs.blocks.file}, false, scene, options);
-    }
-    // Names on the command line start at the working directory, those in a scene at its folder.
+    if (!arguments.expect_hash) return Status::ok();
+    return check_frame_hashes(outputs.hashes, options.last_frame - outputs.first_frame + 1);
+}
+
+/// Names on the command line start at the working directory, those in a scene at its folder.
+Status choose_files(const RenderArguments& arguments, const Scene& scene, RenderOptions& options,
+                    Outputs& outputs) {
     outputs.files = arguments.files;
     if (outputs.files.empty())
         for (const std::string& file : scene.output.files)
@@ -211,37 +114,29 @@ Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOpti
         return Status::bad_input(scene.file +
                                  ": output.files: no output, allowed: -o FILE, --report FILE or "
                                  "output.files in the scene");
-    PILEUS_TRY(add_world_files(arguments, scene, outputs));
+    if (arguments.world_file) PILEUS_TRY(add_world_files(scene, outputs));
     return check_outputs(outputs, scene, options);
 }
 
-Status write_frame(const Outputs& outputs, int frame, const Image& image, const Report& report) {
-    OutputSet set;
-    std::string lines;
-    for (const std::string& file : outputs.files) {
-        const std::string path = frame_path(file, frame, outputs.numbered);
-        PILEUS_TRY(set.add_image(image, path, outputs.tone));
-        lines += fmt::format("{} {}\n", image.pixel_hash, path);
-    }
-    const std::string world = world_text(image);
-    for (const std::string& file : outputs.world_files) {
-        const std::string path = frame_path(file, frame, outputs.numbered);
-        PILEUS_TRY(set.add(path, {world.data(), world.size()}));
-        lines += fmt::format("{:16} {}\n", "world file", path);
-    }
-    if (!outputs.report.empty()) {
-        const std::string path = frame_path(outputs.report, frame, outputs.numbered);
-        PILEUS_TRY(set.add_report(report, path));
-        lines += fmt::format("{:16} {}\n", "report", path);
-    }
-    if (report.verified_pixels > 0)
-        lines += fmt::format(
-            "{:16} bias {:+.2f} % with a standard error of {:.2f} %, relMSE {:.2g}, over "
-            "{} pixels\n",
-            "verify", 100 * report.verify_bias, 100 * report.verify_standard_error,
-            report.verify_relmse, report.verified_pixels);
-    if (outputs.report_printed) lines = report_json(report);
-    return set.commit(lines);
+/// Options win over the scene; faults of all options come before those of the files.
+Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOptions& options,
+                      Outputs& outputs) {
+    Status faults = read_view(arguments, options, outputs);
+    add_fault(read_state(arguments, options), faults);
+    if (arguments.expect_hash)
+        add_fault(read_frame_hashes(*arguments.expect_hash, outputs.hashes), faults);
+    add_fault(read_block_arguments(arguments.blocks, outputs.blocks), faults);
+    add_fault(read_scene_options(arguments.scene, scene, options), faults);
+    PILEUS_TRY(faults);
+    PILEUS_TRY(choose_frames(arguments, scene, options, outputs));
+    if (outputs.blocks.file.empty()) return choose_files(arguments, scene, options, outputs);
+    // Blocks are all that such a run writes.
+    if (!arguments.files.empty() || arguments.report)
+        return Status::bad_input("--blocks: together with -o or --report, allowed: without");
+    if (arguments.expect_hash)
+        return Status::bad_input("--blocks: together with --expect-hash, allowed: without");
+    return check_names({outputs.blocks.file}, false, options.first_frame, options.last_frame,
+                       scene);
 }
 
 /// What there is of a picture that the user did not let finish.
@@ -260,6 +155,58 @@ bool tell_warnings(const Report& report, std::set<std::string>& told) {
     return !report.warnings.empty();
 }
 
+/// What a run has said of its pictures, and what is wrong with them.
+struct Findings {
+    std::set<std::string> told;  ///< warnings
+    std::string ended;           ///< how far an interrupted picture came
+    Status hashes;               ///< a line for each picture that should have another
+    bool doubtful = false;
+};
+
+/// Writes one frame; one with another hash than it should have, too, so that it can be looked at.
+Status take_frame(const Scene& scene, const Outputs& outputs, int frame, Image& image,
+                  Report& report, Findings& found) {
+    if (image.pixel_hash.empty()) image.pixel_hash = pixel_hash(image);
+    if (report.hash.empty()) report.hash = image.pixel_hash;
+    if (report.interrupted) found.ended = interrupted_line(frame, outputs.numbered, report);
+    PILEUS_TRY(write_frame(outputs, frame, image, report));
+    found.doubtful = tell_warnings(report, found.told) || found.doubtful;
+    add_fault(check_frame_hash(scene, outputs, frame, image.pixel_hash), found.hashes);
+    return Status::ok();
+}
+
+/// All frames, one after the other.
+Status render_all(const Scene& scene, const RenderOptions& options, const Outputs& outputs,
+                  Progress& progress, Findings& found) {
+    const int count = options.last_frame - options.first_frame + 1;
+    const double tracing = wall_seconds();
+    progress.frames(0, count, 0);
+    int next = outputs.first_frame;
+    Status status = render(scene, options, [&](int frame, Image& image, Report& report) -> Status {
+        progress.clear();
+        if (frame >= outputs.first_frame)
+            PILEUS_TRY(take_frame(scene, outputs, frame, image, report, found));
+        next = frame + 1;
+        progress.frames(frame - options.first_frame + 1, count, wall_seconds() - tracing);
+        return Status::ok();
+    });
+    progress.clear();
+    PILEUS_TRY(status);
+    // Frames that an interrupted run has not come to are not as they should be, either.
+    for (; next <= options.last_frame; ++next)
+        add_fault(check_frame_hash(scene, outputs, next, ""), found.hashes);
+    return Status::ok();
+}
+
+/// The lines and the exit status of a run that went through.
+Status conclude(const Findings& found, bool strict) {
+    Status end = found.hashes;
+    if (found.doubtful && strict) end.code = Code::kCheckFailed;
+    if (!found.ended.empty())
+        end.message = found.ended + (end.message.empty() ? "" : "\n") + end.message;
+    return end;
+}
+
 Status run_render(RenderArguments& arguments) {
     const double start = wall_seconds();
     Scene scene;
@@ -272,9 +219,6 @@ Status run_render(RenderArguments& arguments) {
     options.progress = [&progress](const char* stage, double share) {
         progress.tell(stage, share);
     };
-    std::string ended;
-    std::set<std::string> told;
-    bool doubtful = false;
     catch_interrupts("interrupted before there was anything to keep; no file written",
                      int(Code::kCheckFailed));
     options.interrupted = interrupt_asked;
@@ -284,26 +228,12 @@ Status run_render(RenderArguments& arguments) {
         progress.clear();
         return status;
     }
-    const int count = options.last_frame - options.first_frame + 1;
-    const double tracing = wall_seconds();
-    progress.frames(0, count, 0);
-    const Status status =
-        render(scene, options, [&](int frame, Image& image, Report& report) -> Status {
-            progress.clear();
-            if (image.pixel_hash.empty()) image.pixel_hash = pixel_hash(image);
-            if (report.hash.empty()) report.hash = image.pixel_hash;
-            if (report.interrupted) ended = interrupted_line(frame, outputs.numbered, report);
-            PILEUS_TRY(write_frame(outputs, frame, image, report));
-            doubtful = tell_warnings(report, told) || doubtful;
-            progress.frames(frame - options.first_frame + 1, count, wall_seconds() - tracing);
-            return Status::ok();
-        });
-    progress.clear();
-    PILEUS_TRY(status);
+    Findings found;
+    PILEUS_TRY(render_all(scene, options, outputs, progress, found));
     hold_interrupts(true);
     if (!arguments.quiet && !outputs.report_printed)
         PILEUS_TRY(print(fmt::format("{:16} {:.3f} s\n", "total", wall_seconds() - start)));
-    return {doubtful && arguments.strict ? Code::kCheckFailed : Code::kOk, ended};
+    return conclude(found, arguments.strict);
 }
 
 }  // namespace
@@ -359,6 +289,11 @@ void add_render(CLI::App& app, Chosen& chosen) {
         ->type_name("N");
     command->add_option("--block-side", arguments->blocks.side, "Pixels; left out: 8")
         ->type_name("N");
+    command
+        ->add_option("--expect-hash", arguments->expect_hash,
+                     "Exit status 1 where the picture has another pixel hash; it is written all "
+                     "the same. Of several frames a hash each, parted by commas")
+        ->type_name("HEX");
     command->add_flag("--strict", arguments->strict,
                       "Exit status 1 where a picture has warnings; it is written all the same");
     command->add_flag("--world-file", arguments->world_file,

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// The files of a rendering: what they are called, whether they may be written, and the writing.
+// in: names, a scene, frames -> out: faults before the work is done; files that appear together.
+// docs/program.md, "render"
+#pragma once
+#include <string>
+#include <vector>
+
+#include "src/session/render.h"
+#include "tools/pileus/block_files.h"
+#include "tools/pileus/output_set.h"
+
+namespace pileus {
+
+/// Everything a frame needs to be written.
+struct Outputs {
+    std::vector<std::string> files;
+    std::vector<std::string> world_files;  ///< beside them; none, or one for each
+    std::string report;
+    bool report_printed = false;  ///< --report -: on the standard output, and nothing else there
+    ToneSettings tone;
+    BlockSettings blocks;
+    std::vector<std::string> hashes;  ///< that the written frames should have; none, or one each
+    int first_frame = 0;              ///< that is written; frames before it only lead up to it
+    bool numbered = false;  ///< the scene has several frames, so names carry the frame's number
+};
+
+/// The name of a file of one frame.
+std::string frame_path(const std::string& path, int frame, bool numbered);
+
+/// Refuses to write over what is read, or two outputs into one file, in any of the frames.
+Status check_names(const std::vector<std::string>& all, bool numbered, int first_frame,
+                   int last_frame, const Scene& scene);
+
+/// Finds what would make writing fail before the work is done.
+Status check_outputs(const Outputs& outputs, const Scene& scene, const RenderOptions& options);
+
+/// Names a world file for each picture; kBadInput where the pictures are no maps.
+Status add_world_files(const Scene& scene, Outputs& outputs);
+
+/// kCheckFailed: a frame has another hash than it should have; none at all where `hash` is empty.
+Status check_frame_hash(const Scene& scene, const Outputs& outputs, int frame,
+                        const std::string& hash);
+
+/// Writes all files of a frame and says so on the standard output.
+Status write_frame(const Outputs& outputs, int frame, const Image& image, const Report& report);
+
+}  // namespace pileus
