@@ -77,6 +77,8 @@ struct Report {
     std::int64_t seed = 0;
     int frame = 0, first_frame = 0;      ///< of the animation, and where this run began
     std::string budget, show;            ///< options of the run; empty: none
+    std::string budget_used;             ///< makes this picture again whatever ended it
+    std::vector<std::string> layers;     ///< of the picture, as scenes name them
     std::vector<std::string> overrides;  ///< texts of its --set options
 
     std::vector<std::string> needed;

@@ -95,6 +95,8 @@ Status take_work(const FrameWork& work, MethodRun& method_run) {
 Status check_marched(const Scene& scene, const Budget& budget) {
     constexpr const char* kAllowed = "steps=N, seconds=S";
     if (budget.photons >= 0) return unknown_budget("--budget photons", scene.method, kAllowed);
+    if (budget.generations > 0)
+        return unknown_budget("--budget generations", scene.method, kAllowed);
     if (budget.samples >= 0) return unknown_budget("--budget samples", scene.method, kAllowed);
     if (budget.error > 0) return unknown_budget("--budget error", scene.method, kAllowed);
     if (!budget.state.empty())

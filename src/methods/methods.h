@@ -19,13 +19,14 @@ namespace pileus {
 
 /// When tracing ends, instead of what the scene says; a method takes the kinds that it knows.
 struct Budget {
-    std::int64_t photons = -1;  ///< >= 0: so many
-    std::int64_t samples = -1;  ///< >= 1: so many for each pixel
-    std::int64_t steps = -1;    ///< >= 0: so many of a ray
-    double error = 0;           ///< > 0: the mean relative standard error to reach
-    double seconds = 0;         ///< > 0: wall time; chooses only a whole number of passes
-    std::string state;          ///< file that keeps progress; empty: none
-    double state_every_s = 60;  ///< between two writings of it
+    std::int64_t photons = -1;     ///< >= 0: so many
+    std::int64_t generations = 0;  ///< > 0: so many of these photons, and no more
+    std::int64_t samples = -1;     ///< >= 1: so many for each pixel
+    std::int64_t steps = -1;       ///< >= 0: so many of a ray
+    double error = 0;              ///< > 0: the mean relative standard error to reach
+    double seconds = 0;            ///< > 0: wall time; chooses only a whole number of passes
+    std::string state;             ///< file that keeps progress; empty: none
+    double state_every_s = 60;     ///< between two writings of it
 };
 
 struct LateRows;

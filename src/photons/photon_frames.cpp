@@ -27,7 +27,8 @@ Status fill_ring(int frame, const Context& context, PhotonRun& run, const ShootP
         if (run.place_at) run.place_at(shown);
         set_photon_sun(sun_at(*run.scene, shown), run);
     };
-    const Status shot = shoot_generations(context, run, run.generations, aim, shoot);
+    const Status shot =
+        shoot_generations(context, run, wanted_generations(run, run.generations), aim, shoot);
     if (run.place_at) run.place_at(frame);
     PILEUS_TRY(shot);
     // Time cut it short: what there is begins at the first slot, so that no gap lies before it.
@@ -43,6 +44,11 @@ Status fill_ring(int frame, const Context& context, PhotonRun& run, const ShootP
 }
 
 }  // namespace
+
+std::uint64_t wanted_generations(const PhotonRun& run, std::uint64_t all) {
+    const std::uint64_t most = std::uint64_t(run.budget.generations);
+    return most > 0 && most < all ? most : all;
+}
 
 Status interrupted_before(const char* what) {
     return {Code::kCheckFailed, std::string("interrupted before ") + what + "; no file written"};
@@ -76,7 +82,8 @@ Status light_photon_frame(const FrameStep& step, const Context& context, PhotonR
         return ring_state(run);
     }
     if (scene.animation.present) return fill_ring(step.frame, context, run, shoot);
-    PILEUS_TRY(shoot_generations(context, run, run.generations, nothing, shoot));
+    PILEUS_TRY(
+        shoot_generations(context, run, wanted_generations(run, run.generations), nothing, shoot));
     return run.next_generation > 0 ? Status::ok() : interrupted_before("the first generation");
 }
 

@@ -17,6 +17,9 @@ using ShootPhotons = std::function<Status()>;
 Status shoot_generations(const Context& context, PhotonRun& run, std::uint64_t count,
                          const std::function<void()>& aim, const ShootPhotons& shoot);
 
+/// `all`, or fewer where the budget says so.
+std::uint64_t wanted_generations(const PhotonRun& run, std::uint64_t all);
+
 /// Shoots what a frame of a run with a ring, or a still, needs: frame f has the generations
 /// f .. f + p - 1, whatever frames were asked for, so that a part of an animation repeats the
 /// whole's bits. kCheckFailed: interrupted before there was anything to show.

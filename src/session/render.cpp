@@ -51,7 +51,10 @@ void note_origin(const Report& report, Image& image) {
     add("frame", std::to_string(report.frame));
     add("firstFrame", std::to_string(report.first_frame));
     add("budget", report.budget);
+    add("budgetUsed", report.budget_used);
     add("show", report.show);
+    // The user has: such a picture is sound, but cannot be made again where part of a pass counts.
+    if (report.interrupted) add("interrupted", "true");
     // A time has chosen them: `--set` with these makes the picture again.
     if (report.budget.find("seconds") != std::string::npos && report.frame_work.steps > 0) {
         const ReportFrameWork& work = report.frame_work;
@@ -148,6 +151,7 @@ Status render_frames(const Scene& scene, const RunStart& start, const RenderOpti
             PILEUS_TRY(show_shadow(scene, session, frame, image));
         take_hash(session.context(), image, report);
         session.finish_report();
+        report.budget_used = budget_used(scene, options, frame, report);
         if (verifies) PILEUS_TRY(verifier.check(frame, session.context(), image, report));
         count_water(scene, *session.run().world, report);
         if (options.show.empty()) find_warnings(scene, image, report);

@@ -22,6 +22,7 @@ struct RenderOptions {
     std::string isa;                       ///< empty: the widest this machine runs
     const KernelTable* kernels = nullptr;  ///< where set, instead of `isa`
     std::int64_t budget_photons = -1;      ///< >= 0: instead of the scene's number
+    std::int64_t budget_generations = 0;   ///< > 0: so many of the scene's, each of as many photons
     std::int64_t budget_samples = -1;      ///< >= 1: paths a pixel, instead of the scene's number
     std::int64_t budget_steps = -1;        ///< >= 0: steps of a ray, instead of the scene's number
     double budget_error = 0;               ///< > 0: mean relative standard error to reach

@@ -4,6 +4,7 @@
 
 #include "platform/clock.h"
 #include "src/run/find_kernels.h"
+#include "src/scene/rows/layer_flags.h"
 
 namespace pileus {
 namespace {
@@ -35,6 +36,9 @@ Status make_context(const Scene& scene, const RenderOptions& options, Context& c
     report.budget = budget_text(options);
     report.show = options.show;
     report.overrides = scene.overrides;
+    report.layers = {"radiance", "alpha"};
+    for (const LayerFlag& layer : kLayerFlags)
+        if (scene.output.*layer.wanted) report.layers.push_back(layer.name);
     report.isa = context.kernels->name;
     report.threads = context.threads;
     return Status::ok();
@@ -50,9 +54,32 @@ Status frames_of(const Scene& scene, const RenderOptions& options, Frames& frame
                              std::to_string(frames.total - 1));
 }
 
+std::string budget_used(const Scene& scene, const RenderOptions& options, int frame,
+                        const Report& report) {
+    // Part of a pass or of a generation is no whole number of them.
+    if (report.ahead_samples > 0 || (report.interrupted && report.generations > 0)) return "";
+    RenderOptions used;
+    if (scene.method == "path") used.budget_samples = std::int64_t(report.samples_per_pixel);
+    const bool grid = scene.method == "photon-grid";
+    if ((grid || scene.method == "collectors") && report.generations > 0) {
+        const std::int64_t all = grid ? scene.photon_grid.photons : scene.collectors.photons;
+        used.budget_photons = options.budget_photons >= 0 ? options.budget_photons : all;
+        // A film's ring counts on from frame to frame; its length is that of the first one.
+        const bool ring = scene.animation.present && (!grid || scene.photon_grid.ring);
+        used.budget_generations = std::int64_t(report.generations) - (ring ? frame : 0);
+    }
+    used.budget_steps = options.budget_steps;
+    const bool chosen = !report.frame_work.light.empty();
+    const bool by_cells = scene.method == "optical-depth" && scene.optical_depth.steps == 0;
+    if (chosen && (used.budget_steps >= 0 || !by_cells))
+        used.budget_steps = report.frame_work.steps;
+    return budget_text(used);
+}
+
 Budget budget_of(const RenderOptions& options) {
     Budget budget;
     budget.photons = options.budget_photons;
+    budget.generations = options.budget_generations;
     budget.samples = options.budget_samples;
     budget.steps = options.budget_steps;
     budget.error = options.budget_error;

@@ -41,6 +41,8 @@ TEST_CASE("a picture and its report hold version, seed, frame, budget and overri
     CHECK(origin.at("frame") == "1");
     CHECK(origin.at("firstFrame") == "1");
     CHECK(origin.at("budget") == "photons=600");
+    CHECK(origin.at("budgetUsed") == "photons=600 generations=4");
+    CHECK(origin.count("interrupted") == 0);
     CHECK(origin.at("override.2") == "medium.0.albedo=0.9");
     CHECK(origin.count("threads") == 0);
     CHECK(origin.count("show") == 0);
@@ -48,6 +50,8 @@ TEST_CASE("a picture and its report hold version, seed, frame, budget and overri
     CHECK(report["frame"] == 1);
     CHECK(report["first_frame"] == 1);
     CHECK(report["budget"] == "photons=600");
+    CHECK(report["budget_used"] == "photons=600 generations=4");
+    CHECK(report["layers"].dump() == "[\"radiance\",\"alpha\"]");
     CHECK(report["overrides"].size() >= 3);
 
     // The same picture from what the file says alone.

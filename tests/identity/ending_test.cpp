@@ -41,6 +41,15 @@ bool same_film(const Film& a, const Film& b) {
     return same;
 }
 
+std::vector<std::string> hashes_of(const Scene& scene, const RenderOptions& options) {
+    std::vector<std::string> hashes;
+    REQUIRE(render(scene, options, [&](int, Image&, Report& report) {
+        hashes.push_back(report.hash);
+        return Status::ok();
+    }));
+    return hashes;
+}
+
 }  // namespace
 
 TEST_CASE("path: a pass that is ended within keeps what it has, and goes on to the same bits") {
@@ -163,6 +172,37 @@ TEST_CASE("collectors: a ring ends with the time, and grows from frame to frame"
             CHECK(report.ring_generations == 4);
             return Status::ok();
         }));
+    }
+}
+
+TEST_CASE("photons: so many generations are the bits of the time that chose them") {
+    struct Case {
+        const char* method;
+        std::vector<std::string> more;
+    };
+    for (const Case& c : {Case{"collectors", {}}, Case{"collectors", {"output.layers=[error]"}},
+                          Case{"collectors", {"animation.frames=9"}}, Case{"photon-grid", {}},
+                          Case{"photon-grid", {"animation.frames=9"}},
+                          Case{"photon-grid", {"animation.frames=9", "photon_grid.ring=true"}}}) {
+        CAPTURE(c.method);
+        std::vector<std::string> keys = c.more;
+        keys.push_back(std::string("method.name=") + c.method);
+        const Scene scene = scene_from(kSmallCumulus, keys);
+        RenderOptions options;
+        options.last_frame = scene.animation.present ? 2 : 0;
+        const std::vector<std::string> whole = hashes_of(scene, options);
+        options.budget_seconds = 1e-9;
+        const std::vector<std::string> short_of = hashes_of(scene, options);
+        options.budget_seconds = 0;
+        options.budget_generations = 1;
+        CHECK(hashes_of(scene, options) == short_of);
+        CHECK(short_of[0] != whole[0]);
+        // More than a ring, or the scene's sum, holds: a grid's sum alone may have more.
+        options.budget_generations = 6;
+        const bool sum = std::string(c.method) == "photon-grid" && c.more.size() < 2;
+        CHECK((hashes_of(scene, options) == whole) != sum);
+        options.budget_generations = 4;
+        CHECK(hashes_of(scene, options) == whole);
     }
 }
 

@@ -36,14 +36,17 @@ Status read_budget(const std::string& text, RenderOptions& options) {
         return read_integer("--budget photons", amount, 0, kMost, options.budget_photons);
     if (kind == "seconds")
         return read_number("--budget seconds", amount, 1e-3, kMostSeconds, options.budget_seconds);
+    if (kind == "generations")
+        return read_integer("--budget generations", amount, 1, kMost, options.budget_generations);
     if (kind == "samples")
         return read_integer("--budget samples", amount, 1, kMostSamples, options.budget_samples);
     if (kind == "error")
         return read_number("--budget error", amount, 1e-6, 1, options.budget_error);
     if (kind == "steps")
         return read_integer("--budget steps", amount, 0, kMostSteps, options.budget_steps);
-    return Status::bad_input("--budget: unknown kind, " + quote_text(text) +
-                             ", allowed: photons=N, samples=N, steps=N, error=E, seconds=S");
+    return Status::bad_input(
+        "--budget: unknown kind, " + quote_text(text) +
+        ", allowed: photons=N, generations=N, samples=N, steps=N, error=E, seconds=S");
 }
 
 /// The scene, read again with what its quality adds.
@@ -71,7 +74,7 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments, const std::
         ->type_name("NAME");
     command
         .add_option("--budget", arguments.budgets,
-                    "photons=N (collectors), samples=N for each pixel "
+                    "photons=N (collectors) or generations=N of them, samples=N for each pixel "
                     "(path) or steps=N of a ray "
                     "(raymarch) instead of the scene's number; error=E (path) ends at a mean "
                     "relative standard error; "

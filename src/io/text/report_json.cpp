@@ -199,7 +199,9 @@ std::string report_json(const Report& report) {
     json["frame"] = report.frame;
     json["first_frame"] = report.first_frame;
     json["budget"] = report.budget;
+    json["budget_used"] = report.budget_used;
     json["show"] = report.show;
+    json["layers"] = report.layers;
     json["hash"] = report.hash;
     json["plan"] = plan_of(report);
     json["memory"] = {{"peak_bytes", report.peak_bytes}};

@@ -16,7 +16,7 @@ const CollectorsRun& own(const MethodRun& run) { return static_cast<const Collec
 std::unique_ptr<MethodRun> make() { return std::make_unique<CollectorsRun>(); }
 
 Status check(const Scene& scene, const Budget& budget) {
-    constexpr const char* kAllowed = "photons=N, seconds=S";
+    constexpr const char* kAllowed = "photons=N, seconds=S, generations=N";
     if (budget.samples >= 0) return unknown_budget("--budget samples", scene.method, kAllowed);
     if (budget.steps >= 0) return unknown_budget("--budget steps", scene.method, kAllowed);
     if (budget.error > 0) return unknown_budget("--budget error", scene.method, kAllowed);

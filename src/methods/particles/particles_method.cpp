@@ -21,6 +21,8 @@ std::unique_ptr<MethodRun> make() { return std::make_unique<ParticlesRun>(); }
 Status check(const Scene& scene, const Budget& budget) {
     const char* const kAllowed = scene.particles.billboards ? "none" : "--budget steps";
     if (budget.photons >= 0) return unknown_budget("--budget photons", scene.method, kAllowed);
+    if (budget.generations > 0)
+        return unknown_budget("--budget generations", scene.method, kAllowed);
     if (budget.samples >= 0) return unknown_budget("--budget samples", scene.method, kAllowed);
     if (budget.steps >= 0 && scene.particles.billboards)
         return unknown_budget("--budget steps", "particles with billboards", kAllowed);

@@ -15,6 +15,8 @@ std::unique_ptr<MethodRun> make() { return std::make_unique<PathRun>(); }
 Status check(const Scene& scene, const Budget& budget) {
     constexpr const char* kAllowed = "samples=N, error=E, seconds=S";
     if (budget.photons >= 0) return unknown_budget("--budget photons", scene.method, kAllowed);
+    if (budget.generations > 0)
+        return unknown_budget("--budget generations", scene.method, kAllowed);
     if (budget.steps >= 0) return unknown_budget("--budget steps", scene.method, kAllowed);
     const OutputSettings& output = scene.output;
     if (scene.camera.flux &&

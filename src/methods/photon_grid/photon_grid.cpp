@@ -112,6 +112,11 @@ std::uint64_t most_generations(const PhotonGridRun& run) {
     return most > run.generations ? most : run.generations;
 }
 
+std::uint64_t planned_generations(const PhotonGridRun& run) {
+    if (run.budget.generations == 0 || run.ring) return run.generations;
+    return wanted_generations(run, most_generations(run));
+}
+
 CellGrid photon_cells(const PhotonGridSettings& settings, std::int64_t photons,
                       const Medium& medium) {
     constexpr double kPhotonsPerCell = 32, kFewest = 4096, kMost = 0x1p19;
@@ -205,9 +210,9 @@ Status shoot_to_error(const FrameStep& step, const Context& context, PhotonGridR
                       const ShootPhotons& shoot) {
     const CameraParams camera =
         make_camera(run.scene->camera, orbit_at(*run.scene, step.frame), run.world->medium.low_m);
-    const std::uint64_t most = most_generations(run);
+    const std::uint64_t most = wanted_generations(run, most_generations(run));
     const double start = wall_seconds(), seconds = run.budget.seconds;
-    std::uint64_t count = run.generations;
+    std::uint64_t count = run.generations < most ? run.generations : most;
     while (count > 0) {
         PILEUS_TRY(shoot_generations(
             context, run, count, [] {}, shoot));
@@ -248,10 +253,10 @@ Status photon_grid_light(const FrameStep& step, const Context& context, PhotonGr
         if (run.next_generation == 0) return interrupted_before("the first generation");
         return Status::ok();
     }
-    const bool open = run.budget.seconds > 0;
+    const bool open = run.budget.seconds > 0 && run.budget.generations == 0;
     const std::uint64_t first = run.next_generation;
     PILEUS_TRY(shoot_generations(
-        context, run, open ? most_generations(run) : run.generations, [] {}, shoot));
+        context, run, open ? most_generations(run) : planned_generations(run), [] {}, shoot));
     if (run.next_generation == first) return interrupted_before("the first generation");
     return Status::ok();
 }

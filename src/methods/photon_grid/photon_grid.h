@@ -47,6 +47,10 @@ NodeGrid cell_nodes(const PhotonGridRun& run);
 /// Generations that may be added to a sum; a ring holds its own length for ever.
 std::uint64_t most_generations(const PhotonGridRun& run);
 
+/// Generations of a frame that neither a time nor an error ends: the scene's, or the budget's,
+/// which may be more.
+std::uint64_t planned_generations(const PhotonGridRun& run);
+
 /// Chooses lights and what a collision stores, and weighs the plan. kLimit: too much of something.
 Status photon_grid_weigh(const Context& context, PhotonGridRun& run);
 

@@ -104,7 +104,7 @@ Size all_photons(const PhotonGridRun& run, const Context& context) {
     if (run.ring) return photons_of_run(run, context);
     Size generation = 0;
     for (const Light& light : run.lighting.lights) generation += light.photons;
-    return bytes_of(generation, run.generations, context.frames);
+    return bytes_of(generation, planned_generations(run), context.frames);
 }
 
 }  // namespace

@@ -41,7 +41,7 @@ Status check_closure(const Scene& scene) {
 }
 
 Status check(const Scene& scene, const Budget& budget) {
-    constexpr const char* kAllowed = "photons=N, seconds=S, error=E";
+    constexpr const char* kAllowed = "photons=N, seconds=S, error=E, generations=N";
     if (budget.samples >= 0) return unknown_budget("--budget samples", scene.method, kAllowed);
     if (budget.steps >= 0) return unknown_budget("--budget steps", scene.method, kAllowed);
     if (budget.error > 0 && !scene.output.layer_error)

@@ -46,6 +46,8 @@ Status check_settings(const FluxSettings& settings, const Scene& scene, const Bu
     if (budget.error > 0 || budget.seconds > 0)
         return unknown_budget(budget.error > 0 ? "--budget error" : "--budget seconds", "flux",
                               photons ? "photons=N" : "samples=N");
+    if (budget.generations > 0)
+        return unknown_budget("--budget generations", "flux", photons ? "photons=N" : "samples=N");
     if (photons && budget.samples >= 0)
         return unknown_budget("--budget samples", "photons", "photons=N");
     if (settings.absorbed && !photons)
