@@ -42,7 +42,7 @@ namespace {
 
 struct InfoArguments {
     std::string file, grid;
-    bool phase = false;
+    bool phase = false, scene = false;
     std::vector<double> place;
     RawOptions raw;
 };
@@ -86,6 +86,8 @@ Status run_info(const InfoArguments& arguments) {
     if (arguments.file.empty() && arguments.phase)
         return Status::bad_input(
             "--phase: no file, nothing, allowed: a table of angles and values");
+    if (arguments.file.empty() && arguments.scene)
+        return Status::bad_input("--scene: no file, nothing, allowed: a picture");
     if (arguments.file.empty()) return print(program_lines());
     PILEUS_TRY(check_file_name(arguments.file));
     const std::string extension = file_extension(arguments.file);
@@ -95,12 +97,16 @@ Status run_info(const InfoArguments& arguments) {
     MediumSettings medium;
     if (!arguments.place.empty() && (volume == nullptr || !volume->is_weather))
         return Status::bad_input("--place: for weather data, allowed: left out");
+    if (arguments.scene && (picture == nullptr || !is_radiance(*picture)))
+        return Status::bad_input("--scene: of a picture, allowed: a file in " +
+                                 picture_extensions(is_radiance));
     if (arguments.phase) {
         PILEUS_TRY(phase_lines(arguments.file, lines));
     } else if (extension == ".toml") {
         PILEUS_TRY(scene_lines(arguments.file, lines));
     } else if (picture != nullptr && is_radiance(*picture)) {
-        PILEUS_TRY(image_lines(arguments.file, lines));
+        PILEUS_TRY(arguments.scene ? scene_text_of(arguments.file, lines)
+                                   : image_lines(arguments.file, lines));
     } else if (volume != nullptr) {
         medium.grid = arguments.grid;
         if (volume->bare) PILEUS_TRY(read_raw_facts(arguments.file, arguments.raw, medium));
@@ -133,6 +139,7 @@ void add_info(CLI::App& app, Chosen& chosen) {
         ->expected(2)
         ->type_name("LON LAT");
     command->add_flag("--phase", arguments->phase, "The file is a table of a phase function");
+    command->add_flag("--scene", arguments->scene, "Print the scene that a picture was made of");
     add_raw_options(*command, arguments->raw);
     command->footer(help_example("pileus info cloud.vdb --grid density"));
     command->callback(

@@ -22,6 +22,8 @@ std::string size_lines(const std::array<int, 3>& size, bool knows_bounds,
 
 Status scene_lines(const std::string& path, std::string& lines);
 Status image_lines(const std::string& path, std::string& lines);
+/// The scene that a picture was rendered from, as its file has it.
+Status scene_text_of(const std::string& path, std::string& text);
 /// A table of angles and values.
 Status phase_lines(const std::string& path, std::string& lines);
 /// `medium` holds the facts that a raw grid does not state itself.

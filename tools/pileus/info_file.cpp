@@ -8,6 +8,7 @@
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/density_row.h"
 #include "src/scene/rows/volume_format.h"
+#include "src/scene/toml/toml_tree.h"
 #include "src/world/phase/phase_table.h"
 #include "tools/pileus/info.h"
 
@@ -151,6 +152,23 @@ Status image_lines(const std::string& path, std::string& lines) {
     for (const Channel& channel : image.channels)
         lines += info_line("channel", fmt::format("{:<8} {}", channel.name,
                                                   range_text(range_of(channel.pixels.span()))));
+    for (const auto& [name, text] : image.origin)
+        lines += info_line(printable_line(name).c_str(), printable_line(text));
+    return Status::ok();
+}
+
+Status scene_text_of(const std::string& path, std::string& text) {
+    Image image;
+    PILEUS_TRY(read_image(path, image));
+    if (image.scene_text.empty())
+        return Status::bad_input(
+            path + ": pileus.scene: missing, allowed: a picture that pileus has rendered");
+    // Whoever made the file, a terminal is given a scene or plain lines.
+    Node ignored;
+    SyntaxFault fault;
+    text = parse_toml(image.scene_text, ignored, fault) ? image.scene_text
+                                                        : printable_lines(image.scene_text);
+    if (text.back() != '\n') text += '\n';
     return Status::ok();
 }
 

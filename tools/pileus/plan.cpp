@@ -99,12 +99,18 @@ std::string plan_lines(const Report& report) {
            work_lines(report) + time_lines(report) + limit_lines(report);
 }
 
-Status run_plan(const PlanArguments& arguments) {
+Status run_plan(PlanArguments& arguments) {
     Scene scene;
     RenderOptions options;
     Report report;
+    PILEUS_TRY(take_picture(arguments.scene));
     PILEUS_TRY(read_scene_options(arguments.scene, scene, options));
     options.last_frame = scene.animation.present ? scene.animation.frames - 1 : 0;
+    if (arguments.scene.picture) {
+        PILEUS_TRY(picture_frames(*arguments.scene.picture, scene, options.first_frame,
+                                  options.last_frame));
+        PILEUS_TRY(check_scene_files(*arguments.scene.picture, scene));
+    }
     PILEUS_TRY(plan_scene(scene, options, arguments.exact, report));
     if (arguments.time) {
         ForetoldTime time;
@@ -122,7 +128,7 @@ void add_plan(CLI::App& app, Chosen& chosen) {
     const auto arguments = std::make_shared<PlanArguments>();
     add_scene_options(*command, arguments->scene,
                       "pileus plan cloud.toml --budget photons=1000000");
-    add_quality_option(*command, arguments->scene);
+    add_picture_options(*command, arguments->scene);
     command->add_flag("--json", arguments->json, "Print JSON");
     command->add_flag("--exact", arguments->exact,
                       "Read the values and prepare everything but the photons: exact bytes");

@@ -88,10 +88,15 @@ Status choose_frames(const RenderArguments& arguments, const Scene& scene, Rende
                      Outputs& outputs) {
     const int frames = scene.animation.present ? scene.animation.frames : 1;
     options.last_frame = frames - 1;
+    const std::optional<PictureScene>& picture = arguments.scene.picture;
     if (arguments.frames)
         PILEUS_TRY(read_frames(*arguments.frames, frames, options.first_frame, options.last_frame));
-    outputs.first_frame = options.first_frame;
+    else if (picture)
+        PILEUS_TRY(picture_frames(*picture, scene, options.first_frame, options.last_frame));
+    // Frames before a picture's own only lead up to it.
+    outputs.first_frame = picture && !arguments.frames ? options.last_frame : options.first_frame;
     outputs.numbered = frames > 1;
+    if (picture) PILEUS_TRY(check_scene_files(*picture, scene));
     if (!arguments.expect_hash) return Status::ok();
     return check_frame_hashes(outputs.hashes, options.last_frame - outputs.first_frame + 1);
 }
@@ -100,22 +105,41 @@ Status choose_frames(const RenderArguments& arguments, const Scene& scene, Rende
 Status choose_files(const RenderArguments& arguments, const Scene& scene, RenderOptions& options,
                     Outputs& outputs) {
     outputs.files = arguments.files;
-    if (outputs.files.empty())
+    // A picture stands for the scene of another time: nothing of then is written over.
+    const bool remade = arguments.scene.picture.has_value();
+    if (outputs.files.empty() && !remade)
         for (const std::string& file : scene.output.files)
             outputs.files.push_back(scene_path(scene.directory, file));
     // -o stands for all that the scene would write: its report is of another picture.
-    const bool own_report = arguments.files.empty() && !scene.output.report.empty();
+    const bool own_report = arguments.files.empty() && !remade && !scene.output.report.empty();
     outputs.report_printed = arguments.report && *arguments.report == "-";
     if (arguments.report && !outputs.report_printed) outputs.report = *arguments.report;
     if (!arguments.report && own_report)
         outputs.report = scene_path(scene.directory, scene.output.report);
     options.digests = !outputs.report.empty() || outputs.report_printed;
-    if (outputs.files.empty() && !options.digests)
+    outputs.nothing = outputs.files.empty() && !options.digests;
+    if (outputs.nothing && remade && outputs.hashes.empty())
+        return Status::bad_input(scene.file +
+                                 ": no output, allowed: -o FILE or --report FILE, or no option "
+                                 "that changes the picture, to compare its hash alone");
+    if (outputs.nothing && !remade)
         return Status::bad_input(scene.file +
                                  ": output.files: no output, allowed: -o FILE, --report FILE or "
                                  "output.files in the scene");
     if (arguments.world_file) PILEUS_TRY(add_world_files(scene, outputs));
     return check_outputs(outputs, scene, options);
+}
+
+/// A picture that is made again as it was has the hash that it had.
+void expect_picture(RenderArguments& arguments, Outputs& outputs) {
+    if (!arguments.scene.picture) return;
+    const PictureScene& picture = *arguments.scene.picture;
+    if (picture.version != kVersion)
+        outputs.remark =
+            "; it is of version " + printable_line(picture.version) + ", this is " + kVersion;
+    const bool same = !is_changed(arguments.scene) && !arguments.frames && !arguments.show;
+    if (!arguments.show && !picture.show.empty()) arguments.show = picture.show;
+    if (same && !arguments.expect_hash && !arguments.blocks.file) outputs.hashes = {picture.hash};
 }
 
 /// Options win over the scene; faults of all options come before those of the files.
@@ -169,7 +193,7 @@ Status take_frame(const Scene& scene, const Outputs& outputs, int frame, Image& 
     if (image.pixel_hash.empty()) image.pixel_hash = pixel_hash(image);
     if (report.hash.empty()) report.hash = image.pixel_hash;
     if (report.interrupted) found.ended = interrupted_line(frame, outputs.numbered, report);
-    PILEUS_TRY(write_frame(outputs, frame, image, report));
+    PILEUS_TRY(write_frame(outputs, scene, frame, image, report));
     found.doubtful = tell_warnings(report, found.told) || found.doubtful;
     add_fault(check_frame_hash(scene, outputs, frame, image.pixel_hash), found.hashes);
     return Status::ok();
@@ -213,6 +237,8 @@ Status run_render(RenderArguments& arguments) {
     RenderOptions options;
     Outputs outputs;
     take_scene(arguments);
+    PILEUS_TRY(take_picture(arguments.scene));
+    expect_picture(arguments, outputs);
     PILEUS_TRY(read_arguments(arguments, scene, options, outputs));
 
     Progress progress(!arguments.quiet && stderr_is_terminal());
@@ -244,7 +270,7 @@ void add_render(CLI::App& app, Chosen& chosen) {
     add_scene_options(*command, arguments->scene,
                       "pileus render cloud.toml -o cloud.exr cloud.png --report cloud.json "
                       "--set sun.elevation_deg=10");
-    add_quality_option(*command, arguments->scene);
+    add_picture_options(*command, arguments->scene);
     command
         ->add_option("-o,--output", arguments->files,
                      picture_extensions(is_written) +

@@ -15,6 +15,7 @@
 #include "src/world/camera/places.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
+#include "tools/pileus/picture_scene.h"
 
 namespace pileus {
 
@@ -114,15 +115,22 @@ Status check_frame_hash(const Scene& scene, const Outputs& outputs, int frame,
         return Status::check_failed(
             fmt::format("{}: hash: not rendered, expected {}", where, expected));
     return Status::check_failed(
-        fmt::format("{}: hash: differs, expected {}, got {}", where, expected, hash));
+        fmt::format("{}: hash: differs, expected {}, got {}", where, expected, hash) +
+        outputs.remark);
 }
 
-Status write_frame(const Outputs& outputs, int frame, const Image& image, const Report& report) {
+Status write_frame(const Outputs& outputs, const Scene& scene, int frame, Image& image,
+                   const Report& report) {
     OutputSet set;
     std::string lines;
+    const std::size_t told = image.origin.size();
     for (const std::string& file : outputs.files) {
         const std::string path = frame_path(file, frame, outputs.numbered);
+        // Each file says where its scene lies from there.
+        const std::string folder = scene_folder_from(scene.directory, path);
+        if (!folder.empty()) image.origin.emplace_back("folder", folder);
         PILEUS_TRY(set.add_image(image, path, outputs.tone));
+        image.origin.resize(told);
         lines += fmt::format("{} {}\n", image.pixel_hash, path);
     }
     const std::string world = world_text(image);
@@ -143,6 +151,8 @@ Status write_frame(const Outputs& outputs, int frame, const Image& image, const 
             "verify", 100 * report.verify_bias, 100 * report.verify_standard_error,
             report.verify_relmse, report.verified_pixels);
     if (outputs.report_printed) lines = report_json(report);
+    if (outputs.nothing && image.pixel_hash == outputs.hashes.at(0))
+        lines += fmt::format("{} {}\n", image.pixel_hash, scene.file);
     return set.commit(lines);
 }
 

@@ -21,6 +21,8 @@ struct Outputs {
     ToneSettings tone;
     BlockSettings blocks;
     std::vector<std::string> hashes;  ///< that the written frames should have; none, or one each
+    std::string remark;               ///< behind the line of one that has another
+    bool nothing = false;             ///< a picture is compared with what it was, and not written
     int first_frame = 0;              ///< that is written; frames before it only lead up to it
     bool numbered = false;  ///< the scene has several frames, so names carry the frame's number
 };
@@ -43,6 +45,7 @@ Status check_frame_hash(const Scene& scene, const Outputs& outputs, int frame,
                         const std::string& hash);
 
 /// Writes all files of a frame and says so on the standard output.
-Status write_frame(const Outputs& outputs, int frame, const Image& image, const Report& report);
+Status write_frame(const Outputs& outputs, const Scene& scene, int frame, Image& image,
+                   const Report& report);
 
 }  // namespace pileus

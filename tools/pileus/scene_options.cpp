@@ -49,16 +49,61 @@ Status read_budget(const std::string& text, RenderOptions& options) {
         ", allowed: photons=N, generations=N, samples=N, steps=N, error=E, seconds=S");
 }
 
+/// Of a file, or of a picture, whose own --set come first.
+Status read_any_scene(const SceneArguments& arguments, const std::vector<std::string>& sets,
+                      Scene& scene) {
+    if (arguments.scene.empty())
+        return Status::bad_input("SCENE.toml: missing, allowed: the path of a scene");
+    if (!arguments.picture) return read_scene_file(arguments.scene, sets, scene);
+    const PictureScene& picture = *arguments.picture;
+    std::vector<std::string> all = picture.overrides;
+    all.insert(all.end(), sets.begin(), sets.end());
+    return read_scene_text(picture.text, picture.file, picture.directory, all, scene);
+}
+
+/// The budgets of a picture's run, where it is made again by its own method.
+Status repeat_budgets(const SceneArguments& arguments, const Scene& scene, RenderOptions& options) {
+    const PictureScene& picture = *arguments.picture;
+    if (!arguments.budgets.empty() || scene.method != picture.method) return Status::ok();
+    if (!picture.unrepeatable.empty())
+        return Status::bad_input(picture.file + ": cannot be made again, " + picture.unrepeatable +
+                                 ", allowed: --budget");
+    Status faults;
+    for (const std::string& budget : picture.budgets) {
+        Status status = read_budget(budget, options);
+        if (!status) status.message = picture.file + ": pileus.budget: " + status.message;
+        add_fault(status, faults);
+    }
+    return faults;
+}
+
 /// The scene, read again with what its quality adds.
 Status read_quality(const SceneArguments& arguments, Scene& scene) {
     std::vector<std::string> sets;
     PILEUS_TRY(quality_sets(*arguments.quality, scene, arguments.sets, sets));
     sets.insert(sets.end(), arguments.sets.begin(), arguments.sets.end());
     scene = Scene();
-    return read_scene_file(arguments.scene, sets, scene);
+    return read_any_scene(arguments, sets, scene);
 }
 
 }  // namespace
+
+Status take_picture(SceneArguments& arguments) {
+    if (is_picture_scene(arguments.scene)) {
+        PictureScene picture;
+        PILEUS_TRY(read_picture_scene(arguments.scene, arguments.folder, picture));
+        arguments.picture = std::move(picture);
+        return Status::ok();
+    }
+    if (!arguments.folder) return Status::ok();
+    return Status::bad_input("--folder: " + quote_text(arguments.scene) +
+                             " is no picture, allowed: with an .exr file in place of a scene");
+}
+
+bool is_changed(const SceneArguments& arguments) {
+    return arguments.seed || arguments.quality || !arguments.sets.empty() ||
+           !arguments.budgets.empty();
+}
 
 void add_scene_options(CLI::App& command, SceneArguments& arguments, const std::string& example) {
     command.add_option("scene", arguments.scene, "The scene file")->type_name("SCENE.toml");
@@ -92,7 +137,14 @@ void add_scene_options(CLI::App& command, SceneArguments& arguments, const std::
                    describe_limits());
 }
 
-void add_quality_option(CLI::App& command, SceneArguments& arguments) {
+void add_picture_options(CLI::App& command, SceneArguments& arguments) {
+    command.get_option("scene")->description(
+        "The scene file, or an .exr picture, to make it again");
+    command
+        .add_option("--folder", arguments.folder,
+                    "Where names in the scene of an .exr picture start; left out: as the picture "
+                    "says, or its own folder")
+        ->type_name("DIR");
     command
         .add_option("--quality", arguments.quality,
                     "draft: a first look, few samples and filtered; final: nothing filtered or "
@@ -115,14 +167,12 @@ Status read_scene_options(const SceneArguments& arguments, Scene& scene, RenderO
         add_fault(set_limit(limit, options.limits), faults);
     std::int64_t seed = 0;
     if (arguments.seed) add_fault(read_integer("--seed", *arguments.seed, 0, kMost, seed), faults);
-    add_fault(arguments.scene.empty()
-                  ? Status::bad_input("SCENE.toml: missing, allowed: the path of a scene")
-                  : read_scene_file(arguments.scene, arguments.sets, scene),
-              faults);
+    add_fault(read_any_scene(arguments, arguments.sets, scene), faults);
     PILEUS_TRY(faults);
     if (arguments.quality) PILEUS_TRY(read_quality(arguments, scene));
+    if (arguments.picture) scene.seed = arguments.picture->seed;
     if (arguments.seed) scene.seed = seed;
-    return Status::ok();
+    return arguments.picture ? repeat_budgets(arguments, scene, options) : Status::ok();
 }
 
 }  // namespace pileus
