@@ -2,11 +2,11 @@
 // Pictures in place of scenes that lack a file or an attribute, or hold a wrong one.
 // in: PILEUS_PROGRAM, pictures moved and damaged -> out: pass or fail.
 // docs/program.md, "A picture made again"
-#include "src/io/images/image_file.h"
-#include "tests/cli/run_program.h"
+#include "tests/cli/remake_checks.h"
 #include "tests/io/test_image.h"
 
 using namespace pileus;
+using test::check_refused;
 using test::holds;
 using test::line_count;
 using test::Outcome;
@@ -14,26 +14,6 @@ using test::ProgramFolder;
 namespace fs = std::filesystem;
 
 namespace {
-
-/// Pictures hold scenes in EXR files alone.
-bool skips() {
-    const bool none = !can_write_image("a.exr");
-    if (none) MESSAGE("skipped: no OpenEXR in this build");
-    return none;
-}
-
-/// One line, exit 2, no new file.
-void check_refused(const ProgramFolder& folder, const std::string& arguments,
-                   const std::string& said) {
-    CAPTURE(arguments);
-    const std::vector<std::string> before = folder.left();
-    const Outcome outcome = folder.run(arguments);
-    CHECK(outcome.exit_status == 2);
-    CHECK(outcome.output == "");
-    CHECK_MESSAGE(line_count(outcome.errors) == 1, outcome.errors);
-    CHECK_MESSAGE(holds(outcome.errors, said), outcome.errors);
-    CHECK(folder.left() == before);
-}
 
 const char* const kGrid =
     "Volume \"volumegrid\" \"integer nx\" 1 \"integer ny\" 1 \"integer nz\" 2 "
@@ -73,7 +53,7 @@ void put_damaged(const ProgramFolder& folder, const std::string& name, const std
 }  // namespace
 
 TEST_CASE("remake: names in the scene start where it lay, seen from the picture") {
-    if (skips()) return;
+    if (test::skips_pictures()) return;
     const ProgramFolder folder;
     put_cloud(folder);
     const auto made = [&](const std::string& arguments) {
@@ -102,7 +82,7 @@ TEST_CASE("remake: names in the scene start where it lay, seen from the picture"
 }
 
 TEST_CASE("remake: no name of a folder above both is in a picture") {
-    if (skips()) return;
+    if (test::skips_pictures()) return;
     const ProgramFolder folder;
     put_cloud(folder);
     const std::string above = fs::path(folder.files().path("")).parent_path().filename().string();
@@ -127,7 +107,7 @@ TEST_CASE("remake: no name of a folder above both is in a picture") {
 }
 
 TEST_CASE("remake: a file that is missing is named, with the way to say where it is") {
-    if (skips()) return;
+    if (test::skips_pictures()) return;
     const ProgramFolder folder;
     put_cloud(folder);
     REQUIRE(folder.run("render scenes/cloud.toml -q -o a.exr").exit_status == 0);
@@ -148,7 +128,7 @@ TEST_CASE("remake: a file that is missing is named, with the way to say where it
 }
 
 TEST_CASE("remake: of a sequence the picture's frame alone is needed") {
-    if (skips()) return;
+    if (test::skips_pictures()) return;
     const ProgramFolder folder;
     put_cloud(folder);
     for (const char* name : {"scenes/g1.pbrt", "scenes/g2.pbrt", "scenes/g3.pbrt"})
@@ -164,7 +144,7 @@ TEST_CASE("remake: of a sequence the picture's frame alone is needed") {
 }
 
 TEST_CASE("remake: pictures without a scene, and damaged ones, are refused with a line, exit 2") {
-    if (skips()) return;
+    if (test::skips_pictures()) return;
     const ProgramFolder folder;
     Image image = test::make_image(2, 2);
     image.scene_text.clear();
@@ -213,7 +193,7 @@ TEST_CASE("remake: pictures without a scene, and damaged ones, are refused with 
 }
 
 TEST_CASE("remake: a run that no budget repeats says so, and goes on with another") {
-    if (skips()) return;
+    if (test::skips_pictures()) return;
     const ProgramFolder folder;
     REQUIRE(folder.run("render s.toml -q -o a.exr").exit_status == 0);
     Image image;
@@ -255,7 +235,7 @@ TEST_CASE("remake: a run that no budget repeats says so, and goes on with anothe
 }
 
 TEST_CASE("remake: info tells what a picture says of its run") {
-    if (skips()) return;
+    if (test::skips_pictures()) return;
     const ProgramFolder folder;
     REQUIRE(
         folder.run("render s.toml -q -o a.exr --seed 9 --set medium.0.albedo=0.9").exit_status ==

@@ -4,43 +4,22 @@
 // docs/program.md, "A picture made again"
 #include <map>
 
-#include "src/io/images/image_file.h"
-#include "tests/cli/run_program.h"
+#include "tests/cli/remake_checks.h"
 #include "tests/io/test_image.h"
 
 using namespace pileus;
+using test::check_refused;
 using test::holds;
-using test::line_count;
 using test::Outcome;
 using test::ProgramFolder;
 namespace fs = std::filesystem;
 
 namespace {
 
-/// Pictures hold scenes in EXR files alone.
-bool skips() {
-    const bool none = !can_write_image("a.exr");
-    if (none) MESSAGE("skipped: no OpenEXR in this build");
-    return none;
-}
-
 std::map<std::string, std::string> origin_of(const ProgramFolder& folder, const std::string& name) {
     Image image;
     REQUIRE(read_image(folder.files().path(name), image));
     return {image.origin.begin(), image.origin.end()};
-}
-
-/// One line, exit 2, no new file.
-void check_refused(const ProgramFolder& folder, const std::string& arguments,
-                   const std::string& said) {
-    CAPTURE(arguments);
-    const std::vector<std::string> before = folder.left();
-    const Outcome outcome = folder.run(arguments);
-    CHECK(outcome.exit_status == 2);
-    CHECK(outcome.output == "");
-    CHECK(line_count(outcome.errors) == 1);
-    CHECK_MESSAGE(holds(outcome.errors, said), outcome.errors);
-    CHECK(folder.left() == before);
 }
 
 /// Renders s.toml, and then the picture `name` from its file alone, whatever the scene is by then.
@@ -67,7 +46,7 @@ constexpr const char* kFilm = "--set animation.frames=5 --set animation.camera_o
 }  // namespace
 
 TEST_CASE("remake: stills of all methods, whatever chose their numbers") {
-    if (skips()) return;
+    if (test::skips_pictures()) return;
     for (const char* options :
          {"", "--seed 11", "--budget photons=300 --seed 1_000_000",
           "--set medium.0.albedo=[0.9,0.8,0.7] --set output.layers=[error,depth]",
@@ -89,7 +68,7 @@ TEST_CASE("remake: stills of all methods, whatever chose their numbers") {
 }
 
 TEST_CASE("remake: a frame of a film, with those before it that its bits depend on") {
-    if (skips()) return;
+    if (test::skips_pictures()) return;
     const std::string film = kFilm, name = "a.0003.exr", again = "b.0003.exr";
     const std::string sun = "--set animation.sun_elevation_deg=[40,10] ";
     for (const std::string& options :
@@ -111,7 +90,7 @@ TEST_CASE("remake: a frame of a film, with those before it that its bits depend 
 }
 
 TEST_CASE("remake: a picture says what its budget came to, also where a clock ended it") {
-    if (skips()) return;
+    if (test::skips_pictures()) return;
     const ProgramFolder folder;
     const auto used = [&](const std::string& options, const std::string& name) {
         REQUIRE(folder.run("render s.toml -q -o a.exr " + options).exit_status == 0);
@@ -132,7 +111,7 @@ TEST_CASE("remake: a picture says what its budget came to, also where a clock en
 }
 
 TEST_CASE("remake: options make another picture of it, which is compared with nothing") {
-    if (skips()) return;
+    if (test::skips_pictures()) return;
     const ProgramFolder folder;
     const std::string film = kFilm;
     REQUIRE(folder.run("render s.toml -q -o a.exr --seed 4 --budget photons=500").exit_status == 0);
@@ -175,7 +154,7 @@ TEST_CASE("remake: options make another picture of it, which is compared with no
 }
 
 TEST_CASE("remake: the same bytes, and nothing of the user's is lost") {
-    if (skips()) return;
+    if (test::skips_pictures()) return;
     const ProgramFolder folder;
     fs::create_directory(folder.files().path("out"));
     REQUIRE(folder
@@ -204,7 +183,7 @@ TEST_CASE("remake: the same bytes, and nothing of the user's is lost") {
 }
 
 TEST_CASE("remake: a picture that another version or another file made differs, exit 1") {
-    if (skips()) return;
+    if (test::skips_pictures()) return;
     const ProgramFolder folder;
     REQUIRE(folder.run("render s.toml -q -o a.exr").exit_status == 0);
     Image image;
