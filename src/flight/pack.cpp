@@ -156,6 +156,16 @@ Status read_head(const char* bytes, std::size_t size, Head& head) {
 
 }  // namespace
 
+std::string packed_bytes(const PackedHead& told, const std::string& payload) {
+    Head head;
+    head.payload = payload.size();
+    head.digest = digest_of(payload.data(), payload.size());
+    head.told = told;
+    ArchiveWriter writer;
+    fields(writer, head);
+    return writer.bytes + payload;
+}
+
 Status pack_scene(const Scene& given, const World& world, std::uint64_t block_bytes,
                   std::string& bytes) {
     PILEUS_TRY(check_packable(given));
@@ -177,14 +187,9 @@ Status pack_scene(const Scene& given, const World& world, std::uint64_t block_by
     // Writing changes nothing of it.
     all(payload, scene, const_cast<World&>(world), tables);
     sky_fields(payload, sky);
-    Head head;
-    head.payload = payload.bytes.size();
-    head.digest = digest_of(payload.bytes.data(), payload.bytes.size());
-    head.told = {std::uint64_t(scene.camera.resolution[0]),
-                 std::uint64_t(scene.camera.resolution[1]), block_bytes, scene.method};
-    ArchiveWriter writer;
-    fields(writer, head);
-    bytes = writer.bytes + payload.bytes;
+    bytes = packed_bytes({std::uint64_t(scene.camera.resolution[0]),
+                          std::uint64_t(scene.camera.resolution[1]), block_bytes, scene.method},
+                         payload.bytes);
     return Status::ok();
 }
 

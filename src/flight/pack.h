@@ -31,6 +31,9 @@ struct Packed {
 Status pack_scene(const Scene& scene, const World& world, std::uint64_t block_bytes,
                   std::string& bytes);
 
+/// What follows the head, behind one that has its length and digest; for tests.
+std::string packed_bytes(const PackedHead& head, const std::string& payload);
+
 /// The head alone; the digest of all bytes is compared. kBadInput: no packed scene, one of another
 /// version, cut short or changed.
 Status read_packed_head(const void* bytes, std::size_t size, PackedHead& head);
