@@ -43,11 +43,15 @@ add_library(pileus_flight_objects OBJECT ${flight_sources} kernels_cpu/isa/dispa
 target_link_libraries(pileus_flight_objects PRIVATE pileus_flags pileus_headers pileus_nothrow)
 target_compile_definitions(pileus_flight_objects PRIVATE PILEUS_FLIGHT=1 PILEUS_STATIC=1
     PILEUS_VERSION_TEXT="${PROJECT_VERSION}" PILEUS_WITH_THREADS=0 ${PILEUS_ISA_DEFINITIONS})
+# One file knows the methods, so that another choice compiles little else.
+set(flight_names)
 foreach(method IN LISTS flight_methods)
     string(MAKE_C_IDENTIFIER "PILEUS_FLIGHT_${method}" name)
     string(TOUPPER ${name} name)
-    target_compile_definitions(pileus_flight_objects PRIVATE ${name}=1)
+    list(APPEND flight_names ${name}=1)
 endforeach()
+set_source_files_properties(src/flight/bare/registry.cpp
+    PROPERTIES COMPILE_DEFINITIONS "${flight_names}" SKIP_UNITY_BUILD_INCLUSION ON)
 set(flight_options -fno-threadsafe-statics -fno-asynchronous-unwind-tables -fno-unwind-tables
     -fstack-usage)
 target_compile_options(pileus_flight_objects PRIVATE ${flight_options} -Os)
@@ -71,15 +75,15 @@ set(flight_kernels ${PILEUS_ISA_SOURCES} "${PROJECT_SOURCE_DIR}/kernels_cpu/isa/
 foreach(part IN LISTS flight_left_out)
     list(FILTER flight_kernels EXCLUDE REGEX "/isa_${part}[.]cpp$")
 endforeach()
+list(TRANSFORM flight_without PREPEND PILEUS_WITHOUT_)
+set_source_files_properties(kernels_cpu/isa/left_out.cpp
+    PROPERTIES COMPILE_DEFINITIONS "${flight_without}")
 set(flight_isa_objects)
 foreach(isa IN LISTS PILEUS_ISA_NAMES)
     add_library(pileus_flight_${isa} OBJECT ${flight_kernels})
     foreach(property COMPILE_DEFINITIONS COMPILE_OPTIONS)
         get_target_property(value pileus_isa_${isa} ${property})
         set_target_properties(pileus_flight_${isa} PROPERTIES ${property} "${value}")
-    endforeach()
-    foreach(part IN LISTS flight_without)
-        target_compile_definitions(pileus_flight_${isa} PRIVATE PILEUS_WITHOUT_${part}=1)
     endforeach()
     target_compile_options(pileus_flight_${isa} PRIVATE ${flight_options})
     target_link_libraries(pileus_flight_${isa} PRIVATE pileus_flags pileus_nothrow)

@@ -14,7 +14,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     Packed out;
     const Status status = unpack_scene(bytes.data(), bytes.size(), out);
     if (!status) {
-        fuzz::require(status.message.rfind("packed scene: ", 0) == 0, "faults name what they are of");
+        fuzz::require(status.message.rfind("packed scene: ", 0) == 0,
+                      "faults name what they are of");
         return 0;
     }
     const Medium& medium = out.world->medium;
