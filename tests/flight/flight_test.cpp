@@ -12,41 +12,16 @@
 
 #include "include/pileus/pileus_flight.h"
 #include "src/scene/read_scene.h"
+#include "tests/flight/flight_scene.h"
 
 namespace {
 
 using pileus::FlightNeed;
 
-constexpr const char* kScene = R"(
-[camera]
-position_m = [16, -4000, 256]
-target_m = [0, 0, 1024]
-resolution = [24, 16]
-[sun]
-azimuth_deg = 120
-elevation_deg = 35
-[sky]
-radiance = [0.05, 0.07, 0.11]
-[ground]
-[[medium]]
-density = "procedural:cumulus"
-bounds_m = [[-512, -512, 512], [512, 512, 1536]]
-resolution = [16, 16, 16]
-extinction_per_m = 0.02
-phase = { type = "henyey-greenstein", g = 0.85 }
-[collectors]
-photons = 2000
-generations = 4
-[photon_grid]
-photons = 2000
-generations = 4
-[path]
-samples_per_pixel = 1
-)";
-
 std::string packed(const std::vector<std::string>& overrides, FlightNeed& need) {
     pileus::Scene scene;
-    const pileus::Status read = pileus::read_scene_text(kScene, "scene", "", overrides, scene);
+    const pileus::Status read =
+        pileus::read_scene_text(kFlightScene, "scene", "", overrides, scene);
     REQUIRE_MESSAGE(bool(read), read.message);
     std::shared_ptr<const pileus::World> world;
     std::string bytes;

@@ -9,35 +9,14 @@
 #include "src/scene/keys/all_keys.h"
 #include "src/scene/read_scene.h"
 #include "src/session/session.h"
+#include "tests/flight/flight_scene.h"
 
 namespace pileus {
 namespace {
 
-constexpr const char* kScene = R"(
-[camera]
-position_m = [16, -4000, 256]
-target_m = [0, 0, 1024]
-resolution = [24, 16]
-[sun]
-azimuth_deg = 120
-elevation_deg = 35
-[sky]
-radiance = [0.05, 0.07, 0.11]
-[ground]
-[[medium]]
-density = "procedural:cumulus"
-bounds_m = [[-512, -512, 512], [512, 512, 1536]]
-resolution = [16, 16, 16]
-extinction_per_m = 0.02
-phase = { type = "cloud", effective_radius_um = 10 }
-[collectors]
-photons = 2000
-generations = 4
-)";
-
 Scene scene_of(const std::vector<std::string>& overrides = {}) {
     Scene scene;
-    const Status status = read_scene_text(kScene, "scene", "", overrides, scene);
+    const Status status = read_scene_text(kFlightScene, "scene", "", overrides, scene);
     REQUIRE_MESSAGE(bool(status), status.message);
     return scene;
 }
