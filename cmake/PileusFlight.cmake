@@ -16,7 +16,6 @@ if(PILEUS_FLIGHT_METHODS)
     endforeach()
     set(flight_methods ${PILEUS_FLIGHT_METHODS})
 endif()
-find_program(PILEUS_OBJCOPY NAMES ${CMAKE_OBJCOPY})
 if(NOT CMAKE_OBJCOPY OR NOT CMAKE_LINKER)
     message(FATAL_ERROR "PILEUS_FLIGHT: needs a linker and objcopy, allowed: GNU binutils")
 endif()
@@ -26,7 +25,8 @@ endif()
 file(GLOB_RECURSE flight_sources CONFIGURE_DEPENDS "platform/*.cpp" "src/*.cpp")
 foreach(pattern
         "platform/(clock|cuda_device|egl|file|file_identity|interrupt|new_file|osmesa|process)[.]cpp"
-        "src/(compare|scene/(keys|checks|toml)|session/flux|world/density)/"
+        "src/(compare|scene/(keys|checks|toml)|session/flux)/"
+        "src/world/density/(bubbles|cumulus|density_rows|noise_cache|noise_volume|particle_[a-z]*|plume|shapes)[.]cpp"
         "src/io/(meshes|netcdf|particles|text|volumes)/"
         "src/io/images/(blocks|exr|exr_guard|image_file|netcdf_picture|pfm|picture|picture_formats|png)[.]cpp"
         "src/session/(budget_text|check_changed|foretell|follow|render|verify)[.]cpp"
@@ -119,7 +119,10 @@ set_target_properties(pileus_flight PROPERTIES LINKER_LANGUAGE CXX)
 target_include_directories(pileus_flight INTERFACE "${PROJECT_SOURCE_DIR}/include")
 target_compile_definitions(pileus_flight INTERFACE PILEUS_STATIC=1)
 
-# The example, and what tools/flight flies with.
-set_source_files_properties(tests/flight/examples/flight_loop.c PROPERTIES LANGUAGE CXX)
-add_executable(flight_loop EXCLUDE_FROM_ALL tests/flight/examples/flight_loop.c)
-target_link_libraries(flight_loop PRIVATE pileus_flight)
+# The example, which tools/flight flies with, and what it tries besides.
+foreach(source examples/flight_loop program/flight_faults)
+    cmake_path(GET source FILENAME name)
+    set_source_files_properties(tests/flight/${source}.c PROPERTIES LANGUAGE CXX)
+    add_executable(${name} EXCLUDE_FROM_ALL tests/flight/${source}.c)
+    target_link_libraries(${name} PRIVATE pileus_flight)
+endforeach()

@@ -51,8 +51,7 @@ typedef struct pileus_flight {
  * nothing of it asks anyone for memory: functions of pileus_session_* take what they need for the
  * time of a call from the rest of the block, and give all of it back. A picture that would be
  * larger, a sky map or lights where there were none are refused. The session ends with the block:
- * forget both. Errors: those of pileus_packed_read; PILEUS_LIMIT: the block is too small, the
- * message tells what it needs at the least. */
+ * forget both. Errors: those of pileus_packed_read; PILEUS_LIMIT: the block is too small. */
 PILEUS_API pileus_code pileus_flight_open(const pileus_flight* flight, pileus_session** session,
                                           pileus_error* error);
 

@@ -10,20 +10,23 @@
 namespace pileus::api {
 namespace {
 
-void* take_of_block(void* block, std::size_t bytes, std::size_t) {
-    return static_cast<Block*>(block)->take(bytes);
-}
-void give_to_block(void* block, void* memory) { static_cast<Block*>(block)->give(memory); }
+/// A library without exceptions leaves its constructors by longjmp where the block ends, which only
+/// the caller's own thread can: threads are lent once the session is open.
+#ifdef __cpp_exceptions
+constexpr bool kOpensOnThreads = true;
+#else
+constexpr bool kOpensOnThreads = false;
+#endif
 
 /// What is lent to a session of a flight: nothing that takes memory.
 void lend(const pileus_flight& given, Block* block, HostParts& parts) {
     pileus_host& h = parts.given;
     h.threads = given.threads > 1 && given.run != nullptr ? given.threads : 1;
     h.user = given.user;
-    h.run = given.run;
+    h.run = kOpensOnThreads ? given.run : nullptr;
     h.log = given.log;
     h.isa = given.isa;
-    parts.allocator = {take_of_block, give_to_block, block};
+    parts.allocator = block->allocator();
     parts.executor = {given.run, given.user};
     parts.block = block;
 }
@@ -43,7 +46,7 @@ template <class Work>
 pileus_code call_small(pileus_error* error, Work work) {
     alignas(64) char memory[8192];
     HostParts parts;
-    parts.allocator = {take_of_block, give_to_block, Block::make(memory, sizeof memory)};
+    parts.allocator = Block::make(memory, sizeof memory)->allocator();
     return call(&parts, error, work);
 }
 
@@ -61,6 +64,7 @@ Status open_flight(const pileus_flight& f, const std::shared_ptr<HostParts>& par
     // Twice: some of what reprojection keeps is made by the second one.
     for (int i = 0; i < 2; ++i) PILEUS_TRY(render_frame(*f.frame, *made));
     made->session.seal();
+    parts->given.run = f.run;
     *session = made.release();
     return Status::ok();
 }
@@ -97,8 +101,10 @@ pileus_code pileus_flight_open(const pileus_flight* flight, pileus_session** ses
         return finish(Code::kBadInput, fault, error);
     Block* const block = Block::make(f.block, f.block_bytes);
     if (block == nullptr) return finish(Code::kLimit, kTooSmall, error);
-    // A library without exceptions leaves its constructors by this way where the block ends; all
-    // that they took lies in it.
+    // All that constructors took lies in the block; what else calls change is put back here, whose
+    // guards are not jumped over.
+    const HostGuard host{Host(current_host())};
+    const FpModeGuard mode;
     std::jmp_buf way_out;
     if (setjmp(way_out) != 0) return finish(Code::kLimit, kTooSmall, error);
     block->set_way_out(&way_out);

@@ -68,6 +68,13 @@ void* Block::take(std::size_t bytes) {
     return memory;
 }
 
+Allocator Block::allocator() {
+    return {[](void* block, std::size_t bytes, std::size_t) {
+                return static_cast<Block*>(block)->take(bytes);
+            },
+            [](void* block, void* memory) { static_cast<Block*>(block)->give(memory); }, this};
+}
+
 void* Block::take_kept(std::uint64_t size) {
     std::uint64_t place = (sizeof(Block) + kUnit - 1) / kUnit * kUnit + kRecord;
     for (; place < end_; place += at(place)->size) {

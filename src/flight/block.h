@@ -7,6 +7,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "platform/memory.h"
+
 namespace pileus {
 
 /// What a block has seen. Bytes count its own records, too.
@@ -32,6 +34,8 @@ public:
     /// At least `bytes` at a multiple of 64, or null.
     void* take(std::size_t bytes);
     void give(void* memory);
+    /// The same for whoever takes arrays.
+    Allocator allocator();
 
     /// Where a library without exceptions goes when memory ends before sealing: a std::jmp_buf.
     void set_way_out(void* way_out) { way_out_ = way_out; }

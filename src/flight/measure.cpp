@@ -2,7 +2,6 @@
 // See flight.h: what a session needs, by trying.
 // in: a packed scene -> out: bytes.
 // docs/flight.md, "Memory"
-#include "platform/memory.h"
 #include "src/flight/block.h"
 #include "src/flight/flight.h"
 
@@ -14,15 +13,6 @@ namespace {
 constexpr std::uint64_t kSmallBytes = 512u << 10;
 /// Blocks are whole multiples of this.
 constexpr std::uint64_t kUnit = 64u << 10;
-
-/// Counts as a block would.
-struct Counted {
-    Block* block;
-    static void* take(void* user, std::size_t bytes, std::size_t) {
-        return static_cast<Counted*>(user)->block->take(bytes);
-    }
-    static void give(void* user, void* memory) { static_cast<Counted*>(user)->block->give(memory); }
-};
 
 /// Frame `number`: the scene's view, then nearer and from other sides, under a sun that moves.
 Status set_frame(const Scene& scene, int number, Session& session) {
@@ -54,8 +44,7 @@ Status draw(Session& session, Buffer<unsigned char>& pixels) {
 }
 
 Status fly(const std::string& packed, const RenderOptions& options, Block& block) {
-    Counted counted{&block};
-    const Allocator allocator{Counted::take, Counted::give, &counted};
+    const Allocator allocator = block.allocator();
     const Executor alone{
         [](void*, std::uint32_t count, void (*body)(void*, std::uint32_t), void* data) {
             for (std::uint32_t i = 0; i < count; ++i) body(data, i);

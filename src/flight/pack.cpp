@@ -166,8 +166,17 @@ std::string packed_bytes(const PackedHead& told, const std::string& payload) {
     return writer.bytes + payload;
 }
 
-Status pack_scene(const Scene& given, const World& world, std::uint64_t block_bytes,
-                  std::string& bytes) {
+void tell_block(std::uint64_t block_bytes, std::string& bytes) {
+    Head head;
+    ArchiveReader reader(bytes.data(), kHeadBytes);
+    fields(reader, head);
+    head.told.block_bytes = block_bytes;
+    ArchiveWriter writer;
+    fields(writer, head);
+    bytes.replace(0, kHeadBytes, writer.bytes);
+}
+
+Status pack_scene(const Scene& given, const World& world, std::string& bytes) {
     PILEUS_TRY(check_packable(given));
     Scene scene = given;
     Image sky;
@@ -188,7 +197,7 @@ Status pack_scene(const Scene& given, const World& world, std::uint64_t block_by
     all(payload, scene, const_cast<World&>(world), tables);
     sky_fields(payload, sky);
     bytes = packed_bytes({std::uint64_t(scene.camera.resolution[0]),
-                          std::uint64_t(scene.camera.resolution[1]), block_bytes, scene.method},
+                          std::uint64_t(scene.camera.resolution[1]), 0, scene.method},
                          payload.bytes);
     return Status::ok();
 }

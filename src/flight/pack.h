@@ -28,8 +28,10 @@ struct Packed {
 
 /// Bytes of the scene, which is checked, and of its world. kBadInput: what sessions of a flight do
 /// not have: meshes, a depth image from a file, a film. Errors of the reader of its sky map.
-Status pack_scene(const Scene& scene, const World& world, std::uint64_t block_bytes,
-                  std::string& bytes);
+Status pack_scene(const Scene& scene, const World& world, std::string& bytes);
+
+/// Writes into the head of packed bytes how large a block a session of them needs.
+void tell_block(std::uint64_t block_bytes, std::string& bytes);
 
 /// What follows the head, behind one that has its length and digest; for tests.
 std::string packed_bytes(const PackedHead& head, const std::string& payload);

@@ -26,10 +26,10 @@ std::string packed(const std::vector<std::string>& overrides, FlightNeed& need) 
     std::shared_ptr<const pileus::World> world;
     std::string bytes;
     REQUIRE(pileus::make_world(scene, {}, world));
-    REQUIRE(pileus::pack_scene(scene, *world, 0, bytes));
+    REQUIRE(pileus::pack_scene(scene, *world, bytes));
     const pileus::Status measured = pileus::measure_flight(bytes, {}, need);
     REQUIRE_MESSAGE(bool(measured), measured.message);
-    REQUIRE(pileus::pack_scene(scene, *world, need.block, bytes));
+    pileus::tell_block(need.block, bytes);
     return bytes;
 }
 

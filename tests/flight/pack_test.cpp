@@ -25,7 +25,8 @@ std::string packed(const Scene& scene) {
     std::shared_ptr<const World> world;
     std::string bytes;
     REQUIRE(make_world(scene, {}, world));
-    REQUIRE(pack_scene(scene, *world, 12345, bytes));
+    REQUIRE(pack_scene(scene, *world, bytes));
+    tell_block(12345, bytes);
     return bytes;
 }
 
@@ -95,13 +96,13 @@ TEST_CASE("what a flight does not have is refused when it is packed") {
     std::string bytes;
     Scene scene = plain;
     scene.solids.emplace_back();
-    CHECK(pack_scene(scene, *world, 0, bytes).message.find("scene: solid: not packed") == 0);
+    CHECK(pack_scene(scene, *world, bytes).message.find("scene: solid: not packed") == 0);
     scene = plain;
     scene.camera.depth = "depth.exr";
-    CHECK(pack_scene(scene, *world, 0, bytes).message.find("scene: camera.depth: not") == 0);
+    CHECK(pack_scene(scene, *world, bytes).message.find("scene: camera.depth: not") == 0);
     scene = plain;
     scene.animation.present = true;
-    CHECK(pack_scene(scene, *world, 0, bytes).message.find("scene: animation: not packed") == 0);
+    CHECK(pack_scene(scene, *world, bytes).message.find("scene: animation: not packed") == 0);
     CHECK(bytes.empty());
 }
 

@@ -24,14 +24,14 @@ struct PackArguments {
     std::string to;
 };
 
-/// The block's size stands in the head, which is as long without it.
 Status pack_and_measure(const Scene& scene, const RenderOptions& options, std::string& bytes,
                         FlightNeed& need) {
     std::shared_ptr<const World> world;
     PILEUS_TRY(make_world(scene, options, world));
-    PILEUS_TRY(pack_scene(scene, *world, 0, bytes));
+    PILEUS_TRY(pack_scene(scene, *world, bytes));
     PILEUS_TRY(measure_flight(bytes, options, need));
-    return pack_scene(scene, *world, need.block, bytes);
+    tell_block(need.block, bytes);
+    return Status::ok();
 }
 
 Status run_pack(const PackArguments& arguments) {

@@ -8,7 +8,6 @@
 #include "src/scene/read_scene.h"
 #include "src/session/run_context.h"
 #include "src/world/camera/places.h"
-#include "src/world/density/sky_field.h"
 #include "src/world/world.h"
 
 namespace pileus {
@@ -64,17 +63,6 @@ Status at_key(const Scene&, const std::string& key, Status status) {
 }
 /// Of what faults tell the whole part is enough.
 std::string number_text(double number) { return std::to_string(std::int64_t(number)); }
-
-SkyBytes sky_bytes(const SkySettings& settings) {
-    std::uint64_t kept = 0;
-    for (const bool has : {settings.has_perlin(), settings.has_worley()})
-        if (has) kept += noise_texture_bytes(std::uint64_t(settings.size));
-    return {kept, 0};
-}
-std::uint64_t noise_texture_bytes(std::uint64_t size) {
-    const std::int64_t blocks = noise_blocks(std::int32_t(size));
-    return 4 * std::uint64_t(noise_words(std::int64_t(size))) + std::uint64_t(noise_words(blocks));
-}
 
 [[noreturn]] void stop_out_of_range(std::size_t, std::size_t, std::size_t) { __builtin_abort(); }
 
