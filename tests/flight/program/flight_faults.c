@@ -52,8 +52,10 @@ int main(int argc, char** argv) {
     flight.user = &calls;
 
     /* Blocks that are too small, wherever they end: a code, and the caller's rounding as it was. */
-    for (part = 0; part < 200; ++part) {
-        flight.block_bytes = (size_t)(packed.block_bytes * (uint64_t)part / 400);
+    for (part = 0; part < 400; ++part) {
+        /* In short steps small objects are what there is no room for, in long ones arrays. */
+        flight.block_bytes = part < 200 ? 64 * (size_t)part
+                                        : (size_t)(packed.block_bytes * (uint64_t)part / 800);
         flight.run = part % 2 == 0 ? run : NULL;
         flight.threads = 3;
         fesetround(FE_UPWARD);
