@@ -19,6 +19,7 @@ struct FlightNeed {
     std::uint64_t kept = 0;   ///< of what lives as long as the session
     std::uint64_t open = 0;   ///< most while it is made
     std::uint64_t frame = 0;  ///< most that a call took, over frames near and far
+    std::uint64_t small = 0;  ///< for what an ordinary library keeps elsewhere, by measurement
     std::uint64_t block = 0;  ///< what to give
 };
 

@@ -9,8 +9,8 @@ namespace pileus {
 namespace {
 
 /// What a library of the flight profile keeps in its block and an ordinary one elsewhere: handles,
-/// texts, short lists.
-constexpr std::uint64_t kSmallBytes = 512u << 10;
+/// texts, short lists; of a sky in place also lists of rows of sunlight.
+constexpr std::uint64_t kSmallBytes = 512u << 10, kSkySmallBytes = 8u << 20;
 /// Blocks are whole multiples of this.
 constexpr std::uint64_t kUnit = 64u << 10;
 
@@ -25,7 +25,10 @@ Status set_frame(const Scene& scene, int number, Session& session) {
     // Where that is not possible it stays as it was.
     (void)bool(session.set_camera(camera));
     Sun sun = scene.sun;
-    sun.elevation_deg += sun.elevation_deg > 45 ? -0.1 * number : 0.1 * number;
+    // Never over the horizon, where it would be a light that was not there.
+    const bool sinks =
+        sun.elevation_deg > 45 || (sun.elevation_deg <= 0 && sun.elevation_deg > -80);
+    sun.elevation_deg += sinks ? -0.1 * number : 0.1 * number;
     if (!sun.present) return Status::ok();
     return session.set_sun(sun);
 }
@@ -43,7 +46,8 @@ Status draw(Session& session, Buffer<unsigned char>& pixels) {
     return Status::ok();
 }
 
-Status fly(const std::string& packed, const RenderOptions& options, Block& block) {
+Status fly(const std::string& packed, const RenderOptions& options, Block& block,
+           FlightNeed& need) {
     const Allocator allocator = block.allocator();
     const Executor alone{
         [](void*, std::uint32_t count, void (*body)(void*, std::uint32_t), void* data) {
@@ -56,6 +60,7 @@ Status fly(const std::string& packed, const RenderOptions& options, Block& block
     const HostGuard lent({&allocator, &alone, nullptr});
     PILEUS_TRY(
         begin_flight(packed.data(), packed.size(), options, false, scene_and_world, session));
+    need.small = kSmallBytes + (scene_and_world.world->direct_sky ? kSkySmallBytes : 0);
     const Scene& scene = scene_and_world.scene;
     const auto& size = scene.camera.resolution;
     {
@@ -84,7 +89,7 @@ Status measure_flight(const std::string& packed, const RenderOptions& given, Fli
         Buffer<unsigned char> memory;
         PILEUS_TRY(memory.resize(bytes, "trial block"));
         Block* const block = Block::make(memory.data(), memory.size());
-        const Status status = fly(packed, options, *block);
+        const Status status = fly(packed, options, *block, need);
         const BlockUse& use = block->use();
         if (use.refused > 0 && bytes < std::uint64_t{1} << 36) continue;
         PILEUS_TRY(status);
@@ -92,7 +97,7 @@ Status measure_flight(const std::string& packed, const RenderOptions& given, Fli
         need.open = use.open_bytes;
         need.frame = use.frame_bytes;
         const std::uint64_t flown = need.kept + 2 * need.frame;
-        need.block = (need.open > flown ? need.open : flown) + kSmallBytes;
+        need.block = (need.open > flown ? need.open : flown) + need.small;
         need.block = (need.block + kUnit - 1) / kUnit * kUnit;
         return Status::ok();
     }

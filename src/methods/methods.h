@@ -56,6 +56,10 @@ struct MethodRun {
     MethodRun(const MethodRun&) = delete;
     MethodRun& operator=(const MethodRun&) = delete;
     virtual ~MethodRun() = default;
+
+    /// From now on pictures keep no memory of their own: what is as large as a picture asks for is
+    /// given back.
+    virtual void seal() { sealed = true; }
 };
 
 /// Light that a session has traced and may trace.

@@ -53,6 +53,11 @@ struct PhotonRun : MethodRun {
     std::uint64_t relights = 0;  ///< times that a host changed the light
     std::uint32_t layouts = 0;   ///< times that the sums were laid out
     bool interrupted = false;  ///< fewer generations than asked for, because the user wanted an end
+
+    void seal() override {
+        MethodRun::seal();
+        near_light = Buffer<float>();
+    }
 };
 
 /// Slots of the sums: the generations of an animation's ring, or batches for the error.

@@ -145,6 +145,7 @@ Status Session::aim() {
     if (!stale_) return Status::ok();
     place();
     PILEUS_TRY(method_->live->aim(frame_, anew_, context_, *run_));
+    PILEUS_TRY(check_sealed());
     stale_ = anew_ = false;
     stats_.prepared = method_->live->units(*run_).prepared;
     return Status::ok();

@@ -35,6 +35,12 @@ struct SessionStats {
     double render_s = 0, stages_s = 0;
 };
 
+/// What shines, and whether there is a ground.
+struct Shine {
+    bool sun = false, sky = false, ground = false;
+};
+Shine shine_of(const Lighting& lighting);
+
 /// Which session it becomes: one that walks through the scene's animation, or one whose camera and
 /// lights a host sets.
 enum class SessionKind { kAnimation, kLive };
@@ -102,6 +108,7 @@ public:
 
 private:
     Status aim();
+    Status check_sealed() const;
     Status take_frame(int frame);
     Status relight_air();
     void place();
@@ -116,6 +123,7 @@ private:
     int frame_ = 0;
     bool stale_ = true, anew_ = false;
     bool has_hash_ = false;
+    Shine sealed_shine_;
     std::uint64_t hash_ = 0;  ///< of the last picture
     RenderOptions options_;
     Report report_;

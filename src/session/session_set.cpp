@@ -3,7 +3,6 @@
 // in: values in the host's coordinates -> out: the session's scene in the media's; faults.
 // docs/embedding.md, "What may change"
 #include "platform/fp_mode.h"
-#include "src/session/session.h"
 #include "src/session/value_fault.h"
 #include "src/world/atmosphere/atmosphere.h"
 #include "src/world/camera/view.h"
@@ -29,7 +28,7 @@ Status check_frustum(const Camera& camera, bool billboards) {
     return Status::ok();
 }
 
-Status sealed(const char* what) {
+Status refuse_sealed(const char* what) {
     return Status::bad_input(std::string(what) +
                              ": another than when the flight was opened, allowed: what it had");
 }
@@ -77,7 +76,7 @@ Status Session::set_camera(const Camera& camera) {
         std::uint64_t(camera.resolution[0]) * std::uint64_t(camera.resolution[1]);
     PILEUS_TRY(check_limit(context_.limits, LimitId::kPixels, pixels, "camera.resolution"));
     if (run_->sealed && camera.resolution != around_.camera.resolution)
-        return sealed("camera.resolution");
+        return refuse_sealed("camera.resolution");
     if (camera.resolution != around_.camera.resolution) run_->around.depth = CameraDepth{};
     around_.camera = camera;
     stale_ = true;
@@ -91,7 +90,7 @@ Status Session::set_depth_scale(const DepthScale& scale) {
 
 Status Session::set_sun(const Sun& sun) {
     if (same_sun(sun, around_.sun)) return Status::ok();
-    if (run_->sealed && scene_.atmosphere.present) return sealed("sun");
+    if (run_->sealed && scene_.atmosphere.present) return refuse_sealed("sun");
     if (const char* key = sun_fault(sun))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) { changed.sun = sun; }));
     around_.sun = sun;
@@ -129,7 +128,7 @@ Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
     if (const char* key = sky_fault(scene_, next))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) { changed.sky = next; }));
     if (run_->sealed && (map != nullptr || (!kept && run_->around.sky_map.present())))
-        return sealed("sky.map");
+        return refuse_sealed("sky.map");
     if (map != nullptr) {
         SkyMap made;
         PILEUS_TRY(make_sky_map("sky.map", *map, next, around_.ground.present, made));
@@ -146,7 +145,7 @@ Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
 
 Status Session::set_ground(const Ground& ground) {
     if (same_ground(ground, around_.ground)) return Status::ok();
-    if (run_->sealed && scene_.atmosphere.present) return sealed("ground");
+    if (run_->sealed && scene_.atmosphere.present) return refuse_sealed("ground");
     if (const char* key = ground_fault(scene_, around_.camera, ground))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) {
             changed.ground = ground;
@@ -163,7 +162,7 @@ Status Session::set_ground(const Ground& ground) {
 
 Status Session::set_lights(const std::vector<LightSettings>& lights) {
     if (lights == around_.lights) return Status::ok();
-    if (run_->sealed && scene_.lights.empty()) return sealed("light");
+    if (run_->sealed && scene_.lights.empty()) return refuse_sealed("light");
     PILEUS_TRY(check_host_lights(context_, lights, run_->world->medium));
     if (const char* key = lights_fault(scene_, around_.ground, lights))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) {
@@ -205,7 +204,7 @@ Status Session::set_depth(const Rows* rows, DepthKind kind) {
         return Status::bad_input(
             "depth: a depth buffer without a camera's near_m, allowed: a camera with it, or "
             "another kind");
-    if (run_->sealed && rows != nullptr && depth.metres.empty()) return sealed("depth");
+    if (run_->sealed && rows != nullptr && depth.metres.empty()) return refuse_sealed("depth");
     if (rows != nullptr) {
         const CameraParams camera = make_camera(around_.camera, 0, {});
         PILEUS_TRY(take_depths(*rows, kind, depth_scale_, camera, depth));
@@ -218,7 +217,8 @@ Status Session::set_depth(const Rows* rows, DepthKind kind) {
 }
 
 void Session::seal() {
-    run_->sealed = true;
+    run_->seal();
+    sealed_shine_ = shine_of(run_->lighting);
     const std::size_t lamps = scene_.lights.empty() ? 0 : kMostLights;
     around_.lights.reserve(lamps);
     scene_.lights.reserve(lamps);
@@ -235,6 +235,21 @@ Status Session::reserve_depth() {
     depth.present = true;
     stale_ = true;
     return Status::ok();
+}
+
+Shine shine_of(const Lighting& l) {
+    return {l.sunlit, l.map.columns > 0 || l.sky != Double3{}, l.ground};
+}
+
+/// Arrays of a light are made when it first shines, and others when the ground is not there.
+Status Session::check_sealed() const {
+    if (!run_->sealed) return Status::ok();
+    const Shine now = shine_of(run_->lighting);
+    if (now.sun && !sealed_shine_.sun)
+        return Status::bad_input(
+            "sun: it did not shine when the flight was opened, allowed: below the horizon");
+    if (now.sky != sealed_shine_.sky) return refuse_sealed("sky");
+    return now.ground != sealed_shine_.ground ? refuse_sealed("ground") : Status::ok();
 }
 
 /// The host's values in the media's coordinates, which alone have moved.

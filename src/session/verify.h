@@ -4,6 +4,7 @@
 // docs/report.md, "Verify"
 #pragma once
 #include "src/methods/path/path.h"
+#include "src/scene/placed.h"
 #include "src/session/render.h"
 
 namespace pileus {

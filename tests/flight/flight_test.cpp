@@ -102,6 +102,13 @@ const std::vector<std::string> kRows[] = {
     {"collectors.scale=2"},
     {"collectors.node_filter=guided"},
     {"collectors.light_refresh=4"},
+    // The camera in the medium when the flight is opened, and out of it afterwards.
+    {"camera.position_m=[0,-100,1000]"},
+    {"method.name=photon-grid", "camera.position_m=[0,-100,1000]"},
+    {"sun.elevation_deg=90"},
+    {"method.name=raymarch", "sun.elevation_deg=90"},
+    {"method.name=photon-grid", "sun.elevation_deg=90"},
+    {"camera.resolution=[24,16]", "medium.0.resolution=[1,16,16]", "medium.0.density=uniform:box"},
     {"method.name=raymarch"},
     {"method.name=raymarch", "raymarch.temporal=4", "raymarch.light_refresh=4"},
     {"method.name=raymarch", "raymarch.jitter=blue-noise"},
@@ -201,6 +208,47 @@ TEST_CASE("what would need memory of its own is refused once a flight is open, a
     // One generation more was shot, from another place of the ring.
     CHECK(flight.hash != 0);
     CHECK(before != 0);
+}
+
+TEST_CASE("a sun may go and come back; one that was not there, a sky or a ground is refused") {
+    for (const char* method : {"collectors", "raymarch", "optical-depth", "photon-grid", "path"}) {
+        CAPTURE(method);
+        const std::string name = std::string("method.name=") + method;
+        FlightNeed need;
+        Flight flight(packed({name}, need));
+        REQUIRE(flight.open() == PILEUS_OK);
+        pileus_sun none;
+        PILEUS_INIT(none);
+        const auto draw = [&] {
+            const pileus_code code = pileus_session_step(flight.session, 1, nullptr, &flight.error);
+            return code != PILEUS_OK
+                       ? code
+                       : pileus_session_render(flight.session, &flight.frame, &flight.error);
+        };
+        for (int turn = 0; turn < 2; ++turn) {
+            REQUIRE(flight.fly(turn) == PILEUS_OK);
+            REQUIRE(pileus_session_set_sun(flight.session, &none, &flight.error) == PILEUS_OK);
+            const pileus_code code = draw();
+            REQUIRE_MESSAGE(code == PILEUS_OK, flight.error.message);
+        }
+        REQUIRE(flight.fly(3) == PILEUS_OK);
+        pileus_ground ground;
+        PILEUS_INIT(ground);
+        REQUIRE(pileus_session_set_ground(flight.session, &ground, &flight.error) == PILEUS_OK);
+        CHECK(draw() == PILEUS_BAD_INPUT);
+        ground.present = 1;
+        ground.albedo = 0.2;
+        REQUIRE(pileus_session_set_ground(flight.session, &ground, &flight.error) == PILEUS_OK);
+        CHECK(draw() == PILEUS_OK);
+        pileus_flight_use use = flight.use();
+        CHECK(use.refused + use.kept + use.lost == 0);
+        // At the horizon of a ground the sun does not shine.
+        Flight dawn(packed({name, "sun.elevation_deg=0"}, need));
+        REQUIRE(dawn.open() == PILEUS_OK);
+        CHECK(dawn.fly(1) == PILEUS_BAD_INPUT);
+        use = dawn.use();
+        CHECK(use.refused + use.kept + use.lost == 0);
+    }
 }
 
 TEST_CASE("depth images come and go where a flight was opened for them") {
