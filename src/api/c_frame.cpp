@@ -60,10 +60,14 @@ void tell_accidents(pileus_session& session) {
 
 }  // namespace
 
+Status take_target(const pileus_frame& f, const Camera& camera, FrameTarget& target) {
+    PILEUS_TRY(take_colour(f, camera, target));
+    return take_depth(f, camera, target);
+}
+
 Status render_frame(const pileus_frame& f, pileus_session& session) {
     FrameTarget target;
-    PILEUS_TRY(take_colour(f, session.session.camera(), target));
-    PILEUS_TRY(take_depth(f, session.session.camera(), target));
+    PILEUS_TRY(take_target(f, session.session.camera(), target));
     std::uint64_t hash = 0;
     target.hash = f.hash != nullptr ? &hash : nullptr;
     PILEUS_TRY(session.session.render(target));

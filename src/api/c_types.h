@@ -138,6 +138,9 @@ pileus_code call(const pileus_session& session, pileus_error* error, Work work) 
     return host.block != nullptr ? settle(host, code, error) : code;
 }
 
+/// The caller's buffers, as far as they are given; the hash is left out.
+Status take_target(const pileus_frame& frame, const Camera& camera, FrameTarget& target);
+
 /// Draws into the caller's buffers.
 Status render_frame(const pileus_frame& frame, pileus_session& session);
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "platform/clock.h"
+#include "src/base/angles.h"
 #include "src/base/digest.h"
 #include "src/march/march_budget.h"
 #include "src/march/march_parts.h"
@@ -52,19 +53,30 @@ Status light_nodes(const Context& context, RaymarchRun& run) {
     return Status::ok();
 }
 
-/// Whether nodes are seen from the same place, or along the same direction.
-bool same_way(const CameraParams& a, const CameraParams& b) {
+/// Whether nodes are seen from the same place, or along the same direction; or, from outside,
+/// nearly so as seen from the middle of the box.
+bool same_way(const RaymarchRun& run, const CameraParams& a, const CameraParams& b) {
     const bool flat = a.orthographic != 0;
     const float* from = flat ? a.forward : a.origin;
     const float* to = flat ? b.forward : b.origin;
-    return a.orthographic == b.orthographic && std::equal(from, from + 3, to);
+    if (a.orthographic != b.orthographic) return false;
+    if (std::equal(from, from + 3, to)) return true;
+    if (run.view_slack_deg <= 0 || flat) return false;
+    double aa = 0, bb = 0, ab = 0, ball = 0;
+    for (int i = 0; i < 3; ++i) {
+        const double half = 0.5 * run.world->medium.extent_m[i];
+        const double x = double(from[i]) - half, y = double(to[i]) - half;
+        aa += x * x, bb += y * y, ab += x * y, ball += half * half;
+    }
+    const double least = sincos_deg(run.view_slack_deg).cosine;
+    return aa > 2 * ball && bb > 2 * ball && ab > 0 && ab * ab > least * least * aa * bb;
 }
 
 /// Light of sky and ground changes with the sun, and with the camera where that is known.
 Status light_sky(const Context& context, const FrameStep& step, RaymarchRun& run) {
     if (!run.settings.sky_ambient || run.world->medium.sigma <= 0) return Status::ok();
     const SkyView view = sky_view(run);
-    const bool seen = !view.turned || same_way(run.sky_camera, run.camera);
+    const bool seen = !view.turned || same_way(run, run.sky_camera, run.camera);
     if (!step.first && seen && run.sky_to_sun == run.lighting.to_sun) return Status::ok();
     run.sky_to_sun = run.lighting.to_sun;
     run.sky_camera = run.camera;
@@ -136,6 +148,7 @@ LampMarchParams march_lamps(const RaymarchRun& run) {
 }
 Status march_background(const Context& context, const Lighting& light, RaymarchRun& run,
                         Planes& planes) {
+    if (run.alone) return show_nothing_behind(planes);
     const MediumView view = make_medium_view(run.world->medium, run.majorants);
     PILEUS_TRY(make_ground_shadow(context, run.world->medium, view, run.lighting,
                                   planes.transmittance.size(), turn_of(run), run.ground_shadow));

@@ -50,6 +50,8 @@ struct MethodRun {
     std::function<void(int frame)> place_at;
     bool outlined_only = true;  ///< sizes are known, values are not
     bool sealed = false;        ///< nothing may be laid out anew: docs/flight.md
+    bool alone = false;         ///< what lies behind the media is not wanted: docs/clouds.md
+    double view_slack_deg = 0;  ///< by which light that is gathered for a camera may be off
     std::vector<std::pair<std::string, std::string>> digests;  ///< of what no frame changes
 
     MethodRun() = default;

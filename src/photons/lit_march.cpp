@@ -311,6 +311,7 @@ Status add_lit_lamps(const Context& context, PhotonRun& run, const LightInput& l
 
 Status fill_lit_background(const Context& context, PhotonRun& run, const LightInput& lit, int batch,
                            Planes& planes) {
+    if (run.alone) return show_nothing_behind(planes);
     const std::uint64_t pixels = std::uint64_t(lit.camera.width) * std::uint64_t(lit.camera.height);
     PILEUS_TRY(make_ground_shadow(context, run.world->medium, view_of(run), run.lighting, pixels,
                                   turn_of(run), run.ground_shadow));

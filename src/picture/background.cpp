@@ -113,6 +113,12 @@ BackgroundParams background_params(const MediumView& medium, const CameraParams&
     return k;
 }
 
+Status show_nothing_behind(Planes& planes) {
+    for (float& metres : planes.opaque_depth.span()) metres = __builtin_inff();
+    for (float& radiance : planes.background.span()) radiance = 0;
+    return Status::ok();
+}
+
 namespace {
 
 bool has_meshes(const Lighting& light) {

@@ -3,6 +3,7 @@
 // in: light, camera, solids -> out: radiance and distance per pixel.
 // docs/methods.md 3; docs/solids.md. The one way to these kernels for every method.
 #pragma once
+#include "src/picture/layers.h"
 #include "src/run/context.h"
 #include "src/world/light/lights.h"
 
@@ -19,6 +20,9 @@ bool has_surfaces(const Lighting& light);
 /// result. `light` tells the solids and the light around them; `k` the rest.
 Status show_background(const Context& context, const Lighting& light, const BackgroundParams& k,
                        const BackgroundBuffers& b);
+
+/// In place of it where nothing behind the media is wanted: all of the way is free.
+Status show_nothing_behind(Planes& planes);
 
 /// Channel `shadow` of an image of this camera: of ground, solids and what a depth image shows, the
 /// share of the sun's light that media and solids keep from it; 0 in the sky and without a sun.

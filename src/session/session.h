@@ -45,6 +45,8 @@ Shine shine_of(const Lighting& lighting);
 /// lights a host sets.
 enum class SessionKind { kAnimation, kLive };
 
+struct Outlook;
+
 class Session {
 public:
     Session() = default;
@@ -105,6 +107,13 @@ public:
 
     /// The report of a live session up to now.
     Report told() const;
+
+    /// What others draw in, of a live session as it is set now.
+    Status look(Outlook& outlook);
+    const DepthScale& depth_scale() const { return depth_scale_; }
+    /// A picture of the media alone, with depths; the session keeps it until its next call. Light
+    /// that is gathered for a camera may be off by `slack_deg` of it.
+    Status draw_alone(double slack_deg, const Planes*& planes);
 
 private:
     Status aim();

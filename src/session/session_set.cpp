@@ -3,6 +3,8 @@
 // in: values in the host's coordinates -> out: the session's scene in the media's; faults.
 // docs/embedding.md, "What may change"
 #include "platform/fp_mode.h"
+#include "src/session/outlook.h"
+#include "src/session/session.h"
 #include "src/session/value_fault.h"
 #include "src/world/atmosphere/atmosphere.h"
 #include "src/world/camera/view.h"
@@ -250,6 +252,36 @@ Status Session::check_sealed() const {
             "sun: it did not shine when the flight was opened, allowed: below the horizon");
     if (now.sky != sealed_shine_.sky) return refuse_sealed("sky");
     return now.ground != sealed_shine_.ground ? refuse_sealed("ground") : Status::ok();
+}
+
+Status Session::look(Outlook& outlook) {
+    const FpModeGuard guard;
+    const PoolGuard lent(threads_);
+    PILEUS_TRY(aim());
+    outlook.context = &context_;
+    outlook.scene = &scene_;
+    outlook.world = run_->world.get();
+    outlook.around = &run_->around;
+    Plan photons;  // speaks of photons alone
+    outlook.lighting =
+        light_world(scene_, place_of(scene_.sun), *run_->world, run_->around, photons);
+    outlook.camera = make_camera(scene_.camera, 0, run_->world->medium.low_m);
+    outlook.frame = frame_;
+    return Status::ok();
+}
+
+Status Session::draw_alone(double slack_deg, const Planes*& planes) {
+    const FpModeGuard guard;
+    const PoolGuard lent(threads_);
+    PILEUS_TRY(aim());
+    scene_.output.layer_depth = true;
+    report_.counters.clear();
+    run_->alone = true;
+    run_->view_slack_deg = slack_deg;
+    const FrameStep step{frame_, stats_.pictures == 0, false, nullptr};
+    PILEUS_TRY(method_->live->compose(step, context_, *run_, planes));
+    ++stats_.pictures;
+    return Status::ok();
 }
 
 /// The host's values in the media's coordinates, which alone have moved.

@@ -1,0 +1,213 @@
+// SPDX-License-Identifier: Apache-2.0
+// See clouds.h. Kinds, places, light and shadows; clouds_frame.cpp draws.
+#include "src/clouds/clouds.h"
+
+#include <glm/geometric.hpp>
+
+#include "platform/fp_mode.h"
+#include "src/methods/registry.h"
+
+namespace pileus {
+namespace {
+
+std::string number(double v) { return std::to_string(v); }
+
+bool is_within(double v, double low, double high) { return v >= low && v <= high; }
+
+/// Angle between two suns is above so many degrees.
+bool moved(const Sun& a, const Sun& b, double degrees) {
+    const Double3 from = towards_deg(a.azimuth_deg, a.elevation_deg);
+    const Double3 to = towards_deg(b.azimuth_deg, b.elevation_deg);
+    // |a - b| = 2 sin(angle / 2), whose halves are small.
+    return glm::length(from - to) > 2 * sincos_deg(0.5 * degrees).sine;
+}
+
+/// But for where the sun stands.
+bool same_light(const CloudLight& a, const CloudLight& b) {
+    return a.sun.present == b.sun.present && a.sun.irradiance == b.sun.irradiance &&
+           a.sky.present == b.sky.present && a.sky.radiance == b.sky.radiance &&
+           a.ground.present == b.ground.present && a.ground.albedo == b.ground.albedo &&
+           a.ground.altitude_m == b.ground.altitude_m;
+}
+
+}  // namespace
+
+Status Clouds::open(Session& sky) {
+    const World& world = *sky.run().world;
+    if (world.media > 0)
+        return Status::bad_input("sky: " + std::to_string(world.media) +
+                                 " media, allowed: a scene without [[medium]]");
+    if (sky.run().scene->camera.flux)
+        return Status::bad_input(
+            "sky: camera.projection \"flux\", allowed: perspective, orthographic");
+    sky_ = &sky;
+    options_ = RenderOptions{};
+    options_.threads = sky.context().threads;
+    options_.kernels = sky.context().kernels;
+    options_.limits = sky.context().limits;
+    options_.digests = false;
+    return Status::ok();
+}
+
+Status Clouds::add_kind(const Scene& scene, std::shared_ptr<const World> world, std::size_t& kind) {
+    const Medium& medium = world->medium;
+    if (world->media == 0 || world->direct_sky || medium.grid.periodic)
+        return Status::bad_input(
+            "kind: a scene without media, or with one that has no end, allowed: media in boxes");
+    if (world->media != scene.media.size())
+        return Status::bad_input(
+            "kind: a world of another scene, allowed: that which it was made of");
+    if (world->solids.meshes)
+        return Status::bad_input("kind: a scene with [[solid]], allowed: media alone");
+    const Method* method = nullptr;
+    PILEUS_TRY(find_method(scene, method));
+    if (method->live == nullptr)
+        return Status::bad_input("kind: method.name: \"" + scene.method +
+                                 "\" is for no session, allowed: another");
+    if (scene.method == "collectors" &&
+        (scene.collectors.billboards || scene.collectors.camera_closure))
+        return Status::bad_input(
+            "kind: collectors.display \"billboards\" or closure \"camera\", allowed: pictures of "
+            "parts, by \"march\", and light towards all sides");
+    CloudKind made;
+    made.scene = scene;
+    made.world = std::move(world);
+    made.low_m = medium.low_m;
+    for (int a = 0; a < 3; ++a) made.high_m[a] = made.low_m[a] + medium.extent_m[a];
+    kinds_.push_back(std::move(made));
+    kind = kinds_.size() - 1;
+    return Status::ok();
+}
+
+Status Clouds::place(const std::vector<CloudPlace>& places) {
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const CloudPlace& p = places[i];
+        const std::string where = "places[" + std::to_string(i) + "].";
+        if (p.kind >= kinds_.size())
+            return Status::bad_input(where + "kind: " + std::to_string(p.kind) +
+                                     ", allowed: below " + std::to_string(kinds_.size()));
+        for (int a = 0; a < 3; ++a)
+            if (!is_within(p.offset_m[a], -1e7, 1e7))
+                return Status::bad_input(where + "offset_m: " + number(p.offset_m[a]) +
+                                         ", allowed: -1e7 to 1e7 m");
+        if (!is_within(p.yaw_deg, -360, 360))
+            return Status::bad_input(where + "yaw_deg: " + number(p.yaw_deg) +
+                                     ", allowed: -360 to 360");
+        if (!is_within(p.scale, 0.01, 100))
+            return Status::bad_input(where + "scale: " + number(p.scale) +
+                                     ", allowed: 0.01 to 100");
+    }
+    clouds_.resize(places.size());
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        std::unique_ptr<Cloud>& cloud = clouds_[i];
+        const CloudPlace& p = places[i];
+        const bool same = cloud != nullptr && cloud->place.kind == p.kind &&
+                          cloud->place.offset_m == p.offset_m &&
+                          cloud->place.yaw_deg == p.yaw_deg && cloud->place.scale == p.scale;
+        if (same) continue;
+        cloud = std::make_unique<Cloud>();
+        cloud->place = p;
+        cloud->box = box_of(p, kinds_[p.kind].low_m, kinds_[p.kind].high_m);
+        cloud->group = SIZE_MAX;
+    }
+    shaded_ = false;
+    return Status::ok();
+}
+
+Status Clouds::set_detail(const CloudDetail& d) {
+    const auto refuse = [](const char* what, double v, const char* allowed) {
+        return Status::bad_input(std::string("detail.") + what + ": " + number(v) +
+                                 ", allowed: " + allowed);
+    };
+    if (!is_within(d.error_px, 1e-3, 16)) return refuse("error_px", d.error_px, "0.001 to 16");
+    if (!is_within(d.near_px, 1, 1e6)) return refuse("near_px", d.near_px, "1 to 1e6");
+    if (d.near_scale != 1 && d.near_scale != 2 && d.near_scale != 4)
+        return refuse("near_scale", d.near_scale, "1, 2, 4");
+    if (d.blend_frames < 1 || d.blend_frames > 1000)
+        return refuse("blend_frames", d.blend_frames, "1 to 1000");
+    if (!is_within(d.sharpness, 0.25, 4)) return refuse("sharpness", d.sharpness, "0.25 to 4");
+    if (d.frame_pixels < 1) return refuse("frame_pixels", double(d.frame_pixels), "1 and more");
+    if (!is_within(d.sun_deg, 0, 10)) return refuse("sun_deg", d.sun_deg, "0 to 10");
+    detail_ = d;
+    return Status::ok();
+}
+
+/// The session of a kind and a turn; makes it.
+Status Clouds::group_of(const CloudPlace& place, std::size_t& group) {
+    const double ground_m = (light_.ground.altitude_m - place.offset_m.z) / place.scale - 1;
+    for (group = 0; group < groups_.size(); ++group)
+        if (groups_[group]->is(place.kind, place.yaw_deg))
+            return light_.ground.present ? groups_[group]->stand_over(ground_m) : Status::ok();
+    auto made = std::make_unique<CloudGroup>();
+    PILEUS_TRY(
+        made->open(kinds_[place.kind], place.kind, place.yaw_deg, light_, ground_m, options_));
+    ++stats_.lit;
+    groups_.push_back(std::move(made));
+    return Status::ok();
+}
+
+/// Groups whose light is older than the sun are lit anew, one in each frame.
+Status Clouds::light_up(const Outlook& look) {
+    const Scene& scene = *look.scene;
+    if (scene.sky.present && look.around->sky_map.present() && !scene.atmosphere.present)
+        return Status::bad_input(
+            "sky.map: a picture, allowed for clouds: [atmosphere] or a constant radiance");
+    const bool air = scene.atmosphere.present;
+    CloudLight now;
+    now.sun = scene.sun;
+    now.sky = scene.sky;
+    now.ground = scene.ground;
+    if (!lit_ || moved(given_.sun, now.sun, detail_.on ? detail_.sun_deg : 0) ||
+        !same_light(given_, now)) {
+        given_ = now;
+        if (air) {
+            double height = 0;
+            for (const auto& cloud : clouds_)
+                height += cloud->box.middle.z / double(clouds_.size());
+            const double sea = scene.ground.present ? scene.ground.altitude_m : 0;
+            PILEUS_TRY(
+                light_atmosphere(scene, height - sea, look.context->threads, air_, air_map_));
+            for (std::size_t c = 0; c < 3; ++c)
+                now.sun.irradiance[c] = float(air_.above[int(c)] * air_.sunlight[c]);
+            now.sky = Sky{};
+            now.sky.present = true;
+            now.map = &air_map_;
+        }
+        now.version = light_.version + 1;
+        light_ = now;
+        lit_ = true;
+    }
+    for (auto& cloud : clouds_)
+        if (cloud->group == SIZE_MAX) PILEUS_TRY(group_of(cloud->place, cloud->group));
+    for (auto& group : groups_) {
+        if (group->lit() == light_.version) continue;
+        PILEUS_TRY(group->light(light_));
+        ++stats_.lit;
+        shaded_ = false;
+        if (detail_.on) break;
+    }
+    return Status::ok();
+}
+
+Status Clouds::cast_shadows() {
+    if (shaded_) return Status::ok();
+    plane_ = sun_plane(light_.sun);
+    std::vector<ShadowSource> sources;
+    for (const auto& cloud : clouds_) {
+        const CloudGroup& group = *groups_[cloud->group];
+        ShadowSource source;
+        source.middle = cloud->box.middle;
+        source.radius = group.shadow_radius() * cloud->place.scale;
+        if (!group.shadow().empty()) source.shadow = group.shadow().data();
+        sources.push_back(source);
+    }
+    for (std::size_t i = 0; i < clouds_.size(); ++i)
+        PILEUS_TRY(shade_cloud(plane_, sources, i, clouds_[i]->shade));
+    on_ground_ = CloudsOnGround{};
+    if (light_.ground.present && light_.sun.present)
+        PILEUS_TRY(shade_ground(plane_, sources, light_.ground.altitude_m, on_ground_));
+    shaded_ = true;
+    return Status::ok();
+}
+
+}  // namespace pileus

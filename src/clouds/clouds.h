@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// A sky of many clouds: prepared once each kind, placed as often as wanted, near ones marched, far
+// ones shown by pictures of earlier frames.
+// in: a session of the sky around them, kinds, places -> out: pictures of all of it.
+// docs/clouds.md
+#pragma once
+#include "src/clouds/compose.h"
+#include "src/session/outlook.h"
+
+namespace pileus {
+
+/// What may be less exact, and what it may cost.
+struct CloudDetail {
+    bool on = true;         ///< false: every cloud is marched in every frame
+    double error_px = 0.5;  ///< that a far cloud's picture may be wrong by; [0.001, 16]
+    double near_px = 256;   ///< clouds of that size on the picture are marched; [1, 1e6]
+    int near_scale = 2;     ///< of those, one pixel of so many along x and y: 1, 2, 4
+    int blend_frames = 8;   ///< over which one picture gives way to the next; [1, 1000]
+    double sharpness = 1;   ///< texels of a pixel along x and y; [0.25, 4]
+    /// Of pictures that a frame makes anew: one, and more up to so many in all.
+    std::int64_t frame_pixels = 60000;
+    double sun_deg = 0.5;  ///< that the sun may move until a kind is lit anew; [0, 10]
+};
+
+/// Of one picture.
+struct CloudStats {
+    std::uint32_t clouds = 0, visible = 0, marched = 0, captured = 0, lit = 0;
+    std::uint64_t marched_pixels = 0, captured_pixels = 0;
+    double worst_px = 0;  ///< largest error of a picture that was shown
+};
+
+class Clouds {
+public:
+    /// `sky`: a live session without media, whose camera, sun, sky or air, ground, depths and frame
+    /// are those of the pictures; outlives this. kBadInput: one with media.
+    Status open(Session& sky);
+    /// kBadInput: a world of another scene, a method of no sessions, a medium without end.
+    Status add_kind(const Scene& scene, std::shared_ptr<const World> world, std::size_t& kind);
+    /// In place of all that there were. Those that stay where they were keep their pictures.
+    /// kBadInput: an unknown kind; a place or size out of range.
+    Status place(const std::vector<CloudPlace>& places);
+    Status set_detail(const CloudDetail& detail);
+    /// Draws all, into a host's memory.
+    Status render(const FrameTarget& target);
+    const CloudStats& stats() const { return stats_; }
+
+private:
+    struct Cloud {
+        CloudPlace place;
+        CloudBox box;
+        std::size_t group = 0;
+        Buffer<float> shade;
+        Impostor newer, older;
+        bool newer_marched = false, older_marched = false, has_older = false, seen = false;
+        int faded = 0;  ///< frames since `newer` came
+    };
+    /// A cloud of the picture. `error` of its picture, in what is allowed.
+    struct Seen {
+        std::size_t cloud = 0;
+        double distance = 0, error = 0;
+        PixelRect rect;
+    };
+
+    Status light_up(const Outlook& look);
+    Status cast_shadows();
+    Status group_of(const CloudPlace& place, std::size_t& group);
+    void judge(const CloudView& view, Cloud& cloud, Seen& seen) const;
+    void look_for(const CloudView& view);
+    Status renew(const CloudView& view);
+    Status choose(const CloudView& view);
+    Status compose(const CloudView& view, const Camera& camera, int frame);
+    CloudShade shade_of(const Cloud& cloud) const;
+    Status march(const CloudView& view, const Camera& camera, int frame, Cloud& cloud,
+                 MarchedCloud& out);
+    Status take_picture(const CloudView& view, Cloud& cloud);
+    CloudLayer layer_of(const CloudView& view, const Cloud& cloud,
+                        const MarchedCloud& marched) const;
+
+    Session* sky_ = nullptr;
+    RenderOptions options_;
+    CloudDetail detail_;
+    std::vector<CloudKind> kinds_;
+    std::vector<std::unique_ptr<CloudGroup>> groups_;
+    std::vector<std::unique_ptr<Cloud>> clouds_;
+    CloudLight given_, light_;  ///< the sky's own, and what comes to the clouds' height
+    Atmosphere air_;            ///< at the clouds' height
+    Image air_map_;
+    SunPlane plane_;
+    CloudsOnGround on_ground_;
+    bool lit_ = false, shaded_ = false;
+    Planes planes_;
+    CloudStats stats_;
+    ThreadPool threads_;
+    std::vector<Seen> seen_;
+};
+
+}  // namespace pileus

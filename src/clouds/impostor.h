@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// A cloud's picture on a plane through its middle, which stands for it while it is seen from nearly
+// the same side (Schaufler 1995, dynamically generated impostors; Harris & Lastra 2001 for clouds).
+// in: a group, a place, a camera -> out: texels, and where a pixel's ray meets them.
+// docs/clouds.md, "Far clouds"
+#pragma once
+#include "src/clouds/group.h"
+#include "src/clouds/shade.h"
+
+namespace pileus {
+
+/// Numbers of a texel: premultiplied R G B, alpha, alpha times metres behind the plane; the rest is
+/// room.
+constexpr std::size_t kTexelFloats = 8;
+
+struct Impostor {
+    bool made = false;
+    Double3 eye{}, right{}, up{}, forward{};
+    double plane_m = 0;                     ///< from the eye to the plane
+    double u0 = 0, u1 = 0, v0 = 0, v1 = 0;  ///< tangents of its sides
+    int width = 0, height = 0;
+    double texels_per_unit = 0;
+    std::uint64_t light = 0;           ///< CloudLight::version
+    std::array<Double3, 4> corners{};  ///< in the world
+    Buffer<float> texels;              ///< [row from the top][column][kTexelFloats]
+};
+
+/// What stands between a cloud and the sun, for each of its pixels.
+struct CloudShade {
+    const SunPlane* plane = nullptr;
+    const float* texels = nullptr;  ///< kShadeTexels^2; null: nothing
+    std::array<float, 3> ambient{};
+    Double3 middle{};
+    double radius = 1;
+
+    /// Share of sunlight that is left at a place of the world.
+    float left(const Double3& at) const;
+    /// Takes from premultiplied light what the sun no longer sends: all that is more than what
+    /// light from all around alone would give.
+    void darken(float left, float (&rgba)[5]) const {
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float sun = rgba[c] - ambient[c] * rgba[3];
+            if (sun > 0) rgba[c] -= (1.0f - left) * sun;
+        }
+    }
+};
+
+/// A picture of this frame, as a group's session keeps it.
+struct MarchedCloud {
+    const Planes* planes = nullptr;
+    PixelRect rect;
+    float scale = 1;   ///< metres of the world for one of its depths
+    float metres = 0;  ///< to what hides less than half
+    CloudShade shade;
+
+    /// Metres of the world along the ray of pixel (x, y) of `rect`: to half of the light, or where
+    /// less is hidden as far as the nearest pixel that hides more, up to kThinPixels off.
+    float depth(int x, int y) const;
+    /// R G B, alpha, metres along the `ray` of a pixel from `eye`. False: nothing there.
+    bool sample(int x, int y, const Double3& eye, const Double3& ray, float (&out)[5]) const;
+};
+
+/// A picture seen from `view`'s eye, with as many texels as `view` has pixels there, times
+/// `sharpness`. Errors: a session's; kLimit: out of memory.
+Status capture(const CloudView& view, const CloudPlace& place, const CloudBox& box,
+               const CloudShade& shade, double sharpness, CloudGroup& group, Impostor& out);
+
+/// How wrong it has become, in pixels: what its nearest and farthest parts have moved against one
+/// another, and half of what its scale is beyond `kScaleRange`.
+double impostor_error(const Impostor& impostor, const CloudView& view, const CloudBox& box);
+
+/// Rows of pixels of a view as places on an impostor.
+class ImpostorRows {
+public:
+    ImpostorRows(const Impostor& impostor, const CloudView& view);
+    /// The row's pixels from now on.
+    void start(int y);
+    /// R G B, alpha, metres along the ray. False: none there.
+    bool sample(int x, float (&out)[5]) const;
+
+private:
+    const Impostor& impostor_;
+    const CloudView& view_;
+    double plane_side_;                  ///< N (c - o)
+    Double3 from_eye_;                   ///< o - eye, by the impostor's axes right, up
+    double row_[3] = {}, step_[3] = {};  ///< of the ray by right, up, forward: at x = 0, per pixel
+    double row_y_ = 0;
+    double u_scale_, v_scale_;
+};
+
+}  // namespace pileus

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// Small skies with clouds of one kind, by pileus_clouds.h.
+// in: places -> out: pictures of them, and how far two are apart.
+// docs/clouds.md
+#pragma once
+#include "include/pileus/pileus_clouds.h"
+#include "tests/embed/host_harness.h"
+
+namespace clouds_test {
+
+using namespace host_test;
+using render_test::kSmallCumulus;
+
+struct FreeClouds {
+    void operator()(pileus_clouds* p) const { pileus_clouds_free(p); }
+};
+
+/// The small cumulus's surroundings, without it.
+inline std::string sky_text(bool air = false) {
+    std::string text = kSmallCumulus;
+    const std::size_t from = text.find("[[medium]]"), to = text.find("[photon_grid]");
+    text.erase(from, to - from);
+    if (air) {
+        const std::string sky = "[sky]\nradiance = [0.0625, 0.125, 0.25]";
+        text.replace(text.find(sky), sky.size(), "[atmosphere]\nturbidity = 2");
+    }
+    return text;
+}
+
+inline const Overrides kMarch{"method.name=raymarch", "raymarch.steps=40", "raymarch.jitter=none"};
+
+inline Overrides add(Overrides a, const Overrides& b) {
+    a.insert(a.end(), b.begin(), b.end());
+    return a;
+}
+
+struct Picture {
+    std::uint32_t width = 0, height = 0;
+    std::vector<float> rgba, depth;
+    std::uint64_t hash = 0;
+
+    double sum(std::size_t channel) const {
+        double all = 0;
+        for (std::size_t i = channel; i < rgba.size(); i += 4) all += double(rgba[i]);
+        return all;
+    }
+};
+
+/// A sky with one kind of cloud.
+struct CloudySky {
+    Hosted sky, kind;
+    std::unique_ptr<pileus_clouds, FreeClouds> clouds;
+    Outcome out;
+
+    explicit CloudySky(const std::vector<pileus_cloud>& places, const Overrides& more = {},
+                       bool air = false, const pileus_host* host = nullptr)
+        : sky(sky_text(air), {"method.name=raymarch"}, host),
+          kind(kSmallCumulus, add(kMarch, more)) {
+        REQUIRE_MESSAGE(sky.code == PILEUS_OK, sky.out.line());
+        pileus_clouds* made = nullptr;
+        check(pileus_clouds_create(sky.session.get(), &made, &out.error));
+        clouds.reset(made);
+        check(pileus_clouds_add_kind(clouds.get(), kind.world.get(), kind.scene.get(), nullptr,
+                                     &out.error));
+        place(places);
+        // Tests ask for what they need.
+        detail(true);
+    }
+    void check(pileus_code code) { REQUIRE_MESSAGE(code == PILEUS_OK, out.line()); }
+    void place(const std::vector<pileus_cloud>& places) {
+        check(pileus_clouds_place(clouds.get(), places.data(), std::uint32_t(places.size()),
+                                  &out.error));
+    }
+    void detail(bool off, double near_px = 0) {
+        auto d = cleared<pileus_cloud_detail>();
+        d.off = off ? 1 : 0;
+        d.near_px = near_px;
+        d.near_scale = 1;
+        check(pileus_clouds_set_detail(clouds.get(), &d, &out.error));
+    }
+    Picture draw(pileus_blend blend = PILEUS_REPLACE) {
+        Picture p;
+        check(pileus_session_size(sky.session.get(), &p.width, &p.height, &out.error));
+        p.rgba.resize(4 * std::size_t(p.width) * p.height);
+        p.depth.resize(std::size_t(p.width) * p.height);
+        auto frame = cleared<pileus_frame>();
+        frame.colour = p.rgba.data();
+        frame.format = PILEUS_RGBA32F;
+        frame.blend = blend;
+        frame.depth = p.depth.data();
+        frame.hash = &p.hash;
+        check(pileus_clouds_render(clouds.get(), &frame, &out.error));
+        return p;
+    }
+    pileus_cloud_stats stats() {
+        auto s = cleared<pileus_cloud_stats>();
+        check(pileus_clouds_stats(clouds.get(), &s, &out.error));
+        return s;
+    }
+};
+
+inline pileus_cloud at(double x, double y, double z, double yaw_deg = 0, double scale = 1) {
+    auto c = cleared<pileus_cloud>();
+    c.offset_m[0] = x, c.offset_m[1] = y, c.offset_m[2] = z;
+    c.yaw_deg = yaw_deg;
+    c.scale = scale;
+    return c;
+}
+
+inline double relative_error(const Picture& a, const Picture& b) {
+    REQUIRE(a.rgba.size() == b.rgba.size());
+    double sum = 0;
+    for (std::size_t i = 0; i < a.rgba.size(); ++i) {
+        // Colours: alpha is 0 where a cloud just ends.
+        if (i % 4 == 3) continue;
+        const double x = double(a.rgba[i]), y = double(b.rgba[i]);
+        sum += (x - y) * (x - y) / (y * y + 1e-4);
+    }
+    return sum / (0.75 * double(a.rgba.size()));
+}
+
+/// As a session draws the media alone.
+inline Picture session_picture(Hosted& host) {
+    Picture p;
+    host.check(pileus_session_size(host.session.get(), &p.width, &p.height, &host.out.error));
+    p.rgba.resize(4 * std::size_t(p.width) * p.height);
+    p.depth.resize(std::size_t(p.width) * p.height);
+    auto frame = cleared<pileus_frame>();
+    frame.colour = p.rgba.data();
+    frame.format = PILEUS_RGBA32F;
+    frame.blend = PILEUS_MEDIA;
+    frame.depth = p.depth.data();
+    host.check(pileus_session_render(host.session.get(), &frame, &host.out.error));
+    return p;
+}
+
+}  // namespace clouds_test
