@@ -60,9 +60,9 @@ set_target_properties(pileus_flight_objects PROPERTIES POSITION_INDEPENDENT_CODE
 pileus_compile_together(pileus_flight_objects 12)
 
 # Kernels once more, without those that no chosen method calls; kernels_cpu/isa/left_out.cpp stands in for
-# them. Solid meshes are in no flight.
-set(flight_without SOLIDS)
-set(flight_left_out trace_solids solids)
+# them. Solid meshes and marched detail are in no flight.
+set(flight_without SOLIDS DETAIL)
+set(flight_left_out trace_solids solids detail)
 foreach(row "photon-grid CELLS trace_cells" "path PATH path path_solids path_guided path_lamps"
         "raymarch|optical-depth RAYMARCH raymarch" "raymarch SKY sky" "particles PARTICLES particles")
     separate_arguments(row)

@@ -262,7 +262,7 @@ PILEUS_FN void add_source(const MarchParams& k, const MarchBuffers& b, const Vec
 }
 
 /// W pixels, a block from column x and row y on, in rows before `end`.
-template <int W, bool Veiled, bool Constant>
+template <int W, bool Veiled, bool Constant, bool Detail>
 PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::int32_t x,
                             std::int32_t y, std::int32_t end) {
     using T = F<W>;
@@ -300,7 +300,8 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
         [&](M<W> dense, T t, T width, const Vec<T>& p, const Vec<T>& metres) PILEUS_INLINED {
             if (!any(dense)) return transmittance < k.cut;
             const Corners<T> at = density_corners<Constant>(k.medium, p);
-            const T density = density_at<Constant>(k.medium, at);
+            T density = density_at<Constant>(k.medium, at);
+            if constexpr (Detail) density = with_detail(*k.medium.detail, metres, density);
             const T optical = select(dense, density * k.medium.sigma * width, T{});
             pace.inside = optical > 0.0f;
             if (!any(optical > 0.0f)) return transmittance < k.cut;
@@ -345,16 +346,18 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
     });
 }
 
-template <int W, bool Constant>
+template <int W, bool Constant, bool Detail = false>
 PILEUS_FN void march_blocks(const MarchParams& k, const MarchBuffers& b, std::uint32_t begin,
                             std::uint32_t end) {
     constexpr int across = kMarchAcross<W>;
     for (std::uint32_t y = begin; y < end; y += W / across)
         for (std::int32_t x = 0; x < k.lattice.width; x += across)
             if (b.visibility != nullptr)
-                march_pixels<W, true, Constant>(k, b, x, std::int32_t(y), std::int32_t(end));
+                march_pixels<W, true, Constant, Detail>(k, b, x, std::int32_t(y),
+                                                        std::int32_t(end));
             else
-                march_pixels<W, false, Constant>(k, b, x, std::int32_t(y), std::int32_t(end));
+                march_pixels<W, false, Constant, Detail>(k, b, x, std::int32_t(y),
+                                                         std::int32_t(end));
 }
 
 template <int W>

@@ -5,6 +5,7 @@
 #pragma once
 #include "kernels_cpu/core/camera.h"
 #include "kernels_cpu/light/sky_map.h"
+#include "kernels_cpu/media/detail_params.h"
 #include "kernels_cpu/media/optics.h"
 
 namespace pileus {
@@ -22,6 +23,8 @@ struct MediumView {
     const float* majorant;
     std::int32_t periodic;  ///< 1: the box, and every grid over it, repeats along x and y
     std::int32_t constant;  ///< 1: a voxel has one density; 0: trilinear between centres
+    const DetailView*
+        detail;  ///< for the kernels of DetailKernels, which no others read; null: none
 };
 
 /// A grid of nodes at (i + 1/2) * spacing over the same box.

@@ -6,6 +6,7 @@
 #pragma once
 #include "kernels_cpu/display/density_pairs.h"
 #include "kernels_cpu/display/march_params.h"
+#include "kernels_cpu/media/detail.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
@@ -151,15 +152,17 @@ PILEUS_FN void march_ray(const MediumView& m, const Ray<T>& ray, T enter, T leav
 }
 
 /// Integral of the density between two distances, as long as light is left.
-template <bool Constant, class T>
+template <bool Constant, bool Detail = false, class T>
 PILEUS_FN T density_along(const MediumView& m, const Ray<T>& ray, T enter, T leave) {
     T sum{};
     Pace<T> pace;
     march_ray<Constant>(m, ray, enter, leave, pace,
-                        [&](M_of<T> dense, T, T width, const Vec<T>& p, const Vec<T>&) {
+                        [&](M_of<T> dense, T, T width, const Vec<T>& p, const Vec<T>& metres) {
                             if (any(dense)) {
                                 const Corners<T> at = density_corners<Constant>(m, p);
-                                const T density = density_at<Constant>(m, at);
+                                T density = density_at<Constant>(m, at);
+                                if constexpr (Detail)
+                                    density = with_detail(*m.detail, metres, density);
                                 sum = select(dense, sum + width * density, sum);
                                 pace.inside = dense & (density > 0.0f);
                             }
@@ -169,16 +172,17 @@ PILEUS_FN T density_along(const MediumView& m, const Ray<T>& ray, T enter, T lea
 }
 
 /// Optical depth from `origin` along `direction` to the end of the box.
-template <class T>
+template <bool Detail = false, class T>
 PILEUS_FN T optical_depth(const MediumView& m, const Ray<T>& ray, M_of<T> wanted) {
     const Segment<T> box = clip_to_medium(m, ray);
     const T leave = select(wanted, box.leave, box.enter);
+    if constexpr (Detail) return density_along<false, true>(m, ray, box.enter, leave) * m.sigma;
     if (m.constant != 0) return density_along<true>(m, ray, box.enter, leave) * m.sigma;
     return density_along<false>(m, ray, box.enter, leave) * m.sigma;
 }
 
 /// Rows of nodes [begin, end), a row along x.
-template <int W>
+template <int W, bool Detail = false>
 PILEUS_FN void shadow_rows(const ShadowParams& k, const ShadowBuffers& b, std::uint32_t begin,
                            std::uint32_t end) {
     using T = F<W>;
@@ -192,7 +196,7 @@ PILEUS_FN void shadow_rows(const ShadowParams& k, const ShadowBuffers& b, std::u
             const I<W> i = iota<I<W>>() + x;
             const T px = (to_float(i) + 0.5f) / k.nodes.per_metre[0] + k.origin[0];
             const Ray<T> ray{{px, all<T>(y), all<T>(z)}, d};
-            const T tau = optical_depth(k.medium, ray, i < own.last);
+            const T tau = optical_depth<Detail>(k.medium, ray, i < own.last);
             for (int l = 0; l < W && x + l < own.last; ++l)
                 b.optical_depth[std::int64_t(row) * nx + x + l] = lane(tau, l);
         }

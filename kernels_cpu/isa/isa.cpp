@@ -79,6 +79,7 @@ std::uint64_t self_test_kernel() { return self_test_digest<PILEUS_WIDTH>(); }
 #define PILEUS_PARTICLES(isa) PILEUS_JOIN(particle_kernel_, isa)
 #define PILEUS_SOLIDS(isa) PILEUS_JOIN(solid_rows_, isa)
 #define PILEUS_PACK(isa) PILEUS_JOIN(pack_kernel_, isa)
+#define PILEUS_DETAIL(isa) PILEUS_JOIN(detail_kernel_, isa)
 
 /// Of isa_path.cpp, compiled for the same instruction set.
 void PILEUS_PATH(PILEUS_ISA)(const PathParams&, const PathBuffers&, std::uint32_t, std::uint32_t);
@@ -105,6 +106,9 @@ extern const ParticleKernels PILEUS_PARTICLES(PILEUS_ISA);
 
 /// Of isa_pack.cpp.
 extern const PackKernels PILEUS_PACK(PILEUS_ISA);
+
+/// Of isa_detail.cpp.
+extern const DetailKernels PILEUS_DETAIL(PILEUS_ISA);
 
 /// Of isa_upsample.cpp and isa_sweep.cpp, likewise.
 void PILEUS_UPSAMPLE(PILEUS_ISA)(const UpsampleParams&, const UpsampleBuffers&, std::uint32_t,
@@ -153,6 +157,7 @@ const KernelTable PILEUS_TABLE(PILEUS_ISA) = {
     PILEUS_FINISH(PILEUS_ISA),
     PILEUS_AIR(PILEUS_ISA),
     PILEUS_TURN_SKY(PILEUS_ISA),
+    &PILEUS_DETAIL(PILEUS_ISA),
 };
 
 }  // namespace pileus

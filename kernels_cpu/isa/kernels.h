@@ -17,6 +17,7 @@
 #include "kernels_cpu/photons/trace_params.h"
 #include "kernels_cpu/procedural/sky_params.h"
 #include "kernels_cpu/raymarch/lamp_march_params.h"
+#include "kernels_cpu/raymarch/raymarch_detail_params.h"
 #include "kernels_cpu/raymarch/raymarch_params.h"
 #include "kernels_cpu/raymarch/sky_turn_params.h"
 #include "kernels_cpu/solids/solids_params.h"
@@ -78,6 +79,7 @@ struct KernelTable {
     /// Nodes of skylight as a camera sees it.
     void (*turn_sky)(const SkyTurnParams&, const SkyTurnBuffers&, std::uint32_t begin,
                      std::uint32_t end) = nullptr;
+    const DetailKernels* detail = nullptr;  ///< marches through media with detail
 };
 
 /// The widest table this machine runs; `name` (or null) forces one. Null: no such table here.

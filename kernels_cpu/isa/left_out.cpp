@@ -34,6 +34,10 @@ PILEUS_NOTHING(raymarch_kernel_, RaymarchParams, RaymarchBuffers)
 extern const SkyKernels PILEUS_OF(sky_kernel_, PILEUS_ISA);
 const SkyKernels PILEUS_OF(sky_kernel_, PILEUS_ISA) = {};
 #endif
+#ifdef PILEUS_WITHOUT_DETAIL
+extern const DetailKernels PILEUS_OF(detail_kernel_, PILEUS_ISA);
+const DetailKernels PILEUS_OF(detail_kernel_, PILEUS_ISA) = {};
+#endif
 #ifdef PILEUS_WITHOUT_PARTICLES
 extern const ParticleKernels PILEUS_OF(particle_kernel_, PILEUS_ISA);
 const ParticleKernels PILEUS_OF(particle_kernel_, PILEUS_ISA) = {};

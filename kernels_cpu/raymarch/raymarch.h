@@ -170,23 +170,27 @@ PILEUS_FN void raymarch_pixels(const RaymarchParams& k, const RaymarchBuffers& b
     store_pixels<W>(k, b, x, y, end, sum);
 }
 
-template <int W, bool Constant>
+template <int W, class Field>
 PILEUS_FN void raymarch_blocks(const RaymarchParams& k, const RaymarchBuffers& b,
-                               std::uint32_t begin, std::uint32_t end) {
+                               const Field& field, std::uint32_t begin, std::uint32_t end) {
     constexpr int across = kMarchAcross<W>;
-    const GridField<Constant> field{&k.medium, k.level, k.levels, b.parts, k.media};
     for (std::uint32_t y = begin; y < end; y += W / across)
         for (std::int32_t x = 0; x < k.lattice.width; x += across)
             raymarch_pixels<W>(k, b, field, x, std::int32_t(y), std::int32_t(end));
+}
+
+template <bool Constant>
+PILEUS_FN GridField<Constant> grid_field(const RaymarchParams& k, const RaymarchBuffers& b) {
+    return {&k.medium, k.level, k.levels, b.parts, k.media};
 }
 
 template <int W>
 PILEUS_FN void raymarch_rows(const RaymarchParams& k, const RaymarchBuffers& b, std::uint32_t begin,
                              std::uint32_t end) {
     if (k.medium.constant != 0)
-        raymarch_blocks<W, true>(k, b, begin, end);
+        raymarch_blocks<W>(k, b, grid_field<true>(k, b), begin, end);
     else
-        raymarch_blocks<W, false>(k, b, begin, end);
+        raymarch_blocks<W>(k, b, grid_field<false>(k, b), begin, end);
 }
 
 }  // namespace PILEUS_ISA

@@ -80,11 +80,7 @@ PILEUS_FN void field_shares(const SkyMedium&, const Vec<T>&, T, Use use) {
 template <int W>
 PILEUS_FN void raymarch_sky_rows(const RaymarchParams& k, const SkyParams& sky,
                                  const RaymarchBuffers& b, std::uint32_t begin, std::uint32_t end) {
-    constexpr int across = kMarchAcross<W>;
-    const SkyMedium field{&sky, b.sky_light};
-    for (std::uint32_t y = begin; y < end; y += W / across)
-        for (std::int32_t x = 0; x < k.lattice.width; x += across)
-            raymarch_pixels<W>(k, b, field, x, std::int32_t(y), std::int32_t(end));
+    raymarch_blocks<W>(k, b, SkyMedium{&sky, b.sky_light}, begin, end);
 }
 
 /// A row of nodes: the steps to the sun that no sample marches by itself.

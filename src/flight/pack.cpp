@@ -70,6 +70,10 @@ Status check_packable(const Scene& scene) {
                       "no meshes: the host's depth images stand for what is solid");
     if (!scene.camera.depth.empty())
         return refuse(scene, "camera.depth", "not packed", "the host's depth images");
+    for (const MediumSettings& medium : scene.media)
+        if (medium.detail.is_marched())
+            return refuse(scene, (medium_key(scene, medium) + ".detail.refine").c_str(),
+                          "detail is packed on a grid alone, 0", "1 to 16");
     if (scene.animation.present)
         return refuse(scene, "animation", "not packed", "left out: the host moves what moves");
     return Status::ok();

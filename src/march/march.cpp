@@ -59,8 +59,7 @@ void set_light(const RaymarchInput& in, RaymarchParams& k) {
     light.march = in.march_light ? 1 : 0;
     if (in.nodes != nullptr) light.nodes = in.nodes->nodes;
     light.steps = s.light_steps;
-    light.first_m =
-        s.light_steps == 0 ? smallest_cell(in.medium->grid) : float(s.light_first_step_m);
+    light.first_m = s.light_steps == 0 ? march_step(*in.medium) : float(s.light_first_step_m);
     light.growth = float(s.light_growth);
     light.series = s.light_steps > 0 ? series_of(s.light_growth, s.light_steps) : 1.0f;
     if (s.light_cone) set_turns(in, light);
@@ -246,6 +245,12 @@ RaymarchParams raymarch_params(const RaymarchInput& in) {
     k.lattice = in.lattice.every > 0 ? in.lattice : whole_lattice(in.camera);
     k.rule = rule_of(in.settings->integrator);
     k.step = raymarch_steps(*in.settings, in.camera, in.medium->grid);
+    if (in.medium->detail.present()) {
+        // Levels are told by cells.
+        k.medium.step = smallest_cell(in.medium->grid);
+        if (in.settings->spacing == RaymarchSpacing::kVoxel)
+            k.step.least_m = march_step(*in.medium);
+    }
     if (!(in.medium->sigma > 0)) k.step.most = 0;  // nothing to see, and no light was made for it
     set_jitter(in, k.step);
     set_levels(in, k);
@@ -291,6 +296,8 @@ Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes&
         const std::uint32_t end = begin + kPiece < rows ? begin + kPiece : rows;
         if (in.layer != nullptr)
             context.kernels->sky->raymarch_rows(k, in.layer->params, b, begin, end);
+        else if (k.medium.detail != nullptr)
+            context.kernels->detail->raymarch_rows(k, b, begin, end);
         else
             context.kernels->raymarch_rows(k, b, begin, end);
     };

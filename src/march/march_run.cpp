@@ -29,6 +29,8 @@ Status cap_medium(RaymarchRun& run) {
     out.channels = medium.channels;
     out.optics = medium.optics;
     out.density_max = most;
+    out.detail.view = medium.detail.view;
+    out.detail.step_m = medium.detail.step_m;
     PILEUS_TRY(allocate(arrays::capped_density(medium.grid), out.volume.density));
     const Span<const float> from = medium.volume.density.span();
     const Span<float> to = out.volume.density.span();

@@ -129,8 +129,8 @@ Status march_rows(const Context& context, const PhotonRun& run, const NodeLight&
     b.half_depth = planes.half_depth.data();
     b.colour = target;
     b.visibility = run.visibility.data();
-    PILEUS_TRY(
-        run_rows(context, context.kernels->march_rows, k, b, std::uint32_t(k.lattice.height)));
+    PILEUS_TRY(run_rows(context, march_kernel(*context.kernels, k.medium), k, b,
+                        std::uint32_t(k.lattice.height)));
     return Status::ok();
 }
 

@@ -9,12 +9,11 @@ namespace pileus {
 
 MediumView make_medium_view(const Medium& medium, const Majorants& majorants) {
     MediumView v{};
-    v.step = medium.grid.cell_m[0];
+    v.step = march_step(medium);
     for (int a = 0; a < 3; ++a) {
         v.size[a] = medium.grid.size[a];
         v.cell[a] = medium.grid.cell_m[a];
         v.extent[a] = float(medium.extent_m[a]);
-        v.step = v.cell[a] < v.step ? v.cell[a] : v.step;
     }
     block_counts(medium.grid, majorants.skip_block, v.blocks);
     v.block = float(majorants.skip_block);
@@ -23,7 +22,16 @@ MediumView make_medium_view(const Medium& medium, const Majorants& majorants) {
     v.majorant = majorants.skipping.data();
     v.periodic = medium.grid.periodic ? 1 : 0;
     v.constant = medium.grid.constant ? 1 : 0;
+    v.detail = medium.detail.present() ? &medium.detail.view : nullptr;
     return v;
+}
+
+MarchKernel march_kernel(const KernelTable& kernels, const MediumView& medium) {
+    return medium.detail != nullptr ? kernels.detail->march_rows : kernels.march_rows;
+}
+
+ShadowKernel shadow_kernel(const KernelTable& kernels, const MediumView& medium) {
+    return medium.detail != nullptr ? kernels.detail->shadow_rows : kernels.shadow_rows;
 }
 
 Status march_medium(const Context& context, const Medium& medium, const Majorants& majorants,
@@ -54,7 +62,7 @@ Status march_medium(const Context& context, const Medium& medium, const Majorant
     b.transmittance = planes.transmittance.data();
     b.half_depth = wanted.half_depth ? planes.half_depth.data() : nullptr;
     b.ray_depth = planes.optical_depth.data();
-    PILEUS_TRY(run_rows(context, context.kernels->march_rows, k, b, rows));
+    PILEUS_TRY(run_rows(context, march_kernel(*context.kernels, k.medium), k, b, rows));
     return Status::ok();
 }
 

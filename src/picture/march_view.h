@@ -13,6 +13,12 @@ namespace pileus {
 /// The grid as the marching kernels see it; `majorants` holds the blocks to skip.
 MediumView make_medium_view(const Medium& medium, const Majorants& majorants);
 
+/// The kernels that march through a medium: those with detail where it has some.
+using MarchKernel = decltype(KernelTable::march_rows);
+MarchKernel march_kernel(const KernelTable& kernels, const MediumView& medium);
+using ShadowKernel = decltype(KernelTable::shadow_rows);
+ShadowKernel shadow_kernel(const KernelTable& kernels, const MediumView& medium);
+
 /// Which of its results a march stores; transmittance always.
 struct MarchWanted {
     bool half_depth = false, optical_depth = false;

@@ -11,6 +11,7 @@
 #include "src/base/vectors.h"
 #include "src/scene/animation.h"
 #include "src/scene/atmosphere_settings.h"
+#include "src/scene/detail_settings.h"
 #include "src/scene/light_settings.h"
 #include "src/scene/particle_settings.h"
 #include "src/scene/sky_settings.h"
@@ -124,6 +125,7 @@ struct MediumSettings {
     Float3 albedo{1, 1, 1};
     Float3 emission{0, 0, 0};  ///< radiance per metre where the density is 1; >= 0
     PhaseSettings phase;
+    DetailSettings detail;
     bool periodic = false;  ///< boundary = "periodic": repeats without end along x and y
     bool constant = false;  ///< interpolation = "constant": a cell has one value
     std::vector<TransferRow> transfer;  ///< by rising values; none: extinction as the file has it

@@ -61,6 +61,7 @@ std::uint64_t bytes_of_world(const World& world) {
                           world.particles.id.bytes();
     for (const NoiseTexture* noise : {&world.layer.perlin, &world.layer.worley})
         bytes += noise->words.bytes();
+    bytes += world.medium.detail.tile.bytes();
     return bytes;
 }
 
@@ -70,6 +71,13 @@ std::string density_digest(const World& world) {
     for (const NoiseTexture* noise : {&world.layer.perlin, &world.layer.worley})
         for (const std::int32_t word : noise->words.span()) digest.u32(std::uint32_t(word));
     if (world.medium.count > 1) digest.floats(world.medium.parts.span());
+    const MediumDetail& detail = world.medium.detail;
+    if (detail.present()) {
+        digest.floats(detail.tile.span());
+        digest.floats({detail.view.period, 3});
+        const float numbers[] = {detail.view.strength, detail.view.core};
+        digest.floats({numbers, 2});
+    }
     return digest.hex();
 }
 

@@ -172,6 +172,8 @@ Status see_sky(const Context& context, const Medium& medium, const Majorants& ma
     if (view.turned) out.phase = sky_phase(medium);
     ShadowParams k{};
     k.medium = make_medium_view(medium, majorants);
+    // Coarse nodes see what detail keeps: the mean.
+    k.medium.step = smallest_cell(medium.grid);
     k.nodes = out.grid;
     const float left = float(1 - kept);
     const Absorption absorption = absorption_of(medium);

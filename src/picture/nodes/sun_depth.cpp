@@ -50,6 +50,7 @@ bool sweep(const Context& context, const Medium& medium, const std::array<float,
            float* optical_depth) {
     const SweepBuffers b{medium.volume.density.data(), optical_depth, nullptr};
     const double sigma = double(medium.sigma);
+    if (medium.detail.present()) return false;  // slices know grids alone
     if (!medium.grid.periodic) {
         sweep_open(context, sweep_params(medium.grid, to_sun, sigma, context.threads), b);
         return true;
@@ -66,8 +67,8 @@ Status cast_rays(const Context& context, const Medium& medium, const Majorants& 
     k.medium = make_medium_view(medium, majorants);
     k.nodes = nodes;
     for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = to_sun[a];
-    return run_rows(context, context.kernels->shadow_rows, k, ShadowBuffers{optical_depth},
-                    std::uint32_t(nodes.size[1] * nodes.size[2]));
+    return run_rows(context, shadow_kernel(*context.kernels, k.medium), k,
+                    ShadowBuffers{optical_depth}, std::uint32_t(nodes.size[1] * nodes.size[2]));
 }
 
 /// Of every `apart` nodes along an axis the middle one: an odd number, so coarse nodes lie on fine

@@ -4,6 +4,7 @@
 
 #include "platform/threads.h"
 #include "src/base/angles.h"
+#include "src/picture/march_view.h"
 
 namespace pileus {
 namespace {
@@ -48,7 +49,7 @@ std::vector<int> follow_sun(const SunTurn& turn, SunSlices& s) {
 Status make_shadow_slice(const Context& context, const ShadowParams& k, const ShadowBuffers& b,
                          int slice, int slices) {
     const std::uint32_t rows = std::uint32_t(k.nodes.size[1] * k.nodes.size[2]);
-    const auto kernel = context.kernels->shadow_rows;
+    const ShadowKernel kernel = shadow_kernel(*context.kernels, k.medium);
     if (slices <= 1) return run_rows(context, kernel, k, b, rows);
     constexpr std::uint32_t kPiece = 4;
     const std::uint32_t every = std::uint32_t(slices), first = std::uint32_t(slice);

@@ -36,6 +36,7 @@ public:
         extinction();
         emission();
         check_phase(check_, index_);
+        check_detail(check_, index_);
         bounds();
     }
 

@@ -112,11 +112,13 @@ private:
             light == RaymarchLightKind::kAuto || light == RaymarchLightKind::kMarch;
         const bool boxed = medium_.has_bounds && !medium_.periodic;
         const bool can = scene.method == "raymarch" && scene.media.size() == 1 &&
-                         (marched || boxed) && medium_.transfer.empty() && !medium_.constant;
+                         (marched || boxed) && medium_.transfer.empty() && !medium_.constant &&
+                         !medium_.detail.present();
         if (sky_.evaluate == SkyEvaluation::kDirect && !can)
             fault("evaluate",
                   "not here, \"direct\", allowed: \"grid\", or method raymarch with this medium "
-                  "alone, without transfer or constant cells, and with raymarch.light \"auto\" or "
+                  "alone, without transfer, detail or constant cells, and with raymarch.light "
+                  "\"auto\" or "
                   "\"march\" or an "
                   "open box");
         if (sky_.evaluate == SkyEvaluation::kAuto)

@@ -32,6 +32,7 @@ std::vector<const KeyRow*> all_scene_keys() {
     rows.push_back(&transfer_key());
     for (const KeyRow* row : phase_keys()) rows.push_back(row);
     add(medium_last_keys());
+    add(detail_keys());
     add(weather_keys());
     add(particle_keys());
     add(sky_keys());

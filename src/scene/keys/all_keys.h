@@ -19,6 +19,7 @@ Span<const KeyRow> weather_keys();        // medium.density, of weather data
 Span<const KeyRow> particle_keys();       // medium.density, of particles
 const KeyRow& transfer_key();             // medium.transfer
 Span<const KeyRow> medium_last_keys();    // medium, behind it
+Span<const KeyRow> detail_keys();         // medium.detail
 Span<const KeyRow> sky_keys();            // medium.sky
 Span<const KeyRow> recipe_keys();         // medium.plume, medium.particle_cumulus
 Span<const KeyRow> method_keys();         // method

@@ -39,6 +39,7 @@ std::string section_of(const KeyRow& row) {
         for (const KeyRow& of_file : keys)
             if (path == of_file.path) return "medium.N.density";
     if (path.compare(0, 13, "medium.N.sky.") == 0) return "medium.N.sky";
+    if (path.compare(0, 16, "medium.N.detail.") == 0) return "medium.N.detail";
     if (path.compare(0, 9, "medium.N.") == 0) return "medium.N";
     if (path.compare(0, 8, "solid.N.") == 0) return "solid.N";
     if (path.compare(0, 8, "light.N.") == 0) return "light.N";
@@ -52,6 +53,7 @@ std::string heading_of(const std::string& section) {
     if (section == "solid.N") return "`[[solid]]`";
     if (section == "light.N") return "`[[light]]`";
     if (section == "medium.N.sky") return "`[[medium]]`, `sky = { ... }`";
+    if (section == "medium.N.detail") return "`[[medium]]`, `detail = { ... }`";
     if (section == "medium.N.density") return "`[[medium]]`, `density = { ... }` of weather data";
     return section == "medium.N" ? "`[[medium]]`" : "`[" + section + "]`";
 }

@@ -12,6 +12,7 @@
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/density_row.h"
 #include "src/scene/rows/volume_format.h"
+#include "src/world/medium/detail.h"
 #include "src/world/phase/medium_phase.h"
 
 namespace pileus {
@@ -212,7 +213,8 @@ Status outline_medium(const Scene& scene, const MediumSettings& settings, const 
     out.density_max = 1;
     // What a transfer function makes of the values is not known before them.
     if (!settings.transfer.empty()) source.mean_density = -1;
-    return place_medium(scene, settings, head, out);
+    PILEUS_TRY(place_medium(scene, settings, head, out));
+    return outline_detail(scene, settings, limits, out, source);
 }
 
 Status load_medium(const Scene& scene, const MediumSettings& settings, int threads, Medium& out,
@@ -229,7 +231,7 @@ Status load_medium(const Scene& scene, const MediumSettings& settings, int threa
     for (float density : out.volume.density.span())
         if (density > out.density_max) out.density_max = density;
     if (out.volume.in_extinction) set_peak_to_one(settings.extinction_scale, out);
-    return Status::ok();
+    return add_detail(scene, settings, threads, kernels, out);
 }
 
 void keep_larger(const DensityWork& work, std::vector<DensityWork>& list) {
@@ -240,6 +242,11 @@ void keep_larger(const DensityWork& work, std::vector<DensityWork>& list) {
         return;
     }
     list.push_back(work);
+}
+
+float march_step(const Medium& medium) {
+    const float cell = smallest_cell(medium.grid), detail = medium.detail.step_m;
+    return medium.detail.present() && detail < cell ? detail : cell;
 }
 
 double mean_density(const Medium& medium) {

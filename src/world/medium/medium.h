@@ -4,6 +4,7 @@
 // docs/methods.md 1; mix_media.h lays several on one grid, which then is one of these too.
 #pragma once
 #include "kernels_cpu/isa/kernels.h"
+#include "kernels_cpu/media/detail_params.h"
 #include "kernels_cpu/media/optics.h"
 #include "src/base/limits.h"
 #include "src/io/volumes/volume.h"
@@ -16,6 +17,15 @@ namespace pileus {
 
 struct SkyField;
 
+/// Detail that is made while marching.
+struct MediumDetail {
+    Buffer<float> tile;
+    DetailView view{};  ///< into the tile; none: there is no such detail
+    float step_m = 0;   ///< that a march may take through it
+
+    bool present() const { return view.tile != nullptr; }
+};
+
 struct Medium {
     Volume volume;
     Grid grid;
@@ -27,6 +37,7 @@ struct Medium {
     float density_max = 0;
     int count = 1;  ///< media on this grid, 1..kMostMedia; `volume` holds their sum
     std::array<Optics, kMostMedia> optics{};
+    MediumDetail detail;
     Buffer<float> parts;             ///< [medium - 1][voxel]; medium 0 is what is left of the sum
     std::vector<PhaseStore> phases;  ///< tables that `optics` points into
 };
@@ -84,6 +95,9 @@ struct MediumSource {
 
 /// kLimit: a side or the product over the limits; `where` opens the line.
 Status check_voxels(const std::string& where, const std::array<int, 3>& size, const Limits& limits);
+
+/// Step that neither cells nor detail call for a shorter one than, m.
+float march_step(const Medium& medium);
 
 /// Over the cells of the grid.
 double mean_density(const Medium& medium);

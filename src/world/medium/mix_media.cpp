@@ -9,6 +9,7 @@
 #include "src/base/powers.h"
 #include "src/io/volumes/volume_file.h"
 #include "src/scene/toml/toml_tree.h"
+#include "src/world/medium/detail.h"
 #include "src/world/medium/resample.h"
 #include "src/world/medium/transfer_media.h"
 
@@ -186,6 +187,8 @@ struct MediaList {
     Status add_all(const Scene& scene, std::size_t name, Medium medium, Plan& plan) {
         const bool last = name + 1 == scene.media.size();
         const std::vector<TransferRow>& rows = scene.media[name].transfer;
+        const std::string detail = told_detail(name, scene.media[name].detail);
+        if (!detail.empty()) plan.need(detail.c_str());
         if (rows.empty()) {
             add(std::move(medium), name, last, plan);
             return Status::ok();

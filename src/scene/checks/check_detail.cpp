@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+// Laws between the keys of detail beyond a medium's grid, and who can show it.
+// in: keys that passed their own checks -> out: faults.
+// docs/detail.md, "Methods"
+#include "src/scene/checks/check_keys.h"
+
+namespace pileus {
+namespace {
+
+class DetailCheck {
+public:
+    DetailCheck(SceneCheck& check, std::size_t index)
+        : check_(check),
+          medium_(check.scene.media[index]),
+          detail_(medium_.detail),
+          path_("medium." + std::to_string(index) + ".detail.") {}
+
+    void run() {
+        const Node* tile = check_.key(path_ + "tile_m");
+        if (tile == nullptr) return needs_tile();
+        if ((detail_.cells & (detail_.cells - 1)) != 0)
+            fault(*tile, "cells",
+                  "not a power of two, " + std::to_string(detail_.cells) +
+                      ", allowed: 16, 32, 64, 128");
+        if (kDetailLumps << detail_.octaves > detail_.cells)
+            fault(*tile, "octaves",
+                  "too fine for the cells, " + std::to_string(detail_.octaves) +
+                      ", allowed: 0, or such that 4 * 2^octaves is at most cells, " +
+                      std::to_string(detail_.cells));
+        if (!detail_.present()) return;
+        if (!medium_.transfer.empty())
+            return fault(*tile, "tile_m",
+                         "not beside transfer, " + value_text(*tile) + ", allowed: left out");
+        if (check_.scene.method == "particles")
+            return fault(*tile, "tile_m",
+                         "particles have no grid, " + value_text(*tile) +
+                             ", allowed: left out, or another method");
+        if (detail_.is_marched()) marched(*tile);
+    }
+
+private:
+    /// Faults point at the key, or where that is left out at the tile.
+    void fault(const Node& tile, const char* key, const std::string& text) {
+        const Node* node = check_.key(path_ + key);
+        check_.faults.add(node != nullptr ? node->at : tile.at, path_ + key, text);
+    }
+
+    void needs_tile() {
+        for (const KeyRow& row : detail_keys()) {
+            const std::string key = std::string(row.path).substr(sizeof "medium.N.detail." - 1);
+            const Node* node = check_.key(path_ + key);
+            if (node == nullptr) continue;
+            check_.faults.add(node->at, path_ + "tile_m",
+                              "missing, nothing, allowed: number in (0, 1e+09], metres");
+            return;
+        }
+    }
+
+    /// The kernels that march with detail know one medium, linear between its cells.
+    void marched(const Node& tile) {
+        const Scene& scene = check_.scene;
+        const CollectorSettings& c = scene.collectors;
+        const bool sprites = scene.method == "collectors" && c.billboards;
+        const char* why = nullptr;
+        if (scene.method == "path")
+            why = "method path does not march";
+        else if (sprites)
+            why = "billboards are not marched";
+        else if (scene.media.size() > 1)
+            why = "only one medium can be marched with detail";
+        else if (medium_.constant)
+            why = "cells of constant density are not marched with detail";
+        else if (!scene.lights.empty())
+            why = "the light of [[light]] is not marched with detail";
+        if (why != nullptr) fault(tile, "refine", std::string(why) + ", 0, allowed: 1 to 16");
+    }
+
+    SceneCheck& check_;
+    const MediumSettings& medium_;
+    const DetailSettings& detail_;
+    std::string path_;
+};
+
+}  // namespace
+
+void check_detail(SceneCheck& check, std::size_t index) { DetailCheck(check, index).run(); }
+
+}  // namespace pileus

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// See detail.h. Mean and cut of the noise are of integers, so that any order gives them.
+// in: noise volumes of src/world/density -> out: tiles; densities of finer cells.
+// docs/detail.md, "Formula"
+#include "src/world/medium/detail.h"
+
+#include <cmath>
+
+#include "kernels_cpu/media/detail.h"
+#include "platform/threads.h"
+#include "src/scene/toml/toml_tree.h"
+#include "src/world/density/noise_volume.h"
+
+namespace pileus {
+namespace {
+
+constexpr double kMostTiles = 65536;  // along the box: a float then still tells a cell of the tile
+constexpr int kCut = 146;             // two deviations of a noise volume, in half steps of a byte
+
+/// A byte's distance from the middle in half steps, cut at two deviations: noise seldom goes
+/// farther, and would hardly be seen if its rarest value were the strongest.
+std::int64_t cut_byte(std::uint8_t byte) {
+    const int twice = 2 * int(byte) - 255;
+    return twice < -kCut ? -kCut : twice > kCut ? kCut : twice;
+}
+
+int octaves_of(const DetailSettings& s) {
+    return s.octaves > 0 ? s.octaves : most_octaves(s.cells, kDetailLumps);
+}
+
+std::uint64_t tile_numbers(int cells) {
+    const std::uint64_t edge = std::uint64_t(cells) + 1;
+    return edge * edge * edge;
+}
+
+/// Whole periods fill a medium that repeats.
+double period_of(const Medium& medium, double tile_m, std::size_t axis) {
+    if (!medium.grid.periodic || axis == 2) return tile_m;
+    const double times = std::floor(medium.extent_m[axis] / tile_m + 0.5);
+    return medium.extent_m[axis] / (times > 1 ? times : 1);
+}
+
+Status check_tiles(const Scene& scene, const MediumSettings& settings, const Medium& medium) {
+    double largest = 0;
+    for (const double e : medium.extent_m) largest = e > largest ? e : largest;
+    if (largest <= kMostTiles * settings.detail.tile_m) return Status::ok();
+    return Status::bad_input(scene.file + ": " + medium_key(scene, settings) +
+                             ".detail.tile_m: too short for a box of " + number_text(largest) +
+                             " m, " + number_text(settings.detail.tile_m) +
+                             ", allowed: at least 1/65536 of it");
+}
+
+DetailView view_of(const DetailSettings& s, const Buffer<float>& tile, const Medium& medium) {
+    DetailView v{};
+    v.tile = tile.data();
+    v.cells = s.cells;
+    for (std::size_t a = 0; a < 3; ++a) {
+        const double period = period_of(medium, s.tile_m, a);
+        v.period[a] = float(period);
+        v.per_metre[a] = float(s.cells / period);
+    }
+    v.strength = float(s.strength);
+    v.core = medium.density_max > 0 ? float((1 - s.dense) / double(medium.density_max)) : 0.0f;
+    return v;
+}
+
+/// Density with detail in the middle of each finer cell.
+void fill_slice(const Medium& m, const DetailView& v, int refine, const Grid& fine, int z,
+                Span<float> out) {
+    const float per_cell = 1.0f / float(refine);
+    const auto middle = [](int i) { return float(i) + 0.5f; };
+    for (int y = 0; y < fine.size[1]; ++y)
+        for (int x = 0; x < fine.size[0]; ++x) {
+            const Vec<float> cell{middle(x), middle(y), middle(z)};
+            const Vec<float> p{cell.x * per_cell, cell.y * per_cell, cell.z * per_cell};
+            const Vec<float> metres{cell.x * fine.cell_m[0], cell.y * fine.cell_m[1],
+                                    cell.z * fine.cell_m[2]};
+            const Corners<float> c = m.grid.constant ? own_cell(p, m.grid.size)
+                                                     : corners(p, m.grid.size, m.grid.periodic);
+            const float density = interpolate(m.volume.density.data(), c);
+            out[voxel_index(fine, x, y, z)] = with_detail(v, metres, density);
+        }
+}
+
+/// Puts a finer density with detail in place of the medium's own.
+Status lay_detail(const DetailView& view, int refine, int threads, Medium& medium) {
+    Grid fine = medium.grid;
+    for (std::size_t a = 0; a < 3; ++a) {
+        fine.size[a] = medium.grid.size[a] * refine;
+        fine.cell_m[a] = float(medium.extent_m[a] / fine.size[a]);
+    }
+    Buffer<float> density;
+    PILEUS_TRY(allocate(arrays::density(fine), density));
+    parallel_for(threads, fine.size[2], [&](std::int64_t z, int) {
+        fill_slice(medium, view, refine, fine, int(z), density.span());
+    });
+    medium.volume.density.swap(density);
+    for (std::size_t a = 0; a < 3; ++a) medium.volume.size[a] = fine.size[a];
+    medium.grid = fine;
+    medium.density_max = 0;
+    for (const float value : medium.volume.density.span())
+        if (value > medium.density_max) medium.density_max = value;
+    return Status::ok();
+}
+
+}  // namespace
+
+Status make_detail_tile(const DetailSettings& settings, const SkyKernels& kernels, int threads,
+                        Buffer<float>& tile) {
+    NoiseParams params{};
+    params.kind = settings.noise == DetailNoise::kPerlin ? kNoisePerlin : kNoiseWorley;
+    params.size = settings.cells;
+    params.cells = kDetailLumps;
+    params.octaves = octaves_of(settings);
+    params.gain = 0.5f;
+    params.seed = std::uint32_t(settings.seed);
+    Buffer<std::uint8_t> bytes;
+    PILEUS_TRY(make_noise(params, kernels, threads, bytes));
+    PILEUS_TRY(tile.resize(tile_numbers(settings.cells), "tile of detail"));
+    std::int64_t sum = 0;
+    for (const std::uint8_t byte : bytes.span()) sum += cut_byte(byte);
+    // Less the mean, and no lower than -1.
+    const double mean = double(sum) / double(bytes.size());
+    const double most = kCut + (mean > 0 ? mean : 0);
+    const std::size_t n = std::size_t(settings.cells), edge = n + 1;
+    for (std::size_t z = 0; z < edge; ++z)
+        for (std::size_t y = 0; y < edge; ++y)
+            for (std::size_t x = 0; x < edge; ++x) {
+                const std::uint8_t byte = bytes[((z % n) * n + y % n) * n + x % n];
+                tile[(z * edge + y) * edge + x] = float((double(cut_byte(byte)) - mean) / most);
+            }
+    return Status::ok();
+}
+
+Status outline_detail(const Scene& scene, const MediumSettings& settings, const Limits& limits,
+                      Medium& medium, MediumSource& source) {
+    const DetailSettings& s = settings.detail;
+    if (!s.present()) return Status::ok();
+    PILEUS_TRY(check_tiles(scene, settings, medium));
+    source.making.push_back(
+        {"tile of detail",
+         4 * tile_numbers(s.cells) + 2 * noise_making_bytes(std::uint64_t(s.cells)), 0});
+    if (s.refine == 0) return Status::ok();
+    source.making.push_back(
+        {"density before its detail", bytes_of(4, voxel_count(medium.grid)), 0});
+    for (std::size_t a = 0; a < 3; ++a) {
+        medium.grid.size[a] *= s.refine;
+        medium.volume.size[a] = medium.grid.size[a];
+        medium.grid.cell_m[a] = float(medium.extent_m[a] / medium.grid.size[a]);
+    }
+    return check_voxels(scene.file, medium.volume.size, limits);
+}
+
+Status add_detail(const Scene& scene, const MediumSettings& settings, int threads,
+                  const KernelTable* kernels, Medium& medium) {
+    const DetailSettings& s = settings.detail;
+    if (!s.present()) return Status::ok();
+    PILEUS_TRY(check_tiles(scene, settings, medium));
+    MediumDetail& detail = medium.detail;
+    PILEUS_TRY(make_detail_tile(s, sky_kernels(kernels), threads, detail.tile));
+    detail.view = view_of(s, detail.tile, medium);
+    // Two steps over each of the smallest lumps.
+    detail.step_m = float(s.tile_m / double(kDetailLumps << octaves_of(s)));
+    if (s.refine == 0) return Status::ok();
+    PILEUS_TRY(lay_detail(detail.view, s.refine, threads, medium));
+    medium.detail = MediumDetail{};
+    return Status::ok();
+}
+
+std::string told_detail(std::size_t name, const DetailSettings& s) {
+    if (!s.present()) return {};
+    const std::string text = "detail of medium " + std::to_string(name) + ", ";
+    if (s.refine == 0) return text + "made while marching";
+    return text + "laid on cells " + std::to_string(s.refine) + " times as fine";
+}
+
+}  // namespace pileus
