@@ -5,6 +5,7 @@
 #include "src/base/digest.h"
 #include "src/flight/fields_scene.h"
 #include "src/flight/fields_world.h"
+#include "src/world/medium/detail.h"
 
 namespace pileus {
 namespace {
@@ -70,10 +71,7 @@ Status check_packable(const Scene& scene) {
                       "no meshes: the host's depth images stand for what is solid");
     if (!scene.camera.depth.empty())
         return refuse(scene, "camera.depth", "not packed", "the host's depth images");
-    for (const MediumSettings& medium : scene.media)
-        if (medium.detail.is_marched())
-            return refuse(scene, (medium_key(scene, medium) + ".detail.refine").c_str(),
-                          "detail is packed on a grid alone, 0", "1 to 16");
+    PILEUS_TRY(refuse_marched_detail(scene, "a packed scene"));
     if (scene.animation.present)
         return refuse(scene, "animation", "not packed", "left out: the host moves what moves");
     return Status::ok();

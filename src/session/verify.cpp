@@ -9,6 +9,7 @@
 #include "src/picture/air_view.h"
 #include "src/scene/read_scene.h"
 #include "src/world/camera/places.h"
+#include "src/world/medium/detail.h"
 
 namespace pileus {
 namespace {
@@ -83,6 +84,7 @@ Status Verifier::open(const Scene& scene, std::uint64_t pixels, const Context& c
         return Status::bad_input(scene.file +
                                  ": --verify: paths need the sky on a grid, allowed: "
                                  "medium.0.sky.evaluate = \"grid\"");
+    PILEUS_TRY(refuse_marched_detail(scene, "--verify"));
     pixels_ = pixels;
     scene_ = scene;
     PILEUS_TRY(place_camera(scene_));

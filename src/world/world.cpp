@@ -8,6 +8,7 @@
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/density_row.h"
 #include "src/scene/rows/volume_format.h"
+#include "src/world/medium/detail.h"
 #include "src/world/medium/mix_media.h"
 #include "src/world/medium/sky_medium.h"
 
@@ -68,18 +69,6 @@ Status load_particles_of(const Scene& scene, const Context& context, World& worl
     return Status::ok();
 }
 
-/// Devices march without detail.
-Status check_detail_device(const Scene& scene, const Context& context) {
-    if (context.kernels == nullptr || context.kernels->device == nullptr) return Status::ok();
-    for (const MediumSettings& settings : scene.media)
-        if (settings.detail.is_marched())
-            return Status::bad_input(scene.file + ": " + medium_key(scene, settings) +
-                                     ".detail.refine: marched on the host alone, 0, allowed: 1 to "
-                                     "16, or another --isa than \"" +
-                                     context.kernels->name + "\"");
-    return Status::ok();
-}
-
 }  // namespace
 
 bool shows_particles(const Scene& scene) {
@@ -91,7 +80,8 @@ bool shows_particles(const Scene& scene) {
 
 Status outline_world(const Scene& scene, WorldUse use, const Context& context, World& world) {
     PILEUS_TRY(check_scene_limits(scene, context.limits));
-    PILEUS_TRY(check_detail_device(scene, context));
+    if (context.kernels != nullptr && context.kernels->device != nullptr)
+        PILEUS_TRY(refuse_marched_detail(scene, std::string("--isa ") + context.kernels->name));
     PILEUS_TRY(outline_solids(scene, context, world.solids));
     world.media = scene.media.size();
     world.direct_sky = use == WorldUse::kSkyInPlace && is_direct_sky(scene);

@@ -103,6 +103,11 @@ TEST_CASE("what a flight does not have is refused when it is packed") {
     scene = plain;
     scene.animation.present = true;
     CHECK(pack_scene(scene, *world, bytes).message.find("scene: animation: not packed") == 0);
+    scene = plain;
+    scene.media[0].detail.tile_m = 200;
+    CHECK(pack_scene(scene, *world, bytes).message ==
+          "scene: medium.0.detail.refine: a packed scene knows detail on a grid alone, 0, allowed: "
+          "1 to 16");
     CHECK(bytes.empty());
 }
 

@@ -5,6 +5,7 @@
 #include "src/session/flux/flux_run.h"
 #include "src/session/run_context.h"
 #include "src/world/atmosphere/atmosphere.h"
+#include "src/world/medium/detail.h"
 
 namespace pileus {
 namespace {
@@ -66,6 +67,7 @@ Status check_flux(const Scene& scene, const Context& context, const PathRun& run
         return Status::bad_input(scene.file + ": " + what);
     };
     if (scene.media.empty()) return fault("medium: none, allowed: at least one, to measure");
+    PILEUS_TRY(refuse_marched_detail(scene, "flux"));
     if (context.kernels->device != nullptr)
         return fault("--isa: a device, allowed: an instruction set of the host");
     if (!scene.solids.empty())

@@ -167,6 +167,15 @@ Status add_detail(const Scene& scene, const MediumSettings& settings, int thread
     return Status::ok();
 }
 
+Status refuse_marched_detail(const Scene& scene, const std::string& who) {
+    for (const MediumSettings& settings : scene.media)
+        if (settings.detail.is_marched())
+            return Status::bad_input(scene.file + ": " + medium_key(scene, settings) +
+                                     ".detail.refine: " + who +
+                                     " knows detail on a grid alone, 0, allowed: 1 to 16");
+    return Status::ok();
+}
+
 std::string told_detail(std::size_t name, const DetailSettings& s) {
     if (!s.present()) return {};
     const std::string text = "detail of medium " + std::to_string(name) + ", ";

@@ -21,6 +21,9 @@ Status outline_detail(const Scene& scene, const MediumSettings& settings, const 
 Status add_detail(const Scene& scene, const MediumSettings& settings, int threads,
                   const KernelTable* kernels, Medium& medium);
 
+/// kBadInput where a scene has detail that is made while marching: `who` knows it on a grid alone.
+Status refuse_marched_detail(const Scene& scene, const std::string& who);
+
 /// What the plan says of it; empty: there is none.
 std::string told_detail(std::size_t name, const DetailSettings& settings);
 
