@@ -83,6 +83,21 @@ TEST_CASE("identity: a device, the same bits in every stage") {
     compare_with(device);
 }
 
+TEST_CASE("identity: a device has detail that lies on a grid, and refuses what is marched") {
+    const device_test::Emulator emulator;
+    std::vector<std::string> detail = {"medium.0.detail.tile_m=256"};
+    RenderOptions options;
+    options.kernels = &emulator.table;
+    CHECK(render(scene_from(kSmallCumulus, detail), options,
+                 [](int, Image&, Report&) { return Status::ok(); })
+              .message ==
+          "test.toml: medium.0.detail.refine: --isa emulated knows detail on a "
+          "grid alone, 0, allowed: 1 to 16");
+    detail.push_back("medium.0.detail.refine=2");
+    const Scene scene = scene_from(kSmallCumulus, detail);
+    CHECK(rendered_by(scene, &emulator.table) == rendered_by(scene, nullptr));
+}
+
 TEST_CASE("identity: what fails on a device ends the rendering with its words") {
     device_test::Emulator emulator;
     const Scene scene = scene_from(kSmallCumulus);

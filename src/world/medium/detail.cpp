@@ -65,8 +65,9 @@ DetailView view_of(const DetailSettings& s, const Buffer<float>& tile, const Med
 }
 
 /// Density with detail in the middle of each finer cell.
-void fill_slice(const Medium& m, const DetailView& v, int refine, const Grid& fine, int z,
-                Span<float> out) {
+void fill_slice(const float* from, const Grid& coarse, const DetailView& v, int refine, int z,
+                Medium& out) {
+    const Grid& fine = out.grid;
     const float per_cell = 1.0f / float(refine);
     const auto middle = [](int i) { return float(i) + 0.5f; };
     for (int y = 0; y < fine.size[1]; ++y)
@@ -75,28 +76,32 @@ void fill_slice(const Medium& m, const DetailView& v, int refine, const Grid& fi
             const Vec<float> p{cell.x * per_cell, cell.y * per_cell, cell.z * per_cell};
             const Vec<float> metres{cell.x * fine.cell_m[0], cell.y * fine.cell_m[1],
                                     cell.z * fine.cell_m[2]};
-            const Corners<float> c = m.grid.constant ? own_cell(p, m.grid.size)
-                                                     : corners(p, m.grid.size, m.grid.periodic);
-            const float density = interpolate(m.volume.density.data(), c);
-            out[voxel_index(fine, x, y, z)] = with_detail(v, metres, density);
+            const Corners<float> c = coarse.constant ? own_cell(p, coarse.size)
+                                                     : corners(p, coarse.size, coarse.periodic);
+            out.volume.density[voxel_index(fine, x, y, z)] =
+                with_detail(v, metres, interpolate(from, c));
         }
+}
+
+/// Gives a medium a grid of finer cells over the same box.
+void refine_grid(int refine, Medium& medium) {
+    for (std::size_t a = 0; a < 3; ++a) {
+        medium.grid.size[a] *= refine;
+        medium.volume.size[a] = medium.grid.size[a];
+        medium.grid.cell_m[a] = float(medium.extent_m[a] / medium.grid.size[a]);
+    }
 }
 
 /// Puts a finer density with detail in place of the medium's own.
 Status lay_detail(const DetailView& view, int refine, int threads, Medium& medium) {
-    Grid fine = medium.grid;
-    for (std::size_t a = 0; a < 3; ++a) {
-        fine.size[a] = medium.grid.size[a] * refine;
-        fine.cell_m[a] = float(medium.extent_m[a] / fine.size[a]);
-    }
-    Buffer<float> density;
-    PILEUS_TRY(allocate(arrays::density(fine), density));
-    parallel_for(threads, fine.size[2], [&](std::int64_t z, int) {
-        fill_slice(medium, view, refine, fine, int(z), density.span());
+    const Grid coarse = medium.grid;
+    Buffer<float> from;
+    from.swap(medium.volume.density);
+    refine_grid(refine, medium);
+    PILEUS_TRY(allocate(arrays::density(medium.grid), medium.volume.density));
+    parallel_for(threads, medium.grid.size[2], [&](std::int64_t z, int) {
+        fill_slice(from.data(), coarse, view, refine, int(z), medium);
     });
-    medium.volume.density.swap(density);
-    for (std::size_t a = 0; a < 3; ++a) medium.volume.size[a] = fine.size[a];
-    medium.grid = fine;
     medium.density_max = 0;
     for (const float value : medium.volume.density.span())
         if (value > medium.density_max) medium.density_max = value;
@@ -143,11 +148,7 @@ Status outline_detail(const Scene& scene, const MediumSettings& settings, const 
     if (s.refine == 0) return Status::ok();
     source.making.push_back(
         {"density before its detail", bytes_of(4, voxel_count(medium.grid)), 0});
-    for (std::size_t a = 0; a < 3; ++a) {
-        medium.grid.size[a] *= s.refine;
-        medium.volume.size[a] = medium.grid.size[a];
-        medium.grid.cell_m[a] = float(medium.extent_m[a] / medium.grid.size[a]);
-    }
+    refine_grid(s.refine, medium);
     return check_voxels(scene.file, medium.volume.size, limits);
 }
 
