@@ -24,6 +24,7 @@ void add_density_rows(const Grid& grid, const MediumSource& source, std::uint64_
                       std::uint64_t phases, std::uint64_t threads, const SkyMapBytes& sky,
                       MemoryTable& t) {
     add(t, arrays::density(grid));
+    add(t, arrays::detail_tile(source.tile_cells));
     t.add("phase functions", Stage::kDensity, Stage::kWrite, phases);
     t.add("sky map", Stage::kDensity, Stage::kWrite, sky.kept);
     t.add("sky map while it is read", Stage::kDensity, Stage::kDensity, sky.reading);

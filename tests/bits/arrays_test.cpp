@@ -45,7 +45,6 @@ density = "uniform:box"
 resolution = [6, 6, 6]
 bounds_m = [[-30, -30, 10], [30, 30, 60]]
 extinction_per_m = 0.02
-albedo = 1
 [collectors]
 photons = 4000
 generations = 4
@@ -91,6 +90,7 @@ Bytes held_by(const MethodRun& run, const Majorants& majorants) {
     const World& world = *run.world;
     return {{"density", world.medium.volume.density.bytes()},
             {"parts of the media", world.medium.parts.bytes()},
+            {"tile of detail", world.medium.detail.tile.bytes()},
             {"phase functions", phase_bytes(world.medium)},
             {"sky map", run.around.sky_map.bytes()},
             {"majorants", majorants.tracking.bytes()},
@@ -296,7 +296,7 @@ TEST_CASE("arrays: what raymarch holds while it marches is what the plan says") 
     check_raymarch({kSmallCumulus,
                     "optical-depth",
                     {layers, "optical_depth.resolution = [9, 0, 5]",
-                     "optical_depth.max_extinction_per_m = 0.01"}});
+                     "optical_depth.max_extinction_per_m = 0.01", "medium.0.detail.tile_m = 9"}});
 }
 
 TEST_CASE("arrays: what particles hold while they are shown is what the plan says") {

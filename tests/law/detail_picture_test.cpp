@@ -168,6 +168,10 @@ TEST_CASE("detail: what cannot be is refused in one line") {
         CHECK_MESSAGE(fault.find(row.line) != std::string::npos, fault, " | ", row.line);
         CHECK(fault.find('\n') == std::string::npos);
     }
+    // Of a struct, whose numbers no text has checked.
+    Scene scene = scene_from(kSmallCumulus, d);
+    scene.media[0].detail.octaves = 1 << 30;
+    CHECK(check_scene(scene).message.find("detail.octaves: out of range") != std::string::npos);
     CHECK(fault_of(with(d, {"method.name=path", "medium.0.detail.refine=1"})).empty());
     CHECK(fault_of(with(d, {"method.name=path", "medium.0.detail.strength=0"})).empty());
 }

@@ -18,6 +18,8 @@ public:
     void run() {
         const Node* tile = check_.key(path_ + "tile_m");
         if (tile == nullptr) return needs_tile();
+        // What is out of its range has its own fault.
+        if (!is_sound("cells") || !is_sound("octaves")) return;
         if ((detail_.cells & (detail_.cells - 1)) != 0)
             fault(*tile, "cells",
                   "not a power of two, " + std::to_string(detail_.cells) +
@@ -43,6 +45,10 @@ private:
     void fault(const Node& tile, const char* key, const std::string& text) {
         const Node* node = check_.key(path_ + key);
         check_.faults.add(node != nullptr ? node->at : tile.at, path_ + key, text);
+    }
+
+    bool is_sound(const char* key) const {
+        return check_.key(path_ + key) == nullptr || check_.valid_key(path_ + key) != nullptr;
     }
 
     void needs_tile() {

@@ -28,11 +28,6 @@ int octaves_of(const DetailSettings& s) {
     return s.octaves > 0 ? s.octaves : most_octaves(s.cells, kDetailLumps);
 }
 
-std::uint64_t tile_numbers(int cells) {
-    const std::uint64_t edge = std::uint64_t(cells) + 1;
-    return edge * edge * edge;
-}
-
 /// Whole periods fill a medium that repeats.
 double period_of(const Medium& medium, double tile_m, std::size_t axis) {
     if (!medium.grid.periodic || axis == 2) return tile_m;
@@ -121,7 +116,7 @@ Status make_detail_tile(const DetailSettings& settings, const SkyKernels& kernel
     params.seed = std::uint32_t(settings.seed);
     Buffer<std::uint8_t> bytes;
     PILEUS_TRY(make_noise(params, kernels, threads, bytes));
-    PILEUS_TRY(tile.resize(tile_numbers(settings.cells), "tile of detail"));
+    PILEUS_TRY(allocate(arrays::detail_tile(settings.cells), tile));
     std::int64_t sum = 0;
     for (const std::uint8_t byte : bytes.span()) sum += cut_byte(byte);
     // Less the mean, and no lower than -1.
@@ -142,10 +137,14 @@ Status outline_detail(const Scene& scene, const MediumSettings& settings, const 
     const DetailSettings& s = settings.detail;
     if (!s.present()) return Status::ok();
     PILEUS_TRY(check_tiles(scene, settings, medium));
-    source.making.push_back(
-        {"tile of detail",
-         4 * tile_numbers(s.cells) + 2 * noise_making_bytes(std::uint64_t(s.cells)), 0});
-    if (s.refine == 0) return Status::ok();
+    // The noise as floats and as bytes, and the tile.
+    const std::uint64_t noise = noise_making_bytes(std::uint64_t(s.cells));
+    if (s.refine == 0) {
+        source.tile_cells = s.cells;
+        source.making.push_back({"noise of detail", noise, 0});
+        return Status::ok();
+    }
+    source.making.push_back({"noise of detail", noise + arrays::detail_tile(s.cells).bytes(), 0});
     source.making.push_back(
         {"density before its detail", bytes_of(4, voxel_count(medium.grid)), 0});
     refine_grid(s.refine, medium);

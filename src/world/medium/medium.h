@@ -48,6 +48,11 @@ namespace arrays {
 inline Array<float> density(const Grid& grid) {
     return {"density", voxel_count(grid), Stage::kDensity, Stage::kWrite};
 }
+/// Noise of detail that is made while marching; of so many cells along each edge.
+inline Array<float> detail_tile(int cells) {
+    const std::uint64_t edge = std::uint64_t(cells) + 1;
+    return {"tile of detail", cells > 0 ? edge * edge * edge : 0, Stage::kDensity, Stage::kWrite};
+}
 /// Each medium but the first, apart.
 inline Array<float> media_parts(const Grid& grid, std::uint64_t media) {
     return {"parts of the media", bytes_of(media - 1, voxel_count(grid)), Stage::kDensity,
@@ -89,6 +94,7 @@ struct MediumSource {
     std::uint64_t turned_voxels = 0;  ///< of a file whose y axis points up: a grid more for a while
     std::uint64_t apart_voxels = 0;   ///< of media that are then laid on one grid
     std::uint64_t mixing_bytes = 0;   ///< scratch of that
+    int tile_cells = 0;               ///< of a tile of detail that is kept; 0: none
     std::vector<DensityWork> making;  ///< of densities that the program makes
     double mean_density = -1;         ///< over the box; below 0: known only from the values
 };

@@ -288,6 +288,8 @@ Status outline_media(const Scene& scene, const Limits& limits, std::uint64_t thr
         source.reading_bytes = larger(source.reading_bytes, own.reading_bytes);
         source.turned_voxels = larger(source.turned_voxels, own.turned_voxels);
         for (const DensityWork& work : own.making) keep_larger(work, source.making);
+        // Where it is marched there is one medium.
+        source.tile_cells = own.tile_cells;
         PILEUS_TRY(list.add_all(scene, i, std::move(medium), plan));
         means.resize(list.media.size(), own.mean_density);
     }
