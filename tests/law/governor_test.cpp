@@ -104,3 +104,27 @@ TEST_CASE("governor: the last level is kept however slow, and the same seconds c
     // A ladder that has become shorter.
     CHECK(govern({kMarch}, 0.5, a) == kMarch);
 }
+
+TEST_CASE("governor: work three times the budget for a thousand frames, and what is late of them") {
+    const auto ladder = work_ladder(kMarch);
+    const std::vector<double> cost{0.0140, 0.0080, 0.0040, 0.0034, 0.0030, 0.0028, 0.0027};
+    std::vector<double> heavy = cost;
+    for (double& c : heavy) c *= 3;
+    Governor g;
+    g.target_s = 0.015;
+    fly(ladder, cost, 200, g);
+    REQUIRE(g.level == 0);
+    const auto levels = fly(ladder, heavy, 1000, g);
+    // Seven frames until it is noticed; then one in fifty at most, that tries whether the load is
+    // gone.
+    int late = 0;
+    for (std::size_t i = 8; i < levels.size(); ++i) {
+        CHECK(levels[i] >= 1);
+        late += heavy[levels[i]] > g.target_s;
+    }
+    CHECK(late > 0);
+    CHECK(late <= 20);
+    // And all of the work when the load is gone, without a late frame.
+    for (const std::uint32_t level : fly(ladder, cost, 4000, g)) CHECK(cost[level] <= g.target_s);
+    CHECK(g.level == 0);
+}
