@@ -39,7 +39,7 @@ extern "C" {
 #endif
 
 /** Grows when functions or members are added; what is there keeps its meaning. */
-#define PILEUS_API_VERSION 2
+#define PILEUS_API_VERSION 3
 
 /** Clears a struct and sets its size: `pileus_camera camera; PILEUS_INIT(camera);` */
 #define PILEUS_INIT(s) pileus_init(&(s), (uint32_t)sizeof(s))
@@ -357,6 +357,7 @@ PILEUS_API pileus_code pileus_session_report(const pileus_session* session, char
                                              size_t* needed, pileus_error* error);
 
 #include "pileus_compare.h"
+#include "pileus_living.h"
 #include "pileus_work.h"
 
 /** Turns `position_m` about the vertical axis through `target_m`, counter-clockwise seen from

@@ -160,7 +160,7 @@ public:
         });
         if (!status) return status;
         Session session;
-        session.handle_ = {handle, {std::move(lent), world.handle_.get_deleter().host}};
+        session.handle_ = {handle, {lent, {lent, world.handle_.get_deleter().host}}};
         return session;
     }
 
@@ -315,6 +315,21 @@ public:
         c.depth_kind = static_cast<std::uint32_t>(frame.depth_kind);
         c.hash = frame.hash;
         return call(pileus_session_render, &c);
+    }
+
+    /// Draws the world and the light of `next` from the next picture on, and lets the last one fade
+    /// over `frames`; `next` has the state that this session had, to be used again or freed.
+    /// Errors: kBadInput, kLimit; both are as they were.
+    Status hand_over(Session& next, std::uint32_t frames) {
+        Status status = detail::status_of([&](pileus_error* error) {
+            return pileus_session_hand_over(get(), next.get(), frames, error);
+        });
+        if (!status) return status;
+        detail::FreeSession &own = handle_.get_deleter(), &other = next.handle_.get_deleter();
+        own.lenders.swap(other.lenders);
+        own.lent_by(own.host);
+        other.lent_by(other.host);
+        return status;
     }
 
     Result<Stats> stats() const {

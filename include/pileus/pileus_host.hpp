@@ -13,6 +13,7 @@
 #include <memory>
 #include <string>
 #include <utility>
+#include <vector>
 
 namespace pileus::embed {
 
@@ -167,7 +168,14 @@ struct FreeWorld {
     void operator()(pileus_world* world) const { pileus_world_free(world); }
 };
 struct FreeSession {
-    SharedLent host, world_host;
+    SharedLent host;
+    std::vector<SharedLent> lenders;  ///< of its arrays, which a hand-over exchanges with them
+
+    void lent_by(const SharedLent& lender) {
+        for (const SharedLent& own : lenders)
+            if (own == lender) return;
+        lenders.push_back(lender);
+    }
     void operator()(pileus_session* session) const { pileus_session_free(session); }
 };
 

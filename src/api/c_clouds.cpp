@@ -74,7 +74,7 @@ pileus_code pileus_clouds_create(pileus_session* sky, pileus_clouds** clouds, pi
             return Status::bad_input("sky: a session of a flight, allowed: another");
         auto made = std::make_unique<pileus_clouds>();
         made->sky = sky;
-        PILEUS_TRY(made->clouds.open(sky->session));
+        PILEUS_TRY(made->clouds.open(*sky->session));
         *clouds = made.release();
         return Status::ok();
     });
@@ -125,7 +125,7 @@ pileus_code pileus_clouds_render(pileus_clouds* clouds, const pileus_frame* fram
         pileus_frame given;
         if (!take(frame, given)) return no_struct("frame");
         FrameTarget target;
-        PILEUS_TRY(take_target(given, clouds->sky->session.camera(), target));
+        PILEUS_TRY(take_target(given, clouds->sky->session->camera(), target));
         std::uint64_t hash = 0;
         target.hash = given.hash != nullptr ? &hash : nullptr;
         PILEUS_TRY(clouds->clouds.render(target));

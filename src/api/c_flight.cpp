@@ -60,10 +60,10 @@ Status open_flight(const pileus_flight& f, const std::shared_ptr<HostParts>& par
     options.threads = int(parts->given.threads);
     if (f.isa != nullptr) options.isa = f.isa;
     PILEUS_TRY(
-        begin_flight(f.scene, f.scene_bytes, options, f.depth != 0, *made->flight, made->session));
+        begin_flight(f.scene, f.scene_bytes, options, f.depth != 0, *made->flight, *made->session));
     // Twice: some of what reprojection keeps is made by the second one.
     for (int i = 0; i < 2; ++i) PILEUS_TRY(render_frame(*f.frame, *made));
-    made->session.seal();
+    made->session->seal();
     parts->given.run = f.run;
     *session = made.release();
     return Status::ok();

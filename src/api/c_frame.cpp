@@ -44,7 +44,7 @@ Status take_depth(const pileus_frame& f, const Camera& camera, FrameTarget& targ
 void tell_accidents(pileus_session& session) {
     const pileus_host& host = session.host->given;
     if (host.log == nullptr) return;
-    const Report report = session.session.told();
+    const Report report = session.session->told();
     for (const auto& counter : report.counters)
         for (const Accident& accident : accidents()) {
             if (counter.second == 0 || counter.first != accident.counter) continue;
@@ -67,10 +67,10 @@ Status take_target(const pileus_frame& f, const Camera& camera, FrameTarget& tar
 
 Status render_frame(const pileus_frame& f, pileus_session& session) {
     FrameTarget target;
-    PILEUS_TRY(take_target(f, session.session.camera(), target));
+    PILEUS_TRY(take_target(f, session.session->camera(), target));
     std::uint64_t hash = 0;
     target.hash = f.hash != nullptr ? &hash : nullptr;
-    PILEUS_TRY(session.session.render(target));
+    PILEUS_TRY(session.session->render(target));
     if (f.hash != nullptr) *f.hash = hash;
     tell_accidents(session);
     return Status::ok();
@@ -87,7 +87,7 @@ pileus_code pileus_session_light(const pileus_session* session, pileus_light_inf
                                  pileus_error* error) {
     if (session == nullptr) return no_session(error);
     return call(*session, error, [&]() -> Status {
-        const LightUnits light = session->session.light();
+        const LightUnits light = session->session->light();
         pileus_light_info out{};
         out.whole = std::uint32_t(light.whole < UINT32_MAX ? light.whole : UINT32_MAX);
         out.unit_photons = light.unit_photons;
@@ -102,7 +102,7 @@ pileus_code pileus_session_step(pileus_session* session, uint32_t units, uint32_
     if (session == nullptr) return no_session(error);
     return call(*session, error, [&]() -> Status {
         std::uint64_t traced = 0;
-        const Status status = session->session.step(units, traced);
+        const Status status = session->session->step(units, traced);
         if (done != nullptr) *done = std::uint32_t(traced);
         return status;
     });
@@ -122,14 +122,14 @@ pileus_code pileus_session_stats(const pileus_session* session, pileus_stats* st
                                  pileus_error* error) {
     if (session == nullptr) return no_session(error);
     return call(*session, error, [&]() -> Status {
-        const SessionStats& counted = session->session.stats();
+        const SessionStats& counted = session->session->stats();
         pileus_stats out{};
         out.prepared = counted.prepared;
         out.pictures = counted.pictures;
         out.units = counted.units;
         out.render_s = counted.render_s;
         out.stages_s = counted.stages_s;
-        const MethodRun& run = session->session.run();
+        const MethodRun& run = session->session->run();
         out.shared_bytes = bytes_of_world(*run.world);
         const std::uint64_t peak = run.plan.memory.peak();
         out.own_bytes = peak > out.shared_bytes ? peak - out.shared_bytes : 0;
@@ -141,7 +141,7 @@ pileus_code pileus_session_report(const pileus_session* session, char* text, siz
                                   size_t* needed, pileus_error* error) {
     if (session == nullptr) return no_session(error);
     return call(*session, error, [&]() -> Status {
-        const std::string json = report_json(session->session.told());
+        const std::string json = report_json(session->session->told());
         if (needed != nullptr) *needed = json.size() + 1;
         if (text == nullptr && size == 0) return Status::ok();
         if (text == nullptr) return Status::bad_input("text: null, allowed: of size bytes");

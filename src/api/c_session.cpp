@@ -22,7 +22,7 @@ pileus_code change(pileus_session* session, const Given* given, const char* name
     return call(*session, error, [&]() -> Status {
         Given own;
         if (!take(given, own)) return no_struct(name);
-        return set(own, session->session);
+        return set(own, *session->session);
     });
 }
 
@@ -151,7 +151,7 @@ pileus_code pileus_session_create(const pileus_world* world, const pileus_scene*
         auto made = std::make_unique<pileus_session>();
         made->host = parts;
         PILEUS_TRY(
-            made->session.open(scene->scene, options, SessionKind::kLive, true, world->world));
+            made->session->open(scene->scene, options, SessionKind::kLive, true, world->world));
         *session = made.release();
         return Status::ok();
     });
@@ -171,13 +171,13 @@ pileus_code pileus_session_set_matrices(pileus_session* session, const double vi
     return call(*session, error, [&]() -> Status {
         if (view == nullptr || projection == nullptr)
             return Status::bad_input("view, projection: null, allowed: 16 numbers each");
-        Camera camera = session->session.camera();
+        Camera camera = session->session->camera();
         DepthScale scale;
         PILEUS_TRY(take_size(width, height, camera));
         PILEUS_TRY(camera_from_matrices(glm::make_mat4(view), glm::make_mat4(projection),
                                         clip == PILEUS_CLIP_ZERO, camera, scale));
-        PILEUS_TRY(session->session.set_camera(camera));
-        return session->session.set_depth_scale(scale);
+        PILEUS_TRY(session->session->set_camera(camera));
+        return session->session->set_depth_scale(scale);
     });
 }
 
@@ -187,8 +187,8 @@ pileus_code pileus_session_size(const pileus_session* session, uint32_t* width, 
     return call(*session, error, [&]() -> Status {
         if (width == nullptr || height == nullptr)
             return Status::bad_input("width, height: null, allowed: where to put them");
-        *width = std::uint32_t(session->session.camera().resolution[0]);
-        *height = std::uint32_t(session->session.camera().resolution[1]);
+        *width = std::uint32_t(session->session->camera().resolution[0]);
+        *height = std::uint32_t(session->session->camera().resolution[1]);
         return Status::ok();
     });
 }
@@ -238,7 +238,7 @@ pileus_code pileus_session_set_lights(pileus_session* session, const pileus_ligh
             PILEUS_TRY(take_light(given, light));
             at += lights->struct_size;
         }
-        return session->session.set_lights(own);
+        return session->session->set_lights(own);
     });
 }
 
@@ -258,7 +258,7 @@ pileus_code pileus_session_set_depth(pileus_session* session, const pileus_depth
 
 pileus_code pileus_session_set_frame(pileus_session* session, int32_t number, pileus_error* error) {
     if (session == nullptr) return no_session(error);
-    return call(*session, error, [&] { return session->session.set_frame(number); });
+    return call(*session, error, [&] { return session->session->set_frame(number); });
 }
 
 }  // extern "C"

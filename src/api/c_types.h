@@ -125,7 +125,8 @@ struct pileus_world {
 struct pileus_session {
     std::shared_ptr<const pileus::api::HostParts> host;
     std::unique_ptr<pileus::Packed> flight;  ///< what a flight's session points into
-    pileus::Session session;
+    /// Another one after a hand-over.
+    std::unique_ptr<pileus::Session> session = std::make_unique<pileus::Session>();
     std::vector<std::string> told;  ///< accidents that the log has been told of
 };
 

@@ -61,15 +61,16 @@ pileus_code pileus_session_set_work(pileus_session* session, const pileus_work* 
     return call(*session, error, [&]() -> Status {
         pileus_work own;
         if (!take(work, own)) return no_struct("work");
-        return set_work(own, session->session);
+        return set_work(own, *session->session);
     });
 }
 
 pileus_code pileus_session_work(const pileus_session* session, pileus_work* work,
                                 pileus_error* error) {
     if (session == nullptr) return no_session(error);
-    return call(*session, error,
-                [&]() -> Status { return give(give_work(session->session.work()), work, "work"); });
+    return call(*session, error, [&]() -> Status {
+        return give(give_work(session->session->work()), work, "work");
+    });
 }
 
 pileus_code pileus_session_govern(const pileus_session* session, pileus_governor* governor,
@@ -84,7 +85,7 @@ pileus_code pileus_session_govern(const pileus_session* session, pileus_governor
         if (!(frame_s >= 0 && frame_s < 1e9))
             return Status::bad_input("frame_s: out of range, allowed: 0 to 1e9");
         Governor state = take_governor(own);
-        const FrameWork next = govern(session->session.work_levels(), frame_s, state);
+        const FrameWork next = govern(session->session->work_levels(), frame_s, state);
         PILEUS_TRY(give(give_work(next), work, "work"));
         give_governor(state, *governor);
         return Status::ok();

@@ -71,7 +71,7 @@ Status advance(std::uint64_t, const Context&, MethodRun&, std::uint64_t& done) {
 LightUnits units(const MethodRun&) { return {}; }
 
 Status compose(const FrameStep& step, const Context& context, MethodRun& method_run,
-               const Planes*& planes) {
+               Planes*& planes) {
     RaymarchRun& run = own(method_run);
     planes = &run.planes;
     ++run.turn;

@@ -83,11 +83,12 @@ struct LiveMethod {
     /// Traces so many whole units, fewer where the context stops it.
     Status (*advance)(std::uint64_t units, const Context&, MethodRun&, std::uint64_t& done);
     LightUnits (*units)(const MethodRun&);
-    /// The picture as it is lit now; the run keeps the planes.
-    Status (*compose)(const FrameStep&, const Context&, MethodRun&, const Planes*&);
+    /// The picture as it is lit now; the run keeps the planes, which may be changed or taken.
+    Status (*compose)(const FrameStep&, const Context&, MethodRun&, Planes*&);
     /// Takes up the work of the next frames, all members filled in, before the run's scene has it;
     /// null where the scene is all that the method reads.
     Status (*take_work)(const FrameWork&, MethodRun&);
+    bool reads_planes = false;  ///< the next picture reads the last one's, which are left alone
 };
 
 /// A recipe. Functions are called from the top down, `light` to `report` once for each frame. The

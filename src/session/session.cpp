@@ -68,7 +68,7 @@ Status make_world(const Scene& scene, const RenderOptions& options,
 Status Session::open(const Scene& scene, const RenderOptions& options, SessionKind kind, bool exact,
                      std::shared_ptr<const World> world) {
     const FpModeGuard guard;
-    const PoolGuard lent(threads_);
+    const PoolGuard lent(*threads_);
     const bool live = kind == SessionKind::kLive;
     scene_ = scene;
     PILEUS_TRY(place_camera(scene_));
@@ -126,7 +126,7 @@ Status Session::take_frame(int frame) {
 
 Status Session::render_image(const FrameStep& step, Image& image) {
     const FpModeGuard guard;
-    const PoolGuard lent(threads_);
+    const PoolGuard lent(*threads_);
     PILEUS_TRY(take_frame(step.frame));
     PILEUS_TRY(method_->light(step, context_, *run_));
     report_.digests.clear();
@@ -144,6 +144,8 @@ void Session::finish_report() {
 Status Session::aim() {
     if (!stale_) return Status::ok();
     place();
+    // What late rows lead to may be laid out anew.
+    if (late_.ready) shown_ = nullptr;
     PILEUS_TRY(method_->live->aim(frame_, anew_, context_, *run_));
     PILEUS_TRY(check_sealed());
     stale_ = anew_ = false;
@@ -153,7 +155,7 @@ Status Session::aim() {
 
 Status Session::step(std::uint64_t units, std::uint64_t& done) {
     const FpModeGuard guard;
-    const PoolGuard lent(threads_);
+    const PoolGuard lent(*threads_);
     done = 0;
     PILEUS_TRY(aim());
     const Status status = method_->live->advance(units, context_, *run_, done);
@@ -166,23 +168,37 @@ LightUnits Session::light() const { return method_->live->units(*run_); }
 
 Status Session::render(const FrameTarget& target) {
     const FpModeGuard guard;
-    const PoolGuard lent(threads_);
+    const PoolGuard lent(*threads_);
     const double start = wall_seconds(), staged = stage_seconds(report_);
     if (target.has_depth && target.depth_kind == DepthKind::kBuffer && !depth_scale_.known)
         return Status::bad_input(
             "frame.depth: a depth buffer without a camera's near_m, allowed: a camera with it, or "
             "another kind");
     PILEUS_TRY(aim());
-    const Planes* planes = nullptr;
-    scene_.output.layer_depth = target.has_depth || scene_.method == "path";
+    if (fading_ != nullptr) {
+        bool goes_on = false;
+        PILEUS_TRY(fading_->begin(context_, scene_, *run_, shown_, goes_on));
+        if (!goes_on) fading_.reset();
+    }
+    shown_ = nullptr;
+    Planes* planes = nullptr;
+    // A picture into nothing makes ready what the first one after a hand-over needs.
+    const bool nothing = !target.has_colour && target.hash == nullptr;
+    scene_.output.layer_depth =
+        target.has_depth || scene_.method == "path" || fading_ != nullptr || nothing;
     report_.counters.clear();
     // A hash and depths are of whole planes.
     const bool late = target.has_colour && !target.has_depth && target.hash == nullptr &&
-                      is_late(target.colour, *context_.kernels);
+                      fading_ == nullptr && is_late(target.colour, *context_.kernels);
     late_.ready = false;
     late_.params.filled = 0;
     PILEUS_TRY(method_->live->compose(
         {frame_, stats_.pictures == 0, false, late ? &late_ : nullptr}, context_, *run_, planes));
+    const Planes* const fresh = planes;
+    if (fading_ != nullptr)
+        PILEUS_TRY(fading_->mix(context_, scene_, *run_, method_->live->reads_planes, planes));
+    shown_ = planes;
+    shown_camera_ = scene_.camera;
     const auto& size = scene_.camera.resolution;
     std::uint64_t broken = 0;
     if (target.has_colour) {
@@ -194,7 +210,7 @@ Status Session::render(const FrameTarget& target) {
     }
     if (target.has_depth) {
         const StageClock clock(context_, "depths");
-        write_depths(*planes, make_camera(scene_.camera, 0, run_->world->medium.low_m),
+        write_depths(*fresh, make_camera(scene_.camera, 0, run_->world->medium.low_m),
                      target.depth_kind, depth_scale_, target.depth);
     }
     has_hash_ = target.hash != nullptr;

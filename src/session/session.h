@@ -47,6 +47,23 @@ enum class SessionKind { kAnimation, kLive };
 
 struct Outlook;
 
+/// A picture of an earlier density that fades away while this session draws the next one.
+class Fading {
+public:
+    Fading() = default;
+    Fading(const Fading&) = delete;
+    Fading& operator=(const Fading&) = delete;
+    virtual ~Fading() = default;
+
+    /// Before a picture of `scene` is made, after the one in `shown`, which it may take. False in
+    /// `goes_on`: it has faded.
+    virtual Status begin(const Context& context, const Scene& scene, const MethodRun& run,
+                         Planes* shown, bool& goes_on) = 0;
+    /// `planes`, those of the new picture, become those that are shown; `leave`: by others.
+    virtual Status mix(const Context& context, const Scene& scene, const MethodRun& run, bool leave,
+                       Planes*& planes) = 0;
+};
+
 class Session {
 public:
     Session() = default;
@@ -105,6 +122,14 @@ public:
     /// Draws what is lit, into a host's memory.
     Status render(const FrameTarget& target);
 
+    /// Draws in place of `from` from now on: takes over its view, its work, its threads and what
+    /// its host is asked and told, and lets its last picture fade over `frames` of its own. Then
+    /// `from` may light another density. kBadInput: sessions that differ too much; kLimit: both are
+    /// as they were. docs/living.md
+    Status take_over(Session& from, std::uint32_t frames);
+    /// Keeps what a host lent as long as arrays may lie in it.
+    void keep(const std::shared_ptr<const void>& lent);
+
     /// The report of a live session up to now.
     Report told() const;
 
@@ -122,10 +147,14 @@ private:
     Status relight_air();
     void place();
     FrameWork scene_work() const;
+    Status check_take_over(const Session& from, std::uint32_t frames) const;
+    Status take_view(const Session& from);
+    Status fade_from(Session& from, std::uint32_t frames, std::unique_ptr<Fading>& fading);
 
-    ThreadPool threads_;  ///< where a host lends none
-    Scene scene_;         ///< as the method sees it: in the media's coordinates
-    Surround around_;     ///< as a host set it, or as the file has it
+    std::vector<std::shared_ptr<const void>> lent_;
+    std::unique_ptr<ThreadPool> threads_ = std::make_unique<ThreadPool>();  ///< where none is lent
+    Scene scene_;      ///< as the method sees it: in the media's coordinates
+    Surround around_;  ///< as a host set it, or as the file has it
     Placement placement_;
     DepthScale depth_scale_;
     FrameWork whole_work_, work_;  ///< the scene's, and that of the next frame
@@ -140,6 +169,9 @@ private:
     const Method* method_ = nullptr;
     std::unique_ptr<MethodRun> run_;
     LateRows late_;
+    Planes* shown_ = nullptr;  ///< the last picture, but for its late rows; null: none
+    Camera shown_camera_;      ///< as the scene had it
+    std::unique_ptr<Fading> fading_;
     SessionStats stats_;
 };
 

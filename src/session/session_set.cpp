@@ -104,7 +104,7 @@ Status Session::set_sun(const Sun& sun) {
 Status Session::relight_air() {
     if (!scene_.atmosphere.present) return Status::ok();
     const FpModeGuard guard;
-    const PoolGuard lent(threads_);
+    const PoolGuard lent(*threads_);
     Scene lit;
     lit.atmosphere = scene_.atmosphere;
     lit.sun = around_.sun;
@@ -131,6 +131,7 @@ Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) { changed.sky = next; }));
     if (run_->sealed && (map != nullptr || (!kept && run_->around.sky_map.present())))
         return refuse_sealed("sky.map");
+    if (late_.ready) shown_ = nullptr;
     if (map != nullptr) {
         SkyMap made;
         PILEUS_TRY(make_sky_map("sky.map", *map, next, around_.ground.present, made));
@@ -256,7 +257,7 @@ Status Session::check_sealed() const {
 
 Status Session::look(Outlook& outlook) {
     const FpModeGuard guard;
-    const PoolGuard lent(threads_);
+    const PoolGuard lent(*threads_);
     PILEUS_TRY(aim());
     outlook.context = &context_;
     outlook.scene = &scene_;
@@ -272,14 +273,17 @@ Status Session::look(Outlook& outlook) {
 
 Status Session::draw_alone(double slack_deg, const Planes*& planes) {
     const FpModeGuard guard;
-    const PoolGuard lent(threads_);
+    const PoolGuard lent(*threads_);
     PILEUS_TRY(aim());
     scene_.output.layer_depth = true;
     report_.counters.clear();
     run_->alone = true;
     run_->view_slack_deg = slack_deg;
     const FrameStep step{frame_, stats_.pictures == 0, false, nullptr};
-    PILEUS_TRY(method_->live->compose(step, context_, *run_, planes));
+    shown_ = nullptr;
+    Planes* own = nullptr;
+    PILEUS_TRY(method_->live->compose(step, context_, *run_, own));
+    planes = own;
     ++stats_.pictures;
     return Status::ok();
 }

@@ -196,7 +196,7 @@ Status advance(std::uint64_t, const Context&, MethodRun&, std::uint64_t& done) {
 LightUnits units(const MethodRun&) { return {}; }
 
 Status compose(const FrameStep& step, const Context& context, MethodRun& method_run,
-               const Planes*& planes) {
+               Planes*& planes) {
     planes = &own(method_run).planes;
     return light(step, context, method_run);
 }

@@ -101,8 +101,7 @@ LightUnits units(const MethodRun& method_run) {
     return out;
 }
 
-Status compose(const FrameStep&, const Context& context, MethodRun& method_run,
-               const Planes*& planes) {
+Status compose(const FrameStep&, const Context& context, MethodRun& method_run, Planes*& planes) {
     PathRun& run = own(method_run);
     if (!run.begun) PILEUS_TRY(path_begin(context, run));
     planes = &run.planes;
@@ -143,7 +142,7 @@ PathInput path_input(const Context& context, const PathRun& run) {
 }
 
 const Method& path_method() {
-    static constexpr LiveMethod live{aim, advance, units, compose, nullptr};
+    static constexpr LiveMethod live{aim, advance, units, compose, nullptr, true};
     static constexpr Method method{"path",  WorldUse::kGrid,  make,  check,     outline,
                                    prepare, path_report_plan, light, path_show, path_report,
                                    &live};

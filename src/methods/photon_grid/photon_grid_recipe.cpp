@@ -154,7 +154,7 @@ Status advance(std::uint64_t units, const Context& context, MethodRun& method_ru
 LightUnits units(const MethodRun& run) { return photon_units(own(run)); }
 
 Status compose(const FrameStep& step, const Context& context, MethodRun& method_run,
-               const Planes*& planes) {
+               Planes*& planes) {
     PhotonGridRun& run = own(method_run);
     run.frame = step.frame;
     ++run.turn;
