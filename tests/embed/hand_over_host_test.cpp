@@ -37,8 +37,10 @@ TEST_CASE("hand-over: what is refused leaves the session as it was") {
           "hand_over: next has method \"raymarch\", allowed: \"collectors\", as the session");
     CHECK(now.refused(small.session.get()) ==
           "hand_over: next has pictures of 8 x 8, allowed: 24 x 14, as the session");
-    Hosted sky("[sky]\nradiance = [0.1, 0.2, 0.4]\n",
-               {"method.name=\"collectors\"", "camera.resolution=[24,14]"});
+    Hosted sky(
+        "[camera]\nposition_m = [0, -9, 9]\ntarget_m = [0, 0, 9]\n[sky]\nradiance = [0.1, 0.2, "
+        "0.4]\n",
+        {"method.name=\"collectors\"", "camera.resolution=[24,14]"});
     CHECK(now.refused(sky.session.get()) ==
           "hand_over: a world without media, allowed: one with a density that gives way to "
           "another");
