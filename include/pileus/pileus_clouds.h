@@ -40,7 +40,8 @@ typedef struct pileus_cloud {
     double scale;       /**< 0.01 to 100, 0: 1; the optical thickness stays as it is */
 } pileus_cloud;
 
-/** All clouds, in place of those that there were; each element has the size that the first tells.
+/** All clouds, up to 1000, in place of those that there were; each element has the size that the
+ * first tells.
  * One that has the number and the place that it had keeps its pictures. What a new kind or turn
  * needs is lit with the next picture. */
 PILEUS_API pileus_code pileus_clouds_place(pileus_clouds* clouds, const pileus_cloud* places,

@@ -19,8 +19,8 @@ pileus_code no_clouds(pileus_error* error) {
 Status place_all(const pileus_cloud* places, std::uint32_t count, Clouds& clouds) {
     if (count > 0 && places == nullptr)
         return Status::bad_input("places: null, allowed: as many as count says");
-    if (count > 100000)
-        return Status::bad_input("count: " + std::to_string(count) + ", allowed: up to 100000");
+    if (count > 1000)
+        return Status::bad_input("count: " + std::to_string(count) + ", allowed: up to 1000");
     const auto* at = reinterpret_cast<const unsigned char*>(places);
     std::vector<CloudPlace> own(count);
     for (std::uint32_t i = 0; i < count; ++i) {

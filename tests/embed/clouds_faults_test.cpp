@@ -56,6 +56,8 @@ TEST_CASE("clouds: wrong use has a line and changes nothing") {
         refused(pileus_clouds_place(clouds, &place, 1, &sky.out.error), "places[0].");
     }
     refused(pileus_clouds_place(clouds, nullptr, 1, &sky.out.error), "places");
+    const std::vector<pileus_cloud> many(1001, at(0, 0, 0));
+    refused(pileus_clouds_place(clouds, many.data(), 1001, &sky.out.error), "count");
     for (const auto& spoil : {+[](pileus_cloud_detail& d) { d.error_px = 17; },
                               +[](pileus_cloud_detail& d) { d.near_scale = 3; },
                               +[](pileus_cloud_detail& d) { d.blend_frames = 1001; },
