@@ -70,3 +70,21 @@ target_compile_options(pileus_strict INTERFACE -fno-rtti -fvisibility=hidden
 add_library(pileus_nothrow INTERFACE)
 target_compile_options(pileus_nothrow INTERFACE -fno-exceptions)
 target_link_libraries(pileus_nothrow INTERFACE pileus_strict)
+
+# Counts what runs. Last of all options, so that nothing is left out of the count or moved about; without
+# exceptions, which no flight has, for else every call would be a branch.
+if(PILEUS_COVERAGE)
+    if(NOT CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+        message(FATAL_ERROR "PILEUS_COVERAGE: needs gcov, ${CMAKE_CXX_COMPILER_ID}, allowed: GNU")
+    endif()
+    add_link_options(--coverage)
+endif()
+function(pileus_count_coverage)
+    if(PILEUS_COVERAGE)
+        foreach(target IN LISTS ARGN)
+            target_compile_options(${target} PRIVATE --coverage -O0 -fno-exceptions -fno-threadsafe-statics)
+            target_compile_definitions(${target} PRIVATE PILEUS_COVERAGE=1
+                DOCTEST_CONFIG_NO_EXCEPTIONS_BUT_WITH_ALL_ASSERTS=1)
+        endforeach()
+    endif()
+endfunction()

@@ -57,8 +57,9 @@ set_source_files_properties(src/flight/bare/registry.cpp
 set(flight_options -fno-threadsafe-statics -fno-asynchronous-unwind-tables -fno-unwind-tables
     -fstack-usage)
 target_compile_options(pileus_flight_objects PRIVATE ${flight_options} -Os)
+pileus_count_coverage(pileus_flight_objects)
 set_target_properties(pileus_flight_objects PROPERTIES POSITION_INDEPENDENT_CODE OFF)
-pileus_compile_together(pileus_flight_objects 12)
+pileus_compile_together(pileus_flight_objects 12 flight)
 
 # Kernels once more, without those that no chosen method calls; kernels_cpu/isa/left_out.cpp stands in for
 # them. Solid meshes and marched detail are in no flight.
@@ -88,6 +89,7 @@ foreach(isa IN LISTS PILEUS_ISA_NAMES)
         set_target_properties(pileus_flight_${isa} PROPERTIES ${property} "${value}")
     endforeach()
     target_compile_options(pileus_flight_${isa} PRIVATE ${flight_options})
+    pileus_count_coverage(pileus_flight_${isa})
     target_link_libraries(pileus_flight_${isa} PRIVATE pileus_flags pileus_nothrow)
     set_target_properties(pileus_flight_${isa} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
     list(APPEND flight_isa_objects $<TARGET_OBJECTS:pileus_flight_${isa}>)

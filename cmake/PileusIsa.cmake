@@ -42,6 +42,7 @@ function(pileus_add_isa name width)
         target_compile_options(pileus_isa_${name} PRIVATE $<$<CONFIG:Release>:-O3> ${ARGN})
         target_link_libraries(pileus_isa_${name} PRIVATE pileus_flags pileus_nothrow
             pileus_fewer_checks)
+        pileus_count_coverage(pileus_isa_${name})
         list(APPEND PILEUS_ISA_OBJECTS $<TARGET_OBJECTS:pileus_isa_${name}>)
         list(APPEND PILEUS_ISA_DEFINITIONS PILEUS_HAVE_${upper}=1)
         list(APPEND PILEUS_ISA_NAMES ${name})

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Compiles several files as one, for most of the time goes into reading the same headers anew.
-# in: a target, the most files of a piece -> out: its files in pieces: those that include fmt or
-# nlohmann/json in pieces of their own; files that give the same name to something of theirs apart
+# in: a target, the most files of a piece, a word of its own where it shares files with another
+# -> out: its files in pieces: those that include fmt or nlohmann/json in pieces of their own; files that
+# give the same name to something of theirs apart
 # PILEUS_TOGETHER=OFF compiles each file by itself, which is what one wants who edits a few.
 # A file that names a type or constant of its own as a header does is compiled by itself.
 
@@ -56,7 +57,8 @@ function(pileus_compile_together target most)
         string(REGEX MATCHALL "\n#include (<(fmt|nlohmann)/|\"tests/[^\"]*)" kind "${text}")
         list(TRANSFORM kind REPLACE "<(fmt|nlohmann)/.*" "text")
         list(REMOVE_DUPLICATES kind)
-        string(MD5 kind "${kind}")
+        # Files that two targets share are in the later one's pieces, which are none of the other's.
+        string(MD5 kind "${kind}${ARGN}")
         string(SUBSTRING ${kind} 0 6 kind)
         if(NOT DEFINED pieces_${kind})
             set(pieces_${kind} 0)

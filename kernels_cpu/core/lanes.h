@@ -16,6 +16,11 @@
 #define PILEUS_FN __host__ __device__ __forceinline__ static
 #define PILEUS_NUMBERS static __device__ constexpr
 #define PILEUS_CONVERT(v, To) To(v)
+#elif defined(PILEUS_COVERAGE)
+// Counted once for each function, not once for each place that calls it.
+#define PILEUS_FN static inline
+#define PILEUS_NUMBERS constexpr
+#define PILEUS_CONVERT(v, To) __builtin_convertvector(v, To)
 #else
 #define PILEUS_FN [[gnu::always_inline]] static inline
 #define PILEUS_NUMBERS constexpr

@@ -10,7 +10,7 @@
 #include "kernels_cpu/media/phase_table.h"
 
 // A march's step is one function among several alike: the compiler would call some of them.
-#ifdef __CUDACC__
+#if defined(__CUDACC__) || defined(PILEUS_COVERAGE)
 #define PILEUS_INLINED
 #else
 #define PILEUS_INLINED __attribute__((always_inline))

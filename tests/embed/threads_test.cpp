@@ -106,6 +106,7 @@ TEST_CASE("threads: a loop within a piece has all its pieces run") {
     CHECK(inner == 100 * 5 * 7);
 }
 
+#ifdef __cpp_exceptions
 TEST_CASE("threads: what a piece throws reaches the caller, and the pool goes on") {
     ThreadPool pool;
     const PoolGuard lent(pool);
@@ -120,6 +121,7 @@ TEST_CASE("threads: what a piece throws reaches the caller, and the pool goes on
         CHECK(runs.each(1));
     }
 }
+#endif
 
 TEST_CASE("threads: several callers, each with threads of its own, at once") {
     std::atomic<int> whole{0};
