@@ -153,8 +153,12 @@ Status light_atmosphere(const Scene& scene, double height_m, int threads, Atmosp
     const double ground = scene.ground.present ? scene.ground.albedo : s.ground_albedo;
     const Air wanted = make_air(s.turbidity, ground);
     const Air& had = air.tables.air;
-    if (!air.present() || wanted.ground != had.ground || wanted.haze_all[0] != had.haze_all[0])
-        PILEUS_TRY(make_air_tables(wanted, threads, air.tables));
+    if (!air.present() || wanted.ground != had.ground || wanted.haze_all[0] != had.haze_all[0]) {
+        const Status made = make_air_tables(wanted, threads, air.tables);
+        // Half of them would be taken for all the next time.
+        if (!made) air.tables = AirTables{};
+        PILEUS_TRY(made);
+    }
     for (int c = 0; c < 3; ++c) air.above[c] = double(scene.sun.irradiance[std::size_t(c)]);
     air.sun_elevation_deg = scene.sun.elevation_deg;
     air.height_km = height_m > 0 ? 1e-3 * height_m : 0;
