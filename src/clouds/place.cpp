@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "src/scene/placed.h"
 #include "src/world/camera/view.h"
 
 namespace pileus {
@@ -102,13 +103,10 @@ PixelRect covered(const CloudView& view, const Double3* corners, std::size_t cou
 
 void into_cloud(const CloudPlace& place, Camera& camera) {
     const SineCosine yaw = sincos_deg(place.yaw_deg);
-    const auto back = [&](const Double3& v) {
-        return Double3{v.x * yaw.cosine + v.y * yaw.sine, v.y * yaw.cosine - v.x * yaw.sine, v.z};
-    };
-    const Double3 along = back(camera.target_m - camera.position_m);
-    camera.position_m = back(camera.position_m - place.offset_m) / place.scale;
+    const Double3 along = turned_back(camera.target_m - camera.position_m, yaw);
+    camera.position_m = turned_back(camera.position_m - place.offset_m, yaw) / place.scale;
     camera.target_m = camera.position_m + along;
-    camera.up = back(camera.up);
+    camera.up = turned_back(camera.up, yaw);
 }
 
 Camera part_camera(const Camera& whole, const CloudView& view, const PixelRect& rect,

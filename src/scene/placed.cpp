@@ -2,17 +2,11 @@
 // See placed.h.
 #include "src/scene/placed.h"
 
-#include "src/base/angles.h"
-
 namespace pileus {
-namespace {
 
-/// By -yaw about the z axis.
 Double3 turned_back(const Double3& v, const SineCosine& yaw) {
     return {v.x * yaw.cosine + v.y * yaw.sine, v.y * yaw.cosine - v.x * yaw.sine, v.z};
 }
-
-}  // namespace
 
 void place_around(const Surround& around, const Placement& placement, Scene& scene) {
     scene.camera = around.camera;

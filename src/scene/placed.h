@@ -5,6 +5,7 @@
 #pragma once
 #include <vector>
 
+#include "src/base/angles.h"
 #include "src/scene/frames.h"
 
 namespace pileus {
@@ -20,6 +21,9 @@ struct Surround {
     explicit Surround(const Scene& s)
         : camera(s.camera), sun(s.sun), ground(s.ground), lights(s.lights) {}
 };
+
+/// By -yaw about the z axis.
+Double3 turned_back(const Double3& v, const SineCosine& yaw);
 
 void place_around(const Surround& around, const Placement& placement, Scene& scene);
 

@@ -54,13 +54,7 @@ struct Changing {
         REQUIRE(pileus::pack_scene(scene, *world, bytes));
         frame.colour = pixels.data();
         frame.hash = &hash;
-        pileus_flight flight;
-        PILEUS_INIT(flight);
-        flight.scene = bytes.data();
-        flight.scene_bytes = bytes.size();
-        flight.block = block.data();
-        flight.block_bytes = block.size();
-        flight.frame = &frame;
+        const pileus_flight flight = flight_in(bytes, block, frame);
         ok(pileus_flight_open(&flight, &session, &error));
     }
     ~Changing() { pileus_flight_close(session); }

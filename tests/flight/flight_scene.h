@@ -2,6 +2,10 @@
 // A small cloud that every method shows, whose phase function is a table.
 // in: nothing -> out: the text of a scene.
 #pragma once
+#include <string>
+#include <vector>
+
+#include "include/pileus/pileus_flight.h"
 
 constexpr const char* kFlightScene = R"(
 [camera]
@@ -29,3 +33,16 @@ generations = 4
 [path]
 samples_per_pixel = 1
 )";
+
+/// How a packed scene is opened in a block. All must outlive the session.
+inline pileus_flight flight_in(const std::string& bytes, std::vector<unsigned char>& block,
+                               pileus_frame& frame) {
+    pileus_flight flight;
+    PILEUS_INIT(flight);
+    flight.scene = bytes.data();
+    flight.scene_bytes = bytes.size();
+    flight.block = block.data();
+    flight.block_bytes = block.size();
+    flight.frame = &frame;
+    return flight;
+}

@@ -14,6 +14,7 @@
 #include "src/flight/pack.h"
 #include "src/scene/read_scene.h"
 #include "src/session/session.h"
+#include "tests/flight/flight_scene.h"
 #include "tests/support/long_tests.h"
 
 namespace {
@@ -52,13 +53,7 @@ void fly(const pileus::Scene& scene, const std::string& bytes, std::size_t block
     PILEUS_INIT(frame);
     frame.colour = pixels.data();
     frame.hash = &hash;
-    pileus_flight flight;
-    PILEUS_INIT(flight);
-    flight.scene = bytes.data();
-    flight.scene_bytes = bytes.size();
-    flight.block = block.data();
-    flight.block_bytes = block.size();
-    flight.frame = &frame;
+    const pileus_flight flight = flight_in(bytes, block, frame);
     pileus_session* session = nullptr;
     const auto ok = [&](pileus_code code) { REQUIRE_MESSAGE(code == PILEUS_OK, error.message); };
     ok(pileus_flight_open(&flight, &session, &error));
