@@ -159,7 +159,7 @@ Status Clouds::light_up(const Outlook& look) {
     now.ground = scene.ground;
     if (!lit_ || moved(given_.sun, now.sun, detail_.on ? detail_.sun_deg : 0) ||
         !same_light(given_, now)) {
-        given_ = now;
+        const CloudLight given = now;
         if (air) {
             double height = 0;
             for (const auto& cloud : clouds_)
@@ -175,10 +175,16 @@ Status Clouds::light_up(const Outlook& look) {
         }
         now.version = light_.version + 1;
         light_ = now;
+        given_ = given;
         lit_ = true;
     }
-    for (auto& cloud : clouds_)
-        if (cloud->group == SIZE_MAX) PILEUS_TRY(group_of(cloud->place, cloud->group));
+    for (auto& cloud : clouds_) {
+        if (cloud->group != SIZE_MAX) continue;
+        // One that could not be made is tried again.
+        std::size_t group = 0;
+        PILEUS_TRY(group_of(cloud->place, group));
+        cloud->group = group;
+    }
     for (auto& group : groups_) {
         if (group->lit() == light_.version) continue;
         PILEUS_TRY(group->light(light_));

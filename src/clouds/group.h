@@ -53,7 +53,7 @@ public:
     Status draw(const Camera& camera, const Work& work, const Planes*& planes);
 
     /// [y][x], share of sunlight that comes through, seen from the sun; rows from the top, which is
-    /// `shadow_up`'s side. The square's half side is `shadow_radius()` of the kind's metres.
+    /// SunPlane::up's side. The square's half side is `shadow_radius()` of the kind's metres.
     const Buffer<float>& shadow() const { return shadow_; }
     double shadow_radius() const { return radius_; }
     /// Mean radiance of what the cloud shows, for an alpha of 1, that did not come straight from

@@ -79,6 +79,8 @@ bool MarchedCloud::sample(int x, int y, const Double3& eye, const Double3& ray,
 
 Status capture(const CloudView& view, const CloudPlace& place, const CloudBox& box,
                const CloudShade& shade, double sharpness, CloudGroup& group, Impostor& out) {
+    // Until its texels are those of its size.
+    out.made = false;
     Camera camera;
     camera.position_m = view.eye;
     camera.target_m = box.middle;

@@ -66,7 +66,7 @@ Status capture(const CloudView& view, const CloudPlace& place, const CloudBox& b
                const CloudShade& shade, double sharpness, CloudGroup& group, Impostor& out);
 
 /// How wrong it has become, in pixels: what its nearest and farthest parts have moved against one
-/// another, and half of what its scale is beyond `kScaleRange`.
+/// another, or twice the share by which its scale is off.
 double impostor_error(const Impostor& impostor, const CloudView& view, const CloudBox& box);
 
 /// Rows of pixels of a view as places on an impostor.

@@ -2,7 +2,9 @@
 // Skies of many clouds: corners, and what is refused.
 // in: small skies -> out: checks.
 // docs/clouds.md
+#include <atomic>
 #include <cmath>
+#include <cstdlib>
 
 #include "tests/embed/clouds_harness.h"
 
@@ -90,4 +92,38 @@ TEST_CASE("clouds: wrong use has a line and changes nothing") {
     refused(pileus_clouds_render(clouds, nullptr, &sky.out.error), "frame");
     pileus_clouds_free(nullptr);
     CHECK(sky.draw().hash == before.hash);
+}
+
+TEST_CASE("clouds: where memory ends within a picture, the next one is whole") {
+    struct Memory {
+        std::atomic<long> left{1L << 40};
+    } memory;
+    auto host = cleared<pileus_host>();
+    host.threads = 1;
+    host.user = &memory;
+    host.allocate = [](void* user, size_t bytes, size_t alignment) -> void* {
+        if (static_cast<Memory*>(user)->left.fetch_sub(1) <= 0) return nullptr;
+        return std::aligned_alloc(alignment, (bytes + alignment - 1) / alignment * alignment);
+    };
+    host.release = [](void*, void* given) { std::free(given); };
+    const std::vector<pileus_cloud> places{at(0, 0, 0), at(9000, 20000, 0, 90)};
+    std::uint64_t whole = 0;
+    int refused = 0;
+    for (long most = 1L << 30; most >= 0; most = most > 1000 ? 60 : most - 4) {
+        CloudySky sky(places, {}, true, &host);
+        sky.detail(false, 16);
+        memory.left = most;
+        auto frame = cleared<pileus_frame>();
+        std::uint64_t hash = 0;
+        frame.hash = &hash;
+        const pileus_code code = pileus_clouds_render(sky.clouds.get(), &frame, &sky.out.error);
+        memory.left = 1L << 40;
+        REQUIRE((code == PILEUS_OK || code == PILEUS_LIMIT));
+        refused += code == PILEUS_LIMIT;
+        hash = sky.draw().hash;
+        if (whole == 0) whole = hash;
+        CAPTURE(most);
+        CHECK(hash == whole);
+    }
+    CHECK(refused > 5);
 }
