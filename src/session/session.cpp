@@ -174,6 +174,9 @@ Status Session::render(const FrameTarget& target) {
         return Status::bad_input(
             "frame.depth: a depth buffer without a camera's near_m, allowed: a camera with it, or "
             "another kind");
+    if (target.has_depth && scene_.camera.flux)
+        return Status::bad_input(
+            "frame.depth: a flat detector sees along no single ray, allowed: another projection");
     PILEUS_TRY(aim());
     if (fading_ != nullptr) {
         bool goes_on = false;
@@ -184,8 +187,9 @@ Status Session::render(const FrameTarget& target) {
     Planes* planes = nullptr;
     // A picture into nothing makes ready what the first one after a hand-over needs.
     const bool nothing = !target.has_colour && target.hash == nullptr;
+    const bool rays = !scene_.camera.flux;  // a flat detector has no depths
     scene_.output.layer_depth =
-        target.has_depth || scene_.method == "path" || fading_ != nullptr || nothing;
+        (rays && (target.has_depth || scene_.method == "path" || nothing)) || fading_ != nullptr;
     report_.counters.clear();
     // A hash and depths are of whole planes.
     const bool late = target.has_colour && !target.has_depth && target.hash == nullptr &&

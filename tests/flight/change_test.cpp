@@ -41,11 +41,12 @@ struct Changing {
     pileus_session* session = nullptr;
     pileus_error error;
 
-    explicit Changing(const std::vector<std::string>& overrides) : block(std::size_t{64} << 20) {
+    explicit Changing(const std::vector<std::string>& overrides, const char* lamps = kLamps)
+        : block(std::size_t{64} << 20) {
         PILEUS_INIT(error);
         PILEUS_INIT(frame);
         pileus::Scene scene;
-        const std::string text = std::string(kFlightScene) + kLamps;
+        const std::string text = std::string(kFlightScene) + lamps;
         const pileus::Status read =
             pileus::read_scene_text(text.c_str(), "scene", "", overrides, scene);
         REQUIRE_MESSAGE(bool(read), read.message);
@@ -186,4 +187,23 @@ TEST_CASE("a flight's work can be set, within what its scene has") {
         CHECK(stats.prepared == 1);
         flight.check_block();
     }
+}
+
+TEST_CASE("a flat detector moves, and has no depths") {
+    Changing flight({"method.name=path", "camera.projection=flux", "camera.height_m=600",
+                     "medium.0.boundary=periodic"},
+                    "");
+    const std::uint64_t before = flight.draw();
+    pileus_camera camera;
+    PILEUS_INIT(camera);
+    camera.position_m[2] = 1600;
+    camera.up[1] = 1;
+    camera.height_m = 600;
+    flight.ok(pileus_session_set_camera(flight.session, &camera, &flight.error));
+    CHECK(flight.draw() != before);
+    flight.check_block();
+    std::vector<float> depths(24 * 16);
+    flight.frame.depth = depths.data();
+    CHECK(pileus_session_render(flight.session, &flight.frame, &flight.error) == PILEUS_BAD_INPUT);
+    CHECK(std::string(flight.error.message).find("frame.depth") != std::string::npos);
 }
