@@ -48,7 +48,7 @@ struct Seen {
 };
 
 /// Collectors that are lit together: slot by slot, so that each slot's sums are read in one go.
-constexpr std::size_t kTogether = 64;
+constexpr std::size_t kTogether = 16;
 
 struct Row {
     double rgb[3];
