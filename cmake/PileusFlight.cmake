@@ -56,9 +56,14 @@ set_source_files_properties(src/flight/bare/registry.cpp
     PROPERTIES COMPILE_DEFINITIONS "${flight_names}" SKIP_UNITY_BUILD_INCLUSION ON)
 set(flight_options -fno-threadsafe-statics -fno-asynchronous-unwind-tables -fno-unwind-tables
     -fstack-usage)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    list(APPEND flight_options -fcallgraph-info=su)
+endif()
 target_compile_options(pileus_flight_objects PRIVATE ${flight_options} -Os)
 pileus_count_coverage(pileus_flight_objects)
-set_target_properties(pileus_flight_objects PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+# A compiler cache would not bring back what the compiler writes of stacks and calls.
+set_target_properties(pileus_flight_objects PROPERTIES POSITION_INDEPENDENT_CODE OFF
+    CXX_COMPILER_LAUNCHER "")
 pileus_compile_together(pileus_flight_objects 12 flight)
 
 # Kernels once more, without those that no chosen method calls; kernels_cpu/isa/left_out.cpp stands in for
@@ -91,14 +96,15 @@ foreach(isa IN LISTS PILEUS_ISA_NAMES)
     target_compile_options(pileus_flight_${isa} PRIVATE ${flight_options})
     pileus_count_coverage(pileus_flight_${isa})
     target_link_libraries(pileus_flight_${isa} PRIVATE pileus_flags pileus_nothrow)
-    set_target_properties(pileus_flight_${isa} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    set_target_properties(pileus_flight_${isa} PROPERTIES POSITION_INDEPENDENT_CODE OFF
+        CXX_COMPILER_LAUNCHER "")
     list(APPEND flight_isa_objects $<TARGET_OBJECTS:pileus_flight_${isa}>)
 endforeach()
 
 # One object: of all that was compiled what the functions of the headers reach.
 set(flight_functions init version api_version orbit packed_read flight_open flight_close flight_usage)
 foreach(name size set_camera set_matrices set_sun set_sky set_ground set_lights set_placement set_depth
-        set_frame set_work work govern light step render stats)
+        set_frame set_work work govern most_units fit light step render stats)
     list(APPEND flight_functions session_${name})
 endforeach()
 set(flight_roots)
