@@ -47,4 +47,37 @@ PILEUS_API pileus_code pileus_session_govern(const pileus_session* session,
                                              pileus_governor* governor, double frame_s,
                                              pileus_work* work, pileus_error* error);
 
+/** What a frame takes at the most: one unit of light (pileus_session_step) and one picture. It
+ * depends on the work, the sizes and the kinds of light, not on where the camera is or what it
+ * sees. */
+typedef struct pileus_units {
+    uint32_t struct_size;
+    uint32_t reserved;
+    uint64_t pixels;  /**< of the picture */
+    uint64_t rays;    /**< pixels that are marched; path: samples of pixels */
+    uint64_t samples; /**< places at which these rays look up the medium; path: 0 */
+    uint64_t photons; /**< of the unit of light: collectors, photon-grid */
+} pileus_units;
+
+/** Of a frame of this work; null: as it is set now. Ask once camera, lights and depths are set: a
+ * picture that cannot use the one before (`temporal`) has all its pixels marched. PILEUS_BAD_INPUT:
+ * as pileus_session_set_work; or what a frame takes depends on the view: particles, billboards, a
+ * periodic medium that is marched by its cells. */
+PILEUS_API pileus_code pileus_session_most_units(pileus_session* session, const pileus_work* work,
+                                                 pileus_units* most, pileus_error* error);
+
+/** What one unit of each costs where it costs the most, in seconds, instructions or whatever adds
+ * up; `fixed`: of a frame whatever its work. 0 and more. docs/flight.md, "Work". */
+typedef struct pileus_costs {
+    uint32_t struct_size;
+    uint32_t reserved;
+    double fixed, pixel, ray, sample, photon;
+} pileus_costs;
+
+/** The governor's first work, from all to less and less, whose most units cost no more than `most`:
+ * no clock, and no frame above it. PILEUS_LIMIT: even the least costs more; `work` is that. Errors:
+ * those of pileus_session_most_units. */
+PILEUS_API pileus_code pileus_session_fit(pileus_session* session, const pileus_costs* costs,
+                                          double most, pileus_work* work, pileus_error* error);
+
 #endif /* PILEUS_WORK_H */

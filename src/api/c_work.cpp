@@ -17,15 +17,24 @@ pileus_work give_work(const FrameWork& work) {
     return out;
 }
 
-Status set_work(const pileus_work& given, Session& session) {
+Status take_work(const pileus_work& given, FrameWork& work) {
     for (const std::uint32_t n : {given.scale, given.temporal, given.steps, given.light_refresh})
         if (n > 1u << 30)
             return Status::bad_input("work: " + std::to_string(n) + ", allowed: up to 2^30");
     if (given.photons > std::uint64_t{1} << 62)
         return Status::bad_input("work.photons: " + std::to_string(given.photons) +
                                  ", allowed: up to 2^62");
-    return session.set_work({int(given.scale), int(given.temporal), int(given.steps),
-                             int(given.light_refresh), std::int64_t(given.photons)});
+    work = {int(given.scale), int(given.temporal), int(given.steps), int(given.light_refresh),
+            std::int64_t(given.photons)};
+    return Status::ok();
+}
+
+Status take_costs(const pileus_costs& given, UnitCosts& costs) {
+    for (const double c : {given.fixed, given.pixel, given.ray, given.sample, given.photon})
+        if (!(c >= 0 && c < 1e30))
+            return Status::bad_input("costs: out of range, allowed: 0 to 1e30 each");
+    costs = {given.fixed, given.pixel, given.ray, given.sample, given.photon};
+    return Status::ok();
 }
 
 Governor take_governor(const pileus_governor& given) {
@@ -61,7 +70,9 @@ pileus_code pileus_session_set_work(pileus_session* session, const pileus_work* 
     return call(*session, error, [&]() -> Status {
         pileus_work own;
         if (!take(work, own)) return no_struct("work");
-        return set_work(own, *session->session);
+        FrameWork next;
+        PILEUS_TRY(take_work(own, next));
+        return session->session->set_work(next);
     });
 }
 
@@ -89,6 +100,45 @@ pileus_code pileus_session_govern(const pileus_session* session, pileus_governor
         PILEUS_TRY(give(give_work(next), work, "work"));
         give_governor(state, *governor);
         return Status::ok();
+    });
+}
+
+pileus_code pileus_session_most_units(pileus_session* session, const pileus_work* work,
+                                      pileus_units* most, pileus_error* error) {
+    if (session == nullptr) return no_session(error);
+    return call(*session, error, [&]() -> Status {
+        FrameWork given = session->session->work();
+        if (work != nullptr) {
+            pileus_work own;
+            if (!take(work, own)) return no_struct("work");
+            PILEUS_TRY(take_work(own, given));
+        }
+        FrameUnits units;
+        PILEUS_TRY(session->session->most_units(given, units));
+        pileus_units out{};
+        out.pixels = units.pixels;
+        out.rays = units.rays;
+        out.samples = units.samples;
+        out.photons = units.photons;
+        return give(out, most, "most");
+    });
+}
+
+pileus_code pileus_session_fit(pileus_session* session, const pileus_costs* costs, double most,
+                               pileus_work* work, pileus_error* error) {
+    if (session == nullptr) return no_session(error);
+    return call(*session, error, [&]() -> Status {
+        pileus_costs own;
+        if (!take(costs, own)) return no_struct("costs");
+        UnitCosts given;
+        PILEUS_TRY(take_costs(own, given));
+        if (!(most >= 0 && most < 1e30))
+            return Status::bad_input("most: out of range, allowed: 0 to 1e30");
+        FrameWork next;
+        const Status fits = session->session->fit_work(given, most, next);
+        if (!fits && fits.code != Code::kLimit) return fits;
+        PILEUS_TRY(give(give_work(next), work, "work"));
+        return fits;
     });
 }
 

@@ -21,6 +21,7 @@ struct FlightNeed {
     std::uint64_t frame = 0;  ///< most that a call took, over frames near and far
     std::uint64_t small = 0;  ///< for what an ordinary library keeps elsewhere, by measurement
     std::uint64_t block = 0;  ///< what to give
+    FrameUnits most;          ///< that a frame takes; all 0: the view decides
 };
 
 /// Opens the scene in a block of its own and draws some frames. Errors: those of sessions.

@@ -70,6 +70,8 @@ Status fly(const std::string& packed, const RenderOptions& options, Block& block
     PILEUS_TRY(draw(session, pixels));
     block.seal();
     session.seal();
+    // Where views decide, there is nothing to tell.
+    if (!session.most_units({}, need.most)) need.most = {};
     for (int number = 1; number < 8; ++number) {
         PILEUS_TRY(set_frame(scene, number, session));
         std::uint64_t done = 0;

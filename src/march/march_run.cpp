@@ -172,6 +172,6 @@ Status march_prepare(const Context& context, MethodRun& method_run) {
     return Status::ok();
 }
 
-const LiveMethod live_march{aim, advance, units, compose, take_work};
+const LiveMethod live_march{aim, advance, units, compose, take_work, march_most_units};
 
 }  // namespace pileus

@@ -77,6 +77,9 @@ bool has_sun_grid(const RaymarchRun& run);
 /// Makes that medium once. kLimit: out of memory.
 Status make_lit_medium(const Context& context, RaymarchRun& run);
 
+/// LiveMethod::most_units.
+Status march_most_units(const FrameWork& work, const MethodRun& run, FrameUnits& out);
+
 /// What is shown and lit: the world's medium, or the capped one.
 const Medium& marched_medium(const RaymarchRun& run);
 /// Cells of the sun's optical depth.

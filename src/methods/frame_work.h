@@ -21,4 +21,23 @@ struct FrameWork {
     }
 };
 
+/// What one frame takes at the most: one unit of light and one picture.
+struct FrameUnits {
+    std::uint64_t pixels = 0;   ///< of the picture
+    std::uint64_t rays = 0;     ///< pixels that are marched; of method path samples of pixels
+    std::uint64_t samples = 0;  ///< places at which these rays look up the medium
+    std::uint64_t photons = 0;
+};
+
+/// Of one unit each, and of what a frame takes whatever its work is: seconds, instructions, or
+/// what else adds up.
+struct UnitCosts {
+    double fixed = 0, pixel = 0, ray = 0, sample = 0, photon = 0;
+};
+
+inline double cost_of(const FrameUnits& units, const UnitCosts& costs) {
+    return costs.fixed + double(units.pixels) * costs.pixel + double(units.rays) * costs.ray +
+           double(units.samples) * costs.sample + double(units.photons) * costs.photon;
+}
+
 }  // namespace pileus

@@ -88,6 +88,9 @@ struct LiveMethod {
     /// Takes up the work of the next frames, all members filled in, before the run's scene has it;
     /// null where the scene is all that the method reads.
     Status (*take_work)(const FrameWork&, MethodRun&);
+    /// What a frame of this work, all members filled in, takes at the most. kBadInput: it depends
+    /// on more than the work.
+    Status (*most_units)(const FrameWork&, const MethodRun&, FrameUnits&);
     bool reads_planes = false;  ///< the next picture reads the last one's, which are left alone
 };
 

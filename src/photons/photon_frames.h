@@ -34,4 +34,7 @@ Status advance_photons(std::uint64_t units, const Context& context, PhotonRun& r
                        const ShootPhotons& shoot, std::uint64_t& done);
 LightUnits photon_units(const PhotonRun& run);
 
+/// LiveMethod::most_units where the picture is marched.
+Status photon_most_units(const FrameWork& work, const PhotonRun& run, FrameUnits& out);
+
 }  // namespace pileus

@@ -112,6 +112,14 @@ public:
     /// From all of the scene's work to less and less, for `govern`.
     std::vector<FrameWork> work_levels() const;
 
+    /// What a frame, one unit of light and one picture, of such work takes at the most, as all is
+    /// set now; members that are 0 are the scene's. kBadInput: as set_work, or the method's cost
+    /// depends on the view.
+    Status most_units(const FrameWork& work, FrameUnits& units);
+    /// The first of work_levels that costs no more than `most`. kLimit: none does; `work` is the
+    /// last.
+    Status fit_work(const UnitCosts& costs, double most, FrameWork& work);
+
     /// Camera as it was set, in the host's coordinates.
     const Camera& camera() const { return around_.camera; }
 

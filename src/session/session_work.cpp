@@ -69,6 +69,16 @@ T chosen(T given, T whole) {
     return given != 0 ? given : whole;
 }
 
+FrameWork filled(const FrameWork& given, const FrameWork& whole) {
+    FrameWork work;
+    work.scale = chosen(given.scale, whole.scale);
+    work.temporal = chosen(given.temporal, whole.temporal);
+    work.steps = chosen(given.steps, whole.steps);
+    work.light_refresh = chosen(given.light_refresh, whole.light_refresh);
+    work.photons = chosen(given.photons, whole.photons);
+    return work;
+}
+
 }  // namespace
 
 FrameWork Session::scene_work() const {
@@ -90,12 +100,7 @@ FrameWork Session::scene_work() const {
 Status Session::set_work(const FrameWork& given) {
     const FpModeGuard guard;
     PILEUS_TRY(check_work(given, whole_work_, scene_.method));
-    FrameWork work;
-    work.scale = chosen(given.scale, whole_work_.scale);
-    work.temporal = chosen(given.temporal, whole_work_.temporal);
-    work.steps = chosen(given.steps, whole_work_.steps);
-    work.light_refresh = chosen(given.light_refresh, whole_work_.light_refresh);
-    work.photons = chosen(given.photons, whole_work_.photons);
+    const FrameWork work = filled(given, whole_work_);
     if (work == work_) return Status::ok();
     const WorkSettings here = work_settings(scene_);
     UpsampleSettings thin;
@@ -141,6 +146,30 @@ std::vector<FrameWork> Session::work_levels() const {
     for (FrameWork& work : out)
         if (whole.photons == 0) work.photons = whole_work_.photons;
     return out;
+}
+
+Status Session::most_units(const FrameWork& given, FrameUnits& units) {
+    const FpModeGuard guard;
+    PILEUS_TRY(check_work(given, whole_work_, scene_.method));
+    const PoolGuard lent(*threads_);
+    PILEUS_TRY(aim());
+    units = {};
+    return method_->live->most_units(filled(given, whole_work_), *run_, units);
+}
+
+Status Session::fit_work(const UnitCosts& costs, double most, FrameWork& work) {
+    double least = 0;
+    for (const FrameWork& level : work_levels()) {
+        FrameUnits units;
+        PILEUS_TRY(most_units(level, units));
+        work = level;
+        least = cost_of(units, costs);
+        if (least <= most) return Status::ok();
+    }
+    const double percent = most > 0 ? 100 * least / most : 1e9;
+    return {Code::kLimit, "work: the least takes up to " +
+                              std::to_string(std::uint64_t(percent < 1e9 ? percent : 1e9)) +
+                              " % of what a frame may, allowed: 100"};
 }
 
 ReportFrameWork told_work(const FrameWork& work) {

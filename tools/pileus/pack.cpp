@@ -34,6 +34,13 @@ Status pack_and_measure(const Scene& scene, const RenderOptions& options, std::s
     return Status::ok();
 }
 
+/// "  230400 pixels, 14400 rays, ...".
+std::string units_text(const FrameUnits& most) {
+    if (most.pixels == 0) return "depends on the view";
+    return fmt::format("{} pixels, {} rays, {} samples, {} photons", most.pixels, most.rays,
+                       most.samples, most.photons);
+}
+
 Status run_pack(const PackArguments& arguments) {
     Scene scene;
     RenderOptions options;
@@ -50,10 +57,11 @@ Status run_pack(const PackArguments& arguments) {
     PILEUS_TRY(write_file(arguments.to, {bytes.data(), bytes.size()}));
     return print(fmt::format(
         "{:<28} {:>12}  {} bytes\n{:<28} {:>12}  {} bytes\n{:<28} {:>12}\n{:<28} {:>12}\n"
-        "{:<28} {:>12}\n",
+        "{:<28} {:>12}\n{:<28} {}\n",
         "packed scene", bytes_text(bytes.size()), bytes.size(), "block of a session",
         bytes_text(need.block), need.block, "  kept", bytes_text(need.kept), "  while it is opened",
-        bytes_text(need.open), "  most of a frame", bytes_text(need.frame)));
+        bytes_text(need.open), "  most of a frame", bytes_text(need.frame),
+        "work of a frame, at most", units_text(need.most)));
 }
 
 }  // namespace

@@ -83,6 +83,13 @@ Status advance(std::uint64_t units, const Context& context, MethodRun& run, std:
 
 LightUnits units(const MethodRun& run) { return photon_units(own(run)); }
 
+Status most_units(const FrameWork& work, const MethodRun& run, FrameUnits& out) {
+    if (run.scene->collectors.billboards)
+        return Status::bad_input(
+            "units: what billboards take depends on the view, allowed: display = \"march\"");
+    return photon_most_units(work, own(run), out);
+}
+
 Status compose(const FrameStep& step, const Context& context, MethodRun& method_run,
                Planes*& planes) {
     CollectorsRun& run = own(method_run);
@@ -99,7 +106,7 @@ Status compose(const FrameStep& step, const Context& context, MethodRun& method_
 }  // namespace
 
 const Method& collectors_method() {
-    static constexpr LiveMethod live{aim, advance, units, compose, take_photon_work};
+    static constexpr LiveMethod live{aim, advance, units, compose, take_photon_work, most_units};
     static constexpr Method method{"collectors", WorldUse::kGrid, make, check,  outline, prepare,
                                    report_plan,  light,           show, report, &live};
     return method;

@@ -201,7 +201,12 @@ Status compose(const FrameStep& step, const Context& context, MethodRun& method_
     return light(step, context, method_run);
 }
 
-constexpr LiveMethod kLive{aim, advance, units, compose, nullptr};
+Status most_units(const FrameWork&, const MethodRun&, FrameUnits&) {
+    return Status::bad_input(
+        "units: what method particles takes depends on the view, allowed: another method");
+}
+
+constexpr LiveMethod kLive{aim, advance, units, compose, nullptr, most_units};
 
 void report_run(const MethodRun& method_run, Report& report) {
     const ParticlesRun& run = static_cast<const ParticlesRun&>(method_run);

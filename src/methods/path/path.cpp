@@ -101,6 +101,12 @@ LightUnits units(const MethodRun& method_run) {
     return out;
 }
 
+Status most_units(const FrameWork&, const MethodRun& method_run, FrameUnits& out) {
+    const auto& size = static_cast<const PathRun&>(method_run).scene->camera.resolution;
+    out.pixels = out.rays = std::uint64_t(size[0]) * std::uint64_t(size[1]);
+    return Status::ok();
+}
+
 Status compose(const FrameStep&, const Context& context, MethodRun& method_run, Planes*& planes) {
     PathRun& run = own(method_run);
     if (!run.begun) PILEUS_TRY(path_begin(context, run));
@@ -142,7 +148,7 @@ PathInput path_input(const Context& context, const PathRun& run) {
 }
 
 const Method& path_method() {
-    static constexpr LiveMethod live{aim, advance, units, compose, nullptr, true};
+    static constexpr LiveMethod live{aim, advance, units, compose, nullptr, most_units, true};
     static constexpr Method method{"path",  WorldUse::kGrid,  make,  check,     outline,
                                    prepare, path_report_plan, light, path_show, path_report,
                                    &live};

@@ -153,6 +153,10 @@ Status advance(std::uint64_t units, const Context& context, MethodRun& method_ru
 
 LightUnits units(const MethodRun& run) { return photon_units(own(run)); }
 
+Status most_units(const FrameWork& work, const MethodRun& run, FrameUnits& out) {
+    return photon_most_units(work, own(run), out);
+}
+
 Status compose(const FrameStep& step, const Context& context, MethodRun& method_run,
                Planes*& planes) {
     PhotonGridRun& run = own(method_run);
@@ -189,7 +193,7 @@ const Method* photon_grid_views(int& count) {
 }
 
 const Method& photon_grid_method() {
-    static constexpr LiveMethod live{aim, advance, units, compose, take_photon_work};
+    static constexpr LiveMethod live{aim, advance, units, compose, take_photon_work, most_units};
     static constexpr Method method{"photon-grid", WorldUse::kGrid, make, check,  outline, prepare,
                                    report_plan,   light,           show, report, &live};
     return method;

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// See most_units.h.
+#include "src/methods/most_units.h"
+
+namespace pileus {
+
+void most_pixels(const FrameWork& work, const MethodRun& run, const UpsampleMemory& memory,
+                 FrameUnits& out) {
+    const auto& size = run.scene->camera.resolution;
+    const bool remembers = memory.ready && memory.camera.width == size[0] &&
+                           memory.camera.height == size[1] &&
+                           memory.opaque_depth.empty() == !run.lighting.opaque();
+    const int temporal = remembers ? work.temporal : 1;
+    const int every = work.temporal > 0 ? temporal : work.scale > 1 ? work.scale : 1;
+    const auto thinned = [every](int n) {
+        return std::uint64_t(n / every) + (n % every > 0 ? 1u : 0u);
+    };
+    out.pixels = std::uint64_t(size[0]) * std::uint64_t(size[1]);
+    out.rays = thinned(size[0]) * thinned(size[1]);
+}
+
+Status most_grid_samples(const Medium& medium, std::uint64_t& samples) {
+    const Grid& grid = medium.grid;
+    if (grid.periodic)
+        return Status::bad_input(
+            "units: a periodic medium, in which a level ray has no end, allowed: boundary = "
+            "\"open\"");
+    double diagonal = 0;
+    for (const double side : medium.extent_m) diagonal += side * side;
+    // The first step and the last are parts of one; a ray has 8192 of them at the most.
+    constexpr double kMost = 8192;
+    const double steps = __builtin_sqrt(diagonal) / double(march_step(medium)) + 2;
+    samples = std::uint64_t(steps < kMost ? steps : kMost);
+    // Steps through constant cells end at their faces, too.
+    if (grid.constant)
+        for (const int n : grid.size) samples += std::uint64_t(n);
+    return Status::ok();
+}
+
+Status add_lamp_samples(const MethodRun& run, FrameUnits& out) {
+    const Medium& medium = run.world->medium;
+    if (run.lighting.lamps.empty() && !emits(medium)) return Status::ok();
+    std::uint64_t samples = 0;
+    PILEUS_TRY(most_grid_samples(medium, samples));
+    out.samples += out.pixels * samples;
+    return Status::ok();
+}
+
+}  // namespace pileus
