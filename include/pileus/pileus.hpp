@@ -145,6 +145,25 @@ private:
     std::unique_ptr<pileus_world, detail::FreeWorld> handle_;
 };
 
+namespace detail {
+
+inline pileus_frame frame_of(const Frame& frame) {
+    auto c = cleared<pileus_frame>();
+    c.colour = frame.colour;
+    c.colour_stride = frame.colour_stride;
+    c.format = static_cast<std::uint32_t>(frame.format);
+    c.blend = static_cast<std::uint32_t>(frame.blend);
+    c.bottom_up = frame.bottom_up ? 1 : 0;
+    c.exposure_stops = frame.exposure_stops;
+    c.depth = frame.depth;
+    c.depth_stride = frame.depth_stride;
+    c.depth_kind = static_cast<std::uint32_t>(frame.depth_kind);
+    c.hash = frame.hash;
+    return c;
+}
+
+}  // namespace detail
+
 /// One camera, one light and one method over a world. What is refused changes nothing.
 class Session {
 public:
@@ -303,17 +322,7 @@ public:
 
     /// Draws what the session holds now. Light is not traced: see step.
     Status render(const Frame& frame) {
-        auto c = detail::cleared<pileus_frame>();
-        c.colour = frame.colour;
-        c.colour_stride = frame.colour_stride;
-        c.format = static_cast<std::uint32_t>(frame.format);
-        c.blend = static_cast<std::uint32_t>(frame.blend);
-        c.bottom_up = frame.bottom_up ? 1 : 0;
-        c.exposure_stops = frame.exposure_stops;
-        c.depth = frame.depth;
-        c.depth_stride = frame.depth_stride;
-        c.depth_kind = static_cast<std::uint32_t>(frame.depth_kind);
-        c.hash = frame.hash;
+        const pileus_frame c = detail::frame_of(frame);
         return call(pileus_session_render, &c);
     }
 
