@@ -29,7 +29,7 @@ foreach(pattern
         "src/world/density/(bubbles|cumulus|density_rows|noise_cache|noise_volume|particle_[a-z]*|plume|shapes)[.]cpp"
         "src/io/(meshes|netcdf|particles|text|volumes)/"
         "src/io/images/(blocks|exr|exr_guard|image_file|netcdf_picture|pfm|picture|picture_formats|png)[.]cpp"
-        "src/session/(budget_text|check_changed|foretell|follow|hand_over|render|verify)[.]cpp"
+        "src/session/(budget_text|check_changed|deliver|foretell|follow|hand_over|render|verify)[.]cpp"
         "src/api/c_(clouds|compare|living|world|flight_close)[.]cpp"
         "src/clouds/"
         "src/base/(file|output_check|span)[.]cpp"

@@ -26,7 +26,8 @@ namespace pileus {
     ROW(kDetailStream, 0x6e6f6973, "detail on a procedural cumulus")             \
     ROW(kPlumeStream, 0x706c756d, "particles of a procedural plume")             \
     ROW(kParticleCumulusStream, 0x70636d75, "particles of a procedural cumulus") \
-    ROW(kReplicaStream, 0x7265706c, "particles that stand for one of a file")
+    ROW(kReplicaStream, 0x7265706c, "particles that stand for one of a file")    \
+    ROW(kScatterStream, 0x73636174, "places of many clouds")
 
 enum RandomStream : std::uint32_t {
 #define PILEUS_ROW(name, number, use) name = number,

@@ -71,6 +71,22 @@ struct ReportFrameWork {
     std::string light;  ///< `raymarch.light` as it was chosen for this; empty: not by time
 };
 
+/// A kind of a sky of many clouds.
+struct ReportCloudKind {
+    std::string name, scene, method;
+    std::uint64_t clouds = 0;  ///< of this kind
+};
+
+/// Many clouds, and how the last picture shows them; no kinds: the scene has none.
+struct ReportClouds {
+    std::vector<ReportCloudKind> kinds;
+    std::uint64_t clouds = 0, visible = 0;  ///< in all; of them in the picture
+    std::uint64_t marched = 0, shown = 0;   ///< drawn anew; shown by pictures of earlier frames
+    std::uint64_t captured = 0, lit = 0;    ///< pictures made anew; kinds in a turn that were lit
+    std::uint64_t marched_pixels = 0, captured_pixels = 0;
+    double worst_px = 0;  ///< largest error of a far cloud's picture
+};
+
 struct Report {
     std::string version, scene, method, isa, hash;
     int threads = 1;
@@ -110,6 +126,8 @@ struct Report {
     double tracing_cpu_s = 0, tracing_wall_s = 0;
     double mean_path_m = 0;  ///< per photon, inside the box
     std::vector<EnergyRow> energy;
+
+    ReportClouds clouds;
 
     std::uint64_t buffer_nodes = 0;  ///< of a swept optical depth, compared with rays; 0: none
     double buffer_rms = 0, buffer_largest = 0, buffer_mean = 0;  ///< of transmittance

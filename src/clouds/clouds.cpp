@@ -138,6 +138,7 @@ Status Clouds::group_of(const CloudPlace& place, std::size_t& group) {
     for (group = 0; group < groups_.size(); ++group)
         if (groups_[group]->is(place.kind, place.yaw_deg))
             return light_.ground.present ? groups_[group]->stand_over(ground_m) : Status::ok();
+    const StageClock clock(sky_->context(), "clouds lit");
     auto made = std::make_unique<CloudGroup>();
     PILEUS_TRY(
         made->open(kinds_[place.kind], place.kind, place.yaw_deg, light_, ground_m, options_));
@@ -187,6 +188,7 @@ Status Clouds::light_up(const Outlook& look) {
     }
     for (auto& group : groups_) {
         if (group->lit() == light_.version) continue;
+        const StageClock clock(sky_->context(), "clouds lit");
         PILEUS_TRY(group->light(light_));
         ++stats_.lit;
         shaded_ = false;

@@ -9,19 +9,6 @@
 
 namespace pileus {
 
-/// What may be less exact, and what it may cost.
-struct CloudDetail {
-    bool on = true;         ///< false: every cloud is marched in every frame
-    double error_px = 0.5;  ///< that a far cloud's picture may be wrong by; [0.001, 16]
-    double near_px = 256;   ///< clouds of that size on the picture are marched; [1, 1e6]
-    int near_scale = 2;     ///< of those, one pixel of so many along x and y: 1, 2, 4
-    int blend_frames = 8;   ///< over which one picture gives way to the next; [1, 1000]
-    double sharpness = 1;   ///< texels of a pixel along x and y; [0.25, 4]
-    /// Of pictures that a frame makes anew: one, and more up to so many in all.
-    std::int64_t frame_pixels = 60000;
-    double sun_deg = 0.5;  ///< that the sun may move until a kind is lit anew; [0, 10]
-};
-
 /// Of one picture.
 struct CloudStats {
     std::uint32_t clouds = 0, visible = 0, marched = 0, captured = 0, lit = 0;
@@ -42,7 +29,12 @@ public:
     Status set_detail(const CloudDetail& detail);
     /// Draws all, into a host's memory.
     Status render(const FrameTarget& target);
+    /// Draws all; `planes` stay until the next picture. With `depths` half_depth is as layers have
+    /// it: infinity where half of the light is never gone.
+    Status draw(bool depths, const Planes*& planes);
     const CloudStats& stats() const { return stats_; }
+    /// Corners of a kind's box, in its own metres.
+    const CloudKind& kind(std::size_t number) const { return kinds_[number]; }
 
 private:
     struct Cloud {

@@ -8,6 +8,7 @@
 #include "src/picture/air_view.h"
 #include "src/picture/background.h"
 #include "src/picture/march_view.h"
+#include "src/world/camera/view.h"
 
 namespace pileus {
 namespace {
@@ -206,13 +207,9 @@ Status Clouds::compose(const CloudView& view, const Camera& camera, int frame) {
     return Status::ok();
 }
 
-Status Clouds::render(const FrameTarget& target) {
+Status Clouds::draw(bool depths, const Planes*& planes) {
     const FpModeGuard guard;
     const PoolGuard lent(threads_);
-    if (target.has_depth && target.depth_kind == DepthKind::kBuffer && !sky_->depth_scale().known)
-        return Status::bad_input(
-            "frame.depth: a depth buffer without a camera's near_m, allowed: a camera with it, or "
-            "another kind");
     stats_ = CloudStats{};
     stats_.clouds = std::uint32_t(clouds_.size());
     Outlook look;
@@ -244,18 +241,33 @@ Status Clouds::render(const FrameTarget& target) {
     PILEUS_TRY(compose(view, camera, look.frame));
     PILEUS_TRY(show_air(context, *look.scene, look.world->medium, look.lighting, look.camera,
                         *look.around, planes_));
+    for (std::size_t i = 0; depths && i < planes_.half_depth.size(); ++i)
+        if (planes_.transmittance[i] > 0.5f) planes_.half_depth[i] = __builtin_inff();
+    planes = &planes_;
+    return Status::ok();
+}
+
+Status Clouds::render(const FrameTarget& target) {
+    const FpModeGuard guard;
+    const PoolGuard lent(threads_);
+    if (target.has_depth && target.depth_kind == DepthKind::kBuffer && !sky_->depth_scale().known)
+        return Status::bad_input(
+            "frame.depth: a depth buffer without a camera's near_m, allowed: a camera with it, or "
+            "another kind");
+    const Planes* planes = nullptr;
+    PILEUS_TRY(draw(target.has_depth, planes));
+    const Context& context = sky_->context();
+    const Camera& camera = sky_->camera();
     std::uint64_t broken = 0;
     if (target.has_colour) {
         const StageClock clock(context, "pixels");
-        PILEUS_TRY(write_pixels(planes_, view.width, view.height, target.colour, context.kernels,
-                                context.threads, broken));
+        PILEUS_TRY(write_pixels(*planes, camera.resolution[0], camera.resolution[1], target.colour,
+                                context.kernels, context.threads, broken));
     }
-    if (target.has_depth) {
-        for (std::size_t i = 0; i < planes_.half_depth.size(); ++i)
-            if (planes_.transmittance[i] > 0.5f) planes_.half_depth[i] = __builtin_inff();
-        write_depths(planes_, look.camera, target.depth_kind, sky_->depth_scale(), target.depth);
-    }
-    if (target.hash != nullptr) *target.hash = hash_planes(planes_);
+    if (target.has_depth)
+        write_depths(*planes, make_camera(camera, 0, sky_->run().world->medium.low_m),
+                     target.depth_kind, sky_->depth_scale(), target.depth);
+    if (target.hash != nullptr) *target.hash = hash_planes(*planes);
     return Status::ok();
 }
 

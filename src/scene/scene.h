@@ -11,6 +11,7 @@
 #include "src/base/vectors.h"
 #include "src/scene/animation.h"
 #include "src/scene/atmosphere_settings.h"
+#include "src/scene/clouds_settings.h"
 #include "src/scene/detail_settings.h"
 #include "src/scene/light_settings.h"
 #include "src/scene/particle_settings.h"
@@ -314,6 +315,7 @@ struct Scene {
     std::vector<LightSettings> lights;  ///< besides sun and sky
     std::vector<SolidSettings> solids;
     std::vector<MediumSettings> media;
+    CloudsSettings clouds;   ///< kinds and places of many clouds, in place of media
     int sequence_frame = 0;  ///< frame whose density files are read; set by whoever renders it
     std::string method = "collectors";
     CollectorSettings collectors;

@@ -2,14 +2,13 @@
 // See render.h. The walk through a method's recipe, frame by frame.
 #include "src/session/render.h"
 
-#include "platform/clock.h"
 #include "platform/fp_mode.h"
 #include "platform/threads.h"
-#include "src/io/images/image_file.h"
 #include "src/picture/background.h"
 #include "src/picture/march_view.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/volume_format.h"
+#include "src/session/deliver.h"
 #include "src/session/run_context.h"
 #include "src/session/session.h"
 #include "src/session/verify.h"
@@ -20,55 +19,6 @@
 
 namespace pileus {
 namespace {
-
-/// The clocks when rendering began.
-struct RunStart {
-    double wall_s = wall_seconds(), cpu_s = cpu_seconds();
-};
-
-void finish_report(const RunStart& start, Report& report) {
-    report.total_s = wall_seconds() - start.wall_s;
-    report.cpu_s = cpu_seconds() - start.cpu_s;
-    take_clocks(report);
-}
-
-/// Names the picture by its bits before anything else is written about it.
-void take_hash(const Context& context, const Image& image, Report& report) {
-    const StageClock clock(context, "hash");
-    report.hash = pixel_hash(image);
-    report.digests.emplace_back("image", report.hash);
-}
-
-/// What another run needs, beside the scene's text, to make the same picture. Nothing of the
-/// machine.
-void note_origin(const Report& report, Image& image) {
-    const auto add = [&](const std::string& name, const std::string& text) {
-        if (!text.empty()) image.origin.emplace_back(name, text);
-    };
-    add("version", report.version);
-    add("method", report.method);
-    add("seed", std::to_string(report.seed));
-    add("frame", std::to_string(report.frame));
-    add("firstFrame", std::to_string(report.first_frame));
-    add("budget", report.budget);
-    add("budgetUsed", report.budget_used);
-    add("show", report.show);
-    // The user has: such a picture is sound, but cannot be made again where part of a pass counts.
-    if (report.interrupted) add("interrupted", "true");
-    // A time has chosen them: `--set` with these makes the picture again.
-    if (report.budget.find("seconds") != std::string::npos && report.frame_work.steps > 0) {
-        const ReportFrameWork& work = report.frame_work;
-        add("steps", std::to_string(work.steps));
-        add("scale", std::to_string(work.scale));
-        add("temporal", std::to_string(work.temporal));
-        add("light", work.light);
-    }
-    if (report.generations > 0) add("generations", std::to_string(report.generations));
-    if (report.samples_per_pixel > 0)
-        add("samplesPerPixel", std::to_string(report.samples_per_pixel));
-    for (std::size_t i = 0; i < report.overrides.size(); ++i)
-        add("override." + std::to_string(i), report.overrides[i]);
-}
 
 /// What the files of weather data had that was no water.
 void count_water(const Scene& scene, const World& world, Report& report) {
@@ -95,17 +45,6 @@ Status show_shadow(const Scene& scene, Session& session, int frame, Image& image
     return add_shadow(context, make_medium_view(medium, majorants),
                       make_camera(run.scene->camera, orbit_at(scene, frame), medium.low_m),
                       run.lighting, image);
-}
-
-/// Completes a frame's picture and report, and hands both over.
-Status deliver(const Scene& scene, const RunStart& start, int frame, const FrameSink& sink,
-               Image& image, Report& report) {
-    image.pixel_hash = report.hash;
-    image.scene_text = scene.text;
-    report.frame = frame;
-    note_origin(report, image);
-    finish_report(start, report);
-    return sink(frame, image, report);
 }
 
 /// Whether frames have skies of their own.

@@ -4,6 +4,7 @@
 
 #include "platform/clock.h"
 #include "src/run/find_kernels.h"
+#include "src/scene/read_scene.h"
 #include "src/scene/rows/layer_flags.h"
 
 namespace pileus {
@@ -13,8 +14,16 @@ constexpr int kMostThreads = 1024;
 
 }  // namespace
 
+Status refuse_clouds(const Scene& scene) {
+    if (!scene.clouds.present()) return Status::ok();
+    return at_key(scene, "clouds.kind",
+                  Status::bad_input("many clouds are drawn by pileus render alone, allowed: that, "
+                                    "or pileus_clouds.h over a scene without [clouds]"));
+}
+
 Status make_context(const Scene& scene, const RenderOptions& options, Context& context,
                     Report& report) {
+    PILEUS_TRY(refuse_clouds(scene));
     context.kernels = options.kernels;
     if (context.kernels == nullptr) PILEUS_TRY(find_kernels(options.isa, context.kernels));
     PILEUS_TRY(test_kernels(*context.kernels));
@@ -28,6 +37,12 @@ Status make_context(const Scene& scene, const RenderOptions& options, Context& c
     context.holding = options.holding;
     context.limits = options.limits;
     context.frames = std::uint64_t(options.last_frame) - std::uint64_t(options.first_frame) + 1;
+    note_head(scene, options, context, report);
+    return Status::ok();
+}
+
+void note_head(const Scene& scene, const RenderOptions& options, const Context& context,
+               Report& report) {
     report.version = kVersion;
     report.scene = scene.file;
     report.method = scene.method;
@@ -41,7 +56,6 @@ Status make_context(const Scene& scene, const RenderOptions& options, Context& c
         if (scene.output.*layer.wanted) report.layers.push_back(layer.name);
     report.isa = context.kernels->name;
     report.threads = context.threads;
-    return Status::ok();
 }
 
 Status frames_of(const Scene& scene, const RenderOptions& options, Frames& frames) {

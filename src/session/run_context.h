@@ -12,10 +12,17 @@ struct Frames {
     int first, last, total;
 };
 
-/// Chooses kernels and threads and fills the report's head. kBadInput: isa, threads; kCheckFailed:
-/// kernels that give other bits than they must.
+/// kBadInput: a scene with [clouds], which src/clouds draws.
+Status refuse_clouds(const Scene& scene);
+
+/// Chooses kernels and threads and fills the report's head. kBadInput: isa, threads, a scene with
+/// [clouds]; kCheckFailed: kernels that give other bits than they must.
 Status make_context(const Scene& scene, const RenderOptions& options, Context& context,
                     Report& report);
+
+/// What a report begins with.
+void note_head(const Scene& scene, const RenderOptions& options, const Context& context,
+               Report& report);
 
 /// kBadInput: frames that the scene does not have.
 Status frames_of(const Scene& scene, const RenderOptions& options, Frames& frames);

@@ -70,6 +70,7 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
     const FpModeGuard guard;
     const PoolGuard lent(*threads_);
     const bool live = kind == SessionKind::kLive;
+    PILEUS_TRY(refuse_clouds(scene));
     scene_ = scene;
     PILEUS_TRY(place_camera(scene_));
     place_sun(scene_);

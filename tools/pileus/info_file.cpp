@@ -106,6 +106,13 @@ Status scene_lines(const std::string& path, std::string& lines) {
             info_line("medium", fmt::format("{}, extinction {}, albedo {:g} {:g} {:g}",
                                             density_name(medium), extinction_text(medium),
                                             medium.albedo[0], medium.albedo[1], medium.albedo[2]));
+    if (scene.clouds.present()) {
+        std::size_t count = scene.clouds.places.size();
+        for (const CloudScatter& scatter : scene.clouds.scatters)
+            count += std::size_t(scatter.count);
+        lines +=
+            info_line("clouds", fmt::format("{} of {} kinds", count, scene.clouds.kinds.size()));
+    }
     if (scene.method == "collectors")
         lines += info_line("photons", fmt::to_string(scene.collectors.photons));
     lines +=

@@ -118,6 +118,8 @@ bool remembers(const PictureScene& picture, const Scene& scene, bool& clocked) {
     const bool collectors = scene.method == "collectors", grid = scene.method == "photon-grid";
     const bool march = scene.method == "raymarch";
     clocked = false;
+    // Clouds that are far are shown by pictures of earlier frames, and light may be late.
+    if (scene.clouds.present()) return true;
     if (frames_stand_alone(scene) || !(collectors || grid || march)) return false;
     const UpsampleSettings& thin = collectors ? scene.collectors.thin
                                    : grid     ? scene.photon_grid.thin
@@ -205,6 +207,9 @@ Status check_scene_files(const PictureScene& picture, const Scene& scene) {
         at.camera.depth.clear();
     }
     for (const std::string& file : scene_files(at)) files.push_back(file);
+    // Kinds of clouds may share a scene.
+    std::sort(files.begin(), files.end());
+    files.erase(std::unique(files.begin(), files.end()), files.end());
     Status faults;
     for (const std::string& file : files)
         if (!is_there(file))

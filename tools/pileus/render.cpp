@@ -9,6 +9,7 @@
 #include "platform/clock.h"
 #include "platform/interrupt.h"
 #include "src/base/file.h"
+#include "src/clouds/render_clouds.h"
 #include "src/methods/registry.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/picture_format.h"
@@ -142,6 +143,26 @@ void expect_picture(RenderArguments& arguments, Outputs& outputs) {
     if (same && !arguments.expect_hash && !arguments.blocks.file) outputs.hashes = {picture.hash};
 }
 
+/// Of many clouds each kind has a method, and its keys, of its own.
+Status check_cloud_options(const RenderArguments& arguments, const Scene& scene) {
+    if (!scene.clouds.present()) return Status::ok();
+    const bool blocks = arguments.blocks.file || arguments.blocks.passes || arguments.blocks.side;
+    const std::pair<const char*, bool> refused[] = {{"--budget", !arguments.scene.budgets.empty()},
+                                                    {"--quality", bool(arguments.scene.quality)},
+                                                    {"--show", bool(arguments.show)},
+                                                    {"--verify", bool(arguments.verify)},
+                                                    {"--state", bool(arguments.state)},
+                                                    {"--blocks", blocks}};
+    Status faults;
+    for (const auto& [option, given] : refused)
+        if (given)
+            add_fault(Status::bad_input(std::string(option) +
+                                        ": not for a scene with [clouds], allowed: keys of the "
+                                        "kinds' scenes, by clouds.kind.N.set"),
+                      faults);
+    return faults;
+}
+
 /// Options win over the scene; faults of all options come before those of the files.
 Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOptions& options,
                       Outputs& outputs) {
@@ -152,6 +173,7 @@ Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOpti
     add_fault(read_block_arguments(arguments.blocks, outputs.blocks), faults);
     add_fault(read_scene_options(arguments.scene, scene, options), faults);
     PILEUS_TRY(faults);
+    PILEUS_TRY(check_cloud_options(arguments, scene));
     PILEUS_TRY(choose_frames(arguments, scene, options, outputs));
     if (outputs.blocks.file.empty()) return choose_files(arguments, scene, options, outputs);
     // Blocks are all that such a run writes.
@@ -206,7 +228,8 @@ Status render_all(const Scene& scene, const RenderOptions& options, const Output
     const double tracing = wall_seconds();
     progress.frames(0, count, 0);
     int next = outputs.first_frame;
-    Status status = render(scene, options, [&](int frame, Image& image, Report& report) -> Status {
+    const auto draw = scene.clouds.present() ? render_clouds : render;
+    Status status = draw(scene, options, [&](int frame, Image& image, Report& report) -> Status {
         progress.clear();
         if (frame >= outputs.first_frame)
             PILEUS_TRY(take_frame(scene, outputs, frame, image, report, found));

@@ -268,8 +268,12 @@ Status check_scenes(Study& study) {
         for (const auto* more : all) {
             std::vector<std::string> sets = scene.sets;
             sets.insert(sets.end(), more->begin(), more->end());
-            Scene ignored;
-            const Status status = read_scene_file(scene.file, sets, ignored);
+            Scene read;
+            Status status = read_scene_file(scene.file, sets, read);
+            if (status && read.clouds.present())
+                status = at_key(read, "clouds.kind",
+                                Status::bad_input("a study compares methods over media, allowed: "
+                                                  "the scene of a kind"));
             if (status) continue;
             if (first) first.code = status.code;
             add_lines(status, lines);

@@ -157,6 +157,26 @@ Json ring_of(const Report& report) {
     return {{"generations", report.ring_generations}, {"whole", report.ring_whole}};
 }
 
+Json clouds_of(const ReportClouds& clouds) {
+    if (clouds.kinds.empty()) return nullptr;
+    Json kinds = Json::array();
+    for (const ReportCloudKind& kind : clouds.kinds)
+        kinds.push_back({{"name", kind.name},
+                         {"scene", kind.scene},
+                         {"method", kind.method},
+                         {"clouds", kind.clouds}});
+    return {{"kinds", kinds},
+            {"clouds", clouds.clouds},
+            {"visible", clouds.visible},
+            {"marched", clouds.marched},
+            {"shown", clouds.shown},
+            {"captured", clouds.captured},
+            {"lit", clouds.lit},
+            {"marched_pixels", clouds.marched_pixels},
+            {"captured_pixels", clouds.captured_pixels},
+            {"worst_px", clouds.worst_px}};
+}
+
 Json frame_work_of(const ReportFrameWork& work) {
     return {{"scale", work.scale},     {"temporal", work.temporal},
             {"steps", work.steps},     {"light_refresh", work.light_refresh},
@@ -228,6 +248,7 @@ std::string report_json(const Report& report) {
     json["leaves"] = report.leaves;
     json["collectors"] = report.collectors;
 
+    json["clouds"] = clouds_of(report.clouds);
     json["energy"] = energy_of(report);
     json["error"] = error_of(report);
     json["verify"] = verify_of(report);

@@ -37,10 +37,8 @@ void add_buffers(const std::string& path, std::vector<std::string>& files) {
     }
 }
 
-}  // namespace
-
-std::vector<std::string> scene_files(const Scene& scene) {
-    std::vector<std::string> files;
+/// What a scene names itself.
+void add_files(const Scene& scene, std::vector<std::string>& files) {
     const auto add = [&](const std::string& file) {
         if (!file.empty()) files.push_back(scene_path(scene.directory, file));
     };
@@ -67,6 +65,19 @@ std::vector<std::string> scene_files(const Scene& scene) {
         each_frame([&] { return depth_path(at); });
     else
         add(scene.camera.depth);
+}
+
+}  // namespace
+
+std::vector<std::string> scene_files(const Scene& scene) {
+    std::vector<std::string> files;
+    add_files(scene, files);
+    for (const CloudKindSettings& settings : scene.clouds.kinds) {
+        files.push_back(scene_path(scene.directory, settings.scene));
+        Scene kind;
+        // What is wrong with it its reader will say.
+        if (read_scene_file(std::string(files.back()), settings.sets, kind)) add_files(kind, files);
+    }
     return files;
 }
 

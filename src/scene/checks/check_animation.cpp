@@ -81,6 +81,7 @@ void check_media(SceneCheck& check, Keys& keys) {
     const Scene& scene = check.scene;
     for (const Track track : {Track::kOffset, Track::kYaw}) {
         if (!scene.solids.empty()) keys.refuse(track, "solids stay where they are");
+        if (scene.clouds.present()) keys.refuse(track, "clouds stay where they are");
         if (scene.animation.moves_sun && track == Track::kYaw)
             keys.refuse(track, "conflicts with animation.sun_elevation_deg",
                         "left out, or sun_elevation_deg in keys");

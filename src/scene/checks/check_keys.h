@@ -60,6 +60,8 @@ void check_phase(SceneCheck& check, std::size_t index);
 void check_atmosphere(SceneCheck& check);
 /// Laws between the keys of an animation and what they move.
 void check_animation(SceneCheck& check);
+/// Laws between the keys of many clouds, and of a scene with them.
+void check_clouds(SceneCheck& check);
 /// Laws between the keys of lights besides sun and sky.
 void check_lights(SceneCheck& check);
 /// Laws between the keys of meshes and of the camera's depth.

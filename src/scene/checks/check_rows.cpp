@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Checks lists of tables: the rows of a transfer function, the keys of an animation.
+// Checks lists of tables: the rows of a transfer function, the keys of an animation, clouds.
 // in: a list of tables -> out: true, or faults that say what is allowed.
 // docs/scene.md, "A transfer function"; docs/animation.md
 #include "src/scene/checks/check_keys.h"
@@ -47,7 +47,7 @@ bool check_rows(const KeyRow& row, const Node& list, const std::string& path, Fa
     for (std::size_t i = 0; i < list.children.size(); ++i)
         good =
             check_row(*row.list, list.children[i], path + "." + std::to_string(i), faults) && good;
-    if (!good) return false;
+    if (!good || row.list->rising == nullptr) return good;
     for (std::size_t i = 1; i < list.children.size(); ++i) {
         const Node& value = *list.children[i].find(row.list->rising);
         const double before = number_of(*list.children[i - 1].find(row.list->rising));

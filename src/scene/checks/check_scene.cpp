@@ -269,6 +269,7 @@ void check_laws(SceneCheck& check) {
     check_lens(check);
     check_solids(check);
     check_lights(check);
+    check_clouds(check);
 }
 
 }  // namespace pileus

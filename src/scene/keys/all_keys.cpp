@@ -37,6 +37,7 @@ std::vector<const KeyRow*> all_scene_keys() {
     add(particle_keys());
     add(sky_keys());
     add(recipe_keys());
+    add(clouds_keys());
     add(method_keys());
     for (const MethodKeys& method : all_methods()) add(method.rows());
     add(filter_keys());

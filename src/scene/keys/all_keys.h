@@ -22,6 +22,7 @@ Span<const KeyRow> medium_last_keys();    // medium, behind it
 Span<const KeyRow> detail_keys();         // medium.detail
 Span<const KeyRow> sky_keys();            // medium.sky
 Span<const KeyRow> recipe_keys();         // medium.plume, medium.particle_cumulus
+Span<const KeyRow> clouds_keys();         // clouds
 Span<const KeyRow> method_keys();         // method
 Span<const KeyRow> collectors_keys();     // collectors
 Span<const KeyRow> path_keys();           // path

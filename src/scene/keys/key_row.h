@@ -45,7 +45,8 @@ struct KeyRow;
 /// Of a list of tables: the keys of one of them, without its path.
 struct RowList {
     Span<const KeyRow> (*keys)();
-    const char* rising;       ///< key, a number, that is more in each table than in the one before
+    /// Key, a number, that is more in each table than in the one before; null: none is.
+    const char* rising;
     std::size_t least, most;  ///< tables
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys of method `path`.
-// in: checked values <-> out: fields of PathSettings.
+// Keys of method `path`, and of the filter of its pictures.
+// in: checked values <-> out: fields of PathSettings, FilterSettings.
 // docs/scene.md.
 #include "src/scene/keys/all_keys.h"
 
@@ -9,6 +9,8 @@ namespace {
 
 template <auto... Members>
 constexpr KeyField path = field<&Scene::path, Members...>;
+template <auto... Members>
+constexpr KeyField filter = field<&Scene::filter, Members...>;
 
 constexpr KeyRow kRows[] = {
     {"path.samples_per_pixel", path<&PathSettings::samples_per_pixel>, from_to(1, 0x1p32), "",
@@ -27,8 +29,21 @@ constexpr KeyRow kRows[] = {
      "", "the most where target_error or --budget error or seconds decides"},
 };
 
+constexpr KeyRow kFilterRows[] = {
+    {"filter.kind", filter<&FilterSettings::kind>, one_of("none|regression|oidn"), "",
+     "what takes the noise out of a picture of method path: local regressions on what is known of "
+     "each pixel without noise, with a small bias; oidn: the library Open Image Denoise, to "
+     "compare "
+     "with, in other bits on other machines; none: the picture stays unbiased"},
+    {"filter.radius_pixels", filter<&FilterSettings::radius_pixels>, from_to(0, 512), "",
+     "radius of the windows of the regressions; 0: chosen place by place, by the noise"},
+};
+
 }  // namespace
 
 Span<const KeyRow> path_keys() { return {kRows, sizeof kRows / sizeof kRows[0]}; }
+Span<const KeyRow> filter_keys() {
+    return {kFilterRows, sizeof kFilterRows / sizeof kFilterRows[0]};
+}
 
 }  // namespace pileus

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// See render_clouds.h.
+#include "src/clouds/render_clouds.h"
+
+#include "platform/fp_mode.h"
+#include "platform/threads.h"
+#include "src/clouds/scene_clouds.h"
+#include "src/picture/layers.h"
+#include "src/session/deliver.h"
+#include "src/session/run_context.h"
+#include "src/session/warnings.h"
+#include "src/world/atmosphere/atmosphere.h"
+#include "src/world/camera/view.h"
+
+namespace pileus {
+namespace {
+
+/// Of the kinds, each once.
+std::string methods_of(const ReportClouds& clouds) {
+    std::string all;
+    for (std::size_t i = 0; i < clouds.kinds.size(); ++i) {
+        bool told = false;
+        for (std::size_t j = 0; j < i; ++j)
+            told = told || clouds.kinds[j].method == clouds.kinds[i].method;
+        if (!told) all += (all.empty() ? "" : ", ") + clouds.kinds[i].method;
+    }
+    return all;
+}
+
+/// What is set in the sky's session from frame to frame.
+class SkyAnimation {
+public:
+    explicit SkyAnimation(const Scene& scene) : scene_(scene), rest_(scene) {
+        place_sun(rest_);
+        rest_.animation.sun_at_rest = place_of(rest_.sun);
+    }
+
+    Status set(int frame, Session& sky) const {
+        if (!scene_.animation.present) return sky.set_frame(frame);
+        PILEUS_TRY(sky.set_frame(frame));
+        Camera camera = camera_at(rest_.animation, rest_.camera, frame);
+        const double turned = orbit_at(rest_, frame);
+        if (turned != 0) camera.position_m = orbit(camera.position_m, camera.target_m, turned);
+        PILEUS_TRY(sky.set_camera(camera));
+        Sun sun = rest_.sun;
+        if (moves_time(scene_)) {
+            Scene later = scene_;
+            later.atmosphere.later_h = hours_at(scene_, frame);
+            place_sun(later);
+            sun = later.sun;
+        } else if (moves_sun(scene_)) {
+            const SunPlace at = sun_at(rest_, frame);
+            sun.azimuth_deg = at.azimuth_deg;
+            sun.elevation_deg = at.elevation_deg;
+        }
+        return sky.set_sun(sun);
+    }
+
+private:
+    const Scene& scene_;
+    Scene rest_;  ///< with a sun by its date, as it is but for keys
+};
+
+void tell_picture(const CloudStats& stats, ReportClouds& told) {
+    told.visible = stats.visible;
+    told.marched = stats.marched;
+    told.shown = stats.visible - stats.marched;
+    told.captured = stats.captured;
+    told.lit = stats.lit;
+    told.marched_pixels = stats.marched_pixels;
+    told.captured_pixels = stats.captured_pixels;
+    told.worst_px = stats.worst_px;
+}
+
+Status draw_image(const Scene& scene, Session& sky, Clouds& clouds, Image& image, Report& report) {
+    const Planes* planes = nullptr;
+    PILEUS_TRY(clouds.draw(scene.output.layer_depth, planes));
+    const StageClock clock(sky.context(), "layers");
+    const Camera& camera = sky.camera();
+    std::uint64_t clamped = 0;
+    report.counters.clear();
+    PILEUS_TRY(make_layers(*planes, camera.resolution[0], camera.resolution[1], 3, scene.output,
+                           image, report, clamped));
+    report.counters.emplace_back("clamped_negative", clamped);
+    const Double3& low = sky.run().world->medium.low_m;
+    set_image_camera(make_camera(camera, 0, low), low, image);
+    return Status::ok();
+}
+
+}  // namespace
+
+Status render_clouds(const Scene& scene, const RenderOptions& options, const FrameSink& sink) {
+    const FpModeGuard guard;
+    ThreadPool threads;
+    const PoolGuard lent(threads);
+    const RunStart start;
+    Frames frames{};
+    PILEUS_TRY(frames_of(scene, options, frames));
+    Session sky;
+    Clouds clouds;
+    Report& report = sky.report();
+    PILEUS_TRY(open_sky(scene, options, sky));
+    const Context& context = sky.context();
+    if (context.kernels->device != nullptr)
+        return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
+                                 "\": clouds are drawn on the host alone, allowed: another");
+    note_head(scene, options, context, report);
+    PILEUS_TRY(open_scene_clouds(scene, options, sky, clouds, report.clouds));
+    report.method = methods_of(report.clouds);
+    const SkyAnimation animation(scene);
+    for (int frame = frames.first; frame <= frames.last; ++frame) {
+        const RunStart frame_start;
+        Image image;
+        PILEUS_TRY(animation.set(frame, sky));
+        PILEUS_TRY(draw_image(scene, sky, clouds, image, report));
+        report.digests.clear();
+        take_hash(context, image, report);
+        tell_picture(clouds.stats(), report.clouds);
+        find_warnings(scene, image, report);
+        report.frame_wall_s = wall_seconds() - frame_start.wall_s;
+        report.frame_cpu_s = cpu_seconds() - frame_start.cpu_s;
+        if (options.holding) options.holding(true);
+        PILEUS_TRY(deliver(scene, start, frame, sink, image, report));
+        if (options.holding) options.holding(false);
+    }
+    return Status::ok();
+}
+
+}  // namespace pileus

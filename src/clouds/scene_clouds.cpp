@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// See scene_clouds.h.
+#include "src/clouds/scene_clouds.h"
+
+#include "src/clouds/scatter.h"
+#include "src/scene/read_scene.h"
+
+namespace pileus {
+namespace {
+
+std::string key_of(const char* list, std::size_t index, const char* member) {
+    return std::string("clouds.") + list + "." + std::to_string(index) + "." + member;
+}
+
+Status read_kind(const Scene& scene, std::size_t number, Scene& kind) {
+    const CloudKindSettings& settings = scene.clouds.kinds[number];
+    const std::string path = scene_path(scene.directory, settings.scene);
+    Status status = read_scene_file(path, settings.sets, kind);
+    if (status && kind.clouds.present())
+        status = Status::bad_input(path +
+                                   ": [clouds] of its own, allowed: a scene with "
+                                   "[[medium]]");
+    return at_key(scene, key_of("kind", number, "scene"), status);
+}
+
+Status add_kinds(const Scene& scene, const RenderOptions& options, Session& sky, Clouds& clouds,
+                 ReportClouds& told) {
+    const Context& context = sky.context();
+    const std::size_t count = scene.clouds.kinds.size();
+    std::vector<Scene> kinds(count);
+    // What is wrong with a text shows before anything is prepared.
+    for (std::size_t i = 0; i < count; ++i) PILEUS_TRY(read_kind(scene, i, kinds[i]));
+
+    const StageClock clock(context, "kinds of clouds");
+    RenderOptions own;
+    own.threads = context.threads;
+    own.kernels = context.kernels;
+    own.limits = options.limits;
+    std::uint64_t bytes = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+        const std::string key = key_of("kind", i, "scene");
+        context.tell("kinds of clouds", double(i) / double(count));
+        std::shared_ptr<const World> world;
+        PILEUS_TRY(at_key(scene, key, make_world(kinds[i], own, world)));
+        bytes += bytes_of_world(*world);
+        PILEUS_TRY(check_limit(options.limits, LimitId::kMemory, bytes, scene.file));
+        std::size_t number = 0;
+        PILEUS_TRY(at_key(scene, key, clouds.add_kind(kinds[i], std::move(world), number)));
+        const CloudKindSettings& settings = scene.clouds.kinds[i];
+        told.kinds.push_back({settings.name, settings.scene, kinds[i].method, 0});
+    }
+    return Status::ok();
+}
+
+std::size_t number_of(const CloudsSettings& clouds, const std::string& name) {
+    std::size_t number = 0;
+    while (number + 1 < clouds.kinds.size() && clouds.kinds[number].name != name) ++number;
+    return number;
+}
+
+/// Clouds that the file names, and then those by random numbers.
+Status list_places(const Scene& scene, const Clouds& clouds, std::vector<CloudPlace>& places) {
+    const CloudsSettings& settings = scene.clouds;
+    for (const CloudPlaceSettings& place : settings.places)
+        places.push_back(
+            {number_of(settings, place.kind), place.offset_m, place.yaw_deg, place.scale});
+    std::vector<KindBox> boxes;
+    for (std::size_t i = 0; i < settings.kinds.size(); ++i)
+        boxes.push_back({clouds.kind(i).low_m, clouds.kind(i).high_m});
+    for (std::size_t i = 0; i < settings.scatters.size(); ++i) {
+        const CloudScatter& scatter = settings.scatters[i];
+        std::vector<std::size_t> kinds;
+        for (const std::string& name : scatter.kinds) kinds.push_back(number_of(settings, name));
+        for (std::size_t k = 0; scatter.kinds.empty() && k < settings.kinds.size(); ++k)
+            kinds.push_back(k);
+        const Double3& eye = scene.camera.position_m;
+        const std::array<double, 2> center =
+            scatter.has_center ? scatter.center_m : std::array<double, 2>{eye.x, eye.y};
+        PILEUS_TRY(at_key(scene, key_of("scatter", i, "count"),
+                          scatter_clouds(scatter, center, kinds, boxes, places)));
+    }
+    return Status::ok();
+}
+
+}  // namespace
+
+Status open_sky(const Scene& scene, const RenderOptions& options, Session& sky) {
+    Scene around = scene;
+    around.clouds = CloudsSettings{};
+    // Nothing in it is for the method, and this one has the least of its own.
+    around.method = "raymarch";
+    around.raymarch = RaymarchSettings{};
+    around.filter = FilterSettings{};
+    around.particles = ParticlesSettings{};
+    return sky.open(around, options, SessionKind::kLive, true, nullptr);
+}
+
+Status open_scene_clouds(const Scene& scene, const RenderOptions& options, Session& sky,
+                         Clouds& clouds, ReportClouds& told) {
+    PILEUS_TRY(clouds.open(sky));
+    PILEUS_TRY(at_key(scene, "clouds.detail", clouds.set_detail(scene.clouds.detail)));
+    PILEUS_TRY(add_kinds(scene, options, sky, clouds, told));
+    std::vector<CloudPlace> places;
+    PILEUS_TRY(list_places(scene, clouds, places));
+    told.clouds = places.size();
+    for (const CloudPlace& place : places) ++told.kinds[place.kind].clouds;
+    return at_key(scene, "clouds", clouds.place(places));
+}
+
+}  // namespace pileus
