@@ -80,6 +80,17 @@ std::string depth_text(const Volume& volume) {
     return fmt::format("along z: mean {:.6g}, largest {:.6g}", sum / double(plane), most);
 }
 
+/// Kinds, and how many clouds there are in all.
+std::string cloud_lines(const CloudsSettings& clouds) {
+    std::size_t count = clouds.places.size();
+    for (const CloudScatter& scatter : clouds.scatters) count += std::size_t(scatter.count);
+    std::string lines;
+    for (const CloudKindSettings& kind : clouds.kinds)
+        lines += info_line("kind of clouds", fmt::format("{}, {}", printable_line(kind.name),
+                                                         printable_line(kind.scene)));
+    return lines + info_line("clouds", fmt::to_string(count));
+}
+
 }  // namespace
 
 Status scene_lines(const std::string& path, std::string& lines) {
@@ -87,7 +98,7 @@ Status scene_lines(const std::string& path, std::string& lines) {
     PILEUS_TRY(read_scene_file(path, {}, scene));
     const Camera& camera = scene.camera;
     lines += info_line("scene", path);
-    lines += info_line("method", scene.method);
+    if (!scene.clouds.present()) lines += info_line("method", scene.method);
     lines += info_line("seed", fmt::to_string(scene.seed));
     lines +=
         info_line("picture", fmt::format("{} x {}, {}", camera.resolution[0], camera.resolution[1],
@@ -106,14 +117,9 @@ Status scene_lines(const std::string& path, std::string& lines) {
             info_line("medium", fmt::format("{}, extinction {}, albedo {:g} {:g} {:g}",
                                             density_name(medium), extinction_text(medium),
                                             medium.albedo[0], medium.albedo[1], medium.albedo[2]));
-    if (scene.clouds.present()) {
-        std::size_t count = scene.clouds.places.size();
-        for (const CloudScatter& scatter : scene.clouds.scatters)
-            count += std::size_t(scatter.count);
-        lines +=
-            info_line("clouds", fmt::format("{} of {} kinds", count, scene.clouds.kinds.size()));
-    }
-    if (scene.method == "collectors")
+    if (scene.clouds.present())
+        lines += cloud_lines(scene.clouds);
+    else if (scene.method == "collectors")
         lines += info_line("photons", fmt::to_string(scene.collectors.photons));
     lines +=
         info_line("frames", fmt::to_string(scene.animation.present ? scene.animation.frames : 1));
