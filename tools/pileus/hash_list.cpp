@@ -101,7 +101,11 @@ Status read_hash_list(const std::string& path, std::vector<ListedHash>& list) {
     Buffer<char> bytes;
     PILEUS_TRY(check_file_name(path));
     PILEUS_TRY(read_whole_file(path, kMostBytes, bytes));
-    const std::string text(bytes.data(), bytes.size());
+    return parse_hash_list(path, std::string(bytes.data(), bytes.size()), list);
+}
+
+Status parse_hash_list(const std::string& path, const std::string& text,
+                       std::vector<ListedHash>& list) {
     Status faults;
     int number = 0, malformed = 0;
     for (std::size_t at = 0; at < text.size() && malformed < kMostFaults;) {

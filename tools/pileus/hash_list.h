@@ -30,6 +30,10 @@ struct ListedHash {
 /// malformed line and each name that comes twice; a list without hashes; those of read_whole_file.
 Status read_hash_list(const std::string& path, std::vector<ListedHash>& list);
 
+/// The same of a text that was read from `path`.
+Status parse_hash_list(const std::string& path, const std::string& text,
+                       std::vector<ListedHash>& list);
+
 /// Whether two names are one without looking at the disk: ./a.exr is a.exr.
 bool same_name(const std::string& a, const std::string& b);
 

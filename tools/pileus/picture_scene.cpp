@@ -150,6 +150,11 @@ Status read_picture_scene(const std::string& path, const std::optional<std::stri
     Image image;
     PILEUS_TRY(check_file_name(path));
     PILEUS_TRY(read_image(path, image));
+    return take_picture_scene(path, image, folder, out);
+}
+
+Status take_picture_scene(const std::string& path, const Image& image,
+                          const std::optional<std::string>& folder, PictureScene& out) {
     const Origin origin{path, {image.origin.begin(), image.origin.end()}};
     out = PictureScene();
     out.file = path;

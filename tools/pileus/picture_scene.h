@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "src/io/images/image.h"
 #include "src/session/render.h"
 
 namespace pileus {
@@ -31,6 +32,10 @@ bool is_picture_scene(const std::string& path);
 /// read_image; kBadInput: an attribute that is missing or malformed, named in the line.
 Status read_picture_scene(const std::string& path, const std::optional<std::string>& folder,
                           PictureScene& out);
+
+/// The same of a picture that was read from `path`.
+Status take_picture_scene(const std::string& path, const Image& image,
+                          const std::optional<std::string>& folder, PictureScene& out);
 
 /// The frame of the picture, and those before it that its bits depend on. kBadInput: the scene has
 /// no such frame.
