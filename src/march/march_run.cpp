@@ -54,7 +54,7 @@ Status aim(int, bool anew, const Context&, MethodRun& method_run) {
     const Lighting& now = run.lighting;
     const auto& size = run.scene->camera.resolution;
     if (anew || !same_shine(before, now)) {
-        run.sky_to_sun = {};
+        run.sky_made = false;
         run.upsample.ready = false;
     }
     if (run.camera.width != size[0] || run.camera.height != size[1] ||
@@ -142,10 +142,14 @@ Grid sun_grid(const RaymarchRun& run) {
 Status make_lit_medium(const Context& context, RaymarchRun& run) {
     if (!has_sun_grid(run) || !run.lit.volume.density.empty()) return Status::ok();
     const StageClock clock(context, "buffer cells");
+    // Whole or not at all: what memory ended within is made anew.
+    Medium lit;
     PILEUS_TRY(resample_medium(marched_medium(run), sun_cells(run), context.threads,
-                               arrays::lit_density(sun_grid(run)), run.lit));
-    run.lit.sigma *= float(run.simple->light_scale);
-    return make_majorants(run.lit, false, context, run.lit_majorants);
+                               arrays::lit_density(sun_grid(run)), lit));
+    lit.sigma *= float(run.simple->light_scale);
+    PILEUS_TRY(make_majorants(lit, false, context, run.lit_majorants));
+    run.lit = std::move(lit);
+    return Status::ok();
 }
 
 Status march_outline(const Context& context, RaymarchRun& run) {

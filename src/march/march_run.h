@@ -39,6 +39,7 @@ struct RaymarchRun : MethodRun {
     std::vector<DensityLevel> coarse;  ///< their densities
     SunDepth nodes;
     SunDepthDifference nodes_difference;  ///< of swept nodes to rays
+    bool sky_made = false;                ///< its nodes are those of the light as it is
     std::array<float, 3> sky_to_sun{};    ///< the sun that the sky's nodes were made for
     CameraParams sky_camera{};            ///< and the camera
     std::array<float, 3> nodes_to_sun{};  ///< the sun that swept nodes were made for

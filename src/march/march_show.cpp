@@ -77,12 +77,16 @@ Status light_sky(const Context& context, const FrameStep& step, RaymarchRun& run
     if (!run.settings.sky_ambient || run.world->medium.sigma <= 0) return Status::ok();
     const SkyView view = sky_view(run);
     const bool seen = !view.turned || same_way(run, run.sky_camera, run.camera);
-    if (!step.first && seen && run.sky_to_sun == run.lighting.to_sun) return Status::ok();
+    const bool same = seen && run.sky_to_sun == run.lighting.to_sun;
+    if (!step.first && run.sky_made && same) return Status::ok();
+    run.sky_made = false;
     run.sky_to_sun = run.lighting.to_sun;
     run.sky_camera = run.camera;
-    return make_sky_nodes(context, run.world->medium, run.majorants, run.lighting,
-                          mean_kept(run.settings, run.world->medium), octaves_of(run.settings),
-                          view, run.sky);
+    PILEUS_TRY(make_sky_nodes(context, run.world->medium, run.majorants, run.lighting,
+                              mean_kept(run.settings, run.world->medium), octaves_of(run.settings),
+                              view, run.sky));
+    run.sky_made = true;
+    return Status::ok();
 }
 
 /// Light of [[light]], scattered once or by octaves, and of the media: its own march, in steps of

@@ -121,21 +121,23 @@ float turn_of_deg(double deg) {
 }
 
 Status make_beam(const Medium& medium, float peak_turn, int threads, Stage first, Beam& out) {
-    out.sets = medium.channels;
-    PILEUS_TRY(allocate_once(arrays::beam_tables(std::uint64_t(out.sets), first), out.tables));
+    const int sets = medium.channels;
+    PILEUS_TRY(allocate_once(arrays::beam_tables(std::uint64_t(sets), first), out.tables));
     const Optics& optics = medium.optics[0];
     const Moments m = moments_of(optics.phase, double(peak_turn));
     out.share = m.kept[0];
     for (int s = 0; s < 3; ++s) {
         const double albedo = double(optics.albedo[s]);
         out.rest[s] = float(1 - albedo * out.share);
-        if (s >= out.sets) continue;
+        if (s >= sets) continue;
         const std::vector<double> weights = weights_of(m, albedo);
         float* table = out.tables.data() + s * kBeamNumbers;
         parallel_for(threads, kBeamAngles + 1, [&](std::int64_t node, int) {
             fill_angle(m, weights, int(node), table + node * (kBeamDepths + 1));
         });
     }
+    // Of tables that are there.
+    out.sets = sets;
     return Status::ok();
 }
 

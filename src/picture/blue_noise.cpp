@@ -71,9 +71,10 @@ void first_pattern(Pattern& p, int count) {
 
 Status make_blue_noise(Buffer<float>& tile) {
     constexpr int kFirst = kPixels / 10;
-    PILEUS_TRY(allocate(arrays::blue_noise(Stage::kWrite), tile));
+    // Who finds a tile takes it for a whole one: it comes last of what may fail.
     Buffer<Pattern> patterns;
     PILEUS_TRY(patterns.resize(2, "patterns of noise"));
+    PILEUS_TRY(allocate(arrays::blue_noise(Stage::kWrite), tile));
     Pattern &start = patterns[0], &p = patterns[1];
     start = Pattern{};
     first_pattern(start, kFirst);

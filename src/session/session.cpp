@@ -144,6 +144,7 @@ void Session::finish_report() {
 /// Changes that a host made since the last time.
 Status Session::aim() {
     if (!stale_) return Status::ok();
+    if (air_old_) PILEUS_TRY(relight_air());
     place();
     // What late rows lead to may be laid out anew.
     if (late_.ready) shown_ = nullptr;

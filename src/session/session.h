@@ -168,6 +168,7 @@ private:
     FrameWork whole_work_, work_;  ///< the scene's, and that of the next frame
     int frame_ = 0;
     bool stale_ = true, anew_ = false;
+    bool air_old_ = false;  ///< the air's sky is another sun's or ground's
     bool has_hash_ = false;
     Shine sealed_shine_;
     std::uint64_t hash_ = 0;  ///< of the last picture

@@ -109,8 +109,11 @@ Status Session::relight_air() {
     lit.atmosphere = scene_.atmosphere;
     lit.sun = around_.sun;
     lit.ground = around_.ground;
-    anew_ = true;
-    return light_surroundings(lit, context_.threads, *run_->world, run_->around);
+    // Where memory ends, the next picture tries again.
+    anew_ = air_old_ = true;
+    PILEUS_TRY(light_surroundings(lit, context_.threads, *run_->world, run_->around));
+    air_old_ = false;
+    return Status::ok();
 }
 
 Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {

@@ -285,3 +285,21 @@ name = "raymarch"
     CHECK(out.line() == "densities[0]: cell 5: -1.000000, allowed: finite and not negative");
     CHECK(world == nullptr);
 }
+
+TEST_CASE("sessions: the cloud's shadow on the ground, whatever size the last picture had") {
+    for (const char* method : {"raymarch", "collectors"}) {
+        CAPTURE(method);
+        const double above[3] = {16, -3000, 4000}, ground[3] = {-600, 300, 0};
+        std::string hashes[2];
+        for (const bool twice : {false, true}) {
+            Hosted host(kSmallCumulus, with(method));
+            host.step(host.whole());
+            // Nodes of the shadow are as many as these pixels allow; they lie where they lay.
+            for (const std::uint32_t width : {twice ? 120u : 96u, 96u}) {
+                host.aim(above, ground, 50, width, 64);
+                hashes[twice] = host.hash();
+            }
+        }
+        CHECK(hashes[0] == hashes[1]);
+    }
+}

@@ -120,6 +120,7 @@ void choose_orders(ParticlesRun& run) {
 
 Status light_particles(const Context& context, ParticlesRun& run) {
     if (run.lit && run.to_sun == run.lighting.to_sun) return Status::ok();
+    run.lit = false;
     choose_orders(run);
     if (run.tree.balls.empty()) return Status::ok();
     const double share = run.scene->particles.occluders;

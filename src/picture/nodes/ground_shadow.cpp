@@ -39,6 +39,8 @@ Status make_ground_shadow(const Context& context, const Medium& medium, const Me
                           const Lighting& lighting, std::uint64_t pixels, const SunTurn& turn,
                           GroundShadow& out) {
     const std::uint64_t most = most_ground_nodes(medium, lighting, pixels);
+    // Another size of the picture has memory of its own, which holds nothing yet.
+    if (out.depth.size() != most) out.slices.held.clear();
     PILEUS_TRY(allocate_once(arrays::ground_shadow(most), out.depth));
     NodeGrid nodes{};
     if (most > 0 && lighting.sunlit && medium.sigma > 0 && medium.extent_m[2] > lighting.ground_z) {
