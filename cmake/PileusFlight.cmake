@@ -94,6 +94,7 @@ foreach(isa IN LISTS PILEUS_ISA_NAMES)
         set_target_properties(pileus_flight_${isa} PROPERTIES ${property} "${value}")
     endforeach()
     target_compile_options(pileus_flight_${isa} PRIVATE ${flight_options})
+    target_compile_definitions(pileus_flight_${isa} PRIVATE PILEUS_FLIGHT=1)
     pileus_count_coverage(pileus_flight_${isa})
     target_link_libraries(pileus_flight_${isa} PRIVATE pileus_flags pileus_nothrow)
     set_target_properties(pileus_flight_${isa} PROPERTIES POSITION_INDEPENDENT_CODE OFF

@@ -2,6 +2,7 @@
 // Compiled once per instruction set with PILEUS_ISA (a name) and PILEUS_WIDTH (lanes).
 // in: the kernel templates -> out: one exported table, everything else internal.
 // docs/architecture.md, "Kernels: written once"; tools/check_objects proves that nothing leaks.
+#include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/display/blend.h"
 #include "kernels_cpu/display/march.h"
 #include "kernels_cpu/display/march_background.h"
@@ -36,7 +37,7 @@ static_assert(__FLT_EVAL_METHOD__ == 0, "floats must be computed as floats");
 void trace_kernel(const TraceParams& k, const TraceBuffers& b, std::uint32_t begin,
                   std::uint32_t end) {
     if (k.cells[0] > 0) return PILEUS_TRACE_CELLS(PILEUS_ISA)(k, b, begin, end);
-    if (k.solids.count > 0) return PILEUS_TRACE_SOLIDS(PILEUS_ISA)(k, b, begin, end);
+    if (kMeshes && k.solids.count > 0) return PILEUS_TRACE_SOLIDS(PILEUS_ISA)(k, b, begin, end);
     trace<PILEUS_WIDTH>(k, b, begin, end);
 }
 void shadow_kernel(const ShadowParams& k, const ShadowBuffers& b, std::uint32_t begin,

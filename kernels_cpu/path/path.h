@@ -4,6 +4,7 @@
 // docs/path.md; null-collision tracking and the look-up as in docs/methods.md 2.
 // Paths and shadow rays are both walks on one grid, so that lanes of either kind share each step.
 #pragma once
+#include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/path/path_start.h"
 
 namespace pileus {
@@ -211,7 +212,7 @@ PILEUS_FN void trace_paths(const PathParams& k, const PathBuffers& b, std::uint3
 template <int W>
 PILEUS_FN void trace_paths_guided(const PathParams& k, const PathBuffers& b, std::uint32_t begin,
                                   std::uint32_t end) {
-    if (k.solids.count > 0 || k.camera_depth != nullptr)
+    if ((kMeshes && k.solids.count > 0) || k.camera_depth != nullptr)
         trace_paths<W, kAmongSolids | kSeekingSun>(k, b, begin, end);
     else
         trace_paths<W, kSeekingSun>(k, b, begin, end);
@@ -221,7 +222,7 @@ PILEUS_FN void trace_paths_guided(const PathParams& k, const PathBuffers& b, std
 template <int W>
 PILEUS_FN void trace_paths_lamps(const PathParams& k, const PathBuffers& b, std::uint32_t begin,
                                  std::uint32_t end) {
-    if (k.solids.count > 0 || k.camera_depth != nullptr)
+    if ((kMeshes && k.solids.count > 0) || k.camera_depth != nullptr)
         trace_paths<W, kAmongSolids | kSeekingSun | kLitByLamps>(k, b, begin, end);
     else
         trace_paths<W, kSeekingSun | kLitByLamps>(k, b, begin, end);

@@ -4,6 +4,7 @@
 // Woop, Benthin, Wald 2013, "Watertight ray/triangle intersection"; docs/solids.md.
 // Rays of different lanes part ways at once: each walks the tree alone.
 #pragma once
+#include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/core/vec.h"
 #include "kernels_cpu/solids/solids_params.h"
 
@@ -222,7 +223,8 @@ template <class T>
 PILEUS_FN SolidHit<T> hit_solids(const SolidsView& s, const Vec<T>& o, const Vec<T>& d, T limit,
                                  M_of<T> m) {
     SolidHit<T> hit{all<T>(__builtin_inff()), all<I_of<T>>(-1)};
-    for (std::uint32_t lanes = s.count > 0 ? bits_of(m) : 0u; lanes != 0; lanes &= lanes - 1) {
+    for (std::uint32_t lanes = kMeshes && s.count > 0 ? bits_of(m) : 0u; lanes != 0;
+         lanes &= lanes - 1) {
         const int i = lowest_bit(lanes);
         const float from[3] = {lane(o.x, i), lane(o.y, i), lane(o.z, i)};
         const float along[3] = {lane(d.x, i), lane(d.y, i), lane(d.z, i)};
@@ -240,7 +242,8 @@ template <class T>
 PILEUS_FN M_of<T> behind_solids(const SolidsView& s, const Vec<T>& o, const Vec<T>& d, T limit,
                                 M_of<T> m) {
     I_of<T> blocked{};
-    for (std::uint32_t lanes = s.count > 0 ? bits_of(m) : 0u; lanes != 0; lanes &= lanes - 1) {
+    for (std::uint32_t lanes = kMeshes && s.count > 0 ? bits_of(m) : 0u; lanes != 0;
+         lanes &= lanes - 1) {
         const int i = lowest_bit(lanes);
         const float from[3] = {lane(o.x, i), lane(o.y, i), lane(o.z, i)};
         const float along[3] = {lane(d.x, i), lane(d.y, i), lane(d.z, i)};

@@ -2,6 +2,7 @@
 // See march_run.h. Preparation and sessions; march_show.cpp makes the picture.
 // in: settings of the march -> out: a prepared run.
 // docs/raymarch.md
+#include "kernels_cpu/core/profile.h"
 #include "src/march/march_parts.h"
 #include "src/world/medium/resample.h"
 
@@ -114,7 +115,7 @@ Status check_marched(const Scene& scene, const Budget& budget) {
             scene.file + ": output.layers: method " + scene.method +
             " has no noise, allowed: radiance, alpha, depth, cloud, optical_depth, "
             "transmittance, light, order, reflectance, shadow");
-    return check_march_parts(scene, scene.method == "optical-depth");
+    return kFilms ? check_march_parts(scene, scene.method == "optical-depth") : Status::ok();
 }
 
 bool caps_extinction(const RaymarchRun& run) {
@@ -153,7 +154,7 @@ Status make_lit_medium(const Context& context, RaymarchRun& run) {
 }
 
 Status march_outline(const Context& context, RaymarchRun& run) {
-    if (context.kernels->device != nullptr)
+    if (kDevices && context.kernels->device != nullptr)
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name + "\": method " +
                                  run.scene->method +
                                  " runs on the host alone, allowed: another, or another method");

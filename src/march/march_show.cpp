@@ -4,6 +4,7 @@
 // docs/raymarch.md; docs/formats.md, "Pictures out"
 #include <algorithm>
 
+#include "kernels_cpu/core/profile.h"
 #include "platform/clock.h"
 #include "src/base/angles.h"
 #include "src/base/digest.h"
@@ -101,7 +102,8 @@ Status add_lamps(const Context& context, RaymarchRun& run) {
 
 /// The shadow of solids, on nodes two voxels apart.
 Status shade_by_solids(const Context& context, RaymarchRun& run) {
-    if (!run.world->solids.meshes || !run.lighting.sunlit || run.world->medium.sigma <= 0)
+    if (!kMeshes || !run.world->solids.meshes || !run.lighting.sunlit ||
+        run.world->medium.sigma <= 0)
         return Status::ok();
     float coarse = 0;
     for (float cell : run.world->medium.grid.cell_m) coarse = cell > coarse ? cell : coarse;
@@ -228,11 +230,11 @@ Status march_frame(const FrameStep& step, const Context& context, RaymarchRun& r
                                     sky_light_bits(run), kNearSteps, turn_of(run), run.sky_light));
         in.sky_light = &run.sky_light.view;
     }
-    PILEUS_TRY(choose_march_work(context, start_s, thin, run));
+    if (kFilms) PILEUS_TRY(choose_march_work(context, start_s, thin, run));
     thin.settings = run.settings.thin;
     PILEUS_TRY(upsample_picture(context, thin, step.frame, run.upsample, run.planes));
     PILEUS_TRY(add_lamps(context, run));
-    PILEUS_TRY(march_parts(context, in, run));
+    if (kFilms) PILEUS_TRY(march_parts(context, in, run));
     return show_air(context, scene, run.world->medium, run.lighting, run.camera, run.around,
                     run.planes);
 }

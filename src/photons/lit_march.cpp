@@ -4,6 +4,7 @@
 // docs/methods.md 3, each image frame, steps 4 and 5; repairs 3 and 4.
 #include "src/photons/lit_march.h"
 
+#include "kernels_cpu/core/profile.h"
 #include "platform/threads.h"
 #include "src/base/angles.h"
 #include "src/picture/background.h"
@@ -48,7 +49,7 @@ Status make_sun_shadow(const Context& context, PhotonRun& run) {
     const std::vector<int> due = follow_sun(turn_of(run), run.shadow_slices);
     ShadowBuffers b{run.shadow.data()};
     std::vector<NodeRange> rows;
-    if (!due.empty() && context.kernels->device == nullptr) {
+    if (!due.empty() && (!kDevices || context.kernels->device == nullptr)) {
         rows = nodes_in_medium(k.nodes, k.medium);
         b.rows = rows.data();
     }
@@ -57,7 +58,7 @@ Status make_sun_shadow(const Context& context, PhotonRun& run) {
         for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = sun[a];
         PILEUS_TRY(make_shadow_slice(context, k, b, slice, run.light_refresh));
     }
-    if (run.lighting.solids != nullptr && !run.shadow_ready)
+    if (kMeshes && run.lighting.solids != nullptr && !run.shadow_ready)
         PILEUS_TRY(solid_visibility(context, *run.lighting.solids, run.shadow_nodes,
                                     run.lighting.to_sun, run.visibility));
     if (run.deposit.peak_turn > 0 && run.beam.sets == 0)
@@ -152,7 +153,8 @@ private:
 }  // namespace
 
 bool reads_quads(const Context& context, int channels, const NodeGrid& nodes) {
-    return channels == 3 && node_count(nodes) > 1 && context.kernels->device == nullptr;
+    return channels == 3 && node_count(nodes) > 1 &&
+           (!kDevices || context.kernels->device == nullptr);
 }
 
 const float* sun_depths_at(const PhotonRun& run, const NodeGrid& nodes) {
@@ -216,7 +218,7 @@ Status check_thinned(const Context& context, const Scene& scene, const char* met
         return Status::bad_input(key + "the layer \"" + layer +
                                  "\" has every pixel marched, allowed: none of both, or no such "
                                  "layer");
-    if (context.kernels->device != nullptr)
+    if (kDevices && context.kernels->device != nullptr)
         return Status::bad_input(key + "for the host alone, allowed: another --isa, or none");
     return Status::ok();
 }

@@ -2,6 +2,7 @@
 // See ring_sum.h.
 #include "src/photons/ring_sum.h"
 
+#include "kernels_cpu/core/profile.h"
 #include "platform/threads.h"
 
 namespace pileus {
@@ -41,7 +42,8 @@ double unit_beside(const Photons& photons, std::size_t light, std::size_t but) {
 
 /// The table that packs; beside a device it is the host's.
 const PackKernels& pack_kernels(const RingWork& work) {
-    return work.kernels->device == nullptr ? *work.kernels->pack : *kernel_table(nullptr)->pack;
+    return !kDevices || work.kernels->device == nullptr ? *work.kernels->pack
+                                                        : *kernel_table(nullptr)->pack;
 }
 
 /// A number of the ground in units of 2^coarser, halves away from zero.

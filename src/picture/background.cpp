@@ -2,6 +2,7 @@
 // See background.h.
 #include "src/picture/background.h"
 
+#include "kernels_cpu/core/profile.h"
 #include "src/base/angles.h"
 #include "src/world/solids/camera_depth.h"
 #include "src/world/solids/solids.h"
@@ -130,12 +131,14 @@ bool has_image(const Lighting& light) {
 
 }  // namespace
 
-bool has_surfaces(const Lighting& light) { return has_meshes(light) || has_image(light); }
+bool has_surfaces(const Lighting& light) {
+    return (kMeshes && has_meshes(light)) || has_image(light);
+}
 
 Status show_background(const Context& context, const Lighting& light, const BackgroundParams& k,
                        const BackgroundBuffers& b) {
     const std::uint32_t rows = std::uint32_t(k.camera.height);
-    if (!has_meshes(light)) {
+    if (!kMeshes || !has_meshes(light)) {
         PILEUS_TRY(run_rows(context, context.kernels->background_rows, k, b, rows));
     } else {
         SolidRowsParams params{};

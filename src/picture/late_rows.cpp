@@ -2,6 +2,7 @@
 // See late_rows.h.
 #include "src/picture/late_rows.h"
 
+#include "kernels_cpu/core/profile.h"
 #include "platform/threads.h"
 #include "src/io/images/srgb.h"
 #include "src/picture/background.h"
@@ -48,7 +49,7 @@ void leave_upsampling(const UpsampleParams& k, const UpsampleBuffers& b, LateRow
 
 bool is_late(const PixelTarget& target, const KernelTable& kernels) {
     return target.format == PixelFormat::kRgba8Srgb && target.blend == PixelBlend::kReplace &&
-           kernels.finish_rows != nullptr && kernels.device == nullptr;
+           kernels.finish_rows != nullptr && (!kDevices || kernels.device == nullptr);
 }
 
 Status finish_picture(const Context& context, const Planes& planes, int width, int height,

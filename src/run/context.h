@@ -4,6 +4,7 @@
 #pragma once
 #include <functional>
 
+#include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/isa/kernels.h"
 #include "src/base/limits.h"
 #include "src/base/report.h"
@@ -94,7 +95,7 @@ template <class Kernel, class Params, class Buffers>
 Status run_rows(const Context& context, Kernel kernel, const Params& params, const Buffers& buffers,
                 std::uint32_t rows) {
     constexpr std::uint32_t kPiece = 4;
-    if (context.kernels->device != nullptr)
+    if (kDevices && context.kernels->device != nullptr)
         return launch_on_device(*context.kernels->device, params, buffers, rows);
     parallel_for(context.threads, (rows + kPiece - 1) / kPiece, [&](std::int64_t piece, int) {
         const std::uint32_t begin = std::uint32_t(piece) * kPiece;

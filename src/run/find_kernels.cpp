@@ -4,6 +4,7 @@
 // docs/program.md; docs/crosscheck.md
 #include "src/run/find_kernels.h"
 
+#include "kernels_cpu/core/profile.h"
 #include "platform/cuda_device.h"
 #include "src/run/device_launch.h"
 
@@ -45,7 +46,7 @@ Status find_kernels(const std::string& name, const KernelTable*& kernels) {
 
 Status test_kernels(const KernelTable& kernels) {
     std::uint64_t digest = 0;
-    if (kernels.device != nullptr)
+    if (kDevices && kernels.device != nullptr)
         PILEUS_TRY(self_test_on_device(*kernels.device, digest));
     else
         digest = kernels.self_test();

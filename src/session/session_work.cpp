@@ -2,6 +2,7 @@
 // The work of a live session's frames: what a host or the governor chose, checked and taken up.
 // in: FrameWork -> out: settings of the session's scene and method.
 // docs/realtime.md, "Work and the governor"
+#include "kernels_cpu/core/profile.h"
 #include "platform/fp_mode.h"
 #include "src/picture/upsample.h"
 #include "src/session/session.h"
@@ -125,7 +126,7 @@ Status Session::set_work(const FrameWork& given) {
         named.file = "session";
         PILEUS_TRY(check_upsampling(named, "work", thin));
     }
-    if (here.thin != nullptr && here.thin->every() != thin.every() &&
+    if (here.thin != nullptr && here.thin->every() != thin.every() && kDevices &&
         context_.kernels->device != nullptr)
         return refuse("scale", work.scale, "0 on a device");
     // Nothing is refused from here on but by the method, which comes first.

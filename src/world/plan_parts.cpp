@@ -2,6 +2,8 @@
 // See plan_parts.h. Rows without a declaration are bounds of what a reader or writer takes.
 #include "src/world/plan_parts.h"
 
+#include "kernels_cpu/core/profile.h"
+
 namespace pileus {
 namespace {
 
@@ -90,7 +92,7 @@ WorkInput medium_work(const Medium& medium, double mean_density, double max_even
 
 Status check_host_lights(const Context& context, const std::vector<LightSettings>& lights,
                          const Medium& medium) {
-    if (context.kernels->device == nullptr || (lights.empty() && !emits(medium)))
+    if (!kDevices || context.kernels->device == nullptr || (lights.empty() && !emits(medium)))
         return Status::ok();
     return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
                              "\": [[light]] and emission are for the host alone, allowed: "

@@ -2,6 +2,7 @@
 // See collectors.h. Preparation, photons and the plan; collectors_show.cpp makes the picture.
 #include "src/methods/collectors/collectors.h"
 
+#include "kernels_cpu/core/profile.h"
 #include "src/methods/collectors/billboards/gl_billboards.h"
 #include "src/photons/lit_march.h"
 #include "src/world/plan_parts.h"
@@ -122,7 +123,7 @@ Status collectors_outline(const Context& context, CollectorsRun& run) {
     PILEUS_TRY(check_host_lights(context, scene.lights, run.world->medium));
     PILEUS_TRY(check_thinned(context, scene, "collectors", scene.collectors.thin));
     run.light_refresh = scene.collectors.light_refresh;
-    if (run.light_refresh > 1 && context.kernels->device != nullptr)
+    if (run.light_refresh > 1 && kDevices && context.kernels->device != nullptr)
         return Status::bad_input(scene.file +
                                  ": collectors.light_refresh: for the host alone, allowed: 1");
     if (scene.collectors.thin.every() > 1 && !is_marched(run))

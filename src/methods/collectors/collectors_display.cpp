@@ -4,6 +4,7 @@
 // docs/methods.md 3, each image frame, steps 4 and 5; repairs 3 and 4.
 #include "src/methods/collectors/collectors_display.h"
 
+#include "kernels_cpu/core/profile.h"
 #include "src/methods/collectors/billboards/billboard_spheres.h"
 #include "src/methods/collectors/billboards/gl_billboards.h"
 #include "src/methods/collectors/collectors_memory.h"
@@ -261,7 +262,7 @@ Status collectors_billboards(const Context& context, const CollectorsRun& run,
     if (by == Compositor::kBuiltin)
         return composite_billboards(
             scene, camera, context.threads, context.kernels->blend_tile, out,
-            context.kernels->device != nullptr ? kDeviceTiling : BillboardTiling{},
+            kDevices && context.kernels->device != nullptr ? kDeviceTiling : BillboardTiling{},
             context.kernels->device);
     GlBlender blender;
     PILEUS_TRY(open_gl_blender(by, blender));

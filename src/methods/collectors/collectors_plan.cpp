@@ -2,6 +2,7 @@
 // Weighs a run before it is prepared and again after: memory, work, bounds of its sums, limits.
 // in: CollectorsRun, outlined or prepared -> out: its plan's figures; kLimit where one is too many.
 // docs/report.md, "Plan"; docs/program.md, "Limits".
+#include "kernels_cpu/core/profile.h"
 #include "src/methods/collectors/collectors_memory.h"
 #include "src/methods/collectors/prepare/tree.h"
 #include "src/photons/lit_march.h"
@@ -70,7 +71,7 @@ Status collectors_measure(const Context& context, CollectorsRun& run) {
         plan_accumulation(run.scene->collectors.accumulation,
                           {sizes.threads, bytes_of_sums(sizes), collectors_memory(sizes).peak(),
                            context.limits[LimitId::kMemory], run.plan.exact});
-    if (context.kernels->device != nullptr)
+    if (kDevices && context.kernels->device != nullptr)
         run.plan.accumulation = {"shared", "all threads of the device add to one set", 0, true};
     sizes.private_sums =
         scratch_bytes(run.plan.accumulation.bytes, bytes_of_sums(sizes), sizes.sums_ring);

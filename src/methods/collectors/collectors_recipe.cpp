@@ -2,6 +2,7 @@
 // Method `collectors` as a recipe: which of its functions a frame calls.
 // in: scene, budget, frames -> out: generations shot, pictures.
 // docs/collectors.md
+#include "kernels_cpu/core/profile.h"
 #include "src/methods/collectors/collectors.h"
 #include "src/photons/lit_march.h"
 #include "src/photons/photon_frames.h"
@@ -107,8 +108,9 @@ Status compose(const FrameStep& step, const Context& context, MethodRun& method_
 
 const Method& collectors_method() {
     static constexpr LiveMethod live{aim, advance, units, compose, take_photon_work, most_units};
-    static constexpr Method method{"collectors", WorldUse::kGrid, make, check,  outline, prepare,
-                                   report_plan,  light,           show, report, &live};
+    static constexpr Method method{"collectors",   WorldUse::kGrid, make,        check,
+                                   outline,        prepare,         report_plan, of_films(light),
+                                   of_films(show), report,          &live};
     return method;
 }
 

@@ -2,6 +2,7 @@
 // The picture of a lit collectors run: reconstruct, display, parts, layers.
 // in: CollectorsRun after shooting, a camera -> out: Image.
 // docs/methods.md 3, each image frame, steps 4 and 5; repairs 3 and 4.
+#include "kernels_cpu/core/profile.h"
 #include "src/base/digest.h"
 #include "src/methods/collectors/collectors_display.h"
 #include "src/photons/lit_march.h"
@@ -49,8 +50,8 @@ Status collectors_compose(const CameraParams& camera, const Context& context, Co
     }
     PILEUS_TRY(fill_lit_background(context, run, in, 0, planes));
     PILEUS_TRY(collectors_display(context, run, in, colours, channels, planes));
-    PILEUS_TRY(add_ground_noise(context, run, in, planes));
-    PILEUS_TRY(collectors_parts(context, run, in, planes));
+    if (kFilms) PILEUS_TRY(add_ground_noise(context, run, in, planes));
+    if (kFilms) PILEUS_TRY(collectors_parts(context, run, in, planes));
     return show_air(context, *run.scene, run.world->medium, run.lighting, camera, run.around,
                     planes);
 }

@@ -4,6 +4,7 @@
 // docs/optical-depth.md
 #include "src/methods/optical_depth/optical_depth.h"
 
+#include "kernels_cpu/core/profile.h"
 #include "src/march/march_run.h"
 
 namespace pileus {
@@ -40,9 +41,17 @@ Status outline(const Context& context, MethodRun& method_run) {
 }  // namespace
 
 const Method& optical_depth_method() {
-    static constexpr Method method{
-        "optical-depth",   WorldUse::kGrid, make,       check,        outline,    march_prepare,
-        march_report_plan, march_light,     march_show, march_report, &live_march};
+    static constexpr Method method{"optical-depth",
+                                   WorldUse::kGrid,
+                                   make,
+                                   check,
+                                   outline,
+                                   march_prepare,
+                                   march_report_plan,
+                                   of_films(march_light),
+                                   of_films(march_show),
+                                   march_report,
+                                   &live_march};
     return method;
 }
 

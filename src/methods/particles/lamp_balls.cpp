@@ -2,6 +2,7 @@
 // Light of points, spots and parallel lights at every particle, and the shadow of solids on them.
 // in: an octree, lamps, solids -> out: depths to each lamp; light that balls scatter to the camera.
 // Monette and Whitehead 2014, 3.3 and 3.4; docs/particles.md, "Lights".
+#include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/particles/particle_lamps.h"
 #include "kernels_cpu/solids/solids.h"
 #include "platform/threads.h"
@@ -74,7 +75,7 @@ Status light_by_lamps(const Context& context, ParticlesRun& run) {
     const std::size_t count = run.tree.balls.size();
     PILEUS_TRY(allocate_once(arrays::particle_lamps(count, lamps.size()), run.lamp_depth));
     PILEUS_TRY(allocate_once(arrays::particle_lamps(count, lamps.size()), run.lamp_reach));
-    if (run.world->solids.meshes)
+    if (kMeshes && run.world->solids.meshes)
         PILEUS_TRY(allocate_once(arrays::particle_lamps(count, lamps.size()), run.lamp_seen));
     const double most = run.scene->particles.most_depth;
     Buffer<float> depths;
@@ -110,7 +111,7 @@ Status light_by_lamps(const Context& context, ParticlesRun& run) {
             run.lamp_depth[l * count + i] = s.depth;
             run.lamp_reach[l * count + i] = __builtin_sqrtf(square);
         });
-        if (!run.lamp_seen.empty())
+        if (kMeshes && !run.lamp_seen.empty())
             see_past_solids(context, run, lamp, run.lamp_seen.data() + l * count);
     }
     return Status::ok();

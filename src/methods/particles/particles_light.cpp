@@ -2,6 +2,7 @@
 // See particles_run.h. Sunlight and skylight at every particle, and the march of a picture.
 // in: an octree, lights -> out: light per particle; planes of pixels.
 // docs/particles.md, "Light", "Display".
+#include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/display/march_ray.h"
 #include "platform/threads.h"
 #include "src/methods/particles/light_places.h"
@@ -131,7 +132,7 @@ Status light_particles(const Context& context, ParticlesRun& run) {
             PILEUS_TRY(light_by_sun(context, run));
         else
             PILEUS_TRY(allocate_once(arrays::particle_shades(run.tree.balls.size()), run.shade));
-        if (run.world->solids.meshes && run.orders > 0) {
+        if (kMeshes && run.world->solids.meshes && run.orders > 0) {
             const StageClock clock(context, "solid shadow");
             PILEUS_TRY(allocate_once(arrays::particle_seen(run.tree.balls.size()), run.seen));
             LampParams sun{};

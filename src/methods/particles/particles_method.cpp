@@ -2,6 +2,7 @@
 // See particles_method.h.
 #include "src/methods/particles/particles_method.h"
 
+#include "kernels_cpu/core/profile.h"
 #include "src/base/digest.h"
 #include "src/methods/particles/particles_run.h"
 #include "src/picture/air_view.h"
@@ -63,7 +64,7 @@ void choose_light(const SunPlace& sun, ParticlesRun& run) {
 
 Status outline(const Context& context, MethodRun& method_run) {
     ParticlesRun& run = own(method_run);
-    if (context.kernels->device != nullptr)
+    if (kDevices && context.kernels->device != nullptr)
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
                                  "\": method particles runs on the host alone, allowed: another, "
                                  "or another method");
@@ -149,7 +150,7 @@ Status light(const FrameStep& step, const Context& context, MethodRun& method_ru
                             run.planes.optical_depth));
     PILEUS_TRY(fill_background(context, run));
     PILEUS_TRY(show_particles(context, run));
-    if (scene.output.layer_occlusion) PILEUS_TRY(show_occlusion(context, run));
+    if (kFilms && scene.output.layer_occlusion) PILEUS_TRY(show_occlusion(context, run));
     PILEUS_TRY(light_ground_by_lamps(context, run));
     return show_air(context, scene, run.world->medium, run.lighting, run.camera, run.around,
                     run.planes);
@@ -219,9 +220,9 @@ void report_run(const MethodRun& method_run, Report& report) {
 }  // namespace
 
 const Method& particles_method() {
-    static constexpr Method method{"particles", WorldUse::kParticles, make,  check, outline,
-                                   prepare,     report_the_plan,      light, show,  report_run,
-                                   &kLive};
+    static constexpr Method method{
+        "particles",     WorldUse::kParticles, make,           check,      outline, prepare,
+        report_the_plan, of_films(light),      of_films(show), report_run, &kLive};
     return method;
 }
 

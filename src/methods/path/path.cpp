@@ -2,6 +2,7 @@
 // See trace_paths.h. Preparation; path_light.cpp traces, path_show.cpp makes the picture.
 #include "src/methods/path/path.h"
 
+#include "kernels_cpu/core/profile.h"
 #include "src/base/digest.h"
 #include "src/world/plan_parts.h"
 
@@ -43,7 +44,7 @@ void digest_prepared(PathRun& run) {
 Status outline(const Context& context, MethodRun& method_run) {
     PathRun& run = own(method_run);
     PILEUS_TRY(check_host_lights(context, run.scene->lights, run.world->medium));
-    if (context.kernels->device != nullptr && path_filters(*run.scene))
+    if (kDevices && context.kernels->device != nullptr && path_filters(*run.scene))
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
                                  "\": filter.kind = \"" + path_filter_name(*run.scene) +
                                  "\" runs on the host alone, allowed: another, or none");
@@ -149,8 +150,16 @@ PathInput path_input(const Context& context, const PathRun& run) {
 
 const Method& path_method() {
     static constexpr LiveMethod live{aim, advance, units, compose, nullptr, most_units, true};
-    static constexpr Method method{"path",  WorldUse::kGrid,  make,  check,     outline,
-                                   prepare, path_report_plan, light, path_show, path_report,
+    static constexpr Method method{"path",
+                                   WorldUse::kGrid,
+                                   make,
+                                   check,
+                                   outline,
+                                   prepare,
+                                   path_report_plan,
+                                   of_films(light),
+                                   of_films(path_show),
+                                   path_report,
                                    &live};
     return method;
 }

@@ -2,6 +2,7 @@
 // The filter of a path tracing's picture: what of its light is smooth, and what is left alone.
 // in: planes of the film, guides -> out: the planes' colour with less noise.
 // docs/filter.md
+#include "kernels_cpu/core/profile.h"
 #include "platform/threads.h"
 #include "src/methods/path/path.h"
 #include "src/picture/background.h"
@@ -220,8 +221,8 @@ Status path_filter(const Context& context, PathRun& run) {
     if (path_regresses(*run.scene)) {
         Known known;
         PILEUS_TRY(find_known(context, run, known));
-        return run.scene->output.layer_error ? regress_with_error(context, run, known)
-                                             : regress(context, run, known, -1);
+        return kFilms && run.scene->output.layer_error ? regress_with_error(context, run, known)
+                                                       : regress(context, run, known, -1);
     }
     return denoise_by_oidn(key_of(*run.scene), run.film.width, run.film.height, context.threads,
                            run.planes.colour.data());

@@ -2,6 +2,7 @@
 // See trace_paths.h.
 #include "src/methods/path/trace_paths.h"
 
+#include "kernels_cpu/core/profile.h"
 #include "platform/threads.h"
 #include "src/base/angles.h"
 #include "src/base/random_streams.h"
@@ -63,7 +64,7 @@ void set_light(const PathInput& in, const SkySampler& sampler, PathParams& k) {
         sky_lit = true;
     }
     k.sky_lit = sky_lit ? 1 : 0;
-    if (light.solids != nullptr) {
+    if (kMeshes && light.solids != nullptr) {
         k.solids = light.solids->view();
         if (light.solids->coloured()) k.channels = 3;
     }
@@ -121,7 +122,7 @@ auto kernel_for(const PathInput& in, const PathParams& k) {
 Status run_launch(const PathInput& in, const PathParams& k, std::uint64_t count,
                   const std::function<bool()>& ask, PathScratch& scratch, bool& ended) {
     ended = false;
-    if (in.kernels->device != nullptr)
+    if (kDevices && in.kernels->device != nullptr)
         return launch_on_device(*in.kernels->device, k,
                                 {scratch.radiance.data(), scratch.capacity, &scratch.tallies[0]},
                                 std::uint32_t(count));

@@ -2,6 +2,7 @@
 // Weighs a run of the photon grid: memory, work, bounds of its sums, limits.
 // in: PhotonGridRun, outlined or prepared -> out: its plan; kLimit where something is too much.
 // docs/report.md, "Plan"; docs/photon-grid.md, "Memory".
+#include "kernels_cpu/core/profile.h"
 #include "src/methods/photon_grid/photon_grid.h"
 #include "src/photons/lit_march.h"
 #include "src/photons/photon_report.h"
@@ -68,7 +69,8 @@ void add_picture(const PhotonGridRun& run, const Context& context, MemoryTable& 
         add(t, arrays::near_nodes(planes / 3 * harmonic_numbers(run),
                                   near_nodes_of(run, cell_nodes(run), context)));
     const bool reads_quads = (planes == 3 || parts > 0) && !shows_harmonics(run) &&
-                             run.cells.count() > 1 && context.kernels->device == nullptr;
+                             run.cells.count() > 1 &&
+                             (!kDevices || context.kernels->device == nullptr);
     add(t, arrays::lit_quads(reads_quads ? run.cells.count() : 0));
     add(t, arrays::picture_planes(plane_count(planes, solid, run.scene->wants_depth()) + extra,
                                   pixels));

@@ -2,6 +2,7 @@
 // Method `photon-grid` as a recipe: which of its functions a frame calls.
 // in: scene, budget, frames -> out: generations shot, pictures.
 // docs/photon-grid.md
+#include "kernels_cpu/core/profile.h"
 #include "src/methods/photon_grid/photon_grid.h"
 #include "src/photons/lit_march.h"
 #include "src/photons/photon_report.h"
@@ -60,7 +61,7 @@ Status check(const Scene& scene, const Budget& budget) {
 }
 
 Status outline(const Context& context, MethodRun& run) {
-    if (context.kernels->device != nullptr)
+    if (kDevices && context.kernels->device != nullptr)
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
                                  "\": method photon-grid runs on the host alone, allowed: another, "
                                  "or another method");
@@ -194,8 +195,9 @@ const Method* photon_grid_views(int& count) {
 
 const Method& photon_grid_method() {
     static constexpr LiveMethod live{aim, advance, units, compose, take_photon_work, most_units};
-    static constexpr Method method{"photon-grid", WorldUse::kGrid, make, check,  outline, prepare,
-                                   report_plan,   light,           show, report, &live};
+    static constexpr Method method{"photon-grid",  WorldUse::kGrid, make,        check,
+                                   outline,        prepare,         report_plan, of_films(light),
+                                   of_films(show), report,          &live};
     return method;
 }
 

@@ -4,6 +4,7 @@
 // docs/raymarch.md
 #include "src/methods/raymarch/raymarch.h"
 
+#include "kernels_cpu/core/profile.h"
 #include "src/march/march_run.h"
 
 namespace pileus {
@@ -32,10 +33,17 @@ Status outline(const Context& context, MethodRun& method_run) {
 }  // namespace
 
 const Method& raymarch_method() {
-    static constexpr Method method{
-        "raymarch",    WorldUse::kSkyInPlace, make,        check,      outline,
-        march_prepare, march_report_plan,     march_light, march_show, march_report,
-        &live_march};
+    static constexpr Method method{"raymarch",
+                                   WorldUse::kSkyInPlace,
+                                   make,
+                                   check,
+                                   outline,
+                                   march_prepare,
+                                   march_report_plan,
+                                   of_films(march_light),
+                                   of_films(march_show),
+                                   march_report,
+                                   &live_march};
     return method;
 }
 

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "kernels_cpu/core/profile.h"
 #include "src/base/angles.h"
 #include "src/base/file.h"
 #include "src/io/meshes/mesh_file.h"
@@ -86,7 +87,7 @@ Status place_triangles(const SolidSettings& settings, const std::string& name, s
 }
 
 Status refuse_device(const Scene& scene, const Context& context) {
-    if (context.kernels->device == nullptr) return Status::ok();
+    if (!kDevices || context.kernels->device == nullptr) return Status::ok();
     return Status::bad_input(scene.file + ": solid, camera.depth: not on the device " +
                              context.kernels->name + " in this version, allowed: --isa auto");
 }
