@@ -61,7 +61,7 @@ struct Stage {
 /// What a host does with a session, call by call.
 class Life {
 public:
-    Life(const Stage& stage, long ends) : stage_(stage) {
+    Life(const Stage& stage, long ends) {
         memory_.ends = ends;
         const pileus_host host = memory_.host();
         pileus_session* made = nullptr;
@@ -128,7 +128,6 @@ private:
     }
     void live();
 
-    const Stage& stage_;
     Ending memory_;
     SessionHandle session_;
     Outcome out_;
