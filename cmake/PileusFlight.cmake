@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # The library of the flight profile: sessions over packed scenes, nothing else. docs/flight.md
-# in: PILEUS_FLIGHT, PILEUS_FLIGHT_METHODS, kernels of PILEUS_KERNELS
+# in: PILEUS_FLIGHT, PILEUS_FLIGHT_METHODS, PILEUS_FLIGHT_LEFT_OUT, kernels of PILEUS_KERNELS
 # -> out: libpileus_flight.a, one object with the functions of pileus_flight.h and pileus_session_*
 if(NOT PILEUS_FLIGHT)
     return()
@@ -16,6 +16,12 @@ if(PILEUS_FLIGHT_METHODS)
     endforeach()
     set(flight_methods ${PILEUS_FLIGHT_METHODS})
 endif()
+set(PILEUS_FLIGHT_LEFT_OUT "" CACHE STRING "Parts that no scene of a flight needs: lights, atmosphere")
+foreach(part IN LISTS PILEUS_FLIGHT_LEFT_OUT)
+    if(NOT part MATCHES "^(lights|atmosphere)$")
+        message(FATAL_ERROR "PILEUS_FLIGHT_LEFT_OUT: ${part}, allowed: lights, atmosphere")
+    endif()
+endforeach()
 if(NOT CMAKE_OBJCOPY OR NOT CMAKE_LINKER)
     message(FATAL_ERROR "PILEUS_FLIGHT: needs a linker and objcopy, allowed: GNU binutils")
 endif()
@@ -59,7 +65,7 @@ set(flight_options -fno-threadsafe-statics -fno-asynchronous-unwind-tables -fno-
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
     list(APPEND flight_options -fcallgraph-info=su)
 endif()
-target_compile_options(pileus_flight_objects PRIVATE ${flight_options} -Os)
+target_compile_options(pileus_flight_objects PRIVATE ${flight_options} -Oz)
 pileus_count_coverage(pileus_flight_objects)
 # A compiler cache would not bring back what the compiler writes of stacks and calls.
 set_target_properties(pileus_flight_objects PROPERTIES POSITION_INDEPENDENT_CODE OFF
@@ -74,8 +80,13 @@ pileus_compile_together(pileus_flight_objects 12 flight)
 # them. Solid meshes and marched detail are in no flight.
 set(flight_without SOLIDS DETAIL)
 set(flight_left_out trace_solids solids detail)
+set(photons "collectors|photon-grid")
+set(march "raymarch|optical-depth")
 foreach(row "photon-grid CELLS trace_cells" "path PATH path path_solids path_guided path_lamps"
-        "raymarch|optical-depth RAYMARCH raymarch" "raymarch SKY sky" "particles PARTICLES particles")
+        "${march} RAYMARCH raymarch" "raymarch SKY sky" "particles PARTICLES particles"
+        "${photons} PHOTONS pack" "${photons}|path MARCH" "collectors BILLBOARDS"
+        "${photons}|raymarch UPSAMPLING" "${march}|particles SWEEP sweep"
+        "${photons}|${march}|particles LAMPS lamps")
     separate_arguments(row)
     list(POP_FRONT row users part)
     if(NOT "${flight_methods}" MATCHES "(^|;)(${users})(;|$)")
@@ -83,13 +94,19 @@ foreach(row "photon-grid CELLS trace_cells" "path PATH path path_solids path_gui
         list(APPEND flight_left_out ${row})
     endif()
 endforeach()
+foreach(part IN LISTS PILEUS_FLIGHT_LEFT_OUT)
+    string(TOUPPER ${part} name)
+    list(APPEND flight_without ${name})
+    if(part STREQUAL "lights")
+        list(APPEND flight_left_out lamps path_lamps)
+    endif()
+endforeach()
 set(flight_kernels ${PILEUS_ISA_SOURCES} "${PROJECT_SOURCE_DIR}/kernels_cpu/isa/left_out.cpp")
 foreach(part IN LISTS flight_left_out)
     list(FILTER flight_kernels EXCLUDE REGEX "/isa_${part}[.]cpp$")
 endforeach()
 list(TRANSFORM flight_without PREPEND PILEUS_WITHOUT_)
-set_source_files_properties(kernels_cpu/isa/left_out.cpp
-    PROPERTIES COMPILE_DEFINITIONS "${flight_without}")
+target_compile_definitions(pileus_flight_objects PRIVATE ${flight_without})
 set(flight_isa_objects)
 foreach(isa IN LISTS PILEUS_ISA_NAMES)
     add_library(pileus_flight_${isa} OBJECT ${flight_kernels})
@@ -98,7 +115,7 @@ foreach(isa IN LISTS PILEUS_ISA_NAMES)
         set_target_properties(pileus_flight_${isa} PROPERTIES ${property} "${value}")
     endforeach()
     target_compile_options(pileus_flight_${isa} PRIVATE ${flight_options})
-    target_compile_definitions(pileus_flight_${isa} PRIVATE PILEUS_FLIGHT=1)
+    target_compile_definitions(pileus_flight_${isa} PRIVATE PILEUS_FLIGHT=1 ${flight_without})
     pileus_count_coverage(pileus_flight_${isa})
     target_link_libraries(pileus_flight_${isa} PRIVATE pileus_flags pileus_nothrow)
     set_target_properties(pileus_flight_${isa} PROPERTIES POSITION_INDEPENDENT_CODE OFF

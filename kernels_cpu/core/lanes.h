@@ -16,7 +16,7 @@
 #define PILEUS_FN __host__ __device__ __forceinline__ static
 #define PILEUS_NUMBERS static __device__ constexpr
 #define PILEUS_CONVERT(v, To) To(v)
-#elif defined(PILEUS_COVERAGE)
+#elif defined(PILEUS_COVERAGE) || (defined(PILEUS_FLIGHT) && defined(__OPTIMIZE_SIZE__))
 // Counted once for each function, not once for each place that calls it.
 #define PILEUS_FN static inline
 #define PILEUS_NUMBERS constexpr

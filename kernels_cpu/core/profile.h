@@ -14,11 +14,26 @@ constexpr bool kFlight = false;
 constexpr bool kDevices = !kFlight;  ///< whole launches on another processor
 constexpr bool kMeshes = !kFlight;   ///< solid things but a host's images of depth
 constexpr bool kFilms = !kFlight;    ///< pictures and layers of files
+constexpr bool kPlans = !kFlight;    ///< lists for people: what runs, why not, bytes, times
+constexpr bool kChecks = !kFlight;   ///< of scenes: a packed one was checked when it was packed
 
-/// A function of files' pictures in a table; in a flight library nothing refers to it.
+// What a flight library may be configured without, cmake/PileusFlight.cmake; then no scene with it
+// is opened.
+#ifdef PILEUS_WITHOUT_LIGHTS
+constexpr bool kLights = false;  ///< [[light]], and media that emit
+#else
+constexpr bool kLights = true;
+#endif
+#ifdef PILEUS_WITHOUT_ATMOSPHERE
+constexpr bool kAtmosphere = false;  ///< clear air
+#else
+constexpr bool kAtmosphere = true;
+#endif
+
+/// A function for a table, or null in a library without what it is for: nothing refers to it then.
 template <class Function>
-constexpr Function* of_films(Function* function) {
-    return kFilms ? function : nullptr;
+constexpr Function* kept(bool here, Function* function) {
+    return here ? function : nullptr;
 }
 
 }  // namespace pileus

@@ -10,7 +10,8 @@
 #include "kernels_cpu/media/phase_table.h"
 
 // A march's step is one function among several alike: the compiler would call some of them.
-#if defined(__CUDACC__) || defined(PILEUS_COVERAGE)
+#if defined(__CUDACC__) || defined(PILEUS_COVERAGE) || \
+    (defined(PILEUS_FLIGHT) && defined(__OPTIMIZE_SIZE__))
 #define PILEUS_INLINED
 #else
 #define PILEUS_INLINED __attribute__((always_inline))

@@ -32,10 +32,27 @@ void PILEUS_TRACE_CELLS(PILEUS_ISA)(const TraceParams&, const TraceBuffers&, std
 
 namespace {
 
+#ifdef PILEUS_WITHOUT_PHOTONS
+constexpr bool kPhotons = false;
+#else
+constexpr bool kPhotons = true;
+#endif
+#ifdef PILEUS_WITHOUT_BILLBOARDS
+constexpr bool kBillboards = false;
+#else
+constexpr bool kBillboards = true;
+#endif
+#ifdef PILEUS_WITHOUT_MARCH
+constexpr bool kMarch = false;
+#else
+constexpr bool kMarch = true;
+#endif
+
 static_assert(__FLT_EVAL_METHOD__ == 0, "floats must be computed as floats");
 
 void trace_kernel(const TraceParams& k, const TraceBuffers& b, std::uint32_t begin,
                   std::uint32_t end) {
+    if (!kPhotons) return;
     if (k.cells[0] > 0) return PILEUS_TRACE_CELLS(PILEUS_ISA)(k, b, begin, end);
     if (kMeshes && k.solids.count > 0) return PILEUS_TRACE_SOLIDS(PILEUS_ISA)(k, b, begin, end);
     trace<PILEUS_WIDTH>(k, b, begin, end);
@@ -46,7 +63,7 @@ void shadow_kernel(const ShadowParams& k, const ShadowBuffers& b, std::uint32_t 
 }
 void march_kernel(const MarchParams& k, const MarchBuffers& b, std::uint32_t begin,
                   std::uint32_t end) {
-    march_rows<PILEUS_WIDTH>(k, b, begin, end);
+    if (kMarch) march_rows<PILEUS_WIDTH>(k, b, begin, end);
 }
 void background_kernel(const BackgroundParams& k, const BackgroundBuffers& b, std::uint32_t begin,
                        std::uint32_t end) {
@@ -54,7 +71,7 @@ void background_kernel(const BackgroundParams& k, const BackgroundBuffers& b, st
 }
 void blend_kernel(const BlendParams& k, const BlendBuffers& b, std::uint32_t begin,
                   std::uint32_t end) {
-    blend_tile<PILEUS_WIDTH>(k, b, begin, end);
+    if (kBillboards) blend_tile<PILEUS_WIDTH>(k, b, begin, end);
 }
 std::uint64_t self_test_kernel() { return self_test_digest<PILEUS_WIDTH>(); }
 

@@ -3,6 +3,7 @@
 // isa.cpp so that both build at once. in: the kernel templates -> out: four exported functions,
 // named after the set. docs/architecture.md, "Kernels: written once"; tools/check_objects proves
 // that nothing leaks.
+#include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/display/air_rows.h"
 #include "kernels_cpu/display/finish_rows.h"
 
@@ -20,12 +21,21 @@
 #define PILEUS_AIR(isa) PILEUS_JOIN(air_kernel_, isa)
 
 namespace pileus {
+namespace {
+
+#ifdef PILEUS_WITHOUT_UPSAMPLING
+constexpr bool kUpsampling = false;
+#else
+constexpr bool kUpsampling = true;
+#endif
+
+}  // namespace
 
 void PILEUS_UPSAMPLE(PILEUS_ISA)(const UpsampleParams&, const UpsampleBuffers&, std::uint32_t,
                                  std::uint32_t);
 void PILEUS_UPSAMPLE(PILEUS_ISA)(const UpsampleParams& k, const UpsampleBuffers& b,
                                  std::uint32_t begin, std::uint32_t end) {
-    upsample_rows<PILEUS_WIDTH>(k, b, begin, end);
+    if (kUpsampling) upsample_rows<PILEUS_WIDTH>(k, b, begin, end);
 }
 
 void PILEUS_PIXELS(PILEUS_ISA)(const PixelParams&, const PixelBuffers&, std::uint32_t,
@@ -39,14 +49,14 @@ void PILEUS_FINISH(PILEUS_ISA)(const FinishParams&, const FinishBuffers&, std::u
                                std::uint32_t);
 void PILEUS_FINISH(PILEUS_ISA)(const FinishParams& k, const FinishBuffers& b, std::uint32_t begin,
                                std::uint32_t end) {
-    finish_rows<PILEUS_WIDTH>(k, b, begin, end);
+    if (kUpsampling) finish_rows<PILEUS_WIDTH>(k, b, begin, end);
 }
 
 void PILEUS_AIR(PILEUS_ISA)(const AirRowsParams&, const AirRowsBuffers&, std::uint32_t,
                             std::uint32_t);
 void PILEUS_AIR(PILEUS_ISA)(const AirRowsParams& k, const AirRowsBuffers& b, std::uint32_t begin,
                             std::uint32_t end) {
-    air_rows(k, b, begin, end);
+    if (kAtmosphere) air_rows(k, b, begin, end);
 }
 
 }  // namespace pileus

@@ -25,10 +25,26 @@ PILEUS_NOTHING(trace_cells_, TraceParams, TraceBuffers)
 PILEUS_NOTHING(path_kernel_, PathParams, PathBuffers)
 PILEUS_NOTHING(path_solids_, PathParams, PathBuffers)
 PILEUS_NOTHING(path_guided_, PathParams, PathBuffers)
+#endif
+#if defined(PILEUS_WITHOUT_PATH) || defined(PILEUS_WITHOUT_LIGHTS)
 PILEUS_NOTHING(path_lamps_, PathParams, PathBuffers)
+#endif
+#if defined(PILEUS_WITHOUT_LAMPS) || defined(PILEUS_WITHOUT_LIGHTS)
+extern const LampKernels PILEUS_OF(lamp_kernel_, PILEUS_ISA);
+const LampKernels PILEUS_OF(lamp_kernel_, PILEUS_ISA) = {};
+#endif
+#ifdef PILEUS_WITHOUT_PHOTONS
+extern const PackKernels PILEUS_OF(pack_kernel_, PILEUS_ISA);
+const PackKernels PILEUS_OF(pack_kernel_, PILEUS_ISA) = {};
 #endif
 #ifdef PILEUS_WITHOUT_RAYMARCH
 PILEUS_NOTHING(raymarch_kernel_, RaymarchParams, RaymarchBuffers)
+#endif
+#ifdef PILEUS_WITHOUT_SWEEP
+void PILEUS_OF(sweep_kernel_, PILEUS_ISA)(const SweepParams&, const SweepBuffers&, std::uint32_t);
+void PILEUS_OF(sweep_kernel_, PILEUS_ISA)(const SweepParams&, const SweepBuffers&, std::uint32_t) {}
+PILEUS_NOTHING(sweep_layer_kernel_, SweepLayerParams, SweepBuffers)
+PILEUS_NOTHING(turn_sky_kernel_, SkyTurnParams, SkyTurnBuffers)
 #endif
 #ifdef PILEUS_WITHOUT_SKY
 extern const SkyKernels PILEUS_OF(sky_kernel_, PILEUS_ISA);

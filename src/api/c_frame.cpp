@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // pileus.h: light, pictures, and what a session tells.
+#include "kernels_cpu/core/profile.h"
 #include "src/api/c_types.h"
 #include "src/io/text/report_json.h"
 #include "src/session/warnings.h"
@@ -131,7 +132,8 @@ pileus_code pileus_session_stats(const pileus_session* session, pileus_stats* st
         out.stages_s = counted.stages_s;
         const MethodRun& run = session->session->run();
         out.shared_bytes = bytes_of_world(*run.world);
-        const std::uint64_t peak = run.plan.memory.peak();
+        const std::uint64_t peak =
+            kPlans ? run.plan.memory.peak() : session->host->block->use().kept_bytes;
         out.own_bytes = peak > out.shared_bytes ? peak - out.shared_bytes : 0;
         return give(out, stats, "stats");
     });

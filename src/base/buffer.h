@@ -19,6 +19,11 @@ inline bool checked_multiply(std::uint64_t a, std::uint64_t b, std::uint64_t& pr
     return !__builtin_mul_overflow(a, b, &product);
 }
 
+/// Gives `memory` back and takes zeroes for `count` elements of `bytes` each, or nothing for none.
+/// `what` names the array in the error line. Errors: kLimit, where `memory` is null afterwards.
+Status renew_memory(std::uint64_t count, std::uint64_t bytes, const char* what, void*& memory,
+                    const Allocator*& from);
+
 template <class T>
 class Buffer {
     static_assert(std::is_trivially_copyable<T>::value, "a Buffer holds plain data");
@@ -42,21 +47,11 @@ public:
             std::memset(static_cast<void*>(data_), 0, (taken_ * sizeof(T) + 63) / 64 * 64);
             return Status::ok();
         }
-        give_memory(data_, from_);
-        data_ = nullptr;
-        size_ = taken_ = 0;
-        std::uint64_t bytes = 0;
-        if (!checked_multiply(count, sizeof(T), bytes) || bytes > kMaxBytes)
-            return Status::limit(std::string(what) + ": more memory than can be addressed");
-        if (count == 0) return Status::ok();
-        const std::uint64_t rounded = (bytes + 63) / 64 * 64;
-        data_ = static_cast<T*>(take_memory(static_cast<std::size_t>(rounded), from_));
-        if (data_ == nullptr)
-            return Status::limit(std::string(what) + ": out of memory, " + std::to_string(bytes) +
-                                 " bytes asked for");
-        std::memset(static_cast<void*>(data_), 0, static_cast<std::size_t>(rounded));
-        size_ = taken_ = static_cast<std::size_t>(count);
-        return Status::ok();
+        void* memory = data_;
+        Status status = renew_memory(count, sizeof(T), what, memory, from_);
+        data_ = static_cast<T*>(memory);
+        size_ = taken_ = status ? static_cast<std::size_t>(count) : 0;
+        return status;
     }
 
     /// `count` elements, of any values, in memory for `most`: the next count needs none.
@@ -103,7 +98,6 @@ public:
     }
 
 private:
-    static constexpr std::uint64_t kMaxBytes = std::uint64_t{1} << 46;
     T* data_ = nullptr;
     std::size_t size_ = 0;
     std::size_t taken_ = 0;            ///< elements that there is memory for

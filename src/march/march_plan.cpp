@@ -2,6 +2,7 @@
 // Weighs a run of the raymarch: what it needs and leaves out, where sunlight comes from, memory.
 // in: RaymarchRun, outlined or prepared -> out: its plan; kLimit where something is too much.
 // docs/report.md, "Plan"; docs/raymarch.md
+#include "kernels_cpu/core/profile.h"
 #include "src/march/march_parts.h"
 #include "src/picture/blue_noise.h"
 #include "src/world/medium/sky_medium.h"
@@ -63,6 +64,7 @@ void choose_light(RaymarchRun& run) {
     const double marched = lit * (s.light_steps > 0 ? double(s.light_steps) : way);
     const double nodes = double(voxel_count(grid)) * way;
     run.march_light = marched < nodes;
+    if (!kPlans) return;
     run.light_why = "fewer samples of the density, about " +
                     std::to_string(std::uint64_t(run.march_light ? marched : nodes)) +
                     " instead of " +
@@ -271,6 +273,7 @@ Status march_measure(const Context& context, RaymarchRun& run) {
     run.levels =
         raymarch_levels(run.settings, make_camera(run.scene->camera, 0, run.world->medium.low_m),
                         run.world->medium, reach_of(run));
+    if (!kPlans) return Status::ok();
     note_plan(run);
     weigh_memory(context, run);
     return check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), run.scene->file);

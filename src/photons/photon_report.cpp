@@ -4,6 +4,7 @@
 // docs/report.md.
 #include "src/photons/photon_report.h"
 
+#include "kernels_cpu/core/profile.h"
 #include "src/base/digest.h"
 
 namespace pileus {
@@ -76,7 +77,10 @@ std::string photon_digest(const Photons& photons) {
     return d.hex();
 }
 
-void report_photons(const PhotonRun& run, Report& report) {
+namespace {
+
+/// What photons did, for people.
+void report_flights(const PhotonRun& run, const TraceTally& all, Report& report) {
     report.generations = run.next_generation;
     report.interrupted = run.interrupted;
     report.ring_generations = report.ring_whole = 0;
@@ -86,10 +90,8 @@ void report_photons(const PhotonRun& run, Report& report) {
             report.ring_generations += slot.generations > 0 ? 1 : 0;
     }
     report.energy.clear();
-    TraceTally all{};
     for (std::size_t l = 0; l < run.photons.tallies.size(); ++l) {
         const TraceTally& t = run.photons.tallies[l];
-        add_tally(t, all);
         report.energy.push_back(energy_row(run.lighting.lights[l].name, t.light));
         if (t.shadow.emitted[0] > 0)
             report.energy.push_back(
@@ -106,6 +108,14 @@ void report_photons(const PhotonRun& run, Report& report) {
             double(all.path) / 1048576.0 * __builtin_sqrt(diagonal) / double(all.photons);
     report.executed.emplace_back("absorption_tests", std::uint64_t(all.absorption_tests));
     report.executed.emplace_back("ground_bounces", std::uint64_t(all.bounces));
+}
+
+}  // namespace
+
+void report_photons(const PhotonRun& run, Report& report) {
+    TraceTally all{};
+    for (const TraceTally& tally : run.photons.tallies) add_tally(tally, all);
+    if (kPlans) report_flights(run, all, report);
     report.counters.emplace_back("majorant_violations", std::uint64_t(all.majorant_violations));
     report.counters.emplace_back("saturated", 0);  // fixed_point_places proves it
     report.counters.emplace_back("terminated", photons_in(all.light.terminated));

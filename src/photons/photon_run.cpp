@@ -6,6 +6,7 @@
 
 #include <cstring>
 
+#include "kernels_cpu/core/profile.h"
 #include "src/world/camera/view.h"
 #include "src/world/light/lamps.h"
 #include "src/world/phase/forward_share.h"
@@ -40,7 +41,8 @@ SunPlace first_place(const Scene& scene) {
 void tell_colours(const char* what, PhotonRun& run) {
     if (run.deposit.channels == 3) return;
     run.deposit.channels = 3;
-    run.plan.need((std::string("coefficients per colour channel: coloured ") + what).c_str());
+    if (kPlans)
+        run.plan.need((std::string("coefficients per colour channel: coloured ") + what).c_str());
 }
 
 /// Aims the sky map at the medium's box. A coloured one asks for a set of sums per colour channel,
@@ -176,9 +178,10 @@ Status choose_photon_lights(std::uint64_t generations, PhotonRun& run) {
     run.sun = first_place(scene);
     run.lighting = light_world(scene, run.sun, *run.world, run.around, run.plan);
     if (!run.lighting.lamps.empty()) {
-        run.plan.need((std::to_string(run.lighting.lamps.size()) +
-                       " lights of [[light]]: marched to the first scattering")
-                          .c_str());
+        if (kPlans)
+            run.plan.need((std::to_string(run.lighting.lamps.size()) +
+                           " lights of [[light]]: marched to the first scattering")
+                              .c_str());
         if (coloured_lamps(run.lighting)) tell_colours("[[light]]", run);
     }
     note_emission(run.world->medium, run.plan);

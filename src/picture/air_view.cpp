@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "kernels_cpu/core/profile.h"
 #include "platform/threads.h"
 #include "src/picture/march_view.h"
 #include "src/picture/sun_disc.h"
@@ -81,7 +82,7 @@ Status run_air(const Context& context, const Scene& scene, const Medium& medium,
 Status show_air(const Context& context, const Scene& scene, const Medium& medium,
                 const Lighting& lighting, const CameraParams& camera, Surroundings& around,
                 Planes& planes) {
-    if (!around.air.present() || camera.flux != 0) return Status::ok();
+    if (!kAtmosphere || !around.air.present() || camera.flux != 0) return Status::ok();
     const std::size_t pixels = planes.transmittance.size();
     const std::size_t parts = planes.colour.size() / (3 * pixels);
     Buffer<float> dimmed;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "kernels_cpu/core/profile.h"
 #include "src/plan/accumulation.h"
 #include "src/plan/memory_table.h"
 #include "src/plan/work.h"
@@ -48,8 +49,12 @@ struct Plan {
 
     bool runs(Stage stage) const { return (stages_left_out >> unsigned(stage) & 1u) == 0; }
     void skip(Stage stage) { stages_left_out |= 1u << unsigned(stage); }
-    void need(const char* what) { needed.emplace_back(what); }
-    void leave_out(const char* what, const char* why) { left_out.push_back({what, why}); }
+    void need(const char* what) {
+        if constexpr (kPlans) needed.emplace_back(what);
+    }
+    void leave_out(const char* what, const char* why) {
+        if constexpr (kPlans) left_out.push_back({what, why});
+    }
 };
 
 /// Binary places of the fixed-point sums: the largest s <= 30 for which one deposit fits 31 bits

@@ -13,12 +13,15 @@ std::function<bool()> patient_stop(const Context& context) {
         [&context, since] { return wall_seconds() - since > kPatienceSeconds && context.stop(); };
 }
 
-StageClock::StageClock(const Context& context, const char* stage)
-    : report_(context.report), stage_(stage), wall_(wall_seconds()), cpu_(cpu_seconds()) {
+void StageClock::start(const Context& context, const char* stage) {
     context.tell(stage, 0);
+    report_ = context.report;
+    stage_ = stage;
+    wall_ = wall_seconds();
+    cpu_ = cpu_seconds();
 }
 
-StageClock::~StageClock() {
+void StageClock::stop() {
     const double wall = wall_seconds() - wall_, cpu = cpu_seconds() - cpu_;
     for (StageTime& s : report_->stages)
         if (s.name == stage_) {

@@ -48,15 +48,22 @@ std::function<bool()> patient_stop(const Context& context);
 /// Adds the time of its scope to the stage of that name.
 class StageClock {
 public:
-    StageClock(const Context& context, const char* stage);
-    ~StageClock();
+    StageClock(const Context& context, const char* stage) {
+        if constexpr (kPlans) start(context, stage);
+    }
+    ~StageClock() {
+        if constexpr (kPlans) stop();
+    }
     StageClock(const StageClock&) = delete;
     StageClock& operator=(const StageClock&) = delete;
 
 private:
-    Report* report_;
-    const char* stage_;
-    double wall_, cpu_;
+    void start(const Context& context, const char* stage);
+    void stop();
+
+    Report* report_ = nullptr;
+    const char* stage_ = nullptr;
+    double wall_ = 0, cpu_ = 0;
 };
 
 /// Rows [0, rows) of a kernel in pieces over the threads, or all of them on the device. Fails where

@@ -131,6 +131,12 @@ struct MediumSettings {
     bool constant = false;  ///< interpolation = "constant": a cell has one value
     std::vector<TransferRow> transfer;  ///< by rising values; none: extinction as the file has it
     bool y_up = false;
+
+    // Long, and lists of media have each of them in several places: in src/scene/scene.cpp once.
+    MediumSettings();
+    MediumSettings(const MediumSettings&);
+    MediumSettings& operator=(const MediumSettings&);
+    ~MediumSettings();
 };
 
 /// Who adds to which sums: see src/plan/accumulation.h.

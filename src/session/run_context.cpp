@@ -2,6 +2,7 @@
 // See run_context.h.
 #include "src/session/run_context.h"
 
+#include "kernels_cpu/core/profile.h"
 #include "platform/clock.h"
 #include "src/run/find_kernels.h"
 #include "src/scene/read_scene.h"
@@ -37,7 +38,7 @@ Status make_context(const Scene& scene, const RenderOptions& options, Context& c
     context.holding = options.holding;
     context.limits = options.limits;
     context.frames = std::uint64_t(options.last_frame) - std::uint64_t(options.first_frame) + 1;
-    note_head(scene, options, context, report);
+    if (kPlans) note_head(scene, options, context, report);
     return Status::ok();
 }
 

@@ -2,6 +2,7 @@
 // See session.h. Opening and drawing; session_set.cpp takes what a host sets.
 #include "src/session/session.h"
 
+#include "kernels_cpu/core/profile.h"
 #include "platform/clock.h"
 #include "platform/fp_mode.h"
 #include "src/methods/registry.h"
@@ -65,12 +66,32 @@ Status make_world(const Scene& scene, const RenderOptions& options,
     return Status::ok();
 }
 
+/// Whether the method is for this session and its world.
+Status Session::check_method(bool live, const World* world) const {
+    const std::string method = scene_.file + ": method.name: \"" + scene_.method + "\" ";
+    if (live && method_->live == nullptr)
+        return Status::bad_input(method + "is for no session, allowed: another");
+    if (world == nullptr) return Status::ok();
+    if (world->media != scene_.media.size())
+        return Status::bad_input(scene_.file + ": medium: " + std::to_string(scene_.media.size()) +
+                                 " media, allowed: " + std::to_string(world->media) +
+                                 ", as the world was made of");
+    if (world->direct_sky && method_->world != WorldUse::kSkyInPlace)
+        return Status::bad_input(method + "needs the sky on a grid, allowed: a world made for it");
+    if (world->shows_particles != (method_->world == WorldUse::kParticles))
+        return Status::bad_input(
+            method +
+            (world->shows_particles ? "needs the particles on a grid" : "needs the particles") +
+            ", allowed: a world made for it");
+    return Status::ok();
+}
+
 Status Session::open(const Scene& scene, const RenderOptions& options, SessionKind kind, bool exact,
                      std::shared_ptr<const World> world) {
     const FpModeGuard guard;
     const PoolGuard lent(*threads_);
     const bool live = kind == SessionKind::kLive;
-    PILEUS_TRY(refuse_clouds(scene));
+    if (kChecks) PILEUS_TRY(refuse_clouds(scene));
     scene_ = scene;
     PILEUS_TRY(place_camera(scene_));
     place_sun(scene_);
@@ -83,24 +104,10 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
     if (live) context_.frames = kLiveFrames;
     context_.digests = !live && options.digests;
     PILEUS_TRY(find_method(scene_, method_));
-    PILEUS_TRY(method_->check(scene_, budget_of(options)));
-    if (!options.show.empty()) PILEUS_TRY(find_view(scene_.method, options.show, method_));
-    if (live && method_->live == nullptr)
-        return Status::bad_input(scene_.file + ": method.name: \"" + scene_.method +
-                                 "\" is for no session, allowed: another");
-    if (world != nullptr && world->media != scene.media.size())
-        return Status::bad_input(scene.file + ": medium: " + std::to_string(scene.media.size()) +
-                                 " media, allowed: " + std::to_string(world->media) +
-                                 ", as the world was made of");
-    if (world != nullptr && world->direct_sky && method_->world != WorldUse::kSkyInPlace)
-        return Status::bad_input(scene_.file + ": method.name: \"" + scene_.method +
-                                 "\" needs the sky on a grid, allowed: a world made for it");
-    if (world != nullptr && world->shows_particles != (method_->world == WorldUse::kParticles))
-        return Status::bad_input(
-            scene_.file + ": method.name: \"" + scene_.method +
-            (world->shows_particles
-                 ? "\" needs the particles on a grid, allowed: a world made for it"
-                 : "\" needs the particles, allowed: a world made for it"));
+    if (kChecks) PILEUS_TRY(method_->check(scene_, budget_of(options)));
+    if (kFilms && !options.show.empty())
+        PILEUS_TRY(find_view(scene_.method, options.show, method_));
+    if (kChecks) PILEUS_TRY(check_method(live, world.get()));
     run_ = method_->make();
     if (!scene_.animation.keys.empty()) {
         run_->place_at = [this](int frame) { place_keys(around_, frame, scene_); };
@@ -110,7 +117,7 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
         open_run(*method_, scene_, budget_of(options), context_, exact, std::move(world), *run_));
     // Nor does its report hash what is made in each stage: that takes longer than a picture.
     if (!context_.digests) run_->digests.clear();
-    method_->report_plan(*run_, context_, report_);
+    if (kPlans) method_->report_plan(*run_, context_, report_);
     if (method_->live != nullptr) whole_work_ = work_ = scene_work();
     report_.frame_work = told_work(work_);
     report_.peak_bytes = peak_memory_bytes();
@@ -235,7 +242,11 @@ Status Session::render(const FrameTarget& target) {
 }
 
 Report Session::told() const {
-    Report out = report_;
+    Report out;
+    if (kPlans)
+        out = report_;
+    else
+        out.counters = report_.counters;
     out.hash = has_hash_ ? hex_text(hash_) : std::string();
     method_->report(*run_, out);
     take_clocks(out);

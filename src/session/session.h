@@ -151,6 +151,7 @@ public:
 private:
     Status aim();
     Status check_sealed() const;
+    Status check_method(bool live, const World* world) const;
     Status take_frame(int frame);
     Status relight_air();
     void place();

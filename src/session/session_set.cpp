@@ -2,6 +2,7 @@
 // What a host changes in a live session: camera, lights, depths, the place of the media.
 // in: values in the host's coordinates -> out: the session's scene in the media's; faults.
 // docs/embedding.md, "What may change"
+#include "kernels_cpu/core/profile.h"
 #include "platform/fp_mode.h"
 #include "src/session/outlook.h"
 #include "src/session/session.h"
@@ -102,7 +103,7 @@ Status Session::set_sun(const Sun& sun) {
 
 /// The sky follows the sun and the ground.
 Status Session::relight_air() {
-    if (!scene_.atmosphere.present) return Status::ok();
+    if (!kAtmosphere || !scene_.atmosphere.present) return Status::ok();
     const FpModeGuard guard;
     const PoolGuard lent(*threads_);
     Scene lit;

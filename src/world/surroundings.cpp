@@ -2,6 +2,7 @@
 // See world.h: what is seen of a world through one camera and under one sky.
 // in: a scene, a world -> out: air, sky map, depths; lights.
 // docs/architecture.md, "One way through".
+#include "kernels_cpu/core/profile.h"
 #include "src/base/digest.h"
 #include "src/world/world.h"
 
@@ -9,7 +10,8 @@ namespace pileus {
 Status outline_surroundings(const Scene& scene, const Context& context, const World& world,
                             Surroundings& around) {
     PILEUS_TRY(outline_camera_depth(scene, context, around.depth));
-    if (!scene.atmosphere.present) return read_sky_map(scene, context, around.sky_map);
+    if (!kAtmosphere || !scene.atmosphere.present)
+        return read_sky_map(scene, context, around.sky_map);
     const StageClock clock(context, "atmosphere");
     return light_surroundings(scene, context.threads, world, around);
 }

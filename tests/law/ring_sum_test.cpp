@@ -13,7 +13,7 @@ using namespace pileus;
 namespace {
 
 constexpr SlotSize kSize{2100, 1, 9, 3};  // more sets than one piece of work has
-constexpr std::size_t kLights = 2, kSlots = 4;
+constexpr std::size_t kShining = 2, kSlots = 4;
 constexpr int kBlocks = 3;
 constexpr double kMostError = 0x1p-10;  // of a set's largest number
 
@@ -27,7 +27,7 @@ struct Ring {
 void open_ring(Ring& ring, const SlotSize& size = kSize) {
     ring.work.size = size;
     ring.photons.slots.resize(kSlots);
-    for (PhotonSlot& slot : ring.photons.slots) REQUIRE(allocate_slot(size, kLights, true, slot));
+    for (PhotonSlot& slot : ring.photons.slots) REQUIRE(allocate_slot(size, kShining, true, slot));
     ring.scratch.stride = size.numbers() + 5;
     ring.scratch.blocks = kBlocks;
     REQUIRE(ring.scratch.sums.resize(ring.scratch.stride * kBlocks, "sums"));
@@ -58,7 +58,7 @@ void shoot(Ring& ring, std::uint64_t g, const std::vector<double>& flux, std::si
     const RingShot shot = begin_shot(s, g < kSlots, flux, ring.photons, ring.sum);
     PhotonSlot& slot = ring.photons.slots[s];
     slot.sun_travel = {float(g), 0, -1};
-    for (std::size_t l = 0; l < kLights; ++l) {
+    for (std::size_t l = 0; l < kShining; ++l) {
         scatter(ring, g, l);
         pack_light(ring.work, l, shot, ring.scratch, ring.photons, ring.sum);
     }
@@ -93,8 +93,8 @@ std::vector<std::int64_t> numbers_of(const PhotonSlot& slot, std::size_t light) 
     const auto n = int(slot.packed.numbers);
     for (std::uint64_t set = 0; set < slot.packed.count; ++set)
         numbers_of_set(slot, light, 0, set, n, out.data() + set * slot.packed.numbers);
-    const std::size_t ground = slot.packed.ground.size() / kLights;
-    const std::int64_t* cells = ground_of(slot, light, kLights, ground);
+    const std::size_t ground = slot.packed.ground.size() / kShining;
+    const std::int64_t* cells = ground_of(slot, light, kShining, ground);
     out.insert(out.end(), cells, cells + ground);
     return out;
 }
@@ -137,9 +137,9 @@ TEST_CASE("ring sum: a packed number is wrong by 2^-10 of its set's largest at m
         CAPTURE(coefficients);
         Ring ring;
         open_ring(ring, size);
-        const double flux[kLights] = {0.77, 4.0}, unit[kLights] = {1, 4};
+        const double flux[kShining] = {0.77, 4.0}, unit[kShining] = {1, 4};
         shoot(ring, 5, {flux[0], flux[1]}, 0);
-        for (std::size_t l = 0; l < kLights; ++l) {
+        for (std::size_t l = 0; l < kShining; ++l) {
             CHECK(ring.photons.slots[0].flux_per_photon_m2[l] == unit[l]);
             const std::vector<std::int64_t> kept = numbers_of(ring.photons.slots[0], l);
             double worst = 0;
@@ -230,7 +230,7 @@ TEST_CASE("ring sum: the first generations of one flux are a still picture's, to
             }
             CHECK(ring.sum.unit == std::vector<double>{0.3, 3.0});
             bool same = true;
-            for (std::size_t l = 0; l < kLights; ++l)
+            for (std::size_t l = 0; l < kShining; ++l)
                 for (std::uint64_t i = 0; i < kSize.numbers(); ++i) {
                     std::int64_t all = 0;
                     for (std::uint64_t h = 0; h <= g; ++h) all += number_of(kSize, h, l, i);

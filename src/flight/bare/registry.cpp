@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The methods of a flight library: those that it was configured with.
-// in: PILEUS_FLIGHT_<METHOD> -> out: the recipe of a scene's method.
+// in: PILEUS_FLIGHT_<METHOD>, PILEUS_WITHOUT_<PART> -> out: the recipe of a scene's method.
 // docs/flight.md, "Build"
 #include "src/methods/registry.h"
 
+#include "kernels_cpu/core/profile.h"
 #include "src/methods/collectors/collectors.h"
 #include "src/methods/optical_depth/optical_depth.h"
 #include "src/methods/particles/particles_method.h"
@@ -13,7 +14,30 @@
 
 namespace pileus {
 
+namespace {
+
+Status without(const char* what, const char* option) {
+    return Status::bad_input(std::string(what) +
+                             " left out of this library, allowed: another scene, or a library "
+                             "with other " +
+                             option);
+}
+
+/// Scenes that need what was left out.
+Status check_parts(const Scene& scene) {
+    constexpr const char* kOption = "PILEUS_FLIGHT_LEFT_OUT";
+    bool shines = !scene.lights.empty();
+    for (const MediumSettings& medium : scene.media)
+        for (const float emission : medium.emission) shines |= emission > 0;
+    if (!kLights && shines) return without("[[light]], emission: they were", kOption);
+    if (!kAtmosphere && scene.atmosphere.present) return without("atmosphere: it was", kOption);
+    return Status::ok();
+}
+
+}  // namespace
+
 Status find_method(const Scene& scene, const Method*& method) {
+    PILEUS_TRY(check_parts(scene));
     const Method* const known[] = {
 #ifdef PILEUS_FLIGHT_COLLECTORS
         &collectors_method(),
@@ -38,9 +62,7 @@ Status find_method(const Scene& scene, const Method*& method) {
         method = one;
         if (scene.method == one->name) return Status::ok();
     }
-    return Status::bad_input("method.name: \"" + scene.method +
-                             "\" was left out of this library, allowed: another scene, or a "
-                             "library with PILEUS_FLIGHT_METHODS");
+    return without(("method.name: \"" + scene.method + "\" was").c_str(), "PILEUS_FLIGHT_METHODS");
 }
 
 Status find_view(const std::string&, const std::string&, const Method*&) {

@@ -74,6 +74,7 @@ Status plan_deposit(const Scene& scene, CollectorsRun& run) {
 }
 
 void note_plan(const Scene& scene, CollectorsRun& run) {
+    if (!kPlans) return;
     Plan& plan = run.plan;
     plan.need("samples");
     plan.need("tree");
@@ -98,7 +99,7 @@ void note_plan(const Scene& scene, CollectorsRun& run) {
 Status choose_light(CollectorsRun& run) {
     const Scene& scene = *run.scene;
     PILEUS_TRY(choose_photon_lights(std::uint64_t(scene.collectors.generations), run));
-    run.plan.bias = collectors_bias(scene.collectors);
+    if (kPlans) run.plan.bias = collectors_bias(scene.collectors);
     aim_deposit(run);
     return plan_deposit(scene, run);
 }
@@ -160,7 +161,7 @@ Status collectors_prepare(const Context& context, CollectorsRun& run) {
     run.outlined_only = false;
     PILEUS_TRY(collectors_measure(context, run));
     PILEUS_TRY(lay_out_photons(collectors_trace_input(context, run), run));
-    collectors_digest_prepared(run);
+    if (kPlans) collectors_digest_prepared(run);
     return Status::ok();
 }
 

@@ -201,7 +201,7 @@ Status show_harmonics(const Context& context, CollectorsRun& run, const Reconstr
                        : march_lit(context, run, light, k, target, planes));
     }
     // The picture's own digest, not those of its parts.
-    if (in.lighting == &run.lighting && context.digests)
+    if (kPlans && in.lighting == &run.lighting && context.digests)
         context.report->digests.emplace_back("colours", digest.hex());
     return Status::ok();
 }

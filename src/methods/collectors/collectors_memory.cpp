@@ -4,6 +4,7 @@
 // docs/report.md, "Memory".
 #include "src/methods/collectors/collectors_memory.h"
 
+#include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/display/blend_params.h"
 #include "src/methods/collectors/billboards/billboard_spheres.h"
 #include "src/methods/collectors/collectors_display.h"
@@ -138,6 +139,7 @@ std::uint64_t bytes_of_sums(const CollectorsSizes& s) {
 
 MemoryTable collectors_memory(const CollectorsSizes& sizes) {
     MemoryTable table;
+    if (!kPlans) return table;  // the sums are chosen by what threads may take
     add_density_rows(sizes.grid, sizes.source, sizes.media, sizes.phases, sizes.threads, sizes.sky,
                      table);
     add_samples(sizes, table);

@@ -73,6 +73,7 @@ Status collectors_measure(const Context& context, CollectorsRun& run) {
                            context.limits[LimitId::kMemory], run.plan.exact});
     if (kDevices && context.kernels->device != nullptr)
         run.plan.accumulation = {"shared", "all threads of the device add to one set", 0, true};
+    if (!kPlans) return Status::ok();
     sizes.private_sums =
         scratch_bytes(run.plan.accumulation.bytes, bytes_of_sums(sizes), sizes.sums_ring);
     run.plan.memory = collectors_memory(sizes);

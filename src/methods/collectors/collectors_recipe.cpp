@@ -41,7 +41,7 @@ Status prepare(const Context& context, MethodRun& run) {
     return collectors_prepare(context, own(run));
 }
 
-void report_plan(const MethodRun& run, const Context& context, Report& report) {
+void report_the_plan(const MethodRun& run, const Context& context, Report& report) {
     collectors_report_plan(own(run), context, report);
 }
 
@@ -108,9 +108,17 @@ Status compose(const FrameStep& step, const Context& context, MethodRun& method_
 
 const Method& collectors_method() {
     static constexpr LiveMethod live{aim, advance, units, compose, take_photon_work, most_units};
-    static constexpr Method method{"collectors",   WorldUse::kGrid, make,        check,
-                                   outline,        prepare,         report_plan, of_films(light),
-                                   of_films(show), report,          &live};
+    static constexpr Method method{"collectors",
+                                   WorldUse::kGrid,
+                                   make,
+                                   kept(kChecks, check),
+                                   outline,
+                                   prepare,
+                                   kept(kPlans, report_the_plan),
+                                   kept(kFilms, light),
+                                   kept(kFilms, show),
+                                   report,
+                                   &live};
     return method;
 }
 

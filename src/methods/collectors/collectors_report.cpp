@@ -2,6 +2,7 @@
 // What a collectors run tells: energy, counters, digests per stage.
 // in: CollectorsRun -> out: Report.
 // docs/report.md.
+#include "kernels_cpu/core/profile.h"
 #include "src/base/digest.h"
 #include "src/methods/collectors/collectors.h"
 #include "src/photons/photon_report.h"
@@ -48,8 +49,9 @@ void collectors_report(const CollectorsRun& run, Report& report) {
     report.leaves = run.prepared.leaves.size();
     report.collectors = run.prepared.collectors.size();
     report_photons(run, report);
-    report.executed.emplace_back("coefficients", coefficients_of(run));
     report.counters.emplace_back("samples_given_up", run.prepared.rejected);
+    if (!kPlans) return;
+    report.executed.emplace_back("coefficients", coefficients_of(run));
     if (run.digests.empty()) return;
     report.digests.insert(report.digests.begin(), {"photons", photon_digest(run.photons)});
     report.digests.insert(report.digests.begin(), run.digests.begin(), run.digests.end());

@@ -44,12 +44,12 @@ const Method& optical_depth_method() {
     static constexpr Method method{"optical-depth",
                                    WorldUse::kGrid,
                                    make,
-                                   check,
+                                   kept(kChecks, check),
                                    outline,
                                    march_prepare,
-                                   march_report_plan,
-                                   of_films(march_light),
-                                   of_films(march_show),
+                                   kept(kPlans, march_report_plan),
+                                   kept(kFilms, march_light),
+                                   kept(kFilms, march_show),
                                    march_report,
                                    &live_march};
     return method;

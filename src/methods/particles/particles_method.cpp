@@ -96,7 +96,8 @@ Status prepare(const Context& context, MethodRun& method_run) {
     }
     run.particles = run.tree.balls.size();
     run.outlined_only = false;
-    run.digests = {{"density", density_digest(*run.world)}, {"particles", digest_of(run.tree)}};
+    if (kPlans)
+        run.digests = {{"density", density_digest(*run.world)}, {"particles", digest_of(run.tree)}};
     return plan_particles(context, run);
 }
 
@@ -220,9 +221,17 @@ void report_run(const MethodRun& method_run, Report& report) {
 }  // namespace
 
 const Method& particles_method() {
-    static constexpr Method method{
-        "particles",     WorldUse::kParticles, make,           check,      outline, prepare,
-        report_the_plan, of_films(light),      of_films(show), report_run, &kLive};
+    static constexpr Method method{"particles",
+                                   WorldUse::kParticles,
+                                   make,
+                                   kept(kChecks, check),
+                                   outline,
+                                   prepare,
+                                   kept(kPlans, report_the_plan),
+                                   kept(kFilms, light),
+                                   kept(kFilms, show),
+                                   report_run,
+                                   &kLive};
     return method;
 }
 

@@ -2,6 +2,7 @@
 // What a run of method `particles` needs and leaves out, and its memory.
 // in: ParticlesRun, outlined or prepared -> out: its plan; kLimit where something is too much.
 // docs/report.md, "Plan"; docs/particles.md
+#include "kernels_cpu/core/profile.h"
 #include "src/methods/particles/particles_run.h"
 #include "src/methods/particles/sun_tiles.h"
 #include "src/methods/particles/view_tiles.h"
@@ -178,6 +179,7 @@ void weigh_memory(const Context& context, ParticlesRun& run) {
 }  // namespace
 
 Status plan_particles(const Context& context, ParticlesRun& run) {
+    if (!kPlans) return Status::ok();
     note_plan(run);
     weigh_memory(context, run);
     return check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), run.scene->file);

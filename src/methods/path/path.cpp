@@ -60,7 +60,7 @@ Status prepare(const Context& context, MethodRun& method_run) {
     PILEUS_TRY(make_majorants(run.world->medium, true, context, run.majorants, kPathCosts));
     run.outlined_only = false;
     PILEUS_TRY(path_measure(context, run));
-    digest_prepared(run);
+    if (kPlans) digest_prepared(run);
     return Status::ok();
 }
 
@@ -153,12 +153,12 @@ const Method& path_method() {
     static constexpr Method method{"path",
                                    WorldUse::kGrid,
                                    make,
-                                   check,
+                                   kept(kChecks, check),
                                    outline,
                                    prepare,
-                                   path_report_plan,
-                                   of_films(light),
-                                   of_films(path_show),
+                                   kept(kPlans, path_report_plan),
+                                   kept(kFilms, light),
+                                   kept(kFilms, path_show),
                                    path_report,
                                    &live};
     return method;

@@ -2,6 +2,7 @@
 // A path tracing seen through the air: the media's light, the ground's and the sky's are dimmed
 // each by its own way. in: planes of the film, before and after a filter -> out: planes as the
 // camera sees them. docs/atmosphere.md, "In front of things"
+#include "kernels_cpu/core/profile.h"
 #include "src/methods/path/path.h"
 #include "src/picture/air_view.h"
 #include "src/picture/filter/regression.h"
@@ -37,7 +38,7 @@ Status path_straight(const Context& context, const PathRun& run, Buffer<float>& 
 }
 
 Status path_air(const Context& context, PathRun& run, Buffer<float>& straight) {
-    if (straight.empty()) return Status::ok();
+    if (!kAtmosphere || straight.empty()) return Status::ok();
     Planes& p = run.planes;
     const std::size_t pixels = run.film.pixels();
     Buffer<float> dimmed;

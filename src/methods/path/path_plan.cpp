@@ -2,6 +2,7 @@
 // Weighs a run of the path tracer: what it needs and leaves out, memory, work, limits.
 // in: PathRun, outlined or prepared -> out: its plan; kLimit where something is too much.
 // docs/report.md, "Plan"; docs/path.md
+#include "kernels_cpu/core/profile.h"
 #include "src/methods/path/path.h"
 #include "src/methods/path/path_blocks.h"
 #include "src/methods/path/path_passes.h"
@@ -172,6 +173,7 @@ void weigh_memory(const Context& context, PathRun& run) {
 }  // namespace
 
 Status path_measure(const Context& context, PathRun& run) {
+    if (!kPlans) return Status::ok();
     note_plan(run);
     weigh_memory(context, run);
     PILEUS_TRY(

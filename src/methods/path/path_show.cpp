@@ -2,6 +2,7 @@
 // The picture of a traced film, and what the report tells of it.
 // in: PathRun after tracing -> out: Image, Report.
 // docs/formats.md, "Pictures out"; docs/report.md
+#include "kernels_cpu/core/profile.h"
 #include "platform/threads.h"
 #include "src/base/digest.h"
 #include "src/methods/path/path.h"
@@ -116,6 +117,11 @@ void path_report(const MethodRun& method_run, Report& report) {
     const PathRun& run = static_cast<const PathRun&>(method_run);
     PathTally all = run.tally;
     add_tally(run.film.tally, all);
+    report.counters.emplace_back("majorant_violations", std::uint64_t(all.majorant_violations));
+    report.counters.emplace_back("saturated", 0);  // sums are doubles
+    report.counters.emplace_back("terminated", std::uint64_t(all.terminated));
+    report.counters.emplace_back("nan_samples", std::uint64_t(all.nan));
+    if (!kPlans) return;
     report.interrupted = run.interrupted;
     report.samples_per_pixel = run.film.samples;
     report.ahead_pixels = run.film.ahead;
@@ -129,10 +135,6 @@ void path_report(const MethodRun& method_run, Report& report) {
     report.earlier_scatterings = std::uint64_t(run.earlier.scatterings);
     report.executed.emplace_back("ground_bounces", std::uint64_t(all.bounces));
     report.executed.emplace_back("shadow_rays", std::uint64_t(all.shadow_rays));
-    report.counters.emplace_back("majorant_violations", std::uint64_t(all.majorant_violations));
-    report.counters.emplace_back("saturated", 0);  // sums are doubles
-    report.counters.emplace_back("terminated", std::uint64_t(all.terminated));
-    report.counters.emplace_back("nan_samples", std::uint64_t(all.nan));
 }
 
 }  // namespace pileus

@@ -4,6 +4,7 @@
 // docs/photon-grid.md.
 #include "src/methods/photon_grid/photon_grid.h"
 
+#include "kernels_cpu/core/profile.h"
 #include "platform/clock.h"
 #include "src/photons/scatter.h"
 #include "src/picture/nodes/node_grid.h"
@@ -77,6 +78,7 @@ Status plan_deposit(const Scene& scene, PhotonGridRun& run) {
 }
 
 void note_plan(PhotonGridRun& run) {
+    if (!kPlans) return;
     const Scene& scene = *run.scene;
     Plan& plan = run.plan;
     plan.need("majorants, floored near medium");
@@ -182,8 +184,10 @@ Status photon_grid_weigh(const Context& context, PhotonGridRun& run) {
     PILEUS_TRY(choose_photon_lights(std::uint64_t(settings.generations), run));
     aim_deposit(run);
     PILEUS_TRY(plan_deposit(scene, run));
-    run.plan.bias = {"photon-grid", "cells and the bands left out blur the light of many orders",
-                     "docs/photon-grid.md"};
+    if (kPlans)
+        run.plan.bias = {"photon-grid",
+                         "cells and the bands left out blur the light of many orders",
+                         "docs/photon-grid.md"};
     note_plan(run);
     return photon_grid_measure(context, run);
 }
@@ -198,7 +202,7 @@ Status photon_grid_prepare(const Context& context, PhotonGridRun& run) {
         make_cell_shares(medium, run.cells, run.near.marks.span(), context.threads, run.shares));
     run.outlined_only = false;
     PILEUS_TRY(photon_grid_measure(context, run));
-    run.digests = {{"density", density_digest(*run.world)}};
+    if (kPlans) run.digests = {{"density", density_digest(*run.world)}};
     return lay_out_photons(photon_grid_trace_input(context, run), run);
 }
 

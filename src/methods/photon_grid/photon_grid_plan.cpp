@@ -93,6 +93,7 @@ void add_picture(const PhotonGridRun& run, const Context& context, MemoryTable& 
 
 MemoryTable memory_of(const PhotonGridRun& run, const Context& context, Size private_sums) {
     MemoryTable t;
+    if (!kPlans) return t;
     add_density_rows(run.world->medium.grid, run.world->source, Size(run.world->medium.count),
                      phase_bytes(run.world->medium), Size(context.threads),
                      sky_map_bytes(run.around.sky_map), t);
@@ -122,6 +123,7 @@ Status photon_grid_measure(const Context& context, PhotonGridRun& run) {
         run.scene->photon_grid.accumulation,
         {Size(context.threads), bytes_of_thread(run), memory_of(run, context, 0).peak(),
          context.limits[LimitId::kMemory], run.plan.exact});
+    if (!kPlans) return Status::ok();
     run.plan.memory =
         memory_of(run, context,
                   scratch_bytes(run.plan.accumulation.bytes, bytes_of_thread(run), sums_ring(run)));

@@ -74,7 +74,7 @@ Status prepare(const Context& context, MethodRun& run) {
     return photon_grid_prepare(context, own(run));
 }
 
-void report_plan(const MethodRun& run, const Context& context, Report& report) {
+void report_the_plan(const MethodRun& run, const Context& context, Report& report) {
     photon_grid_report_plan(own(run), context, report);
 }
 
@@ -110,7 +110,7 @@ Status outline_slices(const Context& context, MethodRun& run) {
 
 template <GridSlices kWhat>
 constexpr Method slices(const char* name) {
-    return {name,  WorldUse::kGrid,    make,   check,   outline_slices, prepare, report_plan,
+    return {name,  WorldUse::kGrid,    make,   check,   outline_slices, prepare, report_the_plan,
             light, show_slices<kWhat>, report, nullptr, false};
 }
 
@@ -195,9 +195,17 @@ const Method* photon_grid_views(int& count) {
 
 const Method& photon_grid_method() {
     static constexpr LiveMethod live{aim, advance, units, compose, take_photon_work, most_units};
-    static constexpr Method method{"photon-grid",  WorldUse::kGrid, make,        check,
-                                   outline,        prepare,         report_plan, of_films(light),
-                                   of_films(show), report,          &live};
+    static constexpr Method method{"photon-grid",
+                                   WorldUse::kGrid,
+                                   make,
+                                   kept(kChecks, check),
+                                   outline,
+                                   prepare,
+                                   kept(kPlans, report_the_plan),
+                                   kept(kFilms, light),
+                                   kept(kFilms, show),
+                                   report,
+                                   &live};
     return method;
 }
 

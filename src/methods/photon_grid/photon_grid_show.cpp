@@ -2,6 +2,7 @@
 // The picture of a lit photon grid: light of the cells, march, parts, layers.
 // in: PhotonGridRun after shooting, a camera -> out: Planes, Image.
 // docs/photon-grid.md; docs/formats.md, "Pictures out".
+#include "kernels_cpu/core/profile.h"
 #include "src/base/digest.h"
 #include "src/methods/photon_grid/photon_grid.h"
 #include "src/photons/lit_march.h"
@@ -23,7 +24,7 @@ namespace {
 /// The picture's own digest, not those of its parts.
 void tell_colours(const Context& context, const PhotonGridRun& run, const GridLightInput& in,
                   Span<const float> light) {
-    if (!context.digests || in.lighting != &run.lighting) return;
+    if (!kPlans || !context.digests || in.lighting != &run.lighting) return;
     Digest digest;
     digest.floats(light);
     context.report->digests.emplace_back("colours", digest.hex());

@@ -4,6 +4,7 @@
 
 #include <cstring>
 
+#include "kernels_cpu/core/profile.h"
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/node_grid.h"
 #include "src/world/light/lamps.h"
@@ -44,6 +45,7 @@ std::uint64_t lamp_numbers(const Medium& medium, const Lighting& lighting) {
 
 Status make_lamp_nodes(const Context& context, const Medium& medium, const Majorants& majorants,
                        const Lighting& lighting, LampNodes& out) {
+    if (!kLights) return Status::ok();
     if (!out.optical_depth.empty() && same_lamps(out.lamps, lighting.lamps)) return Status::ok();
     const StageClock clock(context, "lights");
     out.lamps = lighting.lamps;
@@ -92,6 +94,7 @@ LampMarchParams lamp_march_params(const Medium& medium, const Majorants& majoran
 
 Status add_lamp_light(const Context& context, const Medium& medium, const LampMarchParams& k,
                       const LampNodes& nodes, Planes& planes, std::size_t first) {
+    if (!kLights) return Status::ok();
     const StageClock clock(context, "light of lights");
     LampMarchBuffers b{};
     b.lamps = nodes.lamps.data() + first;

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "kernels_cpu/core/profile.h"
 #include "src/base/angles.h"
 
 namespace pileus {
@@ -68,19 +69,20 @@ LampParams lamp_of(const LightSettings& light, const Medium& medium) {
 
 std::vector<LampParams> plan_lamps(const Scene& scene, const Medium& medium, Plan& plan) {
     std::vector<LampParams> lamps;
+    if (!kLights) return lamps;
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const LightSettings& light = scene.lights[i];
-        const std::string name = "light " + std::to_string(i);
+        const std::string name = kPlans ? "light " + std::to_string(i) : "";
         const LampParams lamp = lamp_of(light, medium);
         if (light.radius_m > 0 && !(lamp.radius > 0) && lamp.parallel == 0)
-            plan.left_out.push_back({name + "'s soft shadow", "shadow_samples is 1"});
+            plan.leave_out((name + "'s soft shadow").c_str(), "shadow_samples is 1");
         const bool below = light.type == LampKind::kDirectional
                                ? !(lamp.at[2] > 0)
                                : light.position_m[2] < scene.ground.altitude_m;
         if (!(lamp.strength > 0))
-            plan.left_out.push_back({name, "dark"});
+            plan.leave_out(name.c_str(), "dark");
         else if (scene.ground.present && below)
-            plan.left_out.push_back({name, "below the ground"});
+            plan.leave_out(name.c_str(), "below the ground");
         else
             lamps.push_back(lamp);
     }

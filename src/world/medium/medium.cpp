@@ -6,6 +6,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "kernels_cpu/core/profile.h"
 #include "src/base/file.h"
 #include "src/io/volumes/particle_volume.h"
 #include "src/io/volumes/volume_file.h"
@@ -158,6 +159,7 @@ bool is_white(const Medium& medium) {
 }
 
 bool emits(const Medium& medium) {
+    if (!kLights) return false;
     for (int i = 0; i < medium.count; ++i)
         for (float emission : medium.optics[std::size_t(i)].emission)
             if (emission > 0) return true;
