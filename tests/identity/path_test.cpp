@@ -84,6 +84,34 @@ TEST_CASE("one film from every instruction set, thread count and order of asking
     }
 }
 
+TEST_CASE("a brief film keeps the whole light and the media's, to the bit, and no more") {
+    Rig rig = make_everything();
+    for (bool parts : {false, true}) {
+        PathInput in = path_input(rig, make_view({-40, -60, 30}, {0.6f, 0.8f, 0}, 24, 16), 11);
+        in.parts = parts;
+        Film whole, brief;
+        PathScratch scratch, other;
+        REQUIRE(make_film(in, whole));
+        REQUIRE(trace_paths(in, 5, scratch, whole));
+        in.brief = true;
+        REQUIRE(make_film(in, brief));
+        REQUIRE(trace_paths(in, 5, other, brief));
+        CHECK(brief.sum.size() == (parts ? 6 : 3) * brief.pixels());
+        CHECK(brief.square.empty());
+        std::size_t differ = 0, shared = 0;
+        for (int part : {int(kPathTotal), parts ? int(kPathCloud) : int(kPathTotal)})
+            for (int c = 0; c < 3; ++c)
+                for (std::size_t i = 0; i < whole.pixels(); ++i) {
+                    differ += film_mean(whole, part, c, i) != film_mean(brief, part, c, i);
+                    shared += film_mean(whole, part, c, i) > 0;
+                }
+        CHECK(differ == 0);
+        CHECK(shared > whole.pixels());
+        CHECK(film_error(whole, 1, whole.pixels() / 2) > 0);
+        CHECK(film_error(brief, 1, whole.pixels() / 2) == 0);
+    }
+}
+
 TEST_CASE("one film of guided paths and of the sun's disc from every instruction set") {
     Rig rig = make_everything();
     rig.medium.optics[0].phase = {kPhaseHg, 0.97f, 0, 1};

@@ -101,10 +101,17 @@ Status resume(const PassRule& rule, const Keeper& keeper, PathRun& run) {
                              " asked for, allowed: as many or more, or another file");
 }
 
+/// A host sees light before its media and behind, and no errors: but for a filter, which reads all.
+PathInput live_input(const Context& context, const PathRun& run) {
+    PathInput in = path_input(context, run);
+    in.brief = !path_filters(*run.scene);
+    return in;
+}
+
 }  // namespace
 
 Status path_begin(const Context& context, PathRun& run) {
-    const PathInput in = path_input(context, run);
+    const PathInput in = live_input(context, run);
     add_tally(run.film.tally, run.tally);
     PILEUS_TRY(make_film(in, run.film));
     PILEUS_TRY(make_alpha(context, run));
@@ -114,7 +121,7 @@ Status path_begin(const Context& context, PathRun& run) {
 
 Status path_advance(std::uint64_t samples, const Context& context, PathRun& run) {
     const StageClock clock(context, "paths");
-    PathInput in = path_input(context, run);
+    PathInput in = live_input(context, run);
     run.interrupted = false;
     if (!context.interrupted) return trace_paths(in, samples, run.scratch, run.film);
     // Who may end it is asked between passes; the bits are those of one.

@@ -22,6 +22,7 @@ constexpr std::uint64_t kPiecesPerThread = 8;
 std::uint64_t smaller(std::uint64_t a, std::uint64_t b) { return a < b ? a : b; }
 
 int parts_of(const PathInput& in) { return in.parts ? kPathParts : 1; }
+int kept_parts(const PathInput& in) { return in.brief && in.parts ? 2 : parts_of(in); }
 
 std::uint64_t film_pixels(const PathInput& in) {
     return std::uint64_t(in.camera.width) * std::uint64_t(in.camera.height);
@@ -111,7 +112,7 @@ PathParams path_params(const PathInput& in, const PathScratch& scratch) {
 
 /// The kernel of the table that these paths need.
 auto kernel_for(const PathInput& in, const PathParams& k) {
-    if (k.lamp_count > 0 || k.emits != 0) return in.kernels->trace_paths_lamps;
+    if (kLights && (k.lamp_count > 0 || k.emits != 0)) return in.kernels->trace_paths_lamps;
     if (seeks_sun(k)) return in.kernels->trace_paths_guided;
     const bool ends = in.lighting->solids != nullptr || in.lighting->depth != nullptr;
     return ends ? in.kernels->trace_paths_solid : in.kernels->trace_paths;
@@ -145,18 +146,20 @@ void add_samples(const PathInput& in, const PathParams& k, std::uint64_t count,
     parallel_for(in.threads, std::int64_t((pixels + kRun - 1) / kRun), [&](std::int64_t run, int) {
         const std::uint64_t first = std::uint64_t(run) * kRun;
         const std::uint64_t end = smaller(first + kRun, pixels);
-        for (std::size_t c = 0; c < std::size_t(film.parts) * 3; ++c)
+        for (std::size_t c = 0; c < std::size_t(film.parts) * 3; ++c) {
+            const std::size_t channel = std::size_t(film.part_of(int(c / 3))) * 3 + c % 3;
+            const float* const samples = scratch.radiance.data() + channel * scratch.capacity;
             for (std::uint64_t p = first; p < end; ++p) {
-                const float* from =
-                    scratch.radiance.data() + c * scratch.capacity + p * k.per_pixel;
+                const float* from = samples + p * k.per_pixel;
                 const std::size_t pixel = std::size_t(k.first_pixel + p);
                 double& sum = film.sum[c * film.pixels() + pixel];
                 for (std::uint32_t i = 0; i < k.per_pixel; ++i) sum += double(from[i]);
-                if (c >= 3) continue;
+                if (c >= 3 || film.square.empty()) continue;
                 double& square = film.square[c * film.pixels() + pixel];
                 for (std::uint32_t i = 0; i < k.per_pixel; ++i)
                     square += double(from[i]) * double(from[i]);
             }
+        }
     });
 }
 
@@ -205,12 +208,12 @@ void add_tally(const PathTally& from, PathTally& to) {
 }
 
 Array<double> arrays::film_sums(const PathInput& in) {
-    return {"film", film_pixels(in) * 3 * std::uint64_t(parts_of(in)), Stage::kPaths,
+    return {"film", film_pixels(in) * 3 * std::uint64_t(kept_parts(in)), Stage::kPaths,
             Stage::kLayers};
 }
 
 Array<double> arrays::film_squares(const PathInput& in) {
-    return {"film", film_pixels(in) * 3, Stage::kPaths, Stage::kLayers};
+    return {"film", in.brief ? 0 : film_pixels(in) * 3, Stage::kPaths, Stage::kLayers};
 }
 
 Array<float> arrays::path_samples(const PathInput& in) {
@@ -221,7 +224,7 @@ Array<float> arrays::path_samples(const PathInput& in) {
 Status make_film(const PathInput& in, Film& film) {
     film.width = in.camera.width;
     film.height = in.camera.height;
-    film.parts = parts_of(in);
+    film.parts = kept_parts(in);
     film.samples = film.ahead = film.ahead_samples = 0;
     film.tally = PathTally{};
     PILEUS_TRY(allocate(arrays::film_sums(in), film.sum));
@@ -305,12 +308,12 @@ Status trace_pixels(const PathInput& in, const std::vector<std::uint32_t>& pixel
 double film_mean(const Film& film, int part, int channel, std::size_t pixel) {
     const std::uint64_t samples = film.samples_of(pixel);
     if (samples == 0) return 0;
-    const std::size_t plane = std::size_t(part) * 3 + std::size_t(channel);
+    const std::size_t plane = std::size_t(film.group_of(part)) * 3 + std::size_t(channel);
     return film.sum[plane * film.pixels() + pixel] / double(samples);
 }
 
 double film_error(const Film& film, int channel, std::size_t pixel) {
-    if (film.samples_of(pixel) < 2) return 0;
+    if (film.samples_of(pixel) < 2 || film.square.empty()) return 0;
     const double n = double(film.samples_of(pixel)), mean = film_mean(film, 0, channel, pixel);
     const double square = film.square[std::size_t(channel) * film.pixels() + pixel];
     const double variance = (square / n - mean * mean) / (n - 1);

@@ -33,6 +33,7 @@ struct PathInput {
     int max_depth = 0;   ///< scatterings after which light is not followed; 0: unlimited
     bool jitter = true;  ///< rays spread over their pixels; false: through the middles
     bool parts = false;  ///< also the sun's, the singly scattered and the media's light
+    bool brief = false;  ///< films keep of parts the media's alone, and no squares
     std::uint32_t max_events = 1u << 24;  ///< draws per path before it is given up
     /// Shadow rays that bring less than this share of their light, 1/sr, play roulette; 0: all fly.
     float light_roulette = kLightRoulette;
@@ -44,15 +45,18 @@ struct PathInput {
 /// What samples have brought so far. Start with make_film; pixels are row by row from the top.
 struct Film {
     int width = 0, height = 0;
-    int parts = 1;              ///< groups of three channels: 1, or kPathParts
+    int parts = 1;              ///< groups of three channels: 1, kPathParts, or 2: total, cloud
     std::uint64_t samples = 0;  ///< per pixel
     /// Of a pass that was ended within: pixels [0, ahead) have `ahead_samples` more.
     std::uint64_t ahead = 0, ahead_samples = 0;
-    Buffer<double> sum;     ///< [part * 3 + channel][pixel], radiance (flux camera: irradiance)
-    Buffer<double> square;  ///< [channel][pixel], of the samples of the total
+    Buffer<double> sum;     ///< [group * 3 + channel][pixel], radiance (flux camera: irradiance)
+    Buffer<double> square;  ///< [channel][pixel], of the samples of the total; brief: none
     PathTally tally{};
 
     std::size_t pixels() const { return std::size_t(width) * std::size_t(height); }
+    /// The part that a group is of, and the group of a part that is kept.
+    int part_of(int group) const { return parts == 2 && group == 1 ? int(kPathCloud) : group; }
+    int group_of(int part) const { return parts == 2 && part == kPathCloud ? 1 : part; }
     std::uint64_t samples_of(std::size_t pixel) const {
         return pixel < ahead ? samples + ahead_samples : samples;
     }
@@ -74,7 +78,7 @@ Status make_film(const PathInput& in, Film& film);
 
 namespace arrays {
 
-/// Sums of every part's channels, and of the squares of the whole light's.
+/// Sums of every kept part's channels, and of the squares of the whole light's.
 Array<double> film_sums(const PathInput& in);
 Array<double> film_squares(const PathInput& in);
 /// Samples of all threads that are not added up yet.
@@ -111,10 +115,11 @@ Status trace_pixels(const PathInput& in, const std::vector<std::uint32_t>& pixel
                     std::uint32_t samples, PathScratch& scratch, std::vector<PixelLight>& out,
                     bool& ended);
 
-/// Mean of a part and channel of a pixel; 0 without samples.
+/// Mean of a part that is kept and a channel of a pixel; 0 without samples.
 double film_mean(const Film& film, int part, int channel, std::size_t pixel);
 
-/// One standard error of the total's mean, from the scatter of its samples; 0 below two samples.
+/// One standard error of the total's mean, from the scatter of its samples; 0 below two samples
+/// or without squares.
 double film_error(const Film& film, int channel, std::size_t pixel);
 
 /// Adds `from` to `to`, field by field.
