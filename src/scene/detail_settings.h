@@ -16,6 +16,7 @@ struct DetailSettings {
     DetailNoise noise = DetailNoise::kPerlin;
     int octaves = 0;  ///< 0: as many as the cells show
     std::int64_t seed = 0;
+    double age = 0;  ///< lives of the lumps that have passed: a whole one later all are others
     int cells = 64;  ///< of the tile, along each edge: a power of two
     int refine = 0;  ///< 0: made while marching; else cells that each cell becomes along an axis
 

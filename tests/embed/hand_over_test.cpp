@@ -68,6 +68,30 @@ TEST_CASE("hand-over: the same density changes nothing, to the bit") {
     }
 }
 
+TEST_CASE("hand-over: lumps that grow older, over a density that stays") {
+    for (const char* method : {"raymarch", "collectors"}) {
+        CAPTURE(method);
+        const auto aged = [&](double age) {
+            return with(method, {"medium.0.detail.tile_m=900", "medium.0.detail.strength=1",
+                                 "medium.0.detail.age=" + std::to_string(age)});
+        };
+        Living now(aged(0)), none(with(method));
+        const Pixels young = now.pixels();
+        CHECK(largest(young, none.pixels()) > 0.01);
+        double before = 0;
+        for (const double age : {0.25, 0.5, 1.0}) {
+            CAPTURE(age);
+            Living next(aged(age)), alone(aged(age));
+            now.hand_over(next, 2);
+            now.pixels();
+            const Pixels shown = now.pixels();
+            CHECK(largest(shown, alone.pixels()) == 0);
+            CHECK(largest(shown, young) > before);
+            before = 0.5 * largest(shown, young);
+        }
+    }
+}
+
 TEST_CASE("hand-over: over 0 and 1 pictures, and before the first one, it switches at once") {
     const Overrides way = with("collectors");
     const std::string fresh = Living(later(way)).hash();

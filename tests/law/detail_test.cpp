@@ -135,6 +135,50 @@ void check_period() {
     }
 }
 
+/// Mean of the squares of a tile's numbers, or of how two tiles differ.
+double mean_square(const Buffer<float>& a, const Buffer<float>* b = nullptr) {
+    double sum = 0;
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        const double d = double(a[i]) - (b != nullptr ? double((*b)[i]) : 0.0);
+        sum += d * d;
+    }
+    return sum / double(a.size());
+}
+
+TEST_CASE("detail: with age its lumps become others, as strong at every age, without a jump") {
+    for (const DetailNoise noise : {DetailNoise::kPerlin, DetailNoise::kWorley}) {
+        DetailSettings s = settings_of(noise, 32);
+        const Buffer<float> young = tile_of(s);
+        const double strength = mean_square(young);
+        Buffer<float> before = tile_of(s);
+        const int steps = 64;
+        for (int i = 1; i <= 2 * steps; ++i) {
+            CAPTURE(i);
+            s.age = double(i) / steps;
+            Buffer<float> now = tile_of(s, i % 3 + 1);
+            double sum = 0;
+            for (std::size_t z = 0; z < 32; ++z)
+                for (std::size_t y = 0; y < 32; ++y)
+                    for (std::size_t x = 0; x < 32; ++x) sum += double(now[(z * 33 + y) * 33 + x]);
+            CHECK(std::fabs(sum / (32.0 * 32 * 32)) < 0x1p-25);
+            CHECK(*std::min_element(now.data(), now.data() + now.size()) >= -1.0f);
+            // Two noises are independent but for chance: few lumps lie in a tile.
+            CHECK(mean_square(now) > 0.7 * strength);
+            CHECK(mean_square(now) < 1.4 * strength);
+            // Weights change by 1.5 a life at the most, their root's square by as much again.
+            CHECK(mean_square(now, &before) < 16.0 * strength / (steps * steps));
+            // Half way in between it is as far from the first as from the second.
+            if (i == steps) CHECK(mean_square(now, &young) > 1.5 * strength);
+            before.swap(now);
+        }
+        DetailSettings late = s;
+        late.age = 1e6;
+        const Buffer<float> last = tile_of(late);
+        CHECK(mean_square(last) > 0.7 * strength);
+        CHECK(mean_square(last, &young) > strength);
+    }
+}
+
 TEST_CASE("detail: noise repeats after its period, the same at every width") {
     PILEUS_EACH_WIDTH(check_period);
 }

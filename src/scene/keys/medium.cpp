@@ -123,6 +123,10 @@ constexpr KeyRow kDetailRows[] = {
      "before; 0: down to four cells a lump"},
     {"medium.N.detail.seed", detail<&DetailSettings::seed>, from_to(0, 0x1p32 - 1), "",
      "another noise for each number"},
+    {"medium.N.detail.age", detail<&DetailSettings::age>, from_to(0, 1e6), "lives",
+     "lives of the lumps that have passed: they change shape with it, and after a whole one all "
+     "are "
+     "others (docs/detail.md)"},
     {"medium.N.detail.cells", detail<&DetailSettings::cells>, from_to(16, 128), "cells",
      "cells along the tile's edges: a power of two"},
     {"medium.N.detail.refine", detail<&DetailSettings::refine>, from_to(0, 16), "cells",

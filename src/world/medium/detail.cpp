@@ -16,6 +16,8 @@ namespace {
 
 constexpr double kMostTiles = 65536;  // along the box: a float then still tells a cell of the tile
 constexpr int kCut = 146;             // two deviations of a noise volume, in half steps of a byte
+constexpr double kWhole = 1 << 20;    // weight of a noise that is alone
+constexpr std::uint32_t kLifeSeeds = 0x9e3779b9u;  // between the seeds of two lives
 
 /// A byte's distance from the middle in half steps, cut at two deviations: noise seldom goes
 /// farther, and would hardly be seen if its rarest value were the strongest.
@@ -23,6 +25,25 @@ std::int64_t cut_byte(std::uint8_t byte) {
     const int twice = 2 * int(byte) - 255;
     return twice < -kCut ? -kCut : twice > kCut ? kCut : twice;
 }
+
+/// The noise between two others, one of which becomes the other during a life. Weights are smooth
+/// in time, and independent noises keep their deviation by the root of the weights' squares.
+struct Blend {
+    std::int64_t first, second;
+    std::int64_t most;  ///< what is cut, of both
+
+    explicit Blend(double age) {
+        const double since = age - std::floor(age);
+        second = std::int64_t(since * since * (3 - 2 * since) * kWhole + 0.5);
+        first = std::int64_t(kWhole) - second;
+        const double a = double(first), b = double(second);
+        most = std::int64_t(kCut * __builtin_sqrt(a * a + b * b));
+    }
+    std::int64_t of(std::uint8_t one, std::uint8_t other) const {
+        const std::int64_t sum = first * cut_byte(one) + second * cut_byte(other);
+        return sum < -most ? -most : sum > most ? most : sum;
+    }
+};
 
 int octaves_of(const DetailSettings& s) {
     return s.octaves > 0 ? s.octaves : most_octaves(s.cells, kDetailLumps);
@@ -113,21 +134,29 @@ Status make_detail_tile(const DetailSettings& settings, const SkyKernels& kernel
     params.cells = kDetailLumps;
     params.octaves = octaves_of(settings);
     params.gain = 0.5f;
-    params.seed = std::uint32_t(settings.seed);
-    Buffer<std::uint8_t> bytes;
+    const Blend blend(settings.age);
+    const auto life = std::uint32_t(std::floor(settings.age));
+    Buffer<std::uint8_t> bytes, next;
+    params.seed = std::uint32_t(settings.seed) + life * kLifeSeeds;
     PILEUS_TRY(make_noise(params, kernels, threads, bytes));
+    if (blend.second > 0) {
+        params.seed += kLifeSeeds;
+        PILEUS_TRY(make_noise(params, kernels, threads, next));
+    }
+    const std::uint8_t* const other = blend.second > 0 ? next.data() : bytes.data();
     PILEUS_TRY(allocate(arrays::detail_tile(settings.cells), tile));
     std::int64_t sum = 0;
-    for (const std::uint8_t byte : bytes.span()) sum += cut_byte(byte);
+    for (std::size_t i = 0; i < bytes.size(); ++i) sum += blend.of(bytes[i], other[i]);
     // Less the mean, and no lower than -1.
     const double mean = double(sum) / double(bytes.size());
-    const double most = kCut + (mean > 0 ? mean : 0);
+    const double most = double(blend.most) + (mean > 0 ? mean : 0);
     const std::size_t n = std::size_t(settings.cells), edge = n + 1;
     for (std::size_t z = 0; z < edge; ++z)
         for (std::size_t y = 0; y < edge; ++y)
             for (std::size_t x = 0; x < edge; ++x) {
-                const std::uint8_t byte = bytes[((z % n) * n + y % n) * n + x % n];
-                tile[(z * edge + y) * edge + x] = float((double(cut_byte(byte)) - mean) / most);
+                const std::size_t i = ((z % n) * n + y % n) * n + x % n;
+                tile[(z * edge + y) * edge + x] =
+                    float((double(blend.of(bytes[i], other[i])) - mean) / most);
             }
     return Status::ok();
 }
@@ -137,8 +166,9 @@ Status outline_detail(const Scene& scene, const MediumSettings& settings, const 
     const DetailSettings& s = settings.detail;
     if (!s.present()) return Status::ok();
     PILEUS_TRY(check_tiles(scene, settings, medium));
-    // The noise as floats and as bytes, and the tile.
-    const std::uint64_t noise = noise_making_bytes(std::uint64_t(s.cells));
+    // The noise as floats and as bytes, that which it becomes, and the tile.
+    const std::uint64_t cells = std::uint64_t(s.cells);
+    const std::uint64_t noise = noise_making_bytes(cells) + cells * cells * cells;
     if (s.refine == 0) {
         source.tile_cells = s.cells;
         source.making.push_back({"noise of detail", noise, 0});
