@@ -11,6 +11,9 @@
                                        std::uint32_t);                               \
     void PILEUS_OF(kernel, PILEUS_ISA)(const Params&, const Buffers&, std::uint32_t, \
                                        std::uint32_t) {}
+#define PILEUS_NO_TABLE(kernel, Table)                \
+    extern const Table PILEUS_OF(kernel, PILEUS_ISA); \
+    const Table PILEUS_OF(kernel, PILEUS_ISA) = {};
 
 namespace pileus {
 
@@ -30,12 +33,10 @@ PILEUS_NOTHING(path_guided_, PathParams, PathBuffers)
 PILEUS_NOTHING(path_lamps_, PathParams, PathBuffers)
 #endif
 #if defined(PILEUS_WITHOUT_LAMPS) || defined(PILEUS_WITHOUT_LIGHTS)
-extern const LampKernels PILEUS_OF(lamp_kernel_, PILEUS_ISA);
-const LampKernels PILEUS_OF(lamp_kernel_, PILEUS_ISA) = {};
+PILEUS_NO_TABLE(lamp_kernel_, LampKernels)
 #endif
 #ifdef PILEUS_WITHOUT_PHOTONS
-extern const PackKernels PILEUS_OF(pack_kernel_, PILEUS_ISA);
-const PackKernels PILEUS_OF(pack_kernel_, PILEUS_ISA) = {};
+PILEUS_NO_TABLE(pack_kernel_, PackKernels)
 #endif
 #ifdef PILEUS_WITHOUT_RAYMARCH
 PILEUS_NOTHING(raymarch_kernel_, RaymarchParams, RaymarchBuffers)
@@ -47,16 +48,13 @@ PILEUS_NOTHING(sweep_layer_kernel_, SweepLayerParams, SweepBuffers)
 PILEUS_NOTHING(turn_sky_kernel_, SkyTurnParams, SkyTurnBuffers)
 #endif
 #ifdef PILEUS_WITHOUT_SKY
-extern const SkyKernels PILEUS_OF(sky_kernel_, PILEUS_ISA);
-const SkyKernels PILEUS_OF(sky_kernel_, PILEUS_ISA) = {};
+PILEUS_NO_TABLE(sky_kernel_, SkyKernels)
 #endif
 #ifdef PILEUS_WITHOUT_DETAIL
-extern const DetailKernels PILEUS_OF(detail_kernel_, PILEUS_ISA);
-const DetailKernels PILEUS_OF(detail_kernel_, PILEUS_ISA) = {};
+PILEUS_NO_TABLE(detail_kernel_, DetailKernels)
 #endif
 #ifdef PILEUS_WITHOUT_PARTICLES
-extern const ParticleKernels PILEUS_OF(particle_kernel_, PILEUS_ISA);
-const ParticleKernels PILEUS_OF(particle_kernel_, PILEUS_ISA) = {};
+PILEUS_NO_TABLE(particle_kernel_, ParticleKernels)
 #endif
 
 }  // namespace pileus
