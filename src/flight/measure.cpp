@@ -29,7 +29,8 @@ Status set_frame(const Scene& scene, int number, Session& session) {
     const bool sinks =
         sun.elevation_deg > 45 || (sun.elevation_deg <= 0 && sun.elevation_deg > -80);
     sun.elevation_deg += sinks ? -0.1 * number : 0.1 * number;
-    if (!sun.present) return Status::ok();
+    // Clear air follows the sun, for which a flight has no memory.
+    if (!sun.present || scene.atmosphere.present) return Status::ok();
     return session.set_sun(sun);
 }
 
