@@ -21,6 +21,8 @@ constexpr double kSizeSlack = 0.1;
 constexpr double kUrgent = 4;
 /// By which the light of the sky in a near cloud may be another camera's.
 constexpr double kSlackDeg = 1;
+/// Parts of the picture begin at multiples of it: the coarsest near_scale.
+constexpr int kLattice = 4;
 
 }  // namespace
 
@@ -38,6 +40,8 @@ Status Clouds::march(const CloudView& view, const Camera& camera, int frame, Clo
                      MarchedCloud& out) {
     const StageClock clock(sky_->context(), "clouds marched");
     out.rect = covered(view, cloud.box.corners.data(), cloud.box.corners.size());
+    // Marched pixels stay where they are in the picture while the cloud's part of it moves.
+    out.rect.x0 -= out.rect.x0 % kLattice, out.rect.y0 -= out.rect.y0 % kLattice;
     out.scale = float(cloud.place.scale);
     out.metres = float(glm::length(cloud.box.middle - view.eye));
     out.shade = shade_of(cloud);
