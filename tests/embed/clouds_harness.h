@@ -71,11 +71,11 @@ struct CloudySky {
         check(pileus_clouds_place(clouds.get(), places.data(), std::uint32_t(places.size()),
                                   &out.error));
     }
-    void detail(bool off, double near_px = 0) {
+    void detail(bool off, double near_px = 0, std::uint32_t near_scale = 1) {
         auto d = cleared<pileus_cloud_detail>();
         d.off = off ? 1 : 0;
         d.near_px = near_px;
-        d.near_scale = 1;
+        d.near_scale = near_scale;
         check(pileus_clouds_set_detail(clouds.get(), &d, &out.error));
     }
     Picture draw(pileus_blend blend = PILEUS_REPLACE) {

@@ -190,6 +190,34 @@ TEST_CASE("clouds: a picture gives way to the next without a jump") {
     CHECK(marched < 35);
 }
 
+TEST_CASE("clouds: marched pixels stay where they are in the picture while a cloud moves in it") {
+    for (int step = 0; step < 6; ++step) {
+        CAPTURE(step);
+        // A pixel or so from one to the next.
+        const double x = 97.0 * step, z = 61.0 * step;
+        CloudySky thinned({at(x, 0, z)}), whole({at(x, 0, z)});
+        thinned.detail(false, 2, 4);
+        for (CloudySky* s : {&thinned, &whole}) {
+            const double from[3] = {16, -4000, 256}, to[3] = {0, 0, 1024};
+            s->sky.aim(from, to, 60, 48, 40);
+        }
+        const Picture a = thinned.draw(PILEUS_MEDIA), b = whole.draw(PILEUS_MEDIA);
+        CHECK(thinned.stats().marched == 1);
+        // Alpha where pixels are marched, the third of each four, and between them.
+        double marched = 0, between = 0;
+        for (std::size_t y = 0; y < 40; ++y)
+            for (std::size_t c = 0; c < 48; ++c) {
+                const std::size_t i = 4 * (y * 48 + c) + 3;
+                const double off = std::fabs(double(a.rgba[i]) - double(b.rgba[i]));
+                double& most = c % 4 == 2 && y % 4 == 2 ? marched : between;
+                most = std::max(most, off);
+            }
+        // Rays of a part of the picture round otherwise.
+        CHECK(marched < 1e-3);
+        CHECK(between > 0.05);
+    }
+}
+
 TEST_CASE("clouds: a sun that moves lights kinds again, one in a picture") {
     CloudySky sky({at(0, 0, 0), at(4000, 4000, 0, 90)});
     sky.detail(false, 10);
