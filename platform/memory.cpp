@@ -12,6 +12,8 @@ thread_local Host lent;
 
 }  // namespace
 
+const Allocator kCallersMemory{nullptr, [](void*, void*) {}, nullptr};
+
 const Host& current_host() { return lent; }
 
 HostGuard::HostGuard(const Host& host) : before_(lent) { lent = host; }

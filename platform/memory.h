@@ -53,4 +53,7 @@ private:
 void* take_memory(std::size_t bytes, const Allocator*& from);
 void give_memory(void* memory, const Allocator* from);
 
+/// Of memory that stays the caller's: given back to it, nothing happens.
+extern const Allocator kCallersMemory;
+
 }  // namespace pileus

@@ -18,6 +18,7 @@ typedef struct pileus_packed {
     uint32_t reserved;
     uint64_t block_bytes; /**< that a session of it needs, with threads of one */
     char method[24];
+    uint64_t in_place_bytes; /**< the same with pileus_flight.in_place */
 } pileus_packed;
 
 /** Reads the head and compares the digest. PILEUS_BAD_INPUT: no packed scene, one of another
@@ -26,11 +27,11 @@ PILEUS_API pileus_code pileus_packed_read(const void* scene, size_t scene_bytes,
                                           pileus_packed* packed, pileus_error* error);
 
 /** What a session of a flight is made of. All pointers but `scene` must stay valid as long as the
- * session. */
+ * session; `scene`, too, with `in_place`. */
 typedef struct pileus_flight {
     uint32_t struct_size;
     uint32_t threads;  /**< bodies that `run` gets at a time; 0 or 1: the caller's thread alone */
-    const void* scene; /**< packed; read while the session is opened, not afterwards */
+    const void* scene; /**< packed; without `in_place` read only while the session is opened */
     size_t scene_bytes;
     void* block; /**< at any address */
     size_t block_bytes;
@@ -45,6 +46,10 @@ typedef struct pileus_flight {
      * has not, a frame may find no memory: PILEUS_LIMIT. */
     const pileus_frame* frame;
     int32_t depth; /**< not 0: frames will get depth images (pileus_session_set_depth) */
+    /** Not 0: densities and other arrays of numbers are read where they lie in `scene`, which must
+     * begin at a multiple of 64 bytes and is never written to. Machines that are not little-endian
+     * copy them nevertheless. The pictures are the same. */
+    int32_t in_place;
 } pileus_flight;
 
 /** Makes a session in the block: world, light of the first picture, that picture. Afterwards

@@ -59,8 +59,8 @@ Status open_flight(const pileus_flight& f, const std::shared_ptr<HostParts>& par
     RenderOptions options;
     options.threads = int(parts->given.threads);
     if (f.isa != nullptr) options.isa = f.isa;
-    PILEUS_TRY(
-        begin_flight(f.scene, f.scene_bytes, options, f.depth != 0, *made->flight, *made->session));
+    PILEUS_TRY(begin_flight(f.scene, f.scene_bytes, options, f.in_place != 0, f.depth != 0,
+                            *made->flight, *made->session));
     // Twice: some of what reprojection keeps is made by the second one.
     for (int i = 0; i < 2; ++i) PILEUS_TRY(render_frame(*f.frame, *made));
     made->session->seal();
@@ -89,6 +89,7 @@ pileus_code pileus_packed_read(const void* scene, size_t scene_bytes, pileus_pac
         out.width = std::uint32_t(head.width);
         out.height = std::uint32_t(head.height);
         out.block_bytes = head.block_bytes;
+        out.in_place_bytes = head.in_place_bytes;
         std::memcpy(out.method, head.method.data(), head.method.size());
         return give(out, packed, "packed");
     });

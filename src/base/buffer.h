@@ -65,6 +65,14 @@ public:
         return Status::ok();
     }
 
+    /// Reads `count` elements in memory of the caller, which outlives this and is never written to.
+    void lend(const T* memory, std::size_t count) {
+        *this = Buffer();
+        data_ = const_cast<T*>(memory);
+        size_ = count;  // taken_ stays 0: another size takes memory of its own
+        from_ = &kCallersMemory;
+    }
+
     /// Forgets all elements from `count` on; keeps the memory.
     void truncate(std::size_t count) {
         assert(count <= size_);

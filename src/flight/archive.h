@@ -16,6 +16,16 @@
 
 namespace pileus {
 
+/// Whether numbers lie in this machine's memory as in an archive.
+#if __BYTE_ORDER__ == __ORDER_LITTLE_ENDIAN__
+constexpr bool kLittleEndian = true;
+#else
+constexpr bool kLittleEndian = false;
+#endif
+
+/// Arrays of floats begin and end at multiples of it, counted from the first byte.
+constexpr std::size_t kLine = 64;
+
 /// Appends values to bytes.
 class ArchiveWriter {
 public:
@@ -31,6 +41,18 @@ public:
         std::uint64_t n = list.size();
         word(n, 8);
     }
+    /// An array of floats, so that it can be read where it lies.
+    template <class T>
+    void array(Buffer<T>& list) {
+        count(list, sizeof(T));
+        if (list.empty()) return;
+        fill_up();
+        for (T& v : list.span()) field(*this, v);
+        fill_up();
+    }
+
+private:
+    void fill_up() { bytes.resize((bytes.size() + kLine - 1) / kLine * kLine); }
 };
 
 /// Takes values from bytes; past their end, and where a value cannot be, it gives zeros and says
@@ -38,7 +60,10 @@ public:
 class ArchiveReader {
 public:
     static constexpr bool kReads = true;
-    ArchiveReader(const char* bytes, std::size_t size) : at_(bytes), left_(size) {}
+    /// `in_place`: arrays are read where they lie, so the bytes must stay, and begin at a multiple
+    /// of kLine.
+    ArchiveReader(const char* bytes, std::size_t size, bool in_place = false)
+        : at_(bytes), left_(size), all_(size), in_place_(in_place) {}
 
     bool good() const { return !broken_; }
     bool is_done() const { return good() && left_ == 0; }
@@ -69,11 +94,36 @@ public:
             fail();
         }
     }
+    /// An array of floats.
+    template <class T>
+    void array(Buffer<T>& list) {
+        std::uint64_t n = 0;
+        word(n, 8);
+        if (n == 0) return;
+        fill_up();
+        if (n > left_ / sizeof(T)) return fail();
+        if (in_place_ && kLittleEndian) {
+            list.lend(reinterpret_cast<const T*>(at_), std::size_t(n));
+            at_ += list.bytes(), left_ -= std::size_t(list.bytes());
+        } else if (list.resize(n, "packed array")) {
+            for (std::size_t i = 0; i < n && good(); ++i) field(*this, list[i]);
+        } else {
+            no_memory_ = true;
+            return fail();
+        }
+        fill_up();
+    }
 
 private:
+    void fill_up() {
+        const std::size_t past = (all_ - left_) % kLine, gap = past == 0 ? 0 : kLine - past;
+        if (broken_ || gap > left_) return fail();
+        at_ += gap;
+        left_ -= gap;
+    }
     const char* at_;
-    std::size_t left_;
-    bool broken_ = false, no_memory_ = false;
+    std::size_t left_, all_;
+    bool in_place_, broken_ = false, no_memory_ = false;
 };
 
 template <class A>
@@ -158,6 +208,7 @@ void field(A& a, std::vector<T>& v) {
 
 template <class A, class T>
 void field(A& a, Buffer<T>& v) {
+    if constexpr (std::is_floating_point_v<T>) return a.array(v);
     a.count(v, sizeof(T) < 8 ? sizeof(T) : 8);
     for (std::size_t i = 0; i < v.size() && a.good(); ++i) field(a, v[i]);
 }

@@ -4,9 +4,9 @@
 
 namespace pileus {
 
-Status begin_flight(const void* scene, std::size_t bytes, const RenderOptions& options, bool depth,
-                    Packed& packed, Session& session) {
-    PILEUS_TRY(unpack_scene(scene, bytes, packed));
+Status begin_flight(const void* scene, std::size_t bytes, const RenderOptions& options,
+                    bool in_place, bool depth, Packed& packed, Session& session) {
+    PILEUS_TRY(unpack_scene(scene, bytes, in_place, packed));
     PILEUS_TRY(session.open(packed.scene, options, SessionKind::kLive, true, packed.world));
     const LightUnits light = session.light();
     std::uint64_t done = 0;

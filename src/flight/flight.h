@@ -9,19 +9,20 @@
 namespace pileus {
 
 /// Unpacks the scene, prepares its method and traces light for a first picture. The
-/// session points into `packed`. `depth`: leaves room
-/// for depth images. Errors: those of unpack_scene and of sessions.
-Status begin_flight(const void* scene, std::size_t bytes, const RenderOptions& options, bool depth,
-                    Packed& packed, Session& session);
+/// session points into `packed`. `in_place`: arrays stay where they lie in `scene`. `depth`: leaves
+/// room for depth images. Errors: those of unpack_scene and of sessions.
+Status begin_flight(const void* scene, std::size_t bytes, const RenderOptions& options,
+                    bool in_place, bool depth, Packed& packed, Session& session);
 
 /// Bytes of a block for a packed scene, as docs/flight.md, "Memory", works them out.
 struct FlightNeed {
-    std::uint64_t kept = 0;   ///< of what lives as long as the session
-    std::uint64_t open = 0;   ///< most while it is made
-    std::uint64_t frame = 0;  ///< most that a call took, over frames near and far
-    std::uint64_t small = 0;  ///< for what an ordinary library keeps elsewhere, by measurement
-    std::uint64_t block = 0;  ///< what to give
-    FrameUnits most;          ///< that a frame takes; all 0: the view decides
+    std::uint64_t kept = 0;      ///< of what lives as long as the session
+    std::uint64_t open = 0;      ///< most while it is made
+    std::uint64_t frame = 0;     ///< most that a call took, over frames near and far
+    std::uint64_t small = 0;     ///< for what an ordinary library keeps elsewhere, by measurement
+    std::uint64_t block = 0;     ///< what to give
+    std::uint64_t in_place = 0;  ///< what to give where arrays are read in place
+    FrameUnits most;             ///< that a frame takes; all 0: the view decides
 };
 
 /// Opens the scene in a block of its own and draws some frames. Errors: those of sessions.

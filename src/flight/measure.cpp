@@ -2,6 +2,8 @@
 // See flight.h: what a session needs, by trying.
 // in: a packed scene -> out: bytes.
 // docs/flight.md, "Memory"
+#include <cstring>
+
 #include "src/flight/block.h"
 #include "src/flight/flight.h"
 
@@ -47,7 +49,7 @@ Status draw(Session& session, Buffer<unsigned char>& pixels) {
     return Status::ok();
 }
 
-Status fly(const std::string& packed, const RenderOptions& options, Block& block,
+Status fly(Span<const char> packed, const RenderOptions& options, bool in_place, Block& block,
            FlightNeed& need) {
     const Allocator allocator = block.allocator();
     const Executor alone{
@@ -60,7 +62,7 @@ Status fly(const std::string& packed, const RenderOptions& options, Block& block
     Buffer<unsigned char> pixels;
     const HostGuard lent({&allocator, &alone, nullptr});
     PILEUS_TRY(
-        begin_flight(packed.data(), packed.size(), options, false, scene_and_world, session));
+        begin_flight(packed.data, packed.size, options, in_place, false, scene_and_world, session));
     need.small = kSmallBytes + (scene_and_world.world->direct_sky ? kSkySmallBytes : 0);
     const Scene& scene = scene_and_world.scene;
     const auto& size = scene.camera.resolution;
@@ -82,17 +84,15 @@ Status fly(const std::string& packed, const RenderOptions& options, Block& block
     return Status::ok();
 }
 
-}  // namespace
-
-Status measure_flight(const std::string& packed, const RenderOptions& given, FlightNeed& need) {
-    RenderOptions options = given;
-    options.threads = 1;
+/// The need of a flight that reads arrays in place, or has its own.
+Status measure(Span<const char> packed, const RenderOptions& options, bool in_place,
+               FlightNeed& need) {
     // Memory that is not touched costs nothing, so that more than enough may be asked for.
     for (std::uint64_t bytes = 64u << 20;; bytes *= 4) {
         Buffer<unsigned char> memory;
         PILEUS_TRY(memory.resize(bytes, "trial block"));
         Block* const block = Block::make(memory.data(), memory.size());
-        const Status status = fly(packed, options, *block, need);
+        const Status status = fly(packed, options, in_place, *block, need);
         const BlockUse& use = block->use();
         if (use.refused > 0 && bytes < std::uint64_t{1} << 36) continue;
         PILEUS_TRY(status);
@@ -104,6 +104,22 @@ Status measure_flight(const std::string& packed, const RenderOptions& given, Fli
         need.block = (need.block + kUnit - 1) / kUnit * kUnit;
         return Status::ok();
     }
+}
+
+}  // namespace
+
+Status measure_flight(const std::string& packed, const RenderOptions& given, FlightNeed& need) {
+    RenderOptions options = given;
+    options.threads = 1;
+    Buffer<char> bytes;
+    PILEUS_TRY(bytes.resize(packed.size(), "packed scene"));
+    std::memcpy(bytes.data(), packed.data(), packed.size());
+    const Span<const char> scene{bytes.data(), bytes.size()};
+    FlightNeed in_place;
+    PILEUS_TRY(measure(scene, options, true, in_place));
+    PILEUS_TRY(measure(scene, options, false, need));
+    need.in_place = in_place.block;
+    return Status::ok();
 }
 
 }  // namespace pileus

@@ -11,8 +11,9 @@ namespace pileus {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x4c465355454c4950ull;  // "PILEUSFL"
-constexpr std::uint64_t kFormat = 1;
-constexpr std::size_t kHeadBytes = 8 * 7 + 24;
+constexpr std::uint64_t kFormat = 2;
+/// Its last bytes are zeros, so that what follows begins at a multiple of kLine.
+constexpr std::size_t kHeadBytes = 2 * kLine, kToldBytes = 8 * 8 + 24;
 
 std::uint64_t digest_of(const char* bytes, std::size_t size) {
     Digest digest;
@@ -28,13 +29,17 @@ struct Head {
 template <class A>
 void fields(A& a, Head& v) {
     for (std::uint64_t* word : {&v.magic, &v.format, &v.payload, &v.digest, &v.told.width,
-                                &v.told.height, &v.told.block_bytes})
+                                &v.told.height, &v.told.block_bytes, &v.told.in_place_bytes})
         a.word(*word, 8);
     for (std::size_t i = 0; i < 24; ++i) {
         std::uint64_t letter = i < v.told.method.size() ? std::uint8_t(v.told.method[i]) : 0;
         a.word(letter, 1);
         if constexpr (A::kReads)
             if (letter != 0 && i < 23) v.told.method += char(letter);
+    }
+    for (std::size_t i = kToldBytes; i < kHeadBytes; ++i) {
+        std::uint64_t none = 0;
+        a.word(none, 1);
     }
 }
 
@@ -168,11 +173,12 @@ std::string packed_bytes(const PackedHead& told, const std::string& payload) {
     return writer.bytes + payload;
 }
 
-void tell_block(std::uint64_t block_bytes, std::string& bytes) {
+void tell_block(std::uint64_t block_bytes, std::uint64_t in_place_bytes, std::string& bytes) {
     Head head;
     ArchiveReader reader(bytes.data(), kHeadBytes);
     fields(reader, head);
     head.told.block_bytes = block_bytes;
+    head.told.in_place_bytes = in_place_bytes;
     ArchiveWriter writer;
     fields(writer, head);
     bytes.replace(0, kHeadBytes, writer.bytes);
@@ -199,7 +205,7 @@ Status pack_scene(const Scene& given, const World& world, std::string& bytes) {
     all(payload, scene, const_cast<World&>(world), tables);
     sky_fields(payload, sky);
     bytes = packed_bytes({std::uint64_t(scene.camera.resolution[0]),
-                          std::uint64_t(scene.camera.resolution[1]), 0, scene.method},
+                          std::uint64_t(scene.camera.resolution[1]), 0, 0, scene.method},
                          payload.bytes);
     return Status::ok();
 }
@@ -208,17 +214,20 @@ Status read_packed_head(const void* bytes, std::size_t size, PackedHead& head) {
     Head read;
     PILEUS_TRY(read_head(static_cast<const char*>(bytes), size, read));
     head = read.told;
+    if (!kLittleEndian) head.in_place_bytes = head.block_bytes;
     return Status::ok();
 }
 
-Status unpack_scene(const void* bytes, std::size_t size, Packed& out) {
+Status unpack_scene(const void* bytes, std::size_t size, bool in_place, Packed& out) {
     Head head;
     const char* const begin = static_cast<const char*>(bytes);
+    if (in_place && reinterpret_cast<std::uintptr_t>(begin) % kLine != 0)
+        return Status::bad_input("packed scene: at no multiple of 64 bytes, allowed in place: one");
     PILEUS_TRY(read_head(begin, size, head));
     out.head = head.told;
     out.world = std::make_shared<World>();
     std::array<std::uint64_t, kMostMedia> tables{};
-    ArchiveReader reader(begin + kHeadBytes, size - kHeadBytes);
+    ArchiveReader reader(begin + kHeadBytes, size - kHeadBytes, in_place);
     all(reader, out.scene, *out.world, tables);
     sky_fields(reader, out.sky);
     if (reader.out_of_memory()) return Status::limit("packed scene: out of memory");

@@ -15,6 +15,7 @@ namespace pileus {
 struct PackedHead {
     std::uint64_t width = 0, height = 0;  ///< of the camera, pixels
     std::uint64_t block_bytes = 0;        ///< that a session of it needs
+    std::uint64_t in_place_bytes = 0;     ///< that one needs which reads arrays where they lie
     std::string method;                   ///< at most 23 bytes
 };
 
@@ -31,7 +32,7 @@ struct Packed {
 Status pack_scene(const Scene& scene, const World& world, std::string& bytes);
 
 /// Writes into the head of packed bytes how large a block a session of them needs.
-void tell_block(std::uint64_t block_bytes, std::string& bytes);
+void tell_block(std::uint64_t block_bytes, std::uint64_t in_place_bytes, std::string& bytes);
 
 /// What follows the head, behind one that has its length and digest; for tests.
 std::string packed_bytes(const PackedHead& head, const std::string& payload);
@@ -41,7 +42,9 @@ std::string packed_bytes(const PackedHead& head, const std::string& payload);
 Status read_packed_head(const void* bytes, std::size_t size, PackedHead& head);
 
 /// All of it. Sizes and numbers of tables are checked; that every value is in its range is the
-/// packer's word, which the digest keeps. Errors: those of the head; kLimit: out of memory.
-Status unpack_scene(const void* bytes, std::size_t size, Packed& out);
+/// packer's word, which the digest keeps. `in_place`: the world's arrays of floats are read where
+/// they lie, if this machine is little-endian; `bytes` must outlive it. Errors: those of the head;
+/// kBadInput: in place at no multiple of 64 bytes; kLimit: out of memory.
+Status unpack_scene(const void* bytes, std::size_t size, bool in_place, Packed& out);
 
 }  // namespace pileus

@@ -29,7 +29,7 @@ std::string packed(const std::vector<std::string>& overrides, FlightNeed& need) 
     REQUIRE(pileus::pack_scene(scene, *world, bytes));
     const pileus::Status measured = pileus::measure_flight(bytes, {}, need);
     REQUIRE_MESSAGE(bool(measured), measured.message);
-    pileus::tell_block(need.block, bytes);
+    pileus::tell_block(need.block, need.in_place, bytes);
     return bytes;
 }
 

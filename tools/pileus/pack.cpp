@@ -30,7 +30,7 @@ Status pack_and_measure(const Scene& scene, const RenderOptions& options, std::s
     PILEUS_TRY(make_world(scene, options, world));
     PILEUS_TRY(pack_scene(scene, *world, bytes));
     PILEUS_TRY(measure_flight(bytes, options, need));
-    tell_block(need.block, bytes);
+    tell_block(need.block, need.in_place, bytes);
     return Status::ok();
 }
 
@@ -57,10 +57,11 @@ Status run_pack(const PackArguments& arguments) {
     PILEUS_TRY(write_file(arguments.to, {bytes.data(), bytes.size()}));
     return print(fmt::format(
         "{:<28} {:>12}  {} bytes\n{:<28} {:>12}  {} bytes\n{:<28} {:>12}\n{:<28} {:>12}\n"
-        "{:<28} {:>12}\n{:<28} {}\n",
+        "{:<28} {:>12}\n{:<28} {:>12}  {} bytes\n{:<28} {}\n",
         "packed scene", bytes_text(bytes.size()), bytes.size(), "block of a session",
         bytes_text(need.block), need.block, "  kept", bytes_text(need.kept), "  while it is opened",
         bytes_text(need.open), "  most of a frame", bytes_text(need.frame),
+        "  with arrays in place", bytes_text(need.in_place), need.in_place,
         "work of a frame, at most", units_text(need.most)));
 }
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: Apache-2.0
  * A flight in one block: a packed scene, frames under a sun and a camera that move.
- * in: a packed scene, frames, every how many frames a line is written -> out: a line with the hash of
- * the picture for each of those, one with the digest of all frames, one with what the block has seen.
- * docs/flight.md explains each step. Needs nothing but pileus_flight.h and the C library. */
+ * in: a packed scene, frames, every how many frames a line is written -> out: a line with the hash
+ * of the picture for each of those, one with the digest of all frames, one with what the block has
+ * seen. docs/flight.md explains each step. Needs nothing but pileus_flight.h and the C library. */
 #include <pileus/pileus_flight.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,18 +13,20 @@ static int check(pileus_code code, const pileus_error* error) {
     return (int)code;
 }
 
-/* Before the flight a program may read files and ask for memory. */
-static void* read_file(const char* path, size_t* size) {
+/* Before the flight a program may read files and ask for memory. `scene`: at a multiple of 64
+ * bytes, within what is returned. */
+static void* read_file(const char* path, size_t* size, void** scene) {
     FILE* file = fopen(path, "rb");
     long end;
-    void* bytes = NULL;
+    char* memory = NULL;
     if (file == NULL) return NULL;
     if (fseek(file, 0, SEEK_END) == 0 && (end = ftell(file)) > 0 && fseek(file, 0, SEEK_SET) == 0) {
-        bytes = malloc((size_t)end);
-        *size = bytes != NULL ? fread(bytes, 1, (size_t)end, file) : 0;
+        memory = (char*)malloc((size_t)end + 64);
+        *scene = memory + (64 - (size_t)memory % 64) % 64;
+        *size = memory != NULL ? fread(*scene, 1, (size_t)end, file) : 0;
     }
     fclose(file);
-    return bytes;
+    return memory;
 }
 
 /* What moves: the camera to and fro, nearer and farther; the sun up and down. All of it exact: the
@@ -52,7 +54,7 @@ static int fly(pileus_session* session, const pileus_camera* start, long frame,
 int main(int argc, char** argv) {
     const long frames = argc > 2 ? atol(argv[2]) : 10, every = argc > 3 ? atol(argv[3]) : 1;
     size_t scene_bytes = 0;
-    void* scene;
+    void *file, *scene = NULL;
     long frame;
     uint64_t hash = 0, all = 0xcbf29ce484222325u;
     pileus_error error;
@@ -72,8 +74,8 @@ int main(int argc, char** argv) {
         fprintf(stderr, "usage: %s PACKED_SCENE [FRAMES [EVERY]]\n", argv[0]);
         return 2;
     }
-    scene = read_file(argv[1], &scene_bytes);
-    if (scene == NULL) {
+    file = read_file(argv[1], &scene_bytes, &scene);
+    if (file == NULL) {
         fprintf(stderr, "%s: cannot be read\n", argv[1]);
         return 2;
     }
@@ -85,11 +87,11 @@ int main(int argc, char** argv) {
     picture.hash = &hash;
     flight.scene = scene;
     flight.scene_bytes = scene_bytes;
-    flight.block_bytes = (size_t)packed.block_bytes;
+    flight.in_place = 1; /* the scene stays where it is */
+    flight.block_bytes = (size_t)packed.in_place_bytes;
     flight.block = malloc(flight.block_bytes);
     flight.frame = &picture;
     if (check(pileus_flight_open(&flight, &session, &error), &error)) return 3;
-    free(scene);
 
     /* From here on nothing asks for memory. */
     camera.position_m[1] = -3000;
@@ -98,9 +100,9 @@ int main(int argc, char** argv) {
     camera.fov_deg = 40;
     for (frame = 0; frame < frames; ++frame) {
         int byte;
-        if (fly(session, &camera, frame, &picture, &error)) return check((pileus_code)error.code, &error);
-        for (byte = 0; byte < 8; ++byte)
-            all = (all ^ (hash >> (8 * byte) & 0xff)) * 0x100000001b3u;
+        if (fly(session, &camera, frame, &picture, &error))
+            return check((pileus_code)error.code, &error);
+        for (byte = 0; byte < 8; ++byte) all = (all ^ (hash >> (8 * byte) & 0xff)) * 0x100000001b3u;
         if (frame % every == 0)
             printf("%ld %08lx%08lx\n", frame, (unsigned long)(hash >> 32),
                    (unsigned long)(hash & 0xffffffffu));
@@ -113,6 +115,7 @@ int main(int argc, char** argv) {
            (unsigned long)use.refused, (unsigned long)use.kept, (unsigned long)use.lost);
     pileus_flight_close(session);
     free(flight.block);
+    free(file);
     free(picture.colour);
     return use.refused + use.kept + use.lost == 0 ? 0 : 1;
 }
