@@ -11,27 +11,11 @@
 #include <vector>
 
 #include "include/pileus/pileus_flight.h"
-#include "src/scene/read_scene.h"
 #include "tests/flight/flight_scene.h"
 
 namespace {
 
 using pileus::FlightNeed;
-
-std::string packed(const std::vector<std::string>& overrides, FlightNeed& need) {
-    pileus::Scene scene;
-    const pileus::Status read =
-        pileus::read_scene_text(kFlightScene, "scene", "", overrides, scene);
-    REQUIRE_MESSAGE(bool(read), read.message);
-    std::shared_ptr<const pileus::World> world;
-    std::string bytes;
-    REQUIRE(pileus::make_world(scene, {}, world));
-    REQUIRE(pileus::pack_scene(scene, *world, bytes));
-    const pileus::Status measured = pileus::measure_flight(bytes, {}, need);
-    REQUIRE_MESSAGE(bool(measured), measured.message);
-    pileus::tell_block(need.block, need.in_place, bytes);
-    return bytes;
-}
 
 /// A flight over a packed scene, as a host flies it.
 struct Flight {
@@ -128,7 +112,7 @@ TEST_CASE("every method flies in the block that its packed scene tells, and keep
     for (const std::vector<std::string>& row : kRows) {
         CAPTURE(row.empty() ? std::string("collectors") : row.front() + " " + row.back());
         FlightNeed need;
-        Flight flight(packed(row, need));
+        Flight flight(packed_small(row, need));
         const pileus_code code = flight.open();
         REQUIRE_MESSAGE(code == PILEUS_OK, flight.error.message);
         for (int number = 0; number < 10; ++number) {
@@ -146,7 +130,7 @@ TEST_CASE("every method flies in the block that its packed scene tells, and keep
 
 TEST_CASE("a block that is too small is refused with a line, whatever its size") {
     FlightNeed need;
-    const std::string bytes = packed({}, need);
+    const std::string bytes = packed_small({}, need);
     for (const double share : {0.0, 0.001, 0.1, 0.3, 0.6, 0.8}) {
         Flight flight(bytes);
         flight.setup.block_bytes = std::size_t(share * double(need.kept));
@@ -158,7 +142,7 @@ TEST_CASE("a block that is too small is refused with a line, whatever its size")
 
 TEST_CASE("a block at any address does") {
     FlightNeed need;
-    const std::string bytes = packed({}, need);
+    const std::string bytes = packed_small({}, need);
     std::uint64_t hashes[3];
     for (std::size_t skipped = 0; skipped < 3; ++skipped) {
         Flight flight(bytes);
@@ -174,7 +158,7 @@ TEST_CASE("a block at any address does") {
 
 TEST_CASE("what would need memory of its own is refused once a flight is open, and does no harm") {
     FlightNeed need;
-    Flight flight(packed({}, need));
+    Flight flight(packed_small({}, need));
     REQUIRE(flight.open() == PILEUS_OK);
     REQUIRE(flight.fly(1) == PILEUS_OK);
     const std::uint64_t before = flight.hash;
@@ -215,7 +199,7 @@ TEST_CASE("a sun may go and come back; one that was not there, a sky or a ground
         CAPTURE(method);
         const std::string name = std::string("method.name=") + method;
         FlightNeed need;
-        Flight flight(packed({name}, need));
+        Flight flight(packed_small({name}, need));
         REQUIRE(flight.open() == PILEUS_OK);
         pileus_sun none;
         PILEUS_INIT(none);
@@ -243,7 +227,7 @@ TEST_CASE("a sun may go and come back; one that was not there, a sky or a ground
         pileus_flight_use use = flight.use();
         CHECK(use.refused + use.kept + use.lost == 0);
         // At the horizon of a ground the sun does not shine.
-        Flight dawn(packed({name, "sun.elevation_deg=0"}, need));
+        Flight dawn(packed_small({name, "sun.elevation_deg=0"}, need));
         REQUIRE(dawn.open() == PILEUS_OK);
         CHECK(dawn.fly(1) == PILEUS_BAD_INPUT);
         use = dawn.use();
@@ -253,7 +237,7 @@ TEST_CASE("a sun may go and come back; one that was not there, a sky or a ground
 
 TEST_CASE("depth images come and go where a flight was opened for them") {
     FlightNeed need;
-    Flight flight(packed({"method.name=raymarch"}, need));
+    Flight flight(packed_small({"method.name=raymarch"}, need));
     flight.setup.depth = 1;
     flight.block.resize(flight.block.size() + 65536);
     flight.setup.block = flight.block.data();
@@ -277,7 +261,7 @@ TEST_CASE("depth images come and go where a flight was opened for them") {
 
 TEST_CASE("wrong use of pileus_flight.h has a line and a code") {
     FlightNeed need;
-    Flight flight(packed({}, need));
+    Flight flight(packed_small({}, need));
     const auto refused = [&](const char* words) {
         CHECK(flight.open() == PILEUS_BAD_INPUT);
         CHECK(std::string(flight.error.message).find(words) == 0);

@@ -8,7 +8,6 @@
 #include <cstring>
 
 #include "src/flight/flight.h"
-#include "src/scene/read_scene.h"
 #include "tests/flight/flight_scene.h"
 
 namespace {
@@ -30,20 +29,6 @@ private:
     std::size_t size_;
     void* memory_;
 };
-
-std::string packed(const std::vector<std::string>& overrides, pileus::FlightNeed& need) {
-    pileus::Scene scene;
-    const pileus::Status read =
-        pileus::read_scene_text(kFlightScene, "scene", "", overrides, scene);
-    REQUIRE_MESSAGE(bool(read), read.message);
-    std::shared_ptr<const pileus::World> world;
-    std::string bytes;
-    REQUIRE(pileus::make_world(scene, {}, world));
-    REQUIRE(pileus::pack_scene(scene, *world, bytes));
-    REQUIRE(pileus::measure_flight(bytes, {}, need));
-    pileus::tell_block(need.block, need.in_place, bytes);
-    return bytes;
-}
 
 /// Hashes of some frames; of a flight that is told to read in place, and of one that is not.
 std::vector<std::uint64_t> flown(const std::string& bytes, const void* scene, std::uint64_t room) {
@@ -104,7 +89,7 @@ TEST_CASE(
         std::vector<std::string> keys = row;
         keys.push_back("medium.0.resolution=[48,48,48]");
         pileus::FlightNeed need;
-        const std::string bytes = packed(keys, need);
+        const std::string bytes = packed_small(keys, need);
         pileus_packed head;
         PILEUS_INIT(head);
         REQUIRE(pileus_packed_read(bytes.data(), bytes.size(), &head, nullptr) == PILEUS_OK);
@@ -124,7 +109,7 @@ TEST_CASE(
 
 TEST_CASE("a packed scene at another address is refused in place") {
     pileus::FlightNeed need;
-    const std::string bytes = packed({"method.name=raymarch"}, need);
+    const std::string bytes = packed_small({"method.name=raymarch"}, need);
     alignas(64) static unsigned char memory[1 << 20];
     REQUIRE(bytes.size() + 64 < sizeof memory);
     for (const std::size_t past : {0, 8, 32, 63}) {
