@@ -2,6 +2,7 @@
 // See clouds.h. Kinds, places, light and shadows; clouds_frame.cpp draws.
 #include "src/clouds/clouds.h"
 
+#include <algorithm>
 #include <glm/geometric.hpp>
 
 #include "platform/fp_mode.h"
@@ -110,8 +111,45 @@ Status Clouds::place(const std::vector<CloudPlace>& places) {
         cloud->box = box_of(p, kinds_[p.kind].low_m, kinds_[p.kind].high_m);
         cloud->group = SIZE_MAX;
     }
+    drop_groups();
     shaded_ = false;
     return Status::ok();
+}
+
+/// Sessions of kinds and turns that no place has any more.
+void Clouds::drop_groups() {
+    std::vector<std::size_t> moved_to(groups_.size(), SIZE_MAX);
+    std::size_t kept = 0;
+    for (std::size_t g = 0; g < groups_.size(); ++g) {
+        const bool used = std::any_of(clouds_.begin(), clouds_.end(), [&](const auto& cloud) {
+            return groups_[g]->is(cloud->place.kind, cloud->place.yaw_deg);
+        });
+        if (!used) continue;
+        moved_to[g] = kept;
+        std::swap(groups_[kept++], groups_[g]);
+    }
+    groups_.resize(kept);
+    for (auto& cloud : clouds_)
+        if (cloud->group != SIZE_MAX) cloud->group = moved_to[cloud->group];
+}
+
+/// What all kinds and turns take, as soon as one of each kind tells; before most of them are made.
+Status Clouds::check_memory(const CloudGroup& next, std::size_t kind) const {
+    const auto is_made = [&](double yaw_deg) {
+        return std::any_of(groups_.begin(), groups_.end(),
+                           [&](const auto& group) { return group->is(kind, yaw_deg); });
+    };
+    std::vector<double> turns;
+    for (const auto& cloud : clouds_)
+        if (cloud->place.kind == kind && !is_made(cloud->place.yaw_deg))
+            turns.push_back(cloud->place.yaw_deg);
+    std::sort(turns.begin(), turns.end());
+    turns.erase(std::unique(turns.begin(), turns.end()), turns.end());
+    std::uint64_t all = bytes_of(next.own_bytes(), turns.size());
+    for (const auto& group : groups_) all = sum_of_bytes(all, group->own_bytes());
+    return check_limit(
+        options_.limits, LimitId::kMemory, all,
+        "clouds: light of " + std::to_string(groups_.size() + turns.size()) + " kinds and turns");
 }
 
 Status Clouds::set_detail(const CloudDetail& d) {
@@ -142,6 +180,7 @@ Status Clouds::group_of(const CloudPlace& place, std::size_t& group) {
     auto made = std::make_unique<CloudGroup>();
     PILEUS_TRY(
         made->open(kinds_[place.kind], place.kind, place.yaw_deg, light_, ground_m, options_));
+    PILEUS_TRY(check_memory(*made, place.kind));
     ++stats_.lit;
     groups_.push_back(std::move(made));
     return Status::ok();

@@ -56,6 +56,8 @@ private:
     Status light_up(const Outlook& look);
     Status cast_shadows();
     Status group_of(const CloudPlace& place, std::size_t& group);
+    Status check_memory(const CloudGroup& next, std::size_t kind) const;
+    void drop_groups();
     void judge(const CloudView& view, Cloud& cloud, Seen& seen) const;
     void look_for(const CloudView& view);
     Status renew(const CloudView& view);

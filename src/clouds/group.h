@@ -59,6 +59,12 @@ public:
     /// Mean radiance of what the cloud shows, for an alpha of 1, that did not come straight from
     /// the sun.
     const std::array<float, 3>& ambient() const { return ambient_; }
+    /// Most that it takes beside its kind's world, by its plan.
+    std::uint64_t own_bytes() const {
+        const std::uint64_t all = session_->run().plan.memory.peak();
+        const std::uint64_t shared = bytes_of_world(*session_->run().world);
+        return all > shared ? all - shared : 0;
+    }
     int threads() const { return session_->context().threads; }
 
 private:

@@ -94,6 +94,31 @@ TEST_CASE("clouds: wrong use has a line and changes nothing") {
     CHECK(sky.draw().hash == before.hash);
 }
 
+TEST_CASE("clouds: turns that take more memory than is allowed are refused before they are made") {
+    auto host = cleared<pileus_host>();
+    host.memory_limit = std::uint64_t{64} << 20;
+    std::vector<pileus_cloud> places;
+    for (int i = 0; i < 300; ++i) places.push_back(at(4000.0 * i, 0, 0, i));
+    CloudySky sky({at(0, 0, 0)}, {}, false, &host);
+    const Picture one = sky.draw();
+    sky.place(places);
+    auto frame = cleared<pileus_frame>();
+    std::vector<float> pixels(4 * std::size_t(one.width) * one.height);
+    frame.colour = pixels.data();
+    frame.format = PILEUS_RGBA32F;
+    CHECK(pileus_clouds_render(sky.clouds.get(), &frame, &sky.out.error) == PILEUS_LIMIT);
+    CHECK_MESSAGE(
+        sky.out.line().find("clouds: light of 300 kinds and turns: limits.memory: needs ") == 0,
+        sky.out.line());
+    CHECK(sky.stats().lit == 0);
+    // Of four turns there is enough; those of other places have gone.
+    for (int i = 0; i < 300; ++i) places[std::size_t(i)].yaw_deg = 90 * (i % 4);
+    sky.place(places);
+    CHECK(sky.draw().sum(3) > 0);
+    sky.place({at(0, 0, 0)});
+    CHECK(sky.draw().hash == one.hash);
+}
+
 TEST_CASE("clouds: where memory ends within a picture, the next one is whole") {
     struct Memory {
         std::atomic<long> left{1L << 40};
