@@ -15,6 +15,9 @@ constexpr bool kDevices = !kFlight;  ///< whole launches on another processor
 constexpr bool kMeshes = !kFlight;   ///< solid things but a host's images of depth
 constexpr bool kFilms = !kFlight;    ///< pictures and layers of files
 constexpr bool kPlans = !kFlight;    ///< lists for people: what runs, why not, bytes, times
+constexpr bool kMeters = !kFlight;   ///< fluxes through faces and into cells
+constexpr bool kClouds = !kFlight;   ///< many clouds, and a picture taken over
+constexpr bool kStops = !kFlight;    ///< a host that ends work before it is done
 constexpr bool kChecks = !kFlight;   ///< of scenes: a packed one was checked when it was packed
 
 // What a flight library may be configured without, cmake/PileusFlight.cmake; then no scene with it

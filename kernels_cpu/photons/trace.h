@@ -5,6 +5,7 @@
 // Each lane carries one photon and takes the next when it dies; random numbers belong to
 // (photon, event), so neither lanes nor threads can change a result.
 #pragma once
+#include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/photons/trace_solids.h"
 
 namespace pileus {
@@ -46,7 +47,7 @@ PILEUS_FN void advance(Group<W, NC, S>& g, const TraceParams& k, const TraceBuff
     if constexpr (Cells) {
         g.voxel = select(g.hits, cell_of(s.p, k), I<W>{});
     } else if (k.mode == kDepositIncident || k.mode == kDepositCamera ||
-               k.mode == kDepositAbsorbed) {
+               (kMeters && k.mode == kDepositAbsorbed)) {
         g.voxel = select(g.hits, voxel_of(s.p, k.grid), I<W>{});
         fetch_ahead<W>(b.collector, g.voxel);
     }

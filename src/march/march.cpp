@@ -2,6 +2,7 @@
 // See march.h.
 #include "src/march/march.h"
 
+#include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/core/rng.h"
 #include "kernels_cpu/core/vec.h"
 #include "platform/threads.h"
@@ -301,7 +302,9 @@ Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes&
         else
             context.kernels->raymarch_rows(k, b, begin, end);
     };
-    if (!run_until(context.threads, (rows + kPiece - 1) / kPiece, context.interrupted, march))
+    const bool whole =
+        run_until(context.threads, (rows + kPiece - 1) / kPiece, context.interrupted, march);
+    if (kStops && !whole)
         return {Code::kCheckFailed, "interrupted before the picture was whole; no file written"};
     for (std::size_t row = 0; row < rows; ++row) {
         const std::int64_t* own = counts.data() + row * kRaymarchCounts;

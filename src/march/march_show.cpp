@@ -62,7 +62,7 @@ bool same_way(const RaymarchRun& run, const CameraParams& a, const CameraParams&
     const float* to = flat ? b.forward : b.origin;
     if (a.orthographic != b.orthographic) return false;
     if (std::equal(from, from + 3, to)) return true;
-    if (run.view_slack_deg <= 0 || flat) return false;
+    if (!kClouds || run.view_slack_deg <= 0 || flat) return false;
     double aa = 0, bb = 0, ab = 0, ball = 0;
     for (int i = 0; i < 3; ++i) {
         const double half = 0.5 * run.world->medium.extent_m[i];
@@ -116,7 +116,8 @@ Status shade_by_solids(const Context& context, RaymarchRun& run) {
 /// Parts need the whole background, a trial for a budget of seconds any row's depths.
 LateRows* late_march(const FrameStep& step, const RaymarchRun& run) {
     const OutputSettings& output = run.scene->output;
-    if (output.layer_light || output.layer_order || run.budget.seconds > 0) return nullptr;
+    if (kFilms && (output.layer_light || output.layer_order || run.budget.seconds > 0))
+        return nullptr;
     return late_rows_of(step.late, run.lighting, run.world->medium, run.settings.thin, run.camera,
                         step.frame);
 }
@@ -154,7 +155,7 @@ LampMarchParams march_lamps(const RaymarchRun& run) {
 }
 Status march_background(const Context& context, const Lighting& light, RaymarchRun& run,
                         Planes& planes) {
-    if (run.alone) return show_nothing_behind(planes);
+    if (kClouds && run.alone) return show_nothing_behind(planes);
     const MediumView view = make_medium_view(run.world->medium, run.majorants);
     PILEUS_TRY(make_ground_shadow(context, run.world->medium, view, run.lighting,
                                   planes.transmittance.size(), turn_of(run), run.ground_shadow));
@@ -187,14 +188,14 @@ Status march_frame(const FrameStep& step, const Context& context, RaymarchRun& r
     if (run.settings.jitter == RaymarchJitterKind::kBlueNoise && run.noise.empty())
         PILEUS_TRY(make_blue_noise(run.noise));
     PILEUS_TRY(light_nodes(context, run));
-    PILEUS_TRY(shade_by_solids(context, run));
+    if (kMeshes) PILEUS_TRY(shade_by_solids(context, run));
     PILEUS_TRY(light_sky(context, step, run));
     {
         // Clearing memory is part of it.
         const StageClock clock(context, "background");
         PILEUS_TRY(allocate_planes(run.camera.width, run.camera.height, 3, run.lighting.opaque(),
                                    scene.wants_depth(), run.planes));
-        if (output.layer_optical_depth)
+        if (kFilms && output.layer_optical_depth)
             PILEUS_TRY(allocate(arrays::picture_planes(1, run.planes.transmittance.size()),
                                 run.planes.optical_depth));
     }

@@ -2,6 +2,7 @@
 // See methods.h.
 #include "src/methods/methods.h"
 
+#include "kernels_cpu/core/profile.h"
 #include "src/base/angles.h"
 
 namespace pileus {
@@ -12,7 +13,8 @@ Status open_run(const Method& method, const Scene& scene, const Budget& budget,
     run.scene = &scene;
     run.budget = budget;
     std::shared_ptr<World> own;
-    if (world == nullptr) {
+    // A flight brings the world that was packed.
+    if (!kFlight && world == nullptr) {
         own = std::make_shared<World>();
         PILEUS_TRY(outline_world(scene, method.world, context, *own));
         world = own;
@@ -21,14 +23,14 @@ Status open_run(const Method& method, const Scene& scene, const Budget& budget,
     PILEUS_TRY(outline_surroundings(scene, context, *run.world, run.around));
     PILEUS_TRY(method.outline(context, run));
     if (!exact) return Status::ok();
-    if (own != nullptr) PILEUS_TRY(load_world(scene, context, *own));
+    if (!kFlight && own != nullptr) PILEUS_TRY(load_world(scene, context, *own));
     PILEUS_TRY(load_surroundings(scene, context, run.around));
     return method.prepare(context, run);
 }
 
 SunTurn turn_of_sun(const Scene& scene, int slices, std::int64_t number, const SunDirection& sun) {
     SunTurn turn{slices, number, sun, nullptr};
-    if (!moves_sun(scene)) return turn;
+    if (!kFilms || !moves_sun(scene)) return turn;
     const Scene* from = &scene;
     turn.sun_of = [from](std::int64_t frame) {
         const SunPlace at = sun_at(*from, frame > 0 ? int(frame) : 0);

@@ -250,7 +250,8 @@ MarchParams lit_march_params(const PhotonRun& run, const LightInput& lit, const 
         for (std::size_t c = 0; c < 3 && run.deposit.first_order == 2; ++c)
             k.sun_source[i][c] = float(light.sun_irradiance[c] * double(optics.albedo[c]));
     }
-    k.beam_sets = lit.first_order_alone || run.deposit.first_order != 2 ? 0 : run.beam.sets;
+    k.beam_sets =
+        (kFilms && lit.first_order_alone) || run.deposit.first_order != 2 ? 0 : run.beam.sets;
     for (int c = 0; c < 3; ++c) k.beam_rest[c] = run.beam.rest[c];
     k.shadow = run.shadow_nodes;
     k.source = source;
@@ -313,7 +314,7 @@ Status add_lit_lamps(const Context& context, PhotonRun& run, const LightInput& l
 
 Status fill_lit_background(const Context& context, PhotonRun& run, const LightInput& lit, int batch,
                            Planes& planes) {
-    if (run.alone) return show_nothing_behind(planes);
+    if (kClouds && run.alone) return show_nothing_behind(planes);
     const std::uint64_t pixels = std::uint64_t(lit.camera.width) * std::uint64_t(lit.camera.height);
     PILEUS_TRY(make_ground_shadow(context, run.world->medium, view_of(run), run.lighting, pixels,
                                   turn_of(run), run.ground_shadow));

@@ -32,7 +32,7 @@ std::uint64_t batch_count(std::uint64_t generations) {
 /// place among them from the start.
 SunPlace first_place(const Scene& scene) {
     SunPlace own = place_of(scene.sun);
-    if (scene.ground.present && own.elevation_deg <= 0 && moves_sun(scene))
+    if (kFilms && scene.ground.present && own.elevation_deg <= 0 && moves_sun(scene))
         own.elevation_deg = highest_sun(scene);
     return own;
 }
@@ -129,7 +129,7 @@ Status shoot_packed(const TraceInput& in, std::size_t number, const std::vector<
                                                run.ring_sum);
                                 }));
     run.interrupted = photons.slots[number].generations == 0;
-    if (run.interrupted)
+    if (kStops && run.interrupted)
         drop_shot(shot, in.threads, photons, run.ring_sum);
     else
         end_shot(shot, photons, run.ring_sum);
@@ -152,10 +152,11 @@ Status sum_ring(const TraceInput& in, PhotonRun& run) {
 std::uint64_t photon_slots(const PhotonRun& run) {
     const Scene& scene = *run.scene;
     if (run.ring && scene.animation.present && scene.animation.frames > 1) return run.generations;
-    return scene.output.layer_error ? batch_count(run.generations) : 1;
+    return kFilms && scene.output.layer_error ? batch_count(run.generations) : 1;
 }
 
 int photon_batches(const PhotonRun& run) {
+    if (!kFilms) return 0;
     std::uint64_t slots = photon_slots(run);
     // Tracing that ended early has left slots without a generation.
     if (!run.scene->animation.present && run.next_generation > 0 && run.next_generation < slots)
@@ -252,7 +253,7 @@ Status shoot_generation(TraceInput in, const Context& context, PhotonRun& run) {
             trace_generation(in, run.next_generation, run.scratch, slot, run.photons.tallies));
         run.interrupted = slot.generations == before;
     }
-    if (!run.interrupted) ++run.next_generation;
+    if (!kStops || !run.interrupted) ++run.next_generation;
     return Status::ok();
 }
 

@@ -25,13 +25,13 @@ std::string names_here() {
     std::string names, ignored;
     for (int i = 0; const KernelTable* table = kernel_table_at(i); ++i)
         names += (i > 0 ? ", " : "") + std::string(table->name);
-    return has_cuda_device(ignored) ? names + ", cuda" : names;
+    return kDevices && has_cuda_device(ignored) ? names + ", cuda" : names;
 }
 
 }  // namespace
 
 Status find_kernels(const std::string& name, const KernelTable*& kernels) {
-    if (name == "cuda") {
+    if (kDevices && name == "cuda") {
         std::string why;
         if (!has_cuda_device(why))
             return Status::bad_input("--isa: \"cuda\": " + why + ", allowed: " + names_here());

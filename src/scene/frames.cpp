@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "kernels_cpu/core/profile.h"
+
 namespace pileus {
 namespace {
 
@@ -25,14 +27,14 @@ void take_at(const Animation& animation, Track track, int frame, Double3& v) {
 }
 
 bool has(const Scene& scene, Track track) {
-    return scene.animation.present && has_track(scene.animation, track);
+    return kFilms && scene.animation.present && has_track(scene.animation, track);
 }
 
 }  // namespace
 
 SunPlace sun_at(const Scene& scene, int frame) {
     const Animation& a = scene.animation;
-    if (!a.present) return place_of(scene.sun);
+    if (!kFilms || !a.present) return place_of(scene.sun);
     SunPlace at = a.keys.empty() ? place_of(scene.sun) : a.sun_at_rest;
     if (a.moves_sun) at.elevation_deg = in_range(a, a.sun_elevation_deg, frame);
     at.azimuth_deg = number_at(scene, Track::kAzimuth, frame, at.azimuth_deg);
@@ -43,7 +45,7 @@ SunPlace sun_at(const Scene& scene, int frame) {
 
 double orbit_at(const Scene& scene, int frame) {
     const Animation& a = scene.animation;
-    return a.present && a.moves_camera ? in_range(a, a.camera_orbit_deg, frame) : 0.0;
+    return kFilms && a.present && a.moves_camera ? in_range(a, a.camera_orbit_deg, frame) : 0.0;
 }
 
 Camera camera_at(const Animation& animation, const Camera& rest, int frame) {
@@ -55,12 +57,15 @@ Camera camera_at(const Animation& animation, const Camera& rest, int frame) {
 }
 
 double hours_at(const Scene& scene, int frame) {
+    if (!kFilms) return 0;
     const Animation& a = scene.animation;
     const double rest = a.present && a.moves_time ? in_range(a, a.hours, frame) : 0.0;
     return number_at(scene, Track::kHours, frame, rest);
 }
 
-double wind_at(const Scene& scene, int frame) { return number_at(scene, Track::kWind, frame, 0); }
+double wind_at(const Scene& scene, int frame) {
+    return kFilms ? number_at(scene, Track::kWind, frame, 0) : 0;
+}
 
 Placement placement_at(const Scene& scene, int frame) {
     Placement at;
@@ -72,12 +77,13 @@ Placement placement_at(const Scene& scene, int frame) {
 
 bool moves_sun(const Scene& scene) {
     const Animation& a = scene.animation;
+    if (!kFilms) return false;
     return (a.present && a.moves_sun) || has(scene, Track::kAzimuth) ||
            has(scene, Track::kElevation) || has(scene, Track::kYaw);
 }
 bool moves_time(const Scene& scene) {
     const Animation& a = scene.animation;
-    return (a.present && a.moves_time) || has(scene, Track::kHours);
+    return kFilms && ((a.present && a.moves_time) || has(scene, Track::kHours));
 }
 bool moves_wind(const Scene& scene) { return has(scene, Track::kWind); }
 bool moves_media(const Scene& scene) {

@@ -109,7 +109,7 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
         PILEUS_TRY(find_view(scene_.method, options.show, method_));
     if (kChecks) PILEUS_TRY(check_method(live, world.get()));
     run_ = method_->make();
-    if (!scene_.animation.keys.empty()) {
+    if (kFilms && !scene_.animation.keys.empty()) {
         run_->place_at = [this](int frame) { place_keys(around_, frame, scene_); };
         run_->place_at(frame_);
     }
@@ -187,7 +187,7 @@ Status Session::render(const FrameTarget& target) {
         return Status::bad_input(
             "frame.depth: a flat detector sees along no single ray, allowed: another projection");
     PILEUS_TRY(aim());
-    if (fading_ != nullptr) {
+    if (kClouds && fading_ != nullptr) {
         bool goes_on = false;
         PILEUS_TRY(fading_->begin(context_, scene_, *run_, shown_, goes_on));
         if (!goes_on) fading_.reset();
@@ -198,17 +198,18 @@ Status Session::render(const FrameTarget& target) {
     const bool nothing = !target.has_colour && target.hash == nullptr;
     const bool rays = !scene_.camera.flux;  // a flat detector has no depths
     scene_.output.layer_depth =
-        (rays && (target.has_depth || scene_.method == "path" || nothing)) || fading_ != nullptr;
+        (rays && (target.has_depth || scene_.method == "path" || nothing)) ||
+        (kClouds && fading_ != nullptr);
     report_.counters.clear();
     // A hash and depths are of whole planes.
     const bool late = target.has_colour && !target.has_depth && target.hash == nullptr &&
-                      fading_ == nullptr && is_late(target.colour, *context_.kernels);
+                      !(kClouds && fading_ != nullptr) && is_late(target.colour, *context_.kernels);
     late_.ready = false;
     late_.params.filled = 0;
     PILEUS_TRY(method_->live->compose(
         {frame_, stats_.pictures == 0, false, late ? &late_ : nullptr}, context_, *run_, planes));
     const Planes* const fresh = planes;
-    if (fading_ != nullptr)
+    if (kClouds && fading_ != nullptr)
         PILEUS_TRY(fading_->mix(context_, scene_, *run_, method_->live->reads_planes, planes));
     shown_ = planes;
     shown_camera_ = scene_.camera;

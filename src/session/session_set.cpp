@@ -170,7 +170,7 @@ Status Session::set_ground(const Ground& ground) {
 Status Session::set_lights(const std::vector<LightSettings>& lights) {
     if (lights == around_.lights) return Status::ok();
     if (run_->sealed && scene_.lights.empty()) return refuse_sealed("light");
-    PILEUS_TRY(check_host_lights(context_, lights, run_->world->medium));
+    if (kDevices) PILEUS_TRY(check_host_lights(context_, lights, run_->world->medium));
     if (const char* key = lights_fault(scene_, around_.ground, lights))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) {
             changed.lights = lights;
@@ -188,7 +188,7 @@ Status Session::set_placement(const Double3& offset_m, double yaw_deg) {
     if (!(yaw_deg > -1e6 && yaw_deg < 1e6))
         return Status::bad_input("placement.yaw_deg: out of range, allowed: within 1e6");
     const bool moves = offset_m != Double3{} || yaw_deg != 0;
-    if (moves && run_->world->solids.meshes)
+    if (kMeshes && moves && run_->world->solids.meshes)
         return Status::bad_input("placement: solids stay where they are, allowed: 0");
     if (yaw_deg != 0 && run_->around.sky_map.present())
         return Status::bad_input("placement.yaw_deg: not below a sky map, allowed: 0");

@@ -126,7 +126,7 @@ Status Session::set_work(const FrameWork& given) {
         named.file = "session";
         PILEUS_TRY(check_upsampling(named, "work", thin));
     }
-    if (here.thin != nullptr && here.thin->every() != thin.every() && kDevices &&
+    if (kDevices && here.thin != nullptr && here.thin->every() != thin.every() &&
         context_.kernels->device != nullptr)
         return refuse("scale", work.scale, "0 on a device");
     // Nothing is refused from here on but by the method, which comes first.

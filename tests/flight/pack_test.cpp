@@ -108,6 +108,18 @@ TEST_CASE("what a flight does not have is refused when it is packed") {
     CHECK(pack_scene(scene, *world, bytes).message ==
           "scene: medium.0.detail.refine: a packed scene knows detail on a grid alone, 0, allowed: "
           "1 to 16");
+    // Foreign libraries; a method that has nothing of them may be told of them.
+    scene = plain;
+    scene.collectors.compositor = Compositor::kOsmesa;
+    CHECK(pack_scene(scene, *world, bytes).message ==
+          "scene: collectors.compositor: not packed, allowed: builtin");
+    scene.method = "raymarch";
+    scene.filter.kind = FilterKind::kOidn;
+    CHECK(pack_scene(scene, *world, bytes));
+    bytes.clear();
+    scene.method = "path";
+    CHECK(pack_scene(scene, *world, bytes).message ==
+          "scene: filter.kind: not packed, allowed: none, regression");
     CHECK(bytes.empty());
 }
 

@@ -121,19 +121,20 @@ Status collectors_weigh(const Context& context, CollectorsRun& run) {
 
 Status collectors_outline(const Context& context, CollectorsRun& run) {
     const Scene& scene = *run.scene;
-    PILEUS_TRY(check_host_lights(context, scene.lights, run.world->medium));
-    PILEUS_TRY(check_thinned(context, scene, "collectors", scene.collectors.thin));
+    if (kDevices) PILEUS_TRY(check_host_lights(context, scene.lights, run.world->medium));
+    if (kChecks) PILEUS_TRY(check_thinned(context, scene, "collectors", scene.collectors.thin));
     run.light_refresh = scene.collectors.light_refresh;
     if (run.light_refresh > 1 && kDevices && context.kernels->device != nullptr)
         return Status::bad_input(scene.file +
                                  ": collectors.light_refresh: for the host alone, allowed: 1");
-    if (scene.collectors.thin.every() > 1 && !is_marched(run))
+    if (kChecks && scene.collectors.thin.every() > 1 && !is_marched(run))
         return Status::bad_input(scene.file +
                                  ": collectors.display: \"billboards\" has no marched pixels, "
                                  "allowed: march, or collectors.scale = 1 and temporal = 0");
     run.budget_photons = collectors_photons(scene, run.budget);
     if (scene.collectors.camera_closure) {
-        if (const char* mover = mover_of_view(scene))
+        const char* const mover = kFilms ? mover_of_view(scene) : nullptr;
+        if (kFilms && mover != nullptr)
             return Status::bad_input(scene.file +
                                      ": collectors.closure: \"camera\" needs a fixed "
                                      "camera, but " +
@@ -141,7 +142,7 @@ Status collectors_outline(const Context& context, CollectorsRun& run) {
         run.camera_cells = scene.collectors.cell_voxels;
     }
     // Tell before any work that the compositor asked for is not here.
-    if (scene.collectors.compositor != Compositor::kBuiltin) {
+    if (kChecks && scene.collectors.compositor != Compositor::kBuiltin) {
         GlBlender blender;
         PILEUS_TRY(open_gl_blender(scene.collectors.compositor, blender));
     }

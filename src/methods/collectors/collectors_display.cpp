@@ -166,7 +166,7 @@ Status show_marched(const Context& context, CollectorsRun& run, const Reconstruc
             light.planes = by_channel.data();
         }
     }
-    if (is_whole(run, lit))
+    if (!kFilms || is_whole(run, lit))
         return march_thinned(context, run.scene->collectors.thin, light, k, run, planes);
     return march_lit(context, run, light, k, planes.colour.data(), planes);
 }
@@ -196,7 +196,7 @@ Status show_harmonics(const Context& context, CollectorsRun& run, const Reconstr
             by_node));
         gather_by_node(context, k, node_count(k.source), run.source.span(), by_node.span());
         const NodeLight light{by_node.data()};
-        PILEUS_TRY(batch < 0 && is_whole(run, in)
+        PILEUS_TRY(!kFilms || (batch < 0 && is_whole(run, in))
                        ? march_thinned(context, run.scene->collectors.thin, light, k, run, planes)
                        : march_lit(context, run, light, k, target, planes));
     }
@@ -227,7 +227,7 @@ Status show_billboards(const Context& context, const CollectorsRun& run,
 
 Status collectors_display(const Context& context, CollectorsRun& run, const ReconstructInput& lit,
                           const CollectorColours& colours, int channels, Planes& planes) {
-    if (shows_harmonics(run) && !lit.first_order_alone)
+    if (shows_harmonics(run) && (!kFilms || !lit.first_order_alone))
         return show_harmonics(context, run, lit, planes);
     if (!is_marched(run)) return show_billboards(context, run, lit, colours, channels, planes);
     PILEUS_TRY(show_marched(context, run, lit, colours, channels, planes));
@@ -259,7 +259,7 @@ Status collectors_billboards(const Context& context, const CollectorsRun& run,
     scene.opaque_depth = opaque_depth;
     scene.half_depth = run.scene->wants_depth();
     const Compositor by = run.scene->collectors.compositor;
-    if (by == Compositor::kBuiltin)
+    if (!kFilms || by == Compositor::kBuiltin)
         return composite_billboards(
             scene, camera, context.threads, context.kernels->blend_tile, out,
             kDevices && context.kernels->device != nullptr ? kDeviceTiling : BillboardTiling{},
@@ -279,8 +279,9 @@ void collectors_size_display(const CollectorsRun& run, const Context& context,
     sizes.marched = is_marched(run);
     sizes.ground = run.lighting.opaque();
     sizes.depth = run.scene->wants_depth();
-    const std::uint64_t parts = (output.layer_light ? 3u : 0u) + (output.layer_order ? 3u : 0u);
-    sizes.extra_planes = parts + (output.layer_optical_depth ? 1u : 0u);
+    const std::uint64_t parts =
+        kFilms ? (output.layer_light ? 3u : 0u) + (output.layer_order ? 3u : 0u) : 0u;
+    sizes.extra_planes = parts + (kFilms && output.layer_optical_depth ? 1u : 0u);
     sizes.parts = parts > 0;
     if (!sizes.marched) return;
     const NodeGrid nodes = source_grid_of(run);

@@ -146,7 +146,7 @@ Status light(const FrameStep& step, const Context& context, MethodRun& method_ru
     PILEUS_TRY(light_particles(context, run));
     PILEUS_TRY(allocate_planes(run.camera.width, run.camera.height, 3, run.lighting.opaque(),
                                scene.wants_depth(), run.planes));
-    if (scene.output.layer_optical_depth)
+    if (kFilms && scene.output.layer_optical_depth)
         PILEUS_TRY(allocate(arrays::picture_planes(1, run.planes.transmittance.size()),
                             run.planes.optical_depth));
     PILEUS_TRY(fill_background(context, run));

@@ -43,7 +43,7 @@ void digest_prepared(PathRun& run) {
 
 Status outline(const Context& context, MethodRun& method_run) {
     PathRun& run = own(method_run);
-    PILEUS_TRY(check_host_lights(context, run.scene->lights, run.world->medium));
+    if (kDevices) PILEUS_TRY(check_host_lights(context, run.scene->lights, run.world->medium));
     if (kDevices && context.kernels->device != nullptr && path_filters(*run.scene))
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
                                  "\": filter.kind = \"" + path_filter_name(*run.scene) +

@@ -218,7 +218,8 @@ Status check_path_filter(const Scene& scene) {
 
 Status path_filter(const Context& context, PathRun& run) {
     const StageClock clock(context, "filter");
-    if (path_regresses(*run.scene)) {
+    // Other filters are foreign libraries, and not packed.
+    if (!kFilms || path_regresses(*run.scene)) {
         Known known;
         PILEUS_TRY(find_known(context, run, known));
         return kFilms && run.scene->output.layer_error ? regress_with_error(context, run, known)

@@ -2,6 +2,7 @@
 // One frame of the path tracer: alpha, then passes until the budget is met.
 // in: a prepared PathRun -> out: its film, and the state file where one is kept.
 // docs/program.md, "Budgets of a path tracing"
+#include "kernels_cpu/core/profile.h"
 #include "platform/clock.h"
 #include "src/base/file.h"
 #include "src/methods/path/path.h"
@@ -123,7 +124,7 @@ Status path_advance(std::uint64_t samples, const Context& context, PathRun& run)
     const StageClock clock(context, "paths");
     PathInput in = live_input(context, run);
     run.interrupted = false;
-    if (!context.interrupted) return trace_paths(in, samples, run.scratch, run.film);
+    if (!kStops || !context.interrupted) return trace_paths(in, samples, run.scratch, run.film);
     // Who may end it is asked between passes; the bits are those of one.
     PassRule rule;
     rule.most = run.film.samples + samples;

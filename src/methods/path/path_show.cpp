@@ -40,10 +40,11 @@ Status fill_planes(const Context& context, PathRun& run) {
     PILEUS_TRY(mean_planes(context, run.film, kPathTotal, p.colour));
     if (output.layer_cloud || output.layer_order)
         PILEUS_TRY(mean_planes(context, run.film, kPathCloud, p.cloud));
-    if (output.layer_light) PILEUS_TRY(mean_planes(context, run.film, kPathSun, p.sun));
-    if (output.layer_order) PILEUS_TRY(mean_planes(context, run.film, kPathSingle, p.single));
+    if (kFilms && output.layer_light) PILEUS_TRY(mean_planes(context, run.film, kPathSun, p.sun));
+    if (kFilms && output.layer_order)
+        PILEUS_TRY(mean_planes(context, run.film, kPathSingle, p.single));
     // One sample has no scatter to tell an error from.
-    if (output.layer_error && run.film.samples >= 2 && !path_filters(*run.scene))
+    if (kFilms && output.layer_error && run.film.samples >= 2 && !path_filters(*run.scene))
         PILEUS_TRY(error_planes(run.film, p.error));
     return Status::ok();
 }

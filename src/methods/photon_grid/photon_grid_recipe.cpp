@@ -65,7 +65,8 @@ Status outline(const Context& context, MethodRun& run) {
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
                                  "\": method photon-grid runs on the host alone, allowed: another, "
                                  "or another method");
-    PILEUS_TRY(check_thinned(context, *run.scene, "photon_grid", run.scene->photon_grid.thin));
+    if (kChecks)
+        PILEUS_TRY(check_thinned(context, *run.scene, "photon_grid", run.scene->photon_grid.thin));
     own(run).light_refresh = run.scene->photon_grid.light_refresh;
     return photon_grid_weigh(context, own(run));
 }

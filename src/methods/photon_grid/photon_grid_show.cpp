@@ -61,7 +61,7 @@ Status show_towards(const Context& context, PhotonGridRun& run, const GridLightI
     k.channels = 3 * (1 + in.batches);
     NodeLight lit{light.data()};
     PILEUS_TRY(light_near(context, run, in, k, lit));
-    if (in.lighting == &run.lighting)
+    if (!kFilms || in.lighting == &run.lighting)
         return march_thinned(context, run.scene->photon_grid.thin, lit, k, run, planes);
     return march_lit(context, run, lit, k, planes.colour.data(), planes);
 }
@@ -83,7 +83,7 @@ Status show_all_ways(const Context& context, PhotonGridRun& run, const GridLight
         set_harmonic_sets(in.deposit, sets.sets, sets.colour, k);
         float* target =
             planes.colour.data() + 3 * std::size_t(batch + 1) * planes.transmittance.size();
-        PILEUS_TRY(batch < 0 && in.lighting == &run.lighting
+        PILEUS_TRY(!kFilms || (batch < 0 && in.lighting == &run.lighting)
                        ? march_thinned(context, run.scene->photon_grid.thin,
                                        NodeLight{light.data()}, k, run, planes)
                        : march_lit(context, run, NodeLight{light.data()}, k, target, planes));
@@ -102,7 +102,7 @@ Status show_first_order(const Context& context, PhotonGridRun& run, const GridLi
 Status display(const Context& context, PhotonGridRun& run, const GridLightInput& in,
                Planes& planes) {
     PILEUS_TRY(make_sun_shadow(context, run));
-    if (in.first_order_alone)
+    if (kFilms && in.first_order_alone)
         PILEUS_TRY(show_first_order(context, run, in, planes));
     else
         PILEUS_TRY(shows_harmonics(run) ? show_all_ways(context, run, in, planes)
@@ -147,6 +147,16 @@ Status show_single(const Context& context, PhotonGridRun& run, GridLightInput in
     return Status::ok();
 }
 
+/// What layers of files show besides the picture.
+Status add_layers(const Context& context, PhotonGridRun& run, const GridLightInput& in,
+                  Planes& planes) {
+    const OutputSettings& output = run.scene->output;
+    PILEUS_TRY(add_ground_noise(context, run, in, planes));
+    if (output.layer_optical_depth) PILEUS_TRY(show_optical_depth(context, run, in, planes));
+    if (output.layer_light) PILEUS_TRY(show_sun(context, run, in, planes));
+    return output.layer_order ? show_single(context, run, in, planes) : Status::ok();
+}
+
 }  // namespace
 
 Status photon_grid_compose(const CameraParams& camera, const Context& context, PhotonGridRun& run,
@@ -156,7 +166,6 @@ Status photon_grid_compose(const CameraParams& camera, const Context& context, P
         PILEUS_TRY(sum_ring(photon_grid_trace_input(context, run), run));
     }
     const GridLightInput in = photon_grid_light_input(camera, context, run);
-    const OutputSettings& output = run.scene->output;
     channels = 3 * (1 + in.batches);
     {
         const StageClock clock(context, "background");
@@ -172,10 +181,7 @@ Status photon_grid_compose(const CameraParams& camera, const Context& context, P
         for (std::size_t i = 0; i < 3 * pixels; ++i)
             if (planes.colour[i] < 0) planes.colour[i] = 0, ++clamped;
     }
-    PILEUS_TRY(add_ground_noise(context, run, in, planes));
-    if (output.layer_optical_depth) PILEUS_TRY(show_optical_depth(context, run, in, planes));
-    if (output.layer_light) PILEUS_TRY(show_sun(context, run, in, planes));
-    if (output.layer_order) PILEUS_TRY(show_single(context, run, in, planes));
+    if (kFilms) PILEUS_TRY(add_layers(context, run, in, planes));
     return show_air(context, *run.scene, run.world->medium, run.lighting, camera, run.around,
                     planes);
 }
