@@ -36,7 +36,7 @@ std::string packed(const pileus::Scene& scene) {
     pileus::FlightNeed need;
     const pileus::Status measured = pileus::measure_flight(bytes, {}, need);
     REQUIRE_MESSAGE(bool(measured), measured.message);
-    pileus::tell_block(need.block, bytes);
+    pileus::tell_block(need.block, need.in_place, bytes);
     return bytes;
 }
 

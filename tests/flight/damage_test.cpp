@@ -36,7 +36,7 @@ std::string said(const std::vector<std::string>& overrides, const Change& change
     change(const_cast<World&>(*world));
     REQUIRE(pack_scene(scene, *world, bytes));
     Packed out;
-    const Status status = unpack_scene(bytes.data(), bytes.size(), out);
+    const Status status = unpack_scene(bytes.data(), bytes.size(), false, out);
     return status ? "taken" : status.message;
 }
 
@@ -133,7 +133,7 @@ TEST_CASE("a payload that is cut and signed anew is refused, wherever it ends") 
     const auto opened = [&](const std::string& bytes) {
         const std::string signed_anew = packed_bytes(head, bytes);
         Packed out;
-        return unpack_scene(signed_anew.data(), signed_anew.size(), out);
+        return unpack_scene(signed_anew.data(), signed_anew.size(), false, out);
     };
     REQUIRE(opened(payload));
     for (std::size_t size = 0; size < payload.size(); size += 1 + size / 40)
@@ -174,7 +174,7 @@ TEST_CASE("a packed sky map of more channels than there are colours is refused")
         payload[payload.size() - 8] = channels;
         const std::string bytes = packed_bytes(head, payload);
         Packed out;
-        CHECK(unpack_scene(bytes.data(), bytes.size(), out).message == kLine);
+        CHECK(unpack_scene(bytes.data(), bytes.size(), false, out).message == kLine);
         // No more were made than there may be.
         CHECK(out.sky.channels.size() <= 4);
     }
