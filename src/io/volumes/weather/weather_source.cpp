@@ -181,10 +181,10 @@ Status open_weather(const NcFile& file, const WeatherSettings& settings, Weather
     PILEUS_TRY(find_water(file, settings, source.water));
     PILEUS_TRY(find_axes(file, *source.water, settings, source.axes));
     // No column may have more levels than a grid can show, no row more columns.
-    constexpr std::uint64_t kMostLevels = 10'000, kMostSide = std::uint64_t{1} << 20;
+    constexpr std::uint64_t kMostHeights = 10'000, kMostSide = std::uint64_t{1} << 20;
     constexpr std::uint64_t kMostRow = std::uint64_t{1} << 24;
     const WeatherAxes& axes = source.axes;
-    if (axes.levels > kMostLevels || axes.nx > kMostSide || axes.ny > kMostSide ||
+    if (axes.levels > kMostHeights || axes.nx > kMostSide || axes.ny > kMostSide ||
         axes.nx * axes.levels > kMostRow)
         return Status::limit(file.name() + ": variable " + printable_line(source.water->name) +
                              ": too large, " + std::to_string(axes.nx) + " x " +
