@@ -37,7 +37,7 @@ TEST_CASE("pack: a scene in clear air is packed and flies in the block that the 
             folder.run(std::string("pack air.toml -o air.packed --set method.name=") + method);
         REQUIRE_MESSAGE(out.exit_status == 0, out.errors);
         CHECK(out.errors.empty());
-        CHECK(test::line_count(out.output) == 6);
+        CHECK(test::line_count(out.output) == 7);
         const std::string bytes = folder.files().get("air.packed");
         CHECK(bytes.size() == bytes_in(out.output, "packed scene"));
         pileus_error error;
@@ -49,6 +49,7 @@ TEST_CASE("pack: a scene in clear air is packed and flies in the block that the 
         PILEUS_INIT(head);
         ok(pileus_packed_read(bytes.data(), bytes.size(), &head, &error));
         CHECK(head.block_bytes == bytes_in(out.output, "block of a session"));
+        CHECK(head.in_place_bytes == bytes_in(out.output, "  with arrays in place"));
         CHECK(std::string(head.method) == method);
         CHECK(head.width == 16);
         CHECK(head.height == 9);
