@@ -24,7 +24,7 @@ typedef struct pileus_work {
 } pileus_work;
 
 /** For the steps and pictures from now on. PILEUS_BAD_INPUT: a member that the session's method
- * does not have, or more than the scene's. */
+ * does not have, or more photons than the scene's; in a flight also more steps. */
 PILEUS_API pileus_code pileus_session_set_work(pileus_session* session, const pileus_work* work,
                                                pileus_error* error);
 /** As it is set now, members filled in that the method has. */
