@@ -48,6 +48,17 @@ void check_all(const std::vector<std::string>& overrides, const std::vector<Chan
     }
 }
 
+/// A packed scene, and its head.
+std::string packed_march(PackedHead& head) {
+    const Scene scene = scene_of({"method.name=raymarch"});
+    std::shared_ptr<const World> world;
+    std::string whole;
+    REQUIRE(make_world(scene, {}, world));
+    REQUIRE(pack_scene(scene, *world, whole));
+    REQUIRE(read_packed_head(whole.data(), whole.size(), head));
+    return whole;
+}
+
 }  // namespace
 
 TEST_CASE("a packed grid that is not what its numbers say is refused") {
@@ -121,13 +132,8 @@ TEST_CASE("packed noises of a sky that do not fit each other are refused") {
 }
 
 TEST_CASE("a payload that is cut and signed anew is refused, wherever it ends") {
-    const Scene scene = scene_of({"method.name=raymarch"});
-    std::shared_ptr<const World> world;
-    std::string whole;
-    REQUIRE(make_world(scene, {}, world));
-    REQUIRE(pack_scene(scene, *world, whole));
     PackedHead head;
-    REQUIRE(read_packed_head(whole.data(), whole.size(), head));
+    const std::string whole = packed_march(head);
     const std::size_t begin = packed_bytes(head, "").size();
     const std::string payload = whole.substr(begin);
     const auto opened = [&](const std::string& bytes) {
@@ -160,13 +166,8 @@ TEST_CASE("a payload that is cut and signed anew is refused, wherever it ends") 
 }
 
 TEST_CASE("a packed sky map of more channels than there are colours is refused") {
-    const Scene scene = scene_of({"method.name=raymarch"});
-    std::shared_ptr<const World> world;
-    std::string whole;
-    REQUIRE(make_world(scene, {}, world));
-    REQUIRE(pack_scene(scene, *world, whole));
     PackedHead head;
-    REQUIRE(read_packed_head(whole.data(), whole.size(), head));
+    const std::string whole = packed_march(head);
     // Without a map the payload ends with its width, height and number of channels, all 0.
     std::string payload = whole.substr(packed_bytes(head, "").size());
     REQUIRE(payload.substr(payload.size() - 24) == std::string(24, '\0'));
