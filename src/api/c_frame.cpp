@@ -134,7 +134,10 @@ pileus_code pileus_session_stats(const pileus_session* session, pileus_stats* st
         out.shared_bytes = bytes_of_world(*run.world);
         const std::uint64_t peak =
             kPlans ? run.plan.memory.peak() : session->host->block->use().kept_bytes;
-        out.own_bytes = peak > out.shared_bytes ? peak - out.shared_bytes : 0;
+        // A block does not keep a world that is read in place.
+        const bool apart = !kPlans && session->flight->in_place;
+        const std::uint64_t world = apart ? 0 : out.shared_bytes;
+        out.own_bytes = peak > world ? peak - world : 0;
         return give(out, stats, "stats");
     });
 }

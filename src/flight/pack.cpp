@@ -229,6 +229,7 @@ Status unpack_scene(const void* bytes, std::size_t size, bool in_place, Packed& 
         return Status::bad_input("packed scene: at no multiple of 64 bytes, allowed in place: one");
     PILEUS_TRY(read_head(begin, size, head));
     out.head = head.told;
+    out.in_place = in_place && kLittleEndian;
     out.world = std::make_shared<World>();
     std::array<std::uint64_t, kMostMedia> tables{};
     ArchiveReader reader(begin + kHeadBytes, size - kHeadBytes, in_place);

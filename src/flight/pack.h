@@ -25,6 +25,7 @@ struct Packed {
     Scene scene;
     std::shared_ptr<World> world;
     Image sky;
+    bool in_place = false;  ///< the world's arrays of floats lie in the bytes that it came from
 };
 
 /// Bytes of the scene, which is checked, and of its world. kBadInput: what sessions of a flight do
