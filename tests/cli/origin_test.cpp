@@ -36,6 +36,10 @@ TEST_CASE("a picture and its report hold version, seed, frame, budget and overri
     const std::map<std::string, std::string> origin = origin_of(image);
     const auto report = nlohmann::json::parse(folder.files().get(folder.left()[1]));
     CHECK(origin.at("version") == report["version"].get<std::string>());
+    using test::holds;
+    const std::string version = folder.run("--version").output;
+    CHECK(holds(version, " (") == (origin.count("commit") == 1));
+    if (origin.count("commit") == 1) CHECK(holds(version, " (" + origin.at("commit") + ")\n"));
     CHECK(origin.at("method") == "collectors");
     CHECK(origin.at("seed") == "11");
     CHECK(origin.at("frame") == "1");

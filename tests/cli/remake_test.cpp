@@ -195,9 +195,15 @@ TEST_CASE("remake: a picture that another version or another file made differs, 
     CHECK(other.exit_status == 1);
     CHECK(other.errors == "b.exr: hash: differs, expected 00112233aabbccdd, got " + hash + "\n");
     CHECK(other.output == hash + " c.exr\n");
+    // The same version of another commit may make other bits, too.
+    image.origin.emplace_back("commit", "v0.1.0-9-g1234567");
+    for (auto& [name, text] : image.origin)
+        if (name == "commit") text = "v0.1.0-9-g1234567";
+    REQUIRE(write_image(image, folder.files().path("b.exr"), {}));
+    CHECK(holds(folder.run("render b.exr -q").errors, "(v0.1.0-9-g1234567), this is "));
     for (auto& [name, text] : image.origin)
         if (name == "version") text = "0.1.0";
     REQUIRE(write_image(image, folder.files().path("b.exr"), {}));
     CHECK(holds(folder.run("render b.exr -q").errors,
-                ", got " + hash + "; it is of version 0.1.0, this is "));
+                ", got " + hash + "; it is of version 0.1.0 (v0.1.0-9-g1234567), this is "));
 }

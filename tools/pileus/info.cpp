@@ -20,9 +20,9 @@
 #include "src/scene/rows/mesh_format.h"
 #include "src/scene/rows/picture_format.h"
 #include "src/scene/rows/volume_format.h"
-#include "src/session/render.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/raw_options.h"
+#include "tools/pileus/version_text.h"
 
 namespace pileus {
 
@@ -74,7 +74,7 @@ std::string library_text() {
 }
 
 std::string program_lines() {
-    return info_line("version", kVersion) + info_line("compiler", compiler_text()) +
+    return info_line("version", version_text()) + info_line("compiler", compiler_text()) +
            info_line("isa", isa_text()) + info_line("threads", fmt::to_string(hardware_threads())) +
            info_line("device", device_text()) + info_line("libraries", library_text()) +
            info_line("volumes", volume_format_extensions()) +

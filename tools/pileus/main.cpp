@@ -16,8 +16,8 @@
 #include "platform/fp_mode.h"
 #include "platform/threads.h"
 #include "src/scene/toml/toml_tree.h"
-#include "src/session/render.h"
 #include "tools/pileus/command.h"
+#include "tools/pileus/version_text.h"
 
 namespace pileus {
 
@@ -94,7 +94,7 @@ int run(int count, char** words) {
     const PoolGuard lent(threads);
     CLI::App app("Renders clouds, the same bits on every machine.", "pileus");
     Chosen chosen;
-    app.set_version_flag("--version", std::string("pileus ") + kVersion);
+    app.set_version_flag("--version", "pileus " + version_text());
     app.require_subcommand(1);
     app.footer(help_example("pileus render cloud.toml -o cloud.png"));
     add_render(app, chosen);

@@ -174,6 +174,7 @@ Status take_picture_scene(const std::string& path, const Image& image,
     out.frame = int(frame);
     out.first_frame = int(first);
     out.show = origin.text("show");
+    out.commit = origin.text("commit");
     for (int i = 0; origin.has("override." + std::to_string(i)); ++i)
         out.overrides.push_back(origin.text("override." + std::to_string(i)));
     out.text = own_text(image.scene_text, out.overrides);

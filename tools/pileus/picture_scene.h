@@ -16,6 +16,7 @@ struct PictureScene {
     std::string file, text;              ///< without the remarks of --set
     std::string directory;               ///< where names in the scene start
     std::string version, method, show;   ///< of the run
+    std::string commit;                  ///< of the program's sources; empty: not known
     std::string hash;                    ///< of the pixels, as rendered
     std::vector<std::string> overrides;  ///< --set of the run, and what a time chose
     std::vector<std::string> budgets;    ///< that make it again

@@ -20,6 +20,7 @@
 #include "tools/pileus/progress.h"
 #include "tools/pileus/render_outputs.h"
 #include "tools/pileus/scene_options.h"
+#include "tools/pileus/version_text.h"
 
 namespace pileus {
 
@@ -135,9 +136,10 @@ Status choose_files(const RenderArguments& arguments, const Scene& scene, Render
 void expect_picture(RenderArguments& arguments, Outputs& outputs) {
     if (!arguments.scene.picture) return;
     const PictureScene& picture = *arguments.scene.picture;
-    if (picture.version != kVersion)
-        outputs.remark =
-            "; it is of version " + printable_line(picture.version) + ", this is " + kVersion;
+    // Between two releases a picture's bits may change, too.
+    const std::string of_picture = version_text(picture.version, picture.commit);
+    if (of_picture != version_text())
+        outputs.remark = "; it is of version " + of_picture + ", this is " + version_text();
     const bool same = !is_changed(arguments.scene) && !arguments.frames && !arguments.show;
     if (!arguments.show && !picture.show.empty()) arguments.show = picture.show;
     if (same && !arguments.expect_hash && !arguments.blocks.file) outputs.hashes = {picture.hash};

@@ -16,6 +16,7 @@
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
 #include "tools/pileus/picture_scene.h"
+#include "tools/pileus/version_text.h"
 
 namespace pileus {
 
@@ -123,6 +124,7 @@ Status write_frame(const Outputs& outputs, const Scene& scene, int frame, Image&
                    const Report& report) {
     OutputSet set;
     std::string lines;
+    if (*commit_text() != '\0') image.origin.emplace_back("commit", commit_text());
     const std::size_t told = image.origin.size();
     for (const std::string& file : outputs.files) {
         const std::string path = frame_path(file, frame, outputs.numbered);
