@@ -7,6 +7,9 @@ in: the module in the path -> out: exit 0. docs/python.md
 import math
 import os
 import signal
+import subprocess
+import sys
+import tempfile
 import threading
 import unittest
 import warnings
@@ -15,6 +18,26 @@ import numpy as np
 import pileus
 
 from python_scenes import CUMULUS, POSITION, RAYMARCH, TARGET, open_session
+
+
+class Versions(unittest.TestCase):
+    def test_a_module_of_an_old_pybind11_refuses_numpy_2_in_one_line(self):
+        built = pileus._core.pybind11
+        for version in ("2.0.0", "10.1"):
+            with tempfile.TemporaryDirectory() as folder:
+                with open(os.path.join(folder, "numpy.py"), "w", encoding="ascii") as file:
+                    file.write(f'__version__ = "{version}"\n')
+                package = os.path.dirname(os.path.dirname(pileus.__file__))
+                done = subprocess.run(
+                    [sys.executable, "-c", "import pileus._core"], stderr=subprocess.PIPE, text=True,
+                    env={**os.environ, "PYTHONPATH": folder + os.pathsep + package})
+            if built >= (2, 12):
+                self.assertNotIn("allowed: pybind11", done.stderr)
+                continue
+            self.assertEqual(
+                done.stderr.splitlines()[-1],
+                f"ImportError: pileus: NumPy {version} with a module that pybind11 {built[0]}.{built[1]} has "
+                "built, allowed: pybind11 2.12 or newer, or NumPy 1")
 
 
 class Faults(unittest.TestCase):

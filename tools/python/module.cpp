@@ -202,6 +202,22 @@ ArrayRows rows_of(const char* name, const py::array& array, const py::dtype& dty
     return rows;
 }
 
+namespace {
+
+/// pybind11 before 2.12 reads arrays of NumPy 2 as those of NumPy 1, whose layout is another.
+void check_numpy() {
+#if PYBIND11_VERSION_HEX < 0x020C0000
+    const std::string version = text_of(py::module_::import("numpy").attr("__version__"));
+    const std::string ours = std::to_string(PYBIND11_VERSION_MAJOR) + "." +
+                             std::to_string(PYBIND11_VERSION_MINOR);
+    if (version.substr(0, version.find('.')).size() > 1 || version[0] > '1')
+        throw py::import_error("pileus: NumPy " + version + " with a module that pybind11 " + ours +
+                               " has built, allowed: pybind11 2.12 or newer, or NumPy 1");
+#endif
+}
+
+}  // namespace
+
 }  // namespace pileus_python
 
 PYBIND11_MODULE(_core, module) {
@@ -214,7 +230,9 @@ PYBIND11_MODULE(_core, module) {
             raise_failure(failure);
         }
     });
+    check_numpy();
     module.attr("version") = pileus_version();
+    module.attr("pybind11") = py::make_tuple(PYBIND11_VERSION_MAJOR, PYBIND11_VERSION_MINOR);
     py::class_<Scene>(module, "Scene");
     py::class_<World, std::shared_ptr<World>>(module, "World").def(py::init(&make_world));
     module.def("read_scene", &read_scene);
