@@ -62,7 +62,7 @@ typedef struct pileus_error {
 /** Clears `size` bytes and stores `size` in the first four. */
 PILEUS_API void pileus_init(void* pileus_struct, uint32_t size);
 
-/** "0.8.0"; and the PILEUS_API_VERSION that the library was built with. */
+/** "major.minor.patch"; and the PILEUS_API_VERSION that the library was built with. */
 PILEUS_API const char* pileus_version(void);
 PILEUS_API uint32_t pileus_api_version(void);
 

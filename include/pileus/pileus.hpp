@@ -27,7 +27,7 @@
 
 namespace pileus::embed {
 
-/// "0.6.0" of the library that is linked, which may differ from this header's.
+/// "major.minor.patch" of the library that is linked, which may differ from this header's.
 inline const char* version() { return pileus_version(); }
 
 /// A checked text (docs/scene.md). Its camera, lights and method are where a session begins.

@@ -28,9 +28,9 @@ pileus_code change(pileus_session* session, const Given* given, const char* name
 
 Status take_size(std::uint32_t width, std::uint32_t height, Camera& camera) {
     for (const std::uint32_t n : {width, height})
-        if (n > 32768)
+        if (n > 16384)
             return Status::bad_input("camera.resolution: " + std::to_string(n) +
-                                     ", allowed: 1 to 32768");
+                                     ", allowed: 1 to 16384");
     if (width > 0) camera.resolution[0] = int(width);
     if (height > 0) camera.resolution[1] = int(height);
     return Status::ok();

@@ -171,7 +171,7 @@ double power(const LampParams& lamp) {
     return sum * double(lamp.light[0]) * 4 * kPiD / n;
 }
 
-TEST_CASE("a white box sends out all light of a sphere in it") {
+TEST_CASE("S79: a white box sends out all light of a sphere in it") {
     for (const LampParams& lamp :
          {sphere({1.3, 2.2, 2.5}, 0.8, 2), sphere_spot({1.3, 2.2, 2.5}, 0.8, 5)})
         for (double sigma : {0.5, 3.0}) {

@@ -181,7 +181,7 @@ double missing(double sigma, double radius) {
     return sum;
 }
 
-TEST_CASE("a white box sends out all light of a lamp in it") {
+TEST_CASE("S79: a white box sends out all light of a lamp in it") {
     // A radius makes errors small.
     constexpr double kRadius = 0.25;
     LampParams lamps[] = {point({1.3, 2.2, 2.9}, 2, kRadius),

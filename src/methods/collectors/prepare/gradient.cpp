@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // See gradient.h.
 // in: densities at voxel centres -> out: gradient magnitude per voxel, maximum and sum.
-// Elek 2011, section 5.1; docs/methods.md 9 for the sign in equation 5.1.
+// Elek 2011, section 5.1; docs/methods.md 7 for the sign in equation 5.1.
 #include "src/methods/collectors/prepare/gradient.h"
 
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// See views.h. Which steps a view needs; collectors_views_draw.cpp draws them.
+// See views.h. Which steps a view needs; views_draw.cpp draws them.
 // in: a scene -> out: the prepared part of a run, and what its report says.
 // docs/how-it-works.md
 #include "src/methods/collectors/views/views.h"
