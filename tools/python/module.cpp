@@ -208,8 +208,8 @@ namespace {
 void check_numpy() {
 #if PYBIND11_VERSION_HEX < 0x020C0000
     const std::string version = text_of(py::module_::import("numpy").attr("__version__"));
-    const std::string ours = std::to_string(PYBIND11_VERSION_MAJOR) + "." +
-                             std::to_string(PYBIND11_VERSION_MINOR);
+    const std::string ours =
+        std::to_string(PYBIND11_VERSION_MAJOR) + "." + std::to_string(PYBIND11_VERSION_MINOR);
     if (version.substr(0, version.find('.')).size() > 1 || version[0] > '1')
         throw py::import_error("pileus: NumPy " + version + " with a module that pybind11 " + ours +
                                " has built, allowed: pybind11 2.12 or newer, or NumPy 1");
