@@ -196,12 +196,14 @@ void Life::live() {
     draw(light.whole, PILEUS_RGBA16F, false);
 }
 
-/// Has memory end at every allocation of a session, or at `most` of them.
+/// Has memory end at `most` allocations of a session, a fifth of them in the plain form; at every
+/// one in the long form.
 void sweep(const Stage& stage, long most) {
     const Life whole(stage, -1);
     REQUIRE(whole.opened());
     CHECK(whole.failures() == 0);
-    const long step = pileus::long_tests() ? 1 : std::max(1L, whole.taken() / most);
+    const long step =
+        pileus::long_tests() ? 1 : std::max(1L, long(pileus::row_stride(5)) * whole.taken() / most);
     for (long ends = 0; ends < whole.taken(); ends += step) {
         CAPTURE(ends);
         const Life life(stage, ends);

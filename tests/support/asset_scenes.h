@@ -37,8 +37,11 @@ inline std::vector<std::string> find(bool with_data) {
 inline void check_renders(const std::string& file) {
     INFO(file);
     pileus::Scene scene;
-    const pileus::Status read = pileus::read_scene_file(
-        file, {"camera.resolution=[32, 18]", "collectors.photons=2000"}, scene);
+    const pileus::Status read =
+        pileus::read_scene_file(file,
+                                {"camera.resolution=[32, 18]", "collectors.photons=2000",
+                                 "photon_grid.photons=2000", "raymarch.steps=64"},
+                                scene);
     INFO(read.message);
     REQUIRE(read);
     bool clouds = false;
