@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # Compiles kernels_cpu/isa/isa*.cpp once per instruction set the compiler knows.
-# in: PILEUS_X86, PILEUS_KERNELS -> out: PILEUS_ISA_OBJECTS, PILEUS_ISA_DEFINITIONS, PILEUS_ISA_NAMES
+# in: PILEUS_X86, PILEUS_KERNELS ("widest" among them: the widest that the machine at hand can run)
+# -> out: PILEUS_ISA_OBJECTS, PILEUS_ISA_DEFINITIONS, PILEUS_ISA_NAMES
 # kernels_cpu/isa/dispatch.cpp reads PILEUS_HAVE_<ISA> and chooses when the program starts;
-# pileus_widest_isa(NAME) tells the widest that the machine at hand can run.
+# pileus_widest_isa(NAME) returns the widest of those built that the machine at hand can run.
 include(CheckCXXCompilerFlag)
 set(CMAKE_REQUIRED_QUIET ON)
 set(PILEUS_ISA_OBJECTS)
@@ -10,9 +11,14 @@ set(PILEUS_ISA_DEFINITIONS)
 set(PILEUS_ISA_NAMES)
 
 file(GLOB PILEUS_ISA_SOURCES CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/kernels_cpu/isa/isa*.cpp")
-# Half the time to compile, for scenes with lights alone; the bits are the same at any level.
-set_source_files_properties("${PROJECT_SOURCE_DIR}/kernels_cpu/isa/isa_path_lamps.cpp"
-    PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>")
+# Levels of optimisation: -O1 takes half the time of -O3 to compile; the bits are the same at any level
+# (docs/performance.md, "Levels of optimisation").
+# Kernels that few scenes call, and what they are at -O1 for the widest vectors: PILEUS_RARE.
+set(rare path_lamps)
+foreach(name IN LISTS rare)
+    set_source_files_properties("${PROJECT_SOURCE_DIR}/kernels_cpu/isa/isa_${name}.cpp"
+        PROPERTIES COMPILE_OPTIONS "$<$<CONFIG:Release>:-O1>")
+endforeach()
 
 # Checks of each pointer by itself take three quarters of the time to compile kernels with sanitizers.
 # What they would find there the address sanitizer finds, too, or the vector loads themselves.
@@ -39,7 +45,12 @@ function(pileus_add_isa name width)
         add_library(pileus_isa_${name} OBJECT ${PILEUS_ISA_SOURCES})
         target_compile_definitions(pileus_isa_${name} PRIVATE
             PILEUS_ISA=${name} PILEUS_WIDTH=${width})
-        target_compile_options(pileus_isa_${name} PRIVATE $<$<CONFIG:Release>:-O3> ${ARGN})
+        # Where x86 has vectors no program chooses the scalar kernels by itself: they are there to compare with.
+        set(level -O3)
+        if(name STREQUAL "scalar" AND PILEUS_X86 AND NOT PILEUS_KERNELS STREQUAL "scalar")
+            set(level -O1)
+        endif()
+        target_compile_options(pileus_isa_${name} PRIVATE $<$<CONFIG:Release>:${level}> ${ARGN})
         target_link_libraries(pileus_isa_${name} PRIVATE pileus_flags pileus_nothrow
             pileus_fewer_checks)
         pileus_count_coverage(pileus_isa_${name})
@@ -52,6 +63,45 @@ function(pileus_add_isa name width)
     endforeach()
 endfunction()
 
+# The last of the rows that `runs` here: a name and what dispatch.cpp asks the processor for.
+function(pileus_widest_of result)
+    set(flags "")
+    if(NOT CMAKE_CROSSCOMPILING AND EXISTS /proc/cpuinfo)
+        file(STRINGS /proc/cpuinfo flags REGEX "^flags" LIMIT_COUNT 1)
+    endif()
+    foreach(row "scalar" "sse2" "vec4" "avx2 avx2" "avx512 avx512f avx512vl avx512dq avx512bw")
+        separate_arguments(row)
+        list(POP_FRONT row name)
+        if(NOT name IN_LIST ARGN)
+            continue()
+        endif()
+        set(runs yes)
+        foreach(flag IN LISTS row)
+            if(NOT flags MATCHES " ${flag}( |$)")
+                set(runs no)
+            endif()
+        endforeach()
+        if(runs)
+            set(widest ${name})
+        endif()
+    endforeach()
+    set(${result} ${widest} PARENT_SCOPE)
+endfunction()
+function(pileus_widest_isa result)
+    pileus_widest_of(widest ${PILEUS_ISA_NAMES})
+    set(${result} ${widest} PARENT_SCOPE)
+endfunction()
+
+if("widest" IN_LIST PILEUS_KERNELS)
+    set(sets scalar vec4)
+    if(PILEUS_X86 AND CMAKE_SIZEOF_VOID_P EQUAL 8)
+        set(sets scalar sse2 avx2 avx512)
+    elseif(PILEUS_X86)
+        set(sets scalar sse2)
+    endif()
+    pileus_widest_of(widest ${sets})
+    list(TRANSFORM PILEUS_KERNELS REPLACE "^widest$" "${widest}")
+endif()
 pileus_add_isa(scalar 1)
 if(PILEUS_X86)
     pileus_add_isa(sse2 4)
@@ -67,28 +117,3 @@ if(PILEUS_X86)
 else()
     pileus_add_isa(vec4 4)
 endif()
-
-function(pileus_widest_isa result)
-    set(flags "")
-    if(NOT CMAKE_CROSSCOMPILING AND EXISTS /proc/cpuinfo)
-        file(STRINGS /proc/cpuinfo flags REGEX "^flags" LIMIT_COUNT 1)
-    endif()
-    # Each row: a name and what dispatch.cpp asks for; the last that can run is the widest.
-    foreach(row "scalar" "sse2" "vec4" "avx2 avx2" "avx512 avx512f avx512vl avx512dq avx512bw")
-        separate_arguments(row)
-        list(POP_FRONT row name)
-        if(NOT name IN_LIST PILEUS_ISA_NAMES)
-            continue()
-        endif()
-        set(runs yes)
-        foreach(flag IN LISTS row)
-            if(NOT flags MATCHES " ${flag}( |$)")
-                set(runs no)
-            endif()
-        endforeach()
-        if(runs)
-            set(widest ${name})
-        endif()
-    endforeach()
-    set(${result} ${widest} PARENT_SCOPE)
-endfunction()
