@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-# Finds foreign libraries: five required sets of headers, ten optional libraries.
+# Finds foreign libraries: six required sets of headers, ten optional libraries.
 # in: PILEUS_<LIBRARY> options -> out: target pileus_headers, PILEUS_WITH_<LIBRARY> (0 or 1),
 # PILEUS_LINK_LIBRARIES, PILEUS_LIBRARY_DEFINITIONS. Debian package names: tools/install_packages
 add_library(pileus_headers INTERFACE)
@@ -8,7 +8,7 @@ set(PILEUS_LIBRARY_DEFINITIONS)
 set(header_links "${PROJECT_BINARY_DIR}/headers")
 
 # A header-only library; a foreign target sees the host's copy through a link of its own, so that
-# the host's other headers stay out of sight.
+# the host's other headers stay out of sight. A header in no folder of its own has "." for one.
 function(pileus_find_headers name folder header package)
     find_path(PILEUS_${name}_INCLUDE "${folder}/${header}" NO_CMAKE_FIND_ROOT_PATH)
     mark_as_advanced(PILEUS_${name}_INCLUDE)
@@ -18,6 +18,9 @@ function(pileus_find_headers name folder header package)
     set(place "${PILEUS_${name}_INCLUDE}")
     if(CMAKE_CROSSCOMPILING)
         file(MAKE_DIRECTORY "${header_links}")
+        if(folder STREQUAL ".")
+            set(folder "${header}")
+        endif()
         file(CREATE_LINK "${place}/${folder}" "${header_links}/${folder}" SYMBOLIC)
         set(place "${header_links}")
     endif()
@@ -36,7 +39,7 @@ endif()
 set(missing)
 foreach(row "TOMLPLUSPLUS toml++ toml.h libtomlplusplus-dev" "CLI11 CLI CLI.hpp libcli11-dev"
         "FMT fmt format.h libfmt-dev" "JSON nlohmann json.hpp nlohmann-json3-dev"
-        "GLM glm glm.hpp libglm-dev")
+        "GLM glm glm.hpp libglm-dev" "XXHASH . xxhash.h libxxhash-dev")
     separate_arguments(row)
     pileus_find_headers(${row})
     list(GET row 0 name)

@@ -9,8 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include "src/base/digest.h"
-
 namespace pileus {
 
 struct StageTime {

@@ -11,13 +11,13 @@ namespace pileus {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x4c465355454c4950ull;  // "PILEUSFL"
-constexpr std::uint64_t kFormat = 2;
+constexpr std::uint64_t kFormat = 3;
 /// Its last bytes are zeros, so that what follows begins at a multiple of kLine.
 constexpr std::size_t kHeadBytes = 2 * kLine, kToldBytes = 8 * 8 + 24;
 
 std::uint64_t digest_of(const char* bytes, std::size_t size) {
     Digest digest;
-    for (std::size_t i = 0; i < size; ++i) digest.byte(std::uint8_t(bytes[i]));
+    digest.bytes(bytes, size);
     return digest.value();
 }
 

@@ -173,7 +173,7 @@ Status march_prepare(const Context& context, MethodRun& method_run) {
     PILEUS_TRY(make_density_levels(marched_medium(run), run.levels, run.majorants.skip_block,
                                    context, run.coarse));
     PILEUS_TRY(march_measure(context, run));
-    if (kPlans) run.digests = {{"density", density_digest(*run.world)}};
+    if (kPlans && context.digests) run.digests = {{"density", density_digest(*run.world)}};
     return Status::ok();
 }
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "platform/clock.h"
+#include "src/photons/photon_report.h"
 
 namespace pileus {
 namespace {
@@ -72,8 +73,8 @@ Status shoot_generations(const Context& context, PhotonRun& run, std::uint64_t c
     return Status::ok();
 }
 
-Status light_photon_frame(const FrameStep& step, const Context& context, PhotonRun& run,
-                          const ShootPhotons& shoot) {
+Status shoot_frame(const FrameStep& step, const Context& context, PhotonRun& run,
+                   const ShootPhotons& shoot) {
     const Scene& scene = *run.scene;
     const auto nothing = [] {};
     if (!step.first) {
@@ -85,6 +86,15 @@ Status light_photon_frame(const FrameStep& step, const Context& context, PhotonR
     PILEUS_TRY(
         shoot_generations(context, run, wanted_generations(run, run.generations), nothing, shoot));
     return run.next_generation > 0 ? Status::ok() : interrupted_before("the first generation");
+}
+
+Status light_photon_frame(const FrameStep& step, const Context& context, PhotonRun& run,
+                          const ShootPhotons& shoot) {
+    PILEUS_TRY(shoot_frame(step, context, run, shoot));
+    if (!kPlans || !context.digests) return Status::ok();
+    const StageClock clock(context, "digests");
+    digest_photons(context.threads, run.photons);
+    return Status::ok();
 }
 
 Status advance_photons(std::uint64_t units, const Context& context, PhotonRun& run,

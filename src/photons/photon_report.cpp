@@ -5,6 +5,7 @@
 #include "src/photons/photon_report.h"
 
 #include "kernels_cpu/core/profile.h"
+#include "platform/threads.h"
 #include "src/base/digest.h"
 
 namespace pileus {
@@ -51,8 +52,10 @@ std::uint64_t photons_in(const std::int64_t (&fate)[3]) {
     return std::uint64_t((most + kPhotonQuanta - 1) / kPhotonQuanta);
 }
 
-/// The same order as that of numbers that are not packed.
-void digest_packed(const PhotonSlot& slot, Digest& d) {
+/// Whole numbers, in the same order whether they are packed or not.
+std::uint64_t digest_of(const PhotonSlot& slot) {
+    Digest d;
+    d.integers(slot.sums.span());
     const PackedSums& packed = slot.packed;
     std::int64_t numbers[kMostPacked];
     for (std::size_t l = 0; l < packed.lights; ++l) {
@@ -63,17 +66,24 @@ void digest_packed(const PhotonSlot& slot, Digest& d) {
         const std::size_t ground = packed.ground.size() / packed.lights;
         d.integers({packed.ground.data() + l * ground, ground});
     }
+    return d.value();
 }
 
 }  // namespace
 
+void digest_photons(int threads, Photons& photons) {
+    parallel_for(threads, std::int64_t(photons.slots.size()), [&](std::int64_t s, int) {
+        PhotonSlot& slot = photons.slots[std::size_t(s)];
+        if (slot.digested == slot.serial) return;
+        slot.digest = digest_of(slot);
+        slot.digested = slot.serial;
+    });
+}
+
 std::string photon_digest(const Photons& photons) {
     Digest d;
     for (const PhotonSlot& slot : photons.slots)
-        if (slot.packed.empty())
-            d.integers(slot.sums.span());
-        else
-            digest_packed(slot, d);
+        d.u64(slot.digested == slot.serial ? slot.digest : digest_of(slot));
     return d.hex();
 }
 

@@ -7,7 +7,10 @@
 
 namespace pileus {
 
-/// Of all sums in all slots.
+/// Digests the slots whose sums have changed: of a ring one in each frame.
+void digest_photons(int threads, Photons& photons);
+
+/// Of the digests of all slots.
 std::string photon_digest(const Photons& photons);
 
 /// Fills generations, energy, counts and counters.

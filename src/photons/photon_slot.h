@@ -47,7 +47,9 @@ struct PhotonSlot {
     PackedSums packed;
     std::uint64_t generations = 0;  ///< that were added
     std::uint64_t serial = 0;       ///< grows whenever the sums change
-    std::int64_t scatterings = 0;   ///< of these generations
+    std::uint64_t digest = 0;       ///< of the sums when `serial` was `digested`
+    std::uint64_t digested = ~std::uint64_t{0};
+    std::int64_t scatterings = 0;  ///< of these generations
     /// Per light, for unit radiance or irradiance: a quantum's, where sums are packed a power of
     /// two.
     std::vector<double> flux_per_photon_m2;

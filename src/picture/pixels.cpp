@@ -201,10 +201,17 @@ Status write_pixels(const Planes& planes, int width, int height, const PixelTarg
 
 std::uint64_t hash_planes(const Planes& planes) {
     Digest digest;
+    constexpr std::size_t kBlock = 64;  // pixels: the stack of a flight is bounded
+    float block[4 * kBlock];
     std::uint64_t broken = 0;
-    for (std::size_t i = 0; i < planes.transmittance.size(); ++i) {
-        const Rgba p = pixel_of(planes, i, true, broken);
-        for (const float v : p.c) digest.f32(v);
+    const std::size_t pixels = planes.transmittance.size();
+    for (std::size_t first = 0; first < pixels; first += kBlock) {
+        const std::size_t count = pixels - first < kBlock ? pixels - first : kBlock;
+        for (std::size_t i = 0; i < count; ++i) {
+            const Rgba p = pixel_of(planes, first + i, true, broken);
+            for (std::size_t c = 0; c < 4; ++c) block[4 * i + c] = p.c[c];
+        }
+        digest.floats({block, 4 * count});
     }
     return digest.value();
 }

@@ -125,7 +125,12 @@ Status render(const Scene& scene, const RenderOptions& options, const FrameSink&
     if (!frames_stand_alone(scene))
         return render_frames(own, start, options, frames, nullptr, sink);
     std::shared_ptr<const World> world;
-    if (!worlds && frames.last > frames.first) PILEUS_TRY(make_world(scene, options, world));
+    if (!worlds && frames.last > frames.first) {
+        std::shared_ptr<World> made;
+        PILEUS_TRY(make_world(scene, options, made));
+        if (kPlans && options.digests) made->density_digest = density_digest(*made);
+        world = made;
+    }
     bool interrupted = false;
     const FrameSink watched = [&](int frame, Image& image, Report& report) {
         interrupted = report.interrupted;
@@ -148,7 +153,9 @@ Status plan_scene(const Scene& scene, const RenderOptions& options, bool exact, 
     Scene own = scene;
     set_frame(scene, frames.first, own);
     Session session;
-    PILEUS_TRY(session.open(own, options, SessionKind::kAnimation, exact, nullptr));
+    RenderOptions planned = options;
+    planned.digests = false;  // a plan tells none
+    PILEUS_TRY(session.open(own, planned, SessionKind::kAnimation, exact, nullptr));
     report = session.report();
     return Status::ok();
 }

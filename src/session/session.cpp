@@ -5,6 +5,7 @@
 #include "kernels_cpu/core/profile.h"
 #include "platform/clock.h"
 #include "platform/fp_mode.h"
+#include "src/base/digest.h"
 #include "src/methods/registry.h"
 #include "src/scene/read_scene.h"
 #include "src/session/run_context.h"
@@ -44,8 +45,7 @@ double stage_seconds(const Report& report) {
 
 }  // namespace
 
-Status make_world(const Scene& scene, const RenderOptions& options,
-                  std::shared_ptr<const World>& world) {
+Status make_world(const Scene& scene, const RenderOptions& options, std::shared_ptr<World>& world) {
     const FpModeGuard guard;
     ThreadPool threads;
     const PoolGuard lent(threads);
@@ -63,6 +63,14 @@ Status make_world(const Scene& scene, const RenderOptions& options,
                            scene.file));
     PILEUS_TRY(load_world(scene, context, *made));
     world = made;
+    return Status::ok();
+}
+
+Status make_world(const Scene& scene, const RenderOptions& options,
+                  std::shared_ptr<const World>& world) {
+    std::shared_ptr<World> made;
+    PILEUS_TRY(make_world(scene, options, made));
+    world = std::move(made);
     return Status::ok();
 }
 
@@ -115,8 +123,6 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
     }
     PILEUS_TRY(
         open_run(*method_, scene_, budget_of(options), context_, exact, std::move(world), *run_));
-    // Nor does its report hash what is made in each stage: that takes longer than a picture.
-    if (!context_.digests) run_->digests.clear();
     if (kPlans) method_->report_plan(*run_, context_, report_);
     if (method_->live != nullptr) whole_work_ = work_ = scene_work();
     report_.frame_work = told_work(work_);

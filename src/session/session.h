@@ -16,6 +16,7 @@
 namespace pileus {
 
 /// A world of a scene, all read and made. Errors: those of the readers; kLimit.
+Status make_world(const Scene& scene, const RenderOptions& options, std::shared_ptr<World>& world);
 Status make_world(const Scene& scene, const RenderOptions& options,
                   std::shared_ptr<const World>& world);
 

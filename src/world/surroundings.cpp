@@ -68,10 +68,11 @@ std::uint64_t bytes_of_world(const World& world) {
 }
 
 std::string density_digest(const World& world) {
+    if (!world.density_digest.empty()) return world.density_digest;
     Digest digest;
     digest.floats(world.medium.volume.density.span());
     for (const NoiseTexture* noise : {&world.layer.perlin, &world.layer.worley})
-        for (const std::int32_t word : noise->words.span()) digest.u32(std::uint32_t(word));
+        digest.words(noise->words.span());
     if (world.medium.count > 1) digest.floats(world.medium.parts.span());
     const MediumDetail& detail = world.medium.detail;
     if (detail.present()) {

@@ -27,6 +27,7 @@ struct World {
     Solids solids;
     bool shows_particles = false;  ///< its medium's grid is for shadows alone
     ParticleSet particles;         ///< of such a world: metres as the grid's, extinction in 1/m
+    std::string density_digest;    ///< made once for runs that share the world; empty: not yet
 };
 
 /// What is seen of a world through one camera and under one sky: each run has its own.

@@ -72,7 +72,7 @@ std::uint64_t digest_of_functions() {
 
 template <int W>
 void check_digest() {
-    CHECK(digest_of_functions<W>() == 0x28eeba8de47a6917ull);
+    CHECK(digest_of_functions<W>() == 0x2dfb5bc0dce36fc1ull);
 }
 
 /// How often exp rises as x falls, or leaves [0.3, 1], over all floats of [-1, -2^-27].
@@ -218,7 +218,7 @@ void check_angle_digest() {
         const F<W> angle = atan2_turns(u * u - 0.5f, u - 0.3f);
         for (int j = 0; j < W; ++j) digest.f32(lane(angle, j));
     }
-    CHECK(digest.value() == 0xd2663f59907a6a22ull);
+    CHECK(digest.value() == 0x484a4353c277d80eull);
 }
 
 TEST_CASE("the angle of a point has the same stored digest at every width") {

@@ -92,18 +92,18 @@ const Flight kFlights[] = {
      "[collectors]\nphotons = 100_000\ngenerations = 20\nbands = 3\nsamples = 3_000\n"
      "scale = 4\nlight_refresh = 8\n",
      1,
-     {"4a6d0518786cb1cd", "9f5e8e23e136c737", "b19536d9a474b8db", "5716047d28ff5529"}},
+     {"8469a4eda8737fea", "0bfb07619eeffdd2", "885ef78e69fbf344", "feabf865555fd540"}},
     {"billboards",
      "[method]\nname = \"collectors\"\n"
      "[collectors]\nphotons = 100_000\ngenerations = 20\nbands = 3\nsamples = 3_000\n"
      "display = \"billboards\"\nlight_refresh = 8\n",
      2,
-     {"229b44ba5ef10c4b", "e7f0b2ea649a1261", "7eb94b4bfa856dbf", "20a3de06594966cd"}},
+     {"97f63ac1c199acc7", "b825c5a96654e9a8", "93a2459fa00c6a8c", "02ccd23507d271af"}},
     {"octaves by temporal reprojection",
      "[method]\nname = \"raymarch\"\n"
      "[raymarch]\nscattering = \"octaves\"\nsteps = 48\ntemporal = 4\nlight_refresh = 8\n",
      3,
-     {"1d7f4b1bc98c72e8", "42231e9a5f41a13b", "e6423a3d44110c4f", "9747765791bcc5f1"}}};
+     {"207acb92825d7207", "ae401d8eddff4ea5", "77da60d5c9799b37", "c7992a6655cd2975"}}};
 
 }  // namespace
 

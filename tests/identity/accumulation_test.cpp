@@ -2,6 +2,7 @@
 // Whole pictures whose photons are added up by each thread alone or by all to one set of sums.
 // in: a small scene with its error layer -> out: equal digests of every stage.
 // docs/collectors.md, "Accumulation"; photons_test.cpp has the sums alone.
+#include "src/base/digest.h"
 #include "tests/support/render_harness.h"
 
 using namespace render_test;

@@ -3,6 +3,7 @@
 // nothing change none.
 // in: three media of all kinds of phase function -> out: equal sums, ledgers and pictures.
 // docs/determinism.md; docs/methods.md 2, "Several media".
+#include "src/base/digest.h"
 #include "tests/support/media_harness.h"
 #include "tests/support/render_harness.h"
 

@@ -2,6 +2,7 @@
 // Camera paths: the same film from every instruction set, number of threads and way of asking.
 // in: one scene of everything, traced in many ways -> out: equal bits; nothing is stored.
 // docs/path.md: samples belong to (seed, pixel, number) and are added up in their order.
+#include "src/base/digest.h"
 #include "tests/support/path_harness.h"
 #include "tests/support/sky_images.h"
 
@@ -33,15 +34,8 @@ Rig make_everything() {
 
 std::string digest_of(const Film& film) {
     Digest d;
-    const auto add = [&](Span<const double> values) {
-        for (double value : values) {
-            std::uint64_t word;
-            std::memcpy(&word, &value, 8);
-            for (int i = 0; i < 8; ++i) d.byte(std::uint8_t(word >> (8 * i)));
-        }
-    };
-    add(film.sum.span());
-    add(film.square.span());
+    d.doubles(film.sum.span());
+    d.doubles(film.square.span());
     std::int64_t words[sizeof film.tally / 8];
     std::memcpy(words, &film.tally, sizeof film.tally);
     d.integers({words, sizeof film.tally / 8});

@@ -2,6 +2,7 @@
 // The same bits from every instruction set, number of threads and way of cutting up the work.
 // in: one launch done in many ways -> out: equal ledgers and sums; nothing is stored.
 // docs/architecture.md, "Determinism": results belong to photons, sums are integers.
+#include "src/base/digest.h"
 #include "src/methods/collectors/prepare/prepare.h"
 #include "tests/support/sky_images.h"
 #include "tests/support/trace_harness.h"

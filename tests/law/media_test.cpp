@@ -2,6 +2,7 @@
 // Media laid on one grid: the grid, the weights, what is conserved, the collectors' shares.
 // in: boxes that are equal, nested, disjoint or askew -> out: masses, copies, integrals by
 // sampling. docs/methods.md 2, "Several media".
+#include "src/base/digest.h"
 #include "src/methods/collectors/prepare/prepare.h"
 #include "src/world/grid/mix_weights.h"
 #include "tests/support/media_harness.h"

@@ -7,6 +7,7 @@
 
 #include <cmath>
 
+#include "src/base/digest.h"
 #include "src/march/march.h"
 #include "src/picture/blue_noise.h"
 #include "src/world/camera/view.h"

@@ -63,10 +63,12 @@ TEST_CASE("a damaged file is made anew and replaced") {
     const std::string first = load(folder.path, NoiseOrigin::kMade);
     const std::string whole = read_file(folder.file());
     std::string flipped = whole, longer = whole + "x", head = whole, foreign(whole.size(), 'z');
+    std::string older = whole;
+    older[7] = '1';  // of the version before
     flipped[2000] = char(flipped[2000] ^ 1);
     head[12] = char(head[12] ^ 1);
     for (const std::string& bad : {whole.substr(0, 1000), whole.substr(0, 10), std::string(),
-                                   flipped, longer, head, foreign}) {
+                                   flipped, longer, head, foreign, older}) {
         write_bytes(folder.file(), bad);
         CHECK(first == load(folder.path, NoiseOrigin::kMade));
         CHECK(read_file(folder.file()) == whole);

@@ -28,7 +28,7 @@ Buffer<std::uint8_t> made(const NoiseParams& params, int threads = 2) {
 
 std::string digest(const Buffer<std::uint8_t>& texels) {
     Digest d;
-    for (std::uint8_t v : texels.span()) d.byte(v);
+    d.bytes(texels.data(), texels.size());
     return d.hex();
 }
 
@@ -97,8 +97,8 @@ TEST_CASE("a volume has its mean, its deviation and no seam") {
 
 TEST_CASE("a volume's bytes are stored here; threads do not change them") {
     CHECK(digest(made(small(kNoisePerlin), 1)) == digest(made(small(kNoisePerlin), 3)));
-    CHECK(digest(made(small(kNoisePerlin))) == "ca1a89a94f13c646");
-    CHECK(digest(made(small(kNoiseWorley))) == "ac92c5f057e0604b");
+    CHECK(digest(made(small(kNoisePerlin))) == "96f55153443534a6");
+    CHECK(digest(made(small(kNoiseWorley))) == "b1f5c0dd89975b40");
     NoiseParams other = small(kNoisePerlin);
     other.seed += 1;
     CHECK(digest(made(other)) != digest(made(small(kNoisePerlin))));

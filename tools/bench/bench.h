@@ -99,6 +99,7 @@ void register_growth_cases(Bench& bench);
 void register_frame_cases(Bench& bench);
 void register_blend_cases(Bench& bench);
 void register_sweep_cases(Bench& bench);
+void register_digest_cases(Bench& bench);
 
 }  // namespace bench
 

@@ -118,7 +118,7 @@ void run_frame(benchmark::State& state, Bench& bench, const FrameCase& which,
         fastest = std::min(fastest, took);
         wall = std::min(wall, stage_wall(report, which.stages));
         Digest digest;
-        for (char c : pixel_hash(image)) digest.byte(std::uint8_t(c));
+        digest.text(pixel_hash(image));
         digest.floats(p->run.shadow.span());
         bench.check(state, which.name, digest.value());
     }

@@ -128,7 +128,7 @@ std::uint64_t prepared_digest(const pileus::Prepared& p, const pileus::Majorants
         digest.floats({c.centre, 3});
         for (float v : {c.radius, c.billboard_radius, c.extinction}) digest.f32(v);
     }
-    for (std::int32_t v : p.collector_of_voxel.span()) digest.u32(std::uint32_t(v));
+    digest.words(p.collector_of_voxel.span());
     digest.floats(majorants.tracking.span());
     digest.floats(majorants.skipping.span());
     return digest.value();
@@ -136,7 +136,7 @@ std::uint64_t prepared_digest(const pileus::Prepared& p, const pileus::Majorants
 
 std::uint64_t image_digest(const Image& image) {
     Digest digest;
-    for (char c : pixel_hash(image)) digest.byte(std::uint8_t(c));
+    digest.text(pixel_hash(image));
     return digest.value();
 }
 
@@ -166,6 +166,7 @@ int main(int argc, char** argv) {
     bench::register_frame_cases(bench);
     bench::register_blend_cases(bench);
     bench::register_sweep_cases(bench);
+    bench::register_digest_cases(bench);
     benchmark::RunSpecifiedBenchmarks();
     benchmark::Shutdown();
     return bench.failed() ? 1 : 0;

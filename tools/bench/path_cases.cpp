@@ -26,11 +26,7 @@ const auto kTimeEach = benchmark::Counter::kIsRate | benchmark::Counter::kInvert
 
 std::uint64_t film_digest(const Film& film) {
     Digest digest;
-    for (const double v : film.sum.span()) {
-        std::uint64_t word = 0;
-        std::memcpy(&word, &v, sizeof word);
-        digest.u64(word);
-    }
+    digest.doubles(film.sum.span());
     const PathTally& t = film.tally;
     for (std::int64_t n : {t.paths, t.scatterings, t.bounces, t.tentative, t.crossings,
                            t.shadow_rays, t.shadow_tentative})

@@ -27,7 +27,7 @@ Status StudyFiles::digest_file(const std::string& path, std::uint64_t& digest) {
     Buffer<char> bytes;
     PILEUS_TRY(read_whole_file(path, kMostFileBytes, bytes));
     Digest sum;
-    for (char c : bytes.span()) sum.byte(static_cast<std::uint8_t>(c));
+    sum.bytes(bytes.data(), bytes.size());
     digest = sum.value();
     files_.emplace(path, digest);
     return Status::ok();
@@ -43,7 +43,7 @@ Status StudyFiles::digest_scene(const std::string& scene, const std::vector<std:
     scenes_.insert(scene);
     Digest digest;
     digest.u64(read.text.size());
-    for (char c : read.text) digest.byte(static_cast<std::uint8_t>(c));
+    digest.text(read.text);
     for (const std::string& path : scene_files(read)) {
         std::uint64_t bytes = 0;
         PILEUS_TRY(digest_file(path, bytes));

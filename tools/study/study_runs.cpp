@@ -21,14 +21,14 @@ constexpr std::uint64_t kMostFileBytes = std::uint64_t{1} << 34;
 
 void add_text(const std::string& text, Digest& digest) {
     digest.u64(text.size());
-    for (char c : text) digest.byte(static_cast<std::uint8_t>(c));
+    digest.text(text);
 }
 
 Status add_file(const std::string& path, Digest& digest) {
     Buffer<char> bytes;
     PILEUS_TRY(read_whole_file(path, kMostFileBytes, bytes));
     digest.u64(bytes.size());
-    for (char c : bytes.span()) digest.byte(static_cast<std::uint8_t>(c));
+    digest.bytes(bytes.data(), bytes.size());
     return Status::ok();
 }
 

@@ -116,9 +116,19 @@ std::string pixel_hash(const Image& image) {
         if (channels[c] == nullptr) channels[c] = image.find("Y");
     const std::size_t pixels = std::size_t(image.width) * std::size_t(image.height);
     Digest digest;
-    for (std::size_t i = 0; i < pixels; ++i)
-        for (int c = 0; c < 4; ++c)
-            digest.f32(channels[c] != nullptr ? channels[c]->pixels[i] : c == 3 ? 1.0f : 0.0f);
+    constexpr std::size_t kBlock = 256;  // pixels
+    float block[4 * kBlock];
+    for (std::size_t first = 0; first < pixels; first += kBlock) {
+        const std::size_t count = pixels - first < kBlock ? pixels - first : kBlock;
+        for (std::size_t c = 0; c < 4; ++c) {
+            const float* from =
+                channels[c] != nullptr ? channels[c]->pixels.data() + first : nullptr;
+            const float missing = c == 3 ? 1.0f : 0.0f;
+            for (std::size_t i = 0; i < count; ++i)
+                block[4 * i + c] = from != nullptr ? from[i] : missing;
+        }
+        digest.floats({block, 4 * count});
+    }
     return digest.hex();
 }
 

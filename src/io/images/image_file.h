@@ -36,7 +36,7 @@ Status can_write_image(const std::string& path);
 Status read_image(const std::string& path, Image& image,
                   std::uint64_t most_pixels = kMaxImagePixels);
 
-/// 16 hex digits: FNV-1a 64 over the float32 bits of R G B A of each pixel, rows from the top. A
+/// 16 hex digits: XXH3 64 over the float32 bits of R G B A of each pixel, rows from the top. A
 /// colour that is not there counts as Y, or 0 without that; A as 1.
 std::string pixel_hash(const Image& image);
 

@@ -4,8 +4,8 @@
 
 #include <cstring>
 
-#include "src/base/digest.h"
 #include "src/base/file.h"
+#include "src/base/fnv1a64.h"
 #include "src/io/particles/particle_rows.h"
 #include "src/io/particles/replicate.h"
 

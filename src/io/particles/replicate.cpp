@@ -4,7 +4,7 @@
 
 #include "kernels_cpu/core/math.h"
 #include "kernels_cpu/core/rng.h"
-#include "src/base/digest.h"
+#include "src/base/fnv1a64.h"
 #include "src/base/random_streams.h"
 
 namespace pileus {
@@ -45,15 +45,15 @@ Status make_room(const ParticleSet& from, std::uint64_t count, ParticleSet& to) 
 }  // namespace
 
 std::uint64_t mark_of(const ParticleSet& set, std::size_t i) {
-    Digest digest;
+    Fnv1a64 mark;
     if (!set.id.empty()) {
-        digest.u64(set.id[i]);
+        mark.u64(set.id[i]);
     } else {
-        digest.floats({set.position.data() + 3 * i, 3});
-        digest.floats({set.radius.data() + i, 1});
-        if (!set.density.empty()) digest.floats({set.density.data() + i, 1});
+        mark.floats({set.position.data() + 3 * i, 3});
+        mark.floats({set.radius.data() + i, 1});
+        if (!set.density.empty()) mark.floats({set.density.data() + i, 1});
     }
-    return digest.value();
+    return mark.value();
 }
 
 Status replicate_particles(const std::string& name, const ParticleSettings& s, ParticleSet& set) {

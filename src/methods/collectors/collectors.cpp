@@ -162,7 +162,7 @@ Status collectors_prepare(const Context& context, CollectorsRun& run) {
     run.outlined_only = false;
     PILEUS_TRY(collectors_measure(context, run));
     PILEUS_TRY(lay_out_photons(collectors_trace_input(context, run), run));
-    if (kPlans) collectors_digest_prepared(run);
+    if (kPlans && context.digests) collectors_digest_prepared(run);
     return Status::ok();
 }
 

@@ -5,6 +5,7 @@
 #include "src/methods/collectors/collectors_display.h"
 
 #include "kernels_cpu/core/profile.h"
+#include "src/base/digest.h"
 #include "src/methods/collectors/billboards/billboard_spheres.h"
 #include "src/methods/collectors/billboards/gl_billboards.h"
 #include "src/methods/collectors/collectors_memory.h"

@@ -12,20 +12,20 @@ namespace {
 
 std::string leaf_digest(const CollectorsRun& run) {
     Digest d;
-    for (const Leaf& leaf : run.prepared.leaves.span())
-        for (int a = 0; a < 3; ++a) {
-            d.u32(std::uint32_t(leaf.lo[a]));
-            d.u32(std::uint32_t(leaf.hi[a]));
-        }
+    for (const Leaf& leaf : run.prepared.leaves.span()) {
+        const std::int32_t faces[] = {leaf.lo[0], leaf.hi[0], leaf.lo[1],
+                                      leaf.hi[1], leaf.lo[2], leaf.hi[2]};
+        d.words({faces, 6});
+    }
     return d.hex();
 }
 
 std::string collector_digest(const CollectorsRun& run) {
     Digest d;
     for (const Collector& c : run.prepared.collectors.span()) {
-        for (float x : c.centre) d.f32(x);
-        d.f32(c.billboard_radius);
-        d.f32(c.extinction);
+        const float numbers[] = {c.centre[0], c.centre[1], c.centre[2], c.billboard_radius,
+                                 c.extinction};
+        d.floats({numbers, 5});
     }
     return d.hex();
 }

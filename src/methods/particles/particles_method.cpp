@@ -76,9 +76,9 @@ Status outline(const Context& context, MethodRun& method_run) {
 std::string digest_of(const ParticleTree& tree) {
     Digest digest;
     for (const ParticleBall& ball : tree.balls.span()) {
-        for (const float v : ball.centre) digest.f32(v);
-        digest.f32(ball.per_radius);
-        digest.f32(ball.depth);
+        const float numbers[] = {ball.centre[0], ball.centre[1], ball.centre[2], ball.per_radius,
+                                 ball.depth};
+        digest.floats({numbers, 5});
     }
     return digest.hex();
 }
@@ -96,7 +96,7 @@ Status prepare(const Context& context, MethodRun& method_run) {
     }
     run.particles = run.tree.balls.size();
     run.outlined_only = false;
-    if (kPlans)
+    if (kPlans && context.digests)
         run.digests = {{"density", density_digest(*run.world)}, {"particles", digest_of(run.tree)}};
     return plan_particles(context, run);
 }

@@ -7,7 +7,7 @@
 #include <algorithm>
 
 #include "platform/threads.h"
-#include "src/base/digest.h"
+#include "src/base/fnv1a64.h"
 #include "src/methods/particles/tile_sort.h"
 
 namespace pileus {
@@ -285,17 +285,17 @@ Status choose_occluders(const ParticleTree& tree, double share, Buffer<ParticleB
     const auto each = [&](auto take) {
         for (std::size_t i = 0; i < tree.balls.size(); ++i) {
             const ParticleBall& ball = tree.balls[i];
-            Digest digest;
+            Fnv1a64 mark;
             if (tree.id.empty()) {
-                digest.floats({ball.centre, 3});
-                digest.floats({&ball.per_radius, 1});
-                digest.floats({&ball.depth, 1});
+                mark.floats({ball.centre, 3});
+                mark.floats({&ball.per_radius, 1});
+                mark.floats({&ball.depth, 1});
             } else {
                 // Another lot than that of density.share.
-                digest.u32(1);
-                digest.u64(tree.id[i]);
+                mark.u32(1);
+                mark.u64(tree.id[i]);
             }
-            if (lot_of(digest) < below) take(ball);
+            if (lot_of(mark.value()) < below) take(ball);
         }
     };
     std::size_t count = 0;

@@ -60,7 +60,7 @@ Status prepare(const Context& context, MethodRun& method_run) {
     PILEUS_TRY(make_majorants(run.world->medium, true, context, run.majorants, kPathCosts));
     run.outlined_only = false;
     PILEUS_TRY(path_measure(context, run));
-    if (kPlans) digest_prepared(run);
+    if (kPlans && context.digests) digest_prepared(run);
     return Status::ok();
 }
 

@@ -51,12 +51,7 @@ Status fill_planes(const Context& context, PathRun& run) {
 
 std::string film_digest(const Film& film) {
     Digest d;
-    for (const Buffer<double>* sums : {&film.sum, &film.square})
-        for (double v : sums->span()) {
-            std::uint64_t bits;
-            std::memcpy(&bits, &v, sizeof bits);
-            d.u64(bits);
-        }
+    for (const Buffer<double>* sums : {&film.sum, &film.square}) d.doubles(sums->span());
     return d.hex();
 }
 

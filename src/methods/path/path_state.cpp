@@ -11,7 +11,7 @@ namespace pileus {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x4d4c494653554c50;  // "PLUSFILM"
-constexpr std::uint64_t kFormat = 2;
+constexpr std::uint64_t kFormat = 3;
 // Magic, format, digest, width, height, parts, samples, pixels ahead and by how many samples.
 constexpr std::size_t kHeadWords = 9;
 constexpr std::size_t kTallyWords = sizeof(PathTally) / sizeof(std::int64_t);
@@ -36,25 +36,20 @@ std::uint64_t get(const char* from) {
     return word;
 }
 
-/// FNV-1a over words instead of bytes; one changed bit changes it.
-class WordDigest {
-public:
-    std::uint64_t add(std::uint64_t word) { return state_ = (state_ ^ word) * 0x100000001b3ull; }
-    std::uint64_t value() const { return state_; }
+/// Of all bytes of a file before its last word.
+std::uint64_t digest_before_last(Span<const char> bytes) {
+    Digest digest;
+    digest.bytes(bytes.data, bytes.size - 8);
+    return digest.value();
+}
 
-private:
-    std::uint64_t state_ = 0xcbf29ce484222325ull;
-};
-
-/// Writes words one behind the other, and their digest at the end.
+/// Writes words one behind the other.
 struct Writer {
     char* to;
-    WordDigest digest;
 
     void word(std::uint64_t w) {
         put(w, to);
         to += 8;
-        digest.add(w);
     }
 };
 
@@ -174,9 +169,7 @@ Status decode(const std::string& path, Span<const char> bytes, std::uint64_t dig
     if (bytes.size != 8 * words)
         return fault(path, std::to_string(bytes.size) + " bytes instead of " +
                                std::to_string(8 * words) + ", cut or damaged");
-    WordDigest all;
-    for (std::size_t i = 0; i + 1 < words; ++i) all.add(word_at(bytes, i));
-    if (all.value() != word_at(bytes, words - 1))
+    if (digest_before_last(bytes) != word_at(bytes, words - 1))
         return fault(path, "damaged, its digest does not fit");
     std::int64_t tally[kTallyWords];
     for (std::size_t i = 0; i < kTallyWords; ++i)
@@ -194,8 +187,7 @@ Status decode(const std::string& path, Span<const char> bytes, std::uint64_t dig
 
 void add_solids(const Solids& solids, Digest& d) {
     for (const SolidTriangle& t : solids.triangles.span()) {
-        for (const auto& corner : t.corner)
-            for (float x : corner) d.f32(x);
+        for (const auto& corner : t.corner) d.floats({corner, 3});
         d.u32(std::uint32_t(t.solid));
     }
     d.floats(solids.albedo.span());
@@ -205,7 +197,7 @@ void add_solids(const Solids& solids, Digest& d) {
 
 std::uint64_t path_state_digest(const PathInput& in, const std::string& version) {
     Digest d;
-    for (char c : version) d.byte(std::uint8_t(c));
+    d.text(version);
     add_medium(in, d);
     add_light(*in.lighting, d);
     if (in.lighting->solids != nullptr) add_solids(*in.lighting->solids, d);
@@ -228,7 +220,7 @@ std::uint64_t path_state_bytes(std::uint64_t film_bytes) {
 Status write_path_state(const std::string& path, std::uint64_t digest, const Film& film) {
     Buffer<char> bytes;
     PILEUS_TRY(bytes.resize(8 * std::uint64_t(total_words(film)), "state file"));
-    Writer out{bytes.data(), {}};
+    Writer out{bytes.data()};
     for (std::uint64_t word :
          {kMagic, kFormat, digest, std::uint64_t(film.width), std::uint64_t(film.height),
           std::uint64_t(film.parts), film.samples, film.ahead, film.ahead_samples})
@@ -238,7 +230,7 @@ Status write_path_state(const std::string& path, std::uint64_t digest, const Fil
     for (std::int64_t count : tally) out.word(std::uint64_t(count));
     for (double v : film.sum.span()) out.word(bits_of(v));
     for (double v : film.square.span()) out.word(bits_of(v));
-    put(out.digest.value(), out.to);
+    put(digest_before_last(bytes.span()), out.to);
     return write_file(path, bytes.span());
 }
 

@@ -202,7 +202,7 @@ Status photon_grid_prepare(const Context& context, PhotonGridRun& run) {
         make_cell_shares(medium, run.cells, run.near.marks.span(), context.threads, run.shares));
     run.outlined_only = false;
     PILEUS_TRY(photon_grid_measure(context, run));
-    if (kPlans) run.digests = {{"density", density_digest(*run.world)}};
+    if (kPlans && context.digests) run.digests = {{"density", density_digest(*run.world)}};
     return lay_out_photons(photon_grid_trace_input(context, run), run);
 }
 

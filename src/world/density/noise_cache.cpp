@@ -12,7 +12,7 @@
 namespace pileus {
 namespace {
 
-constexpr char kMagic[9] = "PLNOISE1";  // changes with the noise itself
+constexpr char kMagic[9] = "PLNOISE2";  // changes with the noise and with what its file holds
 constexpr std::size_t kHeadBytes = 40;
 
 void put_number(char* to, std::uint64_t value, int bytes) {
@@ -37,21 +37,10 @@ void write_head(const NoiseParams& p, char (&head)[kHeadBytes]) {
     put_number(head + 28, p.seed, 4);
 }
 
-std::uint64_t digest_of(const char* data, std::size_t bytes) {
-    Digest digest;
-    for (std::size_t i = 0; i < bytes; ++i) digest.byte(std::uint8_t(data[i]));
-    return digest.value();
-}
-
-/// Eight interleaved digests in one: a byte of each at a time, as one alone waits for itself.
 std::uint64_t payload_digest(Span<const std::uint8_t> texels) {
-    constexpr std::size_t kAbreast = 8;
-    Digest strands[kAbreast];
-    for (std::size_t i = 0; i + kAbreast <= texels.size; i += kAbreast)
-        for (std::size_t s = 0; s < kAbreast; ++s) strands[s].byte(texels[i + s]);
-    Digest all;
-    for (const Digest& strand : strands) all.u64(strand.value());
-    return all.value();
+    Digest digest;
+    digest.bytes(texels.data, texels.size);
+    return digest.value();
 }
 
 /// Whether the file is there, whole and of these parameters; `texels` then holds its payload.
@@ -100,7 +89,7 @@ std::string noise_file_name(const NoiseParams& params) {
     char head[kHeadBytes];
     write_head(params, head);
     Digest digest;
-    digest.u64(digest_of(head, 32));
+    digest.bytes(head, 32);
     const char* kind = params.kind == kNoisePerlin ? "perlin-" : "worley-";
     return kind + std::to_string(params.size) + "-" + digest.hex() + ".noise";
 }

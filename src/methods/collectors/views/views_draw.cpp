@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "kernels_cpu/core/math.h"
+#include "src/base/digest.h"
 #include "src/base/powers.h"
 #include "src/methods/collectors/prepare/tree.h"
 #include "src/methods/collectors/views/show_boxes.h"
