@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// See digest.h. The only file that includes xxhash.h.
+// See digest.h. The only file that includes xxHash.
 #include "src/base/digest.h"
 
 #include <cstring>
