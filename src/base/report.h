@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+// Digests are texts here, 16 hex digits each: src/base/digest.h makes them.
 namespace pileus {
 
 struct StageTime {
