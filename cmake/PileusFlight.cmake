@@ -38,7 +38,7 @@ foreach(pattern
         "src/session/(budget_text|check_changed|deliver|foretell|follow|hand_over|render|verify)[.]cpp"
         "src/api/c_(clouds|compare|living|world|flight_close)[.]cpp"
         "src/clouds/"
-        "src/base/(file|output_check|span)[.]cpp"
+        "src/base/(file|output_check|reading_limit|span)[.]cpp"
         "src/picture/(fading|mix_pictures)[.]cpp"
         "src/methods/(registry|path/path_state|collectors/billboards/gl_billboards)[.]cpp"
         "src/scene/read_scene[.]cpp"

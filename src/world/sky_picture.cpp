@@ -3,6 +3,7 @@
 // in: .exr or .pfm -> out: SkyMap.
 // docs/formats.md "Sky maps in".
 #include "src/base/file.h"
+#include "src/base/reading_limit.h"
 #include "src/io/images/image_file.h"
 #include "src/plan/scene_limits.h"
 #include "src/scene/read_scene.h"
@@ -26,6 +27,7 @@ Status load_sky_map(const Scene& scene, SkyMap& map) {
 Status read_sky_map(const Scene& scene, const Context& context, SkyMap& map) {
     if (scene.sky.map.empty()) return Status::ok();
     const StageClock clock(context, "sky map");
+    const ReadingLimit readers(context.limits);
     if (scene.sky.picture != nullptr)
         return make_sky_map("sky.map", *scene.sky.picture, scene.sky, scene.ground.present, map);
     InputFile file;

@@ -3,6 +3,7 @@
 #include "src/world/world.h"
 
 #include "src/base/file.h"
+#include "src/base/reading_limit.h"
 #include "src/io/particles/placed_particles.h"
 #include "src/plan/scene_limits.h"
 #include "src/scene/read_scene.h"
@@ -80,6 +81,7 @@ bool shows_particles(const Scene& scene) {
 
 Status outline_world(const Scene& scene, WorldUse use, const Context& context, World& world) {
     PILEUS_TRY(check_scene_limits(scene, context.limits));
+    const ReadingLimit readers(context.limits);
     if (context.kernels != nullptr && context.kernels->device != nullptr)
         PILEUS_TRY(refuse_marched_detail(scene, std::string("--isa ") + context.kernels->name));
     PILEUS_TRY(outline_solids(scene, context, world.solids));
@@ -93,6 +95,7 @@ Status outline_world(const Scene& scene, WorldUse use, const Context& context, W
 }
 
 Status load_world(const Scene& scene, const Context& context, World& world) {
+    const ReadingLimit readers(context.limits);
     if (world.shows_particles)
         PILEUS_TRY(load_particles_of(scene, context, world));
     else

@@ -8,6 +8,7 @@
 #include <cstring>
 #include <string_view>
 
+#include "src/base/reading_limit.h"
 #include "src/io/images/image_file.h"
 
 namespace pileus {
@@ -194,7 +195,7 @@ Status check_part(const std::string& name, const Part& part, std::uint64_t most_
     if (!checked_multiply(pixels * 4, part.channels, needed) || needed > most_bytes)
         return Status::limit(name + ": size: too large, " + std::to_string(needed) +
                              " bytes once decoded, allowed: at most " + std::to_string(most_bytes));
-    return Status::ok();
+    return check_reading(name, needed);
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // 8-bit PNG in memory; the only file that touches libpng.
 // in: sRGB bytes, rows from the top -> out: the bytes of a PNG file with an sRGB chunk; and back.
 // PNG specification 11.3.3.5 (sRGB); docs/formats.md
+#include "src/base/reading_limit.h"
 #include "src/io/images/image_file.h"
 #include "src/io/images/srgb.h"
 
@@ -153,6 +154,8 @@ Status decode_png(const std::string& name, Span<const char> bytes, Image& image,
         return Status::bad_input(name + ": size: too large, " + std::to_string(width) + " x " +
                                  std::to_string(height) + ", allowed: what " +
                                  std::to_string(bytes.size) + " bytes can hold");
+    // Bytes of four channels, and as many floats.
+    PILEUS_TRY(check_reading(name, width * height * 4 * (1 + sizeof(float))));
     const bool alpha = (reader.png.format & PNG_FORMAT_FLAG_ALPHA) != 0;
     reader.png.format = PNG_FORMAT_RGBA;
     Buffer<std::uint8_t> rgba;

@@ -14,6 +14,8 @@
 #endif
 
 #include "src/base/buffer.h"
+#include "src/base/reading_limit.h"
+#include "src/io/netcdf/netcdf_values.h"
 
 namespace pileus {
 
@@ -45,6 +47,7 @@ struct Library {
     decltype(&::nc_get_vara_text) get_vara_text = nullptr;
     decltype(&::nc_get_vara_double) get_vara_double = nullptr;
     decltype(&::nc_set_var_chunk_cache) set_var_chunk_cache = nullptr;
+    decltype(&::nc_inq_var_chunking) inq_var_chunking = nullptr;
 
     Status load(const std::string& name) {
         DynamicLibrary library("libnetcdf.so.19");
@@ -72,6 +75,7 @@ struct Library {
         library.find("nc_get_vara_text", get_vara_text);
         library.find("nc_get_vara_double", get_vara_double);
         library.find("nc_set_var_chunk_cache", set_var_chunk_cache);
+        library.find("nc_inq_var_chunking", inq_var_chunking);
         if (!library.is_whole())
             return Status::bad_input(name +
                                      ": NetCDF-4 on HDF5: libnetcdf.so.19 lacks a function, "
@@ -172,6 +176,20 @@ Status read_variables(const Library& nc, const std::string& name, int handle, in
     return Status::ok();
 }
 
+/// HDF5 holds a chunk whole, packed and unpacked, and a file of a kilobyte may state gigabytes.
+Status check_chunk(const Library& nc, const std::string& name, int handle,
+                   const NcVariable& variable) {
+    int storage = NC_CONTIGUOUS;
+    std::size_t sides[NC_MAX_VAR_DIMS] = {};
+    PILEUS_NC(nc.inq_var_chunking(handle, int(variable.begin), &storage, sides),
+              "variable " + variable.name);
+    if (storage != NC_CHUNKED) return Status::ok();
+    std::uint64_t bytes = 2 * nc_bytes(variable.type);
+    for (std::size_t k = 0; k < variable.dimensions.size(); ++k)
+        if (!checked_multiply(bytes, sides[k], bytes)) bytes = ~std::uint64_t{0};
+    return check_reading(name + ": variable " + printable_line(variable.name) + ": chunk", bytes);
+}
+
 }  // namespace
 
 Status open_hdf5(const std::string& path, int& handle) {
@@ -222,6 +240,7 @@ Status read_hdf5(const std::string& name, int handle, const NcVariable& variable
     Library nc;
     PILEUS_TRY(nc.load(name));
     const int id = int(variable.begin);
+    PILEUS_TRY(check_chunk(nc, name, handle, variable));
     const std::vector<std::size_t> start(block.start.begin(), block.start.end()),
         count(block.count.begin(), block.count.end());
     if (variable.type == NcType::kChar) {

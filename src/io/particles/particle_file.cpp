@@ -3,6 +3,7 @@
 #include "src/io/particles/particle_file.h"
 
 #include "src/base/file.h"
+#include "src/base/reading_limit.h"
 #include "src/io/text/packed_bytes.h"
 #include "src/io/text/text_scan.h"
 
@@ -28,8 +29,9 @@ Status decode_particles(const std::string& name, const std::string& extension,
                         Span<const char> bytes, const ParticleReading& reading, ParticleSet& set) {
     if (bytes.size >= 2 && bytes.data[0] == '\x1f' && bytes.data[1] == '\x8b') {
         Buffer<char> unpacked;
-        PILEUS_TRY(inflate_gzip(ByteCursor(name, bytes), bytes, reading.most_unpacked, unpacked));
+        PILEUS_TRY(inflate_gzip(name, bytes, reading.most_unpacked, unpacked));
         const Span<const char> inner = unpacked.span();
+        const ReadingHold hold(inner.size);
         if (inner.size >= 2 && inner[0] == '\x1f' && inner[1] == '\x8b')
             return ByteCursor(name, inner).fault("gzip: packed twice, allowed: once");
         return decode_particles(name, extension, inner, reading, set);
@@ -42,8 +44,12 @@ Status decode_particles(const std::string& name, const std::string& extension,
 
 Status read_particles(const std::string& path, const std::string& extension,
                       const ParticleReading& reading, ParticleSet& set) {
+    InputFile file;
+    PILEUS_TRY(open_file(path, file));
+    PILEUS_TRY(check_reading(path, file.size()));
     Buffer<char> bytes;
     PILEUS_TRY(read_whole_file(path, kMaxTextBytes, bytes));
+    const ReadingHold hold(bytes.size());
     return decode_particles(path, extension, bytes.span(), reading, set);
 }
 

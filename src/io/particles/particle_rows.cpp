@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "src/base/reading_limit.h"
+
 namespace pileus {
 namespace {
 
@@ -103,6 +105,10 @@ Status ParticleRows::begin(const std::vector<ParticleColumn>& columns, std::uint
     if (count > reading.most)
         return Status::limit(file_ + ": too many particles, " + std::to_string(count) +
                              ", allowed: at most " + std::to_string(reading.most));
+    const std::uint64_t floats =
+        std::uint64_t(4 + colours + glows + speeds) + (columns_[kDensity].at >= 0 ? 1 : 0);
+    const std::uint64_t each = 4 * floats + (columns_[kId].at >= 0 ? sizeof(std::uint64_t) : 0);
+    PILEUS_TRY(check_reading(file_, count * each));
     set_ = ParticleSet();
     set_.count = count;
     PILEUS_TRY(set_.position.resize(3 * count, "particles"));

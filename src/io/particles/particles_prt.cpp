@@ -4,6 +4,7 @@
 // Thinkbox Software, "PRT File Format Specification"; docs/particles.md, "Data".
 #include <cstring>
 
+#include "src/base/reading_limit.h"
 #include "src/io/particles/particle_rows.h"
 #include "src/io/text/byte_cursor.h"
 #include "src/io/text/packed_bytes.h"
@@ -77,6 +78,7 @@ public:
         ParticleRows rows(file_, set);
         PILEUS_TRY(rows.begin(columns_, count_, reading));
         const std::uint64_t size = count_ * stride_;
+        PILEUS_TRY(check_reading(file_, size));
         PILEUS_TRY(data_.resize(size, "unpacked particles"));
         if (size > 0) {
             const std::uint64_t packed = in_.left();

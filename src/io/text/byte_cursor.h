@@ -17,6 +17,7 @@ public:
     ByteCursor(const std::string& file, Span<const char> bytes)
         : file_(&file), bytes_(bytes), end_(bytes.size) {}
 
+    const std::string& name() const { return *file_; }
     std::uint64_t at() const { return at_; }
     std::uint64_t left() const { return end_ - at_; }
 

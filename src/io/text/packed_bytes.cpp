@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "src/base/reading_limit.h"
+
 #ifdef PILEUS_WITH_ZLIB
 #include <zlib.h>
 #endif
@@ -88,8 +90,12 @@ Status inflate_block(const ByteCursor& in, bool blosc, const unsigned char* pack
     if (!blosc) {
         there = true;
         uLongf written = uLongf(bytes);
-        right = count <= 0x7fffffffu && uncompress(to, &written, packed, uLong(count)) == Z_OK &&
+        uLong used = uLong(count);
+        right = count <= 0x7fffffffu && uncompress2(to, &written, packed, &used) == Z_OK &&
                 written == bytes;
+        if (right && used < count)
+            return in.fault("packed values: " + std::to_string(count - used) +
+                            " bytes behind their end, allowed: none");
     }
 #endif
     if (!there)
@@ -105,49 +111,100 @@ Status inflate_block(const ByteCursor& in, bool blosc, const unsigned char* pack
 #ifdef PILEUS_WITH_ZLIB
 namespace {
 
-/// How many bytes come out, at most `room`; `to` null: they are only counted. False: damaged, cut
-/// off, or more than `room`.
-bool unpack_gzip(Span<const char> packed, unsigned char* to, std::uint64_t room,
-                 std::uint64_t& bytes) {
-    constexpr std::uint64_t kMostAtOnce = std::uint64_t{1} << 30;
-    unsigned char passed[1 << 14];
-    z_stream stream{};
-    if (inflateInit2(&stream, 15 + 16) != Z_OK) return false;
-    std::uint64_t taken = 0;
-    int state = Z_OK;
-    bytes = 0;
-    while (state == Z_OK) {
-        const std::uint64_t in = std::min(packed.size - taken, kMostAtOnce);
-        const std::uint64_t out =
-            to == nullptr ? sizeof passed : std::min(room - bytes, kMostAtOnce);
-        stream.next_in =
-            reinterpret_cast<Bytef*>(const_cast<char*>(packed.data + taken));  // only read
-        stream.avail_in = uInt(in);
-        stream.next_out = to == nullptr ? passed : to + bytes;
-        stream.avail_out = uInt(out);
-        state = inflate(&stream, Z_NO_FLUSH);
-        taken += in - stream.avail_in;
-        bytes += out - stream.avail_out;
-        if (bytes > room) state = Z_BUF_ERROR;
+enum class GzipEnd { kSound, kDamaged, kTooLarge, kJunk };
+
+/// Unpacks members one after the other, as RFC 1952 joins them.
+class GzipWalk {
+public:
+    explicit GzipWalk(Span<const char> packed) : packed_(packed) {
+        made_ = inflateInit2(&stream_, 15 + 16) == Z_OK;
     }
-    inflateEnd(&stream);
-    return state == Z_STREAM_END;
+    ~GzipWalk() {
+        if (made_) inflateEnd(&stream_);
+    }
+    GzipWalk(const GzipWalk&) = delete;
+    GzipWalk& operator=(const GzipWalk&) = delete;
+
+    /// At most `room` bytes go to `to`; where that is null they are only counted.
+    GzipEnd run(unsigned char* to, std::uint64_t room) {
+        if (!made_) return GzipEnd::kDamaged;
+        for (;;) {
+            const GzipEnd end = member(to, room);
+            if (end != GzipEnd::kSound || only_zeros()) return end;
+            if (packed_.size - taken < 2 || packed_[taken] != '\x1f' ||
+                packed_[taken + 1] != '\x8b')
+                return GzipEnd::kJunk;
+            if (inflateReset(&stream_) != Z_OK) return GzipEnd::kDamaged;
+        }
+    }
+    std::size_t taken = 0;    ///< of the packed bytes
+    std::uint64_t bytes = 0;  ///< unpacked
+
+private:
+    GzipEnd member(unsigned char* to, std::uint64_t room) {
+        constexpr std::uint64_t kMostAtOnce = std::uint64_t{1} << 30;
+        for (int state = Z_OK; state != Z_STREAM_END;) {
+            // The end of a member may still have to be read where there is no more room.
+            unsigned char passed[1 << 14];
+            const std::uint64_t in = std::min<std::uint64_t>(packed_.size - taken, kMostAtOnce);
+            const bool pass = to == nullptr || bytes == room;
+            const std::uint64_t out = pass ? sizeof passed : std::min(room - bytes, kMostAtOnce);
+            stream_.next_in =
+                reinterpret_cast<Bytef*>(const_cast<char*>(packed_.data + taken));  // only read
+            stream_.avail_in = uInt(in);
+            stream_.next_out = pass ? passed : to + bytes;
+            stream_.avail_out = uInt(out);
+            state = inflate(&stream_, Z_NO_FLUSH);
+            taken += std::size_t(in - stream_.avail_in);
+            bytes += out - stream_.avail_out;
+            if (bytes > room) return GzipEnd::kTooLarge;
+            if (state != Z_OK && state != Z_STREAM_END) return GzipEnd::kDamaged;
+        }
+        return GzipEnd::kSound;
+    }
+    /// Tapes and disks pad with zeros, which gzip passes over as well.
+    bool only_zeros() const {
+        for (std::size_t i = taken; i < packed_.size; ++i)
+            if (packed_[i] != 0) return false;
+        return true;
+    }
+
+    Span<const char> packed_;
+    z_stream stream_{};
+    bool made_ = false;
+};
+
+Status gzip_fault(const ByteCursor& in, const GzipWalk& walk, GzipEnd end, std::uint64_t most) {
+    const std::string at = std::to_string(walk.taken);
+    if (end == GzipEnd::kJunk)
+        return in.fault("gzip: no member begins at packed byte " + at +
+                        ", allowed: members, or zeros up to the end");
+    if (end == GzipEnd::kTooLarge) {
+        Status status = in.fault("gzip: too large, allowed: at most " + std::to_string(most) +
+                                 " bytes unpacked");
+        status.code = Code::kLimit;
+        return status;
+    }
+    return in.fault("gzip: damaged or cut off at packed byte " + at);
 }
 
 }  // namespace
 #endif
 
-Status inflate_gzip(const ByteCursor& in, Span<const char> packed, std::uint64_t most,
+Status inflate_gzip(const std::string& name, Span<const char> packed, std::uint64_t most,
                     Buffer<char>& out) {
+    const ByteCursor in(name, packed);
 #ifdef PILEUS_WITH_ZLIB
     // Its head does not say how much is in it: counted first, so that no memory is taken for a lie.
-    std::uint64_t bytes = 0;
-    if (!unpack_gzip(packed, nullptr, most, bytes))
-        return in.fault("gzip: damaged, cut off or too large, allowed: at most " +
-                        std::to_string(most) + " bytes unpacked");
-    PILEUS_TRY(out.resize(bytes, "unpacked file"));
-    if (bytes > 0 &&
-        !unpack_gzip(packed, reinterpret_cast<unsigned char*>(out.data()), bytes, bytes))
+    const std::uint64_t room = std::min(most, reading_room());
+    GzipWalk count(packed);
+    const GzipEnd end = count.run(nullptr, room);
+    if (end == GzipEnd::kTooLarge) PILEUS_TRY(check_reading(name, count.bytes));
+    if (end != GzipEnd::kSound) return gzip_fault(in, count, end, room);
+    PILEUS_TRY(out.resize(count.bytes, "unpacked file"));
+    GzipWalk walk(packed);
+    if (count.bytes > 0 &&
+        walk.run(reinterpret_cast<unsigned char*>(out.data()), count.bytes) != GzipEnd::kSound)
         return in.fault("gzip: damaged");
     return Status::ok();
 #else

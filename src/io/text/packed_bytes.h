@@ -15,12 +15,14 @@ namespace pileus {
 /// A number of 2, 4 or 8 bytes, little-endian, rounded to the nearest float.
 float packed_number(const unsigned char* from, unsigned bytes);
 
-/// Unpacks `count` bytes, which must give exactly `bytes`; by blosc or else zlib.
+/// Unpacks `count` bytes, all of them, which must give exactly `bytes`; by blosc or else zlib.
 Status inflate_block(const ByteCursor& in, bool blosc, const unsigned char* packed,
                      std::uint64_t count, unsigned char* to, std::uint64_t bytes);
 
-/// Unpacks a gzip file of one member (RFC 1952) into at most `most` bytes.
-Status inflate_gzip(const ByteCursor& in, Span<const char> packed, std::uint64_t most,
+/// Unpacks a gzip file (RFC 1952), its members one after the other, into at most `most` bytes and
+/// what reading_limit.h leaves; more: kLimit, before memory is taken. Behind the last member there
+/// may be zeros, as gzip itself passes over, and nothing else.
+Status inflate_gzip(const std::string& name, Span<const char> packed, std::uint64_t most,
                     Buffer<char>& out);
 
 /// zlib of `bytes` from `from`; how many bytes it took, or 0 where that is not fewer, there is no

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "src/base/reading_limit.h"
 #include "src/io/volumes/vdb/vdb_grid.h"
 #include "src/io/volumes/vdb/vdb_values.h"
 #include "src/scene/toml/toml_tree.h"
@@ -178,6 +179,7 @@ Status unpack_nvdb_grid(ByteCursor& in, const NvdbGrid& grid, Buffer<char>& room
 
     // Blosc stands in chunks of 2^30 bytes, zip in one.
     const bool blosc = grid.compression == kVdbBlosc;
+    PILEUS_TRY(check_reading(in.name(), grid.size));
     PILEUS_TRY(room.resize(grid.size, "NanoVDB grid"));
     for (std::uint64_t done = 0; done < grid.size;) {
         const std::uint64_t chunk = blosc ? std::min(grid.size - done, kChunk) : grid.size;
