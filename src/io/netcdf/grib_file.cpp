@@ -5,15 +5,14 @@
 #include "src/io/netcdf/grib_file.h"
 
 #if PILEUS_WITH_ECCODES
-#include <eccodes.h>
-
-#include <cstdio>
-#include <memory>
 #include <mutex>
 
-#include "src/base/dynamic_library.h"
+#include "src/base/file.h"
+#include "src/base/reading_limit.h"
 #include "src/io/netcdf/civil_days.h"
+#include "src/io/netcdf/grib_check.h"
 #include "src/io/netcdf/grib_fields.h"
+#include "src/io/netcdf/grib_library.h"
 #endif
 
 namespace pileus {
@@ -26,86 +25,19 @@ std::mutex one_at_a_time;
 
 constexpr std::uint64_t kMostValues = std::uint64_t{1} << 31;  // of all fields together
 constexpr std::size_t kMostFields = std::size_t{1} << 18;
-
-struct Library {
-    decltype(&::codes_handle_new_from_file) next = nullptr;
-    decltype(&::codes_handle_delete) drop = nullptr;
-    decltype(&::codes_get_long) get_long = nullptr;
-    decltype(&::codes_get_double) get_double = nullptr;
-    decltype(&::codes_get_string) get_string = nullptr;
-    decltype(&::codes_get_size) get_size = nullptr;
-    decltype(&::codes_get_double_array) get_doubles = nullptr;
-    decltype(&::codes_set_double) set_double = nullptr;
-    decltype(&::codes_context_get_default) context = nullptr;
-    decltype(&::codes_context_set_logging_proc) set_log = nullptr;
-
-    Status load(const std::string& name) {
-        DynamicLibrary library("libeccodes.so.0");
-        if (!library.is_there())
-            return Status::bad_input(name +
-                                     ": GRIB: the library libeccodes.so.0 is not there, allowed: "
-                                     "install it, or NetCDF (grib_to_netcdf)");
-        library.find("codes_handle_new_from_file", next);
-        library.find("codes_handle_delete", drop);
-        library.find("codes_get_long", get_long);
-        library.find("codes_get_double", get_double);
-        library.find("codes_get_string", get_string);
-        library.find("codes_get_size", get_size);
-        library.find("codes_get_double_array", get_doubles);
-        library.find("codes_set_double", set_double);
-        library.find("codes_context_get_default", context);
-        library.find("codes_context_set_logging_proc", set_log);
-        if (!library.is_whole())
-            return Status::bad_input(name + ": GRIB: libeccodes.so.0 lacks a function");
-        // A fault is one line, and it is ours.
-        set_log(context(), [](const codes_context*, int, const char*) {});
-        return Status::ok();
-    }
-};
-
-/// One message, freed with its owner.
-class Message {
-public:
-    Message(const Library& library, codes_handle* handle) : codes_(library), handle_(handle) {}
-    Message(const Message&) = delete;
-    Message& operator=(const Message&) = delete;
-    ~Message() { codes_.drop(handle_); }
-
-    long whole(const char* key, long fallback) const {
-        long value = 0;
-        return codes_.get_long(handle_, key, &value) == 0 ? value : fallback;
-    }
-    double number(const char* key, double fallback) const {
-        double value = 0;
-        return codes_.get_double(handle_, key, &value) == 0 ? value : fallback;
-    }
-    std::string text(const char* key) const {
-        char value[256] = {};
-        std::size_t length = sizeof value;
-        return codes_.get_string(handle_, key, value, &length) == 0 ? printable_line(value) : "";
-    }
-    std::size_t size(const char* key) const {
-        std::size_t count = 0;
-        return codes_.get_size(handle_, key, &count) == 0 ? count : 0;
-    }
-    bool numbers(const char* key, Span<double> to) const {
-        std::size_t count = to.size;
-        return codes_.get_doubles(handle_, key, to.data, &count) == 0 && count == to.size;
-    }
-    void mark_missing() const { codes_.set_double(handle_, "missingValue", kGribMissing); }
-
-private:
-    const Library& codes_;
-    codes_handle* handle_;
-};
+/// What ecCodes takes for each value while it unpacks a field, and we beside it.
+constexpr std::uint64_t kBytesUnpacking = 48;
+/// A field is held until it is laid out, and again as a variable.
+constexpr std::uint64_t kBytesHeld = 2 * sizeof(float);
 
 class Reader {
 public:
     explicit Reader(const std::string& name) : name_(name) {}
 
-    Status run(Buffer<char>& bytes) {
+    Status run(GribWalk& walk, Buffer<char>& bytes) {
         PILEUS_TRY(codes_.load(name_));
-        PILEUS_TRY(messages());
+        PILEUS_TRY(fields_of(walk));
+        PILEUS_TRY(check_reading(name_, count_ * kBytesHeld));
         return encode_grib_fields(name_, fields_, bytes);
     }
 
@@ -114,21 +46,15 @@ private:
         return Status::bad_input(name_ + ": GRIB: " + printable_line(line));
     }
 
-    Status messages() {
-        const std::unique_ptr<FILE, int (*)(FILE*)> stream(std::fopen(name_.c_str(), "rb"),
-                                                           std::fclose);
-        if (stream == nullptr) return fault("cannot be opened");
+    Status fields_of(GribWalk& walk) {
+        bool more = false;
         for (std::size_t count = 0;; ++count) {
-            int code = 0;
-            codes_handle* handle = codes_.next(nullptr, stream.get(), PRODUCT_GRIB, &code);
-            if (handle == nullptr && code == 0) break;
-            if (handle == nullptr)
-                return fault("message " + std::to_string(count) + ": damaged or cut short");
-            const Message message(codes_, handle);
+            PILEUS_TRY(walk.next(more));
+            if (!more) break;
             if (count >= kMostFields)
-                return Status::limit(name_ + ": GRIB: too many messages, allowed: at most " +
+                return Status::limit(name_ + ": GRIB: too many fields, allowed: at most " +
                                      std::to_string(kMostFields));
-            PILEUS_TRY(take(message, count));
+            PILEUS_TRY(field_of(walk));
         }
         if (fields_.list.empty())
             return fault(
@@ -137,7 +63,17 @@ private:
         return Status::ok();
     }
 
-    Status grid_of(const Message& m, const std::string& where, GribGrid& grid) const {
+    Status field_of(const GribWalk& walk) {
+        const std::string where = "message " + std::to_string(walk.number()) + ": ";
+        const GribMessage message(codes_, walk.message());
+        if (!message.is_there() && !grib_gave_up()) return fault(where + "damaged or cut short");
+        const Status status =
+            message.is_there() ? take(message, walk.sections(), where) : Status::ok();
+        // What came of a message that the library gave up is not used, and it gets no other.
+        return grib_gave_up() ? fault(where + "damaged or cut short, ecCodes gave it up") : status;
+    }
+
+    Status grid_of(const GribMessage& m, const std::string& where, GribGrid& grid) const {
         const std::string type = m.text("gridType");
         if (type != "regular_ll")
             return fault(where + "gridType: " + type + ", allowed: regular_ll (cdo remapbil)");
@@ -161,8 +97,7 @@ private:
     }
 
     /// Keeps the field of a message, or passes it over.
-    Status take(const Message& m, std::size_t count) {
-        const std::string where = "message " + std::to_string(count) + ": ";
+    Status take(const GribMessage& m, const GribSections& sections, const std::string& where) {
         const std::string type = m.text("typeOfLevel");
         const bool hybrid = type == "hybrid", pressure = type == "isobaricInhPa";
         std::string name = m.text("shortName");
@@ -186,6 +121,12 @@ private:
             fields_.hybrid = hybrid;
         }
         const std::uint64_t cells = std::uint64_t(grid.nx) * std::uint64_t(grid.ny);
+        // The library takes what these sections count at its word, so they are counted first.
+        std::string wrong =
+            grib_values_fault(sections, std::uint64_t(grid.nx), std::uint64_t(grid.ny));
+        if (wrong.empty()) wrong = grib_time_fault(sections);
+        if (!wrong.empty()) return fault(where + wrong);
+        PILEUS_TRY(check_reading(name_, count_ * sizeof(float) + cells * kBytesUnpacking));
         if (m.size("values") != cells) return fault(where + "values: not as many as the grid's");
         count_ += cells;
         if (count_ > kMostValues)
@@ -201,7 +142,7 @@ private:
         return values_of(m, where, std::size_t(cells), field);
     }
 
-    Status values_of(const Message& m, const std::string& where, std::size_t cells,
+    Status values_of(const GribMessage& m, const std::string& where, std::size_t cells,
                      const GribField& field) {
         m.mark_missing();
         Buffer<double> values;
@@ -215,7 +156,7 @@ private:
     }
 
     /// a and b of the faces, a pair for each level of the model and one more.
-    Status coefficients(const Message& m, const std::string& where) {
+    Status coefficients(const GribMessage& m, const std::string& where) {
         const std::size_t count = m.size("pv");
         if (count < 4 || count % 2 != 0 || count > 20002)
             return fault(where +
@@ -227,7 +168,7 @@ private:
     }
 
     const std::string& name_;
-    Library codes_;
+    GribLibrary codes_;
     GribFields fields_;
     std::uint64_t count_ = 0;
     bool any_levels_ = false;
@@ -237,7 +178,16 @@ private:
 
 Status read_grib(const std::string& path, Buffer<char>& bytes) {
     const std::lock_guard<std::mutex> turn(one_at_a_time);
-    return Reader(path).run(bytes);
+    InputFile file;
+    PILEUS_TRY(open_file(path, file));
+    GribWalk walk(path, file);
+    return Reader(path).run(walk, bytes);
+}
+
+Status decode_grib(const std::string& name, Span<const char> from, Buffer<char>& bytes) {
+    const std::lock_guard<std::mutex> turn(one_at_a_time);
+    GribWalk walk(name, from);
+    return Reader(name).run(walk, bytes);
 }
 
 std::string grib_library_text() { return "GRIB yes"; }
@@ -248,6 +198,9 @@ Status read_grib(const std::string& path, Buffer<char>&) {
     return Status::bad_input(path +
                              ": GRIB: not part of this build, allowed: a build with ecCodes "
                              "(PILEUS_ECCODES), or NetCDF (grib_to_netcdf)");
+}
+Status decode_grib(const std::string& name, Span<const char>, Buffer<char>& bytes) {
+    return read_grib(name, bytes);
 }
 std::string grib_library_text() { return "GRIB no"; }
 

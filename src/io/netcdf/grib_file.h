@@ -15,5 +15,7 @@ std::string grib_library_text();
 /// latitudes; all others are passed over. Not built in, no library, no such field, another grid,
 /// levels or times that lack fields: kBadInput; more fields or memory than allowed: kLimit.
 Status read_grib(const std::string& path, Buffer<char>& bytes);
+/// The same from the bytes of a file.
+Status decode_grib(const std::string& name, Span<const char> from, Buffer<char>& bytes);
 
 }  // namespace pileus
