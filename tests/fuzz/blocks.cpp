@@ -6,7 +6,7 @@
 
 #include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int fuzz::blocks(const std::uint8_t* data, std::size_t size) {
     pileus::BlockSums blocks, again;
     const pileus::Status status = pileus::read_blocks("b.txt", fuzz::text_of(data, size), blocks);
     if (!status) {

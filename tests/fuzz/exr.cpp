@@ -6,7 +6,7 @@
 #include "src/io/images/picture.h"
 #include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int fuzz::exr(const std::uint8_t* data, std::size_t size) {
     constexpr std::uint64_t kMostPixels = 4096;
     pileus::Image image;
     const pileus::Status status =

@@ -18,7 +18,7 @@ void check_hash(const std::string& hash) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int fuzz::hash_list(const std::uint8_t* data, std::size_t size) {
     using namespace pileus;
     const std::string text(reinterpret_cast<const char*>(data), size);
     std::vector<std::string> hashes;

@@ -5,7 +5,7 @@
 #include "src/io/volumes/les_volume.h"
 #include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int fuzz::les(const std::uint8_t* data, std::size_t size) {
     pileus::Volume volume;
     const pileus::Status status =
         pileus::decode_les_volume("v.txt", fuzz::text_of(data, size), volume);

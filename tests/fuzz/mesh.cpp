@@ -5,7 +5,7 @@
 #include "src/io/meshes/mesh_file.h"
 #include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int fuzz::mesh(const std::uint8_t* data, std::size_t size) {
     constexpr std::uint64_t kMostTriangles = 1 << 16;
     const bool ply = size >= 3 && data[0] == 'p' && data[1] == 'l' && data[2] == 'y';
     pileus::Mesh mesh;

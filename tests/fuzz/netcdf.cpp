@@ -9,7 +9,7 @@
 #include "src/io/volumes/weather/weather_volume.h"
 #include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int fuzz::netcdf(const std::uint8_t* data, std::size_t size) {
     // HDF5 is read by a library of others, which has fuzz targets of its own.
     if (size >= 4 && std::memcmp(data, "\x89HDF", 4) == 0) return 0;
     pileus::NcFile file;

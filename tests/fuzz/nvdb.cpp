@@ -5,7 +5,7 @@
 #include "src/io/volumes/vdb/nvdb_file.h"
 #include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int fuzz::nvdb(const std::uint8_t* data, std::size_t size) {
     return fuzz::check_sparse_grid("v.nvdb", fuzz::text_of(data, size), pileus::decode_nvdb,
                                    pileus::decode_nvdb_head);
 }

@@ -62,7 +62,7 @@ void check_again(const Scene& scene, std::size_t count) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int fuzz::overrides(const std::uint8_t* data, std::size_t size) {
     constexpr std::size_t kMost = 8;
     std::vector<std::string> options(1);
     for (std::size_t i = 0; i < size; ++i) {

@@ -7,7 +7,7 @@
 #include "src/flight/pack.h"
 #include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int fuzz::packed(const std::uint8_t* data, std::size_t size) {
     using namespace pileus;
     PackedHead head;
     head.method = "raymarch";

@@ -5,7 +5,7 @@
 #include "src/io/volumes/particle_volume.h"
 #include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int fuzz::particles(const std::uint8_t* data, std::size_t size) {
     // The magic of Houdini's geometry is looked at by its reader.
     const struct {
         std::uint8_t first;

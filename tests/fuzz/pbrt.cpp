@@ -5,7 +5,7 @@
 #include "src/io/volumes/volume_file.h"
 #include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int fuzz::pbrt(const std::uint8_t* data, std::size_t size) {
     pileus::Volume volume;
     const pileus::Status status =
         pileus::decode_pbrt_volume("v.pbrt", fuzz::text_of(data, size), volume);

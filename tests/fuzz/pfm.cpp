@@ -7,7 +7,7 @@
 #include "src/io/images/image_file.h"
 #include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int fuzz::pfm(const std::uint8_t* data, std::size_t size) {
     constexpr std::uint64_t kMostPixels = 4096;
     pileus::Image image, again;
     const pileus::Status status =

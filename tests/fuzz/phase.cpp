@@ -32,7 +32,7 @@ void check_table(const Status& status, const PhaseStore& store) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int fuzz::phase(const std::uint8_t* data, std::size_t size) {
     const Span<const char> text = fuzz::text_of(data, size);
     PhaseNodes nodes;
     PhaseStore store;

@@ -31,7 +31,7 @@ Image image_of(const std::string& text) {
     return image;
 }
 
-void check_picture(const PictureScene& picture) {
+void check_origin(const PictureScene& picture) {
     fuzz::require(picture.hash.size() == 16, "a picture has its hash");
     fuzz::require(picture.first_frame >= 0 && picture.first_frame <= picture.frame,
                   "its run began with it or before");
@@ -52,12 +52,12 @@ void check_picture(const PictureScene& picture) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int fuzz::picture_scene(const std::uint8_t* data, std::size_t size) {
     const Image image = image_of(std::string(reinterpret_cast<const char*>(data), size));
     PictureScene picture;
     const Status status = take_picture_scene("picture.exr", image, std::nullopt, picture);
     if (status)
-        check_picture(picture);
+        check_origin(picture);
     else
         fuzz::check_fault(status, "picture.exr: ", false);
     return 0;

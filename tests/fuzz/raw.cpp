@@ -5,7 +5,7 @@
 #include "src/io/volumes/volume_file.h"
 #include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int fuzz::raw(const std::uint8_t* data, std::size_t size) {
     constexpr std::size_t kHead = 7;
     if (size < kHead) return 0;
     const auto type = pileus::RawType(data[0] % 3);

@@ -37,7 +37,7 @@ void check_report(const Report& report) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int fuzz::render(const std::uint8_t* data, std::size_t size) {
     const std::string text = fuzz::SceneMaker(data, size).text();
     Scene scene;
     const Status valid = read_scene_text(text, "s.toml", "", {}, scene);

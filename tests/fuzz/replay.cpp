@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs a fuzz target over stored inputs where libFuzzer is not there.
-// in: files and folders -> out: exit 0 and the number of inputs; 2 where there are none.
-// docs/testing.md, section Fuzzing
+// in: a target's name, files and folders -> out: exit 0 and the number of inputs; 2 where there are
+// none. docs/testing.md, section Fuzzing
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
@@ -10,7 +10,10 @@
 
 #include "tests/fuzz/target.h"
 
+extern "C" int LLVMFuzzerInitialize(int* count, char*** words);
+
 int main(int count, char** words) {
+    LLVMFuzzerInitialize(&count, &words);
     namespace fs = std::filesystem;
     std::vector<fs::path> files;
     for (int i = 1; i < count; ++i) {

@@ -5,7 +5,7 @@
 #include "src/scene/read_scene.h"
 #include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int fuzz::scene(const std::uint8_t* data, std::size_t size) {
     const std::string text(reinterpret_cast<const char*>(data), size);
     pileus::Scene scene;
     const pileus::Status status = pileus::read_scene_text(text, "s.toml", "", {}, scene);

@@ -5,7 +5,7 @@
 #include "src/io/text/sensor_file.h"
 #include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int fuzz::sensors(const std::uint8_t* data, std::size_t size) {
     using namespace pileus;
     std::vector<Sensor> sensors;
     const Status status = decode_sensors("s.toml", fuzz::text_of(data, size), sensors);

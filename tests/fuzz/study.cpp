@@ -5,7 +5,7 @@
 #include "tests/fuzz/target.h"
 #include "tools/study/study_file.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int fuzz::study(const std::uint8_t* data, std::size_t size) {
     const std::string text(reinterpret_cast<const char*>(data), size);
     pileus::Study study;
     const pileus::Status status = pileus::read_study_text(text, "s.toml", "", study);

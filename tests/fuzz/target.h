@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every fuzz target shares: the entry that libFuzzer calls, and laws of results.
+// What every fuzz target shares: the list of them, and laws of results.
 // in: arbitrary bytes -> out: nothing, or an abort that names the broken law.
-// docs/testing.md, section Fuzzing; libFuzzer's LLVMFuzzerTestOneInput.
+// docs/testing.md, section Fuzzing.
 #pragma once
 #include <cstdint>
 #include <cstdio>
@@ -13,7 +13,9 @@
 #include "src/io/images/image.h"
 #include "src/io/volumes/vdb/vdb_file.h"
 #include "src/io/volumes/volume.h"
+#include "tests/fuzz/targets.h"
 
+/// What libFuzzer or replay.cpp calls: the chosen target.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 
 namespace fuzz {

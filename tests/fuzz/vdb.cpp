@@ -5,7 +5,7 @@
 #include "src/io/volumes/vdb/vdb_file.h"
 #include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int fuzz::vdb(const std::uint8_t* data, std::size_t size) {
     return fuzz::check_sparse_grid("v.vdb", fuzz::text_of(data, size), pileus::decode_vdb,
                                    pileus::decode_vdb_head);
 }

@@ -5,7 +5,7 @@
 #include "src/io/volumes/vol_volume.h"
 #include "tests/fuzz/target.h"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+int fuzz::vol(const std::uint8_t* data, std::size_t size) {
     pileus::Volume volume;
     const pileus::Status status =
         pileus::decode_vol_volume("v.vol", fuzz::text_of(data, size), volume);
