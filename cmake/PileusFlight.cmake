@@ -30,6 +30,7 @@ endif()
 # stands in its place. The linker drops the rest that no function reaches.
 file(GLOB_RECURSE flight_sources CONFIGURE_DEPENDS "platform/*.cpp" "src/*.cpp")
 foreach(pattern
+        "platform/team/(processors|team_openmp|team_own|team_start|teams)[.]cpp"
         "platform/(clock|cuda_device|egl|file|file_identity|interrupt|new_file|osmesa|process)[.]cpp"
         "src/(compare|scene/(keys|checks|toml)|session/flux)/"
         "src/world/density/(bubbles|cumulus|density_rows|noise_cache|noise_volume|particle_[a-z]*|plume|shapes)[.]cpp"
@@ -50,7 +51,7 @@ endforeach()
 add_library(pileus_flight_objects OBJECT ${flight_sources} kernels_cpu/isa/dispatch.cpp)
 target_link_libraries(pileus_flight_objects PRIVATE pileus_flags pileus_headers pileus_nothrow)
 target_compile_definitions(pileus_flight_objects PRIVATE PILEUS_FLIGHT=1 PILEUS_STATIC=1
-    PILEUS_VERSION_TEXT="${PROJECT_VERSION}" PILEUS_WITH_THREADS=0 ${PILEUS_ISA_DEFINITIONS})
+    PILEUS_VERSION_TEXT="${PROJECT_VERSION}" ${PILEUS_ISA_DEFINITIONS})
 # One file knows the methods, so that another choice compiles little else.
 set(flight_names)
 foreach(method IN LISTS flight_methods)

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-# Finds foreign libraries: six required sets of headers, ten optional libraries.
+# Finds foreign libraries: six required sets of headers, thirteen optional libraries.
 # in: PILEUS_<LIBRARY> options -> out: target pileus_headers, PILEUS_WITH_<LIBRARY> (0 or 1),
-# PILEUS_LINK_LIBRARIES, PILEUS_LIBRARY_DEFINITIONS. Debian package names: tools/install_packages
+# PILEUS_LINK_LIBRARIES, PILEUS_LIBRARY_DEFINITIONS, PILEUS_OPENMP_FLAGS. Debian package names: tools/install_packages
 add_library(pileus_headers INTERFACE)
 set(PILEUS_LINK_LIBRARIES)
 set(PILEUS_LIBRARY_DEFINITIONS)
@@ -55,7 +55,7 @@ endif()
 target_compile_definitions(pileus_headers INTERFACE FMT_HEADER_ONLY=1)
 
 # An optional library is used when it is wanted and found.
-foreach(name OPENEXR PNG ZLIB BLOSC NETCDF ECCODES ASSIMP OIDN SDL2 OSMESA EGL THREADS TESTS BENCHMARKS)
+foreach(name OPENEXR PNG ZLIB BLOSC NETCDF ECCODES ASSIMP OIDN SDL2 OSMESA EGL THREADS OPENMP TESTS BENCHMARKS)
     set(PILEUS_WITH_${name} 0)
 endforeach()
 if(PILEUS_OPENEXR)
@@ -124,6 +124,23 @@ if(PILEUS_THREADS)
         set(PILEUS_WITH_THREADS 1)
         list(APPEND PILEUS_LINK_LIBRARIES Threads::Threads)
     endif()
+endif()
+# One file is compiled with it. The thread sanitizer does not know how it waits.
+if(NOT PILEUS_WITH_THREADS OR PILEUS_SANITIZE MATCHES thread)
+    set(PILEUS_OPENMP OFF)
+endif()
+set(PILEUS_OPENMP_FLAGS)
+set(PILEUS_OPENMP_RUNTIME)
+if(PILEUS_OPENMP)
+    find_package(OpenMP COMPONENTS CXX QUIET)
+    foreach(name gomp omp)
+        if(OpenMP_CXX_FOUND AND name IN_LIST OpenMP_CXX_LIB_NAMES)
+            set(PILEUS_WITH_OPENMP 1)
+            set(PILEUS_OPENMP_RUNTIME ${name})
+            separate_arguments(PILEUS_OPENMP_FLAGS UNIX_COMMAND "${OpenMP_CXX_FLAGS}")
+            list(APPEND PILEUS_LINK_LIBRARIES "${OpenMP_${name}_LIBRARY}")
+        endif()
+    endforeach()
 endif()
 if(PILEUS_TESTS)
     pileus_find_headers(DOCTEST doctest doctest.h doctest-dev)

@@ -8,6 +8,7 @@
 #include <type_traits>
 
 #include "platform/memory.h"
+#include "platform/team/team.h"
 
 namespace pileus {
 
@@ -15,19 +16,19 @@ namespace pileus {
 class ThreadPool {
 public:
     ThreadPool() = default;
+    explicit ThreadPool(TeamKind kind) : team_(make_team(kind)) {}
     ~ThreadPool();
     ThreadPool(const ThreadPool&) = delete;
     ThreadPool& operator=(const ThreadPool&) = delete;
 
-    /// Calls body(data, 0) here and body(data, i), 0 < i < count, on threads that come before this
-    /// one is done; returns when all have returned. Who comes late is not waited for, so that each
+    /// run_team (team/team.h). Who comes late is not waited for by threads of our own, so that each
     /// body takes what work is left. A pool that is at work, as within one of its own bodies, has
-    /// the caller do all. Bodies throw nothing.
-    void run(std::uint32_t count, void (*body)(void* data, std::uint32_t index), void* data);
+    /// the caller do all.
+    void run(std::uint32_t count, TeamBody body, void* data);
+    const char* name() const;
 
 private:
-    struct State;
-    State* state_ = nullptr;
+    Team* team_ = nullptr;
 };
 
 /// Lends `pool` to this thread while it lives, unless threads are lent already.
@@ -41,8 +42,12 @@ private:
 
 using WorkFunction = void (*)(void* context, std::int64_t piece, int thread);
 
-/// Threads that `parallel_pieces` uses when asked for 0.
+/// Threads that `parallel_pieces` uses when asked for 0: of processors that this process may use.
 int hardware_threads();
+
+/// Whose threads they are that this thread's loops would run on: of a team (team/team.h), or "the
+/// host's".
+const char* threads_name();
 
 /// Calls work(context, piece, thread) for piece in [0, pieces); thread in [0, threads).
 void parallel_pieces(int threads, std::int64_t pieces, void* context, WorkFunction work);

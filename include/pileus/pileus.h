@@ -83,7 +83,8 @@ typedef struct pileus_host {
     void* (*allocate)(void* user, size_t bytes, size_t alignment);
     void (*release)(void* user, void* memory);
     /** Calls body(data, index) once for each index in [0, count), at once or one after the other,
-     * and returns when all have returned. Null: threads of the session's own. */
+     * and returns when all have returned. Null: OpenMP's where they sleep while
+     * they wait, else threads of the session's own. */
     void (*run)(void* user, uint32_t count, void (*body)(void* data, uint32_t index), void* data);
     /** A line for a person: what is doubtful about a picture. */
     void (*log)(void* user, const char* line);

@@ -86,7 +86,7 @@ struct Host {
     std::function<void*(std::size_t bytes, std::size_t alignment)> allocate;
     std::function<void(void* memory)> release;
     /// Calls body(index) once for each index in [0, count), in any order, and returns when all have
-    /// returned. Empty: threads of the session's own.
+    /// returned. Empty: as in pileus.h.
     std::function<void(std::uint32_t count, Body body)> run;
     std::function<void(const char* line)> log;  ///< what is doubtful about a picture
     std::function<void(const char* stage, double share)> progress;  ///< share done, 0 to 1

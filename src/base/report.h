@@ -89,6 +89,7 @@ struct ReportClouds {
 struct Report {
     std::string version, scene, method, isa, hash;
     int threads = 1;
+    std::string team;  ///< whose threads: platform/threads.h
     std::int64_t seed = 0;
     int frame = 0, first_frame = 0;      ///< of the animation, and where this run began
     std::string budget, show;            ///< options of the run; empty: none

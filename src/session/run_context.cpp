@@ -56,7 +56,8 @@ void note_head(const Scene& scene, const RenderOptions& options, const Context& 
     for (const LayerFlag& layer : kLayerFlags)
         if (scene.output.*layer.wanted) report.layers.push_back(layer.name);
     report.isa = context.kernels->name;
-    report.threads = context.threads;
+    report.team = threads_name();
+    report.threads = report.team == "serial" ? 1 : context.threads;
 }
 
 Status frames_of(const Scene& scene, const RenderOptions& options, Frames& frames) {

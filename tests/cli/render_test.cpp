@@ -32,6 +32,7 @@ const char* const kReportKeys[] = {
     "/method",
     "/isa",
     "/threads",
+    "/team",
     "/seed",
     "/hash",
     "/plan/needed",

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The library's own threads: every piece once, whoever runs it; nested loops, faults, forks.
+// Threads of every team: every piece once, whoever runs it; nested loops, faults, forks.
 // in: loops of small pieces -> out: checks.
 // docs/performance.md, "Waiting"; under the preset tsan, too
 #include "platform/threads.h"
@@ -14,6 +14,7 @@
 #include <chrono>
 #include <set>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -22,6 +23,9 @@
 using namespace pileus;
 
 namespace {
+
+/// OpenMP's threads may spin here: the tests are no program of ours.
+constexpr TeamKind kTeams[] = {TeamKind::kOwn, TeamKind::kOpenMp};
 
 /// How often each piece ran, and whether all were on threads below `threads`.
 struct Runs {
@@ -61,14 +65,12 @@ bool meet(Other other) {
 }  // namespace
 
 TEST_CASE("threads: every piece runs once for any number of threads, lent or not") {
-    for (const bool kept : {false, true}) {
-        ThreadPool pool;
-        const Host none;
-        const HostGuard nothing(none);
-        HostGuard lent(kept ? Host{nullptr, nullptr, &pool} : none);
+    ThreadPool own(TeamKind::kOwn), openmp(TeamKind::kOpenMp), alone(TeamKind::kSerial);
+    for (ThreadPool* pool : {static_cast<ThreadPool*>(nullptr), &own, &openmp, &alone}) {
+        const HostGuard lent(Host{nullptr, nullptr, pool});
         for (const int threads : {1, 2, 3, 7})
             for (const std::size_t pieces : {0, 1, 2, 3, 1000}) {
-                CAPTURE(kept);
+                CAPTURE(threads_name());
                 CAPTURE(threads);
                 CAPTURE(pieces);
                 Runs runs(pieces);
@@ -79,46 +81,90 @@ TEST_CASE("threads: every piece runs once for any number of threads, lent or not
 }
 
 TEST_CASE("threads: those of a pool are kept, and get no signals of the host") {
-    ThreadPool pool;
+    const auto is_deaf = [] {
+        sigset_t blocked;
+        return pthread_sigmask(SIG_SETMASK, nullptr, &blocked) == 0 &&
+               sigismember(&blocked, SIGINT) == 1;
+    };
+    for (const TeamKind kind : kTeams) {
+        ThreadPool pool(kind);
+        const PoolGuard lent(pool);
+        std::set<std::thread::id> seen;
+        bool deaf = true, hears = true;
+        for (int i = 0; i < 50; ++i) {
+            REQUIRE(meet([&] {
+                seen.insert(std::this_thread::get_id());
+                deaf = deaf && is_deaf();
+            }));
+            parallel_for(2, 2, [&](std::int64_t, int thread) {
+                if (thread == 0) hears = hears && !is_deaf();
+            });
+        }
+        CAPTURE(pool.name());
+        CHECK(seen.size() == 1);
+        CHECK(seen.count(std::this_thread::get_id()) == 0);
+        CHECK(deaf);
+        CHECK(hears);
+    }
+}
+
+TEST_CASE("threads: a hundred wake one another, loop after loop") {
+    for (const TeamKind kind : kTeams) {
+        ThreadPool pool(kind);
+        const PoolGuard lent(pool);
+        Runs runs(200);
+        for (const int threads : {100, 3, 64, 100}) runs.loop(threads);
+        CAPTURE(pool.name());
+        CHECK(runs.each(4));
+    }
+    // Pieces that each wait for all others end only on as many threads.
+    ThreadPool pool(TeamKind::kOwn);
     const PoolGuard lent(pool);
-    std::set<std::thread::id> seen;
-    bool deaf = true;
-    for (int i = 0; i < 50; ++i)
-        REQUIRE(meet([&] {
-            seen.insert(std::this_thread::get_id());
-            sigset_t blocked;
-            deaf = deaf && pthread_sigmask(SIG_SETMASK, nullptr, &blocked) == 0 &&
-                   sigismember(&blocked, SIGINT) == 1;
-        }));
-    CHECK(seen.size() == 1);
-    CHECK(seen.count(std::this_thread::get_id()) == 0);
-    CHECK(deaf);
+    constexpr int kAll = 40;
+    for (int i = 0; i < 5; ++i) {
+        std::atomic<int> begun{0};
+        std::atomic<bool> met{true};
+        parallel_for(kAll, kAll, [&](std::int64_t, int) {
+            ++begun;
+            const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+            while (begun < kAll && met) {
+                std::this_thread::yield();
+                if (std::chrono::steady_clock::now() > end) met = false;
+            }
+        });
+        CHECK(met);
+    }
 }
 
 TEST_CASE("threads: a loop within a piece has all its pieces run") {
-    ThreadPool pool;
-    const PoolGuard lent(pool);
-    std::atomic<int> inner{0};
-    for (int i = 0; i < 100; ++i)
-        parallel_for(3, 5, [&](std::int64_t, int) {
-            parallel_for(3, 7, [&](std::int64_t, int) { ++inner; });
-        });
-    CHECK(inner == 100 * 5 * 7);
+    for (const TeamKind kind : kTeams) {
+        ThreadPool pool(kind);
+        const PoolGuard lent(pool);
+        std::atomic<int> inner{0};
+        for (int i = 0; i < 100; ++i)
+            parallel_for(3, 5, [&](std::int64_t, int) {
+                parallel_for(3, 7, [&](std::int64_t, int) { ++inner; });
+            });
+        CAPTURE(pool.name());
+        CHECK(inner == 100 * 5 * 7);
+    }
 }
 
 #ifdef __cpp_exceptions
 TEST_CASE("threads: what a piece throws reaches the caller, and the pool goes on") {
-    ThreadPool pool;
-    const PoolGuard lent(pool);
-    for (int i = 0; i < 20; ++i) {
-        CHECK_THROWS_AS(parallel_for(3, 50,
-                                     [&](std::int64_t piece, int) {
-                                         if (piece == 20) throw std::runtime_error("piece 20");
-                                     }),
-                        std::runtime_error);
-        Runs runs(30);
-        runs.loop(3);
-        CHECK(runs.each(1));
+    for (const TeamKind kind : kTeams) {
+        ThreadPool pool(kind);
+        const PoolGuard lent(pool);
+        for (int i = 0; i < 20; ++i) {
+            CHECK_THROWS_AS(parallel_for(3, 50,
+                                         [&](std::int64_t piece, int) {
+                                             if (piece == 20) throw std::runtime_error("piece 20");
+                                         }),
+                            std::runtime_error);
+            Runs runs(30);
+            runs.loop(3);
+            CHECK(runs.each(1));
+        }
     }
 }
 #endif
@@ -127,8 +173,8 @@ TEST_CASE("threads: several callers, each with threads of its own, at once") {
     std::atomic<int> whole{0};
     std::vector<std::thread> callers;
     for (int c = 0; c < 4; ++c)
-        callers.emplace_back([&] {
-            ThreadPool pool;
+        callers.emplace_back([&, c] {
+            ThreadPool pool(kTeams[c % 2]);
             const PoolGuard lent(pool);
             Runs runs(64);
             for (int i = 0; i < 200; ++i) runs.loop(3);
@@ -143,44 +189,51 @@ TEST_CASE("threads: pieces have the caller's memory and round to nearest on ever
                                          return std::aligned_alloc(alignment, bytes);
                                      },
                                      [](void*, void* memory) { std::free(memory); }};
-    ThreadPool pool;
-    const HostGuard memory(Host{&allocator, nullptr, nullptr});
-    const PoolGuard lent(pool);
-    REQUIRE(meet([] {}));
-    REQUIRE(std::fesetround(FE_UPWARD) == 0);
-    bool here = false, nearest = false;
-    const bool met = meet([&] {
-        here = current_host().allocator == &allocator;
-        nearest = std::fegetround() == FE_TONEAREST;
-    });
-    std::fesetround(FE_TONEAREST);
-    REQUIRE(met);
-    CHECK(here);
-    CHECK(nearest);
+    for (const TeamKind kind : kTeams) {
+        ThreadPool pool(kind);
+        const HostGuard memory(Host{&allocator, nullptr, nullptr});
+        const PoolGuard lent(pool);
+        REQUIRE(meet([] {}));
+        REQUIRE(std::fesetround(FE_UPWARD) == 0);
+        bool here = false, nearest = false;
+        const bool met = meet([&] {
+            here = current_host().allocator == &allocator;
+            nearest = std::fegetround() == FE_TONEAREST;
+        });
+        std::fesetround(FE_TONEAREST);
+        REQUIRE(met);
+        CHECK(here);
+        CHECK(nearest);
+    }
 }
 
 // The sanitizer ends a forked process that makes threads.
 #if !defined(__SANITIZE_THREAD__)
 TEST_CASE("threads: a forked process makes threads of its own and ends") {
-    ThreadPool pool;
-    const PoolGuard lent(pool);
-    REQUIRE(meet([] {}));
-    const pid_t child = fork();
-    REQUIRE(child >= 0);
-    if (child == 0) {
-        alarm(60);
-        bool well = false;
-        {
-            ThreadPool other;
-            well = meet([] {});
+    for (const TeamKind kind : kTeams) {
+        ThreadPool pool(kind);
+        const PoolGuard lent(pool);
+        REQUIRE(meet([] {}));
+        const pid_t child = fork();
+        REQUIRE(child >= 0);
+        if (child == 0) {
+            alarm(60);
+            bool well = meet([] {});
+            {
+                ThreadPool other(kind);
+                const Host none;
+                const HostGuard nothing(none);
+                const PoolGuard mine(other);
+                well = well && meet([] {}) && std::string(other.name()) == "own";
+            }
+            pool.~ThreadPool();
+            _exit(well ? 0 : 1);
         }
-        pool.~ThreadPool();
-        _exit(well ? 0 : 1);
+        int status = 0;
+        REQUIRE(waitpid(child, &status, 0) == child);
+        REQUIRE(WIFEXITED(status));
+        CHECK(WEXITSTATUS(status) == 0);
+        CHECK(meet([] {}));
     }
-    int status = 0;
-    REQUIRE(waitpid(child, &status, 0) == child);
-    REQUIRE(WIFEXITED(status));
-    CHECK(WEXITSTATUS(status) == 0);
-    CHECK(meet([] {}));
 }
 #endif

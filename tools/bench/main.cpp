@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "platform/fp_mode.h"
+#include "platform/team/teams.h"
 #include "platform/threads.h"
 #include "src/base/digest.h"
 #include "src/io/images/image_file.h"
@@ -150,8 +151,9 @@ Context with(const Context& context, const KernelTable* kernels, int threads) {
 }  // namespace bench
 
 int main(int argc, char** argv) {
+    const pileus::TeamChoice team = pileus::start_team(argv);
     const pileus::FpModeGuard guard;
-    pileus::ThreadPool threads;
+    pileus::ThreadPool threads(team.kind);
     const pileus::PoolGuard lent(threads);
     benchmark::Initialize(&argc, argv);
     if (benchmark::ReportUnrecognizedArguments(argc, argv)) return 2;

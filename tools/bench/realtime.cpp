@@ -13,6 +13,8 @@
 #include <vector>
 
 #include "platform/clock.h"
+#include "platform/team/teams.h"
+#include "platform/threads.h"
 #include "src/base/angles.h"
 #include "src/scene/read_scene.h"
 #include "src/session/session.h"
@@ -361,6 +363,7 @@ bool read_arguments(int count, char** words, Arguments& out) {
 }  // namespace
 
 int main(int count, char** words) {
+    const TeamChoice team = start_team(words);
     Arguments arguments;
     if (!read_arguments(count, words, arguments)) {
         std::fprintf(
@@ -369,7 +372,9 @@ int main(int count, char** words) {
             "[--scene FILE] [--only PART-OF-A-NAME] [--small] [--set KEY=VALUE]...\n");
         return 2;
     }
-    std::printf("%d frames after the first\n\n", arguments.frames);
+    ThreadPool threads(team.kind);
+    const PoolGuard lent(threads);
+    std::printf("%d frames after the first, threads: %s\n\n", arguments.frames, threads.name());
     const Status status = arguments.small ? fly_all_small(arguments) : fly(arguments);
     if (!status) std::fprintf(stderr, "%s\n", status.message.c_str());
     return int(status.code);

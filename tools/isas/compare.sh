@@ -33,7 +33,7 @@ sources() {
 facts_of() {
     awk '
         BEGIN {
-            count = split("version isa threads plan memory time scatterings_per_second " \
+            count = split("version isa threads team plan memory time scatterings_per_second " \
                           "photons_per_second paths_per_second", names, " ")
             for (i = 1; i <= count; ++i) changing[names[i]] = 1
         }

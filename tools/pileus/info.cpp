@@ -56,6 +56,12 @@ std::string isa_text() {
     return text;
 }
 
+/// How many threads a run has by default, and whose.
+std::string threads_text() {
+    const std::string team = threads_name();
+    return fmt::format("{}, {}", team == "serial" ? 1 : hardware_threads(), team);
+}
+
 /// A device that --isa can name, or why there is none.
 std::string device_text() {
     std::string why;
@@ -75,7 +81,7 @@ std::string library_text() {
 
 std::string program_lines() {
     return info_line("version", version_text()) + info_line("compiler", compiler_text()) +
-           info_line("isa", isa_text()) + info_line("threads", fmt::to_string(hardware_threads())) +
+           info_line("isa", isa_text()) + info_line("threads", threads_text()) +
            info_line("device", device_text()) + info_line("libraries", library_text()) +
            info_line("volumes", volume_format_extensions()) +
            info_line("pictures", picture_extensions(is_written)) +

@@ -14,6 +14,7 @@
 #include <new>
 
 #include "platform/fp_mode.h"
+#include "platform/team/teams.h"
 #include "platform/threads.h"
 #include "src/scene/toml/toml_tree.h"
 #include "tools/pileus/command.h"
@@ -87,10 +88,14 @@ void on_exit() {
     if (!finished) ::_exit(int(Code::kLimit));
 }
 
-int run(int count, char** words) {
+int run(int count, char** words, const TeamChoice& team) {
     // What the parent left of rounding, flushing and traps must not reach our own times and texts.
     const FpModeGuard guard;
-    ThreadPool threads;
+    if (team.fault != nullptr)
+        return finish(Status::bad_input(std::string(kTeamVariable) + ": " + team.fault + ", " +
+                                        quote_text(std::getenv(kTeamVariable)) +
+                                        ", allowed: " + team.allowed));
+    ThreadPool threads(team.kind);
     const PoolGuard lent(threads);
     CLI::App app("Renders clouds, the same bits on every machine.", "pileus");
     Chosen chosen;
@@ -124,6 +129,8 @@ int run(int count, char** words) {
 }  // namespace pileus
 
 int main(int count, char** words) {
+    // May begin the program anew, as if it had not begun.
+    const pileus::TeamChoice team = pileus::start_team(words);
 #ifdef M_MMAP_THRESHOLD
     // Large arrays go back to the system when they are freed; by default glibc learns to keep them,
     // and finds no place for the next among the gaps.
@@ -136,7 +143,7 @@ int main(int count, char** words) {
     int status = int(pileus::Code::kLimit);
     // Whatever escapes is as final as a lack of memory.
     try {
-        status = pileus::run(count, words);
+        status = pileus::run(count, words, team);
     } catch (const std::exception& error) {
         std::fprintf(stderr, "pileus: cannot go on: %s\n", error.what());
     } catch (...) {

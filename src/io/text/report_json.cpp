@@ -207,6 +207,7 @@ void add_head(const Report& report, Json& json) {
     json["method"] = report.method;
     json["isa"] = report.isa;
     json["threads"] = report.threads;
+    json["team"] = report.team;
     json["seed"] = report.seed;
     json["overrides"] = report.overrides;
 }
