@@ -45,7 +45,7 @@ if(PILEUS_WITH_BLOSC)
 endif()
 if(PILEUS_WITH_OPENMP)
     list(APPEND PILEUS_STATIC_LINKS ${PILEUS_OPENMP_RUNTIME})
-    string(APPEND PILEUS_PC_LIBS " -l${PILEUS_OPENMP_RUNTIME}")
+    string(APPEND PILEUS_PC_LIBS " ${PILEUS_OPENMP_RUNTIME}")
 endif()
 # The toolkit is not installed with pileus: its runtime is named where it stands.
 if(PILEUS_WITH_CUDA)
