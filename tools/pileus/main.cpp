@@ -129,6 +129,7 @@ int run(int count, char** words, const TeamChoice& team) {
 }  // namespace pileus
 
 int main(int count, char** words) {
+    std::set_new_handler(pileus::on_no_memory);
     // May begin the program anew, as if it had not begun.
     const pileus::TeamChoice team = pileus::start_team(words);
 #ifdef M_MMAP_THRESHOLD
@@ -136,7 +137,6 @@ int main(int count, char** words) {
     // and finds no place for the next among the gaps.
     (void)mallopt(M_MMAP_THRESHOLD, 1 << 20);
 #endif
-    std::set_new_handler(pileus::on_no_memory);
     (void)std::atexit(pileus::on_exit);
     // A reader that went away is a failed write like any other: files of the frame are taken back.
     (void)std::signal(SIGPIPE, SIG_IGN);
