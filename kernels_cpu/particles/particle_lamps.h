@@ -28,6 +28,20 @@ PILEUS_FN Vec<F<W>> ball_places(const ParticleView& v, const float (&offset)[3],
     return p;
 }
 
+/// The places in them that `k` looks from.
+template <int W>
+PILEUS_FN Vec<F<W>> lit_places(const ParticleLampDepths& k, std::uint32_t first,
+                               std::uint32_t end) {
+    using T = F<W>;
+    const float none[3] = {};
+    T radius{};
+    if (k.turned == 0) return ball_places<W>(k.view, k.offset, first, end, radius);
+    const Vec<T> p = ball_places<W>(k.view, none, first, end, radius);
+    const Vec<T> way{k.lamp.at[0] - p.x, k.lamp.at[1] - p.y, k.lamp.at[2] - p.z};
+    const Vec<T> moved = along_axes(light_axes(way), k.offset);
+    return {p.x + moved.x * radius, p.y + moved.y * radius, p.z + moved.z * radius};
+}
+
 /// A turn of a sphere's places that belongs to a ball wherever it stands in a list.
 PILEUS_FN float turn_of_ball(const ParticleBall& ball) {
     const auto bits = [](float v) { return reinterpret<std::uint32_t>(v); };
@@ -50,8 +64,7 @@ PILEUS_FN void particle_lamp_depths(const ParticleLampDepths& k, std::uint32_t b
                                     std::uint32_t end) {
     using T = F<W>;
     for (std::uint32_t first = begin; first < end; first += W) {
-        T radius{};
-        const Vec<T> p = ball_places<W>(k.view, k.offset, first, end, radius);
+        const Vec<T> p = lit_places<W>(k, first, end);
         const auto depth_to = [&](const LampSight<T>& sight) {
             return min_(particle_depth(k.view, particle_ray(p, sight.way, T{}, sight.distance),
                                        sight.share > 0.0f, k.most),

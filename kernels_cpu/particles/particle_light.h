@@ -8,6 +8,35 @@
 namespace pileus {
 inline namespace PILEUS_ISA {
 
+/// Axes of places in a ball: w towards its light, u level. What mirrors a light and balls in a
+/// plane that is level or upright along an axis mirrors them, too, or turns one of u and v about.
+template <class T>
+struct LightAxes {
+    Vec<T> u, v, w;
+};
+template <class T>
+PILEUS_FN LightAxes<T> light_axes(const Vec<T>& way) {
+    const T least = all<T>(1e-30f), flat = way.x * way.x + way.y * way.y;
+    const T square = flat + way.z * way.z;
+    const T per = 1.0f / sqrt_(max_(square, least));
+    // A light straight above or below: x is as good as any.
+    const M_of<T> leans = flat > max_(square * 1e-12f, least);
+    const T level = 1.0f / sqrt_(max_(flat, least));
+    LightAxes<T> a{};
+    a.w = {way.x * per, way.y * per, way.z * per};
+    a.u = {select(leans, way.y * level, all<T>(1.0f)), select(leans, T{} - way.x * level, T{}),
+           T{}};
+    a.v = {T{} - a.w.z * a.u.y, a.w.z * a.u.x, a.w.x * a.u.y - a.w.y * a.u.x};
+    return a;
+}
+/// `offset` along the axes.
+template <class T>
+PILEUS_FN Vec<T> along_axes(const LightAxes<T>& a, const float (&offset)[3]) {
+    return {a.u.x * offset[0] + a.v.x * offset[1] + a.w.x * offset[2],
+            a.u.y * offset[0] + a.v.y * offset[1] + a.w.y * offset[2],
+            a.u.z * offset[0] + a.v.z * offset[1] + a.w.z * offset[2]};
+}
+
 /// Places along the gradient of the depth towards a light, and their weights, that have the first
 /// even moments of a ball's extinction along an axis, 1/9 and 1/33.
 constexpr float kShadeAt = 0.522232968f, kShadeWeight = 11.0f / 54;

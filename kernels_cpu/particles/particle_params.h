@@ -117,8 +117,9 @@ struct ParticleLampDepths {
     ParticleView view;
     LampParams lamp;
     float offset[3];
-    float most;    ///< where a walk ends
-    float* depth;  ///< [ball]
+    std::int32_t turned;  ///< not 0: `offset` is along the axes of light_axes, ball by ball
+    float most;           ///< where a walk ends
+    float* depth;         ///< [ball]
 };
 /// Light of lamps that each ball scatters towards the camera.
 struct ParticleLampLight {

@@ -336,10 +336,10 @@ TEST_CASE("particles: light scattered once is path's, in a ball as large as its 
     const Picture exact = field.render({"particles.light = \"exact\""});
     MESSAGE("over path: exact ", sum_of(exact.image, "G") / sum - 1, ", noise ", noise);
     CHECK(std::fabs(sum_of(exact.image, "G") / sum - 1) < 4.5 * noise + 1e-3);
-    // A line instead of a curve within each ball, measured -3 %.
+    // A line instead of a curve within each ball: +0.4 % by its own quadrature, beside the noise.
     const Picture linear = field.render({});
     MESSAGE("over path: linear ", sum_of(linear.image, "G") / sum - 1);
-    CHECK(std::fabs(sum_of(linear.image, "G") / sum - 1) < 0.06);
+    CHECK(std::fabs(sum_of(linear.image, "G") / sum - 1) < 0.01 + 4.5 * noise);
 }
 
 TEST_CASE("particles: every width, thread and order of the file, the same picture") {

@@ -26,6 +26,17 @@ void over_balls(const Context& context, std::size_t count, const char* stage, do
     });
 }
 
+/// Of place number `n` in a ball.
+std::array<float, 3> offset_in(const ParticleBall& ball, const LampParams& lamp,
+                               const LightPlaces& places, int n) {
+    const std::array<float, 3>& own = places.offset[n];
+    if (!places.turned) return own;
+    const Vec<float> way{lamp.at[0] - ball.centre[0], lamp.at[1] - ball.centre[1],
+                         lamp.at[2] - ball.centre[2]};
+    const Vec<float> moved = along_axes(light_axes(way), {own[0], own[1], own[2]});
+    return {moved.x, moved.y, moved.z};
+}
+
 /// Share of a ball's places that a lamp reaches past the solids, what is left in their shadow
 /// included.
 float seen_by(const SolidsView& solids, const ParticleBall& ball, const LampParams& lamp,
@@ -34,11 +45,12 @@ float seen_by(const SolidsView& solids, const ParticleBall& ball, const LampPara
     const bool sphere = lamp.radius > 0;
     const int looks = sphere ? lamp.places : 1;
     const float turn = sphere ? turn_of_ball(ball) : 0;
-    for (int n = 0; n < places.count; ++n)
+    for (int n = 0; n < places.count; ++n) {
+        const std::array<float, 3> offset = offset_in(ball, lamp, places, n);
         for (int i = 0; i < looks; ++i) {
             float o[3], d[3], square = 0, limit = 3e38f;
             for (int a = 0; a < 3; ++a) {
-                o[a] = ball.centre[a] + places.offset[n][std::size_t(a)] / ball.per_radius;
+                o[a] = ball.centre[a] + offset[std::size_t(a)] / ball.per_radius;
                 d[a] = lamp.parallel != 0 ? lamp.at[a] : lamp.at[a] - o[a];
                 square += d[a] * d[a];
             }
@@ -53,6 +65,7 @@ float seen_by(const SolidsView& solids, const ParticleBall& ball, const LampPara
             }
             seen += limit > 0 && solid_between(solids, o, d, limit) ? left : 1;
         }
+    }
     return seen / float(places.count * looks);
 }
 
@@ -61,6 +74,11 @@ float seen_by(const SolidsView& solids, const ParticleBall& ball, const LampPara
 void see_past_solids(const Context& context, const ParticlesRun& run, const LampParams& lamp,
                      float* seen) {
     const SolidsView solids = run.world->solids.view();
+    // Meshes may have no triangle with an area: then there is no tree to walk.
+    if (solids.count == 0) {
+        for (std::size_t i = 0; i < run.tree.balls.size(); ++i) seen[i] = 1;
+        return;
+    }
     const LightPlaces places = light_places(run.scene->particles, lamp);
     const float left = float(run.scene->particles.solid_shadow);
     parallel_each(context.threads, run.tree.balls.size(), [&](std::size_t i) {
@@ -98,6 +116,7 @@ Status light_by_lamps(const Context& context, ParticlesRun& run) {
                 continue;
             }
             for (std::size_t a = 0; a < 3; ++a) k.offset[a] = places.offset[n][a];
+            k.turned = places.turned ? 1 : 0;
             const double steps = double(lamps.size()) * places.count;
             over_balls(context, count, "lights", (double(l) * places.count + n) / steps, 1 / steps,
                        [&](std::uint32_t begin, std::uint32_t end) {
@@ -105,7 +124,7 @@ Status light_by_lamps(const Context& context, ParticlesRun& run) {
                        });
         }
         parallel_each(context.threads, count, [&](std::size_t i) {
-            const ParticleShade s = shade_of(depths.data() + i, count, places.count);
+            const ParticleShade s = shade_of(depths.data() + i, count, places);
             float square = 0;
             for (const float v : s.slope) square += v * v;
             run.lamp_depth[l * count + i] = s.depth;

@@ -10,7 +10,9 @@ namespace pileus {
 /// Offsets from a ball's centre, radii: one or four, moved towards the light by light_bias.
 struct LightPlaces {
     int count = 1;
+    bool turned = false;  ///< along axes that each ball has by its own way to the lamp
     std::array<float, 3> offset[4]{};
+    std::array<float, 3> arm[4]{};  ///< of four: unit vectors from the centre, without the bias
 };
 
 /// Towards a light far away, `to_light` a unit vector; or a lamp, whose bias is left out where it
@@ -24,7 +26,7 @@ inline Span<const ParticleBall> casts_of(const ParticlesRun& run) {
 }
 
 /// The linear function through the depths at the places, each `stride` numbers after the other.
-ParticleShade shade_of(const float* depths, std::size_t stride, int places);
+ParticleShade shade_of(const float* depths, std::size_t stride, const LightPlaces& places);
 
 /// Share of each ball [ball] that a lamp reaches past the solids.
 void see_past_solids(const Context& context, const ParticlesRun& run, const LampParams& lamp,

@@ -4,6 +4,7 @@
 // docs/particles.md, "Light", "Display".
 #include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/display/march_ray.h"
+#include "kernels_cpu/particles/particle_light.h"
 #include "platform/threads.h"
 #include "src/methods/particles/light_places.h"
 #include "src/methods/particles/particles_run.h"
@@ -40,12 +41,14 @@ Octaves octaves_of(const ParticlesRun& run) {
     return {many ? s.octaves : 1, float(s.octave_extinction), float(s.octave_share)};
 }
 
-/// Corners of a tetrahedron of unit arms.
-constexpr float kArm = 0.57735026919f;
+/// Corners of a tetrahedron of unit arms along light_axes: two opposite edges lie across the light,
+/// so that a mirror image of light and balls has the mirrored corners.
+constexpr float kAcross = 0.81649658093f, kAlong = 0.57735026919f;
 constexpr float kCorners[4][3] = {
-    {kArm, kArm, kArm}, {kArm, -kArm, -kArm}, {-kArm, kArm, -kArm}, {-kArm, -kArm, kArm}};
-/// Their distance from the centre, in radii.
-constexpr float kReach = 0.5f;
+    {kAcross, 0, -kAlong}, {-kAcross, 0, -kAlong}, {0, kAcross, kAlong}, {0, -kAcross, kAlong}};
+/// Their distance from the centre, in radii: along any axis their mean square is that of a ball's
+/// extinction, 1/9.
+constexpr float kReach = 0.57735026919f;
 
 Status light_by_sun(const Context& context, ParticlesRun& run) {
     const StageClock clock(context, "light");
@@ -61,7 +64,7 @@ Status light_by_sun(const Context& context, ParticlesRun& run) {
         PILEUS_TRY(sun_depths(context, tiles, places.offset[n], most > 0 ? float(most) : 3e38f,
                               depths.data() + std::size_t(n) * count, n, places.count));
     parallel_each(context.threads, count, [&](std::size_t i) {
-        run.shade[i] = shade_of(depths.data() + i, count, places.count);
+        run.shade[i] = shade_of(depths.data() + i, count, places);
     });
     return Status::ok();
 }
@@ -72,27 +75,41 @@ LightPlaces light_places(const ParticlesSettings& settings, const std::array<flo
     LightPlaces places;
     places.count = light_samples(settings);
     const float bias = float(settings.light_bias);
-    for (int n = 0; n < places.count; ++n)
+    const LightAxes<float> axes = light_axes(Vec<float>{to_light[0], to_light[1], to_light[2]});
+    for (int n = 0; n < places.count; ++n) {
+        const Vec<float> arm = along_axes(axes, kCorners[n]);
+        places.arm[n] = {arm.x, arm.y, arm.z};
         for (std::size_t a = 0; a < 3; ++a) {
-            const float own = places.count > 1 ? kReach * kCorners[n][a] : 0.0f;
+            const float own = places.count > 1 ? kReach * places.arm[n][a] : 0.0f;
             places.offset[n][a] = own + bias * to_light[a];
         }
+    }
     return places;
 }
 LightPlaces light_places(const ParticlesSettings& settings, const LampParams& lamp) {
-    std::array<float, 3> way{};
-    for (std::size_t a = 0; a < 3 && lamp.parallel != 0; ++a) way[a] = lamp.at[a];
-    return light_places(settings, way);
+    if (lamp.parallel != 0)
+        return light_places(settings, std::array<float, 3>{lamp.at[0], lamp.at[1], lamp.at[2]});
+    LightPlaces places;
+    places.count = light_samples(settings);
+    places.turned = places.count > 1;
+    for (int n = 0; n < places.count; ++n)
+        for (std::size_t a = 0; a < 3 && places.turned; ++a) {
+            places.arm[n][a] = kCorners[n][a];
+            places.offset[n][a] = kReach * kCorners[n][a];
+        }
+    return places;
 }
 
-ParticleShade shade_of(const float* depths, std::size_t stride, int places) {
-    if (places == 1) return {depths[0], {0, 0, 0}};
+ParticleShade shade_of(const float* depths, std::size_t stride, const LightPlaces& places) {
+    if (places.count == 1) return {depths[0], {0, 0, 0}};
     ParticleShade shade{};
-    for (std::size_t s = 0; s < 4; ++s) {
-        const float depth = depths[s * stride];
-        shade.depth += 0.25f * depth;
-        for (int a = 0; a < 3; ++a) shade.slope[a] += 0.75f / kReach * kCorners[s][a] * depth;
-    }
+    const float d[4] = {depths[0], depths[stride], depths[2 * stride], depths[3 * stride]};
+    // Pair by pair, as mirrors exchange them.
+    shade.depth = 0.25f * ((d[0] + d[1]) + (d[2] + d[3]));
+    for (std::size_t a = 0; a < 3; ++a)
+        shade.slope[a] = 0.75f / kReach *
+                         ((places.arm[0][a] * d[0] + places.arm[1][a] * d[1]) +
+                          (places.arm[2][a] * d[2] + places.arm[3][a] * d[3]));
     return shade;
 }
 
