@@ -93,8 +93,14 @@ pileus_code pileus_session_govern(const pileus_session* session, pileus_governor
             return no_struct("governor");
         if (!(own.target_s > 0 && own.target_s < 1e6))
             return Status::bad_input("governor.target_s: out of range, allowed: above 0, to 1e6");
+        for (const double s : own.own_times)
+            if (!(s >= 0))
+                return Status::bad_input(
+                    "governor.own_times: out of range, allowed: as the last call left them; 0 at "
+                    "first");
         if (!(frame_s >= 0 && frame_s < 1e9))
             return Status::bad_input("frame_s: out of range, allowed: 0 to 1e9");
+        PILEUS_TRY(session->session->refuse_clouds_sky("work"));
         Governor state = take_governor(own);
         const FrameWork next = govern(session->session->work_levels(), frame_s, state);
         PILEUS_TRY(give(give_work(next), work, "work"));

@@ -7,6 +7,7 @@
 
 #include "platform/fp_mode.h"
 #include "src/methods/registry.h"
+#include "src/scene/above_ground.h"
 
 namespace pileus {
 namespace {
@@ -31,6 +32,12 @@ bool same_light(const CloudLight& a, const CloudLight& b) {
            a.ground.altitude_m == b.ground.altitude_m;
 }
 
+double lowest_of(const CloudBox& box) {
+    double lowest = box.corners[0].z;
+    for (const Double3& corner : box.corners) lowest = std::min(lowest, corner.z);
+    return lowest;
+}
+
 }  // namespace
 
 Status Clouds::open(Session& sky) {
@@ -41,7 +48,15 @@ Status Clouds::open(Session& sky) {
     if (sky.run().scene->camera.flux)
         return Status::bad_input(
             "sky: camera.projection \"flux\", allowed: perspective, orthographic");
+    if (sky.light_count() > 0)
+        return Status::bad_input("sky: " + std::to_string(sky.light_count()) +
+                                 " of [[light]], allowed: none, as clouds know sun and sky alone");
+    if (!(sky.work() == sky.whole_work()))
+        return Status::bad_input(
+            "sky: work that was set, allowed: the scene's; clouds have "
+            "pileus_clouds_set_detail");
     sky_ = &sky;
+    in_sky_ = sky.carry_clouds();
     options_ = RenderOptions{};
     options_.threads = sky.context().threads;
     options_.kernels = sky.context().kernels;
@@ -70,6 +85,9 @@ Status Clouds::add_kind(const Scene& scene, std::shared_ptr<const World> world, 
         return Status::bad_input(
             "kind: collectors.display \"billboards\" or closure \"camera\", allowed: pictures of "
             "parts, by \"march\", and light towards all sides");
+    if (scene.method == "photon-grid" && scene.photon_grid.closure == GridClosure::kCamera)
+        return Status::bad_input(
+            "kind: photon_grid.closure \"camera\", allowed: another, with light towards all sides");
     CloudKind made;
     made.scene = scene;
     made.world = std::move(world);
@@ -78,6 +96,14 @@ Status Clouds::add_kind(const Scene& scene, std::shared_ptr<const World> world, 
     kinds_.push_back(std::move(made));
     kind = kinds_.size() - 1;
     return Status::ok();
+}
+
+Status Clouds::check_height(const std::string& where, const Ground& ground,
+                            const CloudPlace& place) const {
+    const CloudKind& kind = kinds_[place.kind];
+    const double lowest = lowest_of(box_of(place, kind.low_m, kind.high_m));
+    if (!is_below_ground(ground, lowest, place.offset_m.z)) return Status::ok();
+    return Status::bad_input(where + below_ground_text(ground, lowest, place.offset_m.z));
 }
 
 Status Clouds::place(const std::vector<CloudPlace>& places) {
@@ -97,6 +123,7 @@ Status Clouds::place(const std::vector<CloudPlace>& places) {
         if (!is_within(p.scale, 0.01, 100))
             return Status::bad_input(where + "scale: " + number(p.scale) +
                                      ", allowed: 0.01 to 100");
+        PILEUS_TRY(check_height(where + "offset_m: the cloud is ", sky_->ground(), p));
     }
     clouds_.resize(places.size());
     for (std::size_t i = 0; i < places.size(); ++i) {
@@ -192,6 +219,10 @@ Status Clouds::light_up(const Outlook& look) {
     if (scene.sky.present && look.around->sky_map.present() && !scene.atmosphere.present)
         return Status::bad_input(
             "sky.map: a picture, allowed for clouds: [atmosphere] or a constant radiance");
+    // The ground may have been raised since the clouds were placed.
+    for (std::size_t i = 0; i < clouds_.size(); ++i)
+        PILEUS_TRY(check_height("ground.altitude_m: cloud " + std::to_string(i) + " is ",
+                                sky_->ground(), clouds_[i]->place));
     const bool air = scene.atmosphere.present;
     CloudLight now;
     now.sun = scene.sun;

@@ -33,6 +33,9 @@ public:
     /// it: infinity where half of the light is never gone.
     Status draw(bool depths, const Planes*& planes);
     const CloudStats& stats() const { return stats_; }
+    /// kBadInput, `where` first: at such a place a cloud would be below the ground.
+    Status check_height(const std::string& where, const Ground& ground,
+                        const CloudPlace& place) const;
     /// Corners of a kind's box, in its own metres.
     const CloudKind& kind(std::size_t number) const { return kinds_[number]; }
 
@@ -71,6 +74,7 @@ private:
                         const MarchedCloud& marched) const;
 
     Session* sky_ = nullptr;
+    std::shared_ptr<const void> in_sky_;
     RenderOptions options_;
     CloudDetail detail_;
     std::vector<CloudKind> kinds_;

@@ -61,9 +61,13 @@ std::size_t number_of(const CloudsSettings& clouds, const std::string& name) {
 /// Clouds that the file names, and then those by random numbers.
 Status list_places(const Scene& scene, const Clouds& clouds, std::vector<CloudPlace>& places) {
     const CloudsSettings& settings = scene.clouds;
-    for (const CloudPlaceSettings& place : settings.places)
+    for (std::size_t i = 0; i < settings.places.size(); ++i) {
+        const CloudPlaceSettings& place = settings.places[i];
         places.push_back(
             {number_of(settings, place.kind), place.offset_m, place.yaw_deg, place.scale});
+        PILEUS_TRY(at_key(scene, key_of("place", i, "offset_m"),
+                          clouds.check_height("the cloud is ", scene.ground, places.back())));
+    }
     std::vector<KindBox> boxes;
     for (std::size_t i = 0; i < settings.kinds.size(); ++i)
         boxes.push_back({clouds.kind(i).low_m, clouds.kind(i).high_m});

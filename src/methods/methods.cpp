@@ -4,8 +4,45 @@
 
 #include "kernels_cpu/core/profile.h"
 #include "src/base/angles.h"
+#include "src/methods/placed_media.h"
+#include "src/scene/above_ground.h"
+#include "src/scene/read_scene.h"
 
 namespace pileus {
+namespace {
+
+constexpr int kFramesAsked = 10000;
+
+/// Of longer films some frames here; each is looked at again before it is drawn. Worlds of a
+/// sequence differ from frame to frame.
+Status check_all_frames(const MethodRun& run) {
+    const Scene& scene = *run.scene;
+    if (run.place_at && has_sequence(scene)) return Status::ok();
+    const int frames = run.place_at ? scene.animation.frames : 1;
+    const int step = 1 + (frames - 1) / kFramesAsked;
+    // Scenes that keys move are at their first frame by now.
+    Ground rest = scene.ground;
+    if (run.place_at) rest.altitude_m += placement_at(scene, 0).offset_m.z;
+    for (int frame = 0; frame < frames; frame += step)
+        PILEUS_TRY(check_placed_media(run, rest, frame));
+    return Status::ok();
+}
+
+}  // namespace
+
+Status check_placed_media(const MethodRun& run, const Ground& rest, int frame) {
+    const World& world = *run.world;
+    // What a flight has was looked at when it was packed.
+    if (kFlight || world.media == 0) return Status::ok();
+    const Scene& scene = *run.scene;
+    const double moved = run.place_at ? placement_at(scene, frame).offset_m.z : 0;
+    const double low = world.medium.low_m.z + moved;
+    if (!is_below_ground(rest, low, moved)) return Status::ok();
+    const std::string fault = below_ground_text(rest, low, moved);
+    if (!run.place_at) return at_key(scene, "medium", Status::bad_input(fault));
+    return at_key(scene, "animation.keys",
+                  Status::bad_input("frame " + std::to_string(frame) + ", the media are " + fault));
+}
 
 Status open_run(const Method& method, const Scene& scene, const Budget& budget,
                 const Context& context, bool exact, std::shared_ptr<const World> world,
@@ -20,6 +57,7 @@ Status open_run(const Method& method, const Scene& scene, const Budget& budget,
         world = own;
     }
     run.world = std::move(world);
+    if (!kFlight) PILEUS_TRY(check_all_frames(run));
     PILEUS_TRY(outline_surroundings(scene, context, *run.world, run.around));
     PILEUS_TRY(method.outline(context, run));
     if (!exact) return Status::ok();

@@ -6,6 +6,7 @@
 #include "platform/clock.h"
 #include "platform/fp_mode.h"
 #include "src/base/digest.h"
+#include "src/methods/placed_media.h"
 #include "src/methods/registry.h"
 #include "src/scene/read_scene.h"
 #include "src/session/run_context.h"
@@ -132,7 +133,10 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
 
 /// Where frames differ in what no method moves by itself.
 Status Session::take_frame(int frame) {
-    if (run_->place_at) run_->place_at(frame);
+    if (run_->place_at) {
+        PILEUS_TRY(check_placed_media(*run_, around_.ground, frame));
+        run_->place_at(frame);
+    }
     if (!is_sequence(scene_.camera.depth)) return Status::ok();
     scene_.sequence_frame = frame;
     return load_surroundings(scene_, context_, run_->around);

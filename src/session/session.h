@@ -94,6 +94,7 @@ public:
     /// `map`: another one; null: none, or with `keep` the one that there is, as it was scaled and
     /// turned. A sky that is not present has none.
     Status set_sky(const Sky& sky, const Image* map, bool keep);
+    bool has_sky_map() const { return run_->around.sky_map.present(); }
     Status set_ground(const Ground& ground);
     /// In place of all that there were: point, spot and parallel lights.
     Status set_lights(const std::vector<LightSettings>& lights);
@@ -123,6 +124,9 @@ public:
 
     /// Camera as it was set, in the host's coordinates.
     const Camera& camera() const { return around_.camera; }
+    /// The ground likewise, and how many [[light]] there are.
+    const Ground& ground() const { return around_.ground; }
+    std::size_t light_count() const { return around_.lights.size(); }
 
     /// Traces so many whole units; `done` fewer where the host's `interrupted` ended it.
     Status step(std::uint64_t units, std::uint64_t& done);
@@ -142,6 +146,13 @@ public:
     /// The report of a live session up to now.
     Report told() const;
 
+    /// As long as what is returned is held, this is the sky of many clouds: it takes neither lights
+    /// nor work, which they have no use for.
+    std::shared_ptr<const void> carry_clouds();
+    const FrameWork& whole_work() const { return whole_work_; }
+    /// kBadInput: it is such a sky.
+    Status refuse_clouds_sky(const char* what) const;
+
     /// What others draw in, of a live session as it is set now.
     Status look(Outlook& outlook);
     const DepthScale& depth_scale() const { return depth_scale_; }
@@ -152,6 +163,7 @@ public:
 private:
     Status aim();
     Status check_sealed() const;
+    Status check_media(const char* key, const Ground& ground, double moved_m) const;
     Status check_method(bool live, const World* world) const;
     Status take_frame(int frame);
     Status relight_air();
@@ -162,6 +174,7 @@ private:
     Status fade_from(Session& from, std::uint32_t frames, std::unique_ptr<Fading>& fading);
 
     std::vector<std::shared_ptr<const void>> lent_;
+    std::shared_ptr<const void> clouds_;  ///< held by those over this sky, too
     std::unique_ptr<ThreadPool> threads_ = std::make_unique<ThreadPool>();  ///< where none is lent
     Scene scene_;      ///< as the method sees it: in the media's coordinates
     Surround around_;  ///< as a host set it, or as the file has it

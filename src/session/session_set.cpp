@@ -4,6 +4,7 @@
 // docs/embedding.md, "What may change"
 #include "kernels_cpu/core/profile.h"
 #include "platform/fp_mode.h"
+#include "src/scene/above_ground.h"
 #include "src/session/outlook.h"
 #include "src/session/session.h"
 #include "src/session/value_fault.h"
@@ -159,6 +160,7 @@ Status Session::set_ground(const Ground& ground) {
             changed.lights = around_.lights;
             changed.camera = around_.camera;
         }));
+    PILEUS_TRY(check_media("ground.altitude_m", ground, placement_.offset_m.z));
     if (ground.present != around_.ground.present && run_->around.sky_map.present())
         return Status::bad_input(
             "ground: the sky map was read with it or without, allowed: as the scene has it");
@@ -169,6 +171,7 @@ Status Session::set_ground(const Ground& ground) {
 
 Status Session::set_lights(const std::vector<LightSettings>& lights) {
     if (lights == around_.lights) return Status::ok();
+    PILEUS_TRY(refuse_clouds_sky("lights"));
     if (run_->sealed && scene_.lights.empty()) return refuse_sealed("light");
     if (kDevices) PILEUS_TRY(check_host_lights(context_, lights, run_->world->medium));
     if (const char* key = lights_fault(scene_, around_.ground, lights))
@@ -181,13 +184,25 @@ Status Session::set_lights(const std::vector<LightSettings>& lights) {
     return Status::ok();
 }
 
+/// Media and ground as a host places them.
+Status Session::check_media(const char* key, const Ground& ground, double moved_m) const {
+    const World& world = *run_->world;
+    const double low = world.medium.low_m.z + moved_m;
+    if (world.media == 0 || !is_below_ground(ground, low, moved_m)) return Status::ok();
+    return Status::bad_input(std::string(key) + ": the media are " +
+                             below_ground_text(ground, low, moved_m));
+}
+
 Status Session::set_placement(const Double3& offset_m, double yaw_deg) {
     for (const double v : {offset_m.x, offset_m.y, offset_m.z})
         if (!(v > -1e9 && v < 1e9))
             return Status::bad_input("placement.offset_m: out of range, allowed: within 1e9 m");
     if (!(yaw_deg > -1e6 && yaw_deg < 1e6))
         return Status::bad_input("placement.yaw_deg: out of range, allowed: within 1e6");
+    PILEUS_TRY(check_media("placement.offset_m", around_.ground, offset_m.z));
     const bool moves = offset_m != Double3{} || yaw_deg != 0;
+    if (moves && run_->world->media == 0)
+        return Status::bad_input("placement: no media to move, allowed: 0");
     if (kMeshes && moves && run_->world->solids.meshes)
         return Status::bad_input("placement: solids stay where they are, allowed: 0");
     if (yaw_deg != 0 && run_->around.sky_map.present())
@@ -221,6 +236,18 @@ Status Session::set_depth(const Rows* rows, DepthKind kind) {
     depth.present = rows != nullptr;
     stale_ = true;
     return Status::ok();
+}
+
+std::shared_ptr<const void> Session::carry_clouds() {
+    if (clouds_ == nullptr) clouds_ = std::make_shared<const char>();
+    return clouds_;
+}
+
+Status Session::refuse_clouds_sky(const char* what) const {
+    if (!kClouds || clouds_.use_count() < 2) return Status::ok();
+    return Status::bad_input(std::string(what) +
+                             ": not in a sky of clouds, allowed: none; what clouds may cost is "
+                             "pileus_cloud_detail's");
 }
 
 void Session::seal() {

@@ -102,6 +102,7 @@ Status Session::set_work(const FrameWork& given) {
     const FpModeGuard guard;
     PILEUS_TRY(check_work(given, whole_work_, scene_.method));
     const FrameWork work = filled(given, whole_work_);
+    if (!(given == FrameWork{})) PILEUS_TRY(refuse_clouds_sky("work"));
     if (work == work_) return Status::ok();
     const WorkSettings here = work_settings(scene_);
     UpsampleSettings thin;
@@ -151,6 +152,7 @@ std::vector<FrameWork> Session::work_levels() const {
 
 Status Session::most_units(const FrameWork& given, FrameUnits& units) {
     const FpModeGuard guard;
+    PILEUS_TRY(refuse_clouds_sky("work"));
     PILEUS_TRY(check_work(given, whole_work_, scene_.method));
     const PoolGuard lent(*threads_);
     PILEUS_TRY(aim());

@@ -91,6 +91,7 @@ Status Verifier::open(const Scene& scene, std::uint64_t pixels, const Context& c
     place_sun(scene_);
     scene_.animation.sun_at_rest = place_of(scene_.sun);
     rest_ = Surround(scene_);
+    if (!scene_.animation.keys.empty()) place_keys(rest_, scene.sequence_frame, scene_);
     own_paths_ = scene.method == "path";
     scene_.method = "path";
     scene_.output = OutputSettings{};

@@ -56,6 +56,9 @@ TEST_CASE("clouds: keys that are wrong") {
          "s.toml:10:10: clouds.scatter.0.near_m: not finite, nan, allowed: number in [1, 1000000]"},
         {clouds("[[clouds.scatter]]\ncount = 9\nbase_m = [2, 1]\n"),
          "s.toml:9:10: clouds.scatter.0.base_m: falling, [2, 1], allowed: the least first"},
+        {clouds("[[clouds.scatter]]\ncount = 9\nbase_m = [-1, 2]\n[ground]\n"),
+         "s.toml:9:10: clouds.scatter.0.base_m: below the ground, lowest z -1, allowed: at least "
+         "ground.altitude_m 0"},
         {scatter("scale = [2, 1]\n"),
          "s.toml:10:9: clouds.scatter.0.scale: falling, [2, 1], allowed: the least first"},
         {scatter("yaw_steps = 0\n"),
@@ -76,6 +79,10 @@ TEST_CASE("clouds: what a sky with clouds has not") {
         {clouds(kMedium),
          "s.toml:7:1: medium.0: conflicts with [clouds], allowed: left out, in the scene of a "
          "kind"},
+        {clouds("[[light]]\ntype = \"point\"\nposition_m = [0, 0, 9]\n"),
+         "s.toml:7:1: light.0: conflicts with [clouds], allowed: left out"},
+        {clouds("[method]\nname = \"path\"\n"),
+         "s.toml:8:1: method.name: conflicts with [clouds], \"path\", allowed: left out"},
         {clouds("[sky]\nmap = \"a.exr\"\n"),
          "s.toml:8:1: sky.map: conflicts with [clouds], \"a.exr\", allowed: left out"},
         {kCamera + "depth = \"z.exr\"\n[[clouds.kind]]\nname = \"a\"\nscene = \"a.toml\"\n",

@@ -2,6 +2,9 @@
 // Laws between the keys of an animation and what they move.
 // in: keys that passed their own checks -> out: faults.
 // docs/animation.md
+#include <algorithm>
+
+#include "src/scene/above_ground.h"
 #include "src/scene/checks/check_keys.h"
 #include "src/scene/frames.h"
 #include "src/scene/rows/density_row.h"
@@ -31,7 +34,10 @@ public:
             }
     }
     void refuse_all(const std::string& why, const std::string& allowed) {
-        if (node_ != nullptr) add(node_->at, "animation.keys", why + ", allowed: " + allowed);
+        fault_of_all(why + ", allowed: " + allowed);
+    }
+    void fault_of_all(const std::string& text) {
+        if (node_ != nullptr) add(node_->at, "animation.keys", text);
     }
 
 private:
@@ -77,6 +83,27 @@ void check_cameras(SceneCheck& check, Keys& keys) {
     }
 }
 
+/// Where keys move media whose bounds are in the text below the ground; session.cpp asks the same
+/// of files that know their place.
+void check_moved_media(SceneCheck& check, Keys& keys) {
+    const Scene& scene = check.scene;
+    double low = 0;
+    bool known = false;
+    for (const MediumSettings& medium : scene.media) {
+        if (!medium.has_bounds) continue;
+        low = known ? std::min(low, medium.bounds_m[0][2]) : medium.bounds_m[0][2];
+        known = true;
+    }
+    if (!known || !keys.have(Track::kOffset)) return;
+    const int step = 1 + (scene.animation.frames - 1) / kMostChecked;
+    for (int frame = 0; frame < scene.animation.frames; frame += step) {
+        const double moved = placement_at(scene, frame).offset_m.z;
+        if (is_below_ground(scene.ground, low + moved, moved))
+            return keys.fault_of_all("frame " + std::to_string(frame) + ", the media are " +
+                                     below_ground_text(scene.ground, low + moved, moved));
+    }
+}
+
 void check_media(SceneCheck& check, Keys& keys) {
     const Scene& scene = check.scene;
     for (const Track track : {Track::kOffset, Track::kYaw}) {
@@ -118,6 +145,7 @@ void check_animation(SceneCheck& check) {
     if (scene.camera.target_by_place)
         keys.refuse(Track::kTarget, "conflicts with camera.target_deg");
     check_media(check, keys);
+    check_moved_media(check, keys);
     check_cameras(check, keys);
 }
 

@@ -4,6 +4,7 @@
 // docs/clouds.md
 #include <algorithm>
 
+#include "src/scene/above_ground.h"
 #include "src/scene/checks/check_keys.h"
 
 namespace pileus {
@@ -74,6 +75,10 @@ struct CloudCheck {
                 for (const Node& name : names->children) name_of_kind(name, path + "kinds");
             rising(table, path, "base_m", s.base_m);
             rising(table, path, "scale", s.scale);
+            const Ground& ground = check.scene.ground;
+            if (is_below_ground(ground, s.base_m[0], 0))
+                check.faults.add(table.find("base_m")->at, path + "base_m",
+                                 below_ground_text(ground, s.base_m[0], 0));
             if (s.near_m < s.far_m) continue;
             const Node* node = table.find("far_m");
             if (node == nullptr) node = table.find("near_m");
@@ -102,6 +107,10 @@ struct CloudCheck {
             check.faults.add(medium != nullptr ? medium->at : list.at, "medium.0",
                              "conflicts with [clouds], allowed: left out, in the scene of a kind");
         }
+        if (const Node* light = check.key("light.0"))
+            check.faults.add(light->at, "light.0", "conflicts with [clouds], allowed: left out");
+        // Kinds have methods of their own.
+        conflict(check, "method.name", kNow);
         if (scene.camera.flux) conflict(check, "camera.projection", kNow);
         for (const char* key : {"sky.map", "camera.depth"}) conflict(check, key, kNow);
         if (scene.camera.aperture_radius_m > 0) conflict(check, "camera.aperture_radius_m", kNow);

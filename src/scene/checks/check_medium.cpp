@@ -4,6 +4,7 @@
 // docs/scene.md, section Media.
 #include <algorithm>
 
+#include "src/scene/above_ground.h"
 #include "src/scene/checks/check_keys.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/density_row.h"
@@ -314,10 +315,9 @@ private:
         const Node* node = check_.valid_key(path_ + "bounds_m");
         const Ground& ground = check_.scene.ground;
         if (node == nullptr || !ground.present) return;
-        if (medium_.bounds_m[0][2] < ground.altitude_m)
-            fault(*node, "bounds_m",
-                  "below the ground, lowest z " + number_text(medium_.bounds_m[0][2]) +
-                      ", allowed: at least ground.altitude_m " + number_text(ground.altitude_m));
+        const double lowest = medium_.bounds_m[0][2];
+        if (is_below_ground(ground, lowest, 0))
+            fault(*node, "bounds_m", below_ground_text(ground, lowest, 0));
     }
 
     SceneCheck& check_;
