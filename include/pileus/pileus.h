@@ -142,9 +142,9 @@ typedef struct pileus_particles {
     const float *colour, *emission; /**< r, g, b: factors on the medium's, up to 1, 1e9; null: 1 */
 } pileus_particles;
 
-/** Densities from memory instead of the scene's file: values[(z*size[1] + y)*size[0] + x], the
- * scene's medium number `medium` fills its bounds_m with them; or `particles`, where that medium is
- * a file of particles, which need not exist. Copied. */
+/** Densities from memory instead of the scene's file, once for a medium: values[(z*size[1] +
+ * y)*size[0] + x], the scene's medium number `medium` fills its bounds_m with them; or `particles`,
+ * where that medium is a file of particles, which need not exist. Copied. */
 typedef struct pileus_density {
     uint32_t struct_size;
     uint32_t medium;
@@ -181,7 +181,8 @@ typedef struct pileus_camera {
     double up[3];                      /**< all 0: z */
     double fov_deg;                    /**< vertical, perspective only */
     double height_m;                   /**< of the picture, orthographic only */
-    double near_m, far_m; /**< for depth buffers only; far_m 0: infinite. Nothing is clipped. */
+    /** For depth buffers only, far_m beyond near_m; far_m 0: infinite. Nothing is clipped. */
+    double near_m, far_m;
 } pileus_camera;
 
 PILEUS_API pileus_code pileus_session_set_camera(pileus_session* session,
@@ -218,7 +219,7 @@ typedef struct pileus_sky {
     uint32_t struct_size;
     int32_t present;
     float radiance[3];    /**< used without a map */
-    uint32_t map_size[2]; /**< columns, rows; columns = 2 rows; 0: no map */
+    uint32_t map_size[2]; /**< columns, rows; columns = 2 rows; both 0: no map */
     const float* map;     /**< [row][column][3]; null: keep the map there is, as it is */
     double map_scale, map_rotation_deg; /**< of `map`; scale 0 counts as 1 */
 } pileus_sky;
@@ -252,7 +253,8 @@ PILEUS_API pileus_code pileus_session_set_lights(pileus_session* session,
                                                  pileus_error* error);
 
 /** Moves all media: turned about the z axis through the world's origin (counter-clockwise seen from
- * above), then shifted. Nothing is prepared again. Not in a world with solids. */
+ * above), then shifted. Nothing is prepared again. Not in a world with solids, not below the
+ * ground. */
 typedef struct pileus_placement {
     uint32_t struct_size;
     double offset_m[3];
@@ -326,7 +328,7 @@ typedef struct pileus_frame {
     uint32_t format;       /**< a pileus_format */
     uint32_t blend;        /**< a pileus_blend */
     int32_t bottom_up; /**< not 0: the first row in memory is the picture's lowest; both buffers */
-    float exposure_stops; /**< RGBA8 only: doubles or halves the light */
+    float exposure_stops; /**< RGBA8 only: doubles or halves the light; -100 to 100 */
     float* depth;         /**< where half of the light is gone, or the opaque thing; null: none */
     int64_t depth_stride; /**< bytes; 0: rows lie close */
     uint32_t depth_kind;  /**< a pileus_depth */

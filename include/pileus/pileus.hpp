@@ -82,7 +82,7 @@ private:
         for (const std::string& text : overrides) texts.push_back(text.c_str());
         pileus_scene* handle = nullptr;
         Status status = detail::status_of([&](pileus_error* error) {
-            return make(texts.data(), static_cast<std::uint32_t>(texts.size()), &handle, error);
+            return make(texts.data(), detail::count_of(texts.size()), &handle, error);
         });
         if (!status) return status;
         Scene scene;
@@ -129,7 +129,7 @@ public:
         pileus_world* handle = nullptr;
         Status status = detail::status_of([&](pileus_error* error) {
             return pileus_world_create(scene.get(), &lent->given, given.data(),
-                                       static_cast<std::uint32_t>(given.size()), &handle, error);
+                                       detail::count_of(given.size()), &handle, error);
         });
         if (!status) return status;
         World world;
@@ -257,8 +257,8 @@ public:
             detail::store(light.light, c.light);
         }
         return detail::status_of([&](pileus_error* error) {
-            return pileus_session_set_lights(get(), given.data(),
-                                             static_cast<std::uint32_t>(given.size()), error);
+            return pileus_session_set_lights(get(), given.data(), detail::count_of(given.size()),
+                                             error);
         });
     }
 

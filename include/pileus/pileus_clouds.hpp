@@ -93,8 +93,7 @@ public:
             c.scale = cloud.scale;
         }
         return detail::status_of([&](pileus_error* error) {
-            return pileus_clouds_place(get(), given.data(),
-                                       static_cast<std::uint32_t>(given.size()), error);
+            return pileus_clouds_place(get(), given.data(), detail::count_of(given.size()), error);
         });
     }
 

@@ -112,6 +112,11 @@ Status status_of(Call call) {
     return {static_cast<Code>(code), error.message};
 }
 
+/// How many, for the C interface; more than it can count is more than it takes.
+inline std::uint32_t count_of(std::size_t n) {
+    return n < UINT32_MAX ? static_cast<std::uint32_t>(n) : UINT32_MAX;
+}
+
 template <class Vector, class Number>
 void store(const Vector& from, Number (&to)[3]) {
     to[0] = from.x, to[1] = from.y, to[2] = from.z;

@@ -21,13 +21,10 @@ Status place_all(const pileus_cloud* places, std::uint32_t count, Clouds& clouds
         return Status::bad_input("places: null, allowed: as many as count says");
     if (count > 1000)
         return Status::bad_input("count: " + std::to_string(count) + ", allowed: up to 1000");
-    const auto* at = reinterpret_cast<const unsigned char*>(places);
     std::vector<CloudPlace> own(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         pileus_cloud given;
-        if (!take(reinterpret_cast<const pileus_cloud*>(at + std::size_t(i) * places->struct_size),
-                  given))
-            return no_struct("places");
+        if (!take_element(places, i, given)) return no_element("places", i);
         CloudPlace& place = own[i];
         place.kind = given.kind;
         for (int a = 0; a < 3; ++a) place.offset_m[a] = given.offset_m[a];

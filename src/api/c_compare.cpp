@@ -24,7 +24,8 @@ Status take_picture(const pileus_picture* given, const char* name, Image& image)
     // Read only: rows are shared with those that are written.
     rows.first = reinterpret_cast<unsigned char*>(const_cast<float*>(p.values));
     const std::size_t width = p.width, channels = p.channels;
-    PILEUS_TRY(take_stride(name, p.stride, std::int64_t(width * channels * sizeof(float)), rows));
+    PILEUS_TRY(take_stride(name, p.stride, std::int64_t(width * channels * sizeof(float)), p.height,
+                           rows));
     image.width = int(p.width);
     image.height = int(p.height);
     image.channels.resize(channels);

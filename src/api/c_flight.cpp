@@ -38,6 +38,14 @@ const char* flight_fault(const pileus_flight* flight, pileus_flight& f, pileus_s
     if (f.block == nullptr) return "flight.block: null, allowed: memory";
     if (f.threads > 1024) return "flight.threads: too many, allowed: 0 to 1024";
     if (f.frame == nullptr) return "flight.frame: null, allowed: what frames will be drawn into";
+    if (f.frame->struct_size < sizeof(std::uint32_t))
+        return "flight.frame: without struct_size, allowed: after PILEUS_INIT";
+    if (f.scene == nullptr) return "flight.scene: null, allowed: a packed scene";
+    // Sizes that no memory has: sums of places would begin anew at 0.
+    if (f.block_bytes > UINTPTR_MAX - reinterpret_cast<std::uintptr_t>(f.block))
+        return "flight.block_bytes: beyond the end of memory, allowed: what the block has";
+    if (f.scene_bytes > UINTPTR_MAX - reinterpret_cast<std::uintptr_t>(f.scene))
+        return "flight.scene_bytes: beyond the end of memory, allowed: what the scene has";
     return nullptr;
 }
 
@@ -62,7 +70,9 @@ Status open_flight(const pileus_flight& f, const std::shared_ptr<HostParts>& par
     PILEUS_TRY(begin_flight(f.scene, f.scene_bytes, options, f.in_place != 0, f.depth != 0,
                             *made->flight, *made->session));
     // Twice: some of what reprojection keeps is made by the second one.
-    for (int i = 0; i < 2; ++i) PILEUS_TRY(render_frame(*f.frame, *made));
+    pileus_frame frame;
+    take(f.frame, frame);
+    for (int i = 0; i < 2; ++i) PILEUS_TRY(render_frame(frame, *made));
     made->session->seal();
     parts->given.run = f.run;
     *session = made.release();
@@ -83,6 +93,7 @@ extern "C" {
 pileus_code pileus_packed_read(const void* scene, size_t scene_bytes, pileus_packed* packed,
                                pileus_error* error) {
     return call_small(error, [&]() -> Status {
+        if (scene == nullptr) return Status::bad_input("scene: null, allowed: a packed scene");
         PackedHead head;
         PILEUS_TRY(read_packed_head(scene, scene_bytes, head));
         pileus_packed out{};

@@ -3,10 +3,13 @@
 #include "kernels_cpu/core/profile.h"
 #include "src/api/c_types.h"
 #include "src/io/text/report_json.h"
+#include "src/scene/toml/toml_tree.h"
 #include "src/session/warnings.h"
 
 namespace pileus::api {
 namespace {
+
+constexpr float kMostStops = 100;
 
 Status take_colour(const pileus_frame& f, const Camera& camera, FrameTarget& target) {
     if (f.format > PILEUS_RGBA32F)
@@ -15,6 +18,9 @@ Status take_colour(const pileus_frame& f, const Camera& camera, FrameTarget& tar
     if (f.blend > PILEUS_MEDIA)
         return Status::bad_input("frame.blend: " + std::to_string(f.blend) +
                                  ", allowed: PILEUS_REPLACE, PILEUS_OVER, PILEUS_MEDIA");
+    if (!(f.exposure_stops >= -kMostStops && f.exposure_stops <= kMostStops))
+        return Status::bad_input("frame.exposure_stops: " + number_text(double(f.exposure_stops)) +
+                                 ", allowed: -100 to 100");
     target.has_colour = f.colour != nullptr;
     if (!target.has_colour) return Status::ok();
     PixelTarget& colour = target.colour;
@@ -25,7 +31,8 @@ Status take_colour(const pileus_frame& f, const Camera& camera, FrameTarget& tar
     colour.rows.bottom_up = f.bottom_up != 0;
     const auto width =
         std::int64_t(camera.resolution[0]) * std::int64_t(pixel_bytes(colour.format));
-    return take_stride("frame.colour", f.colour_stride, width, colour.rows);
+    return take_stride("frame.colour", f.colour_stride, width, std::uint32_t(camera.resolution[1]),
+                       colour.rows);
 }
 
 Status take_depth(const pileus_frame& f, const Camera& camera, FrameTarget& target) {
@@ -38,7 +45,8 @@ Status take_depth(const pileus_frame& f, const Camera& camera, FrameTarget& targ
     target.depth.first = reinterpret_cast<unsigned char*>(f.depth);
     target.depth.bottom_up = f.bottom_up != 0;
     const auto width = std::int64_t(camera.resolution[0]) * std::int64_t(sizeof(float));
-    return take_stride("frame.depth", f.depth_stride, width, target.depth);
+    return take_stride("frame.depth", f.depth_stride, width, std::uint32_t(camera.resolution[1]),
+                       target.depth);
 }
 
 /// A line for each accident, the first time that it happens.

@@ -12,6 +12,12 @@ Status no_struct(const char* name) {
                              ": null or without struct_size, allowed: after PILEUS_INIT");
 }
 
+Status no_element(const char* name, std::size_t i) {
+    return Status::bad_input(std::string(name) + "[" + std::to_string(i) +
+                             "]: struct_size of another size than the first one's, or none, "
+                             "allowed: after PILEUS_INIT");
+}
+
 pileus_code no_session(pileus_error* error) {
     return finish(Code::kBadInput, "session: null, allowed: what a function of pileus made", error);
 }
@@ -82,6 +88,7 @@ uint32_t pileus_api_version(void) { return PILEUS_API_VERSION; }
 
 void pileus_orbit(const double position_m[3], const double target_m[3], double degrees,
                   double turned_m[3]) {
+    if (position_m == nullptr || target_m == nullptr || turned_m == nullptr) return;
     const pileus::FpModeGuard mode;
     const pileus::Double3 turned =
         pileus::orbit(glm::make_vec3(position_m), glm::make_vec3(target_m), degrees);

@@ -3,6 +3,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "src/api/c_types.h"
+#include "src/scene/toml/toml_tree.h"
 
 namespace pileus::api {
 namespace {
@@ -36,8 +37,32 @@ Status take_size(std::uint32_t width, std::uint32_t height, Camera& camera) {
     return Status::ok();
 }
 
+bool is_in_range(double v, double low, double high) { return v >= low && v <= high; }
+
+/// What a camera has beside its place and view; 0 is none.
+Status check_lens(const pileus_camera& given) {
+    constexpr double kFar = 1e15;
+    const auto refuse = [](const char* what, double v, const char* allowed) {
+        return Status::bad_input(std::string("camera.") + what + ": " + number_text(v) +
+                                 ", allowed: " + allowed);
+    };
+    if (!is_in_range(given.height_m, 0, 1e9))
+        return refuse("height_m", given.height_m, "above 0 to 1e9 m; 0: perspective");
+    const bool parallel = given.height_m > 0;
+    if (!is_in_range(given.near_m, parallel ? -kFar : 0, kFar))
+        return refuse("near_m", given.near_m,
+                      parallel ? "-1e15 to 1e15 m" : "0 (no depth buffer) to 1e15 m");
+    if (!is_in_range(given.far_m, parallel ? -kFar : 0, kFar))
+        return refuse("far_m", given.far_m,
+                      parallel ? "-1e15 to 1e15 m" : "0 (infinite) to 1e15 m");
+    if (given.far_m != 0 && !(given.far_m > given.near_m))
+        return refuse("far_m", given.far_m, "0, or beyond near_m");
+    return Status::ok();
+}
+
 Status set_camera(const pileus_camera& given, Session& session) {
     Camera camera = session.camera();
+    PILEUS_TRY(check_lens(given));
     PILEUS_TRY(take_size(given.width, given.height, camera));
     copy3(given.position_m, camera.position_m);
     copy3(given.target_m, camera.target_m);
@@ -75,10 +100,17 @@ Status set_sky(const pileus_sky& given, Session& session) {
     copy3(given.radiance, sky.radiance);
     sky.map_scale = given.map_scale == 0 ? 1 : given.map_scale;
     sky.map_rotation_deg = given.map_rotation_deg;
-    if (given.present == 0 || given.map_size[0] == 0) return session.set_sky(sky, nullptr, false);
-    if (given.map == nullptr) return session.set_sky(sky, nullptr, true);
-    if (given.map_size[0] > 16384 || given.map_size[1] > 8192)
-        return Status::bad_input("sky.map_size: allowed: at most 16384 x 8192");
+    const std::uint64_t columns = given.map_size[0], rows = given.map_size[1];
+    if (columns != 2 * rows || columns > 16384)
+        return Status::bad_input(
+            "sky.map_size: " + std::to_string(columns) + " x " + std::to_string(rows) +
+            ", allowed: columns = 2 rows, at most 16384 x 8192; 0 x 0: no map");
+    if (given.present == 0 || columns == 0) return session.set_sky(sky, nullptr, false);
+    if (given.map == nullptr) {
+        if (!session.has_sky_map())
+            return Status::bad_input("sky.map: null, and there is none to keep, allowed: texels");
+        return session.set_sky(sky, nullptr, true);
+    }
     Image image;
     PILEUS_TRY(map_image(given, image));
     return session.set_sky(sky, &image, false);
@@ -120,18 +152,22 @@ Status set_depth(const pileus_depth_image& given, Session& session) {
     // Read only: rows are shared with those that are written.
     Rows rows;
     rows.first = reinterpret_cast<unsigned char*>(const_cast<float*>(given.values));
-    PILEUS_TRY(take_stride("depth", given.stride, width, rows));
+    PILEUS_TRY(take_stride("depth", given.stride, width,
+                           std::uint32_t(session.camera().resolution[1]), rows));
     rows.bottom_up = given.bottom_up != 0;
     return session.set_depth(&rows, DepthKind(given.kind));
 }
 
 }  // namespace
 
-Status take_stride(const char* name, std::int64_t stride, std::int64_t least, Rows& rows) {
+Status take_stride(const char* name, std::int64_t stride, std::int64_t least, std::uint32_t count,
+                   Rows& rows) {
+    const std::int64_t most = PTRDIFF_MAX / (count > 0 ? count : 1);
     rows.stride = stride == 0 ? least : stride;
-    if (rows.stride >= least) return Status::ok();
+    if (rows.stride >= least && rows.stride <= most) return Status::ok();
     return Status::bad_input(std::string(name) + ".stride: " + std::to_string(stride) +
-                             " bytes, allowed: 0, or at least " + std::to_string(least));
+                             " bytes, allowed: 0, or " + std::to_string(least) + " to " +
+                             std::to_string(most));
 }
 
 }  // namespace pileus::api
@@ -171,6 +207,9 @@ pileus_code pileus_session_set_matrices(pileus_session* session, const double vi
     return call(*session, error, [&]() -> Status {
         if (view == nullptr || projection == nullptr)
             return Status::bad_input("view, projection: null, allowed: 16 numbers each");
+        if (clip != PILEUS_CLIP_ZERO && clip != PILEUS_CLIP_MINUS_ONE)
+            return Status::bad_input("clip: " + std::to_string(int(clip)) +
+                                     ", allowed: PILEUS_CLIP_MINUS_ONE, PILEUS_CLIP_ZERO");
         Camera camera = session->session->camera();
         DepthScale scale;
         PILEUS_TRY(take_size(width, height, camera));
@@ -231,12 +270,10 @@ pileus_code pileus_session_set_lights(pileus_session* session, const pileus_ligh
             return Status::bad_input("lights: " + std::to_string(count) + ", allowed: at most " +
                                      std::to_string(kMostLights));
         std::vector<LightSettings> own(count);
-        const char* at = reinterpret_cast<const char*>(lights);
-        for (LightSettings& light : own) {
+        for (std::size_t i = 0; i < own.size(); ++i) {
             pileus_light given;
-            if (!take(reinterpret_cast<const pileus_light*>(at), given)) return no_struct("lights");
-            PILEUS_TRY(take_light(given, light));
-            at += lights->struct_size;
+            if (!take_element(lights, i, given)) return no_element("lights", i);
+            PILEUS_TRY(take_light(given, own[i]));
         }
         return session->session->set_lights(own);
     });

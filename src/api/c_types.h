@@ -49,7 +49,24 @@ bool take(const T* given, T& own) {
     return true;
 }
 
+/// Element `i` of a caller's array, whose elements lie as far apart as the first one tells. False:
+/// no size there, or an element of another size.
+template <class T>
+bool take_element(const T* first, std::size_t i, T& own) {
+    own = T{};
+    std::uint32_t step = 0, size = 0;
+    std::memcpy(&step, first, sizeof step);
+    if (step < sizeof step) return false;
+    const unsigned char* at = reinterpret_cast<const unsigned char*>(first) + i * step;
+    std::memcpy(&size, at, sizeof size);
+    if (size != step) return false;
+    std::memcpy(static_cast<void*>(&own), at, step < sizeof(T) ? step : sizeof(T));
+    return true;
+}
+
 Status no_struct(const char* name);
+/// Of an array whose elements are not alike, or have no size.
+Status no_element(const char* name, std::size_t i);
 Status no_handle(const char* name);
 
 /// The part of a result that the caller's struct has room for.
@@ -62,8 +79,9 @@ Status give(T own, T* to, const char* name) {
     return Status::ok();
 }
 
-/// kBadInput: rows that would overlap.
-Status take_stride(const char* name, std::int64_t stride, std::int64_t least, Rows& rows);
+/// kBadInput: rows that would overlap, or end beyond what memory can have.
+Status take_stride(const char* name, std::int64_t stride, std::int64_t least, std::uint32_t count,
+                   Rows& rows);
 
 /// The end of every call: code and message.
 pileus_code finish(Code code, std::string_view text, pileus_error* error);

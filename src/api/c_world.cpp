@@ -54,9 +54,16 @@ Status take_particles(const pileus_density& density, const std::string& where,
     host.colour = given.colour, host.colour_stride = given.colour_stride;
     host.emission = given.emission, host.emission_stride = given.emission_stride;
     const auto stride = [&](const char* name, bool used, std::size_t bytes, std::size_t least) {
-        if (!used || bytes >= least || given.count < 2) return Status::ok();
-        return Status::bad_input(where + name + "_stride: " + std::to_string(bytes) +
-                                 ", allowed: at least " + std::to_string(least));
+        if (!used || given.count < 2) return Status::ok();
+        if (bytes < least)
+            return Status::bad_input(where + name + "_stride: " + std::to_string(bytes) +
+                                     ", allowed: at least " + std::to_string(least));
+        if (given.count > std::uint64_t(PTRDIFF_MAX) / bytes)
+            return Status::bad_input(where + "count: " + std::to_string(given.count) + " of " +
+                                     name + "_stride " + std::to_string(bytes) +
+                                     ", allowed: up to " +
+                                     std::to_string(std::uint64_t(PTRDIFF_MAX) / bytes));
+        return Status::ok();
     };
     PILEUS_TRY(stride("position", true, host.position_stride, 3 * sizeof(float)));
     PILEUS_TRY(stride("radius", host.radius != nullptr, host.radius_stride, sizeof(float)));
@@ -78,6 +85,9 @@ Status take_density(const pileus_density& given, std::uint32_t at, HostParticles
         return Status::bad_input(where + "no medium " + std::to_string(given.medium) +
                                  ", allowed: below " + std::to_string(scene.media.size()));
     MediumSettings& medium = scene.media[given.medium];
+    if (medium.values != nullptr || medium.particles.host != nullptr)
+        return Status::bad_input(where + "medium " + std::to_string(given.medium) +
+                                 " a second time, allowed: once each");
     if (given.particles != nullptr) return take_particles(given, where, medium, host);
     std::uint64_t cells = 1;
     for (const std::uint32_t n : given.size) {
@@ -165,15 +175,14 @@ pileus_code pileus_world_create(const pileus_scene* scene, const pileus_host* ho
         if (density_count > 0 && densities == nullptr)
             return Status::bad_input("densities: null, allowed: as many as density_count says");
         Scene own = scene->scene;
+        if (density_count > own.media.size())
+            return Status::bad_input("density_count: " + std::to_string(density_count) +
+                                     ", allowed: 0 to " + std::to_string(own.media.size()) +
+                                     ", the scene's media");
         std::vector<HostParticles> hosts(density_count);
         for (std::uint32_t i = 0; i < density_count; ++i) {
-            // The array's elements lie as far apart as the caller's header says.
-            const auto* bytes = reinterpret_cast<const unsigned char*>(densities);
-            const auto* at = reinterpret_cast<const pileus_density*>(
-                bytes + std::size_t(i) * densities->struct_size);
             pileus_density given;
-            if (!take(at, given) || given.struct_size != densities->struct_size)
-                return no_struct("densities");
+            if (!take_element(densities, i, given)) return no_element("densities", i);
             PILEUS_TRY(take_density(given, i, hosts[i], own));
         }
         const auto held = std::make_shared<HeldWorld>();

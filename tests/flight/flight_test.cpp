@@ -266,6 +266,12 @@ TEST_CASE("wrong use of pileus_flight.h has a line and a code") {
         CHECK(flight.open() == PILEUS_BAD_INPUT);
         CHECK(std::string(flight.error.message).find(words) == 0);
     };
+    std::uint32_t size = 0;
+    const void* no_scene = nullptr;
+    pileus_packed head;
+    PILEUS_INIT(head);
+    CHECK(pileus_packed_read(nullptr, 4096, &head, &flight.error) == PILEUS_BAD_INPUT);
+    CHECK(std::string(flight.error.message) == "scene: null, allowed: a packed scene");
     CHECK(pileus_flight_open(nullptr, &flight.session, &flight.error) == PILEUS_BAD_INPUT);
     CHECK(pileus_flight_open(&flight.setup, nullptr, &flight.error) == PILEUS_BAD_INPUT);
     flight.setup.block = nullptr;
@@ -274,6 +280,22 @@ TEST_CASE("wrong use of pileus_flight.h has a line and a code") {
     flight.setup.frame = nullptr;
     refused("flight.frame: null");
     flight.setup.frame = &flight.frame;
+    // A frame of no header at all; sizes that no memory has.
+    std::swap(flight.frame.struct_size, size);
+    refused("flight.frame: without struct_size");
+    std::swap(flight.frame.struct_size, size);
+    std::swap(flight.setup.scene, no_scene);
+    refused("flight.scene: null");
+    std::swap(flight.setup.scene, no_scene);
+    for (const std::size_t most : {SIZE_MAX, SIZE_MAX - 4096}) {
+        const std::size_t block = flight.setup.block_bytes, scene = flight.setup.scene_bytes;
+        flight.setup.block_bytes = most;
+        refused("flight.block_bytes: beyond the end of memory");
+        flight.setup.block_bytes = block;
+        flight.setup.scene_bytes = most;
+        refused("flight.scene_bytes: beyond the end of memory");
+        flight.setup.scene_bytes = scene;
+    }
     flight.setup.threads = 2000;
     refused("flight.threads: ");
     flight.setup.threads = 0;
