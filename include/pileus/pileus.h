@@ -134,7 +134,7 @@ typedef struct pileus_particles {
     uint32_t position_stride, radius_stride, density_stride, id_stride, velocity_stride;
     uint64_t count;
     const float* position; /**< x, y, z of each; -1e12 to 1e12 */
-    const float* radius;   /**< above 0, to 1e12; null where the scene has radius_m */
+    const float* radius;   /**< 1e-9 m to 1e12; null where the scene has radius_m */
     const float* density;  /**< 0 to 1e12; null: 1 */
     const uint64_t* id;    /**< up to 2^53, for density.share; null: none */
     const float* velocity; /**< x, y, z of each, lengths per second; null: at rest */

@@ -3,6 +3,7 @@
 #include <glm/gtc/type_ptr.hpp>
 
 #include "src/api/c_types.h"
+#include "src/base/single.h"
 #include "src/scene/toml/toml_tree.h"
 
 namespace pileus::api {
@@ -135,7 +136,7 @@ Status take_light(const pileus_light& given, LightSettings& own) {
     if (given.shadow_samples > 0) own.shadow_samples = int(given.shadow_samples);
     copy3(given.light, own.intensity);
     if (own.type != LampKind::kSpot) return Status::ok();
-    own.direction = glm::make_vec3(given.direction);
+    own.direction = single_or_0(glm::make_vec3(given.direction));
     if (own.direction == Double3{})
         return Status::bad_input("light.direction: 0, 0, 0, allowed: any other of a spot");
     own.cone_deg = given.cone_deg;

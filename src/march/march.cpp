@@ -2,12 +2,15 @@
 // See march.h.
 #include "src/march/march.h"
 
+#include <algorithm>
+
 #include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/core/rng.h"
 #include "kernels_cpu/core/vec.h"
 #include "platform/threads.h"
 #include "src/base/angles.h"
 #include "src/base/random_streams.h"
+#include "src/base/single.h"
 #include "src/picture/march_view.h"
 #include "src/world/phase/forward_share.h"
 
@@ -226,13 +229,15 @@ StepParams raymarch_steps(const RaymarchSettings& s, const CameraParams& camera,
                 break;
             }
             k.grows = k.by_distance = 1;
-            k.near_m =
-                (s.first_step_m > 0 ? float(s.first_step_m) : 0.5f * smallest_cell(grid)) / k.pixel;
+            // No nearer than what is told from 0: the way over it is a number.
+            k.near_m = (s.first_step_m > 0 ? float(std::max(s.first_step_m, kLeastPositive))
+                                           : 0.5f * smallest_cell(grid)) /
+                       k.pixel;
             break;
         case RaymarchSpacing::kGeometric:
             k.least_m = float(s.first_step_m);
-            k.grows = s.growth > 1 ? 1 : 0;
             k.growth = float(s.growth);
+            k.grows = k.growth > 1 ? 1 : 0;
             k.series = series_of(s.growth, s.steps);
             break;
     }

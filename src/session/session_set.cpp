@@ -4,6 +4,7 @@
 // docs/embedding.md, "What may change"
 #include "kernels_cpu/core/profile.h"
 #include "platform/fp_mode.h"
+#include "src/base/single.h"
 #include "src/scene/above_ground.h"
 #include "src/session/outlook.h"
 #include "src/session/session.h"
@@ -15,7 +16,8 @@
 namespace pileus {
 namespace {
 
-bool is_positive(double v) { return v > 0 && v < 1e15; }
+/// Of a length or its square.
+bool is_positive(double v) { return v >= kLeastPositive && v < 1e15; }
 
 Status check_frustum(const Camera& camera, bool billboards) {
     if (!camera.has_frustum) return Status::ok();
@@ -56,8 +58,9 @@ bool same_ground(const Ground& a, const Ground& b) {
 
 }  // namespace
 
-Status Session::set_camera(const Camera& camera) {
+Status Session::set_camera(const Camera& given) {
     const FpModeGuard guard;
+    const Camera camera = held(given);
     // Light that was gathered for this view stays.
     if (same_view(camera, around_.camera)) return Status::ok();
     if (scene_.method == "collectors" && scene_.collectors.camera_closure)
@@ -92,7 +95,8 @@ Status Session::set_depth_scale(const DepthScale& scale) {
     return Status::ok();
 }
 
-Status Session::set_sun(const Sun& sun) {
+Status Session::set_sun(const Sun& given) {
+    const Sun sun = held(given);
     if (same_sun(sun, around_.sun)) return Status::ok();
     if (run_->sealed && scene_.atmosphere.present) return refuse_sealed("sun");
     if (const char* key = sun_fault(sun))
@@ -122,6 +126,7 @@ Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
     const FpModeGuard guard;
     const bool kept = sky.present && map == nullptr && keep && run_->around.sky_map.present();
     Sky next = kept ? scene_.sky : sky;
+    hold(next);
     next.present = sky.present;
     if (!kept && map == nullptr) {
         // What belongs to a map says nothing without one.
@@ -151,7 +156,8 @@ Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
     return Status::ok();
 }
 
-Status Session::set_ground(const Ground& ground) {
+Status Session::set_ground(const Ground& given) {
+    const Ground ground = held(given);
     if (same_ground(ground, around_.ground)) return Status::ok();
     if (run_->sealed && scene_.atmosphere.present) return refuse_sealed("ground");
     if (const char* key = ground_fault(scene_, around_.camera, ground))
@@ -177,9 +183,11 @@ Status Session::set_lights(const std::vector<LightSettings>& lights) {
     if (const char* key = lights_fault(scene_, around_.ground, lights))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) {
             changed.lights = lights;
+            for (LightSettings& light : changed.lights) light = held(light);
             changed.ground = around_.ground;
         }));
     around_.lights = lights;
+    for (LightSettings& light : around_.lights) light = held(light);
     stale_ = true;
     return Status::ok();
 }

@@ -3,6 +3,7 @@
 // tests/embed/value_fault_test.cpp holds both together.
 #include "src/session/value_fault.h"
 
+#include "src/base/single.h"
 #include "src/scene/view_fault.h"
 
 namespace pileus {
@@ -37,19 +38,57 @@ const char* light_fault(const Ground& ground, const LightSettings& l) {
     if (l.type == LampKind::kPoint) return nullptr;
     const bool points = l.direction != Double3{} && are_within(l.direction, -kFar, kFar);
     if (!points) return "light.direction";
-    if (!is_within(l.cone_deg, 0, 360) || l.cone_deg == 0) return "light.cone_deg";
+    if (!is_within(l.cone_deg, kLeastPositive, 360)) return "light.cone_deg";
     return is_within(l.penumbra_deg, 0, l.cone_deg / 2) ? nullptr : "light.penumbra_deg";
 }
 
+template <class Vector>
+void hold_three(Vector& v) {
+    for (int a = 0; a < 3; ++a) v[std::size_t(a)] = single_or_0(v[std::size_t(a)]);
+}
+
 }  // namespace
+
+Camera held(Camera c) {
+    for (Double3* v : {&c.position_m, &c.target_m, &c.up}) *v = single_or_0(*v);
+    return c;
+}
+
+Sun held(Sun sun) {
+    sun.azimuth_deg = single_or_0(sun.azimuth_deg);
+    sun.elevation_deg = single_or_0(sun.elevation_deg);
+    hold_three(sun.irradiance);
+    return sun;
+}
+
+Ground held(Ground ground) {
+    ground.altitude_m = single_or_0(ground.altitude_m);
+    ground.albedo = single_or_0(ground.albedo);
+    return ground;
+}
+
+LightSettings held(LightSettings l) {
+    for (Double3* v : {&l.position_m, &l.direction, &l.target_m}) *v = single_or_0(*v);
+    for (double* v : {&l.radius_m, &l.azimuth_deg, &l.elevation_deg, &l.penumbra_deg})
+        *v = single_or_0(*v);
+    hold_three(l.intensity);
+    hold_three(l.irradiance);
+    return l;
+}
+
+void hold(Sky& sky) {
+    hold_three(sky.radiance);
+    sky.map_scale = single_or_0(sky.map_scale);
+    sky.map_rotation_deg = single_or_0(sky.map_rotation_deg);
+}
 
 const char* camera_fault(const Scene& scene, const Ground& ground, const Camera& c) {
     if (!are_within(c.position_m, -kFar, kFar)) return "camera.position_m";
     if (!are_within(c.target_m, -kFar, kFar)) return "camera.target_m";
     if (!are_within(c.up, -kFar, kFar)) return "camera.up";
-    if (!is_within(c.fov_deg, 0, 180) || c.fov_deg == 0 || c.fov_deg == 180)
+    if (!is_within(c.fov_deg, kLeastFovDeg, 180) || float(c.fov_deg) == 180.0f)
         return "camera.fov_deg";
-    if (!is_within(c.height_m, 0, kFar) || c.height_m == 0) return "camera.height_m";
+    if (!is_within(c.height_m, kLeastPositive, kFar)) return "camera.height_m";
     for (const int n : c.resolution)
         if (n < 1 || n > 16384) return "camera.resolution";
     // Some methods and the air know one kind alone.
@@ -94,7 +133,7 @@ const char* lights_fault(const Scene& scene, const Ground& ground,
     if (scene.lights.empty() && !lights.empty()) return "light";
     if (lights.size() > kMostLights) return "light";
     for (const LightSettings& light : lights)
-        if (const char* key = light_fault(ground, light)) return key;
+        if (const char* key = light_fault(ground, held(light))) return key;
     return nullptr;
 }
 

@@ -10,6 +10,13 @@
 
 namespace pileus {
 
+/// Values as they are used: 0 where single precision has no other number (src/base/single.h).
+Camera held(Camera camera);
+Sun held(Sun sun);
+Ground held(Ground ground);
+LightSettings held(LightSettings light);
+void hold(Sky& sky);
+
 /// Each returns null only where check_scene would find nothing, if the scene itself is sound. Of
 /// what is seldom set it may name a key that check_scene allows: that decides.
 /// `scene`: the session's, with the ground as the host has it.

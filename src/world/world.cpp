@@ -4,11 +4,13 @@
 
 #include "src/base/file.h"
 #include "src/base/reading_limit.h"
+#include "src/base/single.h"
 #include "src/io/particles/placed_particles.h"
 #include "src/plan/scene_limits.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/density_row.h"
 #include "src/scene/rows/volume_format.h"
+#include "src/scene/toml/toml_tree.h"
 #include "src/world/medium/detail.h"
 #include "src/world/medium/mix_media.h"
 #include "src/world/medium/sky_medium.h"
@@ -66,7 +68,14 @@ Status load_particles_of(const Scene& scene, const Context& context, World& worl
     PILEUS_TRY(load_medium_of(own, context, world));
     if (settings.y_up) turn_particles_y_up(world.particles);
     const double scale = row != nullptr ? settings.extinction_per_m : settings.extinction_scale;
-    for (float& v : world.particles.density.span()) v = float(double(v) * scale);
+    for (float& v : world.particles.density.span()) {
+        const double per_m = double(v) * scale;
+        if (!(per_m <= kMostSigma))
+            return Status::bad_input(medium_key(scene, settings) + ": a particle of " +
+                                     number_text(per_m) + " per m, allowed: at most " +
+                                     number_text(kMostSigma));
+        v = float(single_or_0(per_m));
+    }
     return Status::ok();
 }
 

@@ -29,7 +29,8 @@ TEST_CASE("animation: keys that are wrong, or move what is not there") {
         {keys("{frame = 4, camera_fov = 3}"),
          "s.toml:6:21: animation.keys.0: unknown key, \"camera_fov\", allowed: ..."},
         {keys("{frame = 4, camera_fov_deg = 180}"),
-         "s.toml:6:38: animation.keys.0.camera_fov_deg: out of range, 180, allowed: number in (0, "
+         "s.toml:6:38: animation.keys.0.camera_fov_deg: out of range, 180, allowed: number in "
+         "[1e-06, "
          "180)"},
         {keys("{frame = 4, camera_position_m = [1, 2]}"),
          "s.toml:6:41: animation.keys.0.camera_position_m: wrong length, ..."},

@@ -144,7 +144,7 @@ TEST_CASE("detail: what cannot be is refused in one line") {
     const std::vector<std::string>& d = kDetail;
     const Row rows[] = {
         {{"medium.0.detail.strength=0.5"},
-         "medium.0.detail.tile_m: missing, nothing, allowed: number in (0, 1e+09], metres"},
+         "medium.0.detail.tile_m: missing, nothing, allowed: number in [1e-09, 1e+09], metres"},
         {with(d, {"medium.0.detail.strength=1.5"}), "medium.0.detail.strength: out of range"},
         {with(d, {"medium.0.detail.tile_m=0"}), "medium.0.detail.tile_m: out of range"},
         {with(d, {"medium.0.detail.cells=48"}),

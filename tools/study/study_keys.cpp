@@ -21,7 +21,7 @@ const KeyRow kTop[] = {
      "3"},
     {"first_seed", KeyKind::kInteger, from_to(0, kMost), "", "the first of them; the others follow",
      "1"},
-    {"targets", KeyKind::kNumber2, above(0, 1), "",
+    {"targets", KeyKind::kNumber2, positive(1), "",
      "the two errors (relMSE) for which the time is asked", "[0.01, 0.001]"},
 };
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "src/base/reading_limit.h"
+#include "src/base/single.h"
 
 namespace pileus {
 namespace {
@@ -134,7 +135,7 @@ Status ParticleRows::measure(std::uint64_t particle, Span<const double> row) {
     }
     // A radius below what floats hold would be none.
     const double radius = radius_of(row);
-    if (!(float(radius) > 0)) return fault(particle, kRadius, radius);
+    if (!(single_or_0(radius) > 0)) return fault(particle, kRadius, radius);
     for (int a = 0; a < 3; ++a) {
         const double v = number(kX + a, row);
         set_.low[a] = std::min(set_.low[a], v - radius);

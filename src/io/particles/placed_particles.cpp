@@ -6,13 +6,15 @@
 
 #include "src/base/file.h"
 #include "src/base/fnv1a64.h"
+#include "src/base/single.h"
 #include "src/io/particles/particle_rows.h"
 #include "src/io/particles/replicate.h"
+#include "src/scene/toml/toml_tree.h"
 
 namespace pileus {
 namespace {
 
-constexpr double kMostExtinction = 1e12;
+constexpr double kMostOfParticle = 1e12;
 
 void move(ParticleSet& set, std::size_t from, std::size_t to) {
     for (std::size_t a = 0; a < 3; ++a) set.position[3 * to + a] = set.position[3 * from + a];
@@ -57,6 +59,10 @@ Status place_particles(const std::string& name, const ParticleSettings& s, Parti
         PILEUS_TRY(set.density.resize(set.count, "particles"));
         for (float& v : set.density.span()) v = 1.0f;
     }
+    // Of what stands for each.
+    const bool parts = s.replicate > 1;
+    const double smallest = parts ? s.replicate_radius : 1;
+    const double denser = parts ? 1 / (double(s.replicate) * smallest * smallest * smallest) : 1;
     double largest = 0;
     for (std::size_t i = 0; i < set.count; ++i) {
         const double own = double(set.radius[i]) * s.unit_m;
@@ -64,14 +70,15 @@ Status place_particles(const std::string& name, const ParticleSettings& s, Parti
         if (radius - own > largest) largest = radius - own;
         double density = double(set.density[i]) / s.share;
         if (s.cross_section) density /= kBallMass * radius * radius * radius;
-        if (!(float(radius) > 0) || !(radius <= kMostParticlePlace) ||
-            !(density <= kMostExtinction))
-            return Status::bad_input(name + ": particle " + std::to_string(i) +
-                                     ": radius or extinction out of range, " +
-                                     std::to_string(radius) + " m and " + std::to_string(density) +
-                                     " per m, allowed: above 0 to 1e12 m, up to 1e12 per m");
+        if (!(float(radius * smallest) >= float(kLeastPositive)) ||
+            !(radius <= kMostParticlePlace) || !(density <= kMostOfParticle) ||
+            !(density * denser <= kMostSigma))
+            return Status::bad_input(
+                name + ": particle " + std::to_string(i) + ": radius or extinction out of range, " +
+                number_text(radius * smallest) + " m and " + number_text(density * denser) +
+                " per m, allowed: 1e-9 to 1e12 m, up to 1e12 per m");
         set.radius[i] = float(radius);
-        set.density[i] = float(density);
+        set.density[i] = float(single_or_0(density));
     }
     for (int a = 0; a < 3; ++a) {
         set.origin[a] *= s.unit_m;

@@ -6,6 +6,7 @@
 #include "kernels_cpu/core/rng.h"
 #include "src/base/fnv1a64.h"
 #include "src/base/random_streams.h"
+#include "src/base/single.h"
 
 namespace pileus {
 namespace {
@@ -85,7 +86,7 @@ Status replicate_particles(const std::string& name, const ParticleSettings& s, P
                 out.position[3 * to + a] =
                     float(double(set.position[3 * i + a]) + place[a] * spread * parent);
             out.radius[to] = radius;
-            out.density[to] = float(double(set.density[i]) * denser);
+            out.density[to] = float(single_or_0(double(set.density[i]) * denser));
             for (std::size_t a = 0; a < 3; ++a) {
                 if (!out.colour.empty()) out.colour[3 * to + a] = set.colour[3 * i + a];
                 if (!out.emission.empty()) out.emission[3 * to + a] = set.emission[3 * i + a];

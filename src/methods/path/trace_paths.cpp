@@ -6,6 +6,7 @@
 #include "platform/threads.h"
 #include "src/base/angles.h"
 #include "src/base/random_streams.h"
+#include "src/base/single.h"
 #include "src/methods/path/path_blocks.h"
 #include "src/run/context.h"
 #include "src/run/device_launch.h"
@@ -89,7 +90,7 @@ void set_lamps(const PathInput& in, PathParams& k) {
 /// The sun's disc shines alike all over; its irradiance stays that of the point.
 void set_disc(double radius_deg, PathParams& k) {
     const double half = sincos_deg(0.5 * radius_deg).sine;
-    k.sun_disc = float(2 * half * half);
+    k.sun_disc = float(single_or_0(2 * half * half));
     for (float& light : k.sun) light = float(double(light) / (1 - half * half));
 }
 

@@ -57,7 +57,7 @@ private:
             const Node* node = check_.key(path_ + key);
             if (node == nullptr) continue;
             check_.faults.add(node->at, path_ + "tile_m",
-                              "missing, nothing, allowed: number in (0, 1e+09], metres");
+                              "missing, nothing, allowed: number in [1e-09, 1e+09], metres");
             return;
         }
     }

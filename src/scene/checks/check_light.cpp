@@ -3,6 +3,7 @@
 // in: keys that passed their own checks -> out: faults.
 // docs/scene.md; docs/lights.md.
 #include "src/scene/checks/check_keys.h"
+#include "src/scene/view_fault.h"
 
 namespace pileus {
 namespace {
@@ -109,7 +110,7 @@ private:
         else if (direction != nullptr && light_.direction == Double3{})
             fault(*direction, "direction",
                   "no direction, " + value_text(*direction) + ", allowed: any but the zero vector");
-        else if (light_.direction == Double3{} && light_.target_m == light_.position_m)
+        else if (light_.direction == Double3{} && is_at(light_.position_m, light_.target_m))
             fault(target != nullptr ? *target : *type_, "target_m",
                   "same as position_m, " +
                       (target != nullptr ? value_text(*target) : std::string("nothing")) +

@@ -51,7 +51,8 @@ bool check_rows(const KeyRow& row, const Node& list, const std::string& path, Fa
     for (std::size_t i = 1; i < list.children.size(); ++i) {
         const Node& value = *list.children[i].find(row.list->rising);
         const double before = number_of(*list.children[i - 1].find(row.list->rising));
-        if (number_of(value) > before) continue;
+        // What a file holds is floats.
+        if (float(number_of(value)) > float(before)) continue;
         faults.add(value.at, path + "." + std::to_string(i) + "." + row.list->rising,
                    "not rising, " + value_text(value) + ", allowed: more than " +
                        number_text(before) + ", that of the row before");

@@ -65,7 +65,7 @@ private:
     }
 
     void thresholds() {
-        if (!(sky_.threshold_low < sky_.threshold_high))
+        if (!(float(sky_.threshold_low) < float(sky_.threshold_high)))
             fault("threshold_high", "not above threshold_low, " + number_text(sky_.threshold_high) +
                                         ", allowed: more than " + number_text(sky_.threshold_low));
         if (!sky_.has_perlin() && !sky_.has_worley())
@@ -74,9 +74,11 @@ private:
     }
 
     void layer() {
-        if (!(sky_.base_m < sky_.top_m))
+        const double thinnest = least_width(sky_.base_m, sky_.top_m);
+        if (!(sky_.top_m - sky_.base_m >= thinnest))
             fault("top_m", "not above base_m, " + number_text(sky_.top_m) +
-                               ", allowed: more than " + number_text(sky_.base_m));
+                               ", allowed: more than " + number_text(sky_.base_m) + ", by " +
+                               number_text(thinnest) + " m at least");
         const double radius = sky_.planet_radius_m;
         if (radius > 0 && !(radius >= 10 * (std::fabs(sky_.base_m) + std::fabs(sky_.top_m))))
             fault("planet_radius_m", "too small for the layer, " + number_text(radius) +
@@ -92,8 +94,17 @@ private:
         if ((sky_.size & (sky_.size - 1)) != 0)
             fault("size", "not a power of two, " + std::to_string(sky_.size) +
                               ", allowed: 16, 32, 64, 128, 256, 512");
+        tile_size("perlin_m", sky_.has_perlin(), sky_.perlin);
+        tile_size("worley_m", sky_.has_worley(), sky_.worley);
         noise_size("perlin_cells", sky_.perlin);
         noise_size("worley_cells", sky_.worley);
+    }
+
+    void tile_size(const char* key, bool used, const SkyNoise& noise) {
+        const double tile = noise.tile_m * sky_.scale;
+        if (used && tile > 0 && !(tile >= kLeastPositive))
+            fault(key, "too short with sky.scale, " + number_text(tile) + " m, allowed: at least " +
+                           number_text(kLeastPositive) + " m");
     }
 
     void noise_size(const char* key, const SkyNoise& noise) {

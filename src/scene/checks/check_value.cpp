@@ -27,9 +27,9 @@ struct ValueCheck {
         // Refuse NaN and the infinities apart from the range: no comparison holds for NaN.
         if (!(value - value == 0)) return fault(node, "not finite");
         const KeyRange& r = row.allowed.range;
-        const bool low = r.low_open ? value > r.low : value >= r.low;
-        const bool high = r.high_open ? value < r.high : value <= r.high;
-        return (low && high) || fault(node, "out of range");
+        // An end that is left out is left out as the float that the number becomes.
+        const bool high = r.high_open ? float(value) < float(r.high) : value <= r.high;
+        return (value >= r.low && high) || fault(node, "out of range");
     }
 
     bool integer(const Node& node) const {
@@ -63,6 +63,12 @@ struct ValueCheck {
         for (std::size_t i = 0; i < 3; ++i) {
             const Node &low = node.children[0].children[i], &high = node.children[1].children[i];
             if (!(number_of(low) < number_of(high))) return fault(node, "inverted or empty");
+            const double least = least_width(number_of(low), number_of(high));
+            if (number_of(high) - number_of(low) >= least) continue;
+            faults.add(node.at, path,
+                       std::string("too thin along ") + "xyz"[i] + ", " + value_text(node) +
+                           ", allowed: at least " + number_text(least) + " m wide there");
+            return false;
         }
         return true;
     }

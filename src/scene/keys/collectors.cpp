@@ -74,7 +74,7 @@ constexpr KeyRow kRows[] = {
      "cells", "half width of the neighbourhood whose variance is taken"},
     {"collectors.density_range", collectors<&CollectorSettings::density_range>, from_to(0, 1), "",
      "a node whose densities differ by less is split no further"},
-    {"collectors.influence_radius", collectors<&CollectorSettings::influence_radius>, above(0, 1),
+    {"collectors.influence_radius", collectors<&CollectorSettings::influence_radius>, positive(1),
      "diagonals",
      "radius of influence of a sample, as a share of the box's "
      "diagonal"},

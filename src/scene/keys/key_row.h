@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "src/base/single.h"
 #include "src/base/span.h"
 #include "src/scene/keys/key_field.h"
 
@@ -19,7 +20,7 @@ constexpr const char* kNoNote = "";
 
 struct KeyRange {
     double low = 0, high = 0;
-    bool low_open = false, high_open = false;
+    bool high_open = false;
 };
 
 /// What a value may be: numbers within a range, or one of some texts.
@@ -33,9 +34,10 @@ struct Allowed {
 constexpr Allowed any() { return {}; }
 constexpr Allowed moment_text() { return {{}, nullptr, nullptr, true}; }
 constexpr Allowed from_to(double low, double high) { return {{low, high}}; }
-/// Without its low end; without both ends.
-constexpr Allowed above(double low, double high) { return {{low, high, true, false}}; }
-constexpr Allowed between(double low, double high) { return {{low, high, true, true}}; }
+/// Lengths and factors that must not be 0.
+constexpr Allowed positive(double high) { return from_to(kLeastPositive, high); }
+/// Without its high end.
+constexpr Allowed below(double low, double high) { return {{low, high, true}}; }
 constexpr Allowed one_of(const char* choices, const char* later = nullptr) {
     return {{}, choices, later};
 }
@@ -74,7 +76,7 @@ Node default_value(const KeyRow& row);
 /// Puts a checked value into the row's field; nothing where the row has none.
 void set_value(const KeyRow& row, const KeyTarget& target, const Node& node);
 
-/// What a row allows, in words: "number in (0, 180)", "best, paper".
+/// What a row allows, in words: "number in [1e-06, 180)", "best, paper".
 std::string allowed_text(const KeyRow& row);
 /// The default as TOML, "required", or empty.
 std::string default_text(const KeyRow& row);

@@ -18,8 +18,8 @@ std::string bound_text(double value) {
 }
 
 std::string range_text(const KeyRange& range) {
-    return std::string(range.low_open ? "(" : "[") + bound_text(range.low) + ", " +
-           bound_text(range.high) + (range.high_open ? ")" : "]");
+    return "[" + bound_text(range.low) + ", " + bound_text(range.high) +
+           (range.high_open ? ")" : "]");
 }
 
 std::string choices_text(const char* choices) {

@@ -26,7 +26,7 @@ constexpr KeyRow kRows[] = {
      "where a spot light shines, of any length but 0", kNoNote},
     {"light.N.target_m", field<&LightSettings::target_m>, from_to(-1e9, 1e9), "m",
      "instead of direction: the point that a spot light shines at", kNoNote},
-    {"light.N.cone_deg", field<&LightSettings::cone_deg>, above(0, 360), "deg",
+    {"light.N.cone_deg", field<&LightSettings::cone_deg>, positive(360), "deg",
      "whole angle of a spot light's cone, from edge to edge"},
     {"light.N.penumbra_deg", field<&LightSettings::penumbra_deg>, from_to(0, 180), "deg",
      "width of the soft edge inside a spot light's cone, at most half of cone_deg"},

@@ -108,7 +108,7 @@ constexpr KeyField detail = field<&MediumSettings::detail, Member>;
 
 /// Of detail beyond its grid; docs/detail.md.
 constexpr KeyRow kDetailRows[] = {
-    {"medium.N.detail.tile_m", detail<&DetailSettings::tile_m>, above(0, 1e9), "m",
+    {"medium.N.detail.tile_m", detail<&DetailSettings::tile_m>, positive(1e9), "m",
      "length after which the noise repeats; required in this table, and left out with it: no "
      "detail (docs/detail.md)",
      kNoNote},

@@ -109,7 +109,7 @@ constexpr KeyRow kKeyRows[] = {
     {"way", KeyKind::kText, one_of(kWays), "", ""},
     {"camera_position_m", KeyKind::kNumber3, from_to(-1e9, 1e9), "m", ""},
     {"camera_target_m", KeyKind::kNumber3, from_to(-1e9, 1e9), "m", ""},
-    {"camera_fov_deg", KeyKind::kNumber, between(0, 180), "deg", ""},
+    {"camera_fov_deg", KeyKind::kNumber, below(kLeastFovDeg, 180), "deg", ""},
     {"sun_azimuth_deg", KeyKind::kNumber, from_to(-36000, 36000), "deg", ""},
     {"sun_elevation_deg", KeyKind::kNumber, from_to(-90, 90), "deg", ""},
     {"hours", KeyKind::kNumber, from_to(-8784, 8784), "h", ""},

@@ -13,23 +13,23 @@ constexpr KeyField particles = field<&MediumSettings::particles, Members...>;
 using P = ParticleSettings;
 
 constexpr KeyRow kRows[] = {
-    {"medium.N.density.unit_m", particles<&P::unit_m>, above(0, 1e9), "m",
+    {"medium.N.density.unit_m", particles<&P::unit_m>, positive(1e9), "m",
      "particles: metres of the file's unit of length"},
-    {"medium.N.density.radius_m", particles<&P::radius_m>, above(0, 1e12), "m",
+    {"medium.N.density.radius_m", particles<&P::radius_m>, positive(1e12), "m",
      "radius of every particle; left out: the file's own", kNoNote},
-    {"medium.N.density.radius_scale", particles<&P::radius_scale>, above(0, 1e6), "",
+    {"medium.N.density.radius_scale", particles<&P::radius_scale>, positive(1e6), "",
      "factor on every radius"},
     {"medium.N.density.holds", particles<&P::cross_section>, one_of("extinction|cross-section"), "",
      "what the file's `density` is: a particle's extinction at its centre in 1/m, or its "
      "cross-section in "
      "m^2, which a larger radius spreads thinner"},
-    {"medium.N.density.share", particles<&P::share>, above(0, 1), "",
+    {"medium.N.density.share", particles<&P::share>, positive(1), "",
      "share of the particles that are kept, chosen by number or by their own bits; they are denser "
      "in return"},
     {"medium.N.density.replicate", particles<&P::replicate>, from_to(1, 10000), "",
      "so many smaller particles in place of each, with its extinction in all, spread about as its "
      "extinction is"},
-    {"medium.N.density.replicate_radius", particles<&P::replicate_radius>, above(0, 1), "",
+    {"medium.N.density.replicate_radius", particles<&P::replicate_radius>, positive(1), "",
      "their radius over that of the particle that they stand for"},
 };
 

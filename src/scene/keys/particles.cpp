@@ -24,7 +24,7 @@ constexpr KeyRow kRows[] = {
      "factor on the light from one to the next"},
     {"particles.octave_anisotropy", particles<&Settings::octave_anisotropy>, from_to(0, 1), "",
      "factor on the mean cosine from one to the next"},
-    {"particles.cone_deg", particles<&Settings::cone_deg>, above(0, 360), "deg",
+    {"particles.cone_deg", particles<&Settings::cone_deg>, positive(360), "deg",
      "of scattering = `effective`: angle at the cone's apex"},
     {"particles.sky_light", particles<&Settings::sky_ambient>, one_of("none|ambient"), "",
      "light of sky and ground in the particles: none, or from 24 directions on coarse nodes"},
@@ -39,7 +39,7 @@ constexpr KeyRow kRows[] = {
      "a walk towards the sun ends where it has met this optical depth; 0: never"},
     {"particles.shadow_density", particles<&Settings::shadow_density>, from_to(0, 1000), "",
      "factor on the extinction towards lights: above 1 darker shadows, 0 none"},
-    {"particles.occluders", particles<&Settings::occluders>, above(0, 1), "",
+    {"particles.occluders", particles<&Settings::occluders>, positive(1), "",
      "share of the particles that cast shadows on others towards the sun and directional lights, "
      "denser in return, chosen by their own numbers; all are lit and shown"},
     {"particles.light_bias", particles<&Settings::light_bias>, from_to(-2, 2), "",

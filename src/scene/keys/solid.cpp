@@ -19,7 +19,7 @@ constexpr KeyRow kRows[] = {
      "share of the light that it sends back, alike in all directions"},
     {"solid.N.position_m", solid<&SolidSettings::position_m>, from_to(-1e9, 1e9), "m",
      "where the file's origin stands"},
-    {"solid.N.scale", solid<&SolidSettings::scale>, above(0, 1e9), "m",
+    {"solid.N.scale", solid<&SolidSettings::scale>, positive(1e9), "m",
      "metres per unit of the file"},
     {"solid.N.rotation_deg", solid<&SolidSettings::rotation_deg>, from_to(-360, 360), "deg",
      "turns it about x, then y, then z"},

@@ -54,11 +54,11 @@ constexpr KeyRow kRows[] = {
      "which member of an ensemble: an index from 0, or the member's number or name as text"},
     {"medium.N.density.fraction", weather<&W::in_cloud>, one_of("mean|in_cloud"), "",
      "`mean`: a cell's water fills it, `in_cloud`: is divided by the cloud fraction first"},
-    {"medium.N.density.liquid_radius_um", weather<&W::liquid_radius_um>, above(0, 1e4), "um",
+    {"medium.N.density.liquid_radius_um", weather<&W::liquid_radius_um>, positive(1e4), "um",
      "effective radius of all droplets; left out: the file's, else 10", kNoNote},
-    {"medium.N.density.ice_radius_um", weather<&W::ice_radius_um>, above(0, 1e4), "um",
+    {"medium.N.density.ice_radius_um", weather<&W::ice_radius_um>, positive(1e4), "um",
      "effective radius of all crystals; left out: the file's, else 30", kNoNote},
-    {"medium.N.density.ice_dge_um", weather<&W::ice_dge_um>, above(0, 1e4), "um",
+    {"medium.N.density.ice_dge_um", weather<&W::ice_dge_um>, positive(1e4), "um",
      "generalized effective size of all crystals (Fu 1996), in place of a radius", kNoNote},
     {"medium.N.density.missing", weather<&W::missing_is_fault>, one_of("clear|fault"), "",
      "what missing values of water are: no cloud, counted, or a fault"},
@@ -66,11 +66,11 @@ constexpr KeyRow kRows[] = {
      "degrees of longitude as metres: times the cosine of latitude, or not"},
     {"medium.N.density.origin_deg", weather<&W::origin_deg>, from_to(-360, 360), "deg",
      "longitude and latitude of x = y = 0; left out: the middle of the data", kNoNote},
-    {"medium.N.density.width_m", weather<&W::width_m>, above(0, 1e9), "m",
+    {"medium.N.density.width_m", weather<&W::width_m>, positive(1e9), "m",
      "width of a slice or a single column, across; left out: the spacing of a slice's columns, "
      "10 km for a single one",
      kNoNote},
-    {"medium.N.density.vertical_scale", weather<&W::vertical_scale>, above(0, 1e4), "",
+    {"medium.N.density.vertical_scale", weather<&W::vertical_scale>, positive(1e4), "",
      "factor on heights; extinction is divided by it, so that optical depths stay"},
 };
 

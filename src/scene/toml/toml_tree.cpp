@@ -25,6 +25,7 @@
 #include <charconv>
 
 #include "src/base/printable.h"
+#include "src/base/single.h"
 
 namespace pileus {
 namespace {
@@ -108,7 +109,8 @@ void put_at(Node& node, const Place& place) {
 }
 
 double number_of(const Node& node) {
-    return node.kind == NodeKind::kInteger ? static_cast<double>(node.integer) : node.number;
+    return node.kind == NodeKind::kInteger ? static_cast<double>(node.integer)
+                                           : single_or_0(node.number);
 }
 
 std::string number_text(double value) {

@@ -42,7 +42,7 @@ struct Node {
 /// Puts a node and all that it holds at one place.
 void put_at(Node& node, const Place& place);
 
-/// The number in a kNumber or kInteger node.
+/// The number in a kNumber or kInteger node, as it is used: 0 where single precision has no other.
 double number_of(const Node& node);
 
 /// Shortest text that reads back as the same number, the same in every locale.

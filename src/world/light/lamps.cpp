@@ -8,6 +8,7 @@
 
 #include "kernels_cpu/core/profile.h"
 #include "src/base/angles.h"
+#include "src/base/single.h"
 
 namespace pileus {
 namespace {
@@ -54,7 +55,8 @@ LampParams lamp_of(const LightSettings& light, const Medium& medium) {
     const double least = kLeastRadius * shortest;
     const double radius = light.radius_m > least ? light.radius_m : least;
     lamp.least_square = float(radius * radius);
-    if (!(lamp.least_square > 1e-30f)) lamp.least_square = 1e-30f;
+    constexpr auto kLeastSquare = float(kLeastPositive * kLeastPositive);
+    if (!(lamp.least_square > kLeastSquare)) lamp.least_square = kLeastSquare;
     if (!parallel && light.radius_m > 0 && light.shadow_samples > 1) {
         lamp.radius = float(radius);
         lamp.places = light.shadow_samples;

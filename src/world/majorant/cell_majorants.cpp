@@ -4,6 +4,8 @@
 // docs/photon-grid.md, "Deposits".
 #include "src/world/majorant/cell_majorants.h"
 
+#include <algorithm>
+
 #include "platform/threads.h"
 #include "src/world/majorant/empty_blocks.h"
 
@@ -107,7 +109,8 @@ float floor_density(const Medium& medium, const CellGrid& cells) {
     while (edge * edge * edge > volume) edge *= 0.5;
     while (edge * edge * edge < volume) edge *= 2;
     for (int i = 0; i < 8; ++i) edge = (2 * edge + volume / (edge * edge)) / 3;
-    return medium.sigma > 0 ? float(1 / (edge * double(medium.sigma))) : 0.0f;
+    // A float holds it, so that no free flight has length 0.
+    return medium.sigma > 0 ? float(std::min(1 / (edge * double(medium.sigma)), 0x1p100)) : 0.0f;
 }
 
 void raise_blocks(const Medium& medium, const CellGrid& cells, int threads, CellMajorants& near,

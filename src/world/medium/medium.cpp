@@ -8,16 +8,21 @@
 
 #include "kernels_cpu/core/profile.h"
 #include "src/base/file.h"
+#include "src/base/single.h"
 #include "src/io/volumes/particle_volume.h"
 #include "src/io/volumes/volume_file.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/density_row.h"
 #include "src/scene/rows/volume_format.h"
+#include "src/scene/toml/toml_tree.h"
 #include "src/world/medium/detail.h"
 #include "src/world/phase/medium_phase.h"
 
 namespace pileus {
 namespace {
+
+/// As of particles; what knows its place may lie farther out than keys can say.
+constexpr double kMostPlace = 1e12;
 
 std::string density_key(const Scene& scene, const MediumSettings& settings) {
     return medium_key(scene, settings) + ".density";
@@ -57,11 +62,36 @@ Status load_density(const Scene& scene, const MediumSettings& settings, int thre
 /// Divides extinctions by the largest, so that densities end at exactly 1 and sigma is the largest
 /// extinction; dark volumes stay as they are.
 void set_peak_to_one(double scale, Medium& medium) {
-    medium.sigma = float(scale * double(medium.density_max));
+    medium.sigma = float(std::min(scale * double(medium.density_max), 3e38));
     medium.volume.in_extinction = false;
     if (!(medium.density_max > 0)) return;
-    for (float& value : medium.volume.density.span()) value /= medium.density_max;
+    for (float& value : medium.volume.density.span())
+        value = single_or_0(value / medium.density_max);
     medium.density_max = 1;
+}
+
+/// Largest density; what a float cannot tell from 0 is 0.
+float hold_densities(Volume& volume) {
+    float most = 0;
+    for (float& density : volume.density.span()) {
+        density = single_or_0(density);
+        if (density > most) most = density;
+    }
+    return most;
+}
+
+/// The two corners of a medium's box as floats must tell them apart.
+Status check_box(const std::array<Double3, 2>& bounds_m) {
+    for (std::size_t a = 0; a < 3; ++a) {
+        const double low = bounds_m[0][int(a)], high = bounds_m[1][int(a)];
+        const double least = least_width(low, high);
+        if (high - low >= least && low >= -kMostPlace && high <= kMostPlace) continue;
+        return Status::bad_input(std::string("a box along ") + "xyz"[a] + " from " +
+                                 number_text(low) + " to " + number_text(high) +
+                                 " m, allowed: at least " + number_text(least) +
+                                 " m wide there, within 1e12 m of 0");
+    }
+    return Status::ok();
 }
 
 /// Everything about a medium but its values.
@@ -72,6 +102,8 @@ Status place_medium(const Scene& scene, const MediumSettings& settings, const Vo
                                  ".bounds_m: left out, and the file \"" + settings.file +
                                  "\" does not know its place");
     const auto& bounds = settings.has_bounds ? settings.bounds_m : head.bounds_m;
+    const std::string box_key = settings.has_bounds ? ".bounds_m" : ".density";
+    PILEUS_TRY(at_key(scene, medium_key(scene, settings) + box_key, check_box(bounds)));
     out.low_m = bounds[0];
     out.grid.periodic = settings.periodic;
     out.grid.constant = settings.constant;
@@ -144,6 +176,18 @@ Status outline_file(const Scene& scene, const MediumSettings& settings, const Li
 }
 
 }  // namespace
+
+Status hold_extinction(const std::string& where, Medium& medium) {
+    const double per_m = double(medium.sigma) * double(medium.density_max);
+    if (!(per_m <= kMostSigma))
+        return Status::bad_input(where + ": " + number_text(per_m) +
+                                 " per m where it is densest, allowed: at most " +
+                                 number_text(kMostSigma));
+    double square = 0;
+    for (const double e : medium.extent_m) square += e * e;
+    if (per_m < kLeastSigma || per_m * __builtin_sqrt(square) < kLeastSigma) medium.sigma = 0;
+    return Status::ok();
+}
 
 std::uint64_t phase_bytes(const Medium& medium) {
     std::uint64_t bytes = 0;
@@ -229,10 +273,9 @@ Status load_medium(const Scene& scene, const MediumSettings& settings, int threa
     head.in_extinction = out.volume.in_extinction;
     PILEUS_TRY(place_medium(scene, settings, head, out));
     if (!settings.transfer.empty()) return Status::ok();
-    out.density_max = 0;
-    for (float density : out.volume.density.span())
-        if (density > out.density_max) out.density_max = density;
+    out.density_max = hold_densities(out.volume);
     if (out.volume.in_extinction) set_peak_to_one(settings.extinction_scale, out);
+    PILEUS_TRY(hold_extinction(medium_key(scene, settings), out));
     return add_detail(scene, settings, threads, kernels, out);
 }
 

@@ -61,6 +61,10 @@ inline Array<float> media_parts(const Grid& grid, std::uint64_t media) {
 
 }  // namespace arrays
 
+/// Refuses an extinction whose products would be infinite, kBadInput that begins with `where`; one
+/// that no float would show through the whole box becomes none.
+Status hold_extinction(const std::string& where, Medium& medium);
+
 /// Bytes of all tables of phase functions.
 std::uint64_t phase_bytes(const Medium& medium);
 

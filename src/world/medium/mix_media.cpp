@@ -175,7 +175,8 @@ struct MediaList {
     void add(Medium medium, std::size_t name, bool last, Plan& plan) {
         const bool dark = !(medium.sigma > 0 && medium.density_max > 0);
         if (dark && !(last && media.empty())) {
-            plan.leave_out(("medium " + std::to_string(name)).c_str(), "no extinction");
+            plan.leave_out(("medium " + std::to_string(name)).c_str(),
+                           "no extinction that single precision shows");
             return;
         }
         boxes.push_back(box_of(medium));
@@ -196,8 +197,10 @@ struct MediaList {
         plan.need(told_transfer(name, rows).c_str());
         std::vector<Medium> colours;
         PILEUS_TRY(split_by_transfer(rows, medium, colours));
-        for (std::size_t c = 0; c < colours.size(); ++c)
+        for (std::size_t c = 0; c < colours.size(); ++c) {
+            PILEUS_TRY(hold_extinction("medium." + std::to_string(name), colours[c]));
             add(std::move(colours[c]), name, last && c + 1 == colours.size(), plan);
+        }
         return Status::ok();
     }
 

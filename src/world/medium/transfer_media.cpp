@@ -2,6 +2,8 @@
 // See transfer_media.h.
 #include "src/world/medium/transfer_media.h"
 
+#include "src/base/single.h"
+
 namespace pileus {
 namespace {
 
@@ -15,7 +17,7 @@ struct ColourRows {
         const TransferPlace at = transfer_place(rows, double(value));
         const double low = share[at.low], high = share[at.high];
         const double density = low + (high - low) * at.share;
-        return float(density < 1 ? density : 1);
+        return float(single_or_0(density < 1 ? density : 1));
     }
 };
 
