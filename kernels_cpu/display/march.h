@@ -8,6 +8,7 @@
 #include "kernels_cpu/core/sh.h"
 #include "kernels_cpu/display/lit_nodes.h"
 #include "kernels_cpu/display/march_ray.h"
+#include "kernels_cpu/display/pixel_light.h"
 #include "kernels_cpu/media/phase_table.h"
 
 // A march's step is one function among several alike: the compiler would call some of them.
@@ -28,6 +29,7 @@ template <class T>
 struct SunAlongRay {
     T phase[kMostMedia];
     bool lit;
+    T most;         // of any phase function's mean over the pixel, 1/sr
     I_of<T> angle;  // cell of the beam's tables, and the place in it
     T within;
 };
@@ -47,8 +49,9 @@ PILEUS_FN SunAlongRay<T> sun_along(const MarchParams& k, const Vec<T>& direction
     const Vec<T> sun{all<T>(k.sun_travel[0]), all<T>(k.sun_travel[1]), all<T>(k.sun_travel[2])};
     const T turn =
         one_minus_cosine(sun, Vec<T>{T{} - direction.x, T{} - direction.y, T{} - direction.z});
+    s.most = most_density(k.camera, direction);
     for (int i = 0; i < kMostMedia && i < k.media; ++i) {
-        s.phase[i] = phase_density(k.phase[i], turn);
+        s.phase[i] = min_(phase_density(k.phase[i], turn), s.most);
         for (int c = 0; c < 3; ++c) s.lit |= k.sun_source[i][c] > 0.0f;
     }
     if (k.beam_sets > 0) find_angle(turn, s);
@@ -72,7 +75,11 @@ PILEUS_FN void add_beam(const MarchParams& k, const MarchBuffers& b, const SunAl
             const T near_up = gather(table, node + (kBeamDepths + 1)),
                     far_up = gather(table, node + (kBeamDepths + 2));
             const T low = near + f * (far - near), high = near_up + f * (far_up - near_up);
-            light = visible * exp_(T{} - tau * k.beam_rest[c]) * (low + s.within * (high - low));
+            const T left = exp_(T{} - tau * k.beam_rest[c]);
+            // Of all that was scattered within the peak, which is tau where a float sees no less.
+            const T all_of_it = max_(left - exp_(T{} - tau), min_(tau, all<T>(1e-5f)));
+            light = min_(visible * left * (low + s.within * (high - low)),
+                         visible * s.most * all_of_it);
         }
         source[c] = source[c] + light * k.sun_source[0][c];
     }

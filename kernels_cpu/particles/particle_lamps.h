@@ -137,9 +137,11 @@ PILEUS_FN void particle_lamp_light(const ParticleMarchParams& k, const ParticleL
                 set_lane(depth, l, number(b.depth + at, l));
                 set_lane(reach, l, number(b.reach + at, l));
             }
+            const T most = most_density(c, to);
             const auto phase_of = [&](int order, T turn) {
-                return order == 0 ? phase_density(k.phase, turn)
-                                  : hg_density(all<T>(k.order_g[order]), turn);
+                return min_(order == 0 ? phase_density(k.phase, turn)
+                                       : hg_density(all<T>(k.order_g[order]), turn),
+                            most);
             };
             if (lamp.radius > 0.0f) {
                 LampCone<T> cone = cone_of_balls(lamp, p, radius);

@@ -6,6 +6,7 @@
 #pragma once
 #include "kernels_cpu/core/pixel_block.h"
 #include "kernels_cpu/core/profile.h"
+#include "kernels_cpu/display/pixel_light.h"
 #include "kernels_cpu/particles/particle_walk.h"
 
 namespace pileus {
@@ -38,8 +39,10 @@ PILEUS_FN ParticlePhases<T> particle_phases(const ParticleMarchParams& k, const 
     const Vec<T> sun{all<T>(k.sun_travel[0]), all<T>(k.sun_travel[1]), all<T>(k.sun_travel[2])};
     const T turn =
         one_minus_cosine(sun, Vec<T>{T{} - direction.x, T{} - direction.y, T{} - direction.z});
-    p.order[0] = phase_density(k.phase, turn);
-    for (int n = 1; n < k.orders; ++n) p.order[n] = hg_density(all<T>(k.order_g[n]), turn);
+    const T most = most_density(k.camera, direction);
+    p.order[0] = min_(phase_density(k.phase, turn), most);
+    for (int n = 1; n < k.orders; ++n)
+        p.order[n] = min_(hg_density(all<T>(k.order_g[n]), turn), most);
     return p;
 }
 

@@ -26,7 +26,10 @@ struct PathGroup {
 template <int W, int NC, int K>
 PILEUS_FN void store_paths(const PathLanes<W, NC, K>& s, const PathParams& k, const PathBuffers& b,
                            std::uint32_t lanes) {
-    store_radiance<W>(s.sum, k.parts_wanted != 0 ? 3 * kPathParts : 3, s.sample, k, b, lanes);
+    F<W> worth = all<F<W>>(1.0f);
+    if constexpr (kGuided<K>) worth = s.worth;
+    store_radiance<W>(s.sum, k.parts_wanted != 0 ? 3 * kPathParts : 3, worth, s.sample, k, b,
+                      lanes);
 }
 
 /// Serve the lanes whose flights have ended, begin new paths, and send them all on.

@@ -19,17 +19,44 @@ PILEUS_FN T guide_density(const GuideParams& g, T one_minus_cos) {
     return select(one_minus_cos < g.cone, hg_density(all<T>(g.g), one_minus_cos) * g.unit, T{});
 }
 
+/// A point of the sun's disc.
+template <int W>
+PILEUS_FN Vec<F<W>> point_of_sun(const PathParams& k, const Words<U<W>>& w) {
+    using T = F<W>;
+    const Vec<T> middle{all<T>(k.to_sun[0]), all<T>(k.to_sun[1]), all<T>(k.to_sun[2])};
+    const T turn = uniform(w.a) * k.sun_disc;
+    const SinCos<T> phi = sincos_turns(uniform(w.b));
+    return turned(middle, 1.0f - turn, sqrt_(turn * (2.0f - turn)), phi.cosine, phi.sine);
+}
+
+/// Directions over the front of a flat detector: on the average each second is drawn as a branch
+/// is, about the sun or `sun`, a point of its disc. Through a narrow peak most light comes from
+/// there, and an even draw would hardly meet it. `own` are even draws; `worth` is their density
+/// over that of both.
+template <int W>
+PILEUS_FN Vec<F<W>> seek_from_detector(const PathParams& k, const Vec<F<W>>& own,
+                                       const Vec<F<W>>& sun, const Words<U<W>>& w, F<W>& worth) {
+    using T = F<W>;
+    const Vec<T> front{all<T>(k.camera.forward[0]), all<T>(k.camera.forward[1]),
+                       all<T>(k.camera.forward[2])};
+    const Turn<T> turn = hg_sample(all<T>(k.guide.g), uniform_open(w.a) * k.guide.share);
+    const SinCos<T> phi = sincos_turns(uniform(w.b));
+    const Vec<T> way = turned(sun, 1.0f - turn.one_minus_cos, turn.sine, phi.cosine, phi.sine);
+    const M<W> even = (w.a & 1u) == 0u;
+    const Vec<T> d{select(even, own.x, way.x), select(even, own.y, way.y),
+                   select(even, own.z, way.z)};
+    const T density = max_(dot(d, front), T{}) * (4.0f * kInvFourPi);
+    const T both = 0.5f * (density + guide_density(k.guide, one_minus_cosine(d, sun)));
+    worth = density / max_(both, all<T>(1e-30f));
+    return d;
+}
+
 /// New paths in the lanes of `m` choose their point of the sun's disc, for all their vertices.
 template <int W, int NC, int K>
 PILEUS_FN void choose_sun(PathLanes<W, NC, K>& s, const PathParams& k, M<W> m) {
     using T = F<W>;
     Vec<T> sun{all<T>(k.to_sun[0]), all<T>(k.to_sun[1]), all<T>(k.to_sun[2])};
-    if (k.sun_disc > 0.0f) {
-        const Words<U<W>> w = draw(s, k, m);
-        const T turn = uniform(w.a) * k.sun_disc;
-        const SinCos<T> phi = sincos_turns(uniform(w.b));
-        sun = turned(sun, 1.0f - turn, sqrt_(turn * (2.0f - turn)), phi.cosine, phi.sine);
-    }
+    if (k.sun_disc > 0.0f) sun = point_of_sun<W>(k, draw(s, k, m));
     put(m, sun, s.to_sun);
     s.odds = select(m, T{}, s.odds);
     s.branch = s.branch & lnot(m);

@@ -61,6 +61,7 @@ struct Seeker {};
 template <int W, int NC>
 struct Seeker<W, NC, true> {
     Vec<F<W>> to_sun;    // this path's point of the disc
+    F<W> worth;          // of all that it brings; roulette knows nothing of it
     F<W> odds;           // how much likelier a branch than the path flies as this one does
     M<W> branch, forks;  // this is a branch; one is due
     Vec<F<W>> fork;      // its direction

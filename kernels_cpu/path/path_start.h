@@ -9,9 +9,17 @@
 namespace pileus {
 inline namespace PILEUS_ISA {
 
+/// Light at the camera per light along a ray; 1 where K does not ask for it.
+template <int W, bool Guided>
+struct RayWorth {};
+template <int W>
+struct RayWorth<W, true> {
+    F<W> worth;
+};
+
 /// Rays that wait for a lane.
 template <int W, int K>
-struct FreshPaths : Walls<W, kSolid<K>> {
+struct FreshPaths : Walls<W, kSolid<K>>, RayWorth<W, kGuided<K>> {
     Flight<W> flight;
     Vec<F<W>> origin;     // metres
     U<W> number, sample;  // as in PathLanes
@@ -20,21 +28,22 @@ struct FreshPaths : Walls<W, kSolid<K>> {
     std::uint32_t event;  // draws made
 };
 
-/// Store the radiance of the samples in `lanes`, light[c] for c < `count`.
+/// Store the radiance of the samples in `lanes`, `worth` times light[c] for c < `count`.
 template <int W>
-PILEUS_FN void store_radiance(const F<W>* light, int count, const U<W>& sample, const PathParams& k,
-                              const PathBuffers& b, std::uint32_t lanes) {
+PILEUS_FN void store_radiance(const F<W>* light, int count, const F<W>& worth, const U<W>& sample,
+                              const PathParams& k, const PathBuffers& b, std::uint32_t lanes) {
     const float unit = k.camera.flux != 0 ? kPi : 1.0f;
     for (; lanes != 0; lanes &= lanes - 1) {
         const int i = lowest_bit(lanes);
+        const float own = lane(worth, i);
         float* out = b.radiance + lane(sample, i);
         bool finite = true;
         for (int c = 0; c < count; ++c) {
-            const float v = lane(light[c], i) * unit;
+            const float v = lane(light[c], i) * unit * own;
             finite = finite && v - v == 0.0f;
         }
         for (int c = 0; c < count; ++c)
-            out[std::uint64_t(c) * b.stride] = finite ? lane(light[c], i) * unit : 0.0f;
+            out[std::uint64_t(c) * b.stride] = finite ? lane(light[c], i) * unit * own : 0.0f;
         if (!finite) ++b.tally->nan;
     }
 }
@@ -47,6 +56,13 @@ PILEUS_FN Vec<F<W>> flux_direction(const CameraParams& c, const Words<U<W>>& w) 
         return l.a * c.right[a] + l.b * c.up[a] + l.normal * c.forward[a];
     };
     return normalized(Vec<F<W>>{mix(0), mix(1), mix(2)});
+}
+
+/// Whether rays of a flat detector seek the sun, too: where phase functions are peaked, and the
+/// detector faces it.
+PILEUS_FN bool seeks_from_detector(const PathParams& k) {
+    const float *f = k.camera.forward, *s = k.to_sun;
+    return k.camera.flux != 0 && k.guide.on != 0 && f[0] * s[0] + f[1] * s[1] + f[2] * s[2] > 0.0f;
 }
 
 /// Fly the lanes of `m` through empty blocks; returns those that leave the box.
@@ -86,6 +102,18 @@ PILEUS_FN void aim_camera(FreshPaths<W, K>& f, const PathParams& k, M<W> m, F<W>
     if (k.camera.flux != 0)
         d = flux_direction<W>(k.camera, threefry(k.key.k0, k.key.k1, f.number, U<W>{} + 2u));
     f.event = 3;
+    if constexpr (kGuided<K>) {
+        f.worth = all<F<W>>(1.0f);
+        if (seeks_from_detector(k)) {
+            const Words<U<W>> luck = threefry(k.key.k0, k.key.k1, f.number, U<W>{} + 3u);
+            Vec<F<W>> sun{all<F<W>>(k.to_sun[0]), all<F<W>>(k.to_sun[1]), all<F<W>>(k.to_sun[2])};
+            // The draw by which the path finds the same point once more.
+            if (k.sun_disc > 0.0f)
+                sun = point_of_sun<W>(k, threefry(k.key.k0, k.key.k1, f.number, U<W>{} + 4u));
+            d = seek_from_detector<W>(k, d, sun, luck, f.worth);
+            f.event = 4;
+        }
+    }
     f.origin = ray.origin;
     aim_flight(f.flight, k.grid, m, d);
 }
@@ -152,8 +180,11 @@ PILEUS_FN void fill_fresh(FreshPaths<W, K>& f, const PathParams& k, const PathBu
     f.ready = bits_of(m & lnot(sky));
     if (!any(sky)) return;
     const Vec<T> light = sky_light<W>(k, f.flight.d);
+    T worth = all<T>(1.0f);
+    if constexpr (kGuided<K>) worth = f.worth;
     const T sum[3 * kPathParts] = {light.x, light.y, light.z};
-    store_radiance<W>(sum, k.parts_wanted != 0 ? 3 * kPathParts : 3, f.sample, k, b, bits_of(sky));
+    store_radiance<W>(sum, k.parts_wanted != 0 ? 3 * kPathParts : 3, worth, f.sample, k, b,
+                      bits_of(sky));
 }
 
 /// Hand the waiting ray `from` over to lane `to`.
@@ -170,6 +201,7 @@ PILEUS_FN void hand_over(PathLanes<W, NC, K>& s, int to, const FreshPaths<W, K>&
     move(s.bound, w.bound), move(s.lift, w.lift), move(s.block, w.block);
     move(s.wraps, w.wraps);
     move(s.number, f.number), move(s.sample, f.sample);
+    if constexpr (kGuided<K>) move(s.worth, f.worth);
     if constexpr (kSolid<K>) move(s.wall, f.wall), move(s.piece, f.piece);
 }
 

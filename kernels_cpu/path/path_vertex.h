@@ -111,8 +111,10 @@ PILEUS_FN void scatter_path(PathLanes<W, NC, K>& s, const PathParams& k, PathTal
         if (k.sunlit != 0) s.shade = select(mine, phase_density(optics.phase, to_sun), s.shade);
         if (!map) return;
         to_map_density = select(mine, phase_density(optics.phase, to_map), to_map_density);
-        s.next_density =
-            select(mine, phase_density(optics.phase, own.one_minus_cos), s.next_density);
+        // Straight on: no ray to the map is drawn from a peak without width.
+        const T density =
+            select(own.one_minus_cos > 0.0f, phase_density(optics.phase, own.one_minus_cos), T{});
+        s.next_density = select(mine, density, s.next_density);
     });
     M<W> mapped = m & lnot(m), mappable = m;
     if constexpr (kGuided<K>) mappable = m & lnot(s.branch);
@@ -127,7 +129,8 @@ PILEUS_FN void scatter_path(PathLanes<W, NC, K>& s, const PathParams& k, PathTal
             for_media(s, k, lanes, [&](const Optics& optics, M<W> mine) {
                 density = select(mine, phase_density(optics.phase, one_minus_cos), density);
             });
-            return density;
+            // No branch goes where a peak without width leads.
+            return select(one_minus_cos > 0.0f, density, all<T>(1e30f));
         });
     first_flight(s, k, m, mapped, spare_bits(w));
     if constexpr (kLamps<K>)

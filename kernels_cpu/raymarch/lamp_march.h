@@ -7,6 +7,7 @@
 #pragma once
 #include "kernels_cpu/core/pixel_block.h"
 #include "kernels_cpu/display/march_ray.h"
+#include "kernels_cpu/display/pixel_light.h"
 #include "kernels_cpu/light/lamp_sphere.h"
 #include "kernels_cpu/raymarch/lamp_march_params.h"
 #include "kernels_cpu/raymarch/raymarch_light.h"
@@ -97,6 +98,7 @@ PILEUS_FN void march_lamps(const LampMarchParams& k, const LampMarchBuffers& b,
     const MediumView& m = k.medium;
     const std::int64_t nodes = std::int64_t(k.nodes.size[0]) * k.nodes.size[1] * k.nodes.size[2];
     const std::int64_t voxels = std::int64_t(m.size[0]) * m.size[1] * m.size[2];
+    const T most = most_density(k.camera, ray.direction);
     T seen = all<T>(1.0f);
     Pace<T> pace;
     march_ray<Constant>(
@@ -132,8 +134,8 @@ PILEUS_FN void march_lamps(const LampMarchParams& k, const LampMarchBuffers& b,
                     T more[kMostOctaves];
                     (void)octave_light(k.octaves, tau, light, weight * sight.share, more);
                     for (int i = 0; i < k.media; ++i) {
-                        const T scattered =
-                            select(lit, light * share[i] * phase_density(k.phase[i], turn), T{});
+                        const T phase = min_(phase_density(k.phase[i], turn), most);
+                        const T scattered = select(lit, light * share[i] * phase, T{});
                         for (int c = 0; c < 3; ++c)
                             colour[c] = colour[c] + scattered * (k.albedo[i][c] * lamp.light[c]);
                         for (int c = 0; c < 3; ++c) {
@@ -142,7 +144,9 @@ PILEUS_FN void march_lamps(const LampMarchParams& k, const LampMarchBuffers& b,
                             for (int n = 1; n < k.octaves.count; ++n) {
                                 const T again = select(
                                     lit,
-                                    share[i] * hg_density(all<T>(k.octave_g[i][n]), turn) * more[n],
+                                    share[i] *
+                                        min_(hg_density(all<T>(k.octave_g[i][n]), turn), most) *
+                                        more[n],
                                     T{});
                                 colour[c] =
                                     colour[c] + again * (k.octave_source[i][n][c] * lamp.light[c]);

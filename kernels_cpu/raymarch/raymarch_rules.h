@@ -4,6 +4,7 @@
 // Palenik 2016, 3.1 and chapter 4; docs/raymarch.md, "Integrators".
 #pragma once
 #include "kernels_cpu/core/profile.h"
+#include "kernels_cpu/display/pixel_light.h"
 #include "kernels_cpu/raymarch/raymarch_light.h"
 #include "kernels_cpu/raymarch/raymarch_steps.h"
 
@@ -22,10 +23,11 @@ PILEUS_FN RayLight<T> ray_light(const RaymarchParams& k, const Vec<T>& d) {
     RayLight<T> r{};
     const Vec<T> to_sun{all<T>(k.to_sun[0]), all<T>(k.to_sun[1]), all<T>(k.to_sun[2])};
     r.turn = one_minus_cosine(to_sun, d);
+    const T most = most_density(k.camera, d);
     for (int i = 0; i < kMostMedia && i < k.media; ++i) {
-        r.phase[i] = phase_density(k.phase[i], r.turn) * k.phase_scale[i];
+        r.phase[i] = min_(phase_density(k.phase[i], r.turn) * k.phase_scale[i], most);
         for (int n = 1; n < k.light.octaves.count; ++n)
-            r.octave[i][n] = hg_density(all<T>(k.light.octave_g[i][n]), r.turn);
+            r.octave[i][n] = min_(hg_density(all<T>(k.light.octave_g[i][n]), r.turn), most);
     }
     return r;
 }

@@ -7,22 +7,43 @@
 #include "platform/threads.h"
 #include "src/base/angles.h"
 #include "src/base/exponential.h"
+#include "src/world/phase/forward_share.h"
 
 namespace pileus {
 namespace {
 
 /// Degrees that are tried: smooth phase functions are done after the first.
-constexpr int kDegrees[] = {96, 512};
+constexpr int kDegrees[] = {96, 512, 1024};
+constexpr int kMostDegrees = kDegrees[2];
 constexpr double kNothing = 1e-5;  // of a degree's part in the sum
+/// Of the last eighth of the degrees: a sum cut off there would ring, by a thirtieth of that at
+/// angles far from the peak, where P_l is as small.
+constexpr double kRings = 1e-3;
+/// ln of what is left of the last degree of a sum that is smoothed.
+constexpr double kSmoothing = 14;
+/// Straight on a phase function above this has its peak within 1 - cos = 2^-40 and nearer.
+constexpr double kNeedle = 17500;
 constexpr double kTwoPi = 6.28318530717958647693;
 
 /// Moments of the whole function and of what stays in the beam; degrees that count.
 struct Moments {
     std::vector<double> all, kept;
     int degrees = 1;  ///< the last that counts, and one
+    /// 0; or the peak is narrower than the degrees hold, and degree l counts e^(-smooth l (l + 1)):
+    /// spread by a Gaussian, which moves light by fractions of a degree, makes none and is never
+    /// negative. A sum that is only cut off rings at all angles, and its positive parts are shown.
+    double smooth = 0;
 
     explicit Moments(int count) : all(std::size_t(count)), kept(std::size_t(count)) {}
-    double part(std::size_t l) const { return (2 * double(l) + 1) * all[l] * kept[l]; }
+    double part(std::size_t l) const {
+        const double value = (2 * double(l) + 1) * all[l] * kept[l];
+        return value < 0 ? -value : value;
+    }
+    bool rings() const {
+        for (std::size_t l = all.size() - all.size() / 8; l < all.size(); ++l)
+            if (part(l) > kRings) return true;
+        return false;
+    }
 };
 
 /// Hands out P_l(cosine) for l = 0 ... degrees - 1, by Bonnet's recurrence.
@@ -59,22 +80,33 @@ void add_panel(const PhaseParams& phase, double turn, double begin, double end, 
     }
 }
 
-/// Panels halve towards straight on and straight back, where peaks are.
+/// Panels halve towards straight on and straight back, where peaks are. What goes exactly straight
+/// on has no density: it is all in the beam.
 Moments moments_of(const PhaseParams& phase, double turn) {
+    const bool needle = double(phase_density(phase, 0.0f)) > kNeedle;
+    const double least = needle ? 0x1p-60 : 0x1p-40;
+    const double straight = needle_shares(phase).forward;
     for (const int degrees : kDegrees) {
+        if (needle && degrees < kMostDegrees) continue;
         Moments m(degrees);
         for (double outer = 1, inner; outer > 0; outer = inner) {
-            inner = outer > 0x1p-40 ? 0.5 * outer : 0;
+            inner = outer > least ? 0.5 * outer : 0;
             add_panel(phase, turn, inner, outer, m);
         }
         for (double outer = 1, inner; outer > 0; outer = inner) {
             inner = outer > 0x1p-22 ? 0.5 * outer : 0;
             add_panel(phase, turn, 2 - outer, 2 - inner, m);
         }
+        for (std::size_t l = 0; straight > 0 && l < m.all.size(); ++l)
+            m.all[l] += straight, m.kept[l] += straight;
         for (std::size_t l = 0; l < m.all.size(); ++l)
-            if (m.part(l) > kNothing || m.part(l) < -kNothing) m.degrees = int(l) + 1;
+            if (m.part(l) > kNothing) m.degrees = int(l) + 1;
         // A sum that ends well before its degrees do has all that counts.
-        if (m.degrees < degrees - degrees / 8 || degrees == kDegrees[1]) return m;
+        if (m.degrees < degrees - degrees / 8) return m;
+        if (degrees >= kDegrees[1] && !m.rings()) return m;
+        if (degrees < kMostDegrees) continue;
+        m.smooth = kSmoothing / (double(degrees) * (degrees + 1));
+        return m;
     }
     return Moments(1);
 }
@@ -91,6 +123,8 @@ std::vector<double> weights_of(const Moments& m, double albedo) {
             w[std::size_t(d) * degrees + l] =
                 (2.0 * double(l) + 1) / (2 * kTwoPi) * m.all[l] *
                 (exponential(-tau * (m.kept[0] - m.kept[l])) - exponential(-tau * m.kept[0]));
+        for (std::size_t l = 0; m.smooth > 0 && l < degrees; ++l)
+            w[std::size_t(d) * degrees + l] *= exponential(-m.smooth * double(l) * (double(l) + 1));
     }
     return w;
 }
@@ -102,7 +136,7 @@ double turn_of_node(int node) {
 }
 
 void fill_angle(const Moments& m, const std::vector<double>& weights, int node, float* out) {
-    double values[kDegrees[1]];
+    double values[kMostDegrees];
     legendre(1 - turn_of_node(node), m.degrees,
              [&](std::size_t l, double value) { values[l] = value; });
     for (int d = 0; d <= kBeamDepths; ++d) {

@@ -2,7 +2,51 @@
 // See light_input.h.
 #include "src/photons/light_input.h"
 
+#include "kernels_cpu/media/phase.h"
+#include "src/base/angles.h"
+
 namespace pileus {
+namespace {
+
+/// A phase function that sends on more of this degree than that is too narrow for few bands: from
+/// g = 0.96 on of Henyey-Greenstein.
+constexpr int kNarrowDegree = 4;
+constexpr float kNarrow = 0.85f;
+
+bool is_narrow(const Medium& medium) {
+    for (int i = 0; i < medium.count; ++i) {
+        const float chi = phase_moment(medium.optics[std::size_t(i)].phase, kNarrowDegree);
+        if (chi > kNarrow || chi < -kNarrow) return true;
+    }
+    return false;
+}
+
+}  // namespace
+
+void damp_rings(LightInput& in) {
+    in.damps = is_narrow(*in.medium);
+    for (int lamps = 0; lamps < 2 && in.damps; ++lamps) {
+        double* factor = in.damping[lamps].factor;
+        for (int l = 0; l < kMaxBands + kMaxAxisDegrees; ++l) factor[l] = 1;
+        const bool rings = lamps == 1 || !(in.deposit.peak_turn > 0);
+        const int degrees = in.deposit.bands + (lamps == 0 ? in.deposit.axis_degrees : 0);
+        for (int l = 1; rings && l < degrees; ++l) {
+            const double x = double(l) / degrees;
+            const double sinc = sincos_deg(180 * x).sine / (3.14159265358979323846 * x);
+            factor[l] = sinc * sinc;
+        }
+    }
+}
+
+void damp(const LightInput& in, std::size_t light, double* sums) {
+    const Light& shown = in.lighting->lights[light];
+    if (!shown.beam && !shown.lamps) return;
+    const double* factor = in.damping[shown.lamps ? 1 : 0].factor;
+    int i = 0;
+    for (int l = 0; l < in.deposit.bands; ++l)
+        for (int m = -l; m <= l; ++m, ++i) sums[i] *= factor[l];
+    for (int d = 0; d < in.deposit.axis_degrees; ++d, ++i) sums[i] *= factor[in.deposit.bands + d];
+}
 
 std::size_t filled_slots(const Photons& photons) {
     std::size_t filled = 0;

@@ -3,10 +3,16 @@
 // in: slots of integer sums, lights, the camera -> out: sums per light as power; the ground's
 // light. docs/methods.md 3, each image frame, step 4.
 #pragma once
-#include "kernels_cpu/core/camera.h"
+#include "kernels_cpu/core/sh.h"
+#include "kernels_cpu/display/pixel_light.h"
 #include "src/photons/trace.h"
 
 namespace pileus {
+
+/// What one light's bands and the degrees about its axis are multiplied by.
+struct Damping {
+    double factor[kMaxBands + kMaxAxisDegrees];
+};
 
 struct LightInput {
     const Medium* medium = nullptr;
@@ -16,6 +22,8 @@ struct LightInput {
     CameraParams camera{};
     DepositPlan deposit;
     bool first_order_alone = false;  ///< only sunlight scattered once, where deposits keep it apart
+    bool damps = false;              ///< see damp_rings
+    Damping damping[2];              ///< of the beam, of lamps
     int batches = 0;  ///< also one RGB for each of so many groups of slots, for the error
     int threads = 1;
 };
@@ -44,6 +52,18 @@ Batch batch_of(const LightInput& in, int batch);
 /// What a light's sums in a slot are multiplied by, to be of unit colour.
 double slot_norm(const LightInput& in, const PhotonSlot& slot, std::size_t light);
 
+/// Lights whose narrow peak no table of a beam holds (beam.h), lamps and suns without one, go on as
+/// narrow as they came where phase functions are. Few bands of that ring at all angles, and as no
+/// light is less than none, the rings' positive halves would be light that is not there. So they
+/// are spread: by (sin x / x)^2 of a degree's place among all.
+void damp_rings(LightInput& in);
+void damp(const LightInput& in, std::size_t light, double* sums);
+
+/// Most that a phase function's mean over a pixel can be where light goes `to` the camera.
+inline float most_towards(const LightInput& in, const Vec<float>& to) {
+    return most_density(in.camera, Vec<float>{-to.x, -to.y, -to.z});
+}
+
 /// Sums of one set of one light in one slot, times `norm`.
 inline void slot_sums(const LightInput& in, const PhotonSlot& slot, std::size_t light,
                       std::uint64_t set, double norm, double* sums) {
@@ -51,6 +71,7 @@ inline void slot_sums(const LightInput& in, const PhotonSlot& slot, std::size_t 
     const std::uint64_t stride = slot.sums.size() / in.lighting->lights.size();
     numbers_of_set(slot, light, stride, set, n, sums);
     for (int i = 0; i < n; ++i) sums[i] *= norm;
+    if (in.damps) damp(in, light, sums);
 }
 
 /// Sums of one set of one light in one slot, per unit of its colour.

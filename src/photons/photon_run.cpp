@@ -285,6 +285,17 @@ void choose_peak(double peak_deg, PhotonRun& run) {
         run.deposit.peak_turn = turn_of_deg(peak_deg);
 }
 
+Status check_camera_closure(const char* key, const PhotonRun& run) {
+    const Medium& medium = run.world->medium;
+    for (int i = 0; i < medium.count && run.deposit.mode == kDepositCamera; ++i)
+        if (needle_shares(medium.optics[std::size_t(i)].phase).any())
+            return Status::bad_input(run.scene->file + ": " + key + ": \"camera\" with medium." +
+                                     std::to_string(i) +
+                                     ".phase, a lobe of g = 1 or -1, allowed: another closure, or "
+                                     "a wider lobe");
+    return Status::ok();
+}
+
 std::uint64_t beam_sets(const PhotonRun& run) {
     return run.deposit.peak_turn > 0 ? std::uint64_t(run.world->medium.channels) : 0;
 }

@@ -98,6 +98,10 @@ void aim_deposit(PhotonRun& run);
 /// leaves it out.
 void choose_peak(double peak_deg, PhotonRun& run);
 
+/// Closure "camera" evaluates phase functions where photons scatter. kBadInput, named by `key`: one
+/// sends light exactly straight on or back, which has no density.
+Status check_camera_closure(const char* key, const PhotonRun& run);
+
 /// Tables that the beam will have.
 std::uint64_t beam_sets(const PhotonRun& run);
 

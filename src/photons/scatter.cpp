@@ -72,7 +72,7 @@ double axis_power(int degrees, const AxisWeights& weights, const double* sums) {
 }
 
 double lobe_power(const DepositPlan& deposit, const Mixture& mix, const double* sums,
-                  const Direction& to) {
+                  const Direction& to, float most) {
     const double flux = sums[0] * 3.5449077018110320546;  // sqrt(4 pi)
     if (!(flux > 0) || deposit.bands < 2) return flux * 0.079577471545947667884;
     // y_1m is sqrt(3/4pi) times y, z, x.
@@ -83,7 +83,7 @@ double lobe_power(const DepositPlan& deposit, const Mixture& mix, const double* 
     const float g = deposit.mode == kDepositOutgoing ? mean : mean * mix.moment(1);
     const double safe = length > 1e-9 ? 1.0 / length : 0.0;
     const float cosine = float((x * double(to.x) + y * double(to.y) + z * double(to.z)) * safe);
-    return flux * double(hg_density(g, 1.0f - cosine));
+    return flux * double(min_(hg_density(g, 1.0f - cosine), most));
 }
 
 }  // namespace pileus

@@ -62,7 +62,8 @@ AxisWeights axis_weights(const DepositPlan& deposit, const Mixture& mix, const D
 double axis_power(int degrees, const AxisWeights& weights, const double* sums);
 
 /// The same from flux and mean direction alone: one HG lobe (docs/methods.md 3, closure `lobe`).
+/// `most`: of a phase function's mean, 1/sr (most_density).
 double lobe_power(const DepositPlan& deposit, const Mixture& mix, const double* sums,
-                  const Direction& to);
+                  const Direction& to, float most);
 
 }  // namespace pileus

@@ -50,6 +50,7 @@ Status plan_deposit(const Scene& scene, CollectorsRun& run) {
     d.bands = c.lobe_closure ? 2 : c.bands;
     d.mode = c.paper ? kDepositOutgoing : kDepositIncident;
     if (run.camera_cells > 0) d.mode = kDepositCamera;
+    PILEUS_TRY(check_camera_closure("collectors.closure", run));
     const bool split = (c.first_order_split || run.camera_cells > 0) && run.lighting.sunlit;
     d.first_order = !split ? 0 : (is_marched(run) ? 2 : 1);
     choose_peak(c.peak_deg, run);

@@ -25,6 +25,7 @@ ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const 
                  : run.scene->collectors.lobe_closure ? Closure::kLobe
                                                       : Closure::kSh;
     in.window = run.scene->collectors.window;
+    if (in.closure == Closure::kSh && !in.window) damp_rings(in);
     in.batches = photon_batches(run);
     in.constant = !is_marched(run);
     in.threads = context.threads;

@@ -89,7 +89,7 @@ void make_weights(const GridLightInput& in, const float* moment, const Direction
 
 /// As published: flux, and the mean cosine g' to the light's axis; every medium with g g'.
 double published_power(const Mixture& mix, const double* sums, const Direction& axis,
-                       const Direction& to) {
+                       const Direction& to, float most) {
     const double flux = sums[0];
     if (!(flux > 0)) return flux * kPerSphere;
     double mean = sums[1] / flux;
@@ -98,7 +98,8 @@ double published_power(const Mixture& mix, const double* sums, const Direction& 
     float density = 0;
     for (int i = 0; i < mix.medium->count; ++i) {
         const float g = phase_moment(mix.medium->optics[std::size_t(i)].phase, 1);
-        density += mix.weight[i] * hg_density(g * float(mean), one_minus_cosine(axis, to));
+        density +=
+            mix.weight[i] * min_(hg_density(g * float(mean), one_minus_cosine(axis, to)), most);
     }
     return flux * double(density);
 }
@@ -117,11 +118,12 @@ double cell_power(const GridLightInput& in, CellView& cell, std::size_t channel,
     slot_sums(in, slot, light, set, sums);
     const Mixture& mix = cell.optics.mix[channel];
     const Direction sun{slot.sun_travel[0], slot.sun_travel[1], slot.sun_travel[2]};
-    if (in.closure == GridClosure::kMean) return lobe_power(in.deposit, mix, sums, cell.to);
+    if (in.closure == GridClosure::kMean)
+        return lobe_power(in.deposit, mix, sums, cell.to, most_towards(in, cell.to));
     if (in.closure == GridClosure::kPublished) {
         const Light& l = in.lighting->lights[light];
         const Direction axis = l.beam ? sun : Direction{0, 0, l.hemisphere > 0 ? 1.0f : -1.0f};
-        return published_power(mix, sums, axis, cell.to);
+        return published_power(mix, sums, axis, cell.to, most_towards(in, cell.to));
     }
     Weights& w = cell.weights[channel];
     make_weights(in, cell.optics.moment[channel], cell.to, sun, w);

@@ -63,6 +63,7 @@ void choose_numbers(const PhotonGridSettings& s, PhotonGridRun& run) {
 /// from the start, so that it changes no bit; a high peak leaves it less room.
 Status plan_deposit(const Scene& scene, PhotonGridRun& run) {
     choose_numbers(scene.photon_grid, run);
+    PILEUS_TRY(check_camera_closure("photon_grid.closure", run));
     const double largest = largest_deposit(run);
     const double all = photons_of(run) * double(run.generations);
     run.most_photons = all > kLeastMostPhotons ? all : kLeastMostPhotons;
@@ -167,6 +168,7 @@ GridLightInput photon_grid_light_input(const CameraParams& camera, const Context
     in.marks = run.near.marks.span();
     in.shares = run.shares.span();
     in.closure = run.scene->photon_grid.closure;
+    if (in.closure == GridClosure::kSh) damp_rings(in);
     in.unit_m2 = unit_m2(run);
     return in;
 }

@@ -6,6 +6,7 @@
 #include "src/session/run_context.h"
 #include "src/world/atmosphere/atmosphere.h"
 #include "src/world/medium/detail.h"
+#include "src/world/phase/forward_share.h"
 
 namespace pileus {
 namespace {
@@ -59,6 +60,17 @@ Status check_settings(const FluxSettings& settings, const Scene& scene, const Bu
         return Status::bad_input(scene.file +
                                  ": ground: lies between --from-below and the media, "
                                  "allowed: a scene without a ground");
+    return Status::ok();
+}
+
+/// Paths find the sun by the density of phase functions, which light that goes exactly straight on
+/// or back has not: it would be missing from every figure.
+Status check_needles(const Scene& scene, const Medium& medium) {
+    for (int i = 0; i < medium.count; ++i)
+        if (needle_shares(medium.optics[std::size_t(i)].phase).any())
+            return Status::bad_input(scene.file + ": medium." + std::to_string(i) +
+                                     ".phase: a lobe of g = 1 or -1, which paths do not find, "
+                                     "allowed: a wider one, or --method photons");
     return Status::ok();
 }
 
@@ -138,6 +150,7 @@ Status measure_flux(const Scene& scene, const RenderOptions& options, const Flux
     if (settings.from_below) PILEUS_TRY(make_sky_below(settings, run.around.sky_map));
     path_aim(0, run);
     PILEUS_TRY(check_flux(own, context, run, settings.from_below));
+    if (!photons && run.lighting.sunlit) PILEUS_TRY(check_needles(own, run.world->medium));
     out = FluxResult{};
     FluxTask task{own, settings, context, run};
     PILEUS_TRY(choose_columns(settings, task, out));

@@ -86,6 +86,19 @@ double forward_share(const PhaseParams& p, double half_deg) {
     return at_most_one(double(p.weight) * first + (1 - double(p.weight)) * second);
 }
 
+NeedleShares needle_shares(const PhaseParams& p) {
+    NeedleShares out;
+    const auto add = [&](float g, double weight) {
+        if (g >= 1) out.forward += weight;
+        if (g <= -1) out.backward += weight;
+    };
+    const bool two = p.type == kPhaseTwoLobe || p.type == kPhaseHgDraine;
+    if (p.type == kPhaseHg) add(p.g1, 1);
+    if (two) add(p.g1, double(p.weight));
+    if (p.type == kPhaseTwoLobe) add(p.g2, 1 - double(p.weight));
+    return out;
+}
+
 float diffusion_exponent(const PhaseParams& phase, float albedo) {
     const float g = phase_moment(phase, 1), square = 3 * (1 - albedo) * (1 - albedo * g);
     return square < 1 ? (square > 0 ? __builtin_sqrtf(square) : 0.0f) : 1.0f;

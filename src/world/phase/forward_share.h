@@ -15,6 +15,14 @@ double forward_share(const PhaseParams& phase, double half_deg);
 /// straight back.
 double forward_share_by_density(const PhaseParams& phase, double half_deg);
 
+/// Shares of light that go exactly straight on, or straight back: no density tells of them. Lobes of
+/// g = 1 or -1 have them.
+struct NeedleShares {
+    double forward = 0, backward = 0;
+    bool any() const { return forward > 0 || backward > 0; }
+};
+NeedleShares needle_shares(const PhaseParams& phase);
+
 /// How light fades deep inside a medium where it was scattered often, per optical depth: by
 /// diffusion, sqrt(3 (1 - a) (1 - a g)), at most 1 (van de Hulst, "Multiple Light Scattering",
 /// 1980, 14.1). 0 where nothing is absorbed.

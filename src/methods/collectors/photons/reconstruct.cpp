@@ -82,15 +82,17 @@ double scattered_power(const ReconstructInput& in, const Seen& seen, std::size_t
     if (in.closure == Closure::kCamera) return sums[0];
     const int bands = in.deposit.bands;
     const Mixture& mix = seen.mix[channel];
-    double power = in.first_order_alone           ? 0
-                   : in.closure == Closure::kLobe ? lobe_power(in.deposit, mix, sums, seen.to)
-                                                  : sh_power(bands, seen.bands[channel], sums);
+    double power = in.first_order_alone ? 0
+                   : in.closure == Closure::kLobe
+                       ? lobe_power(in.deposit, mix, sums, seen.to, most_towards(in, seen.to))
+                       : sh_power(bands, seen.bands[channel], sums);
     if (!beam) return power;
     if (!in.first_order_alone)
         power += axis_power(in.deposit.axis_degrees, seen.axis[channel], sums + bands * bands);
     if (in.deposit.first_order == 1)
         power += sums[in.deposit.coefficients - 1] *
-                 double(mix.density(one_minus_cosine(seen.sun, seen.to)));
+                 double(min_(mix.density(one_minus_cosine(seen.sun, seen.to)),
+                             most_towards(in, seen.to)));
     return power;
 }
 
