@@ -130,4 +130,53 @@ TEST_CASE("particles: as small as can be, and smaller is refused in one line") {
     }
 }
 
+TEST_CASE("grids of files: a box and densities that floats do not hold") {
+    pileus::test::TempFolder folder;
+    const auto told = [&](const std::string& corner, const std::string& density,
+                          const std::string& extinction, Picture* out) {
+        std::string values;
+        for (int i = 0; i < 8; ++i) values += density + " ";
+        const std::string path =
+            folder.put("grid.pbrt",
+                       "Volume \"volumegrid\" \"integer nx\" 2 \"integer ny\" 2 \"integer nz\" 2\n"
+                       "\"point p0\" [ 0 0 0 ] \"point p1\" [ " +
+                           corner +
+                           " 1 1 ]\n"
+                           "\"float density\" [ " +
+                           values + "]\n");
+        const Scene scene = scene_from(
+            "[camera]\nposition_m = [0, -3, 0]\ntarget_m = [0, 0, 0]\nresolution = [8, 8]\n"
+            "[sky]\nradiance = 0.1\n[[medium]]\ndensity = \"" +
+            path + "\"\nextinction_per_m = " + extinction +
+            "\n[method]\nname = \"photon-grid\"\n"
+            "[photon_grid]\nphotons = 1000\ngenerations = 2\n");
+        return render(scene, one_thread(),
+                      [&](int, Image& image, Report& report) {
+                          if (out != nullptr) out->image = std::move(image), out->report = report;
+                          return Status::ok();
+                      })
+            .message;
+    };
+    for (const char* corner : {"1e-45", "1e-41", "1e-10"}) {
+        CAPTURE(corner);
+        const std::string line = told(corner, "1", "1", nullptr);
+        CHECK_MESSAGE(line.find("along x from 0 to ") != std::string::npos, line);
+        CHECK_MESSAGE(line.find("allowed: at least 1e-09 m wide there") != std::string::npos, line);
+    }
+    // What is too dense for products to be numbers is refused; what is too thin is none.
+    const std::string dense = told("1", "1e30", "1e12", nullptr);
+    CHECK_MESSAGE(dense.find("allowed: at most 1e+24") != std::string::npos, dense);
+    for (const char* density : {"1e-45", "1e-41", "1e-38"})
+        for (const char* extinction : {"1e12", "1e-35"}) {
+            CAPTURE(density);
+            CAPTURE(extinction);
+            Picture p;
+            const std::string fault = told("1", density, extinction, &p);
+            REQUIRE_MESSAGE(fault.empty(), fault);
+            check_sound(p);
+            check_ended(p);
+            CHECK(largest_of(p, "A") < 1e-20);
+        }
+}
+
 }  // namespace single_test
