@@ -15,8 +15,8 @@ double forward_share(const PhaseParams& phase, double half_deg);
 /// straight back.
 double forward_share_by_density(const PhaseParams& phase, double half_deg);
 
-/// Shares of light that go exactly straight on, or straight back: no density tells of them. Lobes of
-/// g = 1 or -1 have them.
+/// Shares of light that go exactly straight on, or straight back: no density tells of them. Lobes
+/// of g = 1 or -1 have them.
 struct NeedleShares {
     double forward = 0, backward = 0;
     bool any() const { return forward > 0 || backward > 0; }
