@@ -153,9 +153,10 @@ target_include_directories(pileus_flight INTERFACE "${PROJECT_SOURCE_DIR}/includ
 target_compile_definitions(pileus_flight INTERFACE PILEUS_STATIC=1)
 
 # The example, which tools/flight flies with, and what it tries besides.
-foreach(source examples/flight_loop program/flight_faults)
+foreach(source examples/flight_loop program/flight_faults program/flight_settings)
     cmake_path(GET source FILENAME name)
     set_source_files_properties(tests/flight/${source}.c PROPERTIES LANGUAGE CXX)
     add_executable(${name} EXCLUDE_FROM_ALL tests/flight/${source}.c)
     target_link_libraries(${name} PRIVATE pileus_flight)
+    target_include_directories(${name} PRIVATE "${PROJECT_SOURCE_DIR}")
 endforeach()

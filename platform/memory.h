@@ -14,6 +14,8 @@ struct Allocator {
     void* (*allocate)(void* user, std::size_t bytes, std::size_t alignment) = nullptr;
     void (*release)(void* user, void* memory) = nullptr;
     void* user = nullptr;
+    /// Arrays keep memory that is larger than they need: what was once as large finds it there.
+    bool keeps = false;
 };
 
 /// Threads of a host: calls body(data, index) once for each index in [0, count), at once or one

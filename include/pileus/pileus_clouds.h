@@ -17,8 +17,9 @@ extern "C" {
 
 typedef struct pileus_clouds pileus_clouds;
 
-/** Clouds in a sky, none at first. `sky` must outlive them; it may be drawn by itself, too, and is
- * then without clouds. PILEUS_BAD_INPUT: a session with media, one of a flight. */
+/** Clouds in a sky, none at first. `sky` may be drawn by itself, too, and is then without clouds;
+ * freed before them it goes with the last of its clouds. PILEUS_BAD_INPUT: a session with media,
+ * one of a flight. */
 PILEUS_API pileus_code pileus_clouds_create(pileus_session* sky, pileus_clouds** clouds,
                                             pileus_error* error);
 PILEUS_API void pileus_clouds_free(pileus_clouds* clouds);

@@ -16,13 +16,15 @@ typedef struct pileus_packed {
     uint32_t struct_size;
     uint32_t width, height; /**< of the scene's camera, pixels; the most that frames may have */
     uint32_t reserved;
-    uint64_t block_bytes; /**< that a session of it needs, with threads of one */
+    /** That a session of it needs, with threads of one; with pileus_flight.depth up to 16 bytes a
+     * pixel and 1 KiB more. */
+    uint64_t block_bytes;
     char method[24];
     uint64_t in_place_bytes; /**< the same with pileus_flight.in_place */
 } pileus_packed;
 
-/** Reads the head and compares the digest. PILEUS_BAD_INPUT: no packed scene, one of another
- * version, or one that was changed. */
+/** Reads the head and compares the digest of all bytes, head included. PILEUS_BAD_INPUT: no packed
+ * scene, one of another version, or one that was changed. */
 PILEUS_API pileus_code pileus_packed_read(const void* scene, size_t scene_bytes,
                                           pileus_packed* packed, pileus_error* error);
 
@@ -41,9 +43,8 @@ typedef struct pileus_flight {
     /** As pileus_host.log; may be null. */
     void (*log)(void* user, const char* line);
     const char* isa; /**< null: the widest of this machine that was compiled in */
-    /** As frames to come will be: the first picture is drawn into it while the session is opened,
-     * which takes what memory such frames need. With another format, a hash or depths that this one
-     * has not, a frame may find no memory: PILEUS_LIMIT. */
+    /** The first picture is drawn into it while the session is opened. Frames to come may be of any
+     * other kind: other formats, blends, hashes, depths. */
     const pileus_frame* frame;
     int32_t depth; /**< not 0: frames will get depth images (pileus_session_set_depth) */
     /** Not 0: densities and other arrays of numbers are read where they lie in `scene`, which must
@@ -54,14 +55,15 @@ typedef struct pileus_flight {
 
 /** Makes a session in the block: world, light of the first picture, that picture. Afterwards
  * nothing of it asks anyone for memory: functions of pileus_session_* take what they need for the
- * time of a call from the rest of the block, and give all of it back. A picture that would be
- * larger, a sky map or lights where there were none are refused. The session ends with the block:
- * forget both. Errors: those of pileus_packed_read; PILEUS_LIMIT: the block is too small. */
+ * time of a call from the rest of the block, and give all of it back: PILEUS_LIMIT where that is
+ * too little, and the session goes on. A picture that would be larger, a sky map, more lights than
+ * the packed scene's are refused. The session ends with the block: forget both. Errors: those of
+ * pileus_packed_read; PILEUS_LIMIT: the block is smaller than the packed scene tells, or needs. */
 PILEUS_API pileus_code pileus_flight_open(const pileus_flight* flight, pileus_session** session,
                                           pileus_error* error);
 
-/** Where an ordinary library, which has small memory of its own, gives that back. In a library of
- * the flight profile nothing happens. */
+/** Where an ordinary library, which has small memory of its own, gives that back; the block, which
+ * may be gone already, is not looked at. In a library of the flight profile nothing happens. */
 PILEUS_API void pileus_flight_close(pileus_session* session);
 
 /** What has been taken of the block, bytes. */

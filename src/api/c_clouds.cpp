@@ -5,7 +5,7 @@
 #include "src/clouds/clouds.h"
 
 struct pileus_clouds {
-    pileus_session* sky = nullptr;
+    pileus_session* sky = nullptr;  ///< whose user this is: its host may free it first
     pileus::Clouds clouds;
 };
 
@@ -72,6 +72,7 @@ pileus_code pileus_clouds_create(pileus_session* sky, pileus_clouds** clouds, pi
         auto made = std::make_unique<pileus_clouds>();
         made->sky = sky;
         PILEUS_TRY(made->clouds.open(*sky->session));
+        ++sky->users;
         *clouds = made.release();
         return Status::ok();
     });
@@ -82,7 +83,9 @@ void pileus_clouds_free(pileus_clouds* clouds) {
     // What the host lends is the sky's.
     const std::shared_ptr<const HostParts> host = clouds->sky->host;
     const HostGuard lent(host->host());
+    pileus_session* const sky = clouds->sky;
     delete clouds;
+    leave(sky);
 }
 
 pileus_code pileus_clouds_add_kind(pileus_clouds* clouds, const pileus_world* world,

@@ -67,8 +67,9 @@ Status open_flight(const pileus_flight& f, const std::shared_ptr<HostParts>& par
     RenderOptions options;
     options.threads = int(parts->given.threads);
     if (f.isa != nullptr) options.isa = f.isa;
-    PILEUS_TRY(begin_flight(f.scene, f.scene_bytes, options, f.in_place != 0, f.depth != 0,
-                            *made->flight, *made->session));
+    PILEUS_TRY(begin_flight(f.scene, f.scene_bytes, f.block_bytes, options, f.in_place != 0,
+                            f.depth != 0, *made->flight, *made->session));
+    parts->block->begin_pictures();
     // Twice: some of what reprojection keeps is made by the second one.
     pileus_frame frame;
     take(f.frame, frame);
@@ -133,8 +134,10 @@ pileus_code pileus_flight_open(const pileus_flight* flight, pileus_session** ses
         return status;
     });
     block->set_way_out(nullptr);
-    if (code == PILEUS_OK) block->seal();
-    return code;
+    if (code != PILEUS_OK) return code;
+    if (block->seal()) return code;
+    *session = nullptr;
+    return finish(Code::kLimit, kTooSmall, error);
 }
 
 pileus_code pileus_flight_usage(const pileus_session* session, pileus_flight_use* use,

@@ -5,8 +5,11 @@
 
 extern "C" void pileus_flight_close(pileus_session* session) {
     if (session == nullptr) return;
-    // What is freed lies in the block, of which it is lent.
+    // The block is the caller's, who may have freed it: nothing is given back to it.
     const std::shared_ptr<const pileus::api::HostParts> host = session->host;
-    const pileus::HostGuard lent(host->host());
-    delete session;
+    if (host->block != nullptr) {
+        auto& parts = const_cast<pileus::api::HostParts&>(*host);
+        parts.allocator = {nullptr, [](void*, void*) {}, nullptr};
+    }
+    pileus::api::leave(session);
 }

@@ -46,6 +46,15 @@ pileus_code settle(const HostParts& host, pileus_code code, pileus_error* error)
     return finish(Code::kCheckFailed, "flight: a call kept memory, a fault of the library", error);
 }
 
+pileus_code broken_off(const HostParts& host, pileus_error* error) {
+    host.block->set_way_out(nullptr);
+    host.block->break_off();
+    return finish(Code::kLimit,
+                  "flight.block: no room for small objects in a call, allowed: a session opened "
+                  "anew in a larger block",
+                  error);
+}
+
 Status take_host(const pileus_host* given, std::shared_ptr<const HostParts>& host,
                  RenderOptions& options) {
     const auto parts = std::make_shared<HostParts>();

@@ -2,6 +2,7 @@
 // pileus.h: sessions and what a host sets in them.
 #include <glm/gtc/type_ptr.hpp>
 
+#include "include/pileus/pileus_flight.h"
 #include "src/api/c_types.h"
 #include "src/base/single.h"
 #include "src/scene/toml/toml_tree.h"
@@ -171,6 +172,10 @@ Status take_stride(const char* name, std::int64_t stride, std::int64_t least, st
                              std::to_string(most));
 }
 
+void leave(pileus_session* session) {
+    if (session->users.fetch_sub(1) == 1) delete session;
+}
+
 }  // namespace pileus::api
 
 using namespace pileus;
@@ -194,7 +199,11 @@ pileus_code pileus_session_create(const pileus_world* world, const pileus_scene*
     });
 }
 
-void pileus_session_free(pileus_session* session) { delete session; }
+void pileus_session_free(pileus_session* session) {
+    if (session == nullptr) return;
+    if (session->host->block != nullptr) return pileus_flight_close(session);
+    leave(session);
+}
 
 pileus_code pileus_session_set_camera(pileus_session* session, const pileus_camera* camera,
                                       pileus_error* error) {

@@ -3,6 +3,8 @@
 // in: structs of a host, of any age -> out: structs of this library; a Status as code and message.
 // docs/embedding.md
 #pragma once
+#include <atomic>
+#include <csetjmp>
 #include <cstring>
 #include <memory>
 #include <new>
@@ -108,6 +110,10 @@ pileus_code call(const HostParts* host, pileus_error* error, Work work) {
 /// The end of a call of a session: what a flight took for it is back.
 pileus_code settle(const HostParts& host, pileus_code code, pileus_error* error);
 
+/// The fault of a flight whose block had no room even for small objects, in this call or an earlier
+/// one: what that call changed may be half done.
+pileus_code broken_off(const HostParts& host, pileus_error* error);
+
 /// A call of a session.
 template <class Work>
 pileus_code call(const pileus_session& session, pileus_error* error, Work work);
@@ -141,6 +147,7 @@ struct pileus_world {
 };
 
 struct pileus_session {
+    std::atomic<std::uint32_t> users{1};  ///< its host, and skies of clouds
     std::shared_ptr<const pileus::api::HostParts> host;
     std::unique_ptr<pileus::Packed> flight;  ///< what a flight's session points into
     /// Another one after a hand-over.
@@ -150,12 +157,33 @@ struct pileus_session {
 
 namespace pileus::api {
 
+/// In a flight. A library without exceptions leaves what it is at by longjmp where even small
+/// objects find no room; the guards are those that are jumped over.
+template <class Work>
+pileus_code call_in_block(const HostParts& host, pileus_error* error, Work work) {
+    if (host.block->is_broken()) return broken_off(host, error);
+#ifdef __cpp_exceptions
+    return settle(host, call(&host, error, work), error);
+#else
+    const HostGuard outer{Host(current_host())};
+    const FpModeGuard mode;
+    std::jmp_buf way_out;
+    if (setjmp(way_out) != 0) return broken_off(host, error);
+    host.block->set_way_out(&way_out);
+    const pileus_code code = settle(host, call(&host, error, work), error);
+    host.block->set_way_out(nullptr);
+    return code;
+#endif
+}
+
 template <class Work>
 pileus_code call(const pileus_session& session, pileus_error* error, Work work) {
     const HostParts& host = *session.host;
-    const pileus_code code = call(&host, error, work);
-    return host.block != nullptr ? settle(host, code, error) : code;
+    return host.block != nullptr ? call_in_block(host, error, work) : call(&host, error, work);
 }
+
+/// One user less; the last one frees it.
+void leave(pileus_session* session);
 
 /// The caller's buffers, as far as they are given; the hash is left out.
 Status take_target(const pileus_frame& frame, const Camera& camera, FrameTarget& target);

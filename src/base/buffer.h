@@ -40,11 +40,12 @@ public:
     ~Buffer() { give_memory(data_, from_); }
 
     /// Replaces the contents by `count` zeroed elements, in the same memory where those are as many
-    /// as were asked for before. `what` names the array in the error line.
+    /// as were asked for before, or fewer of memory that keeps. `what` names the array in the error
+    /// line.
     Status resize(std::uint64_t count, const char* what) {
-        if (data_ != nullptr && count == taken_) {
-            size_ = taken_;
-            std::memset(static_cast<void*>(data_), 0, (taken_ * sizeof(T) + 63) / 64 * 64);
+        if (data_ != nullptr && does(count)) {
+            size_ = static_cast<std::size_t>(count);
+            std::memset(static_cast<void*>(data_), 0, (size_ * sizeof(T) + 63) / 64 * 64);
             return Status::ok();
         }
         void* memory = data_;
@@ -57,12 +58,19 @@ public:
     /// `count` elements, of any values, in memory for `most`: the next count needs none.
     Status fit(std::uint64_t count, std::uint64_t most, const char* what) {
         assert(count <= most);
-        if (data_ == nullptr || taken_ != most) {
+        if (data_ == nullptr || !does(most)) {
             Status status = resize(most, what);
             if (!status) return status;
         }
         size_ = static_cast<std::size_t>(count);
         return Status::ok();
+    }
+
+    /// Memory for `most` elements, of which none is there.
+    Status reserve(std::uint64_t most, const char* what) {
+        Status status = resize(most, what);
+        size_ = 0;
+        return status;
     }
 
     /// Reads `count` elements in memory of the caller, which outlives this and is never written to.
@@ -79,8 +87,9 @@ public:
         size_ = count;
     }
 
-    T* data() { return data_; }
-    const T* data() const { return data_; }
+    /// Null where there are no elements, whatever there is memory for.
+    T* data() { return size_ > 0 ? data_ : nullptr; }
+    const T* data() const { return size_ > 0 ? data_ : nullptr; }
     std::size_t size() const { return size_; }
     bool empty() const { return size_ == 0; }
     std::uint64_t bytes() const { return size_ * sizeof(T); }
@@ -106,6 +115,11 @@ public:
     }
 
 private:
+    /// Whether the memory that there is serves so many.
+    bool does(std::uint64_t count) const {
+        return count == taken_ || (count < taken_ && from_ != nullptr && from_->keeps);
+    }
+
     T* data_ = nullptr;
     std::size_t size_ = 0;
     std::size_t taken_ = 0;            ///< elements that there is memory for

@@ -10,6 +10,9 @@ namespace {
 /// Memory is handed out at multiples of this; a piece's record lies before it.
 constexpr std::uint64_t kUnit = 64;
 
+/// What calls other than pictures take of small objects, texts of faults.
+constexpr std::uint64_t kLeastSmall = 16u << 10;
+
 class Turn {
 public:
     explicit Turn(std::atomic_flag& busy) : busy_(busy) {
@@ -31,7 +34,7 @@ struct Block::Piece {
     std::uint64_t size;    ///< a multiple of kUnit
     std::uint64_t before;  ///< size of the piece before, or of a call's its place; 0: none
     std::uint64_t used;
-    std::uint64_t unread;
+    std::uint64_t small;  ///< whether it is a small object
 };
 
 // Places of records are half a unit before a multiple of it.
@@ -56,14 +59,14 @@ Block::Piece* Block::at(std::uint64_t place) {
     return reinterpret_cast<Piece*>(reinterpret_cast<char*>(this) + place);
 }
 
-void* Block::take(std::size_t bytes) {
+void* Block::take(std::size_t bytes, bool small) {
     const Turn turn(busy_);
     if (bytes > end_) {
         ++use_.refused;
         return nullptr;
     }
     const std::uint64_t size = (std::uint64_t(bytes) + kRecord + kUnit - 1) / kUnit * kUnit;
-    void* const memory = is_sealed() ? take_frame(size) : take_kept(size);
+    void* const memory = is_sealed() ? take_frame(size, small) : take_kept(size, small);
     if (memory == nullptr) ++use_.refused;
     return memory;
 }
@@ -72,10 +75,11 @@ Allocator Block::allocator() {
     return {[](void* block, std::size_t bytes, std::size_t) {
                 return static_cast<Block*>(block)->take(bytes);
             },
-            [](void* block, void* memory) { static_cast<Block*>(block)->give(memory); }, this};
+            [](void* block, void* memory) { static_cast<Block*>(block)->give(memory); }, this,
+            true};
 }
 
-void* Block::take_kept(std::uint64_t size) {
+void* Block::take_kept(std::uint64_t size, bool small) {
     std::uint64_t place = (sizeof(Block) + kUnit - 1) / kUnit * kUnit + kRecord;
     for (; place < end_; place += at(place)->size) {
         Piece& piece = *at(place);
@@ -87,6 +91,10 @@ void* Block::take_kept(std::uint64_t size) {
             piece.size = size;
         }
         piece.used = 1;
+        piece.small = small ? 1 : 0;
+        if (small) small_now_ += size;
+        if (small_now_ > small_kept_ + use_.small_bytes)
+            use_.small_bytes = small_now_ - small_kept_;
         const std::uint64_t reached = place + size;
         if (reached > use_.open_bytes) use_.open_bytes = reached;
         return at(place) + 1;
@@ -94,9 +102,10 @@ void* Block::take_kept(std::uint64_t size) {
     return nullptr;
 }
 
-void* Block::take_frame(std::uint64_t size) {
-    if (size > end_ - top_) return nullptr;
-    *at(top_) = {size, last_, 1, 0};
+void* Block::take_frame(std::uint64_t size, bool small) {
+    const std::uint64_t left = end_ - top_, others = small ? 0 : small_room_;
+    if (left < others || size > left - others) return nullptr;
+    *at(top_) = {size, last_, 1, small ? 1u : 0u};
     last_ = top_;
     top_ += size;
     ++use_.frame_pieces;
@@ -117,6 +126,8 @@ void Block::give(void* memory) {
 
 void Block::give_kept(Piece* piece) {
     piece->used = 0;
+    if (piece->small != 0) small_now_ -= piece->size;
+    piece->small = 0;
     const auto place =
         std::uint64_t(reinterpret_cast<char*>(piece) - reinterpret_cast<char*>(this));
     const std::uint64_t limit = is_sealed() ? frame_base_ : end_;
@@ -138,7 +149,20 @@ void Block::give_frame(std::uint64_t place) {
     }
 }
 
-void Block::seal() {
+void Block::set_way_out(void* way_out) {
+    way_out_ = way_out;
+    thread_ = &current_host();
+}
+
+void* Block::way_out() const { return thread_ == &current_host() ? way_out_ : nullptr; }
+
+void Block::begin_pictures() {
+    const Turn turn(busy_);
+    small_kept_ = small_now_;
+    use_.small_bytes = 0;
+}
+
+bool Block::seal() {
     const Turn turn(busy_);
     std::uint64_t place = (sizeof(Block) + kUnit - 1) / kUnit * kUnit + kRecord, behind = place;
     for (; place < end_; place += at(place)->size)
@@ -146,6 +170,10 @@ void Block::seal() {
     frame_base_ = top_ = behind;
     last_ = 0;
     use_.kept_bytes = behind;
+    // An ordinary library has them elsewhere.
+    const bool none = small_now_ == 0 && use_.small_bytes == 0;
+    small_room_ = none ? 0 : 2 * use_.small_bytes + kLeastSmall;
+    return end_ - top_ >= small_room_;
 }
 
 bool Block::is_clear() {

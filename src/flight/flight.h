@@ -8,11 +8,14 @@
 
 namespace pileus {
 
-/// Unpacks the scene, prepares its method and traces light for a first picture. The
-/// session points into `packed`. `in_place`: arrays stay where they lie in `scene`. `depth`: leaves
-/// room for depth images. Errors: those of unpack_scene and of sessions.
-Status begin_flight(const void* scene, std::size_t bytes, const RenderOptions& options,
-                    bool in_place, bool depth, Packed& packed, Session& session);
+/// Unpacks the scene, prepares its method, takes what memory any work and any kind of picture may
+/// need, and traces light for a first picture. The session points into `packed`. `in_place`: arrays
+/// stay where they lie in `scene`. `depth`: leaves room for depth images. Errors: those of
+/// unpack_scene and of sessions; kBadInput: a head that is not the scene's; kLimit: `room` is below
+/// what the head asks for.
+Status begin_flight(const void* scene, std::size_t bytes, std::uint64_t room,
+                    const RenderOptions& options, bool in_place, bool depth, Packed& packed,
+                    Session& session);
 
 /// Bytes of a block for a packed scene, as docs/flight.md, "Memory", works them out.
 struct FlightNeed {

@@ -61,8 +61,8 @@ Status fly(Span<const char> packed, const RenderOptions& options, bool in_place,
     Session session;
     Buffer<unsigned char> pixels;
     const HostGuard lent({&allocator, &alone, nullptr});
-    PILEUS_TRY(
-        begin_flight(packed.data, packed.size, options, in_place, false, scene_and_world, session));
+    PILEUS_TRY(begin_flight(packed.data, packed.size, block.use().bytes, options, in_place, false,
+                            scene_and_world, session));
     need.small = kSmallBytes + (scene_and_world.world->direct_sky ? kSkySmallBytes : 0);
     const Scene& scene = scene_and_world.scene;
     const auto& size = scene.camera.resolution;
@@ -71,7 +71,7 @@ Status fly(Span<const char> packed, const RenderOptions& options, bool in_place,
         PILEUS_TRY(pixels.resize(std::uint64_t(size[0]) * std::uint64_t(size[1]) * 16, "picture"));
     }
     PILEUS_TRY(draw(session, pixels));
-    block.seal();
+    (void)block.seal();  // small objects lie elsewhere
     session.seal();
     // Where views decide, there is nothing to tell.
     if (!session.most_units({}, need.most)) need.most = {};

@@ -13,11 +13,13 @@ namespace {
 constexpr std::uint64_t kMagic = 0x4c465355454c4950ull;  // "PILEUSFL"
 constexpr std::uint64_t kFormat = 3;
 /// Its last bytes are zeros, so that what follows begins at a multiple of kLine.
-constexpr std::size_t kHeadBytes = 2 * kLine, kToldBytes = 8 * 8 + 24;
+constexpr std::size_t kHeadBytes = 2 * kLine, kToldBytes = 8 * 8 + 24, kDigestAt = 24;
 
+/// Of all but the digest's own eight bytes.
 std::uint64_t digest_of(const char* bytes, std::size_t size) {
     Digest digest;
-    digest.bytes(bytes, size);
+    digest.bytes(bytes, kDigestAt);
+    digest.bytes(bytes + kDigestAt + 8, size - kDigestAt - 8);
     return digest.value();
 }
 
@@ -160,21 +162,32 @@ Status read_head(const char* bytes, std::size_t size, Head& head) {
     if (head.magic != kMagic) return damaged("other bytes at its start");
     if (head.format != kFormat) return damaged("of another version");
     if (head.payload != size - kHeadBytes) return damaged("cut short, or longer than it says");
-    if (head.digest != digest_of(bytes + kHeadBytes, size - kHeadBytes))
-        return damaged("changed since it was written");
+    if (head.digest != digest_of(bytes, size)) return damaged("changed since it was written");
     return Status::ok();
+}
+
+/// Puts the head before its payload, and the digest of both into it.
+void sign(Head& head, std::string& bytes) {
+    const auto write = [&] {
+        ArchiveWriter writer;
+        fields(writer, head);
+        bytes.replace(0, kHeadBytes, writer.bytes);
+    };
+    write();
+    head.digest = digest_of(bytes.data(), bytes.size());
+    write();
 }
 
 }  // namespace
 
 std::string packed_bytes(const PackedHead& told, const std::string& payload) {
+    std::string bytes(kHeadBytes, '\0');
+    bytes += payload;
     Head head;
     head.payload = payload.size();
-    head.digest = digest_of(payload.data(), payload.size());
     head.told = told;
-    ArchiveWriter writer;
-    fields(writer, head);
-    return writer.bytes + payload;
+    sign(head, bytes);
+    return bytes;
 }
 
 void tell_block(std::uint64_t block_bytes, std::uint64_t in_place_bytes, std::string& bytes) {
@@ -183,9 +196,7 @@ void tell_block(std::uint64_t block_bytes, std::uint64_t in_place_bytes, std::st
     fields(reader, head);
     head.told.block_bytes = block_bytes;
     head.told.in_place_bytes = in_place_bytes;
-    ArchiveWriter writer;
-    fields(writer, head);
-    bytes.replace(0, kHeadBytes, writer.bytes);
+    sign(head, bytes);
 }
 
 Status pack_scene(const Scene& given, const World& world, std::string& bytes) {

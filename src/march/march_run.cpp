@@ -60,7 +60,7 @@ Status aim(int, bool anew, const Context&, MethodRun& method_run) {
     }
     if (run.camera.width != size[0] || run.camera.height != size[1] ||
         before.opaque() != now.opaque())
-        run.upsample = UpsampleMemory{};
+        forget_pictures(run.upsample);
     return Status::ok();
 }
 
@@ -175,6 +175,19 @@ Status march_prepare(const Context& context, MethodRun& method_run) {
     PILEUS_TRY(march_measure(context, run));
     if (kPlans && context.digests) run.digests = {{"density", density_digest(*run.world)}};
     return Status::ok();
+}
+
+Status RaymarchRun::reserve(LateRows&) {
+    const auto& size = scene->camera.resolution;
+    const bool solid = lighting.opaque() || around.depth.present;
+    PILEUS_TRY(reserve_depths(size, solid, planes));
+    PILEUS_TRY(reserve_lamp_nodes(world->medium, scene->lights.size(), lamps));
+    slices.reserve();
+    ground_shadow.slices.reserve();
+    if (simple != nullptr) return Status::ok();
+    // Fewer marched pixels have fewer nodes.
+    if (sky_nodes) PILEUS_TRY(reserve_sky_light(world->layer.params, kMostSkyLightBits, sky_light));
+    return reserve_upsampling(settings.thin, size, solid, upsample);
 }
 
 const LiveMethod live_march{aim, advance, units, compose, take_work, march_most_units};

@@ -51,6 +51,8 @@ struct RaymarchRun : MethodRun {
     UpsampleMemory upsample;
     GroundShadow ground_shadow;
     RaymarchTally tally;  ///< of all frames so far
+
+    Status reserve(LateRows& late) override;
 };
 
 /// Steps towards the sun that samples march where nodes of a sky hold the others.

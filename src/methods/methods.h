@@ -59,6 +59,11 @@ struct MethodRun {
     MethodRun& operator=(const MethodRun&) = delete;
     virtual ~MethodRun() = default;
 
+    /// Takes, before the first picture, what pictures may need under any work, with depths or
+    /// without, and what they may leave to late rows: sealed, they find it there. kLimit: out of
+    /// memory.
+    virtual Status reserve(LateRows&) { return Status::ok(); }
+
     /// From now on pictures keep no memory of their own: what is as large as a picture asks for is
     /// given back.
     virtual void seal() { sealed = true; }

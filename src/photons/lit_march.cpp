@@ -320,7 +320,8 @@ Status fill_lit_background(const Context& context, PhotonRun& run, const LightIn
                                   turn_of(run), run.ground_shadow));
     const StageClock clock(context, "background");
     const Lighting& light = *lit.lighting;
-    Buffer<float> map;
+    Buffer<float> own;
+    Buffer<float>& map = planes.late != nullptr ? planes.late->map : own;
     PILEUS_TRY(reconstruct_ground(lit, run.ground_map, batch, map));
     BackgroundParams k = background_params(view_of(run), lit.camera, light);
     k.map.size[0] = k.map.size[1] = run.ground_map.cells;
@@ -331,11 +332,24 @@ Status fill_lit_background(const Context& context, PhotonRun& run, const LightIn
     }
     BackgroundBuffers b{map.data(), planes.background.data(), planes.opaque_depth.data()};
     read_ground_shadow(run.ground_shadow, k, b);
-    if (planes.late != nullptr) {
-        planes.late->map.swap(map);
-        return leave_background(context, k, b, *planes.late);
-    }
+    if (planes.late != nullptr) return leave_background(context, k, b, *planes.late);
     return show_background(context, light, k, b);
+}
+
+Status PhotonRun::reserve(LateRows& late) {
+    const auto& size = scene->camera.resolution;
+    const bool solid = lighting.opaque() || around.depth.present;
+    PILEUS_TRY(reserve_depths(size, solid, planes));
+    PILEUS_TRY(reserve_lamp_nodes(world->medium, scene->lights.size(), lamps));
+    shadow_slices.reserve();
+    ground_shadow.slices.reserve();
+    const std::uint64_t cells = std::uint64_t(ground_map.cells) * std::uint64_t(ground_map.cells);
+    const Array<float> light = arrays::ground_light(cells);
+    PILEUS_TRY(late.map.reserve(light.count, light.name));
+    if (scene->method == "collectors" && scene->collectors.billboards) return Status::ok();
+    const UpsampleSettings& thin =
+        scene->method == "collectors" ? scene->collectors.thin : scene->photon_grid.thin;
+    return reserve_upsampling(thin, size, solid, upsample);
 }
 
 Status add_ground_noise(const Context& context, PhotonRun& run, const LightInput& lit,

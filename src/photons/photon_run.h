@@ -54,6 +54,7 @@ struct PhotonRun : MethodRun {
     std::uint32_t layouts = 0;   ///< times that the sums were laid out
     bool interrupted = false;  ///< fewer generations than asked for, because the user wanted an end
 
+    Status reserve(LateRows& late) override;
     void seal() override {
         MethodRun::seal();
         near_light = Buffer<float>();

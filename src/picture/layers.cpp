@@ -172,6 +172,13 @@ Status allocate_planes(int width, int height, int channels, bool solid, bool dep
     return fit(std::uint64_t(channels), planes.colour);
 }
 
+Status reserve_depths(const std::array<int, 2>& resolution, bool solid, Planes& planes) {
+    const Array<float> plane =
+        arrays::picture_planes(1, std::uint64_t(resolution[0]) * std::uint64_t(resolution[1]));
+    PILEUS_TRY(planes.half_depth.reserve(plane.count, plane.name));
+    return planes.opaque_depth.reserve(solid ? plane.count : 0, plane.name);
+}
+
 std::uint64_t extra_layers(const OutputSettings& output, bool has_error) {
     return (output.layer_cloud ? 3u : 0u) + (output.layer_depth ? 1u : 0u) +
            (output.layer_optical_depth ? 1u : 0u) + (output.layer_transmittance ? 1u : 0u) +

@@ -69,6 +69,10 @@ inline Array<float> picture_planes(std::uint64_t numbers, std::uint64_t pixels,
 /// of colour there is no background either.
 Status allocate_planes(int width, int height, int channels, bool solid, bool depth, Planes& planes);
 
+/// Room for what some pictures of a run have and others have not: depths of the media and, where
+/// `solid`, of what is opaque. kLimit: out of memory.
+Status reserve_depths(const std::array<int, 2>& resolution, bool solid, Planes& planes);
+
 /// Layers of the image that are asked for, beside the four that are always there.
 std::uint64_t extra_layers(const OutputSettings& output, bool has_error);
 

@@ -176,6 +176,43 @@ Status upsample_picture(const Context& context, const UpsampleInput& in, int fra
     return s.temporal > 0 ? remember(context, in, planes, memory) : Status::ok();
 }
 
+Status reserve_upsampling(const UpsampleSettings& s, const std::array<int, 2>& resolution,
+                          bool solid, UpsampleMemory& memory) {
+    PixelLattice densest{};
+    densest.every = 2;
+    const std::uint64_t width = std::uint64_t(resolution[0]), height = std::uint64_t(resolution[1]);
+    const std::uint64_t few = most_pixels_of(densest, width, height);
+    const auto room = [](std::uint64_t numbers, std::uint64_t pixels, Buffer<float>& plane) {
+        const Array<float> own = marched(numbers, pixels);
+        return plane.reserve(own.count, own.name);
+    };
+    PILEUS_TRY(room(1, few, memory.few.transmittance));
+    PILEUS_TRY(room(3, few, memory.few.colour));
+    PILEUS_TRY(room(1, few, memory.few.half_depth));
+    PILEUS_TRY(room(solid ? 1 : 0, few, memory.few.opaque_depth));
+    if (s.temporal == 0) return Status::ok();
+    PILEUS_TRY(room(1, width * height, memory.transmittance));
+    PILEUS_TRY(room(3, width * height, memory.colour));
+    return room(solid ? 1 : 0, width * height, memory.opaque_depth);
+}
+
+void forget_pictures(UpsampleMemory& memory) {
+    UpsampleMemory fresh;
+    // Memory that keeps stays, in a flight.
+    const auto keep = [](Buffer<float>& from, Buffer<float>& to) {
+        (void)from.resize(0, "");
+        to.swap(from);
+    };
+    keep(memory.few.transmittance, fresh.few.transmittance);
+    keep(memory.few.colour, fresh.few.colour);
+    keep(memory.few.half_depth, fresh.few.half_depth);
+    keep(memory.few.opaque_depth, fresh.few.opaque_depth);
+    keep(memory.transmittance, fresh.transmittance);
+    keep(memory.colour, fresh.colour);
+    keep(memory.opaque_depth, fresh.opaque_depth);
+    memory = std::move(fresh);
+}
+
 Status check_upsampling(const Scene& scene, const char* method, const UpsampleSettings& s) {
     const auto fault = [&](const char* key, int value, const std::string& allowed) {
         return Status::bad_input(scene.file + ": " + method + "." + key + ": " +

@@ -47,6 +47,13 @@ void take_behind(const PixelLattice& lattice, int width, const Planes& whole, Pl
 Status upsample_picture(const Context& context, const UpsampleInput& in, int frame,
                         UpsampleMemory& memory, Planes& planes);
 
+/// Room for any thinning out that work may ask of such a picture. kLimit: out of memory.
+Status reserve_upsampling(const UpsampleSettings& settings, const std::array<int, 2>& resolution,
+                          bool solid, UpsampleMemory& memory);
+
+/// As before the first picture.
+void forget_pictures(UpsampleMemory& memory);
+
 /// Settings that are none; `method` names their keys.
 Status check_upsampling(const Scene& scene, const char* method, const UpsampleSettings& settings);
 

@@ -104,6 +104,9 @@ public:
     Status set_depth(const Rows* rows, DepthKind kind);
     /// Room for a depth image of the camera as it is, which has nothing solid.
     Status reserve_depth();
+    /// Once open, before light and pictures: takes what they may need under any work and with any
+    /// target. kLimit: out of memory.
+    Status reserve();
     /// From now on nothing is laid out anew: lights, sizes and maps that are not there are refused.
     void seal();
     /// What the next steps and pictures may cost; members that are 0 are the scene's. kBadInput: a
@@ -186,6 +189,7 @@ private:
     bool air_old_ = false;  ///< the air's sky is another sun's or ground's
     bool has_hash_ = false;
     Shine sealed_shine_;
+    std::size_t sealed_lights_ = 0;
     std::uint64_t hash_ = 0;  ///< of the last picture
     RenderOptions options_;
     Report report_;

@@ -178,7 +178,11 @@ Status Session::set_ground(const Ground& given) {
 Status Session::set_lights(const std::vector<LightSettings>& lights) {
     if (lights == around_.lights) return Status::ok();
     PILEUS_TRY(refuse_clouds_sky("lights"));
-    if (run_->sealed && scene_.lights.empty()) return refuse_sealed("light");
+    if (run_->sealed && sealed_lights_ == 0) return refuse_sealed("light");
+    if (run_->sealed && lights.size() > sealed_lights_)
+        return Status::bad_input("light: " + std::to_string(lights.size()) + ", allowed: at most " +
+                                 std::to_string(sealed_lights_) +
+                                 ", as when the flight was opened");
     if (kDevices) PILEUS_TRY(check_host_lights(context_, lights, run_->world->medium));
     if (const char* key = lights_fault(scene_, around_.ground, lights))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) {
@@ -258,9 +262,15 @@ Status Session::refuse_clouds_sky(const char* what) const {
                              "pileus_cloud_detail's");
 }
 
+Status Session::reserve() {
+    const FpModeGuard guard;
+    return run_->reserve(late_);
+}
+
 void Session::seal() {
     run_->seal();
     sealed_shine_ = shine_of(run_->lighting);
+    sealed_lights_ = scene_.lights.size();
     const std::size_t lamps = scene_.lights.empty() ? 0 : kMostLights;
     around_.lights.reserve(lamps);
     scene_.lights.reserve(lamps);

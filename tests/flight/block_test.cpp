@@ -7,6 +7,7 @@
 #include <doctest/doctest.h>
 
 #include <cstring>
+#include <thread>
 #include <vector>
 
 namespace pileus {
@@ -106,6 +107,48 @@ TEST_CASE("after sealing pieces are a stack, and what a call leaves is told") {
     CHECK(block->use().lost_pieces == 1);
     CHECK(block->take(sizeof memory) == nullptr);
     CHECK(block->use().refused == 1);
+}
+
+TEST_CASE("small objects have the end of a sealed block to themselves") {
+    alignas(64) static unsigned char memory[1 << 17];
+    Block* const block = Block::make(memory, sizeof memory);
+    REQUIRE(block != nullptr);
+    void* const before = block->take_small(5000);
+    block->begin_pictures();
+    void* const small = block->take_small(3000);
+    block->give(small);
+    REQUIRE(block->seal());
+    // 3000 bytes and a record in whole units, twice, and the texts of faults.
+    CHECK(block->use().small_bytes == 3072);
+    const std::uint64_t room = 2 * 3072 + (16 << 10);
+    std::vector<void*> arrays;
+    while (void* const piece = block->take(1024)) arrays.push_back(piece);
+    CHECK(arrays.size() > 80);
+    std::uint64_t taken = 0;
+    std::vector<void*> objects;
+    while (void* const piece = block->take_small(1000)) objects.push_back(piece), taken += 1000;
+    CHECK(taken + 2048 > room * 1000 / 1088);
+    for (void* const piece : objects) block->give(piece);
+    for (void* const piece : arrays) block->give(piece);
+    CHECK(block->is_clear());
+    block->give(before);
+    // A block without that room is not for calls.
+    Block* const tight = Block::make(memory, 8192);
+    void* const one = tight->take_small(2000);
+    tight->give(one);
+    CHECK_FALSE(tight->seal());
+}
+
+TEST_CASE("a way out is the thread's that set it") {
+    alignas(64) unsigned char memory[4096];
+    Block* const block = Block::make(memory, sizeof memory);
+    int place = 0;
+    CHECK(block->way_out() == nullptr);
+    block->set_way_out(&place);
+    CHECK(block->way_out() == &place);
+    void* other = &place;
+    std::thread([&] { other = block->way_out(); }).join();
+    CHECK(other == nullptr);
 }
 
 }  // namespace pileus

@@ -101,9 +101,9 @@ const std::vector<std::string> kRows[] = {
     {"method.name=photon-grid", "photon_grid.ring=true"},
     {"method.name=path"},
     {"method.name=particles", "medium.0.density=procedural:particle-cumulus",
-     "medium.0.extinction_per_m=0.02"},
+     "medium.0.particle_cumulus.particles=400", "medium.0.extinction_per_m=0.02"},
     {"method.name=particles", "medium.0.density=procedural:particle-cumulus",
-     "particles.display=billboards"},
+     "medium.0.particle_cumulus.particles=400", "particles.display=billboards"},
 };
 
 }  // namespace

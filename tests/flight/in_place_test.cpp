@@ -81,7 +81,7 @@ TEST_CASE(
         {"method.name=photon-grid", "photon_grid.ring=true"},
         {"method.name=path"},
         {"method.name=particles", "medium.0.density=procedural:particle-cumulus",
-         "medium.0.extinction_per_m=0.02"},
+         "medium.0.particle_cumulus.particles=400", "medium.0.extinction_per_m=0.02"},
     };
     for (const std::vector<std::string>& row : rows) {
         CAPTURE(row.empty() ? std::string("collectors") : row.front());

@@ -14,23 +14,28 @@
 
 namespace {
 
-void* take(std::size_t bytes) {
+/// A flight lends nothing but blocks.
+pileus::Block* block() {
     const pileus::Allocator* const from = pileus::current_host().allocator;
-    return from != nullptr ? from->allocate(from->user, bytes, 64) : nullptr;
+    return from != nullptr ? static_cast<pileus::Block*>(from->user) : nullptr;
+}
+
+void* take(std::size_t bytes) {
+    pileus::Block* const from = block();
+    return from != nullptr ? from->take_small(bytes) : nullptr;
 }
 
 void give(void* memory) {
-    const pileus::Allocator* const from = pileus::current_host().allocator;
-    if (memory != nullptr && from != nullptr) from->release(from->user, memory);
+    if (pileus::Block* const to = block()) to->give(memory);
 }
 
 void* take_or_leave(std::size_t bytes) {
     if (void* const memory = take(bytes)) return memory;
-    const pileus::Allocator* const from = pileus::current_host().allocator;
-    // While a session is opened all lies in its block, which is the caller's to take back.
-    if (from != nullptr)
-        if (void* const way_out = static_cast<pileus::Block*>(from->user)->way_out())
-            std::longjmp(*static_cast<std::jmp_buf*>(way_out), 1);
+    // All lies in the block, which is the caller's to take back. Threads that are lent have no
+    // block and take nothing.
+    pileus::Block* const from = block();
+    if (from != nullptr && from->way_out() != nullptr)
+        std::longjmp(*static_cast<std::jmp_buf*>(from->way_out()), 1);
     std::abort();
 }
 

@@ -218,10 +218,10 @@ Status show_billboards(const Context& context, const CollectorsRun& run,
         planes.colour.swap(out.colour);
     };
     exchange();
-    PILEUS_TRY(collectors_billboards(context, run, lit.camera, colours, channels,
-                                     planes.opaque_depth.data(), out));
+    const Status status = collectors_billboards(context, run, lit.camera, colours, channels,
+                                                planes.opaque_depth.data(), out);
     exchange();
-    return Status::ok();
+    return status;
 }
 
 }  // namespace

@@ -192,8 +192,7 @@ void add_own_light(const Context& context, const float* around, ParticlesRun& ru
 Status light_around(const Context& context, const ParticleMarchParams& k, ParticlesRun& run) {
     const bool lamps = !run.lighting.lamps.empty(), own = has_own_light(run);
     if (!lamps && !own) {
-        run.around_balls = Buffer<float>();
-        return Status::ok();
+        return run.around_balls.resize(0, "particles' light around");
     }
     const StageClock clock(context, "light of lights");
     PILEUS_TRY(allocate_once(arrays::particle_around(run.tree.balls.size()), run.around_balls));

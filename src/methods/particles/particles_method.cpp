@@ -220,6 +220,18 @@ void report_run(const MethodRun& method_run, Report& report) {
 
 }  // namespace
 
+Status ParticlesRun::reserve(LateRows&) {
+    PILEUS_TRY(reserve_depths(scene->camera.resolution, lighting.opaque() || around.depth.present,
+                              planes));
+    const std::size_t lamps = scene->lights.size(), count = tree.balls.size();
+    if (lamps == 0) return Status::ok();
+    const Array<float> depths = arrays::particle_lamps(count, lamps),
+                       light = arrays::particle_around(count);
+    PILEUS_TRY(lamp_depth.reserve(depths.count, depths.name));
+    PILEUS_TRY(lamp_reach.reserve(depths.count, depths.name));
+    return around_balls.reserve(light.count, light.name);
+}
+
 const Method& particles_method() {
     static constexpr Method method{"particles",
                                    WorldUse::kParticles,

@@ -41,6 +41,8 @@ struct ParticlesRun : MethodRun {
     CameraParams camera{};
     Planes planes;
     Buffer<float> occlusion;  ///< [pixel]; empty: not wanted
+
+    Status reserve(LateRows& late) override;
 };
 
 namespace arrays {

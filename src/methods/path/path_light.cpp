@@ -19,9 +19,11 @@ Status make_alpha(const Context& context, PathRun& run) {
     // Colours are the film's, and stay where they are.
     Buffer<float> colour;
     colour.swap(run.planes.colour);
-    PILEUS_TRY(allocate_planes(run.camera.width, run.camera.height, 0, run.lighting.opaque(),
-                               run.scene->wants_depth(), run.planes));
+    const Status room =
+        allocate_planes(run.camera.width, run.camera.height, 0, run.lighting.opaque(),
+                        run.scene->wants_depth(), run.planes);
     colour.swap(run.planes.colour);
+    if (!room) return room;
     if (run.camera.flux != 0) return Status::ok();  // alpha 1: all pixels are measured
     if (path_regresses(*run.scene))
         return march_guides(context, run.world->medium, run.majorants, run.lighting, run.camera,

@@ -80,6 +80,22 @@ MarchParams march_params(const Medium& medium, const MediumView& view, const Lig
     return k;
 }
 
+/// Nodes are the march's alone, and are given back however it ends.
+class NodesOfMarch {
+public:
+    explicit NodesOfMarch(FilterGuides& guides) : guides_(guides) {}
+    ~NodesOfMarch() {
+        guides_.quads = Buffer<float>();
+        guides_.sun_depth = Buffer<float>();
+        guides_.visibility = Buffer<float>();
+    }
+    NodesOfMarch(const NodesOfMarch&) = delete;
+    NodesOfMarch& operator=(const NodesOfMarch&) = delete;
+
+private:
+    FilterGuides& guides_;
+};
+
 }  // namespace
 
 Array<float> arrays::guide_nodes(const Medium& medium, bool solids) {
@@ -93,6 +109,7 @@ Status march_guides(const Context& context, const Medium& medium, const Majorant
     const MediumView view = make_medium_view(medium, majorants);
     const std::uint32_t rows = std::uint32_t(camera.height);
     const std::uint64_t pixels = std::uint64_t(camera.width) * rows;
+    const NodesOfMarch nodes(guides);
     PILEUS_TRY(light_nodes(context, medium, view, lighting, guides));
     const StageClock clock(context, "alpha");
     PILEUS_TRY(allocate(arrays::picture_planes(1, pixels), planes.optical_depth));
@@ -118,9 +135,6 @@ Status march_guides(const Context& context, const Medium& medium, const Majorant
     b.optical_depth = guides.sun_depth.data();
     b.visibility = guides.visibility.data();
     PILEUS_TRY(run_rows(context, context.kernels->march_rows, k, b, rows));
-    guides.quads = Buffer<float>();
-    guides.sun_depth = Buffer<float>();
-    guides.visibility = Buffer<float>();
     return Status::ok();
 }
 

@@ -64,6 +64,14 @@ Status make_lamp_nodes(const Context& context, const Medium& medium, const Major
     return Status::ok();
 }
 
+Status reserve_lamp_nodes(const Medium& medium, std::size_t lamps, LampNodes& out) {
+    if (!kLights || lamps == 0) return Status::ok();
+    out.lamps.reserve(lamps);
+    const Array<float> depths =
+        arrays::lamp_depths(bytes_of(node_count(lamp_node_grid(medium)), lamps));
+    return out.optical_depth.reserve(depths.count, depths.name);
+}
+
 LampMarchParams lamp_march_params(const Medium& medium, const Majorants& majorants,
                                   const Lighting& lighting, const CameraParams& camera,
                                   const LampNodes& nodes, double cut) {

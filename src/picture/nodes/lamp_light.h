@@ -42,6 +42,9 @@ inline Array<float> lamp_depths(std::uint64_t numbers) {
 Status make_lamp_nodes(const Context& context, const Medium& medium, const Majorants& majorants,
                        const Lighting& lighting, LampNodes& out);
 
+/// Room for so many lamps, which may all shine later on. kLimit: out of memory.
+Status reserve_lamp_nodes(const Medium& medium, std::size_t lamps, LampNodes& out);
+
 /// The launch that add_lamp_light makes: media with their phase functions and albedos.
 LampMarchParams lamp_march_params(const Medium& medium, const Majorants& majorants,
                                   const Lighting& lighting, const CameraParams& camera,

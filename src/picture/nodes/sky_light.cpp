@@ -194,6 +194,16 @@ int sky_light_levels(const SkyParams& sky, int bits) {
     return std::min(levels, kMostSkyLightLevels);
 }
 
+Status reserve_sky_light(const SkyParams& sky, int bits, SkyLight& out) {
+    const int levels = sky_light_levels(sky, bits);
+    const std::size_t rows = std::size_t(levels) * kSkyLightHeights << bits;
+    out.row.reserve(rows);
+    out.columns.reserve(rows);
+    out.slices.reserve();
+    const Array<std::int32_t> nodes = arrays::sky_light_nodes(levels, bits, Stage::kWrite);
+    return out.words.reserve(nodes.count, nodes.name);
+}
+
 Status follow_sky_light(const Context& context, const RaymarchParams& k, const SkyParams& sky,
                         int bits, int near_steps, const SunTurn& turn, SkyLight& out) {
     const StageClock clock(context, "shadow");

@@ -33,6 +33,9 @@ inline Array<std::int32_t> sky_light_nodes(int levels, int bits, Stage last) {
 
 }  // namespace arrays
 
+/// Room for 2^bits nodes along x and y and any number of slices. kLimit: out of memory.
+Status reserve_sky_light(const SkyParams& sky, int bits, SkyLight& out);
+
 /// Makes the nodes that the camera of `k` may read and that `out` does not hold for their slice's
 /// sun: 2^bits along x and y. `near_steps` of the march to the sun are left to samples. kLimit: out
 /// of memory.

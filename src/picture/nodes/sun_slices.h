@@ -22,6 +22,9 @@ struct SunTurn {
         sun_of{};  ///< of frames before the first that is made
 };
 
+/// The most that settings may ask for (light_refresh).
+constexpr std::size_t kMostSlices = 64;
+
 /// Slice s is of the sun of the last frame whose number is s modulo the number of slices. So what
 /// a frame has depends on the suns of that many frames alone, and a sun that stands is everywhere
 /// after as many.
@@ -30,6 +33,12 @@ struct SunSlices {
     std::vector<SunDirection> held;  ///< per slice, what its nodes were made for; empty: nothing
     std::int64_t last = 0;           ///< frame that `suns` ends with
     std::uint64_t made = 0;          ///< slices so far
+
+    /// Room for as many slices as there may be.
+    void reserve() {
+        suns.reserve(kMostSlices);
+        held.reserve(kMostSlices);
+    }
 };
 
 /// Farthest that a slice's sun may be from the frame's, degrees; else all are of the frame's.
