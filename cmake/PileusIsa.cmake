@@ -11,6 +11,18 @@ set(PILEUS_ISA_DEFINITIONS)
 set(PILEUS_ISA_NAMES)
 
 file(GLOB PILEUS_ISA_SOURCES CONFIGURE_DEPENDS "${PROJECT_SOURCE_DIR}/kernels_cpu/isa/isa*.cpp")
+
+# The groups of the rows of kernel_list.h; all but Always have a file isa_GROUP.cpp each.
+function(pileus_kernel_groups result)
+    set(list "${PROJECT_SOURCE_DIR}/kernels_cpu/isa/kernel_list.h")
+    set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${list}")
+    file(READ "${list}" rows)
+    string(REGEX MATCHALL "[A-Za-z]+, +(Device|Host)[)]" groups "${rows}")
+    list(TRANSFORM groups REPLACE ",.*" "")
+    list(REMOVE_DUPLICATES groups)
+    set(${result} ${groups} PARENT_SCOPE)
+endfunction()
+
 # Levels of optimisation: -O1 takes half the time of -O3 to compile; the bits are the same at any level
 # (docs/performance.md, "Levels of optimisation").
 # Kernels that few scenes call, and what they are at -O1 for the widest vectors: PILEUS_RARE.

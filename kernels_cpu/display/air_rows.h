@@ -261,6 +261,8 @@ PILEUS_FN void air_runs(const AirRowsParams& k, const AirRowsBuffers& b, std::in
     }
 }
 
+/// Runs are as wide on every instruction set.
+template <int W>
 PILEUS_FN void air_rows(const AirRowsParams& k, const AirRowsBuffers& b, std::uint32_t begin,
                         std::uint32_t end) {
     constexpr std::int32_t kRuns = kAirRun * kAirRun / 2;

@@ -24,7 +24,7 @@ struct MediumView {
     std::int32_t periodic;  ///< 1: the box, and every grid over it, repeats along x and y
     std::int32_t constant;  ///< 1: a voxel has one density; 0: trilinear between centres
     const DetailView*
-        detail;  ///< for the kernels of DetailKernels, which no others read; null: none
+        detail;  ///< for kernels of the group Detail, which no others read; null: none
 };
 
 /// A grid of nodes at (i + 1/2) * spacing over the same box.

@@ -3,12 +3,11 @@
 // in: the launches' structs, their pointers the device's -> out: the same bits as on the host.
 // docs/crosscheck.md; cmake/PileusCuda.cmake has the flags that keep the bits.
 #include "kernels_cpu/display/blend.h"
-#include "kernels_cpu/isa/device_kernels.h"
-#include "kernels_cpu/isa/device_threads.h"
 #include "kernels_cpu/display/march.h"
 #include "kernels_cpu/display/march_background.h"
-#include "kernels_cpu/path/path.h"
+#include "kernels_cpu/isa/device_threads.h"
 #include "kernels_cpu/isa/self_test.h"
+#include "kernels_cpu/path/path.h"
 #include "kernels_cpu/photons/trace.h"
 
 namespace pileus {
@@ -30,22 +29,13 @@ namespace {
         if (item >= begin && item < end) run_item(name##_one_lane{}, k, b, begin, item);       \
     }
 
-PILEUS_DEVICE_KERNEL(trace, TraceParams, TraceBuffers)
-PILEUS_DEVICE_KERNEL(shadow_rows, ShadowParams, ShadowBuffers)
-PILEUS_DEVICE_KERNEL(march_rows, MarchParams, MarchBuffers)
-PILEUS_DEVICE_KERNEL(background_rows, BackgroundParams, BackgroundBuffers)
-PILEUS_DEVICE_KERNEL(blend_tile, BlendParams, BlendBuffers)
-PILEUS_DEVICE_KERNEL(trace_paths, PathParams, PathBuffers)
-// Of the two forms of trace_paths_guided the one without solids, which devices know not.
-template <int W>
-__device__ __forceinline__ void trace_paths_seeking(const PathParams& k, const PathBuffers& b,
-                                                    std::uint32_t begin, std::uint32_t end) {
-    trace_paths<W, kSeekingSun>(k, b, begin, end);
-}
-PILEUS_DEVICE_KERNEL(trace_paths_seeking, PathParams, PathBuffers)
+#define PILEUS_CALL(name, Result, parameters, names, group, where)
+#define PILEUS_RANGE(name, Params, Buffers, group, where) \
+    PILEUS_ON_##where(PILEUS_DEVICE_KERNEL(name, Params, Buffers))
+#include "kernels_cpu/isa/kernel_list.h"
 
-__global__ void self_test_item(NoParams, SelfTestBuffers b, std::uint32_t begin, std::uint32_t) {
-    if (begin + blockIdx.x * blockDim.x + threadIdx.x == begin) *b.digest = self_test_digest<1>();
+__global__ void self_test_items(NoParams, SelfTestBuffers b, std::uint32_t begin, std::uint32_t) {
+    if (begin + blockIdx.x * blockDim.x + threadIdx.x == begin) *b.digest = self_test<1>();
 }
 
 template <class Function>
@@ -55,9 +45,13 @@ constexpr const void* address(Function* function) {
 
 }  // namespace
 
+// Rows come in the order of the members, which are made from them, too.
 const DeviceKernels cuda_kernels{
-    address(trace_items),       address(shadow_rows_items), address(march_rows_items),
-    address(background_rows_items), address(blend_tile_items),  address(trace_paths_items),
-    address(self_test_item),    address(trace_paths_seeking_items)};
+#define PILEUS_CALL(name, Result, parameters, names, group, where) \
+    PILEUS_ON_##where(address(name##_items), )
+#define PILEUS_RANGE(name, Params, Buffers, group, where) \
+    PILEUS_ON_##where(address(name##_items), )
+#include "kernels_cpu/isa/kernel_list.h"
+};
 
 }  // namespace pileus

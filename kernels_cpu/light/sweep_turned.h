@@ -140,5 +140,13 @@ PILEUS_FN void sweep_block_of_columns(const SweepParams& k, const SweepBuffers& 
     }
 }
 
+template <int W>
+PILEUS_FN void sweep_block(const SweepParams& k, const SweepBuffers& b, std::uint32_t block) {
+    if (k.axis == 0)
+        sweep_block_of_columns<W>(k, b, sweep_block_at(k, block));
+    else
+        sweep_block_of_rows<W>(k, b, sweep_block_at(k, block));
+}
+
 }  // namespace PILEUS_ISA
 }  // namespace pileus

@@ -136,22 +136,4 @@ struct ParticleLampLight {
     std::uint64_t balls;
 };
 
-struct ParticleBoardParams;
-struct ParticleBoardBuffers;
-struct ParticleColourBuffers;
-
-/// A table of functions, one for each instruction set.
-struct ParticleKernels {
-    int width;
-    void (*depths)(const ParticleDepthParams&, const ParticleDepthBuffers&, std::uint32_t begin,
-                   std::uint32_t end);
-    void (*march)(const ParticleMarchParams&, const ParticleMarchBuffers&, const ParticleTile&);
-    void (*boards)(const ParticleBoardParams&, const ParticleBoardBuffers&, const ParticleTile&);
-    void (*colours)(const ParticleMarchParams&, const ParticleColourBuffers&, std::uint32_t begin,
-                    std::uint32_t end);
-    void (*lamp_depths)(const ParticleLampDepths&, std::uint32_t begin, std::uint32_t end);
-    void (*lamp_light)(const ParticleMarchParams&, const ParticleLampLight&, std::uint32_t begin,
-                       std::uint32_t end);
-};
-
 }  // namespace pileus

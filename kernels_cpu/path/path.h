@@ -211,14 +211,22 @@ PILEUS_FN void trace_paths(const PathParams& k, const PathBuffers& b, std::uint3
         trace_path_lanes<W, 3, K>(k, b, begin, end);
 }
 
-/// As trace_paths, for all that needs a kernel of its own: guided paths, the sun's disc.
+template <int W>
+PILEUS_FN void trace_paths_solid(const PathParams& k, const PathBuffers& b, std::uint32_t begin,
+                                 std::uint32_t end) {
+    trace_paths<W, kAmongSolids>(k, b, begin, end);
+}
+
+/// As trace_paths, for all that needs a kernel of its own: guided paths, the sun's disc. Devices
+/// know no solids.
 template <int W>
 PILEUS_FN void trace_paths_guided(const PathParams& k, const PathBuffers& b, std::uint32_t begin,
                                   std::uint32_t end) {
+#ifndef __CUDACC__
     if ((kMeshes && k.solids.count > 0) || k.camera_depth != nullptr)
-        trace_paths<W, kAmongSolids | kSeekingSun>(k, b, begin, end);
-    else
-        trace_paths<W, kSeekingSun>(k, b, begin, end);
+        return trace_paths<W, kAmongSolids | kSeekingSun>(k, b, begin, end);
+#endif
+    trace_paths<W, kSeekingSun>(k, b, begin, end);
 }
 
 /// As trace_paths_guided, for scenes with lamps, or with media that emit.

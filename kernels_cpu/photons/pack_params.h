@@ -31,11 +31,4 @@ constexpr std::uint64_t packed_bytes(std::uint64_t numbers) {
     return numbers + (numbers + 1) / 2 + 1;
 }
 
-struct PackKernels {
-    /// Packs sets [begin, end), and brings the total up to date.
-    void (*pack)(const PackParams&, const PackBuffers&, std::uint64_t begin, std::uint64_t end);
-    /// Adds packed sets to the total.
-    void (*add)(const PackParams&, const PackBuffers&, std::uint64_t begin, std::uint64_t end);
-};
-
 }  // namespace pileus

@@ -121,7 +121,9 @@ PILEUS_FN void add_sets_of(const PackParams& k, const PackBuffers& b, std::uint6
                    b.total + s * std::uint64_t(k.numbers));
 }
 
-/// Four bands; with eight degrees about the sun's axis; and with light scattered once.
+/// Four bands; with eight degrees about the sun's axis; and with light scattered once. Compilers
+/// widen the loops over a set's numbers.
+template <int W>
 PILEUS_FN void pack_sets(const PackParams& k, const PackBuffers& b, std::uint64_t begin,
                          std::uint64_t end) {
     if (k.numbers == 16) return pack_sets_of<16>(k, b, begin, end);
@@ -130,6 +132,7 @@ PILEUS_FN void pack_sets(const PackParams& k, const PackBuffers& b, std::uint64_
     pack_sets_of<0>(k, b, begin, end);
 }
 
+template <int W>
 PILEUS_FN void add_sets(const PackParams& k, const PackBuffers& b, std::uint64_t begin,
                         std::uint64_t end) {
     if (k.numbers == 16) return add_sets_of<16>(k, b, begin, end);

@@ -173,5 +173,21 @@ PILEUS_FN void trace(const TraceParams& k, const TraceBuffers& b, std::uint32_t 
         trace_photons<W, 3, S, Cells>(k, b, begin, end);
 }
 
+template <int W>
+PILEUS_FN void trace_solids(const TraceParams& k, const TraceBuffers& b, std::uint32_t begin,
+                            std::uint32_t end) {
+    trace<W, true>(k, b, begin, end);
+}
+
+/// A regular grid gathers, with and without solids.
+template <int W>
+PILEUS_FN void trace_cells(const TraceParams& k, const TraceBuffers& b, std::uint32_t begin,
+                           std::uint32_t end) {
+    if (kMeshes && k.solids.count > 0)
+        trace<W, true, true>(k, b, begin, end);
+    else
+        trace<W, false, true>(k, b, begin, end);
+}
+
 }  // namespace PILEUS_ISA
 }  // namespace pileus

@@ -105,26 +105,4 @@ struct ColumnParams {
     float reach_m;         ///< columns lie in a square of this edge
 };
 
-struct RaymarchParams;
-struct RaymarchBuffers;
-
-/// The kernels of procedural densities, one table per instruction set.
-struct SkyKernels {
-    int width;
-    void (*noise_rows)(const NoiseParams&, float* values, std::uint32_t begin, std::uint32_t end);
-    void (*bake_rows)(const BakeParams&, float* density, std::uint32_t begin, std::uint32_t end);
-    /// Columns in multiples of 16.
-    void (*columns)(const ColumnParams&, float* most, std::uint32_t begin, std::uint32_t end);
-    /// Rows of a raymarched picture of the sky itself.
-    void (*raymarch_rows)(const RaymarchParams&, const SkyParams&, const RaymarchBuffers&,
-                          std::uint32_t begin, std::uint32_t end);
-    /// Rows of nodes of sunlight; returns the densities that were read.
-    std::int64_t (*light_rows)(const RaymarchParams&, const SkyParams&, const SkyLightView&,
-                               const SkyLightRow* rows, std::int32_t* words, std::uint32_t begin,
-                               std::uint32_t end);
-    /// Rows of blocks of a cumulus; `scratch` holds three lists of kMaxBubbles numbers.
-    void (*fill_cumulus)(const CumulusParams&, float* density, std::int32_t* scratch,
-                         std::uint32_t begin, std::uint32_t end);
-};
-
 }  // namespace pileus

@@ -39,14 +39,4 @@ struct LampMarchBuffers {
     float* background;          ///< [3][pixel], added to where rays end at the ground; null: none
 };
 
-/// A table of functions, one for each instruction set.
-struct LampKernels {
-    /// Rows of nodes along x: nodes.size[1] * nodes.size[2] of them for every lamp.
-    void (*depth_rows)(const LampMarchParams&, const LampMarchBuffers&, std::uint32_t begin,
-                       std::uint32_t end);
-    /// Rows of pixels.
-    void (*march_rows)(const LampMarchParams&, const LampMarchBuffers&, std::uint32_t begin,
-                       std::uint32_t end);
-};
-
 }  // namespace pileus

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// The density grid with detail as the field of a raymarch, made while it is marched through.
-// in: a grid, a tile of noise -> out: what raymarch_field.h asks of a field.
+// Marches through the density grid with detail, which is made on the way.
+// in: a grid, a tile of noise -> out: its kernels; as a field what raymarch_field.h asks for.
 // docs/detail.md
 #pragma once
+#include "kernels_cpu/display/march.h"
 #include "kernels_cpu/raymarch/raymarch.h"
 
 namespace pileus {
@@ -40,9 +41,21 @@ PILEUS_FN void field_shares(const DetailField&, const Vec<T>&, T, Use use) {
 }
 
 template <int W>
-PILEUS_FN void raymarch_detail_rows(const RaymarchParams& k, const RaymarchBuffers& b,
+PILEUS_FN void detail_raymarch_rows(const RaymarchParams& k, const RaymarchBuffers& b,
                                     std::uint32_t begin, std::uint32_t end) {
     raymarch_blocks<W>(k, b, DetailField{grid_field<false>(k, b)}, begin, end);
+}
+
+template <int W>
+PILEUS_FN void detail_shadow_rows(const ShadowParams& k, const ShadowBuffers& b,
+                                  std::uint32_t begin, std::uint32_t end) {
+    shadow_rows<W, true>(k, b, begin, end);
+}
+
+template <int W>
+PILEUS_FN void detail_march_rows(const MarchParams& k, const MarchBuffers& b, std::uint32_t begin,
+                                 std::uint32_t end) {
+    march_blocks<W, false, true>(k, b, begin, end);
 }
 
 }  // namespace PILEUS_ISA

@@ -115,10 +115,12 @@ PILEUS_FN void shadow_of_rows(const SolidRowsParams& k, const BackgroundBuffers&
     }
 }
 
+/// Radiance and distance of what rays meet; where there is room for it, its shadow alone.
 template <int W>
 PILEUS_FN void solid_rows(const SolidRowsParams& k, const BackgroundBuffers& b, std::uint32_t begin,
                           std::uint32_t end) {
     using T = F<W>;
+    if (b.shadow != nullptr) return shadow_of_rows<W>(k, b, begin, end);
     const CameraParams& camera = k.back.camera;
     const std::int64_t pixels = std::int64_t(camera.width) * camera.height;
     for (std::uint32_t y = begin; y < end; ++y) {

@@ -301,9 +301,9 @@ Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes&
         const std::uint32_t begin = std::uint32_t(piece) * kPiece;
         const std::uint32_t end = begin + kPiece < rows ? begin + kPiece : rows;
         if (in.layer != nullptr)
-            context.kernels->sky->raymarch_rows(k, in.layer->params, b, begin, end);
+            context.kernels->raymarch_sky_rows(k, in.layer->params, b, begin, end);
         else if (k.medium.detail != nullptr)
-            context.kernels->detail->raymarch_rows(k, b, begin, end);
+            context.kernels->detail_raymarch_rows(k, b, begin, end);
         else
             context.kernels->raymarch_rows(k, b, begin, end);
     };

@@ -41,9 +41,8 @@ double unit_beside(const Photons& photons, std::size_t light, std::size_t but) {
 }
 
 /// The table that packs; beside a device it is the host's.
-const PackKernels& pack_kernels(const RingWork& work) {
-    return !kDevices || work.kernels->device == nullptr ? *work.kernels->pack
-                                                        : *kernel_table(nullptr)->pack;
+const KernelTable& packing_kernels(const RingWork& work) {
+    return !kDevices || work.kernels->device == nullptr ? *work.kernels : *kernel_table(nullptr);
 }
 
 /// A number of the ground in units of 2^coarser, halves away from zero.
@@ -63,7 +62,7 @@ std::int64_t* total_of(const PhotonSlot& slot, std::size_t light, RingSum& ring)
 }
 
 /// Adds pieces of a slot to the sum.
-void add_sets(const PackKernels& kernels, std::size_t light, std::uint64_t begin, std::uint64_t end,
+void add_sets(const KernelTable& kernels, std::size_t light, std::uint64_t begin, std::uint64_t end,
               PhotonSlot& slot, RingSum& ring) {
     PackedSums& packed = slot.packed;
     const double unit = unit_in(slot, light);
@@ -74,7 +73,7 @@ void add_sets(const PackKernels& kernels, std::size_t light, std::uint64_t begin
     PackBuffers b;
     b.packed = packed.of_light(light);
     b.total = total_of(slot, light, ring);
-    kernels.add(k, b, begin, end);
+    kernels.add_sets(k, b, begin, end);
     if (end < packed.count) return;
     std::int64_t* to = b.total + packed.count * packed.numbers;
     const std::size_t cells = packed.ground.size() / packed.lights;
@@ -107,7 +106,7 @@ void add_slots(const RingWork& work, const std::vector<std::size_t>& slots, Phot
         const std::uint64_t begin = std::uint64_t(piece) % pieces * kSets;
         const std::uint64_t end = begin + kSets < packed.count ? begin + kSets : packed.count;
         for (const std::size_t s : slots)
-            add_sets(pack_kernels(work), std::size_t(std::uint64_t(piece) / pieces), begin, end,
+            add_sets(packing_kernels(work), std::size_t(std::uint64_t(piece) / pieces), begin, end,
                      photons.slots[s], ring);
     });
     for (const std::size_t s : slots) count_slot(photons.slots[s], 1, ring);
@@ -218,11 +217,11 @@ void pack_light(const RingWork& work, std::size_t light, const RingShot& shot,
         k.exact = ring.exact;
         b.total = total_of(slot, light, ring);
     }
-    const PackKernels& kernels = pack_kernels(work);
+    const KernelTable& kernels = packing_kernels(work);
     const std::uint64_t pieces = (packed.count + kSets - 1) / kSets;
     parallel_for(work.threads, std::int64_t(pieces), [&](std::int64_t piece, int) {
         const std::uint64_t begin = std::uint64_t(piece) * kSets;
-        kernels.pack(k, b, begin, begin + kSets < packed.count ? begin + kSets : packed.count);
+        kernels.pack_sets(k, b, begin, begin + kSets < packed.count ? begin + kSets : packed.count);
     });
     pack_ground(light, k, b, packed);
     slot.flux_per_photon_m2[light] = unit;

@@ -34,6 +34,7 @@ struct Launch {
     TraceParams params;
     std::uint64_t count;
     std::int64_t* total;  ///< the light's sums, of all threads
+    TraceKernel kernel;   ///< of the host
 };
 
 void run_piece(const Launch& launch, std::uint64_t piece, int thread) {
@@ -47,7 +48,7 @@ void run_piece(const Launch& launch, std::uint64_t piece, int thread) {
         in.collector_of_voxel.data,   sums,
         sums + collector_numbers(in), &launch.scratch->tallies[std::size_t(thread) * 2],
         in.medium->parts.data(),      in.threads > 1 && adds_directly(in) ? 1 : 0};
-    in.kernels->trace(launch.params, b, std::uint32_t(begin), std::uint32_t(end));
+    launch.kernel(launch.params, b, std::uint32_t(begin), std::uint32_t(end));
 }
 
 /// The whole launch at once, a photon per thread of the device.
@@ -107,6 +108,11 @@ void add_fates(const Fates& from, Fates& to) {
 }
 
 }  // namespace
+
+TraceKernel trace_kernel(const KernelTable& kernels, const TraceParams& k) {
+    if (k.cells[0] > 0) return kernels.trace_cells;
+    return kMeshes && k.solids.count > 0 ? kernels.trace_solids : kernels.trace;
+}
 
 TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_t generation) {
     const Medium& m = *in.medium;
@@ -211,8 +217,13 @@ Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScr
     ++slot.serial;
     for (std::size_t l = 0; l < in.lighting->lights.size() && !ended; ++l) {
         const Light& light = in.lighting->lights[l];
-        Launch launch{&in, &scratch, launch_params(in, light, generation), 0,
-                      in.packs ? scratch.sums.data() : slot.sums.data() + l * stride};
+        Launch launch{&in,
+                      &scratch,
+                      launch_params(in, light, generation),
+                      0,
+                      in.packs ? scratch.sums.data() : slot.sums.data() + l * stride,
+                      nullptr};
+        launch.kernel = trace_kernel(*in.kernels, launch.params);
         // Split where the photon index passes a multiple of 2^32: its high half is in the key.
         const std::uint64_t apart = light.apart > 0 ? light.apart : light.photons;
         std::uint64_t index = generation * apart, left = light.photons;

@@ -102,6 +102,10 @@ struct TraceScratch {
 };
 Status prepare_trace(const TraceInput& in, TraceScratch& scratch);
 
+/// The kernel that a launch needs: cells gather, or there are solids on the way, or neither.
+using TraceKernel = decltype(KernelTable::trace);
+TraceKernel trace_kernel(const KernelTable& kernels, const TraceParams& k);
+
 /// What a launch of one light's photons of a generation takes; `key`, and the place of the launch
 /// within the generation, are the caller's.
 TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_t generation);

@@ -27,11 +27,11 @@ MediumView make_medium_view(const Medium& medium, const Majorants& majorants) {
 }
 
 MarchKernel march_kernel(const KernelTable& kernels, const MediumView& medium) {
-    return medium.detail != nullptr ? kernels.detail->march_rows : kernels.march_rows;
+    return medium.detail != nullptr ? kernels.detail_march_rows : kernels.march_rows;
 }
 
 ShadowKernel shadow_kernel(const KernelTable& kernels, const MediumView& medium) {
-    return medium.detail != nullptr ? kernels.detail->shadow_rows : kernels.shadow_rows;
+    return medium.detail != nullptr ? kernels.detail_shadow_rows : kernels.shadow_rows;
 }
 
 Status march_medium(const Context& context, const Medium& medium, const Majorants& majorants,

@@ -13,8 +13,7 @@ namespace {
 
 #if defined(PILEUS_WITH_CUDA)
 constexpr DeviceTable kCudaDevice{&cuda_functions, &cuda_kernels};
-constexpr KernelTable kCudaTable{"cuda",  1,       nullptr, nullptr, nullptr,
-                                 nullptr, nullptr, nullptr, nullptr, &kCudaDevice};
+constexpr KernelTable kCudaTable{"cuda", 1, &kCudaDevice};
 constexpr const KernelTable* kCuda = &kCudaTable;
 #else
 constexpr const KernelTable* kCuda = nullptr;

@@ -58,7 +58,7 @@ void make_furnace(Furnace& f) {
     f.rig = make_rig({32, 32, 24}, {1000, 1000, 700}, 0.04);
     CumulusSettings cumulus;
     cumulus.resolution = {32, 32, 24};
-    REQUIRE(make_cumulus(cumulus, *kernel_table(nullptr)->sky, 1, f.rig.medium.volume));
+    REQUIRE(make_cumulus(cumulus, *kernel_table(nullptr), 1, f.rig.medium.volume));
     f.rig.medium.optics[0].phase.g1 = 0.6f;
     Context context;
     Report report;

@@ -14,7 +14,7 @@ Rig make_cumulus_rig(float floor_density) {
     Rig rig = make_rig({48, 48, 32}, {1600, 1600, 1100}, 0.05);
     CumulusSettings settings;
     settings.resolution = {48, 48, 32};
-    REQUIRE(make_cumulus(settings, *kernel_table(nullptr)->sky, 1, rig.medium.volume));
+    REQUIRE(make_cumulus(settings, *kernel_table(nullptr), 1, rig.medium.volume));
     for (float& v : rig.medium.volume.density.span()) v = std::max(v, floor_density);
     return rig;
 }

@@ -81,7 +81,7 @@ std::string shoot_pieces(const Rig& rig, const std::vector<std::uint32_t>& ends)
                          0};
     std::uint32_t begin = 0;
     for (std::uint32_t end : ends) {
-        rig.kernels->trace(k, b, begin, end);
+        trace_kernel(*rig.kernels, k)(k, b, begin, end);
         begin = end;
     }
     return digest_of(sums.span(), tally);

@@ -18,7 +18,7 @@ using namespace render_test;
 Buffer<float> tile_of(const DetailSettings& settings, int threads = 1,
                       const KernelTable* table = nullptr) {
     Buffer<float> tile;
-    REQUIRE(make_detail_tile(settings, sky_kernels(table), threads, tile));
+    REQUIRE(make_detail_tile(settings, host_kernels(table), threads, tile));
     return tile;
 }
 

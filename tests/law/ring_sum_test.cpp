@@ -173,7 +173,7 @@ TEST_CASE("ring sum: few digits of a flux that is a power of two are kept as the
         b.packed = packed;
         for (int i = 0; const KernelTable* table = kernel_table_at(i); ++i) {
             sums[0] = v, sums[1] = -v / 2;
-            table->pack->pack(k, b, 0, 1);
+            table->pack_sets(k, b, 0, 1);
             std::int32_t q[2];
             CHECK(unpack_set<0>(packed, 2, q) == 0);
             CHECK(q[0] == v);
@@ -203,8 +203,8 @@ TEST_CASE("ring sum: the longest numbers, and every instruction set alike") {
             b.sums = sums.data();
             b.packed = packed.data();
             b.total = total.data();
-            table->pack->pack(k, b, 0, kSets);
-            table->pack->add(k, b, 0, kSets);
+            table->pack_sets(k, b, 0, kSets);
+            table->add_sets(k, b, 0, kSets);
             if (i == 0) first = packed, first_total = total;
             CAPTURE(table->name);
             CHECK(packed == first);

@@ -25,7 +25,7 @@ Volume baked(const MediumSettings& m, const KernelTable* table = nullptr, int th
     unsetenv("HOME"), unsetenv("PILEUS_CACHE_DIR"), unsetenv("XDG_CACHE_HOME");
     Volume volume;
     if (table == nullptr) table = kernel_table(nullptr);
-    REQUIRE(bake_sky(m, m.resolution, *table->sky, threads, volume));
+    REQUIRE(bake_sky(m, m.resolution, *table, threads, volume));
     return volume;
 }
 

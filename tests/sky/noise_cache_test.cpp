@@ -32,7 +32,7 @@ std::string bytes_of(const Buffer<std::uint8_t>& texels) {
 std::string load(const std::string& folder, NoiseOrigin wanted) {
     Buffer<std::uint8_t> texels;
     NoiseOrigin origin;
-    REQUIRE(load_noise(kParams, folder, *kernel_table(nullptr)->sky, 1, texels, origin));
+    REQUIRE(load_noise(kParams, folder, *kernel_table(nullptr), 1, texels, origin));
     CHECK(int(origin) == int(wanted));
     return bytes_of(texels);
 }
@@ -88,7 +88,7 @@ TEST_CASE("a folder in its place and no folder at all are no errors") {
     fs::permissions(folder.path, fs::perms::owner_read | fs::perms::owner_exec);
     Buffer<std::uint8_t> texels;
     NoiseOrigin origin;  // kept only by those whom permissions do not bind
-    REQUIRE(load_noise(kParams, folder.path, *kernel_table(nullptr)->sky, 1, texels, origin));
+    REQUIRE(load_noise(kParams, folder.path, *kernel_table(nullptr), 1, texels, origin));
     CHECK(first == bytes_of(texels));
     fs::permissions(folder.path, fs::perms::owner_all);
 }

@@ -16,7 +16,7 @@ using namespace pileus;
 
 namespace {
 
-const SkyKernels& kernels() { return *kernel_table(nullptr)->sky; }
+const KernelTable& kernels() { return *kernel_table(nullptr); }
 
 NoiseParams small(std::int32_t kind) { return {kind, 32, 4, 2, 0.5f, 7u}; }
 

@@ -35,7 +35,7 @@ struct Rig {
     SkyField sky;
     explicit Rig(const SkySettings& settings, Double3 low_m = {0, 0, 0}, bool turned = false) {
         unsetenv("HOME"), unsetenv("PILEUS_CACHE_DIR"), unsetenv("XDG_CACHE_HOME");
-        REQUIRE(make_sky(settings, low_m, *kernel_table(nullptr)->sky, 2, sky, turned));
+        REQUIRE(make_sky(settings, low_m, *kernel_table(nullptr), 2, sky, turned));
     }
     const SkyParams& params() const { return sky.params; }
 };

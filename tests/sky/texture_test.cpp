@@ -17,7 +17,7 @@ struct Texture {
     NoiseView view;
     explicit Texture(int size = 32) {
         const NoiseParams p{kNoisePerlin, size, 4, most_octaves(size, 4), 0.5f, 11u};
-        REQUIRE(make_noise(p, *kernel_table(nullptr)->sky, 2, texels));
+        REQUIRE(make_noise(p, *kernel_table(nullptr), 2, texels));
         REQUIRE(pack_noise(texels, size, 2, texture));
         view = texture.view();
         view.per_m = 1.0f / 1024, view.share = 1;

@@ -89,18 +89,17 @@ inline const void* address(Launch function) {
 /// Tables that live as long as this: hand `table` to RenderOptions::kernels.
 struct Emulator {
     Device device{"emulated", allocate, release, copy, copy, launch, fault};
-    DeviceKernels kernels{
-        address(emulate<TraceParams, TraceBuffers, &KernelTable::trace>),
-        address(emulate<ShadowParams, ShadowBuffers, &KernelTable::shadow_rows>),
-        address(emulate<MarchParams, MarchBuffers, &KernelTable::march_rows>),
-        address(emulate<BackgroundParams, BackgroundBuffers, &KernelTable::background_rows>),
-        address(emulate<BlendParams, BlendBuffers, &KernelTable::blend_tile>),
-        address(emulate<PathParams, PathBuffers, &KernelTable::trace_paths>),
-        address(emulate_self_test),
-        address(emulate<PathParams, PathBuffers, &KernelTable::trace_paths_guided>)};
+    DeviceKernels kernels;
     DeviceTable pair{&device, &kernels};
-    KernelTable table{"emulated", 1,       nullptr, nullptr, nullptr,
-                      nullptr,    nullptr, nullptr, nullptr, &pair};
+    KernelTable table{"emulated", 1, &pair};
+
+    Emulator() {
+#define PILEUS_CALL(name, Result, parameters, names, group, where) \
+    PILEUS_ON_##where(kernels.name = address(emulate_##name);)
+#define PILEUS_RANGE(name, Params, Buffers, group, where) \
+    PILEUS_ON_##where(kernels.name = address(emulate<Params, Buffers, &KernelTable::name>);)
+#include "kernels_cpu/isa/kernel_list.h"
+    }
 };
 
 }  // namespace device_test

@@ -111,8 +111,7 @@ Status show_boards(const Context& context, const ParticleMarchParams& march, Par
         const std::size_t begin = std::size_t(piece) * kColoursAtOnce;
         const std::size_t end = std::min(begin + kColoursAtOnce, count);
         for (std::size_t i = begin; i < end; ++i) boards[i] = maker.board(i);
-        context.kernels->particles->colours(march, colours, std::uint32_t(begin),
-                                            std::uint32_t(end));
+        context.kernels->board_colours(march, colours, std::uint32_t(begin), std::uint32_t(end));
     });
     const Scene& scene = *run.scene;
     ParticleBoardParams k{};

@@ -120,7 +120,7 @@ Status light_by_lamps(const Context& context, ParticlesRun& run) {
             const double steps = double(lamps.size()) * places.count;
             over_balls(context, count, "lights", (double(l) * places.count + n) / steps, 1 / steps,
                        [&](std::uint32_t begin, std::uint32_t end) {
-                           context.kernels->particles->lamp_depths(k, begin, end);
+                           context.kernels->particle_lamp_depths(k, begin, end);
                        });
         }
         parallel_each(context.threads, count, [&](std::size_t i) {
@@ -166,7 +166,7 @@ void gather_lamps(const Context& context, const ParticleMarchParams& k, Particle
     b.balls = count;
     over_balls(context, count, "light of lights", 0, 1,
                [&](std::uint32_t begin, std::uint32_t end) {
-                   context.kernels->particles->lamp_light(k, b, begin, end);
+                   context.kernels->particle_lamp_light(k, b, begin, end);
                });
 }
 

@@ -131,7 +131,7 @@ class TileWork {
 public:
     TileWork(const Context& context, const SunTiles& tiles, const Offset& offset, float most,
              Scratch& scratch, std::uint32_t* places, float* depth)
-        : kernels_(*context.kernels->particles),
+        : kernels_(*context.kernels),
           t_(tiles),
           offset_(offset),
           most_(most),
@@ -262,12 +262,12 @@ private:
                 s_.u[i] = at.u, s_.v[i] = at.v, s_.w[i] = at.w;
                 s_.depth[i] = depth_[s_.order[i].ball];
             }
-            kernels_.depths(k, {s_.u, s_.v, s_.w, s_.depth}, 0, count);
+            kernels_.particle_depths(k, {s_.u, s_.v, s_.w, s_.depth}, 0, count);
             for (std::uint32_t i = 0; i < count; ++i) depth_[s_.order[i].ball] = s_.depth[i];
         }
     }
 
-    const ParticleKernels& kernels_;
+    const KernelTable& kernels_;
     const SunTiles& t_;
     const Offset& offset_;
     float most_, small_ = 0;

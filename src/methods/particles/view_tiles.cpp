@@ -246,7 +246,7 @@ Status march_particles(const Context& context, const ParticleTree& tree,
     const std::uint64_t floats = particle_scratch_floats(k.bins);
     Buffer<float> bins;
     PILEUS_TRY(allocate(arrays::particle_bins(std::uint64_t(context.threads), k.bins), bins));
-    const auto march = context.kernels->particles->march;
+    const auto march = context.kernels->particle_tile;
     parallel_for(context.threads, tiles.count(), [&](std::int64_t piece, int thread) {
         if (thread == 0) context.tell("march", double(piece) / double(tiles.count()));
         ParticleMarchBuffers own = buffers;
@@ -276,7 +276,7 @@ Status blend_particles(const Context& context, const ParticleTree& tree,
     PILEUS_TRY(sort_things(context, boards, c, screen, tiles));
     Buffer<Scratch> scratch;
     PILEUS_TRY(scratch.resize(std::uint64_t(context.threads), "tiles of the picture"));
-    const auto blend = context.kernels->particles->boards;
+    const auto blend = context.kernels->board_tile;
     parallel_for(context.threads, tiles.count(), [&](std::int64_t piece, int thread) {
         if (thread == 0) context.tell("blend", double(piece) / double(tiles.count()));
         std::uint32_t* numbers = tiles.balls.data() + tiles.begin[std::size_t(piece)];

@@ -59,7 +59,7 @@ Status make_lamp_nodes(const Context& context, const Medium& medium, const Major
     const std::uint64_t rows =
         count * std::uint64_t(out.grid.size[1]) * std::uint64_t(out.grid.size[2]);
     parallel_for(context.threads, std::int64_t(rows), [&](std::int64_t row, int) {
-        context.kernels->lamps->depth_rows(k, b, std::uint32_t(row), std::uint32_t(row) + 1);
+        context.kernels->lamp_depth_rows(k, b, std::uint32_t(row), std::uint32_t(row) + 1);
     });
     return Status::ok();
 }
@@ -118,7 +118,7 @@ Status add_lamp_light(const Context& context, const Medium& medium, const LampMa
     const auto march = [&](std::int64_t piece, int) {
         const std::int64_t begin = piece * kPiece;
         const std::int64_t end = begin + kPiece < rows ? begin + kPiece : rows;
-        context.kernels->lamps->march_rows(k, b, std::uint32_t(begin), std::uint32_t(end));
+        context.kernels->lamp_march_rows(k, b, std::uint32_t(begin), std::uint32_t(end));
     };
     const bool whole =
         run_until(context.threads, (rows + kPiece - 1) / kPiece, context.interrupted, march);

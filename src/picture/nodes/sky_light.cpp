@@ -169,8 +169,8 @@ Status make_rows(const Context& context, const RaymarchParams& k, const SkyParam
     const auto make = [&](std::int64_t piece, int) {
         const std::int64_t end = std::min(std::int64_t(rows.size()), (piece + 1) * kPiece);
         read[std::size_t(piece)] =
-            context.kernels->sky->light_rows(k, sky, out.view, rows.data(), out.words.data(),
-                                             std::uint32_t(piece * kPiece), std::uint32_t(end));
+            context.kernels->sky_light_rows(k, sky, out.view, rows.data(), out.words.data(),
+                                            std::uint32_t(piece * kPiece), std::uint32_t(end));
     };
     const bool whole = run_until(context.threads, pieces, context.interrupted, make);
     if (kStops && !whole)

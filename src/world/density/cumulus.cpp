@@ -79,7 +79,7 @@ Status make_row(const MediumSettings& medium, const DensityMaking& with, Volume&
     settings.resolution = with.size;
     settings.seed = medium.shape_seed;
     settings.extent_m = medium.bounds_m[1] - medium.bounds_m[0];
-    return make_cumulus(settings, sky_kernels(with.kernels), with.threads, volume);
+    return make_cumulus(settings, host_kernels(with.kernels), with.threads, volume);
 }
 
 constexpr DensityRow cumulus_row() {
@@ -96,7 +96,7 @@ constexpr DensityRow cumulus_row() {
 
 }  // namespace
 
-Status make_cumulus(const CumulusSettings& asked, const SkyKernels& kernels, int threads,
+Status make_cumulus(const CumulusSettings& asked, const KernelTable& kernels, int threads,
                     Volume& volume) {
     CumulusSettings settings = asked;
     if (settings.resolution == std::array<int, 3>{0, 0, 0})

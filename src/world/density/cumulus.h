@@ -6,7 +6,7 @@
 #include <array>
 #include <cstdint>
 
-#include "kernels_cpu/procedural/sky_params.h"
+#include "kernels_cpu/isa/kernels.h"
 #include "src/base/status.h"
 #include "src/io/volumes/volume.h"
 
@@ -24,7 +24,7 @@ struct CumulusSettings {
 /// and fills the box as far as they allow; a box longer in x or y spreads it that way. Errors:
 /// kBadInput for a resolution outside 3..4096 or a box whose width over its height lies outside
 /// 0.001..1000; kLimit when memory runs out.
-Status make_cumulus(const CumulusSettings& settings, const SkyKernels& kernels, int threads,
+Status make_cumulus(const CumulusSettings& settings, const KernelTable& kernels, int threads,
                     Volume& volume);
 
 }  // namespace pileus

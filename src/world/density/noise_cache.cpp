@@ -94,7 +94,7 @@ std::string noise_file_name(const NoiseParams& params) {
     return kind + std::to_string(params.size) + "-" + digest.hex() + ".noise";
 }
 
-Status load_noise(const NoiseParams& params, const std::string& folder, const SkyKernels& kernels,
+Status load_noise(const NoiseParams& params, const std::string& folder, const KernelTable& kernels,
                   int threads, Buffer<std::uint8_t>& texels, NoiseOrigin& origin) {
     const std::string path = folder.empty() ? "" : folder + "/" + noise_file_name(params);
     origin = NoiseOrigin::kRead;

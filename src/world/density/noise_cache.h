@@ -20,7 +20,7 @@ enum class NoiseOrigin { kRead, kMade, kMadeUnkept };
 /// Reads the volume from `folder`, or makes it and tries to keep it there; an empty folder keeps
 /// none. A file that is cut short, altered or another's is replaced. No fault of the disk is an
 /// error. kLimit: out of memory.
-Status load_noise(const NoiseParams& params, const std::string& folder, const SkyKernels& kernels,
+Status load_noise(const NoiseParams& params, const std::string& folder, const KernelTable& kernels,
                   int threads, Buffer<std::uint8_t>& texels, NoiseOrigin& origin);
 
 }  // namespace pileus

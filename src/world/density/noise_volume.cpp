@@ -41,7 +41,7 @@ int most_octaves(int size, int cells) {
     return octaves;
 }
 
-Status make_noise(const NoiseParams& params, const SkyKernels& kernels, int threads,
+Status make_noise(const NoiseParams& params, const KernelTable& kernels, int threads,
                   Buffer<std::uint8_t>& texels) {
     const std::uint64_t size = std::uint64_t(params.size), count = size * size * size;
     Buffer<float> values;

@@ -3,7 +3,7 @@
 // in: NoiseParams -> out: bytes whose mean is near 127.5 and whose deviation is near 255/7.
 // docs/skies.md, "The two volumes".
 #pragma once
-#include "kernels_cpu/procedural/sky_params.h"
+#include "kernels_cpu/isa/kernels.h"
 #include "src/base/buffer.h"
 
 namespace pileus {
@@ -18,7 +18,7 @@ int most_octaves(int size, int cells);
 
 /// Makes the volume. `params` must hold a power of two within the sizes above, and lattices of at
 /// most half as many cells as texels. kLimit: out of memory.
-Status make_noise(const NoiseParams& params, const SkyKernels& kernels, int threads,
+Status make_noise(const NoiseParams& params, const KernelTable& kernels, int threads,
                   Buffer<std::uint8_t>& texels);
 
 /// Bytes while it is made, and afterwards.

@@ -100,7 +100,7 @@ void place_layer(const SkySettings& settings, const Double3& low_m, SkyParams& p
 
 /// Moves the ramp so that the asked share of columns reaches its middle: columns strewn over the
 /// layer tell their largest noise, and the middle is its quantile.
-Status cover(const SkySettings& settings, const SkyKernels& kernels, int threads, SkyParams& p) {
+Status cover(const SkySettings& settings, const KernelTable& kernels, int threads, SkyParams& p) {
     if (!(settings.coverage > 0)) return Status::ok();
     Buffer<float> most;
     PILEUS_TRY(most.resize(kColumns, "columns of a sky"));
@@ -111,7 +111,7 @@ Status cover(const SkySettings& settings, const SkyKernels& kernels, int threads
     constexpr int kPiece = 256;
     parallel_for(threads, kColumns / kPiece, [&](std::int64_t piece, int) {
         const std::uint32_t begin = std::uint32_t(piece) * kPiece;
-        kernels.columns(k, most.data(), begin, begin + kPiece);
+        kernels.sky_columns(k, most.data(), begin, begin + kPiece);
     });
     std::sort(most.data(), most.data() + kColumns);
     const double place = (1 - settings.coverage) * (kColumns - 1);
@@ -129,7 +129,8 @@ DensityOutline outline_row(const MediumSettings& medium) {
 }
 
 Status make_row(const MediumSettings& medium, const DensityMaking& with, Volume& volume) {
-    return bake_sky(medium, with.size, sky_kernels(with.kernels), with.threads, volume, with.field);
+    return bake_sky(medium, with.size, host_kernels(with.kernels), with.threads, volume,
+                    with.field);
 }
 
 /// Whether the box holds whole tiles of both noises: then it may repeat, and tiles lie along its
@@ -162,7 +163,7 @@ constexpr DensityRow sky_row() {
 
 }  // namespace
 
-Status make_sky(const SkySettings& settings, const Double3& low_m, const SkyKernels& kernels,
+Status make_sky(const SkySettings& settings, const Double3& low_m, const KernelTable& kernels,
                 int threads, SkyField& sky, bool turned) {
     const auto load = [&](const SkyNoise& noise, NoiseKind kind, NoiseTexture& texture) -> Status {
         Buffer<std::uint8_t> texels;
@@ -209,7 +210,7 @@ std::array<int, 3> default_sky_size(const MediumSettings& settings) {
 }
 
 Status bake_sky(const MediumSettings& settings, const std::array<int, 3>& size,
-                const SkyKernels& kernels, int threads, Volume& volume, SkyField* keep) {
+                const KernelTable& kernels, int threads, Volume& volume, SkyField* keep) {
     SkyField own;
     SkyField& sky = keep != nullptr ? *keep : own;
     PILEUS_TRY(make_sky(settings.sky, settings.bounds_m[0], kernels, threads, sky,
@@ -228,8 +229,8 @@ Status bake_sky(const MediumSettings& settings, const std::array<int, 3>& size,
     const std::int64_t rows = std::int64_t(volume.size[1]) * volume.size[2];
     constexpr std::int64_t kRows = 64;
     parallel_for(threads, (rows + kRows - 1) / kRows, [&](std::int64_t piece, int) {
-        kernels.bake_rows(k, volume.density.data(), std::uint32_t(piece * kRows),
-                          std::uint32_t(std::min(rows, (piece + 1) * kRows)));
+        kernels.bake_sky_rows(k, volume.density.data(), std::uint32_t(piece * kRows),
+                              std::uint32_t(std::min(rows, (piece + 1) * kRows)));
     });
     volume.knows_bounds = false;
     return Status::ok();

@@ -8,7 +8,7 @@
 namespace pileus {
 
 /// Makes the tile: (cells + 1)^3 numbers >= -1 whose mean over a period is 0. kLimit: memory.
-Status make_detail_tile(const DetailSettings& settings, const SkyKernels& kernels, int threads,
+Status make_detail_tile(const DetailSettings& settings, const KernelTable& kernels, int threads,
                         Buffer<float>& tile);
 
 /// What detail does to a medium that is outlined: its size, and memory while it is made. kLimit:
