@@ -23,9 +23,8 @@ function(pileus_kernel_groups result)
     set(${result} ${groups} PARENT_SCOPE)
 endfunction()
 
-# Levels of optimisation: -O1 takes half the time of -O3 to compile; the bits are the same at any level
-# (docs/performance.md, "Levels of optimisation").
-# Kernels that few scenes call, and what they are at -O1 for the widest vectors: PILEUS_RARE.
+# -O1 takes half the time of -O3 to compile; the bits are the same at any level. Here for kernels that few
+# scenes call:
 set(rare path_lamps)
 foreach(name IN LISTS rare)
     set_source_files_properties("${PROJECT_SOURCE_DIR}/kernels_cpu/isa/isa_${name}.cpp"
