@@ -336,7 +336,7 @@ Status fill_lit_background(const Context& context, PhotonRun& run, const LightIn
     return show_background(context, light, k, b);
 }
 
-Status PhotonRun::reserve(LateRows& late) {
+Status PhotonRun::reserve_pictures(LateRows& late) {
     const auto& size = scene->camera.resolution;
     const bool solid = lighting.opaque() || around.depth.present;
     PILEUS_TRY(reserve_depths(size, solid, planes));

@@ -54,7 +54,10 @@ struct PhotonRun : MethodRun {
     std::uint32_t layouts = 0;   ///< times that the sums were laid out
     bool interrupted = false;  ///< fewer generations than asked for, because the user wanted an end
 
-    Status reserve(LateRows& late) override;
+    // In place: a virtual function of one file would tie its type there, which has no type
+    // information.
+    Status reserve(LateRows& late) override { return reserve_pictures(late); }
+    Status reserve_pictures(LateRows& late);
     void seal() override {
         MethodRun::seal();
         near_light = Buffer<float>();
