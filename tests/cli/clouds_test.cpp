@@ -173,7 +173,7 @@ TEST_CASE("many clouds: what they cannot be refuses with a line") {
 
     refused(render + "--set clouds.kind.0.scene=no.toml",
             "clouds.kind.0.scene: no.toml: no such file");
-    refused(render + "--set clouds.kind.0.scene=sky.toml",
+    refused(render + "--set clouds.kind.0.scene=sky.toml --set 'clouds.kind.0.set=[]'",
             "clouds.kind.0.scene: sky.toml: [clouds]");
     refused(render + "--set 'clouds.kind.0.set=[\"medium.0.albedo=2\"]'",
             "clouds.kind.0.scene: --set medium.0.albedo=2");

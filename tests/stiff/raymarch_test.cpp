@@ -136,7 +136,7 @@ TEST_CASE("S44, S45: far away, moved by the Earth's radius, 10^7 times as far as
 
 TEST_CASE("S49: fields of view and pictures at the ends of their ranges") {
     for (const char* spacing : kSpacings)
-        for (const char* view : {"1e-4", "179.999999"})
+        for (const char* view : {"1e-4", "179.9999"})
             for (const char* size : {"[1,1]", "[64,1]", "[1,64]"})
                 render_sound(
                     marched({std::string("camera.fov_deg=") + view, spacing_key(spacing),
