@@ -3,6 +3,7 @@
 // docs/determinism.md, "How": of GLM only what adds, multiplies, divides and takes
 // roots may reach a pixel; nothing of it that calls libm.
 #pragma once
+#include <array>
 #include <glm/vec3.hpp>
 
 #include "src/base/angles.h"
@@ -10,6 +11,7 @@
 namespace pileus {
 
 using Double3 = glm::dvec3;
+using Float3 = std::array<float, 3>;
 
 /// Unit vector towards an azimuth, clockwise from north (y), and an elevation.
 inline Double3 towards_deg(double azimuth_deg, double elevation_deg) {

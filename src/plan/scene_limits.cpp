@@ -2,7 +2,7 @@
 // See scene_limits.h.
 #include "src/plan/scene_limits.h"
 
-#include "src/scene/transfer.h"
+#include "src/scene/media/transfer.h"
 
 namespace pileus {
 

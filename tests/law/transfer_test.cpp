@@ -2,7 +2,7 @@
 // Transfer functions: values of a field become extinction and colour, in every method.
 // in: fields of a few cells, rows -> out: pass or fail.
 // docs/scene.md, "A transfer function".
-#include "src/scene/transfer.h"
+#include "src/scene/media/transfer.h"
 
 #include <cmath>
 #include <limits>

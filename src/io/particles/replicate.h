@@ -6,7 +6,7 @@
 #include <string>
 
 #include "src/io/particles/particle_file.h"
-#include "src/scene/particle_settings.h"
+#include "src/scene/media/particle_settings.h"
 
 namespace pileus {
 

@@ -85,7 +85,15 @@ template <>
 inline constexpr KeyKind kKind<std::vector<std::string>> = KeyKind::kTexts;
 
 template <class Places>
-auto& root(const Places& places, const Scene*) {
+auto& root(const Places& places, const Description*) {
+    return places.scene;
+}
+template <class Places>
+auto& root(const Places& places, const FrameState*) {
+    return places.scene;
+}
+template <class Places>
+auto& root(const Places& places, const MethodTables*) {
     return places.scene;
 }
 template <class Places>

@@ -4,8 +4,8 @@
 // docs/scene.md.
 #include "src/scene/checks/check_keys.h"
 #include "src/scene/keys/all_keys.h"
+#include "src/scene/media/transfer.h"
 #include "src/scene/rows/density_row.h"
-#include "src/scene/transfer.h"
 
 namespace pileus {
 namespace {

@@ -2,7 +2,7 @@
 // The key of a medium's transfer function: a list of rows, whose keys have rows of their own.
 // in: checked values <-> out: MediumSettings::transfer.
 // docs/scene.md, "A transfer function".
-#include "src/scene/transfer.h"
+#include "src/scene/media/transfer.h"
 
 #include "src/scene/keys/all_keys.h"
 

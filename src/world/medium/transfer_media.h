@@ -4,7 +4,7 @@
 // docs/scene.md, "A transfer function": a colour's extinction at a value is the sum over its rows
 // of their extinction times their hat function, so that all colours add up to the linear law.
 #pragma once
-#include "src/scene/transfer.h"
+#include "src/scene/media/transfer.h"
 #include "src/world/medium/medium.h"
 
 namespace pileus {

@@ -6,7 +6,7 @@
 #include "src/base/buffer.h"
 #include "src/io/volumes/weather/weather_fields.h"
 #include "src/io/volumes/weather/weather_ground.h"
-#include "src/scene/transfer.h"
+#include "src/scene/media/transfer.h"
 
 namespace pileus {
 

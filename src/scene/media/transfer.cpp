@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // See transfer.h.
-#include "src/scene/transfer.h"
+#include "src/scene/media/transfer.h"
 
 namespace pileus {
 

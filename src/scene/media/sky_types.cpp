@@ -2,7 +2,7 @@
 // What kinds of clouds bring to a procedural sky: layer, shape, extinction, droplets.
 // in: a name -> out: a row. Optics: OPAC (Hess et al. 1998), Salby 1996, table 9.2; layers and
 // shapes: docs/skies.md, "Kinds of clouds".
-#include "src/scene/sky_settings.h"
+#include "src/scene/media/sky_settings.h"
 
 namespace pileus {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// See scene.h.
-#include "src/scene/scene.h"
+// See medium_settings.h.
+#include "src/scene/media/medium_settings.h"
 
 namespace pileus {
 

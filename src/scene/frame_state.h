@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// What changes between two frames: what a host sets and what an animation moves.
+// in: keys of [camera], [sun], [sky], [ground], [[light]] -> out: plain values. docs/scene.md
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "src/base/vectors.h"
+#include "src/scene/animation.h"
+#include "src/scene/light_settings.h"
+
+namespace pileus {
+
+struct Image;
+
+/// The image plane of a host's projection, at distance 1, or in metres of parallel rays.
+struct Frustum {
+    double half_width = 0, half_height = 0;  ///< > 0
+    double shift_x = 0, shift_y = 0;         ///< of its middle, to the right and up
+    bool operator==(const Frustum& o) const {
+        return half_width == o.half_width && half_height == o.half_height && shift_x == o.shift_x &&
+               shift_y == o.shift_y;
+    }
+};
+
+struct Camera {
+    Double3 position_m{0, -3000, 600}, target_m{0, 0, 900}, up{0, 0, 1};
+    bool position_by_place = false, target_by_place = false;  ///< by the weather file's map
+    Double3 position_place{}, target_place{};  ///< longitude, latitude in degrees, height in m
+    bool orthographic = false;                 ///< parallel rays, or none at all (flux)
+    bool flux = false;       ///< a flat detector of light from its front; orthographic too
+    double fov_deg = 40;     ///< vertical, perspective only; in (0, 180)
+    double height_m = 2000;  ///< orthographic and flux; > 0
+    std::array<int, 2> resolution{960, 540};
+    bool has_frustum = false;  ///< a session's: instead of fov_deg and height_m
+    Frustum frustum;
+    std::string depth;             ///< image of the way to solid things; empty: none
+    bool depth_on_axis = false;    ///< depth_kind = "z": along the view's axis, not along each ray
+    double depth_scale = 1;        ///< metres per unit of its values; > 0
+    double aperture_radius_m = 0;  ///< of the lens; 0: a pinhole
+    double focus_distance_m = 0;   ///< along the view; 0: the target's
+    double shutter_s = 0;          ///< how long it is open, the frame's time in the middle
+};
+
+struct Sun {
+    bool present = false;
+    double azimuth_deg = 0;     ///< from +y (north) towards +x (east)
+    double elevation_deg = 45;  ///< [-90, 90]
+    Float3 irradiance{1, 1, 1};
+    double angular_radius_deg = 0;  ///< of its disc; 0: a point. Method path alone
+};
+inline SunPlace place_of(const Sun& sun) { return {sun.azimuth_deg, sun.elevation_deg}; }
+
+struct Sky {
+    bool present = false;
+    Float3 radiance{0, 0, 0};        ///< constant; unused with a map
+    std::string map;                 ///< path of an image, relative to the scene file; empty: none
+    const Image* picture = nullptr;  ///< in place of that file; a map's name must be given, too
+    double map_scale = 1;            ///< factor on its values; >= 0
+    double map_rotation_deg = 0;     ///< turns it from north towards east
+};
+
+struct Ground {
+    bool present = false;
+    double altitude_m = 0, albedo = 0.2;
+};
+
+/// Read by all methods alike.
+struct FrameState {
+    Camera camera;
+    Sun sun;
+    Sky sky;
+    Ground ground;
+    std::vector<LightSettings> lights;  ///< besides sun and sky
+    int sequence_frame = 0;  ///< frame whose density files are read; set by whoever renders it
+};
+
+}  // namespace pileus

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// What absorbs and scatters, and what hides: media and solids.
+// in: keys of [[medium]] and [[solid]] -> out: plain values. docs/scene.md
+#pragma once
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "src/base/vectors.h"
+#include "src/scene/media/detail_settings.h"
+#include "src/scene/media/particle_settings.h"
+#include "src/scene/media/sky_settings.h"
+#include "src/scene/media/weather_settings.h"
+
+namespace pileus {
+
+/// A mesh of triangles that hides, is lit and casts shadows.
+struct SolidSettings {
+    std::string file;  ///< as MediumSettings::file
+    Float3 albedo{0.2f, 0.2f, 0.2f};
+    Double3 position_m{}, rotation_deg{};  ///< turned about x, then y, then z
+    double scale = 1;                      ///< metres per unit of the file
+    bool y_up = false;                     ///< the file's y points up; glTF's always does
+};
+
+/// A phase function by its name, and its numbers by the names of their keys (docs/scene.md):
+/// phase.type = "henyey-greenstein", phase.numbers["g"] = 0.85. One left out has its row's default.
+struct PhaseSettings {
+    std::string type = "isotropic";         ///< a name of phase_row.h
+    std::map<std::string, double> numbers;  ///< those that the type asks for, and no others
+    std::string file;                       ///< table, moments; as MediumSettings::file
+};
+
+/// What a medium is at one value of the field that it shows; linear in between.
+struct TransferRow {
+    double value = 0;
+    double extinction_per_m = 0;  ///< >= 0
+    Float3 albedo{1, 1, 1};
+};
+
+enum class RawType { kUint8, kUint16, kFloat32 };
+
+struct MediumSettings {
+    /// A name of density_row.h; empty: a file.
+    std::string density = "procedural:cumulus";
+    std::string file;     ///< as written, relative to the scene file
+    int first_frame = 0;  ///< of a sequence: the number of the file of frame 0
+    std::string format;   ///< a name of volume_format.h; empty: by extension
+    std::string grid;     ///< of a file with several; empty: the first of floats
+    RawType raw_type = RawType::kFloat32;
+    std::array<int, 3> raw_size{0, 0, 0};
+    bool raw_big_endian = false;
+    WeatherSettings weather;     ///< of a NetCDF file
+    ParticleSettings particles;  ///< of a medium made of particles
+    bool has_bounds = false;
+    std::array<Double3, 2> bounds_m{};
+    std::array<int, 3> resolution{0, 0, 0};  ///< procedural and uniform shapes; 0: a default
+    std::int64_t shape_seed = 0;             ///< another cumulus for each; key `shape_seed`
+    const float* values =
+        nullptr;                  ///< a host's cells, as many as `resolution`; null: the row's own
+    SkySettings sky;              ///< of a procedural sky
+    double extinction_per_m = 0;  ///< at density 1
+    double extinction_scale = 1;  ///< for files that hold extinction; >= 0
+    Float3 albedo{1, 1, 1};
+    Float3 emission{0, 0, 0};  ///< radiance per metre where the density is 1; >= 0
+    PhaseSettings phase;
+    DetailSettings detail;
+    bool periodic = false;  ///< boundary = "periodic": repeats without end along x and y
+    bool constant = false;  ///< interpolation = "constant": a cell has one value
+    std::vector<TransferRow> transfer;  ///< by rising values; none: extinction as the file has it
+    bool y_up = false;
+
+    // Long, and lists of media have each of them in several places: in medium_settings.cpp once.
+    MediumSettings();
+    MediumSettings(const MediumSettings&);
+    MediumSettings& operator=(const MediumSettings&);
+    ~MediumSettings();
+};
+
+}  // namespace pileus
