@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // pileus.h: sessions and what a host sets in them.
+#include <cstring>
 #include <glm/gtc/type_ptr.hpp>
 
 #include "include/pileus/pileus_flight.h"
@@ -217,14 +218,18 @@ pileus_code pileus_session_set_matrices(pileus_session* session, const double vi
     return call(*session, error, [&]() -> Status {
         if (view == nullptr || projection == nullptr)
             return Status::bad_input("view, projection: null, allowed: 16 numbers each");
-        if (clip != PILEUS_CLIP_ZERO && clip != PILEUS_CLIP_MINUS_ONE)
-            return Status::bad_input("clip: " + std::to_string(int(clip)) +
+        // A host may hand over any number; in C++ an enumeration holds none but its own.
+        int range = 0;
+        static_assert(sizeof range == sizeof clip, "C's enumerations are int");
+        std::memcpy(&range, &clip, sizeof range);
+        if (range != PILEUS_CLIP_ZERO && range != PILEUS_CLIP_MINUS_ONE)
+            return Status::bad_input("clip: " + std::to_string(range) +
                                      ", allowed: PILEUS_CLIP_MINUS_ONE, PILEUS_CLIP_ZERO");
         Camera camera = session->session->camera();
         DepthScale scale;
         PILEUS_TRY(take_size(width, height, camera));
         PILEUS_TRY(camera_from_matrices(glm::make_mat4(view), glm::make_mat4(projection),
-                                        clip == PILEUS_CLIP_ZERO, camera, scale));
+                                        range == PILEUS_CLIP_ZERO, camera, scale));
         PILEUS_TRY(session->session->set_camera(camera));
         return session->session->set_depth_scale(scale);
     });
