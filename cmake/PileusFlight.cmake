@@ -40,6 +40,7 @@ foreach(pattern
         "src/api/c_(clouds|compare|living|world|flight_close)[.]cpp"
         "src/clouds/"
         "src/base/(file|output_check|reading_limit|span)[.]cpp"
+        "src/plan/report_json[.]cpp"
         "src/picture/(fading|mix_pictures)[.]cpp"
         "src/methods/(registry|path/path_state|collectors/billboards/gl_billboards)[.]cpp"
         "src/scene/read_scene[.]cpp"

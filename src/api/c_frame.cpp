@@ -2,7 +2,7 @@
 // pileus.h: light, pictures, and what a session tells.
 #include "kernels_cpu/core/profile.h"
 #include "src/api/c_types.h"
-#include "src/io/text/report_json.h"
+#include "src/plan/report_json.h"
 #include "src/scene/toml/toml_tree.h"
 #include "src/session/warnings.h"
 
@@ -53,17 +53,14 @@ Status take_depth(const pileus_frame& f, const Camera& camera, FrameTarget& targ
 void tell_accidents(pileus_session& session) {
     const pileus_host& host = session.host->given;
     if (host.log == nullptr) return;
-    const Report report = session.session->told();
-    for (const auto& counter : report.counters)
+    for (const auto& counter : session.session->counters())
         for (const Accident& accident : accidents()) {
             if (counter.second == 0 || counter.first != accident.counter) continue;
             bool told = false;
             for (const std::string& name : session.told) told |= name == counter.first;
             if (told) continue;
-            session.told.push_back(counter.first);
-            host.log(host.user, ("counters." + counter.first + ": " +
-                                 std::to_string(counter.second) + " " + accident.meaning)
-                                    .c_str());
+            session.told.emplace_back(counter.first);
+            host.log(host.user, accident_line(accident, counter.second).c_str());
         }
 }
 

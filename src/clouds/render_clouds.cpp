@@ -16,7 +16,7 @@ namespace pileus {
 namespace {
 
 /// Of the kinds, each once.
-std::string methods_of(const ReportClouds& clouds) {
+std::string methods_of(const CloudCounts& clouds) {
     std::string all;
     for (std::size_t i = 0; i < clouds.kinds.size(); ++i) {
         bool told = false;
@@ -61,7 +61,7 @@ private:
     Scene rest_;  ///< with a sun by its date, as it is but for keys
 };
 
-void tell_picture(const CloudStats& stats, ReportClouds& told) {
+void tell_picture(const CloudStats& stats, CloudCounts& told) {
     told.visible = stats.visible;
     told.marched = stats.marched;
     told.shown = stats.visible - stats.marched;
@@ -117,8 +117,8 @@ Status render_clouds(const Scene& scene, const RenderOptions& options, const Fra
         take_hash(context, image, report);
         tell_picture(clouds.stats(), report.clouds);
         find_warnings(scene, image, report);
-        report.frame_wall_s = wall_seconds() - frame_start.wall_s;
-        report.frame_cpu_s = cpu_seconds() - frame_start.cpu_s;
+        report.clocks.frame_wall_s = wall_seconds() - frame_start.wall_s;
+        report.clocks.frame_cpu_s = cpu_seconds() - frame_start.cpu_s;
         if (options.holding) options.holding(true);
         PILEUS_TRY(deliver(scene, start, frame, sink, image, report));
         if (options.holding) options.holding(false);

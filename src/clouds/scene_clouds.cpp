@@ -24,7 +24,7 @@ Status read_kind(const Scene& scene, std::size_t number, Scene& kind) {
 }
 
 Status add_kinds(const Scene& scene, const RenderOptions& options, Session& sky, Clouds& clouds,
-                 ReportClouds& told) {
+                 CloudCounts& told) {
     const Context& context = sky.context();
     const std::size_t count = scene.clouds.kinds.size();
     std::vector<Scene> kinds(count);
@@ -100,7 +100,7 @@ Status open_sky(const Scene& scene, const RenderOptions& options, Session& sky) 
 }
 
 Status open_scene_clouds(const Scene& scene, const RenderOptions& options, Session& sky,
-                         Clouds& clouds, ReportClouds& told) {
+                         Clouds& clouds, CloudCounts& told) {
     PILEUS_TRY(clouds.open(sky));
     PILEUS_TRY(at_key(scene, "clouds.detail", clouds.set_detail(scene.clouds.detail)));
     PILEUS_TRY(add_kinds(scene, options, sky, clouds, told));

@@ -3,8 +3,8 @@
 // in: a scene with [clouds], the session of its sky -> out: clouds that stand in it.
 // docs/clouds.md, "In a scene file"
 #pragma once
-#include "src/base/report.h"
 #include "src/clouds/clouds.h"
+#include "src/plan/report.h"
 
 namespace pileus {
 
@@ -14,6 +14,6 @@ Status open_sky(const Scene& scene, const RenderOptions& options, Session& sky);
 /// `told`: the kinds, and how many clouds of each. Errors name the key: kBadInput, kLimit, kIo of a
 /// kind's scene and its files; no room for all clouds of a scatter.
 Status open_scene_clouds(const Scene& scene, const RenderOptions& options, Session& sky,
-                         Clouds& clouds, ReportClouds& told);
+                         Clouds& clouds, CloudCounts& told);
 
 }  // namespace pileus

@@ -67,12 +67,9 @@ Status choose_march_work(const Context& context, double start_s, const UpsampleI
     // again.
     const bool swept = run.settings.light == RaymarchLightKind::kBuffer;
     const char* light = run.march_light ? "march" : swept ? "buffer" : "buffer-exact";
-    context.report->frame_work = {thin.temporal > 0 ? 0 : thin.scale,
-                                  thin.temporal,
-                                  run.settings.steps,
-                                  run.settings.light_refresh,
-                                  0,
-                                  light};
+    context.report->frame_work = {thin.temporal > 0 ? 0 : thin.scale, thin.temporal,
+                                  run.settings.steps, run.settings.light_refresh, 0};
+    context.report->light_rule = light;
     return Status::ok();
 }
 

@@ -276,21 +276,9 @@ Status march_measure(const Context& context, RaymarchRun& run) {
     if (!kPlans) return Status::ok();
     note_plan(run);
     weigh_memory(context, run);
+    note_limits(*run.scene, run.world->medium.grid, context.limits,
+                {LimitId::kVoxels, LimitId::kPixels, LimitId::kFrames, LimitId::kMemory}, run.plan);
     return check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), run.scene->file);
-}
-
-void march_report_plan(const MethodRun& method_run, const Context& context, Report& report) {
-    const RaymarchRun& run = static_cast<const RaymarchRun&>(method_run);
-    report_plan(run.plan, report);
-    report.limits.clear();
-    const auto add = [&](LimitId id, std::uint64_t needs) {
-        report.limits.push_back(limit_of(context.limits, id, needs));
-    };
-    const Animation& animation = run.scene->animation;
-    add(LimitId::kVoxels, voxel_count(run.world->medium.grid));
-    add(LimitId::kPixels, pixels_of(*run.scene));
-    add(LimitId::kFrames, animation.present ? std::uint64_t(animation.frames) : 1);
-    add(LimitId::kMemory, run.plan.memory.peak());
 }
 
 }  // namespace pileus

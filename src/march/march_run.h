@@ -38,7 +38,7 @@ struct RaymarchRun : MethodRun {
     int levels = 0;                    ///< of detail
     std::vector<DensityLevel> coarse;  ///< their densities
     SunDepth nodes;
-    SunDepthDifference nodes_difference;  ///< of swept nodes to rays
+    SweepCheck nodes_difference;          ///< of swept nodes to rays
     bool sky_made = false;                ///< its nodes are those of the light as it is
     std::array<float, 3> sky_to_sun{};    ///< the sun that the sky's nodes were made for
     CameraParams sky_camera{};            ///< and the camera
@@ -103,7 +103,6 @@ SkyView sky_view(const RaymarchRun& run);
 
 /// Chooses where sunlight comes from, notes the plan and weighs it.
 Status march_measure(const Context& context, RaymarchRun& run);
-void march_report_plan(const MethodRun& run, const Context& context, Report& report);
 
 /// Sunlight, background and the march of one frame, of number run.turn.
 Status march_frame(const FrameStep& step, const Context& context, RaymarchRun& run);
@@ -113,6 +112,7 @@ Status march_light(const FrameStep& step, const Context& context, MethodRun& run
 
 /// The planes as an image; frees them.
 Status march_show(const FrameStep& step, const Context& context, MethodRun& run, Image& image);
+void march_count(const MethodRun& run, Counts& counters);
 void march_report(const MethodRun& run, Report& report);
 
 /// In a session: pictures are all there is, no light is traced.

@@ -269,11 +269,15 @@ Status march_show(const FrameStep&, const Context& context, MethodRun& method_ru
     return Status::ok();
 }
 
+void march_count(const MethodRun& method_run, Counts& counters) {
+    const RaymarchRun& run = static_cast<const RaymarchRun&>(method_run);
+    counters.emplace_back("majorant_violations", 0);  // bounds only say where nothing is
+    counters.emplace_back("bound_breaches", run.tally.breaches);
+    counters.emplace_back("rays_cut", run.tally.cut);
+}
+
 void march_report(const MethodRun& method_run, Report& report) {
     const RaymarchRun& run = static_cast<const RaymarchRun&>(method_run);
-    report.counters.emplace_back("majorant_violations", 0);  // bounds only say where nothing is
-    report.counters.emplace_back("bound_breaches", run.tally.breaches);
-    report.counters.emplace_back("rays_cut", run.tally.cut);
     report.executed.emplace_back("density_levels", run.coarse.size());
     report.executed.emplace_back("marched_pixels", run.upsample.marched);
     report.executed.emplace_back("recalled_pixels", run.upsample.recalled);
@@ -281,10 +285,7 @@ void march_report(const MethodRun& method_run, Report& report) {
     report.executed.emplace_back("light_samples", run.tally.light_samples);
     report.executed.emplace_back("sky_light_nodes", run.sky_light.made);
     report.executed.emplace_back("sky_light_samples", run.sky_light.densities);
-    report.buffer_nodes = run.nodes_difference.nodes;
-    report.buffer_rms = run.nodes_difference.rms;
-    report.buffer_largest = run.nodes_difference.largest;
-    report.buffer_mean = run.nodes_difference.mean;
+    report.sweep = run.nodes_difference;
 }
 
 }  // namespace pileus

@@ -5,7 +5,7 @@
 #pragma once
 #include <vector>
 
-#include "src/methods/frame_work.h"
+#include "src/plan/frame_work.h"
 
 namespace pileus {
 

@@ -8,26 +8,15 @@
 #include <string>
 
 #include "src/io/images/image.h"
-#include "src/methods/frame_work.h"
 #include "src/picture/nodes/sun_slices.h"
+#include "src/plan/budget.h"
+#include "src/plan/frame_work.h"
 #include "src/run/context.h"
 #include "src/scene/frames.h"
 #include "src/scene/scene.h"
 #include "src/world/world.h"
 
 namespace pileus {
-
-/// When tracing ends, instead of what the scene says; a method takes the kinds that it knows.
-struct Budget {
-    std::int64_t photons = -1;     ///< >= 0: so many
-    std::int64_t generations = 0;  ///< > 0: so many of these photons, and no more
-    std::int64_t samples = -1;     ///< >= 1: so many for each pixel
-    std::int64_t steps = -1;       ///< >= 0: so many of a ray
-    double error = 0;              ///< > 0: the mean relative standard error to reach
-    double seconds = 0;            ///< > 0: wall time; chooses only a whole number of passes
-    std::string state;             ///< file that keeps progress; empty: none
-    double state_every_s = 60;     ///< between two writings of it
-};
 
 struct LateRows;
 
@@ -111,10 +100,12 @@ struct Method {
     Status (*outline)(const Context&, MethodRun&);
     /// All that comes before light.
     Status (*prepare)(const Context&, MethodRun&);
-    void (*report_plan)(const MethodRun&, const Context&, Report&);
     /// Traces for one frame. kCheckFailed: interrupted before there is anything to show.
     Status (*light)(const FrameStep&, const Context&, MethodRun&);
     Status (*show)(const FrameStep&, const Context&, MethodRun&, Image&);
+    /// Adds the accidents that flights tell of, too.
+    void (*count)(const MethodRun&, Counts&);
+    /// All else, after `count`, for people.
     void (*report)(const MethodRun&, Report&);
     const LiveMethod* live = nullptr;  ///< null: in no session of a host
     bool shows_light = true;           ///< colours are light, which an exposure applies to

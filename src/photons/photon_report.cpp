@@ -38,10 +38,10 @@ EnergyRow energy_row(const std::string& light, const Fates& f) {
     row.solid = double(f.solid[c]) / unit;
     row.terminated = double(f.terminated[c]) / unit;
     row.direct_bottom = double(f.direct_bottom[c]) / unit;
-    row.top_error = share_error(row.top, photons);
-    row.bottom_error = share_error(row.bottom, photons);
-    row.sides_error = share_error(row.sides, photons);
-    row.absorbed_error = share_error(row.absorbed, photons);
+    row.error.top = share_error(row.top, photons);
+    row.error.bottom = share_error(row.bottom, photons);
+    row.error.sides = share_error(row.sides, photons);
+    row.error.absorbed = share_error(row.absorbed, photons);
     return row;
 }
 
@@ -89,46 +89,50 @@ std::string photon_digest(const Photons& photons) {
 
 namespace {
 
-/// What photons did, for people.
-void report_flights(const PhotonRun& run, const TraceTally& all, Report& report) {
-    report.generations = run.next_generation;
-    report.interrupted = run.interrupted;
-    report.ring_generations = report.ring_whole = 0;
-    if (run.ring && run.scene->animation.present && run.photons.slots.size() == run.generations) {
-        report.ring_whole = run.generations;
-        for (const PhotonSlot& slot : run.photons.slots)
-            report.ring_generations += slot.generations > 0 ? 1 : 0;
-    }
-    report.energy.clear();
-    for (std::size_t l = 0; l < run.photons.tallies.size(); ++l) {
-        const TraceTally& t = run.photons.tallies[l];
-        report.energy.push_back(energy_row(run.lighting.lights[l].name, t.light));
-        if (t.shadow.emitted[0] > 0)
-            report.energy.push_back(
-                energy_row(run.lighting.lights[l].name + ": kept from the ground", t.shadow));
-    }
-    report.photons = std::uint64_t(all.photons);
-    report.scatterings = std::uint64_t(all.scatterings);
-    report.tentative = std::uint64_t(all.tentative);
-    report.crossings = std::uint64_t(all.crossings);
-    double diagonal = 0;
-    for (double e : run.world->medium.extent_m) diagonal += e * e;
-    if (all.photons > 0)
-        report.mean_path_m =
-            double(all.path) / 1048576.0 * __builtin_sqrt(diagonal) / double(all.photons);
-    report.executed.emplace_back("absorption_tests", std::uint64_t(all.absorption_tests));
-    report.executed.emplace_back("ground_bounces", std::uint64_t(all.bounces));
+TraceTally tally_of(const PhotonRun& run) {
+    TraceTally all{};
+    for (const TraceTally& tally : run.photons.tallies) add_tally(tally, all);
+    return all;
 }
 
 }  // namespace
 
+void count_photons(const PhotonRun& run, Counts& counters) {
+    const TraceTally all = tally_of(run);
+    counters.emplace_back("majorant_violations", std::uint64_t(all.majorant_violations));
+    counters.emplace_back("saturated", 0);  // fixed_point_places proves it
+    counters.emplace_back("terminated", photons_in(all.light.terminated));
+}
+
 void report_photons(const PhotonRun& run, Report& report) {
-    TraceTally all{};
-    for (const TraceTally& tally : run.photons.tallies) add_tally(tally, all);
-    if (kPlans) report_flights(run, all, report);
-    report.counters.emplace_back("majorant_violations", std::uint64_t(all.majorant_violations));
-    report.counters.emplace_back("saturated", 0);  // fixed_point_places proves it
-    report.counters.emplace_back("terminated", photons_in(all.light.terminated));
+    const TraceTally all = tally_of(run);
+    report.photons.generations = run.next_generation;
+    report.interrupted = run.interrupted;
+    report.photons.ring_generations = report.photons.ring_whole = 0;
+    if (run.ring && run.scene->animation.present && run.photons.slots.size() == run.generations) {
+        report.photons.ring_whole = run.generations;
+        for (const PhotonSlot& slot : run.photons.slots)
+            report.photons.ring_generations += slot.generations > 0 ? 1 : 0;
+    }
+    report.photons.energy.clear();
+    for (std::size_t l = 0; l < run.photons.tallies.size(); ++l) {
+        const TraceTally& t = run.photons.tallies[l];
+        report.photons.energy.push_back(energy_row(run.lighting.lights[l].name, t.light));
+        if (t.shadow.emitted[0] > 0)
+            report.photons.energy.push_back(
+                energy_row(run.lighting.lights[l].name + ": kept from the ground", t.shadow));
+    }
+    report.photons.traced = std::uint64_t(all.photons);
+    report.events.scatterings = std::uint64_t(all.scatterings);
+    report.events.tentative = std::uint64_t(all.tentative);
+    report.events.crossings = std::uint64_t(all.crossings);
+    double diagonal = 0;
+    for (double e : run.world->medium.extent_m) diagonal += e * e;
+    if (all.photons > 0)
+        report.photons.mean_path_m =
+            double(all.path) / 1048576.0 * __builtin_sqrt(diagonal) / double(all.photons);
+    report.executed.emplace_back("absorption_tests", std::uint64_t(all.absorption_tests));
+    report.executed.emplace_back("ground_bounces", std::uint64_t(all.bounces));
 }
 
 void bound_ledgers(double photons, double max_events, Plan& plan) {

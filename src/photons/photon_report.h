@@ -13,7 +13,9 @@ void digest_photons(int threads, Photons& photons);
 /// Of the digests of all slots.
 std::string photon_digest(const Photons& photons);
 
-/// Fills generations, energy, counts and counters.
+void count_photons(const PhotonRun& run, Counts& counters);
+
+/// Fills generations, energy and events.
 void report_photons(const PhotonRun& run, Report& report);
 
 /// Adds the bounds of the sums that no picture shows but every report does, behind the first one.

@@ -96,9 +96,9 @@ void summarise(const Image& image, const Planes& p, Report& report) {
     for (std::size_t i = 0; i < error->pixels.size(); ++i)
         sum.add(p.transmittance[i], error->pixels[i], image.channels[1].pixels[i]);
     if (sum.count == 0) return;
-    report.has_error = true;
-    report.mean_relative = sum.mean_relative();
-    report.rmse_estimate = __builtin_sqrt(sum.square / sum.count);
+    report.errors.known = true;
+    report.errors.mean_relative = sum.mean_relative();
+    report.errors.rmse_estimate = __builtin_sqrt(sum.square / sum.count);
 }
 
 Status add_radiance(const Planes& planes, Image& image, std::uint64_t& clamped,

@@ -4,9 +4,9 @@
 // docs/formats.md, "Pictures out".
 #pragma once
 #include "src/base/buffer.h"
-#include "src/base/report.h"
 #include "src/io/images/image.h"
 #include "src/plan/array.h"
+#include "src/plan/report.h"
 #include "src/scene/scene.h"
 #include "src/world/light/lights.h"
 

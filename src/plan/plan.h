@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "kernels_cpu/core/profile.h"
+#include "src/base/limits.h"
 #include "src/plan/accumulation.h"
 #include "src/plan/memory_table.h"
 #include "src/plan/work.h"
@@ -35,6 +36,19 @@ struct BiasNote {
     std::string method, size, page;
 };
 
+/// What a limit is compared with.
+struct LimitUse {
+    LimitId id;
+    std::uint64_t needs = 0, allowed = 0;
+    bool known = true;  ///< false: what is needed shows only once the values are read
+};
+
+/// Wall time that a rendering is expected to take, of pictures beside files; 0: nobody asked.
+struct ForetoldTime {
+    double total_s = 0;              ///< of all frames
+    double first_s = 0, next_s = 0;  ///< the first frame with its preparation, each further one
+};
+
 struct Plan {
     std::vector<std::string> needed;
     std::vector<LeftOut> left_out;
@@ -44,7 +58,9 @@ struct Plan {
     MemoryTable memory;
     bool exact = false;  ///< false: `memory` holds upper bounds, made from sizes alone
     WorkEstimate work;
-    const char* work_of = "photons";    ///< what `work` counts as photons
+    const char* work_of = "photons";  ///< what `work` counts as photons
+    std::vector<LimitUse> limits;
+    ForetoldTime foretold;
     std::uint32_t stages_left_out = 0;  ///< a bit for each Stage that the method does not have
 
     bool runs(Stage stage) const { return (stages_left_out >> unsigned(stage) & 1u) == 0; }

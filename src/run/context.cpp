@@ -23,13 +23,13 @@ void StageClock::start(const Context& context, const char* stage) {
 
 void StageClock::stop() {
     const double wall = wall_seconds() - wall_, cpu = cpu_seconds() - cpu_;
-    for (StageTime& s : report_->stages)
+    for (StageTime& s : report_->clocks.stages)
         if (s.name == stage_) {
             s.wall_s += wall;
             s.cpu_s += cpu;
             return;
         }
-    report_->stages.push_back({stage_, wall, cpu});
+    report_->clocks.stages.push_back({stage_, wall, cpu});
 }
 
 }  // namespace pileus

@@ -7,7 +7,7 @@
 #include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/isa/kernels.h"
 #include "src/base/limits.h"
-#include "src/base/report.h"
+#include "src/plan/report.h"
 
 namespace pileus {
 

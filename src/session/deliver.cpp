@@ -9,9 +9,9 @@ namespace pileus {
 namespace {
 
 void finish_report(const RunStart& start, Report& report) {
-    report.total_s = wall_seconds() - start.wall_s;
-    report.cpu_s = cpu_seconds() - start.cpu_s;
-    take_clocks(report);
+    report.clocks.total_s = wall_seconds() - start.wall_s;
+    report.clocks.cpu_s = cpu_seconds() - start.cpu_s;
+    take_clocks(report.clocks);
 }
 
 /// What another run needs, beside the scene's text, to make the same picture. Nothing of the
@@ -32,15 +32,16 @@ void note_origin(const Report& report, Image& image) {
     if (report.interrupted) add("interrupted", "true");
     // A time has chosen them: `--set` with these makes the picture again.
     if (report.budget.find("seconds") != std::string::npos && report.frame_work.steps > 0) {
-        const ReportFrameWork& work = report.frame_work;
+        const FrameWork& work = report.frame_work;
         add("steps", std::to_string(work.steps));
         add("scale", std::to_string(work.scale));
         add("temporal", std::to_string(work.temporal));
-        add("light", work.light);
+        add("light", report.light_rule);
     }
-    if (report.generations > 0) add("generations", std::to_string(report.generations));
-    if (report.samples_per_pixel > 0)
-        add("samplesPerPixel", std::to_string(report.samples_per_pixel));
+    if (report.photons.generations > 0)
+        add("generations", std::to_string(report.photons.generations));
+    if (report.paths.samples_per_pixel > 0)
+        add("samplesPerPixel", std::to_string(report.paths.samples_per_pixel));
     for (std::size_t i = 0; i < report.overrides.size(); ++i)
         add("override." + std::to_string(i), report.overrides[i]);
 }

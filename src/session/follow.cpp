@@ -23,7 +23,7 @@ Status follow(const Scene& scene, const RenderOptions& options, int light, std::
     const Method* method = nullptr;
     PILEUS_TRY(find_view(scene.method, "photons", method));
     ViewRun view(View::kPhotons);
-    PILEUS_TRY(open_run(*method, placed, budget_of(options), context, true, nullptr, view));
+    PILEUS_TRY(open_run(*method, placed, options.budget, context, true, nullptr, view));
     const std::vector<Light>& lights = view.lighting.lights;
     if (light < 0 || std::size_t(light) >= lights.size())
         return Status::bad_input("--light: no such light, " + std::to_string(light) +

@@ -12,15 +12,15 @@ namespace {
 using Seconds = std::map<std::string, double>;
 
 /// What stages took from one moment to a later one.
-struct Clocks {
+struct Moment {
     Seconds staged;
     double total_s = 0;
 
-    Clocks() = default;
-    explicit Clocks(const Report& report) : total_s(report.total_s) {
-        for (const StageTime& stage : report.stages) staged[stage.name] += stage.wall_s;
+    Moment() = default;
+    explicit Moment(const Report& report) : total_s(report.clocks.total_s) {
+        for (const StageTime& stage : report.clocks.stages) staged[stage.name] += stage.wall_s;
     }
-    Seconds since(const Clocks& before) const {
+    Seconds since(const Moment& before) const {
         Seconds out;
         double rest = total_s - before.total_s;
         for (const auto& [name, seconds] : staged) {
@@ -50,14 +50,14 @@ Status try_small(const Scene& scene, const RenderOptions& options, int edge, Tri
     // Of depth images there are none of this size.
     small.camera.depth.clear();
     RenderOptions some = options;
-    fewer(some.budget_photons);
+    fewer(some.budget.photons);
     some.digests = false;
     some.verify = 0;
-    some.state.clear();
+    some.budget.state.clear();
     some.last_frame = std::min(options.last_frame, options.first_frame + 1);
-    Clocks before;
+    Moment before;
     return render(small, some, [&](int frame, Image&, Report& report) {
-        const Clocks now(report);
+        const Moment now(report);
         // Clocks of stages begin anew where a frame has a session of its own.
         if (frame > some.first_frame && frames_stand_alone(scene)) before.staged.clear();
         (frame == some.first_frame ? trial.first : trial.next) = now.since(before);
@@ -79,7 +79,7 @@ double grown(const Seconds& small, const Seconds& large) {
 }  // namespace
 
 Status foretell_time(const Scene& scene, const RenderOptions& options, ForetoldTime& out) {
-    if (options.budget_seconds > 0 || options.budget_error > 0)
+    if (options.budget.seconds > 0 || options.budget.error > 0)
         return Status::bad_input(
             "--time: a budget of seconds or of an error is no amount of work, "
             "allowed: another, or none");

@@ -7,14 +7,10 @@
 
 namespace pileus {
 
-struct ForetoldTime {
-    double total_s = 0;  ///< of all frames from options.first_frame to options.last_frame
-    double first_s = 0, next_s = 0;  ///< the first frame with its preparation, each further one
-};
-
-/// Renders two frames at most with a 64th and then a 16th of the pixels and photons; what grows
-/// between the two goes on growing, stage by stage. Files that are written are not in it.
-/// kBadInput: a budget of seconds or of an error, which are no amount of work; else as render's.
+/// Of all frames from options.first_frame to options.last_frame. Renders two frames at most with a
+/// 64th and then a 16th of the pixels and photons; what grows between the two goes on growing,
+/// stage by stage. Files that are written are not in it. kBadInput: a budget of seconds or of an
+/// error, which are no amount of work; else as render's.
 Status foretell_time(const Scene& scene, const RenderOptions& options, ForetoldTime& out);
 
 }  // namespace pileus

@@ -94,8 +94,8 @@ Status render_frames(const Scene& scene, const RunStart& start, const RenderOpti
         if (verifies) PILEUS_TRY(verifier.check(frame, session.context(), image, report));
         count_water(scene, *session.run().world, report);
         if (options.show.empty()) find_warnings(scene, image, report);
-        report.frame_wall_s = wall_seconds() - frame_start.wall_s;
-        report.frame_cpu_s = cpu_seconds() - frame_start.cpu_s;
+        report.clocks.frame_wall_s = wall_seconds() - frame_start.wall_s;
+        report.clocks.frame_cpu_s = cpu_seconds() - frame_start.cpu_s;
         if (options.holding) options.holding(true);
         // Where the picture is, in the file's coordinates.
         const Camera seen = camera_at(scene.animation, session.camera(), frame);

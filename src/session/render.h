@@ -6,8 +6,9 @@
 #include <functional>
 
 #include "src/base/limits.h"
-#include "src/base/report.h"
 #include "src/io/images/image.h"
+#include "src/plan/budget.h"
+#include "src/plan/report.h"
 #include "src/scene/scene.h"
 
 namespace pileus {
@@ -21,15 +22,8 @@ struct RenderOptions {
     int threads = 0;                       ///< 0: all there are
     std::string isa;                       ///< empty: the widest this machine runs
     const KernelTable* kernels = nullptr;  ///< where set, instead of `isa`
-    std::int64_t budget_photons = -1;      ///< >= 0: instead of the scene's number
-    std::int64_t budget_generations = 0;   ///< > 0: so many of the scene's, each of as many photons
-    std::int64_t budget_samples = -1;      ///< >= 1: paths a pixel, instead of the scene's number
-    std::int64_t budget_steps = -1;        ///< >= 0: steps of a ray, instead of the scene's number
-    double budget_error = 0;               ///< > 0: mean relative standard error to reach
-    double budget_seconds = 0;             ///< > 0: stop tracing after this wall time; whole passes
-    std::string state;          ///< file that keeps a path tracer's progress; empty: none
-    double state_every_s = 60;  ///< between two writings of it while tracing
-    std::int64_t verify = 0;    ///< pixels of each picture to trace by paths afterwards
+    Budget budget;                         ///< instead of what the scene says
+    std::int64_t verify = 0;               ///< pixels of each picture to trace by paths afterwards
     std::string show;     ///< empty: the picture; else a step of the method (docs/how-it-works.md)
     bool digests = true;  ///< the report names what each stage made by its bits; takes time
     int first_frame = 0, last_frame = 0;  ///< of the animation, inclusive

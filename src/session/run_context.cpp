@@ -49,7 +49,7 @@ void note_head(const Scene& scene, const RenderOptions& options, const Context& 
     report.method = scene.method;
     report.seed = scene.seed;
     report.first_frame = options.first_frame;
-    report.budget = budget_text(options);
+    report.budget = budget_text(options.budget);
     report.show = options.show;
     report.overrides = scene.overrides;
     report.layers = {"radiance", "alpha"};
@@ -73,44 +73,31 @@ Status frames_of(const Scene& scene, const RenderOptions& options, Frames& frame
 std::string budget_used(const Scene& scene, const RenderOptions& options, int frame,
                         const Report& report) {
     // Part of a pass or of a generation is no whole number of them.
-    if (report.ahead_samples > 0 || (report.interrupted && report.generations > 0)) return "";
-    RenderOptions used;
-    if (scene.method == "path") used.budget_samples = std::int64_t(report.samples_per_pixel);
+    if (report.paths.ahead_samples > 0 || (report.interrupted && report.photons.generations > 0))
+        return "";
+    Budget used;
+    if (scene.method == "path") used.samples = std::int64_t(report.paths.samples_per_pixel);
     const bool grid = scene.method == "photon-grid";
-    if ((grid || scene.method == "collectors") && report.generations > 0) {
+    if ((grid || scene.method == "collectors") && report.photons.generations > 0) {
         const std::int64_t all = grid ? scene.photon_grid.photons : scene.collectors.photons;
-        used.budget_photons = options.budget_photons >= 0 ? options.budget_photons : all;
+        used.photons = options.budget.photons >= 0 ? options.budget.photons : all;
         // A film's ring counts on from frame to frame; its length is that of the first one.
         const bool ring = scene.animation.present && (!grid || scene.photon_grid.ring);
-        used.budget_generations = std::int64_t(report.generations) - (ring ? frame : 0);
+        used.generations = std::int64_t(report.photons.generations) - (ring ? frame : 0);
     }
-    used.budget_steps = options.budget_steps;
-    const bool chosen = !report.frame_work.light.empty();
+    used.steps = options.budget.steps;
+    const bool chosen = !report.light_rule.empty();
     const bool by_cells = scene.method == "optical-depth" && scene.optical_depth.steps == 0;
-    if (chosen && (used.budget_steps >= 0 || !by_cells))
-        used.budget_steps = report.frame_work.steps;
+    if (chosen && (used.steps >= 0 || !by_cells)) used.steps = report.frame_work.steps;
     return budget_text(used);
 }
 
-Budget budget_of(const RenderOptions& options) {
-    Budget budget;
-    budget.photons = options.budget_photons;
-    budget.generations = options.budget_generations;
-    budget.samples = options.budget_samples;
-    budget.steps = options.budget_steps;
-    budget.error = options.budget_error;
-    budget.seconds = options.budget_seconds;
-    budget.state = options.state;
-    budget.state_every_s = options.state_every_s;
-    return budget;
-}
-
-void take_clocks(Report& report) {
-    report.peak_bytes = peak_memory_bytes();
-    for (const StageTime& s : report.stages)
+void take_clocks(Clocks& clocks) {
+    clocks.peak_bytes = peak_memory_bytes();
+    for (const StageTime& s : clocks.stages)
         if (s.name == "photons" || s.name == "paths") {
-            report.tracing_wall_s = s.wall_s;
-            report.tracing_cpu_s = s.cpu_s;
+            clocks.tracing_wall_s = s.wall_s;
+            clocks.tracing_cpu_s = s.cpu_s;
         }
 }
 

@@ -28,9 +28,7 @@ void note_head(const Scene& scene, const RenderOptions& options, const Context& 
 Status frames_of(const Scene& scene, const RenderOptions& options, Frames& frames);
 
 /// The budgets as the program takes them, parted by blanks.
-std::string budget_text(const RenderOptions& options);
-
-Budget budget_of(const RenderOptions& options);
+std::string budget_text(const Budget& budget);
 
 /// Texts of the budgets that make this frame's picture again, whatever ended it: a clock and an
 /// error have come to whole samples or generations. Empty: the scene's own numbers, or a user who
@@ -39,6 +37,6 @@ std::string budget_used(const Scene& scene, const RenderOptions& options, int fr
                         const Report& report);
 
 /// What the process and its stages have used up to now.
-void take_clocks(Report& report);
+void take_clocks(Clocks& clocks);
 
 }  // namespace pileus

@@ -40,7 +40,7 @@ void make_live(Scene& scene) {
 
 double stage_seconds(const Report& report) {
     double sum = 0;
-    for (const StageTime& stage : report.stages) sum += stage.wall_s;
+    for (const StageTime& stage : report.clocks.stages) sum += stage.wall_s;
     return sum;
 }
 
@@ -113,7 +113,7 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
     if (live) context_.frames = kLiveFrames;
     context_.digests = !live && options.digests;
     PILEUS_TRY(find_method(scene_, method_));
-    if (kChecks) PILEUS_TRY(method_->check(scene_, budget_of(options)));
+    if (kChecks) PILEUS_TRY(method_->check(scene_, options.budget));
     if (kFilms && !options.show.empty())
         PILEUS_TRY(find_view(scene_.method, options.show, method_));
     if (kChecks) PILEUS_TRY(check_method(live, world.get()));
@@ -123,11 +123,11 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
         run_->place_at(frame_);
     }
     PILEUS_TRY(
-        open_run(*method_, scene_, budget_of(options), context_, exact, std::move(world), *run_));
-    if (kPlans) method_->report_plan(*run_, context_, report_);
+        open_run(*method_, scene_, options.budget, context_, exact, std::move(world), *run_));
+    if (kPlans) report_.plan = run_->plan;
     if (method_->live != nullptr) whole_work_ = work_ = scene_work();
-    report_.frame_work = told_work(work_);
-    report_.peak_bytes = peak_memory_bytes();
+    report_.frame_work = work_;
+    report_.clocks.peak_bytes = peak_memory_bytes();
     return Status::ok();
 }
 
@@ -155,6 +155,7 @@ Status Session::render_image(const FrameStep& step, Image& image) {
 
 void Session::finish_report() {
     const StageClock clock(context_, "digests");
+    method_->count(*run_, report_.counters);
     method_->report(*run_, report_);
 }
 
@@ -179,7 +180,7 @@ Status Session::step(std::uint64_t units, std::uint64_t& done) {
     PILEUS_TRY(aim());
     const Status status = method_->live->advance(units, context_, *run_, done);
     stats_.units += done;
-    report_.peak_bytes = peak_memory_bytes();
+    report_.clocks.peak_bytes = peak_memory_bytes();
     return status;
 }
 
@@ -247,23 +248,26 @@ Status Session::render(const FrameTarget& target) {
     ++stats_.pictures;
     stats_.render_s = wall_seconds() - start;
     stats_.stages_s = stage_seconds(report_) - staged;
-    report_.frame_wall_s = stats_.render_s;
-    report_.peak_bytes = peak_memory_bytes();
+    report_.clocks.frame_wall_s = stats_.render_s;
+    report_.clocks.peak_bytes = peak_memory_bytes();
     return Status::ok();
 }
 
 Report Session::told() const {
-    Report out;
-    if (kPlans)
-        out = report_;
-    else
-        out.counters = report_.counters;
+    Report out = report_;
     out.hash = has_hash_ ? hex_text(hash_) : std::string();
+    method_->count(*run_, out.counters);
     method_->report(*run_, out);
-    take_clocks(out);
+    take_clocks(out.clocks);
     // Not that of this call: the text would grow between a host's two calls for it.
-    out.peak_bytes = report_.peak_bytes;
+    out.clocks.peak_bytes = report_.clocks.peak_bytes;
     return out;
+}
+
+const Counts& Session::counters() {
+    counted_ = report_.counters;
+    method_->count(*run_, counted_);
+    return counted_;
 }
 
 }  // namespace pileus

@@ -148,6 +148,9 @@ public:
 
     /// The report of a live session up to now.
     Report told() const;
+    /// What the last picture and the method counted, without the report around it: for flights,
+    /// which take no memory for it. Valid until the next call.
+    const Counts& counters();
 
     /// As long as what is returned is held, this is the sky of many clouds: it takes neither lights
     /// nor work, which they have no use for.
@@ -193,6 +196,7 @@ private:
     std::uint64_t hash_ = 0;  ///< of the last picture
     RenderOptions options_;
     Report report_;
+    Counts counted_;  ///< what counters() returned last
     Context context_;
     const Method* method_ = nullptr;
     std::unique_ptr<MethodRun> run_;
@@ -202,8 +206,5 @@ private:
     std::unique_ptr<Fading> fading_;
     SessionStats stats_;
 };
-
-/// As the report tells it.
-ReportFrameWork told_work(const FrameWork& work);
 
 }  // namespace pileus

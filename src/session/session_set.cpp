@@ -275,6 +275,10 @@ void Session::seal() {
     around_.lights.reserve(lamps);
     scene_.lights.reserve(lamps);
     run_->lighting.reserve(lamps);
+    // Those of a picture, of the method, and of the accidents that a log is told of.
+    constexpr std::size_t kMostCounters = 16;
+    report_.counters.reserve(kMostCounters);
+    counted_.reserve(kMostCounters);
 }
 
 Status Session::reserve_depth() {

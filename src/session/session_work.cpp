@@ -136,7 +136,8 @@ Status Session::set_work(const FrameWork& given) {
     if (here.steps != nullptr) *here.steps = work.steps;
     if (here.light_refresh != nullptr) *here.light_refresh = work.light_refresh;
     work_ = work;
-    report_.frame_work = told_work(work_);
+    report_.frame_work = work_;
+    report_.light_rule.clear();
     return Status::ok();
 }
 
@@ -173,10 +174,6 @@ Status Session::fit_work(const UnitCosts& costs, double most, FrameWork& work) {
     return {Code::kLimit, "work: the least takes up to " +
                               std::to_string(std::uint64_t(percent < 1e9 ? percent : 1e9)) +
                               " % of what a frame may, allowed: 100"};
-}
-
-ReportFrameWork told_work(const FrameWork& work) {
-    return {work.scale, work.temporal, work.steps, work.light_refresh, work.photons, {}};
 }
 
 }  // namespace pileus

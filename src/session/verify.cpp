@@ -39,11 +39,8 @@ std::vector<std::uint32_t> choose_pixels(const Image& image, std::uint64_t wante
 }
 
 /// Differences of pixels, channels one by one.
-struct Figures {
-    double bias = 0, standard_error = 0, relmse = 0;
-};
-Figures compare_pixels(const Image& image, const std::vector<std::uint32_t>& pixels,
-                       const std::vector<PixelLight>& paths) {
+VerifyFigures compare_pixels(const Image& image, const std::vector<std::uint32_t>& pixels,
+                             const std::vector<PixelLight>& paths) {
     const char* const names[3] = {"R", "G", "B"};
     const Channel* planes[3];
     for (int c = 0; c < 3; ++c) planes[c] = image.find(names[c]);
@@ -59,7 +56,8 @@ Figures compare_pixels(const Image& image, const std::vector<std::uint32_t>& pix
         sum += d;
         square += d * d;
     }
-    Figures out;
+    VerifyFigures out;
+    out.pixels = pixels.size();
     if (!(reference > 0)) return out;
     const double mean = sum / n, spread = square / n - mean * mean;
     out.bias = mean / reference;
@@ -130,7 +128,7 @@ Status Verifier::see_through_air(const Context& context, const std::vector<std::
 }
 
 Status Verifier::check(int frame, const Context& context, const Image& image, Report& report) {
-    report.verified_pixels = 0;
+    report.verify = {};
     if (!scene_.animation.keys.empty()) place_keys(rest_, frame, scene_);
     if (is_sequence(scene_.camera.depth)) {
         scene_.sequence_frame = frame;
@@ -151,12 +149,8 @@ Status Verifier::check(int frame, const Context& context, const Image& image, Re
     }
     if (ended) return Status::ok();
     if (run_.lighting.air) PILEUS_TRY(see_through_air(context, pixels, paths));
-    const Figures f = compare_pixels(image, pixels, paths);
-    report.verified_pixels = pixels.size();
-    report.verified_samples = samples;
-    report.verify_bias = f.bias;
-    report.verify_standard_error = f.standard_error;
-    report.verify_relmse = f.relmse;
+    report.verify = compare_pixels(image, pixels, paths);
+    report.verify.samples = samples;
     return Status::ok();
 }
 

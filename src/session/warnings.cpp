@@ -29,13 +29,17 @@ bool shows_nothing(const Image& image) {
 
 Span<const Accident> accidents() { return {kAccidents, sizeof kAccidents / sizeof kAccidents[0]}; }
 
+std::string accident_line(const Accident& accident, std::uint64_t times) {
+    return std::string("counters.") + accident.counter + ": " + std::to_string(times) + " " +
+           accident.meaning;
+}
+
 void find_warnings(const Scene& scene, const Image& image, Report& report) {
     report.warnings.clear();
     for (const auto& counter : report.counters)
         for (const Accident& accident : accidents())
             if (counter.second > 0 && counter.first == accident.counter)
-                report.warnings.push_back("counters." + counter.first + ": " +
-                                          std::to_string(counter.second) + " " + accident.meaning);
+                report.warnings.push_back(accident_line(accident, counter.second));
     if (!scene.media.empty() && shows_nothing(image))
         report.warnings.push_back(
             scene.file +

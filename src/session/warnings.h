@@ -3,9 +3,9 @@
 // in: a picture and the report of its run -> out: the report's warnings.
 // docs/report.md, "Accidents"
 #pragma once
-#include "src/base/report.h"
 #include "src/base/span.h"
 #include "src/io/images/image.h"
+#include "src/plan/report.h"
 #include "src/scene/scene.h"
 
 namespace pileus {
@@ -18,6 +18,9 @@ struct Accident {
 
 /// All of them; a constant table. Counters that are not in it merely count.
 Span<const Accident> accidents();
+
+/// As warnings and logs tell of it.
+std::string accident_line(const Accident& accident, std::uint64_t times);
 
 /// Sets report.warnings: one line for each accident that happened, and one where a scene has media
 /// that no pixel shows.

@@ -112,34 +112,37 @@ Status check_work(const WorkEstimate& work, const Limits& limits, const std::str
     return check_limit(limits, LimitId::kWork, whole(work.scatterings), where);
 }
 
-void report_plan(const Plan& plan, Report& report) {
-    report.needed = plan.needed;
-    report.left_out.clear();
-    for (const LeftOut& l : plan.left_out) report.left_out.push_back({l.what, l.why});
-    report.bytes.clear();
-    for (const MemoryRow& row : plan.memory.rows())
-        report.bytes.push_back({row.item, row.bytes, stage_name(row.first), stage_name(row.last)});
-    report.stage_bytes.clear();
-    for (std::size_t s = 0; s < kStageCount; ++s)
-        if (plan.runs(Stage(s)))
-            report.stage_bytes.push_back({stage_name(Stage(s)), plan.memory.live(Stage(s))});
-    report.total_bytes = plan.memory.peak();
-    report.exact = plan.exact;
-    report.bounds.clear();
-    for (const SumBound& b : plan.bounds)
-        report.bounds.push_back({b.sum, b.addends, b.largest, b.places, b.worst, b.allowed});
+void note_limits(const Scene& scene, const Grid& grid, const Limits& limits,
+                 std::initializer_list<LimitId> ids, Plan& plan) {
+    const auto& size = scene.camera.resolution;
     const WorkEstimate& work = plan.work;
-    report.work = {work.known,       work.photons, work.scatterings_per_photon,
-                   work.scatterings, work.law,     plan.work_of};
-    report.accumulation = plan.accumulation.kind;
-    report.accumulation_why = plan.accumulation.why;
-    report.bias_of = plan.bias.method;
-    report.bias = plan.bias.size;
-    report.bias_page = plan.bias.page;
-}
-
-ReportLimit limit_of(const Limits& limits, LimitId id, std::uint64_t needs, bool known) {
-    return {limit_row(id).name, known, needs, limits[id]};
+    const auto needs = [&](LimitId id) -> std::uint64_t {
+        switch (id) {
+            case LimitId::kVoxels:
+                return voxel_count(grid);
+            case LimitId::kSamples:
+                return std::uint64_t(scene.collectors.samples);
+            case LimitId::kPhotons:
+                return whole(work.photons);
+            case LimitId::kPixels:
+                return std::uint64_t(size[0]) * std::uint64_t(size[1]);
+            case LimitId::kFrames:
+                return scene.animation.present ? std::uint64_t(scene.animation.frames) : 1;
+            case LimitId::kMemory:
+                return plan.memory.peak();
+            case LimitId::kScatterings:
+                return whole(work.scatterings_per_photon);
+            case LimitId::kWork:
+                return whole(work.scatterings);
+            default:
+                return 0;
+        }
+    };
+    plan.limits.clear();
+    for (const LimitId id : ids) {
+        const bool work_to_come = id == LimitId::kScatterings || id == LimitId::kWork;
+        plan.limits.push_back({id, needs(id), limits[id], work.known || !work_to_come});
+    }
 }
 
 std::uint64_t whole(double number) {

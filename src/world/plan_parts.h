@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the plans of all methods have in common: memory of density, majorants and picture, work.
-// in: sizes, a medium, a plan -> out: rows of the plan's table, the report's plan, faults.
+// in: sizes, a medium, a plan -> out: rows of the plan's table, its limits, faults.
 // docs/report.md, "Plan", "Memory", "Work".
 #pragma once
+#include <initializer_list>
+
 #include "src/plan/plan.h"
 #include "src/run/context.h"
 #include "src/world/light/sky_map.h"
@@ -47,11 +49,9 @@ Status check_host_lights(const Context& context, const std::vector<LightSettings
 /// What methods that march emission do with it.
 void note_emission(const Medium& medium, Plan& plan);
 
-/// Fills the report's plan, but for the limits.
-void report_plan(const Plan& plan, Report& report);
-
-/// A limit for the report.
-ReportLimit limit_of(const Limits& limits, LimitId id, std::uint64_t needs, bool known = true);
+/// What the scene and the plan, which is complete by now, need of these limits.
+void note_limits(const Scene& scene, const Grid& grid, const Limits& limits,
+                 std::initializer_list<LimitId> ids, Plan& plan);
 
 /// The largest whole number of 63 bits instead of a larger one.
 std::uint64_t whole(double number);

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "src/io/images/image_file.h"
-#include "src/io/text/report_json.h"
+#include "src/plan/report_json.h"
 #include "tests/cli/run_program.h"
 
 using namespace pileus;
@@ -364,16 +364,17 @@ TEST_CASE("plan: lines for people, JSON with the report's keys, and no file") {
 
 TEST_CASE("report: what is no number becomes null, what is no text does no harm") {
     Report report;
-    report.total_s = std::numeric_limits<double>::infinity();
-    report.has_error = true;
-    report.mean_relative = std::numeric_limits<double>::quiet_NaN();
-    report.rmse_estimate = 0.25;
+    report.clocks.total_s = std::numeric_limits<double>::infinity();
+    report.errors.known = true;
+    report.errors.mean_relative = std::numeric_limits<double>::quiet_NaN();
+    report.errors.rmse_estimate = 0.25;
     report.scene = "a\"\xff\n";
-    report.stages = {{"photons", 1, 2}, {"photons", 3, 4}};
-    report.bytes = {{"grid", 5, "tree", "tree"}, {"grid", 6, "tree", "write"}};
+    report.clocks.stages = {{"photons", 1, 2}, {"photons", 3, 4}};
+    report.plan.memory.add("grid", Stage::kTree, Stage::kTree, 5);
+    report.plan.memory.add("grid", Stage::kTree, Stage::kWrite, 6);
     report.counters = {{"nan", 1}, {"nan", 2}};
-    report.photons = 10;
-    report.tracing_cpu_s = 2.5;
+    report.photons.traced = 10;
+    report.clocks.tracing_cpu_s = 2.5;
     const json parsed = json::parse(report_json(report));
     CHECK(parsed["time"]["total_s"].is_null());
     CHECK(parsed["error"]["mean_relative"].is_null());
@@ -385,8 +386,8 @@ TEST_CASE("report: what is no number becomes null, what is no text does no harm"
     CHECK(parsed["counters"]["nan"] == 2);
     CHECK(parsed["photons_per_second"] == 4.0);
 
-    report.has_error = false;
-    report.tracing_cpu_s = 0;
+    report.errors.known = false;
+    report.clocks.tracing_cpu_s = 0;
     const json none = json::parse(report_json(report));
     CHECK(none["error"]["rmse_estimate"].is_null());
     CHECK(none["photons_per_second"].is_null());

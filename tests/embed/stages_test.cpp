@@ -83,8 +83,10 @@ TEST_CASE("stages: a frame of an animation is in named stages") {
             const pileus::Status status =
                 pileus::render(scene, options, [&](int f, pileus::Image&, pileus::Report& report) {
                     double staged = 0;
-                    for (const pileus::StageTime& stage : report.stages) staged += stage.wall_s;
-                    if (f > 0) best = std::max(best, (staged - before) / report.frame_wall_s);
+                    for (const pileus::StageTime& stage : report.clocks.stages)
+                        staged += stage.wall_s;
+                    if (f > 0)
+                        best = std::max(best, (staged - before) / report.clocks.frame_wall_s);
                     before = staged;
                     return pileus::Status::ok();
                 });

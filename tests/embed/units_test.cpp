@@ -45,7 +45,7 @@ double fly(pileus::Session& session, const pileus::Scene& scene) {
         pileus::FrameUnits most;
         REQUIRE(session.most_units({}, most));
         const std::uint64_t rays = executed(session, "marched_pixels");
-        const std::uint64_t samples = samples_of(session), photons = session.told().photons;
+        const std::uint64_t samples = samples_of(session), photons = session.told().photons.traced;
         std::uint64_t units = 0, hash = 0;
         REQUIRE(session.step(1, units));
         pileus::FrameTarget target;
@@ -57,7 +57,7 @@ double fly(pileus::Session& session, const pileus::Scene& scene) {
         CHECK(own_rays <= most.rays);
         CHECK(own <= most.samples);
         // Those of method path are paths; a ring forgets its oldest.
-        if (scene.method != "path") CHECK(session.told().photons <= photons + most.photons);
+        if (scene.method != "path") CHECK(session.told().photons.traced <= photons + most.photons);
         CHECK(most.rays <= most.pixels);
         if (most.samples > 0) share = std::max(share, double(own) / double(most.samples));
     }

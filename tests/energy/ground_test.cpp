@@ -86,8 +86,8 @@ TEST_CASE("ground: each light's energy is found again in the report") {
             const render_test::Picture p = render_test::render_one(render_test::scene_from(
                 kText,
                 {std::string("ground.albedo=") + albedo, std::string("sky.radiance=") + sky}));
-            REQUIRE(!p.report.energy.empty());
-            for (const EnergyRow& row : p.report.energy) {
+            REQUIRE(!p.report.photons.energy.empty());
+            for (const EnergyRow& row : p.report.photons.energy) {
                 CAPTURE(row.light);
                 CHECK(row.balance_quanta == 0);
                 CHECK(row.absorbed == 0);

@@ -144,7 +144,7 @@ TEST_CASE("periodic solids: photons and paths agree on a tilted grey plate in th
         // 2.5 %: nodes a quarter of a metre apart blur the plate's shadow; half of it is measured.
         CHECK(mean_of(p, 0, 16) == doctest::Approx(paths).epsilon(0.025));
         double solid = 0;
-        for (const EnergyRow& row : p.report.energy) {
+        for (const EnergyRow& row : p.report.photons.energy) {
             CHECK(row.sides == 0);
             solid += row.solid;
         }

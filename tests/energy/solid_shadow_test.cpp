@@ -58,8 +58,8 @@ TEST_CASE("solid shadow: a photon's power has one fate more, and every quantum o
             const Picture p =
                 render_one(scene_from(world(medium, lights.c_str()) + files.plate(plate.c_str()) +
                                       "[ground]\naltitude_m = -9\nalbedo = 0.5\n"));
-            CHECK(p.report.energy.size() >= 4);  // render_one has looked at the quanta
-            for (const EnergyRow& row : p.report.energy) {
+            CHECK(p.report.photons.energy.size() >= 4);  // render_one has looked at the quanta
+            for (const EnergyRow& row : p.report.photons.energy) {
                 const double sum = row.top + row.bottom + row.sides + row.absorbed + row.ground +
                                    row.sky + row.terminated + row.solid;
                 CHECK(sum == doctest::Approx(row.emitted).epsilon(1e-12));
@@ -80,7 +80,7 @@ TEST_CASE("solid shadow: a plate before the sun leaves nothing, in any method") 
     }
     const Picture p = render_one(scene_from(scene, {"collectors.display=billboards"}));
     for (int i = 0; i < 16; ++i) CHECK(p.at("G", i, i) == 0.0f);
-    CHECK(p.report.energy[0].solid == 1.0);
+    CHECK(p.report.photons.energy[0].solid == 1.0);
 }
 
 TEST_CASE("solid shadow: half of a thin cloud, all methods against paths") {
@@ -108,7 +108,7 @@ TEST_CASE("solid shadow: a white plate in a white cloud in an even sky") {
         world("extinction_per_m = 0.5\nalbedo = 1\n", "[sky]\nradiance = 0.5\n") +
         files.plate("scale = 3\nalbedo = 1");
     const Picture p = render_one(scene_from(scene));
-    for (const ReportLeftOut& l : p.report.left_out) CHECK(l.what != "sky photons");
+    for (const LeftOut& l : p.report.plan.left_out) CHECK(l.what != "sky photons");
     CHECK(mean_of(p, 0, 16) == doctest::Approx(0.5).epsilon(0.03));
     // A black one takes its share of the light.
     const Picture black = render_one(scene_from(scene, {"solid.0.albedo=0"}));

@@ -26,7 +26,7 @@ void check_light(const Image& image) {
 }
 
 void check_report(const Report& report) {
-    for (const EnergyRow& row : report.energy)
+    for (const EnergyRow& row : report.photons.energy)
         fuzz::require(row.balance_quanta == 0, "emitted light is all accounted for");
     for (const auto& counter : report.counters) {
         const bool trouble = counter.first == "nan" || counter.first == "majorant_violations" ||

@@ -28,7 +28,7 @@ TEST_CASE("identity: a picture and its errors, sums private, shared or of one th
     RenderOptions options;
     options.threads = 1;
     const Picture alone = render_one(scene_from(kSmallCumulus), options);
-    CHECK(alone.report.accumulation == "direct");
+    CHECK(alone.report.plan.accumulation.kind == "direct");
     for (const char* way : {"private", "shared"})
         for (int threads : {2, 5}) {
             CAPTURE(way);
@@ -37,7 +37,7 @@ TEST_CASE("identity: a picture and its errors, sums private, shared or of one th
             const Picture picture = render_one(
                 scene_from(kSmallCumulus, {std::string("collectors.accumulation=") + way}),
                 options);
-            CHECK(picture.report.accumulation == way);
+            CHECK(picture.report.plan.accumulation.kind == way);
             CHECK(digests_of(picture) == digests_of(alone));
         }
 }
@@ -46,12 +46,12 @@ TEST_CASE("identity: a limit of memory makes threads share their sums, with the 
     RenderOptions options;
     options.threads = 48;
     const Picture roomy = render_one(scene_from(kSmallCumulus), options);
-    CHECK(roomy.report.accumulation == "private");
+    CHECK(roomy.report.plan.accumulation.kind == "private");
     // With the leaves known beforehand the bounds of the plan let so little memory pass.
-    options.limits[LimitId::kLeaves] = roomy.report.leaves;
-    options.limits[LimitId::kMemory] = roomy.report.total_bytes - 1;
+    options.limits[LimitId::kLeaves] = roomy.report.prepared.leaves;
+    options.limits[LimitId::kMemory] = roomy.report.plan.memory.peak() - 1;
     const Picture tight = render_one(scene_from(kSmallCumulus), options);
-    CHECK(tight.report.accumulation == "shared");
-    CHECK(tight.report.total_bytes < roomy.report.total_bytes);
+    CHECK(tight.report.plan.accumulation.kind == "shared");
+    CHECK(tight.report.plan.memory.peak() < roomy.report.plan.memory.peak());
     CHECK(digests_of(tight) == digests_of(roomy));
 }

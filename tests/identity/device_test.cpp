@@ -20,9 +20,9 @@ std::string digests_of(const Picture& picture) {
     for (const auto& digest : picture.report.digests)
         all += "\n" + digest.first + " " + digest.second;
     for (const auto& counter : picture.report.executed)
-        all += "\n" + counter.first + " " + std::to_string(counter.second);
-    all += "\nscatterings " + std::to_string(picture.report.scatterings);
-    return all + "\ncrossings " + std::to_string(picture.report.crossings);
+        all += "\n" + std::string(counter.first) + " " + std::to_string(counter.second);
+    all += "\nscatterings " + std::to_string(picture.report.events.scatterings);
+    return all + "\ncrossings " + std::to_string(picture.report.events.crossings);
 }
 
 std::string rendered_by(const Scene& scene, const KernelTable* kernels) {

@@ -152,13 +152,13 @@ TEST_CASE("collectors: a ring ends with the time, and grows from frame to frame"
         RenderOptions options;
         options.first_frame = first;
         options.last_frame = first + 3;
-        options.budget_seconds = 1e-9;
+        options.budget.seconds = 1e-9;
         std::uint64_t held = 0;
         std::vector<double> light;
         REQUIRE(render(scene, options, [&](int, Image& image, Report& report) {
-            CHECK(report.ring_generations == ++held);
-            CHECK(report.ring_whole == 4);
-            CHECK(report.photons == held * 3000);
+            CHECK(report.photons.ring_generations == ++held);
+            CHECK(report.photons.ring_whole == 4);
+            CHECK(report.photons.traced == held * 3000);
             double sum = 0;
             for (float v : image.find("G")->pixels.span()) sum += double(v);
             light.push_back(sum);
@@ -167,9 +167,9 @@ TEST_CASE("collectors: a ring ends with the time, and grows from frame to frame"
         // All of the ring's light is in each picture, whatever its length: noise alone differs.
         REQUIRE(light.size() == 4);
         for (double sum : light) CHECK(std::fabs(sum / light[3] - 1) < 0.05);
-        options.budget_seconds = 0;
+        options.budget.seconds = 0;
         REQUIRE(render(scene, options, [&](int, Image&, Report& report) {
-            CHECK(report.ring_generations == 4);
+            CHECK(report.photons.ring_generations == 4);
             return Status::ok();
         }));
     }
@@ -191,17 +191,17 @@ TEST_CASE("photons: so many generations are the bits of the time that chose them
         RenderOptions options;
         options.last_frame = scene.animation.present ? 2 : 0;
         const std::vector<std::string> whole = hashes_of(scene, options);
-        options.budget_seconds = 1e-9;
+        options.budget.seconds = 1e-9;
         const std::vector<std::string> short_of = hashes_of(scene, options);
-        options.budget_seconds = 0;
-        options.budget_generations = 1;
+        options.budget.seconds = 0;
+        options.budget.generations = 1;
         CHECK(hashes_of(scene, options) == short_of);
         CHECK(short_of[0] != whole[0]);
         // More than a ring, or the scene's sum, holds: a grid's sum alone may have more.
-        options.budget_generations = 6;
+        options.budget.generations = 6;
         const bool sum = std::string(c.method) == "photon-grid" && c.more.size() < 2;
         CHECK((hashes_of(scene, options) == whole) != sum);
-        options.budget_generations = 4;
+        options.budget.generations = 4;
         CHECK(hashes_of(scene, options) == whole);
     }
 }

@@ -157,7 +157,8 @@ TEST_CASE("media: the plan tells the common grid, and what one medium leaves out
     Report report;
     REQUIRE(plan_scene(render_test::scene_from(std::string(kText) + kHaze), {}, false, report));
     const auto needs = [&](const char* what) {
-        return std::find(report.needed.begin(), report.needed.end(), what) != report.needed.end();
+        return std::find(report.plan.needed.begin(), report.plan.needed.end(), what) !=
+               report.plan.needed.end();
     };
     // The ball's voxels are 6.25 m and begin 30 m from the haze's face: neither fits.
     CHECK(needs(
@@ -165,7 +166,7 @@ TEST_CASE("media: the plan tells the common grid, and what one medium leaves out
     Report one;
     REQUIRE(plan_scene(render_test::scene_from(kText), {}, false, one));
     bool left_out = false;
-    for (const auto& l : one.left_out)
+    for (const auto& l : one.plan.left_out)
         left_out |= l.what == "mixing of media" && l.why == "one medium";
     CHECK(left_out);
 }

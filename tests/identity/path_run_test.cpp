@@ -50,50 +50,50 @@ std::string film_of(const Picture& picture) {
 TEST_CASE("path: interrupted twice and resumed, a film has the bits of one that was not") {
     const test::TempFolder folder;
     const Picture whole = render_one(path_scene("40"));
-    CHECK(whole.report.samples_per_pixel == 40);
+    CHECK(whole.report.paths.samples_per_pixel == 40);
     CHECK_FALSE(whole.report.interrupted);
     RenderOptions options;
-    options.state = folder.path("film.state");
+    options.budget.state = folder.path("film.state");
     std::uint64_t samples = 0;
     for (int stop : {2, 4}) {
         options.interrupted = stop_at(stop);
         options.threads = stop - 1;
         const Picture part = render_one(path_scene("40"), options);
         CHECK(part.report.interrupted);
-        CHECK(part.report.samples_per_pixel > samples);
-        CHECK(part.report.samples_per_pixel < 40);
-        CHECK(part.report.paths == 24 * 14 * part.report.samples_per_pixel);
-        samples = part.report.samples_per_pixel;
+        CHECK(part.report.paths.samples_per_pixel > samples);
+        CHECK(part.report.paths.samples_per_pixel < 40);
+        CHECK(part.report.paths.traced == 24 * 14 * part.report.paths.samples_per_pixel);
+        samples = part.report.paths.samples_per_pixel;
         const Picture at_once = render_one(path_scene(std::to_string(samples)));
         CHECK(film_of(part) == film_of(at_once));
         CHECK(part.report.hash == at_once.report.hash);
-        CHECK(part.report.mean_relative == at_once.report.mean_relative);
+        CHECK(part.report.errors.mean_relative == at_once.report.errors.mean_relative);
     }
     options.interrupted = nullptr;
     options.isa = "scalar";
     const Picture resumed = render_one(path_scene("40"), options);
     CHECK(film_of(resumed) == film_of(whole));
     CHECK(resumed.report.hash == whole.report.hash);
-    CHECK(resumed.report.scatterings == whole.report.scatterings);
-    CHECK(resumed.report.shadow_rays == whole.report.shadow_rays);
-    CHECK(resumed.report.earlier_paths == 24 * 14 * samples);
+    CHECK(resumed.report.events.scatterings == whole.report.events.scatterings);
+    CHECK(resumed.report.paths.shadow_rays == whole.report.paths.shadow_rays);
+    CHECK(resumed.report.paths.earlier == 24 * 14 * samples);
 }
 
 TEST_CASE("path: an error ends where it would have ended without a break") {
     const test::TempFolder folder;
     RenderOptions options;
-    options.budget_error = 0.12;
+    options.budget.error = 0.12;
     const Picture whole = render_one(path_scene("1"), options);
-    CHECK(whole.report.mean_relative <= 0.12);
-    CHECK(whole.report.samples_per_pixel > 16);
-    options.state = folder.path("film.state");
+    CHECK(whole.report.errors.mean_relative <= 0.12);
+    CHECK(whole.report.paths.samples_per_pixel > 16);
+    options.budget.state = folder.path("film.state");
     options.interrupted = stop_at(3);
     const Picture part = render_one(path_scene("1"), options);
     CHECK(part.report.interrupted);
     options.interrupted = nullptr;
     for (int again = 0; again < 2; ++again) {
         const Picture resumed = render_one(path_scene("1"), options);
-        CHECK(resumed.report.samples_per_pixel == whole.report.samples_per_pixel);
+        CHECK(resumed.report.paths.samples_per_pixel == whole.report.paths.samples_per_pixel);
         CHECK(film_of(resumed) == film_of(whole));
     }
 }
@@ -116,7 +116,7 @@ TEST_CASE("path: a frame is that of its own sun, camera and seed, rendered alone
     const std::vector<Picture> all = render_frames(scene, 0, 2);
     REQUIRE(all.size() == 3);
     CHECK(film_of(render_frames(scene, 2, 2)[0]) == film_of(all[2]));
-    CHECK(all[2].report.paths == 3 * all[0].report.paths);
+    CHECK(all[2].report.paths.traced == 3 * all[0].report.paths.traced);
     // The scene's seed is 4; frame 1 has that of a still with seed 5.
     CHECK(film_of(render_one(path_scene("6", {"sun.elevation_deg=25", "seed=5"}))) ==
           film_of(all[1]));
@@ -125,7 +125,7 @@ TEST_CASE("path: a frame is that of its own sun, camera and seed, rendered alone
     const test::TempFolder folder;
     RenderOptions options;
     options.last_frame = 2;
-    options.state = folder.path("film.state");
+    options.budget.state = folder.path("film.state");
     options.interrupted = stop_at(5);
     int frames = 0;
     bool interrupted = false;
@@ -152,14 +152,14 @@ TEST_CASE("collectors: interrupted, the picture is that of the generations there
     options.interrupted = stop_at(4);
     const Picture part = render_one(scene_from(kSmallCumulus, layers), options);
     CHECK(part.report.interrupted);
-    CHECK(part.report.generations == 3);
+    CHECK(part.report.photons.generations == 3);
     REQUIRE(part.image.find("error.R") != nullptr);
     // Four generations of 3000 photons each, and three of the same.
     const Picture whole = render_one(scene_from(
         kSmallCumulus, {layers[0], "collectors.photons=9000", "collectors.generations=3"}));
-    CHECK(whole.report.photons == part.report.photons);
+    CHECK(whole.report.photons.traced == part.report.photons.traced);
     CHECK(whole.report.hash == part.report.hash);
-    CHECK(whole.report.mean_relative == part.report.mean_relative);
+    CHECK(whole.report.errors.mean_relative == part.report.errors.mean_relative);
     options.interrupted = [] { return true; };
     CHECK(render(scene_from(kSmallCumulus, layers), options, [](int, Image&, Report&) {
               return Status::ok();

@@ -44,7 +44,7 @@ TEST_CASE("periodic: equal pictures from every instruction set and number of thr
             options.isa = table->name;
             options.threads = 1 + i;
             const Picture picture = render_one(scene, options);
-            for (const EnergyRow& row : picture.report.energy) CHECK(row.sides == 0);
+            for (const EnergyRow& row : picture.report.photons.energy) CHECK(row.sides == 0);
             if (i == 0) first = picture.report.hash;
             CHECK(picture.report.hash == first);
         }

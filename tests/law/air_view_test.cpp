@@ -138,8 +138,8 @@ TEST_CASE("air: what --verify traces is seen through the air, too") {
     options.verify = 40;
     const Picture p = render_one(
         scene_from(in_air(), {"method.name=photon-grid", "photon_grid.photons=400_000"}), options);
-    REQUIRE(p.report.verified_pixels > 10);
+    REQUIRE(p.report.verify.pixels > 10);
     // Four standard errors, and 2 % that cells cost (docs/photon-grid.md).
-    CHECK(std::abs(p.report.verify_bias) < 0.02 + 4 * p.report.verify_standard_error);
-    CHECK(p.report.verify_standard_error < 0.05);
+    CHECK(std::abs(p.report.verify.bias) < 0.02 + 4 * p.report.verify.standard_error);
+    CHECK(p.report.verify.standard_error < 0.05);
 }

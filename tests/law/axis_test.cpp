@@ -118,7 +118,7 @@ TEST_CASE("axis: an isotropic medium stores and shows the bands alone") {
         render_one(scene_from(kSmallCumulus, {isotropic, "collectors.axis_degrees=0"}));
     CHECK(with.report.hash == without.report.hash);
     bool told = false;
-    for (const ReportLeftOut& l : with.report.left_out)
+    for (const LeftOut& l : with.report.plan.left_out)
         told |= l.what == std::string("degrees about the sun's axis");
     CHECK(told);
     // Phase functions are known up to degree 15: 8 bands leave room for 8 degrees.

@@ -130,11 +130,11 @@ TEST_CASE("beam: droplets near the cloudbow, with and without the beam's peak") 
     const Report with = verified({"collectors.photons=1000000"});
     const Report without = verified({"collectors.photons=1000000", "collectors.peak_deg=0"});
     // One fixed seed at 4.5 standard errors, and the 5 % that the bands leave.
-    CHECK(std::fabs(with.verify_bias) < 0.05 + 4.5 * with.verify_standard_error);
+    CHECK(std::fabs(with.verify.bias) < 0.05 + 4.5 * with.verify.standard_error);
     // 15 % too dark without: the bands do not hold what the peak sends on.
-    CHECK(without.verify_bias < with.verify_bias - 0.08);
+    CHECK(without.verify.bias < with.verify.bias - 0.08);
     const Report cells = verified({"method.name=photon-grid", "photon_grid.photons=1000000"});
-    CHECK(std::fabs(cells.verify_bias) < 0.05 + 4.5 * cells.verify_standard_error);
+    CHECK(std::fabs(cells.verify.bias) < 0.05 + 4.5 * cells.verify.standard_error);
 }
 
 TEST_CASE("beam: photons fly as without it") {
@@ -147,13 +147,13 @@ TEST_CASE("beam: photons fly as without it") {
                                     {})
                              .report;
         CHECK(a.hash != b.hash);
-        CHECK(a.scatterings == b.scatterings);
-        CHECK(a.tentative == b.tentative);
-        REQUIRE(a.energy.size() == b.energy.size());
-        for (std::size_t i = 0; i < a.energy.size(); ++i) {
-            CHECK(a.energy[i].top == b.energy[i].top);
-            CHECK(a.energy[i].sides == b.energy[i].sides);
-            CHECK(a.energy[i].absorbed == b.energy[i].absorbed);
+        CHECK(a.events.scatterings == b.events.scatterings);
+        CHECK(a.events.tentative == b.events.tentative);
+        REQUIRE(a.photons.energy.size() == b.photons.energy.size());
+        for (std::size_t i = 0; i < a.photons.energy.size(); ++i) {
+            CHECK(a.photons.energy[i].top == b.photons.energy[i].top);
+            CHECK(a.photons.energy[i].sides == b.photons.energy[i].sides);
+            CHECK(a.photons.energy[i].absorbed == b.photons.energy[i].absorbed);
         }
     }
 }

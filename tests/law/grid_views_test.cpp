@@ -69,8 +69,8 @@ TEST_CASE("slices: the flux of all cells absorbs what the ledger says") {
         sum /= double(zoom * zoom);
         // W = flux * absorption * volume of a cell; all that arrives is 2 W/m2 on 100 m by 100 m.
         const double absorbed = sum * 0.02 * 0.5 * (20.0 * 20.0 * 25.0) / (2.0 * 100.0 * 100.0);
-        REQUIRE(p.report.energy.size() == 1);
-        const EnergyRow& row = p.report.energy[0];
+        REQUIRE(p.report.photons.energy.size() == 1);
+        const EnergyRow& row = p.report.photons.energy[0];
         // Two estimates of the same photons, 200 000 of them: 4.5 standard errors of the ledger's,
         // and as much for the flux, whose own is no larger.
         const double error = std::sqrt(0.25 / 200'000);
@@ -108,23 +108,23 @@ TEST_CASE("budget error: photons double until it is reached, and are those of th
     const std::vector<std::string> keys = {"output.layers=[\"radiance\",\"alpha\",\"error\"]",
                                            "photon_grid.photons=1_000"};
     RenderOptions options;
-    options.budget_error = 0.04;
+    options.budget.error = 0.04;
     const Picture p = render_one(scene_from(kAbsorber, keys), options);
-    CHECK(p.report.mean_relative <= 0.04);
-    CHECK(p.report.generations > 10);
-    CHECK(p.report.generations % 10 == 0);
+    CHECK(p.report.errors.mean_relative <= 0.04);
+    CHECK(p.report.photons.generations > 10);
+    CHECK(p.report.photons.generations % 10 == 0);
     // Half as many were not enough.
     RenderOptions fewer;
-    fewer.budget_error = p.report.mean_relative * 1.2;
-    CHECK(render_one(scene_from(kAbsorber, keys), fewer).report.generations <=
-          p.report.generations);
+    fewer.budget.error = p.report.errors.mean_relative * 1.2;
+    CHECK(render_one(scene_from(kAbsorber, keys), fewer).report.photons.generations <=
+          p.report.photons.generations);
     const Picture again = render_one(scene_from(kAbsorber, keys), options);
     CHECK(again.report.hash == p.report.hash);
 }
 
 TEST_CASE("budget error: needs the layer that it looks at, and a still") {
     RenderOptions options;
-    options.budget_error = 0.1;
+    options.budget.error = 0.1;
     const auto fault = [&](const std::vector<std::string>& keys) {
         return render(scene_from(kAbsorber, keys), options,
                       [](int, Image&, Report&) { return Status::ok(); })

@@ -53,19 +53,19 @@ std::uint64_t executed(const Picture& picture, const char* name) {
 
 std::uint64_t bytes(const Picture& picture, const char* item) {
     std::uint64_t sum = 0;
-    for (const ReportBytes& row : picture.report.bytes)
+    for (const MemoryRow& row : picture.report.plan.memory.rows())
         if (row.item == item) sum += row.bytes;
     return sum;
 }
 
 bool left_out(const Picture& picture, const char* what) {
-    for (const ReportLeftOut& part : picture.report.left_out)
+    for (const LeftOut& part : picture.report.plan.left_out)
         if (part.what == what) return !part.why.empty();
     return false;
 }
 
 bool has_light(const Picture& picture, const char* name) {
-    for (const EnergyRow& row : picture.report.energy)
+    for (const EnergyRow& row : picture.report.photons.energy)
         if (row.light == name) return true;
     return false;
 }
@@ -75,14 +75,14 @@ bool has_light(const Picture& picture, const char* name) {
 TEST_CASE("left out: absorption with albedo 1, and nothing without a part that needs it") {
     const Picture all = rendered(kScene);
     CHECK(executed(all, "absorption_tests") > 0);
-    CHECK(executed(all, "absorption_tests") == all.report.scatterings);
+    CHECK(executed(all, "absorption_tests") == all.report.events.scatterings);
     CHECK_FALSE(left_out(all, "absorption"));
 
     const Picture white = rendered(without(kScene, "albedo = 0.9", "albedo = 1"));
-    CHECK(white.report.scatterings > 0);
+    CHECK(white.report.events.scatterings > 0);
     CHECK(executed(white, "absorption_tests") == 0);
     CHECK(left_out(white, "absorption"));
-    for (const EnergyRow& row : white.report.energy) CHECK(row.absorbed == 0);
+    for (const EnergyRow& row : white.report.photons.energy) CHECK(row.absorbed == 0);
 }
 
 TEST_CASE("left out: bounces, their map and depth tests without a ground") {

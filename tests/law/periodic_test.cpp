@@ -242,7 +242,7 @@ TEST_CASE("a camera moved by whole periods sees the same picture") {
     CHECK(mean_difference(here, there) < 1e-4);
     CHECK(mean_difference(here, turned) > 1e-3);
     // Nothing but what enters at top and bottom leaves there.
-    for (const EnergyRow& row : here.report.energy) CHECK(row.sides == 0);
+    for (const EnergyRow& row : here.report.photons.energy) CHECK(row.sides == 0);
 }
 
 TEST_CASE("harmonics of the collectors give the colours towards a camera") {

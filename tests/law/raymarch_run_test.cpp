@@ -32,8 +32,8 @@ TEST_CASE("raymarch: what it cannot do is refused in one line") {
     CHECK(fault_of(marched({"raymarch.light=buffer", "raymarch.light_path=cone"}))
               .find("test.toml: raymarch.light: ") == 0);
     RenderOptions photons, error;
-    photons.budget_photons = 5;
-    error.budget_error = 0.1;
+    photons.budget.photons = 5;
+    error.budget.error = 0.1;
     CHECK(fault_of(marched({}), photons) ==
           "--budget photons: not for method raymarch, allowed: steps=N, seconds=S");
     CHECK(fault_of(marched({}), error).find("--budget error: not for method raymarch") == 0);
@@ -46,19 +46,19 @@ TEST_CASE("raymarch: a time chooses pixels and steps, which make the picture aga
         // No time at all leaves the least, an hour leaves all.
         const std::string whole = render_one(marched(more)).report.hash;
         RenderOptions options;
-        options.budget_seconds = 3600;
+        options.budget.seconds = 3600;
         const Picture rich = render_one(marched(more), options);
         CHECK(rich.report.hash == whole);
-        options.budget_seconds = 1e-9;
+        options.budget.seconds = 1e-9;
         const Picture poor = render_one(marched(more), options);
-        const ReportFrameWork& work = poor.report.frame_work;
+        const FrameWork& work = poor.report.frame_work;
         CHECK(work.steps <= 16);
         Keys keys = more;
         if (work.temporal > 0)
             keys.push_back("raymarch.temporal=" + std::to_string(work.temporal));
         else if (poor.report.method == "raymarch")
             keys.push_back("raymarch.scale=" + std::to_string(work.scale));
-        keys.push_back("raymarch.light=" + work.light);
+        keys.push_back("raymarch.light=" + poor.report.light_rule);
         keys.push_back("raymarch.steps=" + std::to_string(work.steps));
         keys.push_back("optical_depth.steps=" + std::to_string(work.steps));
         if (poor.report.method == "raymarch")
@@ -76,8 +76,8 @@ bool holds(const std::vector<std::string>& list, const std::string& text) {
 
 TEST_CASE("raymarch: plan and report name what is appearance, and what is left out") {
     const Picture plain = render_one(marched({"raymarch.scattering=single"}));
-    CHECK_FALSE(holds(plain.report.needed, "appearance"));
-    CHECK_FALSE(holds(plain.report.needed, "approximation"));
+    CHECK_FALSE(holds(plain.report.plan.needed, "appearance"));
+    CHECK_FALSE(holds(plain.report.plan.needed, "approximation"));
     const Picture all =
         render_one(marched({"raymarch.powder=powder", "raymarch.ambient=1", "raymarch.phase=peak",
                             "raymarch.scattering=forward", "raymarch.detail=true",
@@ -86,7 +86,7 @@ TEST_CASE("raymarch: plan and report name what is appearance, and what is left o
          {"powder: appearance, not physics", "ambient emission: appearance, not physics",
           "phase functions over their peak: appearance, not physics",
           "forward scattering: approximation", "skylight", "coarser levels of the density"})
-        CHECK_MESSAGE(holds(all.report.needed, what), what);
+        CHECK_MESSAGE(holds(all.report.plan.needed, what), what);
 }
 
 TEST_CASE("raymarch: a frame of an animation alone is the frame among the others") {

@@ -167,12 +167,12 @@ TEST_CASE("The difference to rays is small for smooth clouds, and found where it
         for (int a : at) square += (a - 23.5) * (a - 23.5);
         rig.medium.volume.density[node] = float(std::max(0.0, 1 - square / 400));
     });
-    const SunDepthDifference smooth = difference(rig, {0.5f, 0.3f, 0.8f});
+    const SweepCheck smooth = difference(rig, {0.5f, 0.3f, 0.8f});
     MESSAGE("smooth: rms " << smooth.rms << ", largest " << smooth.largest);
     CHECK(smooth.nodes >= 512);
     CHECK(smooth.rms < 0.02);  // 0.018 as this was written
     const Rig rough = random_box({48, 48, 48}, {480, 480, 480}, 0.02);
-    const SunDepthDifference large = difference(rough, {0.5f, 0.3f, 0.8f});
+    const SweepCheck large = difference(rough, {0.5f, 0.3f, 0.8f});
     CHECK(difference(rough, {0, 1, 0}).rms < 1e-4);  // along an axis: two quadratures are left
     MESSAGE("rough: rms " << large.rms << ", largest " << large.largest << ", mean " << large.mean);
     CHECK(large.rms > 1.5 * smooth.rms);

@@ -223,16 +223,16 @@ TEST_CASE("views: gradient shows the field's largest value, at the cube's faces"
     // Through the middle of a face only that face counts.
     CHECK(p.at("value", 70, 70) == doctest::Approx(0.05).epsilon(1e-6));
     CHECK(p.at("R", 3, 3) > p.at("R", 70, 70));
-    CHECK(p.report.samples == 0);
-    CHECK(p.report.photons == 0);
-    CHECK(p.report.needed == std::vector<std::string>{"gradient"});
+    CHECK(p.report.prepared.samples == 0);
+    CHECK(p.report.photons.traced == 0);
+    CHECK(p.report.plan.needed == std::vector<std::string>{"gradient"});
 }
 
 TEST_CASE("views: slices show the field on the plane through the middle") {
     const Scene scene = scene_from(kCube);
     const Picture density = show(scene, "density-slice");
     CHECK(density.at("value", 70, 70) == 1.0f);
-    CHECK(density.report.needed.empty());
+    CHECK(density.report.plan.needed.empty());
     const Picture gradient = show(scene, "gradient-slice");
     CHECK(gradient.at("value", 70, 70) == 0.0f);
     CHECK(gradient.at("value", 70, 4) == doctest::Approx(0.05).epsilon(1e-6));
@@ -243,8 +243,8 @@ TEST_CASE("views: samples draws each sample") {
     const Scene scene = scene_from(kCube);
     const Picture p = show(scene, "samples");
     CHECK(p.counter("samples_drawn") == 700);
-    CHECK(p.report.samples == 700);
-    CHECK(p.report.leaves == 0);
+    CHECK(p.report.prepared.samples == 700);
+    CHECK(p.report.prepared.leaves == 0);
     Scene lonely = scene;
     lonely.collectors.samples = 1;
     const Picture one = show(lonely, "samples");
@@ -259,13 +259,13 @@ TEST_CASE("views: leaves of the tree tile the grid") {
         const auto& n = scene.media[0].resolution;
         CHECK(p.counter("voxels_in_leaves") ==
               std::uint64_t(n[0]) * std::uint64_t(n[1]) * std::uint64_t(n[2]));
-        CHECK(p.counter("leaves_drawn") == p.report.leaves);
+        CHECK(p.counter("leaves_drawn") == p.report.prepared.leaves);
         CHECK(p.counter("leaves_cut") > 0);
-        CHECK(p.counter("leaves_cut") < p.report.leaves);
-        CHECK(show(scene, "leaf-density").counter("leaves_drawn") == p.report.collectors);
+        CHECK(p.counter("leaves_cut") < p.report.prepared.leaves);
+        CHECK(show(scene, "leaf-density").counter("leaves_drawn") == p.report.prepared.collectors);
         const Picture balls = show(scene, "collectors");
-        CHECK(balls.counter("collectors") == p.report.collectors);
-        CHECK(balls.counter("collectors_drawn") < p.report.collectors);
+        CHECK(balls.counter("collectors") == p.report.prepared.collectors);
+        CHECK(balls.counter("collectors_drawn") < p.report.prepared.collectors);
         CHECK(balls.counter("collectors_drawn") > 0);
     }
 }
@@ -290,8 +290,8 @@ TEST_CASE("views: illumination is the picture's light on the picture's collector
     };
     CHECK(colours(lit).size() == 16);
     CHECK(colours(lit) == colours(picture));
-    CHECK(lit.report.photons == picture.report.photons);
-    CHECK(lit.counter("collectors_drawn") == lit.report.collectors);
+    CHECK(lit.report.photons.traced == picture.report.photons.traced);
+    CHECK(lit.counter("collectors_drawn") == lit.report.prepared.collectors);
 }
 
 TEST_CASE("views: followed photons are the photons that were traced") {
@@ -299,7 +299,7 @@ TEST_CASE("views: followed photons are the photons that were traced") {
     const Scene scene = scene_from(
         kCloud, {"collectors.photons=160", "collectors.generations=1", "medium.0.albedo=0.9"});
     const Picture picture = render_one(scene);
-    const EnergyRow& row = picture.report.energy.at(0);
+    const EnergyRow& row = picture.report.photons.energy.at(0);
     REQUIRE(row.light == "sun");
     RenderOptions options;
     double top = 0, bottom = 0, sides = 0, absorbed = 0, ground = 0;

@@ -110,15 +110,15 @@ TEST_CASE("flux: the step cloud of I3RC by photons and by paths") {
         FluxResult shot, traced;
         Image maps;
         Report report;
-        options.budget_samples = long_tests() ? 65'536 : 2048;
+        options.budget.samples = long_tests() ? 65'536 : 2048;
         REQUIRE(measure_flux(scene, options, settings, traced, maps, report));
         check_step(root, e.number, "paths", {"R", &traced.reflectance, {}});
         if (e.transmitted) check_step(root, e.number, "paths", {"T", &traced.transmittance, {}});
         settings.method = FluxMethod::kPhotons;
         settings.absorbed = true;
         settings.cells = {int(kColumns), 1, 1};
-        options.budget_samples = -1;
-        options.budget_photons = long_tests() ? 40'000'000 : 2'000'000;
+        options.budget.samples = -1;
+        options.budget.photons = long_tests() ? 40'000'000 : 2'000'000;
         Report other;
         REQUIRE(measure_flux(scene, options, settings, shot, maps, other));
         check_step(root, e.number, "photons", {"R", &shot.reflectance, columns_of(maps, "R")});

@@ -82,8 +82,8 @@ TEST_CASE("S74: pictures are never negative, with and without the window; what i
                 const std::uint64_t cut = p.counter("clamped_negative");
                 std::printf("%s, %s bands, window %s: %llu of %llu colours cut at zero\n", display,
                             bands, window, static_cast<unsigned long long>(cut),
-                            static_cast<unsigned long long>(3 * p.report.collectors));
-                CHECK(cut <= 3 * p.report.collectors);
+                            static_cast<unsigned long long>(3 * p.report.prepared.collectors));
+                CHECK(cut <= 3 * p.report.prepared.collectors);
                 if (std::string(bands) == "1") CHECK(cut == 0);
             }
 }

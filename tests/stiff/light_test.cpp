@@ -26,8 +26,8 @@ TEST_CASE("S13, S65: without a medium to speak of the picture is the background"
                     CHECK(p.at("R", x, y) == 0.05f);
                     CHECK(p.at("B", x, y) == 0.11f);
                 }
-            CHECK(p.report.scatterings == 0);
-            CHECK(p.report.tentative == 0);
+            CHECK(p.report.events.scatterings == 0);
+            CHECK(p.report.events.tentative == 0);
         }
 }
 
@@ -42,12 +42,12 @@ TEST_CASE("S54: 0, 1 and 2 photons, with and without the error layer") {
                              ? "output.layers=[\"radiance\",\"alpha\"]"
                              : "output.layers=[\"radiance\",\"alpha\",\"depth\",\"error\"]"});
                     RenderOptions options = one_thread();
-                    options.budget_photons = photons;
+                    options.budget.photons = photons;
                     const Picture p = render_sound(scene, options);
                     // Every light with power gets a photon of its own per generation.
-                    if (photons == 0) CHECK(p.report.photons == 0);
-                    if (photons > 0) CHECK(p.report.photons >= 1);
-                    CHECK(p.report.photons <=
+                    if (photons == 0) CHECK(p.report.photons.traced == 0);
+                    if (photons > 0) CHECK(p.report.photons.traced >= 1);
+                    CHECK(p.report.photons.traced <=
                           3 * std::uint64_t(std::max<std::int64_t>(photons, 1)));
                     // Nothing is known about the error of fewer than two generations.
                     if (photons < 2) CHECK(p.image.find("error.R") == nullptr);
@@ -148,17 +148,17 @@ TEST_CASE("S78, S83: lights without power cost nothing and change nothing") {
     for (const char* display : kDisplays) {
         const Picture dark =
             render_sound(bent_scene({display_key(display), "sun.irradiance=0", "sky.radiance=0"}));
-        CHECK(dark.report.photons == 0);
-        CHECK(dark.report.tentative == 0);
+        CHECK(dark.report.photons.traced == 0);
+        CHECK(dark.report.events.tentative == 0);
         CHECK(largest_of(dark, "G") == 0);
         CHECK(largest_of(dark, "A") > 0.5);
         const Picture night = render_sound(bent_scene({display_key(display), "sun.irradiance=0"}));
         CHECK(left_out(night, "sun photons"));
-        CHECK(night.report.energy.size() == 1);
+        CHECK(night.report.photons.energy.size() == 1);
         const Picture lone = render_sound(bent_scene({display_key(display), "sky.radiance=0"}));
         CHECK(left_out(lone, "sky photons"));
-        CHECK(lone.report.energy.size() == 1);
-        CHECK(lone.report.energy[0].ground == 0);
+        CHECK(lone.report.photons.energy.size() == 1);
+        CHECK(lone.report.photons.energy[0].ground == 0);
     }
 }
 

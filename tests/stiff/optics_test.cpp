@@ -18,12 +18,12 @@ TEST_CASE("S27, S57: an extinction of 1e12 per metre ends after a million events
                     bent_scene({display_key(display), "medium.0.extinction_per_m=1e12",
                                 std::string("medium.0.albedo=") + albedo, "collectors.photons=4",
                                 std::string("collectors.tracking=") + tracking, "sky.radiance=0"}));
-                REQUIRE(p.report.energy.size() == 1);
-                const EnergyRow& e = p.report.energy[0];
+                REQUIRE(p.report.photons.energy.size() == 1);
+                const EnergyRow& e = p.report.photons.energy[0];
                 std::printf("%s, albedo %s, %s: %llu events, terminated %.3g\n", display, albedo,
-                            tracking, static_cast<unsigned long long>(p.report.tentative),
+                            tracking, static_cast<unsigned long long>(p.report.events.tentative),
                             e.terminated);
-                CHECK(p.report.tentative <= p.report.photons << 20);
+                CHECK(p.report.events.tentative <= p.report.photons.traced << 20);
                 CHECK(e.emitted == 1);
                 CHECK(e.top + e.bottom + e.sides + e.absorbed + e.terminated ==
                       doctest::Approx(1).epsilon(1e-12));
@@ -86,7 +86,7 @@ TEST_CASE("S36: voxels of 1:1000 and rods one voxel thick make sound pictures") 
                     {display_key(display), "medium.0.density=uniform:box",
                      std::string("medium.0.resolution=") + size,
                      std::string("medium.0.bounds_m=") + box, "collectors.photons=400"}));
-                CHECK(p.report.collectors > 0);
+                CHECK(p.report.prepared.collectors > 0);
             }
 }
 

@@ -38,8 +38,8 @@ Scene box_scene(const std::string& method, const Double3& size, double extinctio
 /// What a picture may take: photons fly through a few cells, rays through a few steps.
 void check_ended(const Picture& p) {
     const Report& r = p.report;
-    CHECK(r.tentative <= 200 * (r.photons + r.paths));
-    CHECK(r.crossings <= 400 * (r.photons + r.paths + r.shadow_rays));
+    CHECK(r.events.tentative <= 200 * (r.photons.traced + r.paths.traced));
+    CHECK(r.events.crossings <= 400 * (r.photons.traced + r.paths.traced + r.paths.shadow_rays));
     for (const auto& counter : r.counters)
         if (counter.first == "terminated") CHECK(counter.second == 0);
     for (const auto& work : r.executed)

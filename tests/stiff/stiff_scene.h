@@ -107,7 +107,7 @@ inline std::string display_key(const char* name) {
 }
 
 inline bool left_out(const Picture& p, const char* what) {
-    for (const ReportLeftOut& l : p.report.left_out)
+    for (const LeftOut& l : p.report.plan.left_out)
         if (l.what == what) return true;
     return false;
 }

@@ -49,8 +49,8 @@ inline void check_renders(const std::string& file) {
         for (float alpha : image.find("A")->pixels.span()) clouds |= alpha > 0.5f;
         // Other pictures scatter nothing: they add up.
         if (scene.method == "collectors" || scene.method == "photon-grid" || scene.method == "path")
-            CHECK(report.scatterings > 0);
-        for (const pileus::EnergyRow& row : report.energy) CHECK(row.balance_quanta == 0);
+            CHECK(report.events.scatterings > 0);
+        for (const pileus::EnergyRow& row : report.photons.energy) CHECK(row.balance_quanta == 0);
         return pileus::Status::ok();
     };
     const pileus::Status status = pileus::render(scene, {}, sink);

@@ -85,7 +85,7 @@ inline Picture render_one(const Scene& scene, const RenderOptions& options = {})
     REQUIRE_MESSAGE(status, status.message);
     CHECK(picture.counter("nan") == 0);
     CHECK(picture.counter("majorant_violations") == 0);
-    for (const EnergyRow& row : picture.report.energy) CHECK(row.balance_quanta == 0);
+    for (const EnergyRow& row : picture.report.photons.energy) CHECK(row.balance_quanta == 0);
     return picture;
 }
 

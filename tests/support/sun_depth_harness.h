@@ -63,13 +63,13 @@ inline std::vector<float> depths(const Rig& rig, const std::array<float, 3>& to_
     return {depth.optical_depth.span().begin(), depth.optical_depth.span().end()};
 }
 
-inline SunDepthDifference difference(const Rig& rig, const std::array<float, 3>& to_sun) {
+inline SweepCheck difference(const Rig& rig, const std::array<float, 3>& to_sun) {
     Report report;
     const Context context = context_of(kernel_table(nullptr), 1, report);
     Majorants majorants;
     bound(rig, majorants);
     SunDepth depth;
-    SunDepthDifference d;
+    SweepCheck d;
     REQUIRE(make_sun_depth(context, rig.medium, majorants, to_sun, SunDepthKind::kSwept, depth));
     REQUIRE(sun_depth_difference(context, rig.medium, majorants, to_sun, depth, 4096, d));
     return d;

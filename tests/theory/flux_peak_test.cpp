@@ -42,7 +42,7 @@ Status measured(const std::string& phase, bool photons, std::int64_t budget, int
     settings.method = photons ? FluxMethod::kPhotons : FluxMethod::kPath;
     settings.sensors = sensors;
     RenderOptions options;
-    (photons ? options.budget_photons : options.budget_samples) = budget;
+    (photons ? options.budget.photons : options.budget.samples) = budget;
     Keys all = {"seed=" + std::to_string(seed)};
     all.insert(all.end(), keys.begin(), keys.end());
     Image maps;

@@ -50,7 +50,7 @@ struct Measured {
 Status try_measure(const std::string& text, const Keys& keys, const FluxSettings& settings,
                    std::int64_t budget, Measured& m) {
     RenderOptions options;
-    (settings.method == FluxMethod::kPhotons ? options.budget_photons : options.budget_samples) =
+    (settings.method == FluxMethod::kPhotons ? options.budget.photons : options.budget.samples) =
         budget;
     Report report;
     return measure_flux(scene_from(text, with(kCamera, keys)), options, settings, m.flux, m.maps,
@@ -305,7 +305,7 @@ TEST_CASE("flux from below: twice E3 through what only absorbs, and the same bot
 TEST_CASE("flux by photons: neither threads nor instruction sets change a bit") {
     const auto of = [](int threads, const char* isa) {
         RenderOptions options;
-        options.budget_photons = 5000;
+        options.budget.photons = 5000;
         options.threads = threads;
         options.isa = isa;
         Measured m;

@@ -69,7 +69,7 @@ Status try_measure(const Keys& keys, const std::vector<Sensor>& sensors, FluxRes
     settings.sensors = sensors;
     settings.sensor_file = "sensors.toml";
     RenderOptions options;
-    options.budget_samples = 4096;
+    options.budget.samples = 4096;
     Image maps;
     Report report;
     return measure_flux(scene_from(kScene, keys), options, settings, flux, maps, report);
@@ -133,7 +133,7 @@ TEST_CASE("sensors: levels at the faces are the faces, and between two lies what
     Image maps;
     Report report;
     RenderOptions options;
-    options.budget_photons = 300'000;
+    options.budget.photons = 300'000;
     REQUIRE(measure_flux(scene_from(kScene), options, settings, shot, maps, report));
     const SensorReading &low = f.sensors[2], &high = f.sensors[3];
     for (std::size_t c = 0; c < 3; ++c) {
@@ -216,7 +216,7 @@ TEST_CASE("light from below: a sky map whose lower half shines adds what --from-
     settings.from_below = true;
     settings.below_radiance = {0, 10, 20};
     RenderOptions options;
-    options.budget_samples = 4096;
+    options.budget.samples = 4096;
     FluxResult below;
     Image maps;
     Report report;

@@ -52,7 +52,7 @@ struct Measured {
 Measured measure(const Keys& keys, std::int64_t samples, std::array<int, 2> columns) {
     Measured m;
     RenderOptions options;
-    options.budget_samples = samples;
+    options.budget.samples = samples;
     Report report;
     const Status status = measure_flux(scene_from(kScene, keys), options, in_columns(columns),
                                        m.flux, m.maps, report);
@@ -72,16 +72,16 @@ TEST_CASE("flux: a slab's and a sphere's shares are those of the photons' ledger
         CAPTURE(periodic);
         const Keys keys = periodic ? kSlab : Keys{};
         const Measured m = measure(keys, 2048, {16, 8});
-        const EnergyRow row = render_one(scene_from(kScene, keys)).report.energy[0];
+        const EnergyRow row = render_one(scene_from(kScene, keys)).report.photons.energy[0];
         // The ledger's shares are of what arrives at the box, those of fluxes of a level plane.
         const double to_sun[3] = {0.3213938, 0.5566704, 0.7660444};
         double arrives = to_sun[2];
         if (!periodic) arrives += to_sun[0] * 100 * 150 / 2e4 + to_sun[1] * 200 * 150 / 2e4;
         const double level = arrives / to_sun[2];
-        check_agrees(m.flux.reflectance, level * row.top, level * row.top_error);
-        check_agrees(m.flux.transmittance, level * row.bottom, level * row.bottom_error,
+        check_agrees(m.flux.reflectance, level * row.top, level * row.error.top);
+        check_agrees(m.flux.transmittance, level * row.bottom, level * row.error.bottom,
                      2e-3 * m.flux.transmittance_direct.mean[0]);  // steps of the direct rays
-        check_agrees(m.flux.absorptance, level * row.absorbed, level * row.absorbed_error,
+        check_agrees(m.flux.absorptance, level * row.absorbed, level * row.error.absorbed,
                      2e-3 * m.flux.transmittance_direct.mean[0]);
     }
 }
@@ -130,7 +130,7 @@ TEST_CASE("flux: maps have the means of the shares, north at the top, west at th
     Image maps;
     Report report;
     RenderOptions options;
-    options.budget_samples = 256;
+    options.budget.samples = 256;
     REQUIRE(measure_flux(scene_from(text, two), options, in_columns({4, 4}), flux, maps, report));
     const auto at = [&](const char* name, std::size_t x, std::size_t y) {
         return double(maps.find(name)->pixels[y * 4 + x]);
@@ -157,7 +157,7 @@ TEST_CASE("flux: what cannot be measured is one line") {
     CHECK(fault({"sun.elevation_deg=0"}).find("test.toml: sun: not above the horizon") == 0);
     CHECK(fault({"sun.irradiance=0"}).find("test.toml: sun: not above the horizon") == 0);
     RenderOptions seconds;
-    seconds.budget_seconds = 1;
+    seconds.budget.seconds = 1;
     CHECK(fault({}, seconds) == "--budget seconds: not for method flux, allowed: samples=N");
     // Corners: the sun in the zenith, on the horizon's edge, one column of one cell.
     for (const char* elevation : {"90", "0.001"}) {

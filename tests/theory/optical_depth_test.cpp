@@ -194,7 +194,7 @@ TEST_CASE("optical-depth: what it cannot do is refused in one line") {
         return status.message;
     };
     RenderOptions photons;
-    photons.budget_photons = 5;
+    photons.budget.photons = 5;
     CHECK(fault({"method.name=optical-depth"}, photons) ==
           "--budget photons: not for method optical-depth, allowed: steps=N, seconds=S");
     CHECK(fault({"method.name=optical-depth", "output.layers=[\"error\"]"}, {})

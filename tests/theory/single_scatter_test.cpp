@@ -86,7 +86,7 @@ TEST_CASE("single scattering: marched sunlight, pixel by pixel") {
             auto overrides = overrides_of(c);
             overrides.push_back(std::string("medium.0.density=\"") + shape + "\"");
             RenderOptions no_photons;  // the first order alone is marched without any
-            no_photons.budget_photons = 0;
+            no_photons.budget.photons = 0;
             const Picture p = render_one(scene_from(kText, overrides), no_photons);
             const double source = 0.8 * hg(c.g, cosine_of(c.azimuth_deg));
             const char* const names[3] = {"R", "G", "B"};
@@ -130,7 +130,7 @@ TEST_CASE("single scattering: whole pictures with photons, both displays") {
             const double opacity = sums.alpha / (2e-5 * volume);
             const double ratio =
                 sums.green / (0.8 * hg(c.g, cosine_of(c.azimuth_deg)) * 2e-5 * volume);
-            const double error = 1 / std::sqrt(double(p.report.scatterings));
+            const double error = 1 / std::sqrt(double(p.report.events.scatterings));
             std::printf("%s g %g sun at %g: light %.4f se %.4f opacity %.4f\n", display, c.g,
                         c.azimuth_deg, ratio, error, opacity);
             // 1 - exp(-tau) takes off at most half the optical depth; the sphere's own volume on

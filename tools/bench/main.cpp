@@ -90,7 +90,7 @@ void forget_photons(CollectorsRun& run) {
 
 double stage_cpu(const Report& report, const Stages& stages) {
     double sum = 0;
-    for (const StageTime& s : report.stages)
+    for (const StageTime& s : report.clocks.stages)
         for (const char* stage : stages)
             if (s.name == stage) sum += s.cpu_s;
     return sum;
@@ -98,14 +98,14 @@ double stage_cpu(const Report& report, const Stages& stages) {
 
 double stage_wall(const Report& report, const Stages& stages) {
     double sum = 0;
-    for (const StageTime& s : report.stages)
+    for (const StageTime& s : report.clocks.stages)
         for (const char* stage : stages)
             if (s.name == stage) sum += s.wall_s;
     return sum;
 }
 
 void count_stages(benchmark::State& state, const Report& report) {
-    for (const StageTime& s : report.stages) state.counters[s.name + "_ms"] = s.cpu_s * 1e3;
+    for (const StageTime& s : report.clocks.stages) state.counters[s.name + "_ms"] = s.cpu_s * 1e3;
 }
 
 std::uint64_t photon_digest(const CollectorsRun& run) {

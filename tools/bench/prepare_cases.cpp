@@ -26,7 +26,7 @@ void run_prepare(benchmark::State& state, Bench& bench, const PrepareCase& which
     Context context = with(p->context, p->context.kernels, which.threads);
     context.report = &report;
     for (auto _ : state) {
-        report.stages.clear();
+        report.clocks.stages.clear();
         pileus::Prepared out;
         pileus::Majorants majorants;
         if (!bench.passed(state, prepare_collectors(p->run.world->medium, settings, p->scene.seed,

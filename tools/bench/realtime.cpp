@@ -103,7 +103,8 @@ public:
 private:
     static std::map<std::string, Cost> sums(const Report& report) {
         std::map<std::string, Cost> out;
-        for (const StageTime& s : report.stages) out[s.name] = {s.wall_s * 1e3, s.cpu_s * 1e3};
+        for (const StageTime& s : report.clocks.stages)
+            out[s.name] = {s.wall_s * 1e3, s.cpu_s * 1e3};
         return out;
     }
     std::map<std::string, Cost> before_;

@@ -58,7 +58,7 @@ void run_sweep(benchmark::State& state, Bench& bench, const SweepCase& which,
     SunDepth depth;
     double best_wall = 1e9;
     const auto once = [&] {
-        report.stages.clear();
+        report.clocks.stages.clear();
         return bench.passed(state, make_sun_depth(context, medium, majorants, which.to_sun,
                                                   SunDepthKind::kSwept, depth));
     };

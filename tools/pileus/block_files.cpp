@@ -46,7 +46,7 @@ Status render_blocks(const Scene& scene, const RenderOptions& options,
                      const BlockSettings& settings) {
     if (options.first_frame != options.last_frame)
         return Status::bad_input("--blocks: several frames, allowed: one, by --frames N");
-    if (!options.show.empty() || !options.state.empty())
+    if (!options.show.empty() || !options.budget.state.empty())
         return Status::bad_input("--blocks: together with --show or --state, allowed: without");
     BlockSums blocks;
     Scene pass = scene;

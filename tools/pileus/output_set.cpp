@@ -5,7 +5,7 @@
 #include "tools/pileus/output_set.h"
 
 #include "src/base/file.h"
-#include "src/io/text/report_json.h"
+#include "src/plan/report_json.h"
 #include "tools/pileus/command.h"
 
 namespace pileus {

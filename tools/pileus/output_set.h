@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "platform/new_file.h"
-#include "src/base/report.h"
 #include "src/base/status.h"
 #include "src/io/images/image_file.h"
+#include "src/plan/report.h"
 
 namespace pileus {
 

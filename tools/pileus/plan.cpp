@@ -6,7 +6,7 @@
 
 #include <memory>
 
-#include "src/io/text/report_json.h"
+#include "src/plan/report_json.h"
 #include "src/session/foretell.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
@@ -21,49 +21,51 @@ struct PlanArguments {
     bool json = false, exact = false, time = false;
 };
 
-std::string part_lines(const Report& report) {
+std::string part_lines(const Plan& plan) {
     std::string text = "needed\n";
-    for (const std::string& part : report.needed) text += fmt::format("  {}\n", part);
+    for (const std::string& part : plan.needed) text += fmt::format("  {}\n", part);
     text += "left out\n";
-    for (const ReportLeftOut& part : report.left_out)
+    for (const LeftOut& part : plan.left_out)
         text += fmt::format("  {}: {}\n", part.what, part.why);
     return text;
 }
 
-std::string memory_lines(const Report& report) {
+std::string memory_lines(const Plan& plan) {
     std::string text = fmt::format("memory ({}), and from which stage to which\n",
-                                   report.exact ? "exact" : "at most");
-    for (const ReportBytes& item : report.bytes)
+                                   plan.exact ? "exact" : "at most");
+    for (const MemoryRow& item : plan.memory.rows())
         text += fmt::format("  {:<28} {:>12}  {} to {}\n", item.item, bytes_text(item.bytes),
-                            item.first, item.last);
+                            stage_name(item.first), stage_name(item.last));
     std::string peak;
-    for (const ReportStage& stage : report.stage_bytes)
-        if (stage.bytes == report.total_bytes && peak.empty()) peak = stage.stage;
+    for (std::size_t s = 0; s < kStageCount && peak.empty(); ++s)
+        if (plan.runs(Stage(s)) && plan.memory.live(Stage(s)) == plan.memory.peak())
+            peak = stage_name(Stage(s));
     return text + fmt::format("  {:<28} {:>12}  {} bytes, in stage {}\n", "total at once",
-                              bytes_text(report.total_bytes), report.total_bytes, peak);
+                              bytes_text(plan.memory.peak()), plan.memory.peak(), peak);
 }
 
-std::string bound_lines(const Report& report) {
-    if (report.bounds.empty()) return "";
+std::string bound_lines(const Plan& plan) {
+    if (plan.bounds.empty()) return "";
     std::string text = "bounds of the sums, in whole numbers of 64 bits\n";
-    for (const ReportBound& b : report.bounds)
+    for (const SumBound& b : plan.bounds)
         text += fmt::format("  {:<28} {:.3g} addends x {:.3g} x 2^{} = {:.2g} < {:.2g}\n", b.sum,
                             b.addends, b.largest, b.places, b.worst, b.allowed);
     return text;
 }
 
-std::string accumulation_lines(const Report& report) {
-    if (report.accumulation.empty()) return "";
-    return fmt::format("accumulation of photons\n  {:<28} {}\n", report.accumulation,
-                       report.accumulation_why);
+std::string accumulation_lines(const Accumulation& accumulation) {
+    if (accumulation.kind.empty()) return "";
+    return fmt::format("accumulation of photons\n  {:<28} {}\n", accumulation.kind,
+                       accumulation.why);
 }
 
-std::string work_lines(const Report& report) {
-    const ReportWork& work = report.work;
+std::string work_lines(const Plan& plan) {
+    const WorkEstimate& work = plan.work;
     std::string text =
-        work.photons > 0 || work.of == "photons"
-            ? fmt::format("work, foretold\n  {:<28} {:.4g}\n", work.of, work.photons)
-            : fmt::format("work, foretold\n  {:<28} as the error or the time decides\n", work.of);
+        work.photons > 0 || plan.work_of == std::string("photons")
+            ? fmt::format("work, foretold\n  {:<28} {:.4g}\n", plan.work_of, work.photons)
+            : fmt::format("work, foretold\n  {:<28} as the error or the time decides\n",
+                          plan.work_of);
     if (!work.known)
         return text +
                fmt::format("  {:<28} shows once the values are read: --exact\n", "scatterings");
@@ -71,32 +73,31 @@ std::string work_lines(const Report& report) {
                               work.scatterings_per_photon, work.scatterings, work.law);
 }
 
-std::string limit_lines(const Report& report) {
+std::string limit_lines(const Plan& plan) {
     std::string text = "limits (--limit NAME=N)\n";
-    for (const ReportLimit& limit : report.limits)
+    for (const LimitUse& limit : plan.limits)
         text +=
-            fmt::format("  {:<28} {} of {}\n", limit.name,
+            fmt::format("  {:<28} {} of {}\n", limit_row(limit.id).name,
                         limit.known ? fmt::to_string(limit.needs) : "not known yet", limit.allowed);
     return text;
 }
 
-std::string time_lines(const Report& report) {
-    const ReportForetold& time = report.foretold;
+std::string time_lines(const ForetoldTime& time) {
     if (!(time.total_s > 0)) return "";
     std::string text =
         fmt::format("time on this machine\n  {:<28} about {:.3g} s\n", "in all", time.total_s);
-    if (time.next_frame_s > 0)
+    if (time.next_s > 0)
         text += fmt::format("  {:<28} about {:.3g} s\n  {:<28} about {:.3g} s\n", "first frame",
-                            time.first_frame_s, "each further frame", time.next_frame_s);
+                            time.first_s, "each further frame", time.next_s);
     return text;
 }
 
-std::string plan_lines(const Report& report) {
-    return part_lines(report) + memory_lines(report) + bound_lines(report) +
-           accumulation_lines(report) +
-           fmt::format("bias, where no noise is left\n  {:<28} {} ({})\n", report.bias_of,
-                       report.bias, report.bias_page) +
-           work_lines(report) + time_lines(report) + limit_lines(report);
+std::string plan_lines(const Plan& plan) {
+    return part_lines(plan) + memory_lines(plan) + bound_lines(plan) +
+           accumulation_lines(plan.accumulation) +
+           fmt::format("bias, where no noise is left\n  {:<28} {} ({})\n", plan.bias.method,
+                       plan.bias.size, plan.bias.page) +
+           work_lines(plan) + time_lines(plan.foretold) + limit_lines(plan);
 }
 
 Status run_plan(PlanArguments& arguments) {
@@ -115,9 +116,9 @@ Status run_plan(PlanArguments& arguments) {
     if (arguments.time) {
         ForetoldTime time;
         PILEUS_TRY(foretell_time(scene, options, time));
-        report.foretold = {time.total_s, time.first_s, time.next_s};
+        report.plan.foretold = time;
     }
-    return print(arguments.json ? plan_json(report) : plan_lines(report));
+    return print(arguments.json ? plan_json(report) : plan_lines(report.plan));
 }
 
 }  // namespace

@@ -40,14 +40,14 @@ constexpr std::int64_t kMostVerified = 1000000;
 
 Status read_state(const RenderArguments& arguments, RenderOptions& options) {
     constexpr double kMostSeconds = 1e9;
-    options.state = arguments.state.value_or("");
-    if (arguments.state && options.state.empty())
+    options.budget.state = arguments.state.value_or("");
+    if (arguments.state && options.budget.state.empty())
         return Status::bad_input("--state: no name, \"\", allowed: the name of a file");
     if (!arguments.state_every) return Status::ok();
     if (!arguments.state)
         return Status::bad_input("--state-every: without --state, allowed: both or neither");
     return read_number("--state-every", *arguments.state_every, 1e-3, kMostSeconds,
-                       options.state_every_s);
+                       options.budget.state_every_s);
 }
 
 /// -o takes all words up to the next option; a scene among them is no picture.
@@ -195,10 +195,11 @@ Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOpti
 /// What there is of a picture that the user did not let finish.
 std::string interrupted_line(int frame, bool numbered, const Report& report) {
     const std::string where = numbered ? fmt::format("frame {}: ", frame) : std::string();
-    if (report.samples_per_pixel > 0)
-        return fmt::format("{}interrupted: {} samples per pixel", where, report.samples_per_pixel);
-    return fmt::format("{}interrupted: {} generations, {} photons", where, report.generations,
-                       report.photons);
+    if (report.paths.samples_per_pixel > 0)
+        return fmt::format("{}interrupted: {} samples per pixel", where,
+                           report.paths.samples_per_pixel);
+    return fmt::format("{}interrupted: {} generations, {} photons", where,
+                       report.photons.generations, report.photons.traced);
 }
 
 /// Says each warning once, whatever frame has it; returns whether there are any.

@@ -10,8 +10,8 @@
 
 #include "src/base/file.h"
 #include "src/base/output_check.h"
-#include "src/io/text/report_json.h"
 #include "src/io/text/scene_files.h"
+#include "src/plan/report_json.h"
 #include "src/world/camera/places.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
@@ -69,7 +69,7 @@ Status check_outputs(const Outputs& outputs, const Scene& scene, const RenderOpt
     std::vector<std::string> all = outputs.files;
     all.insert(all.end(), outputs.world_files.begin(), outputs.world_files.end());
     if (!outputs.report.empty()) all.push_back(outputs.report);
-    if (!options.state.empty()) all.push_back(options.state);
+    if (!options.budget.state.empty()) all.push_back(options.budget.state);
     std::vector<std::string> sound;
     for (const std::string& name : all) {
         const Status status = name.empty() ? Status::ok() : check_file_name(name);
@@ -146,12 +146,12 @@ Status write_frame(const Outputs& outputs, const Scene& scene, int frame, Image&
         PILEUS_TRY(set.add_report(report, path));
         lines += fmt::format("{:16} {}\n", "report", path);
     }
-    if (report.verified_pixels > 0)
+    if (report.verify.pixels > 0)
         lines += fmt::format(
             "{:16} bias {:+.2f} % with a standard error of {:.2f} %, relMSE {:.2g}, over "
             "{} pixels\n",
-            "verify", 100 * report.verify_bias, 100 * report.verify_standard_error,
-            report.verify_relmse, report.verified_pixels);
+            "verify", 100 * report.verify.bias, 100 * report.verify.standard_error,
+            report.verify.relmse, report.verify.pixels);
     if (outputs.report_printed) lines = report_json(report);
     if (outputs.nothing && image.pixel_hash == outputs.hashes.at(0))
         lines += fmt::format("{} {}\n", image.pixel_hash, scene.file);

@@ -33,17 +33,17 @@ Status read_budget(const std::string& text, RenderOptions& options) {
     const std::string kind = text.substr(0, equals);
     const std::string amount = equals == std::string::npos ? "" : text.substr(equals + 1);
     if (kind == "photons")
-        return read_integer("--budget photons", amount, 0, kMost, options.budget_photons);
+        return read_integer("--budget photons", amount, 0, kMost, options.budget.photons);
     if (kind == "seconds")
-        return read_number("--budget seconds", amount, 1e-3, kMostSeconds, options.budget_seconds);
+        return read_number("--budget seconds", amount, 1e-3, kMostSeconds, options.budget.seconds);
     if (kind == "generations")
-        return read_integer("--budget generations", amount, 1, kMost, options.budget_generations);
+        return read_integer("--budget generations", amount, 1, kMost, options.budget.generations);
     if (kind == "samples")
-        return read_integer("--budget samples", amount, 1, kMostSamples, options.budget_samples);
+        return read_integer("--budget samples", amount, 1, kMostSamples, options.budget.samples);
     if (kind == "error")
-        return read_number("--budget error", amount, 1e-6, 1, options.budget_error);
+        return read_number("--budget error", amount, 1e-6, 1, options.budget.error);
     if (kind == "steps")
-        return read_integer("--budget steps", amount, 0, kMostSteps, options.budget_steps);
+        return read_integer("--budget steps", amount, 0, kMostSteps, options.budget.steps);
     return Status::bad_input(
         "--budget: unknown kind, " + quote_text(text) +
         ", allowed: photons=N, generations=N, samples=N, steps=N, error=E, seconds=S");

@@ -264,7 +264,7 @@ int main(int argc, char** argv) {
     std::vector<double> times;
     CloudStats sum;
     const double first = fast.fly(a, 0, picture, false);
-    fast.session.report().stages.clear();
+    fast.session.report().clocks.stages.clear();
     std::printf("%d clouds, %s, %d x %d; kinds %.2f s, first frame %.2f s, %u groups lit\n",
                 a.clouds, a.method.c_str(), a.size[0], a.size[1], wall_seconds() - start - first,
                 first, fast.clouds.stats().lit);
@@ -286,7 +286,7 @@ int main(int argc, char** argv) {
         1000 * double(std::clock() - cpu) / CLOCKS_PER_SEC / n, sum.visible / n, sum.marched / n,
         double(sum.marched_pixels) / n, sum.captured / n, double(sum.captured_pixels) / n,
         sum.worst_px);
-    for (const StageTime& stage : fast.session.report().stages)
+    for (const StageTime& stage : fast.session.report().clocks.stages)
         std::printf("  %-18s wall %7.2f CPU %7.2f ms a frame\n", stage.name.c_str(),
                     1000 * stage.wall_s / n, 1000 * stage.cpu_s / n);
     if (a.compared == 0) return 0;

@@ -148,7 +148,7 @@ private:
         options.threads = threads_;
         t = Times{};
         return render(scene, options, [&](int, Image& image, Report& report) {
-            for (const StageTime& s : report.stages) {
+            for (const StageTime& s : report.clocks.stages) {
                 const std::string name = s.name;
                 if (name == "octree") t.tree_s += s.wall_s;
                 if (name == "light") t.light_s += s.wall_s;

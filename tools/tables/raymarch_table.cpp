@@ -110,7 +110,7 @@ Status measure(const std::string& file, std::vector<std::string> set, const Sett
     for (int i = 0; i < kRepeats; ++i)
         PILEUS_TRY(render(scene, {}, [&](int, Image&, Report& report) {
             Measured m;
-            for (const StageTime& s : report.stages)
+            for (const StageTime& s : report.clocks.stages)
                 if (each_frame(s.name)) m.wall_ms += 1000 * s.wall_s, m.cpu_ms += 1000 * s.cpu_s;
             for (const auto& [name, count] : report.executed)
                 if (name == "ray_samples" || name == "light_samples") m.samples += double(count);

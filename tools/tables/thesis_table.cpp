@@ -40,7 +40,7 @@ constexpr Row kRows[] = {
 };
 
 double stage_ms(const Report& report, const char* name) {
-    for (const StageTime& s : report.stages)
+    for (const StageTime& s : report.clocks.stages)
         if (s.name == name) return 1000 * s.wall_s;
     return 0;
 }
@@ -66,18 +66,19 @@ Status measure(const char* scene_file, const Row& row, const std::vector<std::st
     RenderOptions options;
     options.threads = threads;
     return render(scene, options, [&](int, Image&, Report& report) {
-        m.collectors = report.collectors;
+        m.collectors = report.prepared.collectors;
         m.t1a = stage_ms(report, "gradient");
         m.t1b = stage_ms(report, "samples");
         m.t1c = stage_ms(report, "tree");
         m.t1d = stage_ms(report, "majorants");
         m.t_sum = m.t1a + m.t1b + m.t1c + m.t1d;
-        m.t2a = 1000 * report.tracing_wall_s / double(row.generations);
-        const double photons = double(report.photons), scatterings = double(report.scatterings);
-        m.t2a_million = 1000 * report.tracing_wall_s * 1e6 / photons;
+        m.t2a = 1000 * report.clocks.tracing_wall_s / double(row.generations);
+        const double photons = double(report.photons.traced),
+                     scatterings = double(report.events.scatterings);
+        m.t2a_million = 1000 * report.clocks.tracing_wall_s * 1e6 / photons;
         m.scatterings_per_photon = scatterings / photons;
-        m.tentative_per_scattering = double(report.tentative) / scatterings;
-        m.cpu_ns_per_scattering = 1e9 * report.tracing_cpu_s / scatterings;
+        m.tentative_per_scattering = double(report.events.tentative) / scatterings;
+        m.cpu_ns_per_scattering = 1e9 * report.clocks.tracing_cpu_s / scatterings;
         m.picture = stage_ms(report, "reconstruct") + stage_ms(report, "background") +
                     stage_ms(report, "blend");
         return Status::ok();

@@ -28,9 +28,9 @@ Status take(const std::string& file, std::vector<std::string> set, Picture& out)
     PILEUS_TRY(read_scene_file(file, set, scene));
     return render(scene, {}, [&](int, Image& image, Report& report) {
         out.image = std::move(image);
-        out.tracing_cpu_s = report.tracing_cpu_s;
-        out.total_cpu_s = report.cpu_s;
-        out.collectors = report.collectors;
+        out.tracing_cpu_s = report.clocks.tracing_cpu_s;
+        out.total_cpu_s = report.clocks.cpu_s;
+        out.collectors = report.prepared.collectors;
         return Status::ok();
     });
 }

@@ -43,7 +43,7 @@ struct Measured {
 };
 
 double stage_s(const Report& report, const char* name) {
-    for (const StageTime& s : report.stages)
+    for (const StageTime& s : report.clocks.stages)
         if (s.name == name) return s.wall_s;
     return 0;
 }
@@ -56,8 +56,8 @@ Status measure(const char* file, const Settings& set, int threads, const std::st
     options.threads = threads;
     return render(scene, options, [&](int, Image& image, Report& report) {
         const bool photons = scene.method == "photon-grid";
-        m.light_s = photons ? report.tracing_wall_s : stage_s(report, "shadow");
-        m.cpu_s = report.tracing_cpu_s;
+        m.light_s = photons ? report.clocks.tracing_wall_s : stage_s(report, "shadow");
+        m.cpu_s = report.clocks.tracing_cpu_s;
         m.show_s = stage_s(report, "reconstruct") + stage_s(report, "march");
         return write_image(image, picture, {});
     });

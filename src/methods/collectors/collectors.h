@@ -102,13 +102,14 @@ BiasNote collectors_bias(const CollectorSettings& settings);
 /// them against the limits; part of outlining and preparing.
 Status collectors_measure(const Context& context, CollectorsRun& run);
 
-/// Fills the report's plan.
-void collectors_report_plan(const CollectorsRun& run, const Context& context, Report& report);
+/// Of a plan that is complete but for its limits.
+void collectors_note_limits(const Context& context, CollectorsRun& run);
 
 /// Digests what no frame changes; part of `collectors_prepare`.
 void collectors_digest_prepared(CollectorsRun& run);
 
-/// Fills the report's energy, counters and digests from the run.
+void collectors_count(const CollectorsRun& run, Counts& counters);
+/// Fills the report's energy, counts and digests from the run.
 void collectors_report(const CollectorsRun& run, Report& report);
 
 }  // namespace pileus

@@ -85,34 +85,15 @@ Status collectors_measure(const Context& context, CollectorsRun& run) {
     run.plan.skip(Stage::kPaths);
     run.plan.work = estimate_work(medium_work(run.world->medium, run.world->source.mean_density,
                                               double(run.max_events), double(photons)));
+    collectors_note_limits(context, run);
     return check_work(run.plan.work, context.limits, run.scene->file);
 }
 
-namespace {
-
-void report_limits(const CollectorsRun& run, const Context& context, Report& report) {
-    const Scene& scene = *run.scene;
-    const auto& size = scene.camera.resolution;
-    const WorkEstimate& work = run.plan.work;
-    const auto add = [&](LimitId id, std::uint64_t needs, bool known = true) {
-        report.limits.push_back(limit_of(context.limits, id, needs, known));
-    };
-    report.limits.clear();
-    add(LimitId::kVoxels, voxel_count(run.world->medium.grid));
-    add(LimitId::kSamples, std::uint64_t(scene.collectors.samples));
-    add(LimitId::kPhotons, whole(work.photons));
-    add(LimitId::kPixels, std::uint64_t(size[0]) * std::uint64_t(size[1]));
-    add(LimitId::kFrames, scene.animation.present ? std::uint64_t(scene.animation.frames) : 1);
-    add(LimitId::kMemory, run.plan.memory.peak());
-    add(LimitId::kScatterings, whole(work.scatterings_per_photon), work.known);
-    add(LimitId::kWork, whole(work.scatterings), work.known);
-}
-
-}  // namespace
-
-void collectors_report_plan(const CollectorsRun& run, const Context& context, Report& report) {
-    report_plan(run.plan, report);
-    report_limits(run, context, report);
+void collectors_note_limits(const Context& context, CollectorsRun& run) {
+    note_limits(*run.scene, run.world->medium.grid, context.limits,
+                {LimitId::kVoxels, LimitId::kSamples, LimitId::kPhotons, LimitId::kPixels,
+                 LimitId::kFrames, LimitId::kMemory, LimitId::kScatterings, LimitId::kWork},
+                run.plan);
 }
 
 }  // namespace pileus

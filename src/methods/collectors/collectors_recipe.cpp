@@ -41,10 +41,6 @@ Status prepare(const Context& context, MethodRun& run) {
     return collectors_prepare(context, own(run));
 }
 
-void report_the_plan(const MethodRun& run, const Context& context, Report& report) {
-    collectors_report_plan(own(run), context, report);
-}
-
 Status light(const FrameStep& step, const Context& context, MethodRun& run) {
     return collectors_light(step, context, own(run));
 }
@@ -55,6 +51,8 @@ Status show(const FrameStep& step, const Context& context, MethodRun& run, Image
     collectors.turn = collectors.frame = step.frame;
     return collectors_show(orbit_at(*collectors.scene, step.frame), context, collectors, image);
 }
+
+void count(const MethodRun& run, Counts& counters) { collectors_count(own(run), counters); }
 
 void report(const MethodRun& run, Report& out) { collectors_report(own(run), out); }
 
@@ -108,17 +106,9 @@ Status compose(const FrameStep& step, const Context& context, MethodRun& method_
 
 const Method& collectors_method() {
     static constexpr LiveMethod live{aim, advance, units, compose, take_photon_work, most_units};
-    static constexpr Method method{"collectors",
-                                   WorldUse::kGrid,
-                                   make,
-                                   kept(kChecks, check),
-                                   outline,
-                                   prepare,
-                                   kept(kPlans, report_the_plan),
-                                   kept(kFilms, light),
-                                   kept(kFilms, show),
-                                   report,
-                                   &live};
+    static constexpr Method method{
+        "collectors",        WorldUse::kGrid,    make,  kept(kChecks, check), outline, prepare,
+        kept(kFilms, light), kept(kFilms, show), count, kept(kPlans, report), &live};
     return method;
 }
 

@@ -44,13 +44,16 @@ void collectors_digest_prepared(CollectorsRun& run) {
                    {"collectors", collector_digest(run)}};
 }
 
+void collectors_count(const CollectorsRun& run, Counts& counters) {
+    count_photons(run, counters);
+    counters.emplace_back("samples_given_up", run.prepared.rejected);
+}
+
 void collectors_report(const CollectorsRun& run, Report& report) {
-    report.samples = run.prepared.samples;
-    report.leaves = run.prepared.leaves.size();
-    report.collectors = run.prepared.collectors.size();
+    report.prepared.samples = run.prepared.samples;
+    report.prepared.leaves = run.prepared.leaves.size();
+    report.prepared.collectors = run.prepared.collectors.size();
     report_photons(run, report);
-    report.counters.emplace_back("samples_given_up", run.prepared.rejected);
-    if (!kPlans) return;
     report.executed.emplace_back("coefficients", coefficients_of(run));
     if (run.digests.empty()) return;
     report.digests.insert(report.digests.begin(), {"photons", photon_digest(run.photons)});

@@ -101,21 +101,6 @@ Status prepare(const Context& context, MethodRun& method_run) {
     return plan_particles(context, run);
 }
 
-void report_the_plan(const MethodRun& method_run, const Context& context, Report& report) {
-    const ParticlesRun& run = static_cast<const ParticlesRun&>(method_run);
-    report_plan(run.plan, report);
-    report.limits.clear();
-    const auto add = [&](LimitId id, std::uint64_t needs) {
-        report.limits.push_back(limit_of(context.limits, id, needs));
-    };
-    const Scene& scene = *run.scene;
-    add(LimitId::kVoxels, voxel_count(run.world->medium.grid));
-    add(LimitId::kPixels,
-        std::uint64_t(scene.camera.resolution[0]) * std::uint64_t(scene.camera.resolution[1]));
-    add(LimitId::kFrames, scene.animation.present ? std::uint64_t(scene.animation.frames) : 1);
-    add(LimitId::kMemory, run.plan.memory.peak());
-}
-
 Status fill_background(const Context& context, ParticlesRun& run) {
     const StageClock clock(context, "background");
     const BackgroundParams k = background_params(make_medium_view(run.world->medium, run.majorants),
@@ -210,9 +195,12 @@ Status most_units(const FrameWork&, const MethodRun&, FrameUnits&) {
 
 constexpr LiveMethod kLive{aim, advance, units, compose, nullptr, most_units};
 
+void count(const MethodRun&, Counts& counters) {
+    counters.emplace_back("majorant_violations", 0);  // the grid only casts shadows
+}
+
 void report_run(const MethodRun& method_run, Report& report) {
     const ParticlesRun& run = static_cast<const ParticlesRun&>(method_run);
-    report.counters.emplace_back("majorant_violations", 0);  // the grid only casts shadows
     report.executed.emplace_back("particles", run.particles);
     report.executed.emplace_back("octree_nodes", std::uint64_t(run.tree.count()));
     report.executed.emplace_back("octree_leaves", run.tree.leaves);
@@ -239,10 +227,10 @@ const Method& particles_method() {
                                    kept(kChecks, check),
                                    outline,
                                    prepare,
-                                   kept(kPlans, report_the_plan),
                                    kept(kFilms, light),
                                    kept(kFilms, show),
-                                   report_run,
+                                   count,
+                                   kept(kPlans, report_run),
                                    &kLive};
     return method;
 }

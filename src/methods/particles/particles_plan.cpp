@@ -182,6 +182,8 @@ Status plan_particles(const Context& context, ParticlesRun& run) {
     if (!kPlans) return Status::ok();
     note_plan(run);
     weigh_memory(context, run);
+    note_limits(*run.scene, run.world->medium.grid, context.limits,
+                {LimitId::kVoxels, LimitId::kPixels, LimitId::kFrames, LimitId::kMemory}, run.plan);
     return check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), run.scene->file);
 }
 

@@ -156,10 +156,10 @@ const Method& path_method() {
                                    kept(kChecks, check),
                                    outline,
                                    prepare,
-                                   kept(kPlans, path_report_plan),
                                    kept(kFilms, light),
                                    kept(kFilms, path_show),
-                                   path_report,
+                                   path_count,
+                                   kept(kPlans, path_report),
                                    &live};
     return method;
 }

@@ -44,7 +44,6 @@ bool path_parts(const OutputSettings& output);
 /// Notes what runs and what is left out, and weighs memory and work, as bounds or exactly by what
 /// the run holds. kLimit: more than the limits allow.
 Status path_measure(const Context& context, PathRun& run);
-void path_report_plan(const MethodRun& run, const Context& context, Report& report);
 
 /// Traces a frame's film until its budget is met or the user wants an end. Errors: those of the
 /// state file; kCheckFailed: interrupted before the first sample of every pixel.
@@ -84,6 +83,7 @@ ErrorSum path_error(const PathRun& run);
 
 /// The film as an image; frees it.
 Status path_show(const FrameStep& step, const Context& context, MethodRun& run, Image& image);
+void path_count(const MethodRun& run, Counts& counters);
 void path_report(const MethodRun& run, Report& report);
 
 }  // namespace pileus

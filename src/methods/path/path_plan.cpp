@@ -186,24 +186,11 @@ Status path_measure(const Context& context, PathRun& run) {
     run.plan.work_of = "paths";
     run.plan.work = estimate_work(
         medium_work(run.world->medium, run.world->source.mean_density, double(1u << 24), paths));
+    note_limits(*run.scene, run.world->medium.grid, context.limits,
+                {LimitId::kVoxels, LimitId::kPixels, LimitId::kFrames, LimitId::kMemory,
+                 LimitId::kScatterings, LimitId::kWork},
+                run.plan);
     return check_work(run.plan.work, context.limits, run.scene->file);
-}
-
-void path_report_plan(const MethodRun& method_run, const Context& context, Report& report) {
-    const PathRun& run = static_cast<const PathRun&>(method_run);
-    const WorkEstimate& work = run.plan.work;
-    report_plan(run.plan, report);
-    report.limits.clear();
-    const auto add = [&](LimitId id, std::uint64_t needs, bool known = true) {
-        report.limits.push_back(limit_of(context.limits, id, needs, known));
-    };
-    const Animation& animation = run.scene->animation;
-    add(LimitId::kVoxels, voxel_count(run.world->medium.grid));
-    add(LimitId::kPixels, pixels_of(*run.scene));
-    add(LimitId::kFrames, animation.present ? std::uint64_t(animation.frames) : 1);
-    add(LimitId::kMemory, run.plan.memory.peak());
-    add(LimitId::kScatterings, whole(work.scatterings_per_photon), work.known);
-    add(LimitId::kWork, whole(work.scatterings), work.known);
 }
 
 }  // namespace pileus

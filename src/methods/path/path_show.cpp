@@ -59,10 +59,10 @@ std::string film_digest(const Film& film) {
 void report_error(const PathRun& run, Report& report) {
     const ErrorSum sum = path_error(run);
     // The film's scatter is not what is left of it in a filtered picture.
-    report.has_error = run.film.samples >= 2 && sum.count > 0 && !path_filters(*run.scene);
-    if (!report.has_error) return;
-    report.mean_relative = sum.mean_relative();
-    report.rmse_estimate = __builtin_sqrt(sum.square / sum.count);
+    report.errors.known = run.film.samples >= 2 && sum.count > 0 && !path_filters(*run.scene);
+    if (!report.errors.known) return;
+    report.errors.mean_relative = sum.mean_relative();
+    report.errors.rmse_estimate = __builtin_sqrt(sum.square / sum.count);
 }
 
 }  // namespace
@@ -109,26 +109,38 @@ Status path_show(const FrameStep&, const Context& context, MethodRun& method_run
     return Status::ok();
 }
 
-void path_report(const MethodRun& method_run, Report& report) {
-    const PathRun& run = static_cast<const PathRun&>(method_run);
+namespace {
+
+PathTally tally_of(const PathRun& run) {
     PathTally all = run.tally;
     add_tally(run.film.tally, all);
-    report.counters.emplace_back("majorant_violations", std::uint64_t(all.majorant_violations));
-    report.counters.emplace_back("saturated", 0);  // sums are doubles
-    report.counters.emplace_back("terminated", std::uint64_t(all.terminated));
-    report.counters.emplace_back("nan_samples", std::uint64_t(all.nan));
-    if (!kPlans) return;
+    return all;
+}
+
+}  // namespace
+
+void path_count(const MethodRun& method_run, Counts& counters) {
+    const PathTally all = tally_of(static_cast<const PathRun&>(method_run));
+    counters.emplace_back("majorant_violations", std::uint64_t(all.majorant_violations));
+    counters.emplace_back("saturated", 0);  // sums are doubles
+    counters.emplace_back("terminated", std::uint64_t(all.terminated));
+    counters.emplace_back("nan_samples", std::uint64_t(all.nan));
+}
+
+void path_report(const MethodRun& method_run, Report& report) {
+    const PathRun& run = static_cast<const PathRun&>(method_run);
+    const PathTally all = tally_of(run);
     report.interrupted = run.interrupted;
-    report.samples_per_pixel = run.film.samples;
-    report.ahead_pixels = run.film.ahead;
-    report.ahead_samples = run.film.ahead > 0 ? run.film.ahead_samples : 0;
-    report.paths = std::uint64_t(all.paths);
-    report.scatterings = std::uint64_t(all.scatterings);
-    report.tentative = std::uint64_t(all.tentative);
-    report.crossings = std::uint64_t(all.crossings);
-    report.shadow_rays = std::uint64_t(all.shadow_rays);
-    report.earlier_paths = std::uint64_t(run.earlier.paths);
-    report.earlier_scatterings = std::uint64_t(run.earlier.scatterings);
+    report.paths.samples_per_pixel = run.film.samples;
+    report.paths.ahead_pixels = run.film.ahead;
+    report.paths.ahead_samples = run.film.ahead > 0 ? run.film.ahead_samples : 0;
+    report.paths.traced = std::uint64_t(all.paths);
+    report.events.scatterings = std::uint64_t(all.scatterings);
+    report.events.tentative = std::uint64_t(all.tentative);
+    report.events.crossings = std::uint64_t(all.crossings);
+    report.paths.shadow_rays = std::uint64_t(all.shadow_rays);
+    report.paths.earlier = std::uint64_t(run.earlier.paths);
+    report.paths.earlier_scatterings = std::uint64_t(run.earlier.scatterings);
     report.executed.emplace_back("ground_bounces", std::uint64_t(all.bounces));
     report.executed.emplace_back("shadow_rays", std::uint64_t(all.shadow_rays));
 }

@@ -86,8 +86,7 @@ const Method* photon_grid_views(int& count);
 /// Shoots what a frame needs. kCheckFailed: interrupted before there was anything to show.
 Status photon_grid_light(const FrameStep& step, const Context& context, PhotonGridRun& run);
 
-/// Fills the report's plan and what the run has done.
-void photon_grid_report_plan(const PhotonGridRun& run, const Context& context, Report& report);
+/// Fills in what the run has done.
 void photon_grid_report(const PhotonGridRun& run, Report& report);
 
 }  // namespace pileus

@@ -136,25 +136,11 @@ Status photon_grid_measure(const Context& context, PhotonGridRun& run) {
     const bool open = run.budget.seconds > 0;
     run.plan.work = estimate_work(medium_work(run.world->medium, run.world->source.mean_density,
                                               double(run.max_events), open ? 0 : double(photons)));
+    note_limits(*run.scene, run.world->medium.grid, context.limits,
+                {LimitId::kVoxels, LimitId::kPhotons, LimitId::kPixels, LimitId::kFrames,
+                 LimitId::kMemory, LimitId::kScatterings, LimitId::kWork},
+                run.plan);
     return check_work(run.plan.work, context.limits, run.scene->file);
-}
-
-void photon_grid_report_plan(const PhotonGridRun& run, const Context& context, Report& report) {
-    const auto& size = run.scene->camera.resolution;
-    const WorkEstimate& work = run.plan.work;
-    const Animation& animation = run.scene->animation;
-    report_plan(run.plan, report);
-    report.limits.clear();
-    const auto add = [&](LimitId id, Size needs, bool known = true) {
-        report.limits.push_back(limit_of(context.limits, id, needs, known));
-    };
-    add(LimitId::kVoxels, voxel_count(run.world->medium.grid));
-    add(LimitId::kPhotons, whole(work.photons));
-    add(LimitId::kPixels, Size(size[0]) * Size(size[1]));
-    add(LimitId::kFrames, animation.present ? Size(animation.frames) : 1);
-    add(LimitId::kMemory, run.plan.memory.peak());
-    add(LimitId::kScatterings, whole(work.scatterings_per_photon), work.known);
-    add(LimitId::kWork, whole(work.scatterings), work.known);
 }
 
 }  // namespace pileus

@@ -75,10 +75,6 @@ Status prepare(const Context& context, MethodRun& run) {
     return photon_grid_prepare(context, own(run));
 }
 
-void report_the_plan(const MethodRun& run, const Context& context, Report& report) {
-    photon_grid_report_plan(own(run), context, report);
-}
-
 Status light(const FrameStep& step, const Context& context, MethodRun& run) {
     return photon_grid_light(step, context, own(run));
 }
@@ -92,6 +88,8 @@ Status show(const FrameStep& step, const Context& context, MethodRun& method_run
     run.turn = run.frame = step.frame;
     return photon_grid_show(orbit_at(*run.scene, step.frame), context, run, image);
 }
+
+void count(const MethodRun& run, Counts& counters) { count_photons(own(run), counters); }
 
 void report(const MethodRun& run, Report& out) { photon_grid_report(own(run), out); }
 
@@ -111,8 +109,8 @@ Status outline_slices(const Context& context, MethodRun& run) {
 
 template <GridSlices kWhat>
 constexpr Method slices(const char* name) {
-    return {name,  WorldUse::kGrid,    make,   check,   outline_slices, prepare, report_the_plan,
-            light, show_slices<kWhat>, report, nullptr, false};
+    return {name,  WorldUse::kGrid,    make,  check,  outline_slices, prepare,
+            light, show_slices<kWhat>, count, report, nullptr,        false};
 }
 
 /// The ring follows a light that has moved; one sum begins anew.
@@ -196,17 +194,9 @@ const Method* photon_grid_views(int& count) {
 
 const Method& photon_grid_method() {
     static constexpr LiveMethod live{aim, advance, units, compose, take_photon_work, most_units};
-    static constexpr Method method{"photon-grid",
-                                   WorldUse::kGrid,
-                                   make,
-                                   kept(kChecks, check),
-                                   outline,
-                                   prepare,
-                                   kept(kPlans, report_the_plan),
-                                   kept(kFilms, light),
-                                   kept(kFilms, show),
-                                   report,
-                                   &live};
+    static constexpr Method method{
+        "photon-grid",       WorldUse::kGrid,    make,  kept(kChecks, check), outline, prepare,
+        kept(kFilms, light), kept(kFilms, show), count, kept(kPlans, report), &live};
     return method;
 }
 

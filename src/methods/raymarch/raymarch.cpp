@@ -39,10 +39,10 @@ const Method& raymarch_method() {
                                    kept(kChecks, check),
                                    outline,
                                    march_prepare,
-                                   kept(kPlans, march_report_plan),
                                    kept(kFilms, march_light),
                                    kept(kFilms, march_show),
-                                   march_report,
+                                   march_count,
+                                   kept(kPlans, march_report),
                                    &live_march};
     return method;
 }

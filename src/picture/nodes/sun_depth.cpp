@@ -150,7 +150,7 @@ Status follow_sun_depth(const Context& context, const Medium& medium, const Majo
 
 Status sun_depth_difference(const Context& context, const Medium& medium,
                             const Majorants& majorants, const std::array<float, 3>& to_sun,
-                            const SunDepth& depth, std::uint64_t wanted, SunDepthDifference& out) {
+                            const SunDepth& depth, std::uint64_t wanted, SweepCheck& out) {
     const StageClock clock(context, "shadow difference");
     const SparseNodes sparse = sparse_nodes(depth.nodes, wanted);
     Buffer<float> rays;

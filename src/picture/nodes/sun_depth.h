@@ -48,16 +48,9 @@ Status follow_sun_depth(const Context& context, const Medium& medium, const Majo
 /// Nodes that such a depth has.
 NodeGrid sun_depth_nodes(const Medium& medium);
 
-/// How far a depth is from that of rays, over a sparse regular set of its nodes.
-struct SunDepthDifference {
-    std::uint64_t nodes = 0;      ///< compared
-    double rms = 0, largest = 0;  ///< of the transmittance exp(-depth)
-    double mean = 0;              ///< the same, ours minus that of rays: above 0 is too bright
-};
-
-/// Compares at about `wanted` nodes, a ray each. kLimit: out of memory.
+/// Compares with rays at about `wanted` nodes. kLimit: out of memory.
 Status sun_depth_difference(const Context& context, const Medium& medium,
                             const Majorants& majorants, const std::array<float, 3>& to_sun,
-                            const SunDepth& depth, std::uint64_t wanted, SunDepthDifference& out);
+                            const SunDepth& depth, std::uint64_t wanted, SweepCheck& out);
 
 }  // namespace pileus

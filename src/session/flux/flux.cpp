@@ -138,7 +138,7 @@ Status measure_flux(const Scene& scene, const RenderOptions& options, const Flux
     Context context;
     PILEUS_TRY(make_context(own, options, context, report));
     const Method& method = path_method();
-    Budget budget = budget_of(options);
+    Budget budget = options.budget;
     PILEUS_TRY(check_settings(settings, own, budget));
     const bool photons = settings.method == FluxMethod::kPhotons;
     const std::int64_t wanted = budget.photons >= 0 ? budget.photons : kUsualPhotons;
@@ -170,7 +170,7 @@ Status measure_flux(const Scene& scene, const RenderOptions& options, const Flux
             std::uint64_t(budget.samples > 0 ? budget.samples : own.path.samples_per_pixel);
         PILEUS_TRY(flux_by_paths(task, out.samples, out, maps));
     }
-    take_clocks(report);
+    take_clocks(report.clocks);
     return Status::ok();
 }
 

@@ -225,8 +225,8 @@ Status flux_by_photons(const FluxTask& task, std::int64_t photons, FluxResult& o
     out.batches = kFluxBatches;
     if (all.light.emitted[0] > 0)
         out.terminated = double(all.light.terminated[0]) / double(all.light.emitted[0]);
-    report.photons = out.photons;
-    report.generations = kFluxBatches;
+    report.photons.traced = out.photons;
+    report.photons.generations = kFluxBatches;
     report.counters.emplace_back("majorant_violations", std::uint64_t(all.majorant_violations));
     return Status::ok();
 }

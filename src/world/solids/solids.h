@@ -4,8 +4,8 @@
 #pragma once
 #include "kernels_cpu/solids/solids_params.h"
 #include "src/base/buffer.h"
-#include "src/base/report.h"
 #include "src/plan/plan.h"
+#include "src/plan/report.h"
 #include "src/run/context.h"
 #include "src/scene/scene.h"
 

@@ -104,7 +104,14 @@ Status collectors_view_prepare(const Context& context, ViewRun& out) {
     PILEUS_TRY(collectors_weigh(context, out));
     PILEUS_TRY(prepare_step(out.view, context, out));
     note_plan(out);
+    collectors_note_limits(context, out);
     return Status::ok();
+}
+
+void collectors_view_count(const ViewRun& out, Counts& counters) {
+    if (out.view == View::kIllumination) return collectors_count(out, counters);
+    const bool drawn = out.view == View::kSamples;
+    counters.emplace_back("samples_given_up", drawn ? out.samples.given_up : out.prepared.rejected);
 }
 
 void collectors_view_report(const ViewRun& out, Report& report) {
@@ -114,11 +121,9 @@ void collectors_view_report(const ViewRun& out, Report& report) {
         return;
     }
     const bool drawn = out.view == View::kSamples;
-    report.samples = drawn ? out.samples.samples.size() : run.prepared.samples;
-    report.leaves = run.prepared.leaves.size();
-    report.collectors = run.prepared.collectors.size();
-    report.counters.emplace_back("samples_given_up",
-                                 drawn ? out.samples.given_up : run.prepared.rejected);
+    report.prepared.samples = drawn ? out.samples.samples.size() : run.prepared.samples;
+    report.prepared.leaves = run.prepared.leaves.size();
+    report.prepared.collectors = run.prepared.collectors.size();
     Digest density;
     density.floats(run.world->medium.volume.density.span());
     report.digests.emplace(report.digests.begin(), "density", density.hex());

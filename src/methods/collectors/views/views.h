@@ -51,7 +51,8 @@ Status collectors_view_prepare(const Context& context, ViewRun& out);
 /// (density, gradient 1/m, or variance).
 Status collectors_view_show(double orbit_deg, const Context& context, ViewRun& run, Image& image);
 
-/// Fills the report: what was counted.
+void collectors_view_count(const ViewRun& run, Counts& counters);
+/// Fills the report: what was prepared and traced.
 void collectors_view_report(const ViewRun& run, Report& report);
 
 }  // namespace pileus

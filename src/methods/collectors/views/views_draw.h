@@ -17,7 +17,7 @@ struct Drawing {
     CameraParams camera;
     Canvas canvas;
     Buffer<float> value;  ///< [pixel], where a field is shown
-    std::vector<std::pair<std::string, std::uint64_t>> counters;
+    Counts counters;
 
     float pixels(double at_540_rows) const {
         return float(at_540_rows * camera.height / kMarkRows);

@@ -27,10 +27,6 @@ Status prepare(const Context& context, MethodRun& run) {
     return collectors_view_prepare(context, own(run));
 }
 
-void report_plan(const MethodRun& run, const Context& context, Report& report) {
-    collectors_report_plan(own(run), context, report);
-}
-
 /// Only the light of collectors needs photons that stay.
 Status light(const FrameStep& step, const Context& context, MethodRun& run) {
     if (own(run).view != View::kIllumination) return Status::ok();
@@ -41,12 +37,15 @@ Status show(const FrameStep& step, const Context& context, MethodRun& run, Image
     return collectors_view_show(orbit_at(own(run).shown, step.frame), context, own(run), image);
 }
 
+void count(const MethodRun& run, Counts& counters) { collectors_view_count(own(run), counters); }
+
 void report(const MethodRun& run, Report& out) { collectors_view_report(own(run), out); }
 
 template <View kView>
 constexpr Method recipe(const char* name) {
-    return {name,        WorldUse::kGrid, make<kView>, check,  outline, prepare,
-            report_plan, light,           show,        report, nullptr, view_is_light(kView)};
+    return {name,    WorldUse::kGrid, make<kView>, check,
+            outline, prepare,         light,       show,
+            count,   report,          nullptr,     view_is_light(kView)};
 }
 
 }  // namespace

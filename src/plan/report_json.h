@@ -5,8 +5,8 @@
 #pragma once
 #include <string>
 
-#include "src/base/report.h"
 #include "src/base/status.h"
+#include "src/plan/report.h"
 
 namespace pileus {
 
