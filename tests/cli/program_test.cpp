@@ -55,10 +55,10 @@ TEST_CASE("program: wrong usage is one line and exit 2") {
     const Fault faults[] = {
         {"", 2,
          "no subcommand, allowed: render, plan, view, follow, flux, compare, study, hash, info, "
-         "convert"},
+         "methods, convert"},
         {"paint s.toml", 2,
          "unknown subcommand, \"paint\", allowed: render, plan, view, follow, flux, compare, "
-         "study, hash, info, convert"},
+         "study, hash, info, methods, convert"},
         {"--loud render s.toml", 2, "unknown option before the subcommand, \"--loud\""},
         {"compare a.exr b.exr", 2, "a.exr: cannot read: no such file"},
         {"convert a.exr b.png", 2, "b.png: extension: unknown, \".png\", allowed: .raw .vdb"},

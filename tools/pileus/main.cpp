@@ -31,7 +31,7 @@ Status print(const std::string& text) {
 namespace {
 
 constexpr const char* kCommands =
-    "render, plan, view, follow, flux, compare, study, hash, info, convert, pack";
+    "render, plan, view, follow, flux, compare, study, hash, info, methods, convert, pack";
 
 /// Says nothing for Code::kOk without a message.
 int finish(const Status& status) {
@@ -65,7 +65,7 @@ Status check_command(int count, char** words) {
         return Status::bad_input("pileus: unknown option before the subcommand, " +
                                  quote_text(word) + ", allowed: --help, --version");
     for (const char* known : {"render", "plan", "view", "follow", "flux", "compare", "study",
-                              "hash", "info", "convert", "pack"})
+                              "hash", "info", "methods", "convert", "pack"})
         if (word == known) return Status::ok();
     return Status::bad_input("pileus: unknown subcommand, " + quote_text(word) +
                              ", allowed: " + kCommands);
@@ -109,6 +109,7 @@ int run(int count, char** words, const TeamChoice& team) {
     add_compare(app, chosen);
     add_hash(app, chosen);
     add_info(app, chosen);
+    add_methods(app, chosen);
     add_convert(app, chosen);
     add_study(app, chosen);
     add_view(app, chosen);

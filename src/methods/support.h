@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// Who can do what: features of scenes and sessions by methods and cloud skies, as data.
+// in: a feature, a column -> out: exact, bounded by a figure, or refused with its words.
+// docs/support.md, which `pileus methods --markdown` prints. The rows are in src/methods/support.
+#pragma once
+#include <cstddef>
+
+namespace pileus {
+
+/// A method's display decides which one a scene has. kCloudSkies: `[[clouds]]` and pileus_clouds.
+enum class MethodColumn {
+    kCollectors,
+    kCollectorBillboards,
+    kPhotonGrid,
+    kPath,
+    kRaymarch,
+    kOpticalDepth,
+    kParticles,
+    kParticleBillboards,
+    kCloudSkies,
+    kCount
+};
+constexpr std::size_t kMethodColumns = std::size_t(MethodColumn::kCount);
+
+/// As `pileus methods NAME` takes it.
+const char* method_column_name(MethodColumn column);
+
+enum class SupportLevel {
+    kExact,    ///< but for noise and rounding
+    kBounded,  ///< off by what `text` says
+    kRefused,  ///< in one line, before any work
+    kIgnored,  ///< accepted without effect; `text` says where the plan or the docs tell it
+    kUnknown   ///< not measured
+};
+const char* level_name(SupportLevel level);
+
+/// What one column does with one feature.
+struct Support {
+    SupportLevel level = SupportLevel::kUnknown;
+    const char* text = "";     ///< the figure and what it was measured on; what a fault says
+    const char* allowed = "";  ///< of a fault: what stands behind "allowed:"
+
+    bool refused() const { return level == SupportLevel::kRefused; }
+};
+
+/// In the order of the table's rows.
+enum class Feature {
+    kSun,
+    kSunDisc,
+    kSetInAir,
+    kSkyConstant,
+    kSkyMap,
+    kGroundUnderMap,
+    kAir,
+    kAirOnMedia,
+    kGroundUnderAir,
+    kLampParallel,
+    kLampPoint,
+    kLampSpot,
+    kLampSphere,
+    kEmission,
+    kGround,
+    kGroundOnMedia,
+    kMediaOnGround,
+    kShadowOnGround,
+    kSolids,
+    kDepthImage,
+    kOrthographic,
+    kFlux,
+    kOffCentre,
+    kLens,
+    kInside,
+    kMovingView,
+    kSeveral,
+    kColoured,
+    kPeriodic,
+    kConstantCells,
+    kTransferRows,
+    kDetailBaked,
+    kDetailMarched,
+    kSkyInPlace,
+    kSkyOnGrid,
+    kParticlesOnGrid,
+    kParticleColumns,
+    kWeather,
+    kMediaMove,
+    kSequence,
+    kPhaseSmooth,
+    kPhaseNarrow,
+    kLayerDepth,
+    kLayerError,
+    kLayerCloud,
+    kLayerTau,
+    kLayerLight,
+    kLayerOrder,
+    kLayerShadow,
+    kLayerOcclusion,
+    kFilter,
+    kThinning,
+    kLateLight,
+    kFrameSteps,
+    kFramePhotons,
+    kWorstCase,
+    kBudgetPhotons,
+    kBudgetSamples,
+    kBudgetSteps,
+    kBudgetError,
+    kBudgetSeconds,
+    kSetLights,
+    kCount
+};
+constexpr std::size_t kSupportFeatures = std::size_t(Feature::kCount);
+
+enum class FeatureGroup {
+    kOfLight,
+    kOfGround,
+    kOfCamera,
+    kOfMedia,
+    kOfPhase,
+    kOfLayers,
+    kOfWork,
+    kCount
+};
+const char* group_name(FeatureGroup group);
+
+struct FeatureRow {
+    Feature feature;
+    FeatureGroup group;
+    const char* name;
+    const char* key;   ///< of scenes, where its refusal stands; "": of sessions and options
+    const char* note;  ///< holds in all columns; may be empty
+    Support by[kMethodColumns];
+};
+const FeatureRow& feature_row(Feature feature);
+const Support& support(Feature feature, MethodColumn column);
+
+/// What two features do not do together, each of which a column takes by itself.
+struct PairRow {
+    const char* pair;
+    const char* columns;
+};
+const PairRow* support_pairs(std::size_t& count);
+
+/// What runs methods: columns of a table of their own.
+enum class Runner { kOnDevice, kInFlight, kUnderVerify, kOfFlux, kCount };
+constexpr std::size_t kRunners = std::size_t(Runner::kCount);
+const char* runner_name(Runner runner);
+struct RunnerRow {
+    const char* feature;
+    Support by[kRunners];
+};
+const RunnerRow* support_runners(std::size_t& count);
+
+}  // namespace pileus

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sun, sky, air, lamps and light of the media.
+// in: nothing -> out: rows of the support table, entries in the order of MethodColumn.
+// docs/support.md
+#pragma once
+#include "src/methods/support/make_rows.h"
+
+namespace pileus {
+namespace support_rows {
+
+constexpr Support kNoLamps =
+    refused("not for collectors as billboards in this version",
+            "collectors.display = \"march\", another method, or a scene without [[light]]");
+constexpr Support kNoLampsInClouds = refused("conflicts with [clouds]", "left out");
+
+constexpr FeatureRow kLightRows[] = {
+    row(Feature::kSun, FeatureGroup::kOfLight, "sun, a point", "sun",
+        "cumulus, cirrus and stratocumulus against paths and independent codes",
+        bounded("-2.5 to +1.5 % of the mean"), bounded("-0.4 to +1.2 % of the mean"),
+        bounded("-2.9 to +0.7 % of the mean"), exact("0.2 %"), bounded("-33 to +122 % of the mean"),
+        bounded("by design: -15 to -95 % of the mean"),
+        bounded("-2 to +2 % of the mean, 13 to 37 % rms; exact with light = exact"),
+        bounded("-16 % of the mean"), bounded("as its kinds; late by up to sun_deg")),
+    row(Feature::kSunDisc, FeatureGroup::kOfLight, "sun.angular_radius_deg",
+        "sun.angular_radius_deg", "a host's sun has none", ignored("the plan says so"),
+        ignored("the plan says so"), ignored("the plan says so"), exact(),
+        ignored("the plan says so"), ignored("the plan says so"), ignored("the plan says so"),
+        ignored("the plan says so"), unknown()),
+    row(Feature::kSetInAir, FeatureGroup::kOfLight, "set_sky, or no sun, under [atmosphere]", "",
+        "of a session", ignored("the media lose the air's light until the next sun"),
+        ignored("as collectors"), ignored("as collectors"), ignored("as collectors"),
+        ignored("as collectors"), ignored("as collectors"), ignored("as collectors"),
+        ignored("as collectors"), ignored("nothing changes")),
+    row(Feature::kSkyConstant, FeatureGroup::kOfLight, "constant sky on media", "sky.radiance", "",
+        exact(), exact(), exact(), exact(), bounded("24 directions, coarse nodes"),
+        ignored("by design: docs/optical-depth.md"), bounded("24 directions"),
+        bounded("24 directions"), bounded("as its kinds")),
+    row(Feature::kSkyMap, FeatureGroup::kOfLight, "sky.map on media", "sky.map", "",
+        bounded("-22 to +23 % under one bright patch"), unknown(), bounded("as collectors"),
+        exact(), bounded("24 directions"), ignored("by design: docs/optical-depth.md"),
+        bounded("24 directions"), bounded("24 directions"),
+        refused("conflicts with [clouds]", "left out")),
+    row(Feature::kGroundUnderMap, FeatureGroup::kOfLight, "the ground under sky.map", "", "",
+        exact(), exact(), exact(), exact(), ignored("the map lights no ground"),
+        ignored("as raymarch"), ignored("as raymarch"), ignored("as raymarch"),
+        refused("conflicts with [clouds]", "left out")),
+    row(Feature::kAir, FeatureGroup::kOfLight, "[atmosphere]: sky, sunlight, haze before things",
+        "atmosphere", "", bounded("sky -1 to -3 %; haze -8 to +4 %"), bounded("as collectors"),
+        bounded("as collectors"), bounded("as collectors"), bounded("as collectors"),
+        bounded("as collectors"), bounded("as collectors"), bounded("as collectors"),
+        bounded("as collectors")),
+    row(Feature::kAirOnMedia, FeatureGroup::kOfLight, "the air's sky on media", "", "",
+        bounded("-2.8 to +2.8 %"), unknown(), bounded("-1.0 to +1.0 %"), exact("-1.4 to +0.3 %"),
+        bounded("+49 to +136 % on thin clouds"), ignored("by design: docs/optical-depth.md"),
+        unknown(), unknown(), bounded("as its kinds")),
+    row(Feature::kGroundUnderAir, FeatureGroup::kOfLight, "the ground under [atmosphere]", "", "",
+        exact("0.8 %"), exact(), exact(), exact("0.8 %"),
+        ignored("the air's sky lights no ground: -12 to -92 %"), ignored("as raymarch"),
+        ignored("as raymarch"), ignored("as raymarch"), ignored("-9 to -20 %, more at low suns")),
+    row(Feature::kLampParallel, FeatureGroup::kOfLight, "[[light]] directional", "light.N.type", "",
+        bounded("x 0.51 at g 0.85"), kNoLamps, bounded("x 0.46 at g 0.85"), exact("3 %"),
+        bounded("octaves"), bounded("by design"), bounded("one value a ball: -15 %"), unknown(),
+        kNoLampsInClouds),
+    row(Feature::kLampPoint, FeatureGroup::kOfLight, "[[light]] point", "light.N.type", "",
+        bounded("x 0.23 at g 0.85; fog -7.7 %"), kNoLamps, bounded("x 0.001 to 0.46 at g 0.85"),
+        exact("0.2 %"), bounded("fog -10 %"), bounded("fog -70 %"), bounded("-16 %"), unknown(),
+        kNoLampsInClouds),
+    row(Feature::kLampSpot, FeatureGroup::kOfLight, "[[light]] spot", "light.N.type", "",
+        bounded("x 0.16 beside the camera"), kNoLamps, bounded("0 beside the camera"),
+        unknown("no outside check"), bounded("x 1.6 beside the camera"), bounded("by design"),
+        unknown(), unknown(), kNoLampsInClouds),
+    row(Feature::kLampSphere, FeatureGroup::kOfLight, "[[light]] with radius_m, shadow_samples",
+        "light.N.radius_m", "", bounded("-3.7 to +2.5 % at g <= 0.6"), kNoLamps,
+        bounded("-3.6 to +0.6 % at g <= 0.6"), exact("0.2 %"), bounded("-5.1 to 0 %"), unknown(),
+        bounded("-15 %"), unknown(), kNoLampsInClouds),
+    row(Feature::kEmission, FeatureGroup::kOfLight, "medium.emission", "medium.N.emission", "",
+        bounded("unscattered: -30 to -67 % at albedo 0.6 to 0.9"),
+        refused("not by collectors as billboards in this version",
+                "left out, or collectors.display = \"march\", or another method"),
+        bounded("as collectors"), exact("0.03 %"), bounded("as collectors"),
+        bounded("as collectors"), bounded("unscattered"), unknown(), unknown()),
+};
+
+}  // namespace support_rows
+}  // namespace pileus

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+// Media and their phase functions.
+// in: nothing -> out: rows of the support table, entries in the order of MethodColumn.
+// docs/support.md
+#pragma once
+#include "src/methods/support/make_rows.h"
+
+namespace pileus {
+namespace support_rows {
+
+constexpr Support kOneOfParticles = refused("method particles shows one medium of particles",
+                                            "one [[medium]] whose density is a file of particles");
+constexpr Support kOnceEach = refused("method particles shows each particle once", "left out");
+constexpr Support kNoGrid = refused("particles have no grid", "left out, or another method");
+constexpr Support kOnGrid = refused("not here", "\"grid\", or method raymarch");
+constexpr const char* kOneAlbedo = "one albedo and emission for all: docs/particles.md";
+
+constexpr FeatureRow kMediaRows[] = {
+    row(Feature::kSeveral, FeatureGroup::kOfMedia, "several [[medium]]", "medium.N", "", exact(),
+        exact(), exact("closure = \"camera\" is refused"), exact(), exact(),
+        exact("max_extinction_per_m is refused"), kOneOfParticles, kOneOfParticles, exact()),
+    row(Feature::kColoured, FeatureGroup::kOfMedia, "coloured albedo", "medium.N.albedo", "",
+        exact(), exact(), exact(), exact("0.15 %"), bounded("sky light averages it: 10 % in red"),
+        bounded("by design"), unknown(), unknown(), bounded("as its kinds")),
+    row(Feature::kPeriodic, FeatureGroup::kOfMedia, "boundary = \"periodic\"", "medium.N.boundary",
+        "", exact("closures lobe, camera: orthographic alone"),
+        refused("not for periodic media", "march"), exact("closures but sh: orthographic alone"),
+        exact(), exact(), exact(), kOnceEach, kOnceEach,
+        refused("a scene without media, or with one that has no end", "media in boxes")),
+    row(Feature::kConstantCells, FeatureGroup::kOfMedia, "interpolation = \"constant\"",
+        "medium.N.interpolation", "", bounded("thick cells: -59 % for a box of one cell"),
+        unknown(), bounded("as collectors"), exact(), bounded("thick cells: -92 %"), unknown(),
+        unknown(), unknown(), bounded("as its kinds")),
+    row(Feature::kTransferRows, FeatureGroup::kOfMedia, "medium.transfer", "medium.N.transfer", "",
+        exact(), exact(), exact(), exact(), exact(), exact(), kOneOfParticles, kOneOfParticles,
+        exact()),
+    row(Feature::kDetailBaked, FeatureGroup::kOfMedia, "medium.detail, refine >= 1",
+        "medium.N.detail.tile_m", "", exact(), exact(), exact(), exact(), exact(), exact(), kNoGrid,
+        kNoGrid, exact()),
+    row(Feature::kDetailMarched, FeatureGroup::kOfMedia, "medium.detail, refine = 0",
+        "medium.N.detail.refine", "", bounded("photons fly without: -0.1 to -0.9 %"),
+        refused("billboards are not marched", "1 to 16"), bounded("as collectors"),
+        refused("method path does not march", "1 to 16"), bounded("-0.3 to -0.8 %"),
+        bounded("as raymarch"), kNoGrid, kNoGrid, unknown()),
+    row(Feature::kSkyInPlace, FeatureGroup::kOfMedia, "procedural sky, evaluate = \"direct\"",
+        "medium.N.sky.evaluate", "", kOnGrid, kOnGrid, kOnGrid, kOnGrid, exact(), kOnGrid, kOnGrid,
+        kOnGrid, refused("a scene without media, or with one that has no end", "media in boxes")),
+    row(Feature::kSkyOnGrid, FeatureGroup::kOfMedia, "procedural sky, evaluate = \"grid\"",
+        "medium.N.sky.evaluate", "", exact(), exact(), exact(), exact(), exact(), exact(),
+        kOneOfParticles, kOneOfParticles, exact()),
+    row(Feature::kParticlesOnGrid, FeatureGroup::kOfMedia, "a medium of particles",
+        "medium.N.density", "", bounded("of the grid"), bounded("of the grid"),
+        bounded("of the grid"), bounded("+0.1 % on a fine grid"), bounded("of the grid"),
+        bounded("of the grid"), exact(), exact(), bounded("as its kinds")),
+    row(Feature::kParticleColumns, FeatureGroup::kOfMedia,
+        "colours, emission, velocities of particles", "", "", ignored(kOneAlbedo),
+        ignored(kOneAlbedo), ignored(kOneAlbedo), ignored(kOneAlbedo), ignored(kOneAlbedo),
+        ignored(kOneAlbedo), exact("velocities: billboards alone"), exact(), unknown()),
+    row(Feature::kWeather, FeatureGroup::kOfMedia, "weather data", "medium.N.density", "", exact(),
+        exact(), exact(), exact(), exact(), exact(), kOneOfParticles, kOneOfParticles, exact()),
+    row(Feature::kMediaMove, FeatureGroup::kOfMedia, "media moved by keys or set_placement",
+        "animation.keys", "below the ground refused", exact(), exact(), exact(), exact(), exact(),
+        exact(), exact(), exact(), exact("by places; keys are refused")),
+    row(Feature::kSequence, FeatureGroup::kOfMedia, "sequences of files, wind", "medium.N.density",
+        "sessions show the first file", exact(), exact(), exact(), exact(), exact(), exact(),
+        exact(), exact(), unknown()),
+    row(Feature::kPhaseSmooth, FeatureGroup::kOfPhase,
+        "isotropic, rayleigh, henyey-greenstein, two-lobe, cornette-shanks to g 0.9",
+        "medium.N.phase", "", bounded("as the sun"), bounded("as the sun"), bounded("as the sun"),
+        exact("0.2 %"), bounded("as the sun; +835 % at depth 0.04"),
+        ignored("by design: its own g, docs/optical-depth.md"),
+        bounded("as the sun; x 9.5 when thin, by octaves"), bounded("as the sun"),
+        bounded("as its kinds")),
+    row(Feature::kPhaseNarrow, FeatureGroup::kOfPhase,
+        "hg-draine, cloud, table, moments, g above 0.9", "medium.N.phase",
+        "no pixel brighter than its lights allow", bounded("by angle -6 to +6 %"), unknown(),
+        bounded("as collectors"), exact("0.9 % below 176 deg"), bounded("by angle -52 to +56 %"),
+        ignored("by design: its own g, docs/optical-depth.md"), unknown(), unknown(),
+        bounded("as its kinds")),
+};
+
+}  // namespace support_rows
+}  // namespace pileus

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the columns of the support table cannot hold: features that exclude one another, and what
+// runs methods. in: nothing -> out: rows of src/methods/support.h. docs/support.md
+#include "src/methods/support/make_rows.h"
+
+namespace pileus {
+namespace {
+
+using namespace support_rows;
+
+constexpr const char* kAll = "all";
+constexpr const char* kByPhotons = "collectors, photon-grid";
+
+constexpr PairRow kPairRows[] = {
+    {"[[light]] and [[solid]]",
+     "collectors, photon-grid, raymarch, optical-depth; particles leave solids unlit by lamps, "
+     "which the plan says"},
+    {"[[light]] and periodic media, a sky in place, marched detail", kAll},
+    {"[[light]] whose sphere reaches below the ground, with shadow_samples > 1", kAll},
+    {"emission and transfer, a sky in place", kAll},
+    {"orthographic camera and [atmosphere]", kAll},
+    {"layers light, order and [atmosphere]", kAll},
+    {"scale, temporal and layers error, light, order", "collectors, photon-grid, raymarch"},
+    {"filter and projection flux, layer light; oidn and layer error", "path"},
+    {"closure = \"camera\" and a camera that moves in a film", kByPhotons},
+    {"closure = \"camera\" and set_camera", "collectors"},
+    {"closure = \"camera\" and a phase function of g = 1 or -1", kByPhotons},
+    {"closure = \"camera\" and several media", "photon-grid"},
+    {"closures but sh and periodic media in perspective", kByPhotons},
+    {"--budget error and a film", "photon-grid"},
+    {"set_placement or keys of media and [[solid]]", kAll},
+    {"turned media and a sky map or [atmosphere]", kAll},
+    {"media, places of clouds, cameras and spheres of lamps below the ground", kAll},
+    {"keys of media and [clouds]", "clouds"},
+    {"[[light]], method, sky.map, camera.depth, lens, shutter and [clouds]", "clouds"},
+    {"camera.depth without # and a camera that moves", kAll},
+    {"marched detail and several media, transfer, constant cells", kAll},
+    {"a sky in place and several media, transfer, constant cells, detail", "raymarch"},
+    {"set_ground that adds or takes the ground and a sky map", kAll},
+};
+
+constexpr RunnerRow kRunnerRows[] = {
+    runner_row("collectors, path", exact("the same bits"), exact(), exact(), exact()),
+    runner_row("photon-grid, raymarch, optical-depth, particles", refused(), exact(), exact(),
+               refused()),
+    runner_row("filter", refused(), exact("regression; oidn is refused"), exact(), refused()),
+    runner_row("[[light]], emission", refused(),
+               exact("refused by a library that is built without"), exact(), refused()),
+    runner_row("[[solid]]", refused(), refused("when it is packed"), exact(), refused()),
+    runner_row("camera.depth from a file", refused(), refused("when it is packed"), exact(),
+               unknown()),
+    runner_row("set_depth", refused(), exact(), unknown(), unknown()),
+    runner_row("scale, temporal, light_refresh", refused(), exact(), exact(), unknown()),
+    runner_row("marched detail", refused(), refused("when it is packed"), refused(), refused()),
+    runner_row("[atmosphere]", refused(), exact("set_sun, set_ground are refused"), exact(),
+               exact("no air between")),
+    runner_row("sky in place", refused(), exact(), refused(), exact("on a grid")),
+    runner_row("animation, sequences", exact(), refused("when it is packed"), exact(),
+               bounded("the first frame")),
+    runner_row("layers but depth", exact("shadow is refused"), refused(), unknown(), unknown()),
+    runner_row("compositors of OpenGL", exact(), refused("when it is packed"), unknown(),
+               unknown()),
+    runner_row("cloud skies", refused(), refused(), refused(), refused()),
+    runner_row("hand-over", exact(), refused(), unknown(), unknown()),
+};
+
+constexpr const char* kRunnerNames[] = {"device", "flight", "verify", "flux"};
+static_assert(sizeof kRunnerNames / sizeof kRunnerNames[0] == kRunners, "a name for every runner");
+
+}  // namespace
+
+const PairRow* support_pairs(std::size_t& count) {
+    count = sizeof kPairRows / sizeof kPairRows[0];
+    return kPairRows;
+}
+
+const RunnerRow* support_runners(std::size_t& count) {
+    count = sizeof kRunnerRows / sizeof kRunnerRows[0];
+    return kRunnerRows;
+}
+
+const char* runner_name(Runner runner) { return kRunnerNames[std::size_t(runner)]; }
+
+}  // namespace pileus

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+// Ground, solids and cameras.
+// in: nothing -> out: rows of the support table, entries in the order of MethodColumn.
+// docs/support.md
+#pragma once
+#include "src/methods/support/make_rows.h"
+
+namespace pileus {
+namespace support_rows {
+
+constexpr const char* kNoFlux = "measured by no method but path";
+constexpr Support kNoLens =
+    refused("for billboards of particles alone",
+            "0, or method.name = \"particles\" and particles.display = \"billboards\"");
+
+constexpr FeatureRow kViewRows[] = {
+    row(Feature::kGround, FeatureGroup::kOfGround, "[ground]", "ground", "", exact(), exact(),
+        exact(), exact(), exact(), exact(), exact(), exact(),
+        bounded("-1 to -2.4 %: no light of clouds on it")),
+    row(Feature::kGroundOnMedia, FeatureGroup::kOfGround, "light from the ground into media", "",
+        "", exact(), exact(), exact(), exact(), bounded("coarse nodes"),
+        ignored("by design: docs/optical-depth.md"), bounded("coarse nodes"), unknown(),
+        bounded("as its kinds, of a level ground without end")),
+    row(Feature::kMediaOnGround, FeatureGroup::kOfGround,
+        "light that media scatter onto the ground", "", "", exact(), exact(), exact(), exact(),
+        ignored("left out"), ignored("left out"), ignored("left out"), ignored("left out"),
+        ignored("left out: docs/clouds.md")),
+    row(Feature::kShadowOnGround, FeatureGroup::kOfGround, "shadow of media on the ground", "", "",
+        exact(), exact(), exact(), exact(), exact(), exact(), bounded("of the grid"),
+        bounded("of the grid"), bounded("of each cloud's picture from the sun")),
+    row(Feature::kSolids, FeatureGroup::kOfGround, "[[solid]]", "solid.N", "", bounded("3 %"),
+        unknown(), bounded("3 %"), exact(), bounded("sun's shadow on nodes two cells apart"),
+        bounded("as raymarch"), bounded("no sun's shadow with light = exact"), unknown(),
+        unknown("a kind's are refused; the sky's are drawn, untested")),
+    row(Feature::kDepthImage, FeatureGroup::kOfGround, "camera.depth, set_depth", "camera.depth",
+        "", exact(), exact(), exact(), exact(), exact(), exact(), exact(), exact(),
+        exact("by set_depth; the key beside [clouds] is refused")),
+    row(Feature::kOrthographic, FeatureGroup::kOfCamera, "camera.projection orthographic",
+        "camera.projection", "", exact(), exact(), exact(), exact(), exact(), exact(), exact(),
+        exact(), exact()),
+    row(Feature::kFlux, FeatureGroup::kOfCamera, "camera.projection flux", "camera.projection", "",
+        refused(kNoFlux, "perspective, orthographic with method collectors"),
+        refused(kNoFlux, "perspective, orthographic with method collectors"),
+        refused(kNoFlux, "perspective, orthographic with method photon-grid"), exact(),
+        refused(kNoFlux, "perspective, orthographic with method raymarch"),
+        refused(kNoFlux, "perspective, orthographic with method optical-depth"),
+        refused(kNoFlux, "perspective, orthographic with method particles"),
+        refused(kNoFlux, "perspective, orthographic with method particles"),
+        refused("conflicts with [clouds]", "left out")),
+    row(Feature::kOffCentre, FeatureGroup::kOfCamera, "off-centre projection of a host", "", "",
+        exact(), refused("off-centre", "a symmetric one with display = \"billboards\""), exact(),
+        exact(), exact(), exact(), exact(), unknown(), exact()),
+    row(Feature::kLens, FeatureGroup::kOfCamera, "camera.aperture_radius_m, camera.shutter_s",
+        "camera.aperture_radius_m", "", kNoLens, kNoLens, kNoLens, kNoLens, kNoLens, kNoLens,
+        kNoLens, exact(), refused("conflicts with [clouds]", "left out")),
+    row(Feature::kInside, FeatureGroup::kOfCamera, "camera within media", "", "",
+        bounded("nodes around it: +0.6 %"), unknown(), bounded("+0.2 %"), exact(), bounded("+26 %"),
+        bounded("-95 %"), exact(), unknown(), bounded("marched, as its kinds")),
+    row(Feature::kMovingView, FeatureGroup::kOfCamera, "camera that moves while light stays", "",
+        "", exact("closure = \"camera\" is refused"), exact(),
+        exact("closure = \"camera\" is refused in films"), exact("begins anew"), exact(), exact(),
+        exact(), exact(), exact("kinds with closure = \"camera\" are refused")),
+};
+
+}  // namespace support_rows
+}  // namespace pileus
