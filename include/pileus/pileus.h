@@ -214,7 +214,8 @@ PILEUS_API pileus_code pileus_session_set_sun(pileus_session* session, const pil
                                               pileus_error* error);
 
 /** A sky of one radiance, or of a picture: latitude-longitude, rows from the zenith, three floats a
- * texel, linear. docs/scene.md, "Sky map", has the directions. The picture is copied. */
+ * texel, linear. docs/scene.md, "Sky map", has the directions. The picture is copied.
+ * PILEUS_BAD_INPUT in scenes with [atmosphere], which has its own sky, and a sun. */
 typedef struct pileus_sky {
     uint32_t struct_size;
     int32_t present;

@@ -8,6 +8,7 @@
 #include "platform/fp_mode.h"
 #include "src/methods/registry.h"
 #include "src/scene/above_ground.h"
+#include "src/scene/method_column.h"
 
 namespace pileus {
 namespace {
@@ -80,12 +81,14 @@ Status Clouds::add_kind(const Scene& scene, std::shared_ptr<const World> world, 
     if (method->live == nullptr)
         return Status::bad_input("kind: method.name: \"" + scene.method +
                                  "\" is for no session, allowed: another");
-    if (scene.method == "collectors" &&
-        (scene.collectors.billboards || scene.collectors.camera_closure))
+    const MethodColumn column = method_column(scene);
+    const bool grid = column == MethodColumn::kPhotonGrid;
+    const bool to_camera = has_camera_closure(scene);
+    if (column == MethodColumn::kCollectorBillboards || (to_camera && !grid))
         return Status::bad_input(
             "kind: collectors.display \"billboards\" or closure \"camera\", allowed: pictures of "
             "parts, by \"march\", and light towards all sides");
-    if (scene.method == "photon-grid" && scene.photon_grid.closure == GridClosure::kCamera)
+    if (to_camera)
         return Status::bad_input(
             "kind: photon_grid.closure \"camera\", allowed: another, with light towards all sides");
     CloudKind made;

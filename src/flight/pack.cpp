@@ -5,6 +5,7 @@
 #include "src/base/digest.h"
 #include "src/flight/fields_scene.h"
 #include "src/flight/fields_world.h"
+#include "src/scene/method_column.h"
 #include "src/world/medium/detail.h"
 
 namespace pileus {
@@ -81,9 +82,10 @@ Status check_packable(const Scene& scene) {
     PILEUS_TRY(refuse_marched_detail(scene, "a packed scene"));
     if (scene.animation.present)
         return refuse(scene, "animation", "not packed", "left out: the host moves what moves");
-    if (scene.method == "collectors" && scene.collectors.compositor != Compositor::kBuiltin)
+    if (method_column(scene) == MethodColumn::kCollectorBillboards &&
+        scene.collectors.compositor != Compositor::kBuiltin)
         return refuse(scene, "collectors.compositor", "not packed", "builtin");
-    if (scene.method == "path" && scene.filter.kind == FilterKind::kOidn)
+    if (refused(scene, Feature::kFilter) == nullptr && scene.filter.kind == FilterKind::kOidn)
         return refuse(scene, "filter.kind", "not packed", "none, regression");
     return Status::ok();
 }

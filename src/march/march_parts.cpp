@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "src/scene/method_column.h"
+
 namespace pileus {
 namespace {
 
@@ -161,16 +163,11 @@ std::uint64_t march_part_planes(const RaymarchRun& run) {
     return (output.layer_light ? 3 * lights : 0) + (output.layer_order ? 3u : 0u);
 }
 
-Status check_march_parts(const Scene& scene, bool simple) {
+Status check_march_parts(const Scene& scene) {
     const OutputSettings& output = scene.output;
-    if (simple && output.layer_order)
-        return Status::bad_input(
-            scene.file +
-            ": output.layers: \"order\": light of method optical-depth has no orders "
-            "of scattering, allowed: light, or method raymarch");
     const UpsampleSettings& thin = scene.raymarch.thin;
-    if (simple || thin.every() == 1 || !(output.layer_light || output.layer_order))
-        return Status::ok();
+    const bool thins = refused(scene, Feature::kThinning) == nullptr && thin.every() > 1;
+    if (!thins || !(output.layer_light || output.layer_order)) return Status::ok();
     return Status::bad_input(scene.file + ": raymarch." +
                              (thin.temporal > 0 ? "temporal" : "scale") + ": the layer \"" +
                              (output.layer_light ? "light" : "order") +

@@ -14,8 +14,8 @@ Status march_parts(const Context& context, const RaymarchInput& whole, RaymarchR
 std::uint64_t march_part_planes(const RaymarchRun& run);
 bool march_emits(const RaymarchRun& run);
 
-/// kBadInput: layers that thinned pictures, or those of method optical-depth (`simple`), lack.
-Status check_march_parts(const Scene& scene, bool simple);
+/// kBadInput: layers that thinned pictures lack.
+Status check_march_parts(const Scene& scene);
 
 /// The launch that adds lamps and emission to the picture, whose nodes are made.
 LampMarchParams march_lamps(const RaymarchRun& run);

@@ -4,6 +4,7 @@
 // docs/raymarch.md
 #include "kernels_cpu/core/profile.h"
 #include "src/march/march_parts.h"
+#include "src/methods/check_support.h"
 #include "src/world/medium/resample.h"
 
 namespace pileus {
@@ -96,26 +97,14 @@ Status take_work(const FrameWork& work, MethodRun& method_run) {
 }  // namespace
 
 Status check_marched(const Scene& scene, const Budget& budget) {
-    constexpr const char* kAllowed = "steps=N, seconds=S";
-    if (budget.photons >= 0) return unknown_budget("--budget photons", scene.method, kAllowed);
-    if (budget.generations > 0)
-        return unknown_budget("--budget generations", scene.method, kAllowed);
-    if (budget.samples >= 0) return unknown_budget("--budget samples", scene.method, kAllowed);
-    if (budget.error > 0) return unknown_budget("--budget error", scene.method, kAllowed);
-    if (!budget.state.empty())
-        return unknown_budget("--state", scene.method, "method.name = \"path\"");
+    PILEUS_TRY(check_budget_kinds(scene, budget));
     if (scene.camera.flux)
         return Status::bad_input(scene.file +
                                  ": camera.projection: \"flux\" sees along no single ray, which "
                                  "method " +
                                  scene.method + " marches, allowed: perspective, orthographic");
-    const OutputSettings& output = scene.output;
-    if (output.layer_error)
-        return Status::bad_input(
-            scene.file + ": output.layers: method " + scene.method +
-            " has no noise, allowed: radiance, alpha, depth, cloud, optical_depth, "
-            "transmittance, light, order, reflectance, shadow");
-    return kFilms ? check_march_parts(scene, scene.method == "optical-depth") : Status::ok();
+    PILEUS_TRY(check_layer_kinds(scene));
+    return kFilms ? check_march_parts(scene) : Status::ok();
 }
 
 bool caps_extinction(const RaymarchRun& run) {

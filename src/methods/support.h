@@ -103,6 +103,7 @@ enum class Feature {
     kWorstCase,
     kBudgetPhotons,
     kBudgetSamples,
+    kState,
     kBudgetSteps,
     kBudgetError,
     kBudgetSeconds,
@@ -137,9 +138,20 @@ const Support& support(Feature feature, MethodColumn column);
 /// What two features do not do together, each of which a column takes by itself.
 struct PairRow {
     const char* pair;
-    const char* columns;
+    unsigned columns;  ///< bits of 1 << MethodColumn
+    const char* note;  ///< may be empty
 };
 const PairRow* support_pairs(std::size_t& count);
+
+/// Pairs that code asks for: the first of support_pairs.
+enum class FeaturePair { kLampsAndSolids };
+bool excludes(FeaturePair pair, MethodColumn column);
+
+/// What sessions say of kSetInAir, flights among them, which have no table.
+constexpr const char* kSkyInAir = "sky: conflicts with [atmosphere], which has its own";
+constexpr const char* kSkyInAirAllowed = "not set";
+constexpr const char* kNoSunInAir = "sun: none under [atmosphere]";
+constexpr const char* kNoSunInAirAllowed = "one, above the horizon or below it";
 
 /// What runs methods: columns of a table of their own.
 enum class Runner { kOnDevice, kInFlight, kUnderVerify, kOfFlux, kCount };

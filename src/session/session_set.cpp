@@ -5,6 +5,7 @@
 #include "kernels_cpu/core/profile.h"
 #include "platform/fp_mode.h"
 #include "src/base/single.h"
+#include "src/methods/support.h"
 #include "src/scene/above_ground.h"
 #include "src/session/outlook.h"
 #include "src/session/session.h"
@@ -32,6 +33,10 @@ Status check_frustum(const Camera& camera, bool billboards) {
             "camera.projection: off-centre, allowed: a symmetric one with display = "
             "\"billboards\"");
     return Status::ok();
+}
+
+Status refuse(const std::string& what, const char* allowed) {
+    return Status::bad_input(what + ", allowed: " + allowed);
 }
 
 Status refuse_sealed(const char* what) {
@@ -98,6 +103,8 @@ Status Session::set_depth_scale(const DepthScale& scale) {
 Status Session::set_sun(const Sun& given) {
     const Sun sun = held(given);
     if (same_sun(sun, around_.sun)) return Status::ok();
+    if (kAtmosphere && scene_.atmosphere.present && !sun.present)
+        return refuse(kNoSunInAir, kNoSunInAirAllowed);
     if (run_->sealed && scene_.atmosphere.present) return refuse_sealed("sun");
     if (const char* key = sun_fault(sun))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) { changed.sun = sun; }));
@@ -124,6 +131,7 @@ Status Session::relight_air() {
 
 Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
     const FpModeGuard guard;
+    if (kAtmosphere && scene_.atmosphere.present) return refuse(kSkyInAir, kSkyInAirAllowed);
     const bool kept = sky.present && map == nullptr && keep && run_->around.sky_map.present();
     Sky next = kept ? scene_.sky : sky;
     hold(next);
@@ -183,7 +191,9 @@ Status Session::set_lights(const std::vector<LightSettings>& lights) {
         return Status::bad_input("light: " + std::to_string(lights.size()) + ", allowed: at most " +
                                  std::to_string(sealed_lights_) +
                                  ", as when the flight was opened");
-    if (kDevices) PILEUS_TRY(check_host_lights(context_, lights, run_->world->medium));
+    if (kDevices)
+        PILEUS_TRY(
+            check_host_lights(context_, lights, scene_.atmosphere.present, run_->world->medium));
     if (const char* key = lights_fault(scene_, around_.ground, lights))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) {
             changed.lights = lights;
@@ -257,9 +267,8 @@ std::shared_ptr<const void> Session::carry_clouds() {
 
 Status Session::refuse_clouds_sky(const char* what) const {
     if (!kClouds || clouds_.use_count() < 2) return Status::ok();
-    return Status::bad_input(std::string(what) +
-                             ": not in a sky of clouds, allowed: none; what clouds may cost is "
-                             "pileus_cloud_detail's");
+    const Support& no = support(Feature::kSetLights, MethodColumn::kCloudSkies);
+    return refuse(std::string(what) + ": " + no.text, no.allowed);
 }
 
 Status Session::reserve() {

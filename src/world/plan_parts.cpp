@@ -90,13 +90,18 @@ WorkInput medium_work(const Medium& medium, double mean_density, double max_even
     return in;
 }
 
-Status check_host_lights(const Context& context, const std::vector<LightSettings>& lights,
+Status check_host_lights(const Context& context, const std::vector<LightSettings>& lights, bool air,
                          const Medium& medium) {
-    if (!kDevices || context.kernels->device == nullptr || (lights.empty() && !emits(medium)))
-        return Status::ok();
-    return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
-                             "\": [[light]] and emission are for the host alone, allowed: "
-                             "another, or a scene without them");
+    if (!kDevices || context.kernels->device == nullptr) return Status::ok();
+    const std::string where = std::string("--isa: \"") + context.kernels->name + "\": ";
+    if (!lights.empty() || emits(medium))
+        return Status::bad_input(where +
+                                 "[[light]] and emission are for the host alone, allowed: "
+                                 "another, or a scene without them");
+    if (!air) return Status::ok();
+    return Status::bad_input(where +
+                             "air is for the host alone, allowed: another, or a scene without "
+                             "[atmosphere]");
 }
 
 void note_emission(const Medium& medium, Plan& plan) {

@@ -42,8 +42,8 @@ WorkInput medium_work(const Medium& medium, double mean_density, double max_even
 /// kLimit: more scatterings than the limits allow. `where` opens the line.
 Status check_work(const WorkEstimate& work, const Limits& limits, const std::string& where);
 
-/// kBadInput on a device, whose kernels know neither [[light]] nor media that emit.
-Status check_host_lights(const Context& context, const std::vector<LightSettings>& lights,
+/// kBadInput on a device, whose kernels know neither [[light]] nor media that emit nor air.
+Status check_host_lights(const Context& context, const std::vector<LightSettings>& lights, bool air,
                          const Medium& medium);
 
 /// What methods that march emission do with it.

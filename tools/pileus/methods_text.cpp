@@ -75,12 +75,29 @@ Json runners_json() {
     return runners;
 }
 
+Json columns_json(unsigned columns) {
+    Json names = Json::array();
+    for (std::size_t c = 0; c < kMethodColumns; ++c)
+        if ((columns >> c & 1u) != 0) names.push_back(method_column_name(MethodColumn(c)));
+    return names;
+}
+
+std::string names_of(unsigned columns) {
+    if (columns == (1u << kMethodColumns) - 1) return "all";
+    std::string names;
+    for (std::size_t c = 0; c < kMethodColumns; ++c)
+        if ((columns >> c & 1u) != 0)
+            names += (names.empty() ? "" : ", ") + std::string(method_column_name(MethodColumn(c)));
+    return names;
+}
+
 std::string pairs_markdown() {
     std::size_t count = 0;
     const PairRow* rows = support_pairs(count);
     std::string text = "| pair | refused by |\n|---|---|\n";
     for (std::size_t i = 0; i < count; ++i)
-        text += fmt::format("| {} | {} |\n", rows[i].pair, rows[i].columns);
+        text += fmt::format("| {} | {}{}{} |\n", rows[i].pair, names_of(rows[i].columns),
+                            *rows[i].note != 0 ? "; " : "", rows[i].note);
     return text;
 }
 
@@ -164,7 +181,7 @@ std::string support_json() {
     std::size_t count = 0;
     const PairRow* rows = support_pairs(count);
     for (std::size_t i = 0; i < count; ++i)
-        pairs.push_back({{"pair", rows[i].pair}, {"refused_by", rows[i].columns}});
+        pairs.push_back({{"pair", rows[i].pair}, {"refused_by", columns_json(rows[i].columns)}});
     const Json json = {{"columns", columns},
                        {"features", features_json()},
                        {"pairs", pairs},

@@ -11,6 +11,7 @@
 #include "src/base/file.h"
 #include "src/clouds/render_clouds.h"
 #include "src/methods/registry.h"
+#include "src/methods/support.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/picture_format.h"
 #include "tools/pileus/block_files.h"
@@ -148,19 +149,19 @@ void expect_picture(RenderArguments& arguments, Outputs& outputs) {
 /// Of many clouds each kind has a method, and its keys, of its own.
 Status check_cloud_options(const RenderArguments& arguments, const Scene& scene) {
     if (!scene.clouds.present()) return Status::ok();
-    constexpr const char* kKeys = "keys of the kinds' scenes, by clouds.kind.N.set";
-    constexpr const char* kOut = "left out, or with the scene of a kind";
+    const char* const keys = support(Feature::kBudgetPhotons, MethodColumn::kCloudSkies).allowed;
+    const char* const out = support(Feature::kState, MethodColumn::kCloudSkies).allowed;
     const struct {
         const char* option;
         bool given;
         const char* allowed;
-    } rows[] = {{"--budget", !arguments.scene.budgets.empty(), kKeys},
-                {"--quality", bool(arguments.scene.quality), kKeys},
-                {"--show", bool(arguments.show), kOut},
+    } rows[] = {{"--budget", !arguments.scene.budgets.empty(), keys},
+                {"--quality", bool(arguments.scene.quality), keys},
+                {"--show", bool(arguments.show), out},
                 {"--verify", bool(arguments.verify),
                  "left out; clouds.detail.off=true is what to compare with"},
-                {"--state", bool(arguments.state), kOut},
-                {"--blocks", bool(arguments.blocks.file), kOut}};
+                {"--state", bool(arguments.state), out},
+                {"--blocks", bool(arguments.blocks.file), out}};
     Status faults;
     for (const auto& row : rows)
         if (row.given)

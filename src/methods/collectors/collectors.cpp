@@ -122,7 +122,9 @@ Status collectors_weigh(const Context& context, CollectorsRun& run) {
 
 Status collectors_outline(const Context& context, CollectorsRun& run) {
     const Scene& scene = *run.scene;
-    if (kDevices) PILEUS_TRY(check_host_lights(context, scene.lights, run.world->medium));
+    if (kDevices)
+        PILEUS_TRY(
+            check_host_lights(context, scene.lights, scene.atmosphere.present, run.world->medium));
     if (kChecks) PILEUS_TRY(check_thinned(context, scene, "collectors", scene.collectors.thin));
     run.light_refresh = scene.collectors.light_refresh;
     if (run.light_refresh > 1 && kDevices && context.kernels->device != nullptr)

@@ -3,6 +3,7 @@
 // in: scene, budget, frames -> out: generations shot, pictures.
 // docs/collectors.md
 #include "kernels_cpu/core/profile.h"
+#include "src/methods/check_support.h"
 #include "src/methods/collectors/collectors.h"
 #include "src/photons/lit_march.h"
 #include "src/photons/photon_frames.h"
@@ -17,12 +18,7 @@ const CollectorsRun& own(const MethodRun& run) { return static_cast<const Collec
 std::unique_ptr<MethodRun> make() { return std::make_unique<CollectorsRun>(); }
 
 Status check(const Scene& scene, const Budget& budget) {
-    constexpr const char* kAllowed = "photons=N, seconds=S, generations=N";
-    if (budget.samples >= 0) return unknown_budget("--budget samples", scene.method, kAllowed);
-    if (budget.steps >= 0) return unknown_budget("--budget steps", scene.method, kAllowed);
-    if (budget.error > 0) return unknown_budget("--budget error", scene.method, kAllowed);
-    if (!budget.state.empty())
-        return unknown_budget("--state", scene.method, "method.name = \"path\"");
+    PILEUS_TRY(check_budget_kinds(scene, budget));
     const CollectorSettings& settings = scene.collectors;
     if (scene.output.layer_order && scene.sun.present && !settings.first_order_split &&
         !settings.camera_closure)

@@ -4,6 +4,7 @@
 
 #include "kernels_cpu/core/profile.h"
 #include "src/base/digest.h"
+#include "src/methods/check_support.h"
 #include "src/methods/particles/particles_run.h"
 #include "src/picture/air_view.h"
 #include "src/picture/background.h"
@@ -20,21 +21,12 @@ ParticlesRun& own(MethodRun& run) { return static_cast<ParticlesRun&>(run); }
 std::unique_ptr<MethodRun> make() { return std::make_unique<ParticlesRun>(); }
 
 Status check(const Scene& scene, const Budget& budget) {
-    const char* const kAllowed = scene.particles.billboards ? "none" : "--budget steps";
-    if (budget.photons >= 0) return unknown_budget("--budget photons", scene.method, kAllowed);
-    if (budget.generations > 0)
-        return unknown_budget("--budget generations", scene.method, kAllowed);
-    if (budget.samples >= 0) return unknown_budget("--budget samples", scene.method, kAllowed);
-    if (budget.steps >= 0 && scene.particles.billboards)
-        return unknown_budget("--budget steps", "particles with billboards", kAllowed);
-    if (budget.steps == 0 || budget.steps > kMostParticleBins)
+    const bool bins = !scene.particles.billboards && budget.steps >= 0;
+    if (bins && (budget.steps == 0 || budget.steps > kMostParticleBins))
         return Status::bad_input("--budget steps: out of range, " + std::to_string(budget.steps) +
                                  ", allowed: 1 to " + std::to_string(kMostParticleBins) +
                                  " for method particles");
-    if (budget.error > 0) return unknown_budget("--budget error", scene.method, kAllowed);
-    if (budget.seconds > 0) return unknown_budget("--budget seconds", scene.method, kAllowed);
-    if (!budget.state.empty())
-        return unknown_budget("--state", scene.method, "method.name = \"path\"");
+    PILEUS_TRY(check_budget_kinds(scene, budget));
     if (!shows_particles(scene))
         return Status::bad_input(scene.file +
                                  ": medium: method particles shows one medium of particles, " +
@@ -46,14 +38,7 @@ Status check(const Scene& scene, const Budget& budget) {
         return Status::bad_input(scene.file +
                                  ": medium.0.boundary: method particles shows each particle once, "
                                  "\"periodic\", allowed: left out");
-    const OutputSettings& output = scene.output;
-    if (output.layer_error || output.layer_light || output.layer_order)
-        return Status::bad_input(
-            scene.file +
-            ": output.layers: method particles has no noise and one kind of light, allowed: "
-            "radiance, alpha, depth, cloud, optical_depth, transmittance, reflectance, "
-            "shadow, occlusion");
-    return Status::ok();
+    return check_layer_kinds(scene);
 }
 
 void choose_light(const SunPlace& sun, ParticlesRun& run) {

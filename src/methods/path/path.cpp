@@ -4,6 +4,7 @@
 
 #include "kernels_cpu/core/profile.h"
 #include "src/base/digest.h"
+#include "src/methods/check_support.h"
 #include "src/world/plan_parts.h"
 
 namespace pileus {
@@ -14,11 +15,7 @@ PathRun& own(MethodRun& run) { return static_cast<PathRun&>(run); }
 std::unique_ptr<MethodRun> make() { return std::make_unique<PathRun>(); }
 
 Status check(const Scene& scene, const Budget& budget) {
-    constexpr const char* kAllowed = "samples=N, error=E, seconds=S";
-    if (budget.photons >= 0) return unknown_budget("--budget photons", scene.method, kAllowed);
-    if (budget.generations > 0)
-        return unknown_budget("--budget generations", scene.method, kAllowed);
-    if (budget.steps >= 0) return unknown_budget("--budget steps", scene.method, kAllowed);
+    PILEUS_TRY(check_budget_kinds(scene, budget));
     const OutputSettings& output = scene.output;
     if (scene.camera.flux &&
         (output.layer_depth || output.layer_optical_depth || output.layer_transmittance))
@@ -43,7 +40,9 @@ void digest_prepared(PathRun& run) {
 
 Status outline(const Context& context, MethodRun& method_run) {
     PathRun& run = own(method_run);
-    if (kDevices) PILEUS_TRY(check_host_lights(context, run.scene->lights, run.world->medium));
+    if (kDevices)
+        PILEUS_TRY(check_host_lights(context, run.scene->lights, run.scene->atmosphere.present,
+                                     run.world->medium));
     if (kDevices && context.kernels->device != nullptr && path_filters(*run.scene))
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
                                  "\": filter.kind = \"" + path_filter_name(*run.scene) +

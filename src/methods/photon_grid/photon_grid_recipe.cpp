@@ -3,6 +3,7 @@
 // in: scene, budget, frames -> out: generations shot, pictures.
 // docs/photon-grid.md
 #include "kernels_cpu/core/profile.h"
+#include "src/methods/check_support.h"
 #include "src/methods/photon_grid/photon_grid.h"
 #include "src/photons/lit_march.h"
 #include "src/photons/photon_report.h"
@@ -42,9 +43,6 @@ Status check_closure(const Scene& scene) {
 }
 
 Status check(const Scene& scene, const Budget& budget) {
-    constexpr const char* kAllowed = "photons=N, seconds=S, error=E, generations=N";
-    if (budget.samples >= 0) return unknown_budget("--budget samples", scene.method, kAllowed);
-    if (budget.steps >= 0) return unknown_budget("--budget steps", scene.method, kAllowed);
     if (budget.error > 0 && !scene.output.layer_error)
         return Status::bad_input(
             "--budget error: method photon-grid knows its error by batches of photons, allowed: "
@@ -54,8 +52,7 @@ Status check(const Scene& scene, const Budget& budget) {
             "--budget error: not for an animation by photon-grid, whose frames have the same "
             "photons, "
             "allowed: photons=N");
-    if (!budget.state.empty())
-        return unknown_budget("--state", scene.method, "method.name = \"path\"");
+    PILEUS_TRY(check_budget_kinds(scene, budget));
     PILEUS_TRY(check_layers(scene));
     return check_closure(scene);
 }

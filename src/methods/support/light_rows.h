@@ -13,6 +13,8 @@ constexpr Support kNoLamps =
             "collectors.display = \"march\", another method, or a scene without [[light]]");
 constexpr Support kNoLampsInClouds = refused("conflicts with [clouds]", "left out");
 
+constexpr Support kNotInAir = refused(kSkyInAir, kSkyInAirAllowed);
+
 constexpr FeatureRow kLightRows[] = {
     row(Feature::kSun, FeatureGroup::kOfLight, "sun, a point", "sun",
         "cumulus, cirrus and stratocumulus against paths and independent codes",
@@ -26,11 +28,9 @@ constexpr FeatureRow kLightRows[] = {
         ignored("the plan says so"), ignored("the plan says so"), exact(),
         ignored("the plan says so"), ignored("the plan says so"), ignored("the plan says so"),
         ignored("the plan says so"), unknown()),
-    row(Feature::kSetInAir, FeatureGroup::kOfLight, "set_sky, or no sun, under [atmosphere]", "",
-        "of a session", ignored("the media lose the air's light until the next sun"),
-        ignored("as collectors"), ignored("as collectors"), ignored("as collectors"),
-        ignored("as collectors"), ignored("as collectors"), ignored("as collectors"),
-        ignored("as collectors"), ignored("nothing changes")),
+    row(Feature::kSetInAir, FeatureGroup::kOfLight,
+        "set_sky, or set_sun without one, under [atmosphere]", "", "of a session", kNotInAir,
+        kNotInAir, kNotInAir, kNotInAir, kNotInAir, kNotInAir, kNotInAir, kNotInAir, kNotInAir),
     row(Feature::kSkyConstant, FeatureGroup::kOfLight, "constant sky on media", "sky.radiance", "",
         exact(), exact(), exact(), exact(), bounded("24 directions, coarse nodes"),
         ignored("by design: docs/optical-depth.md"), bounded("24 directions"),
@@ -76,7 +76,7 @@ constexpr FeatureRow kLightRows[] = {
     row(Feature::kEmission, FeatureGroup::kOfLight, "medium.emission", "medium.N.emission", "",
         bounded("unscattered: -30 to -67 % at albedo 0.6 to 0.9"),
         refused("not by collectors as billboards in this version",
-                "left out, or collectors.display = \"march\", or another method"),
+                "collectors.display = \"march\", or another method"),
         bounded("as collectors"), exact("0.03 %"), bounded("as collectors"),
         bounded("as collectors"), bounded("unscattered"), unknown(), unknown()),
 };

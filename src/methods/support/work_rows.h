@@ -8,8 +8,10 @@
 namespace pileus {
 namespace support_rows {
 
-constexpr const char* kNoNoise = "no noise";
-constexpr const char* kOneKind = "no noise and one kind of light";
+constexpr const char* kMarchLayers =
+    "radiance, alpha, depth, cloud, optical_depth, transmittance, light, order, reflectance, "
+    "shadow";
+constexpr const char* kOneKind = "method particles has no noise and one kind of light";
 constexpr const char* kParticleLayers =
     "radiance, alpha, depth, cloud, optical_depth, transmittance, reflectance, shadow, occlusion";
 constexpr Support kNotOfClouds =
@@ -21,6 +23,23 @@ constexpr Support kByPath =
 constexpr Support kNoSetWork =
     refused("not in a sky of clouds", "none; what clouds may cost is pileus_cloud_detail's");
 
+// Of budgets: what is allowed in their place.
+constexpr Support kPathBudgets = refused("", "samples=N, error=E, seconds=S");
+constexpr Support kPhotonBudgets = refused("", "photons=N, seconds=S, generations=N");
+constexpr Support kGridBudgets = refused("", "photons=N, seconds=S, error=E, generations=N");
+constexpr Support kMarchBudgets = refused("", "steps=N, seconds=S");
+constexpr Support kBinBudgets = refused("", "--budget steps");
+constexpr Support kNoBudgets = refused("", "none");
+constexpr Support kPathState = refused("", "method.name = \"path\"");
+
+constexpr Support kCloudBudgets =
+    refused("not for a scene with [clouds]", "keys of the kinds' scenes, by clouds.kind.N.set");
+constexpr Support kCloudState =
+    refused("not for a scene with [clouds]", "left out, or with the scene of a kind");
+
+constexpr Support kOfTheView =
+    refused("what method particles takes depends on the view", "another method");
+
 constexpr FeatureRow kWorkRows[] = {
     row(Feature::kLayerDepth, FeatureGroup::kOfLayers, "layer depth", "output.layers",
         "radiance and alpha: all; sessions give depth alone", exact(),
@@ -29,7 +48,9 @@ constexpr FeatureRow kWorkRows[] = {
     row(Feature::kLayerError, FeatureGroup::kOfLayers, "layer error", "output.layers", "",
         bounded("1 sigma holds 0.32 to 0.67 of the pixels"), bounded("as collectors"),
         bounded("1 sigma holds 0.30 to 0.65 of the pixels"),
-        bounded("1 sigma holds 0.58 to 0.69 of the pixels"), refused(kNoNoise), refused(kNoNoise),
+        bounded("1 sigma holds 0.58 to 0.69 of the pixels"),
+        refused("method raymarch has no noise", kMarchLayers),
+        refused("method optical-depth has no noise", kMarchLayers),
         refused(kOneKind, kParticleLayers), refused(kOneKind, kParticleLayers), kNotOfClouds),
     row(Feature::kLayerCloud, FeatureGroup::kOfLayers, "layer cloud", "output.layers", "", exact(),
         exact(), exact(), exact("of filtered pictures: unfiltered"), exact(), exact(), exact(),
@@ -44,7 +65,7 @@ constexpr FeatureRow kWorkRows[] = {
     row(Feature::kLayerOrder, FeatureGroup::kOfLayers, "layer order", "output.layers", "",
         exact("with first_order_split or closure = \"camera\""), exact("with first_order_split"),
         exact("with first_order_split"), exact(), exact(),
-        refused("light of method optical-depth has no orders of scattering",
+        refused("\"order\": light of method optical-depth has no orders of scattering",
                 "light, or method raymarch"),
         refused(kOneKind, kParticleLayers), refused(kOneKind, kParticleLayers), kNotOfClouds),
     row(Feature::kLayerShadow, FeatureGroup::kOfLayers, "layers reflectance, shadow",
@@ -69,22 +90,25 @@ constexpr FeatureRow kWorkRows[] = {
         exact(), exact(), exact("with ring; else refused"), refused(), refused(), refused(),
         refused(), refused(), kNoSetWork),
     row(Feature::kWorstCase, FeatureGroup::kOfWork, "most_units, fit, govern", "", "of a session",
-        exact(), refused("the view decides"), exact(), exact(), exact("not of periodic media"),
-        exact("not of periodic media"), refused("the view decides"), refused("the view decides"),
-        kNoSetWork),
+        exact(), refused("what billboards take depends on the view", "display = \"march\""),
+        exact(), exact(), exact("not of periodic media"), exact("not of periodic media"),
+        kOfTheView, kOfTheView, kNoSetWork),
     row(Feature::kBudgetPhotons, FeatureGroup::kOfWork, "--budget photons, generations", "", "",
-        exact(), exact(), exact(), refused(), refused(), refused(), refused(), refused(),
-        refused()),
-    row(Feature::kBudgetSamples, FeatureGroup::kOfWork, "--budget samples, --state", "", "",
-        refused(), refused(), refused(), exact(), refused(), refused(), refused(), refused(),
-        refused()),
-    row(Feature::kBudgetSteps, FeatureGroup::kOfWork, "--budget steps", "", "", refused(),
-        refused(), refused(), refused(), exact(), exact(), exact(), refused(), refused()),
-    row(Feature::kBudgetError, FeatureGroup::kOfWork, "--budget error", "", "", refused(),
-        refused(), exact("with layer error, no film"), exact(), refused(), refused(), refused(),
-        refused(), refused()),
+        exact(), exact(), exact(), kPathBudgets, kMarchBudgets, kMarchBudgets, kBinBudgets,
+        kNoBudgets, kCloudBudgets),
+    row(Feature::kBudgetSamples, FeatureGroup::kOfWork, "--budget samples", "", "", kPhotonBudgets,
+        kPhotonBudgets, kGridBudgets, exact(), kMarchBudgets, kMarchBudgets, kBinBudgets,
+        kNoBudgets, kCloudBudgets),
+    row(Feature::kState, FeatureGroup::kOfWork, "--state", "", "", kPathState, kPathState,
+        kPathState, exact(), kPathState, kPathState, kPathState, kPathState, kCloudState),
+    row(Feature::kBudgetSteps, FeatureGroup::kOfWork, "--budget steps", "", "", kPhotonBudgets,
+        kPhotonBudgets, kGridBudgets, kPathBudgets, exact(), exact(), exact(),
+        refused("not for method particles with billboards", "none"), kCloudBudgets),
+    row(Feature::kBudgetError, FeatureGroup::kOfWork, "--budget error", "", "", kPhotonBudgets,
+        kPhotonBudgets, exact("with layer error, no film"), exact(), kMarchBudgets, kMarchBudgets,
+        kBinBudgets, kNoBudgets, kCloudBudgets),
     row(Feature::kBudgetSeconds, FeatureGroup::kOfWork, "--budget seconds", "", "", exact(),
-        exact(), exact(), exact(), exact(), exact(), refused(), refused(), refused()),
+        exact(), exact(), exact(), exact(), exact(), kBinBudgets, kNoBudgets, kCloudBudgets),
     row(Feature::kSetLights, FeatureGroup::kOfWork, "set_lights", "", "of a session", exact(),
         refused("not for collectors as billboards in this version"), exact(), exact(), exact(),
         exact(), exact(), unknown(), kNoSetWork),

@@ -25,6 +25,12 @@ bool is_kind(const CloudsSettings& clouds, const std::string& name) {
                        [&](const CloudKindSettings& kind) { return kind.name == name; });
 }
 
+const Support& of_skies(Feature feature) { return support(feature, MethodColumn::kCloudSkies); }
+
+std::string words_of(Feature feature) {
+    return std::string(of_skies(feature).text) + ", allowed: " + of_skies(feature).allowed;
+}
+
 struct CloudCheck {
     SceneCheck& check;
     CloudsSettings& clouds = check.scene.clouds;
@@ -108,7 +114,7 @@ struct CloudCheck {
                              "conflicts with [clouds], allowed: left out, in the scene of a kind");
         }
         if (const Node* light = check.key("light.0"))
-            check.faults.add(light->at, "light.0", "conflicts with [clouds], allowed: left out");
+            check.faults.add(light->at, "light.0", words_of(Feature::kLampPoint));
         // Kinds have methods of their own.
         conflict(check, "method.name", kNow);
         if (scene.camera.flux) conflict(check, "camera.projection", kNow);
@@ -119,8 +125,8 @@ struct CloudCheck {
         if (layers == nullptr) return;
         for (const Node& layer : layers->children)
             if (place_in("radiance|alpha|depth|cloud", layer.text) < 0)
-                fault(layer, "output.layers", "not of a sky with [clouds]",
-                      "radiance, alpha, depth, cloud");
+                fault(layer, "output.layers", of_skies(Feature::kLayerTau).text,
+                      of_skies(Feature::kLayerTau).allowed);
     }
 };
 

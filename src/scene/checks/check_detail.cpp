@@ -3,6 +3,7 @@
 // in: keys that passed their own checks -> out: faults.
 // docs/detail.md, "Methods"
 #include "src/scene/checks/check_keys.h"
+#include "src/scene/method_column.h"
 
 namespace pileus {
 namespace {
@@ -33,10 +34,10 @@ public:
         if (!medium_.transfer.empty())
             return fault(*tile, "tile_m",
                          "not beside transfer, " + value_text(*tile) + ", allowed: left out");
-        if (check_.scene.method == "particles")
-            return fault(*tile, "tile_m",
-                         "particles have no grid, " + value_text(*tile) +
-                             ", allowed: left out, or another method");
+        if (const Support* no = refused(check_.scene, Feature::kDetailBaked))
+            return fault(
+                *tile, "tile_m",
+                std::string(no->text) + ", " + value_text(*tile) + ", allowed: " + no->allowed);
         if (detail_.is_marched()) marched(*tile);
     }
 
@@ -65,13 +66,10 @@ private:
     /// The kernels that march with detail know one medium, linear between its cells.
     void marched(const Node& tile) {
         const Scene& scene = check_.scene;
-        const CollectorSettings& c = scene.collectors;
-        const bool sprites = scene.method == "collectors" && c.billboards;
+        const Support* no = refused(scene, Feature::kDetailMarched);
         const char* why = nullptr;
-        if (scene.method == "path")
-            why = "method path does not march";
-        else if (sprites)
-            why = "billboards are not marched";
+        if (no != nullptr)
+            why = no->text;
         else if (scene.media.size() > 1)
             why = "only one medium can be marched with detail";
         else if (medium_.constant)

@@ -237,6 +237,11 @@ void check_keys(const Node& root, SceneCheck& check) {
     if (root.find("camera") == nullptr) walker.table(Node(), "camera", "camera", nowhere);
 }
 
+void add_refusal(SceneCheck& check, const Node& node, const std::string& key,
+                 const std::string& what, const std::string& value, const std::string& allowed) {
+    check.faults.add(node.at, key, what + ", " + value + ", allowed: " + allowed);
+}
+
 void conflict(SceneCheck& check, const std::string& key, const char* with) {
     if (const Node* node = check.key(key))
         check.faults.add(node->key_at, key,

@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "src/methods/support.h"
 #include "src/scene/checks/fault_list.h"
 #include "src/scene/keys/all_keys.h"
 
@@ -45,6 +46,16 @@ void check_fields(std::vector<std::unique_ptr<Node>>& values, SceneCheck& check)
 /// Takes over the path of a file to read, with the folder of the environment variable in place of
 /// `${PILEUS_DATA_DIR}` at its front. Returns false after adding a fault.
 bool check_path(SceneCheck& check, const Node& node, const char* key, std::string& file);
+
+/// A fault of a node's value: what is wrong, the value, what is allowed.
+void add_refusal(SceneCheck& check, const Node& node, const std::string& key,
+                 const std::string& what, const std::string& value, const std::string& allowed);
+
+/// The same in the words of the support table.
+inline void add_refusal(SceneCheck& check, const Node& node, const std::string& key,
+                        const Support& entry, const std::string& value) {
+    add_refusal(check, node, key, entry.text, value, entry.allowed);
+}
 
 /// A fault of a key, where it is given, that does not go with something else.
 void conflict(SceneCheck& check, const std::string& key, const char* with);

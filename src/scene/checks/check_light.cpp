@@ -3,6 +3,7 @@
 // in: keys that passed their own checks -> out: faults.
 // docs/scene.md; docs/lights.md.
 #include "src/scene/checks/check_keys.h"
+#include "src/scene/method_column.h"
 #include "src/scene/view_fault.h"
 
 namespace pileus {
@@ -63,13 +64,11 @@ private:
     /// Methods and media that lights are not for.
     void known() {
         const Scene& scene = check_.scene;
-        // All others show them by one march.
-        const bool marched = scene.method != "path" && scene.method != "particles";
-        const CollectorSettings& collectors = scene.collectors;
-        if (scene.method == "collectors" && collectors.billboards && !collectors.camera_closure)
-            refuse("for collectors as billboards",
-                   "collectors.display = \"march\", another method, or a scene without [[light]]");
-        if (marched && !scene.solids.empty())
+        // Cells that are lit towards the camera are marched, whatever the display.
+        const Support* no = refused(scene, feature());
+        if (no != nullptr && !has_camera_closure(scene))
+            add_refusal(check_, *type_, path_ + "type", *no, value_text(*type_));
+        if (!scene.solids.empty() && excludes(FeaturePair::kLampsAndSolids, method_column(scene)))
             refuse("with solids by method " + scene.method,
                    "method path, or a scene without [[solid]]");
         bool periodic = false, direct = false;
@@ -79,6 +78,12 @@ private:
         }
         if (periodic) refuse("with a periodic medium", "boundary = \"open\"");
         if (direct) refuse("with a sky that is not on a grid", "sky.evaluate = \"grid\"");
+    }
+
+    Feature feature() const {
+        constexpr Feature kFeatures[] = {Feature::kLampPoint, Feature::kLampSpot,
+                                         Feature::kLampParallel};
+        return kFeatures[int(light_.type)];
     }
 
     void refuse(const std::string& what, const std::string& allowed) {

@@ -6,6 +6,7 @@
 
 #include "src/scene/above_ground.h"
 #include "src/scene/checks/check_keys.h"
+#include "src/scene/method_column.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/density_row.h"
 #include "src/scene/rows/volume_format.h"
@@ -258,10 +259,9 @@ private:
         const double per_m = physical ? medium_.extinction_scale : medium_.extinction_per_m;
         const auto most = std::max({medium_.emission[0], medium_.emission[1], medium_.emission[2]});
         constexpr const char* kNotYet = " in this version";
-        if (scene.method == "collectors" && scene.collectors.billboards &&
-            !scene.collectors.camera_closure)
-            refuse(std::string("not by collectors as billboards") + kNotYet,
-                   "collectors.display = \"march\", or another method");
+        const Support* no = refused(scene, Feature::kEmission);
+        if (no != nullptr && !has_camera_closure(scene))
+            refuse(no->text, no->allowed);
         else if (check_.key(path_ + "transfer") != nullptr)
             refuse(std::string("not beside transfer") + kNotYet, "extinction_per_m");
         else if (medium_.sky.evaluate == SkyEvaluation::kDirect)

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "src/scene/checks/check_keys.h"
+#include "src/scene/method_column.h"
 #include "src/scene/rows/picture_format.h"
 #include "src/scene/rows/volume_format.h"
 #include "src/scene/view_fault.h"
@@ -50,11 +51,9 @@ void check_camera(SceneCheck& check) {
         else
             conflict(check, "camera.height_m", "projection \"perspective\"");
     }
-    if (camera.flux && projection != nullptr && check.scene.method != "path")
-        check.faults.add(projection->at, "camera.projection",
-                         "measured by no method but path, \"flux\", allowed: perspective, "
-                         "orthographic with method " +
-                             check.scene.method);
+    if (const Support* no = refused(check.scene, Feature::kFlux))
+        if (camera.flux && projection != nullptr)
+            add_refusal(check, *projection, "camera.projection", *no, "\"flux\"");
     check_places(check);
     const Node* target = check.valid_key("camera.target_m");
     const Node* position = check.valid_key("camera.position_m");
@@ -121,11 +120,10 @@ void check_output(SceneCheck& check) {
                 layers->at, "output.layers",
                 "a flat detector sees no shadows, \"shadow\", allowed: other layers, or "
                 "another camera.projection");
-    if (check.scene.output.layer_occlusion && check.scene.method != "particles")
+    if (const Support* no = refused(check.scene, Feature::kLayerOcclusion))
         if (const Node* layers = check.key("output.layers"))
-            check.faults.add(layers->at, "output.layers",
-                             "by method particles alone, \"occlusion\", allowed: other layers, or "
-                             "method.name = \"particles\"");
+            if (check.scene.output.layer_occlusion)
+                add_refusal(check, *layers, "output.layers", *no, "\"occlusion\"");
     const Node* files = check.valid_key("output.files");
     if (files == nullptr) return;
     for (const Node& file : files->children) {
@@ -153,20 +151,25 @@ void check_periodic(SceneCheck& check) {
     const Scene& scene = check.scene;
     bool periodic = false;
     for (const MediumSettings& m : scene.media) periodic |= m.periodic;
-    if (!periodic || scene.method != "collectors") return;
+    const MethodColumn column = method_column(scene);
+    const bool collectors =
+        column == MethodColumn::kCollectors || column == MethodColumn::kCollectorBillboards;
+    if (!periodic || !collectors) return;
     const CollectorSettings& c = scene.collectors;
-    const auto refuse = [&](const char* key, const char* value, const char* allowed) {
+    const auto refuse = [&](const char* key, const char* value, const char* what,
+                            const char* allowed) {
         const Node* node = check.key(key);
         if (node == nullptr) node = check.key("collectors.variant");
-        if (node == nullptr) return;
-        check.faults.add(node->at, key,
-                         std::string("not for periodic media, ") + value + ", allowed: " + allowed);
+        if (node != nullptr) add_refusal(check, *node, key, what, value, allowed);
     };
-    if (c.billboards) refuse("collectors.display", "\"billboards\"", "march");
+    if (const Support* no = refused(scene, Feature::kPeriodic))
+        refuse("collectors.display", "\"billboards\"", no->text, no->allowed);
+    constexpr const char* kWhat = "not for periodic media";
+    constexpr const char* kAllowed = "sh, or an orthographic camera";
     if (!scene.camera.orthographic && c.lobe_closure)
-        refuse("collectors.closure", "\"lobe\"", "sh, or an orthographic camera");
+        refuse("collectors.closure", "\"lobe\"", kWhat, kAllowed);
     if (!scene.camera.orthographic && c.camera_closure)
-        refuse("collectors.closure", "\"camera\"", "sh, or an orthographic camera");
+        refuse("collectors.closure", "\"camera\"", kWhat, kAllowed);
 }
 
 /// A foreign compositor draws billboards, and no depth, which needs their order.
@@ -210,10 +213,9 @@ void check_directions(SceneCheck& check) {
 void check_filter(SceneCheck& check) {
     const Scene& scene = check.scene;
     const Node* node = check.key("filter.kind");
-    if (scene.filter.kind == FilterKind::kNone || scene.method == "path" || node == nullptr) return;
-    check.faults.add(node->at, "filter.kind",
-                     "filters pictures of method path alone, " + value_text(*node) +
-                         ", allowed: none, or method.name = \"path\"");
+    const Support* no = refused(scene, Feature::kFilter);
+    if (scene.filter.kind == FilterKind::kNone || no == nullptr || node == nullptr) return;
+    add_refusal(check, *node, "filter.kind", *no, value_text(*node));
 }
 
 /// A lens and a shutter belong to one display; elsewhere pictures would be sharp unasked.
@@ -222,17 +224,12 @@ void check_lens(SceneCheck& check) {
     const ParticlesSettings& s = scene.particles;
     const auto refuse = [&](const char* key, const char* why, const char* allowed) {
         const Node* node = check.key(key);
-        if (node != nullptr)
-            check.faults.add(node->at, key,
-                             why + (", " + value_text(*node)) + ", allowed: " + allowed);
+        if (node != nullptr) add_refusal(check, *node, key, why, value_text(*node), allowed);
     };
     const bool lens = scene.camera.aperture_radius_m > 0;
-    if (scene.method != "particles" || !s.billboards) {
-        constexpr const char* kWhy = "for billboards of particles alone";
-        constexpr const char* kAllowed =
-            "0, or method.name = \"particles\" and particles.display = \"billboards\"";
-        if (lens) refuse("camera.aperture_radius_m", kWhy, kAllowed);
-        if (scene.camera.shutter_s > 0) refuse("camera.shutter_s", kWhy, kAllowed);
+    if (const Support* no = refused(scene, Feature::kLens)) {
+        if (lens) refuse("camera.aperture_radius_m", no->text, no->allowed);
+        if (scene.camera.shutter_s > 0) refuse("camera.shutter_s", no->text, no->allowed);
     } else {
         if (lens && scene.camera.orthographic)
             refuse("camera.aperture_radius_m", "a lens needs perspective", "0");

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "src/scene/checks/check_keys.h"
+#include "src/scene/method_column.h"
 
 namespace pileus {
 namespace {
@@ -122,9 +123,9 @@ private:
         const bool marched =
             light == RaymarchLightKind::kAuto || light == RaymarchLightKind::kMarch;
         const bool boxed = medium_.has_bounds && !medium_.periodic;
-        const bool can = scene.method == "raymarch" && scene.media.size() == 1 &&
-                         (marched || boxed) && medium_.transfer.empty() && !medium_.constant &&
-                         !medium_.detail.present();
+        const bool can = refused(scene, Feature::kSkyInPlace) == nullptr &&
+                         scene.media.size() == 1 && (marched || boxed) &&
+                         medium_.transfer.empty() && !medium_.constant && !medium_.detail.present();
         if (sky_.evaluate == SkyEvaluation::kDirect && !can)
             fault("evaluate",
                   "not here, \"direct\", allowed: \"grid\", or method raymarch with this medium "
