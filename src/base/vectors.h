@@ -19,4 +19,9 @@ inline Double3 towards_deg(double azimuth_deg, double elevation_deg) {
     return {az.sine * el.cosine, az.cosine * el.cosine, el.sine};
 }
 
+/// By -yaw about the z axis.
+inline Double3 turned_back(const Double3& v, const SineCosine& yaw) {
+    return {v.x * yaw.cosine + v.y * yaw.sine, v.y * yaw.cosine - v.x * yaw.sine, v.z};
+}
+
 }  // namespace pileus

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
-#include "src/scene/placed.h"
+#include "src/base/vectors.h"
 #include "src/world/camera/view.h"
 
 namespace pileus {

@@ -31,8 +31,7 @@ std::string methods_of(const CloudCounts& clouds) {
 class SkyAnimation {
 public:
     explicit SkyAnimation(const Scene& scene) : scene_(scene), rest_(scene) {
-        place_sun(rest_);
-        rest_.animation.sun_at_rest = place_of(rest_.sun);
+        place_sun(rest_.atmosphere, 0, rest_.sun);
     }
 
     Status set(int frame, Session& sky) const {
@@ -44,12 +43,10 @@ public:
         PILEUS_TRY(sky.set_camera(camera));
         Sun sun = rest_.sun;
         if (moves_time(scene_)) {
-            Scene later = scene_;
-            later.atmosphere.later_h = hours_at(scene_, frame);
-            place_sun(later);
-            sun = later.sun;
+            sun = scene_.sun;
+            place_sun(scene_.atmosphere, hours_at(scene_, frame), sun);
         } else if (moves_sun(scene_)) {
-            const SunPlace at = sun_at(rest_, frame);
+            const SunPlace at = sun_at(rest_, rest_.sun, frame);
             sun.azimuth_deg = at.azimuth_deg;
             sun.elevation_deg = at.elevation_deg;
         }

@@ -15,10 +15,12 @@ void fields(A& a, Frustum& v) {
 }
 template <class A>
 void fields(A& a, Camera& v) {
-    all(a, v.position_m, v.target_m, v.up, v.position_by_place, v.target_by_place, v.position_place,
-        v.target_place, v.orthographic, v.flux, v.fov_deg, v.height_m, v.resolution, v.has_frustum,
-        v.frustum, v.depth_on_axis, v.depth_scale, v.aperture_radius_m, v.focus_distance_m,
-        v.shutter_s);
+    all(a, v.position_m, v.target_m, v.up, v.orthographic, v.flux, v.fov_deg, v.height_m,
+        v.resolution, v.has_frustum, v.frustum);
+}
+template <class A>
+void fields(A& a, Lens& v) {
+    all(a, v.aperture_radius_m, v.focus_distance_m, v.shutter_s);
 }
 template <class A>
 void fields(A& a, Sun& v) {
@@ -26,7 +28,7 @@ void fields(A& a, Sun& v) {
 }
 template <class A>
 void fields(A& a, Sky& v) {
-    all(a, v.present, v.radiance, v.map, v.map_scale, v.map_rotation_deg);
+    all(a, v.present, v.mapped, v.radiance, v.map_scale, v.map_rotation_deg);
 }
 template <class A>
 void fields(A& a, Ground& v) {
@@ -34,8 +36,8 @@ void fields(A& a, Ground& v) {
 }
 template <class A>
 void fields(A& a, AtmosphereSettings& v) {
-    all(a, v.present, v.date, v.time, v.later_h, v.utc_offset_h, v.latitude_deg, v.longitude_deg,
-        v.turbidity, v.ground_albedo, v.refraction, v.sun_disc);
+    all(a, v.present, v.date, v.time, v.utc_offset_h, v.latitude_deg, v.longitude_deg, v.turbidity,
+        v.ground_albedo, v.refraction, v.sun_disc);
 }
 template <class A>
 void fields(A& a, LightSettings& v) {
@@ -129,9 +131,9 @@ void fields(A& a, ParticlesSettings& v) {
 /// Sessions have one camera and no film.
 template <class A>
 void fields(A& a, Scene& v) {
-    all(a, v.seed, v.camera, v.sun, v.sky, v.ground, v.atmosphere, v.lights, v.media, v.method,
-        v.collectors, v.path, v.filter, v.raymarch, v.optical_depth, v.photon_grid, v.particles,
-        v.file);
+    all(a, v.seed, v.camera, v.lens, v.sun, v.sky, v.ground, v.atmosphere, v.lights, v.media,
+        v.method, v.collectors, v.path, v.filter, v.raymarch, v.optical_depth, v.photon_grid,
+        v.particles, v.file);
 }
 
 }  // namespace pileus

@@ -6,13 +6,14 @@
 #include "src/flight/fields_scene.h"
 #include "src/flight/fields_world.h"
 #include "src/scene/method_column.h"
+#include "src/world/camera/places.h"
 #include "src/world/medium/detail.h"
 
 namespace pileus {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x4c465355454c4950ull;  // "PILEUSFL"
-constexpr std::uint64_t kFormat = 3;
+constexpr std::uint64_t kFormat = 4;
 /// Its last bytes are zeros, so that what follows begins at a multiple of kLine.
 constexpr std::size_t kHeadBytes = 2 * kLine, kToldBytes = 8 * 8 + 24, kDigestAt = 24;
 
@@ -77,7 +78,7 @@ Status check_packable(const Scene& scene) {
     if (!scene.solids.empty())
         return refuse(scene, "solid", "not packed",
                       "no meshes: the host's depth images stand for what is solid");
-    if (!scene.camera.depth.empty())
+    if (!scene.view_files.depth.empty())
         return refuse(scene, "camera.depth", "not packed", "the host's depth images");
     PILEUS_TRY(refuse_marched_detail(scene, "a packed scene"));
     if (scene.animation.present)
@@ -204,10 +205,11 @@ void tell_block(std::uint64_t block_bytes, std::uint64_t in_place_bytes, std::st
 Status pack_scene(const Scene& given, const World& world, std::string& bytes) {
     PILEUS_TRY(check_packable(given));
     Scene scene = given;
+    PILEUS_TRY(place_camera(scene));
     Image sky;
-    if (!scene.sky.map.empty()) {
+    if (!scene.view_files.sky_map.empty()) {
         PILEUS_TRY(read_sky_image(scene, sky));
-        scene.sky.map = "packed";
+        scene.sky.mapped = true;
     }
     // Names of files say nothing there.
     scene.file = "packed scene";
@@ -251,7 +253,6 @@ Status unpack_scene(const void* bytes, std::size_t size, bool in_place, Packed& 
     if (reader.out_of_memory()) return Status::limit("packed scene: out of memory");
     if (!reader.is_done() || !is_whole(*out.world) || !connect(tables, *out.world))
         return damaged("no scene");
-    if (!out.scene.sky.map.empty()) out.scene.sky.picture = &out.sky;
     return Status::ok();
 }
 

@@ -19,7 +19,7 @@ struct PackedHead {
     std::string method;                   ///< at most 23 bytes
 };
 
-/// A scene, and what it was made of; `scene` points into `sky`.
+/// A scene, and what it was made of.
 struct Packed {
     PackedHead head;
     Scene scene;

@@ -148,14 +148,14 @@ Status march_outline(const Context& context, RaymarchRun& run) {
                                  run.scene->method +
                                  " runs on the host alone, allowed: another, or another method");
     run.whole_steps = run.settings.steps;
-    choose_light(sun_at(*run.scene, 0), run);
+    choose_light(run.sun_of(0), run);
     return march_measure(context, run);
 }
 
 Status march_prepare(const Context& context, MethodRun& method_run) {
     RaymarchRun& run = own(method_run);
     // The values may show that there is no medium.
-    choose_light(sun_at(*run.scene, 0), run);
+    choose_light(run.sun_of(0), run);
     PILEUS_TRY(make_majorants(run.world->medium, false, context, run.majorants));
     run.outlined_only = false;
     PILEUS_TRY(cap_medium(run));

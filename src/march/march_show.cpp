@@ -24,7 +24,7 @@ namespace {
 constexpr std::uint64_t kComparedNodes = 1024;
 
 SunTurn turn_of(const RaymarchRun& run) {
-    return turn_of_sun(*run.scene, run.settings.light_refresh, run.turn, run.lighting.to_sun);
+    return turn_of_sun(run, run.settings.light_refresh, run.turn, run.lighting.to_sun);
 }
 
 /// Nodes serve every frame of the same sun; a sweep is made whole for each.
@@ -180,8 +180,7 @@ Status march_frame(const FrameStep& step, const Context& context, RaymarchRun& r
     {
         const StageClock clock(context, "lights");
         Plan photons;  // speaks of photons alone
-        run.lighting =
-            light_world(scene, sun_at(scene, step.frame), *run.world, run.around, photons);
+        run.lighting = light_world(scene, run.sun_of(step.frame), *run.world, run.around, photons);
         run.camera =
             make_camera(scene.camera, orbit_at(scene, step.frame), run.world->medium.low_m);
     }

@@ -48,6 +48,7 @@ Status open_run(const Method& method, const Scene& scene, const Budget& budget,
                 const Context& context, bool exact, std::shared_ptr<const World> world,
                 MethodRun& run) {
     run.scene = &scene;
+    if (run.rest == nullptr) run.rest = &scene;
     run.budget = budget;
     std::shared_ptr<World> own;
     // A flight brings the world that was packed.
@@ -58,7 +59,7 @@ Status open_run(const Method& method, const Scene& scene, const Budget& budget,
     }
     run.world = std::move(world);
     if (!kFlight) PILEUS_TRY(check_all_frames(run));
-    PILEUS_TRY(outline_surroundings(scene, context, *run.world, run.around));
+    PILEUS_TRY(outline_surroundings(scene, context, *run.world, run.sky, run.around));
     PILEUS_TRY(method.outline(context, run));
     if (!exact) return Status::ok();
     if (!kFlight && own != nullptr) PILEUS_TRY(load_world(scene, context, *own));
@@ -66,12 +67,13 @@ Status open_run(const Method& method, const Scene& scene, const Budget& budget,
     return method.prepare(context, run);
 }
 
-SunTurn turn_of_sun(const Scene& scene, int slices, std::int64_t number, const SunDirection& sun) {
+SunTurn turn_of_sun(const MethodRun& run, int slices, std::int64_t number,
+                    const SunDirection& sun) {
     SunTurn turn{slices, number, sun, nullptr};
-    if (!kFilms || !moves_sun(scene)) return turn;
-    const Scene* from = &scene;
+    if (!kFilms || !moves_sun(*run.scene)) return turn;
+    const MethodRun* from = &run;
     turn.sun_of = [from](std::int64_t frame) {
-        const SunPlace at = sun_at(*from, frame > 0 ? int(frame) : 0);
+        const SunPlace at = from->sun_of(frame > 0 ? int(frame) : 0);
         const Double3 to = towards_deg(at.azimuth_deg, at.elevation_deg);
         return SunDirection{float(to[0]), float(to[1]), float(to[2])};
     };

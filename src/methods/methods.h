@@ -30,11 +30,16 @@ struct FrameStep {
 /// What a method keeps between its functions; each derives its own. What all have is here.
 struct MethodRun {
     const Scene* scene = nullptr;
+    const FrameState* rest = nullptr;  ///< of the scene, but for keys; null: the scene itself
+    const Image* sky = nullptr;        ///< in place of the sky map's file; null: that
     Budget budget;
     std::shared_ptr<const World> world;  ///< outlined before `outline`, loaded before `prepare`
     Surroundings around;                 ///< likewise
     Plan plan;
     Lighting lighting;
+    /// The sun of a frame of the animation, in the media's coordinates.
+    SunPlace sun_of(int frame) const { return sun_at(*scene, rest->sun, frame); }
+
     /// Moves the scene to a frame, where keys do; else null.
     std::function<void(int frame)> place_at;
     bool outlined_only = true;  ///< sizes are known, values are not
@@ -126,6 +131,6 @@ inline Status unknown_budget(const char* option, const std::string& method, cons
 
 /// Frame `turn`, whose sun is `sun`. Frames of an animation are what they are wherever it begins;
 /// those before its first have that one's sun. A host's are counted.
-SunTurn turn_of_sun(const Scene& scene, int slices, std::int64_t turn, const SunDirection& sun);
+SunTurn turn_of_sun(const MethodRun& run, int slices, std::int64_t turn, const SunDirection& sun);
 
 }  // namespace pileus

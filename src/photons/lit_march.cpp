@@ -31,7 +31,7 @@ NodeGrid shadow_grid(const PhotonRun& run) {
 }
 
 SunTurn turn_of(const PhotonRun& run) {
-    return turn_of_sun(*run.scene, run.light_refresh, run.turn, run.lighting.to_sun);
+    return turn_of_sun(run, run.light_refresh, run.turn, run.lighting.to_sun);
 }
 
 }  // namespace

@@ -26,7 +26,7 @@ Status fill_ring(int frame, const Context& context, PhotonRun& run, const ShootP
         const std::uint64_t g = run.next_generation;
         const int shown = g < run.generations ? 0 : int(g - run.generations + 1);
         if (run.place_at) run.place_at(shown);
-        set_photon_sun(sun_at(*run.scene, shown), run);
+        set_photon_sun(run.sun_of(shown), run);
     };
     const Status shot =
         shoot_generations(context, run, wanted_generations(run, run.generations), aim, shoot);
@@ -39,7 +39,7 @@ Status fill_ring(int frame, const Context& context, PhotonRun& run, const ShootP
         run.ring_sum.counted.clear();
         std::rotate(slots.begin(), slots.begin() + std::ptrdiff_t(run.ring_first % slots.size()),
                     slots.end());
-        set_photon_sun(sun_at(*run.scene, frame), run);
+        set_photon_sun(run.sun_of(frame), run);
     }
     return ring_state(run);
 }
@@ -78,7 +78,7 @@ Status shoot_frame(const FrameStep& step, const Context& context, PhotonRun& run
     const Scene& scene = *run.scene;
     const auto nothing = [] {};
     if (!step.first) {
-        set_photon_sun(sun_at(scene, step.frame), run);
+        set_photon_sun(run.sun_of(step.frame), run);
         PILEUS_TRY(shoot_generations(context, run, 1, nothing, shoot));
         return ring_state(run);
     }

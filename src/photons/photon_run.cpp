@@ -30,10 +30,11 @@ std::uint64_t batch_count(std::uint64_t generations) {
 
 /// The sun that the lights are planned for: one that only rises during an animation needs its
 /// place among them from the start.
-SunPlace first_place(const Scene& scene) {
+SunPlace first_place(const MethodRun& run) {
+    const Scene& scene = *run.scene;
     SunPlace own = place_of(scene.sun);
     if (kFilms && scene.ground.present && own.elevation_deg <= 0 && moves_sun(scene))
-        own.elevation_deg = highest_sun(scene);
+        own.elevation_deg = highest_sun(scene, run.rest->sun);
     return own;
 }
 
@@ -176,7 +177,7 @@ Status choose_photon_lights(std::uint64_t generations, PhotonRun& run) {
     run.generations = generations;
     if (photons >= 0 && std::uint64_t(photons) < run.generations)
         run.generations = photons > 0 ? std::uint64_t(photons) : 1;
-    run.sun = first_place(scene);
+    run.sun = first_place(run);
     run.lighting = light_world(scene, run.sun, *run.world, run.around, run.plan);
     if (!run.lighting.lamps.empty()) {
         if (kPlans)

@@ -48,7 +48,6 @@ struct Animation {
     std::array<double, 2> hours{0, 0};                                 ///< after atmosphere.time
     bool moves_camera = false, moves_sun = false, moves_time = false;  ///< by the ranges above
     std::vector<AnimationKey> keys;                                    ///< by rising frames
-    SunPlace sun_at_rest;  ///< but for keys; set by whoever renders them
 };
 
 bool has_track(const Animation& animation, Track track);

@@ -11,7 +11,6 @@ struct AtmosphereSettings {
     bool present = false;
     std::string date;            ///< "2026-06-21"; empty: [sun] says where the sun stands
     std::string time = "12:00";  ///< of the clock at utc_offset_h
-    double later_h = 0;          ///< hours after that; set by whoever renders a film
     double utc_offset_h = 0;     ///< hours that clock is ahead of universal time
     double latitude_deg = 0, longitude_deg = 0;
     double turbidity = 2;        ///< of air and haze over that of air; [1, 10]

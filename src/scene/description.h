@@ -13,6 +13,22 @@
 
 namespace pileus {
 
+/// Files and places that belong to the view.
+struct ViewFiles {
+    std::string sky_map;         ///< image of the sky, relative to the scene file; empty: none
+    std::string depth;           ///< image of the way to solid things; empty: none
+    bool depth_on_axis = false;  ///< depth_kind = "z": along the view's axis, not along each ray
+    double depth_scale = 1;      ///< metres per unit of its values; > 0
+    bool position_by_place = false, target_by_place = false;  ///< by the weather file's map
+    Double3 position_place{}, target_place{};  ///< longitude, latitude in degrees, height in m
+};
+
+struct Lens {
+    double aperture_radius_m = 0;  ///< 0: a pinhole
+    double focus_distance_m = 0;   ///< along the view; 0: the target's
+    double shutter_s = 0;          ///< how long it is open, the frame's time in the middle
+};
+
 struct OutputSettings {
     std::vector<std::string> files;  ///< relative to the scene's folder
     std::string report;
@@ -29,6 +45,8 @@ struct Description {
     std::vector<MediumSettings> media;
     CloudsSettings clouds;  ///< kinds and places of many clouds, in place of media
     std::string method = "collectors";
+    ViewFiles view_files;
+    Lens lens;
     OutputSettings output;
     Animation animation;
 

@@ -3,7 +3,6 @@
 // in: keys of [camera], [sun], [sky], [ground], [[light]] -> out: plain values. docs/scene.md
 #pragma once
 #include <array>
-#include <string>
 #include <vector>
 
 #include "src/base/vectors.h"
@@ -11,8 +10,6 @@
 #include "src/scene/light_settings.h"
 
 namespace pileus {
-
-struct Image;
 
 /// The image plane of a host's projection, at distance 1, or in metres of parallel rays.
 struct Frustum {
@@ -26,21 +23,13 @@ struct Frustum {
 
 struct Camera {
     Double3 position_m{0, -3000, 600}, target_m{0, 0, 900}, up{0, 0, 1};
-    bool position_by_place = false, target_by_place = false;  ///< by the weather file's map
-    Double3 position_place{}, target_place{};  ///< longitude, latitude in degrees, height in m
-    bool orthographic = false;                 ///< parallel rays, or none at all (flux)
-    bool flux = false;       ///< a flat detector of light from its front; orthographic too
-    double fov_deg = 40;     ///< vertical, perspective only; in (0, 180)
-    double height_m = 2000;  ///< orthographic and flux; > 0
+    bool orthographic = false;  ///< parallel rays, or none at all (flux)
+    bool flux = false;          ///< a flat detector of light from its front; orthographic too
+    double fov_deg = 40;        ///< vertical, perspective only; in (0, 180)
+    double height_m = 2000;     ///< orthographic and flux; > 0
     std::array<int, 2> resolution{960, 540};
     bool has_frustum = false;  ///< a session's: instead of fov_deg and height_m
     Frustum frustum;
-    std::string depth;             ///< image of the way to solid things; empty: none
-    bool depth_on_axis = false;    ///< depth_kind = "z": along the view's axis, not along each ray
-    double depth_scale = 1;        ///< metres per unit of its values; > 0
-    double aperture_radius_m = 0;  ///< of the lens; 0: a pinhole
-    double focus_distance_m = 0;   ///< along the view; 0: the target's
-    double shutter_s = 0;          ///< how long it is open, the frame's time in the middle
 };
 
 struct Sun {
@@ -54,11 +43,10 @@ inline SunPlace place_of(const Sun& sun) { return {sun.azimuth_deg, sun.elevatio
 
 struct Sky {
     bool present = false;
-    Float3 radiance{0, 0, 0};        ///< constant; unused with a map
-    std::string map;                 ///< path of an image, relative to the scene file; empty: none
-    const Image* picture = nullptr;  ///< in place of that file; a map's name must be given, too
-    double map_scale = 1;            ///< factor on its values; >= 0
-    double map_rotation_deg = 0;     ///< turns it from north towards east
+    bool mapped = false;          ///< by a map: of a file (ViewFiles) or of a host; else `radiance`
+    Float3 radiance{0, 0, 0};     ///< constant; unused with a map
+    double map_scale = 1;         ///< factor on its values; >= 0
+    double map_rotation_deg = 0;  ///< turns it from north towards east
 };
 
 struct Ground {
@@ -66,14 +54,33 @@ struct Ground {
     double altitude_m = 0, albedo = 0.2;
 };
 
-/// Read by all methods alike.
+/// How far all media have moved, and turned about the z axis through the origin before that, from
+/// north to west.
+struct Placement {
+    Double3 offset_m{};
+    double yaw_deg = 0;
+};
+
+/// All that a host sets and an animation moves; nothing else changes between frames.
 struct FrameState {
     Camera camera;
     Sun sun;
     Sky sky;
     Ground ground;
     std::vector<LightSettings> lights;  ///< besides sun and sky
+    Placement placement;
+    int number = 0;          ///< a host's: what noise and pixels marched in turn go by
+    double hours_later = 0;  ///< after atmosphere.time
     int sequence_frame = 0;  ///< frame whose density files are read; set by whoever renders it
 };
+
+bool same_sun(const Sun& a, const Sun& b);
+bool same_ground(const Ground& a, const Ground& b);
+/// What a host may change of a camera.
+bool same_view(const Camera& a, const Camera& b);
+
+/// `out`: the same in the coordinates of the media, which alone have moved by `host.placement`.
+/// Takes no memory where `out` has had room for the lights.
+void put_in_media(const FrameState& host, FrameState& out);
 
 }  // namespace pileus

@@ -32,15 +32,25 @@ bool has(const Scene& scene, Track track) {
 
 }  // namespace
 
-SunPlace sun_at(const Scene& scene, int frame) {
+SunPlace sun_at(const Scene& scene, const Sun& rest, int frame) {
     const Animation& a = scene.animation;
-    if (!kFilms || !a.present) return place_of(scene.sun);
-    SunPlace at = a.keys.empty() ? place_of(scene.sun) : a.sun_at_rest;
+    SunPlace at = place_of(rest);
+    if (!kFilms || !a.present) return at;
     if (a.moves_sun) at.elevation_deg = in_range(a, a.sun_elevation_deg, frame);
     at.azimuth_deg = number_at(scene, Track::kAzimuth, frame, at.azimuth_deg);
     at.azimuth_deg += number_at(scene, Track::kYaw, frame, 0);
     at.elevation_deg = number_at(scene, Track::kElevation, frame, at.elevation_deg);
     return at;
+}
+
+void frame_state_at(const Scene& scene, const FrameState& rest, int frame, FrameState& out) {
+    out = rest;
+    out.camera = camera_at(scene.animation, rest.camera, frame);
+    out.placement = placement_at(scene, frame);
+    const SunPlace sun = sun_at(scene, rest.sun, frame);
+    // Its yaw is the placement's.
+    out.sun.azimuth_deg = number_at(scene, Track::kAzimuth, frame, rest.sun.azimuth_deg);
+    out.sun.elevation_deg = sun.elevation_deg;
 }
 
 double orbit_at(const Scene& scene, int frame) {
@@ -98,9 +108,9 @@ const char* mover_of_view(const Scene& scene) {
     return by_keys ? "animation.keys" : nullptr;
 }
 
-double highest_sun(const Scene& scene) {
+double highest_sun(const Scene& scene, const Sun& rest) {
     const Animation& a = scene.animation;
-    double most = sun_at(scene, 0).elevation_deg;
+    double most = sun_at(scene, rest, 0).elevation_deg;
     if (a.present && a.moves_sun) most = std::max(a.sun_elevation_deg[0], a.sun_elevation_deg[1]);
     for (const AnimationKey& key : a.keys)
         if (key.given[std::size_t(Track::kElevation)])

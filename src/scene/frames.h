@@ -7,8 +7,8 @@
 
 namespace pileus {
 
-/// The sun of a frame, in the media's coordinates.
-SunPlace sun_at(const Scene& scene, int frame);
+/// The sun of a frame, in the media's coordinates; `rest`: as it is but for the animation.
+SunPlace sun_at(const Scene& scene, const Sun& rest, int frame);
 /// Angle by which the camera has turned about its target in a frame, degrees.
 double orbit_at(const Scene& scene, int frame);
 /// The camera before that, but for the media's place.
@@ -17,13 +17,11 @@ Camera camera_at(const Animation& animation, const Camera& rest, int frame);
 double hours_at(const Scene& scene, int frame);
 double wind_at(const Scene& scene, int frame);
 
-/// How far all media have moved, and turned about the z axis through the origin before that, from
-/// north to west.
-struct Placement {
-    Double3 offset_m{};
-    double yaw_deg = 0;
-};
 Placement placement_at(const Scene& scene, int frame);
+
+/// `out`: a frame of the scene's animation in the scene's coordinates; `rest`: but for keys. Only
+/// what keys move differs; ranges are asked for by `sun_at` and `orbit_at`.
+void frame_state_at(const Scene& scene, const FrameState& rest, int frame, FrameState& out);
 
 /// Whether frames differ in these, by ranges or keys.
 bool moves_sun(const Scene& scene);
@@ -32,7 +30,7 @@ bool moves_wind(const Scene& scene);
 bool moves_media(const Scene& scene);
 /// The key that makes frames see the media from different places; null: none does.
 const char* mover_of_view(const Scene& scene);
-/// The most of the sun's elevations.
-double highest_sun(const Scene& scene);
+/// The most of the sun's elevations; `rest` as for sun_at.
+double highest_sun(const Scene& scene, const Sun& rest);
 
 }  // namespace pileus

@@ -78,7 +78,7 @@ std::string density_path(const Scene& scene, const MediumSettings& medium) {
 }
 
 std::string depth_path(const Scene& scene) {
-    return scene_path(scene.directory, numbered(scene.camera.depth, scene.sequence_frame));
+    return scene_path(scene.directory, numbered(scene.view_files.depth, scene.sequence_frame));
 }
 
 Status read_scene_text(const std::string& text, const std::string& name,

@@ -12,6 +12,8 @@ Status check_changed(const char*, const Scene& scene, void (*change)(const void*
     Scene changed = scene;
     change(values, changed);
     changed.file = "session";
+    // The checks know maps by their files.
+    changed.view_files.sky_map = changed.sky.mapped ? "host.pfm" : "";
     return check_scene(changed);
 }
 

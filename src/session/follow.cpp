@@ -5,7 +5,7 @@
 #include "platform/fp_mode.h"
 #include "src/methods/collectors/views/views.h"
 #include "src/session/run_context.h"
-#include "src/world/camera/places.h"
+#include "src/world/place_scene.h"
 
 namespace pileus {
 
@@ -13,7 +13,7 @@ Status follow(const Scene& scene, const RenderOptions& options, int light, std::
               PhotonWay& way) {
     const FpModeGuard guard;
     Scene placed = scene;
-    PILEUS_TRY(place_camera(placed));
+    PILEUS_TRY(place_scene(placed));
     Report report;
     Context context;
     if (scene.method != "collectors")

@@ -48,7 +48,7 @@ Status try_small(const Scene& scene, const RenderOptions& options, int edge, Tri
     fewer(small.collectors.photons);
     fewer(small.photon_grid.photons);
     // Of depth images there are none of this size.
-    small.camera.depth.clear();
+    small.view_files.depth.clear();
     RenderOptions some = options;
     fewer(some.budget.photons);
     some.digests = false;

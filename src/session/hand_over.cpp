@@ -119,9 +119,9 @@ Status Session::check_take_over(const Session& from, std::uint32_t frames) const
     if (scene_.method != from.scene_.method)
         return refuse("next has method \"" + scene_.method + "\"",
                       "\"" + from.scene_.method + "\", as the session");
-    if (around_.camera.resolution != from.around_.camera.resolution)
-        return refuse("next has pictures of " + size_of(around_.camera),
-                      size_of(from.around_.camera) + ", as the session");
+    if (host_.camera.resolution != from.host_.camera.resolution)
+        return refuse("next has pictures of " + size_of(host_.camera),
+                      size_of(from.host_.camera) + ", as the session");
     if (context_.threads != from.context_.threads)
         return refuse("next has " + std::to_string(context_.threads) + " threads",
                       std::to_string(from.context_.threads) + ", as the session");
@@ -150,29 +150,29 @@ Status Session::fade_from(Session& from, std::uint32_t frames, std::unique_ptr<F
 
 /// What is refused leaves this session's own view.
 Status Session::take_view(const Session& from) {
-    const Placement before = placement_;
-    PILEUS_TRY(set_placement(from.placement_.offset_m, from.placement_.yaw_deg));
-    const Camera camera = around_.camera;
-    Status status = set_camera(from.around_.camera);
+    const Placement before = host_.placement;
+    PILEUS_TRY(set_placement(from.host_.placement.offset_m, from.host_.placement.yaw_deg));
+    const Camera camera = host_.camera;
+    Status status = set_camera(from.host_.camera);
     if (status && whole_work_ == from.whole_work_) status = set_work(from.work_);
     if (status) return status;
-    around_.camera = camera;
-    placement_ = before;
+    host_.camera = camera;
+    host_.placement = before;
     return status;
 }
 
 Status Session::take_over(Session& from, std::uint32_t frames) {
     const FpModeGuard guard;
     PILEUS_TRY(check_take_over(from, frames));
-    const Placement placement = placement_;
-    const Camera camera = around_.camera;
+    const Placement placement = host_.placement;
+    const Camera camera = host_.camera;
     PILEUS_TRY(take_view(from));
     std::unique_ptr<Fading> fading;
     const PoolGuard lent(*from.threads_);
     const Status kept = fade_from(from, frames, fading);
     if (!kept) {
-        placement_ = placement;
-        around_.camera = camera;
+        host_.placement = placement;
+        host_.camera = camera;
         return kept;
     }
     // Nothing is refused from here on.
@@ -180,8 +180,8 @@ Status Session::take_over(Session& from, std::uint32_t frames) {
     from.fading_.reset();
     from.shown_ = nullptr;
     depth_scale_ = from.depth_scale_;
-    stale_ = stale_ || frame_ != from.frame_;
-    frame_ = from.frame_;
+    stale_ = stale_ || host_.number != from.host_.number;
+    host_.number = from.host_.number;
     CameraDepth &own = run_->around.depth, &given = from.run_->around.depth;
     if (own.present || given.present) {
         std::swap(own, given);

@@ -61,10 +61,10 @@ void set_frame(const Scene& scene, int frame, Scene& own) {
     for (std::size_t i = 0; i < own.media.size(); ++i)
         own.media[i].sky.time_s = scene.media[i].sky.time_s + wind_at(scene, frame);
     if (!has_moving_sky(scene)) return;
-    const SunPlace sun = sun_at(scene, frame);
+    const SunPlace sun = sun_at(scene, scene.sun, frame);
     own.sun.azimuth_deg = sun.azimuth_deg;
     own.sun.elevation_deg = sun.elevation_deg;
-    own.atmosphere.later_h = hours_at(scene, frame);
+    own.hours_later = hours_at(scene, frame);
 }
 
 /// Frames that share a world, which may be given.

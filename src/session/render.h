@@ -24,8 +24,9 @@ struct RenderOptions {
     const KernelTable* kernels = nullptr;  ///< where set, instead of `isa`
     Budget budget;                         ///< instead of what the scene says
     std::int64_t verify = 0;               ///< pixels of each picture to trace by paths afterwards
-    std::string show;     ///< empty: the picture; else a step of the method (docs/how-it-works.md)
-    bool digests = true;  ///< the report names what each stage made by its bits; takes time
+    std::string show;  ///< empty: the picture; else a step of the method (docs/how-it-works.md)
+    const Image* sky = nullptr;  ///< in place of the sky map's file; null: that
+    bool digests = true;         ///< the report names what each stage made by its bits; takes time
     int first_frame = 0, last_frame = 0;  ///< of the animation, inclusive
     Limits limits;                        ///< what the scene may ask for; docs/program.md
     /// Called now and then with a stage's name and the share done of it, 0..1.

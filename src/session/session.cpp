@@ -11,8 +11,8 @@
 #include "src/scene/read_scene.h"
 #include "src/session/run_context.h"
 #include "src/world/atmosphere/atmosphere.h"
-#include "src/world/camera/places.h"
 #include "src/world/camera/view.h"
+#include "src/world/place_scene.h"
 
 namespace pileus {
 namespace {
@@ -31,7 +31,7 @@ void make_live(Scene& scene) {
     output.layer_shadow = output.layer_occlusion = false;
     output.layer_depth = !scene.camera.flux;
     output.layer_cloud = scene.method == "path";
-    scene.camera.depth.clear();
+    scene.view_files.depth.clear();
     // A change is checked on a copy of the scene, and its faults name no line of a file.
     scene.text.clear();
     scene.places.clear();
@@ -102,13 +102,11 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
     const bool live = kind == SessionKind::kLive;
     if (kChecks) PILEUS_TRY(refuse_clouds(scene));
     scene_ = scene;
-    PILEUS_TRY(place_camera(scene_));
-    place_sun(scene_);
-    PILEUS_TRY(check_camera_in_air(scene_));
+    PILEUS_TRY(place_scene(scene_));
+    scene_.sky.mapped = options.sky != nullptr || !scene_.view_files.sky_map.empty();
     options_ = options;
     if (live) make_live(scene_);
-    around_ = Surround(scene_);
-    scene_.animation.sun_at_rest = place_of(scene_.sun);
+    host_ = scene_;
     PILEUS_TRY(make_context(scene_, options, context_, report_));
     if (live) context_.frames = kLiveFrames;
     context_.digests = !live && options.digests;
@@ -118,9 +116,16 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
         PILEUS_TRY(find_view(scene_.method, options.show, method_));
     if (kChecks) PILEUS_TRY(check_method(live, world.get()));
     run_ = method_->make();
+    run_->rest = live ? static_cast<const FrameState*>(&scene_) : &host_;
+    run_->sky = options.sky;
     if (kFilms && !scene_.animation.keys.empty()) {
-        run_->place_at = [this](int frame) { place_keys(around_, frame, scene_); };
-        run_->place_at(frame_);
+        run_->place_at = [this](int frame) {
+            FrameState at;
+            frame_state_at(scene_, host_, frame, at);
+            at.sequence_frame = scene_.sequence_frame;
+            put_in_media(at, scene_);
+        };
+        run_->place_at(host_.number);
     }
     PILEUS_TRY(
         open_run(*method_, scene_, options.budget, context_, exact, std::move(world), *run_));
@@ -134,11 +139,11 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
 /// Where frames differ in what no method moves by itself.
 Status Session::take_frame(int frame) {
     if (run_->place_at) {
-        PILEUS_TRY(check_placed_media(*run_, around_.ground, frame));
+        PILEUS_TRY(check_placed_media(*run_, host_.ground, frame));
         run_->place_at(frame);
     }
-    if (!is_sequence(scene_.camera.depth)) return Status::ok();
-    scene_.sequence_frame = frame;
+    if (!is_sequence(scene_.view_files.depth)) return Status::ok();
+    host_.sequence_frame = scene_.sequence_frame = frame;
     return load_surroundings(scene_, context_, run_->around);
 }
 
@@ -166,7 +171,7 @@ Status Session::aim() {
     place();
     // What late rows lead to may be laid out anew.
     if (late_.ready) shown_ = nullptr;
-    PILEUS_TRY(method_->live->aim(frame_, anew_, context_, *run_));
+    PILEUS_TRY(method_->live->aim(host_.number, anew_, context_, *run_));
     PILEUS_TRY(check_sealed());
     stale_ = anew_ = false;
     stats_.prepared = method_->live->units(*run_).prepared;
@@ -217,8 +222,9 @@ Status Session::render(const FrameTarget& target) {
                       !(kClouds && fading_ != nullptr) && is_late(target.colour, *context_.kernels);
     late_.ready = false;
     late_.params.filled = 0;
-    PILEUS_TRY(method_->live->compose(
-        {frame_, stats_.pictures == 0, false, late ? &late_ : nullptr}, context_, *run_, planes));
+    PILEUS_TRY(
+        method_->live->compose({host_.number, stats_.pictures == 0, false, late ? &late_ : nullptr},
+                               context_, *run_, planes));
     const Planes* const fresh = planes;
     if (kClouds && fading_ != nullptr)
         PILEUS_TRY(fading_->mix(context_, scene_, *run_, method_->live->reads_planes, planes));
@@ -244,7 +250,7 @@ Status Session::render(const FrameTarget& target) {
         *target.hash = hash_ = hash_planes(*planes);
     }
     report_.counters.emplace_back("nan", broken);
-    report_.frame = frame_;
+    report_.frame = host_.number;
     ++stats_.pictures;
     stats_.render_s = wall_seconds() - start;
     stats_.stages_s = stage_seconds(report_) - staged;

@@ -10,7 +10,6 @@
 #include "src/methods/methods.h"
 #include "src/picture/late_rows.h"
 #include "src/picture/pixels.h"
-#include "src/scene/placed.h"
 #include "src/session/render.h"
 
 namespace pileus {
@@ -126,10 +125,10 @@ public:
     Status fit_work(const UnitCosts& costs, double most, FrameWork& work);
 
     /// Camera as it was set, in the host's coordinates.
-    const Camera& camera() const { return around_.camera; }
+    const Camera& camera() const { return host_.camera; }
     /// The ground likewise, and how many [[light]] there are.
-    const Ground& ground() const { return around_.ground; }
-    std::size_t light_count() const { return around_.lights.size(); }
+    const Ground& ground() const { return host_.ground; }
+    std::size_t light_count() const { return host_.lights.size(); }
 
     /// Traces so many whole units; `done` fewer where the host's `interrupted` ended it.
     Status step(std::uint64_t units, std::uint64_t& done);
@@ -183,11 +182,9 @@ private:
     std::shared_ptr<const void> clouds_;  ///< held by those over this sky, too
     std::unique_ptr<ThreadPool> threads_ = std::make_unique<ThreadPool>();  ///< where none is lent
     Scene scene_;      ///< as the method sees it: in the media's coordinates
-    Surround around_;  ///< as a host set it, or as the file has it
-    Placement placement_;
+    FrameState host_;  ///< as a host set it, or as the file has it
     DepthScale depth_scale_;
     FrameWork whole_work_, work_;  ///< the scene's, and that of the next frame
-    int frame_ = 0;
     bool stale_ = true, anew_ = false;
     bool air_old_ = false;  ///< the air's sky is another sun's or ground's
     bool has_hash_ = false;

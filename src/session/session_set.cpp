@@ -44,39 +44,22 @@ Status refuse_sealed(const char* what) {
                              ": another than when the flight was opened, allowed: what it had");
 }
 
-/// What a session may change of a camera.
-bool same_view(const Camera& a, const Camera& b) {
-    return a.position_m == b.position_m && a.target_m == b.target_m && a.up == b.up &&
-           a.orthographic == b.orthographic && a.fov_deg == b.fov_deg && a.height_m == b.height_m &&
-           a.resolution == b.resolution && a.has_frustum == b.has_frustum &&
-           (!a.has_frustum || a.frustum == b.frustum);
-}
-
-bool same_sun(const Sun& a, const Sun& b) {
-    return a.present == b.present && a.azimuth_deg == b.azimuth_deg &&
-           a.elevation_deg == b.elevation_deg && a.irradiance == b.irradiance;
-}
-
-bool same_ground(const Ground& a, const Ground& b) {
-    return a.present == b.present && a.altitude_m == b.altitude_m && a.albedo == b.albedo;
-}
-
 }  // namespace
 
 Status Session::set_camera(const Camera& given) {
     const FpModeGuard guard;
     const Camera camera = held(given);
     // Light that was gathered for this view stays.
-    if (same_view(camera, around_.camera)) return Status::ok();
+    if (same_view(camera, host_.camera)) return Status::ok();
     if (scene_.method == "collectors" && scene_.collectors.camera_closure)
         return Status::bad_input(
             "camera: collectors.closure \"camera\" lights cells towards a fixed one, allowed: "
             "another closure");
     PILEUS_TRY(check_frustum(camera, scene_.collectors.billboards));
-    if (const char* key = camera_fault(scene_, around_.ground, camera)) {
+    if (const char* key = camera_fault(scene_, host_.ground, camera)) {
         const auto change = [&](Scene& changed) {
             changed.camera = camera;
-            changed.ground = around_.ground;
+            changed.ground = host_.ground;
         };
         Scene seen;
         seen.atmosphere = scene_.atmosphere;
@@ -87,10 +70,10 @@ Status Session::set_camera(const Camera& given) {
     const std::uint64_t pixels =
         std::uint64_t(camera.resolution[0]) * std::uint64_t(camera.resolution[1]);
     PILEUS_TRY(check_limit(context_.limits, LimitId::kPixels, pixels, "camera.resolution"));
-    if (run_->sealed && camera.resolution != around_.camera.resolution)
+    if (run_->sealed && camera.resolution != host_.camera.resolution)
         return refuse_sealed("camera.resolution");
-    if (camera.resolution != around_.camera.resolution) run_->around.depth = CameraDepth{};
-    around_.camera = camera;
+    if (camera.resolution != host_.camera.resolution) run_->around.depth = CameraDepth{};
+    host_.camera = camera;
     stale_ = true;
     return Status::ok();
 }
@@ -102,13 +85,13 @@ Status Session::set_depth_scale(const DepthScale& scale) {
 
 Status Session::set_sun(const Sun& given) {
     const Sun sun = held(given);
-    if (same_sun(sun, around_.sun)) return Status::ok();
+    if (same_sun(sun, host_.sun)) return Status::ok();
     if (kAtmosphere && scene_.atmosphere.present && !sun.present)
         return refuse(kNoSunInAir, kNoSunInAirAllowed);
     if (run_->sealed && scene_.atmosphere.present) return refuse_sealed("sun");
     if (const char* key = sun_fault(sun))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) { changed.sun = sun; }));
-    around_.sun = sun;
+    host_.sun = sun;
     stale_ = true;
     return relight_air();
 }
@@ -120,8 +103,8 @@ Status Session::relight_air() {
     const PoolGuard lent(*threads_);
     Scene lit;
     lit.atmosphere = scene_.atmosphere;
-    lit.sun = around_.sun;
-    lit.ground = around_.ground;
+    lit.sun = host_.sun;
+    lit.ground = host_.ground;
     // Where memory ends, the next picture tries again.
     anew_ = air_old_ = true;
     PILEUS_TRY(light_surroundings(lit, context_.threads, *run_->world, run_->around));
@@ -133,17 +116,16 @@ Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
     const FpModeGuard guard;
     if (kAtmosphere && scene_.atmosphere.present) return refuse(kSkyInAir, kSkyInAirAllowed);
     const bool kept = sky.present && map == nullptr && keep && run_->around.sky_map.present();
-    Sky next = kept ? scene_.sky : sky;
+    Sky next = kept ? host_.sky : sky;
     hold(next);
     next.present = sky.present;
-    if (!kept && map == nullptr) {
+    next.mapped = kept || map != nullptr;
+    if (!next.mapped) {
         // What belongs to a map says nothing without one.
         next.map_scale = Sky{}.map_scale;
         next.map_rotation_deg = Sky{}.map_rotation_deg;
     } else {
-        // The checks know maps by their files.
         next.radiance = Sky{}.radiance;
-        if (next.map.empty()) next.map = "host.pfm";
     }
     if (const char* key = sky_fault(scene_, next))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) { changed.sky = next; }));
@@ -152,39 +134,39 @@ Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
     if (late_.ready) shown_ = nullptr;
     if (map != nullptr) {
         SkyMap made;
-        PILEUS_TRY(make_sky_map("sky.map", *map, next, around_.ground.present, made));
+        PILEUS_TRY(make_sky_map("sky.map", *map, next, host_.ground.present, made));
         run_->around.sky_map = std::move(made);
         anew_ = true;
     } else if (!kept && run_->around.sky_map.present()) {
         run_->around.sky_map = SkyMap{};
         anew_ = true;
     }
-    scene_.sky = next;
+    host_.sky = scene_.sky = next;
     stale_ = true;
     return Status::ok();
 }
 
 Status Session::set_ground(const Ground& given) {
     const Ground ground = held(given);
-    if (same_ground(ground, around_.ground)) return Status::ok();
+    if (same_ground(ground, host_.ground)) return Status::ok();
     if (run_->sealed && scene_.atmosphere.present) return refuse_sealed("ground");
-    if (const char* key = ground_fault(scene_, around_.camera, ground))
+    if (const char* key = ground_fault(scene_, host_.camera, ground))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) {
             changed.ground = ground;
-            changed.lights = around_.lights;
-            changed.camera = around_.camera;
+            changed.lights = host_.lights;
+            changed.camera = host_.camera;
         }));
-    PILEUS_TRY(check_media("ground.altitude_m", ground, placement_.offset_m.z));
-    if (ground.present != around_.ground.present && run_->around.sky_map.present())
+    PILEUS_TRY(check_media("ground.altitude_m", ground, host_.placement.offset_m.z));
+    if (ground.present != host_.ground.present && run_->around.sky_map.present())
         return Status::bad_input(
             "ground: the sky map was read with it or without, allowed: as the scene has it");
-    around_.ground = ground;
+    host_.ground = ground;
     stale_ = true;
     return relight_air();
 }
 
 Status Session::set_lights(const std::vector<LightSettings>& lights) {
-    if (lights == around_.lights) return Status::ok();
+    if (lights == host_.lights) return Status::ok();
     PILEUS_TRY(refuse_clouds_sky("lights"));
     if (run_->sealed && sealed_lights_ == 0) return refuse_sealed("light");
     if (run_->sealed && lights.size() > sealed_lights_)
@@ -194,14 +176,14 @@ Status Session::set_lights(const std::vector<LightSettings>& lights) {
     if (kDevices)
         PILEUS_TRY(
             check_host_lights(context_, lights, scene_.atmosphere.present, run_->world->medium));
-    if (const char* key = lights_fault(scene_, around_.ground, lights))
+    if (const char* key = lights_fault(scene_, host_.ground, lights))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) {
             changed.lights = lights;
             for (LightSettings& light : changed.lights) light = held(light);
-            changed.ground = around_.ground;
+            changed.ground = host_.ground;
         }));
-    around_.lights = lights;
-    for (LightSettings& light : around_.lights) light = held(light);
+    host_.lights = lights;
+    for (LightSettings& light : host_.lights) light = held(light);
     stale_ = true;
     return Status::ok();
 }
@@ -221,7 +203,7 @@ Status Session::set_placement(const Double3& offset_m, double yaw_deg) {
             return Status::bad_input("placement.offset_m: out of range, allowed: within 1e9 m");
     if (!(yaw_deg > -1e6 && yaw_deg < 1e6))
         return Status::bad_input("placement.yaw_deg: out of range, allowed: within 1e6");
-    PILEUS_TRY(check_media("placement.offset_m", around_.ground, offset_m.z));
+    PILEUS_TRY(check_media("placement.offset_m", host_.ground, offset_m.z));
     const bool moves = offset_m != Double3{} || yaw_deg != 0;
     if (moves && run_->world->media == 0)
         return Status::bad_input("placement: no media to move, allowed: 0");
@@ -229,15 +211,15 @@ Status Session::set_placement(const Double3& offset_m, double yaw_deg) {
         return Status::bad_input("placement: solids stay where they are, allowed: 0");
     if (yaw_deg != 0 && run_->around.sky_map.present())
         return Status::bad_input("placement.yaw_deg: not below a sky map, allowed: 0");
-    stale_ = stale_ || offset_m != placement_.offset_m || yaw_deg != placement_.yaw_deg;
-    placement_ = {offset_m, yaw_deg};
+    stale_ = stale_ || offset_m != host_.placement.offset_m || yaw_deg != host_.placement.yaw_deg;
+    host_.placement = {offset_m, yaw_deg};
     return Status::ok();
 }
 
 Status Session::set_frame(int number) {
     if (number < 0) return Status::bad_input("frame: below 0, allowed: 0 and more");
-    stale_ = stale_ || number != frame_;
-    frame_ = number;
+    stale_ = stale_ || number != host_.number;
+    host_.number = number;
     return Status::ok();
 }
 
@@ -250,7 +232,7 @@ Status Session::set_depth(const Rows* rows, DepthKind kind) {
             "another kind");
     if (run_->sealed && rows != nullptr && depth.metres.empty()) return refuse_sealed("depth");
     if (rows != nullptr) {
-        const CameraParams camera = make_camera(around_.camera, 0, {});
+        const CameraParams camera = make_camera(host_.camera, 0, {});
         PILEUS_TRY(take_depths(*rows, kind, depth_scale_, camera, depth));
     } else if (!depth.present) {
         return Status::ok();
@@ -281,7 +263,7 @@ void Session::seal() {
     sealed_shine_ = shine_of(run_->lighting);
     sealed_lights_ = scene_.lights.size();
     const std::size_t lamps = scene_.lights.empty() ? 0 : kMostLights;
-    around_.lights.reserve(lamps);
+    host_.lights.reserve(lamps);
     scene_.lights.reserve(lamps);
     run_->lighting.reserve(lamps);
     // Those of a picture, of the method, and of the accidents that a log is told of.
@@ -292,7 +274,7 @@ void Session::seal() {
 
 Status Session::reserve_depth() {
     CameraDepth& depth = run_->around.depth;
-    const auto& size = around_.camera.resolution;
+    const auto& size = host_.camera.resolution;
     const std::uint64_t pixels = std::uint64_t(size[0]) * std::uint64_t(size[1]);
     PILEUS_TRY(depth.metres.resize(pixels, "camera depth"));
     for (float& metres : depth.metres.span()) metres = __builtin_inff();
@@ -329,7 +311,7 @@ Status Session::look(Outlook& outlook) {
     outlook.lighting =
         light_world(scene_, place_of(scene_.sun), *run_->world, run_->around, photons);
     outlook.camera = make_camera(scene_.camera, 0, run_->world->medium.low_m);
-    outlook.frame = frame_;
+    outlook.frame = host_.number;
     return Status::ok();
 }
 
@@ -341,7 +323,7 @@ Status Session::draw_alone(double slack_deg, const Planes*& planes) {
     report_.counters.clear();
     run_->alone = true;
     run_->view_slack_deg = slack_deg;
-    const FrameStep step{frame_, stats_.pictures == 0, false, nullptr};
+    const FrameStep step{host_.number, stats_.pictures == 0, false, nullptr};
     shown_ = nullptr;
     Planes* own = nullptr;
     PILEUS_TRY(method_->live->compose(step, context_, *run_, own));
@@ -351,6 +333,6 @@ Status Session::draw_alone(double slack_deg, const Planes*& planes) {
 }
 
 /// The host's values in the media's coordinates, which alone have moved.
-void Session::place() { place_around(around_, placement_, scene_); }
+void Session::place() { put_in_media(host_, scene_); }
 
 }  // namespace pileus

@@ -117,10 +117,10 @@ Status Session::set_work(const FrameWork& given) {
             if (there.thin != nullptr) *there.thin = thin;
             if (there.steps != nullptr) *there.steps = work.steps;
             if (there.light_refresh != nullptr) *there.light_refresh = work.light_refresh;
-            changed.camera = around_.camera;
-            changed.sun = around_.sun;
-            changed.ground = around_.ground;
-            changed.lights = around_.lights;
+            changed.camera = host_.camera;
+            changed.sun = host_.sun;
+            changed.ground = host_.ground;
+            changed.lights = host_.lights;
         };
         PILEUS_TRY(check_changed(key, scene_, change));
         Scene named;

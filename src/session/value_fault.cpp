@@ -115,7 +115,7 @@ const char* sun_fault(const Sun& sun) {
 }
 
 const char* sky_fault(const Scene& scene, const Sky& sky) {
-    if (scene.atmosphere.present || !sky.map.empty()) return "sky";
+    if (scene.atmosphere.present || sky.mapped) return "sky";
     return are_within(sky.radiance, 0, 1e12) ? nullptr : "sky.radiance";
 }
 

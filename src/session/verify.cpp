@@ -8,8 +8,8 @@
 #include "src/base/random_streams.h"
 #include "src/picture/air_view.h"
 #include "src/scene/read_scene.h"
-#include "src/world/camera/places.h"
 #include "src/world/medium/detail.h"
+#include "src/world/place_scene.h"
 
 namespace pileus {
 namespace {
@@ -85,11 +85,10 @@ Status Verifier::open(const Scene& scene, std::uint64_t pixels, const Context& c
     PILEUS_TRY(refuse_marched_detail(scene, "--verify"));
     pixels_ = pixels;
     scene_ = scene;
-    PILEUS_TRY(place_camera(scene_));
-    place_sun(scene_);
-    scene_.animation.sun_at_rest = place_of(scene_.sun);
-    rest_ = Surround(scene_);
-    if (!scene_.animation.keys.empty()) place_keys(rest_, scene.sequence_frame, scene_);
+    PILEUS_TRY(place_scene(scene_));
+    rest_ = scene_;
+    run_.rest = &rest_;
+    place(scene.sequence_frame);
     own_paths_ = scene.method == "path";
     scene_.method = "path";
     scene_.output = OutputSettings{};
@@ -101,6 +100,14 @@ Status Verifier::open(const Scene& scene, std::uint64_t pixels, const Context& c
     // Paths know particles on a grid alone, one finer than shadows ask for.
     if (world->shows_particles) world = nullptr;
     return open_run(path_method(), scene_, Budget{}, context, true, std::move(world), run_);
+}
+
+/// Moves the scene to a frame, where keys do.
+void Verifier::place(int frame) {
+    if (scene_.animation.keys.empty()) return;
+    FrameState at;
+    frame_state_at(scene_, rest_, frame, at);
+    put_in_media(at, scene_);
 }
 
 /// As the picture's method has it: by where the media and what is solid are along each ray.
@@ -129,9 +136,9 @@ Status Verifier::see_through_air(const Context& context, const std::vector<std::
 
 Status Verifier::check(int frame, const Context& context, const Image& image, Report& report) {
     report.verify = {};
-    if (!scene_.animation.keys.empty()) place_keys(rest_, frame, scene_);
-    if (is_sequence(scene_.camera.depth)) {
-        scene_.sequence_frame = frame;
+    place(frame);
+    if (is_sequence(scene_.view_files.depth)) {
+        rest_.sequence_frame = scene_.sequence_frame = frame;
         PILEUS_TRY(load_surroundings(scene_, context, run_.around));
     }
     path_aim(frame, run_);

@@ -4,7 +4,6 @@
 // docs/report.md, "Verify"
 #pragma once
 #include "src/methods/path/path.h"
-#include "src/scene/placed.h"
 #include "src/session/render.h"
 
 namespace pileus {
@@ -24,10 +23,11 @@ public:
     Status check(int frame, const Context& context, const Image& image, Report& report);
 
 private:
+    void place(int frame);
     Status see_through_air(const Context& context, const std::vector<std::uint32_t>& pixels,
                            std::vector<PixelLight>& paths);
     Scene scene_;
-    Surround rest_;  ///< as it is but for keys
+    FrameState rest_;  ///< as it is but for keys
     std::uint64_t pixels_ = 0;
     PathRun run_;
     bool own_paths_ = false;  ///< the pictures are by paths themselves

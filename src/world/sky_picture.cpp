@@ -12,26 +12,25 @@
 namespace pileus {
 
 Status read_sky_image(const Scene& scene, Image& image) {
-    return read_image(scene_path(scene.directory, scene.sky.map), image, kMaxSkyTexels);
+    return read_image(scene_path(scene.directory, scene.view_files.sky_map), image, kMaxSkyTexels);
 }
 
 Status load_sky_map(const Scene& scene, SkyMap& map) {
     map.size = {0, 0};
-    if (scene.sky.map.empty()) return Status::ok();
+    if (scene.view_files.sky_map.empty()) return Status::ok();
     Image image;
     PILEUS_TRY(read_sky_image(scene, image));
-    const std::string path = scene_path(scene.directory, scene.sky.map);
+    const std::string path = scene_path(scene.directory, scene.view_files.sky_map);
     return make_sky_map(path, image, scene.sky, scene.ground.present, map);
 }
 
-Status read_sky_map(const Scene& scene, const Context& context, SkyMap& map) {
-    if (scene.sky.map.empty()) return Status::ok();
+Status read_sky_map(const Scene& scene, const Context& context, const Image* sky, SkyMap& map) {
+    if (sky == nullptr && scene.view_files.sky_map.empty()) return Status::ok();
     const StageClock clock(context, "sky map");
     const ReadingLimit readers(context.limits);
-    if (scene.sky.picture != nullptr)
-        return make_sky_map("sky.map", *scene.sky.picture, scene.sky, scene.ground.present, map);
+    if (sky != nullptr) return make_sky_map("sky.map", *sky, scene.sky, scene.ground.present, map);
     InputFile file;
-    const std::string path = scene_path(scene.directory, scene.sky.map);
+    const std::string path = scene_path(scene.directory, scene.view_files.sky_map);
     PILEUS_TRY(at_key(scene, "sky.map", open_file(path, file)));
     PILEUS_TRY(
         at_key(scene, "sky.map", check_limit(context.limits, LimitId::kFile, file.size(), path)));

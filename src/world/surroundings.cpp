@@ -8,10 +8,10 @@
 
 namespace pileus {
 Status outline_surroundings(const Scene& scene, const Context& context, const World& world,
-                            Surroundings& around) {
+                            const Image* sky, Surroundings& around) {
     PILEUS_TRY(outline_camera_depth(scene, context, around.depth));
     if (!kAtmosphere || !scene.atmosphere.present)
-        return read_sky_map(scene, context, around.sky_map);
+        return read_sky_map(scene, context, sky, around.sky_map);
     const StageClock clock(context, "atmosphere");
     return light_surroundings(scene, context.threads, world, around);
 }

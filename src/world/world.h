@@ -53,11 +53,12 @@ Status load_world(const Scene& scene, const Context& context, World& world);
 
 /// The same of what surrounds it: the sky map is read at once, as the lights depend on its colours.
 /// An atmosphere is made at once, too, for the height of the world's media.
+/// `sky`: in place of the sky map's file; null: that.
 Status outline_surroundings(const Scene& scene, const Context& context, const World& world,
-                            Surroundings& around);
+                            const Image* sky, Surroundings& around);
 
 /// The scene's sky map, if it has one; lights, and with them the plan, depend on its colours.
-Status read_sky_map(const Scene& scene, const Context& context, SkyMap& map);
+Status read_sky_map(const Scene& scene, const Context& context, const Image* sky, SkyMap& map);
 
 /// The atmosphere and its sky for the scene's sun and ground as they are now.
 Status light_surroundings(const Scene& scene, int threads, const World& world,

@@ -172,7 +172,7 @@ TEST_CASE("overwrite: the list of a scene's files, those of a glTF included") {
         scene.solids.emplace_back();
         scene.solids.back().file = name;
     }
-    scene.camera.depth = "/d.exr";
+    scene.view_files.depth = "/d.exr";
     const std::vector<std::string> expected{folder.path("m.gltf"), folder.path("m.bin"),
                                             folder.path("bad.gltf"), folder.path("none.gltf"),
                                             "/d.exr"};

@@ -92,7 +92,7 @@ TEST_CASE("a full scene gives what it says, colours in both forms, and what a fi
     CHECK(scene.camera.height_m == 77);
     CHECK(scene.camera.resolution == std::array<int, 2>{16, 9});
     CHECK(scene.sun.irradiance == Float3{2, 3, 4});
-    CHECK(scene.sky.map == "a.PFM");
+    CHECK(scene.view_files.sky_map == "a.PFM");
     CHECK(scene.sky.map_rotation_deg == -20);
     REQUIRE(scene.media.size() == 3);
     CHECK(scene.media[0].phase.type == "henyey-greenstein");

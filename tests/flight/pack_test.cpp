@@ -98,7 +98,7 @@ TEST_CASE("what a flight does not have is refused when it is packed") {
     scene.solids.emplace_back();
     CHECK(pack_scene(scene, *world, bytes).message.find("scene: solid: not packed") == 0);
     scene = plain;
-    scene.camera.depth = "depth.exr";
+    scene.view_files.depth = "depth.exr";
     CHECK(pack_scene(scene, *world, bytes).message.find("scene: camera.depth: not") == 0);
     scene = plain;
     scene.animation.present = true;

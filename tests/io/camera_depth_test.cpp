@@ -25,7 +25,7 @@ TEST_CASE("camera depth: Z, or the only channel; never a guess among several") {
             REQUIRE(image.channels.back().pixels.resize(1, "depth"));
             image.channels.back().pixels[0] = float(i + 1);
         }
-        return take_camera_depth(camera, "d.exr", image, depth);
+        return take_camera_depth(camera, {}, "d.exr", image, depth);
     };
     CameraDepth depth;
     for (const char* name : {"Z", "Y", "R", "depth.V"}) {
@@ -56,7 +56,7 @@ TEST_CASE("camera depth: a .pfm is grey") {
     }
     Scene scene;
     scene.camera.resolution = {1, 1};
-    scene.camera.depth = path;
+    scene.view_files.depth = path;
     CameraDepth read;
     Report report;
     Context context;

@@ -17,7 +17,7 @@ namespace {
 Status load(const test::TempFolder& folder, const char* name, bool ground, double scale,
             SkyMap& map) {
     Scene scene;
-    scene.sky.map = folder.path(name);
+    scene.view_files.sky_map = folder.path(name);
     scene.sky.map_scale = scale;
     scene.ground.present = ground;
     return load_sky_map(scene, map);

@@ -139,7 +139,8 @@ TEST_CASE("camera depth: cuts the media, leaves black behind, and is measured bo
     camera.target_m = {0, 1, 0};
     camera.fov_deg = 90;
     camera.resolution = {2, 2};
-    camera.depth_scale = 2;
+    ViewFiles files;
+    files.depth_scale = 2;
     Image image;
     image.width = image.height = 2;
     image.channels.resize(1);
@@ -148,19 +149,19 @@ TEST_CASE("camera depth: cuts the media, leaves black behind, and is measured bo
     const float values[4] = {3, 0, -1, __builtin_nanf("")};
     for (std::size_t i = 0; i < 4; ++i) image.channels[0].pixels[i] = values[i];
     CameraDepth depth;
-    REQUIRE(take_camera_depth(camera, "d.exr", image, depth));
+    REQUIRE(take_camera_depth(camera, files, "d.exr", image, depth));
     CHECK(depth.metres[0] == 6.0f);
     CHECK(depth.metres[1] == 0.0f);
     CHECK(depth.metres[2] == 0.0f);
     CHECK(depth.metres[3] == __builtin_inff());
     CHECK(depth.negative == 1);
     CHECK(depth.broken == 1);
-    camera.depth_on_axis = true;
-    REQUIRE(take_camera_depth(camera, "d.exr", image, depth));
+    files.depth_on_axis = true;
+    REQUIRE(take_camera_depth(camera, files, "d.exr", image, depth));
     // The middle of a pixel lies half of the way to the picture's edge, both ways.
     CHECK(depth.metres[0] == doctest::Approx(6 * std::sqrt(1.5)).epsilon(1e-6));
     camera.resolution = {4, 2};
-    const Status wrong = take_camera_depth(camera, "d.exr", image, depth);
+    const Status wrong = take_camera_depth(camera, files, "d.exr", image, depth);
     CHECK(wrong.message == "d.exr: depth: wrong size, 2 x 2, allowed: 4 x 2, camera.resolution");
 }
 

@@ -208,9 +208,9 @@ Status check_scene_files(const PictureScene& picture, const Scene& scene) {
             files.push_back(density_path(at, medium));
             medium.file.clear();
         }
-    if (is_sequence(at.camera.depth)) {
+    if (is_sequence(at.view_files.depth)) {
         files.push_back(depth_path(at));
-        at.camera.depth.clear();
+        at.view_files.depth.clear();
     }
     for (const std::string& file : scene_files(at)) files.push_back(file);
     // Kinds of clouds may share a scene.

@@ -51,7 +51,7 @@ private:
         PILEUS_TRY(settings_.path.empty()
                        ? read_scene_text(settings_.text, "default scene", "", settings_.sets, scene)
                        : read_scene_file(settings_.path, settings_.sets, scene));
-        place_sun(scene);
+        place_sun(scene.atmosphere, 0, scene.sun);
         View& v = state_.view;
         for (int a = 0; a < 3; ++a) {
             v.position[std::size_t(a)] = scene.camera.position_m[a];
@@ -80,13 +80,12 @@ private:
     void take_day(const Scene& scene) {
         double hours = 0;
         if (scene.atmosphere.date.empty() || !read_time(scene.atmosphere.time, hours)) return;
-        state_.view.day_share =
-            std::min(std::max((hours + scene.atmosphere.later_h) / 24, 0.0), 1.0);
+        state_.view.day_share = std::min(std::max(hours / 24, 0.0), 1.0);
         state_.sun_at = [own = Scene(scene), hours](double share, View& view) mutable {
-            own.atmosphere.later_h = 24 * share - hours;
-            place_sun(own);
-            view.azimuth_deg = own.sun.azimuth_deg;
-            view.elevation_deg = own.sun.elevation_deg;
+            Sun sun = own.sun;
+            place_sun(own.atmosphere, 24 * share - hours, sun);
+            view.azimuth_deg = sun.azimuth_deg;
+            view.elevation_deg = sun.elevation_deg;
         };
     }
 

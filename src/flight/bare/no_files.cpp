@@ -29,13 +29,12 @@ bool shows_particles(const Scene& scene) {
     return scene.method == "particles";
 }
 
-Status read_sky_map(const Scene& scene, const Context&, SkyMap& map) {
-    if (scene.sky.map.empty()) return Status::ok();
-    if (scene.sky.picture == nullptr) return no_files("sky.map");
-    return make_sky_map("sky.map", *scene.sky.picture, scene.sky, scene.ground.present, map);
+Status read_sky_map(const Scene& scene, const Context&, const Image* sky, SkyMap& map) {
+    if (sky == nullptr) return Status::ok();
+    return make_sky_map("sky.map", *sky, scene.sky, scene.ground.present, map);
 }
 Status read_camera_depth(const Scene& scene, const Context&, CameraDepth&) {
-    return scene.camera.depth.empty() ? Status::ok() : no_files("camera.depth");
+    return scene.view_files.depth.empty() ? Status::ok() : no_files("camera.depth");
 }
 Status read_path_state(const std::string&, std::uint64_t, Film&) { return no_files("state"); }
 Status write_path_state(const std::string&, std::uint64_t, const Film&) {

@@ -56,15 +56,15 @@ void add_files(const Scene& scene, std::vector<std::string>& files) {
         }
         add(medium.phase.file);
     }
-    add(scene.sky.map);
+    add(scene.view_files.sky_map);
     for (const SolidSettings& solid : scene.solids) {
         add(solid.file);
         if (file_extension(solid.file) == ".gltf") add_buffers(std::string(files.back()), files);
     }
-    if (is_sequence(scene.camera.depth))
+    if (is_sequence(scene.view_files.depth))
         each_frame([&] { return depth_path(at); });
     else
-        add(scene.camera.depth);
+        add(scene.view_files.depth);
 }
 
 }  // namespace

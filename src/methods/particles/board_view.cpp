@@ -15,14 +15,14 @@ constexpr double kChordPower = 2.5;
 constexpr double kChord = 16.0 / 15;
 
 /// What blurs a picture.
-struct Lens {
+struct BoardLens {
     double radius = 0, focus = 1;  ///< m; 0: a pinhole
     double shutter = 0;            ///< s
 };
 
 class BoardMaker {
 public:
-    BoardMaker(const ParticlesRun& run, const Lens& lens)
+    BoardMaker(const ParticlesRun& run, const BoardLens& lens)
         : tree_(run.tree), c_(run.camera), s_(run.scene->particles), lens_(lens) {}
 
     ParticleBoard board(std::size_t i) const {
@@ -67,15 +67,15 @@ private:
     const ParticleTree& tree_;
     const CameraParams& c_;
     const ParticlesSettings& s_;
-    const Lens lens_;
+    const BoardLens lens_;
 };
 
-Lens lens_of(const Scene& scene) {
+BoardLens lens_of(const Scene& scene) {
     const Camera& c = scene.camera;
-    Lens lens;
-    lens.radius = c.aperture_radius_m;
-    lens.shutter = c.shutter_s;
-    lens.focus = c.focus_distance_m;
+    BoardLens lens;
+    lens.radius = scene.lens.aperture_radius_m;
+    lens.shutter = scene.lens.shutter_s;
+    lens.focus = scene.lens.focus_distance_m;
     if (lens.focus == 0) {
         const Double3 way = c.target_m - c.position_m;
         lens.focus = __builtin_sqrt(way[0] * way[0] + way[1] * way[1] + way[2] * way[2]);
@@ -89,7 +89,7 @@ constexpr std::size_t kColoursAtOnce = 4096;
 }  // namespace
 
 bool moves(const ParticlesRun& run) {
-    return run.scene->camera.shutter_s > 0 && !run.tree.velocity.empty();
+    return run.scene->lens.shutter_s > 0 && !run.tree.velocity.empty();
 }
 
 Status show_boards(const Context& context, const ParticleMarchParams& march, ParticlesRun& run) {
@@ -118,7 +118,7 @@ Status show_boards(const Context& context, const ParticleMarchParams& march, Par
     k.camera = run.camera;
     k.boards = boards.data();
     k.moving = moves(run) ? 1 : 0;
-    k.curved = scene.camera.aperture_radius_m > 0 || scene.particles.falloff != kChordPower ? 1 : 0;
+    k.curved = scene.lens.aperture_radius_m > 0 || scene.particles.falloff != kChordPower ? 1 : 0;
     k.cut = float(scene.particles.stop_below);
     const ParticleBoardBuffers b{planes.opaque_depth.data(), planes.transmittance.data(),
                                  planes.colour.data(), planes.half_depth.data(),

@@ -53,7 +53,7 @@ Status outline(const Context& context, MethodRun& method_run) {
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
                                  "\": method particles runs on the host alone, allowed: another, "
                                  "or another method");
-    choose_light(sun_at(*run.scene, 0), run);
+    choose_light(run.sun_of(0), run);
     return plan_particles(context, run);
 }
 
@@ -71,7 +71,7 @@ std::string digest_of(const ParticleTree& tree) {
 Status prepare(const Context& context, MethodRun& method_run) {
     ParticlesRun& run = own(method_run);
     const Scene& scene = *run.scene;
-    choose_light(sun_at(scene, 0), run);
+    choose_light(run.sun_of(0), run);
     PILEUS_TRY(make_majorants(run.world->medium, false, context, run.majorants));
     {
         const StageClock clock(context, "octree");
@@ -111,7 +111,7 @@ Status light(const FrameStep& step, const Context& context, MethodRun& method_ru
     ParticlesRun& run = own(method_run);
     const Scene& scene = *run.scene;
     Plan photons;
-    run.lighting = light_world(scene, sun_at(scene, step.frame), *run.world, run.around, photons);
+    run.lighting = light_world(scene, run.sun_of(step.frame), *run.world, run.around, photons);
     run.camera = make_camera(scene.camera, orbit_at(scene, step.frame), run.world->medium.low_m);
     PILEUS_TRY(light_particles(context, run));
     PILEUS_TRY(allocate_planes(run.camera.width, run.camera.height, 3, run.lighting.opaque(),

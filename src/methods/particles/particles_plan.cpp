@@ -43,11 +43,11 @@ void note_plan(ParticlesRun& run) {
     plan.need("an octree of particles");
     if (!s.billboards) plan.need("rays through particles, in bins");
     if (s.billboards) plan.need("particles as billboards, one colour each: approximation");
-    if (scene.camera.aperture_radius_m > 0)
+    if (scene.lens.aperture_radius_m > 0)
         plan.need("depth of field by wider billboards: approximation");
-    if (scene.camera.shutter_s > 0 && (run.outlined_only || moves(run)))
+    if (scene.lens.shutter_s > 0 && (run.outlined_only || moves(run)))
         plan.need("motion blur by longer billboards: approximation");
-    else if (scene.camera.shutter_s > 0)
+    else if (scene.lens.shutter_s > 0)
         plan.leave_out("motion blur", "the particles have no velocities");
     if (run.lighting.sunlit || (scene.sun.present && moves_sun(scene)))
         plan.need(scene.particles.light == ParticleLight::kExact

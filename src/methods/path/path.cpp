@@ -47,7 +47,7 @@ Status outline(const Context& context, MethodRun& method_run) {
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
                                  "\": filter.kind = \"" + path_filter_name(*run.scene) +
                                  "\" runs on the host alone, allowed: another, or none");
-    choose_light(sun_at(*run.scene, 0), run);
+    choose_light(run.sun_of(0), run);
     run.camera = make_camera(run.scene->camera, 0, run.world->medium.low_m);
     return path_measure(context, run);
 }
@@ -118,7 +118,7 @@ Status compose(const FrameStep&, const Context& context, MethodRun& method_run, 
 
 void path_aim(int frame, PathRun& run) {
     const Scene& scene = *run.scene;
-    choose_light(sun_at(scene, frame), run);
+    choose_light(run.sun_of(frame), run);
     run.camera = make_camera(scene.camera, orbit_at(scene, frame), run.world->medium.low_m);
     // Frame f of an animation has the noise of the seed f further on.
     run.seed = std::uint64_t(scene.seed) + std::uint64_t(frame);

@@ -250,7 +250,7 @@ Status photon_grid_light(const FrameStep& step, const Context& context, PhotonGr
     // One sum: all photons anew for each frame, of the same random numbers, so that noise stays
     // where it is.
     if (scene.animation.present) {
-        set_photon_sun(sun_at(scene, step.frame), run);
+        set_photon_sun(run.sun_of(step.frame), run);
         for (PhotonSlot& slot : run.photons.slots) empty_slot(slot, context.threads);
         run.next_generation = run.ring_first = 0;
     }

@@ -61,7 +61,7 @@ bool has_sky_medium(const Scene& scene) {
 void check_cameras(SceneCheck& check, Keys& keys) {
     const Scene& scene = check.scene;
     if (!keys.have(Track::kPosition) && !keys.have(Track::kTarget)) return;
-    if (scene.camera.position_by_place || scene.camera.target_by_place) return;
+    if (scene.view_files.position_by_place || scene.view_files.target_by_place) return;
     // Of longer films some frames, so that no scene takes long to check.
     const int step = 1 + (scene.animation.frames - 1) / kMostChecked;
     for (int frame = 0; frame < scene.animation.frames; frame += step) {
@@ -113,7 +113,7 @@ void check_media(SceneCheck& check, Keys& keys) {
             keys.refuse(track, "conflicts with animation.sun_elevation_deg",
                         "left out, or sun_elevation_deg in keys");
     }
-    if (scene.atmosphere.present || !scene.sky.map.empty())
+    if (scene.atmosphere.present || !scene.view_files.sky_map.empty())
         keys.refuse(Track::kYaw, "not below a sky that is not even", "left out");
 }
 
@@ -140,9 +140,9 @@ void check_animation(SceneCheck& check) {
     if (!has_sky_medium(scene))
         keys.refuse(Track::kWind, "conflicts with a scene without a procedural sky");
     if (scene.camera.orthographic) keys.refuse(Track::kFov, "conflicts with parallel rays");
-    if (scene.camera.position_by_place)
+    if (scene.view_files.position_by_place)
         keys.refuse(Track::kPosition, "conflicts with camera.position_deg");
-    if (scene.camera.target_by_place)
+    if (scene.view_files.target_by_place)
         keys.refuse(Track::kTarget, "conflicts with camera.target_deg");
     check_media(check, keys);
     check_moved_media(check, keys);

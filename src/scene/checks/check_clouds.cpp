@@ -119,8 +119,8 @@ struct CloudCheck {
         conflict(check, "method.name", kNow);
         if (scene.camera.flux) conflict(check, "camera.projection", kNow);
         for (const char* key : {"sky.map", "camera.depth"}) conflict(check, key, kNow);
-        if (scene.camera.aperture_radius_m > 0) conflict(check, "camera.aperture_radius_m", kNow);
-        if (scene.camera.shutter_s > 0) conflict(check, "camera.shutter_s", kNow);
+        if (scene.lens.aperture_radius_m > 0) conflict(check, "camera.aperture_radius_m", kNow);
+        if (scene.lens.shutter_s > 0) conflict(check, "camera.shutter_s", kNow);
         const Node* layers = check.valid_key("output.layers");
         if (layers == nullptr) return;
         for (const Node& layer : layers->children)

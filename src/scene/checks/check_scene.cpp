@@ -28,8 +28,9 @@ void check_places(SceneCheck& check) {
         if (node == nullptr) continue;
         // A struct has its metres in any case.
         if (check.written) conflict(check, metres.c_str(), degrees.c_str());
-        const Camera& c = check.scene.camera;
-        const Double3& place = degrees == "camera.position_deg" ? c.position_place : c.target_place;
+        const ViewFiles& by = check.scene.view_files;
+        const Double3& place =
+            degrees == "camera.position_deg" ? by.position_place : by.target_place;
         if (!(place[0] >= -360 && place[0] <= 360 && place[1] >= -90 && place[1] <= 90))
             check.faults.add(node->at, degrees,
                              "out of range, " + value_text(*node) +
@@ -66,7 +67,8 @@ void check_camera(SceneCheck& check) {
         return;
     }
     // Where places are on the map is known once the map is.
-    if (camera.position_by_place || camera.target_by_place) return;
+    const ViewFiles& by = check.scene.view_files;
+    if (by.position_by_place || by.target_by_place) return;
     if (target == nullptr || position == nullptr) return;
     const ViewFault fault = view_fault(check.scene.ground, camera);
     if (fault == ViewFault::kAtTarget) {
@@ -87,7 +89,7 @@ void check_camera(SceneCheck& check) {
 void check_ground(SceneCheck& check) {
     const Node* position = check.valid_key("camera.position_m");
     const Scene& scene = check.scene;
-    if (!scene.ground.present || position == nullptr || scene.camera.position_by_place) return;
+    if (!scene.ground.present || position == nullptr || scene.view_files.position_by_place) return;
     if (scene.camera.position_m[2] < scene.ground.altitude_m)
         check.faults.add(position->at, "camera.position_m",
                          "below the ground, z " + number_text(scene.camera.position_m[2]) +
@@ -104,7 +106,8 @@ void check_sky(SceneCheck& check) {
         return;
     }
     conflict(check, "sky.radiance", "sky.map");
-    if (map == nullptr || !check_path(check, *map, "sky.map", check.scene.sky.map)) return;
+    if (map == nullptr || !check_path(check, *map, "sky.map", check.scene.view_files.sky_map))
+        return;
     const std::string& name = map->text;
     const PictureFormat* format = picture_format_of(name);
     if (format == nullptr || !is_radiance(*format))
@@ -226,10 +229,10 @@ void check_lens(SceneCheck& check) {
         const Node* node = check.key(key);
         if (node != nullptr) add_refusal(check, *node, key, why, value_text(*node), allowed);
     };
-    const bool lens = scene.camera.aperture_radius_m > 0;
+    const bool lens = scene.lens.aperture_radius_m > 0;
     if (const Support* no = refused(scene, Feature::kLens)) {
         if (lens) refuse("camera.aperture_radius_m", no->text, no->allowed);
-        if (scene.camera.shutter_s > 0) refuse("camera.shutter_s", no->text, no->allowed);
+        if (scene.lens.shutter_s > 0) refuse("camera.shutter_s", no->text, no->allowed);
     } else {
         if (lens && scene.camera.orthographic)
             refuse("camera.aperture_radius_m", "a lens needs perspective", "0");

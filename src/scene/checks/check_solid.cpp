@@ -27,19 +27,19 @@ void check_solid(SceneCheck& check, std::size_t index) {
 }
 
 void check_depth(SceneCheck& check) {
-    Camera& camera = check.scene.camera;
+    std::string& depth = check.scene.view_files.depth;
     if (check.key("camera.depth") == nullptr) {
         for (const char* key : {"camera.depth_kind", "camera.depth_scale"})
             conflict(check, key, "a camera without depth");
         return;
     }
-    if (camera.flux) conflict(check, "camera.depth", "projection \"flux\"");
-    const char* mover = is_sequence(camera.depth) ? nullptr : mover_of_view(check.scene);
+    if (check.scene.camera.flux) conflict(check, "camera.depth", "projection \"flux\"");
+    const char* mover = is_sequence(depth) ? nullptr : mover_of_view(check.scene);
     if (mover != nullptr)
         conflict(check, mover, "camera.depth, which one camera sees where its name has no #");
     const Node* file = check.valid_key("camera.depth");
-    if (file == nullptr || !check_path(check, *file, "camera.depth", camera.depth)) return;
-    const PictureFormat* format = picture_format_of(camera.depth);
+    if (file == nullptr || !check_path(check, *file, "camera.depth", depth)) return;
+    const PictureFormat* format = picture_format_of(depth);
     if (format == nullptr || !is_radiance(*format))
         check.faults.add(file->at, "camera.depth",
                          "unknown kind of picture, " + value_text(*file) +

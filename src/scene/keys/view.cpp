@@ -10,6 +10,10 @@ namespace {
 template <auto... Members>
 constexpr KeyField camera = field<&Scene::camera, Members...>;
 template <auto... Members>
+constexpr KeyField view_files = field<&Scene::view_files, Members...>;
+template <auto... Members>
+constexpr KeyField lens = field<&Scene::lens, Members...>;
+template <auto... Members>
 constexpr KeyField sun = field<&Scene::sun, Members...>;
 template <auto... Members>
 constexpr KeyField sky = field<&Scene::sky, Members...>;
@@ -28,15 +32,15 @@ constexpr KeyField kProjection{
     }};
 
 /// A place by the map of the weather data.
-template <Double3 Camera::*kPlace, bool Camera::*kByPlace>
+template <Double3 ViewFiles::*kPlace, bool ViewFiles::*kByPlace>
 constexpr KeyField place{KeyKind::kNumber3,
                          [](const KeySource& s) {
-                             const Camera& c = s.scene.camera;
-                             return c.*kByPlace ? node_of(c.*kPlace) : no_value();
+                             const ViewFiles& v = s.scene.view_files;
+                             return v.*kByPlace ? node_of(v.*kPlace) : no_value();
                          },
                          [](const KeyTarget& t, const Node& n) {
-                             t.scene.camera.*kByPlace = true;
-                             take(n, t.scene.camera.*kPlace);
+                             t.scene.view_files.*kByPlace = true;
+                             take(n, t.scene.view_files.*kPlace);
                          }};
 
 constexpr KeyRow kRows[] = {
@@ -57,27 +61,27 @@ constexpr KeyRow kRows[] = {
      "height of the picture in space; orthographic and flux only"},
     {"camera.resolution", camera<&Camera::resolution>, from_to(1, 16384), "pixels",
      "width and height of the picture"},
-    {"camera.depth", camera<&Camera::depth>, any(), "",
+    {"camera.depth", view_files<&ViewFiles::depth>, any(), "",
      "image of the distance to solid things, .exr (channel Z, or its only one) or grey .pfm, of "
      "the picture's size; what lies behind is left out, and black",
      kNoNote},
-    {"camera.depth_kind", camera<&Camera::depth_on_axis>, one_of("distance|z"), "",
+    {"camera.depth_kind", view_files<&ViewFiles::depth_on_axis>, one_of("distance|z"), "",
      "its values: along each pixel's ray, or along the view's axis"},
-    {"camera.depth_scale", camera<&Camera::depth_scale>, positive(1e9), "m",
+    {"camera.depth_scale", view_files<&ViewFiles::depth_scale>, positive(1e9), "m",
      "metres per unit of its values"},
-    {"camera.aperture_radius_m", camera<&Camera::aperture_radius_m>, from_to(0, 1e6), "m",
+    {"camera.aperture_radius_m", lens<&Lens::aperture_radius_m>, from_to(0, 1e6), "m",
      "of a thin lens: depth of field; billboards of method `particles` only. 0: a pinhole"},
-    {"camera.focus_distance_m", camera<&Camera::focus_distance_m>, positive(1e9), "m",
+    {"camera.focus_distance_m", lens<&Lens::focus_distance_m>, positive(1e9), "m",
      "from the camera along the view to what is sharp; left out: the target", kNoNote},
-    {"camera.shutter_s", camera<&Camera::shutter_s>, from_to(0, 1e6), "s",
+    {"camera.shutter_s", lens<&Lens::shutter_s>, from_to(0, 1e6), "s",
      "how long the shutter is open, the picture's time in the middle: motion blur of particles "
      "with velocities; billboards of method `particles` only"},
-    {"camera.position_deg", place<&Camera::position_place, &Camera::position_by_place>,
+    {"camera.position_deg", place<&ViewFiles::position_place, &ViewFiles::position_by_place>,
      from_to(-1e9, 1e9), "deg, deg, m",
      "instead of position_m: longitude, latitude and height by the map of the first medium that is "
      "weather data",
      kNoNote},
-    {"camera.target_deg", place<&Camera::target_place, &Camera::target_by_place>,
+    {"camera.target_deg", place<&ViewFiles::target_place, &ViewFiles::target_by_place>,
      from_to(-1e9, 1e9), "deg, deg, m", "the same instead of target_m", kNoNote},
     {"sun.azimuth_deg", sun<&Sun::azimuth_deg>, from_to(-360, 360), "deg",
      "where the sun stands, from north (+y) towards east (+x)"},
@@ -90,7 +94,7 @@ constexpr KeyRow kRows[] = {
      "a point; the real sun: 0.2665"},
     {"sky.radiance", sky<&Sky::radiance>, from_to(0, 1e12), "sun's per sr",
      "of a constant sky: the full sphere, or the upper half where there is a ground"},
-    {"sky.map", sky<&Sky::map>, any(), "",
+    {"sky.map", view_files<&ViewFiles::sky_map>, any(), "",
      "latitude-longitude image of the sky's radiance, .exr or .pfm, in place of radiance; "
      "relative to the scene file, `${PILEUS_DATA_DIR}` may stand at its front",
      kNoNote},

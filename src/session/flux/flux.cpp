@@ -104,10 +104,10 @@ Scene scene_to_measure(const Scene& scene, const FluxSettings& settings) {
     if (settings.from_below) {
         own.sun.present = false;
         own.sky.present = false;
-        own.sky.map.clear();
+        own.view_files.sky_map.clear();
         own.atmosphere.present = false;
     }
-    place_sun(own);
+    place_sun(own.atmosphere, 0, own.sun);
     return own;
 }
 

@@ -201,21 +201,18 @@ Status check_camera_in_air(const Scene& scene) {
                                     "earth shows"));
 }
 
-void place_sun(Scene& scene) {
-    AtmosphereSettings& s = scene.atmosphere;
+void place_sun(const AtmosphereSettings& s, double hours_later, Sun& sun) {
     if (!s.present || s.date.empty()) return;
     int date[3];
     double hours = 0;
     if (!read_date(s.date, date) || !read_time(s.time, hours)) return;
-    const SunPosition at = sun_position(moment_of(date, hours + s.later_h, s.utc_offset_h),
+    const SunPosition at = sun_position(moment_of(date, hours + hours_later, s.utc_offset_h),
                                         s.latitude_deg, s.longitude_deg);
-    scene.sun.present = true;
-    scene.sun.azimuth_deg = at.azimuth_deg;
-    scene.sun.elevation_deg =
-        at.elevation_deg + (s.refraction ? refraction_deg(at.elevation_deg) : 0);
+    sun.present = true;
+    sun.azimuth_deg = at.azimuth_deg;
+    sun.elevation_deg = at.elevation_deg + (s.refraction ? refraction_deg(at.elevation_deg) : 0);
     const double nearer = 1 / (at.distance_au * at.distance_au);
-    for (float& e : scene.sun.irradiance) e = float(double(e) * nearer);
-    s.date.clear();
+    for (float& e : sun.irradiance) e = float(double(e) * nearer);
 }
 
 }  // namespace pileus

@@ -41,7 +41,8 @@ Status look_from(double height_m, int threads, Atmosphere& air);
 /// kBadInput: a camera above the air over a level ground, which no air would hide.
 Status check_camera_in_air(const Scene& scene);
 
-/// Where a scene with a date has its sun; nothing without one.
-void place_sun(Scene& scene);
+/// Where a scene with a date has its sun, so many hours later; nothing without one. `sun`: as the
+/// text has it, whose irradiance is that at the mean distance.
+void place_sun(const AtmosphereSettings& settings, double hours_later, Sun& sun);
 
 }  // namespace pileus

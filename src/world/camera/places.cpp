@@ -54,16 +54,17 @@ Status check_view(const Scene& scene) {
 
 Status place_camera(Scene& scene) {
     Camera& c = scene.camera;
-    if (!c.position_by_place && !c.target_by_place) return Status::ok();
-    const char* key = c.position_by_place ? "camera.position_deg" : "camera.target_deg";
+    ViewFiles& by = scene.view_files;
+    if (!by.position_by_place && !by.target_by_place) return Status::ok();
+    const char* key = by.position_by_place ? "camera.position_deg" : "camera.target_deg";
     WeatherMap map;
     PILEUS_TRY(at_key(scene, key, map_of(scene, map)));
-    if (c.position_by_place)
-        PILEUS_TRY(at_key(scene, key, map.place("place", c.position_place, c.position_m)));
-    if (c.target_by_place)
+    if (by.position_by_place)
+        PILEUS_TRY(at_key(scene, key, map.place("place", by.position_place, c.position_m)));
+    if (by.target_by_place)
         PILEUS_TRY(
-            at_key(scene, "camera.target_deg", map.place("place", c.target_place, c.target_m)));
-    c.position_by_place = c.target_by_place = false;
+            at_key(scene, "camera.target_deg", map.place("place", by.target_place, c.target_m)));
+    by.position_by_place = by.target_by_place = false;
     return at_key(scene, key, check_view(scene));
 }
 

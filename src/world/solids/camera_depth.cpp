@@ -34,8 +34,8 @@ void CameraDepth::put(std::size_t pixel, double value) {
     metres[pixel] = along;
 }
 
-Status take_camera_depth(const Camera& camera, const std::string& name, const Image& image,
-                         CameraDepth& depth) {
+Status take_camera_depth(const Camera& camera, const ViewFiles& files, const std::string& name,
+                         const Image& image, CameraDepth& depth) {
     if (image.width != camera.resolution[0] || image.height != camera.resolution[1])
         return Status::bad_input(name + ": depth: wrong size, " + std::to_string(image.width) +
                                  " x " + std::to_string(image.height) +
@@ -49,8 +49,8 @@ Status take_camera_depth(const Camera& camera, const std::string& name, const Im
     PILEUS_TRY(depth.metres.resize(pixels, "camera depth"));
     depth.columns = width;
     for (std::size_t i = 0; i < pixels; ++i) {
-        double metres = double(z->pixels.at(i)) * camera.depth_scale;
-        if (camera.depth_on_axis) metres *= ray_slant(view, double(i % width), double(i / width));
+        double metres = double(z->pixels.at(i)) * files.depth_scale;
+        if (files.depth_on_axis) metres *= ray_slant(view, double(i % width), double(i / width));
         depth.put(i, metres);
     }
     return Status::ok();
@@ -58,7 +58,7 @@ Status take_camera_depth(const Camera& camera, const std::string& name, const Im
 
 Status outline_camera_depth(const Scene& scene, const Context& context, CameraDepth& depth) {
     depth = CameraDepth();
-    depth.present = !scene.camera.depth.empty();
+    depth.present = !scene.view_files.depth.empty();
     return depth.present ? refuse_device(scene, context) : Status::ok();
 }
 

@@ -29,8 +29,8 @@ Status outline_camera_depth(const Scene& scene, const Context& context, CameraDe
 /// colours in a .pfm, another size than the picture's.
 Status read_camera_depth(const Scene& scene, const Context& context, CameraDepth& depth);
 
-/// The same from a picture in memory; `name` opens the messages.
-Status take_camera_depth(const Camera& camera, const std::string& name, const Image& image,
-                         CameraDepth& depth);
+/// The same from a picture in memory, in the unit of `files`; `name` opens the messages.
+Status take_camera_depth(const Camera& camera, const ViewFiles& files, const std::string& name,
+                         const Image& image, CameraDepth& depth);
 
 }  // namespace pileus

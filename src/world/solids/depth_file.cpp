@@ -25,14 +25,15 @@ Status keep_one_plane(const std::string& name, Image& image) {
 }  // namespace
 
 Status read_camera_depth(const Scene& scene, const Context& context, CameraDepth& depth) {
-    if (scene.camera.depth.empty()) return Status::ok();
+    if (scene.view_files.depth.empty()) return Status::ok();
     const StageClock clock(context, "solids");
     const std::string path = depth_path(scene);
     Image image;
     PILEUS_TRY(at_key(scene, "camera.depth", read_image(path, image)));
     if (file_extension(path) == ".pfm")
         PILEUS_TRY(at_key(scene, "camera.depth", keep_one_plane(path, image)));
-    return at_key(scene, "camera.depth", take_camera_depth(scene.camera, path, image, depth));
+    return at_key(scene, "camera.depth",
+                  take_camera_depth(scene.camera, scene.view_files, path, image, depth));
 }
 
 }  // namespace pileus

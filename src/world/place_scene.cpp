@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// See place_scene.h.
+#include "src/world/place_scene.h"
+
+#include "src/world/atmosphere/atmosphere.h"
+#include "src/world/camera/places.h"
+
+namespace pileus {
+
+Status place_scene(Scene& scene) {
+    PILEUS_TRY(place_camera(scene));
+    place_sun(scene.atmosphere, scene.hours_later, scene.sun);
+    return check_camera_in_air(scene);
+}
+
+}  // namespace pileus
