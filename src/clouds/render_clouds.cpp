@@ -5,7 +5,7 @@
 #include "platform/fp_mode.h"
 #include "platform/threads.h"
 #include "src/clouds/scene_clouds.h"
-#include "src/picture/layers.h"
+#include "src/picture/finish_frame.h"
 #include "src/session/deliver.h"
 #include "src/session/run_context.h"
 #include "src/session/warnings.h"
@@ -73,15 +73,9 @@ Status draw_image(const Scene& scene, Session& sky, Clouds& clouds, Image& image
     const Planes* planes = nullptr;
     PILEUS_TRY(clouds.draw(scene.output.layer_depth, planes));
     const StageClock clock(sky.context(), "layers");
-    const Camera& camera = sky.camera();
-    std::uint64_t clamped = 0;
-    report.counters.clear();
-    PILEUS_TRY(make_layers(*planes, camera.resolution[0], camera.resolution[1], 3, scene.output,
-                           image, report, clamped));
-    report.counters.emplace_back("clamped_negative", clamped);
     const Double3& low = sky.run().world->medium.low_m;
-    set_image_camera(make_camera(camera, 0, low), low, image);
-    return Status::ok();
+    return finish_layers(scene.output, make_camera(sky.camera(), 0, low), low, *planes, image,
+                         report);
 }
 
 }  // namespace

@@ -7,12 +7,12 @@
 #include "kernels_cpu/core/profile.h"
 #include "platform/clock.h"
 #include "src/base/angles.h"
-#include "src/base/digest.h"
 #include "src/march/march_budget.h"
 #include "src/march/march_parts.h"
 #include "src/picture/air_view.h"
 #include "src/picture/background.h"
 #include "src/picture/blue_noise.h"
+#include "src/picture/finish_frame.h"
 #include "src/picture/late_rows.h"
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/node_grid.h"
@@ -241,31 +241,11 @@ Status march_frame(const FrameStep& step, const Context& context, RaymarchRun& r
 
 Status march_show(const FrameStep&, const Context& context, MethodRun& method_run, Image& image) {
     RaymarchRun& run = static_cast<RaymarchRun&>(method_run);
-    Report& report = *context.report;
-    const StageClock clock(context, "layers");
-    report.digests = run.digests;
-    report.counters.clear();
-    std::uint64_t clamped = 0;
-    Digest colours;
-    Status layers;
-    // Neither is short, and neither can be shared by threads.
-    parallel_for(context.threads, 2, [&](std::int64_t piece, int) {
-        if (piece == 0 && context.digests)
-            colours.floats(run.planes.colour.span());
-        else if (piece == 1)
-            layers = make_layers(run.planes, run.camera.width, run.camera.height, 3,
-                                 run.scene->output, image, report, clamped);
-    });
-    PILEUS_TRY(layers);
-    if (context.digests) report.digests.emplace_back("colours", colours.hex());
-    report.counters.emplace_back("clamped_negative", clamped);
-    report.executed = {{"depth_tests", run.planes.opaque_depth.size()},
-                       {"depths_stored", run.planes.half_depth.size()},
-                       {"parts_stored", run.world->medium.parts.size()}};
-    report_solids(run.world->solids, run.around.depth, report);
-    set_image_camera(run.camera, run.world->medium.low_m, image);
-    run.planes = Planes{};
-    return Status::ok();
+    context.report->digests = run.digests;
+    FinishedParts parts;
+    parts.colours = true;
+    return finish_frame(context, run.scene->output, *run.world, run.around.depth, run.camera, parts,
+                        run.planes, image, *context.report);
 }
 
 void march_count(const MethodRun& method_run, Counts& counters) {

@@ -147,7 +147,8 @@ Status add_error(const Planes& planes, int batches, Image& image) {
 
 }  // namespace
 
-ErrorSum batch_error_sum(const Planes& planes, int batches) {
+ErrorSum batch_error_sum(const Planes& planes) {
+    const int batches = planes.batches;
     ErrorSum sum;
     const std::size_t pixels = planes.transmittance.size();
     for (std::size_t i = 0; i < pixels && batches > 1; ++i) {
@@ -161,6 +162,8 @@ ErrorSum batch_error_sum(const Planes& planes, int batches) {
 
 Status allocate_planes(int width, int height, int channels, bool solid, bool depth,
                        Planes& planes) {
+    planes.batches = channels > 0 ? channels / 3 - 1 : 0;
+    planes.clamped = 0;
     const std::uint64_t pixels = std::uint64_t(width) * std::uint64_t(height);
     const auto fit = [&](std::uint64_t numbers, Buffer<float>& b) {
         return allocate_once(arrays::picture_planes(numbers, pixels), b);
@@ -204,14 +207,12 @@ Status add_reflectance(const Lighting& lighting, Image& image) {
     return Status::ok();
 }
 
-Status make_layers(const Planes& planes, int width, int height, int channels,
-                   const OutputSettings& output, Image& image, Report& report,
-                   std::uint64_t& clamped) {
+Status make_layers(const Planes& planes, int width, int height, const OutputSettings& output,
+                   Image& image, Report& report, std::uint64_t& clamped) {
     image.width = width;
     image.height = height;
     image.channels.clear();
-    const int batches = channels / 3 - 1;
-    const bool has_error = output.layer_error && (!planes.error.empty() || batches >= 2);
+    const bool has_error = output.layer_error && (!planes.error.empty() || planes.batches >= 2);
     const std::size_t lights =
         planes.sun.empty() ? 0
                            : (planes.lamps.size() + planes.emission.size()) * 3 / planes.sun.size();
@@ -232,7 +233,7 @@ Status make_layers(const Planes& planes, int width, int height, int channels,
                 add_rest("multiple.", c, cloud_light(planes) + c * pixels, planes.single, image));
     }
     if (has_error) {
-        PILEUS_TRY(add_error(planes, batches, image));
+        PILEUS_TRY(add_error(planes, planes.batches, image));
         summarise(image, planes, report);
     }
     report.counters.emplace_back("nan", broken);

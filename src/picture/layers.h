@@ -28,8 +28,13 @@ struct Planes {
     Buffer<float> lamps;          ///< [lamp][3][pixel], of R G B what each of [[light]] sends
     Buffer<float> emission;       ///< [3][pixel], of R G B what the media emit
     Buffer<float> error;          ///< [3][pixel], one standard error; empty: from the batches
+    Buffer<float> occlusion;      ///< [pixel], share of the sky that the media hide
+    int batches = 0;              ///< parts of the light behind the picture's own colours
+    std::uint64_t clamped = 0;    ///< numbers below 0 that became 0 on the way here
     /// Takes what may wait until pixels are written, as a caller allows it; null: nothing may.
     LateRows* late = nullptr;
+
+    int channels() const { return 3 * (1 + batches); }
 };
 
 /// Mean of standard error / radiance over the cloud's pixels, by green.
@@ -47,8 +52,8 @@ struct ErrorSum {
     double mean_relative() const { return count > 0 ? relative / count : 0; }
 };
 
-/// Of planes whose colours after the first three are those of `batches` parts of the light.
-ErrorSum batch_error_sum(const Planes& planes, int batches);
+/// By the planes' batches.
+ErrorSum batch_error_sum(const Planes& planes);
 
 /// Numbers per pixel that allocate_planes makes room for.
 inline std::uint64_t plane_count(std::uint64_t channels, bool solid, bool depth) {
@@ -66,7 +71,7 @@ inline Array<float> picture_planes(std::uint64_t numbers, std::uint64_t pixels,
 }  // namespace arrays
 
 /// `solid`: something opaque may end rays; `depth`: the layer of depths is wanted. Without channels
-/// of colour there is no background either.
+/// of colour there is no background either. Batches follow from the channels; nothing is clamped.
 Status allocate_planes(int width, int height, int channels, bool solid, bool depth, Planes& planes);
 
 /// Room for what some pictures of a run have and others have not: depths of the media and, where
@@ -80,12 +85,11 @@ std::uint64_t extra_layers(const OutputSettings& output, bool has_error);
 /// horizon. kLimit: out of memory.
 Status add_reflectance(const Lighting& lighting, Image& image);
 
-/// Fills the image's channels and the report's error figures; counts pixels that are not finite.
-/// Radiances below zero, noise of the light that the cloud keeps from the ground, become 0 and are
-/// added to `clamped`. sky.* is R G B less sun.* and other parts that there are, multiple.* the
+/// Fills the image's channels and the report's error figures; counts pixels that are not finite,
+/// and what was clamped: radiances below zero, noise of the light that the cloud keeps from the
+/// ground, become 0, too. sky.* is R G B less sun.* and other parts that there are, multiple.* the
 /// media's light less single.*.
-Status make_layers(const Planes& planes, int width, int height, int channels,
-                   const OutputSettings& output, Image& image, Report& report,
-                   std::uint64_t& clamped);
+Status make_layers(const Planes& planes, int width, int height, const OutputSettings& output,
+                   Image& image, Report& report, std::uint64_t& clamped);
 
 }  // namespace pileus

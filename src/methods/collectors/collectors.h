@@ -59,10 +59,9 @@ Status collectors_relight(bool anew, const Context& context, CollectorsRun& run)
 /// run.interrupted where the user ended it within.
 Status collectors_shoot(const Context& context, CollectorsRun& run);
 
-/// The picture of the lit collectors as planes; `colours` are what it is made from, `channels`
-/// those of planes.colour.
+/// The picture of the lit collectors as planes; `colours` are what it is made from.
 Status collectors_compose(const CameraParams& camera, const Context& context, CollectorsRun& run,
-                          CollectorColours& colours, int& channels, Planes& planes);
+                          CollectorColours& colours, Planes& planes);
 
 /// Reconstructs and composites one picture.
 Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& run, Image& image);

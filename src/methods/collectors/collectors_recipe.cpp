@@ -92,10 +92,9 @@ Status compose(const FrameStep& step, const Context& context, MethodRun& method_
     ++run.turn;
     const CameraParams camera = make_camera(run.scene->camera, 0, run.world->medium.low_m);
     CollectorColours colours;
-    int channels = 3;
     planes = &run.planes;
     run.planes.late = late_photons(step.late, run.scene->collectors.thin, camera, step.frame, run);
-    return collectors_compose(camera, context, run, colours, channels, run.planes);
+    return collectors_compose(camera, context, run, colours, run.planes);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "src/methods/collectors/collectors_display.h"
 #include "src/photons/lit_march.h"
 #include "src/picture/air_view.h"
+#include "src/picture/finish_frame.h"
 
 namespace pileus {
 
@@ -33,7 +34,7 @@ ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const 
 }
 
 Status collectors_compose(const CameraParams& camera, const Context& context, CollectorsRun& run,
-                          CollectorColours& colours, int& channels, Planes& planes) {
+                          CollectorColours& colours, Planes& planes) {
     {
         const StageClock clock(context, "reconstruct");
         PILEUS_TRY(sum_ring(collectors_trace_input(context, run), run));
@@ -43,13 +44,14 @@ Status collectors_compose(const CameraParams& camera, const Context& context, Co
         const StageClock clock(context, "reconstruct");
         PILEUS_TRY(reconstruct(in, colours));
     }
-    channels = 3 * (1 + in.batches);
+    const int channels = 3 * (1 + in.batches);
     {
         const StageClock clock(context, "background");
         PILEUS_TRY(allocate_planes(camera.width, camera.height, channels, run.lighting.opaque(),
                                    run.scene->wants_depth(), planes));
     }
     PILEUS_TRY(fill_lit_background(context, run, in, 0, planes));
+    planes.clamped = colours.clamped_negative;
     PILEUS_TRY(collectors_display(context, run, in, colours, channels, planes));
     if (kFilms) PILEUS_TRY(add_ground_noise(context, run, in, planes));
     if (kFilms) PILEUS_TRY(collectors_parts(context, run, in, planes));
@@ -58,27 +60,17 @@ Status collectors_compose(const CameraParams& camera, const Context& context, Co
 }
 
 Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& run, Image& image) {
-    const Scene& scene = *run.scene;
-    const CameraParams camera = make_camera(scene.camera, orbit_deg, run.world->medium.low_m);
+    const CameraParams camera = make_camera(run.scene->camera, orbit_deg, run.world->medium.low_m);
     CollectorColours colours;
-    int channels = 3;
     Planes planes;
-    PILEUS_TRY(collectors_compose(camera, context, run, colours, channels, planes));
+    PILEUS_TRY(collectors_compose(camera, context, run, colours, planes));
     Report& report = *context.report;
-    const StageClock clock(context, "layers");
-    report.counters.clear();
-    std::uint64_t clamped = colours.clamped_negative;
-    PILEUS_TRY(make_layers(planes, camera.width, camera.height, channels, scene.output, image,
-                           report, clamped));
-    report.counters.emplace_back("clamped_negative", clamped);
-    report.executed = {{"depth_tests", planes.opaque_depth.size()},
-                       {"depths_stored", planes.half_depth.size()},
-                       {"batches", std::uint64_t(channels / 3 - 1)},
-                       {"parts_stored", run.world->medium.parts.size()}};
-    report_solids(run.world->solids, run.around.depth, report);
-    set_image_camera(camera, run.world->medium.low_m, image);
-    planes = Planes{};  // to give memory back takes time, too
+    FinishedParts parts;
+    parts.batches = true;
+    PILEUS_TRY(finish_frame(context, run.scene->output, *run.world, run.around.depth, camera, parts,
+                            planes, image, report));
     if (shows_harmonics(run) || !context.digests) return Status::ok();
+    const StageClock clock(context, "layers");
     Digest digest;
     digest.floats(colours.colour.span());
     report.digests.emplace_back("colours", digest.hex());

@@ -39,8 +39,9 @@ Status sky_seen(const Context& context, const ParticlesRun& run, Buffer<float>& 
 Status show_occlusion(const Context& context, ParticlesRun& run) {
     const StageClock clock(context, "occlusion layer");
     const std::size_t pixels = run.planes.transmittance.size();
-    PILEUS_TRY(allocate_once(arrays::picture_planes(1, pixels, Stage::kDisplay), run.occlusion));
-    for (float& v : run.occlusion.span()) v = 0;
+    PILEUS_TRY(
+        allocate_once(arrays::picture_planes(1, pixels, Stage::kDisplay), run.planes.occlusion));
+    for (float& v : run.planes.occlusion.span()) v = 0;
     if (run.tree.balls.empty()) return Status::ok();
     Buffer<float> around;
     PILEUS_TRY(sky_seen(context, run, around));
@@ -60,7 +61,7 @@ Status show_occlusion(const Context& context, ParticlesRun& run) {
         const float alpha = 1 - own.transmittance[i];
         if (!(alpha > 0)) continue;
         const float hidden = 1 - own.colour[i] / alpha;
-        run.occlusion[i] = hidden > 0 ? (hidden < 1 ? hidden : 1.0f) : 0.0f;
+        run.planes.occlusion[i] = hidden > 0 ? (hidden < 1 ? hidden : 1.0f) : 0.0f;
     }
     return Status::ok();
 }

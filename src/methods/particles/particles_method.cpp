@@ -8,6 +8,7 @@
 #include "src/methods/particles/particles_run.h"
 #include "src/picture/air_view.h"
 #include "src/picture/background.h"
+#include "src/picture/finish_frame.h"
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/lamp_light.h"
 #include "src/world/camera/view.h"
@@ -129,26 +130,12 @@ Status light(const FrameStep& step, const Context& context, MethodRun& method_ru
 
 Status show(const FrameStep&, const Context& context, MethodRun& method_run, Image& image) {
     ParticlesRun& run = own(method_run);
-    Report& report = *context.report;
-    const StageClock clock(context, "layers");
-    report.digests = run.digests;
-    report.counters.clear();
-    std::uint64_t clamped = 0;
-    if (context.digests) {
-        Digest colours;
-        colours.floats(run.planes.colour.span());
-        report.digests.emplace_back("colours", colours.hex());
-    }
-    PILEUS_TRY(make_layers(run.planes, run.camera.width, run.camera.height, 3, run.scene->output,
-                           image, report, clamped));
-    if (!run.occlusion.empty()) image.channels.push_back({"occlusion", std::move(run.occlusion)});
-    report.counters.emplace_back("clamped_negative", clamped);
-    report.executed = {{"depth_tests", run.planes.opaque_depth.size()},
-                       {"depths_stored", run.planes.half_depth.size()}};
-    report_solids(run.world->solids, run.around.depth, report);
-    set_image_camera(run.camera, run.world->medium.low_m, image);
-    run.planes = Planes{};
-    return Status::ok();
+    context.report->digests = run.digests;
+    FinishedParts parts;
+    parts.colours = true;
+    parts.media = false;
+    return finish_frame(context, run.scene->output, *run.world, run.around.depth, run.camera, parts,
+                        run.planes, image, *context.report);
 }
 
 /// Light is made again by the next picture where what shines has changed.

@@ -40,7 +40,6 @@ struct ParticlesRun : MethodRun {
     std::array<float, 3> to_sun{};
     CameraParams camera{};
     Planes planes;
-    Buffer<float> occlusion;  ///< [pixel]; empty: not wanted
 
     Status reserve(LateRows& late) override;
 };
@@ -128,7 +127,7 @@ ParticleMarchParams lit_from_around(const ParticlesRun& run);
 /// By the scene's display, into the planes. The tree holds a ball. kLimit: out of memory.
 Status draw_particles(const Context& context, const ParticleMarchParams& k, ParticlesRun& run);
 
-/// Into run.occlusion, after the picture. kLimit: out of memory.
+/// Into run.planes.occlusion, after the picture. kLimit: out of memory.
 Status show_occlusion(const Context& context, ParticlesRun& run);
 
 /// Into the planes. kLimit: out of memory.

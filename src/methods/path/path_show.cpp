@@ -6,6 +6,7 @@
 #include "platform/threads.h"
 #include "src/base/digest.h"
 #include "src/methods/path/path.h"
+#include "src/picture/finish_frame.h"
 
 namespace pileus {
 namespace {
@@ -56,8 +57,7 @@ std::string film_digest(const Film& film) {
 }
 
 /// The report tells the error also where no layer shows it.
-void report_error(const PathRun& run, Report& report) {
-    const ErrorSum sum = path_error(run);
+void report_error(const PathRun& run, const ErrorSum& sum, Report& report) {
     // The film's scatter is not what is left of it in a filtered picture.
     report.errors.known = run.film.samples >= 2 && sum.count > 0 && !path_filters(*run.scene);
     if (!report.errors.known) return;
@@ -89,20 +89,11 @@ Status path_show(const FrameStep&, const Context& context, MethodRun& method_run
     report.digests = run.digests;
     if (context.digests) report.digests.emplace_back("film", film_digest(run.film));
     PILEUS_TRY(path_planes(context, run));
-    const StageClock clock(context, "layers");
-    report.counters.clear();
-    std::uint64_t clamped = 0;
-    PILEUS_TRY(make_layers(run.planes, run.film.width, run.film.height, 3, run.scene->output, image,
-                           report, clamped));
-    report_error(run, report);
-    report.counters.emplace_back("clamped_negative", clamped);
-    report.executed = {{"depth_tests", run.planes.opaque_depth.size()},
-                       {"depths_stored", run.planes.half_depth.size()},
-                       {"parts_stored", run.world->medium.parts.size()},
-                       {"film_parts", std::uint64_t(run.film.parts)}};
-    report_solids(run.world->solids, run.around.depth, report);
-    set_image_camera(run.camera, run.world->medium.low_m, image);
-    run.planes = Planes{};
+    const ErrorSum error = path_error(run);
+    PILEUS_TRY(finish_frame(context, run.scene->output, *run.world, run.around.depth, run.camera,
+                            {}, run.planes, image, report));
+    report.executed.emplace_back("film_parts", std::uint64_t(run.film.parts));
+    report_error(run, error, report);
     run.guides = FilterGuides{};
     run.film.sum = Buffer<double>();
     run.film.square = Buffer<double>();

@@ -226,11 +226,9 @@ Status shoot_to_error(const FrameStep& step, const Context& context, PhotonGridR
         const double left = seconds - (wall_seconds() - start);
         if (seconds > 0 && left <= 0) break;
         run.budget.seconds = seconds > 0 ? left : 0;
-        int channels = 3;
-        std::uint64_t clamped = 0;
         Planes planes;
-        PILEUS_TRY(photon_grid_compose(camera, context, run, clamped, channels, planes));
-        const ErrorSum sum = batch_error_sum(planes, channels / 3 - 1);
+        PILEUS_TRY(photon_grid_compose(camera, context, run, planes));
+        const ErrorSum sum = batch_error_sum(planes);
         if (sum.mean_relative() <= run.budget.error) break;
         const std::uint64_t held = run.next_generation;
         count = held * 2 <= most ? held : 0;

@@ -67,9 +67,9 @@ TraceInput photon_grid_trace_input(const Context& context, const PhotonGridRun& 
 GridLightInput photon_grid_light_input(const CameraParams& camera, const Context& context,
                                        const PhotonGridRun& run);
 
-/// The picture as it is lit now, as planes; `channels` those of planes.colour.
+/// The picture as it is lit now, as planes.
 Status photon_grid_compose(const CameraParams& camera, const Context& context, PhotonGridRun& run,
-                           std::uint64_t& clamped, int& channels, Planes& planes);
+                           Planes& planes);
 
 /// One picture with its layers.
 Status photon_grid_show(double orbit_deg, const Context& context, PhotonGridRun& run, Image& image);

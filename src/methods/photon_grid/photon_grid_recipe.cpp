@@ -160,11 +160,9 @@ Status compose(const FrameStep& step, const Context& context, MethodRun& method_
     run.frame = step.frame;
     ++run.turn;
     const CameraParams camera = make_camera(run.scene->camera, 0, run.world->medium.low_m);
-    int channels = 3;
-    std::uint64_t clamped = 0;
     planes = &run.planes;
     run.planes.late = late_photons(step.late, run.scene->photon_grid.thin, camera, step.frame, run);
-    return photon_grid_compose(camera, context, run, clamped, channels, run.planes);
+    return photon_grid_compose(camera, context, run, run.planes);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 #include "src/methods/photon_grid/photon_grid.h"
 #include "src/photons/lit_march.h"
 #include "src/picture/air_view.h"
+#include "src/picture/finish_frame.h"
 
 namespace pileus {
 
@@ -160,17 +161,16 @@ Status add_layers(const Context& context, PhotonGridRun& run, const GridLightInp
 }  // namespace
 
 Status photon_grid_compose(const CameraParams& camera, const Context& context, PhotonGridRun& run,
-                           std::uint64_t& clamped, int& channels, Planes& planes) {
+                           Planes& planes) {
     {
         const StageClock clock(context, "reconstruct");
         PILEUS_TRY(sum_ring(photon_grid_trace_input(context, run), run));
     }
     const GridLightInput in = photon_grid_light_input(camera, context, run);
-    channels = 3 * (1 + in.batches);
     {
         const StageClock clock(context, "background");
-        PILEUS_TRY(allocate_planes(camera.width, camera.height, channels, run.lighting.opaque(),
-                                   run.scene->wants_depth(), planes));
+        PILEUS_TRY(allocate_planes(camera.width, camera.height, 3 * (1 + in.batches),
+                                   run.lighting.opaque(), run.scene->wants_depth(), planes));
     }
     PILEUS_TRY(fill_lit_background(context, run, in, 0, planes));
     PILEUS_TRY(display(context, run, in, planes));
@@ -179,7 +179,7 @@ Status photon_grid_compose(const CameraParams& camera, const Context& context, P
         const StageClock clock(context, "layers");
         const std::size_t pixels = planes.transmittance.size();
         for (std::size_t i = 0; i < 3 * pixels; ++i)
-            if (planes.colour[i] < 0) planes.colour[i] = 0, ++clamped;
+            if (planes.colour[i] < 0) planes.colour[i] = 0, ++planes.clamped;
     }
     if (kFilms) PILEUS_TRY(add_layers(context, run, in, planes));
     return show_air(context, *run.scene, run.world->medium, run.lighting, camera, run.around,
@@ -188,25 +188,13 @@ Status photon_grid_compose(const CameraParams& camera, const Context& context, P
 
 Status photon_grid_show(double orbit_deg, const Context& context, PhotonGridRun& run,
                         Image& image) {
-    const Scene& scene = *run.scene;
-    const CameraParams camera = make_camera(scene.camera, orbit_deg, run.world->medium.low_m);
-    int channels = 3;
-    std::uint64_t clamped = 0;
+    const CameraParams camera = make_camera(run.scene->camera, orbit_deg, run.world->medium.low_m);
     Planes planes;
-    PILEUS_TRY(photon_grid_compose(camera, context, run, clamped, channels, planes));
-    Report& report = *context.report;
-    const StageClock clock(context, "layers");
-    report.counters.clear();
-    PILEUS_TRY(make_layers(planes, camera.width, camera.height, channels, scene.output, image,
-                           report, clamped));
-    report.counters.emplace_back("clamped_negative", clamped);
-    report.executed = {{"depth_tests", planes.opaque_depth.size()},
-                       {"depths_stored", planes.half_depth.size()},
-                       {"batches", std::uint64_t(channels / 3 - 1)},
-                       {"parts_stored", run.world->medium.parts.size()}};
-    report_solids(run.world->solids, run.around.depth, report);
-    set_image_camera(camera, run.world->medium.low_m, image);
-    return Status::ok();
+    PILEUS_TRY(photon_grid_compose(camera, context, run, planes));
+    FinishedParts parts;
+    parts.batches = true;
+    return finish_frame(context, run.scene->output, *run.world, run.around.depth, camera, parts,
+                        planes, image, *context.report);
 }
 
 }  // namespace pileus
