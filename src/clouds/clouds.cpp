@@ -219,7 +219,7 @@ Status Clouds::group_of(const CloudPlace& place, std::size_t& group) {
 /// Groups whose light is older than the sun are lit anew, one in each frame.
 Status Clouds::light_up(const Outlook& look) {
     const Scene& scene = *look.scene;
-    if (scene.sky.present && look.around->sky_map.present() && !scene.atmosphere.present)
+    if (scene.sky.present && look.environment->sky_map.present() && !scene.atmosphere.present)
         return Status::bad_input(
             "sky.map: a picture, allowed for clouds: [atmosphere] or a constant radiance");
     // The ground may have been raised since the clouds were placed.
@@ -239,8 +239,8 @@ Status Clouds::light_up(const Outlook& look) {
             for (const auto& cloud : clouds_)
                 height += cloud->box.middle.z / double(clouds_.size());
             const double sea = scene.ground.present ? scene.ground.altitude_m : 0;
-            PILEUS_TRY(
-                light_atmosphere(scene, height - sea, look.context->threads, air_, air_map_));
+            PILEUS_TRY(light_atmosphere(scene.atmosphere, scene.sun, scene.ground, height - sea,
+                                        look.context->threads, air_, air_map_));
             for (std::size_t c = 0; c < 3; ++c)
                 now.sun.irradiance[c] = float(air_.above[int(c)] * air_.sunlight[c]);
             now.sky = Sky{};

@@ -244,7 +244,7 @@ Status Clouds::draw(bool depths, const Planes*& planes) {
     }
     PILEUS_TRY(compose(view, camera, look.frame));
     PILEUS_TRY(show_air(context, *look.scene, look.world->medium, look.lighting, look.camera,
-                        *look.around, planes_));
+                        *look.environment, planes_));
     for (std::size_t i = 0; depths && i < planes_.half_depth.size(); ++i)
         if (planes_.transmittance[i] > 0.5f) planes_.half_depth[i] = __builtin_inff();
     planes = &planes_;

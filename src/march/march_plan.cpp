@@ -181,7 +181,7 @@ void note_plan(RaymarchRun& run) {
         plan.leave_out("jitter of samples", "jitter = \"none\"");
     if (run.simple == nullptr) note_upsampling(scene, scene.raymarch.thin, plan);
     if (run.world->medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
-    note_solids(run.world->solids, run.around.depth, plan);
+    note_solids(run.world->solids, run.environment.depth, plan);
     if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
     if (!scene.wants_depth()) plan.leave_out("depth of the medium", "no depth layer");
     if (!scene.output.layer_optical_depth)
@@ -201,7 +201,7 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
     MemoryTable t;
     add_density_rows(grid, run.world->source, std::uint64_t(run.world->medium.count),
                      phase_bytes(run.world->medium), std::uint64_t(context.threads),
-                     sky_map_bytes(run.around.sky_map), t);
+                     sky_map_bytes(run.environment.sky_map), t);
     if (run.world->direct_sky) add_sky_rows(scene.media[0].sky, last, t);
     add_majorant_rows(grid, run.outlined_only ? 1 : run.majorants.tracking.size(),
                       std::uint64_t(context.threads), last, t);
@@ -255,7 +255,7 @@ void weigh_memory(const Context& context, RaymarchRun& run) {
                    4 + extra_layers(output, false) + parts - (output.layer_light ? 3u : 0u) -
                        (output.layer_order ? 3u : 0u),
                    t);
-    add_solid_rows(scene, context.limits, run.world->solids, run.around.depth, t);
+    add_solid_rows(scene, context.limits, run.world->solids, run.environment.depth, t);
     if (run.world->solids.meshes && run.lighting.sunlit)
         t.add("shadow of solids", Stage::kShadow, last, bytes_of(kFloat, voxel_count(grid)));
     run.plan.memory = t;

@@ -13,8 +13,7 @@ namespace {
 RaymarchRun& own(MethodRun& run) { return static_cast<RaymarchRun&>(run); }
 
 void choose_light(const SunPlace& sun, RaymarchRun& run) {
-    Plan photons;  // speaks of photons alone
-    run.lighting = light_world(*run.scene, sun, *run.world, run.around, photons);
+    run.lighting = light_of(*run.scene, sun, *run.world, run.environment);
 }
 
 /// The medium with no extinction above the largest one asked for.
@@ -168,7 +167,7 @@ Status march_prepare(const Context& context, MethodRun& method_run) {
 
 Status RaymarchRun::reserve(LateRows&) {
     const auto& size = scene->camera.resolution;
-    const bool solid = lighting.opaque() || around.depth.present;
+    const bool solid = lighting.opaque() || environment.depth.present;
     PILEUS_TRY(reserve_depths(size, solid, planes));
     PILEUS_TRY(reserve_lamp_nodes(world->medium, scene->lights.size(), lamps));
     slices.reserve();

@@ -179,8 +179,7 @@ Status march_frame(const FrameStep& step, const Context& context, RaymarchRun& r
     const double start_s = wall_seconds();
     {
         const StageClock clock(context, "lights");
-        Plan photons;  // speaks of photons alone
-        run.lighting = light_world(scene, run.sun_of(step.frame), *run.world, run.around, photons);
+        run.lighting = light_of(scene, run.sun_of(step.frame), *run.world, run.environment);
         run.camera =
             make_camera(scene.camera, orbit_at(scene, step.frame), run.world->medium.low_m);
     }
@@ -235,7 +234,7 @@ Status march_frame(const FrameStep& step, const Context& context, RaymarchRun& r
     PILEUS_TRY(upsample_picture(context, thin, step.frame, run.upsample, run.planes));
     PILEUS_TRY(add_lamps(context, run));
     if (kFilms) PILEUS_TRY(march_parts(context, in, run));
-    return show_air(context, scene, run.world->medium, run.lighting, run.camera, run.around,
+    return show_air(context, scene, run.world->medium, run.lighting, run.camera, run.environment,
                     run.planes);
 }
 
@@ -244,8 +243,8 @@ Status march_show(const FrameStep&, const Context& context, MethodRun& method_ru
     context.report->digests = run.digests;
     FinishedParts parts;
     parts.colours = true;
-    return finish_frame(context, run.scene->output, *run.world, run.around.depth, run.camera, parts,
-                        run.planes, image, *context.report);
+    return finish_frame(context, run.scene->output, *run.world, run.environment.depth, run.camera,
+                        parts, run.planes, image, *context.report);
 }
 
 void march_count(const MethodRun& method_run, Counts& counters) {

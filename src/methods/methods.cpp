@@ -59,11 +59,11 @@ Status open_run(const Method& method, const Scene& scene, const Budget& budget,
     }
     run.world = std::move(world);
     if (!kFlight) PILEUS_TRY(check_all_frames(run));
-    PILEUS_TRY(outline_surroundings(scene, context, *run.world, run.sky, run.around));
+    PILEUS_TRY(outline_environment(scene, context, *run.world, run.sky, run.environment));
     PILEUS_TRY(method.outline(context, run));
     if (!exact) return Status::ok();
     if (!kFlight && own != nullptr) PILEUS_TRY(load_world(scene, context, *own));
-    PILEUS_TRY(load_surroundings(scene, context, run.around));
+    PILEUS_TRY(load_environment(scene, context, run.environment));
     return method.prepare(context, run);
 }
 

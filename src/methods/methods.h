@@ -14,7 +14,7 @@
 #include "src/run/context.h"
 #include "src/scene/frames.h"
 #include "src/scene/scene.h"
-#include "src/world/world.h"
+#include "src/world/environment.h"
 
 namespace pileus {
 
@@ -34,7 +34,7 @@ struct MethodRun {
     const Image* sky = nullptr;        ///< in place of the sky map's file; null: that
     Budget budget;
     std::shared_ptr<const World> world;  ///< outlined before `outline`, loaded before `prepare`
-    Surroundings around;                 ///< likewise
+    Environment environment;             ///< likewise
     Plan plan;
     Lighting lighting;
     /// The sun of a frame of the animation, in the media's coordinates.

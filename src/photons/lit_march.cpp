@@ -338,7 +338,7 @@ Status fill_lit_background(const Context& context, PhotonRun& run, const LightIn
 
 Status PhotonRun::reserve_pictures(LateRows& late) {
     const auto& size = scene->camera.resolution;
-    const bool solid = lighting.opaque() || around.depth.present;
+    const bool solid = lighting.opaque() || environment.depth.present;
     PILEUS_TRY(reserve_depths(size, solid, planes));
     PILEUS_TRY(reserve_lamp_nodes(world->medium, scene->lights.size(), lamps));
     shadow_slices.reserve();

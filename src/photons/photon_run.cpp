@@ -49,10 +49,11 @@ void tell_colours(const char* what, PhotonRun& run) {
 /// Aims the sky map at the medium's box. A coloured one asks for a set of sums per colour channel,
 /// as its photons differ in colour.
 Status aim_map(PhotonRun& run) {
-    if (!run.around.sky_map.present()) return Status::ok();
+    run.environment.ground_under_map = true;
+    if (!run.environment.sky_map.present()) return Status::ok();
     PILEUS_TRY(aim_sky_map(run.world->medium.extent_m, run.world->medium.grid.periodic,
-                           run.around.sky_map));
-    if (run.around.sky_map.view.planes == 3) tell_colours("sky map", run);
+                           run.environment.sky_map));
+    if (run.environment.sky_map.view.planes == 3) tell_colours("sky map", run);
     return Status::ok();
 }
 
@@ -178,7 +179,8 @@ Status choose_photon_lights(std::uint64_t generations, PhotonRun& run) {
     if (photons >= 0 && std::uint64_t(photons) < run.generations)
         run.generations = photons > 0 ? std::uint64_t(photons) : 1;
     run.sun = first_place(run);
-    run.lighting = light_world(scene, run.sun, *run.world, run.around, run.plan);
+    run.lighting = light_of(scene, run.sun, *run.world, run.environment);
+    if (kPlans) explain_light(scene, run.sun, *run.world, run.environment, run.lighting, run.plan);
     if (!run.lighting.lamps.empty()) {
         if (kPlans)
             run.plan.need((std::to_string(run.lighting.lamps.size()) +
@@ -304,8 +306,7 @@ std::uint64_t beam_sets(const PhotonRun& run) {
 void set_photon_sun(const SunPlace& sun, PhotonRun& run) {
     // Lamps and ground move where the media do.
     if (sun == run.sun && !moves_media(*run.scene)) return;
-    Plan ignored;
-    Lighting next = light_world(*run.scene, sun, *run.world, run.around, ignored);
+    Lighting next = light_of(*run.scene, sun, *run.world, run.environment);
     keep_places(run, next);
     run.lighting = next;
     run.sun = sun;
@@ -313,9 +314,8 @@ void set_photon_sun(const SunPlace& sun, PhotonRun& run) {
 }
 
 bool relight_photons(PhotonRun& run) {
-    Plan ignored;
     const SunPlace sun = place_of(run.scene->sun);
-    Lighting next = light_world(*run.scene, sun, *run.world, run.around, ignored);
+    Lighting next = light_of(*run.scene, sun, *run.world, run.environment);
     if (!has_places(run, next)) return false;
     keep_places(run, next);
     const Lighting& before = run.lighting;

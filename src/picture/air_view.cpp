@@ -29,14 +29,14 @@ void show_sun(const Scene& scene, const CameraParams& camera, const AirRowsParam
 }  // namespace
 
 Status run_air(const Context& context, const Scene& scene, const Medium& medium,
-               const Lighting& lighting, const CameraParams& camera, Surroundings& around,
+               const Lighting& lighting, const CameraParams& camera, Environment& environment,
                const Planes& planes, const AirPlanes& on) {
     const StageClock clock(context, "air");
     if (context.kernels->air_rows == nullptr)
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
                                  "\": air is for the host alone, allowed: another, or a scene "
                                  "without [atmosphere]");
-    Atmosphere& air = around.air;
+    Atmosphere& air = environment.air;
     const double sea_m = scene.ground.present ? scene.ground.altitude_m : 0;
     PILEUS_TRY(look_from(medium.low_m[2] + double(camera.origin[2]) - sea_m, context.threads, air));
     AirRowsParams k{};
@@ -80,9 +80,9 @@ Status run_air(const Context& context, const Scene& scene, const Medium& medium,
 }
 
 Status show_air(const Context& context, const Scene& scene, const Medium& medium,
-                const Lighting& lighting, const CameraParams& camera, Surroundings& around,
+                const Lighting& lighting, const CameraParams& camera, Environment& environment,
                 Planes& planes) {
-    if (!kAtmosphere || !around.air.present() || camera.flux != 0) return Status::ok();
+    if (!kAtmosphere || !environment.air.present() || camera.flux != 0) return Status::ok();
     const std::size_t pixels = planes.transmittance.size();
     const std::size_t parts = planes.colour.size() / (3 * pixels);
     Buffer<float> dimmed;
@@ -90,7 +90,7 @@ Status show_air(const Context& context, const Scene& scene, const Medium& medium
         PILEUS_TRY(dimmed.resize(3 * pixels, "air"));
         for (float& v : dimmed.span()) v = 1;
     }
-    PILEUS_TRY(run_air(context, scene, medium, lighting, camera, around, planes,
+    PILEUS_TRY(run_air(context, scene, medium, lighting, camera, environment, planes,
                        {planes.colour.data(), planes.background.data(),
                         dimmed.empty() ? nullptr : dimmed.data(), false}));
     // Parts of the light tell its noise, to which the air adds none.

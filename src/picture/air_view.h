@@ -6,14 +6,14 @@
 #pragma once
 #include "src/picture/layers.h"
 #include "src/run/context.h"
-#include "src/world/world.h"
+#include "src/world/environment.h"
 
 namespace pileus {
 
 /// Nothing without an atmosphere. `planes` hold the media's light in `colour` (all parts of its
 /// noise, too) and what is behind them in `background`. kLimit: out of memory.
 Status show_air(const Context& context, const Scene& scene, const Medium& medium,
-                const Lighting& lighting, const CameraParams& camera, Surroundings& around,
+                const Lighting& lighting, const CameraParams& camera, Environment& environment,
                 Planes& planes);
 
 /// The same where `behind` is [3][pixel], light that has come through the media, and `light`
@@ -24,7 +24,7 @@ struct AirPlanes {
     bool through = false;
 };
 Status run_air(const Context& context, const Scene& scene, const Medium& medium,
-               const Lighting& lighting, const CameraParams& camera, Surroundings& around,
+               const Lighting& lighting, const CameraParams& camera, Environment& environment,
                const Planes& planes, const AirPlanes& on);
 
 }  // namespace pileus

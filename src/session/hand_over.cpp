@@ -182,7 +182,7 @@ Status Session::take_over(Session& from, std::uint32_t frames) {
     depth_scale_ = from.depth_scale_;
     stale_ = stale_ || host_.number != from.host_.number;
     host_.number = from.host_.number;
-    CameraDepth &own = run_->around.depth, &given = from.run_->around.depth;
+    CameraDepth &own = run_->environment.depth, &given = from.run_->environment.depth;
     if (own.present || given.present) {
         std::swap(own, given);
         stale_ = from.stale_ = true;

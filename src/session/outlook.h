@@ -14,7 +14,7 @@ struct Outlook {
     const Context* context = nullptr;
     const Scene* scene = nullptr;
     const World* world = nullptr;
-    Surroundings* around = nullptr;
+    Environment* environment = nullptr;
     Lighting lighting;
     CameraParams camera{};  ///< in metres from the world's low corner
     int frame = 0;

@@ -144,7 +144,7 @@ Status Session::take_frame(int frame) {
     }
     if (!is_sequence(scene_.view_files.depth)) return Status::ok();
     host_.sequence_frame = scene_.sequence_frame = frame;
-    return load_surroundings(scene_, context_, run_->around);
+    return load_environment(scene_, context_, run_->environment);
 }
 
 Status Session::render_image(const FrameStep& step, Image& image) {

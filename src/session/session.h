@@ -93,7 +93,7 @@ public:
     /// `map`: another one; null: none, or with `keep` the one that there is, as it was scaled and
     /// turned. A sky that is not present has none.
     Status set_sky(const Sky& sky, const Image* map, bool keep);
-    bool has_sky_map() const { return run_->around.sky_map.present(); }
+    bool has_sky_map() const { return run_->environment.sky_map.present(); }
     Status set_ground(const Ground& ground);
     /// In place of all that there were: point, spot and parallel lights.
     Status set_lights(const std::vector<LightSettings>& lights);

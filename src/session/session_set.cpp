@@ -72,7 +72,7 @@ Status Session::set_camera(const Camera& given) {
     PILEUS_TRY(check_limit(context_.limits, LimitId::kPixels, pixels, "camera.resolution"));
     if (run_->sealed && camera.resolution != host_.camera.resolution)
         return refuse_sealed("camera.resolution");
-    if (camera.resolution != host_.camera.resolution) run_->around.depth = CameraDepth{};
+    if (camera.resolution != host_.camera.resolution) run_->environment.depth = CameraDepth{};
     host_.camera = camera;
     stale_ = true;
     return Status::ok();
@@ -101,13 +101,10 @@ Status Session::relight_air() {
     if (!kAtmosphere || !scene_.atmosphere.present) return Status::ok();
     const FpModeGuard guard;
     const PoolGuard lent(*threads_);
-    Scene lit;
-    lit.atmosphere = scene_.atmosphere;
-    lit.sun = host_.sun;
-    lit.ground = host_.ground;
     // Where memory ends, the next picture tries again.
     anew_ = air_old_ = true;
-    PILEUS_TRY(light_surroundings(lit, context_.threads, *run_->world, run_->around));
+    PILEUS_TRY(pileus::relight_air(scene_.atmosphere, host_.sun, host_.ground, context_.threads,
+                                   *run_->world, run_->environment));
     air_old_ = false;
     return Status::ok();
 }
@@ -115,7 +112,7 @@ Status Session::relight_air() {
 Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
     const FpModeGuard guard;
     if (kAtmosphere && scene_.atmosphere.present) return refuse(kSkyInAir, kSkyInAirAllowed);
-    const bool kept = sky.present && map == nullptr && keep && run_->around.sky_map.present();
+    const bool kept = sky.present && map == nullptr && keep && run_->environment.sky_map.present();
     Sky next = kept ? host_.sky : sky;
     hold(next);
     next.present = sky.present;
@@ -129,16 +126,11 @@ Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
     }
     if (const char* key = sky_fault(scene_, next))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) { changed.sky = next; }));
-    if (run_->sealed && (map != nullptr || (!kept && run_->around.sky_map.present())))
+    if (run_->sealed && (map != nullptr || (!kept && run_->environment.sky_map.present())))
         return refuse_sealed("sky.map");
     if (late_.ready) shown_ = nullptr;
-    if (map != nullptr) {
-        SkyMap made;
-        PILEUS_TRY(make_sky_map("sky.map", *map, next, host_.ground.present, made));
-        run_->around.sky_map = std::move(made);
-        anew_ = true;
-    } else if (!kept && run_->around.sky_map.present()) {
-        run_->around.sky_map = SkyMap{};
+    if (map != nullptr || (!kept && run_->environment.sky_map.present())) {
+        PILEUS_TRY(set_sky_map(map, next, host_.ground.present, run_->environment));
         anew_ = true;
     }
     host_.sky = scene_.sky = next;
@@ -157,7 +149,7 @@ Status Session::set_ground(const Ground& given) {
             changed.camera = host_.camera;
         }));
     PILEUS_TRY(check_media("ground.altitude_m", ground, host_.placement.offset_m.z));
-    if (ground.present != host_.ground.present && run_->around.sky_map.present())
+    if (ground.present != host_.ground.present && run_->environment.sky_map.present())
         return Status::bad_input(
             "ground: the sky map was read with it or without, allowed: as the scene has it");
     host_.ground = ground;
@@ -209,7 +201,7 @@ Status Session::set_placement(const Double3& offset_m, double yaw_deg) {
         return Status::bad_input("placement: no media to move, allowed: 0");
     if (kMeshes && moves && run_->world->solids.meshes)
         return Status::bad_input("placement: solids stay where they are, allowed: 0");
-    if (yaw_deg != 0 && run_->around.sky_map.present())
+    if (yaw_deg != 0 && run_->environment.sky_map.present())
         return Status::bad_input("placement.yaw_deg: not below a sky map, allowed: 0");
     stale_ = stale_ || offset_m != host_.placement.offset_m || yaw_deg != host_.placement.yaw_deg;
     host_.placement = {offset_m, yaw_deg};
@@ -225,7 +217,7 @@ Status Session::set_frame(int number) {
 
 Status Session::set_depth(const Rows* rows, DepthKind kind) {
     const FpModeGuard guard;
-    CameraDepth& depth = run_->around.depth;
+    CameraDepth& depth = run_->environment.depth;
     if (kind == DepthKind::kBuffer && !depth_scale_.known)
         return Status::bad_input(
             "depth: a depth buffer without a camera's near_m, allowed: a camera with it, or "
@@ -273,7 +265,7 @@ void Session::seal() {
 }
 
 Status Session::reserve_depth() {
-    CameraDepth& depth = run_->around.depth;
+    CameraDepth& depth = run_->environment.depth;
     const auto& size = host_.camera.resolution;
     const std::uint64_t pixels = std::uint64_t(size[0]) * std::uint64_t(size[1]);
     PILEUS_TRY(depth.metres.resize(pixels, "camera depth"));
@@ -306,10 +298,8 @@ Status Session::look(Outlook& outlook) {
     outlook.context = &context_;
     outlook.scene = &scene_;
     outlook.world = run_->world.get();
-    outlook.around = &run_->around;
-    Plan photons;  // speaks of photons alone
-    outlook.lighting =
-        light_world(scene_, place_of(scene_.sun), *run_->world, run_->around, photons);
+    outlook.environment = &run_->environment;
+    outlook.lighting = light_of(scene_, place_of(scene_.sun), *run_->world, run_->environment);
     outlook.camera = make_camera(scene_.camera, 0, run_->world->medium.low_m);
     outlook.frame = host_.number;
     return Status::ok();

@@ -123,8 +123,9 @@ Status Verifier::see_through_air(const Context& context, const std::vector<std::
             straight[c * all + pixels[i]] = float(paths[i].straight[c]);
             light[c * all + pixels[i]] = float(paths[i].mean[c] - paths[i].straight[c]);
         }
-    PILEUS_TRY(run_air(context, scene_, run_.world->medium, run_.lighting, run_.camera, run_.around,
-                       run_.planes, {light.data(), straight.data(), dimmed.data(), true}));
+    PILEUS_TRY(run_air(context, scene_, run_.world->medium, run_.lighting, run_.camera,
+                       run_.environment, run_.planes,
+                       {light.data(), straight.data(), dimmed.data(), true}));
     for (std::size_t i = 0; i < pixels.size(); ++i)
         for (std::size_t c = 0; c < 3; ++c) {
             const std::size_t at = c * all + pixels[i];
@@ -139,7 +140,7 @@ Status Verifier::check(int frame, const Context& context, const Image& image, Re
     place(frame);
     if (is_sequence(scene_.view_files.depth)) {
         rest_.sequence_frame = scene_.sequence_frame = frame;
-        PILEUS_TRY(load_surroundings(scene_, context, run_.around));
+        PILEUS_TRY(load_environment(scene_, context, run_.environment));
     }
     path_aim(frame, run_);
     PathInput in = path_input(context, run_);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// See world.h and sky_map.h: sky maps from files.
+// See environment.h and sky_map.h: sky maps from files.
 // in: .exr or .pfm -> out: SkyMap.
 // docs/formats.md "Sky maps in".
 #include "src/base/file.h"
@@ -7,7 +7,7 @@
 #include "src/io/images/image_file.h"
 #include "src/plan/scene_limits.h"
 #include "src/scene/read_scene.h"
-#include "src/world/world.h"
+#include "src/world/environment.h"
 
 namespace pileus {
 

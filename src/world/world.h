@@ -30,13 +30,6 @@ struct World {
     std::string density_digest;    ///< made once for runs that share the world; empty: not yet
 };
 
-/// What is seen of a world through one camera and under one sky: each run has its own.
-struct Surroundings {
-    Atmosphere air;  ///< of a scene with [atmosphere], whose sky is the map
-    SkyMap sky_map;
-    CameraDepth depth;
-};
-
 /// What a method asks of its world: every medium on a grid, a procedural sky evaluated in place, or
 /// particles themselves.
 enum class WorldUse { kGrid, kSkyInPlace, kParticles };
@@ -50,27 +43,6 @@ Status outline_world(const Scene& scene, WorldUse use, const Context& context, W
 
 /// Reads or makes all values of an outlined world. Errors: those of the readers; kLimit: memory.
 Status load_world(const Scene& scene, const Context& context, World& world);
-
-/// The same of what surrounds it: the sky map is read at once, as the lights depend on its colours.
-/// An atmosphere is made at once, too, for the height of the world's media.
-/// `sky`: in place of the sky map's file; null: that.
-Status outline_surroundings(const Scene& scene, const Context& context, const World& world,
-                            const Image* sky, Surroundings& around);
-
-/// The scene's sky map, if it has one; lights, and with them the plan, depend on its colours.
-Status read_sky_map(const Scene& scene, const Context& context, const Image* sky, SkyMap& map);
-
-/// The atmosphere and its sky for the scene's sun and ground as they are now.
-Status light_surroundings(const Scene& scene, int threads, const World& world,
-                          Surroundings& around);
-
-/// Reads the rest.
-Status load_surroundings(const Scene& scene, const Context& context, Surroundings& around);
-
-/// The lights for a sun at this place; what they say of photons goes to `plan`. The result
-/// points into `world` and `around`.
-Lighting light_world(const Scene& scene, const SunPlace& sun, const World& world,
-                     const Surroundings& around, Plan& plan);
 
 /// Bytes of the arrays that sessions share.
 std::uint64_t bytes_of_world(const World& world);

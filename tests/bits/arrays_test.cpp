@@ -92,7 +92,7 @@ Bytes held_by(const MethodRun& run, const Majorants& majorants) {
             {"parts of the media", world.medium.parts.bytes()},
             {"tile of detail", world.medium.detail.tile.bytes()},
             {"phase functions", phase_bytes(world.medium)},
-            {"sky map", run.around.sky_map.bytes()},
+            {"sky map", run.environment.sky_map.bytes()},
             {"majorants", majorants.tracking.bytes()},
             {"blocks to skip", majorants.skipping.bytes()}};
 }

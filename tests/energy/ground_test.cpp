@@ -38,8 +38,8 @@ Lighting lighting_of(const std::vector<std::string>& overrides) {
     const Scene scene = render_test::scene_from(kText, overrides);
     Medium medium;
     REQUIRE(load_medium(scene, scene.media[0], 1, medium));
-    Plan plan;
-    return plan_lighting(scene, medium, place_of(scene.sun), plan);
+    return make_lighting({scene.sun, scene.sky, scene.ground, scene.lights}, medium,
+                         place_of(scene.sun));
 }
 
 bool has_light(const Lighting& lighting, const char* name) {

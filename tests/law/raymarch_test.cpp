@@ -40,7 +40,8 @@ struct Rig {
         Plan plan;
         REQUIRE(load_media(scene, context.limits, 1, plan, medium));
         REQUIRE(make_majorants(medium, false, context, majorants));
-        lighting = plan_lighting(scene, medium, place_of(scene.sun), plan);
+        lighting = make_lighting({scene.sun, scene.sky, scene.ground, scene.lights}, medium,
+                                 place_of(scene.sun));
         REQUIRE(make_sun_depth(context, medium, majorants, lighting.to_sun, SunDepthKind::kExact,
                                nodes));
         in.camera = make_camera(scene.camera, 0, medium.low_m);

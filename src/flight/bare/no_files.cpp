@@ -8,7 +8,7 @@
 #include "src/scene/read_scene.h"
 #include "src/session/run_context.h"
 #include "src/world/camera/places.h"
-#include "src/world/world.h"
+#include "src/world/environment.h"
 
 namespace pileus {
 namespace {

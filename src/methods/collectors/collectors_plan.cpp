@@ -50,7 +50,7 @@ CollectorsSizes collectors_sizes(const CollectorsRun& run, const Context& contex
     s.coefficients = std::uint64_t(run.deposit.coefficients);
     s.lights = run.lighting.lights.size();
     s.phases = phase_bytes(run.world->medium);
-    s.sky = sky_map_bytes(run.around.sky_map);
+    s.sky = sky_map_bytes(run.environment.sky_map);
     s.slots = photon_slots(run);
     s.sums_ring = sums_ring(run);
     s.ground_cells = std::uint64_t(run.ground_map.cells) * std::uint64_t(run.ground_map.cells);
@@ -78,7 +78,7 @@ Status collectors_measure(const Context& context, CollectorsRun& run) {
         scratch_bytes(run.plan.accumulation.bytes, bytes_of_sums(sizes), sizes.sums_ring);
     run.plan.memory = collectors_memory(sizes);
     add_picture_rows(context, run.scene->collectors.thin, run);
-    add_solid_rows(*run.scene, context.limits, run.world->solids, run.around.depth,
+    add_solid_rows(*run.scene, context.limits, run.world->solids, run.environment.depth,
                    run.plan.memory);
     PILEUS_TRY(
         check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), run.scene->file));

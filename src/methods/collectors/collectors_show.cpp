@@ -55,7 +55,7 @@ Status collectors_compose(const CameraParams& camera, const Context& context, Co
     PILEUS_TRY(collectors_display(context, run, in, colours, channels, planes));
     if (kFilms) PILEUS_TRY(add_ground_noise(context, run, in, planes));
     if (kFilms) PILEUS_TRY(collectors_parts(context, run, in, planes));
-    return show_air(context, *run.scene, run.world->medium, run.lighting, camera, run.around,
+    return show_air(context, *run.scene, run.world->medium, run.lighting, camera, run.environment,
                     planes);
 }
 
@@ -67,8 +67,8 @@ Status collectors_show(double orbit_deg, const Context& context, CollectorsRun& 
     Report& report = *context.report;
     FinishedParts parts;
     parts.batches = true;
-    PILEUS_TRY(finish_frame(context, run.scene->output, *run.world, run.around.depth, camera, parts,
-                            planes, image, report));
+    PILEUS_TRY(finish_frame(context, run.scene->output, *run.world, run.environment.depth, camera,
+                            parts, planes, image, report));
     if (shows_harmonics(run) || !context.digests) return Status::ok();
     const StageClock clock(context, "layers");
     Digest digest;

@@ -43,8 +43,7 @@ Status check(const Scene& scene, const Budget& budget) {
 }
 
 void choose_light(const SunPlace& sun, ParticlesRun& run) {
-    Plan photons;  // speaks of photons alone
-    run.lighting = light_world(*run.scene, sun, *run.world, run.around, photons);
+    run.lighting = light_of(*run.scene, sun, *run.world, run.environment);
     choose_orders(run);
 }
 
@@ -111,8 +110,7 @@ Status light_ground_by_lamps(const Context& context, ParticlesRun& run) {
 Status light(const FrameStep& step, const Context& context, MethodRun& method_run) {
     ParticlesRun& run = own(method_run);
     const Scene& scene = *run.scene;
-    Plan photons;
-    run.lighting = light_world(scene, run.sun_of(step.frame), *run.world, run.around, photons);
+    run.lighting = light_of(scene, run.sun_of(step.frame), *run.world, run.environment);
     run.camera = make_camera(scene.camera, orbit_at(scene, step.frame), run.world->medium.low_m);
     PILEUS_TRY(light_particles(context, run));
     PILEUS_TRY(allocate_planes(run.camera.width, run.camera.height, 3, run.lighting.opaque(),
@@ -124,7 +122,7 @@ Status light(const FrameStep& step, const Context& context, MethodRun& method_ru
     PILEUS_TRY(show_particles(context, run));
     if (kFilms && scene.output.layer_occlusion) PILEUS_TRY(show_occlusion(context, run));
     PILEUS_TRY(light_ground_by_lamps(context, run));
-    return show_air(context, scene, run.world->medium, run.lighting, run.camera, run.around,
+    return show_air(context, scene, run.world->medium, run.lighting, run.camera, run.environment,
                     run.planes);
 }
 
@@ -134,8 +132,8 @@ Status show(const FrameStep&, const Context& context, MethodRun& method_run, Ima
     FinishedParts parts;
     parts.colours = true;
     parts.media = false;
-    return finish_frame(context, run.scene->output, *run.world, run.around.depth, run.camera, parts,
-                        run.planes, image, *context.report);
+    return finish_frame(context, run.scene->output, *run.world, run.environment.depth, run.camera,
+                        parts, run.planes, image, *context.report);
 }
 
 /// Light is made again by the next picture where what shines has changed.
@@ -181,8 +179,8 @@ void report_run(const MethodRun& method_run, Report& report) {
 }  // namespace
 
 Status ParticlesRun::reserve(LateRows&) {
-    PILEUS_TRY(reserve_depths(scene->camera.resolution, lighting.opaque() || around.depth.present,
-                              planes));
+    PILEUS_TRY(reserve_depths(scene->camera.resolution,
+                              lighting.opaque() || environment.depth.present, planes));
     const std::size_t lamps = scene->lights.size(), count = tree.balls.size();
     if (lamps == 0) return Status::ok();
     const Array<float> depths = arrays::particle_lamps(count, lamps),

@@ -84,7 +84,7 @@ void note_plan(ParticlesRun& run) {
         plan.need("emission of particles");
     else
         plan.leave_out("emission of particles", "medium.emission is 0");
-    note_solids(run.world->solids, run.around.depth, plan);
+    note_solids(run.world->solids, run.environment.depth, plan);
     if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
     if (!scene.wants_depth()) plan.leave_out("depth of the medium", "no depth layer");
     if (!scene.output.layer_optical_depth)
@@ -104,7 +104,7 @@ void weigh_memory(const Context& context, ParticlesRun& run) {
     MemoryTable t;
     add_density_rows(grid, run.world->source, std::uint64_t(run.world->medium.count),
                      phase_bytes(run.world->medium), std::uint64_t(context.threads),
-                     sky_map_bytes(run.around.sky_map), t);
+                     sky_map_bytes(run.environment.sky_map), t);
     add_majorant_rows(grid, run.outlined_only ? 1 : run.majorants.tracking.size(),
                       std::uint64_t(context.threads), Stage::kWrite, t);
     // Before the file is read its bytes, which hold all children too, bound the particles.
@@ -171,7 +171,7 @@ void weigh_memory(const Context& context, ParticlesRun& run) {
     if (output.layer_occlusion) add(t, arrays::particle_occlusion(particles, pixels));
     add_image_rows(std::uint64_t(scene.camera.resolution[0]),
                    std::uint64_t(scene.camera.resolution[1]), 4 + extra_layers(output, false), t);
-    add_solid_rows(scene, context.limits, run.world->solids, run.around.depth, t);
+    add_solid_rows(scene, context.limits, run.world->solids, run.environment.depth, t);
     run.plan.memory = t;
     run.plan.exact = !run.outlined_only;
 }

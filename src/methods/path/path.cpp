@@ -28,8 +28,7 @@ Status check(const Scene& scene, const Budget& budget) {
 
 /// Light for the medium as it is known now; a map lights by its own radiances.
 void choose_light(const SunPlace& sun, PathRun& run) {
-    Plan photons;  // speaks of photons alone
-    run.lighting = light_world(*run.scene, sun, *run.world, run.around, photons);
+    run.lighting = light_of(*run.scene, sun, *run.world, run.environment);
 }
 
 void digest_prepared(PathRun& run) {

@@ -49,8 +49,9 @@ Status path_air(const Context& context, PathRun& run, Buffer<float>& straight) {
         if (p.transmittance[at % pixels] == 1) straight[at] = p.colour[at];
         p.colour[at] -= straight[at];
     }
-    PILEUS_TRY(run_air(context, *run.scene, run.world->medium, run.lighting, run.camera, run.around,
-                       p, {p.colour.data(), straight.data(), dimmed.data(), true}));
+    PILEUS_TRY(run_air(context, *run.scene, run.world->medium, run.lighting, run.camera,
+                       run.environment, p,
+                       {p.colour.data(), straight.data(), dimmed.data(), true}));
     if (!p.cloud.empty()) {
         for (std::size_t at = 0; at < 3 * pixels; ++at) p.cloud[at] = p.colour[at];
     }

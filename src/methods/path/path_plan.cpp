@@ -104,7 +104,7 @@ void note_plan(PathRun& run) {
         plan.need("alpha, marched through pixel centres");
     plan.need("paths");
     note_light(scene, run, plan);
-    note_solids(run.world->solids, run.around.depth, plan);
+    note_solids(run.world->solids, run.environment.depth, plan);
     note_parts(scene, run, plan);
     for (const std::string& what : run.world->media_plan.needed) plan.needed.push_back(what);
     for (const LeftOut& l : run.world->media_plan.left_out) plan.left_out.push_back(l);
@@ -123,7 +123,7 @@ void weigh_memory(const Context& context, PathRun& run) {
     const std::uint64_t pixels = pixels_of(scene);
     const bool again = context.frames > 1;
     const Stage traced = again ? Stage::kWrite : Stage::kPaths;
-    const SkyMapBytes sky = sky_map_bytes(run.around.sky_map);
+    const SkyMapBytes sky = sky_map_bytes(run.environment.sky_map);
     MemoryTable t;
     add_density_rows(grid, run.world->source, std::uint64_t(run.world->medium.count),
                      phase_bytes(run.world->medium), std::uint64_t(context.threads), sky, t);
@@ -132,8 +132,8 @@ void weigh_memory(const Context& context, PathRun& run) {
         std::uint64_t(context.threads), traced, t);
 
     // All rows of the map, of which a ground leaves the upper ones.
-    const std::uint64_t columns = std::uint64_t(run.around.sky_map.size[0]),
-                        rows = std::uint64_t(run.around.sky_map.size[1]);
+    const std::uint64_t columns = std::uint64_t(run.environment.sky_map.size[0]),
+                        rows = std::uint64_t(run.environment.sky_map.size[1]);
     add(t, arrays::path_sky_weight(rows, columns), arrays::path_sky_columns(rows, columns),
         arrays::path_sky_rows(rows));
     const auto sums = arrays::film_sums(in), squares = arrays::film_squares(in);
@@ -165,7 +165,7 @@ void weigh_memory(const Context& context, PathRun& run) {
     add_image_rows(std::uint64_t(scene.camera.resolution[0]),
                    std::uint64_t(scene.camera.resolution[1]),
                    4 + extra_layers(output, output.layer_error), t);
-    add_solid_rows(scene, context.limits, run.world->solids, run.around.depth, t);
+    add_solid_rows(scene, context.limits, run.world->solids, run.environment.depth, t);
     run.plan.memory = t;
     run.plan.exact = !run.outlined_only;
 }

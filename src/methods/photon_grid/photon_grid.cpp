@@ -88,7 +88,7 @@ void note_plan(PhotonGridRun& run) {
     if (run.deposit.channels == 1)
         plan.leave_out("coefficients per colour channel", "achromatic medium: one set per light");
     if (is_white(run.world->medium)) plan.leave_out("absorption", "albedo 1");
-    note_solids(run.world->solids, run.around.depth, plan);
+    note_solids(run.world->solids, run.environment.depth, plan);
     note_upsampling(scene, scene.photon_grid.thin, plan);
     if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
     if (!scene.wants_depth()) plan.leave_out("depth of the medium", "no depth layer");

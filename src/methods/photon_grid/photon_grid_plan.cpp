@@ -96,7 +96,7 @@ MemoryTable memory_of(const PhotonGridRun& run, const Context& context, Size pri
     if (!kPlans) return t;
     add_density_rows(run.world->medium.grid, run.world->source, Size(run.world->medium.count),
                      phase_bytes(run.world->medium), Size(context.threads),
-                     sky_map_bytes(run.around.sky_map), t);
+                     sky_map_bytes(run.environment.sky_map), t);
     add_photons(run, context, private_sums, t);
     add_picture(run, context, t);
     return t;
@@ -128,7 +128,7 @@ Status photon_grid_measure(const Context& context, PhotonGridRun& run) {
         memory_of(run, context,
                   scratch_bytes(run.plan.accumulation.bytes, bytes_of_thread(run), sums_ring(run)));
     add_picture_rows(context, run.scene->photon_grid.thin, run);
-    add_solid_rows(*run.scene, context.limits, run.world->solids, run.around.depth,
+    add_solid_rows(*run.scene, context.limits, run.world->solids, run.environment.depth,
                    run.plan.memory);
     PILEUS_TRY(
         check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), run.scene->file));

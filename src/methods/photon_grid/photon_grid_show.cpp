@@ -182,7 +182,7 @@ Status photon_grid_compose(const CameraParams& camera, const Context& context, P
             if (planes.colour[i] < 0) planes.colour[i] = 0, ++planes.clamped;
     }
     if (kFilms) PILEUS_TRY(add_layers(context, run, in, planes));
-    return show_air(context, *run.scene, run.world->medium, run.lighting, camera, run.around,
+    return show_air(context, *run.scene, run.world->medium, run.lighting, camera, run.environment,
                     planes);
 }
 
@@ -193,8 +193,8 @@ Status photon_grid_show(double orbit_deg, const Context& context, PhotonGridRun&
     PILEUS_TRY(photon_grid_compose(camera, context, run, planes));
     FinishedParts parts;
     parts.batches = true;
-    return finish_frame(context, run.scene->output, *run.world, run.around.depth, camera, parts,
-                        planes, image, *context.report);
+    return finish_frame(context, run.scene->output, *run.world, run.environment.depth, camera,
+                        parts, planes, image, *context.report);
 }
 
 }  // namespace pileus

@@ -147,7 +147,7 @@ Status measure_flux(const Scene& scene, const RenderOptions& options, const Flux
     PathRun run;
     // The first plan weighs the largest film: a pixel a column.
     PILEUS_TRY(open_run(method, own, budget, context, true, nullptr, run));
-    if (settings.from_below) PILEUS_TRY(make_sky_below(settings, run.around.sky_map));
+    if (settings.from_below) PILEUS_TRY(make_sky_below(settings, run.environment.sky_map));
     path_aim(0, run);
     PILEUS_TRY(check_flux(own, context, run, settings.from_below));
     if (!photons && run.lighting.sunlit) PILEUS_TRY(check_needles(own, run.world->medium));

@@ -95,7 +95,7 @@ Lighting lights_of(const FluxTask& task) {
         add("sun", kSunStream, lit.sun_irradiance, beam_light(medium, travel));
     }
     if (lit.map.columns > 0)
-        add("sky", kSkyStream, {1, 1, 1}, map_light(task.run.around.sky_map));
+        add("sky", kSkyStream, {1, 1, 1}, map_light(task.run.environment.sky_map));
     else
         add("sky", kSkyStream, lit.sky, diffuse_light(medium, lit.ground ? -1 : 0));
     if (lit.ground)
@@ -176,9 +176,10 @@ Status flux_by_photons(const FluxTask& task, std::int64_t photons, FluxResult& o
         check_limit(context.limits, LimitId::kPhotons, std::uint64_t(photons), "--budget photons"));
     FluxLayout layout;
     PILEUS_TRY(make_layout(task, out, layout));
-    SkyMap& map = task.run.around.sky_map;
+    SkyMap& map = task.run.environment.sky_map;
     if (map.present() && !task.settings.from_below) {
         PILEUS_TRY(aim_sky_map(medium.extent_m, medium.grid.periodic, map));
+        task.run.environment.ground_under_map = true;
         path_aim(0, task.run);
     }
     Lighting lighting = lights_of(task);

@@ -17,7 +17,7 @@ constexpr int kMapRows = 128, kMapColumns = 256;
 double root(double v) { return v > 0 ? __builtin_sqrt(v) : 0; }
 
 /// The sky from the media, each texel in its middle.
-Status paint_map(const Scene& scene, const Atmosphere& air, int threads, Image& map) {
+Status paint_map(double azimuth_deg, const Atmosphere& air, int threads, Image& map) {
     AirSky view;
     const double sine = sincos_deg(air.sun_elevation_deg).sine;
     PILEUS_TRY(make_air_sky(air.tables, air.height_km, sine, threads, view));
@@ -28,7 +28,7 @@ Status paint_map(const Scene& scene, const Atmosphere& air, int threads, Image& 
         map.channels.push_back({name, {}});
         PILEUS_TRY(map.channels.back().pixels.resize(kMapRows * kMapColumns, "atmosphere"));
     }
-    const Double3 to_sun = towards_deg(scene.sun.azimuth_deg, air.sun_elevation_deg);
+    const Double3 to_sun = towards_deg(azimuth_deg, air.sun_elevation_deg);
     for (int row = 0; row < kMapRows; ++row) {
         const SineCosine zenith = sincos_deg((row + 0.5) * 180.0 / kMapRows);
         for (int i = 0; i < kMapColumns; ++i) {
@@ -147,10 +147,9 @@ void look_along(const Sources& sources, double cosine, std::size_t row, std::siz
 
 }  // namespace
 
-Status light_atmosphere(const Scene& scene, double height_m, int threads, Atmosphere& air,
-                        Image& map) {
-    const AtmosphereSettings& s = scene.atmosphere;
-    const double ground = scene.ground.present ? scene.ground.albedo : s.ground_albedo;
+Status light_atmosphere(const AtmosphereSettings& s, const Sun& sun, const Ground& below,
+                        double height_m, int threads, Atmosphere& air, Image& map) {
+    const double ground = below.present ? below.albedo : s.ground_albedo;
     const Air wanted = make_air(s.turbidity, ground);
     const Air& had = air.tables.air;
     if (!air.present() || wanted.ground != had.ground || wanted.haze_all[0] != had.haze_all[0]) {
@@ -159,12 +158,12 @@ Status light_atmosphere(const Scene& scene, double height_m, int threads, Atmosp
         if (!made) air.tables = AirTables{};
         PILEUS_TRY(made);
     }
-    for (int c = 0; c < 3; ++c) air.above[c] = double(scene.sun.irradiance[std::size_t(c)]);
-    air.sun_elevation_deg = scene.sun.elevation_deg;
+    for (int c = 0; c < 3; ++c) air.above[c] = double(sun.irradiance[std::size_t(c)]);
+    air.sun_elevation_deg = sun.elevation_deg;
     air.height_km = height_m > 0 ? 1e-3 * height_m : 0;
     air.sunlight = sunlight(air.tables, air.height_km, sincos_deg(air.sun_elevation_deg).sine);
     air.camera_km = -1;
-    return paint_map(scene, air, threads, map);
+    return paint_map(sun.azimuth_deg, air, threads, map);
 }
 
 Status look_from(double height_m, int threads, Atmosphere& air) {

@@ -30,10 +30,10 @@ struct Atmosphere {
     bool present() const { return tables.present(); }
 };
 
-/// Takes up the scene's turbidity, ground and sun; what has not changed is kept. `map`: the sky
+/// Takes up turbidity, ground and sun; what has not changed is kept. `map`: the sky
 /// from the media's height, zenith first, the north in its middle, in the sun's unit.
-Status light_atmosphere(const Scene& scene, double height_m, int threads, Atmosphere& air,
-                        Image& map);
+Status light_atmosphere(const AtmosphereSettings& settings, const Sun& sun, const Ground& ground,
+                        double height_m, int threads, Atmosphere& air, Image& map);
 
 /// The sky and the air as seen from a height above the ground.
 Status look_from(double height_m, int threads, Atmosphere& air);

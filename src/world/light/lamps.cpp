@@ -67,28 +67,37 @@ LampParams lamp_of(const LightSettings& light, const Medium& medium) {
     return lamp;
 }
 
+/// Why a light is left out; null: it is not.
+const char* left_out(const LightSettings& light, const LampParams& lamp, const Ground& ground) {
+    const bool below = light.type == LampKind::kDirectional
+                           ? !(lamp.at[2] > 0)
+                           : light.position_m[2] < ground.altitude_m;
+    if (!(lamp.strength > 0)) return "dark";
+    return ground.present && below ? "below the ground" : nullptr;
+}
+
 }  // namespace
 
-std::vector<LampParams> plan_lamps(const Scene& scene, const Medium& medium, Plan& plan) {
+std::vector<LampParams> make_lamps(const std::vector<LightSettings>& lights, const Ground& ground,
+                                   const Medium& medium) {
     std::vector<LampParams> lamps;
     if (!kLights) return lamps;
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        const LightSettings& light = scene.lights[i];
-        const std::string name = kPlans ? "light " + std::to_string(i) : "";
+    for (const LightSettings& light : lights) {
         const LampParams lamp = lamp_of(light, medium);
-        if (light.radius_m > 0 && !(lamp.radius > 0) && lamp.parallel == 0)
-            plan.leave_out((name + "'s soft shadow").c_str(), "shadow_samples is 1");
-        const bool below = light.type == LampKind::kDirectional
-                               ? !(lamp.at[2] > 0)
-                               : light.position_m[2] < scene.ground.altitude_m;
-        if (!(lamp.strength > 0))
-            plan.leave_out(name.c_str(), "dark");
-        else if (scene.ground.present && below)
-            plan.leave_out(name.c_str(), "below the ground");
-        else
-            lamps.push_back(lamp);
+        if (left_out(light, lamp, ground) == nullptr) lamps.push_back(lamp);
     }
     return lamps;
+}
+
+void explain_lamps(const std::vector<LightSettings>& lights, const Ground& ground,
+                   const Medium& medium, Plan& plan) {
+    for (std::size_t i = 0; i < lights.size(); ++i) {
+        const std::string name = "light " + std::to_string(i);
+        const LampParams lamp = lamp_of(lights[i], medium);
+        if (lights[i].radius_m > 0 && !(lamp.radius > 0) && lamp.parallel == 0)
+            plan.leave_out((name + "'s soft shadow").c_str(), "shadow_samples is 1");
+        if (const char* why = left_out(lights[i], lamp, ground)) plan.leave_out(name.c_str(), why);
+    }
 }
 
 bool same_lamps(const std::vector<LampParams>& a, const std::vector<LampParams>& b) {

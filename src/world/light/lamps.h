@@ -12,9 +12,13 @@
 
 namespace pileus {
 
-/// The scene's lights in box-local metres. Dark ones and those below a ground's altitude are noted
-/// in `plan` and left out: the ground hides them from all that is above.
-std::vector<LampParams> plan_lamps(const Scene& scene, const Medium& medium, Plan& plan);
+/// Lights in box-local metres. Dark ones and those below a ground's altitude are left out: the
+/// ground hides them from all that is above.
+std::vector<LampParams> make_lamps(const std::vector<LightSettings>& lights, const Ground& ground,
+                                   const Medium& medium);
+/// Which were left out, and why.
+void explain_lamps(const std::vector<LightSettings>& lights, const Ground& ground,
+                   const Medium& medium, Plan& plan);
 
 bool same_lamps(const std::vector<LampParams>& a, const std::vector<LampParams>& b);
 

@@ -41,42 +41,39 @@ void set_faces(const double (&flux)[6], Light& light) {
 
 bool any_positive(const Double3& c) { return c[0] > 0 || c[1] > 0 || c[2] > 0; }
 
-void plan_sun(const Scene& scene, const Medium& medium, const SunPlace& place, Plan& plan,
-              Lighting& out) {
+/// Why the sun's light is none; null: it shines, or there is none.
+const char* hidden_sun(const Shining& shining, const Medium& medium, const Double3& to_sun) {
+    if (shining.ground.present && to_sun[2] <= 0) return "below the ground's horizon";
+    if (medium.grid.periodic && to_sun[2] == 0)
+        return "exactly at the horizon of a periodic medium: it meets no face";
+    return nullptr;
+}
+
+void make_sun(const Shining& shining, const Medium& medium, const SunPlace& place, Lighting& out) {
     const Double3 to_sun = towards_deg(place.azimuth_deg, place.elevation_deg);
     for (std::size_t c = 0; c < 3; ++c) {
         out.to_sun[c] = float(to_sun[c]);
-        if (scene.sun.present) out.sun_irradiance[c] = double(scene.sun.irradiance[c]);
+        if (shining.sun.present) out.sun_irradiance[c] = double(shining.sun.irradiance[c]);
     }
-    out.sunlit = any_positive(out.sun_irradiance);
-    if (out.sunlit && scene.ground.present && to_sun[2] <= 0) {
-        out.sunlit = false;
-        plan.leave_out("sun", "below the ground's horizon");
-    }
-    if (out.sunlit && medium.grid.periodic && to_sun[2] == 0) {
-        out.sunlit = false;
-        plan.leave_out("sun", "exactly at the horizon of a periodic medium: it meets no face");
-    }
-    if (out.sunlit && scene.sun.angular_radius_deg > 0)
-        plan.leave_out("the sun's disc", "a point to this method: path alone knows it");
+    out.sunlit = any_positive(out.sun_irradiance) && hidden_sun(shining, medium, to_sun) == nullptr;
     if (!out.sunlit) out.sun_irradiance = {};
 }
 
 /// Radiance of the unshadowed ground: albedo / pi times what falls on it.
-void plan_ground(const Scene& scene, const Medium& medium, const SkyMap* map, double elevation_deg,
-                 Plan& plan, Lighting& out) {
-    out.ground = scene.ground.present;
-    if (!out.ground) {
-        plan.leave_out("ground bounce", "no ground");
-        return;
-    }
+void make_ground(const Shining& shining, const Medium& medium, const SkyMap* map,
+                 double elevation_deg, Lighting& out) {
+    out.ground = shining.ground.present;
+    if (!out.ground) return;
     const double height = sincos_deg(elevation_deg).sine;
-    out.ground_z = scene.ground.altitude_m - medium.low_m[2];
-    out.ground_albedo = scene.ground.albedo;
-    const Double3 sky = map != nullptr ? map->ground_irradiance / kPiD : out.sky;
+    out.ground_z = shining.ground.altitude_m - medium.low_m[2];
+    out.ground_albedo = shining.ground.albedo;
+    Double3 sky = out.sky;
+    if (map != nullptr) sky = shining.ground_under_map ? map->ground_irradiance / kPiD : Double3{};
     out.ground_diffuse = out.ground_albedo * sky;
     out.ground_sun = out.ground_albedo / kPiD * out.sun_irradiance * height;
 }
+
+bool is_dark(const Medium& medium) { return medium.sigma <= 0 || medium.density_max <= 0; }
 
 /// The cone in which photons of a point far off meet the box: all others are lost, but to a ground.
 void aim_emission(const Medium& medium, bool ground, LampEmission& e) {
@@ -224,32 +221,23 @@ void share_photons(std::uint64_t per_generation, std::vector<Light>& lights) {
     }
 }
 
-Lighting plan_lighting(const Scene& scene, const Medium& medium, const SunPlace& place, Plan& plan,
+Lighting make_lighting(const Shining& shining, const Medium& medium, const SunPlace& place,
                        const SkyMap* map, const Solids* solids, const CameraDepth* depth) {
     Lighting out;
     if (solids != nullptr && solids->meshes) out.solids = solids;
     if (depth != nullptr && depth->present) out.depth = depth;
     const bool mapped = map != nullptr && map->present();
-    const bool dark = medium.sigma <= 0 || medium.density_max <= 0;
     if (mapped) out.map = map->view;
-    if (scene.sky.present && !mapped) plan.leave_out("sky map", "constant sky");
-    plan_sun(scene, medium, place, plan, out);
+    make_sun(shining, medium, place, out);
     for (std::size_t c = 0; c < 3; ++c)
-        if (scene.sky.present && !mapped) out.sky[c] = double(scene.sky.radiance[c]);
-    plan_ground(scene, medium, mapped ? map : nullptr, place.elevation_deg, plan, out);
-    if (!scene.lights.empty()) out.lamps = plan_lamps(scene, medium, plan);
-    if (medium.grid.periodic) plan.leave_out("side faces", "periodic medium: it has none");
-    if (dark) {
-        plan.leave_out("photons", "no medium to scatter them");
-        return out;
-    }
+        if (shining.sky.present && !mapped) out.sky[c] = double(shining.sky.radiance[c]);
+    make_ground(shining, medium, mapped ? map : nullptr, place.elevation_deg, out);
+    if (!shining.lamps.empty()) out.lamps = make_lamps(shining.lamps, shining.ground, medium);
+    if (is_dark(medium)) return out;
     if (out.sunlit) {
         const Light sun = beam_light(medium, -towards_deg(place.azimuth_deg, place.elevation_deg));
         add_light("sun", kSunStream, out.sun_irradiance, sun, out);
-    } else if (!scene.sun.present || scene.ground.present == false) {
-        plan.leave_out("sun photons", "no sunlight");
     }
-
     if (!out.lamps.empty())
         add_light("lights", kLampStream, {1, 1, 1}, lamp_light(medium, out), out);
 
@@ -260,18 +248,41 @@ Lighting plan_lighting(const Scene& scene, const Medium& medium, const SunPlace&
     Double3 below = out.ground_diffuse + out.ground_sun + ground_of_lamps(out);
     if (mapped && map->power_m2 > 0) {
         add_light("sky", kSkyStream, {1, 1, 1}, map_light(*map), out);
-    } else if (white && any_positive(out.sky) && scene.solids.empty()) {
+    } else if (white && any_positive(out.sky) && !shining.solids) {
         out.constant = out.sky;
-        plan.leave_out("sky photons", "constant sky and albedo 1: the furnace identity");
         below -= out.sky;
     } else if (any_positive(out.sky)) {
         add_light("sky", kSkyStream, out.sky, diffuse_light(medium, out.ground ? -1 : 0), out);
-    } else {
-        plan.leave_out("sky photons", "no sky");
     }
     if (out.ground && below != Double3{})
         add_light("ground", kGroundStream, below, diffuse_light(medium, 1), out);
     return out;
+}
+
+void explain_lighting(const Shining& shining, const Medium& medium, const SunPlace& place,
+                      const Lighting& made, Plan& plan) {
+    const bool mapped = made.map.columns > 0;
+    if (shining.sky.present && !mapped) plan.leave_out("sky map", "constant sky");
+    bool shines = false;
+    for (const float irradiance : shining.sun.irradiance)
+        shines = shines || (shining.sun.present && irradiance > 0);
+    const Double3 to_sun = towards_deg(place.azimuth_deg, place.elevation_deg);
+    const char* hidden = shines ? hidden_sun(shining, medium, to_sun) : nullptr;
+    if (hidden != nullptr) plan.leave_out("sun", hidden);
+    if (made.sunlit && shining.sun.angular_radius_deg > 0)
+        plan.leave_out("the sun's disc", "a point to this method: path alone knows it");
+    if (!made.ground) plan.leave_out("ground bounce", "no ground");
+    explain_lamps(shining.lamps, shining.ground, medium, plan);
+    if (medium.grid.periodic) plan.leave_out("side faces", "periodic medium: it has none");
+    if (is_dark(medium)) return plan.leave_out("photons", "no medium to scatter them");
+    if (!made.sunlit && (!shining.sun.present || !shining.ground.present))
+        plan.leave_out("sun photons", "no sunlight");
+    const auto is_sky = [](const Light& light) { return light.stream == kSkyStream; };
+    if (std::any_of(made.lights.begin(), made.lights.end(), is_sky)) return;
+    if (made.constant != Double3{})
+        plan.leave_out("sky photons", "constant sky and albedo 1: the furnace identity");
+    else
+        plan.leave_out("sky photons", "no sky");
 }
 
 }  // namespace pileus

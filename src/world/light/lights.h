@@ -70,12 +70,25 @@ struct Lighting {
     bool opaque() const { return ground || solids != nullptr || depth != nullptr; }
 };
 
-/// Works out the lights and notes in `plan` what was left out. `map` is the scene's sky map, aimed
-/// at the medium's box; null or empty: a constant sky. `solids`, `depth`: null or
-/// without any: none.
-Lighting plan_lighting(const Scene& scene, const Medium& medium, const SunPlace& sun, Plan& plan,
+/// What shines on a frame, in the media's coordinates. References outlive the call.
+struct Shining {
+    const Sun& sun;
+    const Sky& sky;
+    const Ground& ground;
+    const std::vector<LightSettings>& lamps;
+    bool solids = false;           ///< the scene has some
+    bool ground_under_map = true;  ///< a sky map's light falls on the ground
+};
+
+/// Works out the lights. `place`: of the sun. `map`: null or empty: a constant sky; photons are
+/// drawn from one that was aimed at the medium's box. `solids`, `depth`: null or without any: none.
+Lighting make_lighting(const Shining& shining, const Medium& medium, const SunPlace& place,
                        const SkyMap* map = nullptr, const Solids* solids = nullptr,
                        const CameraDepth* depth = nullptr);
+
+/// What was left out of them, and why.
+void explain_lighting(const Shining& shining, const Medium& medium, const SunPlace& place,
+                      const Lighting& made, Plan& plan);
 
 /// The same light without sky and lamps: the ground then sends back sunlight alone.
 Lighting sun_alone(const Lighting& all);

@@ -71,6 +71,7 @@ Status make_sky_map(const std::string& name, const Image& image, const Sky& sky,
     v.rows_per_turn = 2.0f * float(image.height);
     v.turn_of_first = float(sky.map_rotation_deg / 360.0 - 0.5);
     v.radiance = map.radiance.data();
+    light_ground(map);
     return Status::ok();
 }
 

@@ -47,6 +47,10 @@ Status load_sky_map(const Scene& scene, SkyMap& map);
 Status make_sky_map(const std::string& name, const Image& image, const Sky& sky, bool ground,
                     SkyMap& map);
 
+/// Fills `ground_irradiance`, as make_sky_map has it: of the upper half, so with a ground of the
+/// rows that are kept.
+void light_ground(SkyMap& map);
+
 /// Fills the tables and powers for a box with edges `extent_m`, or for the top and bottom of a
 /// periodic one alone. Out of memory: kLimit.
 Status aim_sky_map(const double (&extent_m)[3], bool periodic, SkyMap& map);

@@ -124,25 +124,26 @@ Status measure(SkyMap& map, Parts& parts) {
     return Status::ok();
 }
 
+}  // namespace
+
 /// Irradiance of the upper half on a level plane: the sky above the horizon alone, so with a
 /// ground the rows that are kept.
-void light_ground(SkyMap& map, const Parts& parts) {
+void light_ground(SkyMap& map) {
     const SkyMapView& v = map.view;
     const std::size_t columns = std::size_t(v.columns);
     const std::size_t plane = std::size_t(v.rows) * columns;
-    for (std::size_t c = 0; c < 3; ++c) {
-        const float* from = v.radiance + (v.planes == 1 ? 0 : c * plane);
-        double sum = 0;
-        for (std::size_t i = 0; i < std::size_t(v.rows); ++i) {
+    Double3 sum{};
+    for (std::size_t i = 0; i < std::size_t(v.rows); ++i) {
+        const double level = row_part(v, int(i)).b;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const float* from = v.radiance + (v.planes == 1 ? 0 : c * plane) + i * columns;
             double row = 0;
-            for (std::size_t j = 0; j < columns; ++j) row += double(from[i * columns + j]);
-            sum += row * parts.rows[i].b;
+            for (std::size_t j = 0; j < columns; ++j) row += double(from[j]);
+            sum[int(c)] += row * level;
         }
-        map.ground_irradiance[c] = sum * kTwoPiD / v.columns;
     }
+    map.ground_irradiance = sum * kTwoPiD / double(v.columns);
 }
-
-}  // namespace
 
 double fill_cdf(const double* power, int count, std::int32_t* cdf) {
     double total = 0, sum = 0;
@@ -187,7 +188,6 @@ Status aim_sky_map(const double (&extent_m)[3], bool periodic, SkyMap& map) {
         of_row[i] = fill_cdf(power.data(), v.columns, map.column_cdf.data() + i * columns);
     }
     map.power_m2 = fill_cdf(of_row.data(), v.rows, map.row_cdf.data());
-    light_ground(map, parts);
     v.row_cdf = map.row_cdf.data();
     v.column_cdf = map.column_cdf.data();
     v.row_bound = map.row_bound.data();

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// See environment.h.
+#include "src/world/environment.h"
+
+#include "kernels_cpu/core/profile.h"
+
+namespace pileus {
+namespace {
+
+/// Under an atmosphere the sun has the air's colour, and the sky is its map alone.
+struct InAir {
+    Sun sun;
+    Sky sky;
+};
+InAir in_air(const Scene& scene, const Atmosphere& air) {
+    InAir out{scene.sun, {}};
+    out.sky.present = true;
+    for (std::size_t c = 0; c < 3; ++c)
+        out.sun.irradiance[c] = float(air.above[c] * air.sunlight[c]);
+    return out;
+}
+
+/// Hands what shines to `use`.
+template <class Use>
+auto with_shining(const Scene& scene, const Environment& environment, const Use& use) {
+    const bool solids = !scene.solids.empty(), below = environment.ground_under_map;
+    if (!environment.air.present())
+        return use(Shining{scene.sun, scene.sky, scene.ground, scene.lights, solids, below});
+    const InAir lit = in_air(scene, environment.air);
+    return use(Shining{lit.sun, lit.sky, scene.ground, scene.lights, solids, below});
+}
+
+}  // namespace
+
+Status outline_environment(const Scene& scene, const Context& context, const World& world,
+                           const Image* sky, Environment& environment) {
+    PILEUS_TRY(outline_camera_depth(scene, context, environment.depth));
+    if (!kAtmosphere || !scene.atmosphere.present)
+        return read_sky_map(scene, context, sky, environment.sky_map);
+    const StageClock clock(context, "atmosphere");
+    return relight_air(scene.atmosphere, scene.sun, scene.ground, context.threads, world,
+                       environment);
+}
+
+Status load_environment(const Scene& scene, const Context& context, Environment& environment) {
+    return read_camera_depth(scene, context, environment.depth);
+}
+
+Status set_sky_map(const Image* map, const Sky& sky, bool ground, Environment& environment) {
+    SkyMap made;
+    if (map != nullptr) PILEUS_TRY(make_sky_map("sky.map", *map, sky, ground, made));
+    environment.sky_map = std::move(made);
+    return Status::ok();
+}
+
+Status relight_air(const AtmosphereSettings& settings, const Sun& sun, const Ground& ground,
+                   int threads, const World& world, Environment& environment) {
+    const Medium& medium = world.medium;
+    const double sea_m = ground.present ? ground.altitude_m : 0;
+    const double height_m = medium.low_m[2] + 0.5 * medium.extent_m[2] - sea_m;
+    Image image;
+    PILEUS_TRY(light_atmosphere(settings, sun, ground, height_m, threads, environment.air, image));
+    SkyMap map;
+    PILEUS_TRY(make_sky_map("atmosphere", image, Sky{}, ground.present, map));
+    environment.sky_map = std::move(map);
+    return Status::ok();
+}
+
+Lighting light_of(const Scene& scene, const SunPlace& sun, const World& world,
+                  const Environment& environment) {
+    return with_shining(scene, environment, [&](const Shining& shining) {
+        Lighting out = make_lighting(shining, world.medium, sun, &environment.sky_map,
+                                     &world.solids, &environment.depth);
+        out.air = environment.air.present();
+        return out;
+    });
+}
+
+void explain_light(const Scene& scene, const SunPlace& sun, const World& world,
+                   const Environment& environment, const Lighting& made, Plan& plan) {
+    with_shining(scene, environment, [&](const Shining& shining) {
+        explain_lighting(shining, world.medium, sun, made, plan);
+    });
+}
+
+}  // namespace pileus
