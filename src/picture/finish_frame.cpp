@@ -41,6 +41,7 @@ Status finish_frame(const Context& context, const OutputSettings& output, const 
                        {"depths_stored", planes.half_depth.size()}};
     if (parts.batches) report.executed.emplace_back("batches", std::uint64_t(planes.batches));
     if (parts.media) report.executed.emplace_back("parts_stored", world.medium.parts.size());
+    if (parts.film > 0) report.executed.emplace_back("film_parts", std::uint64_t(parts.film));
     report_solids(world.solids, depth, report);
     planes = Planes{};  // to give memory back takes time, too
     return Status::ok();

@@ -90,9 +90,10 @@ Status path_show(const FrameStep&, const Context& context, MethodRun& method_run
     if (context.digests) report.digests.emplace_back("film", film_digest(run.film));
     PILEUS_TRY(path_planes(context, run));
     const ErrorSum error = path_error(run);
+    FinishedParts parts;
+    parts.film = run.film.parts;
     PILEUS_TRY(finish_frame(context, run.scene->output, *run.world, run.environment.depth,
-                            run.camera, {}, run.planes, image, report));
-    report.executed.emplace_back("film_parts", std::uint64_t(run.film.parts));
+                            run.camera, parts, run.planes, image, report));
     report_error(run, error, report);
     run.guides = FilterGuides{};
     run.film.sum = Buffer<double>();
