@@ -46,7 +46,7 @@ Status choose_march_work(const Context& context, double start_s, const UpsampleI
                          RaymarchRun& run) {
     if (!(run.budget.seconds > 0) || run.whole_steps == 0) return Status::ok();
     UpsampleSettings& thin = run.settings.thin;
-    if (run.simple == nullptr) thin = run.scene->raymarch.thin;
+    if (run.simple == nullptr) thin = run.whole_thin;
     run.settings.steps = run.whole_steps;
     double pixel_s = 0;
     PILEUS_TRY(pixel_seconds(in, run, pixel_s));

@@ -179,7 +179,7 @@ void note_plan(RaymarchRun& run) {
             run.settings.detail ? "no step or pixel is wider than a cell" : "detail = false");
     if (run.settings.jitter == RaymarchJitterKind::kNone)
         plan.leave_out("jitter of samples", "jitter = \"none\"");
-    if (run.simple == nullptr) note_upsampling(scene, scene.raymarch.thin, plan);
+    if (run.simple == nullptr) note_upsampling(scene, run.settings.thin, plan);
     if (run.world->medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
     note_solids(run.world->solids, run.environment.depth, plan);
     if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");

@@ -5,6 +5,7 @@
 #include "kernels_cpu/core/profile.h"
 #include "src/march/march_parts.h"
 #include "src/methods/check_support.h"
+#include "src/plan/report.h"
 #include "src/world/medium/resample.h"
 
 namespace pileus {
@@ -79,15 +80,38 @@ Status compose(const FrameStep& step, const Context& context, MethodRun& method_
     return march_frame(step, context, run);
 }
 
-Status take_work(const FrameWork& work, MethodRun& method_run) {
+FrameWork full_work(const MethodRun& method_run) {
+    const RaymarchRun& run = static_cast<const RaymarchRun&>(method_run);
+    FrameWork out;
+    if (run.simple == nullptr) {
+        out = work_of(run.settings.thin);
+        out.light_refresh = run.settings.light_refresh;
+        out.steps = run.settings.steps;
+    } else {
+        out.steps = run.budget.steps >= 0 ? int(run.budget.steps) : run.simple->steps;
+    }
+    return out;
+}
+
+void put_tables(const FrameWork& work, const MethodRun& method_run, MethodTables& tables) {
+    if (static_cast<const RaymarchRun&>(method_run).simple != nullptr) {
+        tables.optical_depth.steps = work.steps;
+        return;
+    }
+    put_work(work, tables.raymarch.thin);
+    tables.raymarch.steps = work.steps;
+    tables.raymarch.light_refresh = work.light_refresh;
+}
+
+Status set_limits(const FrameWork& work, MethodRun& method_run) {
     RaymarchRun& run = own(method_run);
     if (run.simple != nullptr) {
         if (work.steps == 0) return Status::ok();
         run.settings.spacing = RaymarchSpacing::kUniform;
     } else {
-        if (work.scale > 0) run.settings.thin.scale = work.scale;
-        run.settings.thin.temporal = work.temporal;
+        put_work(work, run.settings.thin);
         run.settings.light_refresh = work.light_refresh;
+        run.whole_thin = run.settings.thin;
     }
     run.settings.steps = work.steps;
     return Status::ok();
@@ -147,6 +171,7 @@ Status march_outline(const Context& context, RaymarchRun& run) {
                                  run.scene->method +
                                  " runs on the host alone, allowed: another, or another method");
     run.whole_steps = run.settings.steps;
+    run.whole_thin = run.settings.thin;
     choose_light(run.sun_of(0), run);
     return march_measure(context, run);
 }
@@ -178,6 +203,20 @@ Status RaymarchRun::reserve(LateRows&) {
     return reserve_upsampling(settings.thin, size, solid, upsample);
 }
 
-const LiveMethod live_march{aim, advance, units, compose, take_work, march_most_units};
+void march_budget_used(int, const MethodRun& method_run, const Report& report, Budget& used) {
+    const RaymarchRun& run = static_cast<const RaymarchRun&>(method_run);
+    const bool by_cells = run.simple != nullptr && run.simple->steps == 0;
+    const bool chosen = !report.light_rule.empty();
+    if (chosen && (used.steps >= 0 || !by_cells)) used.steps = report.frame_work.steps;
+}
+
+const LiveMethod live_march{aim,
+                            advance,
+                            units,
+                            compose,
+                            full_work,
+                            set_limits,
+                            kept(kChecks, put_tables),
+                            march_most_units};
 
 }  // namespace pileus

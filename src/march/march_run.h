@@ -20,7 +20,9 @@ namespace pileus {
 struct RaymarchRun : MethodRun {
     RaymarchSettings settings;                     ///< the scene's, with the steps of the budget
     int whole_steps = 0;                           ///< of them, where a time leaves all
-    const OpticalDepthSettings* simple = nullptr;  ///< of method optical-depth
+    UpsampleSettings whole_thin;                   ///< and pixels, likewise
+    OpticalDepthSettings looks;                    ///< the scene's
+    const OpticalDepthSettings* simple = nullptr;  ///< those, of method optical-depth alone
     Medium capped;  ///< the medium with its extinction cut; unused where that cuts nothing
     Medium lit;     ///< on the cells that its optical depth is swept over, if they are others
     Majorants lit_majorants;
@@ -79,6 +81,9 @@ bool has_sun_grid(const RaymarchRun& run);
 
 /// Makes that medium once. kLimit: out of memory.
 Status make_lit_medium(const Context& context, RaymarchRun& run);
+
+/// Method::budget_used: the steps that a time chose.
+void march_budget_used(int frame, const MethodRun& run, const Report& report, Budget& used);
 
 /// LiveMethod::most_units.
 Status march_most_units(const FrameWork& work, const MethodRun& run, FrameUnits& out);

@@ -19,6 +19,7 @@
 namespace pileus {
 
 struct LateRows;
+struct MethodTools;
 
 /// One picture of a run. `first` and `last` are those of the run, not of the animation.
 struct FrameStep {
@@ -27,7 +28,8 @@ struct FrameStep {
     LateRows* late = nullptr;  ///< 8-bit pixels are all that is wanted: takes what may be left
 };
 
-/// What a method keeps between its functions; each derives its own. What all have is here.
+/// What a method keeps between its functions; each derives its own, with a copy of its settings:
+/// work and clocks change that alone. What all have is here.
 struct MethodRun {
     const Scene* scene = nullptr;
     const FrameState* rest = nullptr;  ///< of the scene, but for keys; null: the scene itself
@@ -42,10 +44,11 @@ struct MethodRun {
 
     /// Moves the scene to a frame, where keys do; else null.
     std::function<void(int frame)> place_at;
-    bool outlined_only = true;  ///< sizes are known, values are not
-    bool sealed = false;        ///< nothing may be laid out anew: docs/flight.md
-    bool alone = false;         ///< what lies behind the media is not wanted: docs/clouds.md
-    double view_slack_deg = 0;  ///< by which light that is gathered for a camera may be off
+    bool outlined_only = true;         ///< sizes are known, values are not
+    const char* fixed_view = nullptr;  ///< why a host may not move the camera; null: it may
+    bool sealed = false;               ///< nothing may be laid out anew: docs/flight.md
+    bool alone = false;                ///< what lies behind the media is not wanted: docs/clouds.md
+    double view_slack_deg = 0;         ///< by which light that is gathered for a camera may be off
     std::vector<std::pair<std::string, std::string>> digests;  ///< of what no frame changes
 
     MethodRun() = default;
@@ -70,6 +73,7 @@ struct LightUnits {
     std::uint64_t unit_photons = 0;  ///< photons or paths of one
     std::uint64_t held = 0;          ///< units that the next picture shows
     std::uint32_t prepared = 1;      ///< times that the sums were laid out
+    bool one_sum = false;            ///< of units that are all alike: none has fewer photons
 };
 
 struct Planes;
@@ -84,13 +88,19 @@ struct LiveMethod {
     LightUnits (*units)(const MethodRun&);
     /// The picture as it is lit now; the run keeps the planes, which may be changed or taken.
     Status (*compose)(const FrameStep&, const Context&, MethodRun&, Planes*&);
-    /// Takes up the work of the next frames, all members filled in, before the run's scene has it;
-    /// null where the scene is all that the method reads.
-    Status (*take_work)(const FrameWork&, MethodRun&);
+    /// The work as the run was opened, every member filled in that the method has; with the next
+    /// two null where it has none.
+    FrameWork (*full_work)(const MethodRun&);
+    /// Takes up the work of the next frames, filled in likewise, in the run's own settings.
+    Status (*set_limits)(const FrameWork&, MethodRun&);
+    /// The settings of a scene with such work, whose checks have the words for what is wrong with
+    /// it.
+    void (*put_work)(const FrameWork&, const MethodRun&, MethodTables&);
     /// What a frame of this work, all members filled in, takes at the most. kBadInput: it depends
     /// on more than the work.
     Status (*most_units)(const FrameWork&, const MethodRun&, FrameUnits&);
     bool reads_planes = false;  ///< the next picture reads the last one's, which are left alone
+    bool keeps_parts = false;   ///< light is traced with depths and the cloud's part, or without
 };
 
 /// A recipe. Functions are called from the top down, `light` to `report` once for each frame. The
@@ -112,6 +122,9 @@ struct Method {
     void (*count)(const MethodRun&, Counts&);
     /// All else, after `count`, for people.
     void (*report)(const MethodRun&, Report&);
+    /// After `report`: in place of the budgets that were given, those by which the picture of a
+    /// frame is made again, whatever ended it. Null: they do.
+    void (*budget_used)(int frame, const MethodRun&, const Report&, Budget& used);
     const LiveMethod* live = nullptr;  ///< null: in no session of a host
     bool shows_light = true;           ///< colours are light, which an exposure applies to
 };

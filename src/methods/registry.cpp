@@ -30,8 +30,20 @@ std::vector<MethodRow> method_rows() {
     collectors.views = collectors_views(collectors.view_count);
     MethodRow photon_grid{&photon_grid_method()};
     photon_grid.views = photon_grid_views(photon_grid.view_count);
-    return {collectors,  {&path_method()},     {&raymarch_method()}, {&optical_depth_method()},
-            photon_grid, {&particles_method()}};
+    collectors.tools = collectors_tools;
+    photon_grid.tools = photon_grid_tools;
+    return {collectors,
+            {&path_method(), nullptr, 0, path_tools},
+            {&raymarch_method(), nullptr, 0, raymarch_tools},
+            {&optical_depth_method(), nullptr, 0, optical_depth_tools},
+            photon_grid,
+            {&particles_method()}};
+}
+
+MethodTools method_tools(const std::string& name) {
+    for (const MethodRow& row : method_rows())
+        if (name == row.method->name) return row.tools;
+    return {};
 }
 
 Status find_method(const Scene& scene, const Method*& method) {

@@ -5,6 +5,7 @@
 #pragma once
 #include <vector>
 
+#include "src/methods/method_tools.h"
 #include "src/methods/methods.h"
 
 namespace pileus {
@@ -14,10 +15,14 @@ struct MethodRow {
     const Method* method = nullptr;
     const Method* views = nullptr;
     int view_count = 0;
+    MethodTools tools{};  ///< null members: none
 };
 
 /// Every method of this version.
 std::vector<MethodRow> method_rows();
+
+/// What programs ask of the method of this name; nothing of one that is not in this version.
+MethodTools method_tools(const std::string& name);
 
 /// The recipe of the scene's method. kBadInput: not in this version.
 Status find_method(const Scene& scene, const Method*& method);

@@ -346,9 +346,7 @@ Status PhotonRun::reserve_pictures(LateRows& late) {
     const std::uint64_t cells = std::uint64_t(ground_map.cells) * std::uint64_t(ground_map.cells);
     const Array<float> light = arrays::ground_light(cells);
     PILEUS_TRY(late.map.reserve(light.count, light.name));
-    if (scene->method == "collectors" && scene->collectors.billboards) return Status::ok();
-    const UpsampleSettings& thin =
-        scene->method == "collectors" ? scene->collectors.thin : scene->photon_grid.thin;
+    if (!thins) return Status::ok();
     return reserve_upsampling(thin, size, solid, upsample);
 }
 

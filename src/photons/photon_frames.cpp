@@ -120,7 +120,27 @@ LightUnits photon_units(const PhotonRun& run) {
     for (const Light& light : run.lighting.lights) out.unit_photons += light.photons;
     for (const PhotonSlot& slot : run.photons.slots) out.held += slot.generations;
     out.prepared = run.layouts;
+    out.one_sum = !run.ring;
     return out;
+}
+
+FrameWork photon_full_work(const MethodRun& method_run) {
+    const PhotonRun& run = static_cast<const PhotonRun&>(method_run);
+    FrameWork out;
+    if (run.thins) out = work_of(run.thin);
+    out.light_refresh = run.light_refresh;
+    out.photons = std::int64_t(photon_units(run).unit_photons);
+    return out;
+}
+
+void photon_budget_used(int frame, const MethodRun& method_run, const Report& report,
+                        Budget& used) {
+    const PhotonRun& run = static_cast<const PhotonRun&>(method_run);
+    if (report.photons.generations == 0) return;
+    used.photons = run.budget_photons;
+    // A film's ring counts on from frame to frame; its length is that of the first one.
+    const bool ring = run.scene->animation.present && run.ring;
+    used.generations = std::int64_t(report.photons.generations) - (ring ? frame : 0);
 }
 
 }  // namespace pileus

@@ -29,10 +29,14 @@ Status light_photon_frame(const FrameStep& step, const Context& context, PhotonR
 /// The fault of an end before `what`.
 Status interrupted_before(const char* what);
 
-/// LiveMethod::advance and ::units.
+/// LiveMethod::advance, ::units and ::full_work.
 Status advance_photons(std::uint64_t units, const Context& context, PhotonRun& run,
                        const ShootPhotons& shoot, std::uint64_t& done);
 LightUnits photon_units(const PhotonRun& run);
+FrameWork photon_full_work(const MethodRun& run);
+
+/// Method::budget_used: generations, of as many photons in all.
+void photon_budget_used(int frame, const MethodRun& run, const Report& report, Budget& used);
 
 /// LiveMethod::most_units where the picture is marched.
 Status photon_most_units(const FrameWork& work, const PhotonRun& run, FrameUnits& out);

@@ -334,7 +334,7 @@ Status refuse_new_lights() {
         "scene");
 }
 
-Status take_photon_work(const FrameWork& work, MethodRun& method_run) {
+Status set_photon_limits(const FrameWork& work, MethodRun& method_run) {
     PhotonRun& run = static_cast<PhotonRun&>(method_run);
     const std::uint64_t photons = std::uint64_t(work.photons);
     std::uint64_t all = 0;
@@ -343,6 +343,7 @@ Status take_photon_work(const FrameWork& work, MethodRun& method_run) {
         return Status::bad_input("work.photons: " + std::to_string(photons) +
                                  ", but all generations are one sum, allowed: 0, or ring = true");
     run.light_refresh = work.light_refresh;
+    if (run.thins) put_work(work, run.thin);
     run.unit_photons = photons < all ? photons : 0;
     std::vector<Light>& lights = run.lighting.lights;
     for (std::size_t i = 0; i < lights.size(); ++i)

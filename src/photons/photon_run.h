@@ -41,6 +41,8 @@ struct PhotonRun : MethodRun {
     bool shadow_ready = false;  ///< visibility and beam
     SunSlices shadow_slices;
     int light_refresh = 1;  ///< frames in which sunlight on nodes is made anew
+    bool thins = true;      ///< pictures are marched: they may have fewer pixels
+    UpsampleSettings thin;  ///< which
     std::int64_t turn = 0;  ///< number of the picture, for that
     Beam beam;              ///< made with the shadow where deposit.peak_turn asks for it
     GroundShadow ground_shadow;
@@ -119,9 +121,9 @@ bool relight_photons(PhotonRun& run);
 /// The fault of such a light where nothing may be laid out any more.
 Status refuse_new_lights();
 
-/// LiveMethod::take_work: photons of the generations to come, slices of sunlight. kBadInput: other
-/// photons in one sum, whose generations are all alike.
-Status take_photon_work(const FrameWork& work, MethodRun& run);
+/// LiveMethod::set_limits: photons of the generations to come, slices of sunlight, marched pixels.
+/// kBadInput: other photons in one sum, whose generations are all alike.
+Status set_photon_limits(const FrameWork& work, MethodRun& run);
 
 /// Whether photons of one are photons of the other.
 bool same_lights(const Lighting& a, const Lighting& b);

@@ -226,6 +226,18 @@ Status check_upsampling(const Scene& scene, const char* method, const UpsampleSe
     return Status::ok();
 }
 
+FrameWork work_of(const UpsampleSettings& s) {
+    FrameWork work;
+    work.temporal = s.temporal;
+    work.scale = s.temporal > 0 ? 0 : s.scale;
+    return work;
+}
+
+void put_work(const FrameWork& work, UpsampleSettings& s) {
+    if (work.scale > 0) s.scale = work.scale;
+    s.temporal = work.temporal;
+}
+
 void note_upsampling(const Scene& scene, const UpsampleSettings& s, Plan& plan) {
     if (s.scale > 1) plan.need("pixels between marched ones: approximation");
     if (s.temporal > 0) plan.need("pixels from the frame before: approximation");

@@ -7,6 +7,7 @@
 
 #include "kernels_cpu/display/upsample_params.h"
 #include "src/picture/layers.h"
+#include "src/plan/frame_work.h"
 #include "src/plan/plan.h"
 #include "src/run/context.h"
 
@@ -56,6 +57,10 @@ void forget_pictures(UpsampleMemory& memory);
 
 /// Settings that are none; `method` names their keys.
 Status check_upsampling(const Scene& scene, const char* method, const UpsampleSettings& settings);
+
+/// The marched pixels of the work of a frame, and settings with them.
+FrameWork work_of(const UpsampleSettings& settings);
+void put_work(const FrameWork& work, UpsampleSettings& settings);
 
 /// What of it the plan tells.
 void note_upsampling(const Scene& scene, const UpsampleSettings& settings, Plan& plan);

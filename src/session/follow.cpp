@@ -16,7 +16,7 @@ Status follow(const Scene& scene, const RenderOptions& options, int light, std::
     PILEUS_TRY(place_scene(placed));
     Report report;
     Context context;
-    if (scene.method != "collectors")
+    if (scene.method != collectors_method().name)
         return Status::bad_input("follow: not for method " + scene.method +
                                  ", allowed: method.name = \"collectors\"");
     PILEUS_TRY(make_context(scene, options, context, report));

@@ -70,25 +70,14 @@ Status frames_of(const Scene& scene, const RenderOptions& options, Frames& frame
                              std::to_string(frames.total - 1));
 }
 
-std::string budget_used(const Scene& scene, const RenderOptions& options, int frame,
+std::string budget_used(const Method& method, const MethodRun& run, int frame,
                         const Report& report) {
     // Part of a pass or of a generation is no whole number of them.
     if (report.paths.ahead_samples > 0 || (report.interrupted && report.photons.generations > 0))
         return "";
     Budget used;
-    if (scene.method == "path") used.samples = std::int64_t(report.paths.samples_per_pixel);
-    const bool grid = scene.method == "photon-grid";
-    if ((grid || scene.method == "collectors") && report.photons.generations > 0) {
-        const std::int64_t all = grid ? scene.photon_grid.photons : scene.collectors.photons;
-        used.photons = options.budget.photons >= 0 ? options.budget.photons : all;
-        // A film's ring counts on from frame to frame; its length is that of the first one.
-        const bool ring = scene.animation.present && (!grid || scene.photon_grid.ring);
-        used.generations = std::int64_t(report.photons.generations) - (ring ? frame : 0);
-    }
-    used.steps = options.budget.steps;
-    const bool chosen = !report.light_rule.empty();
-    const bool by_cells = scene.method == "optical-depth" && scene.optical_depth.steps == 0;
-    if (chosen && (used.steps >= 0 || !by_cells)) used.steps = report.frame_work.steps;
+    used.steps = run.budget.steps;
+    if (method.budget_used != nullptr) method.budget_used(frame, run, report, used);
     return budget_text(used);
 }
 

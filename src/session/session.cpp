@@ -21,7 +21,7 @@ namespace {
 constexpr int kLiveFrames = 2;
 
 /// What a host cannot ask for is left out; what it may ask for is planned.
-void make_live(Scene& scene) {
+void make_live(bool keeps_parts, Scene& scene) {
     scene.animation = Animation{};
     scene.animation.present = true;
     scene.animation.frames = kLiveFrames;
@@ -30,7 +30,7 @@ void make_live(Scene& scene) {
     output.layer_optical_depth = output.layer_transmittance = output.layer_reflectance = false;
     output.layer_shadow = output.layer_occlusion = false;
     output.layer_depth = !scene.camera.flux;
-    output.layer_cloud = scene.method == "path";
+    output.layer_cloud = keeps_parts;
     scene.view_files.depth.clear();
     // A change is checked on a copy of the scene, and its faults name no line of a file.
     scene.text.clear();
@@ -105,12 +105,13 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
     PILEUS_TRY(place_scene(scene_));
     scene_.sky.mapped = options.sky != nullptr || !scene_.view_files.sky_map.empty();
     options_ = options;
-    if (live) make_live(scene_);
+    const Status found = find_method(scene_, method_);
+    if (live) make_live(found && method_->live != nullptr && method_->live->keeps_parts, scene_);
     host_ = scene_;
     PILEUS_TRY(make_context(scene_, options, context_, report_));
     if (live) context_.frames = kLiveFrames;
     context_.digests = !live && options.digests;
-    PILEUS_TRY(find_method(scene_, method_));
+    PILEUS_TRY(found);
     if (kChecks) PILEUS_TRY(method_->check(scene_, options.budget));
     if (kFilms && !options.show.empty())
         PILEUS_TRY(find_view(scene_.method, options.show, method_));
@@ -130,7 +131,9 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
     PILEUS_TRY(
         open_run(*method_, scene_, options.budget, context_, exact, std::move(world), *run_));
     if (kPlans) report_.plan = run_->plan;
-    if (method_->live != nullptr) whole_work_ = work_ = scene_work();
+    const LiveMethod* const lives = method_->live;
+    if (lives != nullptr && lives->full_work != nullptr)
+        whole_work_ = work_ = lives->full_work(*run_);
     report_.frame_work = work_;
     report_.clocks.peak_bytes = peak_memory_bytes();
     return Status::ok();
@@ -214,7 +217,7 @@ Status Session::render(const FrameTarget& target) {
     const bool nothing = !target.has_colour && target.hash == nullptr;
     const bool rays = !scene_.camera.flux;  // a flat detector has no depths
     scene_.output.layer_depth =
-        (rays && (target.has_depth || scene_.method == "path" || nothing)) ||
+        (rays && (target.has_depth || method_->live->keeps_parts || nothing)) ||
         (kClouds && fading_ != nullptr);
     report_.counters.clear();
     // A hash and depths are of whole planes.

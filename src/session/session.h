@@ -77,6 +77,7 @@ public:
 
     Report& report() { return report_; }
     const Report& report() const { return report_; }
+    const Method& method() const { return *method_; }
     const MethodRun& run() const { return *run_; }
     const Context& context() const { return context_; }
     const SessionStats& stats() const { return stats_; }
@@ -173,7 +174,6 @@ private:
     Status take_frame(int frame);
     Status relight_air();
     void place();
-    FrameWork scene_work() const;
     Status check_take_over(const Session& from, std::uint32_t frames) const;
     Status take_view(const Session& from);
     Status fade_from(Session& from, std::uint32_t frames, std::unique_ptr<Fading>& fading);

@@ -51,10 +51,8 @@ Status Session::set_camera(const Camera& given) {
     const Camera camera = held(given);
     // Light that was gathered for this view stays.
     if (same_view(camera, host_.camera)) return Status::ok();
-    if (scene_.method == "collectors" && scene_.collectors.camera_closure)
-        return Status::bad_input(
-            "camera: collectors.closure \"camera\" lights cells towards a fixed one, allowed: "
-            "another closure");
+    if (run_->fixed_view != nullptr)
+        return Status::bad_input(std::string("camera: ") + run_->fixed_view);
     PILEUS_TRY(check_frustum(camera, scene_.collectors.billboards));
     if (const char* key = camera_fault(scene_, host_.ground, camera)) {
         const auto change = [&](Scene& changed) {

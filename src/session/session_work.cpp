@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The work of a live session's frames: what a host or the governor chose, checked and taken up.
-// in: FrameWork -> out: settings of the session's scene and method.
+// in: FrameWork -> out: limits of the session's method, or what is wrong.
 // docs/realtime.md, "Work and the governor"
 #include "kernels_cpu/core/profile.h"
 #include "platform/fp_mode.h"
@@ -10,27 +10,6 @@
 
 namespace pileus {
 namespace {
-
-/// The settings of a scene that a frame may have of its own; null: its method has none.
-struct WorkSettings {
-    UpsampleSettings* thin = nullptr;
-    int* steps = nullptr;
-    int* light_refresh = nullptr;
-};
-
-WorkSettings work_settings(Scene& scene) {
-    if (scene.method == "raymarch")
-        return {&scene.raymarch.thin, &scene.raymarch.steps, &scene.raymarch.light_refresh};
-    if (scene.method == "collectors")
-        return {scene.collectors.billboards ? nullptr : &scene.collectors.thin, nullptr,
-                &scene.collectors.light_refresh};
-    if (scene.method == "photon-grid")
-        return {&scene.photon_grid.thin, nullptr, &scene.photon_grid.light_refresh};
-    if (scene.method == "optical-depth") return {nullptr, &scene.optical_depth.steps, nullptr};
-    if (scene.method == "particles" && !scene.particles.billboards)
-        return {nullptr, &scene.particles.bins, nullptr};
-    return {};
-}
 
 Status refuse(const char* what, std::int64_t value, const std::string& allowed) {
     return Status::bad_input(std::string("work.") + what + ": " + std::to_string(value) +
@@ -65,6 +44,13 @@ const char* work_fault(const FrameWork& work, const FrameWork& whole) {
     return whole.light_refresh > 0 && !refreshed ? "work.light_refresh" : nullptr;
 }
 
+/// Marched pixels lie so far apart.
+int marched_every(const FrameWork& work) {
+    UpsampleSettings thin;
+    put_work(work, thin);
+    return thin.every();
+}
+
 template <class T>
 T chosen(T given, T whole) {
     return given != 0 ? given : whole;
@@ -82,41 +68,16 @@ FrameWork filled(const FrameWork& given, const FrameWork& whole) {
 
 }  // namespace
 
-FrameWork Session::scene_work() const {
-    Scene scene = scene_;
-    const WorkSettings at = work_settings(scene);
-    FrameWork out;
-    if (at.thin != nullptr) {
-        out.temporal = at.thin->temporal;
-        out.scale = out.temporal > 0 ? 0 : at.thin->scale;
-    }
-    const std::int64_t budget = run_->budget.steps;
-    if (at.steps != nullptr) out.steps = budget >= 0 ? int(budget) : *at.steps;
-    if (at.light_refresh != nullptr) out.light_refresh = *at.light_refresh;
-    if (scene.method == "collectors" || scene.method == "photon-grid")
-        out.photons = std::int64_t(light().unit_photons);
-    return out;
-}
-
 Status Session::set_work(const FrameWork& given) {
     const FpModeGuard guard;
     PILEUS_TRY(check_work(given, whole_work_, scene_.method));
     const FrameWork work = filled(given, whole_work_);
     if (!(given == FrameWork{})) PILEUS_TRY(refuse_clouds_sky("work"));
     if (work == work_) return Status::ok();
-    const WorkSettings here = work_settings(scene_);
-    UpsampleSettings thin;
-    if (here.thin != nullptr) {
-        thin = *here.thin;
-        if (work.scale > 0) thin.scale = work.scale;
-        thin.temporal = work.temporal;
-    }
+    const LiveMethod& live = *method_->live;
     if (const char* key = work_fault(work, whole_work_)) {
         const auto change = [&](Scene& changed) {
-            const WorkSettings there = work_settings(changed);
-            if (there.thin != nullptr) *there.thin = thin;
-            if (there.steps != nullptr) *there.steps = work.steps;
-            if (there.light_refresh != nullptr) *there.light_refresh = work.light_refresh;
+            live.put_work(work, *run_, changed);
             changed.camera = host_.camera;
             changed.sun = host_.sun;
             changed.ground = host_.ground;
@@ -125,16 +86,15 @@ Status Session::set_work(const FrameWork& given) {
         PILEUS_TRY(check_changed(key, scene_, change));
         Scene named;
         named.file = "session";
+        UpsampleSettings thin;
+        put_work(work, thin);
         PILEUS_TRY(check_upsampling(named, "work", thin));
     }
-    if (kDevices && here.thin != nullptr && here.thin->every() != thin.every() &&
+    if (kDevices && marched_every(work_) != marched_every(work) &&
         context_.kernels->device != nullptr)
         return refuse("scale", work.scale, "0 on a device");
-    // Nothing is refused from here on but by the method, which comes first.
-    if (method_->live->take_work != nullptr) PILEUS_TRY(method_->live->take_work(work, *run_));
-    if (here.thin != nullptr) *here.thin = thin;
-    if (here.steps != nullptr) *here.steps = work.steps;
-    if (here.light_refresh != nullptr) *here.light_refresh = work.light_refresh;
+    // The method is the last to refuse.
+    if (live.set_limits != nullptr) PILEUS_TRY(live.set_limits(work, *run_));
     work_ = work;
     report_.frame_work = work_;
     report_.light_rule.clear();
@@ -143,8 +103,7 @@ Status Session::set_work(const FrameWork& given) {
 
 std::vector<FrameWork> Session::work_levels() const {
     FrameWork whole = whole_work_;
-    // All generations of one sum are alike.
-    if (scene_.method == "photon-grid" && !scene_.photon_grid.ring) whole.photons = 0;
+    if (light().one_sum) whole.photons = 0;
     std::vector<FrameWork> out = work_ladder(whole);
     for (FrameWork& work : out)
         if (whole.photons == 0) work.photons = whole_work_.photons;

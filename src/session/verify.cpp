@@ -89,8 +89,8 @@ Status Verifier::open(const Scene& scene, std::uint64_t pixels, const Context& c
     rest_ = scene_;
     run_.rest = &rest_;
     place(scene.sequence_frame);
-    own_paths_ = scene.method == "path";
-    scene_.method = "path";
+    own_paths_ = scene.method == path_method().name;
+    scene_.method = path_method().name;
     scene_.output = OutputSettings{};
     if (!own_paths_) {
         // Other methods look through the middles of pixels, and aim at all orders of scattering.

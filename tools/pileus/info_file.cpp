@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "src/io/images/image_file.h"
+#include "src/methods/registry.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/density_row.h"
 #include "src/scene/rows/volume_format.h"
@@ -119,8 +120,8 @@ Status scene_lines(const std::string& path, std::string& lines) {
                                             medium.albedo[0], medium.albedo[1], medium.albedo[2]));
     if (scene.clouds.present())
         lines += cloud_lines(scene.clouds);
-    else if (scene.method == "collectors")
-        lines += info_line("photons", fmt::to_string(scene.collectors.photons));
+    else if (const auto photons = method_tools(scene.method).photons)
+        lines += info_line("photons", fmt::to_string(photons(scene)));
     lines +=
         info_line("frames", fmt::to_string(scene.animation.present ? scene.animation.frames : 1));
     lines += info_line("files", list_text(scene.output.files));

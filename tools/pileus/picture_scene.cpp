@@ -12,6 +12,7 @@
 #include "src/base/file.h"
 #include "src/io/images/image_file.h"
 #include "src/io/text/scene_files.h"
+#include "src/methods/registry.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/toml/toml_tree.h"
 #include "tools/pileus/hash_list.h"
@@ -99,9 +100,9 @@ void find_budgets(const Origin& origin, PictureScene& out) {
     out.budgets = words_of(out.ended ? origin.text("budgetUsed") : given);
     if (!out.ended) return;
     const bool chosen = origin.has("light");  // pixels and steps of a march
-    if (chosen && out.method == "optical-depth") {
+    if (chosen && method_tools(out.method).hides_pixels) {
         if (origin.text("scale") != "1")
-            out.unrepeatable = "a time chose fewer pixels, which no key of optical-depth says";
+            out.unrepeatable = "a time chose fewer pixels, which no key of " + out.method + " says";
     } else if (chosen) {
         const bool thin = origin.text("temporal") != "0";
         out.overrides.push_back("raymarch.light=" + origin.text("light"));
@@ -115,25 +116,17 @@ void find_budgets(const Origin& origin, PictureScene& out) {
 
 /// Films whose frames depend on those before them.
 bool remembers(const PictureScene& picture, const Scene& scene, bool& clocked) {
-    const bool collectors = scene.method == "collectors", grid = scene.method == "photon-grid";
-    const bool march = scene.method == "raymarch";
     clocked = false;
     // Clouds that are far are shown by pictures of earlier frames, and light may be late.
     if (scene.clouds.present()) return true;
-    if (frames_stand_alone(scene) || !(collectors || grid || march)) return false;
-    const UpsampleSettings& thin = collectors ? scene.collectors.thin
-                                   : grid     ? scene.photon_grid.thin
-                                              : scene.raymarch.thin;
-    const int refresh = collectors ? scene.collectors.light_refresh
-                        : grid     ? scene.photon_grid.light_refresh
-                                   : scene.raymarch.light_refresh;
-    const bool ring = collectors || (grid && scene.photon_grid.ring);
-    const bool slices = thin.temporal > 0 || refresh > 1;
+    const MethodTools tools = method_tools(scene.method);
+    if (frames_stand_alone(scene) || tools.film_memory == nullptr) return false;
+    const FilmMemory memory = tools.film_memory(scene);
     // A ring that was cut short grows by a generation a frame; other frames end as they like.
-    clocked = picture.ended && slices && !ring;
+    clocked = picture.ended && memory.pictures && !memory.ring;
     bool cut = picture.ended;
     for (const std::string& budget : picture.budgets) cut |= budget.rfind("generations=", 0) == 0;
-    return slices || (cut && ring);
+    return memory.pictures || (cut && memory.ring);
 }
 
 bool is_there(const std::string& path) {

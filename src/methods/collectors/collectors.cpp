@@ -44,8 +44,8 @@ double most_deposits(const CollectorsRun& run) {
 }
 
 /// Decides what a collision stores, and proves that the sums hold it.
-Status plan_deposit(const Scene& scene, CollectorsRun& run) {
-    const CollectorSettings& c = scene.collectors;
+Status plan_deposit(CollectorsRun& run) {
+    const CollectorSettings& c = run.settings;
     DepositPlan& d = run.deposit;
     d.bands = c.lobe_closure ? 2 : c.bands;
     d.mode = c.paper ? kDepositOutgoing : kDepositIncident;
@@ -87,22 +87,21 @@ void note_plan(const Scene& scene, CollectorsRun& run) {
         plan.leave_out("coefficients per colour channel", "achromatic medium: one set per light");
     if (is_white(run.world->medium)) plan.leave_out("absorption", "albedo 1");
     note_solids(run.world->solids, run.environment.depth, plan);
-    note_upsampling(scene, scene.collectors.thin, plan);
+    note_upsampling(scene, run.thin, plan);
     if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
     if (!scene.wants_depth()) plan.leave_out("depth of the medium", "no depth layer");
     if (!scene.output.layer_error) plan.leave_out("batches and second moments", "no error layer");
-    if (!scene.collectors.billboards) plan.leave_out("billboards", "display = \"march\"");
+    if (!run.settings.billboards) plan.leave_out("billboards", "display = \"march\"");
     for (const std::string& what : run.world->media_plan.needed) plan.needed.push_back(what);
     for (const LeftOut& l : run.world->media_plan.left_out) plan.left_out.push_back(l);
 }
 
 /// Lights, photons and what a collision stores, for the medium as it is known now.
 Status choose_light(CollectorsRun& run) {
-    const Scene& scene = *run.scene;
-    PILEUS_TRY(choose_photon_lights(std::uint64_t(scene.collectors.generations), run));
-    if (kPlans) run.plan.bias = collectors_bias(scene.collectors);
+    PILEUS_TRY(choose_photon_lights(std::uint64_t(run.settings.generations), run));
+    if (kPlans) run.plan.bias = collectors_bias(run.settings);
     aim_deposit(run);
-    return plan_deposit(scene, run);
+    return plan_deposit(run);
 }
 
 }  // namespace
@@ -122,32 +121,38 @@ Status collectors_weigh(const Context& context, CollectorsRun& run) {
 
 Status collectors_outline(const Context& context, CollectorsRun& run) {
     const Scene& scene = *run.scene;
+    run.settings = scene.collectors;
+    run.thin = run.settings.thin;
+    run.thins = !run.settings.billboards;
     if (kDevices)
         PILEUS_TRY(
             check_host_lights(context, scene.lights, scene.atmosphere.present, run.world->medium));
-    if (kChecks) PILEUS_TRY(check_thinned(context, scene, "collectors", scene.collectors.thin));
-    run.light_refresh = scene.collectors.light_refresh;
+    if (kChecks) PILEUS_TRY(check_thinned(context, scene, "collectors", run.settings.thin));
+    run.light_refresh = run.settings.light_refresh;
     if (run.light_refresh > 1 && kDevices && context.kernels->device != nullptr)
         return Status::bad_input(scene.file +
                                  ": collectors.light_refresh: for the host alone, allowed: 1");
-    if (kChecks && scene.collectors.thin.every() > 1 && !is_marched(run))
+    if (kChecks && run.settings.thin.every() > 1 && !is_marched(run))
         return Status::bad_input(scene.file +
                                  ": collectors.display: \"billboards\" has no marched pixels, "
                                  "allowed: march, or collectors.scale = 1 and temporal = 0");
-    run.budget_photons = collectors_photons(scene, run.budget);
-    if (scene.collectors.camera_closure) {
+    run.budget_photons = run.budget.photons >= 0 ? run.budget.photons : run.settings.photons;
+    if (run.settings.camera_closure) {
         const char* const mover = kFilms ? mover_of_view(scene) : nullptr;
         if (kFilms && mover != nullptr)
             return Status::bad_input(scene.file +
                                      ": collectors.closure: \"camera\" needs a fixed "
                                      "camera, but " +
                                      mover + " moves it");
-        run.camera_cells = scene.collectors.cell_voxels;
+        run.camera_cells = run.settings.cell_voxels;
+        run.fixed_view =
+            "collectors.closure \"camera\" lights cells towards a fixed one, allowed: another "
+            "closure";
     }
     // Tell before any work that the compositor asked for is not here.
-    if (kChecks && scene.collectors.compositor != Compositor::kBuiltin) {
+    if (kChecks && run.settings.compositor != Compositor::kBuiltin) {
         GlBlender blender;
-        PILEUS_TRY(open_gl_blender(scene.collectors.compositor, blender));
+        PILEUS_TRY(open_gl_blender(run.settings.compositor, blender));
     }
     return collectors_weigh(context, run);
 }
@@ -158,9 +163,9 @@ Status collectors_prepare(const Context& context, CollectorsRun& run) {
     PILEUS_TRY(collectors_weigh(context, run));
     PILEUS_TRY(run.camera_cells > 0
                    ? prepare_cells(run.world->medium, run.camera_cells, context, run.prepared)
-                   : prepare_collectors(run.world->medium, scene.collectors, scene.seed, context,
+                   : prepare_collectors(run.world->medium, run.settings, scene.seed, context,
                                         run.prepared));
-    PILEUS_TRY(make_photon_majorants(run.world->medium, scene.collectors.local_tracking, context,
+    PILEUS_TRY(make_photon_majorants(run.world->medium, run.settings.local_tracking, context,
                                      run.majorants));
     run.outlined_only = false;
     PILEUS_TRY(collectors_measure(context, run));

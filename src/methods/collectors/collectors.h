@@ -13,9 +13,11 @@ namespace pileus {
 
 /// The recipe.
 const Method& collectors_method();
+extern const MethodTools collectors_tools;
 
 /// Everything one run holds; made by `prepare`, lit by `shoot`, read by `show`.
 struct CollectorsRun : PhotonRun {
+    CollectorSettings settings;  ///< the scene's
     Prepared prepared;
     Buffer<float> source;  ///< light on nodes of the last picture
     int camera_cells = 0;  ///< > 0: the camera-directed estimate on cells of so many voxels
@@ -23,20 +25,19 @@ struct CollectorsRun : PhotonRun {
 
 /// The display that a run uses: cells lit towards the camera are always marched.
 inline bool is_marched(const CollectorsRun& run) {
-    return !run.scene->collectors.billboards || run.camera_cells > 0;
+    return !run.settings.billboards || run.camera_cells > 0;
 }
 
 /// Whether the display keeps what each collector scatters into every direction: a perspective view
 /// of a periodic medium shows each from many sides, one from within a medium those around it.
 inline bool shows_harmonics(const CollectorsRun& run) {
     return is_marched(run) && !run.scene->camera.orthographic &&
-           (run.world->medium.grid.periodic ||
-            run.scene->collectors.directions == NodeDirections::kAll);
+           (run.world->medium.grid.periodic || run.settings.directions == NodeDirections::kAll);
 }
 
 /// Whether nodes around the camera show each ray what they scatter along it, where it is so near.
 inline bool shows_near(const CollectorsRun& run) {
-    const CollectorSettings& c = run.scene->collectors;
+    const CollectorSettings& c = run.settings;
     return is_marched(run) && !run.scene->camera.orthographic && !shows_harmonics(run) &&
            run.camera_cells == 0 && !c.lobe_closure && c.directions == NodeDirections::kNear;
 }
@@ -81,9 +82,6 @@ Status collectors_billboards(const Context& context, const CollectorsRun& run,
 
 /// Frees what only tracing needs; part of rendering a still once its photons are shot.
 void collectors_end_tracing(CollectorsRun& run);
-
-/// Photons over the whole ring.
-std::int64_t collectors_photons(const Scene& scene, const Budget& budget);
 
 /// Shoots what a frame needs. kCheckFailed: interrupted before there was anything to show.
 Status collectors_light(const FrameStep& step, const Context& context, CollectorsRun& run);

@@ -57,7 +57,7 @@ Status splat(const Context& context, Span<const float> colour, int numbers, cons
     const StageClock clock(context, "splat");
     SplatOptions options = splat_options(run);
     options.beside = beside;
-    options.guided = run.scene->collectors.guided_nodes;
+    options.guided = run.settings.guided_nodes;
     options.sun_depth = sun_depths_at(run, nodes);
     // Light that is scattered forward on its way has not faded.
     options.sun_fades = 1 - mean_cosine(run.world->medium);
@@ -168,7 +168,7 @@ Status show_marched(const Context& context, CollectorsRun& run, const Reconstruc
         }
     }
     if (!kFilms || is_whole(run, lit))
-        return march_thinned(context, run.scene->collectors.thin, light, k, run, planes);
+        return march_thinned(context, run.thin, light, k, run, planes);
     return march_lit(context, run, light, k, planes.colour.data(), planes);
 }
 
@@ -198,7 +198,7 @@ Status show_harmonics(const Context& context, CollectorsRun& run, const Reconstr
         gather_by_node(context, k, node_count(k.source), run.source.span(), by_node.span());
         const NodeLight light{by_node.data()};
         PILEUS_TRY(!kFilms || (batch < 0 && is_whole(run, in))
-                       ? march_thinned(context, run.scene->collectors.thin, light, k, run, planes)
+                       ? march_thinned(context, run.thin, light, k, run, planes)
                        : march_lit(context, run, light, k, target, planes));
     }
     // The picture's own digest, not those of its parts.
@@ -259,7 +259,7 @@ Status collectors_billboards(const Context& context, const CollectorsRun& run,
     scene.channels = channels;
     scene.opaque_depth = opaque_depth;
     scene.half_depth = run.scene->wants_depth();
-    const Compositor by = run.scene->collectors.compositor;
+    const Compositor by = run.settings.compositor;
     if (!kFilms || by == Compositor::kBuiltin)
         return composite_billboards(
             scene, camera, context.threads, context.kernels->blend_tile, out,
@@ -287,7 +287,7 @@ void collectors_size_display(const CollectorsRun& run, const Context& context,
     if (!sizes.marched) return;
     const NodeGrid nodes = source_grid_of(run);
     sizes.source_nodes = source_nodes(nodes);
-    sizes.guided_nodes = run.scene->collectors.guided_nodes ? node_count(nodes) : 0;
+    sizes.guided_nodes = run.settings.guided_nodes ? node_count(nodes) : 0;
     // Without scattered light there is one dark node.
     sizes.planes_by_channel = sizes.planes;
     sizes.fine_nodes = reads_quads(context, int(sizes.planes), nodes) ? 1 : node_count(nodes);

@@ -14,7 +14,7 @@ namespace {
 
 /// Leaves, collectors and blocks: counted after preparation, bounded before.
 void size_prepared(const CollectorsRun& run, const Context& context, CollectorsSizes& s) {
-    const CollectorSettings& settings = run.scene->collectors;
+    const CollectorSettings& settings = run.settings;
     if (!run.outlined_only) {
         s.leaves = run.prepared.leaves.size();
         s.collectors = run.prepared.collectors.size();
@@ -36,7 +36,7 @@ void size_prepared(const CollectorsRun& run, const Context& context, CollectorsS
 }  // namespace
 
 CollectorsSizes collectors_sizes(const CollectorsRun& run, const Context& context) {
-    const CollectorSettings& settings = run.scene->collectors;
+    const CollectorSettings& settings = run.settings;
     CollectorsSizes s;
     s.grid = run.world->medium.grid;
     s.source = run.world->source;
@@ -68,7 +68,7 @@ Status collectors_measure(const Context& context, CollectorsRun& run) {
     CollectorsSizes sizes = collectors_sizes(run, context);
     run.plan.exact = !run.outlined_only;
     run.plan.accumulation =
-        plan_accumulation(run.scene->collectors.accumulation,
+        plan_accumulation(run.settings.accumulation,
                           {sizes.threads, bytes_of_sums(sizes), collectors_memory(sizes).peak(),
                            context.limits[LimitId::kMemory], run.plan.exact});
     if (kDevices && context.kernels->device != nullptr)
@@ -77,7 +77,7 @@ Status collectors_measure(const Context& context, CollectorsRun& run) {
     sizes.private_sums =
         scratch_bytes(run.plan.accumulation.bytes, bytes_of_sums(sizes), sizes.sums_ring);
     run.plan.memory = collectors_memory(sizes);
-    add_picture_rows(context, run.scene->collectors.thin, run);
+    add_picture_rows(context, run.thin, run);
     add_solid_rows(*run.scene, context.limits, run.world->solids, run.environment.depth,
                    run.plan.memory);
     PILEUS_TRY(

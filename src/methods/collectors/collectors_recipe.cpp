@@ -58,10 +58,6 @@ ShootPhotons shooting(const Context& context, CollectorsRun& run) {
 
 }  // namespace
 
-std::int64_t collectors_photons(const Scene& scene, const Budget& budget) {
-    return budget.photons >= 0 ? budget.photons : scene.collectors.photons;
-}
-
 Status collectors_light(const FrameStep& step, const Context& context, CollectorsRun& run) {
     return light_photon_frame(step, context, run, shooting(context, run));
 }
@@ -78,8 +74,13 @@ Status advance(std::uint64_t units, const Context& context, MethodRun& run, std:
 
 LightUnits units(const MethodRun& run) { return photon_units(own(run)); }
 
+void put_tables(const FrameWork& work, const MethodRun& run, MethodTables& tables) {
+    if (own(run).thins) put_work(work, tables.collectors.thin);
+    tables.collectors.light_refresh = work.light_refresh;
+}
+
 Status most_units(const FrameWork& work, const MethodRun& run, FrameUnits& out) {
-    if (run.scene->collectors.billboards)
+    if (own(run).settings.billboards)
         return Status::bad_input(
             "units: what billboards take depends on the view, allowed: display = \"march\"");
     return photon_most_units(work, own(run), out);
@@ -93,17 +94,33 @@ Status compose(const FrameStep& step, const Context& context, MethodRun& method_
     const CameraParams camera = make_camera(run.scene->camera, 0, run.world->medium.low_m);
     CollectorColours colours;
     planes = &run.planes;
-    run.planes.late = late_photons(step.late, run.scene->collectors.thin, camera, step.frame, run);
+    run.planes.late = late_photons(step.late, run.thin, camera, step.frame, run);
     return collectors_compose(camera, context, run, colours, run.planes);
 }
 
 }  // namespace
 
 const Method& collectors_method() {
-    static constexpr LiveMethod live{aim, advance, units, compose, take_photon_work, most_units};
-    static constexpr Method method{
-        "collectors",        WorldUse::kGrid,    make,  kept(kChecks, check), outline, prepare,
-        kept(kFilms, light), kept(kFilms, show), count, kept(kPlans, report), &live};
+    static constexpr LiveMethod live{aim,
+                                     advance,
+                                     units,
+                                     compose,
+                                     photon_full_work,
+                                     set_photon_limits,
+                                     kept(kChecks, put_tables),
+                                     most_units};
+    static constexpr Method method{"collectors",
+                                   WorldUse::kGrid,
+                                   make,
+                                   kept(kChecks, check),
+                                   outline,
+                                   prepare,
+                                   kept(kFilms, light),
+                                   kept(kFilms, show),
+                                   count,
+                                   kept(kPlans, report),
+                                   kept(kPlans, photon_budget_used),
+                                   &live};
     return method;
 }
 

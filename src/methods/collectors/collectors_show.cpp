@@ -22,10 +22,10 @@ ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const 
     in.shares = run.prepared.shares.span();
     in.camera = camera;
     in.deposit = run.deposit;
-    in.closure = run.camera_cells > 0                 ? Closure::kCamera
-                 : run.scene->collectors.lobe_closure ? Closure::kLobe
-                                                      : Closure::kSh;
-    in.window = run.scene->collectors.window;
+    in.closure = run.camera_cells > 0        ? Closure::kCamera
+                 : run.settings.lobe_closure ? Closure::kLobe
+                                             : Closure::kSh;
+    in.window = run.settings.window;
     if (in.closure == Closure::kSh && !in.window) damp_rings(in);
     in.batches = photon_batches(run);
     in.constant = !is_marched(run);

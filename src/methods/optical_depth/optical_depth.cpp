@@ -23,7 +23,8 @@ Status check(const Scene& scene, const Budget& budget) {
 
 Status outline(const Context& context, MethodRun& method_run) {
     RaymarchRun& run = static_cast<RaymarchRun&>(method_run);
-    const OpticalDepthSettings& s = run.scene->optical_depth;
+    run.looks = run.scene->optical_depth;
+    const OpticalDepthSettings& s = run.looks;
     const std::int64_t steps = run.budget.steps >= 0 ? run.budget.steps : s.steps;
     run.simple = &s;
     run.settings = RaymarchSettings{};
@@ -51,6 +52,7 @@ const Method& optical_depth_method() {
                                    kept(kFilms, march_show),
                                    march_count,
                                    kept(kPlans, march_report),
+                                   kept(kPlans, march_budget_used),
                                    &live_march};
     return method;
 }

@@ -9,5 +9,6 @@ namespace pileus {
 
 /// The recipe.
 const Method& optical_depth_method();
+extern const MethodTools optical_depth_tools;
 
 }  // namespace pileus

@@ -23,7 +23,7 @@ struct BoardLens {
 class BoardMaker {
 public:
     BoardMaker(const ParticlesRun& run, const BoardLens& lens)
-        : tree_(run.tree), c_(run.camera), s_(run.scene->particles), lens_(lens) {}
+        : tree_(run.tree), c_(run.camera), s_(run.settings), lens_(lens) {}
 
     ParticleBoard board(std::size_t i) const {
         const ParticleBall& ball = tree_.balls[i];
@@ -118,8 +118,8 @@ Status show_boards(const Context& context, const ParticleMarchParams& march, Par
     k.camera = run.camera;
     k.boards = boards.data();
     k.moving = moves(run) ? 1 : 0;
-    k.curved = scene.lens.aperture_radius_m > 0 || scene.particles.falloff != kChordPower ? 1 : 0;
-    k.cut = float(scene.particles.stop_below);
+    k.curved = scene.lens.aperture_radius_m > 0 || run.settings.falloff != kChordPower ? 1 : 0;
+    k.cut = float(run.settings.stop_below);
     const ParticleBoardBuffers b{planes.opaque_depth.data(), planes.transmittance.data(),
                                  planes.colour.data(), planes.half_depth.data(),
                                  planes.optical_depth.data()};

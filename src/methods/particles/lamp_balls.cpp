@@ -79,8 +79,8 @@ void see_past_solids(const Context& context, const ParticlesRun& run, const Lamp
         for (std::size_t i = 0; i < run.tree.balls.size(); ++i) seen[i] = 1;
         return;
     }
-    const LightPlaces places = light_places(run.scene->particles, lamp);
-    const float left = float(run.scene->particles.solid_shadow);
+    const LightPlaces places = light_places(run.settings, lamp);
+    const float left = float(run.settings.solid_shadow);
     parallel_each(context.threads, run.tree.balls.size(), [&](std::size_t i) {
         seen[i] = seen_by(solids, run.tree.balls[i], lamp, places, left);
     });
@@ -95,11 +95,11 @@ Status light_by_lamps(const Context& context, ParticlesRun& run) {
     PILEUS_TRY(allocate_once(arrays::particle_lamps(count, lamps.size()), run.lamp_reach));
     if (kMeshes && run.world->solids.meshes)
         PILEUS_TRY(allocate_once(arrays::particle_lamps(count, lamps.size()), run.lamp_seen));
-    const double most = run.scene->particles.most_depth;
+    const double most = run.settings.most_depth;
     Buffer<float> depths;
     for (std::size_t l = 0; l < lamps.size(); ++l) {
         const LampParams& lamp = lamps[l];
-        const LightPlaces places = light_places(run.scene->particles, lamp);
+        const LightPlaces places = light_places(run.settings, lamp);
         PILEUS_TRY(allocate_once(arrays::particle_depths(count, places.count), depths));
         SunTiles tiles;
         if (lamp.parallel != 0)

@@ -22,7 +22,7 @@ LightPlaces light_places(const ParticlesSettings& settings, const LampParams& la
 
 /// Balls that shadow others towards parallel lights.
 inline Span<const ParticleBall> casts_of(const ParticlesRun& run) {
-    return run.scene->particles.occluders < 1 ? run.occluders.span() : run.tree.balls.span();
+    return run.settings.occluders < 1 ? run.occluders.span() : run.tree.balls.span();
 }
 
 /// The linear function through the depths at the places, each `stride` numbers after the other.

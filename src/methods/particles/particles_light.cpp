@@ -36,7 +36,7 @@ void light_by_sky(const Context& context, ParticlesRun& run) {
 
 /// What scattering leaves in place of light scattered once: octaves as raymarch has them.
 Octaves octaves_of(const ParticlesRun& run) {
-    const ParticlesSettings& s = run.scene->particles;
+    const ParticlesSettings& s = run.settings;
     const bool many = s.scattering == ParticleScattering::kOctaves;
     return {many ? s.octaves : 1, float(s.octave_extinction), float(s.octave_share)};
 }
@@ -53,13 +53,13 @@ constexpr float kReach = 0.57735026919f;
 Status light_by_sun(const Context& context, ParticlesRun& run) {
     const StageClock clock(context, "light");
     const std::size_t count = run.tree.balls.size();
-    const LightPlaces places = light_places(run.scene->particles, run.lighting.to_sun);
+    const LightPlaces places = light_places(run.settings, run.lighting.to_sun);
     PILEUS_TRY(allocate_once(arrays::particle_shades(count), run.shade));
     Buffer<float> depths;
     PILEUS_TRY(allocate(arrays::particle_depths(count, places.count), depths));
     SunTiles tiles;
     PILEUS_TRY(make_sun_tiles(context, run.tree, casts_of(run), run.lighting.to_sun, tiles));
-    const double most = run.scene->particles.most_depth;
+    const double most = run.settings.most_depth;
     for (int n = 0; n < places.count; ++n)
         PILEUS_TRY(sun_depths(context, tiles, places.offset[n], most > 0 ? float(most) : 3e38f,
                               depths.data() + std::size_t(n) * count, n, places.count));
@@ -114,7 +114,7 @@ ParticleShade shade_of(const float* depths, std::size_t stride, const LightPlace
 }
 
 void choose_orders(ParticlesRun& run) {
-    const ParticlesSettings& s = run.scene->particles;
+    const ParticlesSettings& s = run.settings;
     const Optics& optics = run.world->medium.optics[0];
     const float mean_cosine = phase_moment(optics.phase, 1);
     double albedo = 0;
@@ -141,10 +141,10 @@ Status light_particles(const Context& context, ParticlesRun& run) {
     run.lit = false;
     choose_orders(run);
     if (run.tree.balls.empty()) return Status::ok();
-    const double share = run.scene->particles.occluders;
+    const double share = run.settings.occluders;
     if (share < 1 && run.occluders.empty())
         PILEUS_TRY(choose_occluders(run.tree, share, run.occluders));
-    if (run.scene->particles.light != ParticleLight::kExact) {
+    if (run.settings.light != ParticleLight::kExact) {
         if (run.orders > 0)
             PILEUS_TRY(light_by_sun(context, run));
         else
@@ -159,7 +159,7 @@ Status light_particles(const Context& context, ParticlesRun& run) {
         }
     }
     PILEUS_TRY(light_by_lamps(context, run));
-    if (run.scene->particles.sky_ambient) {
+    if (run.settings.sky_ambient) {
         run.sky_nodes.seen.truncate(0);  // the medium may be another frame's
         PILEUS_TRY(make_sky_nodes(context, run.world->medium, run.majorants, run.lighting, 0,
                                   octaves_of(run), SkyView{}, run.sky_nodes));
@@ -177,7 +177,7 @@ Status light_particles(const Context& context, ParticlesRun& run) {
 namespace {
 
 ParticleMarchParams march_params(const ParticlesRun& run) {
-    const ParticlesSettings& s = run.scene->particles;
+    const ParticlesSettings& s = run.settings;
     const Optics& optics = run.world->medium.optics[0];
     ParticleMarchParams k{};
     k.view = run.tree.view();
@@ -229,7 +229,7 @@ ParticleMarchParams lit_from_around(const ParticlesRun& run) {
 
 Status draw_particles(const Context& context, const ParticleMarchParams& k, ParticlesRun& run) {
     Planes& planes = run.planes;
-    if (run.scene->particles.billboards) return show_boards(context, k, run);
+    if (run.settings.billboards) return show_boards(context, k, run);
     const StageClock clock(context, "march");
     ParticleMarchBuffers b{};
     b.shade = run.shade.data();

@@ -53,6 +53,7 @@ Status outline(const Context& context, MethodRun& method_run) {
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
                                  "\": method particles runs on the host alone, allowed: another, "
                                  "or another method");
+    run.settings = run.scene->particles;
     choose_light(run.sun_of(0), run);
     return plan_particles(context, run);
 }
@@ -70,13 +71,12 @@ std::string digest_of(const ParticleTree& tree) {
 
 Status prepare(const Context& context, MethodRun& method_run) {
     ParticlesRun& run = own(method_run);
-    const Scene& scene = *run.scene;
     choose_light(run.sun_of(0), run);
     PILEUS_TRY(make_majorants(run.world->medium, false, context, run.majorants));
     {
         const StageClock clock(context, "octree");
         const ParticleSet& set = run.world->particles;
-        PILEUS_TRY(make_particle_tree(set, run.world->medium.low_m, scene.particles.leaf,
+        PILEUS_TRY(make_particle_tree(set, run.world->medium.low_m, run.settings.leaf,
                                       context.threads, run.tree));
     }
     run.particles = run.tree.balls.size();
@@ -158,12 +158,29 @@ Status compose(const FrameStep& step, const Context& context, MethodRun& method_
     return light(step, context, method_run);
 }
 
+FrameWork full_work(const MethodRun& run) {
+    FrameWork out;
+    const ParticlesSettings& s = static_cast<const ParticlesRun&>(run).settings;
+    if (!s.billboards) out.steps = run.budget.steps >= 0 ? int(run.budget.steps) : s.bins;
+    return out;
+}
+
+Status set_limits(const FrameWork& work, MethodRun& run) {
+    if (work.steps > 0) own(run).settings.bins = work.steps;
+    return Status::ok();
+}
+
+void put_tables(const FrameWork& work, const MethodRun&, MethodTables& tables) {
+    if (work.steps > 0) tables.particles.bins = work.steps;
+}
+
 Status most_units(const FrameWork&, const MethodRun&, FrameUnits&) {
     return Status::bad_input(
         "units: what method particles takes depends on the view, allowed: another method");
 }
 
-constexpr LiveMethod kLive{aim, advance, units, compose, nullptr, most_units};
+constexpr LiveMethod kLive{
+    aim, advance, units, compose, full_work, set_limits, kept(kChecks, put_tables), most_units};
 
 void count(const MethodRun&, Counts& counters) {
     counters.emplace_back("majorant_violations", 0);  // the grid only casts shadows
@@ -201,6 +218,7 @@ const Method& particles_method() {
                                    kept(kFilms, show),
                                    count,
                                    kept(kPlans, report_run),
+                                   nullptr,
                                    &kLive};
     return method;
 }

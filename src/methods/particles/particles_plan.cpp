@@ -35,7 +35,7 @@ const char* scattering_text(ParticleScattering kind) {
 
 void note_plan(ParticlesRun& run) {
     const Scene& scene = *run.scene;
-    const ParticlesSettings& s = scene.particles;
+    const ParticlesSettings& s = run.settings;
     Plan& plan = run.plan;
     plan = Plan{};
     plan.bias = {"particles", "light scattered more than once is missing or approximate",
@@ -50,9 +50,8 @@ void note_plan(ParticlesRun& run) {
     else if (scene.lens.shutter_s > 0)
         plan.leave_out("motion blur", "the particles have no velocities");
     if (run.lighting.sunlit || (scene.sun.present && moves_sun(scene)))
-        plan.need(scene.particles.light == ParticleLight::kExact
-                      ? "sunlight by a walk from each bin"
-                      : "sunlight at each particle");
+        plan.need(run.settings.light == ParticleLight::kExact ? "sunlight by a walk from each bin"
+                                                              : "sunlight at each particle");
     else
         plan.leave_out("sunlight",
                        scene.sun.present ? "below the ground's horizon, or dark" : "no sun");
@@ -129,12 +128,12 @@ void weigh_memory(const Context& context, ParticlesRun& run) {
         t.add("numbers of particles", Stage::kDensity, Stage::kWrite, bytes_of(particles, 2 * 8));
     t.add("particles while they are sorted", Stage::kMajorants, Stage::kMajorants,
           bytes_of(particles, 2 * 16));
-    if (scene.particles.light != ParticleLight::kExact) {
+    if (run.settings.light != ParticleLight::kExact) {
         add(t, arrays::particle_shades(particles));
-        add(t, arrays::particle_depths(particles, light_samples(scene.particles)));
+        add(t, arrays::particle_depths(particles, light_samples(run.settings)));
     }
-    if (scene.particles.light != ParticleLight::kExact || !run.lighting.lamps.empty()) {
-        if (scene.particles.occluders < 1) add(t, arrays::particle_occluders(particles));
+    if (run.settings.light != ParticleLight::kExact || !run.lighting.lamps.empty()) {
+        if (run.settings.occluders < 1) add(t, arrays::particle_occluders(particles));
         add(t, arrays::tile_balls(particles));
         add(t, arrays::tile_places(particles));
         t.add("tiles", Stage::kShadow, Stage::kShadow,
@@ -142,16 +141,16 @@ void weigh_memory(const Context& context, ParticlesRun& run) {
     }
     const std::size_t lamps = run.lighting.lamps.size();
     const bool solids = run.world->solids.meshes;
-    if (solids && run.orders > 0 && scene.particles.light != ParticleLight::kExact)
+    if (solids && run.orders > 0 && run.settings.light != ParticleLight::kExact)
         add(t, arrays::particle_seen(particles));
     if (lamps > 0) {
         add(t, arrays::particle_lamps((solids ? 3u : 2u) * particles, lamps));
-        if (scene.particles.light == ParticleLight::kExact)
+        if (run.settings.light == ParticleLight::kExact)
             add(t, arrays::particle_depths(particles, 4));
     }
     if (lamps > 0 || run.outlined_only || has_own_light(run))
         add(t, arrays::particle_around(particles));
-    if (scene.particles.sky_ambient) {
+    if (run.settings.sky_ambient) {
         const std::uint64_t nodes = node_count(sky_node_grid(run.world->medium));
         const int sets = sky_node_sets(run.lighting);
         add(t, arrays::sky_light(nodes, sets, Stage::kWrite));
@@ -164,7 +163,7 @@ void weigh_memory(const Context& context, ParticlesRun& run) {
     add(t, arrays::view_balls(particles));
     t.add("tiles of the picture", Stage::kDisplay, Stage::kDisplay,
           bytes_of(std::uint64_t(context.threads), view_tile_scratch_bytes()));
-    if (scene.particles.billboards)
+    if (run.settings.billboards)
         add(t, arrays::particle_boards(particles));
     else
         add(t, arrays::particle_bins(std::uint64_t(context.threads), bins_of(run)));

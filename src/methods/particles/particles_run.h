@@ -21,6 +21,7 @@ struct ParticleOrder {
 };
 
 struct ParticlesRun : MethodRun {
+    ParticlesSettings settings;   ///< the scene's
     std::uint64_t particles = 0;  ///< once they are read; before: 0
     ParticleTree tree;
     Majorants majorants;             ///< of the grid, which ground and solids see
@@ -88,7 +89,7 @@ inline Array<ParticleBoard> particle_boards(std::uint64_t particles) {
 /// Most bins along a ray.
 constexpr int kMostParticleBins = 4096;
 inline int bins_of(const ParticlesRun& run) {
-    return run.budget.steps > 0 ? int(run.budget.steps) : run.scene->particles.bins;
+    return run.budget.steps > 0 ? int(run.budget.steps) : run.settings.bins;
 }
 
 /// Places in each particle that are lit.

@@ -5,6 +5,7 @@
 #include "kernels_cpu/core/profile.h"
 #include "src/base/digest.h"
 #include "src/methods/check_support.h"
+#include "src/plan/report.h"
 #include "src/world/plan_parts.h"
 
 namespace pileus {
@@ -39,12 +40,14 @@ void digest_prepared(PathRun& run) {
 
 Status outline(const Context& context, MethodRun& method_run) {
     PathRun& run = own(method_run);
+    run.settings = run.scene->path;
+    run.filter = run.scene->filter;
     if (kDevices)
         PILEUS_TRY(check_host_lights(context, run.scene->lights, run.scene->atmosphere.present,
                                      run.world->medium));
-    if (kDevices && context.kernels->device != nullptr && path_filters(*run.scene))
+    if (kDevices && context.kernels->device != nullptr && path_filters(run.filter))
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
-                                 "\": filter.kind = \"" + path_filter_name(*run.scene) +
+                                 "\": filter.kind = \"" + path_filter_name(run.filter) +
                                  "\" runs on the host alone, allowed: another, or none");
     choose_light(run.sun_of(0), run);
     run.camera = make_camera(run.scene->camera, 0, run.world->medium.low_m);
@@ -94,7 +97,7 @@ LightUnits units(const MethodRun& method_run) {
     const auto& size = run.scene->camera.resolution;
     LightUnits out;
     out.unit = "sample";
-    out.whole = std::uint64_t(run.scene->path.samples_per_pixel);
+    out.whole = std::uint64_t(run.settings.samples_per_pixel);
     out.unit_photons = std::uint64_t(size[0]) * std::uint64_t(size[1]);
     out.held = run.begun ? run.film.samples : 0;
     return out;
@@ -104,6 +107,11 @@ Status most_units(const FrameWork&, const MethodRun& method_run, FrameUnits& out
     const auto& size = static_cast<const PathRun&>(method_run).scene->camera.resolution;
     out.pixels = out.rays = std::uint64_t(size[0]) * std::uint64_t(size[1]);
     return Status::ok();
+}
+
+/// Whole passes; a film that ran on within one has more of some pixels.
+void budget_used(int, const MethodRun&, const Report& report, Budget& used) {
+    used.samples = std::int64_t(report.paths.samples_per_pixel);
 }
 
 Status compose(const FrameStep&, const Context& context, MethodRun& method_run, Planes*& planes) {
@@ -137,17 +145,18 @@ PathInput path_input(const Context& context, const PathRun& run) {
     in.seed = run.seed;
     in.threads = context.threads;
     in.kernels = context.kernels;
-    in.max_depth = run.scene->path.max_depth;
-    in.jitter = !run.scene->path.centre;
-    in.guide = run.scene->path.guide;
+    in.max_depth = run.settings.max_depth;
+    in.jitter = !run.settings.centre;
+    in.guide = run.settings.guide;
     in.sun_radius_deg = run.scene->sun.angular_radius_deg;
     in.parts = path_parts(run.scene->output) || run.lighting.air ||
-               (path_regresses(*run.scene) && run.lighting.opaque());
+               (path_regresses(run.filter) && run.lighting.opaque());
     return in;
 }
 
 const Method& path_method() {
-    static constexpr LiveMethod live{aim, advance, units, compose, nullptr, most_units, true};
+    static constexpr LiveMethod live{aim,     advance, units,      compose, nullptr,
+                                     nullptr, nullptr, most_units, true,    true};
     static constexpr Method method{"path",
                                    WorldUse::kGrid,
                                    make,
@@ -158,6 +167,7 @@ const Method& path_method() {
                                    kept(kFilms, path_show),
                                    path_count,
                                    kept(kPlans, path_report),
+                                   kept(kPlans, budget_used),
                                    &live};
     return method;
 }

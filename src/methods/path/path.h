@@ -16,6 +16,8 @@ namespace pileus {
 
 /// Everything one run holds. Each frame has a film of its own, made and freed with it.
 struct PathRun : MethodRun {
+    PathSettings settings;  ///< the scene's
+    FilterSettings filter;
     Majorants majorants;
     CameraParams camera{};
     std::uint64_t seed = 0;  ///< of the frame
@@ -31,6 +33,7 @@ struct PathRun : MethodRun {
 
 /// The recipe.
 const Method& path_method();
+extern const MethodTools path_tools;
 
 /// Lights, camera and noise of a frame.
 void path_aim(int frame, PathRun& run);
@@ -64,14 +67,14 @@ Status path_straight(const Context& context, const PathRun& run, Buffer<float>& 
 Status path_air(const Context& context, PathRun& run, Buffer<float>& straight);
 
 /// Whether the picture is filtered, and what that asks of a scene. kBadInput: it cannot be.
-inline bool path_filters(const Scene& scene) { return scene.filter.kind != FilterKind::kNone; }
+inline bool path_filters(const FilterSettings& filter) { return filter.kind != FilterKind::kNone; }
 /// Whether guides are marched for it.
-inline bool path_regresses(const Scene& scene) {
-    return scene.filter.kind == FilterKind::kRegression;
+inline bool path_regresses(const FilterSettings& filter) {
+    return filter.kind == FilterKind::kRegression;
 }
 /// As scenes name it.
-inline const char* path_filter_name(const Scene& scene) {
-    return path_regresses(scene) ? "regression" : path_filters(scene) ? "oidn" : "none";
+inline const char* path_filter_name(const FilterSettings& filter) {
+    return path_regresses(filter) ? "regression" : path_filters(filter) ? "oidn" : "none";
 }
 Status check_path_filter(const Scene& scene);
 

@@ -23,7 +23,7 @@ Status path_straight(const Context& context, const PathRun& run, Buffer<float>& 
     const Planes& p = run.planes;
     const std::size_t pixels = run.film.pixels();
     Buffer<float> sky;
-    if (path_filters(*run.scene)) PILEUS_TRY(path_sky_behind(context, run, sky));
+    if (path_filters(run.filter)) PILEUS_TRY(path_sky_behind(context, run, sky));
     PILEUS_TRY(allocate(arrays::film_means(3, pixels), straight));
     for (std::size_t at = 0; at < 3 * pixels; ++at) {
         const std::size_t i = at % pixels;

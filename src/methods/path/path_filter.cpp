@@ -54,7 +54,7 @@ RegressionInput regression_input(const Context& context, const PathRun& run, int
     in.optical_depth = p.optical_depth.data();
     in.guides = run.guides.planes.data();
     in.opaque_depth = p.opaque_depth.data();
-    in.radius_pixels = run.scene->filter.radius_pixels;
+    in.radius_pixels = run.filter.radius_pixels;
     in.fold = fold;
     return in;
 }
@@ -199,27 +199,27 @@ Status path_sky_behind(const Context& context, const PathRun& run, Buffer<float>
 }
 
 Status check_path_filter(const Scene& scene) {
-    if (!path_filters(scene)) return Status::ok();
+    if (!path_filters(scene.filter)) return Status::ok();
     const std::string key = key_of(scene);
-    const std::string value = std::string("\"") + path_filter_name(scene) + "\"";
+    const std::string value = std::string("\"") + path_filter_name(scene.filter) + "\"";
     if (scene.camera.flux)
         return Status::bad_input(key +
                                  "a flat detector (camera.projection \"flux\") sees along no "
                                  "single ray, " +
                                  value + ", allowed: none");
     const OutputSettings& output = scene.output;
-    const bool error = output.layer_error && !path_regresses(scene);
+    const bool error = output.layer_error && !path_regresses(scene.filter);
     const char* layer = error ? "error" : output.layer_light ? "light" : nullptr;
     if (layer != nullptr)
         return Status::bad_input(key + "a filtered picture has no layer \"" + layer + "\", " +
                                  value + ", allowed: none, or other layers");
-    return path_regresses(scene) ? Status::ok() : check_oidn(key);
+    return path_regresses(scene.filter) ? Status::ok() : check_oidn(key);
 }
 
 Status path_filter(const Context& context, PathRun& run) {
     const StageClock clock(context, "filter");
     // Other filters are foreign libraries, and not packed.
-    if (!kFilms || path_regresses(*run.scene)) {
+    if (!kFilms || path_regresses(run.filter)) {
         Known known;
         PILEUS_TRY(find_known(context, run, known));
         return kFilms && run.scene->output.layer_error ? regress_with_error(context, run, known)

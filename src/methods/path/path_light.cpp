@@ -25,7 +25,7 @@ Status make_alpha(const Context& context, PathRun& run) {
     colour.swap(run.planes.colour);
     if (!room) return room;
     if (run.camera.flux != 0) return Status::ok();  // alpha 1: all pixels are measured
-    if (path_regresses(*run.scene))
+    if (path_regresses(run.filter))
         return march_guides(context, run.world->medium, run.majorants, run.lighting, run.camera,
                             run.scene->wants_depth(), run.planes, run.guides);
     const MarchWanted wanted{run.scene->wants_depth(), output.layer_optical_depth};
@@ -107,7 +107,7 @@ Status resume(const PassRule& rule, const Keeper& keeper, PathRun& run) {
 /// A host sees light before its media and behind, and no errors: but for a filter, which reads all.
 PathInput live_input(const Context& context, const PathRun& run) {
     PathInput in = path_input(context, run);
-    in.brief = !path_filters(*run.scene);
+    in.brief = !path_filters(run.filter);
     return in;
 }
 
@@ -147,7 +147,7 @@ Status path_advance(std::uint64_t samples, const Context& context, PathRun& run)
 Status path_light(const FrameStep& step, const Context& context, MethodRun& method_run) {
     PathRun& run = static_cast<PathRun&>(method_run);
     const PathInput in = path_input(context, run);
-    const PassRule rule = pass_rule(run.scene->path, run.budget);
+    const PassRule rule = pass_rule(run.settings, run.budget);
     PILEUS_TRY(make_film(in, run.film));
     const bool several = run.scene->animation.present && run.scene->animation.frames > 1;
     Keeper keeper{

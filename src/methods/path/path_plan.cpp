@@ -35,7 +35,7 @@ void note_sun(const Scene& scene, const PathRun& run, Plan& plan) {
         plan.need("the sun's disc");
     else
         plan.leave_out("the sun's disc", "sun.angular_radius_deg = 0");
-    if (!scene.path.guide)
+    if (!run.settings.guide)
         plan.leave_out("branches towards the sun", "path.guide = false");
     else if (fit_guide(run.world->medium).on == 0)
         plan.leave_out("branches towards the sun", "no peaked phase function");
@@ -78,8 +78,9 @@ void note_parts(const Scene& scene, const PathRun& run, Plan& plan) {
     if (!scene.wants_depth()) plan.leave_out("depth of the medium", "no depth layer");
     if (!output.layer_optical_depth) plan.leave_out("optical depth", "no optical_depth layer");
     if (!output.layer_error) plan.leave_out("standard error per pixel", "no error layer");
-    if (scene.path.centre) plan.leave_out("rays spread over pixels", "pixel = \"centre\"");
-    if (!path_filters(scene)) plan.leave_out("filter of the picture", "filter.kind = \"none\"");
+    if (run.settings.centre) plan.leave_out("rays spread over pixels", "pixel = \"centre\"");
+    if (!path_filters(run.filter))
+        plan.leave_out("filter of the picture", "filter.kind = \"none\"");
     if (run.budget.state.empty()) plan.leave_out("state of the tracing", "no --state");
 }
 
@@ -88,14 +89,14 @@ void note_plan(PathRun& run) {
     Plan& plan = run.plan;
     plan = Plan{};
     plan.bias = {"path", "none", "docs/path.md"};
-    if (path_filters(scene))
+    if (path_filters(run.filter))
         plan.bias = {"path, filtered",
-                     path_regresses(scene)
+                     path_regresses(run.filter)
                          ? "small, where light follows nothing that is known without noise"
                          : "what a network of others takes for noise; other bits elsewhere",
                      "docs/filter.md"};
-    if (scene.path.max_depth > 0)
-        plan.bias.size = "light scattered more than " + std::to_string(scene.path.max_depth) +
+    if (run.settings.max_depth > 0)
+        plan.bias.size = "light scattered more than " + std::to_string(run.settings.max_depth) +
                          " times is missing";
     plan.need("majorants");
     if (scene.camera.flux)
@@ -151,8 +152,9 @@ void weigh_memory(const Context& context, PathRun& run) {
                                 (output.layer_light ? 3u : 0u) + (output.layer_order ? 3u : 0u) +
                                 (output.layer_error ? 3u : 0u);
     add(t, arrays::film_means(light, pixels));
-    if (path_filters(scene) && !path_regresses(scene)) add(t, arrays::oidn_pixels(pixels));
-    if (path_regresses(scene)) {
+    if (path_filters(run.filter) && !path_regresses(run.filter))
+        add(t, arrays::oidn_pixels(pixels));
+    if (path_regresses(run.filter)) {
         add(t, arrays::guide_nodes(run.world->medium, run.world->solids.meshes),
             arrays::guide_planes(pixels));
         if (!output.layer_optical_depth) add(t, arrays::picture_planes(1, pixels, Stage::kPaths));
@@ -178,7 +180,7 @@ Status path_measure(const Context& context, PathRun& run) {
     weigh_memory(context, run);
     PILEUS_TRY(
         check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), run.scene->file));
-    const PassRule rule = pass_rule(run.scene->path, run.budget);
+    const PassRule rule = pass_rule(run.settings, run.budget);
     // Where an error or a time decides, no more is known than the bound: it is not work to come.
     const bool open = rule.error > 0 || rule.seconds > 0;
     const double paths =

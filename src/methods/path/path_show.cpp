@@ -45,7 +45,7 @@ Status fill_planes(const Context& context, PathRun& run) {
     if (kFilms && output.layer_order)
         PILEUS_TRY(mean_planes(context, run.film, kPathSingle, p.single));
     // One sample has no scatter to tell an error from.
-    if (kFilms && output.layer_error && run.film.samples >= 2 && !path_filters(*run.scene))
+    if (kFilms && output.layer_error && run.film.samples >= 2 && !path_filters(run.filter))
         PILEUS_TRY(error_planes(run.film, p.error));
     return Status::ok();
 }
@@ -59,7 +59,7 @@ std::string film_digest(const Film& film) {
 /// The report tells the error also where no layer shows it.
 void report_error(const PathRun& run, const ErrorSum& sum, Report& report) {
     // The film's scatter is not what is left of it in a filtered picture.
-    report.errors.known = run.film.samples >= 2 && sum.count > 0 && !path_filters(*run.scene);
+    report.errors.known = run.film.samples >= 2 && sum.count > 0 && !path_filters(run.filter);
     if (!report.errors.known) return;
     report.errors.mean_relative = sum.mean_relative();
     report.errors.rmse_estimate = __builtin_sqrt(sum.square / sum.count);
@@ -79,7 +79,7 @@ Status path_planes(const Context& context, PathRun& run) {
     PILEUS_TRY(fill_planes(context, run));
     Buffer<float> straight;
     PILEUS_TRY(path_straight(context, run, straight));
-    if (path_filters(*run.scene)) PILEUS_TRY(path_filter(context, run));
+    if (path_filters(run.filter)) PILEUS_TRY(path_filter(context, run));
     return path_air(context, run, straight);
 }
 

@@ -61,8 +61,8 @@ void choose_numbers(const PhotonGridSettings& s, PhotonGridRun& run) {
 
 /// Decides what a collision stores, and proves that the sums hold it. What a budget may add counts
 /// from the start, so that it changes no bit; a high peak leaves it less room.
-Status plan_deposit(const Scene& scene, PhotonGridRun& run) {
-    choose_numbers(scene.photon_grid, run);
+Status plan_deposit(PhotonGridRun& run) {
+    choose_numbers(run.settings, run);
     PILEUS_TRY(check_camera_closure("photon_grid.closure", run));
     const double largest = largest_deposit(run);
     const double all = photons_of(run) * double(run.generations);
@@ -89,7 +89,7 @@ void note_plan(PhotonGridRun& run) {
         plan.leave_out("coefficients per colour channel", "achromatic medium: one set per light");
     if (is_white(run.world->medium)) plan.leave_out("absorption", "albedo 1");
     note_solids(run.world->solids, run.environment.depth, plan);
-    note_upsampling(scene, scene.photon_grid.thin, plan);
+    note_upsampling(scene, run.thin, plan);
     if (!run.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
     if (!scene.wants_depth()) plan.leave_out("depth of the medium", "no depth layer");
     if (!scene.output.layer_error) plan.leave_out("batches and second moments", "no error layer");
@@ -167,7 +167,7 @@ GridLightInput photon_grid_light_input(const CameraParams& camera, const Context
     in.cells = run.cells;
     in.marks = run.near.marks.span();
     in.shares = run.shares.span();
-    in.closure = run.scene->photon_grid.closure;
+    in.closure = run.settings.closure;
     if (in.closure == GridClosure::kSh) damp_rings(in);
     in.unit_m2 = unit_m2(run);
     return in;
@@ -175,7 +175,7 @@ GridLightInput photon_grid_light_input(const CameraParams& camera, const Context
 
 Status photon_grid_weigh(const Context& context, PhotonGridRun& run) {
     const Scene& scene = *run.scene;
-    const PhotonGridSettings& settings = scene.photon_grid;
+    const PhotonGridSettings& settings = run.settings;
     run.budget_photons = run.budget.photons >= 0 ? run.budget.photons : settings.photons;
     run.ring = settings.ring;
     run.cells = photon_cells(settings, run.budget_photons, run.world->medium);
@@ -185,7 +185,7 @@ Status photon_grid_weigh(const Context& context, PhotonGridRun& run) {
                                  "scene has several, allowed: sh, published, mean");
     PILEUS_TRY(choose_photon_lights(std::uint64_t(settings.generations), run));
     aim_deposit(run);
-    PILEUS_TRY(plan_deposit(scene, run));
+    PILEUS_TRY(plan_deposit(run));
     if (kPlans)
         run.plan.bias = {"photon-grid",
                          "cells and the bands left out blur the light of many orders",
@@ -198,8 +198,8 @@ Status photon_grid_prepare(const Context& context, PhotonGridRun& run) {
     const Medium& medium = run.world->medium;
     // The values may show that there is no medium, or more of it than sizes tell.
     PILEUS_TRY(photon_grid_weigh(context, run));
-    PILEUS_TRY(make_cell_majorants(medium, run.scene->photon_grid.local_tracking, run.cells,
-                                   context, run.majorants, run.near));
+    PILEUS_TRY(make_cell_majorants(medium, run.settings.local_tracking, run.cells, context,
+                                   run.majorants, run.near));
     PILEUS_TRY(
         make_cell_shares(medium, run.cells, run.near.marks.span(), context.threads, run.shares));
     run.outlined_only = false;

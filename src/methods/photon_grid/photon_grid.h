@@ -12,12 +12,14 @@ namespace pileus {
 
 /// The recipe.
 const Method& photon_grid_method();
+extern const MethodTools photon_grid_tools;
 
 /// Photons that the sums hold where they have room, so that a budget or a session may go on.
 constexpr double kLeastMostPhotons = 0x1p26;
 
 /// Everything about one run; made by `prepare`, lit generation by generation, read by `show`.
 struct PhotonGridRun : PhotonRun {
+    PhotonGridSettings settings;  ///< the scene's
     CellGrid cells;
     CellMajorants near;
     Buffer<float> shares;     ///< of each medium in a cell's extinction; empty for one medium
@@ -36,7 +38,7 @@ inline bool shows_harmonics(const PhotonGridRun& run) {
 
 /// Whether cells around the camera show each ray what they scatter along it, where it is so near.
 inline bool shows_near(const PhotonGridRun& run) {
-    const PhotonGridSettings& s = run.scene->photon_grid;
+    const PhotonGridSettings& s = run.settings;
     return s.closure == GridClosure::kSh && s.directions == NodeDirections::kNear &&
            !run.scene->camera.orthographic && !run.world->medium.grid.periodic;
 }

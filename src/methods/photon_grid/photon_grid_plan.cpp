@@ -44,7 +44,7 @@ void add_photons(const PhotonGridRun& run, const Context& context, Size private_
     const bool looks = context.frames > 1 || run.budget.error > 0;
     const Stage traced = looks ? Stage::kWrite : Stage::kPhotons;
     const Size blocks = run.outlined_only
-                            ? most_tracking_blocks(m.grid, run.scene->photon_grid.local_tracking)
+                            ? most_tracking_blocks(m.grid, run.settings.local_tracking)
                             : run.majorants.tracking.size();
     add_majorant_rows(m.grid, blocks, threads, traced, t);
     add(t, arrays::cell_marks(run.cells.count()));
@@ -120,14 +120,14 @@ Status photon_grid_measure(const Context& context, PhotonGridRun& run) {
     PILEUS_TRY(check_bounds(run.plan, run.scene->file, "photon_grid.photons"));
     run.plan.exact = !run.outlined_only;
     run.plan.accumulation = plan_accumulation(
-        run.scene->photon_grid.accumulation,
+        run.settings.accumulation,
         {Size(context.threads), bytes_of_thread(run), memory_of(run, context, 0).peak(),
          context.limits[LimitId::kMemory], run.plan.exact});
     if (!kPlans) return Status::ok();
     run.plan.memory =
         memory_of(run, context,
                   scratch_bytes(run.plan.accumulation.bytes, bytes_of_thread(run), sums_ring(run)));
-    add_picture_rows(context, run.scene->photon_grid.thin, run);
+    add_picture_rows(context, run.thin, run);
     add_solid_rows(*run.scene, context.limits, run.world->solids, run.environment.depth,
                    run.plan.memory);
     PILEUS_TRY(

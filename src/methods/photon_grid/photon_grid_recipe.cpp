@@ -62,10 +62,12 @@ Status outline(const Context& context, MethodRun& run) {
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
                                  "\": method photon-grid runs on the host alone, allowed: another, "
                                  "or another method");
-    if (kChecks)
-        PILEUS_TRY(check_thinned(context, *run.scene, "photon_grid", run.scene->photon_grid.thin));
-    own(run).light_refresh = run.scene->photon_grid.light_refresh;
-    return photon_grid_weigh(context, own(run));
+    PhotonGridRun& grid = own(run);
+    grid.settings = run.scene->photon_grid;
+    grid.thin = grid.settings.thin;
+    grid.light_refresh = grid.settings.light_refresh;
+    if (kChecks) PILEUS_TRY(check_thinned(context, *run.scene, "photon_grid", grid.thin));
+    return photon_grid_weigh(context, grid);
 }
 
 Status prepare(const Context& context, MethodRun& run) {
@@ -106,8 +108,9 @@ Status outline_slices(const Context& context, MethodRun& run) {
 
 template <GridSlices kWhat>
 constexpr Method slices(const char* name) {
-    return {name,  WorldUse::kGrid,    make,  check,  outline_slices, prepare,
-            light, show_slices<kWhat>, count, report, nullptr,        false};
+    return {name,  WorldUse::kGrid,    make,  check,  outline_slices,     prepare,
+            light, show_slices<kWhat>, count, report, photon_budget_used, nullptr,
+            false};
 }
 
 /// The ring follows a light that has moved; one sum begins anew.
@@ -119,7 +122,7 @@ Status aim(int, bool anew, const Context& context, MethodRun& method_run) {
     run.upsample.ready &= placed;
     const CameraParams camera = make_camera(run.scene->camera, 0, run.world->medium.low_m);
     bool turned = false;
-    for (int a = 0; a < 3 && run.scene->photon_grid.closure == GridClosure::kCamera; ++a)
+    for (int a = 0; a < 3 && run.settings.closure == GridClosure::kCamera; ++a)
         turned |= deposit.camera[a] !=
                   (run.scene->camera.orthographic ? -camera.forward[a] : camera.origin[a]);
     if (!placed || turned) {
@@ -150,6 +153,11 @@ Status advance(std::uint64_t units, const Context& context, MethodRun& method_ru
 
 LightUnits units(const MethodRun& run) { return photon_units(own(run)); }
 
+void put_tables(const FrameWork& work, const MethodRun&, MethodTables& tables) {
+    put_work(work, tables.photon_grid.thin);
+    tables.photon_grid.light_refresh = work.light_refresh;
+}
+
 Status most_units(const FrameWork& work, const MethodRun& run, FrameUnits& out) {
     return photon_most_units(work, own(run), out);
 }
@@ -161,7 +169,7 @@ Status compose(const FrameStep& step, const Context& context, MethodRun& method_
     ++run.turn;
     const CameraParams camera = make_camera(run.scene->camera, 0, run.world->medium.low_m);
     planes = &run.planes;
-    run.planes.late = late_photons(step.late, run.scene->photon_grid.thin, camera, step.frame, run);
+    run.planes.late = late_photons(step.late, run.thin, camera, step.frame, run);
     return photon_grid_compose(camera, context, run, run.planes);
 }
 
@@ -188,10 +196,26 @@ const Method* photon_grid_views(int& count) {
 }
 
 const Method& photon_grid_method() {
-    static constexpr LiveMethod live{aim, advance, units, compose, take_photon_work, most_units};
-    static constexpr Method method{
-        "photon-grid",       WorldUse::kGrid,    make,  kept(kChecks, check), outline, prepare,
-        kept(kFilms, light), kept(kFilms, show), count, kept(kPlans, report), &live};
+    static constexpr LiveMethod live{aim,
+                                     advance,
+                                     units,
+                                     compose,
+                                     photon_full_work,
+                                     set_photon_limits,
+                                     kept(kChecks, put_tables),
+                                     most_units};
+    static constexpr Method method{"photon-grid",
+                                   WorldUse::kGrid,
+                                   make,
+                                   kept(kChecks, check),
+                                   outline,
+                                   prepare,
+                                   kept(kFilms, light),
+                                   kept(kFilms, show),
+                                   count,
+                                   kept(kPlans, report),
+                                   kept(kPlans, photon_budget_used),
+                                   &live};
     return method;
 }
 

@@ -63,7 +63,7 @@ Status show_towards(const Context& context, PhotonGridRun& run, const GridLightI
     NodeLight lit{light.data()};
     PILEUS_TRY(light_near(context, run, in, k, lit));
     if (!kFilms || in.lighting == &run.lighting)
-        return march_thinned(context, run.scene->photon_grid.thin, lit, k, run, planes);
+        return march_thinned(context, run.thin, lit, k, run, planes);
     return march_lit(context, run, lit, k, planes.colour.data(), planes);
 }
 
@@ -85,8 +85,7 @@ Status show_all_ways(const Context& context, PhotonGridRun& run, const GridLight
         float* target =
             planes.colour.data() + 3 * std::size_t(batch + 1) * planes.transmittance.size();
         PILEUS_TRY(!kFilms || (batch < 0 && in.lighting == &run.lighting)
-                       ? march_thinned(context, run.scene->photon_grid.thin,
-                                       NodeLight{light.data()}, k, run, planes)
+                       ? march_thinned(context, run.thin, NodeLight{light.data()}, k, run, planes)
                        : march_lit(context, run, NodeLight{light.data()}, k, target, planes));
     }
     return Status::ok();

@@ -43,6 +43,7 @@ const Method& raymarch_method() {
                                    kept(kFilms, march_show),
                                    march_count,
                                    kept(kPlans, march_report),
+                                   kept(kPlans, march_budget_used),
                                    &live_march};
     return method;
 }

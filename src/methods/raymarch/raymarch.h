@@ -9,5 +9,6 @@ namespace pileus {
 
 /// The recipe.
 const Method& raymarch_method();
+extern const MethodTools raymarch_tools;
 
 }  // namespace pileus

@@ -65,7 +65,7 @@ Status check_closure(const Scene& scene, View view) {
 
 Status prepare_step(View view, const Context& context, ViewRun& out) {
     CollectorsRun& run = out;
-    const CollectorSettings& settings = run.scene->collectors;
+    const CollectorSettings& settings = run.settings;
     switch (view) {
         case View::kDensitySlice:
             return Status::ok();

@@ -3,6 +3,7 @@
 // in: View -> out: Method.
 // docs/how-it-works.md
 #include "src/methods/collectors/views/views.h"
+#include "src/photons/photon_frames.h"
 
 namespace pileus {
 namespace {
@@ -43,9 +44,19 @@ void report(const MethodRun& run, Report& out) { collectors_view_report(own(run)
 
 template <View kView>
 constexpr Method recipe(const char* name) {
-    return {name,    WorldUse::kGrid, make<kView>, check,
-            outline, prepare,         light,       show,
-            count,   report,          nullptr,     view_is_light(kView)};
+    return {name,
+            WorldUse::kGrid,
+            make<kView>,
+            check,
+            outline,
+            prepare,
+            light,
+            show,
+            count,
+            report,
+            photon_budget_used,
+            nullptr,
+            view_is_light(kView)};
 }
 
 }  // namespace
