@@ -222,6 +222,18 @@ name = "raymarch"
                                set)));
 }
 
+TEST_CASE("animation: in air a sun whose elevation alone has keys keeps its azimuth") {
+    std::string air = kSmallCumulus;
+    const std::string sky = "[sky]\nradiance = [0.0625, 0.125, 0.25]\n";
+    air.replace(air.find(sky), sky.size(), "[atmosphere]\n");
+    const std::vector<std::string> set = {"method.name=raymarch"};
+    const std::string still = hashes_of(scene_from(air, set)).at(0);
+    const std::string film =
+        "[animation]\nframes = 2\nkeys = [{frame = 0, sun_elevation_deg = 35}, ";
+    CHECK(hashes_of(scene_from(air + film + "{frame = 1, sun_elevation_deg = 60}]\n", set), 0)
+              .at(0) == still);
+}
+
 TEST_CASE("animation: each frame has a depth image of its own") {
     const test::TempFolder folder;
     const auto put = [&](const char* name, float metres) {
