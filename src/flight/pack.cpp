@@ -83,7 +83,7 @@ Status check_packable(const Scene& scene) {
     PILEUS_TRY(refuse_marched_detail(scene, "a packed scene"));
     if (scene.animation.present)
         return refuse(scene, "animation", "not packed", "left out: the host moves what moves");
-    if (method_column(scene) == MethodColumn::kCollectorBillboards &&
+    if (is_of_collectors(method_column(scene)) &&
         scene.collectors.compositor != Compositor::kBuiltin)
         return refuse(scene, "collectors.compositor", "not packed", "builtin");
     if (refused(scene, Feature::kFilter) == nullptr && scene.filter.kind == FilterKind::kOidn)

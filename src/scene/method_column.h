@@ -11,6 +11,11 @@ namespace pileus {
 /// By method and display. A name that is no method has the first one: it has its own fault.
 MethodColumn method_column(const Scene& scene);
 
+/// Whether it is that of method collectors, in either display.
+inline bool is_of_collectors(MethodColumn column) {
+    return column == MethodColumn::kCollectors || column == MethodColumn::kCollectorBillboards;
+}
+
 /// The entry of a feature that the scene's method refuses; null: it takes it.
 const Support* refused(const Scene& scene, Feature feature);
 

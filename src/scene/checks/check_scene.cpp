@@ -154,10 +154,7 @@ void check_periodic(SceneCheck& check) {
     const Scene& scene = check.scene;
     bool periodic = false;
     for (const MediumSettings& m : scene.media) periodic |= m.periodic;
-    const MethodColumn column = method_column(scene);
-    const bool collectors =
-        column == MethodColumn::kCollectors || column == MethodColumn::kCollectorBillboards;
-    if (!periodic || !collectors) return;
+    if (!periodic || !is_of_collectors(method_column(scene))) return;
     const CollectorSettings& c = scene.collectors;
     const auto refuse = [&](const char* key, const char* value, const char* what,
                             const char* allowed) {
