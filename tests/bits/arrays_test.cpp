@@ -228,7 +228,8 @@ void check_particles(const Fixture& f) {
     held["picture planes"] = bytes_held(run.planes);
     // Freed with the march, but for one number a pixel.
     if (scene.output.layer_occlusion)
-        held["occlusion"] = arrays::particle_occlusion(run.particles, run.occlusion.size()).bytes();
+        held["occlusion"] =
+            arrays::particle_occlusion(run.particles, run.planes.occlusion.size()).bytes();
     if (scene.particles.billboards)
         held["billboards"] = arrays::particle_boards(run.particles).bytes();
     else
