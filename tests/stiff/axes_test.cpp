@@ -43,7 +43,7 @@ constexpr const char* kGrids[] = {"[8,6,6]", "[12,1,9]", "[1,7,1]", "[1,1,1]"};
 constexpr const char* kViews[] = {"[-500,0,60]", "[500,0,60]", "[0,-500,60]",
                                   "[0,500,60]",  "[0,0,560]",  "[0,0,-440]"};
 constexpr const char* kRules[] = {"closed", "riemann", "trapezoid", "simpson", "simpson38"};
-constexpr const char* kLights[] = {"march", "buffer", "buffer-exact"};
+constexpr const char* kLightKeys[] = {"march", "buffer", "buffer-exact"};
 
 std::string number(const char* key, double value) { return key + std::to_string(value); }
 
@@ -142,7 +142,7 @@ TEST_CASE("suns on the axes: method raymarch, integrators and lights in turn") {
     for (const char* boundary : {"open", "periodic"})
         for_suns(boundary, true, [&](const Keys& keys, double elevation, int turn) {
             const std::string rule = kRules[std::size_t(turn) % 5];
-            const std::string light = kLights[std::size_t(turn) % 3];
+            const std::string light = kLightKeys[std::size_t(turn) % 3];
             CAPTURE(rule);
             CAPTURE(light);
             const Keys own =

@@ -48,7 +48,7 @@ TEST_CASE("every method reports the accidents that can happen to it") {
         for (const auto& counter : p.report.counters)
             for (const Accident& accident : accidents())
                 if (counter.first == accident.counter) {
-                    met.insert(counter.first);
+                    met.emplace(counter.first);
                     CHECK(counter.second == 0);
                 }
         CHECK(p.report.warnings.empty());
