@@ -19,7 +19,9 @@ Status begin_flight(const void* scene, std::size_t bytes, std::uint64_t room,
         return Status::bad_input(
             "packed scene: its head is of another one, allowed: what `pileus pack` of this version "
             "wrote");
-    PILEUS_TRY(session.open(packed.scene, options, SessionKind::kLive, true, packed.world));
+    RenderOptions own = options;
+    if (packed.scene.sky.mapped) own.sky = &packed.sky;
+    PILEUS_TRY(session.open(packed.scene, own, SessionKind::kLive, true, packed.world));
     if (depth) PILEUS_TRY(session.reserve_depth());
     PILEUS_TRY(session.reserve());
     const LightUnits light = session.light();
