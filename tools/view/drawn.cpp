@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include <cstring>
+#include "src/scene/method_column.h"
 
 namespace pileus::view {
 
@@ -13,7 +13,9 @@ Status Drawn::open(const Settings& s, const char* method) {
     sets.push_back(fmt::format("camera.resolution=[{}, {}]", s.width, s.height));
     if (method != nullptr) {
         sets.push_back(std::string("method.name=\"") + method + '"');
-        if (std::strcmp(method, "path") != 0) sets.push_back("filter.kind=none");
+        Scene named;
+        named.method = method;
+        if (refused(named, Feature::kFilter) != nullptr) sets.push_back("filter.kind=none");
     }
     std::vector<const char*> texts;
     for (const std::string& t : sets) texts.push_back(t.c_str());
