@@ -76,9 +76,9 @@ Status Clouds::add_kind(const Scene& scene, std::shared_ptr<const World> world, 
             "kind: a world of another scene, allowed: that which it was made of");
     if (world->solids.meshes)
         return Status::bad_input("kind: a scene with [[solid]], allowed: media alone");
-    const Method* method = nullptr;
-    PILEUS_TRY(find_method(scene, method));
-    if (method->live == nullptr)
+    MethodRow row;
+    PILEUS_TRY(find_method(scene, row));
+    if (!is_live(row))
         return Status::bad_input("kind: method.name: \"" + scene.method +
                                  "\" is for no session, allowed: another");
     const MethodColumn column = method_column(scene);

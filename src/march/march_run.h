@@ -82,7 +82,7 @@ bool has_sun_grid(const RaymarchRun& run);
 /// Makes that medium once. kLimit: out of memory.
 Status make_lit_medium(const Context& context, RaymarchRun& run);
 
-/// Method::budget_used: the steps that a time chose.
+/// Recipe::budget_used: the steps that a time chose.
 void march_budget_used(int frame, const MethodRun& run, const Report& report, Budget& used);
 
 /// LiveMethod::most_units.

@@ -5,6 +5,7 @@
 #include "kernels_cpu/core/profile.h"
 #include "src/base/angles.h"
 #include "src/methods/placed_media.h"
+#include "src/methods/recipe_method.h"
 #include "src/scene/above_ground.h"
 #include "src/scene/read_scene.h"
 
@@ -44,9 +45,9 @@ Status check_placed_media(const MethodRun& run, const Ground& rest, int frame) {
                   Status::bad_input("frame " + std::to_string(frame) + ", the media are " + fault));
 }
 
-Status open_run(const Method& method, const Scene& scene, const Budget& budget,
-                const Context& context, bool exact, std::shared_ptr<const World> world,
-                MethodRun& run) {
+Status open_run(const MethodRow& row, const MadeMethod& made, const Scene& scene,
+                const Budget& budget, const Context& context, bool exact,
+                std::shared_ptr<const World> world, MethodRun& run) {
     run.scene = &scene;
     if (run.rest == nullptr) run.rest = &scene;
     run.budget = budget;
@@ -54,17 +55,25 @@ Status open_run(const Method& method, const Scene& scene, const Budget& budget,
     // A flight brings the world that was packed.
     if (!kFlight && world == nullptr) {
         own = std::make_shared<World>();
-        PILEUS_TRY(outline_world(scene, method.world, context, *own));
+        PILEUS_TRY(outline_world(scene, row.world, context, *own));
         world = own;
     }
     run.world = std::move(world);
     if (!kFlight) PILEUS_TRY(check_all_frames(run));
     PILEUS_TRY(outline_environment(scene, context, *run.world, run.sky, run.environment));
-    PILEUS_TRY(method.outline(context, run));
+    PILEUS_TRY(made.method->plan(context, view_of(run, 0), run.plan));
     if (!exact) return Status::ok();
     if (!kFlight && own != nullptr) PILEUS_TRY(load_world(scene, context, *own));
     PILEUS_TRY(load_environment(scene, context, run.environment));
-    return method.prepare(context, run);
+    PILEUS_TRY(made.method->prepare(context, view_of(run, 0)));
+    return made.method->plan(context, view_of(run, 0), run.plan);
+}
+
+Status open_run(const Recipe& recipe, const Scene& scene, const Budget& budget,
+                const Context& context, bool exact, std::shared_ptr<const World> world,
+                MethodRun& run) {
+    const MadeMethod made = method_of(recipe, run);
+    return open_run(row_of(recipe), made, scene, budget, context, exact, std::move(world), run);
 }
 
 SunTurn turn_of_sun(const MethodRun& run, int slices, std::int64_t number,

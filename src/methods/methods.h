@@ -1,24 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every method is: a recipe of functions over a run of its own, called frame by frame.
-// in: a scene, budgets, frames -> out: images and what the report says of them.
-// docs/architecture.md, "Methods are recipes".
+// A method as a recipe of functions over a run of its own, called frame by frame: what most of them
+// are. in: a scene, budgets, frames -> out: images and what the report says of them.
+// docs/architecture.md, "Methods"
 #pragma once
 #include <functional>
 #include <memory>
 #include <string>
 
 #include "src/io/images/image.h"
+#include "src/methods/method.h"
 #include "src/picture/nodes/sun_slices.h"
-#include "src/plan/budget.h"
-#include "src/plan/frame_work.h"
-#include "src/run/context.h"
 #include "src/scene/frames.h"
-#include "src/scene/scene.h"
-#include "src/world/environment.h"
 
 namespace pileus {
 
-struct LateRows;
 struct MethodTools;
 
 /// One picture of a run. `first` and `last` are those of the run, not of the animation.
@@ -66,18 +61,6 @@ struct MethodRun {
     virtual void seal() { sealed = true; }
 };
 
-/// Light that a session has traced and may trace.
-struct LightUnits {
-    const char* unit = "";           ///< of what a step counts: "generation", "sample"
-    std::uint64_t whole = 0;         ///< units that a first picture should have
-    std::uint64_t unit_photons = 0;  ///< photons or paths of one
-    std::uint64_t held = 0;          ///< units that the next picture shows
-    std::uint32_t prepared = 1;      ///< times that the sums were laid out
-    bool one_sum = false;            ///< of units that are all alike: none has fewer photons
-};
-
-struct Planes;
-
 /// How a method lives in a session, where a host moves the camera and the lights of the run's
 /// scene.
 struct LiveMethod {
@@ -105,7 +88,7 @@ struct LiveMethod {
 
 /// A recipe. Functions are called from the top down, `light` to `report` once for each frame. The
 /// scene and the context outlive the run.
-struct Method {
+struct Recipe {
     const char* name;  ///< of a view: as `--show` names it
     WorldUse world;    ///< what it asks of its world
     std::unique_ptr<MethodRun> (*make)();
@@ -129,10 +112,19 @@ struct Method {
     bool shows_light = true;           ///< colours are light, which an exposure applies to
 };
 
-/// Fills a new run by the method's recipe: world and surroundings, then its own. `exact` false: as
-/// far as sizes tell. `world`: a loaded one to share, or null for its own. Errors: those of the
-/// readers and of the recipe.
-Status open_run(const Method& method, const Scene& scene, const Budget& budget,
+/// A frame of a run, as methods see it; points into the run.
+inline FrameView view_of(MethodRun& run, int frame) {
+    return {*run.scene, *run.world, run.environment, run.lighting, frame};
+}
+
+/// Fills a new run: world and environment, then by its method. `exact` false: as far as sizes tell.
+/// `world`: a loaded one to share, or null for its own. Errors: those of the readers and of the
+/// method.
+Status open_run(const MethodRow& row, const MadeMethod& made, const Scene& scene,
+                const Budget& budget, const Context& context, bool exact,
+                std::shared_ptr<const World> world, MethodRun& run);
+/// The same by a recipe.
+Status open_run(const Recipe& recipe, const Scene& scene, const Budget& budget,
                 const Context& context, bool exact, std::shared_ptr<const World> world,
                 MethodRun& run);
 

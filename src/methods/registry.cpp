@@ -17,56 +17,56 @@ void append(const std::string& name, std::string& names) {
     names += (names.empty() ? "" : ", ") + name;
 }
 
-std::string names_of_views(const MethodRow& row) {
+std::string names_of_views(const ListedMethod& listed) {
     std::string names;
-    for (int i = 0; i < row.view_count; ++i) append(row.views[i].name, names);
+    for (int i = 0; i < listed.view_count; ++i) append(listed.views[i].name, names);
     return names;
 }
 
 }  // namespace
 
-std::vector<MethodRow> method_rows() {
-    MethodRow collectors{&collectors_method()};
+std::vector<ListedMethod> listed_methods() {
+    ListedMethod collectors{row_of(collectors_method())};
     collectors.views = collectors_views(collectors.view_count);
-    MethodRow photon_grid{&photon_grid_method()};
+    ListedMethod photon_grid{row_of(photon_grid_method())};
     photon_grid.views = photon_grid_views(photon_grid.view_count);
     collectors.tools = collectors_tools;
     photon_grid.tools = photon_grid_tools;
     return {collectors,
-            {&path_method(), nullptr, 0, path_tools},
-            {&raymarch_method(), nullptr, 0, raymarch_tools},
-            {&optical_depth_method(), nullptr, 0, optical_depth_tools},
+            {row_of(path_method()), nullptr, 0, path_tools},
+            {row_of(raymarch_method()), nullptr, 0, raymarch_tools},
+            {row_of(optical_depth_method()), nullptr, 0, optical_depth_tools},
             photon_grid,
-            {&particles_method()}};
+            {row_of(particles_method())}};
 }
 
 MethodTools method_tools(const std::string& name) {
-    for (const MethodRow& row : method_rows())
-        if (name == row.method->name) return row.tools;
+    for (const ListedMethod& listed : listed_methods())
+        if (name == listed.row.name) return listed.tools;
     return {};
 }
 
-Status find_method(const Scene& scene, const Method*& method) {
+Status find_method(const Scene& scene, MethodRow& row) {
     std::string names;
-    for (const MethodRow& row : method_rows()) {
-        method = row.method;
-        if (scene.method == method->name) return Status::ok();
-        append(method->name, names);
+    for (const ListedMethod& listed : listed_methods()) {
+        row = listed.row;
+        if (scene.method == row.name) return Status::ok();
+        append(row.name, names);
     }
     return Status::bad_input(scene.file + ": method.name: not in this version, \"" + scene.method +
                              "\", allowed: " + names);
 }
 
-Status find_view(const std::string& method, const std::string& name, const Method*& view) {
+Status find_view(const std::string& method, const std::string& name, MethodRow& row) {
     std::string with_views, views;
-    for (const MethodRow& row : method_rows()) {
-        if (row.view_count == 0) continue;
-        append(row.method->name, with_views);
-        if (!method.empty() && method != row.method->name) continue;
-        append(names_of_views(row), views);
-        for (int i = 0; i < row.view_count; ++i) {
-            view = &row.views[i];
-            if (name == view->name) return Status::ok();
+    for (const ListedMethod& listed : listed_methods()) {
+        if (listed.view_count == 0) continue;
+        append(listed.row.name, with_views);
+        if (!method.empty() && method != listed.row.name) continue;
+        append(names_of_views(listed), views);
+        for (int i = 0; i < listed.view_count; ++i) {
+            row = row_of(listed.views[i]);
+            if (name == row.name) return Status::ok();
         }
     }
     if (views.empty())
@@ -77,8 +77,8 @@ Status find_view(const std::string& method, const std::string& name, const Metho
 
 std::string view_names() {
     std::string names;
-    for (const MethodRow& row : method_rows())
-        if (row.view_count > 0) append(names_of_views(row), names);
+    for (const ListedMethod& listed : listed_methods())
+        if (listed.view_count > 0) append(names_of_views(listed), names);
     return names;
 }
 

@@ -1,35 +1,35 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of methods: a method is its folder and one row here.
-// in: a scene, the name of a view -> out: the recipe to run.
-// docs/architecture.md, "Methods are recipes".
+// in: a scene, the name of a view -> out: what makes its pictures.
+// docs/architecture.md, "Methods"
 #pragma once
 #include <vector>
 
 #include "src/methods/method_tools.h"
-#include "src/methods/methods.h"
+#include "src/methods/recipe_method.h"
 
 namespace pileus {
 
-/// A method, and pictures of its steps in place of its result: recipes too, without an `outline`.
-struct MethodRow {
-    const Method* method = nullptr;
-    const Method* views = nullptr;
+/// A method, and pictures of its steps in place of its result: recipes, without an `outline`.
+struct ListedMethod {
+    MethodRow row;
+    const Recipe* views = nullptr;
     int view_count = 0;
     MethodTools tools{};  ///< null members: none
 };
 
 /// Every method of this version.
-std::vector<MethodRow> method_rows();
+std::vector<ListedMethod> listed_methods();
 
 /// What programs ask of the method of this name; nothing of one that is not in this version.
 MethodTools method_tools(const std::string& name);
 
-/// The recipe of the scene's method. kBadInput: not in this version.
-Status find_method(const Scene& scene, const Method*& method);
+/// The row of the scene's method. kBadInput: not in this version.
+Status find_method(const Scene& scene, MethodRow& row);
 
-/// The recipe of a view of a method; of any method where `method` is empty. kBadInput: the method
+/// The row of a view of a method; of any method where `method` is empty. kBadInput: the method
 /// has none, or none of that name.
-Status find_view(const std::string& method, const std::string& name, const Method*& view);
+Status find_view(const std::string& method, const std::string& name, MethodRow& row);
 
 /// Names of all views of all methods, separated by commas.
 std::string view_names();

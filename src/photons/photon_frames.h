@@ -35,7 +35,7 @@ Status advance_photons(std::uint64_t units, const Context& context, PhotonRun& r
 LightUnits photon_units(const PhotonRun& run);
 FrameWork photon_full_work(const MethodRun& run);
 
-/// Method::budget_used: generations, of as many photons in all.
+/// Recipe::budget_used: generations, of as many photons in all.
 void photon_budget_used(int frame, const MethodRun& run, const Report& report, Budget& used);
 
 /// LiveMethod::most_units where the picture is marched.

@@ -20,10 +20,10 @@ Status follow(const Scene& scene, const RenderOptions& options, int light, std::
         return Status::bad_input("follow: not for method " + scene.method +
                                  ", allowed: method.name = \"collectors\"");
     PILEUS_TRY(make_context(scene, options, context, report));
-    const Method* method = nullptr;
-    PILEUS_TRY(find_view(scene.method, "photons", method));
+    MethodRow row;
+    PILEUS_TRY(find_view(scene.method, "photons", row));
     ViewRun view(View::kPhotons);
-    PILEUS_TRY(open_run(*method, placed, options.budget, context, true, nullptr, view));
+    PILEUS_TRY(open_run(*row.recipe, placed, options.budget, context, true, nullptr, view));
     const std::vector<Light>& lights = view.lighting.lights;
     if (light < 0 || std::size_t(light) >= lights.size())
         return Status::bad_input("--light: no such light, " + std::to_string(light) +

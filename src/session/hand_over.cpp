@@ -138,7 +138,7 @@ Status Session::fade_from(Session& from, std::uint32_t frames, std::unique_ptr<F
     made->had_surfaces = has_surfaces(from.run_->lighting);
     made->frames = frames;
     Planes own, *planes = from.shown_;
-    if (from.method_->live->reads_planes) {
+    if (from.made_.method->keeps_planes()) {
         PILEUS_TRY(copy_picture(from.context_, *planes, own));
         planes = &own;
     }

@@ -70,14 +70,14 @@ Status frames_of(const Scene& scene, const RenderOptions& options, Frames& frame
                              std::to_string(frames.total - 1));
 }
 
-std::string budget_used(const Method& method, const MethodRun& run, int frame,
+std::string budget_used(const MethodRow& row, const MethodRun& run, int frame,
                         const Report& report) {
     // Part of a pass or of a generation is no whole number of them.
     if (report.paths.ahead_samples > 0 || (report.interrupted && report.photons.generations > 0))
         return "";
     Budget used;
     used.steps = run.budget.steps;
-    if (method.budget_used != nullptr) method.budget_used(frame, run, report, used);
+    if (row.recipe->budget_used != nullptr) row.recipe->budget_used(frame, run, report, used);
     return budget_text(used);
 }
 

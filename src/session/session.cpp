@@ -21,7 +21,7 @@ namespace {
 constexpr int kLiveFrames = 2;
 
 /// What a host cannot ask for is left out; what it may ask for is planned.
-void make_live(bool keeps_parts, Scene& scene) {
+void make_live(bool parts, Scene& scene) {
     scene.animation = Animation{};
     scene.animation.present = true;
     scene.animation.frames = kLiveFrames;
@@ -30,7 +30,7 @@ void make_live(bool keeps_parts, Scene& scene) {
     output.layer_optical_depth = output.layer_transmittance = output.layer_reflectance = false;
     output.layer_shadow = output.layer_occlusion = false;
     output.layer_depth = !scene.camera.flux;
-    output.layer_cloud = keeps_parts;
+    output.layer_cloud = parts;
     scene.view_files.depth.clear();
     // A change is checked on a copy of the scene, and its faults name no line of a file.
     scene.text.clear();
@@ -52,11 +52,11 @@ Status make_world(const Scene& scene, const RenderOptions& options, std::shared_
     const PoolGuard lent(threads);
     Report report;
     Context context;
-    const Method* method = nullptr;
+    MethodRow row;
     PILEUS_TRY(make_context(scene, options, context, report));
-    PILEUS_TRY(find_method(scene, method));
+    PILEUS_TRY(find_method(scene, row));
     const auto made = std::make_shared<World>();
-    PILEUS_TRY(outline_world(scene, method->world, context, *made));
+    PILEUS_TRY(outline_world(scene, row.world, context, *made));
     // Sessions weigh all they need; here it is the grid, of which each medium has its part.
     const std::uint64_t media = made->direct_sky ? 0 : std::uint64_t(scene.media.size());
     PILEUS_TRY(check_limit(context.limits, LimitId::kMemory,
@@ -78,16 +78,16 @@ Status make_world(const Scene& scene, const RenderOptions& options,
 /// Whether the method is for this session and its world.
 Status Session::check_method(bool live, const World* world) const {
     const std::string method = scene_.file + ": method.name: \"" + scene_.method + "\" ";
-    if (live && method_->live == nullptr)
+    if (live && !is_live(row_))
         return Status::bad_input(method + "is for no session, allowed: another");
     if (world == nullptr) return Status::ok();
     if (world->media != scene_.media.size())
         return Status::bad_input(scene_.file + ": medium: " + std::to_string(scene_.media.size()) +
                                  " media, allowed: " + std::to_string(world->media) +
                                  ", as the world was made of");
-    if (world->direct_sky && method_->world != WorldUse::kSkyInPlace)
+    if (world->direct_sky && row_.world != WorldUse::kSkyInPlace)
         return Status::bad_input(method + "needs the sky on a grid, allowed: a world made for it");
-    if (world->shows_particles != (method_->world == WorldUse::kParticles))
+    if (world->shows_particles != (row_.world == WorldUse::kParticles))
         return Status::bad_input(
             method +
             (world->shows_particles ? "needs the particles on a grid" : "needs the particles") +
@@ -105,18 +105,18 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
     PILEUS_TRY(place_scene(scene_));
     scene_.sky.mapped = options.sky != nullptr || !scene_.view_files.sky_map.empty();
     options_ = options;
-    const Status found = find_method(scene_, method_);
-    if (live) make_live(found && method_->live != nullptr && method_->live->keeps_parts, scene_);
+    const Status found = find_method(scene_, row_);
+    if (live) make_live(found && keeps_parts(row_), scene_);
     host_ = scene_;
     PILEUS_TRY(make_context(scene_, options, context_, report_));
     if (live) context_.frames = kLiveFrames;
     context_.digests = !live && options.digests;
     PILEUS_TRY(found);
-    if (kChecks) PILEUS_TRY(method_->check(scene_, options.budget));
-    if (kFilms && !options.show.empty())
-        PILEUS_TRY(find_view(scene_.method, options.show, method_));
+    if (kChecks) PILEUS_TRY(row_.check(scene_, options.budget));
+    if (kFilms && !options.show.empty()) PILEUS_TRY(find_view(scene_.method, options.show, row_));
     if (kChecks) PILEUS_TRY(check_method(live, world.get()));
-    run_ = method_->make();
+    run_ = row_.recipe->make();
+    made_ = method_of(*row_.recipe, *run_);
     run_->rest = live ? static_cast<const FrameState*>(&scene_) : &host_;
     run_->sky = options.sky;
     if (kFilms && !scene_.animation.keys.empty()) {
@@ -129,11 +129,9 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
         run_->place_at(host_.number);
     }
     PILEUS_TRY(
-        open_run(*method_, scene_, options.budget, context_, exact, std::move(world), *run_));
+        open_run(row_, made_, scene_, options.budget, context_, exact, std::move(world), *run_));
     if (kPlans) report_.plan = run_->plan;
-    const LiveMethod* const lives = method_->live;
-    if (lives != nullptr && lives->full_work != nullptr)
-        whole_work_ = work_ = lives->full_work(*run_);
+    whole_work_ = work_ = made_.method->full_work();
     report_.frame_work = work_;
     report_.clocks.peak_bytes = peak_memory_bytes();
     return Status::ok();
@@ -154,17 +152,17 @@ Status Session::render_image(const FrameStep& step, Image& image) {
     const FpModeGuard guard;
     const PoolGuard lent(*threads_);
     PILEUS_TRY(take_frame(step.frame));
-    PILEUS_TRY(method_->light(step, context_, *run_));
+    PILEUS_TRY(row_.recipe->light(step, context_, *run_));
     report_.digests.clear();
-    PILEUS_TRY(method_->show(step, context_, *run_, image));
+    PILEUS_TRY(row_.recipe->show(step, context_, *run_, image));
     ++stats_.pictures;
     return Status::ok();
 }
 
 void Session::finish_report() {
     const StageClock clock(context_, "digests");
-    method_->count(*run_, report_.counters);
-    method_->report(*run_, report_);
+    made_.method->count(report_.counters);
+    made_.report->report(report_);
 }
 
 /// Changes that a host made since the last time.
@@ -174,10 +172,10 @@ Status Session::aim() {
     place();
     // What late rows lead to may be laid out anew.
     if (late_.ready) shown_ = nullptr;
-    PILEUS_TRY(method_->live->aim(host_.number, anew_, context_, *run_));
+    PILEUS_TRY(made_.method->set_view(context_, view(), {anew_}));
     PILEUS_TRY(check_sealed());
     stale_ = anew_ = false;
-    stats_.prepared = method_->live->units(*run_).prepared;
+    stats_.prepared = made_.method->progress().prepared;
     return Status::ok();
 }
 
@@ -186,13 +184,13 @@ Status Session::step(std::uint64_t units, std::uint64_t& done) {
     const PoolGuard lent(*threads_);
     done = 0;
     PILEUS_TRY(aim());
-    const Status status = method_->live->advance(units, context_, *run_, done);
+    const Status status = made_.method->accumulate(context_, view(), units, done);
     stats_.units += done;
     report_.clocks.peak_bytes = peak_memory_bytes();
     return status;
 }
 
-LightUnits Session::light() const { return method_->live->units(*run_); }
+LightUnits Session::light() const { return made_.method->progress(); }
 
 Status Session::render(const FrameTarget& target) {
     const FpModeGuard guard;
@@ -216,21 +214,20 @@ Status Session::render(const FrameTarget& target) {
     // A picture into nothing makes ready what the first one after a hand-over needs.
     const bool nothing = !target.has_colour && target.hash == nullptr;
     const bool rays = !scene_.camera.flux;  // a flat detector has no depths
-    scene_.output.layer_depth =
-        (rays && (target.has_depth || method_->live->keeps_parts || nothing)) ||
-        (kClouds && fading_ != nullptr);
+    scene_.output.layer_depth = (rays && (target.has_depth || keeps_parts(row_) || nothing)) ||
+                                (kClouds && fading_ != nullptr);
     report_.counters.clear();
     // A hash and depths are of whole planes.
     const bool late = target.has_colour && !target.has_depth && target.hash == nullptr &&
                       !(kClouds && fading_ != nullptr) && is_late(target.colour, *context_.kernels);
     late_.ready = false;
     late_.params.filled = 0;
-    PILEUS_TRY(
-        method_->live->compose({host_.number, stats_.pictures == 0, false, late ? &late_ : nullptr},
-                               context_, *run_, planes));
+    RenderAsk ask;
+    ask.late = late ? &late_ : nullptr;
+    PILEUS_TRY(made_.method->render(context_, view(), ask, planes));
     const Planes* const fresh = planes;
     if (kClouds && fading_ != nullptr)
-        PILEUS_TRY(fading_->mix(context_, scene_, *run_, method_->live->reads_planes, planes));
+        PILEUS_TRY(fading_->mix(context_, scene_, *run_, made_.method->keeps_planes(), planes));
     shown_ = planes;
     shown_camera_ = scene_.camera;
     const auto& size = scene_.camera.resolution;
@@ -265,8 +262,8 @@ Status Session::render(const FrameTarget& target) {
 Report Session::told() const {
     Report out = report_;
     out.hash = has_hash_ ? hex_text(hash_) : std::string();
-    method_->count(*run_, out.counters);
-    method_->report(*run_, out);
+    made_.method->count(out.counters);
+    made_.report->report(out);
     take_clocks(out.clocks);
     // Not that of this call: the text would grow between a host's two calls for it.
     out.clocks.peak_bytes = report_.clocks.peak_bytes;
@@ -275,7 +272,7 @@ Report Session::told() const {
 
 const Counts& Session::counters() {
     counted_ = report_.counters;
-    method_->count(*run_, counted_);
+    made_.method->count(counted_);
     return counted_;
 }
 

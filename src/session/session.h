@@ -77,7 +77,7 @@ public:
 
     Report& report() { return report_; }
     const Report& report() const { return report_; }
-    const Method& method() const { return *method_; }
+    const MethodRow& row() const { return row_; }
     const MethodRun& run() const { return *run_; }
     const Context& context() const { return context_; }
     const SessionStats& stats() const { return stats_; }
@@ -167,6 +167,7 @@ public:
     Status draw_alone(double slack_deg, const Planes*& planes);
 
 private:
+    FrameView view() { return view_of(*run_, host_.number); }
     Status aim();
     Status check_sealed() const;
     Status check_media(const char* key, const Ground& ground, double moved_m) const;
@@ -195,8 +196,9 @@ private:
     Report report_;
     Counts counted_;  ///< what counters() returned last
     Context context_;
-    const Method* method_ = nullptr;
+    MethodRow row_;
     std::unique_ptr<MethodRun> run_;
+    MadeMethod made_;  ///< over the run
     LateRows late_;
     Planes* shown_ = nullptr;  ///< the last picture, but for its late rows; null: none
     Camera shown_camera_;      ///< as the scene had it

@@ -245,11 +245,11 @@ Status Session::refuse_clouds_sky(const char* what) const {
 
 Status Session::reserve() {
     const FpModeGuard guard;
-    return run_->reserve(late_);
+    return made_.method->reserve(view(), late_);
 }
 
 void Session::seal() {
-    run_->seal();
+    made_.method->seal();
     sealed_shine_ = shine_of(run_->lighting);
     sealed_lights_ = scene_.lights.size();
     const std::size_t lamps = scene_.lights.empty() ? 0 : kMostLights;
@@ -309,12 +309,12 @@ Status Session::draw_alone(double slack_deg, const Planes*& planes) {
     PILEUS_TRY(aim());
     scene_.output.layer_depth = true;
     report_.counters.clear();
-    run_->alone = true;
-    run_->view_slack_deg = slack_deg;
-    const FrameStep step{host_.number, stats_.pictures == 0, false, nullptr};
+    RenderAsk ask;
+    ask.media_only = true;
+    ask.view_slack_deg = slack_deg;
     shown_ = nullptr;
     Planes* own = nullptr;
-    PILEUS_TRY(method_->live->compose(step, context_, *run_, own));
+    PILEUS_TRY(made_.method->render(context_, view(), ask, own));
     planes = own;
     ++stats_.pictures;
     return Status::ok();

@@ -74,10 +74,9 @@ Status Session::set_work(const FrameWork& given) {
     const FrameWork work = filled(given, whole_work_);
     if (!(given == FrameWork{})) PILEUS_TRY(refuse_clouds_sky("work"));
     if (work == work_) return Status::ok();
-    const LiveMethod& live = *method_->live;
     if (const char* key = work_fault(work, whole_work_)) {
         const auto change = [&](Scene& changed) {
-            live.put_work(work, *run_, changed);
+            made_.report->put_work(work, changed);
             changed.camera = host_.camera;
             changed.sun = host_.sun;
             changed.ground = host_.ground;
@@ -94,7 +93,7 @@ Status Session::set_work(const FrameWork& given) {
         context_.kernels->device != nullptr)
         return refuse("scale", work.scale, "0 on a device");
     // The method is the last to refuse.
-    if (live.set_limits != nullptr) PILEUS_TRY(live.set_limits(work, *run_));
+    PILEUS_TRY(made_.method->set_limits(work));
     work_ = work;
     report_.frame_work = work_;
     report_.light_rule.clear();
@@ -117,7 +116,7 @@ Status Session::most_units(const FrameWork& given, FrameUnits& units) {
     const PoolGuard lent(*threads_);
     PILEUS_TRY(aim());
     units = {};
-    return method_->live->most_units(filled(given, whole_work_), *run_, units);
+    return made_.method->worst_case(view(), filled(given, whole_work_), units);
 }
 
 Status Session::fit_work(const UnitCosts& costs, double most, FrameWork& work) {

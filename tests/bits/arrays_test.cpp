@@ -155,7 +155,7 @@ void check_path(const Fixture& f) {
     PathRun run;
     Budget budget;
     budget.samples = 2;
-    const Method& method = path_method();
+    const Recipe& method = path_method();
     REQUIRE(open_run(method, f.scene, budget, f.context, true, nullptr, run));
     REQUIRE(run.plan.exact);
     REQUIRE(method.light(FrameStep{}, f.context, run));
@@ -172,11 +172,11 @@ void check_path(const Fixture& f) {
 
 void check_raymarch(const Fixture& f) {
     RaymarchRun run;
-    const Method* method = nullptr;
-    REQUIRE(find_method(f.scene, method));
-    REQUIRE(open_run(*method, f.scene, {}, f.context, true, nullptr, run));
+    MethodRow row;
+    REQUIRE(find_method(f.scene, row));
+    REQUIRE(open_run(*row.recipe, f.scene, {}, f.context, true, nullptr, run));
     REQUIRE(run.plan.exact);
-    REQUIRE(method->light(FrameStep{}, f.context, run));
+    REQUIRE(row.recipe->light(FrameStep{}, f.context, run));
     Bytes held = held_by(run, run.majorants);
     held["sunlight's optical depth on nodes"] = run.nodes.optical_depth.bytes();
     held["skylight on nodes"] = run.sky.light.bytes();
@@ -206,7 +206,7 @@ void check_particles(const Fixture& f) {
     Scene scene = f.scene;
     scene.directory = folder.path("");
     ParticlesRun run;
-    const Method& method = particles_method();
+    const Recipe& method = particles_method();
     REQUIRE(open_run(method, scene, {}, f.context, true, nullptr, run));
     REQUIRE(run.plan.exact);
     REQUIRE(method.light(FrameStep{}, f.context, run));
@@ -262,10 +262,9 @@ std::uint64_t planned(const MemoryTable& table, const char* item) {
 }
 
 template <class Run>
-void check_lamps(const Method& method, const Fixture& f) {
+void check_lamps(const Recipe& method, const Fixture& f) {
     Run run;
-    const Status status = open_run(method, f.scene, {}, f.context, true, nullptr, run);
-    REQUIRE_MESSAGE(status, status.message);
+    REQUIRE(open_run(method, f.scene, {}, f.context, true, nullptr, run));
     PhotonRun& lit = run;
     Image image;
     REQUIRE(method.light({0, true, true}, f.context, run));

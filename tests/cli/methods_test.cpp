@@ -61,8 +61,8 @@ TEST_CASE("methods: a row for each feature, a column for each method's display")
         }
     }
     // Each method has its column.
-    for (const MethodRow& row : method_rows()) {
-        const Outcome one = folder.run(std::string("methods ") + row.method->name);
+    for (const ListedMethod& listed : listed_methods()) {
+        const Outcome one = folder.run(std::string("methods ") + listed.row.name);
         CHECK(one.exit_status == 0);
         CHECK(line_count(one.output) > long(kSupportFeatures));
         CHECK(holds(one.output, "exact"));

@@ -66,9 +66,9 @@ void take_scene(RenderArguments& arguments) {
 Status read_view(const RenderArguments& arguments, RenderOptions& options, Outputs& outputs) {
     Status faults;
     if (arguments.show) {
-        const Method* view = nullptr;
+        MethodRow view;
         add_fault(find_view("", *arguments.show, view), faults);
-        if (arguments.exposure && view != nullptr && !view->shows_light)
+        if (arguments.exposure && view.recipe != nullptr && !view.recipe->shows_light)
             add_fault(Status::bad_input("--exposure: a view's colours are no light, allowed: leave "
                                         "it out, or --show illumination"),
                       faults);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The methods of a flight library: those that it was configured with.
-// in: PILEUS_FLIGHT_<METHOD>, PILEUS_WITHOUT_<PART> -> out: the recipe of a scene's method.
+// in: PILEUS_FLIGHT_<METHOD>, PILEUS_WITHOUT_<PART> -> out: the row of a scene's method.
 // docs/flight.md, "Build"
 #include "src/methods/registry.h"
 
@@ -36,36 +36,36 @@ Status check_parts(const Scene& scene) {
 
 }  // namespace
 
-Status find_method(const Scene& scene, const Method*& method) {
+Status find_method(const Scene& scene, MethodRow& row) {
     PILEUS_TRY(check_parts(scene));
-    const Method* const known[] = {
+    const MethodRow known[] = {
 #ifdef PILEUS_FLIGHT_COLLECTORS
-        &collectors_method(),
+        row_of(collectors_method()),
 #endif
 #ifdef PILEUS_FLIGHT_PATH
-        &path_method(),
+        row_of(path_method()),
 #endif
 #ifdef PILEUS_FLIGHT_RAYMARCH
-        &raymarch_method(),
+        row_of(raymarch_method()),
 #endif
 #ifdef PILEUS_FLIGHT_OPTICAL_DEPTH
-        &optical_depth_method(),
+        row_of(optical_depth_method()),
 #endif
 #ifdef PILEUS_FLIGHT_PHOTON_GRID
-        &photon_grid_method(),
+        row_of(photon_grid_method()),
 #endif
 #ifdef PILEUS_FLIGHT_PARTICLES
-        &particles_method(),
+        row_of(particles_method()),
 #endif
     };
-    for (const Method* one : known) {
-        method = one;
-        if (scene.method == one->name) return Status::ok();
+    for (const MethodRow& one : known) {
+        row = one;
+        if (scene.method == one.name) return Status::ok();
     }
     return without(("method.name: \"" + scene.method + "\" was").c_str(), "PILEUS_FLIGHT_METHODS");
 }
 
-Status find_view(const std::string&, const std::string&, const Method*&) {
+Status find_view(const std::string&, const std::string&, MethodRow&) {
     return Status::bad_input("views are not in a flight library, allowed: none");
 }
 

@@ -12,7 +12,7 @@
 namespace pileus {
 
 /// The recipe.
-const Method& collectors_method();
+const Recipe& collectors_method();
 extern const MethodTools collectors_tools;
 
 /// Everything one run holds; made by `prepare`, lit by `shoot`, read by `show`.

@@ -100,7 +100,7 @@ Status compose(const FrameStep& step, const Context& context, MethodRun& method_
 
 }  // namespace
 
-const Method& collectors_method() {
+const Recipe& collectors_method() {
     static constexpr LiveMethod live{aim,
                                      advance,
                                      units,
@@ -109,7 +109,7 @@ const Method& collectors_method() {
                                      set_photon_limits,
                                      kept(kChecks, put_tables),
                                      most_units};
-    static constexpr Method method{"collectors",
+    static constexpr Recipe method{"collectors",
                                    WorldUse::kGrid,
                                    make,
                                    kept(kChecks, check),

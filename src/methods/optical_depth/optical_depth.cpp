@@ -41,8 +41,8 @@ Status outline(const Context& context, MethodRun& method_run) {
 
 }  // namespace
 
-const Method& optical_depth_method() {
-    static constexpr Method method{"optical-depth",
+const Recipe& optical_depth_method() {
+    static constexpr Recipe method{"optical-depth",
                                    WorldUse::kGrid,
                                    make,
                                    kept(kChecks, check),

@@ -8,7 +8,7 @@
 namespace pileus {
 
 /// The recipe.
-const Method& optical_depth_method();
+const Recipe& optical_depth_method();
 extern const MethodTools optical_depth_tools;
 
 }  // namespace pileus

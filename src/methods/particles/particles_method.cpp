@@ -207,8 +207,8 @@ Status ParticlesRun::reserve(LateRows&) {
     return around_balls.reserve(light.count, light.name);
 }
 
-const Method& particles_method() {
-    static constexpr Method method{"particles",
+const Recipe& particles_method() {
+    static constexpr Recipe method{"particles",
                                    WorldUse::kParticles,
                                    make,
                                    kept(kChecks, check),

@@ -8,6 +8,6 @@
 namespace pileus {
 
 /// The recipe.
-const Method& particles_method();
+const Recipe& particles_method();
 
 }  // namespace pileus

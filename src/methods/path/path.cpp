@@ -154,10 +154,10 @@ PathInput path_input(const Context& context, const PathRun& run) {
     return in;
 }
 
-const Method& path_method() {
+const Recipe& path_method() {
     static constexpr LiveMethod live{aim,     advance, units,      compose, nullptr,
                                      nullptr, nullptr, most_units, true,    true};
-    static constexpr Method method{"path",
+    static constexpr Recipe method{"path",
                                    WorldUse::kGrid,
                                    make,
                                    kept(kChecks, check),

@@ -32,7 +32,7 @@ struct PathRun : MethodRun {
 };
 
 /// The recipe.
-const Method& path_method();
+const Recipe& path_method();
 extern const MethodTools path_tools;
 
 /// Lights, camera and noise of a frame.

@@ -11,7 +11,7 @@
 namespace pileus {
 
 /// The recipe.
-const Method& photon_grid_method();
+const Recipe& photon_grid_method();
 extern const MethodTools photon_grid_tools;
 
 /// Photons that the sums hold where they have room, so that a budget or a session may go on.
@@ -83,7 +83,7 @@ Status photon_grid_show_slices(GridSlices what, double orbit_deg, const Context&
                                PhotonGridRun& run, Image& image);
 
 /// Recipes of these views.
-const Method* photon_grid_views(int& count);
+const Recipe* photon_grid_views(int& count);
 
 /// Shoots what a frame needs. kCheckFailed: interrupted before there was anything to show.
 Status photon_grid_light(const FrameStep& step, const Context& context, PhotonGridRun& run);

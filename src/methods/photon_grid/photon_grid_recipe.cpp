@@ -107,7 +107,7 @@ Status outline_slices(const Context& context, MethodRun& run) {
 }
 
 template <GridSlices kWhat>
-constexpr Method slices(const char* name) {
+constexpr Recipe slices(const char* name) {
     return {name,  WorldUse::kGrid,    make,  check,  outline_slices,     prepare,
             light, show_slices<kWhat>, count, report, photon_budget_used, nullptr,
             false};
@@ -188,14 +188,14 @@ void photon_grid_report(const PhotonGridRun& run, Report& report) {
     report.digests.insert(report.digests.begin(), run.digests.begin(), run.digests.end());
 }
 
-const Method* photon_grid_views(int& count) {
-    static constexpr Method all[] = {slices<GridSlices::kFlux>("flux-slices"),
+const Recipe* photon_grid_views(int& count) {
+    static constexpr Recipe all[] = {slices<GridSlices::kFlux>("flux-slices"),
                                      slices<GridSlices::kAnisotropy>("anisotropy-slices")};
     count = int(sizeof all / sizeof all[0]);
     return all;
 }
 
-const Method& photon_grid_method() {
+const Recipe& photon_grid_method() {
     static constexpr LiveMethod live{aim,
                                      advance,
                                      units,
@@ -204,7 +204,7 @@ const Method& photon_grid_method() {
                                      set_photon_limits,
                                      kept(kChecks, put_tables),
                                      most_units};
-    static constexpr Method method{"photon-grid",
+    static constexpr Recipe method{"photon-grid",
                                    WorldUse::kGrid,
                                    make,
                                    kept(kChecks, check),

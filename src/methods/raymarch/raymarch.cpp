@@ -32,8 +32,8 @@ Status outline(const Context& context, MethodRun& method_run) {
 
 }  // namespace
 
-const Method& raymarch_method() {
-    static constexpr Method method{"raymarch",
+const Recipe& raymarch_method() {
+    static constexpr Recipe method{"raymarch",
                                    WorldUse::kSkyInPlace,
                                    make,
                                    kept(kChecks, check),

@@ -8,7 +8,7 @@
 namespace pileus {
 
 /// The recipe.
-const Method& raymarch_method();
+const Recipe& raymarch_method();
 extern const MethodTools raymarch_tools;
 
 }  // namespace pileus

@@ -137,7 +137,7 @@ Status measure_flux(const Scene& scene, const RenderOptions& options, const Flux
     const Scene own = scene_to_measure(scene, settings);
     Context context;
     PILEUS_TRY(make_context(own, options, context, report));
-    const Method& method = path_method();
+    const Recipe& method = path_method();
     Budget budget = options.budget;
     PILEUS_TRY(check_settings(settings, own, budget));
     const bool photons = settings.method == FluxMethod::kPhotons;

@@ -22,7 +22,7 @@ enum class View {
 };
 
 /// One recipe for each view, in the order of View; src/methods/registry.cpp lists them.
-const Method* collectors_views(int& count);
+const Recipe* collectors_views(int& count);
 
 /// Whether a view's colours are light that the scene's exposure applies to.
 constexpr bool view_is_light(View view) { return view == View::kIllumination; }

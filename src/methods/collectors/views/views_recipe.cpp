@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Each view as a recipe, so that views go through the same loop over frames as pictures.
-// in: View -> out: Method.
+// in: View -> out: Recipe.
 // docs/how-it-works.md
 #include "src/methods/collectors/views/views.h"
 #include "src/photons/photon_frames.h"
@@ -43,7 +43,7 @@ void count(const MethodRun& run, Counts& counters) { collectors_view_count(own(r
 void report(const MethodRun& run, Report& out) { collectors_view_report(own(run), out); }
 
 template <View kView>
-constexpr Method recipe(const char* name) {
+constexpr Recipe recipe(const char* name) {
     return {name,
             WorldUse::kGrid,
             make<kView>,
@@ -61,8 +61,8 @@ constexpr Method recipe(const char* name) {
 
 }  // namespace
 
-const Method* collectors_views(int& count) {
-    static constexpr Method all[] = {recipe<View::kDensitySlice>("density-slice"),
+const Recipe* collectors_views(int& count) {
+    static constexpr Recipe all[] = {recipe<View::kDensitySlice>("density-slice"),
                                      recipe<View::kGradientSlice>("gradient-slice"),
                                      recipe<View::kGradient>("gradient"),
                                      recipe<View::kSamples>("samples"),

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+// The one way to make a frame: what a session knows of a method.
+// in: a world, what lights it, a frame -> out: light accumulated, planes of a picture.
+// docs/architecture.md, "Methods"
+#pragma once
+#include <memory>
+
+#include "src/plan/budget.h"
+#include "src/plan/frame_work.h"
+#include "src/run/context.h"
+#include "src/scene/scene.h"
+#include "src/world/environment.h"
+
+namespace pileus {
+
+struct LateRows;
+struct Planes;
+struct Recipe;
+
+/// What a frame is made of; all outlive the call.
+struct FrameView {
+    const Scene& scene;  ///< its frame is in the media's coordinates
+    const World& world;
+    Environment& environment;  ///< whose air is seen by one camera after the other
+    const Lighting& lighting;  ///< of this frame
+    int frame = 0;             ///< its number
+};
+
+struct ViewChange {
+    bool new_sky = false;  ///< the sky map is another one, the air's among them
+};
+
+struct RenderAsk {
+    LateRows* late = nullptr;   ///< 8-bit pixels are all that is wanted: takes what may be left
+    bool media_only = false;    ///< what lies behind the media is not wanted: docs/clouds.md
+    double view_slack_deg = 0;  ///< by which light that is gathered for a camera may be off
+};
+
+/// Light that a session has traced and may trace.
+struct LightUnits {
+    const char* unit = "";           ///< of what a step counts: "generation", "sample"
+    std::uint64_t whole = 0;         ///< units that a first picture should have
+    std::uint64_t unit_photons = 0;  ///< photons or paths of one
+    std::uint64_t held = 0;          ///< units that the next picture shows
+    std::uint32_t prepared = 1;      ///< times that the sums were laid out
+    bool one_sum = false;            ///< of units that are all alike: none has fewer photons
+};
+
+/// Functions are called from the top down, those from `set_view` to `render` for each frame. What a
+/// flight has no use for, files, clocks and words for people, is in MethodReport: a table of
+/// virtual functions keeps all that it names.
+class Method {
+public:
+    Method() = default;
+    Method(const Method&) = delete;
+    Method& operator=(const Method&) = delete;
+    virtual ~Method() = default;
+
+    /// From sizes before `prepare`, exact after it. kBadInput: what a plan alone can see; kLimit.
+    virtual Status plan(const Context& context, const FrameView& view, Plan& plan) = 0;
+    /// Once, after the first `plan`, when the world is loaded: all that comes before light.
+    virtual Status prepare(const Context& context, const FrameView& view) = 0;
+    /// Takes, before the first picture, what pictures may need under any work, with depths or
+    /// without, and what they may leave to late rows: sealed, they find it there. kLimit: out of
+    /// memory.
+    virtual Status reserve(const FrameView& view, LateRows& late) = 0;
+    /// From now on pictures keep no memory of their own: what is as large as a picture asks for is
+    /// given back.
+    virtual void seal() {}
+    /// Takes up camera, lights, number of the frame. What is unchanged keeps its light.
+    virtual Status set_view(const Context& context, const FrameView& view,
+                            const ViewChange& change) = 0;
+    /// Traces so many whole units; `done` fewer where the context stops it.
+    virtual Status accumulate(const Context& context, const FrameView& view, std::uint64_t units,
+                              std::uint64_t& done) = 0;
+    /// The picture as it is lit now. `planes` stay the method's until its next call, and may be
+    /// changed or taken.
+    virtual Status render(const Context& context, const FrameView& view, const RenderAsk& ask,
+                          Planes*& planes) = 0;
+
+    /// At any time, before the first `set_view`, too.
+    virtual LightUnits progress() const { return {}; }
+    /// The work as the method was made, every member filled in that it has.
+    virtual FrameWork full_work() const { return {}; }
+    /// Takes up the work of the next frames, filled in likewise.
+    virtual Status set_limits(const FrameWork& work) = 0;
+    /// What a frame of this work, all members filled in, takes at the most. kBadInput: it depends
+    /// on more than the work.
+    virtual Status worst_case(const FrameView& view, const FrameWork& work,
+                              FrameUnits& units) const = 0;
+    /// Adds the accidents that flights tell of, too. Names are literals.
+    virtual void count(Counts& counts) const = 0;
+    /// Whether the next picture reads the last one's planes, which are left alone then.
+    virtual bool keeps_planes() const { return false; }
+};
+
+/// What people and files are told of a method: an object beside it.
+class MethodReport {
+public:
+    MethodReport() = default;
+    MethodReport(const MethodReport&) = delete;
+    MethodReport& operator=(const MethodReport&) = delete;
+    virtual ~MethodReport() = default;
+
+    /// All else than `Method::count` has, after it.
+    virtual void report(Report& report) const = 0;
+    /// The settings of a scene with such work, whose checks have the words for what is wrong with
+    /// it.
+    virtual void put_work(const FrameWork& work, MethodTables& tables) const = 0;
+};
+
+struct MadeMethod {
+    std::unique_ptr<Method> method;
+    std::unique_ptr<MethodReport> report;  ///< null in a flight
+};
+
+/// A name of `method.name` or of `--show`, and what is made by it.
+struct MethodRow {
+    const char* name = "";
+    WorldUse world{};  ///< what it asks of its world
+    /// kBadInput: a budget that the method does not know, or a scene that it cannot render. Null in
+    /// a flight.
+    Status (*check)(const Scene&, const Budget&) = nullptr;
+    const Recipe* recipe = nullptr;
+};
+
+}  // namespace pileus

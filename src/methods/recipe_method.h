@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// A recipe as a method: its live functions over a run.
+// in: a recipe, a run that it made -> out: a Method, a MethodReport.
+// docs/architecture.md, "Methods"
+#pragma once
+#include "src/methods/methods.h"
+
+namespace pileus {
+
+/// The recipe's row, by which it is found.
+MethodRow row_of(const Recipe& recipe);
+
+/// `recipe` and `run`, which it made, outlive what is returned. A view, which is in no session of a
+/// host, has `plan`, `prepare`, `count` and its report.
+MadeMethod method_of(const Recipe& recipe, MethodRun& run);
+
+/// Whether hosts have sessions of it.
+bool is_live(const MethodRow& row);
+/// Whether its light is traced with depths and the cloud's part, or without.
+bool keeps_parts(const MethodRow& row);
+
+}  // namespace pileus
