@@ -13,6 +13,7 @@
 
 namespace pileus {
 
+struct FinishedParts;
 struct LateRows;
 struct Planes;
 struct Recipe;
@@ -27,7 +28,8 @@ struct FrameView {
 };
 
 struct ViewChange {
-    bool new_sky = false;  ///< the sky map is another one, the air's among them
+    bool new_sky = false;    ///< the sky map is another one, the air's among them
+    bool new_shine = false;  ///< what shines is another but for the sun's direction: same_shine
 };
 
 struct RenderAsk {
@@ -102,11 +104,24 @@ public:
     MethodReport& operator=(const MethodReport&) = delete;
     virtual ~MethodReport() = default;
 
+    /// Needed, left out, bias, memory by stage, limits; after `Method::plan`. Whoever asks then
+    /// checks memory.
+    virtual void explain(const Context& context, const FrameView& view, Plan& plan) const = 0;
+    /// Of what no frame changes, after `Method::prepare`.
+    virtual void digest(const FrameView& view, Digests& digests) const = 0;
+    /// Of each picture, beside its planes.
+    virtual FinishedParts finished() const = 0;
     /// All else than `Method::count` has, after it.
     virtual void report(Report& report) const = 0;
     /// The settings of a scene with such work, whose checks have the words for what is wrong with
     /// it.
     virtual void put_work(const FrameWork& work, MethodTables& tables) const = 0;
+};
+
+/// What a method is made from; it takes copies of its own.
+struct MethodInputs {
+    const Scene& scene;
+    const Budget& budget;
 };
 
 struct MadeMethod {
@@ -121,7 +136,8 @@ struct MethodRow {
     /// kBadInput: a budget that the method does not know, or a scene that it cannot render. Null in
     /// a flight.
     Status (*check)(const Scene&, const Budget&) = nullptr;
-    const Recipe* recipe = nullptr;
+    MadeMethod (*make)(const MethodInputs&) = nullptr;  ///< null: by the recipe
+    const Recipe* recipe = nullptr;                     ///< null: a class of its own
 };
 
 }  // namespace pileus

@@ -29,6 +29,23 @@ Status check_all_frames(const MethodRun& run) {
     return Status::ok();
 }
 
+/// Of the first frame; recipes make theirs themselves.
+void make_light(const MethodRow& row, MethodRun& run) {
+    if (row.recipe == nullptr)
+        run.lighting = light_of(*run.scene, run.sun_of(0), *run.world, run.environment);
+}
+
+/// Recipes fill the run's plan and check it, too.
+Status make_plan(const MethodRow& row, const MadeMethod& made, const Context& context,
+                 MethodRun& run) {
+    const FrameView view = view_of(run, 0);
+    if (kPlans && row.recipe == nullptr) run.plan = Plan{};
+    PILEUS_TRY(made.method->plan(context, view, run.plan));
+    if (!kPlans || row.recipe != nullptr) return Status::ok();
+    made.report->explain(context, view, run.plan);
+    return check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), run.scene->file);
+}
+
 }  // namespace
 
 Status check_placed_media(const MethodRun& run, const Ground& rest, int frame) {
@@ -61,12 +78,17 @@ Status open_run(const MethodRow& row, const MadeMethod& made, const Scene& scene
     run.world = std::move(world);
     if (!kFlight) PILEUS_TRY(check_all_frames(run));
     PILEUS_TRY(outline_environment(scene, context, *run.world, run.sky, run.environment));
-    PILEUS_TRY(made.method->plan(context, view_of(run, 0), run.plan));
+    make_light(row, run);
+    PILEUS_TRY(make_plan(row, made, context, run));
     if (!exact) return Status::ok();
     if (!kFlight && own != nullptr) PILEUS_TRY(load_world(scene, context, *own));
     PILEUS_TRY(load_environment(scene, context, run.environment));
+    // The values may show that there is no medium.
+    make_light(row, run);
     PILEUS_TRY(made.method->prepare(context, view_of(run, 0)));
-    return made.method->plan(context, view_of(run, 0), run.plan);
+    if (kPlans && row.recipe == nullptr && context.digests)
+        made.report->digest(view_of(run, 0), run.digests);
+    return make_plan(row, made, context, run);
 }
 
 Status open_run(const Recipe& recipe, const Scene& scene, const Budget& budget,

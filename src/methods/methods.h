@@ -23,8 +23,9 @@ struct FrameStep {
     LateRows* late = nullptr;  ///< 8-bit pixels are all that is wanted: takes what may be left
 };
 
-/// What a method keeps between its functions; each derives its own, with a copy of its settings:
-/// work and clocks change that alone. What all have is here.
+/// What all runs have: a session's of a method that is a class. A recipe derives its own, in which
+/// it keeps what is between its functions, with a copy of its settings: work and clocks change that
+/// alone.
 struct MethodRun {
     const Scene* scene = nullptr;
     const FrameState* rest = nullptr;  ///< of the scene, but for keys; null: the scene itself
@@ -44,7 +45,7 @@ struct MethodRun {
     bool sealed = false;               ///< nothing may be laid out anew: docs/flight.md
     bool alone = false;                ///< what lies behind the media is not wanted: docs/clouds.md
     double view_slack_deg = 0;         ///< by which light that is gathered for a camera may be off
-    std::vector<std::pair<std::string, std::string>> digests;  ///< of what no frame changes
+    Digests digests;                   ///< of what no frame changes
 
     MethodRun() = default;
     MethodRun(const MethodRun&) = delete;

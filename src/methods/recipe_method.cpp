@@ -3,6 +3,7 @@
 #include "src/methods/recipe_method.h"
 
 #include "kernels_cpu/core/profile.h"
+#include "src/picture/finish_frame.h"
 
 namespace pileus {
 namespace {
@@ -68,6 +69,10 @@ class RecipeReport final : public MethodReport {
 public:
     RecipeReport(const Recipe& recipe, const MethodRun& run) : recipe_(recipe), run_(run) {}
 
+    // `outline`, `prepare` and `show` do these.
+    void explain(const Context&, const FrameView&, Plan&) const override {}
+    void digest(const FrameView&, Digests&) const override {}
+    FinishedParts finished() const override { return {}; }
     void report(Report& report) const override { recipe_.report(run_, report); }
     void put_work(const FrameWork& work, MethodTables& tables) const override {
         recipe_.live->put_work(work, run_, tables);
@@ -81,7 +86,7 @@ private:
 }  // namespace
 
 MethodRow row_of(const Recipe& recipe) {
-    return {recipe.name, recipe.world, recipe.check, &recipe};
+    return {recipe.name, recipe.world, recipe.check, nullptr, &recipe};
 }
 
 MadeMethod method_of(const Recipe& recipe, MethodRun& run) {
@@ -91,8 +96,10 @@ MadeMethod method_of(const Recipe& recipe, MethodRun& run) {
     return made;
 }
 
-bool is_live(const MethodRow& row) { return row.recipe->live != nullptr; }
+bool is_live(const MethodRow& row) { return row.recipe == nullptr || row.recipe->live != nullptr; }
 
-bool keeps_parts(const MethodRow& row) { return is_live(row) && row.recipe->live->keeps_parts; }
+bool keeps_parts(const MethodRow& row) {
+    return row.recipe != nullptr && row.recipe->live != nullptr && row.recipe->live->keeps_parts;
+}
 
 }  // namespace pileus

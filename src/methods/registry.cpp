@@ -37,7 +37,7 @@ std::vector<ListedMethod> listed_methods() {
             {row_of(raymarch_method()), nullptr, 0, raymarch_tools},
             {row_of(optical_depth_method()), nullptr, 0, optical_depth_tools},
             photon_grid,
-            {row_of(particles_method())}};
+            {particles_row()}};
 }
 
 MethodTools method_tools(const std::string& name) {

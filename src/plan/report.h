@@ -19,6 +19,9 @@ namespace pileus {
 /// no memory but the row's.
 using Counts = std::vector<std::pair<std::string_view, std::uint64_t>>;
 
+/// Stage -> 16 hex digits.
+using Digests = std::vector<std::pair<std::string, std::string>>;
+
 /// What a run was asked for, and what it runs on.
 struct RunHead {
     std::string version, scene, method, isa;
@@ -142,8 +145,8 @@ struct Report : RunHead, PictureHead {
 
     std::vector<std::string> warnings;  ///< a line for each: what makes the picture doubtful
     Counts counters;
-    Counts executed;                                           ///< 0: left out, and truly so
-    std::vector<std::pair<std::string, std::string>> digests;  ///< stage -> 16 hex digits
+    Counts executed;  ///< 0: left out, and truly so
+    Digests digests;
 };
 
 }  // namespace pileus

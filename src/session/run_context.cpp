@@ -77,7 +77,8 @@ std::string budget_used(const MethodRow& row, const MethodRun& run, int frame,
         return "";
     Budget used;
     used.steps = run.budget.steps;
-    if (row.recipe->budget_used != nullptr) row.recipe->budget_used(frame, run, report, used);
+    if (row.recipe != nullptr && row.recipe->budget_used != nullptr)
+        row.recipe->budget_used(frame, run, report, used);
     return budget_text(used);
 }
 

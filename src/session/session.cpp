@@ -95,6 +95,16 @@ Status Session::check_method(bool live, const World* world) const {
     return Status::ok();
 }
 
+void Session::make_method() {
+    if (row_.recipe == nullptr) {
+        run_ = std::make_unique<MethodRun>();
+        made_ = row_.make({scene_, options_.budget});
+    } else {
+        run_ = row_.recipe->make();
+        made_ = method_of(*row_.recipe, *run_);
+    }
+}
+
 Status Session::open(const Scene& scene, const RenderOptions& options, SessionKind kind, bool exact,
                      std::shared_ptr<const World> world) {
     const FpModeGuard guard;
@@ -115,8 +125,7 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
     if (kChecks) PILEUS_TRY(row_.check(scene_, options.budget));
     if (kFilms && !options.show.empty()) PILEUS_TRY(find_view(scene_.method, options.show, row_));
     if (kChecks) PILEUS_TRY(check_method(live, world.get()));
-    run_ = row_.recipe->make();
-    made_ = method_of(*row_.recipe, *run_);
+    make_method();
     run_->rest = live ? static_cast<const FrameState*>(&scene_) : &host_;
     run_->sky = options.sky;
     if (kFilms && !scene_.animation.keys.empty()) {
@@ -152,9 +161,13 @@ Status Session::render_image(const FrameStep& step, Image& image) {
     const FpModeGuard guard;
     const PoolGuard lent(*threads_);
     PILEUS_TRY(take_frame(step.frame));
-    PILEUS_TRY(row_.recipe->light(step, context_, *run_));
-    report_.digests.clear();
-    PILEUS_TRY(row_.recipe->show(step, context_, *run_, image));
+    if (row_.recipe == nullptr) {
+        PILEUS_TRY(film_frame(step.frame, image));
+    } else {
+        PILEUS_TRY(row_.recipe->light(step, context_, *run_));
+        report_.digests.clear();
+        PILEUS_TRY(row_.recipe->show(step, context_, *run_, image));
+    }
     ++stats_.pictures;
     return Status::ok();
 }
@@ -165,6 +178,15 @@ void Session::finish_report() {
     made_.report->report(report_);
 }
 
+/// The lights as they are set now; recipes make theirs themselves. Returns whether what shines has
+/// changed.
+bool Session::relight() {
+    if (row_.recipe != nullptr) return false;
+    const Lighting before = run_->lighting;
+    run_->lighting = light_of(scene_, run_->sun_of(host_.number), *run_->world, run_->environment);
+    return !same_shine(before, run_->lighting);
+}
+
 /// Changes that a host made since the last time.
 Status Session::aim() {
     if (!stale_) return Status::ok();
@@ -172,7 +194,8 @@ Status Session::aim() {
     place();
     // What late rows lead to may be laid out anew.
     if (late_.ready) shown_ = nullptr;
-    PILEUS_TRY(made_.method->set_view(context_, view(), {anew_}));
+    const bool new_shine = relight();
+    PILEUS_TRY(made_.method->set_view(context_, view(), {anew_, new_shine}));
     PILEUS_TRY(check_sealed());
     stale_ = anew_ = false;
     stats_.prepared = made_.method->progress().prepared;

@@ -168,6 +168,10 @@ public:
 
 private:
     FrameView view() { return view_of(*run_, host_.number); }
+    void make_method();
+    /// As render_image, by a method that is a class.
+    Status film_frame(int frame, Image& image);
+    bool relight();
     Status aim();
     Status check_sealed() const;
     Status check_media(const char* key, const Ground& ground, double moved_m) const;

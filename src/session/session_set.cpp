@@ -249,6 +249,7 @@ Status Session::reserve() {
 }
 
 void Session::seal() {
+    run_->sealed = true;
     made_.method->seal();
     sealed_shine_ = shine_of(run_->lighting);
     sealed_lights_ = scene_.lights.size();

@@ -8,7 +8,6 @@
 #include "src/methods/collectors/collectors_memory.h"
 #include "src/methods/collectors/prepare/leaves.h"
 #include "src/methods/particles/particles_method.h"
-#include "src/methods/particles/particles_run.h"
 #include "src/methods/particles/view_tiles.h"
 #include "src/methods/path/path.h"
 #include "src/methods/path/path_sky.h"
@@ -205,38 +204,40 @@ void check_particles(const Fixture& f) {
     folder.put("p.csv", "x y z radius density\n0 0 900 300 0.01\n100 50 1000 200 0.02\n");
     Scene scene = f.scene;
     scene.directory = folder.path("");
-    ParticlesRun run;
-    const Recipe& method = particles_method();
-    REQUIRE(open_run(method, scene, {}, f.context, true, nullptr, run));
+    const MethodRow row = particles_row();
+    const MadeMethod made = row.make({scene, {}});
+    const ParticlesState& state = static_cast<ParticlesMethod&>(*made.method).state();
+    MethodRun run;
+    REQUIRE(open_run(row, made, scene, {}, f.context, true, nullptr, run));
     REQUIRE(run.plan.exact);
-    REQUIRE(method.light(FrameStep{}, f.context, run));
-    Bytes held = held_by(run, run.majorants);
-    held["particles"] = run.tree.balls.bytes();
+    Planes* planes = nullptr;
+    REQUIRE(made.method->render(f.context, view_of(run, 0), {}, planes));
+    Bytes held = held_by(run, state.majorants);
+    held["particles"] = state.tree.balls.bytes();
     const ParticleSet& set = run.world->particles;
     CHECK(set.colour.empty());
     held["particles as they are read"] =
         set.position.bytes() + set.radius.bytes() + set.density.bytes();
-    held["velocities of particles"] = set.velocity.bytes() + run.tree.velocity.bytes();
-    held["octree"] = run.tree.nodes.bytes();
-    held["particles' depths towards the sun"] = run.shade.bytes();
-    held["particles' skylight"] = run.sky.bytes();
+    held["velocities of particles"] = set.velocity.bytes() + state.tree.velocity.bytes();
+    held["octree"] = state.tree.nodes.bytes();
+    held["particles' depths towards the sun"] = state.shade.bytes();
+    held["particles' skylight"] = state.sky.bytes();
     held["particles' depths towards lights"] =
-        run.lamp_depth.bytes() + run.lamp_reach.bytes() + run.lamp_seen.bytes();
-    held["particles' light around"] = run.around_balls.bytes();
-    held["skylight on nodes"] = run.sky_nodes.light.bytes();
-    held["sky seen from nodes"] = run.sky_nodes.seen.bytes();
-    held["picture planes"] = bytes_held(run.planes);
+        state.lamp_depth.bytes() + state.lamp_reach.bytes() + state.lamp_seen.bytes();
+    held["particles' light around"] = state.around_balls.bytes();
+    held["skylight on nodes"] = state.sky_nodes.light.bytes();
+    held["sky seen from nodes"] = state.sky_nodes.seen.bytes();
+    held["picture planes"] = bytes_held(*planes);
     // Freed with the march, but for one number a pixel.
     if (scene.output.layer_occlusion)
-        held["occlusion"] =
-            arrays::particle_occlusion(run.particles, run.planes.occlusion.size()).bytes();
+        held["occlusion"] = arrays::particle_occlusion(2, planes->occlusion.size()).bytes();
     if (scene.particles.billboards)
-        held["billboards"] = arrays::particle_boards(run.particles).bytes();
+        held["billboards"] = arrays::particle_boards(state.particles).bytes();
     else
         held["bins along rays"] =
             4 * particle_scratch_floats(scene.particles.bins) * std::uint64_t(f.context.threads);
     // Filled as far as a picture needs them.
-    held["particles by tiles of the picture"] = arrays::view_balls(run.particles).bytes();
+    held["particles by tiles of the picture"] = arrays::view_balls(state.particles).bytes();
     held["tiles of the picture"] = view_tile_scratch_bytes() * std::uint64_t(f.context.threads);
     check_rows(run.plan.memory, Stage::kDisplay, held);
 }
@@ -265,12 +266,11 @@ template <class Run>
 void check_lamps(const Recipe& method, const Fixture& f) {
     Run run;
     REQUIRE(open_run(method, f.scene, {}, f.context, true, nullptr, run));
-    PhotonRun& lit = run;
     Image image;
     REQUIRE(method.light({0, true, true}, f.context, run));
     REQUIRE(method.show({0, true, true}, f.context, run, image));
-    CHECK(lit.lamps.optical_depth.bytes() > 0);
-    CHECK(lit.lamps.optical_depth.bytes() == planned(lit.plan.memory, "optical depths to lights"));
+    CHECK(run.lamps.optical_depth.bytes() > 0);
+    CHECK(run.lamps.optical_depth.bytes() == planned(run.plan.memory, "optical depths to lights"));
 }
 
 TEST_CASE("arrays: what lights of marched photons hold is what the plan says") {

@@ -55,7 +55,7 @@ Status find_method(const Scene& scene, MethodRow& row) {
         row_of(photon_grid_method()),
 #endif
 #ifdef PILEUS_FLIGHT_PARTICLES
-        row_of(particles_method()),
+        particles_row(),
 #endif
     };
     for (const MethodRow& one : known) {

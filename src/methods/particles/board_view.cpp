@@ -3,7 +3,7 @@
 // in: an octree, light at its balls, a camera with a lens and a shutter -> out: planes of pixels.
 // Monette and Whitehead 2014, 3.5; docs/particles.md, "Billboards".
 #include "platform/threads.h"
-#include "src/methods/particles/particles_run.h"
+#include "src/methods/particles/particles_state.h"
 #include "src/methods/particles/view_tiles.h"
 
 namespace pileus {
@@ -22,8 +22,8 @@ struct BoardLens {
 
 class BoardMaker {
 public:
-    BoardMaker(const ParticlesRun& run, const BoardLens& lens)
-        : tree_(run.tree), c_(run.camera), s_(run.settings), lens_(lens) {}
+    BoardMaker(const ParticlesState& state, const BoardLens& lens)
+        : tree_(state.tree), c_(state.camera), s_(state.settings), lens_(lens) {}
 
     ParticleBoard board(std::size_t i) const {
         const ParticleBall& ball = tree_.balls[i];
@@ -88,24 +88,28 @@ constexpr std::size_t kColoursAtOnce = 4096;
 
 }  // namespace
 
-bool moves(const ParticlesRun& run) {
-    return run.scene->lens.shutter_s > 0 && !run.tree.velocity.empty();
+bool moves(const FrameView& view, const ParticlesState& state) {
+    return view.scene.lens.shutter_s > 0 && !state.tree.velocity.empty();
 }
 
-Status show_boards(const Context& context, const ParticleMarchParams& march, ParticlesRun& run) {
+Status show_boards(const Context& context, const FrameView& view, const ParticleMarchParams& march,
+                   ParticlesState& state) {
     const StageClock clock(context, "blend");
-    const std::size_t count = run.tree.balls.size();
-    Planes& planes = run.planes;
+    const std::size_t count = state.tree.balls.size();
+    Planes& planes = state.planes;
     for (float& v : planes.transmittance.span()) v = 1;
     for (float& v : planes.colour.span()) v = 0;
     for (float& v : planes.half_depth.span()) v = __builtin_inff();
     for (float& v : planes.optical_depth.span()) v = 0;
     Buffer<ParticleBoard> boards;
     PILEUS_TRY(allocate(arrays::particle_boards(count), boards));
-    const BoardMaker maker(run, lens_of(*run.scene));
-    const ParticleColourBuffers colours{
-        run.shade.data(), light_from_around(run), run.seen.data(), run.tree.colour.data(), count,
-        boards.data()};
+    const BoardMaker maker(state, lens_of(view.scene));
+    const ParticleColourBuffers colours{state.shade.data(),
+                                        light_from_around(state),
+                                        state.seen.data(),
+                                        state.tree.colour.data(),
+                                        count,
+                                        boards.data()};
     const std::size_t pieces = (count - 1) / kColoursAtOnce + 1;
     parallel_for(context.threads, std::int64_t(pieces), [&](std::int64_t piece, int) {
         const std::size_t begin = std::size_t(piece) * kColoursAtOnce;
@@ -113,17 +117,17 @@ Status show_boards(const Context& context, const ParticleMarchParams& march, Par
         for (std::size_t i = begin; i < end; ++i) boards[i] = maker.board(i);
         context.kernels->board_colours(march, colours, std::uint32_t(begin), std::uint32_t(end));
     });
-    const Scene& scene = *run.scene;
+    const Scene& scene = view.scene;
     ParticleBoardParams k{};
-    k.camera = run.camera;
+    k.camera = state.camera;
     k.boards = boards.data();
-    k.moving = moves(run) ? 1 : 0;
-    k.curved = scene.lens.aperture_radius_m > 0 || run.settings.falloff != kChordPower ? 1 : 0;
-    k.cut = float(run.settings.stop_below);
+    k.moving = moves(view, state) ? 1 : 0;
+    k.curved = scene.lens.aperture_radius_m > 0 || state.settings.falloff != kChordPower ? 1 : 0;
+    k.cut = float(state.settings.stop_below);
     const ParticleBoardBuffers b{planes.opaque_depth.data(), planes.transmittance.data(),
                                  planes.colour.data(), planes.half_depth.data(),
                                  planes.optical_depth.data()};
-    return blend_particles(context, run.tree, k, boards.span(), b);
+    return blend_particles(context, state.tree, k, boards.span(), b);
 }
 
 }  // namespace pileus

@@ -71,42 +71,42 @@ float seen_by(const SolidsView& solids, const ParticleBall& ball, const LampPara
 
 }  // namespace
 
-void see_past_solids(const Context& context, const ParticlesRun& run, const LampParams& lamp,
-                     float* seen) {
-    const SolidsView solids = run.world->solids.view();
+void see_past_solids(const Context& context, const FrameView& view, const ParticlesState& state,
+                     const LampParams& lamp, float* seen) {
+    const SolidsView solids = view.world.solids.view();
     // Meshes may have no triangle with an area: then there is no tree to walk.
     if (solids.count == 0) {
-        for (std::size_t i = 0; i < run.tree.balls.size(); ++i) seen[i] = 1;
+        for (std::size_t i = 0; i < state.tree.balls.size(); ++i) seen[i] = 1;
         return;
     }
-    const LightPlaces places = light_places(run.settings, lamp);
-    const float left = float(run.settings.solid_shadow);
-    parallel_each(context.threads, run.tree.balls.size(), [&](std::size_t i) {
-        seen[i] = seen_by(solids, run.tree.balls[i], lamp, places, left);
+    const LightPlaces places = light_places(state.settings, lamp);
+    const float left = float(state.settings.solid_shadow);
+    parallel_each(context.threads, state.tree.balls.size(), [&](std::size_t i) {
+        seen[i] = seen_by(solids, state.tree.balls[i], lamp, places, left);
     });
 }
 
-Status light_by_lamps(const Context& context, ParticlesRun& run) {
-    const std::vector<LampParams>& lamps = run.lighting.lamps;
+Status light_by_lamps(const Context& context, const FrameView& view, ParticlesState& state) {
+    const std::vector<LampParams>& lamps = view.lighting.lamps;
     if (lamps.empty()) return Status::ok();
     const StageClock clock(context, "lights");
-    const std::size_t count = run.tree.balls.size();
-    PILEUS_TRY(allocate_once(arrays::particle_lamps(count, lamps.size()), run.lamp_depth));
-    PILEUS_TRY(allocate_once(arrays::particle_lamps(count, lamps.size()), run.lamp_reach));
-    if (kMeshes && run.world->solids.meshes)
-        PILEUS_TRY(allocate_once(arrays::particle_lamps(count, lamps.size()), run.lamp_seen));
-    const double most = run.settings.most_depth;
+    const std::size_t count = state.tree.balls.size();
+    PILEUS_TRY(allocate_once(arrays::particle_lamps(count, lamps.size()), state.lamp_depth));
+    PILEUS_TRY(allocate_once(arrays::particle_lamps(count, lamps.size()), state.lamp_reach));
+    if (kMeshes && view.world.solids.meshes)
+        PILEUS_TRY(allocate_once(arrays::particle_lamps(count, lamps.size()), state.lamp_seen));
+    const double most = state.settings.most_depth;
     Buffer<float> depths;
     for (std::size_t l = 0; l < lamps.size(); ++l) {
         const LampParams& lamp = lamps[l];
-        const LightPlaces places = light_places(run.settings, lamp);
+        const LightPlaces places = light_places(state.settings, lamp);
         PILEUS_TRY(allocate_once(arrays::particle_depths(count, places.count), depths));
         SunTiles tiles;
         if (lamp.parallel != 0)
-            PILEUS_TRY(make_sun_tiles(context, run.tree, casts_of(run),
+            PILEUS_TRY(make_sun_tiles(context, state.tree, casts_of(state),
                                       {lamp.at[0], lamp.at[1], lamp.at[2]}, tiles));
         ParticleLampDepths k{};
-        k.view = run.tree.view();
+        k.view = state.tree.view();
         k.lamp = lamp;
         k.most = most > 0 ? float(most) : 3e38f;
         for (int n = 0; n < places.count; ++n) {
@@ -127,42 +127,43 @@ Status light_by_lamps(const Context& context, ParticlesRun& run) {
             const ParticleShade s = shade_of(depths.data() + i, count, places);
             float square = 0;
             for (const float v : s.slope) square += v * v;
-            run.lamp_depth[l * count + i] = s.depth;
-            run.lamp_reach[l * count + i] = __builtin_sqrtf(square);
+            state.lamp_depth[l * count + i] = s.depth;
+            state.lamp_reach[l * count + i] = __builtin_sqrtf(square);
         });
-        if (kMeshes && !run.lamp_seen.empty())
-            see_past_solids(context, run, lamp, run.lamp_seen.data() + l * count);
+        if (kMeshes && !state.lamp_seen.empty())
+            see_past_solids(context, view, state, lamp, state.lamp_seen.data() + l * count);
     }
     return Status::ok();
 }
 
-bool has_own_light(const ParticlesRun& run) {
-    return !run.tree.colour.empty() || emits(run.world->medium);
+bool has_own_light(const FrameView& view, const ParticlesState& state) {
+    return !state.tree.colour.empty() || emits(view.world.medium);
 }
 
 namespace {
 
 /// Light of the lamps and the sky at each ball, before it is scattered there.
-void gather_lamps(const Context& context, const ParticleMarchParams& k, ParticlesRun& run) {
-    const std::vector<LampParams>& lamps = run.lighting.lamps;
-    const std::size_t count = run.tree.balls.size();
+void gather_lamps(const Context& context, const FrameView& view, const ParticleMarchParams& k,
+                  ParticlesState& state) {
+    const std::vector<LampParams>& lamps = view.lighting.lamps;
+    const std::size_t count = state.tree.balls.size();
     ParticleLampLight b{};
     b.lamps = lamps.data();
     b.count = std::int32_t(lamps.size());
-    b.orders = run.light_orders;
-    const Optics& optics = run.world->medium.optics[0];
+    b.orders = state.light_orders;
+    const Optics& optics = view.world.medium.optics[0];
     float absorbed[3] = {1, 1, 1};
     for (int n = 0; n < b.orders; ++n)
         for (int c = 0; c < 3; ++c) {
-            b.share[n][c] = absorbed[c] * run.order[std::size_t(n)].share;
+            b.share[n][c] = absorbed[c] * state.order[std::size_t(n)].share;
             absorbed[c] *= optics.albedo[c];
         }
-    b.depth = run.lamp_depth.data();
-    b.reach = run.lamp_reach.data();
-    b.seen = run.lamp_seen.data();
-    b.sky = run.sky.data();
-    b.tint = run.tree.colour.data();
-    b.light = run.around_balls.data();
+    b.depth = state.lamp_depth.data();
+    b.reach = state.lamp_reach.data();
+    b.seen = state.lamp_seen.data();
+    b.sky = state.sky.data();
+    b.tint = state.tree.colour.data();
+    b.light = state.around_balls.data();
     b.balls = count;
     over_balls(context, count, "light of lights", 0, 1,
                [&](std::uint32_t begin, std::uint32_t end) {
@@ -171,33 +172,36 @@ void gather_lamps(const Context& context, const ParticleMarchParams& k, Particle
 }
 
 /// What each ball sends on of the light `around` [channel][ball], null: none, and of its own.
-void add_own_light(const Context& context, const float* around, ParticlesRun& run) {
-    const std::size_t count = run.tree.balls.size();
-    const Optics& optics = run.world->medium.optics[0];
+void add_own_light(const Context& context, const FrameView& view, const float* around,
+                   ParticlesState& state) {
+    const std::size_t count = state.tree.balls.size();
+    const Optics& optics = view.world.medium.optics[0];
     const auto factor = [](const Buffer<float>& vectors, std::size_t i, std::size_t c) {
         return vectors.empty() ? 1.0f : vectors[3 * i + c];
     };
     parallel_each(context.threads, count, [&](std::size_t i) {
         for (std::size_t c = 0; c < 3; ++c) {
             const float light = around != nullptr ? around[c * count + i] : 0;
-            run.around_balls[c * count + i] =
-                optics.albedo[c] * factor(run.tree.colour, i, c) * light +
-                optics.emission[c] * factor(run.tree.emission, i, c);
+            state.around_balls[c * count + i] =
+                optics.albedo[c] * factor(state.tree.colour, i, c) * light +
+                optics.emission[c] * factor(state.tree.emission, i, c);
         }
     });
 }
 
 }  // namespace
 
-Status light_around(const Context& context, const ParticleMarchParams& k, ParticlesRun& run) {
-    const bool lamps = !run.lighting.lamps.empty(), own = has_own_light(run);
+Status light_around(const Context& context, const FrameView& view, const ParticleMarchParams& k,
+                    ParticlesState& state) {
+    const bool lamps = !view.lighting.lamps.empty(), own = has_own_light(view, state);
     if (!lamps && !own) {
-        return run.around_balls.resize(0, "particles' light around");
+        return state.around_balls.resize(0, "particles' light around");
     }
     const StageClock clock(context, "light of lights");
-    PILEUS_TRY(allocate_once(arrays::particle_around(run.tree.balls.size()), run.around_balls));
-    if (lamps) gather_lamps(context, k, run);
-    if (own) add_own_light(context, lamps ? run.around_balls.data() : run.sky.data(), run);
+    PILEUS_TRY(allocate_once(arrays::particle_around(state.tree.balls.size()), state.around_balls));
+    if (lamps) gather_lamps(context, view, k, state);
+    if (own)
+        add_own_light(context, view, lamps ? state.around_balls.data() : state.sky.data(), state);
     return Status::ok();
 }
 

@@ -3,7 +3,7 @@
 // in: settings, a light -> out: offsets in radii; a linear function through depths.
 // docs/particles.md, "Light".
 #pragma once
-#include "src/methods/particles/particles_run.h"
+#include "src/methods/particles/particles_state.h"
 
 namespace pileus {
 
@@ -21,21 +21,22 @@ LightPlaces light_places(const ParticlesSettings& settings, const std::array<flo
 LightPlaces light_places(const ParticlesSettings& settings, const LampParams& lamp);
 
 /// Balls that shadow others towards parallel lights.
-inline Span<const ParticleBall> casts_of(const ParticlesRun& run) {
-    return run.settings.occluders < 1 ? run.occluders.span() : run.tree.balls.span();
+inline Span<const ParticleBall> casts_of(const ParticlesState& state) {
+    return state.settings.occluders < 1 ? state.occluders.span() : state.tree.balls.span();
 }
 
 /// The linear function through the depths at the places, each `stride` numbers after the other.
 ParticleShade shade_of(const float* depths, std::size_t stride, const LightPlaces& places);
 
 /// Share of each ball [ball] that a lamp reaches past the solids.
-void see_past_solids(const Context& context, const ParticlesRun& run, const LampParams& lamp,
-                     float* seen);
+void see_past_solids(const Context& context, const FrameView& view, const ParticlesState& state,
+                     const LampParams& lamp, float* seen);
 
 /// Depths to the lamps. kLimit: out of memory. Nothing without lamps.
-Status light_by_lamps(const Context& context, ParticlesRun& run);
+Status light_by_lamps(const Context& context, const FrameView& view, ParticlesState& state);
 
 /// Light of lamps and sky at each ball, for the camera of `k`. Nothing without lamps.
-Status light_around(const Context& context, const ParticleMarchParams& k, ParticlesRun& run);
+Status light_around(const Context& context, const FrameView& view, const ParticleMarchParams& k,
+                    ParticlesState& state);
 
 }  // namespace pileus

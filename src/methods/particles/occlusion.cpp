@@ -14,18 +14,20 @@ namespace {
 
 /// [channel][ball]: the share of the sky that each ball's middle sees past all balls, in the first
 /// channel alone. With a ground the sky is the upper half.
-Status sky_seen(const Context& context, const ParticlesRun& run, Buffer<float>& seen) {
-    const std::size_t count = run.tree.balls.size();
+Status sky_seen(const Context& context, const FrameView& view, const ParticlesState& state,
+                Buffer<float>& seen) {
+    const std::size_t count = state.tree.balls.size();
     PILEUS_TRY(allocate(arrays::particle_around(count), seen));
     Buffer<float> depth;
     PILEUS_TRY(allocate(arrays::particle_depths(count, 1), depth));
-    const int first = run.lighting.ground ? kSkyParts / 2 : 0;
+    const int first = view.lighting.ground ? kSkyParts / 2 : 0;
     const float share = 1.0f / float(kSkyParts - first);
     // What is deeper lets nothing through.
     constexpr float kMost = 88;
     for (int part = first; part < kSkyParts; ++part) {
         SunTiles tiles;
-        PILEUS_TRY(make_sun_tiles(context, run.tree, casts_of(run), sky_direction(part), tiles));
+        PILEUS_TRY(
+            make_sun_tiles(context, state.tree, casts_of(state), sky_direction(part), tiles));
         PILEUS_TRY(sun_depths(context, tiles, {0, 0, 0}, kMost, depth.data(), part - first,
                               kSkyParts - first));
         parallel_each(context.threads, count,
@@ -36,32 +38,32 @@ Status sky_seen(const Context& context, const ParticlesRun& run, Buffer<float>& 
 
 }  // namespace
 
-Status show_occlusion(const Context& context, ParticlesRun& run) {
+Status show_occlusion(const Context& context, const FrameView& view, ParticlesState& state) {
     const StageClock clock(context, "occlusion layer");
-    const std::size_t pixels = run.planes.transmittance.size();
+    const std::size_t pixels = state.planes.transmittance.size();
     PILEUS_TRY(
-        allocate_once(arrays::picture_planes(1, pixels, Stage::kDisplay), run.planes.occlusion));
-    for (float& v : run.planes.occlusion.span()) v = 0;
-    if (run.tree.balls.empty()) return Status::ok();
+        allocate_once(arrays::picture_planes(1, pixels, Stage::kDisplay), state.planes.occlusion));
+    for (float& v : state.planes.occlusion.span()) v = 0;
+    if (state.tree.balls.empty()) return Status::ok();
     Buffer<float> around;
-    PILEUS_TRY(sky_seen(context, run, around));
+    PILEUS_TRY(sky_seen(context, view, state, around));
     // A second picture whose only light is the share seen, behind the same solids.
     Planes own;
     PILEUS_TRY(allocate(arrays::picture_planes(1, pixels, Stage::kDisplay), own.transmittance));
     PILEUS_TRY(allocate(arrays::picture_planes(3, pixels, Stage::kDisplay), own.colour));
-    std::swap(own, run.planes);
-    run.planes.opaque_depth.swap(own.opaque_depth);
-    run.around_balls.swap(around);
-    const Status drawn = draw_particles(context, lit_from_around(run), run);
-    run.around_balls.swap(around);
-    run.planes.opaque_depth.swap(own.opaque_depth);
-    std::swap(own, run.planes);
+    std::swap(own, state.planes);
+    state.planes.opaque_depth.swap(own.opaque_depth);
+    state.around_balls.swap(around);
+    const Status drawn = draw_particles(context, view, lit_from_around(view, state), state);
+    state.around_balls.swap(around);
+    state.planes.opaque_depth.swap(own.opaque_depth);
+    std::swap(own, state.planes);
     PILEUS_TRY(drawn);
     for (std::size_t i = 0; i < pixels; ++i) {
         const float alpha = 1 - own.transmittance[i];
         if (!(alpha > 0)) continue;
         const float hidden = 1 - own.colour[i] / alpha;
-        run.planes.occlusion[i] = hidden > 0 ? (hidden < 1 ? hidden : 1.0f) : 0.0f;
+        state.planes.occlusion[i] = hidden > 0 ? (hidden < 1 ? hidden : 1.0f) : 0.0f;
     }
     return Status::ok();
 }

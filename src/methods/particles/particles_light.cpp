@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// See particles_run.h. Sunlight and skylight at every particle, and the march of a picture.
+// See particles_state.h. Sunlight and skylight at every particle, and the march of a picture.
 // in: an octree, lights -> out: light per particle; planes of pixels.
 // docs/particles.md, "Light", "Display".
 #include "kernels_cpu/core/profile.h"
@@ -7,7 +7,7 @@
 #include "kernels_cpu/particles/particle_light.h"
 #include "platform/threads.h"
 #include "src/methods/particles/light_places.h"
-#include "src/methods/particles/particles_run.h"
+#include "src/methods/particles/particles_state.h"
 #include "src/methods/particles/sun_tiles.h"
 #include "src/methods/particles/view_tiles.h"
 #include "src/picture/nodes/node_grid.h"
@@ -16,13 +16,13 @@
 namespace pileus {
 namespace {
 
-void light_by_sky(const Context& context, ParticlesRun& run) {
-    const std::size_t count = run.tree.balls.size();
-    const SkyNodes& nodes = run.sky_nodes;
+void light_by_sky(const Context& context, ParticlesState& state) {
+    const std::size_t count = state.tree.balls.size();
+    const SkyNodes& nodes = state.sky_nodes;
     const std::uint64_t node_number = node_count(nodes.grid);
     parallel_each(context.threads, count, [&](std::size_t i) {
         float colour[3] = {};
-        const float* p = run.tree.balls[i].centre;
+        const float* p = state.tree.balls[i].centre;
         const Corners<float> at = corners(node_position(nodes.grid, Vec<float>{p[0], p[1], p[2]}),
                                           nodes.grid.size, false);
         for (int s = 0; s < nodes.sets; ++s) {
@@ -30,13 +30,13 @@ void light_by_sky(const Context& context, ParticlesRun& run) {
                 interpolate(nodes.light.data() + std::uint64_t(s) * node_number, at);
             for (int c = 0; c < 3; ++c) colour[c] += light * nodes.colour[s][c];
         }
-        for (std::size_t c = 0; c < 3; ++c) run.sky[c * count + i] = colour[c];
+        for (std::size_t c = 0; c < 3; ++c) state.sky[c * count + i] = colour[c];
     });
 }
 
 /// What scattering leaves in place of light scattered once: octaves as raymarch has them.
-Octaves octaves_of(const ParticlesRun& run) {
-    const ParticlesSettings& s = run.settings;
+Octaves octaves_of(const ParticlesState& state) {
+    const ParticlesSettings& s = state.settings;
     const bool many = s.scattering == ParticleScattering::kOctaves;
     return {many ? s.octaves : 1, float(s.octave_extinction), float(s.octave_share)};
 }
@@ -50,21 +50,21 @@ constexpr float kCorners[4][3] = {
 /// extinction, 1/9.
 constexpr float kReach = 0.57735026919f;
 
-Status light_by_sun(const Context& context, ParticlesRun& run) {
+Status light_by_sun(const Context& context, const FrameView& view, ParticlesState& state) {
     const StageClock clock(context, "light");
-    const std::size_t count = run.tree.balls.size();
-    const LightPlaces places = light_places(run.settings, run.lighting.to_sun);
-    PILEUS_TRY(allocate_once(arrays::particle_shades(count), run.shade));
+    const std::size_t count = state.tree.balls.size();
+    const LightPlaces places = light_places(state.settings, view.lighting.to_sun);
+    PILEUS_TRY(allocate_once(arrays::particle_shades(count), state.shade));
     Buffer<float> depths;
     PILEUS_TRY(allocate(arrays::particle_depths(count, places.count), depths));
     SunTiles tiles;
-    PILEUS_TRY(make_sun_tiles(context, run.tree, casts_of(run), run.lighting.to_sun, tiles));
-    const double most = run.settings.most_depth;
+    PILEUS_TRY(make_sun_tiles(context, state.tree, casts_of(state), view.lighting.to_sun, tiles));
+    const double most = state.settings.most_depth;
     for (int n = 0; n < places.count; ++n)
         PILEUS_TRY(sun_depths(context, tiles, places.offset[n], most > 0 ? float(most) : 3e38f,
                               depths.data() + std::size_t(n) * count, n, places.count));
     parallel_each(context.threads, count, [&](std::size_t i) {
-        run.shade[i] = shade_of(depths.data() + i, count, places);
+        state.shade[i] = shade_of(depths.data() + i, count, places);
     });
     return Status::ok();
 }
@@ -113,94 +113,96 @@ ParticleShade shade_of(const float* depths, std::size_t stride, const LightPlace
     return shade;
 }
 
-void choose_orders(ParticlesRun& run) {
-    const ParticlesSettings& s = run.settings;
-    const Optics& optics = run.world->medium.optics[0];
+void choose_orders(const FrameView& view, ParticlesState& state) {
+    const ParticlesSettings& s = state.settings;
+    const Optics& optics = view.world.medium.optics[0];
     const float mean_cosine = phase_moment(optics.phase, 1);
     double albedo = 0;
     for (const float a : optics.albedo) albedo += double(a) / 3;
-    run.order[0] = ParticleOrder{};
+    state.order[0] = ParticleOrder{};
     if (s.scattering == ParticleScattering::kEffective)
-        run.order[0].extinction = float(1 - albedo * forward_share(optics.phase, 0.5 * s.cone_deg));
+        state.order[0].extinction =
+            float(1 - albedo * forward_share(optics.phase, 0.5 * s.cone_deg));
     if (s.scattering == ParticleScattering::kSimilarity)
-        run.order[0].extinction = float(1 - albedo * double(mean_cosine));
+        state.order[0].extinction = float(1 - albedo * double(mean_cosine));
     // A denser shadow is one of more extinction on the way of the light alone.
-    run.order[0].extinction *= float(s.shadow_density);
-    run.light_orders = s.scattering == ParticleScattering::kOctaves ? s.octaves : 1;
-    run.orders = run.lighting.sunlit ? run.light_orders : 0;
-    for (std::size_t n = 1; n < std::size_t(run.light_orders); ++n) {
-        const ParticleOrder& before = run.order[n - 1];
+    state.order[0].extinction *= float(s.shadow_density);
+    state.light_orders = s.scattering == ParticleScattering::kOctaves ? s.octaves : 1;
+    state.orders = view.lighting.sunlit ? state.light_orders : 0;
+    for (std::size_t n = 1; n < std::size_t(state.light_orders); ++n) {
+        const ParticleOrder& before = state.order[n - 1];
         const float g = n == 1 ? mean_cosine : before.g;
-        run.order[n] = {before.extinction * float(s.octave_extinction),
-                        before.share * float(s.octave_share), g * float(s.octave_anisotropy)};
+        state.order[n] = {before.extinction * float(s.octave_extinction),
+                          before.share * float(s.octave_share), g * float(s.octave_anisotropy)};
     }
 }
 
-Status light_particles(const Context& context, ParticlesRun& run) {
-    if (run.lit && run.to_sun == run.lighting.to_sun) return Status::ok();
-    run.lit = false;
-    choose_orders(run);
-    if (run.tree.balls.empty()) return Status::ok();
-    const double share = run.settings.occluders;
-    if (share < 1 && run.occluders.empty())
-        PILEUS_TRY(choose_occluders(run.tree, share, run.occluders));
-    if (run.settings.light != ParticleLight::kExact) {
-        if (run.orders > 0)
-            PILEUS_TRY(light_by_sun(context, run));
+Status light_particles(const Context& context, const FrameView& view, ParticlesState& state) {
+    if (state.lit && state.to_sun == view.lighting.to_sun) return Status::ok();
+    state.lit = false;
+    choose_orders(view, state);
+    if (state.tree.balls.empty()) return Status::ok();
+    const double share = state.settings.occluders;
+    if (share < 1 && state.occluders.empty())
+        PILEUS_TRY(choose_occluders(state.tree, share, state.occluders));
+    if (state.settings.light != ParticleLight::kExact) {
+        if (state.orders > 0)
+            PILEUS_TRY(light_by_sun(context, view, state));
         else
-            PILEUS_TRY(allocate_once(arrays::particle_shades(run.tree.balls.size()), run.shade));
-        if (kMeshes && run.world->solids.meshes && run.orders > 0) {
+            PILEUS_TRY(
+                allocate_once(arrays::particle_shades(state.tree.balls.size()), state.shade));
+        if (kMeshes && view.world.solids.meshes && state.orders > 0) {
             const StageClock clock(context, "solid shadow");
-            PILEUS_TRY(allocate_once(arrays::particle_seen(run.tree.balls.size()), run.seen));
+            PILEUS_TRY(allocate_once(arrays::particle_seen(state.tree.balls.size()), state.seen));
             LampParams sun{};
             sun.parallel = 1;
-            for (int a = 0; a < 3; ++a) sun.at[a] = run.lighting.to_sun[std::size_t(a)];
-            see_past_solids(context, run, sun, run.seen.data());
+            for (int a = 0; a < 3; ++a) sun.at[a] = view.lighting.to_sun[std::size_t(a)];
+            see_past_solids(context, view, state, sun, state.seen.data());
         }
     }
-    PILEUS_TRY(light_by_lamps(context, run));
-    if (run.settings.sky_ambient) {
-        run.sky_nodes.seen.truncate(0);  // the medium may be another frame's
-        PILEUS_TRY(make_sky_nodes(context, run.world->medium, run.majorants, run.lighting, 0,
-                                  octaves_of(run), SkyView{}, run.sky_nodes));
-        run.sky.truncate(0);
-        if (run.sky_nodes.sets > 0) {
-            PILEUS_TRY(allocate_once(arrays::particle_sky(run.tree.balls.size()), run.sky));
-            light_by_sky(context, run);
+    PILEUS_TRY(light_by_lamps(context, view, state));
+    if (state.settings.sky_ambient) {
+        state.sky_nodes.seen.truncate(0);  // the medium may be another frame's
+        PILEUS_TRY(make_sky_nodes(context, view.world.medium, state.majorants, view.lighting, 0,
+                                  octaves_of(state), SkyView{}, state.sky_nodes));
+        state.sky.truncate(0);
+        if (state.sky_nodes.sets > 0) {
+            PILEUS_TRY(allocate_once(arrays::particle_sky(state.tree.balls.size()), state.sky));
+            light_by_sky(context, state);
         }
     }
-    run.lit = true;
-    run.to_sun = run.lighting.to_sun;
+    state.lit = true;
+    state.to_sun = view.lighting.to_sun;
     return Status::ok();
 }
 
 namespace {
 
-ParticleMarchParams march_params(const ParticlesRun& run) {
-    const ParticlesSettings& s = run.settings;
-    const Optics& optics = run.world->medium.optics[0];
+ParticleMarchParams march_params(const FrameView& view, const ParticlesState& state) {
+    const ParticlesSettings& s = state.settings;
+    const Optics& optics = view.world.medium.optics[0];
     ParticleMarchParams k{};
-    k.view = run.tree.view();
-    k.camera = run.camera;
-    k.bins = bins_of(run);
-    k.orders = run.orders;
+    k.view = state.tree.view();
+    k.camera = state.camera;
+    k.bins = state.settings.bins;
+    k.orders = state.orders;
     k.phase = optics.phase;
     k.cut = float(s.stop_below);
     k.exact = s.light == ParticleLight::kExact ? 1 : 0;
     k.most = s.most_depth > 0 ? float(s.most_depth) : 3e38f;
     for (int a = 0; a < 3; ++a) {
-        k.sun_travel[a] = -run.lighting.to_sun[std::size_t(a)];
-        k.albedo[a] = has_own_light(run) ? 1 : optics.albedo[a];
+        k.sun_travel[a] = -view.lighting.to_sun[std::size_t(a)];
+        k.albedo[a] = has_own_light(view, state) ? 1 : optics.albedo[a];
     }
     float absorbed[3] = {1, 1, 1};
-    for (int n = 0; n < run.light_orders; ++n) {
-        const ParticleOrder& order = run.order[std::size_t(n)];
+    for (int n = 0; n < state.light_orders; ++n) {
+        const ParticleOrder& order = state.order[std::size_t(n)];
         k.order_g[n] = order.g;
         k.thinner[n] = order.extinction;
         for (int c = 0; c < 3; ++c) {
             // Each octave is scattered once more.
             absorbed[c] *= optics.albedo[c];
-            k.sun[n][c] = float(run.lighting.sun_irradiance[c]) * absorbed[c] * order.share;
+            k.sun[n][c] = float(view.lighting.sun_irradiance[c]) * absorbed[c] * order.share;
         }
     }
     return k;
@@ -208,41 +210,42 @@ ParticleMarchParams march_params(const ParticlesRun& run) {
 
 }  // namespace
 
-Status show_particles(const Context& context, ParticlesRun& run) {
-    Planes& planes = run.planes;
-    if (run.tree.balls.empty()) {
+Status show_particles(const Context& context, const FrameView& view, ParticlesState& state) {
+    Planes& planes = state.planes;
+    if (state.tree.balls.empty()) {
         for (float& t : planes.transmittance.span()) t = 1;
         for (float& d : planes.half_depth.span()) d = __builtin_inff();
         return Status::ok();
     }
-    const ParticleMarchParams k = march_params(run);
-    PILEUS_TRY(light_around(context, k, run));
-    return draw_particles(context, k, run);
+    const ParticleMarchParams k = march_params(view, state);
+    PILEUS_TRY(light_around(context, view, k, state));
+    return draw_particles(context, view, k, state);
 }
 
-ParticleMarchParams lit_from_around(const ParticlesRun& run) {
-    ParticleMarchParams k = march_params(run);
+ParticleMarchParams lit_from_around(const FrameView& view, const ParticlesState& state) {
+    ParticleMarchParams k = march_params(view, state);
     k.orders = 0;
     for (float& v : k.albedo) v = 1;
     return k;
 }
 
-Status draw_particles(const Context& context, const ParticleMarchParams& k, ParticlesRun& run) {
-    Planes& planes = run.planes;
-    if (run.settings.billboards) return show_boards(context, k, run);
+Status draw_particles(const Context& context, const FrameView& view, const ParticleMarchParams& k,
+                      ParticlesState& state) {
+    Planes& planes = state.planes;
+    if (state.settings.billboards) return show_boards(context, view, k, state);
     const StageClock clock(context, "march");
     ParticleMarchBuffers b{};
-    b.shade = run.shade.data();
-    b.sky = light_from_around(run);
-    b.seen = run.seen.data();
-    b.tint = run.tree.colour.data();
-    b.balls = run.tree.balls.size();
+    b.shade = state.shade.data();
+    b.sky = light_from_around(state);
+    b.seen = state.seen.data();
+    b.tint = state.tree.colour.data();
+    b.balls = state.tree.balls.size();
     b.opaque_depth = planes.opaque_depth.data();
     b.transmittance = planes.transmittance.data();
     b.colour = planes.colour.data();
     b.half_depth = planes.half_depth.data();
     b.optical_depth = planes.optical_depth.data();
-    return march_particles(context, run.tree, k, b);
+    return march_particles(context, state.tree, k, b);
 }
 
 }  // namespace pileus

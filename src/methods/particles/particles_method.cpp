@@ -3,23 +3,15 @@
 #include "src/methods/particles/particles_method.h"
 
 #include "kernels_cpu/core/profile.h"
-#include "src/base/digest.h"
 #include "src/methods/check_support.h"
-#include "src/methods/particles/particles_run.h"
 #include "src/picture/air_view.h"
 #include "src/picture/background.h"
-#include "src/picture/finish_frame.h"
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/lamp_light.h"
 #include "src/world/camera/view.h"
-#include "src/world/plan_parts.h"
 
 namespace pileus {
 namespace {
-
-ParticlesRun& own(MethodRun& run) { return static_cast<ParticlesRun&>(run); }
-
-std::unique_ptr<MethodRun> make() { return std::make_unique<ParticlesRun>(); }
 
 Status check(const Scene& scene, const Budget& budget) {
     const bool bins = !scene.particles.billboards && budget.steps >= 0;
@@ -42,185 +34,130 @@ Status check(const Scene& scene, const Budget& budget) {
     return check_layer_kinds(scene);
 }
 
-void choose_light(const SunPlace& sun, ParticlesRun& run) {
-    run.lighting = light_of(*run.scene, sun, *run.world, run.environment);
-    choose_orders(run);
-}
-
-Status outline(const Context& context, MethodRun& method_run) {
-    ParticlesRun& run = own(method_run);
-    if (kDevices && context.kernels->device != nullptr)
-        return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
-                                 "\": method particles runs on the host alone, allowed: another, "
-                                 "or another method");
-    run.settings = run.scene->particles;
-    choose_light(run.sun_of(0), run);
-    return plan_particles(context, run);
-}
-
-/// The digest of what the kernels read.
-std::string digest_of(const ParticleTree& tree) {
-    Digest digest;
-    for (const ParticleBall& ball : tree.balls.span()) {
-        const float numbers[] = {ball.centre[0], ball.centre[1], ball.centre[2], ball.per_radius,
-                                 ball.depth};
-        digest.floats({numbers, 5});
-    }
-    return digest.hex();
-}
-
-Status prepare(const Context& context, MethodRun& method_run) {
-    ParticlesRun& run = own(method_run);
-    choose_light(run.sun_of(0), run);
-    PILEUS_TRY(make_majorants(run.world->medium, false, context, run.majorants));
-    {
-        const StageClock clock(context, "octree");
-        const ParticleSet& set = run.world->particles;
-        PILEUS_TRY(make_particle_tree(set, run.world->medium.low_m, run.settings.leaf,
-                                      context.threads, run.tree));
-    }
-    run.particles = run.tree.balls.size();
-    run.outlined_only = false;
-    if (kPlans && context.digests)
-        run.digests = {{"density", density_digest(*run.world)}, {"particles", digest_of(run.tree)}};
-    return plan_particles(context, run);
-}
-
-Status fill_background(const Context& context, ParticlesRun& run) {
+Status fill_background(const Context& context, const FrameView& view, ParticlesState& state) {
     const StageClock clock(context, "background");
-    const BackgroundParams k = background_params(make_medium_view(run.world->medium, run.majorants),
-                                                 run.camera, run.lighting);
-    const BackgroundBuffers b{nullptr, run.planes.background.data(),
-                              run.planes.opaque_depth.data()};
-    return show_background(context, run.lighting, k, b);
+    const BackgroundParams k = background_params(
+        make_medium_view(view.world.medium, state.majorants), state.camera, view.lighting);
+    const BackgroundBuffers b{nullptr, state.planes.background.data(),
+                              state.planes.opaque_depth.data()};
+    return show_background(context, view.lighting, k, b);
 }
 
 /// The grid dims light on its way to the ground, as it does the sun's.
-Status light_ground_by_lamps(const Context& context, ParticlesRun& run) {
-    if (run.lighting.lamps.empty() || !run.lighting.ground) return Status::ok();
+Status light_ground_by_lamps(const Context& context, const FrameView& view, ParticlesState& state) {
+    if (view.lighting.lamps.empty() || !view.lighting.ground) return Status::ok();
     LampNodes lamps;
-    lamps.lamps = run.lighting.lamps;
-    const Medium& medium = run.world->medium;
+    lamps.lamps = view.lighting.lamps;
+    const Medium& medium = view.world.medium;
     LampMarchParams k =
-        lamp_march_params(medium, run.majorants, run.lighting, run.camera, lamps, 0);
+        lamp_march_params(medium, state.majorants, view.lighting, state.camera, lamps, 0);
     k.media = 0;
-    return add_lamp_light(context, medium, k, lamps, run.planes);
+    return add_lamp_light(context, medium, k, lamps, state.planes);
 }
 
-Status light(const FrameStep& step, const Context& context, MethodRun& method_run) {
-    ParticlesRun& run = own(method_run);
-    const Scene& scene = *run.scene;
-    run.lighting = light_of(scene, run.sun_of(step.frame), *run.world, run.environment);
-    run.camera = make_camera(scene.camera, orbit_at(scene, step.frame), run.world->medium.low_m);
-    PILEUS_TRY(light_particles(context, run));
-    PILEUS_TRY(allocate_planes(run.camera.width, run.camera.height, 3, run.lighting.opaque(),
-                               scene.wants_depth(), run.planes));
-    if (kFilms && scene.output.layer_optical_depth)
-        PILEUS_TRY(allocate(arrays::picture_planes(1, run.planes.transmittance.size()),
-                            run.planes.optical_depth));
-    PILEUS_TRY(fill_background(context, run));
-    PILEUS_TRY(show_particles(context, run));
-    if (kFilms && scene.output.layer_occlusion) PILEUS_TRY(show_occlusion(context, run));
-    PILEUS_TRY(light_ground_by_lamps(context, run));
-    return show_air(context, scene, run.world->medium, run.lighting, run.camera, run.environment,
-                    run.planes);
-}
-
-Status show(const FrameStep&, const Context& context, MethodRun& method_run, Image& image) {
-    ParticlesRun& run = own(method_run);
-    context.report->digests = run.digests;
-    FinishedParts parts;
-    parts.colours = true;
-    parts.media = false;
-    return finish_frame(context, run.scene->output, *run.world, run.environment.depth, run.camera,
-                        parts, run.planes, image, *context.report);
-}
-
-/// Light is made again by the next picture where what shines has changed.
-Status aim(int, bool anew, const Context&, MethodRun& method_run) {
-    ParticlesRun& run = own(method_run);
-    const Lighting before = run.lighting;
-    choose_light(place_of(run.scene->sun), run);
-    if (anew || !same_shine(before, run.lighting)) run.lit = false;
-    return Status::ok();
-}
-
-Status advance(std::uint64_t, const Context&, MethodRun&, std::uint64_t& done) {
-    done = 0;
-    return Status::ok();
-}
-
-LightUnits units(const MethodRun&) { return {}; }
-
-Status compose(const FrameStep& step, const Context& context, MethodRun& method_run,
-               Planes*& planes) {
-    planes = &own(method_run).planes;
-    return light(step, context, method_run);
-}
-
-FrameWork full_work(const MethodRun& run) {
-    FrameWork out;
-    const ParticlesSettings& s = static_cast<const ParticlesRun&>(run).settings;
-    if (!s.billboards) out.steps = run.budget.steps >= 0 ? int(run.budget.steps) : s.bins;
-    return out;
-}
-
-Status set_limits(const FrameWork& work, MethodRun& run) {
-    if (work.steps > 0) own(run).settings.bins = work.steps;
-    return Status::ok();
-}
-
-void put_tables(const FrameWork& work, const MethodRun&, MethodTables& tables) {
-    if (work.steps > 0) tables.particles.bins = work.steps;
-}
-
-Status most_units(const FrameWork&, const MethodRun&, FrameUnits&) {
-    return Status::bad_input(
-        "units: what method particles takes depends on the view, allowed: another method");
-}
-
-constexpr LiveMethod kLive{
-    aim, advance, units, compose, full_work, set_limits, kept(kChecks, put_tables), most_units};
-
-void count(const MethodRun&, Counts& counters) {
-    counters.emplace_back("majorant_violations", 0);  // the grid only casts shadows
-}
-
-void report_run(const MethodRun& method_run, Report& report) {
-    const ParticlesRun& run = static_cast<const ParticlesRun&>(method_run);
-    report.executed.emplace_back("particles", run.particles);
-    report.executed.emplace_back("octree_nodes", std::uint64_t(run.tree.count()));
-    report.executed.emplace_back("octree_leaves", run.tree.leaves);
+MadeMethod make(const MethodInputs& inputs) {
+    auto method = std::make_unique<ParticlesMethod>(inputs);
+    MadeMethod made;
+    if (kPlans) made.report = particles_report(*method);
+    made.method = std::move(method);
+    return made;
 }
 
 }  // namespace
 
-Status ParticlesRun::reserve(LateRows&) {
-    PILEUS_TRY(reserve_depths(scene->camera.resolution,
-                              lighting.opaque() || environment.depth.present, planes));
-    const std::size_t lamps = scene->lights.size(), count = tree.balls.size();
+ParticlesMethod::ParticlesMethod(const MethodInputs& inputs) {
+    state_.settings = inputs.scene.particles;
+    if (inputs.budget.steps > 0) state_.settings.bins = int(inputs.budget.steps);
+}
+
+Status ParticlesMethod::plan(const Context& context, const FrameView& view, Plan&) {
+    if (kDevices && context.kernels->device != nullptr)
+        return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
+                                 "\": method particles runs on the host alone, allowed: another, "
+                                 "or another method");
+    choose_orders(view, state_);
+    return Status::ok();
+}
+
+Status ParticlesMethod::prepare(const Context& context, const FrameView& view) {
+    const Medium& medium = view.world.medium;
+    PILEUS_TRY(make_majorants(medium, false, context, state_.majorants));
+    const StageClock clock(context, "octree");
+    PILEUS_TRY(make_particle_tree(view.world.particles, medium.low_m, state_.settings.leaf,
+                                  context.threads, state_.tree));
+    state_.particles = state_.tree.balls.size();
+    state_.outlined_only = false;
+    return Status::ok();
+}
+
+Status ParticlesMethod::reserve(const FrameView& view, LateRows&) {
+    ParticlesState& s = state_;
+    PILEUS_TRY(reserve_depths(view.scene.camera.resolution,
+                              view.lighting.opaque() || view.environment.depth.present, s.planes));
+    const std::size_t lamps = view.scene.lights.size(), count = s.tree.balls.size();
     if (lamps == 0) return Status::ok();
     const Array<float> depths = arrays::particle_lamps(count, lamps),
                        light = arrays::particle_around(count);
-    PILEUS_TRY(lamp_depth.reserve(depths.count, depths.name));
-    PILEUS_TRY(lamp_reach.reserve(depths.count, depths.name));
-    return around_balls.reserve(light.count, light.name);
+    PILEUS_TRY(s.lamp_depth.reserve(depths.count, depths.name));
+    PILEUS_TRY(s.lamp_reach.reserve(depths.count, depths.name));
+    return s.around_balls.reserve(light.count, light.name);
 }
 
-const Recipe& particles_method() {
-    static constexpr Recipe method{"particles",
-                                   WorldUse::kParticles,
-                                   make,
-                                   kept(kChecks, check),
-                                   outline,
-                                   prepare,
-                                   kept(kFilms, light),
-                                   kept(kFilms, show),
-                                   count,
-                                   kept(kPlans, report_run),
-                                   nullptr,
-                                   &kLive};
-    return method;
+/// Light is made again by the next picture where what shines has changed.
+Status ParticlesMethod::set_view(const Context&, const FrameView& view, const ViewChange& change) {
+    if (change.new_sky || change.new_shine) state_.lit = false;
+    choose_orders(view, state_);
+    return Status::ok();
+}
+
+Status ParticlesMethod::accumulate(const Context&, const FrameView&, std::uint64_t,
+                                   std::uint64_t& done) {
+    done = 0;
+    return Status::ok();
+}
+
+Status ParticlesMethod::render(const Context& context, const FrameView& view, const RenderAsk&,
+                               Planes*& out) {
+    const Scene& scene = view.scene;
+    const Medium& medium = view.world.medium;
+    Planes& planes = state_.planes;
+    out = &planes;
+    state_.camera = make_camera(scene.camera, orbit_at(scene, view.frame), medium.low_m);
+    PILEUS_TRY(light_particles(context, view, state_));
+    PILEUS_TRY(allocate_planes(state_.camera.width, state_.camera.height, 3, view.lighting.opaque(),
+                               scene.wants_depth(), planes));
+    if (kFilms && scene.output.layer_optical_depth)
+        PILEUS_TRY(
+            allocate(arrays::picture_planes(1, planes.transmittance.size()), planes.optical_depth));
+    PILEUS_TRY(fill_background(context, view, state_));
+    PILEUS_TRY(show_particles(context, view, state_));
+    if (kFilms && scene.output.layer_occlusion) PILEUS_TRY(show_occlusion(context, view, state_));
+    PILEUS_TRY(light_ground_by_lamps(context, view, state_));
+    return show_air(context, scene, medium, view.lighting, state_.camera, view.environment, planes);
+}
+
+FrameWork ParticlesMethod::full_work() const {
+    FrameWork out;
+    if (!state_.settings.billboards) out.steps = state_.settings.bins;
+    return out;
+}
+
+Status ParticlesMethod::set_limits(const FrameWork& work) {
+    if (work.steps > 0) state_.settings.bins = work.steps;
+    return Status::ok();
+}
+
+Status ParticlesMethod::worst_case(const FrameView&, const FrameWork&, FrameUnits&) const {
+    return Status::bad_input(
+        "units: what method particles takes depends on the view, allowed: another method");
+}
+
+void ParticlesMethod::count(Counts& counts) const {
+    counts.emplace_back("majorant_violations", 0);  // the grid only casts shadows
+}
+
+MethodRow particles_row() {
+    return {"particles", WorldUse::kParticles, kept(kChecks, check), make};
 }
 
 }  // namespace pileus

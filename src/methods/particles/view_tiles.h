@@ -4,7 +4,7 @@
 // light -> out: planes of pixels. docs/particles.md, "Display".
 #pragma once
 #include "kernels_cpu/particles/particle_board_params.h"
-#include "src/methods/particles/particles_run.h"
+#include "src/methods/particles/particles_state.h"
 
 namespace pileus {
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// A run of method `particles`.
+// What method `particles` keeps between its calls.
 // in: a scene -> out: its octree, light at each particle, planes of pixels.
 // docs/particles.md, "The method".
 #pragma once
 #include <array>
 
 #include "kernels_cpu/particles/particle_board_params.h"
-#include "src/methods/methods.h"
+#include "src/methods/method.h"
 #include "src/picture/layers.h"
 #include "src/picture/nodes/sky_nodes.h"
 #include "src/world/majorant/majorants.h"
@@ -20,8 +20,9 @@ struct ParticleOrder {
     float extinction = 1, share = 1, g = 0;
 };
 
-struct ParticlesRun : MethodRun {
-    ParticlesSettings settings;   ///< the scene's
+struct ParticlesState {
+    ParticlesSettings settings;   ///< the scene's, with the bins of the budget
+    bool outlined_only = true;    ///< sizes are known, values are not
     std::uint64_t particles = 0;  ///< once they are read; before: 0
     ParticleTree tree;
     Majorants majorants;             ///< of the grid, which ground and solids see
@@ -41,8 +42,6 @@ struct ParticlesRun : MethodRun {
     std::array<float, 3> to_sun{};
     CameraParams camera{};
     Planes planes;
-
-    Status reserve(LateRows& late) override;
 };
 
 namespace arrays {
@@ -88,9 +87,6 @@ inline Array<ParticleBoard> particle_boards(std::uint64_t particles) {
 
 /// Most bins along a ray.
 constexpr int kMostParticleBins = 4096;
-inline int bins_of(const ParticlesRun& run) {
-    return run.budget.steps > 0 ? int(run.budget.steps) : run.settings.bins;
-}
 
 /// Places in each particle that are lit.
 inline int light_samples(const ParticlesSettings& settings) {
@@ -98,40 +94,39 @@ inline int light_samples(const ParticlesSettings& settings) {
 }
 
 /// Whether balls differ in colour or shine.
-bool has_own_light(const ParticlesRun& run);
+bool has_own_light(const FrameView& view, const ParticlesState& state);
 
 /// [channel][ball]: light of sky and lamps; null: none.
-inline const float* light_from_around(const ParticlesRun& run) {
-    return run.around_balls.empty() ? run.sky.data() : run.around_balls.data();
+inline const float* light_from_around(const ParticlesState& state) {
+    return state.around_balls.empty() ? state.sky.data() : state.around_balls.data();
 }
 
 /// The orders that a scene asks for.
-void choose_orders(ParticlesRun& run);
+void choose_orders(const FrameView& view, ParticlesState& state);
 
-/// Notes what runs and what is left out, and weighs memory. kLimit: more than the limits allow.
-Status plan_particles(const Context& context, ParticlesRun& run);
-
-/// Light at every particle, for the sun of the run's lighting; kept while that stays. kLimit: out
+/// Light at every particle, for the sun of the view; kept while that stays. kLimit: out
 /// of memory.
-Status light_particles(const Context& context, ParticlesRun& run);
+Status light_particles(const Context& context, const FrameView& view, ParticlesState& state);
 
 /// Whether particles move while the shutter is open.
-bool moves(const ParticlesRun& run);
+bool moves(const FrameView& view, const ParticlesState& state);
 
 /// As billboards, into the planes; `march` tells their light. The tree holds a ball. kLimit: out
 /// of memory.
-Status show_boards(const Context& context, const ParticleMarchParams& march, ParticlesRun& run);
+Status show_boards(const Context& context, const FrameView& view, const ParticleMarchParams& march,
+                   ParticlesState& state);
 
 /// Light at each ball alone, of what is around it: no sun.
-ParticleMarchParams lit_from_around(const ParticlesRun& run);
+ParticleMarchParams lit_from_around(const FrameView& view, const ParticlesState& state);
 
 /// By the scene's display, into the planes. The tree holds a ball. kLimit: out of memory.
-Status draw_particles(const Context& context, const ParticleMarchParams& k, ParticlesRun& run);
+Status draw_particles(const Context& context, const FrameView& view, const ParticleMarchParams& k,
+                      ParticlesState& state);
 
-/// Into run.planes.occlusion, after the picture. kLimit: out of memory.
-Status show_occlusion(const Context& context, ParticlesRun& run);
+/// Into state.planes.occlusion, after the picture. kLimit: out of memory.
+Status show_occlusion(const Context& context, const FrameView& view, ParticlesState& state);
 
 /// Into the planes. kLimit: out of memory.
-Status show_particles(const Context& context, ParticlesRun& run);
+Status show_particles(const Context& context, const FrameView& view, ParticlesState& state);
 
 }  // namespace pileus
