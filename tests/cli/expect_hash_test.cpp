@@ -88,7 +88,8 @@ TEST_CASE("expect-hash: what is no hash is refused before there is work, exit 2"
         {film + "--expect-hash " + hash, "--expect-hash: hashes: wrong number, 1, allowed: 3"},
         {film + "--frames 1-2 --expect-hash " + hash, "wrong number, 1, allowed: 2"},
     };
-    for (const auto& [options, said] : faults) {
+    for (const auto& fault : faults) {
+        const std::string &options = fault.first, &said = fault.second;
         CAPTURE(options);
         const Outcome outcome = folder.run("render s.toml -o a.pfm " + options);
         CHECK(outcome.exit_status == 2);

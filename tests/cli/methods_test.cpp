@@ -52,7 +52,9 @@ TEST_CASE("methods: a row for each feature, a column for each method's display")
         CHECK_MESSAGE(names.insert(name).second, name);
         CHECK_MESSAGE(holds(table.output, "\n  " + name.substr(0, 40)), name);
         CHECK(row["by"].size() == kMethodColumns);
-        for (const auto& [column, entry] : row["by"].items()) {
+        for (const auto& by : row["by"].items()) {
+            const std::string column = by.key();
+            const json& entry = by.value();
             CAPTURE(column);
             CAPTURE(name);
             // What is off says by how much, what does nothing says why.
