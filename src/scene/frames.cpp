@@ -30,16 +30,23 @@ bool has(const Scene& scene, Track track) {
     return kFilms && scene.animation.present && has_track(scene.animation, track);
 }
 
-}  // namespace
-
-SunPlace sun_at(const Scene& scene, const Sun& rest, int frame) {
+/// The sun of a frame in the scene's coordinates: the media's yaw is their placement's.
+SunPlace unturned_sun(const Scene& scene, const Sun& rest, int frame) {
     const Animation& a = scene.animation;
     SunPlace at = place_of(rest);
     if (!kFilms || !a.present) return at;
     if (a.moves_sun) at.elevation_deg = in_range(a, a.sun_elevation_deg, frame);
     at.azimuth_deg = number_at(scene, Track::kAzimuth, frame, at.azimuth_deg);
-    at.azimuth_deg += number_at(scene, Track::kYaw, frame, 0);
     at.elevation_deg = number_at(scene, Track::kElevation, frame, at.elevation_deg);
+    return at;
+}
+
+}  // namespace
+
+SunPlace sun_at(const Scene& scene, const Sun& rest, int frame) {
+    SunPlace at = unturned_sun(scene, rest, frame);
+    if (kFilms && scene.animation.present)
+        at.azimuth_deg += number_at(scene, Track::kYaw, frame, 0);
     return at;
 }
 
@@ -47,9 +54,8 @@ void frame_state_at(const Scene& scene, const FrameState& rest, int frame, Frame
     out = rest;
     out.camera = camera_at(scene.animation, rest.camera, frame);
     out.placement = placement_at(scene, frame);
-    const SunPlace sun = sun_at(scene, rest.sun, frame);
-    // Its yaw is the placement's.
-    out.sun.azimuth_deg = number_at(scene, Track::kAzimuth, frame, rest.sun.azimuth_deg);
+    const SunPlace sun = unturned_sun(scene, rest.sun, frame);
+    out.sun.azimuth_deg = sun.azimuth_deg;
     out.sun.elevation_deg = sun.elevation_deg;
 }
 

@@ -132,7 +132,6 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
         run_->place_at = [this](int frame) {
             FrameState at;
             frame_state_at(scene_, host_, frame, at);
-            at.sequence_frame = scene_.sequence_frame;
             put_in_media(at, scene_);
         };
         run_->place_at(host_.number);
