@@ -32,7 +32,7 @@ file(GLOB_RECURSE flight_sources CONFIGURE_DEPENDS "platform/*.cpp" "src/*.cpp")
 foreach(pattern
         "platform/team/(processors|team_openmp|team_own|team_start|teams)[.]cpp"
         "platform/(clock|cuda_device|egl|file|file_identity|interrupt|new_file|osmesa|process)[.]cpp"
-        "src/(compare|scene/(keys|checks|toml)|session/flux)/"
+        "src/(scene/(keys|checks|toml)|session/flux)/"
         "src/world/density/(bubbles|cumulus|density_rows|noise_cache|noise_volume|particle_[a-z]*|plume|shapes)[.]cpp"
         "src/io/(meshes|netcdf|particles|text|volumes)/"
         "src/io/images/(blocks|exr|exr_guard|image_file|netcdf_picture|pfm|picture|picture_formats|png)[.]cpp"

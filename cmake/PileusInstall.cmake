@@ -5,7 +5,7 @@
 include(GNUInstallDirs)
 include(CMakePackageConfigHelpers)
 
-set(objects $<TARGET_OBJECTS:pileus_objects> $<TARGET_OBJECTS:pileus_api>
+set(objects $<TARGET_OBJECTS:pileus_objects> $<TARGET_OBJECTS:pileus_api> $<TARGET_OBJECTS:pileus_lab>
     $<TARGET_OBJECTS:pileus_dispatch> ${PILEUS_ISA_OBJECTS}
     ${PILEUS_CUDA_OBJECTS})
 add_library(pileus_static STATIC ${objects})

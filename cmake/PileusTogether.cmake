@@ -21,7 +21,7 @@ function(pileus_header_names result)
     get_property(names GLOBAL PROPERTY PILEUS_HEADER_NAMES)
     if(NOT names)
         file(GLOB_RECURSE headers "${PROJECT_SOURCE_DIR}/src/*.h" "${PROJECT_SOURCE_DIR}/platform/*.h"
-            "${PROJECT_SOURCE_DIR}/kernels_cpu/*.h")
+            "${PROJECT_SOURCE_DIR}/kernels_cpu/*.h" "${PROJECT_SOURCE_DIR}/lab/*.h")
         foreach(header IN LISTS headers)
             file(READ "${header}" text)
             # Constants within its functions, too: another file's would be hidden by them.

@@ -2,7 +2,7 @@
 // See blocks.h.
 // in: pictures or text -> out: sums in doubles, in the order of the passes.
 // docs/crosscheck.md, "File of blocks"
-#include "src/compare/blocks.h"
+#include "lab/compare/blocks.h"
 
 #include <charconv>
 #include <cmath>

@@ -2,11 +2,11 @@
 // Fills the planes of pictures that show a comparison.
 // in: PicturePair, FlipResult -> out: Image.
 // Magma: S. van der Walt and N. Smith, matplotlib (CC0), 17 of its 256 colours; docs/compare.md
-#include "src/compare/difference.h"
+#include "lab/compare/difference.h"
 
 #include <cmath>
 
-#include "src/compare/metrics_pair.h"
+#include "lab/compare/metrics_pair.h"
 #include "src/io/images/srgb.h"
 
 namespace pileus {

@@ -3,8 +3,8 @@
 // in: two pictures, or a FlipResult -> out: values for .exr and .pfm, colours for .png and .ppm.
 // docs/compare.md, "Pictures"
 #pragma once
+#include "lab/compare/flip.h"
 #include "src/base/status.h"
-#include "src/compare/flip.h"
 #include "src/io/images/image.h"
 
 namespace pileus {

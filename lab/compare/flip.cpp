@@ -2,16 +2,16 @@
 // FLIP of two pictures: exposures, tone curve, and the difference of what an eye sees of each.
 // in: two pictures -> out: FlipResult, the same bits from any number of threads.
 // Andersson et al. 2020, section 4.3; Andersson et al. 2021, sections 3 and 4; docs/compare.md
-#include "src/compare/flip.h"
+#include "lab/compare/flip.h"
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "lab/compare/flip_filters.h"
+#include "lab/compare/metrics.h"
 #include "platform/threads.h"
 #include "src/base/powers.h"
-#include "src/compare/flip_filters.h"
-#include "src/compare/metrics.h"
 #include "src/io/images/image_file.h"
 
 namespace pileus {

@@ -2,7 +2,7 @@
 // The filters of FLIP, separated into passes along x and y, in double.
 // in: rows of light -> out: adjusted colours, edges and points.
 // Andersson et al. 2020: table 1 (contrast sensitivity), equations 3 to 10; docs/compare.md
-#include "src/compare/flip_filters.h"
+#include "lab/compare/flip_filters.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,13 +2,13 @@
 // Sums the differences of two pictures, row by row, and what their error layers explain of them.
 // in: planes of floats -> out: Metrics.
 // docs/compare.md
-#include "src/compare/metrics.h"
+#include "lab/compare/metrics.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "src/compare/flip.h"
-#include "src/compare/metrics_pair.h"
+#include "lab/compare/flip.h"
+#include "lab/compare/metrics_pair.h"
 
 namespace pileus {
 

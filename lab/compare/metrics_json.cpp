@@ -3,7 +3,7 @@
 // in: Metrics, FlipResult -> out: JSON or lines.
 // docs/compare.md, "Figures"
 #define JSON_NOEXCEPTION 1
-#include "src/compare/metrics_json.h"
+#include "lab/compare/metrics_json.h"
 
 #include <fmt/format.h>
 

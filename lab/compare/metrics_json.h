@@ -5,8 +5,8 @@
 #pragma once
 #include <string>
 
-#include "src/compare/flip.h"
-#include "src/compare/metrics.h"
+#include "lab/compare/flip.h"
+#include "lab/compare/metrics.h"
 
 namespace pileus {
 

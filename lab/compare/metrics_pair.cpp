@@ -2,11 +2,11 @@
 // Finds the channels of two pictures that are to be compared.
 // in: images -> out: a PicturePair, and halves of a reference merged into one picture.
 // docs/compare.md
-#include "src/compare/metrics_pair.h"
+#include "lab/compare/metrics_pair.h"
 
 #include <algorithm>
 
-#include "src/compare/metrics.h"
+#include "lab/compare/metrics.h"
 #include "src/io/images/image_file.h"
 
 namespace pileus {

@@ -2,7 +2,7 @@
 // See welch.h.
 // in: sums -> out: deviates and probabilities, in doubles and a fixed order.
 // docs/crosscheck.md, "Welch tests"
-#include "src/compare/welch.h"
+#include "lab/compare/welch.h"
 
 #include <algorithm>
 #include <cmath>

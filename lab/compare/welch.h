@@ -3,7 +3,7 @@
 // in: blocks of either -> out: a test per block and channel, and for the whole picture.
 // Welch 1947; Holm 1979; docs/crosscheck.md, "Welch tests".
 #pragma once
-#include "src/compare/blocks.h"
+#include "lab/compare/blocks.h"
 
 namespace pileus {
 

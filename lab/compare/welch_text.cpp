@@ -7,7 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "src/compare/welch.h"
+#include "lab/compare/welch.h"
 
 namespace pileus {
 namespace {

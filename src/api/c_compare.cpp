@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // pileus.h: how far one picture is from another.
+#include "lab/compare/flip.h"
+#include "lab/compare/metrics.h"
 #include "src/api/c_types.h"
-#include "src/compare/flip.h"
-#include "src/compare/metrics.h"
 
 namespace pileus::api {
 namespace {

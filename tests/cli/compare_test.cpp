@@ -4,7 +4,7 @@
 // docs/compare.md
 #include <nlohmann/json.hpp>
 
-#include "src/compare/metrics.h"
+#include "lab/compare/metrics.h"
 #include "src/io/images/image_file.h"
 #include "tests/cli/run_program.h"
 #include "tests/io/test_image.h"

@@ -2,7 +2,7 @@
 // Fuzz target: files of blocks, as any other renderer may write them.
 // in: bytes as a file of blocks -> out: sums that survive a round trip, or one line with its place.
 // docs/crosscheck.md, "File of blocks"
-#include "src/compare/blocks.h"
+#include "lab/compare/blocks.h"
 
 #include "tests/fuzz/target.h"
 

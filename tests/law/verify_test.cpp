@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "src/compare/metrics.h"
+#include "lab/compare/metrics.h"
 #include "tests/support/render_harness.h"
 
 namespace verify_test {

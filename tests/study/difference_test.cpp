@@ -2,7 +2,7 @@
 // Pictures of a comparison: values, masks and colours.
 // in: pictures made by hand -> out: pass or fail.
 // docs/compare.md, "Pictures"
-#include "src/compare/difference.h"
+#include "lab/compare/difference.h"
 
 #include <limits>
 

@@ -2,7 +2,7 @@
 // FLIP against closed forms and against what the published code gives.
 // in: pictures by formula -> out: values, pass or fail.
 // Published values: flip_evaluator 1.7, by the authors of FLIP; docs/compare.md, "FLIP"
-#include "src/compare/flip.h"
+#include "lab/compare/flip.h"
 
 #include <cstdio>
 #include <initializer_list>

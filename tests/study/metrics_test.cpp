@@ -2,7 +2,7 @@
 // Every figure of a comparison against an answer known beforehand.
 // in: pictures made by hand, pictures of known noise -> out: pass or fail.
 // docs/compare.md, "Figures"
-#include "src/compare/metrics.h"
+#include "lab/compare/metrics.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "src/compare/metrics.h"
+#include "lab/compare/metrics.h"
 #include "tools/study/study_split.h"
 
 using namespace pileus;

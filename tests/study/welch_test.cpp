@@ -2,7 +2,7 @@
 // Welch tests of blocks: the law of their deviates, biases they must find, files they must refuse.
 // in: drawn numbers with fixed seeds, texts -> out: pass or fail.
 // docs/crosscheck.md
-#include "src/compare/welch.h"
+#include "lab/compare/welch.h"
 
 #include <doctest/doctest.h>
 

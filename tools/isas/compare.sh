@@ -25,7 +25,7 @@ fault() {
 
 # Whatever is compiled or rendered; a change half way would be taken for a difference.
 sources() {
-    find CMakeLists.txt cmake platform kernels_cpu src tools/pileus assets/scenes/identity \
+    find CMakeLists.txt cmake platform kernels_cpu src lab tools/pileus assets/scenes/identity \
         tests/identity/program -type f -exec sha256sum {} + | sort | sha256sum | cut -c1-16
 }
 

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "lab/compare/welch.h"
 #include "src/base/file.h"
-#include "src/compare/welch.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
 

@@ -7,10 +7,10 @@
 #include <memory>
 #include <optional>
 
+#include "lab/compare/difference.h"
+#include "lab/compare/metrics_json.h"
 #include "src/base/file.h"
 #include "src/base/output_check.h"
-#include "src/compare/difference.h"
-#include "src/compare/metrics_json.h"
 #include "src/io/images/picture.h"
 #include "src/scene/rows/picture_format.h"
 #include "tools/pileus/block_files.h"

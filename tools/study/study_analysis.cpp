@@ -9,8 +9,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/compare/flip.h"
-#include "src/compare/metrics.h"
+#include "lab/compare/flip.h"
+#include "lab/compare/metrics.h"
 #include "src/io/images/image_file.h"
 
 namespace pileus {

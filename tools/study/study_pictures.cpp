@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "src/compare/difference.h"
-#include "src/compare/flip.h"
-#include "src/compare/metrics.h"
+#include "lab/compare/difference.h"
+#include "lab/compare/flip.h"
+#include "lab/compare/metrics.h"
 #include "src/io/images/image_file.h"
 #include "tools/study/study_report.h"
 

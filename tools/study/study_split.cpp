@@ -6,8 +6,8 @@
 
 #include <cmath>
 
-#include "src/compare/metrics.h"
-#include "src/compare/metrics_pair.h"
+#include "lab/compare/metrics.h"
+#include "lab/compare/metrics_pair.h"
 
 namespace pileus {
 

@@ -32,7 +32,7 @@ struct ReferenceNoise {
 /// Errors: kBadInput for different sizes or missing channels, no pixel of cloud.
 Status reference_noise(const Image& half1, const Image& half2, ReferenceNoise& noise);
 
-/// relMSE as compare_with_halves (src/compare/metrics.h) has it, for all pictures at once.
+/// relMSE as compare_with_halves (lab/compare/metrics.h) has it, for all pictures at once.
 Status split_error(const std::vector<Image>& pictures, const Image& half1, const Image& half2,
                    ErrorSplit& split);
 
