@@ -30,8 +30,21 @@ Status print(const std::string& text) {
 
 namespace {
 
-constexpr const char* kCommands =
-    "render, plan, view, follow, flux, compare, study, hash, info, methods, convert, pack";
+/// The subcommands in the order of help and messages.
+constexpr struct {
+    const char* name;
+    void (*add)(CLI::App&, Chosen&);
+} kCommands[] = {{"render", add_render},   {"plan", add_plan},       {"view", add_view},
+                 {"follow", add_follow},   {"flux", add_flux},       {"compare", add_compare},
+                 {"study", add_study},     {"hash", add_hash},       {"info", add_info},
+                 {"methods", add_methods}, {"convert", add_convert}, {"pack", add_pack}};
+
+std::string command_names() {
+    std::string out;
+    for (const auto& command : kCommands)
+        out += (out.empty() ? "" : ", ") + std::string(command.name);
+    return out;
+}
 
 /// Says nothing for Code::kOk without a message.
 int finish(const Status& status) {
@@ -56,7 +69,7 @@ Status usage_fault(const CLI::App& app, const CLI::ParseError& error) {
 /// Refuses words that are no subcommand before the options behind them are looked at.
 Status check_command(int count, char** words) {
     if (count < 2)
-        return Status::bad_input(std::string("pileus: no subcommand, allowed: ") + kCommands +
+        return Status::bad_input("pileus: no subcommand, allowed: " + command_names() +
                                  "; see pileus --help");
     const std::string word = words[1];
     for (const char* option : {"-h", "--help", "--version"})
@@ -64,11 +77,10 @@ Status check_command(int count, char** words) {
     if (!word.empty() && word[0] == '-')
         return Status::bad_input("pileus: unknown option before the subcommand, " +
                                  quote_text(word) + ", allowed: --help, --version");
-    for (const char* known : {"render", "plan", "view", "follow", "flux", "compare", "study",
-                              "hash", "info", "methods", "convert", "pack"})
-        if (word == known) return Status::ok();
+    for (const auto& command : kCommands)
+        if (word == command.name) return Status::ok();
     return Status::bad_input("pileus: unknown subcommand, " + quote_text(word) +
-                             ", allowed: " + kCommands);
+                             ", allowed: " + command_names());
 }
 
 /// Ends the program at once where memory is asked for in vain: no line of ours can be made without
@@ -102,18 +114,7 @@ int run(int count, char** words, const TeamChoice& team) {
     app.set_version_flag("--version", "pileus " + version_text());
     app.require_subcommand(1);
     app.footer(help_example("pileus render cloud.toml -o cloud.png"));
-    add_render(app, chosen);
-    add_plan(app, chosen);
-    add_follow(app, chosen);
-    add_flux(app, chosen);
-    add_compare(app, chosen);
-    add_hash(app, chosen);
-    add_info(app, chosen);
-    add_methods(app, chosen);
-    add_convert(app, chosen);
-    add_study(app, chosen);
-    add_view(app, chosen);
-    add_pack(app, chosen);
+    for (const auto& command : kCommands) command.add(app, chosen);
 
     const Status known = check_command(count, words);
     if (!known) return finish(known);
