@@ -99,7 +99,7 @@ Status render_frames(const Scene& scene, const RunStart& start, const RenderOpti
         if (options.holding) options.holding(true);
         // Where the picture is, in the file's coordinates.
         const Camera seen = camera_at(scene.animation, session.camera(), frame);
-        for (const auto& told : picture_place(scene, seen, orbit_at(scene, frame)))
+        for (const auto& told : picture_place(*session.run().scene, seen, orbit_at(scene, frame)))
             image.origin.push_back(told);
         PILEUS_TRY(deliver(scene, start, frame, sink, image, report));
         if (options.holding) options.holding(false);

@@ -6,6 +6,7 @@
 #include "platform/clock.h"
 #include "platform/fp_mode.h"
 #include "src/base/digest.h"
+#include "src/io/volumes/weather_file.h"
 #include "src/methods/placed_media.h"
 #include "src/methods/registry.h"
 #include "src/scene/read_scene.h"
@@ -46,7 +47,10 @@ double stage_seconds(const Report& report) {
 
 }  // namespace
 
-Status make_world(const Scene& scene, const RenderOptions& options, std::shared_ptr<World>& world) {
+Status make_world(const Scene& described, const RenderOptions& options,
+                  std::shared_ptr<World>& world) {
+    Scene scene = described;
+    share_weather_files(scene);
     const FpModeGuard guard;
     ThreadPool threads;
     const PoolGuard lent(threads);

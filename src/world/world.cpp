@@ -6,6 +6,7 @@
 #include "src/base/reading_limit.h"
 #include "src/base/single.h"
 #include "src/io/particles/placed_particles.h"
+#include "src/io/volumes/weather_file.h"
 #include "src/plan/scene_limits.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/density_row.h"
@@ -43,6 +44,7 @@ Status load_medium_of(const Scene& scene, const Context& context, World& world) 
     if (world.direct_sky) return load_sky(scene, context, world.medium, world.layer);
     PILEUS_TRY(load_media(scene, context.limits, context.threads, world.media_plan, world.medium,
                           context.kernels));
+    close_weather_files(scene);
     world.source.mean_density = mean_density(world.medium);
     return Status::ok();
 }

@@ -75,9 +75,13 @@ NcFile::~NcFile() {
     if (handle_ >= 0) close_hdf5(handle_);
 }
 
-Status NcFile::open(const std::string& path) {
+Status NcFile::find(const std::string& path) {
     name_ = path;
-    PILEUS_TRY(open_file(path, file_));
+    return open_file(path, file_);
+}
+
+Status NcFile::open(const std::string& path) {
+    if (name_.empty()) PILEUS_TRY(find(path));
     unsigned char start[4] = {};
     size_ = file_.size();
     if (size_ >= 4) PILEUS_TRY(take(0, 4, "head", start));

@@ -98,6 +98,8 @@ public:
     NcFile& operator=(const NcFile&) = delete;
     ~NcFile();
 
+    /// Learns how long the file is; `open` goes on from there. Missing: kBadInput.
+    Status find(const std::string& path);
     /// Reads the head. A GRIB file is made into a NetCDF file in memory. Missing, neither of them,
     /// damaged, or of a part that was not built in: kBadInput.
     Status open(const std::string& path);
@@ -107,6 +109,8 @@ public:
     const NcHead& head() const { return head_; }
     /// Of a file that is held in memory whole.
     std::uint64_t held_bytes() const { return own_.size(); }
+    /// Of the file as it lies on the disk.
+    std::uint64_t file_bytes() const { return file_.size(); }
     const std::string& name() const { return name_; }
 
     /// Whether a classic file is long enough for a block, so that memory may be taken for it.

@@ -13,6 +13,7 @@
 #include "src/base/powers.h"
 #include "src/io/volumes/netcdf_grid.h"
 #include "src/io/volumes/weather/weather_levels.h"
+#include "src/io/volumes/weather_file.h"
 #include "src/scene/toml/toml_tree.h"
 
 namespace pileus {
@@ -369,6 +370,7 @@ Status find_map(const NcFile& file, const WeatherSettings& settings, WeatherMap&
 }
 
 Status read_weather_map(const MediumSettings& medium, const std::string& path, WeatherMap& map) {
+    if (medium.weather_file != nullptr) return medium.weather_file->map(medium.weather, path, map);
     NcFile file;
     PILEUS_TRY(file.open(path));
     return find_map(file, medium.weather, map);

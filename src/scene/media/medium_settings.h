@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -15,6 +16,8 @@
 #include "src/scene/media/weather_settings.h"
 
 namespace pileus {
+
+class WeatherFile;
 
 /// A mesh of triangles that hides, is lit and casts shadows.
 struct SolidSettings {
@@ -52,7 +55,9 @@ struct MediumSettings {
     RawType raw_type = RawType::kFloat32;
     std::array<int, 3> raw_size{0, 0, 0};
     bool raw_big_endian = false;
-    WeatherSettings weather;     ///< of a NetCDF file
+    WeatherSettings weather;  ///< of a NetCDF file
+    /// That file, where a session keeps it from its head to its values; null: each reader opens it.
+    std::shared_ptr<WeatherFile> weather_file;
     ParticleSettings particles;  ///< of a medium made of particles
     bool has_bounds = false;
     std::array<Double3, 2> bounds_m{};

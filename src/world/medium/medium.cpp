@@ -11,6 +11,7 @@
 #include "src/base/single.h"
 #include "src/io/volumes/particle_volume.h"
 #include "src/io/volumes/volume_file.h"
+#include "src/io/volumes/weather_file.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/density_row.h"
 #include "src/scene/rows/volume_format.h"
@@ -161,13 +162,13 @@ Status outline_file(const Scene& scene, const MediumSettings& settings, const Li
     }
     const bool raw = settings.raw_size[0] > 0;
     if (raw) PILEUS_TRY(check_voxels(scene.file, settings.raw_size, limits));
-    InputFile file;
     const std::string key = density_key(scene, settings);
-    PILEUS_TRY(at_key(scene, key, open_file(path, file)));
-    PILEUS_TRY(at_key(scene, key, check_limit(limits, LimitId::kFile, file.size(), path)));
+    std::uint64_t bytes = 0;
+    PILEUS_TRY(at_key(scene, key, density_file_bytes(settings, path, bytes)));
+    PILEUS_TRY(at_key(scene, key, check_limit(limits, LimitId::kFile, bytes, path)));
     // Bare numbers pass through in pieces of 65536; every other form is held whole.
     constexpr std::uint64_t kPieceBytes = 65536 * sizeof(float);
-    source.reading_bytes = raw ? kPieceBytes : file.size();
+    source.reading_bytes = raw ? kPieceBytes : bytes;
     PILEUS_TRY(at_key(scene, key, read_volume_head(settings, path, head)));
     if (head.in_pieces) source.reading_bytes = 0;
     source.reading_bytes += head.unpacked_bytes;

@@ -9,6 +9,7 @@
 #include "src/io/volumes/netcdf_grid.h"
 #include "src/io/volumes/volume.h"
 #include "src/io/volumes/weather/weather_grid.h"
+#include "src/io/volumes/weather_file.h"
 
 namespace pileus {
 namespace {
@@ -146,15 +147,17 @@ Status weather_volume(const MediumSettings& medium, const NcFile& file, Volume& 
 }
 
 Status read_weather_volume(const MediumSettings& medium, const std::string& path, Volume& volume) {
-    NcFile file;
-    PILEUS_TRY(file.open(path));
-    return weather_volume(medium, file, volume);
+    NcFile own;
+    const NcFile* file = nullptr;
+    PILEUS_TRY(open_weather_file(medium, path, own, file));
+    return weather_volume(medium, *file, volume);
 }
 
 Status read_weather_head(const MediumSettings& medium, const std::string& path, VolumeHead& head) {
-    NcFile file;
-    PILEUS_TRY(file.open(path));
-    return weather_head(medium, file, head);
+    NcFile own;
+    const NcFile* file = nullptr;
+    PILEUS_TRY(open_weather_file(medium, path, own, file));
+    return weather_head(medium, *file, head);
 }
 
 }  // namespace pileus
