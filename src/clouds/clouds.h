@@ -5,7 +5,7 @@
 // docs/clouds.md
 #pragma once
 #include "src/clouds/compose.h"
-#include "src/session/outlook.h"
+#include "src/session/session.h"
 
 namespace pileus {
 

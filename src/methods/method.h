@@ -41,12 +41,30 @@ struct RenderAsk {
 /// Light that a session has traced and may trace.
 struct LightUnits {
     const char* unit = "";           ///< of what a step counts: "generation", "sample"
+    const char* stage = nullptr;     ///< of the report, while it is traced; null: it has a clock
     std::uint64_t whole = 0;         ///< units that a first picture should have
     std::uint64_t unit_photons = 0;  ///< photons or paths of one
     std::uint64_t held = 0;          ///< units that the next picture shows
     std::uint32_t prepared = 1;      ///< times that the sums were laid out
     bool one_sum = false;            ///< of units that are all alike: none has fewer photons
+    bool in_passes = false;          ///< units are short: several are traced at a time
+    bool part = false;               ///< some of the next unit is there
+    bool interrupted = false;        ///< the user ended the last `accumulate`, or within it
 };
+
+/// When a film's frame has its light: at the first of these. src/session/stop_rule.h
+struct LightGoal {
+    std::uint64_t most = 0;         ///< units
+    double error = 0;               ///< > 0: mean relative standard error
+    double seconds = 0;             ///< > 0: wall time
+    double early = 0;               ///< so much of a unit may the time fall short
+    std::uint64_t first_look = 16;  ///< units at which the error is looked at first, and then
+    bool doubles = false;           ///< whenever they have doubled; else with each quarter more
+    const char* first = "";         ///< in messages: what there must be before there is a picture
+};
+
+/// What may be given back: the frame has its light; no frame gets more; the picture was taken.
+enum class Phase { kTraced, kEnded, kShown };
 
 /// Functions are called from the top down, those from `set_view` to `render` for each frame. What a
 /// flight has no use for, files, clocks and words for people, is in MethodReport: a table of
@@ -72,7 +90,8 @@ public:
     /// Takes up camera, lights, number of the frame. What is unchanged keeps its light.
     virtual Status set_view(const Context& context, const FrameView& view,
                             const ViewChange& change) = 0;
-    /// Traces so many whole units; `done` fewer where the context stops it.
+    /// Traces so many whole units, 0: makes ready for them; `done` fewer where the context, which
+    /// is asked first, stops it.
     virtual Status accumulate(const Context& context, const FrameView& view, std::uint64_t units,
                               std::uint64_t& done) = 0;
     /// The picture as it is lit now. `planes` stay the method's until its next call, and may be
@@ -94,6 +113,8 @@ public:
     virtual void count(Counts& counts) const = 0;
     /// Whether the next picture reads the last one's planes, which are left alone then.
     virtual bool keeps_planes() const { return false; }
+    /// Films alone call it.
+    virtual void release(Phase) {}
 };
 
 /// What people and files are told of a method: an object beside it.
@@ -109,10 +130,34 @@ public:
     virtual void explain(const Context& context, const FrameView& view, Plan& plan) const = 0;
     /// Of what no frame changes, after `Method::prepare`.
     virtual void digest(const FrameView& view, Digests& digests) const = 0;
+    /// How much light a frame of a film gets.
+    virtual LightGoal goal(const FrameView&) const { return {}; }
+    /// Mean relative standard error of the light that is held; may make a picture of it.
+    virtual Status error(const Context&, const FrameView&, double& mean_relative) {
+        mean_relative = 0;
+        return Status::ok();
+    }
+    /// The light of a frame as a file, and back before its first `accumulate`; a file that is not
+    /// there yet is none. kBadInput: another scene's, damaged; kIo.
+    virtual Status save(const std::string& path) const {
+        (void)path;
+        return Status::ok();
+    }
+    virtual Status resume(const Context&, const FrameView&, const std::string& path) {
+        (void)path;
+        return Status::ok();
+    }
+    /// After `Method::render`, before the planes become an image: digests of what it was made from.
+    virtual void digest_picture(const Context&, Digests&) {}
     /// Of each picture, beside its planes.
     virtual FinishedParts finished() const = 0;
     /// All else than `Method::count` has, after it.
     virtual void report(Report& report) const = 0;
+    /// After `report`: in place of the budgets that were given, those by which the picture of a
+    /// frame is made again, whatever ended it.
+    virtual void budget_used(int frame, const Report& report, Budget& used) const {
+        (void)frame, (void)report, (void)used;
+    }
     /// The settings of a scene with such work, whose checks have the words for what is wrong with
     /// it.
     virtual void put_work(const FrameWork& work, MethodTables& tables) const = 0;
@@ -122,6 +167,7 @@ public:
 struct MethodInputs {
     const Scene& scene;
     const Budget& budget;
+    bool live = false;  ///< a host's session, which asks for no errors
 };
 
 struct MadeMethod {
@@ -138,6 +184,7 @@ struct MethodRow {
     Status (*check)(const Scene&, const Budget&) = nullptr;
     MadeMethod (*make)(const MethodInputs&) = nullptr;  ///< null: by the recipe
     const Recipe* recipe = nullptr;                     ///< null: a class of its own
+    bool keeps_parts = false;  ///< light is traced with depths and the cloud's part, or without
 };
 
 }  // namespace pileus

@@ -8,6 +8,7 @@
 #include "src/methods/recipe_method.h"
 #include "src/scene/above_ground.h"
 #include "src/scene/read_scene.h"
+#include "src/world/plan_parts.h"
 
 namespace pileus {
 namespace {
@@ -29,10 +30,8 @@ Status check_all_frames(const MethodRun& run) {
     return Status::ok();
 }
 
-/// Of the first frame; recipes make theirs themselves.
 void make_light(const MethodRow& row, MethodRun& run) {
-    if (row.recipe == nullptr)
-        run.lighting = light_of(*run.scene, run.sun_of(0), *run.world, run.environment);
+    if (row.recipe == nullptr) light_frame(0, run);
 }
 
 /// Recipes fill the run's plan and check it, too.
@@ -43,7 +42,9 @@ Status make_plan(const MethodRow& row, const MadeMethod& made, const Context& co
     PILEUS_TRY(made.method->plan(context, view, run.plan));
     if (!kPlans || row.recipe != nullptr) return Status::ok();
     made.report->explain(context, view, run.plan);
-    return check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), run.scene->file);
+    const std::string& file = run.scene->file;
+    PILEUS_TRY(check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), file));
+    return check_work(run.plan.work, context.limits, file);
 }
 
 }  // namespace

@@ -118,6 +118,11 @@ inline FrameView view_of(MethodRun& run, int frame) {
     return {*run.scene, *run.world, run.environment, run.lighting, frame};
 }
 
+/// Its lights, as the scene is now; recipes make theirs themselves.
+inline void light_frame(int frame, MethodRun& run) {
+    run.lighting = light_of(*run.scene, run.sun_of(frame), *run.world, run.environment);
+}
+
 /// Fills a new run: world and environment, then by its method. `exact` false: as far as sizes tell.
 /// `world`: a loaded one to share, or null for its own. Errors: those of the readers and of the
 /// method.

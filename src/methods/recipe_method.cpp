@@ -74,6 +74,9 @@ public:
     void digest(const FrameView&, Digests&) const override {}
     FinishedParts finished() const override { return {}; }
     void report(Report& report) const override { recipe_.report(run_, report); }
+    void budget_used(int frame, const Report& report, Budget& used) const override {
+        if (recipe_.budget_used != nullptr) recipe_.budget_used(frame, run_, report, used);
+    }
     void put_work(const FrameWork& work, MethodTables& tables) const override {
         recipe_.live->put_work(work, run_, tables);
     }
@@ -86,7 +89,8 @@ private:
 }  // namespace
 
 MethodRow row_of(const Recipe& recipe) {
-    return {recipe.name, recipe.world, recipe.check, nullptr, &recipe};
+    const bool keeps_parts = recipe.live != nullptr && recipe.live->keeps_parts;
+    return {recipe.name, recipe.world, recipe.check, nullptr, &recipe, keeps_parts};
 }
 
 MadeMethod method_of(const Recipe& recipe, MethodRun& run) {
@@ -97,9 +101,5 @@ MadeMethod method_of(const Recipe& recipe, MethodRun& run) {
 }
 
 bool is_live(const MethodRow& row) { return row.recipe == nullptr || row.recipe->live != nullptr; }
-
-bool keeps_parts(const MethodRow& row) {
-    return row.recipe != nullptr && row.recipe->live != nullptr && row.recipe->live->keeps_parts;
-}
 
 }  // namespace pileus

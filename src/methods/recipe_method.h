@@ -16,7 +16,5 @@ MadeMethod method_of(const Recipe& recipe, MethodRun& run);
 
 /// Whether hosts have sessions of it, as of all that are classes.
 bool is_live(const MethodRow& row);
-/// Whether its light is traced with depths and the cloud's part, or without.
-bool keeps_parts(const MethodRow& row);
 
 }  // namespace pileus

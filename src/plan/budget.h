@@ -19,4 +19,7 @@ struct Budget {
     double state_every_s = 60;     ///< between two writings of it
 };
 
+/// The budgets as the program takes them, parted by blanks.
+std::string budget_text(const Budget& budget);
+
 }  // namespace pileus

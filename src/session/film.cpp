@@ -1,27 +1,114 @@
 // SPDX-License-Identifier: Apache-2.0
-// A frame of a film by a method that is a class: lights, view, picture, image.
+// A frame of a film by a method that is a class: lights, view, light, picture, image.
 // in: an open session, a frame -> out: an image with the scene's layers; the report's part of it.
 // docs/architecture.md, "Methods"
+#include <optional>
+
+#include "platform/clock.h"
+#include "src/base/file.h"
 #include "src/picture/finish_frame.h"
 #include "src/session/session.h"
+#include "src/session/stop_rule.h"
 #include "src/world/camera/view.h"
 
 namespace pileus {
 
-Status Session::film_frame(int frame, Image& image) {
+/// Where the light of a frame is kept, so that a later run goes on with it.
+struct StateFile {
+    const MethodReport& of;
+    const std::string path;  ///< empty: it is not kept
+    double every_s, last_s;
+
+    Status save() const { return path.empty() ? Status::ok() : of.save(path); }
+    Status save_now_and_then() {
+        if (path.empty() || wall_seconds() - last_s < every_s) return Status::ok();
+        PILEUS_TRY(save());
+        last_s = wall_seconds();
+        return Status::ok();
+    }
+};
+
+namespace {
+
+/// The frame's own, where there are several.
+std::string state_path(const Scene& scene, const Budget& budget, int frame) {
+    const bool several = scene.animation.present && scene.animation.frames > 1;
+    if (budget.state.empty() || !several) return budget.state;
+    return numbered_path(budget.state, frame);
+}
+
+}  // namespace
+
+Status Session::film_passes(const FrameView& view, const LightGoal& goal, StateFile& file) {
+    Method& method = *made_.method;
+    const char* const stage = method.progress().stage;
+    const StopRule rule(goal);
+    std::optional<StageClock> clock(std::in_place, context_, stage);
+    context_.hold(true);
+    const double start = wall_seconds();
+    LightPass last;
+    for (;;) {
+        LightUnits light = method.progress();
+        double error = 0;
+        // A picture that an error is told by has stages of its own.
+        if (rule.wants_error(light) && goal.doubles) clock.reset();
+        if (rule.wants_error(light)) PILEUS_TRY(made_.report->error(context_, view, error));
+        if (rule.met(light, error)) break;
+        const double spent_s = wall_seconds() - start;
+        last.units = rule.next(light, spent_s, last);
+        if (last.units == 0) break;
+        if (!clock) clock.emplace(context_, stage);
+        std::uint64_t done = 0;
+        PILEUS_TRY(method.accumulate(context_, view, last.units, done));
+        last.seconds = wall_seconds() - start - spent_s;
+        light = method.progress();
+        if (light.interrupted) break;
+        context_.tell(stage, rule.share_done(light, wall_seconds() - start));
+        PILEUS_TRY(file.save_now_and_then());
+    }
+    return Status::ok();
+}
+
+Status Session::film_light(const FrameView& view) {
+    Method& method = *made_.method;
+    if (method.progress().stage == nullptr) return Status::ok();
+    const LightGoal goal = made_.report->goal(view);
+    StateFile file{*made_.report, state_path(scene_, options_.budget, view.frame),
+                   options_.budget.state_every_s, wall_seconds()};
+    if (!file.path.empty()) PILEUS_TRY(made_.report->resume(context_, view, file.path));
+    std::uint64_t done = 0;
+    PILEUS_TRY(method.accumulate(context_, view, 0, done));
+    PILEUS_TRY(film_passes(view, goal, file));
+    const LightUnits light = method.progress();
+    if (light.held > 0) return file.save();
+    const bool keeps = !file.path.empty() && light.part;
+    if (keeps) PILEUS_TRY(file.save());
+    return {Code::kCheckFailed,
+            std::string("interrupted before ") + goal.first + "; " +
+                (keeps ? "no picture written, progress kept in " + file.path : "no file written")};
+}
+
+Status Session::film_frame(const FrameStep& step, Image& image) {
     MethodRun& run = *run_;
+    Method& method = *made_.method;
     const World& world = *run.world;
-    run.lighting = light_of(scene_, run.sun_of(frame), world, run.environment);
-    const FrameView view = view_of(run, frame);
+    light_frame(step.frame, run);
+    const FrameView view = view_of(run, step.frame);
     // A film tells of no change: methods see by themselves that the sun has moved.
-    PILEUS_TRY(made_.method->set_view(context_, view, {}));
+    PILEUS_TRY(method.set_view(context_, view, {}));
+    PILEUS_TRY(film_light(view));
+    method.release(Phase::kTraced);
+    if (step.last || method.progress().interrupted) method.release(Phase::kEnded);
     Planes* planes = nullptr;
-    PILEUS_TRY(made_.method->render(context_, view, {}, planes));
+    PILEUS_TRY(method.render(context_, view, {}, planes));
     report_.digests = run.digests;
+    made_.report->digest_picture(context_, report_.digests);
     const CameraParams camera =
-        make_camera(scene_.camera, orbit_at(scene_, frame), world.medium.low_m);
-    return finish_frame(context_, scene_.output, world, run.environment.depth, camera,
-                        made_.report->finished(), *planes, image, report_);
+        make_camera(scene_.camera, orbit_at(scene_, step.frame), world.medium.low_m);
+    PILEUS_TRY(finish_frame(context_, scene_.output, world, run.environment.depth, camera,
+                            made_.report->finished(), *planes, image, report_));
+    method.release(Phase::kShown);
+    return Status::ok();
 }
 
 }  // namespace pileus

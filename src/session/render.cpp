@@ -90,7 +90,7 @@ Status render_frames(const Scene& scene, const RunStart& start, const RenderOpti
             PILEUS_TRY(show_shadow(scene, session, frame, image));
         take_hash(session.context(), image, report);
         session.finish_report();
-        report.budget_used = budget_used(session.row(), session.run(), frame, report);
+        report.budget_used = budget_used(session.method_report(), options.budget, frame, report);
         if (verifies) PILEUS_TRY(verifier.check(frame, session.context(), image, report));
         count_water(scene, *session.run().world, report);
         if (options.show.empty()) find_warnings(scene, image, report);

@@ -70,15 +70,14 @@ Status frames_of(const Scene& scene, const RenderOptions& options, Frames& frame
                              std::to_string(frames.total - 1));
 }
 
-std::string budget_used(const MethodRow& row, const MethodRun& run, int frame,
+std::string budget_used(const MethodReport& method, const Budget& given, int frame,
                         const Report& report) {
     // Part of a pass or of a generation is no whole number of them.
     if (report.paths.ahead_samples > 0 || (report.interrupted && report.photons.generations > 0))
         return "";
     Budget used;
-    used.steps = run.budget.steps;
-    if (row.recipe != nullptr && row.recipe->budget_used != nullptr)
-        row.recipe->budget_used(frame, run, report, used);
+    used.steps = given.steps;
+    method.budget_used(frame, report, used);
     return budget_text(used);
 }
 

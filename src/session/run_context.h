@@ -27,13 +27,10 @@ void note_head(const Scene& scene, const RenderOptions& options, const Context& 
 /// kBadInput: frames that the scene does not have.
 Status frames_of(const Scene& scene, const RenderOptions& options, Frames& frames);
 
-/// The budgets as the program takes them, parted by blanks.
-std::string budget_text(const Budget& budget);
-
 /// Texts of the budgets that make this frame's picture again, whatever ended it: a clock and an
 /// error have come to whole samples or generations. Empty: the scene's own numbers, or a user who
 /// ended it within a pass, which nothing repeats.
-std::string budget_used(const MethodRow& row, const MethodRun& run, int frame,
+std::string budget_used(const MethodReport& method, const Budget& given, int frame,
                         const Report& report);
 
 /// What the process and its stages have used up to now.

@@ -11,6 +11,7 @@
 #include "src/methods/registry.h"
 #include "src/scene/read_scene.h"
 #include "src/session/run_context.h"
+#include "src/session/stop_rule.h"
 #include "src/world/atmosphere/atmosphere.h"
 #include "src/world/camera/view.h"
 #include "src/world/place_scene.h"
@@ -99,10 +100,10 @@ Status Session::check_method(bool live, const World* world) const {
     return Status::ok();
 }
 
-void Session::make_method() {
+void Session::make_method(bool live) {
     if (row_.recipe == nullptr) {
         run_ = std::make_unique<MethodRun>();
-        made_ = row_.make({scene_, options_.budget});
+        made_ = row_.make({scene_, options_.budget, live});
     } else {
         run_ = row_.recipe->make();
         made_ = method_of(*row_.recipe, *run_);
@@ -120,7 +121,7 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
     scene_.sky.mapped = options.sky != nullptr || !scene_.view_files.sky_map.empty();
     options_ = options;
     const Status found = find_method(scene_, row_);
-    if (live) make_live(found && keeps_parts(row_), scene_);
+    if (live) make_live(found && row_.keeps_parts, scene_);
     host_ = scene_;
     PILEUS_TRY(make_context(scene_, options, context_, report_));
     if (live) context_.frames = kLiveFrames;
@@ -129,7 +130,7 @@ Status Session::open(const Scene& scene, const RenderOptions& options, SessionKi
     if (kChecks) PILEUS_TRY(row_.check(scene_, options.budget));
     if (kFilms && !options.show.empty()) PILEUS_TRY(find_view(scene_.method, options.show, row_));
     if (kChecks) PILEUS_TRY(check_method(live, world.get()));
-    make_method();
+    make_method(live);
     run_->rest = live ? static_cast<const FrameState*>(&scene_) : &host_;
     run_->sky = options.sky;
     if (kFilms && !scene_.animation.keys.empty()) {
@@ -165,7 +166,7 @@ Status Session::render_image(const FrameStep& step, Image& image) {
     const PoolGuard lent(*threads_);
     PILEUS_TRY(take_frame(step.frame));
     if (row_.recipe == nullptr) {
-        PILEUS_TRY(film_frame(step.frame, image));
+        PILEUS_TRY(film_frame(step, image));
     } else {
         PILEUS_TRY(row_.recipe->light(step, context_, *run_));
         report_.digests.clear();
@@ -186,7 +187,7 @@ void Session::finish_report() {
 bool Session::relight() {
     if (row_.recipe != nullptr) return false;
     const Lighting before = run_->lighting;
-    run_->lighting = light_of(scene_, run_->sun_of(host_.number), *run_->world, run_->environment);
+    light_frame(host_.number, *run_);
     return !same_shine(before, run_->lighting);
 }
 
@@ -205,12 +206,37 @@ Status Session::aim() {
     return Status::ok();
 }
 
+Status Session::trace(std::uint64_t units, std::uint64_t& done) {
+    Method& method = *made_.method;
+    const LightUnits light = method.progress();
+    if (light.stage == nullptr) return method.accumulate(context_, view(), units, done);
+    PILEUS_TRY(method.accumulate(context_, view(), 0, done));
+    if (units == 0) return Status::ok();
+    const StageClock clock(context_, light.stage);
+    if (!kStops || !context_.interrupted || !light.in_passes)
+        return method.accumulate(context_, view(), units, done);
+    LightGoal goal;
+    goal.most = light.held + units;
+    const StopRule rule(goal);
+    LightPass last;
+    while (done < units) {
+        const double start = wall_seconds();
+        last.units = rule.next(method.progress(), 0, last);
+        std::uint64_t more = 0;
+        const Status status = method.accumulate(context_, view(), last.units, more);
+        done += more;
+        if (!status || method.progress().interrupted) return status;
+        last.seconds = wall_seconds() - start;
+    }
+    return Status::ok();
+}
+
 Status Session::step(std::uint64_t units, std::uint64_t& done) {
     const FpModeGuard guard;
     const PoolGuard lent(*threads_);
     done = 0;
     PILEUS_TRY(aim());
-    const Status status = made_.method->accumulate(context_, view(), units, done);
+    const Status status = trace(units, done);
     stats_.units += done;
     report_.clocks.peak_bytes = peak_memory_bytes();
     return status;
@@ -240,7 +266,7 @@ Status Session::render(const FrameTarget& target) {
     // A picture into nothing makes ready what the first one after a hand-over needs.
     const bool nothing = !target.has_colour && target.hash == nullptr;
     const bool rays = !scene_.camera.flux;  // a flat detector has no depths
-    scene_.output.layer_depth = (rays && (target.has_depth || keeps_parts(row_) || nothing)) ||
+    scene_.output.layer_depth = (rays && (target.has_depth || row_.keeps_parts || nothing)) ||
                                 (kClouds && fading_ != nullptr);
     report_.counters.clear();
     // A hash and depths are of whole planes.

@@ -45,7 +45,19 @@ Shine shine_of(const Lighting& lighting);
 /// lights a host sets.
 enum class SessionKind { kAnimation, kLive };
 
-struct Outlook;
+struct StateFile;
+
+/// What others draw in who show more than a session's own media; points into the session, until it
+/// is changed. docs/clouds.md
+struct Outlook {
+    const Context* context = nullptr;
+    const Scene* scene = nullptr;
+    const World* world = nullptr;
+    Environment* environment = nullptr;
+    Lighting lighting;
+    CameraParams camera{};  ///< in metres from the world's low corner
+    int frame = 0;
+};
 
 /// A picture of an earlier density that fades away while this session draws the next one.
 class Fading {
@@ -79,6 +91,7 @@ public:
     const Report& report() const { return report_; }
     const MethodRow& row() const { return row_; }
     const MethodRun& run() const { return *run_; }
+    const MethodReport& method_report() const { return *made_.report; }
     const Context& context() const { return context_; }
     const SessionStats& stats() const { return stats_; }
 
@@ -168,9 +181,14 @@ public:
 
 private:
     FrameView view() { return view_of(*run_, host_.number); }
-    void make_method();
+    void make_method(bool live);
     /// As render_image, by a method that is a class.
-    Status film_frame(int frame, Image& image);
+    Status film_frame(const FrameStep& step, Image& image);
+    /// The light of it, until the method's goal is met or the user wants an end.
+    Status film_light(const FrameView& view);
+    Status film_passes(const FrameView& view, const LightGoal& goal, StateFile& file);
+    /// Whole units, between which the user may end it.
+    Status trace(std::uint64_t units, std::uint64_t& done);
     bool relight();
     Status aim();
     Status check_sealed() const;

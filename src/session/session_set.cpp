@@ -7,7 +7,6 @@
 #include "src/base/single.h"
 #include "src/methods/support.h"
 #include "src/scene/above_ground.h"
-#include "src/session/outlook.h"
 #include "src/session/session.h"
 #include "src/session/value_fault.h"
 #include "src/world/atmosphere/atmosphere.h"

@@ -44,7 +44,6 @@ std::uint64_t path_state_digest(const PathInput&, const std::string&) { return 0
 std::uint64_t path_state_bytes(std::uint64_t) { return 0; }
 Status can_write_file(const std::string&) { return no_files("state"); }
 std::string numbered_path(const std::string& path, int) { return path; }
-std::string budget_text(const RenderOptions&) { return {}; }
 
 Status open_gl_blender(Compositor, GlBlender&) { return no_files("collectors.compositor"); }
 Status blend_by_gl(GlBlender&, const BillboardScene&, const CameraParams&, int, BillboardImage&) {

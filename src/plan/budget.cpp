@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// See run_context.h: budgets as the report tells them.
-#include <fmt/format.h>
+// See budget.h.
+#include "src/plan/budget.h"
 
-#include "src/session/run_context.h"
+#include <fmt/format.h>
 
 namespace pileus {
 
