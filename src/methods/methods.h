@@ -83,8 +83,6 @@ struct LiveMethod {
     /// What a frame of this work, all members filled in, takes at the most. kBadInput: it depends
     /// on more than the work.
     Status (*most_units)(const FrameWork&, const MethodRun&, FrameUnits&);
-    bool reads_planes = false;  ///< the next picture reads the last one's, which are left alone
-    bool keeps_parts = false;   ///< light is traced with depths and the cloud's part, or without
 };
 
 /// A recipe. Functions are called from the top down, `light` to `report` once for each frame. The

@@ -56,7 +56,6 @@ public:
         return recipe_.live->most_units(work, run_, units);
     }
     void count(Counts& counts) const override { recipe_.count(run_, counts); }
-    bool keeps_planes() const override { return recipe_.live->reads_planes; }
 
 private:
     const Recipe& recipe_;
@@ -89,8 +88,7 @@ private:
 }  // namespace
 
 MethodRow row_of(const Recipe& recipe) {
-    const bool keeps_parts = recipe.live != nullptr && recipe.live->keeps_parts;
-    return {recipe.name, recipe.world, recipe.check, nullptr, &recipe, keeps_parts};
+    return {recipe.name, recipe.world, recipe.check, nullptr, &recipe};
 }
 
 MadeMethod method_of(const Recipe& recipe, MethodRun& run) {

@@ -6,7 +6,7 @@
 #include "src/methods/collectors/views/views.h"
 #include "src/methods/optical_depth/optical_depth.h"
 #include "src/methods/particles/particles_method.h"
-#include "src/methods/path/path.h"
+#include "src/methods/path/path_method.h"
 #include "src/methods/photon_grid/photon_grid.h"
 #include "src/methods/raymarch/raymarch.h"
 
@@ -33,7 +33,7 @@ std::vector<ListedMethod> listed_methods() {
     collectors.tools = collectors_tools;
     photon_grid.tools = photon_grid_tools;
     return {collectors,
-            {row_of(path_method()), nullptr, 0, path_tools},
+            {path_row(), nullptr, 0, path_tools},
             {row_of(raymarch_method()), nullptr, 0, raymarch_tools},
             {row_of(optical_depth_method()), nullptr, 0, optical_depth_tools},
             photon_grid,

@@ -89,8 +89,9 @@ Status Verifier::open(const Scene& scene, std::uint64_t pixels, const Context& c
     rest_ = scene_;
     run_.rest = &rest_;
     place(scene.sequence_frame);
-    own_paths_ = scene.method == path_method().name;
-    scene_.method = path_method().name;
+    const MethodRow row = path_row();
+    own_paths_ = scene.method == row.name;
+    scene_.method = row.name;
     scene_.output = OutputSettings{};
     if (!own_paths_) {
         // Other methods look through the middles of pixels, and aim at all orders of scattering.
@@ -99,7 +100,9 @@ Status Verifier::open(const Scene& scene, std::uint64_t pixels, const Context& c
     }
     // Paths know particles on a grid alone, one finer than shadows ask for.
     if (world->shows_particles) world = nullptr;
-    return open_run(path_method(), scene_, Budget{}, context, true, std::move(world), run_);
+    // Of a film there is but what is behind its light.
+    path_ = &make_path({scene_, {}, true}, made_);
+    return open_run(row, made_, scene_, Budget{}, context, true, std::move(world), run_);
 }
 
 /// Moves the scene to a frame, where keys do.
@@ -110,11 +113,19 @@ void Verifier::place(int frame) {
     put_in_media(at, scene_);
 }
 
+/// Lights, camera and noise of a frame.
+Status Verifier::set_view(int frame, const Context& context) {
+    light_frame(frame, run_);
+    return path_->set_view(context, view_of(run_, frame), {});
+}
+
 /// As the picture's method has it: by where the media and what is solid are along each ray.
-Status Verifier::see_through_air(const Context& context, const std::vector<std::uint32_t>& pixels,
+Status Verifier::see_through_air(int frame, const Context& context,
+                                 const std::vector<std::uint32_t>& pixels,
                                  std::vector<PixelLight>& paths) {
-    PILEUS_TRY(path_begin(context, run_));
-    const std::size_t all = run_.planes.transmittance.size();
+    PILEUS_TRY(path_->begin(context, view_of(run_, frame)));
+    Planes& planes = path_->planes();
+    const std::size_t all = planes.transmittance.size();
     Buffer<float> light, straight, dimmed;
     for (Buffer<float>* b : {&light, &straight, &dimmed})
         PILEUS_TRY(b->resize(3 * all, "verified picture"));
@@ -123,8 +134,8 @@ Status Verifier::see_through_air(const Context& context, const std::vector<std::
             straight[c * all + pixels[i]] = float(paths[i].straight[c]);
             light[c * all + pixels[i]] = float(paths[i].mean[c] - paths[i].straight[c]);
         }
-    PILEUS_TRY(run_air(context, scene_, run_.world->medium, run_.lighting, run_.camera,
-                       run_.environment, run_.planes,
+    PILEUS_TRY(run_air(context, scene_, run_.world->medium, run_.lighting, path_->state().camera,
+                       run_.environment, planes,
                        {light.data(), straight.data(), dimmed.data(), true}));
     for (std::size_t i = 0; i < pixels.size(); ++i)
         for (std::size_t c = 0; c < 3; ++c) {
@@ -142,8 +153,8 @@ Status Verifier::check(int frame, const Context& context, const Image& image, Re
         rest_.sequence_frame = scene_.sequence_frame = frame;
         PILEUS_TRY(load_environment(scene_, context, run_.environment));
     }
-    path_aim(frame, run_);
-    PathInput in = path_input(context, run_);
+    PILEUS_TRY(set_view(frame, context));
+    PathInput in = path_->input(context, view_of(run_, frame));
     in.ended = context.interrupted;
     const std::vector<std::uint32_t> pixels = choose_pixels(image, pixels_, in.seed);
     if (pixels.empty()) return Status::ok();
@@ -153,10 +164,10 @@ Status Verifier::check(int frame, const Context& context, const Image& image, Re
     bool ended = false;
     {
         const StageClock clock(context, "verify");
-        PILEUS_TRY(trace_pixels(in, pixels, samples, run_.scratch, paths, ended));
+        PILEUS_TRY(trace_pixels(in, pixels, samples, path_->scratch(), paths, ended));
     }
     if (ended) return Status::ok();
-    if (run_.lighting.air) PILEUS_TRY(see_through_air(context, pixels, paths));
+    if (run_.lighting.air) PILEUS_TRY(see_through_air(frame, context, pixels, paths));
     report.verify = compare_pixels(image, pixels, paths);
     report.verify.samples = samples;
     return Status::ok();

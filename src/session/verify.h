@@ -3,7 +3,8 @@
 // in: a scene, its world, a picture -> out: bias, its standard error and relMSE in the report.
 // docs/report.md, "Verify"
 #pragma once
-#include "src/methods/path/path.h"
+#include "src/methods/methods.h"
+#include "src/methods/path/path_method.h"
 #include "src/session/render.h"
 
 namespace pileus {
@@ -24,13 +25,17 @@ public:
 
 private:
     void place(int frame);
-    Status see_through_air(const Context& context, const std::vector<std::uint32_t>& pixels,
+    Status set_view(int frame, const Context& context);
+    Status see_through_air(int frame, const Context& context,
+                           const std::vector<std::uint32_t>& pixels,
                            std::vector<PixelLight>& paths);
     Scene scene_;
     FrameState rest_;  ///< as it is but for keys
     std::uint64_t pixels_ = 0;
-    PathRun run_;
-    bool own_paths_ = false;  ///< the pictures are by paths themselves
+    MethodRun run_;
+    MadeMethod made_;
+    PathMethod* path_ = nullptr;  ///< the one that was made
+    bool own_paths_ = false;      ///< the pictures are by paths themselves
 };
 
 }  // namespace pileus

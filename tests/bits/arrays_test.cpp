@@ -9,7 +9,7 @@
 #include "src/methods/collectors/prepare/leaves.h"
 #include "src/methods/particles/particles_method.h"
 #include "src/methods/particles/view_tiles.h"
-#include "src/methods/path/path.h"
+#include "src/methods/path/path_method.h"
 #include "src/methods/path/path_sky.h"
 #include "src/methods/photon_grid/photon_grid.h"
 #include "src/methods/registry.h"
@@ -151,21 +151,21 @@ void check_photon_grid(const Fixture& f) {
 }
 
 void check_path(const Fixture& f) {
-    PathRun run;
+    MethodRun run;
+    MadeMethod made;
     Budget budget;
     budget.samples = 2;
-    const Recipe& method = path_method();
-    REQUIRE(open_run(method, f.scene, budget, f.context, true, nullptr, run));
+    const PathState& state = make_path({f.scene, budget}, made).state();
+    REQUIRE(open_run(path_row(), made, f.scene, budget, f.context, true, nullptr, run));
     REQUIRE(run.plan.exact);
-    REQUIRE(method.light(FrameStep{}, f.context, run));
-    // Light has freed its scratch: make it once more.
-    REQUIRE(prepare_path(path_input(f.context, run), run.scratch));
-    Bytes held = held_by(run, run.majorants);
-    held["directions to the sky map"] = run.scratch.sky.bytes();
-    held["film"] = run.film.sum.bytes() + run.film.square.bytes();
-    held["blocks that flights cross"] = run.scratch.blocks.bytes();
-    held["path samples"] = run.scratch.radiance.bytes();
-    held["picture planes"] = bytes_held(run.planes);
+    std::uint64_t done = 0;
+    REQUIRE(made.method->accumulate(f.context, view_of(run, 0), 2, done));
+    Bytes held = held_by(run, state.majorants);
+    held["directions to the sky map"] = state.scratch.sky.bytes();
+    held["film"] = state.film.sum.bytes() + state.film.square.bytes();
+    held["blocks that flights cross"] = state.scratch.blocks.bytes();
+    held["path samples"] = state.scratch.radiance.bytes();
+    held["picture planes"] = bytes_held(state.planes);
     check_rows(run.plan.memory, Stage::kPaths, held);
 }
 

@@ -4,7 +4,7 @@
 // docs/program.md, "Interrupting" and "Budgets"
 #include <memory>
 
-#include "src/methods/path/path_state.h"
+#include "src/methods/path/film_file.h"
 #include "tests/io/temp_folder.h"
 #include "tests/support/path_harness.h"
 #include "tests/support/render_harness.h"

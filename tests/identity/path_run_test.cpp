@@ -2,7 +2,7 @@
 // A path traced picture depends on its number of samples alone: not on passes, breaks, threads.
 // in: small scenes, interrupted at chosen moments -> out: equal digests.
 // docs/determinism.md; docs/program.md, "Budgets of a path tracing"
-#include "src/methods/path/path_passes.h"
+#include "src/session/stop_rule.h"
 #include "tests/io/temp_folder.h"
 #include "tests/support/render_harness.h"
 
@@ -168,25 +168,54 @@ TEST_CASE("collectors: interrupted, the picture is that of the generations there
 
 TEST_CASE(
     "path: passes stay within their rule, and the samples at which the error is looked at rise") {
+    LightGoal goal;
+    goal.most = 100;
+    goal.early = 0.5;
+    const StopRule samples(goal);
     std::uint64_t count = 0;
     for (int i = 0; i < 40; ++i) {
-        const std::uint64_t next = next_check(count);
+        const std::uint64_t next = samples.next_look(count);
         REQUIRE(next > count);
-        CHECK(is_check(next));
-        CHECK_FALSE(is_check(next + 1));
+        CHECK(samples.is_look(next));
+        CHECK_FALSE(samples.is_look(next + 1));
         if (count > 0) CHECK(next <= count + count / 4);
         count = next;
     }
-    PassRule rule;
-    rule.most = 100;
-    CHECK(pass_samples(rule, 0, 0, 0, 0) == 1);
-    CHECK(pass_samples(rule, 1, 1, 1e-6, 0) == 2);
-    CHECK(pass_samples(rule, 1, 8, 0.25, 0) == 16);
-    CHECK(pass_samples(rule, 1, 8, 4, 0) == 1);
-    CHECK(pass_samples(rule, 99, 64, 1e-6, 0) == 1);
-    rule.error = 0.1;
-    CHECK(pass_samples(rule, 16, 64, 1e-6, 0) == 4);
-    rule.seconds = 1;
-    rule.error = 0;
-    CHECK(pass_samples(rule, 16, 10, 0.1, 0.05) == 5);
+    const auto pass = [](const LightGoal& of, std::uint64_t held, LightPass last, double spent_s) {
+        LightUnits light;
+        light.held = held;
+        light.in_passes = true;
+        return StopRule(of).next(light, spent_s, last);
+    };
+    CHECK(pass(goal, 0, {}, 0) == 1);
+    CHECK(pass(goal, 1, {1, 1e-6}, 0) == 2);
+    CHECK(pass(goal, 1, {8, 0.25}, 0) == 16);
+    CHECK(pass(goal, 1, {8, 4}, 0) == 1);
+    CHECK(pass(goal, 99, {64, 1e-6}, 0) == 1);
+    goal.error = 0.1;
+    CHECK(pass(goal, 16, {64, 1e-6}, 0) == 4);
+    goal.error = 0;
+    goal.seconds = 1;
+    CHECK(pass(goal, 16, {10, 0.1}, 0.95) == 5);
+    // Half a sample's time is left, and no sample at all is no picture.
+    CHECK(pass(goal, 16, {10, 1}, 0.95) == 0);
+    CHECK(pass(goal, 0, {}, 2) == 1);
+}
+
+TEST_CASE("photons double until their error is met, one generation at a time") {
+    LightGoal goal;
+    goal.most = 20;
+    goal.error = 0.1;
+    goal.first_look = 4;
+    goal.doubles = true;
+    const StopRule rule(goal);
+    LightUnits light;
+    for (light.held = 0; !rule.met(light, 0.2); ++light.held) {
+        CHECK(rule.wants_error(light) == (light.held == 4 || light.held == 8));
+        CHECK(rule.next(light, 0, {1, 0.1}) == 1);
+    }
+    // 32 would be over the most.
+    CHECK(light.held == 16);
+    light.held = 8;
+    CHECK(rule.met(light, 0.1));
 }

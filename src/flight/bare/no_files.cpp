@@ -4,7 +4,6 @@
 // docs/flight.md, "Packed scenes"
 #include "platform/cuda_device.h"
 #include "src/methods/collectors/billboards/gl_billboards.h"
-#include "src/methods/path/path_state.h"
 #include "src/scene/read_scene.h"
 #include "src/session/run_context.h"
 #include "src/world/camera/places.h"
@@ -36,14 +35,6 @@ Status read_sky_map(const Scene& scene, const Context&, const Image* sky, SkyMap
 Status read_camera_depth(const Scene& scene, const Context&, CameraDepth&) {
     return scene.view_files.depth.empty() ? Status::ok() : no_files("camera.depth");
 }
-Status read_path_state(const std::string&, std::uint64_t, Film&) { return no_files("state"); }
-Status write_path_state(const std::string&, std::uint64_t, const Film&) {
-    return no_files("state");
-}
-std::uint64_t path_state_digest(const PathInput&, const std::string&) { return 0; }
-std::uint64_t path_state_bytes(std::uint64_t) { return 0; }
-Status can_write_file(const std::string&) { return no_files("state"); }
-std::string numbered_path(const std::string& path, int) { return path; }
 
 Status open_gl_blender(Compositor, GlBlender&) { return no_files("collectors.compositor"); }
 Status blend_by_gl(GlBlender&, const BillboardScene&, const CameraParams&, int, BillboardImage&) {

@@ -8,7 +8,7 @@
 #include "src/methods/collectors/collectors.h"
 #include "src/methods/optical_depth/optical_depth.h"
 #include "src/methods/particles/particles_method.h"
-#include "src/methods/path/path.h"
+#include "src/methods/path/path_method.h"
 #include "src/methods/photon_grid/photon_grid.h"
 #include "src/methods/raymarch/raymarch.h"
 
@@ -43,7 +43,7 @@ Status find_method(const Scene& scene, MethodRow& row) {
         row_of(collectors_method()),
 #endif
 #ifdef PILEUS_FLIGHT_PATH
-        row_of(path_method()),
+        path_row(),
 #endif
 #ifdef PILEUS_FLIGHT_RAYMARCH
         row_of(raymarch_method()),

@@ -3,14 +3,16 @@
 // each by its own way. in: planes of the film, before and after a filter -> out: planes as the
 // camera sees them. docs/atmosphere.md, "In front of things"
 #include "kernels_cpu/core/profile.h"
-#include "src/methods/path/path.h"
+#include "src/methods/path/path_state.h"
 #include "src/picture/air_view.h"
 #include "src/picture/filter/regression.h"
 
 namespace pileus {
 namespace {
 
-bool has_air(const PathRun& run) { return run.lighting.air && run.camera.flux == 0; }
+bool has_air(const FrameView& view, const PathState& state) {
+    return view.lighting.air && state.camera.flux == 0;
+}
 
 bool is_solid(const Planes& p, std::size_t i) {
     return !p.opaque_depth.empty() && p.opaque_depth[i] < kNothingSolid;
@@ -18,12 +20,13 @@ bool is_solid(const Planes& p, std::size_t i) {
 
 }  // namespace
 
-Status path_straight(const Context& context, const PathRun& run, Buffer<float>& straight) {
-    if (!has_air(run)) return Status::ok();
-    const Planes& p = run.planes;
-    const std::size_t pixels = run.film.pixels();
+Status path_straight(const Context& context, const FrameView& view, const PathState& state,
+                     Buffer<float>& straight) {
+    if (!has_air(view, state)) return Status::ok();
+    const Planes& p = state.planes;
+    const std::size_t pixels = state.film.pixels();
     Buffer<float> sky;
-    if (path_filters(run.filter)) PILEUS_TRY(path_sky_behind(context, run, sky));
+    if (path_filters(state.filter)) PILEUS_TRY(path_sky_behind(context, view, state, sky));
     PILEUS_TRY(allocate(arrays::film_means(3, pixels), straight));
     for (std::size_t at = 0; at < 3 * pixels; ++at) {
         const std::size_t i = at % pixels;
@@ -32,15 +35,16 @@ Status path_straight(const Context& context, const PathRun& run, Buffer<float>& 
             straight[at] = p.transmittance[i] * sky[at];
         else
             straight[at] =
-                p.colour[at] - float(film_mean(run.film, kPathCloud, int(at / pixels), i));
+                p.colour[at] - float(film_mean(state.film, kPathCloud, int(at / pixels), i));
     }
     return Status::ok();
 }
 
-Status path_air(const Context& context, PathRun& run, Buffer<float>& straight) {
+Status path_air(const Context& context, const FrameView& view, PathState& state,
+                Buffer<float>& straight) {
     if (!kAtmosphere || straight.empty()) return Status::ok();
-    Planes& p = run.planes;
-    const std::size_t pixels = run.film.pixels();
+    Planes& p = state.planes;
+    const std::size_t pixels = state.film.pixels();
     Buffer<float> dimmed;
     PILEUS_TRY(allocate(arrays::film_means(3, pixels), dimmed));
     for (std::size_t at = 0; at < 3 * pixels; ++at) {
@@ -49,8 +53,8 @@ Status path_air(const Context& context, PathRun& run, Buffer<float>& straight) {
         if (p.transmittance[at % pixels] == 1) straight[at] = p.colour[at];
         p.colour[at] -= straight[at];
     }
-    PILEUS_TRY(run_air(context, *run.scene, run.world->medium, run.lighting, run.camera,
-                       run.environment, p,
+    PILEUS_TRY(run_air(context, view.scene, view.world.medium, view.lighting, state.camera,
+                       view.environment, p,
                        {p.colour.data(), straight.data(), dimmed.data(), true}));
     if (!p.cloud.empty()) {
         for (std::size_t at = 0; at < 3 * pixels; ++at) p.cloud[at] = p.colour[at];

@@ -4,7 +4,7 @@
 // docs/filter.md
 #include "kernels_cpu/core/profile.h"
 #include "platform/threads.h"
-#include "src/methods/path/path.h"
+#include "src/methods/path/path_state.h"
 #include "src/picture/background.h"
 #include "src/picture/filter/filter_error.h"
 #include "src/picture/filter/oidn.h"
@@ -30,9 +30,9 @@ bool is_solid(const Planes& p, std::size_t i) {
 
 /// Calls set(c, pixel) for all channels of all pixels.
 template <class Set>
-void for_light(const Context& context, const PathRun& run, Set set) {
-    const std::size_t width = std::size_t(run.film.width);
-    parallel_for(context.threads, run.film.height, [&](std::int64_t row, int) {
+void for_light(const Context& context, const PathState& state, Set set) {
+    const std::size_t width = std::size_t(state.film.width);
+    parallel_for(context.threads, state.film.height, [&](std::int64_t row, int) {
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t i = std::size_t(row) * width; i < (std::size_t(row) + 1) * width; ++i)
                 set(c, i);
@@ -40,34 +40,35 @@ void for_light(const Context& context, const PathRun& run, Set set) {
 }
 
 /// What the media turned last.
-float turned(const PathRun& run, std::size_t c, std::size_t i) {
-    return float(film_mean(run.film, kPathCloud, int(c), i));
+float turned(const PathState& state, std::size_t c, std::size_t i) {
+    return float(film_mean(state.film, kPathCloud, int(c), i));
 }
 
-RegressionInput regression_input(const Context& context, const PathRun& run, int fold) {
-    const Planes& p = run.planes;
+RegressionInput regression_input(const Context& context, const PathState& state, int fold) {
+    const Planes& p = state.planes;
     RegressionInput in;
-    in.width = run.film.width;
-    in.height = run.film.height;
+    in.width = state.film.width;
+    in.height = state.film.height;
     in.threads = context.threads;
     in.transmittance = p.transmittance.data();
     in.optical_depth = p.optical_depth.data();
-    in.guides = run.guides.planes.data();
+    in.guides = state.guides.planes.data();
     in.opaque_depth = p.opaque_depth.data();
-    in.radius_pixels = run.filter.radius_pixels;
+    in.radius_pixels = state.filter.radius_pixels;
     in.fold = fold;
     return in;
 }
 
 /// The share of the sun's light on the ground, the first of three planes.
-Status light_ground(const Context& context, const PathRun& run, Buffer<float>& out) {
-    PILEUS_TRY(allocate(arrays::film_means(3, run.film.pixels()), out));
-    if (!run.lighting.sunlit) return Status::ok();
-    BackgroundParams k = background_params(make_medium_view(run.world->medium, run.majorants),
-                                           run.camera, run.lighting);
+Status light_ground(const Context& context, const FrameView& view, const PathState& state,
+                    Buffer<float>& out) {
+    PILEUS_TRY(allocate(arrays::film_means(3, state.film.pixels()), out));
+    if (!view.lighting.sunlit) return Status::ok();
+    BackgroundParams k = background_params(make_medium_view(view.world.medium, state.majorants),
+                                           state.camera, view.lighting);
     for (int c = 0; c < 3; ++c) k.sky[c] = k.ground_diffuse[c] = k.ground_sun[c] = 0;
     k.ground_sun[0] = 1;
-    return show_background(context, run.lighting, k, {nullptr, out.data(), nullptr});
+    return show_background(context, view.lighting, k, {nullptr, out.data(), nullptr});
 }
 
 /// What of a picture is known without its samples, made once for all of its filters.
@@ -77,33 +78,34 @@ struct Known {
     Buffer<float> sun;   ///< of light_ground; with a plain ground alone
 };
 
-Status find_known(const Context& context, const PathRun& run, Known& known) {
-    known.plain = has_plain_ground(run.lighting);
-    PILEUS_TRY(path_sky_behind(context, run, known.sky));
-    return known.plain ? light_ground(context, run, known.sun) : Status::ok();
+Status find_known(const Context& context, const FrameView& view, const PathState& state,
+                  Known& known) {
+    known.plain = has_plain_ground(view.lighting);
+    PILEUS_TRY(path_sky_behind(context, view, state, known.sky));
+    return known.plain ? light_ground(context, view, state, known.sun) : Status::ok();
 }
 
 /// Puts what comes straight through the media from a plain ground and from the sky in place of the
 /// samples of it: filtered, and as it is known.
-Status filter_straight(const Context& context, PathRun& run, const Known& known, int fold) {
-    Planes& p = run.planes;
-    const std::size_t pixels = run.film.pixels();
+Status filter_straight(const Context& context, PathState& state, const Known& known, int fold) {
+    Planes& p = state.planes;
+    const std::size_t pixels = state.film.pixels();
     const Buffer<float>& sky = known.sky;
     Buffer<float> straight;
     PILEUS_TRY(allocate(arrays::film_means(3, pixels), straight));
-    for_light(context, run, [&](std::size_t c, std::size_t i) {
+    for_light(context, state, [&](std::size_t c, std::size_t i) {
         const std::size_t at = c * pixels + i;
         if (is_solid(p, i))
-            straight[at] = p.colour[at] - turned(run, c, i);
+            straight[at] = p.colour[at] - turned(state, c, i);
         else
             straight[at] = sky.empty() ? 0.0f : p.transmittance[i] * sky[at];
     });
-    RegressionInput in = regression_input(context, run, fold);
+    RegressionInput in = regression_input(context, state, fold);
     in.sun_on_ground = known.sun.data();
     PILEUS_TRY(filter_ground(in, straight.data()));
-    for_light(context, run, [&](std::size_t c, std::size_t i) {
+    for_light(context, state, [&](std::size_t c, std::size_t i) {
         const float s = straight[c * pixels + i];
-        p.colour[c * pixels + i] = (s > 0 ? s : 0.0f) + turned(run, c, i);
+        p.colour[c * pixels + i] = (s > 0 ? s : 0.0f) + turned(state, c, i);
     });
     return Status::ok();
 }
@@ -111,32 +113,32 @@ Status filter_straight(const Context& context, PathRun& run, const Known& known,
 /// Light that the filter takes. Before the sky that is all that has not come straight through;
 /// before something solid, whose light has edges of its own, and where it is at hand anyway, what
 /// the media turned last.
-Status take_light(const Context& context, PathRun& run, const Known& known, int fold,
+Status take_light(const Context& context, PathState& state, const Known& known, int fold,
                   Buffer<float>& out) {
-    Planes& p = run.planes;
-    const std::size_t pixels = run.film.pixels();
+    Planes& p = state.planes;
+    const std::size_t pixels = state.film.pixels();
     const Buffer<float>& sky = known.sky;
-    if (known.plain) PILEUS_TRY(filter_straight(context, run, known, fold));
+    if (known.plain) PILEUS_TRY(filter_straight(context, state, known, fold));
     PILEUS_TRY(allocate(arrays::film_means(3, pixels), out));
-    for_light(context, run, [&](std::size_t c, std::size_t i) {
+    for_light(context, state, [&](std::size_t c, std::size_t i) {
         const std::size_t at = c * pixels + i;
         const float straight = sky.empty() ? 0.0f : p.transmittance[i] * sky[at];
-        out[at] = known.plain || is_solid(p, i) ? turned(run, c, i) : p.colour[at] - straight;
+        out[at] = known.plain || is_solid(p, i) ? turned(state, c, i) : p.colour[at] - straight;
     });
     return Status::ok();
 }
 
-Status regress(const Context& context, PathRun& run, const Known& known, int fold) {
-    Planes& p = run.planes;
+Status regress(const Context& context, PathState& state, const Known& known, int fold) {
+    Planes& p = state.planes;
     Buffer<float> light, before;
-    PILEUS_TRY(take_light(context, run, known, fold, light));
+    PILEUS_TRY(take_light(context, state, known, fold, light));
     PILEUS_TRY(allocate(arrays::film_means(light.size(), 1), before));
     std::memcpy(before.data(), light.data(), light.size() * sizeof(float));
-    RegressionInput in = regression_input(context, run, fold);
+    RegressionInput in = regression_input(context, state, fold);
     if (known.plain) in.opaque_depth = nullptr;
     PILEUS_TRY(filter_light(in, light.data()));
-    const std::size_t pixels = run.film.pixels();
-    for_light(context, run, [&](std::size_t c, std::size_t i) {
+    const std::size_t pixels = state.film.pixels();
+    for_light(context, state, [&](std::size_t c, std::size_t i) {
         // A fit may end below zero; no light does.
         const std::size_t at = c * pixels + i;
         const float v = p.colour[at] + (light[at] - before[at]);
@@ -148,9 +150,9 @@ Status regress(const Context& context, PathRun& run, const Known& known, int fol
 /// Four parts of the picture, each filtered by itself, against the whole, of which each is a
 /// quarter: a difference of the two has three times the square of the whole's own error. Parts are
 /// smoothed more than the whole, which counts as error, too.
-Status regress_with_error(const Context& context, PathRun& run, const Known& known) {
-    Planes& p = run.planes;
-    const std::size_t pixels = run.film.pixels();
+Status regress_with_error(const Context& context, PathState& state, const Known& known) {
+    Planes& p = state.planes;
+    const std::size_t pixels = state.film.pixels();
     const auto copy = [&](const Buffer<float>& from, Buffer<float>& to) {
         std::memcpy(to.data(), from.data(), from.bytes());
     };
@@ -158,13 +160,13 @@ Status regress_with_error(const Context& context, PathRun& run, const Known& kno
     for (Buffer<float>* b : {&samples, &whole, &p.error})
         PILEUS_TRY(allocate(arrays::film_means(3, pixels), *b));
     copy(p.colour, samples);
-    PILEUS_TRY(regress(context, run, known, -1));
+    PILEUS_TRY(regress(context, state, known, -1));
     copy(p.colour, whole);
     for (int fold = 0; fold < 4; ++fold) {
         copy(samples, p.colour);
-        PILEUS_TRY(regress(context, run, known, fold));
-        for_light(context, run, [&](std::size_t c, std::size_t i) {
-            const int width = run.film.width;
+        PILEUS_TRY(regress(context, state, known, fold));
+        for_light(context, state, [&](std::size_t c, std::size_t i) {
+            const int width = state.film.width;
             if (filter_fold(int(i % std::size_t(width)), int(i / std::size_t(width))) != fold)
                 return;
             const float d = p.colour[c * pixels + i] - whole[c * pixels + i];
@@ -172,12 +174,12 @@ Status regress_with_error(const Context& context, PathRun& run, const Known& kno
         });
     }
     copy(whole, p.colour);
-    PILEUS_TRY(smooth_error(context.threads, run.film.width, run.film.height, p.error));
+    PILEUS_TRY(smooth_error(context.threads, state.film.width, state.film.height, p.error));
     // What is not filtered has the error of its samples.
-    for_light(context, run, [&](std::size_t c, std::size_t i) {
+    for_light(context, state, [&](std::size_t c, std::size_t i) {
         if (p.transmittance[i] < 1.0f || (known.plain && is_solid(p, i))) return;
         p.error[c * pixels + i] =
-            run.film.samples >= 2 ? float(film_error(run.film, int(c), i)) : 0.0f;
+            state.film.samples >= 2 ? float(film_error(state.film, int(c), i)) : 0.0f;
     });
     return Status::ok();
 }
@@ -186,15 +188,16 @@ std::string key_of(const Scene& scene) { return scene.file + ": filter.kind: "; 
 
 }  // namespace
 
-Status path_sky_behind(const Context& context, const PathRun& run, Buffer<float>& out) {
-    if (!has_sky(run.lighting)) return Status::ok();
-    const std::size_t pixels = run.film.pixels();
+Status path_sky_behind(const Context& context, const FrameView& view, const PathState& state,
+                       Buffer<float>& out) {
+    if (!has_sky(view.lighting)) return Status::ok();
+    const std::size_t pixels = state.film.pixels();
     PILEUS_TRY(allocate(arrays::film_means(3, pixels), out));
     Lighting sky;
-    sky.sky = run.lighting.sky;
-    sky.map = run.lighting.map;
+    sky.sky = view.lighting.sky;
+    sky.map = view.lighting.map;
     const BackgroundParams k =
-        background_params(make_medium_view(run.world->medium, run.majorants), run.camera, sky);
+        background_params(make_medium_view(view.world.medium, state.majorants), state.camera, sky);
     return show_background(context, sky, k, {nullptr, out.data(), nullptr});
 }
 
@@ -216,17 +219,17 @@ Status check_path_filter(const Scene& scene) {
     return path_regresses(scene.filter) ? Status::ok() : check_oidn(key);
 }
 
-Status path_filter(const Context& context, PathRun& run) {
+Status path_filter(const Context& context, const FrameView& view, PathState& state) {
     const StageClock clock(context, "filter");
     // Other filters are foreign libraries, and not packed.
-    if (!kFilms || path_regresses(run.filter)) {
+    if (!kFilms || path_regresses(state.filter)) {
         Known known;
-        PILEUS_TRY(find_known(context, run, known));
-        return kFilms && run.scene->output.layer_error ? regress_with_error(context, run, known)
-                                                       : regress(context, run, known, -1);
+        PILEUS_TRY(find_known(context, view, state, known));
+        return kFilms && view.scene.output.layer_error ? regress_with_error(context, state, known)
+                                                       : regress(context, state, known, -1);
     }
-    return denoise_by_oidn(key_of(*run.scene), run.film.width, run.film.height, context.threads,
-                           run.planes.colour.data());
+    return denoise_by_oidn(key_of(view.scene), state.film.width, state.film.height, context.threads,
+                           state.planes.colour.data());
 }
 
 }  // namespace pileus

@@ -2,8 +2,7 @@
 // What programs ask of method `path` besides pictures.
 // in: a scene -> out: settings of other qualities.
 // docs/program.md, "Quality"
-#include "src/methods/method_tools.h"
-#include "src/methods/path/path.h"
+#include "src/methods/path/path_method.h"
 #include "src/scene/rows/layer_flags.h"
 
 namespace pileus {

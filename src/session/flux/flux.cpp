@@ -74,7 +74,8 @@ Status check_needles(const Scene& scene, const Medium& medium) {
     return Status::ok();
 }
 
-Status check_flux(const Scene& scene, const Context& context, const PathRun& run, bool from_below) {
+Status check_flux(const Scene& scene, const Context& context, const MethodRun& run,
+                  bool from_below) {
     const auto fault = [&](const char* what) {
         return Status::bad_input(scene.file + ": " + what);
     };
@@ -137,22 +138,25 @@ Status measure_flux(const Scene& scene, const RenderOptions& options, const Flux
     const Scene own = scene_to_measure(scene, settings);
     Context context;
     PILEUS_TRY(make_context(own, options, context, report));
-    const Recipe& method = path_method();
+    const MethodRow row = path_row();
     Budget budget = options.budget;
     PILEUS_TRY(check_settings(settings, own, budget));
     const bool photons = settings.method == FluxMethod::kPhotons;
     const std::int64_t wanted = budget.photons >= 0 ? budget.photons : kUsualPhotons;
     if (photons) budget.photons = -1;
-    PILEUS_TRY(method.check(own, budget));
-    PathRun run;
+    PILEUS_TRY(row.check(own, budget));
+    MethodRun run;
+    MadeMethod made;
+    PathMethod& path = make_path({own, budget}, made);
     // The first plan weighs the largest film: a pixel a column.
-    PILEUS_TRY(open_run(method, own, budget, context, true, nullptr, run));
+    PILEUS_TRY(open_run(row, made, own, budget, context, true, nullptr, run));
     if (settings.from_below) PILEUS_TRY(make_sky_below(settings, run.environment.sky_map));
-    path_aim(0, run);
+    light_frame(0, run);
+    PILEUS_TRY(path.set_view(context, view_of(run, 0), {}));
     PILEUS_TRY(check_flux(own, context, run, settings.from_below));
     if (!photons && run.lighting.sunlit) PILEUS_TRY(check_needles(own, run.world->medium));
     out = FluxResult{};
-    FluxTask task{own, settings, context, run};
+    FluxTask task{own, settings, context, run, path};
     PILEUS_TRY(choose_columns(settings, task, out));
     out.mu0 = settings.from_below ? 1 : double(run.lighting.to_sun[2]);
     for (std::size_t c = 0; c < 3; ++c) {

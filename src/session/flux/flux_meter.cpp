@@ -27,9 +27,9 @@ double mean_of(const std::vector<double>& values) {
 Status FluxMeter::trace(const CameraParams& camera, MeteredLight& light) {
     in_.camera = camera;
     // Each detector has noise of its own.
-    in_.seed = run_.seed + (std::uint64_t{1} << 40) * made_++;
+    in_.seed = path_.state().seed + (std::uint64_t{1} << 40) * made_++;
     PILEUS_TRY(make_film(in_, film_));
-    PILEUS_TRY(trace_paths(in_, samples_, run_.scratch, film_));
+    PILEUS_TRY(trace_paths(in_, samples_, path_.scratch(), film_));
     paths_ += std::uint64_t(film_.tally.paths);
     if (film_.samples < samples_)
         return {Code::kCheckFailed, "interrupted before all was measured; nothing written"};
@@ -68,7 +68,7 @@ Status FluxMeter::direct(const FluxPlane& plane, const std::array<int, 2>& pixel
     for (std::size_t i = 0; i < 2; ++i)
         each[i] = std::size_t((kDirectRays + pixels[i] - 1) / pixels[i]);
     ShadowParams k{};
-    k.medium = make_medium_view(m, run_.majorants);
+    k.medium = make_medium_view(m, path_.state().majorants);
     const std::size_t axis = std::size_t(plane.axis);
     const std::size_t across[2] = {axis == 0 ? 1u : 0u, axis == 2 ? 1u : 2u};
     // Nodes lie at (i + 1/2) / per_metre: one of them on the plane.
@@ -157,7 +157,7 @@ Status FluxMeter::sunlight(const Double3& place_m, double& share) {
     share = 1;
     if (!way_into_box(m, run_.lighting.to_sun, place)) return Status::ok();
     ShadowParams k{};
-    k.medium = make_medium_view(m, run_.majorants);
+    k.medium = make_medium_view(m, path_.state().majorants);
     for (std::size_t a = 0; a < 3; ++a) {
         // The one node lies at 1/2 / per_metre.
         const double at = place[int(a)];
@@ -183,7 +183,8 @@ FluxShare share_of(const MeteredLight& light) {
 }
 
 /// Up and down through a level of the box.
-Status read_level(const Sensor& sensor, const PathRun& run, FluxMeter& meter, SensorReading& out) {
+Status read_level(const Sensor& sensor, const MethodRun& run, FluxMeter& meter,
+                  SensorReading& out) {
     const std::array<int, 2> pixels{kLevelPixels, kLevelPixels};
     const FluxPlane plane{2, sensor.height_m - run.world->medium.low_m[2]};
     const std::uint64_t each =
@@ -207,7 +208,8 @@ Status read_level(const Sensor& sensor, const PathRun& run, FluxMeter& meter, Se
 }
 
 /// Light on a small plane, direct and diffuse.
-Status read_plane(const Sensor& sensor, const PathRun& run, FluxMeter& meter, SensorReading& out) {
+Status read_plane(const Sensor& sensor, const MethodRun& run, FluxMeter& meter,
+                  SensorReading& out) {
     meter.set_samples(sensor.samples);
     out.samples = sensor.samples;
     MeteredLight light;
@@ -253,7 +255,7 @@ Status check_place(const FluxSettings& settings, const Sensor& sensor, const Sce
 
 }  // namespace
 
-Status read_flux_sensors(const FluxSettings& settings, const Scene& scene, const PathRun& run,
+Status read_flux_sensors(const FluxSettings& settings, const Scene& scene, const MethodRun& run,
                          FluxMeter& meter, std::vector<SensorReading>& out) {
     for (const Sensor& sensor : settings.sensors)
         PILEUS_TRY(check_place(settings, sensor, scene, run.world->medium));

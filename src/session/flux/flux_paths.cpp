@@ -142,7 +142,7 @@ void turn_upside_down(const FluxTask& task, const Sheet& top, FluxResult& out) {
 Status flux_by_paths(const FluxTask& task, std::uint64_t samples, FluxResult& out, Image& maps) {
     const StageClock clock(task.context, "paths");
     const Lighting& light = task.run.lighting;
-    FluxMeter meter(task.context, task.run, samples);
+    FluxMeter meter(task.context, task.run, task.path, samples);
     const bool below = task.settings.from_below;
     if (below) meter.keep_parts();
     const FluxPlane top = box_face(meter.medium(), 2, true);

@@ -180,7 +180,7 @@ Status flux_by_photons(const FluxTask& task, std::int64_t photons, FluxResult& o
     if (map.present() && !task.settings.from_below) {
         PILEUS_TRY(aim_sky_map(medium.extent_m, medium.grid.periodic, map));
         task.run.environment.ground_under_map = true;
-        path_aim(0, task.run);
+        light_frame(0, task.run);
     }
     Lighting lighting = lights_of(task);
     share_photons(std::uint64_t(photons) / kFluxBatches, lighting.lights);

@@ -3,7 +3,8 @@
 // in: a prepared run, settings -> out: FluxResult and maps.
 // docs/flux.md
 #pragma once
-#include "src/methods/path/path.h"
+#include "src/methods/methods.h"
+#include "src/methods/path/path_method.h"
 #include "src/session/flux/flux.h"
 
 namespace pileus {
@@ -13,7 +14,8 @@ struct FluxTask {
     const Scene& scene;
     const FluxSettings& settings;
     const Context& context;
-    PathRun& run;                 ///< prepared, with its lights
+    MethodRun& run;               ///< prepared, with its lights
+    PathMethod& path;             ///< over it
     double level[3] = {0, 0, 0};  ///< incident flux on a level plane
 
     /// Part of the incident flux, 0 where there is none.

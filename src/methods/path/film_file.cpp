@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// See path_state.h. Words of 64 bits, little-endian: head, tally, sums, squares, digest of all.
-#include "src/methods/path/path_state.h"
+// See film_file.h. Words of 64 bits, little-endian: head, tally, sums, squares, digest of all.
+#include "src/methods/path/film_file.h"
 
 #include "src/base/digest.h"
 #include "src/base/file.h"
