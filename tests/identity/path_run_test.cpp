@@ -198,7 +198,7 @@ TEST_CASE(
     goal.seconds = 1;
     CHECK(pass(goal, 16, {10, 0.1}, 0.95) == 5);
     // Half a sample's time is left, and no sample at all is no picture.
-    CHECK(pass(goal, 16, {10, 1}, 0.95) == 0);
+    CHECK(pass(goal, 16, {10, 1}, 0.96) == 0);
     CHECK(pass(goal, 0, {}, 2) == 1);
 }
 
