@@ -42,7 +42,7 @@ foreach(pattern
         "src/base/(file|output_check|reading_limit|span)[.]cpp"
         "src/plan/(budget|report_json)[.]cpp"
         "src/picture/(fading|mix_pictures)[.]cpp"
-        "src/methods/(registry|[a-z_]*/[a-z_]*_tools|path/(film_file|path_report)|particles/particles_report|collectors/billboards/gl_billboards)[.]cpp"
+        "src/methods/(registry|[a-z_]*/[a-z_]*_(tools|report|views)|path/film_file|collectors/(billboards/gl_billboards|views/[a-z_]*))[.]cpp"
         "src/scene/read_scene[.]cpp"
         "src/world/(world|sky_picture|camera/places|solids/(depth_file|solid_tree))[.]cpp"
         "src/flight/measure[.]cpp")

@@ -39,13 +39,13 @@ Status sun_samples(const RaymarchRun& run, std::uint64_t& samples) {
 
 Status march_most_units(const FrameWork& work, const MethodRun& method_run, FrameUnits& out) {
     const RaymarchRun& run = static_cast<const RaymarchRun&>(method_run);
-    most_pixels(work, run, run.upsample, out);
+    most_pixels(work, run.scene->camera.resolution, run.lighting.opaque(), run.upsample, out);
     if (run.settings.steps == 0 || run.world->medium.sigma <= 0) return Status::ok();
     std::uint64_t own = 0, sun = 0;
     PILEUS_TRY(ray_samples(work, run, own));
     PILEUS_TRY(sun_samples(run, sun));
     out.samples = out.rays * own * (1 + sun);
-    return add_lamp_samples(run, out);
+    return add_lamp_samples(run.world->medium, run.lighting, out);
 }
 
 }  // namespace pileus

@@ -14,6 +14,7 @@
 namespace pileus {
 
 struct FinishedParts;
+struct Image;
 struct LateRows;
 struct Planes;
 struct Recipe;
@@ -25,6 +26,8 @@ struct FrameView {
     Environment& environment;  ///< whose air is seen by one camera after the other
     const Lighting& lighting;  ///< of this frame
     int frame = 0;             ///< its number
+    /// What the suns of other frames of a film are worked out from.
+    const FrameState* rest = nullptr;
 };
 
 struct ViewChange {
@@ -50,6 +53,8 @@ struct LightUnits {
     bool in_passes = false;          ///< units are short: several are traced at a time
     bool part = false;               ///< some of the next unit is there
     bool interrupted = false;        ///< the user ended the last `accumulate`, or within it
+    /// Of a film's frame, each traced for the view of a frame of its own; 0: all for that frame.
+    std::uint64_t ring = 0;
 };
 
 /// When a film's frame has its light: at the first of these. src/session/stop_rule.h
@@ -94,6 +99,11 @@ public:
     /// is asked first, stops it.
     virtual Status accumulate(const Context& context, const FrameView& view, std::uint64_t units,
                               std::uint64_t& done) = 0;
+    /// Forgets what was traced; the next unit is number `first`: of films whose frames all have the
+    /// same ones, 0, and of rings that begin at a frame within.
+    virtual void restart(const Context& context, std::uint64_t first) {
+        (void)context, (void)first;
+    }
     /// The picture as it is lit now. `planes` stay the method's until its next call, and may be
     /// changed or taken.
     virtual Status render(const Context& context, const FrameView& view, const RenderAsk& ask,
@@ -111,6 +121,8 @@ public:
                               FrameUnits& units) const = 0;
     /// Adds the accidents that flights tell of, too. Names are literals.
     virtual void count(Counts& counts) const = 0;
+    /// Why a host may not move the camera; null: it may.
+    virtual const char* fixed_view() const { return nullptr; }
     /// Whether the next picture reads the last one's planes, which are left alone then.
     virtual bool keeps_planes() const { return false; }
     /// Films alone call it.
@@ -149,6 +161,8 @@ public:
     }
     /// After `Method::render`, before the planes become an image: digests of what it was made from.
     virtual void digest_picture(const Context&, Digests&) {}
+    /// Of a view, in place of `Method::render`: the picture itself. docs/how-it-works.md
+    virtual Status draw(const Context&, const FrameView&, Image&) { return Status::ok(); }
     /// Of each picture, beside its planes.
     virtual FinishedParts finished() const = 0;
     /// All else than `Method::count` has, after it.
@@ -173,6 +187,12 @@ struct MethodInputs {
 struct MadeMethod {
     std::unique_ptr<Method> method;
     std::unique_ptr<MethodReport> report;  ///< null in a flight
+};
+
+/// A picture of a method's steps in place of its result, made from copies of its settings.
+struct ViewRow {
+    const char* name = "";
+    MadeMethod (*make)(const MethodInputs&) = nullptr;
 };
 
 /// A name of `method.name` or of `--show`, and what is made by it.

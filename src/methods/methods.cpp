@@ -34,7 +34,19 @@ void make_light(const MethodRow& row, MethodRun& run) {
     if (row.recipe == nullptr) light_frame(0, run);
 }
 
-/// Recipes fill the run's plan and check it, too.
+/// With suns of other frames, where they have others.
+SunTurn turn_of(const Scene& scene, const FrameState* rest, SunTurn turn) {
+    if (!kFilms || rest == nullptr || !moves_sun(scene)) return turn;
+    turn.sun_of = [at = &scene, rest](std::int64_t frame) {
+        const SunPlace sun = sun_at(*at, rest->sun, frame > 0 ? int(frame) : 0);
+        const Double3 to = towards_deg(sun.azimuth_deg, sun.elevation_deg);
+        return SunDirection{float(to[0]), float(to[1]), float(to[2])};
+    };
+    return turn;
+}
+
+}  // namespace
+
 Status make_plan(const MethodRow& row, const MadeMethod& made, const Context& context,
                  MethodRun& run) {
     const FrameView view = view_of(run, 0);
@@ -46,8 +58,6 @@ Status make_plan(const MethodRow& row, const MadeMethod& made, const Context& co
     PILEUS_TRY(check_limit(context.limits, LimitId::kMemory, run.plan.memory.peak(), file));
     return check_work(run.plan.work, context.limits, file);
 }
-
-}  // namespace
 
 Status check_placed_media(const MethodRun& run, const Ground& rest, int frame) {
     const World& world = *run.world;
@@ -101,15 +111,11 @@ Status open_run(const Recipe& recipe, const Scene& scene, const Budget& budget,
 
 SunTurn turn_of_sun(const MethodRun& run, int slices, std::int64_t number,
                     const SunDirection& sun) {
-    SunTurn turn{slices, number, sun, nullptr};
-    if (!kFilms || !moves_sun(*run.scene)) return turn;
-    const MethodRun* from = &run;
-    turn.sun_of = [from](std::int64_t frame) {
-        const SunPlace at = from->sun_of(frame > 0 ? int(frame) : 0);
-        const Double3 to = towards_deg(at.azimuth_deg, at.elevation_deg);
-        return SunDirection{float(to[0]), float(to[1]), float(to[2])};
-    };
-    return turn;
+    return turn_of(*run.scene, run.rest, {slices, number, sun, nullptr});
+}
+
+SunTurn turn_of_sun(const FrameView& view, int slices, std::int64_t number) {
+    return turn_of(view.scene, view.rest, {slices, number, view.lighting.to_sun, nullptr});
 }
 
 }  // namespace pileus

@@ -40,12 +40,11 @@ struct MethodRun {
 
     /// Moves the scene to a frame, where keys do; else null.
     std::function<void(int frame)> place_at;
-    bool outlined_only = true;         ///< sizes are known, values are not
-    const char* fixed_view = nullptr;  ///< why a host may not move the camera; null: it may
-    bool sealed = false;               ///< nothing may be laid out anew: docs/flight.md
-    bool alone = false;                ///< what lies behind the media is not wanted: docs/clouds.md
-    double view_slack_deg = 0;         ///< by which light that is gathered for a camera may be off
-    Digests digests;                   ///< of what no frame changes
+    bool outlined_only = true;  ///< sizes are known, values are not
+    bool sealed = false;        ///< nothing may be laid out anew: docs/flight.md
+    bool alone = false;         ///< what lies behind the media is not wanted: docs/clouds.md
+    double view_slack_deg = 0;  ///< by which light that is gathered for a camera may be off
+    Digests digests;            ///< of what no frame changes
 
     MethodRun() = default;
     MethodRun(const MethodRun&) = delete;
@@ -88,8 +87,8 @@ struct LiveMethod {
 /// A recipe. Functions are called from the top down, `light` to `report` once for each frame. The
 /// scene and the context outlive the run.
 struct Recipe {
-    const char* name;  ///< of a view: as `--show` names it
-    WorldUse world;    ///< what it asks of its world
+    const char* name;
+    WorldUse world;  ///< what it asks of its world
     std::unique_ptr<MethodRun> (*make)();
     /// kBadInput: a budget that the method does not know, or a scene that it cannot render.
     Status (*check)(const Scene&, const Budget&);
@@ -108,12 +107,11 @@ struct Recipe {
     /// frame is made again, whatever ended it. Null: they do.
     void (*budget_used)(int frame, const MethodRun&, const Report&, Budget& used);
     const LiveMethod* live = nullptr;  ///< null: in no session of a host
-    bool shows_light = true;           ///< colours are light, which an exposure applies to
 };
 
 /// A frame of a run, as methods see it; points into the run.
 inline FrameView view_of(MethodRun& run, int frame) {
-    return {*run.scene, *run.world, run.environment, run.lighting, frame};
+    return {*run.scene, *run.world, run.environment, run.lighting, frame, run.rest};
 }
 
 /// Its lights, as the scene is now; recipes make theirs themselves.
@@ -127,7 +125,11 @@ inline void light_frame(int frame, MethodRun& run) {
 Status open_run(const MethodRow& row, const MadeMethod& made, const Scene& scene,
                 const Budget& budget, const Context& context, bool exact,
                 std::shared_ptr<const World> world, MethodRun& run);
-/// The same by a recipe.
+/// The plan of an open run: again where its sums have been laid out anew. Recipes make theirs
+/// themselves. kLimit: over the limit of memory or of work.
+Status make_plan(const MethodRow& row, const MadeMethod& made, const Context& context,
+                 MethodRun& run);
+/// As open_run by a recipe.
 Status open_run(const Recipe& recipe, const Scene& scene, const Budget& budget,
                 const Context& context, bool exact, std::shared_ptr<const World> world,
                 MethodRun& run);
@@ -141,5 +143,6 @@ inline Status unknown_budget(const char* option, const std::string& method, cons
 /// Frame `turn`, whose sun is `sun`. Frames of an animation are what they are wherever it begins;
 /// those before its first have that one's sun. A host's are counted.
 SunTurn turn_of_sun(const MethodRun& run, int slices, std::int64_t turn, const SunDirection& sun);
+SunTurn turn_of_sun(const FrameView& view, int slices, std::int64_t turn);
 
 }  // namespace pileus

@@ -4,12 +4,11 @@
 
 namespace pileus {
 
-void most_pixels(const FrameWork& work, const MethodRun& run, const UpsampleMemory& memory,
-                 FrameUnits& out) {
-    const auto& size = run.scene->camera.resolution;
+void most_pixels(const FrameWork& work, const std::array<int, 2>& size, bool opaque,
+                 const UpsampleMemory& memory, FrameUnits& out) {
     const bool remembers = memory.ready && memory.camera.width == size[0] &&
                            memory.camera.height == size[1] &&
-                           memory.opaque_depth.empty() == !run.lighting.opaque();
+                           memory.opaque_depth.empty() == !opaque;
     const int temporal = remembers ? work.temporal : 1;
     const int every = work.temporal > 0 ? temporal : work.scale > 1 ? work.scale : 1;
     const auto thinned = [every](int n) {
@@ -37,9 +36,8 @@ Status most_grid_samples(const Medium& medium, std::uint64_t& samples) {
     return Status::ok();
 }
 
-Status add_lamp_samples(const MethodRun& run, FrameUnits& out) {
-    const Medium& medium = run.world->medium;
-    if (run.lighting.lamps.empty() && !emits(medium)) return Status::ok();
+Status add_lamp_samples(const Medium& medium, const Lighting& lighting, FrameUnits& out) {
+    if (lighting.lamps.empty() && !emits(medium)) return Status::ok();
     std::uint64_t samples = 0;
     PILEUS_TRY(most_grid_samples(medium, samples));
     out.samples += out.pixels * samples;

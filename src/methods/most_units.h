@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The most that pictures take, in units that depend on settings and sizes alone, not on the view.
-// in: the work of a frame, a run -> out: FrameUnits.
+// in: the work of a frame, sizes, media, lights -> out: FrameUnits.
 // docs/realtime.md, "What a frame takes at the most"
 #pragma once
 #include "src/methods/methods.h"
@@ -8,9 +8,10 @@
 
 namespace pileus {
 
-/// Pixels of the picture, and those that are marched where the frame before left `memory`.
-void most_pixels(const FrameWork& work, const MethodRun& run, const UpsampleMemory& memory,
-                 FrameUnits& out);
+/// Pixels of a picture, and those that are marched where the frame before left `memory`; `opaque`:
+/// something solid may be in it.
+void most_pixels(const FrameWork& work, const std::array<int, 2>& size, bool opaque,
+                 const UpsampleMemory& memory, FrameUnits& out);
 
 /// Places at which a march in steps of the grid looks up the medium along one ray. kBadInput: a
 /// periodic medium, where a level ray has no end.
@@ -18,6 +19,6 @@ Status most_grid_samples(const Medium& medium, std::uint64_t& samples);
 
 /// Adds the march through the light of lamps and of the media, where there is such light. Errors:
 /// as above.
-Status add_lamp_samples(const MethodRun& run, FrameUnits& out);
+Status add_lamp_samples(const Medium& medium, const Lighting& lighting, FrameUnits& out);
 
 }  // namespace pileus

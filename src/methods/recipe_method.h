@@ -10,8 +10,7 @@ namespace pileus {
 /// The recipe's row, by which it is found.
 MethodRow row_of(const Recipe& recipe);
 
-/// `recipe` and `run`, which it made, outlive what is returned. A view, which is in no session of a
-/// host, has `plan`, `prepare`, `count` and its report.
+/// `recipe` and `run`, which it made, outlive what is returned.
 MadeMethod method_of(const Recipe& recipe, MethodRun& run);
 
 /// Whether hosts have sessions of it, as of all that are classes.

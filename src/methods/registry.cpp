@@ -2,12 +2,11 @@
 // See registry.h.
 #include "src/methods/registry.h"
 
-#include "src/methods/collectors/collectors.h"
 #include "src/methods/collectors/views/views.h"
 #include "src/methods/optical_depth/optical_depth.h"
 #include "src/methods/particles/particles_method.h"
 #include "src/methods/path/path_method.h"
-#include "src/methods/photon_grid/photon_grid.h"
+#include "src/methods/photon_grid/photon_grid_method.h"
 #include "src/methods/raymarch/raymarch.h"
 
 namespace pileus {
@@ -26,9 +25,9 @@ std::string names_of_views(const ListedMethod& listed) {
 }  // namespace
 
 std::vector<ListedMethod> listed_methods() {
-    ListedMethod collectors{row_of(collectors_method())};
+    ListedMethod collectors{collectors_row()};
     collectors.views = collectors_views(collectors.view_count);
-    ListedMethod photon_grid{row_of(photon_grid_method())};
+    ListedMethod photon_grid{photon_grid_row()};
     photon_grid.views = photon_grid_views(photon_grid.view_count);
     collectors.tools = collectors_tools;
     photon_grid.tools = photon_grid_tools;
@@ -65,7 +64,9 @@ Status find_view(const std::string& method, const std::string& name, MethodRow& 
         if (!method.empty() && method != listed.row.name) continue;
         append(names_of_views(listed), views);
         for (int i = 0; i < listed.view_count; ++i) {
-            row = row_of(listed.views[i]);
+            row = listed.row;
+            row.name = listed.views[i].name;
+            row.make = listed.views[i].make;
             if (name == row.name) return Status::ok();
         }
     }

@@ -10,10 +10,10 @@
 
 namespace pileus {
 
-/// A method, and pictures of its steps in place of its result: recipes, without an `outline`.
+/// A method, and pictures of its steps in place of its result.
 struct ListedMethod {
     MethodRow row;
-    const Recipe* views = nullptr;
+    const ViewRow* views = nullptr;
     int view_count = 0;
     MethodTools tools{};  ///< null members: none
 };

@@ -6,7 +6,7 @@
 
 #include "kernels_cpu/core/profile.h"
 #include "platform/threads.h"
-#include "src/base/angles.h"
+#include "src/methods/methods.h"
 #include "src/picture/background.h"
 #include "src/picture/late_rows.h"
 #include "src/picture/march_view.h"
@@ -22,60 +22,63 @@ constexpr float kCut = 1e-4f;  // transmittance that no eye misses
 /// steps relMSE 1e-6 on the default cumulus (docs/performance.md, "A march's steps").
 constexpr float kWiderBelow[kWiderSteps] = {0.25f, 0.05f, 0.01f};
 
-MediumView view_of(const PhotonRun& run) {
-    return make_medium_view(run.world->medium, run.majorants);
+MediumView medium_of(const FrameView& view, const PhotonState& state) {
+    return make_medium_view(view.world.medium, state.majorants);
 }
 
-NodeGrid shadow_grid(const PhotonRun& run) {
-    return make_half_grid(run.world->medium.grid, run.world->medium.extent_m);
+NodeGrid shadow_grid(const FrameView& view) {
+    return make_half_grid(view.world.medium.grid, view.world.medium.extent_m);
 }
 
-SunTurn turn_of(const PhotonRun& run) {
-    return turn_of_sun(run, run.light_refresh, run.turn, run.lighting.to_sun);
+SunTurn turn_of(const FrameView& view, const PhotonState& state) {
+    return turn_of_sun(view, state.shadow.light_refresh, state.picture.turn);
 }
 
 }  // namespace
 
-Status make_sun_shadow(const Context& context, PhotonRun& run) {
-    if (!run.lighting.sunlit || run.deposit.first_order != 2) return Status::ok();
+Status make_sun_shadow(const Context& context, const FrameView& view, PhotonState& state) {
+    const Lighting& lighting = state.lights.lighting;
+    const DepositPlan& deposit = state.lights.deposit;
+    SunShadow& shadow = state.shadow;
+    if (!lighting.sunlit || deposit.first_order != 2) return Status::ok();
     const StageClock clock(context, "shadow");
-    run.shadow_nodes = shadow_grid(run);
-    if (run.shadow.size() != node_count(run.shadow_nodes)) run.shadow_slices.held.clear();
+    shadow.nodes = shadow_grid(view);
+    if (shadow.depth.size() != node_count(shadow.nodes)) shadow.slices.held.clear();
     PILEUS_TRY(
-        allocate_once(arrays::shadow(node_count(run.shadow_nodes), Stage::kShadow), run.shadow));
+        allocate_once(arrays::shadow(node_count(shadow.nodes), Stage::kShadow), shadow.depth));
     ShadowParams k{};
-    k.medium = view_of(run);
-    k.nodes = run.shadow_nodes;
-    const std::vector<int> due = follow_sun(turn_of(run), run.shadow_slices);
-    ShadowBuffers b{run.shadow.data()};
+    k.medium = medium_of(view, state);
+    k.nodes = shadow.nodes;
+    const std::vector<int> due = follow_sun(turn_of(view, state), shadow.slices);
+    ShadowBuffers b{shadow.depth.data()};
     std::vector<NodeRange> rows;
     if (!due.empty() && (!kDevices || context.kernels->device == nullptr)) {
         rows = nodes_in_medium(k.nodes, k.medium);
         b.rows = rows.data();
     }
     for (const int slice : due) {
-        const SunDirection& sun = run.shadow_slices.held[std::size_t(slice)];
+        const SunDirection& sun = shadow.slices.held[std::size_t(slice)];
         for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = sun[a];
-        PILEUS_TRY(make_shadow_slice(context, k, b, slice, run.light_refresh));
+        PILEUS_TRY(make_shadow_slice(context, k, b, slice, shadow.light_refresh));
     }
-    if (kMeshes && run.lighting.solids != nullptr && !run.shadow_ready)
-        PILEUS_TRY(solid_visibility(context, *run.lighting.solids, run.shadow_nodes,
-                                    run.lighting.to_sun, run.visibility));
-    if (run.deposit.peak_turn > 0 && run.beam.sets == 0)
-        PILEUS_TRY(make_beam(run.world->medium, run.deposit.peak_turn, context.threads,
-                             Stage::kShadow, run.beam));
-    run.shadow_ready = true;
+    if (kMeshes && lighting.solids != nullptr && !shadow.ready)
+        PILEUS_TRY(solid_visibility(context, *lighting.solids, shadow.nodes, lighting.to_sun,
+                                    shadow.visibility));
+    if (deposit.peak_turn > 0 && shadow.beam.sets == 0)
+        PILEUS_TRY(make_beam(view.world.medium, deposit.peak_turn, context.threads, Stage::kShadow,
+                             shadow.beam));
+    shadow.ready = true;
     return Status::ok();
 }
 
-void forget_sun_shadow(PhotonRun& run) {
-    run.shadow_ready = false;
-    run.shadow_slices.held.clear();
-    run.ground_shadow.slices.held.clear();
+void forget_sun_shadow(PhotonState& state) {
+    state.shadow.ready = false;
+    state.shadow.slices.held.clear();
+    state.picture.ground_shadow.slices.held.clear();
 }
 
-std::uint64_t sun_shadow_numbers(const PhotonRun& run) {
-    return node_count(shadow_grid(run)) * (run.world->solids.meshes ? 2 : 1);
+std::uint64_t sun_shadow_numbers(const FrameView& view) {
+    return node_count(shadow_grid(view)) * (view.world.solids.meshes ? 2 : 1);
 }
 
 namespace {
@@ -91,45 +94,46 @@ bool reads_planes(const MarchParams& k) { return k.bands == 0 || k.near.size[0] 
 
 /// Puts what a march reads of each node side by side.
 Status pack_nodes(const Context& context, const NodeGrid& nodes, const MediumView& medium,
-                  PhotonRun& run, NodeLight& light) {
+                  PhotonState& state, NodeLight& light) {
     if (light.quads != nullptr) return Status::ok();
     const StageClock clock(context, "pack");
     const std::size_t count = std::size_t(node_count(nodes));
-    PILEUS_TRY(allocate_once(arrays::lit_quads(count), run.lit_quads));
-    const float* depth = sun_depths_at(run, nodes);
+    PILEUS_TRY(allocate_once(arrays::lit_quads(count), state.picture.lit_quads));
+    const float* depth = sun_depths_at(state.shadow, nodes);
     const std::vector<NodeRange> rows = nodes_in_medium(nodes, medium);
     const std::size_t ny = std::size_t(nodes.size[1]), nx = std::size_t(nodes.size[0]);
     parallel_for(context.threads, nodes.size[2], [&](std::int64_t z, int) {
         for (std::size_t row = std::size_t(z) * ny; row < (std::size_t(z) + 1) * ny; ++row)
             for (int x = rows[row].first; x < rows[row].last; ++x) {
                 const std::size_t n = row * nx + std::size_t(x);
-                float* quad = run.lit_quads.data() + 4 * n;
+                float* quad = state.picture.lit_quads.data() + 4 * n;
                 for (std::size_t c = 0; c < 3; ++c) quad[c] = light.planes[c * count + n];
                 quad[3] = depth != nullptr ? depth[n] : 0.0f;
             }
     });
-    light.quads = run.lit_quads.data();
+    light.quads = state.picture.lit_quads.data();
     light.depths = depth != nullptr;
     return Status::ok();
 }
 
-Status march_rows(const Context& context, const PhotonRun& run, const NodeLight& source,
-                  const MarchParams& params, float* target, Planes& planes) {
+Status march_rows(const Context& context, const FrameView& view, const PhotonState& state,
+                  const NodeLight& source, const MarchParams& params, float* target,
+                  Planes& planes) {
     const StageClock clock(context, "march");
     MarchParams k = params;
     k.together = source.depths ? 1 : 0;
     MarchBuffers b{};
     b.quads = source.quads;
     b.near = source.near;
-    b.optical_depth = run.shadow.data();
-    b.beam = run.beam.tables.data();
+    b.optical_depth = state.shadow.depth.data();
+    b.beam = state.shadow.beam.tables.data();
     b.source = source.planes;
     b.opaque_depth = planes.opaque_depth.data();
-    b.parts = run.world->medium.parts.data();
+    b.parts = view.world.medium.parts.data();
     b.transmittance = planes.transmittance.data();
     b.half_depth = planes.half_depth.data();
     b.colour = target;
-    b.visibility = run.visibility.data();
+    b.visibility = state.shadow.visibility.data();
     PILEUS_TRY(run_rows(context, march_kernel(*context.kernels, k.medium), k, b,
                         std::uint32_t(k.lattice.height)));
     return Status::ok();
@@ -139,15 +143,15 @@ Status march_rows(const Context& context, const PhotonRun& run, const NodeLight&
 /// gives back what a picture took.
 class NearNodesOfPicture {
 public:
-    explicit NearNodesOfPicture(PhotonRun& run) : run_(run) {}
+    explicit NearNodesOfPicture(PhotonState& state) : state_(state) {}
     ~NearNodesOfPicture() {
-        if (run_.sealed) run_.near_light = Buffer<float>();
+        if (state_.sealed) state_.picture.near_light = Buffer<float>();
     }
     NearNodesOfPicture(const NearNodesOfPicture&) = delete;
     NearNodesOfPicture& operator=(const NearNodesOfPicture&) = delete;
 
 private:
-    PhotonRun& run_;
+    PhotonState& state_;
 };
 
 }  // namespace
@@ -157,25 +161,27 @@ bool reads_quads(const Context& context, int channels, const NodeGrid& nodes) {
            (!kDevices || context.kernels->device == nullptr);
 }
 
-const float* sun_depths_at(const PhotonRun& run, const NodeGrid& nodes) {
-    const bool same = same_nodes(run.shadow_nodes, nodes) && run.shadow.size() == node_count(nodes);
-    return same ? run.shadow.data() : nullptr;
+const float* sun_depths_at(const SunShadow& shadow, const NodeGrid& nodes) {
+    const bool same = same_nodes(shadow.nodes, nodes) && shadow.depth.size() == node_count(nodes);
+    return same ? shadow.depth.data() : nullptr;
 }
 
-Status march_lit(const Context& context, PhotonRun& run, const NodeLight& source,
-                 const MarchParams& k, float* target, Planes& planes) {
-    const NearNodesOfPicture near(run);
+Status march_lit(const Context& context, const FrameView& view, PhotonState& state,
+                 const NodeLight& source, const MarchParams& k, float* target, Planes& planes) {
+    const NearNodesOfPicture near(state);
     NodeLight packed = source;
     if (reads_planes(k) && reads_quads(context, k.channels, k.source))
-        PILEUS_TRY(pack_nodes(context, k.source, k.medium, run, packed));
-    return march_rows(context, run, packed, k, target, planes);
+        PILEUS_TRY(pack_nodes(context, k.source, k.medium, state, packed));
+    return march_rows(context, view, state, packed, k, target, planes);
 }
 
-Status march_thinned(const Context& context, const UpsampleSettings& thin, const NodeLight& source,
-                     const MarchParams& k, PhotonRun& run, Planes& planes) {
-    if (thin.every() == 1) return march_lit(context, run, source, k, planes.colour.data(), planes);
-    const NearNodesOfPicture near(run);
-    UpsampleMemory& memory = run.upsample;
+Status march_thinned(const Context& context, const FrameView& view, const NodeLight& source,
+                     const MarchParams& k, PhotonState& state, Planes& planes) {
+    const UpsampleSettings& thin = state.picture.thin;
+    if (thin.every() == 1)
+        return march_lit(context, view, state, source, k, planes.colour.data(), planes);
+    const NearNodesOfPicture near(state);
+    UpsampleMemory& memory = state.picture.upsample;
     planes.optical_depth = Buffer<float>();  // has its own march
     if (memory.camera.width != k.camera.width || memory.camera.height != k.camera.height ||
         memory.opaque_depth.size() != planes.opaque_depth.size())
@@ -184,33 +190,36 @@ Status march_thinned(const Context& context, const UpsampleSettings& thin, const
     in.settings = thin;
     in.camera = k.camera;
     in.medium = k.medium;
-    in.to_sun = run.lighting.to_sun;
-    in.light = ((run.relights + run.shadow_slices.made) << 32) + run.next_generation;
+    in.to_sun = state.lights.lighting.to_sun;
+    in.light =
+        ((state.ring.relights + state.shadow.slices.made) << 32) + state.ring.next_generation;
     NodeLight packed = source;
     if (reads_planes(k) && reads_quads(context, k.channels, k.source))
-        PILEUS_TRY(pack_nodes(context, k.source, k.medium, run, packed));
+        PILEUS_TRY(pack_nodes(context, k.source, k.medium, state, packed));
     in.march = [&](const PixelLattice& lattice, Planes& few) {
         MarchParams own = k;
         own.lattice = lattice;
-        return march_rows(context, run, packed, own, few.colour.data(), few);
+        return march_rows(context, view, state, packed, own, few.colour.data(), few);
     };
-    return upsample_picture(context, in, run.frame, memory, planes);
+    return upsample_picture(context, in, state.picture.frame, memory, planes);
 }
 
-LateRows* late_photons(LateRows* late, const UpsampleSettings& thin, const CameraParams& camera,
-                       int frame, const PhotonRun& run) {
-    if (photon_batches(run) > 0) return nullptr;
-    return late_rows_of(late, run.lighting, run.world->medium, thin, camera, frame);
+LateRows* late_photons(LateRows* late, const FrameView& view, const CameraParams& camera,
+                       const PhotonState& state) {
+    if (photon_batches(state) > 0) return nullptr;
+    return late_rows_of(late, state.lights.lighting, view.world.medium, state.picture.thin, camera,
+                        view.frame);
 }
 
 Status check_thinned(const Context& context, const Scene& scene, const char* method,
-                     const UpsampleSettings& thin) {
+                     const PhotonState& state) {
+    const UpsampleSettings& thin = state.picture.thin;
     PILEUS_TRY(check_upsampling(scene, method, thin));
     if (thin.every() == 1) return Status::ok();
     const std::string key =
         scene.file + ": " + method + (thin.temporal > 0 ? ".temporal: " : ".scale: ");
     const OutputSettings& output = scene.output;
-    const char* layer = output.layer_error   ? "error"
+    const char* layer = state.error_layer    ? "error"
                         : output.layer_light ? "light"
                         : output.layer_order ? "order"
                                              : nullptr;
@@ -223,48 +232,51 @@ Status check_thinned(const Context& context, const Scene& scene, const char* met
     return Status::ok();
 }
 
-void add_picture_rows(const Context& context, const UpsampleSettings& thin, PhotonRun& run) {
-    const auto& size = run.scene->camera.resolution;
+void add_picture_rows(const Context& context, const FrameView& view, const PhotonState& state,
+                      MemoryTable& table) {
+    const auto& size = view.scene.camera.resolution;
+    const Lighting& lighting = state.lights.lighting;
+    const UpsampleSettings& thin = state.picture.thin;
     const std::uint64_t pixels = std::uint64_t(size[0]) * std::uint64_t(size[1]);
-    add(run.plan.memory,
-        arrays::ground_shadow(most_ground_nodes(run.world->medium, run.lighting, pixels)));
-    add_upsample_row(thin, run.scene->camera.resolution, run.lighting.opaque(),
-                     run.scene->wants_depth() || thin.temporal > 0, false,
-                     context.frames > 1 ? Stage::kWrite : Stage::kDisplay, run.plan.memory);
+    add(table, arrays::ground_shadow(most_ground_nodes(view.world.medium, lighting, pixels)));
+    add_upsample_row(thin, size, lighting.opaque(), view.scene.wants_depth() || thin.temporal > 0,
+                     false, context.frames > 1 ? Stage::kWrite : Stage::kDisplay, table);
 }
 
-MarchParams lit_march_params(const PhotonRun& run, const LightInput& lit, const NodeGrid& source) {
+MarchParams lit_march_params(const FrameView& view, const PhotonState& state, const LightInput& lit,
+                             const NodeGrid& source) {
     const Lighting& light = *lit.lighting;
     MarchParams k{};
-    k.medium = view_of(run);
+    k.medium = medium_of(view, state);
     k.camera = lit.camera;
     k.lattice = whole_lattice(lit.camera);
-    k.media = run.world->medium.count;
+    k.media = view.world.medium.count;
     for (std::size_t c = 0; c < 3; ++c) {
         k.sun_travel[c] = -light.to_sun[c];
         k.constant[c] = float(light.constant[c]);
     }
-    for (int i = 0; i < run.world->medium.count; ++i) {
-        const Optics& optics = run.world->medium.optics[std::size_t(i)];
+    for (int i = 0; i < view.world.medium.count; ++i) {
+        const Optics& optics = view.world.medium.optics[std::size_t(i)];
         k.phase[i] = optics.phase;
-        for (std::size_t c = 0; c < 3 && run.deposit.first_order == 2; ++c)
+        for (std::size_t c = 0; c < 3 && state.lights.deposit.first_order == 2; ++c)
             k.sun_source[i][c] = float(light.sun_irradiance[c] * double(optics.albedo[c]));
     }
-    k.beam_sets =
-        (kFilms && lit.first_order_alone) || run.deposit.first_order != 2 ? 0 : run.beam.sets;
-    for (int c = 0; c < 3; ++c) k.beam_rest[c] = run.beam.rest[c];
-    k.shadow = run.shadow_nodes;
+    k.beam_sets = (kFilms && lit.first_order_alone) || state.lights.deposit.first_order != 2
+                      ? 0
+                      : state.shadow.beam.sets;
+    for (int c = 0; c < 3; ++c) k.beam_rest[c] = state.shadow.beam.rest[c];
+    k.shadow = state.shadow.nodes;
     k.source = source;
     k.channels = 3;
     k.cut = kCut;
-    for (int i = 0; i < kWiderSteps && !run.world->medium.grid.constant; ++i)
+    for (int i = 0; i < kWiderSteps && !view.world.medium.grid.constant; ++i)
         k.wider[i] = kWiderBelow[i];
     return k;
 }
 
-std::uint64_t near_nodes_of(const PhotonRun& run, const NodeGrid& nodes, const Context& context) {
+std::uint64_t near_nodes_of(const Context& context, const FrameView& view, const NodeGrid& nodes) {
     if (context.frames > 1) return most_near_nodes(nodes);
-    const CameraParams camera = make_camera(run.scene->camera, 0, run.world->medium.low_m);
+    const CameraParams camera = make_camera(view.scene.camera, 0, view.world.medium.low_m);
     return node_count(near_nodes(nodes, camera.origin));
 }
 
@@ -299,60 +311,48 @@ void gather_by_node(const Context& context, const MarchParams& k, std::uint64_t 
     });
 }
 
-Status add_lit_lamps(const Context& context, PhotonRun& run, const LightInput& lit,
-                     Planes& planes) {
-    const Medium& medium = run.world->medium;
+Status add_lit_lamps(const Context& context, const FrameView& view, PhotonState& state,
+                     const LightInput& lit, Planes& planes) {
+    const Medium& medium = view.world.medium;
     // The media's own light is neither the sun's nor scattered once.
-    const bool glows = emits(medium) && lit.lighting == &run.lighting;
+    const bool glows = emits(medium) && lit.lighting == &state.lights.lighting;
     if (lit.lighting->lamps.empty() && !glows) return Status::ok();
-    PILEUS_TRY(make_lamp_nodes(context, medium, run.majorants, *lit.lighting, run.lamps));
-    LampMarchParams k =
-        lamp_march_params(medium, run.majorants, *lit.lighting, lit.camera, run.lamps, kCut);
+    PILEUS_TRY(
+        make_lamp_nodes(context, medium, state.majorants, *lit.lighting, state.picture.lamps));
+    LampMarchParams k = lamp_march_params(medium, state.majorants, *lit.lighting, lit.camera,
+                                          state.picture.lamps, kCut);
     k.emits = glows ? 1 : 0;
-    return add_lamp_light(context, medium, k, run.lamps, planes);
+    return add_lamp_light(context, medium, k, state.picture.lamps, planes);
 }
 
-Status fill_lit_background(const Context& context, PhotonRun& run, const LightInput& lit, int batch,
-                           Planes& planes) {
-    if (kClouds && run.alone) return show_nothing_behind(planes);
+Status fill_lit_background(const Context& context, const FrameView& view, PhotonState& state,
+                           const LightInput& lit, int batch, Planes& planes) {
+    if (kClouds && state.picture.alone) return show_nothing_behind(planes);
     const std::uint64_t pixels = std::uint64_t(lit.camera.width) * std::uint64_t(lit.camera.height);
-    PILEUS_TRY(make_ground_shadow(context, run.world->medium, view_of(run), run.lighting, pixels,
-                                  turn_of(run), run.ground_shadow));
+    PILEUS_TRY(make_ground_shadow(context, view.world.medium, medium_of(view, state),
+                                  state.lights.lighting, pixels, turn_of(view, state),
+                                  state.picture.ground_shadow));
     const StageClock clock(context, "background");
     const Lighting& light = *lit.lighting;
     Buffer<float> own;
     Buffer<float>& map = planes.late != nullptr ? planes.late->map : own;
-    PILEUS_TRY(reconstruct_ground(lit, run.ground_map, batch, map));
-    BackgroundParams k = background_params(view_of(run), lit.camera, light);
-    k.map.size[0] = k.map.size[1] = run.ground_map.cells;
+    PILEUS_TRY(reconstruct_ground(lit, state.lights.ground_map, batch, map));
+    BackgroundParams k = background_params(medium_of(view, state), lit.camera, light);
+    k.map.size[0] = k.map.size[1] = state.lights.ground_map.cells;
     k.map.size[2] = 1;
     for (int a = 0; a < 2; ++a) {
-        k.map.per_metre[a] = run.ground_map.per_metre[a];
-        k.map_origin[a] = run.ground_map.origin[a];
+        k.map.per_metre[a] = state.lights.ground_map.per_metre[a];
+        k.map_origin[a] = state.lights.ground_map.origin[a];
     }
     BackgroundBuffers b{map.data(), planes.background.data(), planes.opaque_depth.data()};
-    read_ground_shadow(run.ground_shadow, k, b);
+    read_ground_shadow(state.picture.ground_shadow, k, b);
     if (planes.late != nullptr) return leave_background(context, k, b, *planes.late);
     return show_background(context, light, k, b);
 }
 
-Status PhotonRun::reserve_pictures(LateRows& late) {
-    const auto& size = scene->camera.resolution;
-    const bool solid = lighting.opaque() || environment.depth.present;
-    PILEUS_TRY(reserve_depths(size, solid, planes));
-    PILEUS_TRY(reserve_lamp_nodes(world->medium, scene->lights.size(), lamps));
-    shadow_slices.reserve();
-    ground_shadow.slices.reserve();
-    const std::uint64_t cells = std::uint64_t(ground_map.cells) * std::uint64_t(ground_map.cells);
-    const Array<float> light = arrays::ground_light(cells);
-    PILEUS_TRY(late.map.reserve(light.count, light.name));
-    if (!thins) return Status::ok();
-    return reserve_upsampling(thin, size, solid, upsample);
-}
-
-Status add_ground_noise(const Context& context, PhotonRun& run, const LightInput& lit,
-                        Planes& planes) {
-    if (lit.batches < 2 || run.ground_map.cells == 0) return Status::ok();
+Status add_ground_noise(const Context& context, const FrameView& view, PhotonState& state,
+                        const LightInput& lit, Planes& planes) {
+    if (lit.batches < 2 || state.lights.ground_map.cells == 0) return Status::ok();
     // What is the same in every batch has no spread: sky, and the ground's light without the media.
     Lighting scattered = *lit.lighting;
     scattered.sky = scattered.ground_diffuse = scattered.ground_sun = {};
@@ -364,7 +364,7 @@ Status add_ground_noise(const Context& context, PhotonRun& run, const LightInput
     Planes part;
     PILEUS_TRY(allocate(arrays::batch_background(pixels), part.background));
     for (int b = 1; b <= lit.batches; ++b) {
-        PILEUS_TRY(fill_lit_background(context, run, alone, b, part));
+        PILEUS_TRY(fill_lit_background(context, view, state, alone, b, part));
         float* colour = planes.colour.data() + std::size_t(3 * b) * pixels;
         for (std::size_t i = 0; i < 3 * pixels; ++i)
             colour[i] += planes.transmittance[i % pixels] * part.background[i];
@@ -372,12 +372,13 @@ Status add_ground_noise(const Context& context, PhotonRun& run, const LightInput
     return Status::ok();
 }
 
-Status show_optical_depth(const Context& context, const PhotonRun& run, const LightInput& lit,
-                          Planes& planes) {
+Status show_optical_depth(const Context& context, const FrameView& view, const PhotonState& state,
+                          const LightInput& lit, Planes& planes) {
+    const Lighting& light = *lit.lighting;
     Planes part;
-    PILEUS_TRY(allocate_planes(lit.camera.width, lit.camera.height, 0, lit.lighting->opaque(),
-                               false, part));
-    PILEUS_TRY(march_medium(context, run.world->medium, run.majorants, *lit.lighting, lit.camera,
+    PILEUS_TRY(
+        allocate_planes(lit.camera.width, lit.camera.height, 0, light.opaque(), false, part));
+    PILEUS_TRY(march_medium(context, view.world.medium, state.majorants, light, lit.camera,
                             {false, true}, part));
     planes.optical_depth.swap(part.optical_depth);
     return Status::ok();

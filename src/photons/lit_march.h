@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The marched picture of light on nodes: the sun's first order exact, sky and ground behind it.
-// in: PhotonRun after shooting, nodes that hold scattered light -> out: planes of pixels.
+// in: PhotonState after shooting, nodes that hold scattered light -> out: planes of pixels.
 // docs/methods.md 3, repairs 3 and 4; 4.
 #pragma once
 #include "src/photons/light_input.h"
-#include "src/photons/photon_run.h"
+#include "src/photons/photon_state.h"
 #include "src/picture/nodes/node_grid.h"
 
 namespace pileus {
@@ -36,13 +36,13 @@ inline Array<float> source_by_node(std::uint64_t numbers) {
 
 /// Optical depth towards the sun, once per position of the sun; where the march does the first
 /// order.
-Status make_sun_shadow(const Context& context, PhotonRun& run);
+Status make_sun_shadow(const Context& context, const FrameView& view, PhotonState& state);
 
 /// The media have moved: nothing that the sun's light was kept for holds.
-void forget_sun_shadow(PhotonRun& run);
+void forget_sun_shadow(PhotonState& state);
 
 /// Numbers that it keeps.
-std::uint64_t sun_shadow_numbers(const PhotonRun& run);
+std::uint64_t sun_shadow_numbers(const FrameView& view);
 
 /// Light on the nodes that a march reads, in one of two orders.
 struct NodeLight {
@@ -56,35 +56,37 @@ struct NodeLight {
 bool reads_quads(const Context& context, int channels, const NodeGrid& nodes);
 
 /// Optical depths to the sun at these nodes, or null where they are kept at others.
-const float* sun_depths_at(const PhotonRun& run, const NodeGrid& nodes);
+const float* sun_depths_at(const SunShadow& shadow, const NodeGrid& nodes);
 
-/// The same for the picture itself, of which `thin` may leave pixels to be filled in:
+/// The same for the picture itself, of which thinning may leave pixels to be filled in:
 /// transmittance, three colours and depths.
-Status march_thinned(const Context& context, const UpsampleSettings& thin, const NodeLight& source,
-                     const MarchParams& k, PhotonRun& run, Planes& planes);
+Status march_thinned(const Context& context, const FrameView& view, const NodeLight& source,
+                     const MarchParams& k, PhotonState& state, Planes& planes);
 
 /// Thinned pictures are of the light as a whole: kBadInput names the layer that is not, or the
 /// device. `method` names the keys.
 Status check_thinned(const Context& context, const Scene& scene, const char* method,
-                     const UpsampleSettings& thin);
+                     const PhotonState& state);
 
 /// What the plan counts for the ground's shadow and for a thinned picture.
-void add_picture_rows(const Context& context, const UpsampleSettings& thin, PhotonRun& run);
+void add_picture_rows(const Context& context, const FrameView& view, const PhotonState& state,
+                      MemoryTable& table);
 
 /// What all marches of a picture share.
-MarchParams lit_march_params(const PhotonRun& run, const LightInput& lit, const NodeGrid& source);
+MarchParams lit_march_params(const FrameView& view, const PhotonState& state, const LightInput& lit,
+                             const NodeGrid& source);
 
 /// Marches through `source` into `target`'s planes.
-Status march_lit(const Context& context, PhotonRun& run, const NodeLight& source,
-                 const MarchParams& k, float* target, Planes& planes);
+Status march_lit(const Context& context, const FrameView& view, PhotonState& state,
+                 const NodeLight& source, const MarchParams& k, float* target, Planes& planes);
 
 /// late_rows_of a picture whose light is the march's or the blend's alone; null where it has
 /// batches.
-LateRows* late_photons(LateRows* late, const UpsampleSettings& thin, const CameraParams& camera,
-                       int frame, const PhotonRun& run);
+LateRows* late_photons(LateRows* late, const FrameView& view, const CameraParams& camera,
+                       const PhotonState& state);
 
 /// Nodes around the camera, for the plan: the largest number where it moves.
-std::uint64_t near_nodes_of(const PhotonRun& run, const NodeGrid& nodes, const Context& context);
+std::uint64_t near_nodes_of(const Context& context, const FrameView& view, const NodeGrid& nodes);
 
 /// Numbers per node and set, filled up to whole groups.
 int stored_harmonics(const DepositPlan& deposit);
@@ -99,19 +101,20 @@ void gather_by_node(const Context& context, const MarchParams& k, std::uint64_t 
 
 /// Adds light of `lit`'s lamps, scattered once, and in the whole picture the media's own to the
 /// picture's planes; not to those of batches, as it has no noise. kLimit: out of memory.
-Status add_lit_lamps(const Context& context, PhotonRun& run, const LightInput& lit, Planes& planes);
+Status add_lit_lamps(const Context& context, const FrameView& view, PhotonState& state,
+                     const LightInput& lit, Planes& planes);
 
 /// Sky and ground of `lit`; the light scattered onto the ground is that of `batch`, 0: of all.
-Status fill_lit_background(const Context& context, PhotonRun& run, const LightInput& lit, int batch,
-                           Planes& planes);
+Status fill_lit_background(const Context& context, const FrameView& view, PhotonState& state,
+                           const LightInput& lit, int batch, Planes& planes);
 
 /// Adds to every batch's colour what its own photons brought to the ground, seen through the media:
 /// the spread of the batches then holds that light's noise, too. After the display.
-Status add_ground_noise(const Context& context, PhotonRun& run, const LightInput& lit,
-                        Planes& planes);
+Status add_ground_noise(const Context& context, const FrameView& view, PhotonState& state,
+                        const LightInput& lit, Planes& planes);
 
 /// The layer of optical depths.
-Status show_optical_depth(const Context& context, const PhotonRun& run, const LightInput& lit,
-                          Planes& planes);
+Status show_optical_depth(const Context& context, const FrameView& view, const PhotonState& state,
+                          const LightInput& lit, Planes& planes);
 
 }  // namespace pileus

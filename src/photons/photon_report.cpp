@@ -7,6 +7,7 @@
 #include "kernels_cpu/core/profile.h"
 #include "platform/threads.h"
 #include "src/base/digest.h"
+#include "src/world/plan_parts.h"
 
 namespace pileus {
 namespace {
@@ -89,50 +90,128 @@ std::string photon_digest(const Photons& photons) {
 
 namespace {
 
-TraceTally tally_of(const PhotonRun& run) {
+TraceTally tally_of(const PhotonRing& ring) {
     TraceTally all{};
-    for (const TraceTally& tally : run.photons.tallies) add_tally(tally, all);
+    for (const TraceTally& tally : ring.photons.tallies) add_tally(tally, all);
     return all;
 }
 
 }  // namespace
 
-void count_photons(const PhotonRun& run, Counts& counters) {
-    const TraceTally all = tally_of(run);
+void count_photons(const PhotonRing& ring, Counts& counters) {
+    const TraceTally all = tally_of(ring);
     counters.emplace_back("majorant_violations", std::uint64_t(all.majorant_violations));
     counters.emplace_back("saturated", 0);  // fixed_point_places proves it
     counters.emplace_back("terminated", photons_in(all.light.terminated));
 }
 
-void report_photons(const PhotonRun& run, Report& report) {
-    const TraceTally all = tally_of(run);
-    report.photons.generations = run.next_generation;
-    report.interrupted = run.interrupted;
-    report.photons.ring_generations = report.photons.ring_whole = 0;
-    if (run.ring && run.scene->animation.present && run.photons.slots.size() == run.generations) {
-        report.photons.ring_whole = run.generations;
-        for (const PhotonSlot& slot : run.photons.slots)
-            report.photons.ring_generations += slot.generations > 0 ? 1 : 0;
+void report_photons(const PhotonState& state, Report& report) {
+    const PhotonRing& ring = state.ring;
+    const std::vector<Light>& lights = state.lights.lighting.lights;
+    const TraceTally all = tally_of(ring);
+    PhotonCounts& out = report.photons;
+    out.generations = ring.next_generation;
+    report.interrupted = ring.interrupted;
+    out.ring_generations = out.ring_whole = 0;
+    if (ring.on && ring.animated && ring.photons.slots.size() == ring.generations) {
+        out.ring_whole = ring.generations;
+        for (const PhotonSlot& slot : ring.photons.slots)
+            out.ring_generations += slot.generations > 0 ? 1 : 0;
     }
-    report.photons.energy.clear();
-    for (std::size_t l = 0; l < run.photons.tallies.size(); ++l) {
-        const TraceTally& t = run.photons.tallies[l];
-        report.photons.energy.push_back(energy_row(run.lighting.lights[l].name, t.light));
+    out.energy.clear();
+    for (std::size_t l = 0; l < ring.photons.tallies.size(); ++l) {
+        const TraceTally& t = ring.photons.tallies[l];
+        out.energy.push_back(energy_row(lights[l].name, t.light));
         if (t.shadow.emitted[0] > 0)
-            report.photons.energy.push_back(
-                energy_row(run.lighting.lights[l].name + ": kept from the ground", t.shadow));
+            out.energy.push_back(energy_row(lights[l].name + ": kept from the ground", t.shadow));
     }
-    report.photons.traced = std::uint64_t(all.photons);
+    out.traced = std::uint64_t(all.photons);
     report.events.scatterings = std::uint64_t(all.scatterings);
     report.events.tentative = std::uint64_t(all.tentative);
     report.events.crossings = std::uint64_t(all.crossings);
-    double diagonal = 0;
-    for (double e : run.world->medium.extent_m) diagonal += e * e;
     if (all.photons > 0)
-        report.photons.mean_path_m =
-            double(all.path) / 1048576.0 * __builtin_sqrt(diagonal) / double(all.photons);
+        out.mean_path_m =
+            double(all.path) / 1048576.0 * state.lights.diagonal_m / double(all.photons);
     report.executed.emplace_back("absorption_tests", std::uint64_t(all.absorption_tests));
     report.executed.emplace_back("ground_bounces", std::uint64_t(all.bounces));
+}
+
+void explain_photon_lights(const FrameView& view, const PhotonState& state, Plan& plan) {
+    const World& world = view.world;
+    const Lighting& lighting = state.lights.lighting;
+    int channels = world.medium.channels;
+    const auto tell_colours = [&](const char* what) {
+        if (channels == 3) return;
+        channels = 3;
+        plan.need((std::string("coefficients per colour channel: coloured ") + what).c_str());
+    };
+    const SkyMap& map = view.environment.sky_map;
+    if (map.present() && map.view.planes == 3) tell_colours("sky map");
+    if (world.solids.coloured()) tell_colours("solids");
+    explain_light(view.scene, state.lights.sun, world, view.environment, lighting, plan);
+    if (!lighting.lamps.empty()) {
+        plan.need((std::to_string(lighting.lamps.size()) +
+                   " lights of [[light]]: marched to the first scattering")
+                      .c_str());
+        if (coloured_lamps(lighting)) tell_colours("[[light]]");
+    }
+    note_emission(world.medium, plan);
+}
+
+void explain_split(bool split, const PhotonState& state, Plan& plan) {
+    if (split) return;
+    plan.leave_out("first-order split", state.lights.lighting.sunlit ? "switched off" : "no sun");
+}
+
+void explain_photon_picture(const FrameView& view, const PhotonState& state, Plan& plan) {
+    const Scene& scene = view.scene;
+    const World& world = view.world;
+    if (state.lights.deposit.channels == 1)
+        plan.leave_out("coefficients per colour channel", "achromatic medium: one set per light");
+    if (is_white(world.medium)) plan.leave_out("absorption", "albedo 1");
+    note_solids(world.solids, view.environment.depth, plan);
+    note_upsampling(scene, state.picture.thin, plan);
+    if (!state.lights.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
+    if (!scene.wants_depth()) plan.leave_out("depth of the medium", "no depth layer");
+    if (!state.error_layer) plan.leave_out("batches and second moments", "no error layer");
+}
+
+void explain_media(const FrameView& view, Plan& plan) {
+    const Plan& media = view.world.media_plan;
+    for (const std::string& what : media.needed) plan.needed.push_back(what);
+    for (const LeftOut& l : media.left_out) plan.left_out.push_back(l);
+}
+
+LightGoal photon_goal(const PhotonState& state, std::uint64_t most) {
+    const Budget& budget = state.budget;
+    const std::uint64_t whole = state.ring.generations;
+    const auto wanted = std::uint64_t(budget.generations);
+    LightGoal out;
+    // Where a time or an error ends it, as many as the sums have room for.
+    out.most = wanted == 0 ? whole : wanted < most ? wanted : most;
+    if (wanted == 0 && (budget.seconds > 0 || budget.error > 0)) out.most = most;
+    out.error = budget.error;
+    out.seconds = budget.seconds;
+    out.first_look = whole < out.most ? whole : out.most;
+    out.doubles = true;
+    out.first = "the first generation";
+    return out;
+}
+
+void digest_photon_sums(const Context& context, PhotonMethod& of, Digests& digests) {
+    if (!context.digests) return;
+    const StageClock clock(context, "digests");
+    Photons& sums = of.sums();
+    digest_photons(context.threads, sums);
+    digests.emplace_back("photons", photon_digest(sums));
+}
+
+void photon_budget_used(int frame, const PhotonState& state, const Report& report, Budget& used) {
+    if (report.photons.generations == 0) return;
+    used.photons = state.lights.budget_photons;
+    // A film's ring counts on from frame to frame; its length is that of the first one.
+    const bool ring = state.ring.animated && state.ring.on;
+    used.generations = std::int64_t(report.photons.generations) - (ring ? frame : 0);
 }
 
 void bound_ledgers(double photons, double max_events, Plan& plan) {
@@ -155,10 +234,10 @@ Status check_bounds(const Plan& plan, const std::string& file, const char* key) 
     return Status::ok();
 }
 
-std::uint64_t photons_of_run(const PhotonRun& run, const Context& context) {
+std::uint64_t photons_of_run(const PhotonState& state, const Context& context) {
     std::uint64_t generation = 0;
-    for (const Light& light : run.lighting.lights) generation += light.photons;
-    return bytes_of(generation, run.generations + context.frames - 1);
+    for (const Light& light : state.lights.lighting.lights) generation += light.photons;
+    return bytes_of(generation, state.ring.generations + context.frames - 1);
 }
 
 }  // namespace pileus

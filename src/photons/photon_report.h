@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What every run of photons tells: the energy ledger, counts, the digest and bounds of its sums.
-// in: PhotonRun -> out: Report, Plan.
+// in: PhotonState -> out: Report, Plan.
 // docs/report.md.
 #pragma once
-#include "src/photons/photon_run.h"
+#include "src/photons/photon_method.h"
 
 namespace pileus {
 
@@ -13,10 +13,28 @@ void digest_photons(int threads, Photons& photons);
 /// Of the digests of all slots.
 std::string photon_digest(const Photons& photons);
 
-void count_photons(const PhotonRun& run, Counts& counters);
+void count_photons(const PhotonRing& ring, Counts& counters);
 
 /// Fills generations, energy and events.
-void report_photons(const PhotonRun& run, Report& report);
+void report_photons(const PhotonState& state, Report& report);
+
+/// What of lights is needed and left out.
+void explain_photon_lights(const FrameView& view, const PhotonState& state, Plan& plan);
+/// Whether sunlight scattered once is kept apart.
+void explain_split(bool split, const PhotonState& state, Plan& plan);
+/// What shows them, but for the method's own way.
+void explain_photon_picture(const FrameView& view, const PhotonState& state, Plan& plan);
+/// What a loaded world has told.
+void explain_media(const FrameView& view, Plan& plan);
+
+/// Generations of a film's frame; `most`: that the sums have room for.
+LightGoal photon_goal(const PhotonState& state, std::uint64_t most);
+
+/// Of the sums that a film's picture shows.
+void digest_photon_sums(const Context& context, PhotonMethod& of, Digests& digests);
+
+/// MethodReport::budget_used: generations, of as many photons in all.
+void photon_budget_used(int frame, const PhotonState& state, const Report& report, Budget& used);
 
 /// Adds the bounds of the sums that no picture shows but every report does, behind the first one.
 void bound_ledgers(double photons, double max_events, Plan& plan);
@@ -25,6 +43,6 @@ void bound_ledgers(double photons, double max_events, Plan& plan);
 Status check_bounds(const Plan& plan, const std::string& file, const char* key);
 
 /// The ring, and one generation for each further picture.
-std::uint64_t photons_of_run(const PhotonRun& run, const Context& context);
+std::uint64_t photons_of_run(const PhotonState& state, const Context& context);
 
 }  // namespace pileus

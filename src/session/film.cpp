@@ -88,20 +88,68 @@ Status Session::film_light(const FrameView& view) {
                 (keeps ? "no picture written, progress kept in " + file.path : "no file written")};
 }
 
+/// A film tells of no change: methods see by themselves that the sun has moved.
+Status Session::film_view(int frame) {
+    light_frame(frame, *run_);
+    return made_.method->set_view(context_, view_of(*run_, frame), {});
+}
+
+Status Session::film_generation(std::uint64_t number, std::uint64_t ring) {
+    // Those before the first whole ring are shot under frame 0's sun.
+    const int shown = number < ring ? 0 : int(number - ring + 1);
+    if (run_->place_at) run_->place_at(shown);
+    PILEUS_TRY(film_view(shown));
+    std::uint64_t done = 0;
+    return made_.method->accumulate(context_, view_of(*run_, shown), 1, done);
+}
+
+Status Session::film_ring(const FrameStep& step) {
+    Method& method = *made_.method;
+    const std::uint64_t ring = method.progress().ring, frame = std::uint64_t(step.frame);
+    const LightGoal goal = made_.report->goal(view_of(*run_, step.frame));
+    // Whatever frames were asked for: a part of a film repeats the whole's bits.
+    const std::uint64_t first = step.first ? frame : frame + ring - 1;
+    const std::uint64_t end = step.first ? frame + goal.most : frame + ring;
+    if (step.first) method.restart(context_, first);
+    {
+        const char* const stage = method.progress().stage;
+        const StageClock clock(context_, stage);
+        context_.hold(true);
+        const double start = wall_seconds();
+        for (std::uint64_t number = first; number < end; ++number) {
+            PILEUS_TRY(film_generation(number, ring));
+            if (method.progress().interrupted) break;
+            context_.tell(stage, double(number + 1 - first) / double(end - first));
+            // Time only chooses a whole number of generations, which the report records.
+            if (goal.seconds > 0 && wall_seconds() - start >= goal.seconds) break;
+        }
+    }
+    if (run_->place_at) run_->place_at(step.frame);
+    if (!method.progress().interrupted) return film_view(step.frame);
+    return {Code::kCheckFailed,
+            "interrupted before the frame's ring of generations was whole; no file written"};
+}
+
 Status Session::film_frame(const FrameStep& step, Image& image) {
     MethodRun& run = *run_;
     Method& method = *made_.method;
     const World& world = *run.world;
-    light_frame(step.frame, run);
+    const LightUnits light = method.progress();
     const FrameView view = view_of(run, step.frame);
-    // A film tells of no change: methods see by themselves that the sun has moved.
-    PILEUS_TRY(method.set_view(context_, view, {}));
-    PILEUS_TRY(film_light(view));
+    if (light.ring > 0) {
+        PILEUS_TRY(film_ring(step));
+    } else {
+        // The same random numbers in each frame, so that noise stays where it is.
+        if (light.one_sum && scene_.animation.present) method.restart(context_, 0);
+        PILEUS_TRY(film_view(step.frame));
+        PILEUS_TRY(film_light(view));
+    }
     method.release(Phase::kTraced);
     if (step.last || method.progress().interrupted) method.release(Phase::kEnded);
+    report_.digests = run.digests;
+    if (!options_.show.empty()) return made_.report->draw(context_, view, image);
     Planes* planes = nullptr;
     PILEUS_TRY(method.render(context_, view, {}, planes));
-    report_.digests = run.digests;
     made_.report->digest_picture(context_, report_.digests);
     const CameraParams camera =
         make_camera(scene_.camera, orbit_at(scene_, step.frame), world.medium.low_m);

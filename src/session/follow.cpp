@@ -9,22 +9,12 @@
 
 namespace pileus {
 
-Status follow(const Scene& scene, const RenderOptions& options, int light, std::uint32_t number,
-              PhotonWay& way) {
-    const FpModeGuard guard;
-    Scene placed = scene;
-    PILEUS_TRY(place_scene(placed));
-    Report report;
-    Context context;
-    if (scene.method != collectors_method().name)
-        return Status::bad_input("follow: not for method " + scene.method +
-                                 ", allowed: method.name = \"collectors\"");
-    PILEUS_TRY(make_context(scene, options, context, report));
-    MethodRow row;
-    PILEUS_TRY(find_view(scene.method, "photons", row));
-    ViewRun view(View::kPhotons);
-    PILEUS_TRY(open_run(*row.recipe, placed, options.budget, context, true, nullptr, view));
-    const std::vector<Light>& lights = view.lighting.lights;
+namespace {
+
+/// Of a method whose light is chosen and whose majorants are made.
+Status follow(const Context& context, const FrameView& view, const CollectorsMethod& method,
+              int light, std::uint32_t number, PhotonWay& way) {
+    const std::vector<Light>& lights = method.state().lights.lighting.lights;
     if (light < 0 || std::size_t(light) >= lights.size())
         return Status::bad_input("--light: no such light, " + std::to_string(light) +
                                  ", allowed: less than " + std::to_string(lights.size()));
@@ -34,12 +24,37 @@ Status follow(const Scene& scene, const RenderOptions& options, int light, std::
                                  ", " + std::to_string(number) + ", allowed: less than " +
                                  std::to_string(chosen.photons));
     way.light = chosen.name;
-    follow_photon(collectors_trace_input(context, view), chosen, number, kMostWayPoints,
-                  way.points);
+    follow_photon(method.trace_input(context, view), chosen, number, kMostWayPoints, way.points);
     for (PathPoint& p : way.points)
         for (std::size_t a = 0; a < 3; ++a)
-            p.at_m[a] = float(double(p.at_m[a]) + view.world->medium.low_m[a]);
+            p.at_m[a] = float(double(p.at_m[a]) + view.world.medium.low_m[a]);
     return Status::ok();
+}
+
+}  // namespace
+
+Status follow(const Scene& scene, const RenderOptions& options, int light, std::uint32_t number,
+              PhotonWay& way) {
+    const FpModeGuard guard;
+    Scene placed = scene;
+    PILEUS_TRY(place_scene(placed));
+    Report report;
+    Context context;
+    if (scene.method != kCollectorsName)
+        return Status::bad_input("follow: not for method " + scene.method +
+                                 ", allowed: method.name = \"collectors\"");
+    PILEUS_TRY(make_context(scene, options, context, report));
+    MethodRow row;
+    PILEUS_TRY(find_view(scene.method, "photons", row));
+    auto method =
+        std::make_unique<ViewMethod>(View::kPhotons, MethodInputs{placed, options.budget, false});
+    const CollectorsMethod& prepared = *method;
+    MadeMethod made;
+    made.report = view_report(*method);
+    made.method = std::move(method);
+    MethodRun run;
+    PILEUS_TRY(open_run(row, made, placed, options.budget, context, true, nullptr, run));
+    return follow(context, view_of(run, 0), prepared, light, number, way);
 }
 
 }  // namespace pileus

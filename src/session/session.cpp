@@ -83,7 +83,7 @@ Status make_world(const Scene& scene, const RenderOptions& options,
 /// Whether the method is for this session and its world.
 Status Session::check_method(bool live, const World* world) const {
     const std::string method = scene_.file + ": method.name: \"" + scene_.method + "\" ";
-    if (live && !is_live(row_))
+    if (live && (!is_live(row_) || !options_.show.empty()))
         return Status::bad_input(method + "is for no session, allowed: another");
     if (world == nullptr) return Status::ok();
     if (world->media != scene_.media.size())
@@ -199,10 +199,13 @@ Status Session::aim() {
     // What late rows lead to may be laid out anew.
     if (late_.ready) shown_ = nullptr;
     const bool new_shine = relight();
-    PILEUS_TRY(made_.method->set_view(context_, view(), {anew_, new_shine}));
+    Method& method = *made_.method;
+    const std::uint32_t prepared = method.progress().prepared;
+    PILEUS_TRY(method.set_view(context_, view(), {anew_, new_shine}));
     PILEUS_TRY(check_sealed());
     stale_ = anew_ = false;
-    stats_.prepared = made_.method->progress().prepared;
+    stats_.prepared = method.progress().prepared;
+    if (kPlans && stats_.prepared != prepared) PILEUS_TRY(make_plan(row_, made_, context_, *run_));
     return Status::ok();
 }
 

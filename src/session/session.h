@@ -187,6 +187,10 @@ private:
     /// The light of it, until the method's goal is met or the user wants an end.
     Status film_light(const FrameView& view);
     Status film_passes(const FrameView& view, const LightGoal& goal, StateFile& file);
+    Status film_view(int frame);
+    /// Of a method that keeps a ring: each generation for the view of its own frame.
+    Status film_ring(const FrameStep& step);
+    Status film_generation(std::uint64_t number, std::uint64_t ring);
     /// Whole units, between which the user may end it.
     Status trace(std::uint64_t units, std::uint64_t& done);
     bool relight();

@@ -50,8 +50,8 @@ Status Session::set_camera(const Camera& given) {
     const Camera camera = held(given);
     // Light that was gathered for this view stays.
     if (same_view(camera, host_.camera)) return Status::ok();
-    if (run_->fixed_view != nullptr)
-        return Status::bad_input(std::string("camera: ") + run_->fixed_view);
+    if (const char* why = made_.method->fixed_view())
+        return Status::bad_input(std::string("camera: ") + why);
     PILEUS_TRY(check_frustum(camera, scene_.collectors.billboards));
     if (const char* key = camera_fault(scene_, host_.ground, camera)) {
         const auto change = [&](Scene& changed) {

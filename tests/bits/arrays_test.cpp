@@ -5,13 +5,12 @@
 #include <map>
 
 #include "src/march/march_run.h"
-#include "src/methods/collectors/collectors_memory.h"
-#include "src/methods/collectors/prepare/leaves.h"
+#include "src/methods/collectors/collectors_method.h"
 #include "src/methods/particles/particles_method.h"
 #include "src/methods/particles/view_tiles.h"
 #include "src/methods/path/path_method.h"
 #include "src/methods/path/path_sky.h"
-#include "src/methods/photon_grid/photon_grid.h"
+#include "src/methods/photon_grid/photon_grid_method.h"
 #include "src/methods/registry.h"
 #include "tests/io/temp_folder.h"
 #include "tests/support/render_harness.h"
@@ -105,48 +104,62 @@ std::uint64_t bytes_held(const PhotonSlot& slot) {
     return slot.sums.bytes() + slot.packed.sets.bytes() + slot.packed.ground.bytes();
 }
 /// Up to 256 bytes keep threads' sums apart. A ring is packed from one set of sums at least.
-std::uint64_t sums_bound(const PhotonRun& run) {
-    std::uint64_t sums = run.scratch.sums.bytes(), bound = run.plan.accumulation.bytes;
-    if (bound == 0 && sums_ring(run)) bound = sums;
+std::uint64_t sums_bound(const PhotonState& state, const Plan& plan) {
+    std::uint64_t sums = state.ring.scratch.sums.bytes(), bound = plan.accumulation.bytes;
+    if (bound == 0 && sums_ring(state)) bound = sums;
     CHECK((sums <= bound && bound <= sums + 2 * 256));
     return bound;
 }
 
+/// What all methods of photons hold.
+void add_photons(const PhotonState& state, const Plan& plan, Bytes& held) {
+    for (const PhotonSlot& slot : state.ring.photons.slots) held["photon map"] += bytes_held(slot);
+    if (sums_ring(state)) held["photon map of the ring"] = state.ring.sum.sum.sums.bytes();
+    held["photon tallies per thread"] = state.ring.scratch.tallies.bytes();
+    held["photon sums per thread"] = sums_bound(state, plan);
+}
+
+/// A method of photons over an open run.
+template <class Of>
+struct Opened {
+    MethodRun run;
+    MadeMethod made;
+    const Of& method;
+
+    Opened(const MethodRow& row, const Fixture& f, const Budget& budget = {})
+        : made(row.make({f.scene, budget, false})), method(static_cast<Of&>(*made.method)) {
+        const Status status = open_run(row, made, f.scene, budget, f.context, true, nullptr, run);
+        REQUIRE_MESSAGE(status, status.message);
+    }
+};
+
 void check_collectors(const Fixture& f) {
-    CollectorsRun run;
     Budget budget;
     budget.photons = 4000;
-    const Status status =
-        open_run(collectors_method(), f.scene, budget, f.context, true, nullptr, run);
-    REQUIRE_MESSAGE(status, status.message);
+    const Opened<CollectorsMethod> opened(collectors_row(), f, budget);
+    const MethodRun& run = opened.run;
+    const CollectorsState& state = opened.method.state();
     REQUIRE(run.plan.exact);
-    Bytes held = held_by(run, run.majorants);
-    held["leaves"] = run.prepared.leaves.bytes();
-    held["collector of voxel"] = run.prepared.collector_of_voxel.bytes();
-    held["collectors"] = run.prepared.collectors.bytes();
-    held["shares of the media"] = run.prepared.shares.bytes();
-    for (const PhotonSlot& slot : run.photons.slots) held["photon map"] += bytes_held(slot);
-    if (sums_ring(run)) held["photon map of the ring"] = run.ring_sum.sum.sums.bytes();
-    held["photon tallies per thread"] = run.scratch.tallies.bytes();
-    held["photon sums per thread"] = sums_bound(run);
+    Bytes held = held_by(run, state.majorants);
+    held["leaves"] = state.prepared.leaves.bytes();
+    held["collector of voxel"] = state.prepared.collector_of_voxel.bytes();
+    held["collectors"] = state.prepared.collectors.bytes();
+    held["shares of the media"] = state.prepared.shares.bytes();
+    add_photons(state, run.plan, held);
     check_rows(run.plan.memory, Stage::kPhotons, held);
 }
 
 void check_photon_grid(const Fixture& f) {
-    PhotonGridRun run;
     Budget budget;
     budget.photons = 4000;
-    const Status status =
-        open_run(photon_grid_method(), f.scene, budget, f.context, true, nullptr, run);
-    REQUIRE_MESSAGE(status, status.message);
+    const Opened<PhotonGridMethod> opened(photon_grid_row(), f, budget);
+    const MethodRun& run = opened.run;
+    const PhotonGridState& state = opened.method.state();
     REQUIRE(run.plan.exact);
-    Bytes held = held_by(run, run.majorants);
-    held["cells near medium"] = run.near.marks.bytes();
-    held["shares of the media"] = run.shares.bytes();
-    for (const PhotonSlot& slot : run.photons.slots) held["photon map"] += bytes_held(slot);
-    if (sums_ring(run)) held["photon map of the ring"] = run.ring_sum.sum.sums.bytes();
-    held["photon tallies per thread"] = run.scratch.tallies.bytes();
-    held["photon sums per thread"] = sums_bound(run);
+    Bytes held = held_by(run, state.majorants);
+    held["cells near medium"] = state.near.marks.bytes();
+    held["shares of the media"] = state.shares.bytes();
+    add_photons(state, run.plan, held);
     check_rows(run.plan.memory, Stage::kPhotons, held);
 }
 
@@ -262,23 +275,27 @@ std::uint64_t planned(const MemoryTable& table, const char* item) {
     return bytes;
 }
 
-template <class Run>
-void check_lamps(const Recipe& method, const Fixture& f) {
-    Run run;
-    REQUIRE(open_run(method, f.scene, {}, f.context, true, nullptr, run));
-    Image image;
-    REQUIRE(method.light({0, true, true}, f.context, run));
-    REQUIRE(method.show({0, true, true}, f.context, run, image));
-    CHECK(run.lamps.optical_depth.bytes() > 0);
-    CHECK(run.lamps.optical_depth.bytes() == planned(run.plan.memory, "optical depths to lights"));
+template <class Of>
+void check_lamps(const MethodRow& row, const Fixture& f) {
+    Opened<Of> opened(row, f);
+    Method& method = *opened.made.method;
+    const FrameView view = view_of(opened.run, 0);
+    Planes* planes = nullptr;
+    std::uint64_t done = 0;
+    REQUIRE(method.set_view(f.context, view, {}));
+    REQUIRE(method.accumulate(f.context, view, method.progress().whole, done));
+    REQUIRE(method.render(f.context, view, {}, planes));
+    const Buffer<float>& depths = opened.method.state().picture.lamps.optical_depth;
+    CHECK(depths.bytes() > 0);
+    CHECK(depths.bytes() == planned(opened.run.plan.memory, "optical depths to lights"));
 }
 
 TEST_CASE("arrays: what lights of marched photons hold is what the plan says") {
     const std::string lit = std::string(kSmallCumulus) +
                             "\n[[light]]\ntype = \"point\"\nposition_m = [0, 0, 2000]\n"
                             "[[light]]\ntype = \"directional\"\nelevation_deg = 20\n";
-    check_lamps<CollectorsRun>(collectors_method(), {lit.c_str(), "collectors"});
-    check_lamps<PhotonGridRun>(photon_grid_method(), {lit.c_str(), "photon-grid"});
+    check_lamps<CollectorsMethod>(collectors_row(), {lit.c_str(), "collectors"});
+    check_lamps<PhotonGridMethod>(photon_grid_row(), {lit.c_str(), "photon-grid"});
 }
 
 TEST_CASE("arrays: what path holds while it traces is what the plan says") {
@@ -317,48 +334,6 @@ TEST_CASE("arrays: what particles hold while they are shown is what the plan say
     check_particles({lit.c_str(), "particles", {layers, boards}});
     check_particles({lit.c_str(), "particles", {"output.layers = [\"alpha\", \"occlusion\"]"}});
     check_particles({lit.c_str(), "particles", {layers, "particles.light = \"exact\""}});
-}
-
-TEST_CASE("arrays: the bytes of collectors by their definition, those of scratch, too") {
-    CollectorsSizes s;
-    s.grid.size[0] = 5, s.grid.size[1] = 7, s.grid.size[2] = 11;
-    s.threads = 3, s.media = 2, s.samples = 100, s.leaves = 40, s.collectors = 30;
-    s.variance = s.rejection = s.paper = true;
-    s.marched = false, s.width = 20, s.height = 10;
-    s.channels = 3, s.coefficients = 16, s.lights = 2, s.slots = 4, s.ground_cells = 9;
-    s.tracking_blocks = 6, s.shadow_nodes = 13;
-    const MemoryTable table = collectors_memory(s);
-    Bytes planned;
-    for (const MemoryRow& row : table.rows()) planned[row.item] += row.bytes;
-    const std::uint64_t voxels = 5 * 7 * 11;
-    CHECK(planned["density"] == 4 * voxels);
-    CHECK(planned["parts of the media"] == 4 * voxels);
-    CHECK(planned["gradient field"] == 4 * voxels);
-    // Two sums of 64 bits: per voxel, and for each thread of a slice and a row.
-    CHECK(planned["sums of the variance"] == 16 * (voxels + 3 * (5 * 7 + 5)));
-    CHECK(planned["samples"] == 16 * 100);
-    CHECK(planned["samples being drawn"] == (16 + 4) * 100);
-    // Per axis a coordinate, an index and two keys; a density, scratch and a side.
-    CHECK(planned["sorted lists of samples"] == (3 * (4 + 4 + 2 * 8) + 4 + 4 + 1) * 100);
-    CHECK(planned["growing list of leaves"] == sizeof(Leaf) * (2 * 40 + 1024));
-    CHECK(planned["stack of the tree"] == 32 * (5 + 7 + 11 + 2));
-    CHECK(planned["leaves"] == sizeof(Leaf) * 40);
-    CHECK(planned["collectors"] == sizeof(Collector) * 30);
-    CHECK(planned["collector of voxel"] == 4 * voxels);
-    CHECK(planned["photon map"] == 8 * 2 * 4 * 3 * (30 * 16 + 9));
-    CHECK(planned["photon tallies per thread"] == 2 * 3 * sizeof(TraceTally));
-    CHECK(planned["ground map"] == 4 * 3 * 9);
-    CHECK(planned["shadow"] == 4 * 13);
-    CHECK(planned["majorants"] == 4 * 6);
-    CHECK(planned["moments of leaves"] == sizeof(LeafMoments) * 40 + 8 * 5 * 3);
-    CHECK(planned["voxel masses of a part"] == 8 * voxels);
-    CHECK(planned["shares of the media"] == 4 * 2 * 30);
-    CHECK(planned["centroids of samples"] == 32 * 40);
-    CHECK(planned["collector colours"] == 4 * 3 * 30);
-    CHECK(planned["picture planes"] == 4 * (3 + 1 + 3) * 20 * 10);
-    CHECK(planned["rows of the majorants"] == 4 * 3 * (5 * 7 + 5));
-    CHECK(planned["blocks to skip"] == 4 * (2 * 2 * 3));
-    CHECK(planned["billboards"] == (5 * 4 + sizeof(BlendSphere) + 4 + 2 * 8) * 30);
 }
 
 TEST_CASE("arrays: one declaration gives the plan's row and the buffer, and no product wraps") {

@@ -11,16 +11,30 @@
 #include <string>
 #include <vector>
 
-#include "src/methods/collectors/collectors.h"
+#include "src/io/images/image.h"
+#include "src/methods/collectors/collectors_method.h"
+#include "src/methods/methods.h"
 
 namespace bench {
 
 /// A scene with everything that its photons need.
 struct ReadyScene {
     pileus::Scene scene;
-    pileus::CollectorsRun run;
+    pileus::MethodRun run;
+    std::unique_ptr<pileus::CollectorsMethod> method;
     pileus::Report report;
     pileus::Context context;  ///< all threads, the widest instruction set
+
+    const pileus::World& world() const { return *run.world; }
+    pileus::CollectorsState& state() { return method->state(); }
+    pileus::FrameView view() { return pileus::view_of(run, 0); }
+    /// Another generation.
+    pileus::Status shoot(const pileus::Context& with) {
+        std::uint64_t done = 0;
+        return method->accumulate(with, view(), 1, done);
+    }
+    /// A picture, with its layers.
+    pileus::Status show(const pileus::Context& with, pileus::Image& image);
 };
 
 using Overrides = std::vector<std::string>;
@@ -56,7 +70,7 @@ private:
 };
 
 /// Forgets all photons, so that the next generation is the first again.
-void forget_photons(pileus::CollectorsRun& run);
+void forget_photons(pileus::CollectorsState& state);
 
 /// The cloud of the figures to reach, 128 voxels along each axis.
 constexpr const char* kCumulus128 = "../studies/scenes/cumulus128";
@@ -73,7 +87,7 @@ double stage_wall(const pileus::Report& report, const Stages& stages);
 void count_stages(benchmark::State& state, const pileus::Report& report);
 
 /// Digest of the sums and of the ledger of all lights.
-std::uint64_t photon_digest(const pileus::CollectorsRun& run);
+std::uint64_t photon_digest(const pileus::PhotonRing& ring);
 
 /// Digest of every number the preparation made.
 std::uint64_t prepared_digest(const pileus::Prepared& prepared, const pileus::Majorants& majorants);

@@ -38,13 +38,13 @@ ReadyScene* lit(benchmark::State& state, Bench& bench, const FrameCase& which) {
                           "output.layers=[\"radiance\", \"alpha\"]"})
         overrides.push_back(o);
     ReadyScene* p = bench.prepared(state, "cumulus", overrides);
-    if (p == nullptr || p->run.photons.slots[0].generations > 0) return p;
-    return bench.passed(state, collectors_shoot(p->context, p->run)) ? p : nullptr;
+    if (p == nullptr || p->state().ring.photons.slots[0].generations > 0) return p;
+    return bench.passed(state, p->shoot(p->context)) ? p : nullptr;
 }
 
 /// Samples in blocks that hold anything, until a ray is opaque: of every sixteenth pixel, times 16.
-std::uint64_t marched_samples(const CollectorsRun& run, const CameraParams& camera) {
-    const MediumView m = make_medium_view(run.world->medium, run.majorants);
+std::uint64_t marched_samples(ReadyScene& p, const CameraParams& camera) {
+    const MediumView m = make_medium_view(p.world().medium, p.state().majorants);
     std::uint64_t samples = 0;
     for (int y = 0; y < camera.height; y += 4)
         for (int x = 0; x < camera.width; x += 4) {
@@ -71,22 +71,23 @@ std::uint64_t marched_samples(const CollectorsRun& run, const CameraParams& came
 }
 
 /// Times over the floor of the same stage, fastest of five; 0 where there is none.
-double floor_ms(const FrameCase& which, const KernelTable* kernels, const ReadyScene& p) {
+double floor_ms(const FrameCase& which, const KernelTable* kernels, ReadyScene& p) {
     const LaneFloors* floors = lane_floors(kernels->name);
-    const CollectorsRun& run = p.run;
+    const CollectorsState& of = p.state();
+    const Medium& medium = p.world().medium;
     if (floors == nullptr || (which.name[0] != 'm' && which.name[0] != 'r')) return 0;
-    const CameraParams camera = make_camera(p.scene.camera, 0, run.world->medium.low_m);
+    const CameraParams camera = make_camera(p.scene.camera, 0, medium.low_m);
     const auto grid = [](const int(&n)[3], const float* values) {
         return FloorGrid{{n[0], n[1], n[2]}, values};
     };
-    const NodeGrid& nodes = run.shadow_nodes;
-    const std::vector<float> source(3 * run.shadow.size(), 0.25f);
-    const MarchFloorWork march{
-        which.name[0] == 'm' ? marched_samples(run, camera) : 0,
-        grid(run.world->medium.grid.size, run.world->medium.volume.density.data()),
-        grid(nodes.size, run.shadow.data()), grid(nodes.size, source.data()), kPixelVoxels};
-    const Buffer<std::int64_t>& sums = run.photons.slots[0].sums;
-    const std::uint64_t numbers = std::uint64_t(run.deposit.coefficients);
+    const NodeGrid& nodes = of.shadow.nodes;
+    const std::vector<float> source(3 * of.shadow.depth.size(), 0.25f);
+    const MarchFloorWork march{which.name[0] == 'm' ? marched_samples(p, camera) : 0,
+                               grid(medium.grid.size, medium.volume.density.data()),
+                               grid(nodes.size, of.shadow.depth.data()),
+                               grid(nodes.size, source.data()), kPixelVoxels};
+    const Buffer<std::int64_t>& sums = of.ring.photons.slots[0].sums;
+    const std::uint64_t numbers = std::uint64_t(of.lights.deposit.coefficients);
     const ReconstructFloorWork reconstruct{sums.data(), sums.size() / numbers, numbers};
     double best = 1e30;
     for (int i = 0; i < 5; ++i) {
@@ -110,16 +111,16 @@ void run_frame(benchmark::State& state, Bench& bench, const FrameCase& which,
     double fastest = 1e30, wall = 1e30;
     for (auto _ : state) {
         report = Report{};
-        if (which.shadow) p->run.shadow_ready = false;
+        if (which.shadow) p->state().shadow.ready = false;
         Image image;
-        if (!bench.passed(state, collectors_show(0, context, p->run, image))) return;
+        if (!bench.passed(state, p->show(context, image))) return;
         const double took = stage_cpu(report, which.stages);
         state.SetIterationTime(took);
         fastest = std::min(fastest, took);
         wall = std::min(wall, stage_wall(report, which.stages));
         Digest digest;
         digest.text(pixel_hash(image));
-        digest.floats(p->run.shadow.span());
+        digest.floats(p->state().shadow.depth.span());
         bench.check(state, which.name, digest.value());
     }
     // The last frame's other stages, for the whole picture.

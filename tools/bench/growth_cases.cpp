@@ -25,14 +25,14 @@ constexpr int kTurns = 3;
 
 /// Seconds of the fastest of three generations from the start.
 double trace_seconds(benchmark::State& state, Bench& bench, const GrowthCase& which,
-                     const Context& context, CollectorsRun& run) {
+                     const Context& context, ReadyScene& p) {
     double best = 1e30;
     for (int i = 0; i < kTurns; ++i) {
-        forget_photons(run);
+        forget_photons(p.state());
         const double start = cpu_seconds();
-        if (!bench.passed(state, collectors_shoot(context, run))) return 0;
+        if (!bench.passed(state, p.shoot(context))) return 0;
         best = std::min(best, cpu_seconds() - start);
-        bench.check(state, which.name, photon_digest(run));
+        bench.check(state, which.name, photon_digest(p.state().ring));
     }
     return best;
 }
@@ -55,14 +55,14 @@ double prepare_seconds(benchmark::State& state, Bench& bench, const GrowthCase& 
 }
 
 double frame_seconds(benchmark::State& state, Bench& bench, const GrowthCase& which,
-                     Context context, CollectorsRun& run) {
-    if (!bench.passed(state, collectors_shoot(context, run))) return 0;
+                     Context context, ReadyScene& p) {
+    if (!bench.passed(state, p.shoot(context))) return 0;
     double best = 1e30;
     for (int i = 0; i < kTurns; ++i) {
         Report report;
         context.report = &report;
         Image image;
-        if (!bench.passed(state, collectors_show(0, context, run, image))) return 0;
+        if (!bench.passed(state, p.show(context, image))) return 0;
         best = std::min(best, stage_cpu(report, {"march", "blend"}));
         bench.check(state, which.name, image_digest(image));
     }
@@ -75,21 +75,21 @@ void run_growth(benchmark::State& state, Bench& bench, const GrowthCase& which) 
     const std::unique_ptr<ReadyScene> p = bench.fresh(state, kCumulus128, overrides);
     if (p == nullptr) return;
     const Context context = with(p->context, p->context.kernels, 1);
-    const std::size_t collectors = p->run.prepared.collectors.size();
+    const std::size_t collectors = p->state().prepared.collectors.size();
     for (auto _ : state) {
         double seconds = 0;
         if (which.kind == GrowthCase::kPrepare)
             seconds = prepare_seconds(state, bench, which, context, *p);
         else if (which.kind == GrowthCase::kFrame)
-            seconds = frame_seconds(state, bench, which, context, p->run);
+            seconds = frame_seconds(state, bench, which, context, *p);
         else
-            seconds = trace_seconds(state, bench, which, context, p->run);
+            seconds = trace_seconds(state, bench, which, context, *p);
         state.SetIterationTime(seconds);
         state.counters["x"] = which.x > 0 ? which.x : double(collectors);
         state.counters["y"] = seconds * 1e3;
         if (which.kind > GrowthCase::kTracePerScattering) continue;
         TraceTally total{};
-        for (const TraceTally& t : p->run.photons.tallies) add_tally(t, total);
+        for (const TraceTally& t : p->state().ring.photons.tallies) add_tally(t, total);
         state.counters["s/scattering"] = seconds / double(total.scatterings);
         state.counters["s/photon"] = seconds / double(total.photons);
         if (which.kind == GrowthCase::kTracePerScattering)

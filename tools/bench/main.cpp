@@ -9,8 +9,10 @@
 #include "platform/threads.h"
 #include "src/base/digest.h"
 #include "src/io/images/image_file.h"
+#include "src/picture/finish_frame.h"
 #include "src/scene/read_scene.h"
 #include "src/session/render.h"
+#include "src/world/camera/view.h"
 #include "tools/bench/bench.h"
 
 namespace bench {
@@ -65,9 +67,15 @@ std::unique_ptr<ReadyScene> Bench::fresh(benchmark::State& state, const std::str
     made->context.threads = hardware_threads();
     made->context.report = &made->report;
     if (!read(state, name, overrides, made->scene)) return nullptr;
-    if (!passed(state, open_run(collectors_method(), made->scene, {}, made->context, true, nullptr,
-                                made->run)))
-        return nullptr;
+    const MethodInputs inputs{made->scene, {}, false};
+    MadeMethod opened;
+    auto method = std::make_unique<CollectorsMethod>(inputs);
+    opened.report = collectors_report(*method);
+    opened.method = std::move(method);
+    const Status status = open_run(collectors_row(), opened, made->scene, {}, made->context, true,
+                                   nullptr, made->run);
+    made->method.reset(static_cast<CollectorsMethod*>(opened.method.release()));
+    if (!passed(state, status)) return nullptr;
     return made;
 }
 
@@ -79,13 +87,23 @@ void Bench::check(benchmark::State& state, const std::string& work, std::uint64_
                       : Status{Code::kCheckFailed, "other work than the first run of " + work});
 }
 
-void forget_photons(CollectorsRun& run) {
-    run.next_generation = 0;
-    for (PhotonSlot& slot : run.photons.slots) {
+Status ReadyScene::show(const Context& with, Image& image) {
+    Planes* planes = nullptr;
+    PILEUS_TRY(method->render(with, view(), {}, planes));
+    const CameraParams camera = make_camera(scene.camera, 0, world().medium.low_m);
+    FinishedParts parts;
+    parts.batches = true;
+    return finish_frame(with, scene.output, world(), run.environment.depth, camera, parts, *planes,
+                        image, *with.report);
+}
+
+void forget_photons(CollectorsState& state) {
+    state.ring.next_generation = 0;
+    for (PhotonSlot& slot : state.ring.photons.slots) {
         for (std::int64_t& v : slot.sums.span()) v = 0;
         slot.generations = 0;
     }
-    for (TraceTally& t : run.photons.tallies) t = TraceTally{};
+    for (TraceTally& t : state.ring.photons.tallies) t = TraceTally{};
 }
 
 double stage_cpu(const Report& report, const Stages& stages) {
@@ -108,10 +126,10 @@ void count_stages(benchmark::State& state, const Report& report) {
     for (const StageTime& s : report.clocks.stages) state.counters[s.name + "_ms"] = s.cpu_s * 1e3;
 }
 
-std::uint64_t photon_digest(const CollectorsRun& run) {
+std::uint64_t photon_digest(const PhotonRing& ring) {
     Digest digest;
-    for (const PhotonSlot& slot : run.photons.slots) digest.integers(slot.sums.span());
-    for (const TraceTally& t : run.photons.tallies) {
+    for (const PhotonSlot& slot : ring.photons.slots) digest.integers(slot.sums.span());
+    for (const TraceTally& t : ring.photons.tallies) {
         for (const Fates* f : {&t.light, &t.shadow})
             for (std::size_t c = 0; c < 3; ++c)
                 for (std::int64_t quanta : {f->emitted[c], f->top[c], f->bottom[c], f->sides[c],

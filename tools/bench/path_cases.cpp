@@ -68,7 +68,7 @@ void run_path(benchmark::State& state, Bench& bench, const PathCase& which,
     if (p == nullptr) return;
     PathInput in;
     in.medium = &p->run.world->medium;
-    in.lighting = &p->run.lighting;
+    in.lighting = &p->state().lights.lighting;
     Majorants blocks;
     if (!bench.passed(state, make_majorants(p->run.world->medium, true,
                                             with(p->context, kernels, 1), blocks, kPathCosts)))

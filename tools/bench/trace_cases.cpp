@@ -20,30 +20,33 @@ struct TraceCase {
 };
 
 /// One generation; without deposits its ledger alone, so that their share of the time shows.
-Status shoot(const Context& context, CollectorsRun& run, bool deposits) {
-    if (deposits) return collectors_shoot(context, run);
-    TraceInput in = collectors_trace_input(context, run);
+Status shoot(const Context& context, ReadyScene& p, bool deposits) {
+    if (deposits) return p.shoot(context);
+    TraceInput in = p.method->trace_input(context, p.view());
     in.deposit.mode = kDepositNone;
-    return trace_generation(in, 0, run.scratch, run.photons.slots[0], run.photons.tallies);
+    PhotonRing& ring = p.state().ring;
+    return trace_generation(in, 0, ring.scratch, ring.photons.slots[0], ring.photons.tallies);
 }
 
-TraceTally total_of(const CollectorsRun& run) {
+TraceTally total_of(ReadyScene& p) {
     TraceTally total{};
-    for (const TraceTally& t : run.photons.tallies) add_tally(t, total);
+    for (const TraceTally& t : p.state().ring.photons.tallies) add_tally(t, total);
     return total;
 }
 
-FloorWork floor_work(const CollectorsRun& run) {
-    const TraceTally t = total_of(run);
+FloorWork floor_work(ReadyScene& p) {
+    const TraceTally t = total_of(p);
+    const Buffer<float>& density = p.world().medium.volume.density;
+    const Buffer<float>& majorants = p.state().majorants.tracking;
     FloorWork work{};
     work.tentative = std::uint32_t(t.tentative);
     work.scatterings = std::uint32_t(t.scatterings);
     work.crossings = std::uint32_t(t.crossings);
-    work.voxels = std::uint32_t(run.world->medium.volume.density.size());
-    work.blocks = std::uint32_t(run.majorants.tracking.size());
-    work.density = run.world->medium.volume.density.data();
-    work.majorant = run.majorants.tracking.data();
-    work.collector = run.prepared.collector_of_voxel.data();
+    work.voxels = std::uint32_t(density.size());
+    work.blocks = std::uint32_t(majorants.size());
+    work.density = density.data();
+    work.majorant = majorants.data();
+    work.collector = p.state().prepared.collector_of_voxel.data();
     return work;
 }
 
@@ -81,22 +84,22 @@ void run_trace(benchmark::State& state, Bench& bench, const TraceCase& which,
     double fastest = 1e30;
     for (auto _ : state) {
         state.PauseTiming();
-        forget_photons(p->run);
+        forget_photons(p->state());
         state.ResumeTiming();
         const double start = cpu_seconds();
-        const Status status = shoot(context, p->run, which.deposits);
+        const Status status = shoot(context, *p, which.deposits);
         fastest = std::min(fastest, cpu_seconds() - start);
         state.PauseTiming();
         if (!bench.passed(state, status)) return;
-        bench.check(state, which.name, photon_digest(p->run));
+        bench.check(state, which.name, photon_digest(p->state().ring));
         state.ResumeTiming();
     }
     // Both sides of the ratio are the fastest of several, one after the other.
     const FloorKernel floor = floor_kernel(kernels->name);
     double ratio = 0;
     if (floor != nullptr)
-        ratio = fastest / floor_seconds(bench, state, which, floor, floor_work(p->run));
-    count(state, total_of(p->run), ratio);
+        ratio = fastest / floor_seconds(bench, state, which, floor, floor_work(*p));
+    count(state, total_of(*p), ratio);
 }
 
 void run_floor(benchmark::State& state, Bench& bench, const TraceCase& which,
@@ -104,11 +107,11 @@ void run_floor(benchmark::State& state, Bench& bench, const TraceCase& which,
     ReadyScene* p = bench.prepared(state, which.scene, which.overrides);
     const FloorKernel floor = floor_kernel(kernels->name);
     if (p == nullptr || floor == nullptr) return;
-    forget_photons(p->run);
-    if (!bench.passed(state, shoot(p->context, p->run, which.deposits))) return;
-    const FloorWork work = floor_work(p->run);
+    forget_photons(p->state());
+    if (!bench.passed(state, shoot(p->context, *p, which.deposits))) return;
+    const FloorWork work = floor_work(*p);
     for (auto _ : state) bench.check(state, "floor of " + which.name, floor(work));
-    count(state, total_of(p->run), 1);
+    count(state, total_of(*p), 1);
 }
 
 }  // namespace

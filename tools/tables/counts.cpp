@@ -7,8 +7,10 @@
 #include <vector>
 
 #include "platform/fp_mode.h"
-#include "src/methods/collectors/collectors.h"
+#include "src/methods/collectors/collectors_method.h"
+#include "src/methods/methods.h"
 #include "src/methods/path/trace_paths.h"
+#include "src/picture/finish_frame.h"
 #include "src/scene/read_scene.h"
 #include "src/world/camera/view.h"
 
@@ -23,7 +25,8 @@ constexpr const char* kScene = "assets/studies/scenes/cumulus128.toml";
 struct Piece {
     const Scene* scene;
     Context context;
-    CollectorsRun* run;
+    MethodRun* run;
+    CollectorsMethod* method;
     Film* film;
     PathScratch* scratch;
     Status status = Status::ok();
@@ -36,17 +39,28 @@ void prepare(Piece& p) {
                                   p.context, out);
     if (p.status) p.status = make_majorants(p.run->world->medium, true, p.context, majorants);
 }
-void trace(Piece& p) { p.status = collectors_shoot(p.context, *p.run); }
-void show(Piece& p) {
-    Image image;
-    p.status = collectors_show(0, p.context, *p.run, image);
+void trace(Piece& p) {
+    std::uint64_t done = 0;
+    p.status = p.method->accumulate(p.context, view_of(*p.run, 0), 1, done);
 }
+Status show_frame(Piece& p) {
+    Image image;
+    Planes* planes = nullptr;
+    PILEUS_TRY(p.method->render(p.context, view_of(*p.run, 0), {}, planes));
+    const World& world = *p.run->world;
+    FinishedParts parts;
+    parts.batches = true;
+    return finish_frame(p.context, p.scene->output, world, p.run->environment.depth,
+                        make_camera(p.scene->camera, 0, world.medium.low_m), parts, *planes, image,
+                        *p.context.report);
+}
+void show(Piece& p) { p.status = show_frame(p); }
 PathInput path_input(const Piece& p) {
     PathInput in;
     in.medium = &p.run->world->medium;
-    in.lighting = &p.run->lighting;
-    in.majorants = p.run->majorants.tracking.span();
-    in.block = p.run->majorants.block;
+    in.lighting = &p.method->state().lights.lighting;
+    in.majorants = p.method->state().majorants.tracking.span();
+    in.block = p.method->state().majorants.block;
     in.camera = make_camera(p.scene->camera, 0, p.run->world->medium.low_m);
     in.seed = std::uint64_t(p.scene->seed);
     in.kernels = p.context.kernels;
@@ -66,7 +80,7 @@ extern "C" __attribute__((noinline)) void counted(void (*work)(Piece&), Piece& p
 
 namespace {
 
-Status ready(const char* display, Scene& scene, Piece& p) {
+Status read(const char* display, Scene& scene) {
     const std::vector<std::string> overrides = {"medium.0.resolution=[40,40,40]",
                                                 "collectors.samples=1500",
                                                 "collectors.photons=1500",
@@ -74,9 +88,7 @@ Status ready(const char* display, Scene& scene, Piece& p) {
                                                 "camera.resolution=[48,40]",
                                                 "output.layers=[\"radiance\", \"alpha\"]",
                                                 std::string("collectors.display=") + display};
-    PILEUS_TRY(read_scene_file(kScene, overrides, scene));
-    p.scene = &scene;
-    return open_run(collectors_method(), scene, {}, p.context, true, nullptr, *p.run);
+    return read_scene_file(kScene, overrides, scene);
 }
 
 Status count_piece(const char* name, const char* isa, void (*work)(Piece&), Piece& p) {
@@ -92,19 +104,25 @@ Status count_kernels(const KernelTable* kernels) {
     for (const char* display : {"march", "billboards"}) {
         const bool marched = display[0] == 'm';
         Scene scene;
-        CollectorsRun run;
+        PILEUS_TRY(read(display, scene));
+        auto method = std::make_unique<CollectorsMethod>(MethodInputs{scene, {}, false});
+        MethodRun run;
         Film film;
         PathScratch scratch;
-        Piece p{&scene, Context{}, &run, &film, &scratch};
+        Piece p{&scene, Context{}, &run, method.get(), &film, &scratch};
         p.context.kernels = kernels;
         p.context.report = &report;
-        PILEUS_TRY(ready(display, scene, p));
+        MadeMethod made;
+        made.report = collectors_report(*method);
+        made.method = std::move(method);
+        PILEUS_TRY(open_run(collectors_row(), made, scene, {}, p.context, true, nullptr, run));
         if (marched && kernels == kernel_table_at(0))
             PILEUS_TRY(count_piece("prepare", "any", prepare, p));
         if (marched)
             PILEUS_TRY(count_piece("trace", kernels->name, trace, p));
         else
-            PILEUS_TRY(collectors_shoot(p.context, run));
+            trace(p);
+        PILEUS_TRY(p.status);
         PILEUS_TRY(count_piece(marched ? "march" : "blend", kernels->name, show, p));
         if (!marched) continue;
         const PathInput in = path_input(p);

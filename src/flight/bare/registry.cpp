@@ -5,11 +5,11 @@
 #include "src/methods/registry.h"
 
 #include "kernels_cpu/core/profile.h"
-#include "src/methods/collectors/collectors.h"
+#include "src/methods/collectors/collectors_method.h"
 #include "src/methods/optical_depth/optical_depth.h"
 #include "src/methods/particles/particles_method.h"
 #include "src/methods/path/path_method.h"
-#include "src/methods/photon_grid/photon_grid.h"
+#include "src/methods/photon_grid/photon_grid_method.h"
 #include "src/methods/raymarch/raymarch.h"
 
 namespace pileus {
@@ -40,7 +40,7 @@ Status find_method(const Scene& scene, MethodRow& row) {
     PILEUS_TRY(check_parts(scene));
     const MethodRow known[] = {
 #ifdef PILEUS_FLIGHT_COLLECTORS
-        row_of(collectors_method()),
+        collectors_row(),
 #endif
 #ifdef PILEUS_FLIGHT_PATH
         path_row(),
@@ -52,7 +52,7 @@ Status find_method(const Scene& scene, MethodRow& row) {
         row_of(optical_depth_method()),
 #endif
 #ifdef PILEUS_FLIGHT_PHOTON_GRID
-        row_of(photon_grid_method()),
+        photon_grid_row(),
 #endif
 #ifdef PILEUS_FLIGHT_PARTICLES
         particles_row(),

@@ -2,7 +2,7 @@
 // What each variant errs by once its noise is gone, as measured.
 // in: settings -> out: the row measured that is nearest to them.
 // docs/collectors.md, "Error and time": tables and how they were made.
-#include "src/methods/collectors/collectors.h"
+#include "src/methods/collectors/collectors_state.h"
 
 namespace pileus {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How lit collectors become planes of pixels: the background, the march, the billboards.
-// in: CollectorsRun, colours, the light to show -> out: Planes.
+// in: CollectorsState, colours, the light to show -> out: Planes.
 // docs/methods.md 3, each image frame, steps 4 and 5; repairs 3 and 4.
 #include "src/methods/collectors/collectors_display.h"
 
@@ -22,54 +22,56 @@ constexpr std::uint64_t kNodeBudget = 1u << 19;      // nodes of the source grid
 constexpr std::uint64_t kHarmonicBudget = 1u << 18;  // of one that holds harmonics
 
 /// Spacing of the source nodes: what the budget allows, at least the cells of a cell estimate.
-double source_spacing(const CollectorsRun& run) {
-    const auto& e = run.world->medium.extent_m;
-    const double smallest = double(smallest_cell(run.world->medium.grid));
-    if (run.camera_cells > 0) return smallest * run.camera_cells;
+double source_spacing(const FrameView& view, const CollectorsState& state) {
+    const auto& e = view.world.medium.extent_m;
+    const double smallest = double(smallest_cell(view.world.medium.grid));
+    if (state.camera_cells > 0) return smallest * state.camera_cells;
     double spacing = 2 * smallest;
-    const double budget = double(shows_harmonics(run) ? kHarmonicBudget : kNodeBudget);
+    const double budget = double(shows_harmonics(view, state) ? kHarmonicBudget : kNodeBudget);
     while (e[0] * e[1] * e[2] > spacing * spacing * spacing * budget) spacing *= 1.25;
     return spacing;
 }
 
-NodeGrid source_grid_of(const CollectorsRun& run) {
-    return make_node_grid(run.world->medium.grid, run.world->medium.extent_m, source_spacing(run));
+NodeGrid source_grid_of(const FrameView& view, const CollectorsState& state) {
+    return make_node_grid(view.world.medium.grid, view.world.medium.extent_m,
+                          source_spacing(view, state));
 }
 
 /// The prior weighs as much as the medium that eight scatterings happen in on average.
-SplatOptions splat_options(const CollectorsRun& run) {
+SplatOptions splat_options(const FrameView& view, const CollectorsState& state) {
     double mass = 0, scatterings = 0;
-    for (const Collector& c : run.prepared.collectors.span()) mass += c.mass;
+    for (const Collector& c : state.prepared.collectors.span()) mass += c.mass;
     // Those of the ring alone: a frame must not know how many frames came before it.
-    for (const PhotonSlot& slot : run.photons.slots) scatterings += double(slot.scatterings);
+    for (const PhotonSlot& slot : state.ring.photons.slots) scatterings += double(slot.scatterings);
     SplatOptions options;
     options.radius_factor = kSplatFactor;
-    options.periodic = run.world->medium.grid.periodic;
-    options.medium = make_medium_view(run.world->medium, run.majorants);
+    options.periodic = view.world.medium.grid.periodic;
+    options.medium = make_medium_view(view.world.medium, state.majorants);
     options.prior_mass = scatterings > 0 ? float(kPriorScatterings * mass / scatterings) : 0.0f;
     return options;
 }
 
-/// The colours on nodes, in run.source. Under a sky the media's constant light is not in them, and
-/// photons may take some of it away: together there is no less than no light.
+/// The colours on nodes, in state.source. Under a sky the media's constant light is not in them,
+/// and photons may take some of it away: together there is no less than no light.
 Status splat(const Context& context, Span<const float> colour, int numbers, const NodeGrid& nodes,
-             const Lighting& light, const float* beside, CollectorsRun& run) {
+             const Lighting& light, const float* beside, const FrameView& view,
+             CollectorsState& state) {
     const StageClock clock(context, "splat");
-    SplatOptions options = splat_options(run);
+    SplatOptions options = splat_options(view, state);
     options.beside = beside;
-    options.guided = run.settings.guided_nodes;
-    options.sun_depth = sun_depths_at(run, nodes);
+    options.guided = state.settings.guided_nodes;
+    options.sun_depth = sun_depths_at(state.shadow, nodes);
     // Light that is scattered forward on its way has not faded.
-    options.sun_fades = 1 - mean_cosine(run.world->medium);
-    options.bounded = shows_harmonics(run) ? 0 : 3;
+    options.sun_fades = 1 - mean_cosine(view.world.medium);
+    options.bounded = shows_harmonics(view, state) ? 0 : 3;
     for (std::size_t c = 0; c < 3; ++c) options.least[c] = -float(light.constant[c]);
-    return splat_colours(run.prepared.collectors.span(), colour, numbers, nodes, options,
-                         context.threads, run.source);
+    return splat_colours(state.prepared.collectors.span(), colour, numbers, nodes, options,
+                         context.threads, state.source);
 }
 
 /// Numbers on all of `nodes`, in a buffer of their own.
-SplatOptions near_options(const CollectorsRun& run) {
-    SplatOptions options = splat_options(run);
+SplatOptions near_options(const FrameView& view, const CollectorsState& state) {
+    SplatOptions options = splat_options(view, state);
     options.medium = MediumView{};
     return options;
 }
@@ -95,13 +97,13 @@ void choose_near(Span<const Collector> all, const MarchParams& k, Buffer<Collect
 
 /// What the nodes around the camera scatter in all directions, the whole picture's first and then
 /// that of each batch; nothing where the camera is too far away.
-Status light_near(const Context& context, CollectorsRun& run, const ReconstructInput& lit,
-                  MarchParams& k, NodeLight& light) {
-    if (!shows_near(run)) return Status::ok();
+Status light_near(const Context& context, const FrameView& view, CollectorsState& state,
+                  const ReconstructInput& lit, MarchParams& k, NodeLight& light) {
+    if (!shows_near(view, state)) return Status::ok();
     k.near = near_nodes(k.source, lit.camera.origin);
     if (k.near.size[0] == 0) return Status::ok();
     const StageClock clock(context, "splat");
-    const Span<const Collector> all = run.prepared.collectors.span();
+    const Span<const Collector> all = state.prepared.collectors.span();
     Buffer<Collector> moved;
     PILEUS_TRY(allocate(arrays::near_collectors(all.size), moved));
     std::vector<std::uint32_t> which;
@@ -113,7 +115,7 @@ Status light_near(const Context& context, CollectorsRun& run, const ReconstructI
     moved.truncate(which.size());
     NodeGrid nodes = k.source;
     for (int a = 0; a < 3; ++a) nodes.size[a] = k.near.size[a];
-    const SplatOptions options = near_options(run);
+    const SplatOptions options = near_options(view, state);
     HarmonicSource harmonics;
     Buffer<float> splatted;
     for (int part = 0; part <= lit.batches; ++part) {
@@ -127,24 +129,25 @@ Status light_near(const Context& context, CollectorsRun& run, const ReconstructI
         const std::size_t parts = 1 + std::size_t(lit.batches);
         PILEUS_TRY(allocate_once(
             arrays::near_nodes(parts * std::uint64_t(k.sets * k.harmonics), node_count(nodes)),
-            run.near_light));
+            state.picture.near_light));
         gather_by_node(context, k, node_count(nodes), splatted.span(),
-                       run.near_light.span().part(std::size_t(part) * numbers, numbers));
+                       state.picture.near_light.span().part(std::size_t(part) * numbers, numbers));
     }
-    light.near = run.near_light.data();
+    light.near = state.picture.near_light.data();
     return Status::ok();
 }
 
 /// Whether this is the picture itself and not that of a part of its light.
-bool is_whole(const CollectorsRun& run, const ReconstructInput& lit) {
-    return lit.lighting == &run.lighting && !lit.first_order_alone;
+bool is_whole(const CollectorsState& state, const ReconstructInput& lit) {
+    return lit.lighting == &state.lights.lighting && !lit.first_order_alone;
 }
 
 /// Without colours there is one dark node, so that the sun's first order is alone.
-Status show_marched(const Context& context, CollectorsRun& run, const ReconstructInput& lit,
-                    const CollectorColours& colours, int channels, Planes& planes) {
-    PILEUS_TRY(make_sun_shadow(context, run));
-    MarchParams k = lit_march_params(run, lit, source_grid_of(run));
+Status show_marched(const Context& context, const FrameView& view, CollectorsState& state,
+                    const ReconstructInput& lit, const CollectorColours& colours, int channels,
+                    Planes& planes) {
+    PILEUS_TRY(make_sun_shadow(context, view, state));
+    MarchParams k = lit_march_params(view, state, lit, source_grid_of(view, state));
     k.channels = channels;
     NodeLight light;
     Buffer<float> by_channel;
@@ -153,31 +156,31 @@ Status show_marched(const Context& context, CollectorsRun& run, const Reconstruc
         PILEUS_TRY(allocate(arrays::source_planes(std::uint64_t(channels), 1), by_channel));
         light.planes = by_channel.data();
     } else {
-        PILEUS_TRY(light_near(context, run, lit, k, light));
-        const float* depths = channels == 3 ? sun_depths_at(run, k.source) : nullptr;
-        PILEUS_TRY(
-            splat(context, colours.colour.span(), channels, k.source, *lit.lighting, depths, run));
+        PILEUS_TRY(light_near(context, view, state, lit, k, light));
+        const float* depths = channels == 3 ? sun_depths_at(state.shadow, k.source) : nullptr;
+        PILEUS_TRY(splat(context, colours.colour.span(), channels, k.source, *lit.lighting, depths,
+                         view, state));
         if (reads_quads(context, channels, k.source)) {
-            light.quads = run.source.data();
+            light.quads = state.source.data();
             light.depths = depths != nullptr;
         } else {
             const StageClock clock(context, "splat");
-            PILEUS_TRY(planes_of_nodes(run.source.span(), channels, k.source, context.threads,
+            PILEUS_TRY(planes_of_nodes(state.source.span(), channels, k.source, context.threads,
                                        by_channel));
             light.planes = by_channel.data();
         }
     }
-    if (!kFilms || is_whole(run, lit))
-        return march_thinned(context, run.thin, light, k, run, planes);
-    return march_lit(context, run, light, k, planes.colour.data(), planes);
+    if (!kFilms || is_whole(state, lit))
+        return march_thinned(context, view, light, k, state, planes);
+    return march_lit(context, view, state, light, k, planes.colour.data(), planes);
 }
 
 /// A periodic medium shows each collector from many directions at once: the nodes hold harmonics.
 /// One march for the picture and one for each batch.
-Status show_harmonics(const Context& context, CollectorsRun& run, const ReconstructInput& in,
-                      Planes& planes) {
-    PILEUS_TRY(make_sun_shadow(context, run));
-    MarchParams k = lit_march_params(run, in, source_grid_of(run));
+Status show_harmonics(const Context& context, const FrameView& view, CollectorsState& state,
+                      const ReconstructInput& in, Planes& planes) {
+    PILEUS_TRY(make_sun_shadow(context, view, state));
+    MarchParams k = lit_march_params(view, state, in, source_grid_of(view, state));
     const std::size_t pixels = std::size_t(k.camera.width) * std::size_t(k.camera.height);
     HarmonicSource lit;
     Buffer<float> by_node;
@@ -191,23 +194,23 @@ Status show_harmonics(const Context& context, CollectorsRun& run, const Reconstr
         set_harmonic_sets(in.deposit, lit.sets, lit.colour, k);
         float* target = planes.colour.data() + 3 * std::size_t(batch + 1) * pixels;
         PILEUS_TRY(splat(context, lit.values.span(), lit.sets * lit.numbers, k.source, *in.lighting,
-                         nullptr, run));
+                         nullptr, view, state));
         PILEUS_TRY(allocate_once(
             arrays::source_by_node(node_count(k.source) * std::uint64_t(k.sets * k.harmonics)),
             by_node));
-        gather_by_node(context, k, node_count(k.source), run.source.span(), by_node.span());
+        gather_by_node(context, k, node_count(k.source), state.source.span(), by_node.span());
         const NodeLight light{by_node.data()};
-        PILEUS_TRY(!kFilms || (batch < 0 && is_whole(run, in))
-                       ? march_thinned(context, run.thin, light, k, run, planes)
-                       : march_lit(context, run, light, k, target, planes));
+        PILEUS_TRY(!kFilms || (batch < 0 && is_whole(state, in))
+                       ? march_thinned(context, view, light, k, state, planes)
+                       : march_lit(context, view, state, light, k, target, planes));
     }
     // The picture's own digest, not those of its parts.
-    if (kPlans && in.lighting == &run.lighting && context.digests)
-        context.report->digests.emplace_back("colours", digest.hex());
+    if (kPlans && in.lighting == &state.lights.lighting && context.digests)
+        state.picture.colours = digest.hex();
     return Status::ok();
 }
 
-Status show_billboards(const Context& context, const CollectorsRun& run,
+Status show_billboards(const Context& context, const FrameView& view, const CollectorsState& state,
                        const ReconstructInput& lit, const CollectorColours& colours, int channels,
                        Planes& planes) {
     // Lend the planes' memory: they are blended where they will be read.
@@ -218,7 +221,7 @@ Status show_billboards(const Context& context, const CollectorsRun& run,
         planes.colour.swap(out.colour);
     };
     exchange();
-    const Status status = collectors_billboards(context, run, lit.camera, colours, channels,
+    const Status status = collectors_billboards(context, view, state, lit.camera, colours, channels,
                                                 planes.opaque_depth.data(), out);
     exchange();
     return status;
@@ -226,27 +229,30 @@ Status show_billboards(const Context& context, const CollectorsRun& run,
 
 }  // namespace
 
-Status collectors_display(const Context& context, CollectorsRun& run, const ReconstructInput& lit,
-                          const CollectorColours& colours, int channels, Planes& planes) {
-    if (shows_harmonics(run) && (!kFilms || !lit.first_order_alone))
-        return show_harmonics(context, run, lit, planes);
-    if (!is_marched(run)) return show_billboards(context, run, lit, colours, channels, planes);
-    PILEUS_TRY(show_marched(context, run, lit, colours, channels, planes));
-    return add_lit_lamps(context, run, lit, planes);
+Status collectors_display(const Context& context, const FrameView& view, CollectorsState& state,
+                          const ReconstructInput& lit, const CollectorColours& colours,
+                          int channels, Planes& planes) {
+    if (shows_harmonics(view, state) && (!kFilms || !lit.first_order_alone))
+        return show_harmonics(context, view, state, lit, planes);
+    if (!is_marched(state))
+        return show_billboards(context, view, state, lit, colours, channels, planes);
+    PILEUS_TRY(show_marched(context, view, state, lit, colours, channels, planes));
+    return add_lit_lamps(context, view, state, lit, planes);
 }
 
-Status collectors_billboards(const Context& context, const CollectorsRun& run,
-                             const CameraParams& camera, const CollectorColours& colours,
-                             int channels, const float* opaque_depth, BillboardImage& out) {
+Status collectors_billboards(const Context& context, const FrameView& view,
+                             const CollectorsState& state, const CameraParams& camera,
+                             const CollectorColours& colours, int channels,
+                             const float* opaque_depth, BillboardImage& out) {
     const StageClock clock(context, "blend");
-    const std::size_t n = run.prepared.collectors.size();
+    const std::size_t n = state.prepared.collectors.size();
     Buffer<float> spheres;
     PILEUS_TRY(allocate(arrays::billboard_numbers(n), spheres));
     for (std::size_t i = 0; i < n; ++i) {
-        const Collector& c = run.prepared.collectors[i];
+        const Collector& c = state.prepared.collectors[i];
         for (std::size_t a = 0; a < 3; ++a) spheres[a * n + i] = c.centre[a];
         spheres[3 * n + i] = c.billboard_radius;
-        spheres[4 * n + i] = c.extinction * run.world->medium.sigma;
+        spheres[4 * n + i] = c.extinction * view.world.medium.sigma;
     }
     BillboardScene scene;
     scene.x = spheres.data();
@@ -258,8 +264,8 @@ Status collectors_billboards(const Context& context, const CollectorsRun& run,
     scene.count = std::uint32_t(n);
     scene.channels = channels;
     scene.opaque_depth = opaque_depth;
-    scene.half_depth = run.scene->wants_depth();
-    const Compositor by = run.settings.compositor;
+    scene.half_depth = view.scene.wants_depth();
+    const Compositor by = state.settings.compositor;
     if (!kFilms || by == Compositor::kBuiltin)
         return composite_billboards(
             scene, camera, context.threads, context.kernels->blend_tile, out,
@@ -270,46 +276,47 @@ Status collectors_billboards(const Context& context, const CollectorsRun& run,
     return blend_by_gl(blender, scene, camera, context.threads, out);
 }
 
-void collectors_size_display(const CollectorsRun& run, const Context& context,
-                             CollectorsSizes& sizes) {
-    const OutputSettings& output = run.scene->output;
-    sizes.width = std::uint64_t(run.scene->camera.resolution[0]);
-    sizes.height = std::uint64_t(run.scene->camera.resolution[1]);
-    sizes.planes = 3 * (1 + std::uint64_t(photon_batches(run)));
+void collectors_size_display(const FrameView& view, const CollectorsState& state,
+                             const Context& context, CollectorsSizes& sizes) {
+    const OutputSettings& output = view.scene.output;
+    sizes.width = std::uint64_t(view.scene.camera.resolution[0]);
+    sizes.height = std::uint64_t(view.scene.camera.resolution[1]);
+    sizes.planes = 3 * (1 + std::uint64_t(photon_batches(state)));
     sizes.layers = 4 + extra_layers(output, sizes.planes > 3);
-    sizes.marched = is_marched(run);
-    sizes.ground = run.lighting.opaque();
-    sizes.depth = run.scene->wants_depth();
+    sizes.marched = is_marched(state);
+    sizes.ground = state.lights.lighting.opaque();
+    sizes.depth = view.scene.wants_depth();
     const std::uint64_t parts =
         kFilms ? (output.layer_light ? 3u : 0u) + (output.layer_order ? 3u : 0u) : 0u;
     sizes.extra_planes = parts + (kFilms && output.layer_optical_depth ? 1u : 0u);
     sizes.parts = parts > 0;
     if (!sizes.marched) return;
-    const NodeGrid nodes = source_grid_of(run);
+    const NodeGrid nodes = source_grid_of(view, state);
     sizes.source_nodes = source_nodes(nodes);
-    sizes.guided_nodes = run.settings.guided_nodes ? node_count(nodes) : 0;
+    sizes.guided_nodes = state.settings.guided_nodes ? node_count(nodes) : 0;
     // Without scattered light there is one dark node.
     sizes.planes_by_channel = sizes.planes;
     sizes.fine_nodes = reads_quads(context, int(sizes.planes), nodes) ? 1 : node_count(nodes);
     const std::uint64_t numbers =
-        std::uint64_t(run.deposit.bands) * std::uint64_t(run.deposit.bands) +
-        std::uint64_t(run.deposit.axis_degrees);
-    const std::uint64_t stored = std::uint64_t(stored_harmonics(run.deposit));
-    const std::uint64_t sets = std::uint64_t(harmonic_sets(run.deposit.channels, run.lighting));
-    if (shows_harmonics(run)) {
+        std::uint64_t(state.lights.deposit.bands) * std::uint64_t(state.lights.deposit.bands) +
+        std::uint64_t(state.lights.deposit.axis_degrees);
+    const std::uint64_t stored = std::uint64_t(stored_harmonics(state.lights.deposit));
+    const std::uint64_t sets =
+        std::uint64_t(harmonic_sets(state.lights.deposit.channels, state.lights.lighting));
+    if (shows_harmonics(view, state)) {
         sizes.harmonics = sets * numbers;
         sizes.numbers_by_node = bytes_of(node_count(nodes), sets * stored);
     }
-    if (shows_near(run)) {
-        sizes.near_nodes = near_nodes_of(run, nodes, context);
+    if (shows_near(view, state)) {
+        sizes.near_nodes = near_nodes_of(context, view, nodes);
         sizes.near_levels = 2 * sizes.near_nodes + 64;
         sizes.near_harmonics = sets * numbers;
         sizes.near_stored = sets * stored;
     }
-    if (run.lighting.sunlit && run.deposit.first_order == 2)
-        sizes.shadow_nodes = sun_shadow_numbers(run);
-    sizes.beam_sets = beam_sets(run);
-    sizes.lamp_depths = lamp_numbers(run.world->medium, run.lighting);
+    if (state.lights.lighting.sunlit && state.lights.deposit.first_order == 2)
+        sizes.shadow_nodes = sun_shadow_numbers(view);
+    sizes.beam_sets = beam_sets(view, state);
+    sizes.lamp_depths = lamp_numbers(view.world.medium, state.lights.lighting);
 }
 
 }  // namespace pileus

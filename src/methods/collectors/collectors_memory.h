@@ -3,7 +3,7 @@
 // in: sizes, bounded before preparation or exact after it -> out: rows of the plan's table.
 // docs/report.md, "Memory".
 #pragma once
-#include "src/methods/collectors/collectors.h"
+#include "src/methods/collectors/collectors_state.h"
 #include "src/plan/memory_table.h"
 #include "src/world/plan_parts.h"
 
@@ -39,8 +39,12 @@ struct CollectorsSizes {
     bool shoots_again = false;  ///< an animation: what tracing needs stays until the end
 };
 
-/// The sizes of a run: bounds before `collectors_prepare` has filled it, exact afterwards.
-CollectorsSizes collectors_sizes(const CollectorsRun& run, const Context& context);
+/// The sizes of a state: bounds before `prepare` has filled it, exact afterwards.
+CollectorsSizes collectors_sizes(const FrameView& view, const CollectorsState& state,
+                                 const Context& context);
+/// Those of the display's grids; part of the same.
+void collectors_size_display(const FrameView& view, const CollectorsState& state,
+                             const Context& context, CollectorsSizes& sizes);
 
 /// Bytes of one thread's own sums, its distance to the next one's among them.
 std::uint64_t bytes_of_sums(const CollectorsSizes& sizes);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Parts of a collectors picture's light: the sun's, the singly scattered; and the optical depth.
-// in: CollectorsRun after shooting -> out: planes of the layers light, order and optical_depth.
+// in: CollectorsState after shooting -> out: planes of the layers light, order and optical_depth.
 // docs/formats.md, "Pictures out".
 #include "src/methods/collectors/collectors_display.h"
 #include "src/photons/lit_march.h"
@@ -9,24 +9,24 @@ namespace pileus {
 namespace {
 
 /// A picture of one part of the light, without batches; `colours` as in collectors_display.
-Status show_part(const Context& context, CollectorsRun& run, const ReconstructInput& lit,
-                 const CollectorColours& colours, Planes& part) {
+Status show_part(const Context& context, const FrameView& view, CollectorsState& state,
+                 const ReconstructInput& lit, const CollectorColours& colours, Planes& part) {
     PILEUS_TRY(allocate_planes(lit.camera.width, lit.camera.height, 3, lit.lighting->opaque(),
                                false, part));
-    PILEUS_TRY(fill_lit_background(context, run, lit, 0, part));
-    return collectors_display(context, run, lit, colours, 3, part);
+    PILEUS_TRY(fill_lit_background(context, view, state, lit, 0, part));
+    return collectors_display(context, view, state, lit, colours, 3, part);
 }
 
-Status show_sun(const Context& context, CollectorsRun& run, const ReconstructInput& whole,
-                Planes& planes) {
+Status show_sun(const Context& context, const FrameView& view, CollectorsState& state,
+                const ReconstructInput& whole, Planes& planes) {
     const Lighting light = sun_alone(*whole.lighting);
     ReconstructInput lit = whole;
     lit.lighting = &light;
     lit.batches = 0;
     CollectorColours colours;
-    if (!shows_harmonics(run)) PILEUS_TRY(reconstruct(lit, colours));
+    if (!shows_harmonics(view, state)) PILEUS_TRY(reconstruct(lit, colours));
     Planes part;
-    PILEUS_TRY(show_part(context, run, lit, colours, part));
+    PILEUS_TRY(show_part(context, view, state, lit, colours, part));
     const std::size_t pixels = part.transmittance.size();
     for (std::size_t i = 0; i < 3 * pixels; ++i)
         part.colour[i] += part.transmittance[i % pixels] * part.background[i];
@@ -35,8 +35,8 @@ Status show_sun(const Context& context, CollectorsRun& run, const ReconstructInp
 }
 
 /// Light that the media scattered once, straight from the sun and the lamps.
-Status show_single(const Context& context, CollectorsRun& run, const ReconstructInput& whole,
-                   Planes& planes) {
+Status show_single(const Context& context, const FrameView& view, CollectorsState& state,
+                   const ReconstructInput& whole, Planes& planes) {
     if (!whole.lighting->sunlit && whole.lighting->lamps.empty())
         return allocate(arrays::picture_planes(1, planes.colour.size()), planes.single);
     Lighting light = sun_alone(*whole.lighting);
@@ -46,21 +46,22 @@ Status show_single(const Context& context, CollectorsRun& run, const Reconstruct
     lit.batches = 0;
     lit.first_order_alone = true;
     CollectorColours colours;
-    if (run.deposit.first_order == 1) PILEUS_TRY(reconstruct(lit, colours));
+    if (state.lights.deposit.first_order == 1) PILEUS_TRY(reconstruct(lit, colours));
     Planes part;
-    PILEUS_TRY(show_part(context, run, lit, colours, part));
+    PILEUS_TRY(show_part(context, view, state, lit, colours, part));
     planes.single.swap(part.colour);
     return Status::ok();
 }
 
 }  // namespace
 
-Status collectors_parts(const Context& context, CollectorsRun& run, const ReconstructInput& lit,
-                        Planes& planes) {
-    const OutputSettings& output = run.scene->output;
-    if (output.layer_optical_depth) PILEUS_TRY(show_optical_depth(context, run, lit, planes));
-    if (output.layer_light) PILEUS_TRY(show_sun(context, run, lit, planes));
-    if (output.layer_order) PILEUS_TRY(show_single(context, run, lit, planes));
+Status collectors_parts(const Context& context, const FrameView& view, CollectorsState& state,
+                        const ReconstructInput& lit, Planes& planes) {
+    const OutputSettings& output = view.scene.output;
+    if (output.layer_optical_depth)
+        PILEUS_TRY(show_optical_depth(context, view, state, lit, planes));
+    if (output.layer_light) PILEUS_TRY(show_sun(context, view, state, lit, planes));
+    if (output.layer_order) PILEUS_TRY(show_single(context, view, state, lit, planes));
     return Status::ok();
 }
 

@@ -1,18 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a collectors run tells: energy, counters, digests per stage.
-// in: CollectorsRun -> out: Report.
+// What people are told of method `collectors`: what it needs, energy, counters, digests.
+// in: its state, outlined or prepared -> out: a plan, a report.
 // docs/report.md.
-#include "kernels_cpu/core/profile.h"
 #include "src/base/digest.h"
-#include "src/methods/collectors/collectors.h"
+#include "src/methods/collectors/collectors_method.h"
 #include "src/photons/photon_report.h"
+#include "src/picture/finish_frame.h"
+#include "src/world/plan_parts.h"
 
 namespace pileus {
 namespace {
 
-std::string leaf_digest(const CollectorsRun& run) {
+std::string leaf_digest(const CollectorsState& state) {
     Digest d;
-    for (const Leaf& leaf : run.prepared.leaves.span()) {
+    for (const Leaf& leaf : state.prepared.leaves.span()) {
         const std::int32_t faces[] = {leaf.lo[0], leaf.hi[0], leaf.lo[1],
                                       leaf.hi[1], leaf.lo[2], leaf.hi[2]};
         d.words({faces, 6});
@@ -20,9 +21,9 @@ std::string leaf_digest(const CollectorsRun& run) {
     return d.hex();
 }
 
-std::string collector_digest(const CollectorsRun& run) {
+std::string collector_digest(const CollectorsState& state) {
     Digest d;
-    for (const Collector& c : run.prepared.collectors.span()) {
+    for (const Collector& c : state.prepared.collectors.span()) {
         const float numbers[] = {c.centre[0], c.centre[1], c.centre[2], c.billboard_radius,
                                  c.extinction};
         d.floats({numbers, 5});
@@ -31,33 +32,93 @@ std::string collector_digest(const CollectorsRun& run) {
 }
 
 /// Numbers that the photon map holds for each collector.
-std::uint64_t coefficients_of(const CollectorsRun& run) {
-    return std::uint64_t(run.deposit.channels) * std::uint64_t(run.deposit.coefficients) *
-           run.lighting.lights.size() * run.photons.slots.size();
+std::uint64_t coefficients_of(const CollectorsState& state) {
+    const DepositPlan& deposit = state.lights.deposit;
+    return std::uint64_t(deposit.channels) * std::uint64_t(deposit.coefficients) *
+           state.lights.lighting.lights.size() * state.ring.photons.slots.size();
+}
+
+void explain_deposit(const FrameView& view, const CollectorsState& state, Plan& plan) {
+    if (const char* why = why_no_peak(view, state.settings.peak_deg, state))
+        plan.leave_out("the beam's peak", why);
+    if (state.lights.deposit.axis_degrees == 0) {
+        const char* why = why_no_collectors_axis(view, state);
+        plan.leave_out("degrees about the sun's axis",
+                       why != nullptr ? why : "no phase function has moments there");
+    }
+    explain_split(splits_first_order(state), state, plan);
 }
 
 }  // namespace
 
-void collectors_digest_prepared(CollectorsRun& run) {
-    run.digests = {{"density", density_digest(*run.world)},
-                   {"leaves", leaf_digest(run)},
-                   {"collectors", collector_digest(run)}};
+void CollectorsReport::explain(const Context& context, const FrameView& view, Plan& plan) const {
+    const CollectorsState& state = of_.state();
+    explain_photon_lights(view, state, plan);
+    plan.bias = collectors_bias(state.settings);
+    explain_deposit(view, state, plan);
+    plan.need("samples");
+    plan.need("tree");
+    plan.need("collectors");
+    plan.need("majorants");
+    for (const Light& l : state.lights.lighting.lights)
+        plan.need(("photons from the " + l.name).c_str());
+    plan.need(is_marched(state) ? "marched display" : "billboards");
+    explain_photon_picture(view, state, plan);
+    if (!state.settings.billboards) plan.leave_out("billboards", "display = \"march\"");
+    explain_media(view, plan);
+    plan.skip(Stage::kPaths);
+    note_collectors_limits(context, view, plan);
 }
 
-void collectors_count(const CollectorsRun& run, Counts& counters) {
-    count_photons(run, counters);
-    counters.emplace_back("samples_given_up", run.prepared.rejected);
+void note_collectors_limits(const Context& context, const FrameView& view, Plan& plan) {
+    note_limits(view.scene, view.world.medium.grid, context.limits,
+                {LimitId::kVoxels, LimitId::kSamples, LimitId::kPhotons, LimitId::kPixels,
+                 LimitId::kFrames, LimitId::kMemory, LimitId::kScatterings, LimitId::kWork},
+                plan);
 }
 
-void collectors_report(const CollectorsRun& run, Report& report) {
-    report.prepared.samples = run.prepared.samples;
-    report.prepared.leaves = run.prepared.leaves.size();
-    report.prepared.collectors = run.prepared.collectors.size();
-    report_photons(run, report);
-    report.executed.emplace_back("coefficients", coefficients_of(run));
-    if (run.digests.empty()) return;
-    report.digests.insert(report.digests.begin(), {"photons", photon_digest(run.photons)});
-    report.digests.insert(report.digests.begin(), run.digests.begin(), run.digests.end());
+void CollectorsReport::digest(const FrameView& view, Digests& digests) const {
+    digests = {{"density", density_digest(view.world)},
+               {"leaves", leaf_digest(of_.state())},
+               {"collectors", collector_digest(of_.state())}};
+}
+
+LightGoal CollectorsReport::goal(const FrameView&) const {
+    return photon_goal(of_.state(), of_.state().ring.generations);
+}
+
+void CollectorsReport::digest_picture(const Context& context, Digests& digests) {
+    digest_photon_sums(context, of_, digests);
+    const std::string& colours = of_.state().picture.colours;
+    if (!colours.empty()) digests.emplace_back("colours", colours);
+}
+
+FinishedParts CollectorsReport::finished() const {
+    FinishedParts parts;
+    parts.batches = true;
+    return parts;
+}
+
+void CollectorsReport::report(Report& report) const {
+    const CollectorsState& state = of_.state();
+    report.prepared.samples = state.prepared.samples;
+    report.prepared.leaves = state.prepared.leaves.size();
+    report.prepared.collectors = state.prepared.collectors.size();
+    report_photons(state, report);
+    report.executed.emplace_back("coefficients", coefficients_of(state));
+}
+
+void CollectorsReport::budget_used(int frame, const Report& report, Budget& used) const {
+    photon_budget_used(frame, of_.state(), report, used);
+}
+
+void CollectorsReport::put_work(const FrameWork& work, MethodTables& tables) const {
+    if (of_.state().picture.thins) pileus::put_work(work, tables.collectors.thin);
+    tables.collectors.light_refresh = work.light_refresh;
+}
+
+std::unique_ptr<MethodReport> collectors_report(CollectorsMethod& method) {
+    return std::make_unique<CollectorsReport>(method);
 }
 
 }  // namespace pileus

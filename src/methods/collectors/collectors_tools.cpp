@@ -2,8 +2,7 @@
 // What programs ask of method `collectors` besides pictures.
 // in: a scene -> out: settings of other qualities, what films depend on.
 // docs/program.md, "Quality"
-#include "src/methods/collectors/collectors.h"
-#include "src/methods/method_tools.h"
+#include "src/methods/collectors/collectors_method.h"
 
 namespace pileus {
 namespace {

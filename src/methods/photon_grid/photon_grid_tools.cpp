@@ -2,8 +2,7 @@
 // What programs ask of method `photon-grid` besides pictures.
 // in: a scene -> out: settings of other qualities, what films depend on.
 // docs/program.md, "Quality"
-#include "src/methods/method_tools.h"
-#include "src/methods/photon_grid/photon_grid.h"
+#include "src/methods/photon_grid/photon_grid_method.h"
 
 namespace pileus {
 namespace {

@@ -1,13 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // The grid's raw numbers as pictures: flux and anisotropy of each cell, slice beside slice.
-// in: a lit PhotonGridRun -> out: an image of all level slices, the numbers themselves as `value`.
+// in: lit PhotonGridState -> out: an image of all level slices, the numbers themselves as `value`.
 // docs/photon-grid.md, "Slices"; Märkl 2018, figure 5.6.
-#include "src/methods/photon_grid/photon_grid.h"
+#include "src/methods/photon_grid/photon_grid_method.h"
+#include "src/photons/photon_report.h"
 #include "src/photons/scatter.h"
 #include "src/picture/canvas/colours.h"
+#include "src/scene/frames.h"
+#include "src/world/camera/view.h"
 
 namespace pileus {
 namespace {
+
+enum class GridSlices { kFlux, kAnisotropy };
 
 /// Flux of a cell, and flux times the mean cosine to the first light's direction, green, per unit
 /// of what the deposits stand for.
@@ -102,16 +107,18 @@ void paint_slice(const Sheet& sheet, const CellGrid& cells, GridSlices what, int
         }
 }
 
-}  // namespace
-
-Status photon_grid_show_slices(GridSlices what, double orbit_deg, const Context& context,
-                               PhotonGridRun& run, Image& image) {
-    const CameraParams camera = make_camera(run.scene->camera, orbit_deg, run.world->medium.low_m);
-    const GridLightInput in = photon_grid_light_input(camera, context, run);
+/// All level slices of the grid beside one another: flux of the light in each cell that has been
+/// scattered, or its mean cosine to the first light's direction; channel `value` holds the numbers.
+Status show_slices(GridSlices what, const Context& context, const FrameView& view,
+                   const PhotonGridState& state, Image& image) {
+    const Lighting& lighting = state.lights.lighting;
+    const CameraParams camera =
+        make_camera(view.scene.camera, orbit_at(view.scene, view.frame), view.world.medium.low_m);
+    const GridLightInput in = grid_light_input(camera, context, view, state);
     float axis[3] = {0, 0, -1};
-    if (!run.lighting.lights.empty() && run.lighting.lights[0].beam)
-        for (std::size_t a = 0; a < 3; ++a) axis[a] = run.lighting.lights[0].travel[a];
-    const std::size_t count = std::size_t(run.cells.count());
+    if (!lighting.lights.empty() && lighting.lights[0].beam)
+        for (std::size_t a = 0; a < 3; ++a) axis[a] = lighting.lights[0].travel[a];
+    const std::size_t count = std::size_t(state.cells.count());
     CellValues of{std::vector<float>(count), std::vector<bool>(count)};
     for (std::size_t i = 0; i < count; ++i) {
         if (in.marks[i] == kCellEmpty) continue;
@@ -121,17 +128,63 @@ Status photon_grid_show_slices(GridSlices what, double orbit_deg, const Context&
         of.shown[i] = true;
         of.full = of.values[i] > of.full ? of.values[i] : of.full;
     }
-    const Sheet sheet = sheet_of(run.cells, run.scene->camera.resolution);
+    const Sheet sheet = sheet_of(state.cells, view.scene.camera.resolution);
     image.width = sheet.width;
     image.height = sheet.height;
     image.display_colours = true;
     PILEUS_TRY(add_slice_channels(image));
-    for (int z = 0; z < run.cells.size[2]; ++z) paint_slice(sheet, run.cells, what, z, of, image);
+    for (int z = 0; z < state.cells.size[2]; ++z)
+        paint_slice(sheet, state.cells, what, z, of, image);
     Report& report = *context.report;
     report.counters = {{"slices_across", std::uint64_t(sheet.across)},
                        {"slices_down", std::uint64_t(sheet.down)},
                        {"pixels_per_cell", std::uint64_t(sheet.zoom)}};
     return Status::ok();
+}
+
+class SlicesMethod final : public PhotonGridMethod {
+public:
+    using PhotonGridMethod::PhotonGridMethod;
+
+protected:
+    Status check(const Context& context, const FrameView& view) override {
+        if (view.scene.photon_grid.closure == GridClosure::kCamera)
+            return Status::bad_input(view.scene.file +
+                                     ": photon_grid.closure: \"camera\" keeps neither flux nor "
+                                     "directions to show, allowed: sh, published, mean");
+        return PhotonGridMethod::check(context, view);
+    }
+};
+
+class SlicesReport final : public PhotonGridReport {
+public:
+    SlicesReport(GridSlices what, PhotonGridMethod& of) : PhotonGridReport(of), what_(what) {}
+
+    Status draw(const Context& context, const FrameView& view, Image& image) override {
+        digest_photon_sums(context, of_, context.report->digests);
+        return show_slices(what_, context, view, of_.state(), image);
+    }
+
+private:
+    GridSlices what_;
+};
+
+template <GridSlices kWhat>
+MadeMethod make_slices(const MethodInputs& inputs) {
+    auto method = std::make_unique<SlicesMethod>(inputs);
+    MadeMethod made;
+    made.report = std::make_unique<SlicesReport>(kWhat, *method);
+    made.method = std::move(method);
+    return made;
+}
+
+}  // namespace
+
+const ViewRow* photon_grid_views(int& count) {
+    static constexpr ViewRow all[] = {{"flux-slices", make_slices<GridSlices::kFlux>},
+                                      {"anisotropy-slices", make_slices<GridSlices::kAnisotropy>}};
+    count = int(sizeof all / sizeof all[0]);
+    return all;
 }
 
 }  // namespace pileus

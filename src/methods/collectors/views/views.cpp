@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // See views.h. Which steps a view needs; views_draw.cpp draws them.
-// in: a scene -> out: the prepared part of a run, and what its report says.
+// in: a scene -> out: the prepared part of a method, and what its report says.
 // docs/how-it-works.md
 #include "src/methods/collectors/views/views.h"
 
 #include "src/base/digest.h"
+#include "src/photons/photon_report.h"
 
 namespace pileus {
 namespace {
@@ -18,20 +19,94 @@ bool needs_tree(View view) {
     return view == View::kTree || view == View::kLeafDensity || view == View::kCollectors;
 }
 
+CollectorSettings shown_settings(const Scene& scene) {
+    CollectorSettings settings = scene.collectors;
+    settings.billboards = true;
+    return settings;
+}
+
+}  // namespace
+
+ViewMethod::ViewMethod(View what, const MethodInputs& inputs)
+    : CollectorsMethod(inputs, shown_settings(inputs.scene)), what_(what) {
+    state().error_layer = false;
+}
+
+Status ViewMethod::check(const Context& context, const FrameView& view) {
+    const bool missing = what_ == View::kGradientSlice || what_ == View::kGradient ||
+                         what_ == View::kSamples || what_ == View::kIllumination;
+    if (missing && state().settings.camera_closure)
+        return Status::bad_input(
+            std::string("--show: ") + name_of(what_) +
+            ": closure \"camera\" has no such step, allowed: density-slice, "
+            "tree, leaf-density, collectors, photons, or another collectors.closure");
+    return CollectorsMethod::check(context, view);
+}
+
+Status ViewMethod::plan(const Context& context, const FrameView& view, Plan& plan) {
+    return ready_ ? Status::ok() : CollectorsMethod::plan(context, view, plan);
+}
+
+Status ViewMethod::prepare_step(const Context& context, const FrameView& view) {
+    CollectorsState& s = state();
+    const Medium& medium = view.world.medium;
+    switch (what_) {
+        case View::kDensitySlice:
+            return Status::ok();
+        case View::kGradientSlice:
+        case View::kGradient:
+            return prepare_sample_field(medium, s.settings, context, field_, stats_);
+        case View::kSamples:
+            return prepare_sample_set(medium, s.settings, view.scene.seed, context, samples_);
+        case View::kPhotons:
+            return make_photon_majorants(medium, s.settings.local_tracking, context, s.majorants);
+        default:
+            return s.camera_cells > 0 ? prepare_cells(medium, s.camera_cells, context, s.prepared)
+                                      : prepare_collectors(medium, s.settings, view.scene.seed,
+                                                           context, s.prepared);
+    }
+}
+
+Status ViewMethod::prepare(const Context& context, const FrameView& view) {
+    if (what_ == View::kIllumination) return CollectorsMethod::prepare(context, view);
+    Plan plan;
+    PILEUS_TRY(choose_and_measure(context, view, plan));
+    PILEUS_TRY(prepare_step(context, view));
+    ready_ = true;
+    return Status::ok();
+}
+
+/// Only the light of collectors needs photons that stay.
+Status ViewMethod::set_view(const Context& context, const FrameView& view,
+                            const ViewChange& change) {
+    if (what_ != View::kIllumination) return Status::ok();
+    return CollectorsMethod::set_view(context, view, change);
+}
+
+LightUnits ViewMethod::progress() const {
+    return what_ == View::kIllumination ? CollectorsMethod::progress() : LightUnits{};
+}
+
+void ViewMethod::count(Counts& counts) const {
+    if (what_ == View::kIllumination) return CollectorsMethod::count(counts);
+    const bool drawn = what_ == View::kSamples;
+    counts.emplace_back("samples_given_up", drawn ? samples_.given_up : state().prepared.rejected);
+}
+
+namespace {
+
 /// Says in the plan what the view needs and what it spares.
-void note_plan(ViewRun& out) {
-    Plan& plan = out.plan;
-    const std::string why = std::string("--show ") + name_of(out.view);
+void note_plan(const FrameView& view, const ViewMethod& of, Plan& plan) {
+    const std::string why = std::string("--show ") + name_of(of.what());
     const auto step = [&](const char* name, bool needed) {
         if (needed)
             plan.need(name);
         else
             plan.leave_out(name, why.c_str());
     };
-    const bool tree = needs_tree(out.view), photons = out.view == View::kPhotons;
-    plan = Plan{};
-    step("gradient", !photons && out.view != View::kDensitySlice);
-    step("samples", tree || out.view == View::kSamples);
+    const bool tree = needs_tree(of.what()), photons = of.what() == View::kPhotons;
+    step("gradient", !photons && of.what() != View::kDensitySlice);
+    step("samples", tree || of.what() == View::kSamples);
     step("tree", tree);
     step("collectors", tree);
     step("majorants", photons);
@@ -40,93 +115,85 @@ void note_plan(ViewRun& out) {
     const auto take = [&](const char* name, std::uint64_t bytes) {
         plan.memory.add(name, Stage::kDensity, Stage::kWrite, bytes);
     };
-    const Prepared& p = out.prepared;
-    take("density", out.world->medium.volume.density.bytes());
-    take("parts of the media", out.world->medium.parts.bytes());
-    take("gradient", out.field.bytes());
-    take("samples", out.samples.samples.bytes());
+    const Medium& medium = view.world.medium;
+    const Prepared& p = of.state().prepared;
+    const Majorants& majorants = of.state().majorants;
+    take("density", medium.volume.density.bytes());
+    take("parts of the media", medium.parts.bytes());
+    take("gradient", of.field().bytes());
+    take("samples", of.samples().samples.bytes());
     take("leaves", p.leaves.bytes());
     take("collectors", p.collectors.bytes());
     take("collector of voxel", p.collector_of_voxel.bytes());
-    take("majorants", out.majorants.tracking.bytes() + out.majorants.skipping.bytes());
+    take("majorants", majorants.tracking.bytes() + majorants.skipping.bytes());
     plan.exact = true;
 }
 
-Status check_closure(const Scene& scene, View view) {
-    if (!scene.collectors.camera_closure) return Status::ok();
-    const bool missing = view == View::kGradientSlice || view == View::kGradient ||
-                         view == View::kSamples || view == View::kIllumination;
-    if (!missing) return Status::ok();
-    return Status::bad_input(
-        std::string("--show: ") + name_of(view) +
-        ": closure \"camera\" has no such step, allowed: density-slice, "
-        "tree, leaf-density, collectors, photons, or another collectors.closure");
-}
+class ViewReport final : public CollectorsReport {
+public:
+    explicit ViewReport(ViewMethod& of) : CollectorsReport(of), view_(of) {}
 
-Status prepare_step(View view, const Context& context, ViewRun& out) {
-    CollectorsRun& run = out;
-    const CollectorSettings& settings = run.settings;
-    switch (view) {
-        case View::kDensitySlice:
-            return Status::ok();
-        case View::kGradientSlice:
-        case View::kGradient:
-            return prepare_sample_field(run.world->medium, settings, context, out.field, out.stats);
-        case View::kSamples:
-            return prepare_sample_set(run.world->medium, settings, run.scene->seed, context,
-                                      out.samples);
-        case View::kPhotons:
-            return make_photon_majorants(run.world->medium, settings.local_tracking, context,
-                                         run.majorants);
-        default:
-            return run.camera_cells > 0
-                       ? prepare_cells(run.world->medium, run.camera_cells, context, run.prepared)
-                       : prepare_collectors(run.world->medium, settings, run.scene->seed, context,
-                                            run.prepared);
+    void explain(const Context& context, const FrameView& view, Plan& plan) const override {
+        if (!view_.is_ready()) return CollectorsReport::explain(context, view, plan);
+        note_plan(view, view_, plan);
+        note_collectors_limits(context, view, plan);
     }
+    void digest(const FrameView& view, Digests& digests) const override {
+        if (is_light()) CollectorsReport::digest(view, digests);
+    }
+    Status draw(const Context& context, const FrameView& view, Image& image) override {
+        Digests& digests = context.report->digests;
+        if (is_light()) {
+            digest_photon_sums(context, of_, digests);
+        } else {
+            Digest density;
+            density.floats(view.world.medium.volume.density.span());
+            digests.emplace(digests.begin(), "density", density.hex());
+        }
+        return draw_view(context, view, view_, image);
+    }
+    void report(Report& report) const override {
+        if (is_light()) return CollectorsReport::report(report);
+        const Prepared& prepared = view_.state().prepared;
+        const bool drawn = view_.what() == View::kSamples;
+        report.prepared.samples = drawn ? view_.samples().samples.size() : prepared.samples;
+        report.prepared.leaves = prepared.leaves.size();
+        report.prepared.collectors = prepared.collectors.size();
+    }
+
+private:
+    bool is_light() const { return view_.what() == View::kIllumination; }
+
+    const ViewMethod& view_;
+};
+
+template <View kView>
+MadeMethod make(const MethodInputs& inputs) {
+    auto method = std::make_unique<ViewMethod>(kView, inputs);
+    MadeMethod made;
+    made.report = view_report(*method);
+    made.method = std::move(method);
+    return made;
 }
 
 }  // namespace
 
-Status collectors_view_outline(const Context& context, ViewRun& out) {
-    PILEUS_TRY(check_closure(*out.scene, out.view));
-    out.shown = *out.scene;
-    out.scene = &out.shown;
-    // Colours of billboards hold all light; those of the march leave the sun's first scattering
-    // and the constant sky to the march.
-    out.shown.collectors.billboards = true;
-    out.shown.output.layer_error = false;
-    return collectors_outline(context, out);
+std::unique_ptr<MethodReport> view_report(ViewMethod& method) {
+    return std::make_unique<ViewReport>(method);
 }
 
-Status collectors_view_prepare(const Context& context, ViewRun& out) {
-    if (out.view == View::kIllumination) return collectors_prepare(context, out);
-    PILEUS_TRY(collectors_weigh(context, out));
-    PILEUS_TRY(prepare_step(out.view, context, out));
-    note_plan(out);
-    collectors_note_limits(context, out);
-    return Status::ok();
-}
-
-void collectors_view_count(const ViewRun& out, Counts& counters) {
-    if (out.view == View::kIllumination) return collectors_count(out, counters);
-    const bool drawn = out.view == View::kSamples;
-    counters.emplace_back("samples_given_up", drawn ? out.samples.given_up : out.prepared.rejected);
-}
-
-void collectors_view_report(const ViewRun& out, Report& report) {
-    const CollectorsRun& run = out;
-    if (out.view == View::kIllumination) {
-        collectors_report(run, report);
-        return;
-    }
-    const bool drawn = out.view == View::kSamples;
-    report.prepared.samples = drawn ? out.samples.samples.size() : run.prepared.samples;
-    report.prepared.leaves = run.prepared.leaves.size();
-    report.prepared.collectors = run.prepared.collectors.size();
-    Digest density;
-    density.floats(run.world->medium.volume.density.span());
-    report.digests.emplace(report.digests.begin(), "density", density.hex());
+const ViewRow* collectors_views(int& count) {
+    static constexpr ViewRow all[] = {{"density-slice", make<View::kDensitySlice>},
+                                      {"gradient-slice", make<View::kGradientSlice>},
+                                      {"gradient", make<View::kGradient>},
+                                      {"samples", make<View::kSamples>},
+                                      {"tree", make<View::kTree>},
+                                      {"leaf-density", make<View::kLeafDensity>},
+                                      {"collectors", make<View::kCollectors>},
+                                      {"photons", make<View::kPhotons>},
+                                      {"illumination", make<View::kIllumination>}};
+    count = int(sizeof all / sizeof all[0]);
+    return all;
 }
 
 }  // namespace pileus

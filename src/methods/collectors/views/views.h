@@ -5,7 +5,7 @@
 #pragma once
 #include <string>
 
-#include "src/methods/collectors/collectors.h"
+#include "src/methods/collectors/collectors_method.h"
 
 namespace pileus {
 
@@ -21,38 +21,51 @@ enum class View {
     kIllumination,
 };
 
-/// One recipe for each view, in the order of View; src/methods/registry.cpp lists them.
-const Recipe* collectors_views(int& count);
+/// One row for each view, in the order of View; src/methods/registry.cpp lists them.
+const ViewRow* collectors_views(int& count);
 
 /// Whether a view's colours are light that the scene's exposure applies to.
 constexpr bool view_is_light(View view) { return view == View::kIllumination; }
 
-/// A run as far as its view needs it.
-struct ViewRun : CollectorsRun {
-    ViewRun() = default;
-    explicit ViewRun(View v) : view(v) {}
+/// The method as far as a view needs it. Its display has no march: colours of billboards hold all
+/// light, those of the march leave the sun's first scattering and the constant sky to the march.
+class ViewMethod final : public CollectorsMethod {
+public:
+    ViewMethod(View what, const MethodInputs& inputs);
 
-    View view = View::kGradient;
-    Scene shown;  ///< the scene that the view renders: its display has no march
-    SampleSet samples;
-    Buffer<float> field;  ///< what samples are drawn from, per voxel
-    FieldStats stats;
+    View what() const { return what_; }
+    bool is_ready() const { return ready_; }
+    const SampleSet& samples() const { return samples_; }
+    const Buffer<float>& field() const { return field_; }
+    const FieldStats& stats() const { return stats_; }
+
+    Status plan(const Context& context, const FrameView& view, Plan& plan) override;
+    /// The steps up to the view's own. Errors: those of the steps.
+    Status prepare(const Context& context, const FrameView& view) override;
+    Status set_view(const Context& context, const FrameView& view,
+                    const ViewChange& change) override;
+    LightUnits progress() const override;
+    void count(Counts& counts) const override;
+    void release(Phase) override {}  // what a step made is shown
+
+protected:
+    /// kBadInput: a step that closure "camera" does not have.
+    Status check(const Context& context, const FrameView& view) override;
+
+private:
+    Status prepare_step(const Context& context, const FrameView& view);
+
+    View what_;
+    bool ready_ = false;  ///< `prepare` has ended before photons
+    SampleSet samples_;
+    Buffer<float> field_;  ///< what samples are drawn from, per voxel
+    FieldStats stats_;
 };
 
-/// From sizes alone, with the scene as the view shows it. `out` must not move afterwards.
-/// kBadInput: a view of a step that closure "camera" does not have; kLimit.
-Status collectors_view_outline(const Context& context, ViewRun& out);
-
-/// Runs the steps up to the view's own; photons are shot by `collectors_shoot` where the view is
-/// kIllumination. Errors: those of the steps.
-Status collectors_view_prepare(const Context& context, ViewRun& out);
+std::unique_ptr<MethodReport> view_report(ViewMethod& method);
 
 /// Draws the view: channels R G B A, and where a field is shown `value` in its own unit
 /// (density, gradient 1/m, or variance).
-Status collectors_view_show(double orbit_deg, const Context& context, ViewRun& run, Image& image);
-
-void collectors_view_count(const ViewRun& run, Counts& counters);
-/// Fills the report: what was prepared and traced.
-void collectors_view_report(const ViewRun& run, Report& report);
+Status draw_view(const Context& context, const FrameView& view, const ViewMethod& of, Image& image);
 
 }  // namespace pileus

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws the views: what each puts on the canvas and in which colours.
-// in: a prepared ViewRun, a camera -> out: an image of R G B A.
+// in: a prepared view, a camera -> out: an image of R G B A.
 // docs/how-it-works.md; Elek 2011, figures 5.1 (gradient), 5.2 (samples), 5.5 (tree), 5.6 (peak
 // densities per leaf), 5.7 (collectors and billboards).
 #include "src/methods/collectors/views/views_draw.h"
@@ -13,6 +13,8 @@
 #include "src/methods/collectors/prepare/tree.h"
 #include "src/methods/collectors/views/show_boxes.h"
 #include "src/picture/canvas/colours.h"
+#include "src/scene/frames.h"
+#include "src/world/camera/view.h"
 
 namespace pileus {
 namespace {
@@ -25,7 +27,7 @@ constexpr float kBoxSolidity = 4;     // leaves as boxes, times the true extinct
 
 /// A field as heat: on the middle plane, or the largest value on each ray.
 Status draw_field(Span<const float> field, float full, bool slice, Drawing& d) {
-    const Grid& grid = d.run.world->medium.grid;
+    const Grid& grid = d.world().medium.grid;
     if (slice) {
         PILEUS_TRY(look_at_plane(field, grid, d.camera, d.context.threads, d.value));
     } else {
@@ -37,14 +39,14 @@ Status draw_field(Span<const float> field, float full, bool slice, Drawing& d) {
     return Status::ok();
 }
 
-Status draw_samples(const ViewRun& v, Drawing& d) {
+Status draw_samples(Drawing& d) {
     PILEUS_TRY(draw_veil(d));
-    const Grid& grid = d.run.world->medium.grid;
+    const Grid& grid = d.world().medium.grid;
     Buffer<Disc> discs;
-    PILEUS_TRY(discs.resize(v.samples.samples.size(), "discs"));
+    PILEUS_TRY(discs.resize(d.of.samples().samples.size(), "discs"));
     std::size_t count = 0;
     double near = 3e38, far = -3e38;
-    for (const Sample& s : v.samples.samples.span()) {
+    for (const Sample& s : d.of.samples().samples.span()) {
         double at[3];
         for (int a = 0; a < 3; ++a) at[a] = double(s.x[a]) * double(grid.cell_m[a]);
         const Projected p = project_point(d.camera, at);
@@ -71,7 +73,7 @@ struct TreeLines {
 
 void add_leaf(const Drawing& d, const Leaf& leaf, const MiddlePlane& plane, double largest,
               TreeLines& lines) {
-    const Box box = box_of(leaf, d.run.world->medium.grid);
+    const Box box = box_of(leaf, d.world().medium.grid);
     double volume = 1;
     std::size_t inside = 1;
     for (int a = 0; a < 3; ++a) {
@@ -101,14 +103,14 @@ void add_leaf(const Drawing& d, const Leaf& leaf, const MiddlePlane& plane, doub
 
 Status draw_tree(Drawing& d) {
     PILEUS_TRY(draw_veil(d));
-    const Span<const Leaf> leaves = d.run.prepared.leaves.span();
+    const Span<const Leaf> leaves = d.state().prepared.leaves.span();
     TreeLines lines;
     PILEUS_TRY(lines.edges.resize(std::uint64_t(leaves.size) * 12, "edges of leaves"));
     PILEUS_TRY(lines.section.resize(std::uint64_t(leaves.size) * 6, "cuts of leaves"));
     double diagonal = 0;
-    for (double e : d.run.world->medium.extent_m) diagonal += e * e;
+    for (double e : d.world().medium.extent_m) diagonal += e * e;
     const double largest = __builtin_sqrt(diagonal) * kLeafShare;
-    const MiddlePlane plane = middle_plane(d.run.world->medium.grid, d.camera);
+    const MiddlePlane plane = middle_plane(d.world().medium.grid, d.camera);
     for (const Leaf& leaf : leaves) add_leaf(d, leaf, plane, largest, lines);
     // Empty leaves first, then farthest first.
     const Span<Line> edges{lines.edges.data(), lines.edge_count};
@@ -125,22 +127,22 @@ Status draw_tree(Drawing& d) {
 }
 
 Status draw_leaf_density(Drawing& d) {
-    const Prepared& p = d.run.prepared;
+    const Prepared& p = d.state().prepared;
     LeafBoxes boxes;
     boxes.leaves = p.leaves.span();
     boxes.collectors = p.collectors.span();
     boxes.collector_of_voxel = p.collector_of_voxel.span();
-    boxes.sigma = kBoxSolidity * d.run.world->medium.sigma;
-    boxes.full = d.run.world->medium.density_max;
-    paint_leaf_boxes(boxes, d.run.world->medium.grid, d.camera, d.context.threads, d.canvas);
+    boxes.sigma = kBoxSolidity * d.world().medium.sigma;
+    boxes.full = d.world().medium.density_max;
+    paint_leaf_boxes(boxes, d.world().medium.grid, d.camera, d.context.threads, d.canvas);
     d.counters.emplace_back("leaves_drawn", p.collectors.size());
     return Status::ok();
 }
 
 /// Balls behind the middle plane: where the front half is taken away, their sizes show.
 Status draw_collectors(Drawing& d) {
-    const Span<const Collector> collectors = d.run.prepared.collectors.span();
-    const MiddlePlane plane = middle_plane(d.run.world->medium.grid, d.camera);
+    const Span<const Collector> collectors = d.state().prepared.collectors.span();
+    const MiddlePlane plane = middle_plane(d.world().medium.grid, d.camera);
     Buffer<Disc> discs;
     PILEUS_TRY(discs.resize(collectors.size, "discs"));
     std::size_t count = 0;
@@ -163,9 +165,10 @@ Status draw_collectors(Drawing& d) {
 }
 
 Status draw_illumination(Drawing& d, Report& report) {
-    const Span<const Collector> collectors = d.run.prepared.collectors.span();
+    const Span<const Collector> collectors = d.state().prepared.collectors.span();
     CollectorColours colours;
-    PILEUS_TRY(reconstruct(collectors_reconstruct_input(d.camera, d.context, d.run), colours));
+    PILEUS_TRY(
+        reconstruct(collectors_reconstruct_input(d.camera, d.context, d.view, d.state()), colours));
     Digest digest;
     digest.floats(colours.colour.span());
     report.digests.emplace_back("colours", digest.hex());
@@ -180,8 +183,7 @@ Status draw_illumination(Drawing& d, Report& report) {
         // A disc hides what its leaf would hide along its diameter.
         const double r = double(c.radius);
         const double mean = c.mass / (4.0 / 3.0 * double(kPi) * r * r * r);
-        const float alpha =
-            one_minus_exp(float(2.0 * r * mean * double(d.run.world->medium.sigma)));
+        const float alpha = one_minus_exp(float(2.0 * r * mean * double(d.world().medium.sigma)));
         Disc& disc = discs[count++];
         disc = {p.x, p.y, p.depth, float(r * p.scale), alpha, {}, false};
         for (std::size_t k = 0; k < 3; ++k)
@@ -218,7 +220,7 @@ Status make_image(const Canvas& canvas, Image& image) {
 
 /// The cloud as a faint X-ray, to see where the marks are.
 Status draw_veil(Drawing& d) {
-    const Medium& m = d.run.world->medium;
+    const Medium& m = d.world().medium;
     FieldView view;
     PILEUS_TRY(look_through(m.volume.density.span(), m.grid, d.camera, d.context.threads, view));
     const double across = m.extent_m[2] * double(m.density_max);
@@ -227,26 +229,29 @@ Status draw_veil(Drawing& d) {
     return Status::ok();
 }
 
-Status collectors_view_show(double orbit_deg, const Context& context, ViewRun& v, Image& image) {
-    Drawing d{context, v,  make_camera(v.shown.camera, orbit_deg, v.world->medium.low_m),
-              {},      {}, {}};
-    PILEUS_TRY(make_canvas(d.camera.width, d.camera.height,
-                           view_is_light(v.view) ? kDarkSky : kNight, d.canvas));
+Status draw_view(const Context& context, const FrameView& view, const ViewMethod& of,
+                 Image& image) {
+    const Medium& medium = view.world.medium;
+    const View what = of.what();
+    const CameraParams camera =
+        make_camera(view.scene.camera, orbit_at(view.scene, view.frame), medium.low_m);
+    Drawing d{context, view, of, camera, {}, {}, {}};
+    PILEUS_TRY(make_canvas(camera.width, camera.height, view_is_light(what) ? kDarkSky : kNight,
+                           d.canvas));
     Report& report = *context.report;
     {
         const StageClock clock(context, "draw");
-        switch (v.view) {
+        switch (what) {
             case View::kDensitySlice:
-                PILEUS_TRY(draw_field(v.world->medium.volume.density.span(),
-                                      v.world->medium.density_max, true, d));
+                PILEUS_TRY(draw_field(medium.volume.density.span(), medium.density_max, true, d));
                 break;
             case View::kGradientSlice:
             case View::kGradient:
                 PILEUS_TRY(
-                    draw_field(v.field.span(), v.stats.max, v.view == View::kGradientSlice, d));
+                    draw_field(of.field().span(), of.stats().max, what == View::kGradientSlice, d));
                 break;
             case View::kSamples:
-                PILEUS_TRY(draw_samples(v, d));
+                PILEUS_TRY(draw_samples(d));
                 break;
             case View::kTree:
                 PILEUS_TRY(draw_tree(d));
@@ -271,8 +276,8 @@ Status collectors_view_show(double orbit_deg, const Context& context, ViewRun& v
         PILEUS_TRY(add_channel("value", d.value.size(), image));
         image.channels.back().pixels.swap(d.value);
     }
-    image.display_colours = !view_is_light(v.view);
-    set_image_camera(d.camera, v.world->medium.low_m, image);
+    image.display_colours = !view_is_light(what);
+    set_image_camera(camera, medium.low_m, image);
     return Status::ok();
 }
 

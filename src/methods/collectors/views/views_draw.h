@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the functions that draw views share.
-// in: a run, a camera -> out: a canvas that fills up, counts for the report.
+// in: a prepared view, a camera -> out: a canvas that fills up, counts for the report.
 // docs/how-it-works.md
 #pragma once
 #include "src/methods/collectors/views/views.h"
@@ -13,12 +13,15 @@ constexpr double kMarkRows = 540;             ///< marks keep their size relativ
 
 struct Drawing {
     const Context& context;
-    const CollectorsRun& run;
+    const FrameView& view;
+    const ViewMethod& of;
     CameraParams camera;
     Canvas canvas;
     Buffer<float> value;  ///< [pixel], where a field is shown
     Counts counters;
 
+    const World& world() const { return view.world; }
+    const CollectorsState& state() const { return of.state(); }
     float pixels(double at_540_rows) const {
         return float(at_540_rows * camera.height / kMarkRows);
     }

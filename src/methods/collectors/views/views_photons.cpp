@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws the ways of photons: the light's colour until the first scattering, then one of their own.
-// in: a run with its majorants -> out: lines and dots over a veil of the cloud.
+// in: a view with its majorants -> out: lines and dots over a veil of the cloud.
 // docs/how-it-works.md
 #include "src/methods/collectors/photons/follow_photon.h"
 #include "src/methods/collectors/views/views_draw.h"
@@ -32,15 +32,15 @@ bool leaves_box(PathEvent event) {
 void stretch_end(const Drawing& d, const PathPoint& from, const PathPoint& to, float* end) {
     const float metres = to.path_m - from.path_m;
     for (int a = 0; a < 3; ++a)
-        end[a] = d.run.world->medium.grid.periodic ? from.at_m[a] + metres * from.direction[a]
-                                                   : to.at_m[a];
+        end[a] =
+            d.world().medium.grid.periodic ? from.at_m[a] + metres * from.direction[a] : to.at_m[a];
 }
 
 /// A path from before the box to after it, and a dot for each scattering.
 void add_path(const Drawing& d, const std::vector<PathPoint>& path, const Float3& colour,
               const Line& light, std::vector<Line>& lines, std::vector<Disc>& dots) {
     double diagonal = 0;
-    for (double e : d.run.world->medium.extent_m) diagonal += e * e;
+    for (double e : d.world().medium.extent_m) diagonal += e * e;
     const float tail = float(kTail * __builtin_sqrt(diagonal));
     float before[3], after[3];
     for (int a = 0; a < 3; ++a) {
@@ -77,13 +77,13 @@ struct Paths {
 /// Follows photons of the first light until enough have scattered; the first that scattered ten
 /// times is drawn over the others, in white.
 void follow_some(const Drawing& d, Paths& out) {
-    const TraceInput in = collectors_trace_input(d.context, d.run);
+    const TraceInput in = d.of.trace_input(d.context, d.view);
     const Line thin{0, 0, 0, 0, 0, d.pixels(1.2), 0.55f, kSunlight};
     const Line wide{0, 0, 0, 0, 0, d.pixels(2.4), 1.0f, kSunlight};
     std::vector<PathPoint> path;
     while (out.followed < kMostFollowed && out.drawn < kShownPhotons) {
         const std::uint32_t number = std::uint32_t(out.followed++);
-        follow_photon(in, d.run.lighting.lights.front(), number, kMostPoints, path);
+        follow_photon(in, d.state().lights.lighting.lights.front(), number, kMostPoints, path);
         std::uint64_t scatterings = 0;
         for (const PathPoint& p : path) scatterings += p.event == PathEvent::kScatter ? 1 : 0;
         if (scatterings == 0) continue;
@@ -104,7 +104,7 @@ void follow_some(const Drawing& d, Paths& out) {
 Status draw_photons(Drawing& d) {
     PILEUS_TRY(draw_veil(d));
     Paths paths;
-    if (!d.run.lighting.lights.empty()) follow_some(d, paths);
+    if (!d.state().lights.lighting.lights.empty()) follow_some(d, paths);
     for (auto* lines : {&paths.lines, &paths.bright}) {
         const Span<Line> all{lines->data(), lines->size()};
         sort_by_depth(all);
