@@ -36,7 +36,7 @@ foreach(pattern
         "src/world/density/(bubbles|cumulus|density_rows|noise_cache|noise_volume|particle_[a-z]*|plume|shapes)[.]cpp"
         "src/io/(meshes|netcdf|particles|text|volumes)/"
         "src/io/images/(blocks|exr|exr_guard|image_file|netcdf_picture|pfm|picture|picture_formats|png)[.]cpp"
-        "src/session/(check_changed|deliver|film|foretell|follow|hand_over|render|stop_rule|verify)[.]cpp"
+        "src/session/(deliver|film|foretell|follow|hand_over|render|stop_rule|verify)[.]cpp"
         "src/api/c_(clouds|compare|living|world|flight_close)[.]cpp"
         "src/clouds/"
         "src/base/(file|output_check|reading_limit|span)[.]cpp"

@@ -19,8 +19,9 @@ pileus_code no_clouds(pileus_error* error) {
 Status place_all(const pileus_cloud* places, std::uint32_t count, Clouds& clouds) {
     if (count > 0 && places == nullptr)
         return Status::bad_input("places: null, allowed: as many as count says");
-    if (count > 1000)
-        return Status::bad_input("count: " + std::to_string(count) + ", allowed: up to 1000");
+    if (count > kMostClouds)
+        return Status::bad_input("count: " + std::to_string(count) + ", allowed: up to " +
+                                 std::to_string(kMostClouds));
     std::vector<CloudPlace> own(count);
     for (std::uint32_t i = 0; i < count; ++i) {
         pileus_cloud given;
@@ -39,19 +40,17 @@ Status set_detail(const pileus_cloud_detail& given, Clouds& clouds) {
     const auto take_number = [](double v, double& to) {
         if (v != 0) to = v;
     };
+    const auto take_count = [](std::uint64_t v, std::uint64_t most, auto& to) {
+        if (v != 0) to = std::decay_t<decltype(to)>(v < most ? v : most);
+    };
     own.on = given.off == 0;
     take_number(given.error_px, own.error_px);
     take_number(given.near_px, own.near_px);
     take_number(given.sharpness, own.sharpness);
     take_number(given.sun_deg, own.sun_deg);
-    if (given.near_scale != 0)
-        own.near_scale = int(given.near_scale < 100 ? given.near_scale : 100);
-    if (given.blend_frames != 0)
-        own.blend_frames = int(given.blend_frames < 100000 ? given.blend_frames : 100000);
-    if (given.frame_pixels != 0)
-        own.frame_pixels = given.frame_pixels < std::uint64_t{1} << 62
-                               ? std::int64_t(given.frame_pixels)
-                               : std::int64_t{1} << 62;
+    take_count(given.near_scale, 100, own.near_scale);
+    take_count(given.blend_frames, 100000, own.blend_frames);
+    take_count(given.frame_pixels, std::uint64_t{1} << 62, own.frame_pixels);
     return clouds.set_detail(own);
 }
 

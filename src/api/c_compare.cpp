@@ -3,6 +3,8 @@
 #include "lab/compare/flip.h"
 #include "lab/compare/metrics.h"
 #include "src/api/c_types.h"
+#include "src/io/images/image_file.h"
+#include "src/scene/number_keys.h"
 
 namespace pileus::api {
 namespace {
@@ -13,9 +15,7 @@ Status take_picture(const pileus_picture* given, const char* name, Image& image)
     if (!take(given, p)) return no_struct(name);
     const std::string where = std::string(name) + ".";
     for (const std::uint32_t n : {p.width, p.height})
-        if (n < 1 || n > 32768)
-            return Status::bad_input(where + "size: " + std::to_string(n) +
-                                     ", allowed: 1 to 32768");
+        PILEUS_TRY(check_number(where.c_str(), "size", n, {1, kMaxImageSide}));
     if (p.channels != 3 && p.channels != 4)
         return Status::bad_input(where + "channels: " + std::to_string(p.channels) +
                                  ", allowed: 3 (R G B), 4 (R G B A)");

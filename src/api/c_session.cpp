@@ -6,6 +6,7 @@
 #include "include/pileus/pileus_flight.h"
 #include "src/api/c_types.h"
 #include "src/base/single.h"
+#include "src/scene/number_keys.h"
 #include "src/scene/toml/toml_tree.h"
 
 namespace pileus::api {
@@ -32,15 +33,12 @@ pileus_code change(pileus_session* session, const Given* given, const char* name
 
 Status take_size(std::uint32_t width, std::uint32_t height, Camera& camera) {
     for (const std::uint32_t n : {width, height})
-        if (n > 16384)
-            return Status::bad_input("camera.resolution: " + std::to_string(n) +
-                                     ", allowed: 1 to 16384");
+        if (n > 0)
+            PILEUS_TRY(check_number("camera.", "resolution", n, range_of(&Camera::resolution)));
     if (width > 0) camera.resolution[0] = int(width);
     if (height > 0) camera.resolution[1] = int(height);
     return Status::ok();
 }
-
-bool is_in_range(double v, double low, double high) { return v >= low && v <= high; }
 
 /// What a camera has beside its place and view; 0 is none.
 Status check_lens(const pileus_camera& given) {
@@ -49,13 +47,16 @@ Status check_lens(const pileus_camera& given) {
         return Status::bad_input(std::string("camera.") + what + ": " + number_text(v) +
                                  ", allowed: " + allowed);
     };
-    if (!is_in_range(given.height_m, 0, 1e9))
-        return refuse("height_m", given.height_m, "above 0 to 1e9 m; 0: perspective");
+    const double highest = range_of(&Camera::height_m).high;
+    if (!holds({0, highest}, given.height_m))
+        return refuse("height_m", given.height_m,
+                      ("above 0 to " + end_words(highest) + " m; 0: perspective").c_str());
     const bool parallel = given.height_m > 0;
-    if (!is_in_range(given.near_m, parallel ? -kFar : 0, kFar))
+    const KeyRange depths{parallel ? -kFar : 0, kFar};
+    if (!holds(depths, given.near_m))
         return refuse("near_m", given.near_m,
                       parallel ? "-1e15 to 1e15 m" : "0 (no depth buffer) to 1e15 m");
-    if (!is_in_range(given.far_m, parallel ? -kFar : 0, kFar))
+    if (!holds(depths, given.far_m))
         return refuse("far_m", given.far_m,
                       parallel ? "-1e15 to 1e15 m" : "0 (infinite) to 1e15 m");
     if (given.far_m != 0 && !(given.far_m > given.near_m))
@@ -104,10 +105,12 @@ Status set_sky(const pileus_sky& given, Session& session) {
     sky.map_scale = given.map_scale == 0 ? 1 : given.map_scale;
     sky.map_rotation_deg = given.map_rotation_deg;
     const std::uint64_t columns = given.map_size[0], rows = given.map_size[1];
-    if (columns != 2 * rows || columns > 16384)
-        return Status::bad_input(
-            "sky.map_size: " + std::to_string(columns) + " x " + std::to_string(rows) +
-            ", allowed: columns = 2 rows, at most 16384 x 8192; 0 x 0: no map");
+    constexpr std::uint64_t kMostRows = 8192;
+    if (columns != 2 * rows || rows > kMostRows)
+        return Status::bad_input("sky.map_size: " + std::to_string(columns) + " x " +
+                                 std::to_string(rows) + ", allowed: columns = 2 rows, at most " +
+                                 std::to_string(2 * kMostRows) + " x " + std::to_string(kMostRows) +
+                                 "; 0 x 0: no map");
     if (given.present == 0 || columns == 0) return session.set_sky(sky, nullptr, false);
     if (given.map == nullptr) {
         if (!session.has_sky_map())
@@ -132,14 +135,13 @@ Status take_light(const pileus_light& given, LightSettings& own) {
     }
     own.position_m = glm::make_vec3(given.position_m);
     own.radius_m = given.radius_m;
-    if (given.shadow_samples > 64)
-        return Status::bad_input("light.shadow_samples: " + std::to_string(given.shadow_samples) +
-                                 ", allowed: 0 to 64");
+    const double most = range_of(&LightSettings::shadow_samples).high;
+    PILEUS_TRY(check_number("light.", "shadow_samples", given.shadow_samples, {0, most}));
     if (given.shadow_samples > 0) own.shadow_samples = int(given.shadow_samples);
     copy3(given.light, own.intensity);
     if (own.type != LampKind::kSpot) return Status::ok();
-    own.direction = single_or_0(glm::make_vec3(given.direction));
-    if (own.direction == Double3{})
+    own.direction = glm::make_vec3(given.direction);
+    if (single_or_0(own.direction) == Double3{})
         return Status::bad_input("light.direction: 0, 0, 0, allowed: any other of a spot");
     own.cone_deg = given.cone_deg;
     own.penumbra_deg = given.penumbra_deg;
@@ -289,6 +291,7 @@ pileus_code pileus_session_set_lights(pileus_session* session, const pileus_ligh
             pileus_light given;
             if (!take_element(lights, i, given)) return no_element("lights", i);
             PILEUS_TRY(take_light(given, own[i]));
+            own[i] = held(own[i]);
         }
         return session->session->set_lights(own);
     });

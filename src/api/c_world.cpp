@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // pileus.h: scenes, plans and worlds.
 #include "src/api/c_types.h"
+#include "src/scene/number_keys.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/volume_format.h"
 
@@ -91,9 +92,8 @@ Status take_density(const pileus_density& given, std::uint32_t at, HostParticles
     if (given.particles != nullptr) return take_particles(given, where, medium, host);
     std::uint64_t cells = 1;
     for (const std::uint32_t n : given.size) {
-        if (n < 1 || n > 4096)
-            return Status::bad_input(where + "size: " + std::to_string(n) +
-                                     ", allowed: 1 to 4096 along each axis");
+        PILEUS_TRY(check_number(where.c_str(), "size", n, range_of(&MediumSettings::raw_size),
+                                " along each axis"));
         cells *= n;
     }
     if (given.values == nullptr) return Status::bad_input(where + "values: null, allowed: cells");

@@ -9,13 +9,10 @@
 #include "src/methods/registry.h"
 #include "src/scene/above_ground.h"
 #include "src/scene/method_column.h"
+#include "src/scene/number_keys.h"
 
 namespace pileus {
 namespace {
-
-std::string number(double v) { return std::to_string(v); }
-
-bool is_within(double v, double low, double high) { return v >= low && v <= high; }
 
 /// Angle between two suns is above so many degrees.
 bool moved(const Sun& a, const Sun& b, double degrees) {
@@ -116,16 +113,8 @@ Status Clouds::place(const std::vector<CloudPlace>& places) {
         if (p.kind >= kinds_.size())
             return Status::bad_input(where + "kind: " + std::to_string(p.kind) +
                                      ", allowed: below " + std::to_string(kinds_.size()));
-        for (int a = 0; a < 3; ++a)
-            if (!is_within(p.offset_m[a], -1e7, 1e7))
-                return Status::bad_input(where + "offset_m: " + number(p.offset_m[a]) +
-                                         ", allowed: -1e7 to 1e7 m");
-        if (!is_within(p.yaw_deg, -360, 360))
-            return Status::bad_input(where + "yaw_deg: " + number(p.yaw_deg) +
-                                     ", allowed: -360 to 360");
-        if (!is_within(p.scale, 0.01, 100))
-            return Status::bad_input(where + "scale: " + number(p.scale) +
-                                     ", allowed: 0.01 to 100");
+        const CloudPlaceSettings given{"", p.offset_m, p.yaw_deg, p.scale};
+        PILEUS_TRY(check_numbers(where.c_str(), given));
         PILEUS_TRY(check_height(where + "offset_m: the cloud is ", sky_->ground(), p));
     }
     clouds_.resize(places.size());
@@ -183,19 +172,13 @@ Status Clouds::check_memory(const CloudGroup& next, std::size_t kind) const {
 }
 
 Status Clouds::set_detail(const CloudDetail& d) {
-    const auto refuse = [](const char* what, double v, const char* allowed) {
-        return Status::bad_input(std::string("detail.") + what + ": " + number(v) +
-                                 ", allowed: " + allowed);
-    };
-    if (!is_within(d.error_px, 1e-3, 16)) return refuse("error_px", d.error_px, "0.001 to 16");
-    if (!is_within(d.near_px, 1, 1e6)) return refuse("near_px", d.near_px, "1 to 1e6");
+    PILEUS_TRY(check_numbers("detail.", d));
     if (d.near_scale != 1 && d.near_scale != 2 && d.near_scale != 4)
-        return refuse("near_scale", d.near_scale, "1, 2, 4");
-    if (d.blend_frames < 1 || d.blend_frames > 1000)
-        return refuse("blend_frames", d.blend_frames, "1 to 1000");
-    if (!is_within(d.sharpness, 0.25, 4)) return refuse("sharpness", d.sharpness, "0.25 to 4");
-    if (d.frame_pixels < 1) return refuse("frame_pixels", double(d.frame_pixels), "1 and more");
-    if (!is_within(d.sun_deg, 0, 10)) return refuse("sun_deg", d.sun_deg, "0 to 10");
+        return Status::bad_input("detail.near_scale: " + std::to_string(double(d.near_scale)) +
+                                 ", allowed: 1, 2, 4");
+    if (d.frame_pixels < 1)
+        return Status::bad_input("detail.frame_pixels: " + std::to_string(double(d.frame_pixels)) +
+                                 ", allowed: 1 and more");
     detail_ = d;
     return Status::ok();
 }

@@ -16,7 +16,7 @@ struct CloudPlace {
     std::size_t kind = 0;
     Double3 offset_m{};
     double yaw_deg = 0;
-    double scale = 1;  ///< 0.01 to 100
+    double scale = 1;
 };
 
 /// A box of the world, turned about the z axis, and the ball around it.

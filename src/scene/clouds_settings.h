@@ -22,9 +22,9 @@ struct CloudKindSettings {
 
 struct CloudPlaceSettings {
     std::string kind;
-    Double3 offset_m{};  ///< within 1e7
-    double yaw_deg = 0;  ///< -360 to 360
-    double scale = 1;    ///< 0.01 to 100
+    Double3 offset_m{};
+    double yaw_deg = 0;
+    double scale = 1;
 };
 
 /// Many places by random numbers, none over another.
@@ -43,14 +43,14 @@ struct CloudScatter {
 /// What may be less exact, and what it may cost.
 struct CloudDetail {
     bool on = true;         ///< false: every cloud is marched in every frame
-    double error_px = 0.5;  ///< that a far cloud's picture may be wrong by; [0.001, 16]
-    double near_px = 256;   ///< clouds of that size on the picture are marched; [1, 1e6]
+    double error_px = 0.5;  ///< that a far cloud's picture may be wrong by
+    double near_px = 256;   ///< clouds of that size on the picture are marched
     int near_scale = 2;     ///< of those, one pixel of so many along x and y: 1, 2, 4
-    int blend_frames = 8;   ///< over which one picture gives way to the next; [1, 1000]
-    double sharpness = 1;   ///< texels of a pixel along x and y; [0.25, 4]
+    int blend_frames = 8;   ///< over which one picture gives way to the next
+    double sharpness = 1;   ///< texels of a pixel along x and y
     /// Of pictures that a frame makes anew: one, and more up to so many in all.
     std::int64_t frame_pixels = 60000;
-    double sun_deg = 0.5;  ///< that the sun may move until a kind is lit anew; [0, 10]
+    double sun_deg = 0.5;  ///< that the sun may move until a kind is lit anew
 };
 
 struct CloudsSettings {

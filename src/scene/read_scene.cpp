@@ -126,6 +126,16 @@ Status check_scene(const Scene& scene) {
     return faults.status();
 }
 
+Status check_changed(const char*, const Scene& scene, void (*change)(const void*, Scene&),
+                     const void* values) {
+    Scene changed = scene;
+    change(values, changed);
+    changed.file = "session";
+    // The checks know maps by their files.
+    changed.view_files.sky_map = changed.sky.mapped ? "host.pfm" : "";
+    return check_scene(changed);
+}
+
 Status at_key(const Scene& scene, const std::string& key, Status status) {
     if (status) return status;
     // The path of a file may stand in a table of its own.

@@ -32,6 +32,19 @@ Status read_scene_text(const std::string& text, const std::string& name,
 /// `file: key: what, value, allowed` for each fault.
 Status check_scene(const Scene& scene);
 
+/// Of a value that a host sets: the fault of the scene with it, or none where that is sound. `key`
+/// names what is out of range, or asks for this check; a flight, which lacks it, refuses that.
+Status check_changed(const char* key, const Scene& scene, void (*change)(const void*, Scene&),
+                     const void* values);
+/// The same with a function of a lambda.
+template <class Change>
+Status check_changed(const char* key, const Scene& scene, const Change& change) {
+    return check_changed(
+        key, scene,
+        [](const void* values, Scene& changed) { (*static_cast<const Change*>(values))(changed); },
+        &change);
+}
+
 /// A fault of what `key` names, such as a file that is not there: begins with the key and where it
 /// stands, "s.toml:12:11: medium.0.density: cloud.vdb: ...". Passes a sound status on.
 Status at_key(const Scene& scene, const std::string& key, Status status);

@@ -109,7 +109,7 @@ public:
     Status set_sky(const Sky& sky, const Image* map, bool keep);
     bool has_sky_map() const { return run_->environment.sky_map.present(); }
     Status set_ground(const Ground& ground);
-    /// In place of all that there were: point, spot and parallel lights.
+    /// In place of all that there were: point, spot and parallel lights, with `held` numbers.
     Status set_lights(const std::vector<LightSettings>& lights);
     Status set_placement(const Double3& offset_m, double yaw_deg);
     Status set_frame(int number);

@@ -4,11 +4,12 @@
 // docs/embedding.md, "What may change"
 #include "kernels_cpu/core/profile.h"
 #include "platform/fp_mode.h"
-#include "src/base/single.h"
 #include "src/methods/support.h"
 #include "src/scene/above_ground.h"
+#include "src/scene/frame_fault.h"
+#include "src/scene/number_keys.h"
+#include "src/scene/read_scene.h"
 #include "src/session/session.h"
-#include "src/session/value_fault.h"
 #include "src/world/atmosphere/atmosphere.h"
 #include "src/world/camera/view.h"
 #include "src/world/plan_parts.h"
@@ -34,6 +35,40 @@ Status check_frustum(const Camera& camera, bool billboards) {
     return Status::ok();
 }
 
+// Each returns null only where check_scene would find nothing, if the scene itself is sound, and
+// takes no memory. Of what is seldom set it may name a key that check_scene allows: that decides.
+
+const char* camera_fault(const Scene& scene, const Ground& ground, const Camera& c) {
+    if (const char* key = out_of_range(c)) return key;
+    // Some methods and the air know one kind alone.
+    if (c.orthographic != scene.camera.orthographic || c.flux != scene.camera.flux)
+        return "camera.projection";
+    if (is_above_air(scene.atmosphere, ground, c)) return "camera.position_m";
+    return kFaultKeys[int(frame_fault(ground, c))];
+}
+
+const char* ground_fault(const Scene& scene, const Camera& camera, const Ground& ground) {
+    if (const char* key = out_of_range(ground)) return key;
+    if (!scene.lights.empty() || scene.atmosphere.present) return "ground";
+    return is_underground(ground, camera) ? "camera.position_m" : nullptr;
+}
+
+const char* lights_fault(const Scene& scene, const Ground& ground,
+                         const std::vector<LightSettings>& lights) {
+    // What a scene with lights may have else was asked when it got its first.
+    if (scene.lights.empty() && !lights.empty()) return "light";
+    for (const LightSettings& light : lights) {
+        if (const char* key = out_of_range(light)) return key;
+        if (light.type == LampKind::kDirectional) continue;
+        if (reaches_below(ground, light)) return "light.radius_m";
+        if (light.type == LampKind::kPoint) continue;
+        // Of a target hosts know nothing.
+        if (light.direction == Double3{}) return "light.direction";
+        if (is_wide_edge(light)) return "light.penumbra_deg";
+    }
+    return nullptr;
+}
+
 Status refuse(const std::string& what, const char* allowed) {
     return Status::bad_input(what + ", allowed: " + allowed);
 }
@@ -54,15 +89,11 @@ Status Session::set_camera(const Camera& given) {
         return Status::bad_input(std::string("camera: ") + why);
     PILEUS_TRY(check_frustum(camera, scene_.collectors.billboards));
     if (const char* key = camera_fault(scene_, host_.ground, camera)) {
-        const auto change = [&](Scene& changed) {
+        PILEUS_TRY(check_camera_in_air(scene_, camera, host_.ground));
+        PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) {
             changed.camera = camera;
             changed.ground = host_.ground;
-        };
-        Scene seen;
-        seen.atmosphere = scene_.atmosphere;
-        change(seen);
-        PILEUS_TRY(check_camera_in_air(seen));
-        PILEUS_TRY(check_changed(key, scene_, change));
+        }));
     }
     const std::uint64_t pixels =
         std::uint64_t(camera.resolution[0]) * std::uint64_t(camera.resolution[1]);
@@ -86,7 +117,7 @@ Status Session::set_sun(const Sun& given) {
     if (kAtmosphere && scene_.atmosphere.present && !sun.present)
         return refuse(kNoSunInAir, kNoSunInAirAllowed);
     if (run_->sealed && scene_.atmosphere.present) return refuse_sealed("sun");
-    if (const char* key = sun_fault(sun))
+    if (const char* key = out_of_range(sun))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) { changed.sun = sun; }));
     host_.sun = sun;
     stale_ = true;
@@ -110,8 +141,7 @@ Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
     const FpModeGuard guard;
     if (kAtmosphere && scene_.atmosphere.present) return refuse(kSkyInAir, kSkyInAirAllowed);
     const bool kept = sky.present && map == nullptr && keep && run_->environment.sky_map.present();
-    Sky next = kept ? host_.sky : sky;
-    hold(next);
+    Sky next = held(kept ? host_.sky : sky);
     next.present = sky.present;
     next.mapped = kept || map != nullptr;
     if (!next.mapped) {
@@ -121,7 +151,7 @@ Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
     } else {
         next.radiance = Sky{}.radiance;
     }
-    if (const char* key = sky_fault(scene_, next))
+    if (const char* key = next.mapped ? "sky" : out_of_range(next))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) { changed.sky = next; }));
     if (run_->sealed && (map != nullptr || (!kept && run_->environment.sky_map.present())))
         return refuse_sealed("sky.map");
@@ -168,11 +198,9 @@ Status Session::set_lights(const std::vector<LightSettings>& lights) {
     if (const char* key = lights_fault(scene_, host_.ground, lights))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) {
             changed.lights = lights;
-            for (LightSettings& light : changed.lights) light = held(light);
             changed.ground = host_.ground;
         }));
     host_.lights = lights;
-    for (LightSettings& light : host_.lights) light = held(light);
     stale_ = true;
     return Status::ok();
 }
@@ -187,11 +215,14 @@ Status Session::check_media(const char* key, const Ground& ground, double moved_
 }
 
 Status Session::set_placement(const Double3& offset_m, double yaw_deg) {
-    for (const double v : {offset_m.x, offset_m.y, offset_m.z})
-        if (!(v > -1e9 && v < 1e9))
-            return Status::bad_input("placement.offset_m: out of range, allowed: within 1e9 m");
-    if (!(yaw_deg > -1e6 && yaw_deg < 1e6))
-        return Status::bad_input("placement.yaw_deg: out of range, allowed: within 1e6");
+    const Placement next{offset_m, yaw_deg};
+    Status status;
+    for_each_number(next, [&](const auto& key, double v) {
+        if (status && !(v > key.range.low && v < key.range.high))
+            status = Status::bad_input(std::string(key.name) + ": out of range, allowed: within " +
+                                       end_words(key.range.high) + key.unit);
+    });
+    PILEUS_TRY(std::move(status));
     PILEUS_TRY(check_media("placement.offset_m", host_.ground, offset_m.z));
     const bool moves = offset_m != Double3{} || yaw_deg != 0;
     if (moves && run_->world->media == 0)
@@ -201,7 +232,7 @@ Status Session::set_placement(const Double3& offset_m, double yaw_deg) {
     if (yaw_deg != 0 && run_->environment.sky_map.present())
         return Status::bad_input("placement.yaw_deg: not below a sky map, allowed: 0");
     stale_ = stale_ || offset_m != host_.placement.offset_m || yaw_deg != host_.placement.yaw_deg;
-    host_.placement = {offset_m, yaw_deg};
+    host_.placement = next;
     return Status::ok();
 }
 

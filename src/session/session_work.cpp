@@ -5,8 +5,9 @@
 #include "kernels_cpu/core/profile.h"
 #include "platform/fp_mode.h"
 #include "src/picture/upsample.h"
+#include "src/scene/number_keys.h"
+#include "src/scene/read_scene.h"
 #include "src/session/session.h"
-#include "src/session/value_fault.h"
 
 namespace pileus {
 namespace {
@@ -33,14 +34,14 @@ Status check_work(const FrameWork& given, const FrameWork& whole, const std::str
     return Status::ok();
 }
 
-/// As in value_fault.h: null where all members are sound for sure.
+/// Null where all members are sound for sure.
 const char* work_fault(const FrameWork& work, const FrameWork& whole) {
     const auto one_of = [](int v, int a, int b, int c) { return v == a || v == b || v == c; };
     if (whole.scale > 0 && !one_of(work.scale, 1, 2, 4)) return "work.scale";
     if (!one_of(work.temporal, 0, 2, 4) || (work.temporal > 0 && work.scale > 1))
         return "work.temporal";
     if (whole.steps > 0 && (work.steps < 1 || work.steps > whole.steps)) return "work.steps";
-    const bool refreshed = work.light_refresh >= 1 && work.light_refresh <= 64;
+    const bool refreshed = holds(range_of(&RaymarchSettings::light_refresh), work.light_refresh);
     return whole.light_refresh > 0 && !refreshed ? "work.light_refresh" : nullptr;
 }
 

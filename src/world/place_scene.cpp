@@ -13,7 +13,7 @@ Status place_scene(Scene& scene) {
     if (!kFlight) share_weather_files(scene);
     PILEUS_TRY(place_camera(scene));
     place_sun(scene.atmosphere, scene.hours_later, scene.sun);
-    return check_camera_in_air(scene);
+    return check_camera_in_air(scene, scene.camera, scene.ground);
 }
 
 }  // namespace pileus

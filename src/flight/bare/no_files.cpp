@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a flight library has in place of readers and writers of files, and of worlds made of scenes.
-// in: the name of a file -> out: one line.
-// docs/flight.md, "Packed scenes"
+// What a flight library has in place of readers and writers of files, of checks of whole scenes,
+// and of worlds made of them. in: the name of a file, a value that is not sound for sure -> out:
+// one line. docs/flight.md, "Packed scenes"
 #include "platform/cuda_device.h"
 #include "src/methods/collectors/billboards/gl_billboards.h"
 #include "src/scene/read_scene.h"
@@ -22,6 +22,10 @@ Status no_files(const char* what) {
 Status outline_world(const Scene&, WorldUse, const Context&, World&) { return no_files("world"); }
 Status load_world(const Scene&, const Context&, World&) { return no_files("world"); }
 Status place_camera(Scene&) { return Status::ok(); }
+Status check_changed(const char* key, const Scene&, void (*)(const void*, Scene&), const void*) {
+    return Status::bad_input(std::string("session: ") + key +
+                             ": refused in a flight, allowed: docs/flight.md, \"What may change\"");
+}
 
 bool shows_particles(const Scene& scene) {
     // A packed world of another kind is refused by the session.

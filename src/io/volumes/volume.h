@@ -13,7 +13,7 @@
 namespace pileus {
 
 struct Volume {
-    std::array<int, 3> size{0, 0, 0};  ///< cells along x, y, z; each 1..4096
+    std::array<int, 3> size{0, 0, 0};  ///< cells along x, y, z; each 1..kMaxVolumeSide
     /// Index (z*ny + y)*nx + x; finite, >= 0. Of a variable that a transfer function shows: of any
     /// sign, and NaN where there is nothing.
     Buffer<float> density;

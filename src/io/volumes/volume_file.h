@@ -9,11 +9,11 @@
 #include "src/base/span.h"
 #include "src/base/status.h"
 #include "src/io/volumes/volume.h"
-#include "src/scene/scene.h"
+#include "src/scene/number_keys.h"
 
 namespace pileus {
 
-constexpr int kMaxVolumeSide = 4096;
+constexpr int kMaxVolumeSide = int(range_of(&MediumSettings::resolution).high);
 constexpr std::uint64_t kMaxVolumeCells = std::uint64_t{1} << 31;
 
 /// Reads `path` (already resolved) as medium.format says, or by extension (volume_format_of in

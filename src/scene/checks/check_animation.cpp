@@ -6,9 +6,9 @@
 
 #include "src/scene/above_ground.h"
 #include "src/scene/checks/check_keys.h"
+#include "src/scene/frame_fault.h"
 #include "src/scene/frames.h"
 #include "src/scene/rows/density_row.h"
-#include "src/scene/view_fault.h"
 
 namespace pileus {
 namespace {
@@ -67,17 +67,17 @@ void check_cameras(SceneCheck& check, Keys& keys) {
     for (int frame = 0; frame < scene.animation.frames; frame += step) {
         const Camera c = camera_at(scene.animation, scene.camera, frame);
         const std::string at = "frame " + std::to_string(frame) + ", ";
-        switch (view_fault(scene.ground, c)) {
-            case ViewFault::kAtTarget:
+        switch (frame_fault(scene.ground, c)) {
+            case FrameFault::kAtTarget:
                 return keys.refuse_all(at + "the camera is at its target", "anywhere else");
-            case ViewFault::kAlongUp:
+            case FrameFault::kAlongUp:
                 return keys.refuse_all(at + "the view is along camera.up",
                                        "any direction across it");
-            case ViewFault::kUnderground:
+            case FrameFault::kUnderground:
                 return keys.refuse_all(
                     at + "the camera is below the ground, z " + number_text(c.position_m[2]),
                     "at least ground.altitude_m " + number_text(scene.ground.altitude_m));
-            case ViewFault::kNone:
+            default:
                 break;
         }
     }

@@ -3,8 +3,8 @@
 // in: keys that passed their own checks -> out: faults.
 // docs/scene.md; docs/lights.md.
 #include "src/scene/checks/check_keys.h"
+#include "src/scene/frame_fault.h"
 #include "src/scene/method_column.h"
-#include "src/scene/view_fault.h"
 
 namespace pileus {
 namespace {
@@ -93,13 +93,14 @@ private:
 
     /// What would shine from below the ground.
     void sphere() {
-        const double height = light_.position_m[2] - check_.scene.ground.altitude_m;
-        if (!check_.scene.ground.present || light_.shadow_samples == 1 || height < 0) return;
+        const Ground& ground = check_.scene.ground;
         const Node* radius = check_.valid_key(path_ + "radius_m");
-        if (light_.radius_m > height)
+        if (reaches_below(ground, light_))
             fault(radius != nullptr ? *radius : *type_, "radius_m",
                   "reaches below the ground, " + number_text(light_.radius_m) +
-                      ", allowed: at most " + number_text(height) + ", or shadow_samples = 1");
+                      ", allowed: at most " +
+                      number_text(light_.position_m[2] - ground.altitude_m) +
+                      ", or shadow_samples = 1");
     }
 
     void spot() {
@@ -121,7 +122,7 @@ private:
                       (target != nullptr ? value_text(*target) : std::string("nothing")) +
                       ", allowed: any other point");
         const Node* edge = check_.valid_key(path_ + "penumbra_deg");
-        if (edge != nullptr && light_.penumbra_deg > light_.cone_deg / 2)
+        if (edge != nullptr && is_wide_edge(light_))
             fault(*edge, "penumbra_deg",
                   "wider than the cone, " + value_text(*edge) +
                       ", allowed: at most half of cone_deg " + number_text(light_.cone_deg));

@@ -5,10 +5,10 @@
 #include <glm/geometric.hpp>
 
 #include "src/scene/checks/check_keys.h"
+#include "src/scene/frame_fault.h"
 #include "src/scene/method_column.h"
 #include "src/scene/rows/picture_format.h"
 #include "src/scene/rows/volume_format.h"
-#include "src/scene/view_fault.h"
 
 namespace pileus {
 namespace {
@@ -70,14 +70,14 @@ void check_camera(SceneCheck& check) {
     const ViewFiles& by = check.scene.view_files;
     if (by.position_by_place || by.target_by_place) return;
     if (target == nullptr || position == nullptr) return;
-    const ViewFault fault = view_fault(check.scene.ground, camera);
-    if (fault == ViewFault::kAtTarget) {
+    const FrameFault fault = frame_fault(check.scene.ground, camera);
+    if (fault == FrameFault::kAtTarget) {
         check.faults.add(
             target->at, "camera.target_m",
             "same as position_m, " + value_text(*target) + ", allowed: any other point");
         return;
     }
-    if (up_valid && fault == ViewFault::kAlongUp) {
+    if (up_valid && fault == FrameFault::kAlongUp) {
         const Node& blamed = up_node != nullptr ? *up_node : *target;
         check.faults.add(blamed.at, "camera.up",
                          "parallel to the view, " +
@@ -89,8 +89,8 @@ void check_camera(SceneCheck& check) {
 void check_ground(SceneCheck& check) {
     const Node* position = check.valid_key("camera.position_m");
     const Scene& scene = check.scene;
-    if (!scene.ground.present || position == nullptr || scene.view_files.position_by_place) return;
-    if (scene.camera.position_m[2] < scene.ground.altitude_m)
+    if (position == nullptr || scene.view_files.position_by_place) return;
+    if (is_underground(scene.ground, scene.camera))
         check.faults.add(position->at, "camera.position_m",
                          "below the ground, z " + number_text(scene.camera.position_m[2]) +
                              ", allowed: at least ground.altitude_m " +

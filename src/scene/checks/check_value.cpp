@@ -26,10 +26,7 @@ struct ValueCheck {
         const double value = number_of(node);
         // Refuse NaN and the infinities apart from the range: no comparison holds for NaN.
         if (!(value - value == 0)) return fault(node, "not finite");
-        const KeyRange& r = row.allowed.range;
-        // An end that is left out is left out as the float that the number becomes.
-        const bool high = r.high_open ? float(value) < float(r.high) : value <= r.high;
-        return (value >= r.low && high) || fault(node, "out of range");
+        return holds(row.allowed.range, value) || fault(node, "out of range");
     }
 
     bool integer(const Node& node) const {

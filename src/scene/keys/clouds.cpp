@@ -93,9 +93,9 @@ constexpr KeyRow kKindRows[] = {
 };
 constexpr KeyRow kPlaceRows[] = {
     {"kind", KeyKind::kText, any(), "", "", kRequired},
-    {"offset_m", KeyKind::kNumber3, from_to(-1e7, 1e7), "m", "", kRequired},
-    {"yaw_deg", KeyKind::kNumber, from_to(-360, 360), "deg", ""},
-    {"scale", KeyKind::kNumber, from_to(0.01, 100), "", ""},
+    {"offset_m", KeyKind::kNumber3, ranged(&CloudPlaceSettings::offset_m), "m", "", kRequired},
+    {"yaw_deg", KeyKind::kNumber, ranged(&CloudPlaceSettings::yaw_deg), "deg", ""},
+    {"scale", KeyKind::kNumber, ranged(&CloudPlaceSettings::scale), "", ""},
 };
 constexpr KeyRow kScatterRows[] = {
     {"kinds", KeyKind::kTexts, any(), "", ""},
@@ -105,7 +105,7 @@ constexpr KeyRow kScatterRows[] = {
     {"far_m", KeyKind::kNumber, from_to(1, 1e6), "m", ""},
     {"center_m", KeyKind::kNumber2, from_to(-1e6, 1e6), "m", ""},
     {"base_m", KeyKind::kNumber2, from_to(-1e5, 1e5), "m", "", kRequired},
-    {"scale", KeyKind::kNumber2, from_to(0.01, 100), "", ""},
+    {"scale", KeyKind::kNumber2, ranged(&CloudPlaceSettings::scale), "", ""},
     {"yaw_steps", KeyKind::kInteger, from_to(1, 360), "", ""},
 };
 
@@ -130,19 +130,20 @@ constexpr KeyRow kRows[] = {
      "ranges and defaults",
      kNoNote, &kScatters},
     {"clouds.detail.off", kOff, any(), "", "march every cloud whole in every picture"},
-    {"clouds.detail.error_px", detail<&CloudDetail::error_px>, from_to(0.001, 16), "pixel",
-     "that parts of a far cloud may be off"},
-    {"clouds.detail.near_px", detail<&CloudDetail::near_px>, from_to(1, 1e6), "pixel",
+    {"clouds.detail.error_px", detail<&CloudDetail::error_px>, ranged(&CloudDetail::error_px),
+     "pixel", "that parts of a far cloud may be off"},
+    {"clouds.detail.near_px", detail<&CloudDetail::near_px>, ranged(&CloudDetail::near_px), "pixel",
      "clouds of that size are marched in every picture"},
     {"clouds.detail.near_scale", detail<&CloudDetail::near_scale>, from_to(1, 4), "",
      "of those one pixel of so many along x and y is marched: 1, 2 or 4"},
-    {"clouds.detail.blend_frames", detail<&CloudDetail::blend_frames>, from_to(1, 1000), "",
+    {"clouds.detail.blend_frames", detail<&CloudDetail::blend_frames>,
+     ranged(&CloudDetail::blend_frames), "",
      "frames in which a picture of a far cloud gives way to the next"},
-    {"clouds.detail.sharpness", detail<&CloudDetail::sharpness>, from_to(0.25, 4), "",
-     "texels of a far cloud for a pixel along x and y"},
+    {"clouds.detail.sharpness", detail<&CloudDetail::sharpness>, ranged(&CloudDetail::sharpness),
+     "", "texels of a far cloud for a pixel along x and y"},
     {"clouds.detail.frame_pixels", detail<&CloudDetail::frame_pixels>, from_to(1, 0x1p62), "",
      "of far clouds, that one picture may draw anew"},
-    {"clouds.detail.sun_deg", detail<&CloudDetail::sun_deg>, from_to(0, 10), "deg",
+    {"clouds.detail.sun_deg", detail<&CloudDetail::sun_deg>, ranged(&CloudDetail::sun_deg), "deg",
      "that the sun may move before clouds are lit anew"},
 };
 

@@ -90,8 +90,8 @@ constexpr KeyRow kRows[] = {
      one_of("depth|linear|nearest"), "", upsample_keys::kUpsample},
     {"collectors.temporal", collectors<&CollectorSettings::thin, &UpsampleSettings::temporal>,
      upsample_keys::kCells, "", upsample_keys::kTemporal},
-    {"collectors.light_refresh", collectors<&CollectorSettings::light_refresh>, from_to(1, 64),
-     "frames", upsample_keys::kLightRefresh},
+    {"collectors.light_refresh", collectors<&CollectorSettings::light_refresh>,
+     ranged(&RaymarchSettings::light_refresh), "frames", upsample_keys::kLightRefresh},
     {"collectors.accumulation", collectors<&CollectorSettings::accumulation>,
      one_of("auto|private|shared"), "",
      "sums per thread, or one set that all threads add to atomically, slower but "

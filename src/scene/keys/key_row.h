@@ -7,9 +7,9 @@
 #include <string_view>
 #include <vector>
 
-#include "src/base/single.h"
 #include "src/base/span.h"
 #include "src/scene/keys/key_field.h"
+#include "src/scene/number_keys.h"
 
 namespace pileus {
 
@@ -17,11 +17,6 @@ namespace pileus {
 constexpr const char* kRequired = "required";
 /// As `fallback` of a row: what a key means that is left out is said in its text.
 constexpr const char* kNoNote = "";
-
-struct KeyRange {
-    double low = 0, high = 0;
-    bool high_open = false;
-};
 
 /// What a value may be: numbers within a range, or one of some texts.
 struct Allowed {
@@ -34,10 +29,13 @@ struct Allowed {
 constexpr Allowed any() { return {}; }
 constexpr Allowed moment_text() { return {{}, nullptr, nullptr, true}; }
 constexpr Allowed from_to(double low, double high) { return {{low, high}}; }
+/// What hosts may set, too.
+template <class Of, class Value>
+constexpr Allowed ranged(Value Of::*member) {
+    return {range_of(member)};
+}
 /// Lengths and factors that must not be 0.
 constexpr Allowed positive(double high) { return from_to(kLeastPositive, high); }
-/// Without its high end.
-constexpr Allowed below(double low, double high) { return {{low, high, true}}; }
 constexpr Allowed one_of(const char* choices, const char* later = nullptr) {
     return {{}, choices, later};
 }

@@ -54,8 +54,8 @@ constexpr KeyRow kRows[] = {
      "of a sequence, a file whose name has `#`: the number that stands there in frame 0"},
     {"medium.N.density.type", medium<&MediumSettings::raw_type>, one_of("uint8|uint16|float32"), "",
      "type of the raw numbers; integers are scaled to 0..1; required for raw", kNoNote},
-    {"medium.N.density.size", medium<&MediumSettings::raw_size>, from_to(1, 4096), "cells",
-     "cells along x, y, z of the raw file, x fastest; required for raw", kNoNote},
+    {"medium.N.density.size", medium<&MediumSettings::raw_size>, ranged(&MediumSettings::raw_size),
+     "cells", "cells along x, y, z of the raw file, x fastest; required for raw", kNoNote},
     {"medium.N.density.endian", medium<&MediumSettings::raw_big_endian>, one_of("little|big"), "",
      "byte order of the raw file"},
     {"medium.N.density.grid", kDensityGrid, any(), "",
@@ -71,7 +71,8 @@ constexpr KeyRow kRows[] = {
      "lowest and highest corner of the medium's box; may be left out for files that know "
      "their place, and wins where given",
      kNoNote},
-    {"medium.N.resolution", medium<&MediumSettings::resolution>, from_to(1, 4096), "cells",
+    {"medium.N.resolution", medium<&MediumSettings::resolution>,
+     ranged(&MediumSettings::resolution), "cells",
      "cells along x, y, z; procedural, uniform, NetCDF and particles only; left out: a suitable "
      "number",
      kNoNote},

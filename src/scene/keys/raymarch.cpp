@@ -101,8 +101,8 @@ constexpr KeyRow kRows[] = {
      one_of("depth|linear|nearest"), "", upsample_keys::kUpsample},
     {"raymarch.temporal", raymarch<&RaymarchSettings::thin, &UpsampleSettings::temporal>,
      upsample_keys::kCells, "", upsample_keys::kTemporal},
-    {"raymarch.light_refresh", raymarch<&RaymarchSettings::light_refresh>, from_to(1, 64), "frames",
-     upsample_keys::kLightRefresh},
+    {"raymarch.light_refresh", raymarch<&RaymarchSettings::light_refresh>,
+     ranged(&RaymarchSettings::light_refresh), "frames", upsample_keys::kLightRefresh},
     {"raymarch.phase", raymarch<&RaymarchSettings::peak_phase>, one_of("physical|peak"), "",
      "`peak`: phase functions over their largest value; appearance, not physics"},
 };

@@ -5,6 +5,7 @@
 #include "kernels_cpu/core/math.h"
 #include "platform/threads.h"
 #include "src/base/angles.h"
+#include "src/scene/frame_fault.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/toml/toml_tree.h"
 #include "src/world/atmosphere/sun_position.h"
@@ -190,12 +191,11 @@ Status look_from(double height_m, int threads, Atmosphere& air) {
     return Status::ok();
 }
 
-Status check_camera_in_air(const Scene& scene) {
-    const double height = scene.camera.position_m[2] - scene.ground.altitude_m;
-    if (!scene.atmosphere.present || !scene.ground.present || height <= 100000) return Status::ok();
+Status check_camera_in_air(const Scene& scene, const Camera& camera, const Ground& ground) {
+    if (!is_above_air(scene.atmosphere, ground, camera)) return Status::ok();
     return at_key(scene, "camera.position_m",
                   Status::bad_input("above the air, over a ground that is level for ever, z " +
-                                    number_text(scene.camera.position_m[2]) +
+                                    number_text(camera.position_m[2]) +
                                     ", allowed: up to 100 km above it, or no [ground]: the round "
                                     "earth shows"));
 }

@@ -39,7 +39,7 @@ Status light_atmosphere(const AtmosphereSettings& settings, const Sun& sun, cons
 Status look_from(double height_m, int threads, Atmosphere& air);
 
 /// kBadInput: a camera above the air over a level ground, which no air would hide.
-Status check_camera_in_air(const Scene& scene);
+Status check_camera_in_air(const Scene& scene, const Camera& camera, const Ground& ground);
 
 /// Where a scene with a date has its sun, so many hours later; nothing without one. `sun`: as the
 /// text has it, whose irradiance is that at the mean distance.

@@ -7,10 +7,10 @@
 #include <glm/geometric.hpp>
 
 #include "src/io/volumes/weather_map.h"
+#include "src/scene/frame_fault.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/volume_format.h"
 #include "src/scene/toml/toml_tree.h"
-#include "src/scene/view_fault.h"
 #include "src/world/camera/view.h"
 
 namespace pileus {
@@ -34,17 +34,17 @@ Status map_of(const Scene& scene, WeatherMap& map) {
 }
 
 Status check_view(const Scene& scene) {
-    switch (view_fault(scene.ground, scene.camera)) {
-        case ViewFault::kAtTarget:
+    switch (frame_fault(scene.ground, scene.camera)) {
+        case FrameFault::kAtTarget:
             return Status::bad_input("same as the target, allowed: any other place");
-        case ViewFault::kAlongUp:
+        case FrameFault::kAlongUp:
             return Status::bad_input(
                 "the view is along camera.up, allowed: any direction across it");
-        case ViewFault::kUnderground:
+        case FrameFault::kUnderground:
             return Status::bad_input(
                 "below the ground, z " + number_text(scene.camera.position_m[2]) +
                 ", allowed: at least ground.altitude_m " + number_text(scene.ground.altitude_m));
-        case ViewFault::kNone:
+        default:
             break;
     }
     return Status::ok();

@@ -24,10 +24,6 @@ struct Field {
 };
 
 Status check(const CumulusSettings& s) {
-    for (int n : s.resolution)
-        if (n < 3 || n > 4096)
-            return Status::bad_input("resolution: " + std::to_string(n) +
-                                     " cells, allowed 3..4096 for procedural:cumulus");
     for (const double e : {s.extent_m.x, s.extent_m.y, s.extent_m.z}) {
         const double share = e / s.extent_m[2];
         if (!(e > 0 && share >= 1e-3 && share <= 1e3))

@@ -58,10 +58,6 @@ void fill_ellipsoid(const std::array<int, 3>& n, Buffer<float>& density) {
 }
 
 Status allocate(const std::array<int, 3>& resolution, Volume& volume) {
-    for (int n : resolution)
-        if (n < 1 || n > 4096)
-            return Status::bad_input("resolution: " + std::to_string(n) +
-                                     " cells, allowed 1..4096");
     const auto cells =
         std::uint64_t(resolution[0]) * std::uint64_t(resolution[1]) * std::uint64_t(resolution[2]);
     PILEUS_TRY(volume.density.resize(cells, "uniform shape"));

@@ -11,8 +11,8 @@
 namespace pileus {
 
 /// Fill `volume` with density 1 everywhere, or inside the ellipsoid that touches all six faces of
-/// the box; the mean of that tends to pi/6, within 1e-3 from 16 cells on. Errors: kBadInput for a
-/// resolution outside 1..4096; kLimit when memory runs out.
+/// the box; the mean of that tends to pi/6, within 1e-3 from 16 cells on. Errors: kLimit when
+/// memory runs out.
 Status make_box(const std::array<int, 3>& resolution, Volume& volume);
 Status make_ellipsoid(const std::array<int, 3>& resolution, Volume& volume);
 

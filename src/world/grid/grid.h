@@ -11,7 +11,7 @@ namespace pileus {
 /// A box of voxels. Voxel (i, j, k) has its centre at (i+0.5, j+0.5, k+0.5) * cell_m and the array
 /// index (k*size[1] + j)*size[0] + i. "Voxel coordinates" are metres divided by cell_m.
 struct Grid {
-    int size[3];            ///< voxels along x, y, z; each 1..4096
+    int size[3];            ///< voxels along x, y, z; each 1 or more
     float cell_m[3];        ///< edge lengths of a voxel, metres; each > 0
     bool periodic = false;  ///< the box repeats without end along x and y
     bool constant = false;  ///< a voxel has one density; else it is linear between centres
