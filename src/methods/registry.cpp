@@ -3,11 +3,10 @@
 #include "src/methods/registry.h"
 
 #include "src/methods/collectors/views/views.h"
-#include "src/methods/optical_depth/optical_depth.h"
+#include "src/methods/march/march_method.h"
 #include "src/methods/particles/particles_method.h"
 #include "src/methods/path/path_method.h"
 #include "src/methods/photon_grid/photon_grid_method.h"
-#include "src/methods/raymarch/raymarch.h"
 
 namespace pileus {
 namespace {
@@ -33,8 +32,8 @@ std::vector<ListedMethod> listed_methods() {
     photon_grid.tools = photon_grid_tools;
     return {collectors,
             {path_row(), nullptr, 0, path_tools},
-            {row_of(raymarch_method()), nullptr, 0, raymarch_tools},
-            {row_of(optical_depth_method()), nullptr, 0, optical_depth_tools},
+            {raymarch_row(), nullptr, 0, raymarch_tools},
+            {optical_depth_row(), nullptr, 0, optical_depth_tools},
             photon_grid,
             {particles_row()}};
 }

@@ -4,8 +4,8 @@
 // docs/contributing.md, "Add an array"
 #include <map>
 
-#include "src/march/march_run.h"
 #include "src/methods/collectors/collectors_method.h"
+#include "src/methods/march/march_method.h"
 #include "src/methods/particles/particles_method.h"
 #include "src/methods/particles/view_tiles.h"
 #include "src/methods/path/path_method.h"
@@ -182,33 +182,33 @@ void check_path(const Fixture& f) {
     check_rows(run.plan.memory, Stage::kPaths, held);
 }
 
-void check_raymarch(const Fixture& f) {
-    RaymarchRun run;
-    MethodRow row;
-    REQUIRE(find_method(f.scene, row));
-    REQUIRE(open_run(*row.recipe, f.scene, {}, f.context, true, nullptr, run));
+void check_march(const MethodRow& row, const Fixture& f) {
+    const MadeMethod made = row.make({f.scene, {}});
+    const MarchState& state = static_cast<MarchMethod&>(*made.method).state();
+    MethodRun run;
+    REQUIRE(open_run(row, made, f.scene, {}, f.context, true, nullptr, run));
     REQUIRE(run.plan.exact);
-    REQUIRE(row.recipe->light(FrameStep{}, f.context, run));
-    Bytes held = held_by(run, run.majorants);
-    held["sunlight's optical depth on nodes"] = run.nodes.optical_depth.bytes();
-    held["skylight on nodes"] = run.sky.light.bytes();
-    held["sky seen from nodes"] = run.sky.seen.bytes();
-    held["blue noise"] = run.noise.bytes();
-    held["sunlight on nodes of the sky"] = run.sky_light.words.bytes();
-    for (const DensityLevel& level : run.coarse) {
+    Planes* planes = nullptr;
+    REQUIRE(made.method->render(f.context, view_of(run, 0), {}, planes));
+    Bytes held = held_by(run, state.media.majorants);
+    held["sunlight's optical depth on nodes"] = state.light.nodes.optical_depth.bytes();
+    held["skylight on nodes"] = state.light.sky.light.bytes();
+    held["sky seen from nodes"] = state.light.sky.seen.bytes();
+    held["blue noise"] = state.picture.noise.bytes();
+    held["sunlight on nodes of the sky"] = state.light.sky_light.words.bytes();
+    for (const DensityLevel& level : state.media.coarse) {
         held["coarser density"] += level.density.bytes();
         held["its blocks"] += level.majorants.bytes();
     }
-    held["blocks to skip"] += run.lit_majorants.skipping.bytes();
-    held["density below the largest extinction"] = run.capped.volume.density.bytes();
-    held["density on the cells of the buffer"] = run.lit.volume.density.bytes();
-    held["picture planes"] = bytes_held(run.planes);
-    held["shadow on the ground"] = run.ground_shadow.depth.bytes();
+    held["blocks to skip"] += state.media.lit_majorants.skipping.bytes();
+    held["density below the largest extinction"] = state.media.capped.volume.density.bytes();
+    held["density on the cells of the buffer"] = state.media.lit.volume.density.bytes();
+    held["picture planes"] = bytes_held(*planes);
+    held["shadow on the ground"] = state.light.ground_shadow.depth.bytes();
     const std::uint64_t rows = std::uint64_t(f.scene.camera.resolution[1]);
-    // Freed with the march: a count of 64 bits of each kind for a row.
-    held["counts of rows"] = 8 * rows * std::uint64_t(kRaymarchCounts);
+    held["counts of rows"] = 8 * rows * std::uint64_t(kRaymarchCounts);  // freed with the march
     const bool thin = f.scene.raymarch.thin.scale > 1;
-    held["marched pixels"] = bytes_held(run.upsample.few) + (thin ? 8 * rows : 0);
+    held["marched pixels"] = bytes_held(state.picture.upsample.few) + (thin ? 8 * rows : 0);
     check_rows(run.plan.memory, Stage::kDisplay, held);
 }
 
@@ -305,15 +305,15 @@ TEST_CASE("arrays: what path holds while it traces is what the plan says") {
 
 TEST_CASE("arrays: what raymarch holds while it marches is what the plan says") {
     const char* const layers = "output.layers = [\"radiance\", \"alpha\", \"depth\"]";
-    check_raymarch({kSmallCumulus,
-                    "raymarch",
-                    {layers, "raymarch.light = \"buffer\"", "raymarch.jitter = \"blue-noise\"",
-                     "raymarch.detail = true", "raymarch.steps = 4"}});
-    check_raymarch({kTwoMedia, "raymarch", {"raymarch.scale = 2"}});
-    check_raymarch({kSmallCumulus,
-                    "optical-depth",
-                    {layers, "optical_depth.resolution = [9, 0, 5]",
-                     "optical_depth.max_extinction_per_m = 0.01", "medium.0.detail.tile_m = 9"}});
+    const std::vector<std::string> fine{layers, "raymarch.light = \"buffer\"", "raymarch.steps = 4",
+                                        "raymarch.jitter = \"blue-noise\"",
+                                        "raymarch.detail = true"};
+    check_march(raymarch_row(), {kSmallCumulus, "raymarch", fine});
+    check_march(raymarch_row(), {kTwoMedia, "raymarch", {"raymarch.scale = 2"}});
+    const std::vector<std::string> look{layers, "optical_depth.resolution = [9, 0, 5]",
+                                        "optical_depth.max_extinction_per_m = 0.01",
+                                        "medium.0.detail.tile_m = 9"};
+    check_march(optical_depth_row(), {kSmallCumulus, "optical-depth", look});
 }
 
 TEST_CASE("arrays: what particles hold while they are shown is what the plan says") {

@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "src/base/digest.h"
-#include "src/march/march.h"
+#include "src/methods/march/march.h"
 #include "src/picture/blue_noise.h"
 #include "src/world/camera/view.h"
 #include "src/world/medium/mix_media.h"

@@ -6,11 +6,10 @@
 
 #include "kernels_cpu/core/profile.h"
 #include "src/methods/collectors/collectors_method.h"
-#include "src/methods/optical_depth/optical_depth.h"
+#include "src/methods/march/march_method.h"
 #include "src/methods/particles/particles_method.h"
 #include "src/methods/path/path_method.h"
 #include "src/methods/photon_grid/photon_grid_method.h"
-#include "src/methods/raymarch/raymarch.h"
 
 namespace pileus {
 
@@ -46,10 +45,10 @@ Status find_method(const Scene& scene, MethodRow& row) {
         path_row(),
 #endif
 #ifdef PILEUS_FLIGHT_RAYMARCH
-        row_of(raymarch_method()),
+        raymarch_row(),
 #endif
 #ifdef PILEUS_FLIGHT_OPTICAL_DEPTH
-        row_of(optical_depth_method()),
+        optical_depth_row(),
 #endif
 #ifdef PILEUS_FLIGHT_PHOTON_GRID
         photon_grid_row(),

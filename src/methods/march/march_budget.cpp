@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // See march_budget.h.
-#include "src/march/march_budget.h"
+#include "src/methods/march/march_budget.h"
 
 #include <algorithm>
 
@@ -25,50 +25,52 @@ PixelLattice trial_lattice(const CameraParams& camera) {
 }
 
 /// Seconds of a marched pixel, by a trial whose pixels are thrown away.
-Status pixel_seconds(const UpsampleInput& in, RaymarchRun& run, double& seconds) {
+Status pixel_seconds(const UpsampleInput& in, MarchPicture& picture, double& seconds) {
     const PixelLattice lattice = trial_lattice(in.camera);
+    const Planes& planes = picture.planes;
     Planes few;
-    const bool solid = !run.planes.opaque_depth.empty();
-    PILEUS_TRY(allocate_planes(lattice.width, lattice.height, 3, solid,
-                               !run.planes.half_depth.empty(), few));
-    take_behind(lattice, in.camera.width, run.planes, few);
-    const RaymarchTally counted = run.tally;
+    PILEUS_TRY(allocate_planes(lattice.width, lattice.height, 3, !planes.opaque_depth.empty(),
+                               !planes.half_depth.empty(), few));
+    take_behind(lattice, in.camera.width, planes, few);
+    const RaymarchTally counted = picture.tally;
     const double start = wall_seconds();
     PILEUS_TRY(in.march(lattice, few));
     seconds = (wall_seconds() - start) / (double(lattice.width) * double(lattice.height));
-    run.tally = counted;
+    picture.tally = counted;
     return Status::ok();
 }
 
 }  // namespace
 
-Status choose_march_work(const Context& context, double start_s, const UpsampleInput& in,
-                         RaymarchRun& run) {
-    if (!(run.budget.seconds > 0) || run.whole_steps == 0) return Status::ok();
-    UpsampleSettings& thin = run.settings.thin;
-    if (run.simple == nullptr) thin = run.whole_thin;
-    run.settings.steps = run.whole_steps;
+Status choose_march_work(const Context& context, const FrameView& view, double start_s,
+                         const UpsampleInput& in, MarchState& state) {
+    MarchChoice& choice = state.choice;
+    if (!(choice.seconds > 0) || choice.whole_steps == 0) return Status::ok();
+    RaymarchSettings& settings = choice.settings;
+    UpsampleSettings& thin = settings.thin;
+    if (!choice.look) thin = choice.whole_thin;
+    settings.steps = choice.whole_steps;
     double pixel_s = 0;
-    PILEUS_TRY(pixel_seconds(in, run, pixel_s));
-    const double left_s = run.budget.seconds - (wall_seconds() - start_s);
+    PILEUS_TRY(pixel_seconds(in, state.picture, pixel_s));
+    const double left_s = choice.seconds - (wall_seconds() - start_s);
     const double whole_s = pixel_s * double(in.camera.width) * double(in.camera.height);
     const auto takes = [&](int every) { return whole_s / (double(every) * double(every)); };
     int& every = thin.temporal > 0 ? thin.temporal : thin.scale;
     // Parts of the light have every pixel marched.
-    const OutputSettings& output = run.scene->output;
+    const OutputSettings& output = view.scene.output;
     const int coarsest = output.layer_light || output.layer_order ? every : 4;
     while (every < coarsest && takes(every) > left_s) every *= 2;
     if (takes(every) > left_s) {
         const double share = std::max(left_s, 0.0) / takes(every);
-        const int fewest = std::min(kFewestSteps, run.whole_steps);
-        run.settings.steps = std::max(int(share * run.whole_steps), fewest);
+        const int fewest = std::min(kFewestSteps, choice.whole_steps);
+        settings.steps = std::max(int(share * choice.whole_steps), fewest);
     }
     // Where light comes from was chosen for all steps; with fewer the same scene might choose
     // again.
-    const bool swept = run.settings.light == RaymarchLightKind::kBuffer;
-    const char* light = run.march_light ? "march" : swept ? "buffer" : "buffer-exact";
-    context.report->frame_work = {thin.temporal > 0 ? 0 : thin.scale, thin.temporal,
-                                  run.settings.steps, run.settings.light_refresh, 0};
+    const bool swept = settings.light == RaymarchLightKind::kBuffer;
+    const char* light = choice.march_light ? "march" : swept ? "buffer" : "buffer-exact";
+    context.report->frame_work = {thin.temporal > 0 ? 0 : thin.scale, thin.temporal, settings.steps,
+                                  settings.light_refresh, 0};
     context.report->light_rule = light;
     return Status::ok();
 }

@@ -3,15 +3,15 @@
 // in: a march that is ready to go, seconds that are left -> out: settings of it.
 // docs/raymarch.md, "A time instead of steps"
 #pragma once
-#include "src/march/march_run.h"
+#include "src/methods/march/march_state.h"
 
 namespace pileus {
 
 /// Marches one pixel in 256 to see what they cost, then takes the finest scale, and where even one
 /// pixel in 16 is too dear the most steps, that fit into what is left since `start_s`. Nothing
-/// where the budget has no seconds. The choice is in run.settings; pictures by it have the bits of
-/// scenes with these settings.
-Status choose_march_work(const Context& context, double start_s, const UpsampleInput& in,
-                         RaymarchRun& run);
+/// where the budget has no seconds. The choice is in state.choice.settings; pictures by it have the
+/// bits of scenes with these settings.
+Status choose_march_work(const Context& context, const FrameView& view, double start_s,
+                         const UpsampleInput& in, MarchState& state);
 
 }  // namespace pileus

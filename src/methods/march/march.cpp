@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // See march.h.
-#include "src/march/march.h"
+#include "src/methods/march/march.h"
 
 #include <algorithm>
 
@@ -102,7 +102,7 @@ void set_media(const RaymarchInput& in, RaymarchParams& k) {
 }
 
 /// Maerkl 2018, 3.1.4 and 4.4.2: twice the light of a single scattering, less the powder effect.
-void set_simple(const OpticalDepthSettings& s, RaymarchParams& k) {
+void set_look(const OpticalDepthSettings& s, RaymarchParams& k) {
     k.sunlit = 0;
     for (int i = 0; i < k.media; ++i) {
         if (s.g >= -1) {
@@ -272,7 +272,7 @@ RaymarchParams raymarch_params(const RaymarchInput& in) {
     k.light.octaves = octaves_of(*in.settings);
     set_octaves(*in.settings, *in.medium, k.sun_source, k.light.octave_g, k.octave_source);
     k.octave_depths = octave_depths(k.light.octaves, *in.medium);
-    if (in.simple != nullptr) set_simple(*in.simple, k);
+    if (in.look != nullptr) set_look(*in.look, k);
     return k;
 }
 

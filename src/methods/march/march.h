@@ -29,7 +29,7 @@ struct RaymarchInput {
     const Majorants* majorants = nullptr;  ///< blocks to skip
     const Lighting* lighting = nullptr;
     const RaymarchSettings* settings = nullptr;
-    const OpticalDepthSettings* simple = nullptr;  ///< of method optical-depth; null: of raymarch
+    const OpticalDepthSettings* look = nullptr;  ///< of method optical-depth; null: of raymarch
     const SunDepth* nodes = nullptr;
     NodeGrid visibility_nodes{};
     const float* visibility = nullptr;  ///< of solid_shadow.h; null: nothing solid

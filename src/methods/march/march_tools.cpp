@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What programs ask of method `raymarch` besides pictures.
-// in: a scene -> out: settings of other qualities, what films depend on.
+// What programs ask of methods `raymarch` and `optical-depth` besides pictures.
+// in: a scene -> out: settings of other qualities, what films depend on, what keys cannot say.
 // docs/program.md, "Quality"
+#include "src/methods/march/march_method.h"
 #include "src/methods/method_tools.h"
-#include "src/methods/raymarch/raymarch.h"
 
 namespace pileus {
 namespace {
@@ -28,5 +28,6 @@ FilmMemory raymarch_memory(const MethodTables& tables) {
 }  // namespace
 
 const MethodTools raymarch_tools{raymarch_draft, raymarch_whole, raymarch_memory, nullptr, false};
+const MethodTools optical_depth_tools{nullptr, nullptr, nullptr, nullptr, true};
 
 }  // namespace pileus

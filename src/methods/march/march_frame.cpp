@@ -1,0 +1,159 @@
+// SPDX-License-Identifier: Apache-2.0
+// One frame of a march: light on nodes, background, marched pixels, lamps, parts of the light, air.
+// in: a prepared MarchState -> out: its planes.
+// docs/raymarch.md
+#include "kernels_cpu/core/profile.h"
+#include "platform/clock.h"
+#include "src/methods/march/march_budget.h"
+#include "src/methods/march/march_parts.h"
+#include "src/picture/air_view.h"
+#include "src/picture/background.h"
+#include "src/picture/blue_noise.h"
+#include "src/picture/late_rows.h"
+#include "src/picture/march_view.h"
+#include "src/world/camera/view.h"
+#include "src/world/world.h"
+
+namespace pileus {
+namespace {
+
+/// Light of [[light]], scattered once or by octaves, and of the media: its own march, in steps of
+/// the grid.
+Status add_lamps(const Context& context, const FrameView& view, MarchState& state) {
+    const Medium& medium = marched_medium(view, state);
+    if ((view.lighting.lamps.empty() && !emits(medium)) || state.choice.settings.steps == 0)
+        return Status::ok();
+    LampNodes& lamps = state.light.lamps;
+    PILEUS_TRY(make_lamp_nodes(context, medium, state.media.majorants, view.lighting, lamps));
+    return add_lamp_light(context, medium, march_lamps(view, state), lamps, state.picture.planes);
+}
+
+/// Parts need the whole background, a trial for a budget of seconds any row's depths.
+LateRows* late_march(const FrameView& view, LateRows* late, const MarchState& state) {
+    const OutputSettings& output = view.scene.output;
+    if (kFilms && (output.layer_light || output.layer_order || state.choice.seconds > 0))
+        return nullptr;
+    return late_rows_of(late, view.lighting, view.world.medium, state.choice.settings.thin,
+                        state.picture.camera, view.frame);
+}
+
+/// Empty planes of the layers that are asked for.
+Status allocate_picture(const Context& context, const FrameView& view, MarchPicture& picture) {
+    // Clearing memory is part of it.
+    const StageClock clock(context, "background");
+    Planes& planes = picture.planes;
+    PILEUS_TRY(allocate_planes(picture.camera.width, picture.camera.height, 3,
+                               view.lighting.opaque(), view.scene.wants_depth(), planes));
+    if (kFilms && view.scene.output.layer_optical_depth)
+        PILEUS_TRY(
+            allocate(arrays::picture_planes(1, planes.transmittance.size()), planes.optical_depth));
+    return Status::ok();
+}
+
+RaymarchInput march_input(const FrameView& view, const MarchState& state) {
+    const MarchLight& light = state.light;
+    RaymarchInput in;
+    in.medium = &marched_medium(view, state);
+    in.majorants = &state.media.majorants;
+    in.lighting = &view.lighting;
+    in.settings = &state.choice.settings;
+    in.look = state.choice.look ? &*state.choice.look : nullptr;
+    in.nodes = &light.nodes;
+    in.visibility_nodes = light.visibility_nodes;
+    in.visibility = light.visibility.data();
+    in.sky = &light.sky;
+    in.levels = &state.media.coarse;
+    in.march_light = state.choice.march_light;
+    in.noise = &state.picture.noise;
+    // Frame f of an animation has the jitter of the seed f further on.
+    in.seed = std::uint64_t(view.scene.seed) + std::uint64_t(view.frame);
+    in.layer = view.world.direct_sky ? &view.world.layer : nullptr;
+    in.camera = state.picture.camera;
+    return in;
+}
+
+}  // namespace
+
+LampMarchParams march_lamps(const FrameView& view, const MarchState& state) {
+    const Medium& medium = marched_medium(view, state);
+    const RaymarchSettings& settings = state.choice.settings;
+    const auto& look = state.choice.look;
+    LampMarchParams k =
+        lamp_march_params(medium, state.media.majorants, view.lighting, state.picture.camera,
+                          state.light.lamps, settings.stop_below);
+    k.octaves = octaves_of(settings);
+    set_octaves(settings, medium, k.albedo, k.octave_g, k.octave_source);
+    k.octave_depths = octave_depths(k.octaves, medium);
+    for (int i = 0; i < k.media; ++i) {
+        float unit = 1;
+        if (settings.peak_phase) unit = 1.0f / phase_peak(k.phase[i]);
+        if (look) {
+            // As the sun's light in this method: twice, and with a phase function of its own.
+            if (look->g >= -1) k.phase[i] = {kPhaseHg, float(look->g), 0, 1};
+            unit = float(2 * look->intensity);
+        }
+        for (float& albedo : k.albedo[i]) albedo *= unit;
+    }
+    return k;
+}
+
+Status march_background(const Context& context, const FrameView& view, const Lighting& light,
+                        MarchState& state, Planes& planes) {
+    const Medium& medium = view.world.medium;
+    GroundShadow& shadow = state.light.ground_shadow;
+    const MediumView read = make_medium_view(medium, state.media.majorants);
+    PILEUS_TRY(make_ground_shadow(context, medium, read, view.lighting, planes.transmittance.size(),
+                                  march_turn(view, state), shadow));
+    const StageClock clock(context, "background");
+    BackgroundParams k = background_params(read, state.picture.camera, light);
+    BackgroundBuffers b{nullptr, planes.background.data(), planes.opaque_depth.data()};
+    read_ground_shadow(shadow, k, b);
+    if (planes.late != nullptr) return leave_background(context, k, b, *planes.late);
+    return show_background(context, light, k, b);
+}
+
+Status march_frame(const Context& context, const FrameView& view, const RenderAsk& ask,
+                   MarchState& state) {
+    const Medium& medium = view.world.medium;
+    MarchPicture& picture = state.picture;
+    const double start_s = wall_seconds();
+    {
+        const StageClock clock(context, "lights");
+        picture.camera =
+            make_camera(view.scene.camera, orbit_at(view.scene, view.frame), medium.low_m);
+    }
+    if (state.choice.settings.jitter == RaymarchJitterKind::kBlueNoise && picture.noise.empty())
+        PILEUS_TRY(make_blue_noise(picture.noise));
+    PILEUS_TRY(light_march(context, view, ask.view_slack_deg, state));
+    PILEUS_TRY(allocate_picture(context, view, picture));
+    picture.planes.late = late_march(view, ask.late, state);
+    if (kClouds && ask.media_only)
+        PILEUS_TRY(show_nothing_behind(picture.planes));
+    else
+        PILEUS_TRY(march_background(context, view, view.lighting, state, picture.planes));
+    RaymarchInput in = march_input(view, state);
+    UpsampleInput thin;
+    thin.camera = picture.camera;
+    thin.medium = make_medium_view(*in.medium, state.media.majorants);
+    thin.to_sun = view.lighting.to_sun;
+    thin.march = [&](const PixelLattice& lattice, Planes& planes) {
+        in.lattice = lattice;
+        return raymarch_picture(context, in, planes, picture.tally);
+    };
+    if (state.choice.sky_nodes && view.lighting.sunlit && medium.sigma > 0) {
+        SkyLight& nodes = state.light.sky_light;
+        PILEUS_TRY(follow_sky_light(context, raymarch_params(in), view.world.layer.params,
+                                    sky_light_bits(state.choice), kNearSteps,
+                                    march_turn(view, state), nodes));
+        in.sky_light = &nodes.view;
+    }
+    if (kFilms) PILEUS_TRY(choose_march_work(context, view, start_s, thin, state));
+    thin.settings = state.choice.settings.thin;
+    PILEUS_TRY(upsample_picture(context, thin, view.frame, picture.upsample, picture.planes));
+    PILEUS_TRY(add_lamps(context, view, state));
+    if (kFilms) PILEUS_TRY(march_parts(context, view, in, state));
+    return show_air(context, view.scene, medium, view.lighting, picture.camera, view.environment,
+                    picture.planes);
+}
+
+}  // namespace pileus

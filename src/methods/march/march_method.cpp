@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// See march_method.h.
+#include "src/methods/march/march_method.h"
+
+#include "kernels_cpu/core/profile.h"
+#include "src/methods/check_support.h"
+#include "src/methods/march/march_parts.h"
+
+namespace pileus {
+namespace {
+
+Status check_marched(const Scene& scene, const Budget& budget) {
+    PILEUS_TRY(check_budget_kinds(scene, budget));
+    if (scene.camera.flux)
+        return Status::bad_input(scene.file +
+                                 ": camera.projection: \"flux\" sees along no single ray, which "
+                                 "method " +
+                                 scene.method + " marches, allowed: perspective, orthographic");
+    PILEUS_TRY(check_layer_kinds(scene));
+    return kFilms ? check_march_parts(scene) : Status::ok();
+}
+
+Status check_raymarch(const Scene& scene, const Budget& budget) {
+    PILEUS_TRY(check_marched(scene, budget));
+    const RaymarchLightKind light = scene.raymarch.light;
+    if (scene.raymarch.light_cone &&
+        (light == RaymarchLightKind::kBuffer || light == RaymarchLightKind::kBufferExact))
+        return Status::bad_input(scene.file +
+                                 ": raymarch.light: nodes hold straight ways, not those of "
+                                 "light_path = \"cone\", allowed: auto, march");
+    return check_upsampling(scene, "raymarch", scene.raymarch.thin);
+}
+
+Status check_optical_depth(const Scene& scene, const Budget& budget) {
+    PILEUS_TRY(check_marched(scene, budget));
+    if (scene.optical_depth.max_extinction_per_m > 0 && scene.media.size() > 1)
+        return Status::bad_input(scene.file +
+                                 ": optical_depth.max_extinction_per_m: not with several media, "
+                                 "allowed: 0, or a scene with one");
+    return Status::ok();
+}
+
+MadeMethod made_by(MarchChoice choice) {
+    auto method = std::make_unique<MarchMethod>(std::move(choice));
+    MadeMethod made;
+    if (kPlans) made.report = march_report(*method);
+    made.method = std::move(method);
+    return made;
+}
+
+MadeMethod make_raymarch(const MethodInputs& inputs) { return made_by(raymarch_choice(inputs)); }
+
+MadeMethod make_optical_depth(const MethodInputs& inputs) {
+    return made_by(optical_depth_choice(inputs));
+}
+
+}  // namespace
+
+MarchMethod::MarchMethod(MarchChoice choice) { state_.choice = std::move(choice); }
+
+Status MarchMethod::plan(const Context& context, const FrameView& view, Plan&) {
+    if (kDevices && context.kernels->device != nullptr)
+        return Status::bad_input(std::string("--isa: \"") + context.kernels->name + "\": method " +
+                                 view.scene.method +
+                                 " runs on the host alone, allowed: another, or another method");
+    choose_march(view, state_.choice);
+    return Status::ok();
+}
+
+Status MarchMethod::prepare(const Context& context, const FrameView& view) {
+    MarchMedia& media = state_.media;
+    PILEUS_TRY(make_majorants(view.world.medium, false, context, media.majorants));
+    media.outlined_only = false;
+    PILEUS_TRY(cap_medium(view, state_));
+    return make_density_levels(marched_medium(view, state_), state_.choice.levels,
+                               media.majorants.skip_block, context, media.coarse);
+}
+
+Status MarchMethod::reserve(const FrameView& view, LateRows&) {
+    const auto& size = view.scene.camera.resolution;
+    const bool solid = view.lighting.opaque() || view.environment.depth.present;
+    const MarchChoice& choice = state_.choice;
+    MarchLight& light = state_.light;
+    PILEUS_TRY(reserve_depths(size, solid, state_.picture.planes));
+    PILEUS_TRY(reserve_lamp_nodes(view.world.medium, view.scene.lights.size(), light.lamps));
+    light.slices.reserve();
+    light.ground_shadow.slices.reserve();
+    if (choice.look) return Status::ok();
+    // Fewer marched pixels have fewer nodes.
+    if (choice.sky_nodes)
+        PILEUS_TRY(reserve_sky_light(view.world.layer.params, kMostSkyLightBits, light.sky_light));
+    return reserve_upsampling(choice.settings.thin, size, solid, state_.picture.upsample);
+}
+
+/// Nodes of sunlight and sky are made again by the next picture where their light has changed.
+Status MarchMethod::set_view(const Context&, const FrameView& view, const ViewChange& change) {
+    MarchPicture& picture = state_.picture;
+    if (change.new_sky || change.new_shine) {
+        state_.light.sky_made = false;
+        picture.upsample.ready = false;
+    }
+    const auto& size = view.scene.camera.resolution;
+    const bool opaque = view.lighting.opaque();
+    if (picture.camera.width != size[0] || picture.camera.height != size[1] ||
+        picture.opaque != opaque)
+        forget_pictures(picture.upsample);
+    picture.opaque = opaque;
+    return Status::ok();
+}
+
+Status MarchMethod::accumulate(const Context&, const FrameView&, std::uint64_t,
+                               std::uint64_t& done) {
+    done = 0;
+    return Status::ok();
+}
+
+Status MarchMethod::render(const Context& context, const FrameView& view, const RenderAsk& ask,
+                           Planes*& planes) {
+    // A host's pictures are counted, frames of a film have numbers.
+    std::int64_t& turn = state_.light.turn;
+    turn = !kFilms || state_.choice.hosted ? turn + 1 : view.frame;
+    planes = &state_.picture.planes;
+    return march_frame(context, view, ask, state_);
+}
+
+FrameWork MarchMethod::full_work() const {
+    const MarchChoice& choice = state_.choice;
+    FrameWork out;
+    if (choice.look) {
+        out.steps = choice.look->steps;
+        return out;
+    }
+    out = work_of(choice.settings.thin);
+    out.light_refresh = choice.settings.light_refresh;
+    out.steps = choice.settings.steps;
+    return out;
+}
+
+Status MarchMethod::set_limits(const FrameWork& work) {
+    MarchChoice& choice = state_.choice;
+    RaymarchSettings& settings = choice.settings;
+    if (choice.look) {
+        // One step a cell has no number.
+        if (work.steps == 0) return Status::ok();
+        settings.spacing = RaymarchSpacing::kUniform;
+    } else {
+        put_work(work, settings.thin);
+        settings.light_refresh = work.light_refresh;
+        choice.whole_thin = settings.thin;
+    }
+    settings.steps = work.steps;
+    return Status::ok();
+}
+
+Status MarchMethod::worst_case(const FrameView& view, const FrameWork& work,
+                               FrameUnits& units) const {
+    return march_most_units(view, work, state_, units);
+}
+
+void MarchMethod::count(Counts& counts) const {
+    const RaymarchTally& tally = state_.picture.tally;
+    counts.emplace_back("majorant_violations", 0);  // bounds only say where nothing is
+    counts.emplace_back("bound_breaches", tally.breaches);
+    counts.emplace_back("rays_cut", tally.cut);
+}
+
+MethodRow raymarch_row() {
+    return {"raymarch", WorldUse::kSkyInPlace, kept(kChecks, check_raymarch), make_raymarch};
+}
+
+MethodRow optical_depth_row() {
+    return {"optical-depth", WorldUse::kGrid, kept(kChecks, check_optical_depth),
+            make_optical_depth};
+}
+
+}  // namespace pileus

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parts of a marched picture's light: of the sun, of each lamp, emitted, scattered once.
+// in: MarchState whose picture is marched -> out: planes of the layers light and order.
+// docs/formats.md, "Pictures out"; docs/raymarch.md, "Parts of the light". Each is a march of its
+// own.
+#include "src/methods/march/march_parts.h"
+
+#include <algorithm>
+
+#include "src/scene/method_column.h"
+
+namespace pileus {
+namespace {
+
+constexpr float kDark[3] = {0, 0, 0};
+
+Status no_light(const MarchState& state, Buffer<float>& out) {
+    return allocate(arrays::picture_planes(3, state.picture.planes.transmittance.size()), out);
+}
+
+Status allocate_part(const FrameView& view, const MarchPicture& picture, Planes& part) {
+    return allocate_planes(picture.camera.width, picture.camera.height, 3, view.lighting.opaque(),
+                           false, part);
+}
+
+void take_opaque_depth(const Planes& from, Planes& part) {
+    std::copy_n(from.opaque_depth.data(), from.opaque_depth.size(), part.opaque_depth.data());
+}
+
+/// A picture of `in` alone, before the background that `light` shows; null: before none.
+Status show_part(const Context& context, const FrameView& view, const RaymarchInput& in,
+                 const Lighting* light, MarchState& state, Planes& part) {
+    PILEUS_TRY(allocate_part(view, state.picture, part));
+    if (light != nullptr) PILEUS_TRY(march_background(context, view, *light, state, part));
+    take_opaque_depth(state.picture.planes, part);
+    RaymarchTally counted;  // of the picture's own march alone
+    return raymarch_picture(context, in, part, counted);
+}
+
+/// What rays bring: the media's light and, through them, the background's.
+void lay_over(Planes& part) {
+    const std::size_t pixels = part.transmittance.size();
+    for (std::size_t i = 0; i < 3 * pixels; ++i)
+        part.colour[i] += part.transmittance[i % pixels] * part.background[i];
+}
+
+/// Light of lamps from `first` on, as many as `k` says, or what is emitted, into empty planes.
+Status show_lamps(const Context& context, const FrameView& view, const LampMarchParams& k,
+                  std::size_t first, MarchState& state, Planes& part) {
+    std::fill_n(part.colour.data(), part.colour.size(), 0.0f);
+    std::fill_n(part.background.data(), part.background.size(), 0.0f);
+    return add_lamp_light(context, marched_medium(view, state), k, state.light.lamps, part, first);
+}
+
+/// Skylight on nodes under another light; what nodes see of the sky is kept.
+Status light_nodes_by(const Context& context, const FrameView& view, const Lighting& light,
+                      MarchState& state) {
+    const Medium& medium = view.world.medium;
+    const RaymarchSettings& settings = state.choice.settings;
+    if (!settings.sky_ambient || medium.sigma <= 0) return Status::ok();
+    return make_sky_nodes(context, medium, state.media.majorants, light,
+                          mean_kept(settings, medium), octaves_of(settings), sky_view(view, state),
+                          state.light.sky);
+}
+
+Status show_sun(const Context& context, const FrameView& view, const RaymarchInput& whole,
+                MarchState& state, Planes& part) {
+    const Lighting sun = sun_alone(view.lighting);
+    RaymarchSettings settings = state.choice.settings;
+    std::copy_n(kDark, 3, settings.ambient.begin());
+    RaymarchInput in = whole;
+    in.lighting = &sun;
+    in.settings = &settings;
+    // Nodes hold what the ground sends up of the sun's light, and then all of it again.
+    PILEUS_TRY(light_nodes_by(context, view, sun, state));
+    PILEUS_TRY(show_part(context, view, in, &sun, state, part));
+    PILEUS_TRY(light_nodes_by(context, view, view.lighting, state));
+    lay_over(part);
+    state.picture.planes.sun.swap(part.colour);
+    return Status::ok();
+}
+
+Status show_emission(const Context& context, const FrameView& view, const RaymarchInput& whole,
+                     MarchState& state, Planes& part) {
+    Lighting dark = sun_alone(view.lighting);
+    dark.sunlit = false;
+    dark.sun_irradiance = {};
+    RaymarchInput in = whole;
+    in.lighting = &dark;
+    in.sky = nullptr;
+    PILEUS_TRY(show_part(context, view, in, nullptr, state, part));
+    if (march_emits(view, state) && state.choice.settings.steps > 0) {
+        LampMarchParams k = march_lamps(view, state);
+        k.lamps = k.ground = 0;
+        PILEUS_TRY(
+            add_lamp_light(context, marched_medium(view, state), k, state.light.lamps, part, 0));
+    }
+    state.picture.planes.emission.swap(part.colour);
+    return Status::ok();
+}
+
+Status show_each_lamp(const Context& context, const FrameView& view, MarchState& state,
+                      Planes& part) {
+    Planes& planes = state.picture.planes;
+    const std::size_t count = view.lighting.lamps.size(), pixels = planes.transmittance.size();
+    PILEUS_TRY(allocate(arrays::picture_planes(3 * count, pixels), planes.lamps));
+    if (state.choice.settings.steps == 0) return Status::ok();
+    std::copy_n(planes.transmittance.data(), pixels, part.transmittance.data());
+    LampMarchParams k = march_lamps(view, state);
+    k.emits = 0;
+    k.lamps = 1;
+    for (std::size_t i = 0; i < count; ++i) {
+        PILEUS_TRY(show_lamps(context, view, k, i, state, part));
+        lay_over(part);
+        std::copy_n(part.colour.data(), 3 * pixels, planes.lamps.data() + 3 * pixels * i);
+    }
+    return Status::ok();
+}
+
+/// Light of sun, sky and lamps that the media scattered once, and that met no ground.
+Status show_single(const Context& context, const FrameView& view, const RaymarchInput& whole,
+                   MarchState& state, Planes& part) {
+    RaymarchSettings settings = state.choice.settings;
+    settings.many = settings.forward = false;
+    std::copy_n(kDark, 3, settings.ambient.begin());
+    RaymarchInput in = whole;
+    in.settings = &settings;
+    if (settings.sky_ambient && view.world.medium.sigma > 0) {
+        Lighting groundless = view.lighting;
+        groundless.ground_diffuse = groundless.ground_sun = {};
+        PILEUS_TRY(make_sky_nodes(context, view.world.medium, state.media.majorants, groundless, 0,
+                                  octaves_of(settings), sky_view(view, state),
+                                  state.light.single_sky));
+        in.sky = &state.light.single_sky;
+    }
+    PILEUS_TRY(show_part(context, view, in, nullptr, state, part));
+    if (!view.lighting.lamps.empty() && settings.steps > 0) {
+        LampMarchParams k = march_lamps(view, state);
+        k.emits = k.ground = 0;
+        k.octaves.count = 1;
+        PILEUS_TRY(
+            add_lamp_light(context, marched_medium(view, state), k, state.light.lamps, part, 0));
+    }
+    state.picture.planes.single.swap(part.colour);
+    return Status::ok();
+}
+
+}  // namespace
+
+bool march_emits(const FrameView& view, const MarchState& state) {
+    const auto& ambient = state.choice.settings.ambient;
+    return emits(marched_medium(view, state)) || ambient[0] > 0 || ambient[1] > 0 || ambient[2] > 0;
+}
+
+Status march_parts(const Context& context, const FrameView& view, const RaymarchInput& whole,
+                   MarchState& state) {
+    const OutputSettings& output = view.scene.output;
+    RaymarchInput in = whole;
+    in.lattice = PixelLattice{};
+    Planes part;
+    if (output.layer_light) {
+        PILEUS_TRY(view.lighting.sunlit ? show_sun(context, view, in, state, part)
+                                        : no_light(state, state.picture.planes.sun));
+        if (march_emits(view, state)) PILEUS_TRY(show_emission(context, view, in, state, part));
+        PILEUS_TRY(allocate_part(view, state.picture, part));
+        if (!view.lighting.lamps.empty()) {
+            take_opaque_depth(state.picture.planes, part);
+            PILEUS_TRY(show_each_lamp(context, view, state, part));
+        }
+    }
+    return output.layer_order ? show_single(context, view, in, state, part) : Status::ok();
+}
+
+std::uint64_t march_part_planes(const FrameView& view, const MarchState& state) {
+    const OutputSettings& output = view.scene.output;
+    const std::uint64_t lights =
+        1 + view.lighting.lamps.size() + (march_emits(view, state) ? 1u : 0u);
+    return (output.layer_light ? 3 * lights : 0) + (output.layer_order ? 3u : 0u);
+}
+
+Status check_march_parts(const Scene& scene) {
+    const OutputSettings& output = scene.output;
+    const UpsampleSettings& thin = scene.raymarch.thin;
+    const bool thins = refused(scene, Feature::kThinning) == nullptr && thin.every() > 1;
+    if (!thins || !(output.layer_light || output.layer_order)) return Status::ok();
+    return Status::bad_input(scene.file + ": raymarch." +
+                             (thin.temporal > 0 ? "temporal" : "scale") + ": the layer \"" +
+                             (output.layer_light ? "light" : "order") +
+                             "\" has every pixel marched, allowed: none of both, or no such layer");
+}
+
+}  // namespace pileus

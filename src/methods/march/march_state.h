@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// What methods `raymarch` and `optical-depth` keep between their calls.
+// in: a scene, settings of the march -> out: light on nodes, planes of pixels.
+// docs/raymarch.md; docs/optical-depth.md
+#pragma once
+#include <optional>
+
+#include "src/methods/march/march.h"
+#include "src/methods/methods.h"
+#include "src/picture/nodes/ground_shadow.h"
+#include "src/picture/nodes/lamp_light.h"
+#include "src/picture/nodes/sky_light.h"
+#include "src/picture/upsample.h"
+
+namespace pileus {
+
+/// Settings of pictures, and what is chosen by them and by sizes.
+struct MarchChoice {
+    RaymarchSettings settings;  ///< the scene's, with the steps of the budget, or the look's
+    /// Of optical-depth alone, with the steps of the budget: settings are made of it.
+    std::optional<OpticalDepthSettings> look;
+    int whole_steps = 0;          ///< of settings, where a time leaves all
+    UpsampleSettings whole_thin;  ///< and pixels, likewise
+    double seconds = 0;           ///< of a picture; 0: no budget of time
+    bool hosted = false;          ///< a host moves camera and lights; else frames are a film's
+    bool march_light = false;     ///< else sunlight comes from nodes
+    bool sky_nodes = false;       ///< those of a sky in place; march_light is set, too
+    std::string light_why;        ///< and why that is
+    int levels = 0;               ///< of detail
+};
+
+/// What no frame changes.
+struct MarchMedia {
+    bool outlined_only = true;  ///< sizes are known, values are not
+    Majorants majorants;
+    std::vector<DensityLevel> coarse;  ///< densities of the levels of detail
+    Medium capped;  ///< the medium with its extinction cut; unused where that cuts nothing
+    Medium lit;     ///< on the cells that its optical depth is swept over, if they are others
+    Majorants lit_majorants;
+};
+
+/// Light on nodes, which frames of the same light share.
+struct MarchLight {
+    std::int64_t turn = 0;  ///< number of the picture
+    SunDepth nodes;
+    SweepCheck nodes_difference;          ///< of swept nodes to rays
+    std::array<float, 3> nodes_to_sun{};  ///< the sun that swept nodes were made for
+    SunSlices slices;                     ///< and those of nodes by rays
+    Buffer<float> visibility;  ///< what solids leave of the sun, on nodes; empty without solids
+    NodeGrid visibility_nodes{};
+    SkyNodes sky;
+    SkyNodes single_sky;                ///< of light scattered once, where layer `order` shows it
+    bool sky_made = false;              ///< its nodes are those of the light as it is
+    std::array<float, 3> sky_to_sun{};  ///< the sun that the sky's nodes were made for
+    CameraParams sky_camera{};          ///< and the camera
+    SkyLight sky_light;
+    LampNodes lamps;
+    GroundShadow ground_shadow;
+};
+
+/// The last picture.
+struct MarchPicture {
+    CameraParams camera{};
+    bool opaque = false;  ///< something solid could be in it
+    Planes planes;
+    UpsampleMemory upsample;
+    Buffer<float> noise;  ///< tile of the jitter; empty: none
+    RaymarchTally tally;  ///< of all pictures so far
+};
+
+struct MarchState {
+    MarchChoice choice;
+    MarchMedia media;
+    MarchLight light;
+    MarchPicture picture;
+};
+
+/// Steps towards the sun that samples march where nodes of a sky hold the others.
+constexpr int kNearSteps = 0;
+
+namespace arrays {
+
+inline Array<float> capped_density(const Grid& grid) {
+    return {"density below the largest extinction", voxel_count(grid), Stage::kMajorants,
+            Stage::kWrite};
+}
+inline Array<float> lit_density(const Grid& grid) {
+    return {"density on the cells of the buffer", voxel_count(grid), Stage::kShadow, Stage::kWrite};
+}
+
+}  // namespace arrays
+
+/// By the scene's settings and the budget.
+MarchChoice raymarch_choice(const MethodInputs& inputs);
+MarchChoice optical_depth_choice(const MethodInputs& inputs);
+
+/// Chooses where sunlight comes from, and the levels of detail.
+void choose_march(const FrameView& view, MarchChoice& choice);
+
+/// Such nodes are as fine as the pixels that are marched.
+int sky_light_bits(const MarchChoice& choice);
+
+/// Whether the largest extinction of a look cuts anything; before values are known: may cut.
+bool caps_extinction(const FrameView& view, const MarchState& state);
+/// Whether optical depths are made on cells or of extinctions other than the medium's.
+bool has_sun_grid(const FrameView& view, const MarchState& state);
+/// Cells of the sun's optical depth.
+Grid sun_grid(const FrameView& view, const MarchState& state);
+/// What is shown and lit: the world's medium, or the capped one.
+const Medium& marched_medium(const FrameView& view, const MarchState& state);
+
+/// The medium with no extinction above the largest one asked for. kLimit: out of memory.
+Status cap_medium(const FrameView& view, MarchState& state);
+/// Makes the medium of the sun's cells once. kLimit: out of memory.
+Status make_lit_medium(const Context& context, const FrameView& view, MarchState& state);
+
+/// Skylight is scattered towards the camera, but to all sides where copies of the medium are seen,
+/// each along ways of its own, and by method optical-depth.
+SkyView sky_view(const FrameView& view, const MarchState& state);
+
+/// The frame that light is made for, and how many share its slices.
+SunTurn march_turn(const FrameView& view, const MarchState& state);
+/// Light on nodes for the camera of the picture, or one that was within `slack_deg` of it. kLimit:
+/// out of memory.
+Status light_march(const Context& context, const FrameView& view, double slack_deg,
+                   MarchState& state);
+
+/// Sunlight, background and the march of a frame, into state.picture. Errors: kLimit, out of
+/// memory; kCheckFailed, interrupted.
+Status march_frame(const Context& context, const FrameView& view, const RenderAsk& ask,
+                   MarchState& state);
+
+/// Method::worst_case.
+Status march_most_units(const FrameView& view, const FrameWork& work, const MarchState& state,
+                        FrameUnits& out);
+
+}  // namespace pileus
