@@ -192,6 +192,7 @@ struct MadeMethod {
 /// A picture of a method's steps in place of its result, made from copies of its settings.
 struct ViewRow {
     const char* name = "";
+    bool shows_light = false;  ///< as of a MethodRow
     MadeMethod (*make)(const MethodInputs&) = nullptr;
 };
 
@@ -205,6 +206,7 @@ struct MethodRow {
     MadeMethod (*make)(const MethodInputs&) = nullptr;  ///< null: by the recipe
     const Recipe* recipe = nullptr;                     ///< null: a class of its own
     bool keeps_parts = false;  ///< light is traced with depths and the cloud's part, or without
+    bool shows_light = true;   ///< colours are light, which an exposure applies to
 };
 
 }  // namespace pileus

@@ -66,6 +66,7 @@ Status find_view(const std::string& method, const std::string& name, MethodRow& 
             row = listed.row;
             row.name = listed.views[i].name;
             row.make = listed.views[i].make;
+            row.shows_light = listed.views[i].shows_light;
             if (name == row.name) return Status::ok();
         }
     }

@@ -68,7 +68,7 @@ Status read_view(const RenderArguments& arguments, RenderOptions& options, Outpu
     if (arguments.show) {
         MethodRow view;
         add_fault(find_view("", *arguments.show, view), faults);
-        if (arguments.exposure && view.recipe != nullptr && !view.recipe->shows_light)
+        if (arguments.exposure && !view.shows_light)
             add_fault(Status::bad_input("--exposure: a view's colours are no light, allowed: leave "
                                         "it out, or --show illumination"),
                       faults);

@@ -181,8 +181,9 @@ MadeMethod make_slices(const MethodInputs& inputs) {
 }  // namespace
 
 const ViewRow* photon_grid_views(int& count) {
-    static constexpr ViewRow all[] = {{"flux-slices", make_slices<GridSlices::kFlux>},
-                                      {"anisotropy-slices", make_slices<GridSlices::kAnisotropy>}};
+    static constexpr ViewRow all[] = {
+        {"flux-slices", false, make_slices<GridSlices::kFlux>},
+        {"anisotropy-slices", false, make_slices<GridSlices::kAnisotropy>}};
     count = int(sizeof all / sizeof all[0]);
     return all;
 }

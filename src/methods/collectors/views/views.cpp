@@ -183,15 +183,16 @@ std::unique_ptr<MethodReport> view_report(ViewMethod& method) {
 }
 
 const ViewRow* collectors_views(int& count) {
-    static constexpr ViewRow all[] = {{"density-slice", make<View::kDensitySlice>},
-                                      {"gradient-slice", make<View::kGradientSlice>},
-                                      {"gradient", make<View::kGradient>},
-                                      {"samples", make<View::kSamples>},
-                                      {"tree", make<View::kTree>},
-                                      {"leaf-density", make<View::kLeafDensity>},
-                                      {"collectors", make<View::kCollectors>},
-                                      {"photons", make<View::kPhotons>},
-                                      {"illumination", make<View::kIllumination>}};
+    static constexpr ViewRow all[] = {
+        {"density-slice", view_is_light(View::kDensitySlice), make<View::kDensitySlice>},
+        {"gradient-slice", view_is_light(View::kGradientSlice), make<View::kGradientSlice>},
+        {"gradient", view_is_light(View::kGradient), make<View::kGradient>},
+        {"samples", view_is_light(View::kSamples), make<View::kSamples>},
+        {"tree", view_is_light(View::kTree), make<View::kTree>},
+        {"leaf-density", view_is_light(View::kLeafDensity), make<View::kLeafDensity>},
+        {"collectors", view_is_light(View::kCollectors), make<View::kCollectors>},
+        {"photons", view_is_light(View::kPhotons), make<View::kPhotons>},
+        {"illumination", view_is_light(View::kIllumination), make<View::kIllumination>}};
     count = int(sizeof all / sizeof all[0]);
     return all;
 }
