@@ -135,10 +135,9 @@ pileus_code pileus_session_stats(const pileus_session* session, pileus_stats* st
         out.units = counted.units;
         out.render_s = counted.render_s;
         out.stages_s = counted.stages_s;
-        const MethodRun& run = session->session->run();
-        out.shared_bytes = bytes_of_world(*run.world);
-        const std::uint64_t peak =
-            kPlans ? run.plan.memory.peak() : session->host->block->use().kept_bytes;
+        out.shared_bytes = bytes_of_world(session->session->world());
+        const std::uint64_t peak = kPlans ? session->session->plan().memory.peak()
+                                          : session->host->block->use().kept_bytes;
         // A block does not keep a world that is read in place.
         const bool apart = !kPlans && session->flight->in_place;
         const std::uint64_t world = apart ? 0 : out.shared_bytes;

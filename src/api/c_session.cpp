@@ -195,8 +195,7 @@ pileus_code pileus_session_create(const pileus_world* world, const pileus_scene*
         if (session == nullptr) return Status::bad_input("session: null, allowed: where to put it");
         auto made = std::make_unique<pileus_session>();
         made->host = parts;
-        PILEUS_TRY(
-            made->session->open(scene->scene, options, SessionKind::kLive, true, world->world));
+        PILEUS_TRY(made->session->open(scene->scene, options, true, world->world));
         *session = made.release();
         return Status::ok();
     });

@@ -149,16 +149,16 @@ pileus_code pileus_plan_scene(const pileus_scene* scene, const pileus_host* host
     return call_with(host, error, [&](const auto&, const RenderOptions& options) -> Status {
         if (scene == nullptr) return no_handle("scene");
         Session session;
-        PILEUS_TRY(session.open(scene->scene, options, SessionKind::kLive, false, nullptr));
-        const Medium& medium = session.run().world->medium;
+        PILEUS_TRY(session.open(scene->scene, options, false, nullptr));
+        const Medium& medium = session.world().medium;
         pileus_plan out{};
         for (std::size_t a = 0; a < 3; ++a) {
             out.cells[a] = std::uint32_t(medium.grid.size[a]);
             out.low_m[a] = medium.low_m[a];
             out.high_m[a] = medium.low_m[a] + medium.extent_m[a];
         }
-        out.peak_bytes = session.run().plan.memory.peak();
-        for (const MemoryRow& row : session.run().plan.memory.rows())
+        out.peak_bytes = session.plan().memory.peak();
+        for (const MemoryRow& row : session.plan().memory.rows())
             for (const char* name : {"density", "parts of the media", "phase functions",
                                      "triangles", "tree of solids", "noise"})
                 if (std::string(row.item) == name) out.world_bytes += row.bytes;

@@ -39,11 +39,11 @@ double lowest_of(const CloudBox& box) {
 }  // namespace
 
 Status Clouds::open(Session& sky) {
-    const World& world = *sky.run().world;
+    const World& world = sky.world();
     if (world.media > 0)
         return Status::bad_input("sky: " + std::to_string(world.media) +
                                  " media, allowed: a scene without [[medium]]");
-    if (sky.run().scene->camera.flux)
+    if (sky.scenery().scene->camera.flux)
         return Status::bad_input(
             "sky: camera.projection \"flux\", allowed: perspective, orthographic");
     if (sky.light_count() > 0)
@@ -75,9 +75,6 @@ Status Clouds::add_kind(const Scene& scene, std::shared_ptr<const World> world, 
         return Status::bad_input("kind: a scene with [[solid]], allowed: media alone");
     MethodRow row;
     PILEUS_TRY(find_method(scene, row));
-    if (!is_live(row))
-        return Status::bad_input("kind: method.name: \"" + scene.method +
-                                 "\" is for no session, allowed: another");
     const MethodColumn column = method_column(scene);
     const bool grid = column == MethodColumn::kPhotonGrid;
     const bool to_camera = has_camera_closure(scene);
@@ -200,9 +197,9 @@ Status Clouds::group_of(const CloudPlace& place, std::size_t& group) {
 }
 
 /// Groups whose light is older than the sun are lit anew, one in each frame.
-Status Clouds::light_up(const Outlook& look) {
-    const Scene& scene = *look.scene;
-    if (scene.sky.present && look.environment->sky_map.present() && !scene.atmosphere.present)
+Status Clouds::light_up(const Scenery& scenery) {
+    const Scene& scene = *scenery.scene;
+    if (scene.sky.present && scenery.environment.sky_map.present() && !scene.atmosphere.present)
         return Status::bad_input(
             "sky.map: a picture, allowed for clouds: [atmosphere] or a constant radiance");
     // The ground may have been raised since the clouds were placed.
@@ -223,7 +220,7 @@ Status Clouds::light_up(const Outlook& look) {
                 height += cloud->box.middle.z / double(clouds_.size());
             const double sea = scene.ground.present ? scene.ground.altitude_m : 0;
             PILEUS_TRY(light_atmosphere(scene.atmosphere, scene.sun, scene.ground, height - sea,
-                                        look.context->threads, air_, air_map_));
+                                        sky_->context().threads, air_, air_map_));
             for (std::size_t c = 0; c < 3; ++c)
                 now.sun.irradiance[c] = float(air_.above[int(c)] * air_.sunlight[c]);
             now.sky = Sky{};

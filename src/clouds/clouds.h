@@ -56,7 +56,7 @@ private:
         PixelRect rect;
     };
 
-    Status light_up(const Outlook& look);
+    Status light_up(const Scenery& scenery);
     Status cast_shadows();
     Status group_of(const CloudPlace& place, std::size_t& group);
     Status check_memory(const CloudGroup& next, std::size_t kind) const;

@@ -216,35 +216,37 @@ Status Clouds::draw(bool depths, const Planes*& planes) {
     const PoolGuard lent(threads_);
     stats_ = CloudStats{};
     stats_.clouds = std::uint32_t(clouds_.size());
-    Outlook look;
-    PILEUS_TRY(sky_->look(look));
-    PILEUS_TRY(light_up(look));
+    Scenery* around = nullptr;
+    PILEUS_TRY(sky_->lit(around));
+    PILEUS_TRY(light_up(*around));
     PILEUS_TRY(cast_shadows());
     const Camera& camera = sky_->camera();
     const CloudView view = view_of(camera);
     PILEUS_TRY(choose(view));
 
-    const Context& context = *look.context;
-    PILEUS_TRY(allocate_planes(view.width, view.height, 3, look.lighting.opaque(), true, planes_));
-    const MediumView nothing = make_medium_view(look.world->medium, Majorants{});
-    BackgroundParams k = background_params(nothing, look.camera, look.lighting);
+    const Context& context = sky_->context();
+    const Lighting& lighting = around->lighting;
+    const Medium& medium = around->world->medium;
+    const CameraParams seen = make_camera(around->scene->camera, 0, medium.low_m);
+    PILEUS_TRY(allocate_planes(view.width, view.height, 3, lighting.opaque(), true, planes_));
+    const MediumView nothing = make_medium_view(medium, Majorants{});
+    BackgroundParams k = background_params(nothing, seen, lighting);
     BackgroundBuffers b{nullptr, planes_.background.data(), planes_.opaque_depth.data()};
     const float none = 0;
     k.shadow = NodeGrid{{1, 1, 1}, {1e-9f, 1e-9f, 1}};
     b.ground_depth = &none;
     if (on_ground_.nodes.size[0] > 0) {
         k.shadow = on_ground_.nodes;
-        for (int a = 0; a < 2; ++a)
-            k.shadow_origin[a] = float(on_ground_.low[a] - look.world->medium.low_m[a]);
+        for (int a = 0; a < 2; ++a) k.shadow_origin[a] = float(on_ground_.low[a] - medium.low_m[a]);
         b.ground_depth = on_ground_.depth.data();
     }
     {
         const StageClock clock(context, "background");
-        PILEUS_TRY(show_background(context, look.lighting, k, b));
+        PILEUS_TRY(show_background(context, lighting, k, b));
     }
-    PILEUS_TRY(compose(view, camera, look.frame));
-    PILEUS_TRY(show_air(context, *look.scene, look.world->medium, look.lighting, look.camera,
-                        *look.environment, planes_));
+    PILEUS_TRY(compose(view, camera, sky_->frame()));
+    PILEUS_TRY(
+        show_air(context, *around->scene, medium, lighting, seen, around->environment, planes_));
     for (std::size_t i = 0; depths && i < planes_.half_depth.size(); ++i)
         if (planes_.transmittance[i] > 0.5f) planes_.half_depth[i] = __builtin_inff();
     planes = &planes_;
@@ -269,8 +271,8 @@ Status Clouds::render(const FrameTarget& target) {
                                 context.kernels, context.threads, broken));
     }
     if (target.has_depth)
-        write_depths(*planes, make_camera(camera, 0, sky_->run().world->medium.low_m),
-                     target.depth_kind, sky_->depth_scale(), target.depth);
+        write_depths(*planes, make_camera(camera, 0, sky_->world().medium.low_m), target.depth_kind,
+                     sky_->depth_scale(), target.depth);
     if (target.hash != nullptr) *target.hash = hash_planes(*planes);
     return Status::ok();
 }

@@ -48,7 +48,7 @@ Status CloudGroup::open(const CloudKind& kind, std::size_t number, double yaw_de
     scene.lights.clear();
     scene.solids.clear();
     session_ = std::make_unique<Session>();
-    PILEUS_TRY(session_->open(scene, options, SessionKind::kLive, true, kind.world));
+    PILEUS_TRY(session_->open(scene, options, true, kind.world));
     FrameWork work;
     work.scale = 1;
     has_scale_ = bool(session_->set_work(work));

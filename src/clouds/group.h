@@ -61,8 +61,8 @@ public:
     const std::array<float, 3>& ambient() const { return ambient_; }
     /// Most that it takes beside its kind's world, by its plan.
     std::uint64_t own_bytes() const {
-        const std::uint64_t all = session_->run().plan.memory.peak();
-        const std::uint64_t shared = bytes_of_world(*session_->run().world);
+        const std::uint64_t all = session_->plan().memory.peak();
+        const std::uint64_t shared = bytes_of_world(session_->world());
         return all > shared ? all - shared : 0;
     }
     int threads() const { return session_->context().threads; }

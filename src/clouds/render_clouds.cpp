@@ -73,7 +73,7 @@ Status draw_image(const Scene& scene, Session& sky, Clouds& clouds, Image& image
     const Planes* planes = nullptr;
     PILEUS_TRY(clouds.draw(scene.output.layer_depth, planes));
     const StageClock clock(sky.context(), "layers");
-    const Double3& low = sky.run().world->medium.low_m;
+    const Double3& low = sky.world().medium.low_m;
     return finish_layers(scene.output, make_camera(sky.camera(), 0, low), low, *planes, image,
                          report);
 }

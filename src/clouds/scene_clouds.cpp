@@ -96,7 +96,7 @@ Status open_sky(const Scene& scene, const RenderOptions& options, Session& sky) 
     around.raymarch = RaymarchSettings{};
     around.filter = FilterSettings{};
     around.particles = ParticlesSettings{};
-    return sky.open(around, options, SessionKind::kLive, true, nullptr);
+    return sky.open(around, options, true, nullptr);
 }
 
 Status open_scene_clouds(const Scene& scene, const RenderOptions& options, Session& sky,

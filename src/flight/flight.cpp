@@ -21,7 +21,7 @@ Status begin_flight(const void* scene, std::size_t bytes, std::uint64_t room,
             "wrote");
     RenderOptions own = options;
     if (packed.scene.sky.mapped) own.sky = &packed.sky;
-    PILEUS_TRY(session.open(packed.scene, own, SessionKind::kLive, true, packed.world));
+    PILEUS_TRY(session.open(packed.scene, own, true, packed.world));
     if (depth) PILEUS_TRY(session.reserve_depth());
     PILEUS_TRY(session.reserve());
     const LightUnits light = session.light();

@@ -3,7 +3,7 @@
 // in: scene, budget -> out: the first fault.
 // docs/support.md
 #pragma once
-#include "src/methods/methods.h"
+#include "src/methods/scenery.h"
 
 namespace pileus {
 

@@ -17,7 +17,6 @@ struct FinishedParts;
 struct Image;
 struct LateRows;
 struct Planes;
-struct Recipe;
 
 /// What a frame is made of; all outlive the call.
 struct FrameView {
@@ -203,8 +202,7 @@ struct MethodRow {
     /// kBadInput: a budget that the method does not know, or a scene that it cannot render. Null in
     /// a flight.
     Status (*check)(const Scene&, const Budget&) = nullptr;
-    MadeMethod (*make)(const MethodInputs&) = nullptr;  ///< null: by the recipe
-    const Recipe* recipe = nullptr;                     ///< null: a class of its own
+    MadeMethod (*make)(const MethodInputs&) = nullptr;
     bool keeps_parts = false;  ///< light is traced with depths and the cloud's part, or without
     bool shows_light = true;   ///< colours are light, which an exposure applies to
 };

@@ -3,7 +3,7 @@
 // in: the work of a frame, sizes, media, lights -> out: FrameUnits.
 // docs/realtime.md, "What a frame takes at the most"
 #pragma once
-#include "src/methods/methods.h"
+#include "src/methods/scenery.h"
 #include "src/picture/upsample.h"
 
 namespace pileus {

@@ -5,8 +5,8 @@
 #pragma once
 #include <vector>
 
+#include "src/methods/method.h"
 #include "src/methods/method_tools.h"
-#include "src/methods/recipe_method.h"
 
 namespace pileus {
 

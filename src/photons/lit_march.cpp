@@ -6,7 +6,7 @@
 
 #include "kernels_cpu/core/profile.h"
 #include "platform/threads.h"
-#include "src/methods/methods.h"
+#include "src/methods/scenery.h"
 #include "src/picture/background.h"
 #include "src/picture/late_rows.h"
 #include "src/picture/march_view.h"

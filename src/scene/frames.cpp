@@ -59,6 +59,12 @@ void frame_state_at(const Scene& scene, const FrameState& rest, int frame, Frame
     out.sun.elevation_deg = sun.elevation_deg;
 }
 
+void place_at_frame(const FrameState& rest, int frame, Scene& scene) {
+    FrameState at;
+    frame_state_at(scene, rest, frame, at);
+    put_in_media(at, scene);
+}
+
 double orbit_at(const Scene& scene, int frame) {
     const Animation& a = scene.animation;
     return kFilms && a.present && a.moves_camera ? in_range(a, a.camera_orbit_deg, frame) : 0.0;

@@ -22,6 +22,8 @@ Placement placement_at(const Scene& scene, int frame);
 /// `out`: a frame of the scene's animation in the scene's coordinates; `rest`: but for keys. Only
 /// what keys move differs; ranges are asked for by `sun_at` and `orbit_at`.
 void frame_state_at(const Scene& scene, const FrameState& rest, int frame, FrameState& out);
+/// Moves a scene, in the media's coordinates, to a frame.
+void place_at_frame(const FrameState& rest, int frame, Scene& scene);
 
 /// Whether frames differ in these, by ranges or keys.
 bool moves_sun(const Scene& scene);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A frame of a film by a method that is a class: lights, view, light, picture, image.
+// A frame of a film: lights, view, light, picture, image.
 // in: an open session, a frame -> out: an image with the scene's layers; the report's part of it.
 // docs/architecture.md, "Methods"
 #include <optional>
@@ -90,23 +90,23 @@ Status Session::film_light(const FrameView& view) {
 
 /// A film tells of no change: methods see by themselves that the sun has moved.
 Status Session::film_view(int frame) {
-    light_frame(frame, *run_);
-    return made_.method->set_view(context_, view_of(*run_, frame), {});
+    scenery_.light(frame);
+    return made_.method->set_view(context_, scenery_.view(frame), {});
 }
 
 Status Session::film_generation(std::uint64_t number, std::uint64_t ring) {
     // Those before the first whole ring are shot under frame 0's sun.
     const int shown = number < ring ? 0 : int(number - ring + 1);
-    if (run_->place_at) run_->place_at(shown);
+    move_to(shown);
     PILEUS_TRY(film_view(shown));
     std::uint64_t done = 0;
-    return made_.method->accumulate(context_, view_of(*run_, shown), 1, done);
+    return made_.method->accumulate(context_, scenery_.view(shown), 1, done);
 }
 
-Status Session::film_ring(const FrameStep& step) {
+Status Session::film_ring(const FilmFrame& step) {
     Method& method = *made_.method;
     const std::uint64_t ring = method.progress().ring, frame = std::uint64_t(step.frame);
-    const LightGoal goal = made_.report->goal(view_of(*run_, step.frame));
+    const LightGoal goal = made_.report->goal(scenery_.view(step.frame));
     // Whatever frames were asked for: a part of a film repeats the whole's bits.
     const std::uint64_t first = step.first ? frame : frame + ring - 1;
     const std::uint64_t end = step.first ? frame + goal.most : frame + ring;
@@ -124,18 +124,16 @@ Status Session::film_ring(const FrameStep& step) {
             if (goal.seconds > 0 && wall_seconds() - start >= goal.seconds) break;
         }
     }
-    if (run_->place_at) run_->place_at(step.frame);
+    move_to(step.frame);
     if (!method.progress().interrupted) return film_view(step.frame);
     return {Code::kCheckFailed,
             "interrupted before the frame's ring of generations was whole; no file written"};
 }
 
-Status Session::film_frame(const FrameStep& step, Image& image) {
-    MethodRun& run = *run_;
+Status Session::film_frame(const FilmFrame& step, Image& image) {
     Method& method = *made_.method;
-    const World& world = *run.world;
     const LightUnits light = method.progress();
-    const FrameView view = view_of(run, step.frame);
+    const FrameView view = scenery_.view(step.frame);
     if (light.ring > 0) {
         PILEUS_TRY(film_ring(step));
     } else {
@@ -146,14 +144,14 @@ Status Session::film_frame(const FrameStep& step, Image& image) {
     }
     method.release(Phase::kTraced);
     if (step.last || method.progress().interrupted) method.release(Phase::kEnded);
-    report_.digests = run.digests;
+    report_.digests = digests_;
     if (!options_.show.empty()) return made_.report->draw(context_, view, image);
     Planes* planes = nullptr;
     PILEUS_TRY(method.render(context_, view, {}, planes));
     made_.report->digest_picture(context_, report_.digests);
     const CameraParams camera =
-        make_camera(scene_.camera, orbit_at(scene_, step.frame), world.medium.low_m);
-    PILEUS_TRY(finish_frame(context_, scene_.output, world, run.environment.depth, camera,
+        make_camera(scene_.camera, orbit_at(scene_, step.frame), world().medium.low_m);
+    PILEUS_TRY(finish_frame(context_, scene_.output, world(), scenery_.environment.depth, camera,
                             made_.report->finished(), *planes, image, report_));
     method.release(Phase::kShown);
     return Status::ok();

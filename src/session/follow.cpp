@@ -52,9 +52,12 @@ Status follow(const Scene& scene, const RenderOptions& options, int light, std::
     MadeMethod made;
     made.report = view_report(*method);
     made.method = std::move(method);
-    MethodRun run;
-    PILEUS_TRY(open_run(row, made, placed, options.budget, context, true, nullptr, run));
-    return follow(context, view_of(run, 0), prepared, light, number, way);
+    Scenery scenery;
+    scenery.scene = &placed;
+    scenery.rest = &placed;
+    Plan plan;
+    PILEUS_TRY(open_method(row, made, context, true, nullptr, nullptr, scenery, plan));
+    return follow(context, scenery.view(0), prepared, light, number, way);
 }
 
 }  // namespace pileus

@@ -45,9 +45,10 @@ public:
     bool had_surfaces = false;  ///< solid things that are not the ground's
     std::uint32_t frames = 0;
 
-    Status begin(const Context& context, const Scene& scene, const MethodRun& run, Planes* shown,
+    Status begin(const Context& context, const Scenery& scenery, Planes* shown,
                  bool& goes_on) override {
-        const Medium& medium = run.world->medium;
+        const Scene& scene = *scenery.scene;
+        const Medium& medium = scenery.world->medium;
         goes_on = !gone_ && next_ < frames &&
                   way_between(next_ > 1 ? last_ : camera, scene.camera, medium) <= kCutAt;
         if (!goes_on || next_ == 1 || way_between(camera, scene.camera, medium) <= kRetakeAt)
@@ -61,16 +62,17 @@ public:
         return Status::ok();
     }
 
-    Status mix(const Context& context, const Scene& scene, const MethodRun& run, bool leave,
+    Status mix(const Context& context, const Scenery& scenery, bool leave,
                Planes*& planes) override {
         const StageClock clock(context, "hand-over");
-        const Medium& medium = run.world->medium;
+        const Scene& scene = *scenery.scene;
+        const Medium& medium = scenery.world->medium;
         FadeInput in;
         in.before = make_camera(camera, 0, medium.low_m);
         in.camera = make_camera(scene.camera, 0, medium.low_m);
         in.medium = make_medium_view(medium, Majorants{});
         in.share = float((double(next_) / double(frames) - held_) / (1 - held_));
-        in.solids = had_surfaces || has_surfaces(run.lighting);
+        in.solids = had_surfaces || has_surfaces(scenery.lighting);
         gone_ = !can_mix(in, old, *planes);
         if (gone_) return Status::ok();
         if (leave) {
@@ -111,10 +113,10 @@ Status Session::check_take_over(const Session& from, std::uint32_t frames) const
     if (&from == this) return refuse("next is the session itself", "another");
     if (frames > kMostFrames)
         return refuse("frames: " + std::to_string(frames), "0 to " + std::to_string(kMostFrames));
-    if (run_->sealed || from.run_->sealed)
+    if (sealed_ || from.sealed_)
         return refuse("a flight keeps its density", "sessions of pileus_session_create");
     // Skies of many clouds (src/clouds) hold their session, which has none.
-    if (run_->world->media == 0 || from.run_->world->media == 0)
+    if (world().media == 0 || from.world().media == 0)
         return refuse("a world without media", "one with a density that gives way to another");
     if (scene_.method != from.scene_.method)
         return refuse("next has method \"" + scene_.method + "\"",
@@ -135,7 +137,7 @@ Status Session::fade_from(Session& from, std::uint32_t frames, std::unique_ptr<F
     const StageClock clock(from.context_, "hand-over");
     auto made = std::make_unique<FadingLast>();
     made->camera = from.shown_camera_;
-    made->had_surfaces = has_surfaces(from.run_->lighting);
+    made->had_surfaces = has_surfaces(from.scenery_.lighting);
     made->frames = frames;
     Planes own, *planes = from.shown_;
     if (from.made_.method->keeps_planes()) {
@@ -182,7 +184,7 @@ Status Session::take_over(Session& from, std::uint32_t frames) {
     depth_scale_ = from.depth_scale_;
     stale_ = stale_ || host_.number != from.host_.number;
     host_.number = from.host_.number;
-    CameraDepth &own = run_->environment.depth, &given = from.run_->environment.depth;
+    CameraDepth &own = scenery_.environment.depth, &given = from.scenery_.environment.depth;
     if (own.present || given.present) {
         std::swap(own, given);
         stale_ = from.stale_ = true;

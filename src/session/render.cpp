@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// See render.h. The walk through a method's recipe, frame by frame.
+// See render.h. The walk through an animation, frame by frame.
 #include "src/session/render.h"
 
 #include "platform/fp_mode.h"
@@ -34,17 +34,17 @@ void count_water(const Scene& scene, const World& world, Report& report) {
 
 Status show_shadow(const Scene& scene, Session& session, int frame, Image& image) {
     const Context& context = session.context();
-    const MethodRun& run = session.run();
-    const Medium& medium = run.world->medium;
+    const Medium& medium = session.world().medium;
     if (context.kernels->device != nullptr)
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
                                  "\": layer shadow is made on the host alone, allowed: another, or "
                                  "layers without shadow");
     Majorants majorants;
     PILEUS_TRY(make_majorants(medium, false, context, majorants));
-    return add_shadow(context, make_medium_view(medium, majorants),
-                      make_camera(run.scene->camera, orbit_at(scene, frame), medium.low_m),
-                      run.lighting, image);
+    return add_shadow(
+        context, make_medium_view(medium, majorants),
+        make_camera(session.scenery().scene->camera, orbit_at(scene, frame), medium.low_m),
+        session.scenery().lighting, image);
 }
 
 /// Whether frames have skies of their own.
@@ -72,34 +72,35 @@ Status render_frames(const Scene& scene, const RunStart& start, const RenderOpti
                      const Frames& frames, const std::shared_ptr<const World>& world,
                      const FrameSink& sink) {
     Session session;
-    PILEUS_TRY(session.open(scene, options, SessionKind::kAnimation, true, world));
+    PILEUS_TRY(session.open_film(scene, options, true, world));
     Report& report = session.report();
     Verifier verifier;
     const bool verifies = options.verify > 0 && options.show.empty();
     if (verifies)
         PILEUS_TRY(verifier.open(scene, std::uint64_t(options.verify), session.context(),
-                                 session.run().world));
+                                 session.scenery().world));
     for (int frame = frames.first; frame <= frames.last && !report.interrupted; ++frame) {
         const RunStart frame_start;
         Image image;
         PILEUS_TRY(
             session.render_image({frame, frame == frames.first, frame == frames.last}, image));
         if (scene.output.layer_reflectance && options.show.empty())
-            PILEUS_TRY(add_reflectance(session.run().lighting, image));
+            PILEUS_TRY(add_reflectance(session.scenery().lighting, image));
         if (scene.output.layer_shadow && options.show.empty())
             PILEUS_TRY(show_shadow(scene, session, frame, image));
         take_hash(session.context(), image, report);
         session.finish_report();
         report.budget_used = budget_used(session.method_report(), options.budget, frame, report);
         if (verifies) PILEUS_TRY(verifier.check(frame, session.context(), image, report));
-        count_water(scene, *session.run().world, report);
+        count_water(scene, session.world(), report);
         if (options.show.empty()) find_warnings(scene, image, report);
         report.clocks.frame_wall_s = wall_seconds() - frame_start.wall_s;
         report.clocks.frame_cpu_s = cpu_seconds() - frame_start.cpu_s;
         if (options.holding) options.holding(true);
         // Where the picture is, in the file's coordinates.
         const Camera seen = camera_at(scene.animation, session.camera(), frame);
-        for (const auto& told : picture_place(*session.run().scene, seen, orbit_at(scene, frame)))
+        for (const auto& told :
+             picture_place(*session.scenery().scene, seen, orbit_at(scene, frame)))
             image.origin.push_back(told);
         PILEUS_TRY(deliver(scene, start, frame, sink, image, report));
         if (options.holding) options.holding(false);
@@ -155,7 +156,7 @@ Status plan_scene(const Scene& scene, const RenderOptions& options, bool exact, 
     Session session;
     RenderOptions planned = options;
     planned.digests = false;  // a plan tells none
-    PILEUS_TRY(session.open(own, planned, SessionKind::kAnimation, exact, nullptr));
+    PILEUS_TRY(session.open_film(own, planned, exact, nullptr));
     report = session.report();
     return Status::ok();
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One call from a checked scene to pictures: what programs and tests use.
 // in: Scene, options -> out: an Image per frame and a Report.
-// docs/architecture.md, "One way through".
+// docs/architecture.md, "How a frame is made".
 #pragma once
 #include <functional>
 

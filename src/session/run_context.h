@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the calls of the API begin with: the context, the budget and the frames.
 // in: Scene, RenderOptions -> out: checked structs for the methods.
-// docs/architecture.md, "One way through".
+// docs/architecture.md, "How a frame is made".
 #pragma once
 #include "src/methods/registry.h"
 #include "src/session/render.h"

@@ -7,7 +7,6 @@
 #include "platform/fp_mode.h"
 #include "src/base/digest.h"
 #include "src/io/volumes/weather_file.h"
-#include "src/methods/placed_media.h"
 #include "src/methods/registry.h"
 #include "src/scene/read_scene.h"
 #include "src/session/run_context.h"
@@ -81,9 +80,9 @@ Status make_world(const Scene& scene, const RenderOptions& options,
 }
 
 /// Whether the method is for this session and its world.
-Status Session::check_method(bool live, const World* world) const {
+Status Session::check_method(bool hosted, const World* world) const {
     const std::string method = scene_.file + ": method.name: \"" + scene_.method + "\" ";
-    if (live && (!is_live(row_) || !options_.show.empty()))
+    if (hosted && !options_.show.empty())
         return Status::bad_input(method + "is for no session, allowed: another");
     if (world == nullptr) return Status::ok();
     if (world->media != scene_.media.size())
@@ -100,78 +99,69 @@ Status Session::check_method(bool live, const World* world) const {
     return Status::ok();
 }
 
-void Session::make_method(bool live) {
-    if (row_.recipe == nullptr) {
-        run_ = std::make_unique<MethodRun>();
-        made_ = row_.make({scene_, options_.budget, live});
-    } else {
-        run_ = row_.recipe->make();
-        made_ = method_of(*row_.recipe, *run_);
-    }
+Status Session::open(const Scene& scene, const RenderOptions& options, bool exact,
+                     std::shared_ptr<const World> world) {
+    return open_either(scene, options, true, exact, std::move(world));
 }
 
-Status Session::open(const Scene& scene, const RenderOptions& options, SessionKind kind, bool exact,
-                     std::shared_ptr<const World> world) {
+Status Session::open_film(const Scene& scene, const RenderOptions& options, bool exact,
+                          std::shared_ptr<const World> world) {
+    return open_either(scene, options, false, exact, std::move(world));
+}
+
+Status Session::open_either(const Scene& scene, const RenderOptions& options, bool hosted,
+                            bool exact, std::shared_ptr<const World> world) {
     const FpModeGuard guard;
     const PoolGuard lent(*threads_);
-    const bool live = kind == SessionKind::kLive;
     if (kChecks) PILEUS_TRY(refuse_clouds(scene));
     scene_ = scene;
     PILEUS_TRY(place_scene(scene_));
     scene_.sky.mapped = options.sky != nullptr || !scene_.view_files.sky_map.empty();
     options_ = options;
     const Status found = find_method(scene_, row_);
-    if (live) make_live(found && row_.keeps_parts, scene_);
+    if (hosted) make_live(found && row_.keeps_parts, scene_);
     host_ = scene_;
     PILEUS_TRY(make_context(scene_, options, context_, report_));
-    if (live) context_.frames = kLiveFrames;
-    context_.digests = !live && options.digests;
+    if (hosted) context_.frames = kLiveFrames;
+    context_.digests = !hosted && options.digests;
     PILEUS_TRY(found);
     if (kChecks) PILEUS_TRY(row_.check(scene_, options.budget));
     if (kFilms && !options.show.empty()) PILEUS_TRY(find_view(scene_.method, options.show, row_));
-    if (kChecks) PILEUS_TRY(check_method(live, world.get()));
-    make_method(live);
-    run_->rest = live ? static_cast<const FrameState*>(&scene_) : &host_;
-    run_->sky = options.sky;
-    if (kFilms && !scene_.animation.keys.empty()) {
-        run_->place_at = [this](int frame) {
-            FrameState at;
-            frame_state_at(scene_, host_, frame, at);
-            put_in_media(at, scene_);
-        };
-        run_->place_at(host_.number);
-    }
+    if (kChecks) PILEUS_TRY(check_method(hosted, world.get()));
+    made_ = row_.make({scene_, options_.budget, hosted});
+    scenery_.scene = &scene_;
+    scenery_.rest = hosted ? static_cast<const FrameState*>(&scene_) : &host_;
+    scenery_.keyed = kFilms && !scene_.animation.keys.empty();
+    move_to(host_.number);
     PILEUS_TRY(
-        open_run(row_, made_, scene_, options.budget, context_, exact, std::move(world), *run_));
-    if (kPlans) report_.plan = run_->plan;
+        open_method(row_, made_, context_, exact, options.sky, std::move(world), scenery_, plan_));
+    if (kPlans && exact && context_.digests) made_.report->digest(scenery_.view(0), digests_);
+    if (kPlans) report_.plan = plan_;
     whole_work_ = work_ = made_.method->full_work();
     report_.frame_work = work_;
     report_.clocks.peak_bytes = peak_memory_bytes();
     return Status::ok();
 }
 
-/// Where frames differ in what no method moves by itself.
-Status Session::take_frame(int frame) {
-    if (run_->place_at) {
-        PILEUS_TRY(check_placed_media(*run_, host_.ground, frame));
-        run_->place_at(frame);
-    }
-    if (!is_sequence(scene_.view_files.depth)) return Status::ok();
-    host_.sequence_frame = scene_.sequence_frame = frame;
-    return load_environment(scene_, context_, run_->environment);
+/// Where keys move the scene.
+void Session::move_to(int frame) {
+    if (kFilms && scenery_.keyed) place_at_frame(host_, frame, scene_);
 }
 
-Status Session::render_image(const FrameStep& step, Image& image) {
+/// Where frames differ in what no method moves by itself.
+Status Session::take_frame(int frame) {
+    if (scenery_.keyed) PILEUS_TRY(check_placed_media(scenery_, host_.ground, frame));
+    move_to(frame);
+    if (!is_sequence(scene_.view_files.depth)) return Status::ok();
+    host_.sequence_frame = scene_.sequence_frame = frame;
+    return load_environment(scene_, context_, scenery_.environment);
+}
+
+Status Session::render_image(const FilmFrame& step, Image& image) {
     const FpModeGuard guard;
     const PoolGuard lent(*threads_);
     PILEUS_TRY(take_frame(step.frame));
-    if (row_.recipe == nullptr) {
-        PILEUS_TRY(film_frame(step, image));
-    } else {
-        PILEUS_TRY(row_.recipe->light(step, context_, *run_));
-        report_.digests.clear();
-        PILEUS_TRY(row_.recipe->show(step, context_, *run_, image));
-    }
+    PILEUS_TRY(film_frame(step, image));
     ++stats_.pictures;
     return Status::ok();
 }
@@ -182,15 +172,6 @@ void Session::finish_report() {
     made_.report->report(report_);
 }
 
-/// The lights as they are set now; recipes make theirs themselves. Returns whether what shines has
-/// changed.
-bool Session::relight() {
-    if (row_.recipe != nullptr) return false;
-    const Lighting before = run_->lighting;
-    light_frame(host_.number, *run_);
-    return !same_shine(before, run_->lighting);
-}
-
 /// Changes that a host made since the last time.
 Status Session::aim() {
     if (!stale_) return Status::ok();
@@ -198,14 +179,17 @@ Status Session::aim() {
     place();
     // What late rows lead to may be laid out anew.
     if (late_.ready) shown_ = nullptr;
-    const bool new_shine = relight();
+    const Lighting before = scenery_.lighting;
+    scenery_.light(host_.number);
+    const bool new_shine = !same_shine(before, scenery_.lighting);
     Method& method = *made_.method;
     const std::uint32_t prepared = method.progress().prepared;
     PILEUS_TRY(method.set_view(context_, view(), {anew_, new_shine}));
     PILEUS_TRY(check_sealed());
     stale_ = anew_ = false;
     stats_.prepared = method.progress().prepared;
-    if (kPlans && stats_.prepared != prepared) PILEUS_TRY(make_plan(row_, made_, context_, *run_));
+    if (kPlans && stats_.prepared != prepared)
+        PILEUS_TRY(make_plan(made_, context_, scenery_, plan_));
     return Status::ok();
 }
 
@@ -261,7 +245,7 @@ Status Session::render(const FrameTarget& target) {
     PILEUS_TRY(aim());
     if (kClouds && fading_ != nullptr) {
         bool goes_on = false;
-        PILEUS_TRY(fading_->begin(context_, scene_, *run_, shown_, goes_on));
+        PILEUS_TRY(fading_->begin(context_, scenery_, shown_, goes_on));
         if (!goes_on) fading_.reset();
     }
     shown_ = nullptr;
@@ -282,7 +266,7 @@ Status Session::render(const FrameTarget& target) {
     PILEUS_TRY(made_.method->render(context_, view(), ask, planes));
     const Planes* const fresh = planes;
     if (kClouds && fading_ != nullptr)
-        PILEUS_TRY(fading_->mix(context_, scene_, *run_, made_.method->keeps_planes(), planes));
+        PILEUS_TRY(fading_->mix(context_, scenery_, made_.method->keeps_planes(), planes));
     shown_ = planes;
     shown_camera_ = scene_.camera;
     const auto& size = scene_.camera.resolution;
@@ -296,8 +280,8 @@ Status Session::render(const FrameTarget& target) {
     }
     if (target.has_depth) {
         const StageClock clock(context_, "depths");
-        write_depths(*fresh, make_camera(scene_.camera, 0, run_->world->medium.low_m),
-                     target.depth_kind, depth_scale_, target.depth);
+        write_depths(*fresh, make_camera(scene_.camera, 0, world().medium.low_m), target.depth_kind,
+                     depth_scale_, target.depth);
     }
     has_hash_ = target.hash != nullptr;
     if (has_hash_) {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // One camera, one light and one method over a world: what programs, tests and hosts draw with.
 // in: Scene, options, a world to share -> out: pictures, one after the other; a Report.
-// docs/architecture.md, "One way through"; docs/embedding.md
+// docs/architecture.md, "How a frame is made"; docs/embedding.md
 #pragma once
 #include <memory>
 
 #include "platform/threads.h"
 #include "src/methods/governor.h"
-#include "src/methods/methods.h"
+#include "src/methods/scenery.h"
 #include "src/picture/late_rows.h"
 #include "src/picture/pixels.h"
 #include "src/session/render.h"
@@ -41,23 +41,13 @@ struct Shine {
 };
 Shine shine_of(const Lighting& lighting);
 
-/// Which session it becomes: one that walks through the scene's animation, or one whose camera and
-/// lights a host sets.
-enum class SessionKind { kAnimation, kLive };
+/// A frame of a film; `first` and `last` are those of the run, not of the animation.
+struct FilmFrame {
+    int frame = 0;
+    bool first = true, last = true;
+};
 
 struct StateFile;
-
-/// What others draw in who show more than a session's own media; points into the session, until it
-/// is changed. docs/clouds.md
-struct Outlook {
-    const Context* context = nullptr;
-    const Scene* scene = nullptr;
-    const World* world = nullptr;
-    Environment* environment = nullptr;
-    Lighting lighting;
-    CameraParams camera{};  ///< in metres from the world's low corner
-    int frame = 0;
-};
 
 /// A picture of an earlier density that fades away while this session draws the next one.
 class Fading {
@@ -67,12 +57,12 @@ public:
     Fading& operator=(const Fading&) = delete;
     virtual ~Fading() = default;
 
-    /// Before a picture of `scene` is made, after the one in `shown`, which it may take. False in
+    /// Before a picture of its scene is made, after the one in `shown`, which it may take. False in
     /// `goes_on`: it has faded.
-    virtual Status begin(const Context& context, const Scene& scene, const MethodRun& run,
-                         Planes* shown, bool& goes_on) = 0;
+    virtual Status begin(const Context& context, const Scenery& scenery, Planes* shown,
+                         bool& goes_on) = 0;
     /// `planes`, those of the new picture, become those that are shown; `leave`: by others.
-    virtual Status mix(const Context& context, const Scene& scene, const MethodRun& run, bool leave,
+    virtual Status mix(const Context& context, const Scenery& scenery, bool leave,
                        Planes*& planes) = 0;
 };
 
@@ -82,21 +72,26 @@ public:
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    /// `world`: as make_world, or null for one of its own; `exact` false: as far as sizes tell, for
-    /// the plan alone. Once only. Errors: as render's.
-    Status open(const Scene& scene, const RenderOptions& options, SessionKind kind, bool exact,
+    /// Of a host, which sets camera and lights. `world`: as make_world, or null for one of its own;
+    /// `exact` false: as far as sizes tell, for the plan alone. Once only. Errors: as render's.
+    Status open(const Scene& scene, const RenderOptions& options, bool exact,
                 std::shared_ptr<const World> world);
+    /// Likewise one that the scene's animation moves.
+    Status open_film(const Scene& scene, const RenderOptions& options, bool exact,
+                     std::shared_ptr<const World> world);
 
     Report& report() { return report_; }
     const Report& report() const { return report_; }
     const MethodRow& row() const { return row_; }
-    const MethodRun& run() const { return *run_; }
+    const Scenery& scenery() const { return scenery_; }
+    const World& world() const { return *scenery_.world; }
+    const Plan& plan() const { return plan_; }
     const MethodReport& method_report() const { return *made_.report; }
     const Context& context() const { return context_; }
     const SessionStats& stats() const { return stats_; }
 
     /// Lights and draws a frame of the animation as an image with the scene's layers.
-    Status render_image(const FrameStep& step, Image& image);
+    Status render_image(const FilmFrame& step, Image& image);
     /// What the method counted goes to the report, after render_image.
     void finish_report();
 
@@ -107,7 +102,7 @@ public:
     /// `map`: another one; null: none, or with `keep` the one that there is, as it was scaled and
     /// turned. A sky that is not present has none.
     Status set_sky(const Sky& sky, const Image* map, bool keep);
-    bool has_sky_map() const { return run_->environment.sky_map.present(); }
+    bool has_sky_map() const { return scenery_.environment.sky_map.present(); }
     Status set_ground(const Ground& ground);
     /// In place of all that there were: point, spot and parallel lights, with `held` numbers.
     Status set_lights(const std::vector<LightSettings>& lights);
@@ -172,33 +167,34 @@ public:
     /// kBadInput: it is such a sky.
     Status refuse_clouds_sky(const char* what) const;
 
-    /// What others draw in, of a live session as it is set now.
-    Status look(Outlook& outlook);
+    /// What others draw in, of a host's session as it is set now and lit.
+    Status lit(Scenery*& scenery);
+    int frame() const { return host_.number; }
     const DepthScale& depth_scale() const { return depth_scale_; }
     /// A picture of the media alone, with depths; the session keeps it until its next call. Light
     /// that is gathered for a camera may be off by `slack_deg` of it.
     Status draw_alone(double slack_deg, const Planes*& planes);
 
 private:
-    FrameView view() { return view_of(*run_, host_.number); }
-    void make_method(bool live);
-    /// As render_image, by a method that is a class.
-    Status film_frame(const FrameStep& step, Image& image);
+    FrameView view() { return scenery_.view(host_.number); }
+    Status open_either(const Scene& scene, const RenderOptions& options, bool hosted, bool exact,
+                       std::shared_ptr<const World> world);
+    Status film_frame(const FilmFrame& step, Image& image);
     /// The light of it, until the method's goal is met or the user wants an end.
     Status film_light(const FrameView& view);
     Status film_passes(const FrameView& view, const LightGoal& goal, StateFile& file);
     Status film_view(int frame);
     /// Of a method that keeps a ring: each generation for the view of its own frame.
-    Status film_ring(const FrameStep& step);
+    Status film_ring(const FilmFrame& step);
     Status film_generation(std::uint64_t number, std::uint64_t ring);
     /// Whole units, between which the user may end it.
     Status trace(std::uint64_t units, std::uint64_t& done);
-    bool relight();
     Status aim();
     Status check_sealed() const;
     Status check_media(const char* key, const Ground& ground, double moved_m) const;
-    Status check_method(bool live, const World* world) const;
+    Status check_method(bool hosted, const World* world) const;
     Status take_frame(int frame);
+    void move_to(int frame);
     Status relight_air();
     void place();
     Status check_take_over(const Session& from, std::uint32_t frames) const;
@@ -215,6 +211,7 @@ private:
     bool stale_ = true, anew_ = false;
     bool air_old_ = false;  ///< the air's sky is another sun's or ground's
     bool has_hash_ = false;
+    bool sealed_ = false;  ///< nothing may be laid out anew: docs/flight.md
     Shine sealed_shine_;
     std::size_t sealed_lights_ = 0;
     std::uint64_t hash_ = 0;  ///< of the last picture
@@ -223,8 +220,10 @@ private:
     Counts counted_;  ///< what counters() returned last
     Context context_;
     MethodRow row_;
-    std::unique_ptr<MethodRun> run_;
-    MadeMethod made_;  ///< over the run
+    Scenery scenery_;  ///< of `scene_`
+    Plan plan_;        ///< as the light's sums are laid out now
+    Digests digests_;  ///< of what no frame changes
+    MadeMethod made_;
     LateRows late_;
     Planes* shown_ = nullptr;  ///< the last picture, but for its late rows; null: none
     Camera shown_camera_;      ///< as the scene had it

@@ -98,9 +98,9 @@ Status Session::set_camera(const Camera& given) {
     const std::uint64_t pixels =
         std::uint64_t(camera.resolution[0]) * std::uint64_t(camera.resolution[1]);
     PILEUS_TRY(check_limit(context_.limits, LimitId::kPixels, pixels, "camera.resolution"));
-    if (run_->sealed && camera.resolution != host_.camera.resolution)
+    if (sealed_ && camera.resolution != host_.camera.resolution)
         return refuse_sealed("camera.resolution");
-    if (camera.resolution != host_.camera.resolution) run_->environment.depth = CameraDepth{};
+    if (camera.resolution != host_.camera.resolution) scenery_.environment.depth = CameraDepth{};
     host_.camera = camera;
     stale_ = true;
     return Status::ok();
@@ -116,7 +116,7 @@ Status Session::set_sun(const Sun& given) {
     if (same_sun(sun, host_.sun)) return Status::ok();
     if (kAtmosphere && scene_.atmosphere.present && !sun.present)
         return refuse(kNoSunInAir, kNoSunInAirAllowed);
-    if (run_->sealed && scene_.atmosphere.present) return refuse_sealed("sun");
+    if (sealed_ && scene_.atmosphere.present) return refuse_sealed("sun");
     if (const char* key = out_of_range(sun))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) { changed.sun = sun; }));
     host_.sun = sun;
@@ -132,7 +132,7 @@ Status Session::relight_air() {
     // Where memory ends, the next picture tries again.
     anew_ = air_old_ = true;
     PILEUS_TRY(pileus::relight_air(scene_.atmosphere, host_.sun, host_.ground, context_.threads,
-                                   *run_->world, run_->environment));
+                                   world(), scenery_.environment));
     air_old_ = false;
     return Status::ok();
 }
@@ -140,7 +140,8 @@ Status Session::relight_air() {
 Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
     const FpModeGuard guard;
     if (kAtmosphere && scene_.atmosphere.present) return refuse(kSkyInAir, kSkyInAirAllowed);
-    const bool kept = sky.present && map == nullptr && keep && run_->environment.sky_map.present();
+    const bool kept =
+        sky.present && map == nullptr && keep && scenery_.environment.sky_map.present();
     Sky next = held(kept ? host_.sky : sky);
     next.present = sky.present;
     next.mapped = kept || map != nullptr;
@@ -153,11 +154,11 @@ Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
     }
     if (const char* key = next.mapped ? "sky" : out_of_range(next))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) { changed.sky = next; }));
-    if (run_->sealed && (map != nullptr || (!kept && run_->environment.sky_map.present())))
+    if (sealed_ && (map != nullptr || (!kept && scenery_.environment.sky_map.present())))
         return refuse_sealed("sky.map");
     if (late_.ready) shown_ = nullptr;
-    if (map != nullptr || (!kept && run_->environment.sky_map.present())) {
-        PILEUS_TRY(set_sky_map(map, next, host_.ground.present, run_->environment));
+    if (map != nullptr || (!kept && scenery_.environment.sky_map.present())) {
+        PILEUS_TRY(set_sky_map(map, next, host_.ground.present, scenery_.environment));
         anew_ = true;
     }
     host_.sky = scene_.sky = next;
@@ -168,7 +169,7 @@ Status Session::set_sky(const Sky& sky, const Image* map, bool keep) {
 Status Session::set_ground(const Ground& given) {
     const Ground ground = held(given);
     if (same_ground(ground, host_.ground)) return Status::ok();
-    if (run_->sealed && scene_.atmosphere.present) return refuse_sealed("ground");
+    if (sealed_ && scene_.atmosphere.present) return refuse_sealed("ground");
     if (const char* key = ground_fault(scene_, host_.camera, ground))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) {
             changed.ground = ground;
@@ -176,7 +177,7 @@ Status Session::set_ground(const Ground& given) {
             changed.camera = host_.camera;
         }));
     PILEUS_TRY(check_media("ground.altitude_m", ground, host_.placement.offset_m.z));
-    if (ground.present != host_.ground.present && run_->environment.sky_map.present())
+    if (ground.present != host_.ground.present && scenery_.environment.sky_map.present())
         return Status::bad_input(
             "ground: the sky map was read with it or without, allowed: as the scene has it");
     host_.ground = ground;
@@ -187,14 +188,13 @@ Status Session::set_ground(const Ground& given) {
 Status Session::set_lights(const std::vector<LightSettings>& lights) {
     if (lights == host_.lights) return Status::ok();
     PILEUS_TRY(refuse_clouds_sky("lights"));
-    if (run_->sealed && sealed_lights_ == 0) return refuse_sealed("light");
-    if (run_->sealed && lights.size() > sealed_lights_)
+    if (sealed_ && sealed_lights_ == 0) return refuse_sealed("light");
+    if (sealed_ && lights.size() > sealed_lights_)
         return Status::bad_input("light: " + std::to_string(lights.size()) + ", allowed: at most " +
                                  std::to_string(sealed_lights_) +
                                  ", as when the flight was opened");
     if (kDevices)
-        PILEUS_TRY(
-            check_host_lights(context_, lights, scene_.atmosphere.present, run_->world->medium));
+        PILEUS_TRY(check_host_lights(context_, lights, scene_.atmosphere.present, world().medium));
     if (const char* key = lights_fault(scene_, host_.ground, lights))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) {
             changed.lights = lights;
@@ -207,9 +207,8 @@ Status Session::set_lights(const std::vector<LightSettings>& lights) {
 
 /// Media and ground as a host places them.
 Status Session::check_media(const char* key, const Ground& ground, double moved_m) const {
-    const World& world = *run_->world;
-    const double low = world.medium.low_m.z + moved_m;
-    if (world.media == 0 || !is_below_ground(ground, low, moved_m)) return Status::ok();
+    const double low = world().medium.low_m.z + moved_m;
+    if (world().media == 0 || !is_below_ground(ground, low, moved_m)) return Status::ok();
     return Status::bad_input(std::string(key) + ": the media are " +
                              below_ground_text(ground, low, moved_m));
 }
@@ -225,11 +224,11 @@ Status Session::set_placement(const Double3& offset_m, double yaw_deg) {
     PILEUS_TRY(std::move(status));
     PILEUS_TRY(check_media("placement.offset_m", host_.ground, offset_m.z));
     const bool moves = offset_m != Double3{} || yaw_deg != 0;
-    if (moves && run_->world->media == 0)
+    if (moves && world().media == 0)
         return Status::bad_input("placement: no media to move, allowed: 0");
-    if (kMeshes && moves && run_->world->solids.meshes)
+    if (kMeshes && moves && world().solids.meshes)
         return Status::bad_input("placement: solids stay where they are, allowed: 0");
-    if (yaw_deg != 0 && run_->environment.sky_map.present())
+    if (yaw_deg != 0 && scenery_.environment.sky_map.present())
         return Status::bad_input("placement.yaw_deg: not below a sky map, allowed: 0");
     stale_ = stale_ || offset_m != host_.placement.offset_m || yaw_deg != host_.placement.yaw_deg;
     host_.placement = next;
@@ -245,12 +244,12 @@ Status Session::set_frame(int number) {
 
 Status Session::set_depth(const Rows* rows, DepthKind kind) {
     const FpModeGuard guard;
-    CameraDepth& depth = run_->environment.depth;
+    CameraDepth& depth = scenery_.environment.depth;
     if (kind == DepthKind::kBuffer && !depth_scale_.known)
         return Status::bad_input(
             "depth: a depth buffer without a camera's near_m, allowed: a camera with it, or "
             "another kind");
-    if (run_->sealed && rows != nullptr && depth.metres.empty()) return refuse_sealed("depth");
+    if (sealed_ && rows != nullptr && depth.metres.empty()) return refuse_sealed("depth");
     if (rows != nullptr) {
         const CameraParams camera = make_camera(host_.camera, 0, {});
         PILEUS_TRY(take_depths(*rows, kind, depth_scale_, camera, depth));
@@ -279,14 +278,14 @@ Status Session::reserve() {
 }
 
 void Session::seal() {
-    run_->sealed = true;
+    sealed_ = true;
     made_.method->seal();
-    sealed_shine_ = shine_of(run_->lighting);
+    sealed_shine_ = shine_of(scenery_.lighting);
     sealed_lights_ = scene_.lights.size();
     const std::size_t lamps = scene_.lights.empty() ? 0 : kMostLights;
     host_.lights.reserve(lamps);
     scene_.lights.reserve(lamps);
-    run_->lighting.reserve(lamps);
+    scenery_.lighting.reserve(lamps);
     // Those of a picture, of the method, and of the accidents that a log is told of.
     constexpr std::size_t kMostCounters = 16;
     report_.counters.reserve(kMostCounters);
@@ -294,7 +293,7 @@ void Session::seal() {
 }
 
 Status Session::reserve_depth() {
-    CameraDepth& depth = run_->environment.depth;
+    CameraDepth& depth = scenery_.environment.depth;
     const auto& size = host_.camera.resolution;
     const std::uint64_t pixels = std::uint64_t(size[0]) * std::uint64_t(size[1]);
     PILEUS_TRY(depth.metres.resize(pixels, "camera depth"));
@@ -311,8 +310,8 @@ Shine shine_of(const Lighting& l) {
 
 /// Arrays of a light are made when it first shines, and others when the ground is not there.
 Status Session::check_sealed() const {
-    if (!run_->sealed) return Status::ok();
-    const Shine now = shine_of(run_->lighting);
+    if (!sealed_) return Status::ok();
+    const Shine now = shine_of(scenery_.lighting);
     if (now.sun && !sealed_shine_.sun)
         return Status::bad_input(
             "sun: it did not shine when the flight was opened, allowed: below the horizon");
@@ -320,17 +319,11 @@ Status Session::check_sealed() const {
     return now.ground != sealed_shine_.ground ? refuse_sealed("ground") : Status::ok();
 }
 
-Status Session::look(Outlook& outlook) {
+Status Session::lit(Scenery*& scenery) {
     const FpModeGuard guard;
     const PoolGuard lent(*threads_);
     PILEUS_TRY(aim());
-    outlook.context = &context_;
-    outlook.scene = &scene_;
-    outlook.world = run_->world.get();
-    outlook.environment = &run_->environment;
-    outlook.lighting = light_of(scene_, place_of(scene_.sun), *run_->world, run_->environment);
-    outlook.camera = make_camera(scene_.camera, 0, run_->world->medium.low_m);
-    outlook.frame = host_.number;
+    scenery = &scenery_;
     return Status::ok();
 }
 

@@ -87,7 +87,8 @@ Status Verifier::open(const Scene& scene, std::uint64_t pixels, const Context& c
     scene_ = scene;
     PILEUS_TRY(place_scene(scene_));
     rest_ = scene_;
-    run_.rest = &rest_;
+    scenery_.scene = &scene_;
+    scenery_.rest = &rest_;
     place(scene.sequence_frame);
     const MethodRow row = path_row();
     own_paths_ = scene.method == row.name;
@@ -102,28 +103,25 @@ Status Verifier::open(const Scene& scene, std::uint64_t pixels, const Context& c
     if (world->shows_particles) world = nullptr;
     // Of a film there is but what is behind its light.
     path_ = &make_path({scene_, {}, true}, made_);
-    return open_run(row, made_, scene_, Budget{}, context, true, std::move(world), run_);
+    return open_method(row, made_, context, true, nullptr, std::move(world), scenery_, plan_);
 }
 
 /// Moves the scene to a frame, where keys do.
 void Verifier::place(int frame) {
-    if (scene_.animation.keys.empty()) return;
-    FrameState at;
-    frame_state_at(scene_, rest_, frame, at);
-    put_in_media(at, scene_);
+    if (!scene_.animation.keys.empty()) place_at_frame(rest_, frame, scene_);
 }
 
 /// Lights, camera and noise of a frame.
 Status Verifier::set_view(int frame, const Context& context) {
-    light_frame(frame, run_);
-    return path_->set_view(context, view_of(run_, frame), {});
+    scenery_.light(frame);
+    return path_->set_view(context, scenery_.view(frame), {});
 }
 
 /// As the picture's method has it: by where the media and what is solid are along each ray.
 Status Verifier::see_through_air(int frame, const Context& context,
                                  const std::vector<std::uint32_t>& pixels,
                                  std::vector<PixelLight>& paths) {
-    PILEUS_TRY(path_->begin(context, view_of(run_, frame)));
+    PILEUS_TRY(path_->begin(context, scenery_.view(frame)));
     Planes& planes = path_->planes();
     const std::size_t all = planes.transmittance.size();
     Buffer<float> light, straight, dimmed;
@@ -134,8 +132,8 @@ Status Verifier::see_through_air(int frame, const Context& context,
             straight[c * all + pixels[i]] = float(paths[i].straight[c]);
             light[c * all + pixels[i]] = float(paths[i].mean[c] - paths[i].straight[c]);
         }
-    PILEUS_TRY(run_air(context, scene_, run_.world->medium, run_.lighting, path_->state().camera,
-                       run_.environment, planes,
+    PILEUS_TRY(run_air(context, scene_, scenery_.world->medium, scenery_.lighting,
+                       path_->state().camera, scenery_.environment, planes,
                        {light.data(), straight.data(), dimmed.data(), true}));
     for (std::size_t i = 0; i < pixels.size(); ++i)
         for (std::size_t c = 0; c < 3; ++c) {
@@ -151,10 +149,10 @@ Status Verifier::check(int frame, const Context& context, const Image& image, Re
     place(frame);
     if (is_sequence(scene_.view_files.depth)) {
         rest_.sequence_frame = scene_.sequence_frame = frame;
-        PILEUS_TRY(load_environment(scene_, context, run_.environment));
+        PILEUS_TRY(load_environment(scene_, context, scenery_.environment));
     }
     PILEUS_TRY(set_view(frame, context));
-    PathInput in = path_->input(context, view_of(run_, frame));
+    PathInput in = path_->input(context, scenery_.view(frame));
     in.ended = context.interrupted;
     const std::vector<std::uint32_t> pixels = choose_pixels(image, pixels_, in.seed);
     if (pixels.empty()) return Status::ok();
@@ -167,7 +165,7 @@ Status Verifier::check(int frame, const Context& context, const Image& image, Re
         PILEUS_TRY(trace_pixels(in, pixels, samples, path_->scratch(), paths, ended));
     }
     if (ended) return Status::ok();
-    if (run_.lighting.air) PILEUS_TRY(see_through_air(frame, context, pixels, paths));
+    if (scenery_.lighting.air) PILEUS_TRY(see_through_air(frame, context, pixels, paths));
     report.verify = compare_pixels(image, pixels, paths);
     report.verify.samples = samples;
     return Status::ok();

@@ -3,8 +3,8 @@
 // in: a scene, its world, a picture -> out: bias, its standard error and relMSE in the report.
 // docs/report.md, "Verify"
 #pragma once
-#include "src/methods/methods.h"
 #include "src/methods/path/path_method.h"
+#include "src/methods/scenery.h"
 #include "src/session/render.h"
 
 namespace pileus {
@@ -32,7 +32,8 @@ private:
     Scene scene_;
     FrameState rest_;  ///< as it is but for keys
     std::uint64_t pixels_ = 0;
-    MethodRun run_;
+    Scenery scenery_;
+    Plan plan_;
     MadeMethod made_;
     PathMethod* path_ = nullptr;  ///< the one that was made
     bool own_paths_ = false;      ///< the pictures are by paths themselves

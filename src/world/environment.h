@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // All that lights a frame beside its media, worked out here alone.
 // in: a scene, a world -> out: sky map, air, depths of one camera; lights of a frame.
-// docs/architecture.md, "One way through"
+// docs/architecture.md, "How a frame is made"
 #pragma once
 #include "src/world/world.h"
 

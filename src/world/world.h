@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // All of a scene that no method owns: its media on one grid, its sky map, its solids.
 // in: a checked scene -> out: World, from sizes alone or with its values.
-// docs/architecture.md, "One way through".
+// docs/architecture.md, "How a frame is made".
 #pragma once
 #include "src/io/particles/particles.h"
 #include "src/run/context.h"

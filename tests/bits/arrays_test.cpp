@@ -84,7 +84,18 @@ void check_rows(const MemoryTable& table, Stage stage, Bytes held) {
     }
 }
 
-Bytes held_by(const MethodRun& run, const Majorants& majorants) {
+/// A method opened over a scene.
+struct Run : Scenery {
+    Plan plan;
+    Status open(const MethodRow& row, const MadeMethod& made, const Scene& of,
+                const Context& context) {
+        scene = &of;
+        rest = &of;
+        return open_method(row, made, context, true, nullptr, nullptr, *this, plan);
+    }
+};
+
+Bytes held_by(const Run& run, const Majorants& majorants) {
     const World& world = *run.world;
     return {{"density", world.medium.volume.density.bytes()},
             {"parts of the media", world.medium.parts.bytes()},
@@ -122,13 +133,13 @@ void add_photons(const PhotonState& state, const Plan& plan, Bytes& held) {
 /// A method of photons over an open run.
 template <class Of>
 struct Opened {
-    MethodRun run;
+    Run run;
     MadeMethod made;
     const Of& method;
 
     Opened(const MethodRow& row, const Fixture& f, const Budget& budget = {})
         : made(row.make({f.scene, budget, false})), method(static_cast<Of&>(*made.method)) {
-        const Status status = open_run(row, made, f.scene, budget, f.context, true, nullptr, run);
+        const Status status = run.open(row, made, f.scene, f.context);
         REQUIRE_MESSAGE(status, status.message);
     }
 };
@@ -137,7 +148,7 @@ void check_collectors(const Fixture& f) {
     Budget budget;
     budget.photons = 4000;
     const Opened<CollectorsMethod> opened(collectors_row(), f, budget);
-    const MethodRun& run = opened.run;
+    const Run& run = opened.run;
     const CollectorsState& state = opened.method.state();
     REQUIRE(run.plan.exact);
     Bytes held = held_by(run, state.majorants);
@@ -153,7 +164,7 @@ void check_photon_grid(const Fixture& f) {
     Budget budget;
     budget.photons = 4000;
     const Opened<PhotonGridMethod> opened(photon_grid_row(), f, budget);
-    const MethodRun& run = opened.run;
+    const Run& run = opened.run;
     const PhotonGridState& state = opened.method.state();
     REQUIRE(run.plan.exact);
     Bytes held = held_by(run, state.majorants);
@@ -164,15 +175,15 @@ void check_photon_grid(const Fixture& f) {
 }
 
 void check_path(const Fixture& f) {
-    MethodRun run;
+    Run run;
     MadeMethod made;
     Budget budget;
     budget.samples = 2;
     const PathState& state = make_path({f.scene, budget}, made).state();
-    REQUIRE(open_run(path_row(), made, f.scene, budget, f.context, true, nullptr, run));
+    REQUIRE(run.open(path_row(), made, f.scene, f.context));
     REQUIRE(run.plan.exact);
     std::uint64_t done = 0;
-    REQUIRE(made.method->accumulate(f.context, view_of(run, 0), 2, done));
+    REQUIRE(made.method->accumulate(f.context, run.view(0), 2, done));
     Bytes held = held_by(run, state.majorants);
     held["directions to the sky map"] = state.scratch.sky.bytes();
     held["film"] = state.film.sum.bytes() + state.film.square.bytes();
@@ -185,11 +196,11 @@ void check_path(const Fixture& f) {
 void check_march(const MethodRow& row, const Fixture& f) {
     const MadeMethod made = row.make({f.scene, {}});
     const MarchState& state = static_cast<MarchMethod&>(*made.method).state();
-    MethodRun run;
-    REQUIRE(open_run(row, made, f.scene, {}, f.context, true, nullptr, run));
+    Run run;
+    REQUIRE(run.open(row, made, f.scene, f.context));
     REQUIRE(run.plan.exact);
     Planes* planes = nullptr;
-    REQUIRE(made.method->render(f.context, view_of(run, 0), {}, planes));
+    REQUIRE(made.method->render(f.context, run.view(0), {}, planes));
     Bytes held = held_by(run, state.media.majorants);
     held["sunlight's optical depth on nodes"] = state.light.nodes.optical_depth.bytes();
     held["skylight on nodes"] = state.light.sky.light.bytes();
@@ -220,11 +231,11 @@ void check_particles(const Fixture& f) {
     const MethodRow row = particles_row();
     const MadeMethod made = row.make({scene, {}});
     const ParticlesState& state = static_cast<ParticlesMethod&>(*made.method).state();
-    MethodRun run;
-    REQUIRE(open_run(row, made, scene, {}, f.context, true, nullptr, run));
+    Run run;
+    REQUIRE(run.open(row, made, scene, f.context));
     REQUIRE(run.plan.exact);
     Planes* planes = nullptr;
-    REQUIRE(made.method->render(f.context, view_of(run, 0), {}, planes));
+    REQUIRE(made.method->render(f.context, run.view(0), {}, planes));
     Bytes held = held_by(run, state.majorants);
     held["particles"] = state.tree.balls.bytes();
     const ParticleSet& set = run.world->particles;
@@ -279,7 +290,7 @@ template <class Of>
 void check_lamps(const MethodRow& row, const Fixture& f) {
     Opened<Of> opened(row, f);
     Method& method = *opened.made.method;
-    const FrameView view = view_of(opened.run, 0);
+    const FrameView view = opened.run.view(0);
     Planes* planes = nullptr;
     std::uint64_t done = 0;
     REQUIRE(method.set_view(f.context, view, {}));

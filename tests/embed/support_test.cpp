@@ -100,7 +100,7 @@ TEST_CASE("support: sessions are refused where the table says so, and nowhere el
         sets.push_back("output.layers=[\"radiance\"]");
         const pileus::Scene scene = render_test::scene_from(text, sets);
         pileus::Session session;
-        REQUIRE(session.open(scene, {}, pileus::SessionKind::kLive, true, nullptr));
+        REQUIRE(session.open(scene, {}, true, nullptr));
         for (const Call& call : kCalls) {
             const pileus::FeatureRow& row = pileus::feature_row(call.feature);
             const Support& entry = row.by[c];

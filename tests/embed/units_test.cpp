@@ -67,7 +67,7 @@ double fly(pileus::Session& session, const pileus::Scene& scene) {
 /// 0 where the scene cannot be drawn so, or what it takes depends on the view.
 double fly_scene(const pileus::Scene& scene) {
     pileus::Session session;
-    const pileus::Status opened = session.open(scene, {}, pileus::SessionKind::kLive, true, {});
+    const pileus::Status opened = session.open(scene, {}, true, {});
     if (!opened) return 0;
     pileus::FrameUnits most;
     const pileus::Status told = session.most_units({}, most);

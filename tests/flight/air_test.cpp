@@ -52,7 +52,7 @@ std::vector<std::uint64_t> ordinary(const pileus::Scene& scene, int frames) {
     std::vector<std::uint64_t> hashes;
     pileus::FrameTarget target;
     target.hash = &hash;
-    REQUIRE(session.open(scene, {}, pileus::SessionKind::kLive, true, {}));
+    REQUIRE(session.open(scene, {}, true, {}));
     REQUIRE(session.step(session.light().whole, units));
     REQUIRE(session.render(target));
     for (int number = 0; number < frames; ++number) {

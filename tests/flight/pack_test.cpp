@@ -78,7 +78,7 @@ TEST_CASE("sessions over a packed scene have the hashes of those over the scene"
             const Scene& own = from == 0 ? scene : out.scene;
             std::shared_ptr<const World> world;
             if (from == 1) world = out.world;
-            REQUIRE(session.open(own, {}, SessionKind::kLive, true, world));
+            REQUIRE(session.open(own, {}, true, world));
             std::uint64_t done = 0;
             REQUIRE(session.step(session.light().whole, done));
             FrameTarget target;

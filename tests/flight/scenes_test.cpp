@@ -34,7 +34,7 @@ std::vector<std::string> scenes_of(const char* folder) {
 std::uint64_t ordinary(const pileus::Scene& scene) {
     pileus::Session session;
     std::uint64_t hash = 0, units = 0;
-    REQUIRE(session.open(scene, {}, pileus::SessionKind::kLive, true, {}));
+    REQUIRE(session.open(scene, {}, true, {}));
     REQUIRE(session.step(session.light().whole, units));
     pileus::FrameTarget target;
     target.hash = &hash;

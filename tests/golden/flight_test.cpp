@@ -47,7 +47,7 @@ std::vector<std::string> fly(const std::string& method, int threads) {
     RenderOptions options;
     options.threads = threads;
     Session session;
-    REQUIRE(session.open(scene, options, SessionKind::kLive, true, nullptr));
+    REQUIRE(session.open(scene, options, true, nullptr));
     const std::size_t bytes = std::size_t(4) * 96 * 54;
     std::vector<unsigned char> colour(bytes);
     FrameTarget target;

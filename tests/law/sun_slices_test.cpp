@@ -103,8 +103,7 @@ TEST_CASE("sun slices: a host's sun that stops is the picture of a scene with it
         };
         Session whole, sliced;
         for (Session* session : {&whole, &sliced}) {
-            REQUIRE(session->open(scene_of(session == &whole ? "1" : "4"), {}, SessionKind::kLive,
-                                  true, nullptr));
+            REQUIRE(session->open(scene_of(session == &whole ? "1" : "4"), {}, true, nullptr));
             std::uint64_t done = 0;
             REQUIRE(session->step(session->light().whole, done));
         }

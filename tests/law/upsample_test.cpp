@@ -84,12 +84,12 @@ TEST_CASE("A view at rest becomes the whole picture, to the bit, whatever was th
         FrameTarget target;
         target.hash = &hash;
         Session whole;
-        REQUIRE(whole.open(scene, {}, SessionKind::kLive, true, nullptr));
+        REQUIRE(whole.open(scene, {}, true, nullptr));
         REQUIRE(whole.render(target));
         const std::uint64_t expected = hash;
         // Another view leaves its pixels to this one.
         Session moved;
-        REQUIRE(moved.open(scene, {}, SessionKind::kLive, true, nullptr));
+        REQUIRE(moved.open(scene, {}, true, nullptr));
         Camera aside = scene.camera;
         aside.position_m[0] += 700;
         REQUIRE(moved.set_camera(aside));
@@ -156,8 +156,8 @@ TEST_CASE("Scales that are none are faults of one line") {
           Overrides{"raymarch.temporal = 3"},
           Overrides{"raymarch.temporal = 2", "raymarch.scale = 2"}}) {
         Session session;
-        const Status status = session.open(scene_from(kSmallCumulus, marched(wrong)), {},
-                                           SessionKind::kAnimation, false, nullptr);
+        const Status status =
+            session.open_film(scene_from(kSmallCumulus, marched(wrong)), {}, false, nullptr);
         CHECK(status.code == Code::kBadInput);
         CHECK(status.message.find("allowed: ") != std::string::npos);
         CHECK(status.message.find('\n') == std::string::npos);

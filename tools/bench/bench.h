@@ -13,21 +13,22 @@
 
 #include "src/io/images/image.h"
 #include "src/methods/collectors/collectors_method.h"
-#include "src/methods/methods.h"
+#include "src/methods/scenery.h"
 
 namespace bench {
 
 /// A scene with everything that its photons need.
 struct ReadyScene {
     pileus::Scene scene;
-    pileus::MethodRun run;
+    pileus::Scenery scenery;
+    pileus::Plan plan;
     std::unique_ptr<pileus::CollectorsMethod> method;
     pileus::Report report;
     pileus::Context context;  ///< all threads, the widest instruction set
 
-    const pileus::World& world() const { return *run.world; }
+    const pileus::World& world() const { return *scenery.world; }
     pileus::CollectorsState& state() { return method->state(); }
-    pileus::FrameView view() { return pileus::view_of(run, 0); }
+    pileus::FrameView view() { return scenery.view(0); }
     /// Another generation.
     pileus::Status shoot(const pileus::Context& with) {
         std::uint64_t done = 0;

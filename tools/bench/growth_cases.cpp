@@ -44,9 +44,11 @@ double prepare_seconds(benchmark::State& state, Bench& bench, const GrowthCase& 
         const double start = cpu_seconds();
         pileus::Prepared out;
         pileus::Majorants majorants;
-        if (!bench.passed(state, prepare_collectors(scene.run.world->medium, scene.scene.collectors,
-                                                    scene.scene.seed, context, out)) ||
-            !bench.passed(state, make_majorants(scene.run.world->medium, true, context, majorants)))
+        if (!bench.passed(state,
+                          prepare_collectors(scene.scenery.world->medium, scene.scene.collectors,
+                                             scene.scene.seed, context, out)) ||
+            !bench.passed(state,
+                          make_majorants(scene.scenery.world->medium, true, context, majorants)))
             return 0;
         best = std::min(best, cpu_seconds() - start);
         bench.check(state, which.name, prepared_digest(out, majorants));

@@ -72,8 +72,10 @@ std::unique_ptr<ReadyScene> Bench::fresh(benchmark::State& state, const std::str
     auto method = std::make_unique<CollectorsMethod>(inputs);
     opened.report = collectors_report(*method);
     opened.method = std::move(method);
-    const Status status = open_run(collectors_row(), opened, made->scene, {}, made->context, true,
-                                   nullptr, made->run);
+    made->scenery.scene = &made->scene;
+    made->scenery.rest = &made->scene;
+    const Status status = open_method(collectors_row(), opened, made->context, true, nullptr,
+                                      nullptr, made->scenery, made->plan);
     made->method.reset(static_cast<CollectorsMethod*>(opened.method.release()));
     if (!passed(state, status)) return nullptr;
     return made;
@@ -93,8 +95,8 @@ Status ReadyScene::show(const Context& with, Image& image) {
     const CameraParams camera = make_camera(scene.camera, 0, world().medium.low_m);
     FinishedParts parts;
     parts.batches = true;
-    return finish_frame(with, scene.output, world(), run.environment.depth, camera, parts, *planes,
-                        image, *with.report);
+    return finish_frame(with, scene.output, world(), scenery.environment.depth, camera, parts,
+                        *planes, image, *with.report);
 }
 
 void forget_photons(CollectorsState& state) {

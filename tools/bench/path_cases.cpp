@@ -67,16 +67,16 @@ void run_path(benchmark::State& state, Bench& bench, const PathCase& which,
     ReadyScene* p = bench.prepared(state, which.scene, which.overrides);
     if (p == nullptr) return;
     PathInput in;
-    in.medium = &p->run.world->medium;
+    in.medium = &p->scenery.world->medium;
     in.lighting = &p->state().lights.lighting;
     Majorants blocks;
-    if (!bench.passed(state, make_majorants(p->run.world->medium, true,
+    if (!bench.passed(state, make_majorants(p->scenery.world->medium, true,
                                             with(p->context, kernels, 1), blocks, kPathCosts)))
         return;
     in.majorants = blocks.tracking.span();
     in.block = blocks.block;
     if (which.every_ray) in.light_roulette = 0;
-    in.camera = make_camera(p->scene.camera, 0, p->run.world->medium.low_m);
+    in.camera = make_camera(p->scene.camera, 0, p->scenery.world->medium.low_m);
     in.seed = std::uint64_t(p->scene.seed);
     in.kernels = kernels;
     in.threads = threads;

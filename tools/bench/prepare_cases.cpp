@@ -29,9 +29,10 @@ void run_prepare(benchmark::State& state, Bench& bench, const PrepareCase& which
         report.clocks.stages.clear();
         pileus::Prepared out;
         pileus::Majorants majorants;
-        if (!bench.passed(state, prepare_collectors(p->run.world->medium, settings, p->scene.seed,
-                                                    context, out)) ||
-            !bench.passed(state, make_majorants(p->run.world->medium, true, context, majorants)))
+        if (!bench.passed(state, prepare_collectors(p->scenery.world->medium, settings,
+                                                    p->scene.seed, context, out)) ||
+            !bench.passed(state,
+                          make_majorants(p->scenery.world->medium, true, context, majorants)))
             return;
         state.SetIterationTime(stage_cpu(report, kStages));
         bench.check(state, which.name, prepared_digest(out, majorants));

@@ -130,7 +130,7 @@ Status fly_session(const Scene& scene, const Arguments& arguments, double orbit_
     RenderOptions options;
     options.threads = arguments.threads;
     Session session;
-    PILEUS_TRY(session.open(scene, options, SessionKind::kLive, true, nullptr));
+    PILEUS_TRY(session.open(scene, options, true, nullptr));
     const auto& size = scene.camera.resolution;
     std::vector<unsigned char> colour(std::size_t(4) * std::size_t(size[0]) * std::size_t(size[1]));
     FrameTarget target;
@@ -202,7 +202,7 @@ Status fly_small(const Way& way, const Arguments& arguments) {
     RenderOptions options;
     options.threads = arguments.threads;
     Session session;
-    PILEUS_TRY(session.open(scene, options, SessionKind::kLive, true, nullptr));
+    PILEUS_TRY(session.open(scene, options, true, nullptr));
     std::vector<unsigned char> colour(4 * std::size_t(scene.camera.resolution[0]) *
                                       std::size_t(scene.camera.resolution[1]));
     FrameTarget target;

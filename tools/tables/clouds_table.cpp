@@ -120,7 +120,7 @@ struct CloudySky {
         const Scene scene =
             scene_of("clouds_sky.toml", {"camera.resolution=[" + std::to_string(a.size[0]) + "," +
                                          std::to_string(a.size[1]) + "]"});
-        require(session.open(scene, options, SessionKind::kLive, true, nullptr));
+        require(session.open(scene, options, true, nullptr));
         require(clouds.open(session));
         CloudDetail detail = a.detail;
         detail.on = detailed;

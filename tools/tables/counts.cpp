@@ -8,8 +8,8 @@
 
 #include "platform/fp_mode.h"
 #include "src/methods/collectors/collectors_method.h"
-#include "src/methods/methods.h"
 #include "src/methods/path/trace_paths.h"
+#include "src/methods/scenery.h"
 #include "src/picture/finish_frame.h"
 #include "src/scene/read_scene.h"
 #include "src/world/camera/view.h"
@@ -25,7 +25,7 @@ constexpr const char* kScene = "assets/studies/scenes/cumulus128.toml";
 struct Piece {
     const Scene* scene;
     Context context;
-    MethodRun* run;
+    Scenery* scenery;
     CollectorsMethod* method;
     Film* film;
     PathScratch* scratch;
@@ -35,33 +35,33 @@ struct Piece {
 void prepare(Piece& p) {
     Prepared out;
     Majorants majorants;
-    p.status = prepare_collectors(p.run->world->medium, p.scene->collectors, p.scene->seed,
+    p.status = prepare_collectors(p.scenery->world->medium, p.scene->collectors, p.scene->seed,
                                   p.context, out);
-    if (p.status) p.status = make_majorants(p.run->world->medium, true, p.context, majorants);
+    if (p.status) p.status = make_majorants(p.scenery->world->medium, true, p.context, majorants);
 }
 void trace(Piece& p) {
     std::uint64_t done = 0;
-    p.status = p.method->accumulate(p.context, view_of(*p.run, 0), 1, done);
+    p.status = p.method->accumulate(p.context, p.scenery->view(0), 1, done);
 }
 Status show_frame(Piece& p) {
     Image image;
     Planes* planes = nullptr;
-    PILEUS_TRY(p.method->render(p.context, view_of(*p.run, 0), {}, planes));
-    const World& world = *p.run->world;
+    PILEUS_TRY(p.method->render(p.context, p.scenery->view(0), {}, planes));
+    const World& world = *p.scenery->world;
     FinishedParts parts;
     parts.batches = true;
-    return finish_frame(p.context, p.scene->output, world, p.run->environment.depth,
+    return finish_frame(p.context, p.scene->output, world, p.scenery->environment.depth,
                         make_camera(p.scene->camera, 0, world.medium.low_m), parts, *planes, image,
                         *p.context.report);
 }
 void show(Piece& p) { p.status = show_frame(p); }
 PathInput path_input(const Piece& p) {
     PathInput in;
-    in.medium = &p.run->world->medium;
+    in.medium = &p.scenery->world->medium;
     in.lighting = &p.method->state().lights.lighting;
     in.majorants = p.method->state().majorants.tracking.span();
     in.block = p.method->state().majorants.block;
-    in.camera = make_camera(p.scene->camera, 0, p.run->world->medium.low_m);
+    in.camera = make_camera(p.scene->camera, 0, p.scenery->world->medium.low_m);
     in.seed = std::uint64_t(p.scene->seed);
     in.kernels = p.context.kernels;
     in.threads = 1;
@@ -106,16 +106,20 @@ Status count_kernels(const KernelTable* kernels) {
         Scene scene;
         PILEUS_TRY(read(display, scene));
         auto method = std::make_unique<CollectorsMethod>(MethodInputs{scene, {}, false});
-        MethodRun run;
+        Scenery scenery;
+        scenery.scene = &scene;
+        scenery.rest = &scene;
+        Plan plan;
         Film film;
         PathScratch scratch;
-        Piece p{&scene, Context{}, &run, method.get(), &film, &scratch};
+        Piece p{&scene, Context{}, &scenery, method.get(), &film, &scratch};
         p.context.kernels = kernels;
         p.context.report = &report;
         MadeMethod made;
         made.report = collectors_report(*method);
         made.method = std::move(method);
-        PILEUS_TRY(open_run(collectors_row(), made, scene, {}, p.context, true, nullptr, run));
+        PILEUS_TRY(
+            open_method(collectors_row(), made, p.context, true, nullptr, nullptr, scenery, plan));
         if (marched && kernels == kernel_table_at(0))
             PILEUS_TRY(count_piece("prepare", "any", prepare, p));
         if (marched)

@@ -8,6 +8,8 @@
 
 namespace pileus {
 
+struct MethodTools;
+
 /// No light is accumulated: pictures are all there is. Both methods march; optical-depth has a look
 /// in its choice, appearance and not physics.
 class MarchMethod final : public Method {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "src/methods/march/march.h"
-#include "src/methods/methods.h"
+#include "src/methods/scenery.h"
 #include "src/picture/nodes/ground_shadow.h"
 #include "src/picture/nodes/lamp_light.h"
 #include "src/picture/nodes/sky_light.h"

@@ -3,7 +3,7 @@
 // direction, so that a place meets those alone that may lie in its way.
 // in: a tree, a direction -> out: a depth for each ball. docs/particles.md, "Light".
 #pragma once
-#include "src/methods/methods.h"
+#include "src/methods/scenery.h"
 #include "src/world/particles/particle_tree.h"
 
 namespace pileus {

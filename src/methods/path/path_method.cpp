@@ -138,8 +138,6 @@ void PathMethod::release(Phase phase) {
     state_.film.square = Buffer<double>();
 }
 
-MethodRow path_row() {
-    return {"path", WorldUse::kGrid, kept(kChecks, check), make, nullptr, true};
-}
+MethodRow path_row() { return {"path", WorldUse::kGrid, kept(kChecks, check), make, true}; }
 
 }  // namespace pileus

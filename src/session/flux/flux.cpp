@@ -74,7 +74,7 @@ Status check_needles(const Scene& scene, const Medium& medium) {
     return Status::ok();
 }
 
-Status check_flux(const Scene& scene, const Context& context, const MethodRun& run,
+Status check_flux(const Scene& scene, const Context& context, const Scenery& scenery,
                   bool from_below) {
     const auto fault = [&](const char* what) {
         return Status::bad_input(scene.file + ": " + what);
@@ -87,9 +87,9 @@ Status check_flux(const Scene& scene, const Context& context, const MethodRun& r
         return fault("solid: fluxes are those of media alone, allowed: a scene without solids");
     if (!scene.lights.empty())
         return fault("light: fluxes are shares of sun and sky, allowed: a scene without [[light]]");
-    if (emits(run.world->medium))
+    if (emits(scenery.world->medium))
         return fault("medium.emission: fluxes are shares of sun and sky, allowed: 0");
-    if (!from_below && (!run.lighting.sunlit || !(run.lighting.to_sun[2] > 0)))
+    if (!from_below && (!scenery.lighting.sunlit || !(scenery.lighting.to_sun[2] > 0)))
         return fault("sun: not above the horizon, or dark, allowed: what fluxes are shares of");
     return Status::ok();
 }
@@ -115,7 +115,7 @@ Scene scene_to_measure(const Scene& scene, const FluxSettings& settings) {
 Status choose_columns(const FluxSettings& settings, const FluxTask& task, FluxResult& out) {
     for (std::size_t a = 0; a < 2; ++a)
         out.columns[a] =
-            settings.columns[a] > 0 ? settings.columns[a] : task.run.world->medium.grid.size[a];
+            settings.columns[a] > 0 ? settings.columns[a] : task.scenery.world->medium.grid.size[a];
     return check_limit(task.context.limits, LimitId::kPixels,
                        std::uint64_t(out.columns[0]) * std::uint64_t(out.columns[1]), "--columns");
 }
@@ -145,23 +145,26 @@ Status measure_flux(const Scene& scene, const RenderOptions& options, const Flux
     const std::int64_t wanted = budget.photons >= 0 ? budget.photons : kUsualPhotons;
     if (photons) budget.photons = -1;
     PILEUS_TRY(row.check(own, budget));
-    MethodRun run;
+    Scenery scenery;
+    scenery.scene = &own;
+    scenery.rest = &own;
+    Plan plan;
     MadeMethod made;
     PathMethod& path = make_path({own, budget}, made);
     // The first plan weighs the largest film: a pixel a column.
-    PILEUS_TRY(open_run(row, made, own, budget, context, true, nullptr, run));
-    if (settings.from_below) PILEUS_TRY(make_sky_below(settings, run.environment.sky_map));
-    light_frame(0, run);
-    PILEUS_TRY(path.set_view(context, view_of(run, 0), {}));
-    PILEUS_TRY(check_flux(own, context, run, settings.from_below));
-    if (!photons && run.lighting.sunlit) PILEUS_TRY(check_needles(own, run.world->medium));
+    PILEUS_TRY(open_method(row, made, context, true, nullptr, nullptr, scenery, plan));
+    if (settings.from_below) PILEUS_TRY(make_sky_below(settings, scenery.environment.sky_map));
+    scenery.light(0);
+    PILEUS_TRY(path.set_view(context, scenery.view(0), {}));
+    PILEUS_TRY(check_flux(own, context, scenery, settings.from_below));
+    if (!photons && scenery.lighting.sunlit) PILEUS_TRY(check_needles(own, scenery.world->medium));
     out = FluxResult{};
-    FluxTask task{own, settings, context, run, path};
+    FluxTask task{own, settings, context, scenery, path};
     PILEUS_TRY(choose_columns(settings, task, out));
-    out.mu0 = settings.from_below ? 1 : double(run.lighting.to_sun[2]);
+    out.mu0 = settings.from_below ? 1 : double(scenery.lighting.to_sun[2]);
     for (std::size_t c = 0; c < 3; ++c) {
         const double light = settings.from_below ? kPi64 * settings.below_radiance[c]
-                                                 : run.lighting.sun_irradiance[int(c)];
+                                                 : scenery.lighting.sun_irradiance[int(c)];
         out.irradiance[c] = float(light);
         task.level[c] = light * out.mu0;
     }

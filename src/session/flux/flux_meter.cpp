@@ -78,7 +78,7 @@ Status FluxMeter::direct(const FluxPlane& plane, const std::array<int, 2>& pixel
         k.nodes.size[across[i]] = pixels[i] * int(each[i]);
         k.nodes.per_metre[across[i]] = float(k.nodes.size[across[i]] / m.extent_m[across[i]]);
     }
-    for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = run_.lighting.to_sun[a];
+    for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = scenery_.lighting.to_sun[a];
     Buffer<float> depth;
     PILEUS_TRY(depth.resize(node_count(k.nodes), "rays to the sun"));
     PILEUS_TRY(run_rows(context_, context_.kernels->shadow_rows, k, ShadowBuffers{depth.data()},
@@ -155,7 +155,7 @@ Status FluxMeter::sunlight(const Double3& place_m, double& share) {
     const Medium& m = medium();
     Double3 place = place_m - m.low_m;
     share = 1;
-    if (!way_into_box(m, run_.lighting.to_sun, place)) return Status::ok();
+    if (!way_into_box(m, scenery_.lighting.to_sun, place)) return Status::ok();
     ShadowParams k{};
     k.medium = make_medium_view(m, path_.state().majorants);
     for (std::size_t a = 0; a < 3; ++a) {
@@ -163,7 +163,7 @@ Status FluxMeter::sunlight(const Double3& place_m, double& share) {
         const double at = place[int(a)];
         k.nodes.size[a] = 1;
         k.nodes.per_metre[a] = at > 1e-18 ? float(0.5 / at) : 1e20f;
-        k.to_sun[a] = run_.lighting.to_sun[a];
+        k.to_sun[a] = scenery_.lighting.to_sun[a];
     }
     float depth = 0;
     PILEUS_TRY(run_rows(context_, context_.kernels->shadow_rows, k, ShadowBuffers{&depth}, 1));
@@ -183,10 +183,10 @@ FluxShare share_of(const MeteredLight& light) {
 }
 
 /// Up and down through a level of the box.
-Status read_level(const Sensor& sensor, const MethodRun& run, FluxMeter& meter,
+Status read_level(const Sensor& sensor, const Scenery& scenery, FluxMeter& meter,
                   SensorReading& out) {
     const std::array<int, 2> pixels{kLevelPixels, kLevelPixels};
-    const FluxPlane plane{2, sensor.height_m - run.world->medium.low_m[2]};
+    const FluxPlane plane{2, sensor.height_m - scenery.world->medium.low_m[2]};
     const std::uint64_t each =
         (sensor.samples + kLevelPixels * kLevelPixels - 1) / (kLevelPixels * kLevelPixels);
     meter.set_samples(each);
@@ -196,7 +196,7 @@ Status read_level(const Sensor& sensor, const MethodRun& run, FluxMeter& meter,
     out.up = share_of(light);
     PILEUS_TRY(meter.diffuse(plane, 1, pixels, light));
     out.down = share_of(light);
-    const Lighting& lit = run.lighting;
+    const Lighting& lit = scenery.lighting;
     if (!lit.sunlit || !(lit.to_sun[2] > 0)) return Status::ok();
     std::vector<double> share;
     PILEUS_TRY(meter.direct(plane, {1, 1}, share));
@@ -208,14 +208,14 @@ Status read_level(const Sensor& sensor, const MethodRun& run, FluxMeter& meter,
 }
 
 /// Light on a small plane, direct and diffuse.
-Status read_plane(const Sensor& sensor, const MethodRun& run, FluxMeter& meter,
+Status read_plane(const Sensor& sensor, const Scenery& scenery, FluxMeter& meter,
                   SensorReading& out) {
     meter.set_samples(sensor.samples);
     out.samples = sensor.samples;
     MeteredLight light;
     PILEUS_TRY(meter.irradiance(sensor.position_m, sensor.direction, light));
     out.down = share_of(light);
-    const Lighting& lit = run.lighting;
+    const Lighting& lit = scenery.lighting;
     double slant = 0;
     for (int a = 0; a < 3; ++a) slant += sensor.direction[a] * double(lit.to_sun[std::size_t(a)]);
     if (!lit.sunlit || !(slant > 0)) return Status::ok();
@@ -255,10 +255,10 @@ Status check_place(const FluxSettings& settings, const Sensor& sensor, const Sce
 
 }  // namespace
 
-Status read_flux_sensors(const FluxSettings& settings, const Scene& scene, const MethodRun& run,
+Status read_flux_sensors(const FluxSettings& settings, const Scene& scene, const Scenery& scenery,
                          FluxMeter& meter, std::vector<SensorReading>& out) {
     for (const Sensor& sensor : settings.sensors)
-        PILEUS_TRY(check_place(settings, sensor, scene, run.world->medium));
+        PILEUS_TRY(check_place(settings, sensor, scene, scenery.world->medium));
     out.clear();
     for (const Sensor& sensor : settings.sensors) {
         SensorReading reading;
@@ -267,10 +267,10 @@ Status read_flux_sensors(const FluxSettings& settings, const Scene& scene, const
                 PILEUS_TRY(read_look(sensor, meter, reading));
                 break;
             case SensorKind::kPlane:
-                PILEUS_TRY(read_plane(sensor, run, meter, reading));
+                PILEUS_TRY(read_plane(sensor, scenery, meter, reading));
                 break;
             case SensorKind::kLevel:
-                PILEUS_TRY(read_level(sensor, run, meter, reading));
+                PILEUS_TRY(read_level(sensor, scenery, meter, reading));
                 break;
         }
         out.push_back(reading);

@@ -3,8 +3,8 @@
 // in: a prepared run of method path -> out: means of light with squared standard errors.
 // docs/flux.md
 #pragma once
-#include "src/methods/methods.h"
 #include "src/methods/path/path_method.h"
+#include "src/methods/scenery.h"
 #include "src/session/flux/flux.h"
 
 namespace pileus {
@@ -27,11 +27,11 @@ struct MeteredLight {
 
 class FluxMeter {
 public:
-    FluxMeter(const Context& context, MethodRun& run, PathMethod& path, std::uint64_t samples)
+    FluxMeter(const Context& context, Scenery& scenery, PathMethod& path, std::uint64_t samples)
         : context_(context),
-          run_(run),
+          scenery_(scenery),
           path_(path),
-          in_(path.input(context, view_of(run, 0))),
+          in_(path.input(context, scenery.view(0))),
           samples_(samples) {
         in_.parts = false;
         in_.ended = context.interrupted;
@@ -67,7 +67,7 @@ private:
     Status trace(const CameraParams& camera, MeteredLight& light);
 
     const Context& context_;
-    const MethodRun& run_;
+    const Scenery& scenery_;
     PathMethod& path_;
     PathInput in_;
     std::uint64_t samples_, paths_ = 0, made_ = 0;
@@ -79,7 +79,7 @@ double mean_of(const std::vector<double>& values);
 
 /// Reads the sensors of the settings. kBadInput: a level outside of the media's box, a place below
 /// the ground; kCheckFailed: interrupted.
-Status read_flux_sensors(const FluxSettings& settings, const Scene& scene, const MethodRun& run,
+Status read_flux_sensors(const FluxSettings& settings, const Scene& scene, const Scenery& scenery,
                          FluxMeter& meter, std::vector<SensorReading>& out);
 
 }  // namespace pileus

@@ -141,8 +141,8 @@ void turn_upside_down(const FluxTask& task, const Sheet& top, FluxResult& out) {
 
 Status flux_by_paths(const FluxTask& task, std::uint64_t samples, FluxResult& out, Image& maps) {
     const StageClock clock(task.context, "paths");
-    const Lighting& light = task.run.lighting;
-    FluxMeter meter(task.context, task.run, task.path, samples);
+    const Lighting& light = task.scenery.lighting;
+    FluxMeter meter(task.context, task.scenery, task.path, samples);
     const bool below = task.settings.from_below;
     if (below) meter.keep_parts();
     const FluxPlane top = box_face(meter.medium(), 2, true);
@@ -160,7 +160,7 @@ Status flux_by_paths(const FluxTask& task, std::uint64_t samples, FluxResult& ou
     for (std::size_t c = 0; c < 3; ++c)
         take_shares(task, sums, mean_of(sums.direct) * task.level[c], absorbs, c, out);
     if (below) turn_upside_down(task, up, out);
-    PILEUS_TRY(read_flux_sensors(task.settings, task.scene, task.run, meter, out.sensors));
+    PILEUS_TRY(read_flux_sensors(task.settings, task.scene, task.scenery, meter, out.sensors));
     out.paths = meter.paths();
     return Status::ok();
 }

@@ -24,7 +24,7 @@ Status check_parts(const char* option, int parts, int voxels, const char* axis) 
 }
 
 Status make_layout(const FluxTask& task, const FluxResult& result, FluxLayout& layout) {
-    const Medium& medium = task.run.world->medium;
+    const Medium& medium = task.scenery.world->medium;
     const Grid& grid = medium.grid;
     const char* const axes[3] = {"x", "y", "z"};
     layout.columns = result.columns;
@@ -71,8 +71,8 @@ Status number_collectors(const FluxLayout& layout, const Grid& g, Buffer<std::in
 
 /// All light that enters, none of it taken out as a constant: pictures may do so, fluxes may not.
 Lighting lights_of(const FluxTask& task) {
-    Lighting lit = task.run.lighting;
-    const Medium& medium = task.run.world->medium;
+    Lighting lit = task.scenery.lighting;
+    const Medium& medium = task.scenery.world->medium;
     lit.lights.clear();
     lit.constant = {};
     const auto add = [&](const char* name, std::uint32_t stream, const Double3& colour,
@@ -95,7 +95,7 @@ Lighting lights_of(const FluxTask& task) {
         add("sun", kSunStream, lit.sun_irradiance, beam_light(medium, travel));
     }
     if (lit.map.columns > 0)
-        add("sky", kSkyStream, {1, 1, 1}, map_light(task.run.environment.sky_map));
+        add("sky", kSkyStream, {1, 1, 1}, map_light(task.scenery.environment.sky_map));
     else
         add("sky", kSkyStream, lit.sky, diffuse_light(medium, lit.ground ? -1 : 0));
     if (lit.ground)
@@ -106,7 +106,7 @@ Lighting lights_of(const FluxTask& task) {
 /// Bytes of all that is held beside the world.
 std::uint64_t bytes_of_sums(const FluxTask& task, const FluxLayout& layout, const TraceInput& in,
                             std::uint64_t own) {
-    const Grid& g = task.run.world->medium.grid;
+    const Grid& g = task.scenery.world->medium.grid;
     const std::uint64_t entries =
         voxel_count(g) + 4 * std::uint64_t(g.size[0]) * std::uint64_t(g.size[1]);
     const std::uint64_t lights = in.lighting->lights.size();
@@ -154,7 +154,7 @@ Status shoot(const FluxTask& task, const TraceInput& in, std::size_t lights, Flu
 
 /// Majorants: where cells gather, each is met about once by light that crosses it.
 Status make_tracks(const FluxTask& task, const FluxLayout& layout, Majorants& majorants) {
-    const Medium& medium = task.run.world->medium;
+    const Medium& medium = task.scenery.world->medium;
     if (!task.settings.absorbed || layout.cell_count == 0 || !(medium.sigma > 0))
         return make_photon_majorants(medium, true, task.context, majorants);
     CellGrid cells;
@@ -168,7 +168,7 @@ Status make_tracks(const FluxTask& task, const FluxLayout& layout, Majorants& ma
 Status flux_by_photons(const FluxTask& task, std::int64_t photons, FluxResult& out, Image& maps,
                        Report& report) {
     const Context& context = task.context;
-    const Medium& medium = task.run.world->medium;
+    const Medium& medium = task.scenery.world->medium;
     if (photons < kFewestPhotons)
         return Status::bad_input("--budget photons: " + std::to_string(photons) +
                                  ", allowed: at least " + std::to_string(kFewestPhotons));
@@ -176,11 +176,11 @@ Status flux_by_photons(const FluxTask& task, std::int64_t photons, FluxResult& o
         check_limit(context.limits, LimitId::kPhotons, std::uint64_t(photons), "--budget photons"));
     FluxLayout layout;
     PILEUS_TRY(make_layout(task, out, layout));
-    SkyMap& map = task.run.environment.sky_map;
+    SkyMap& map = task.scenery.environment.sky_map;
     if (map.present() && !task.settings.from_below) {
         PILEUS_TRY(aim_sky_map(medium.extent_m, medium.grid.periodic, map));
-        task.run.environment.ground_under_map = true;
-        light_frame(0, task.run);
+        task.scenery.environment.ground_under_map = true;
+        task.scenery.light(0);
     }
     Lighting lighting = lights_of(task);
     share_photons(std::uint64_t(photons) / kFluxBatches, lighting.lights);
@@ -209,7 +209,7 @@ Status flux_by_photons(const FluxTask& task, std::int64_t photons, FluxResult& o
     in.max_events = kMostEvents;
     in.ended = patient_stop(context);
     PILEUS_TRY(weigh(task, layout, in));
-    PILEUS_TRY(check_work(estimate_work(medium_work(medium, task.run.world->source.mean_density,
+    PILEUS_TRY(check_work(estimate_work(medium_work(medium, task.scenery.world->source.mean_density,
                                                     double(kMostEvents), double(photons))),
                           context.limits, task.scene.file));
 

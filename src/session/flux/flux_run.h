@@ -3,8 +3,8 @@
 // in: a prepared run, settings -> out: FluxResult and maps.
 // docs/flux.md
 #pragma once
-#include "src/methods/methods.h"
 #include "src/methods/path/path_method.h"
+#include "src/methods/scenery.h"
 #include "src/session/flux/flux.h"
 
 namespace pileus {
@@ -14,7 +14,7 @@ struct FluxTask {
     const Scene& scene;
     const FluxSettings& settings;
     const Context& context;
-    MethodRun& run;               ///< prepared, with its lights
+    Scenery& scenery;             ///< prepared, with its lights
     PathMethod& path;             ///< over it
     double level[3] = {0, 0, 0};  ///< incident flux on a level plane
 
