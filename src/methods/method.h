@@ -188,13 +188,6 @@ struct MadeMethod {
     std::unique_ptr<MethodReport> report;  ///< null in a flight
 };
 
-/// A picture of a method's steps in place of its result, made from copies of its settings.
-struct ViewRow {
-    const char* name = "";
-    bool shows_light = false;  ///< as of a MethodRow
-    MadeMethod (*make)(const MethodInputs&) = nullptr;
-};
-
 /// A name of `method.name` or of `--show`, and what is made by it.
 struct MethodRow {
     const char* name = "";

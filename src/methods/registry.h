@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of methods: a method is its folder and one row here.
-// in: a scene, the name of a view -> out: what makes its pictures.
+// in: a scene -> out: what makes its pictures.
 // docs/architecture.md, "Methods"
 #pragma once
 #include <vector>
@@ -10,11 +10,9 @@
 
 namespace pileus {
 
-/// A method, and pictures of its steps in place of its result.
+/// A method, and what programs ask of it.
 struct ListedMethod {
     MethodRow row;
-    const ViewRow* views = nullptr;
-    int view_count = 0;
     MethodTools tools{};  ///< null members: none
 };
 
@@ -26,12 +24,5 @@ MethodTools method_tools(const std::string& name);
 
 /// The row of the scene's method. kBadInput: not in this version.
 Status find_method(const Scene& scene, MethodRow& row);
-
-/// The row of a view of a method; of any method where `method` is empty. kBadInput: the method
-/// has none, or none of that name.
-Status find_view(const std::string& method, const std::string& name, MethodRow& row);
-
-/// Names of all views of all methods, separated by commas.
-std::string view_names();
 
 }  // namespace pileus

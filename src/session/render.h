@@ -17,6 +17,7 @@ namespace pileus {
 extern const char* const kVersion;
 
 struct KernelTable;
+struct MethodRow;
 
 struct RenderOptions {
     int threads = 0;                       ///< 0: all there are
@@ -25,6 +26,8 @@ struct RenderOptions {
     Budget budget;                         ///< instead of what the scene says
     std::int64_t verify = 0;               ///< pixels of each picture to trace by paths afterwards
     std::string show;  ///< empty: the picture; else a step of the method (docs/how-it-works.md)
+    /// Finds what makes it, by the names of method and view: lab/views/view_list.h.
+    Status (*find_view)(const std::string&, const std::string&, MethodRow&) = nullptr;
     const Image* sky = nullptr;  ///< in place of the sky map's file; null: that
     bool digests = true;         ///< the report names what each stage made by its bits; takes time
     int first_frame = 0, last_frame = 0;  ///< of the animation, inclusive

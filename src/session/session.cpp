@@ -126,7 +126,8 @@ Status Session::open_either(const Scene& scene, const RenderOptions& options, bo
     context_.digests = !hosted && options.digests;
     PILEUS_TRY(found);
     if (kChecks) PILEUS_TRY(row_.check(scene_, options.budget));
-    if (kFilms && !options.show.empty()) PILEUS_TRY(find_view(scene_.method, options.show, row_));
+    if (kFilms && options.find_view != nullptr && !options.show.empty())
+        PILEUS_TRY(options.find_view(scene_.method, options.show, row_));
     if (kChecks) PILEUS_TRY(check_method(hosted, world.get()));
     made_ = row_.make({scene_, options_.budget, hosted});
     scenery_.scene = &scene_;

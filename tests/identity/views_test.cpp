@@ -2,6 +2,7 @@
 // Views give the same bits from every number of threads and every instruction set.
 // in: a small cumulus, each view -> out: one hash per view.
 // docs/how-it-works.md; docs/determinism.md
+#include "lab/views/view_list.h"
 #include "tests/support/render_harness.h"
 
 using namespace render_test;
@@ -30,6 +31,7 @@ TEST_CASE("views: threads and instruction sets give one picture") {
         CAPTURE(view);
         RenderOptions options;
         options.show = view;
+        options.find_view = find_view;
         options.threads = 1;
         const std::string hash = hash_of(scene, options);
         CHECK(hash.size() == 16);

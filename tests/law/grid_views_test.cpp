@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "lab/views/view_list.h"
 #include "tests/support/render_harness.h"
 
 namespace grid_views_test {
@@ -42,6 +43,7 @@ first_order_split = false
 Picture slices(const char* view, const std::vector<std::string>& more = {}) {
     RenderOptions options;
     options.show = view;
+    options.find_view = find_view;
     Picture p;
     const Status status =
         render(scene_from(kAbsorber, more), options, [&](int, Image& image, Report& report) {
@@ -96,6 +98,7 @@ TEST_CASE("slices: mean cosines lie within -1 and 1, and fall from the lit side 
 TEST_CASE("slices: towards a camera there is neither flux nor direction") {
     RenderOptions options;
     options.show = "flux-slices";
+    options.find_view = find_view;
     Report report;
     const Status status = render(scene_from(kAbsorber, {"photon_grid.closure=camera"}), options,
                                  [](int, Image&, Report&) { return Status::ok(); });

@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include "kernels_cpu/display/tone.h"
-#include "src/methods/collectors/views/show_walk.h"
-#include "src/picture/canvas/canvas.h"
-#include "src/picture/canvas/colours.h"
-#include "src/session/follow.h"
+#include "lab/views/canvas.h"
+#include "lab/views/colours.h"
+#include "lab/views/follow.h"
+#include "lab/views/show_walk.h"
 #include "tests/law/prepare_fields.h"
 #include "tests/support/render_harness.h"
 
@@ -68,6 +68,7 @@ samples = 1_500
 Picture show(const Scene& scene, const char* view) {
     RenderOptions options;
     options.show = view;
+    options.find_view = find_view;
     Picture picture;
     const Status status = render(scene, options, [&](int, Image& image, Report& report) {
         picture.image = std::move(image);

@@ -2,7 +2,7 @@
 // pileus follow: the way of one photon, event by event.
 // in: a scene, the number of a photon -> out: a table on stdout.
 // docs/program.md; docs/how-it-works.md
-#include "src/session/follow.h"
+#include "lab/views/follow.h"
 
 #include <fmt/format.h>
 

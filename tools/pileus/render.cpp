@@ -6,6 +6,7 @@
 
 #include <memory>
 
+#include "lab/views/view_list.h"
 #include "platform/clock.h"
 #include "platform/interrupt.h"
 #include "src/base/file.h"
@@ -73,6 +74,7 @@ Status read_view(const RenderArguments& arguments, RenderOptions& options, Outpu
                                         "it out, or --show illumination"),
                       faults);
         options.show = *arguments.show;
+        options.find_view = find_view;
     }
     if (arguments.exposure)
         add_fault(read_exposure("--exposure", *arguments.exposure, outputs.tone), faults);

@@ -64,8 +64,4 @@ Status find_method(const Scene& scene, MethodRow& row) {
     return without(("method.name: \"" + scene.method + "\" was").c_str(), "PILEUS_FLIGHT_METHODS");
 }
 
-Status find_view(const std::string&, const std::string&, MethodRow&) {
-    return Status::bad_input("views are not in a flight library, allowed: none");
-}
-
 }  // namespace pileus

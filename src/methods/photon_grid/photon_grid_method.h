@@ -56,8 +56,6 @@ protected:
 std::unique_ptr<MethodReport> photon_grid_report(PhotonGridMethod& method);
 
 MethodRow photon_grid_row();
-/// Pictures of its cells.
-const ViewRow* photon_grid_views(int& count);
 extern const MethodTools photon_grid_tools;
 
 }  // namespace pileus

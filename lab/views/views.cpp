@@ -2,7 +2,7 @@
 // See views.h. Which steps a view needs; views_draw.cpp draws them.
 // in: a scene -> out: the prepared part of a method, and what its report says.
 // docs/how-it-works.md
-#include "src/methods/collectors/views/views.h"
+#include "lab/views/views.h"
 
 #include "src/base/digest.h"
 #include "src/photons/photon_report.h"

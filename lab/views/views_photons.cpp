@@ -2,9 +2,9 @@
 // Draws the ways of photons: the light's colour until the first scattering, then one of their own.
 // in: a view with its majorants -> out: lines and dots over a veil of the cloud.
 // docs/how-it-works.md
-#include "src/methods/collectors/photons/follow_photon.h"
-#include "src/methods/collectors/views/views_draw.h"
-#include "src/picture/canvas/colours.h"
+#include "lab/views/colours.h"
+#include "lab/views/follow_photon.h"
+#include "lab/views/views_draw.h"
 
 namespace pileus {
 namespace {

@@ -3,16 +3,16 @@
 // in: a prepared view, a camera -> out: an image of R G B A.
 // docs/how-it-works.md; Elek 2011, figures 5.1 (gradient), 5.2 (samples), 5.5 (tree), 5.6 (peak
 // densities per leaf), 5.7 (collectors and billboards).
-#include "src/methods/collectors/views/views_draw.h"
+#include "lab/views/views_draw.h"
 
 #include <algorithm>
 
 #include "kernels_cpu/core/math.h"
+#include "lab/views/colours.h"
+#include "lab/views/show_boxes.h"
 #include "src/base/digest.h"
 #include "src/base/powers.h"
 #include "src/methods/collectors/prepare/tree.h"
-#include "src/methods/collectors/views/show_boxes.h"
-#include "src/picture/canvas/colours.h"
 #include "src/scene/frames.h"
 #include "src/world/camera/view.h"
 

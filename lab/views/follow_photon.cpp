@@ -2,7 +2,7 @@
 // See follow_photon.h.
 // in: TraceParams as the tracer launches it -> out: a list of events.
 // docs/methods.md 3, "Track".
-#include "src/methods/collectors/photons/follow_photon.h"
+#include "lab/views/follow_photon.h"
 
 #include "kernels_cpu/photons/trace.h"
 

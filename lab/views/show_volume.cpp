@@ -2,12 +2,12 @@
 // See show_volume.h.
 // in: a walk through the voxels per pixel -> out: pixels; each belongs to one thread.
 // alpha = 1 - exp(-extinction length), docs/methods.md 3, each image frame, step 5.
-#include "src/methods/collectors/views/show_volume.h"
+#include "lab/views/show_volume.h"
 
 #include "kernels_cpu/core/math.h"
+#include "lab/views/colours.h"
+#include "lab/views/show_walk.h"
 #include "platform/threads.h"
-#include "src/methods/collectors/views/show_walk.h"
-#include "src/picture/canvas/colours.h"
 #include "src/world/grid/field.h"
 
 namespace pileus {

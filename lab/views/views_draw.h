@@ -3,8 +3,8 @@
 // in: a prepared view, a camera -> out: a canvas that fills up, counts for the report.
 // docs/how-it-works.md
 #pragma once
-#include "src/methods/collectors/views/views.h"
-#include "src/picture/canvas/canvas.h"
+#include "lab/views/canvas.h"
+#include "lab/views/views.h"
 
 namespace pileus {
 

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // See follow.h.
-#include "src/session/follow.h"
+#include "lab/views/follow.h"
 
+#include "lab/views/views.h"
 #include "platform/fp_mode.h"
-#include "src/methods/collectors/views/views.h"
+#include "src/methods/scenery.h"
 #include "src/session/run_context.h"
 #include "src/world/place_scene.h"
 

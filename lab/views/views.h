@@ -5,10 +5,12 @@
 #pragma once
 #include <string>
 
+#include "lab/views/view_list.h"
 #include "src/methods/collectors/collectors_method.h"
 
 namespace pileus {
 
+/// In the order of `collectors_views`.
 enum class View {
     kDensitySlice,
     kGradientSlice,
@@ -20,9 +22,6 @@ enum class View {
     kPhotons,
     kIllumination,
 };
-
-/// One row for each view, in the order of View; src/methods/registry.cpp lists them.
-const ViewRow* collectors_views(int& count);
 
 /// Whether a view's colours are light that the scene's exposure applies to.
 constexpr bool view_is_light(View view) { return view == View::kIllumination; }
@@ -45,6 +44,7 @@ public:
     Status set_view(const Context& context, const FrameView& view,
                     const ViewChange& change) override;
     LightUnits progress() const override;
+    FrameWork full_work() const override { return {}; }  // a host has no views
     void count(Counts& counts) const override;
     void release(Phase) override {}  // what a step made is shown
 

@@ -2,7 +2,7 @@
 // See canvas.h.
 // in: marks -> out: blended pixels, in bands of rows that threads share.
 // Every band draws all marks in order, so neither bands nor threads change a pixel.
-#include "src/picture/canvas/canvas.h"
+#include "lab/views/canvas.h"
 
 #include <algorithm>
 #include <cmath>

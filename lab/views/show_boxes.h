@@ -3,7 +3,7 @@
 // in: leaves in voxels -> out: pairs of points in metres, box-local.
 // docs/how-it-works.md
 #pragma once
-#include "src/methods/collectors/views/show_volume.h"
+#include "lab/views/show_volume.h"
 
 namespace pileus {
 

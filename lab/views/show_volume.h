@@ -3,8 +3,8 @@
 // in: one number per voxel or leaf, a camera -> out: planes of pixels, or a canvas painted over.
 // docs/how-it-works.md; Elek 2011, figures 5.1 and 5.6.
 #pragma once
+#include "lab/views/canvas.h"
 #include "src/methods/collectors/prepare/prepared.h"
-#include "src/picture/canvas/canvas.h"
 #include "src/world/grid/grid.h"
 
 namespace pileus {

@@ -3,7 +3,7 @@
 // in: Scene, the number of a light and of a photon -> out: its events in world metres.
 // docs/how-it-works.md
 #pragma once
-#include "src/methods/collectors/photons/follow_photon.h"
+#include "lab/views/follow_photon.h"
 #include "src/session/render.h"
 
 namespace pileus {

@@ -2,10 +2,11 @@
 // The grid's raw numbers as pictures: flux and anisotropy of each cell, slice beside slice.
 // in: lit PhotonGridState -> out: an image of all level slices, the numbers themselves as `value`.
 // docs/photon-grid.md, "Slices"; Märkl 2018, figure 5.6.
+#include "lab/views/colours.h"
+#include "lab/views/view_list.h"
 #include "src/methods/photon_grid/photon_grid_method.h"
 #include "src/photons/photon_report.h"
 #include "src/photons/scatter.h"
-#include "src/picture/canvas/colours.h"
 #include "src/scene/frames.h"
 #include "src/world/camera/view.h"
 
@@ -145,6 +146,7 @@ Status show_slices(GridSlices what, const Context& context, const FrameView& vie
 class SlicesMethod final : public PhotonGridMethod {
 public:
     using PhotonGridMethod::PhotonGridMethod;
+    FrameWork full_work() const override { return {}; }  // a host has no views
 
 protected:
     Status check(const Context& context, const FrameView& view) override {

@@ -2,7 +2,7 @@
 // See colours.h.
 // in: tables of sRGB codes -> out: linear light by the thresholds that the 8-bit writers use.
 // kernels_cpu/display/tone.h
-#include "src/picture/canvas/colours.h"
+#include "lab/views/colours.h"
 
 #include "kernels_cpu/display/tone.h"
 
