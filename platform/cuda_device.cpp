@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// See cuda_device.h.
+// See device.h.
 // in: calls of the CUDA runtime -> out: false and its words where one fails.
 // docs/crosscheck.md
-#include "platform/cuda_device.h"
+#include "platform/device.h"
 
 #if defined(PILEUS_WITH_CUDA)
 #include <cuda_runtime_api.h>

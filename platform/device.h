@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // A machine beside the processor with a memory of its own, as a table of functions.
 // in: bytes, a kernel and its arguments -> out: false where it failed, and then `fault` says why.
-// docs/crosscheck.md; platform/cuda_device.h is one, tests have another that lives on the host.
+// docs/crosscheck.md; NVIDIA's is one, tests have another that lives on the host.
 #pragma once
 #include <cstdint>
+#include <string>
 
 namespace pileus {
 
@@ -21,5 +22,16 @@ struct Device {
     /// What the last function that failed says about it.
     const char* (*fault)();
 };
+
+// NVIDIA's devices through the CUDA runtime, where the build has it (PILEUS_CUDA).
+
+/// The first device, where this build has the runtime.
+extern const Device cuda_functions;
+
+/// Whether there is such a device; where not, `why` holds a phrase.
+bool has_cuda_device(std::string& why);
+
+/// "NVIDIA H200, compute 9.0, driver 13.0, runtime 13.0"; empty where there is none.
+std::string cuda_device_text();
 
 }  // namespace pileus

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// See egl.h.
+// See gl.h.
 // in: libEGL.so.1, looked up while the program runs -> out: a context without a surface.
 // The only file that touches the library; docs/collectors.md, "Display".
-#include "platform/egl.h"
+#include "platform/gl.h"
 
 #ifdef PILEUS_WITH_EGL
 #include <EGL/egl.h>

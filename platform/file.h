@@ -5,6 +5,7 @@
 #pragma once
 #include <cstddef>
 #include <cstdint>
+#include <string>
 
 namespace pileus {
 
@@ -49,12 +50,75 @@ private:
     std::uint64_t size_ = 0;
 };
 
-/// All steps of a NewFile (new_file.h) at once: `path` holds either what it held before or all of
+/// All steps of a NewFile at once: `path` holds either what it held before or all of
 /// the new bytes.
 FileResult replace_file(const char* path, const void* data, std::size_t bytes);
 
 /// Whether replace_file could begin: the nearest folder that is there can be written into, and
 /// `path` is no folder. Changes nothing.
 FileResult check_replaceable(const char* path);
+
+// Which file a path leads to, so that two names of one file are seen to be one: stat(2),
+// readlink(2).
+
+/// What tells one file from another, whatever they are called. A file that is not there yet is told
+/// by the folder in which it would be made, and its name.
+struct FileIdentity {
+    std::uint64_t device = 0, inode = 0;
+    std::string name;      ///< below that folder; empty: the file is there
+    bool regular = false;  ///< a file that is there, and no folder, device or pipe
+};
+inline bool operator==(const FileIdentity& a, const FileIdentity& b) {
+    return a.device == b.device && a.inode == b.inode && a.name == b.name;
+}
+
+/// Follows symbolic links to the file at their end, which need not be there: `target` is a path
+/// that is no link. kSystem: a ring of links, or a name that cannot be followed.
+FileResult follow_links(const char* path, std::string& target);
+
+/// Identifies the file that a path leads to, through links, or would lead to.
+FileResult identify_file(const char* path, FileIdentity& identity);
+
+// A file that nobody sees until it is whole, and that can still give way to the older one: open(2)
+// O_TMPFILE, linkat(2), renameat2(2).
+
+/// The steps are begin, write, publish, keep; a file that was not kept is taken back by its owner,
+/// the folders made for it and the older one of its name included, if the file system lets two
+/// names change places. Where the machine knows files without a name (Linux O_TMPFILE), nothing is
+/// left even when the process is killed while it writes; elsewhere the bytes lie under a hidden
+/// name until then. Only `begin` takes memory.
+class NewFile {
+public:
+    NewFile() = default;
+    NewFile(const NewFile&) = delete;
+    NewFile& operator=(const NewFile&) = delete;
+    ~NewFile();
+
+    /// Makes missing parent folders. A symbolic link keeps pointing where it does, and what it
+    /// points to is replaced or made; a device or a pipe is opened as it is. A new file takes owner
+    /// and permissions of the one it replaces.
+    FileResult begin(const char* path);
+    /// All of the file's bytes, brought to the disk.
+    FileResult write(const void* data, std::size_t bytes);
+    /// Gives the file its name; the older file of that name steps aside.
+    FileResult publish();
+    /// Lets the file outlive its owner, and drops the older one.
+    void keep();
+
+private:
+    void make_folders(const std::string& path);
+    FileResult open_hidden();
+    FileResult name_hidden();
+    void next_hidden_name(int attempt);
+
+    std::string target_, hidden_;
+    std::string folders_;         ///< the innermost folder of the path as given
+    std::size_t first_made_ = 0;  ///< length of the outermost folder that was made; 0: none
+    int descriptor_ = -1;
+    bool device_ = false;     ///< written at once, never renamed
+    bool named_ = false;      ///< the hidden name is in the folder
+    bool published_ = false;  ///< the target is the new file
+    bool exchanged_ = false;  ///< the hidden name is the older file
+};
 
 }  // namespace pileus

@@ -80,4 +80,18 @@ bool load_gl(GlApi& gl, Look look) {
     return true;
 }
 
+// By EGL without a surface: Mesa's software renderer or a graphics card, no display needed. What
+// follows OSMesa, which Mesa has dropped.
+
+/// Opens an OpenGL 3.3 core context. Null when it is open, else the reason in a few words. The
+/// library is loaded by the first call, not when the program starts.
+const char* open_egl(GlContext& context);
+
+// By OSMesa: Mesa's renderer into memory, without display, window or graphics card. Mesa has
+// dropped OSMesa since 25.1.
+
+/// Opens an OpenGL 3.3 core context. Null when it is open, else the reason in a few words. The
+/// library is loaded by the first call, not when the program starts.
+const char* open_osmesa(GlContext& context);
+
 }  // namespace pileus

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// See interrupt.h. The library's only writable global: a signal has no other way to be told.
-#include "platform/interrupt.h"
-
+// See process.h. The library's only writable global: a signal has no other way to be told.
 #include <signal.h>
 #include <string.h>
 #include <unistd.h>
 
 #include <cstddef>
+
+#include "platform/process.h"
 
 namespace pileus {
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // New files through POSIX and Linux calls.
-// in: paths and bytes -> out: see new_file.h.
+// in: paths and bytes -> out: see file.h.
 // open(2) O_TMPFILE, linkat(2), renameat2(2); docs/architecture.md, floor 0.
-#include "platform/new_file.h"
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -11,7 +10,7 @@
 #include <cerrno>
 #include <cstdio>
 
-#include "platform/file_identity.h"
+#include "platform/file.h"
 
 namespace pileus {
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// See osmesa.h.
+// See gl.h.
 // in: libOSMesa.so.8, looked up while the program runs -> out: a context with a buffer of its own.
 // The only file that touches the library; docs/collectors.md, "Display".
-#include "platform/osmesa.h"
+#include "platform/gl.h"
 
 #ifdef PILEUS_WITH_OSMESA
 #include <GL/osmesa.h>

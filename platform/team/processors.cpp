@@ -6,8 +6,6 @@
 #include <sstream>
 #include <vector>
 
-#include "platform/team/machine_text.h"
-
 namespace pileus {
 namespace {
 

@@ -3,6 +3,7 @@
 // in: files below /proc and /sys/fs/cgroup -> out: a number of processors, rounded up.
 // cgroups(7); kernel documentation, "Control Group v2", cpu.max; docs/program.md, "Threads"
 #pragma once
+#include <cstdio>
 #include <string>
 
 namespace pileus {
@@ -10,5 +11,19 @@ namespace pileus {
 /// The least of what the process's own group and those around it allow, at least 1; 0: no limit.
 /// `root` stands before every path; empty for this machine.
 int group_processors(const std::string& root);
+
+// What the system says of a process, as text: all of a file of /proc or /sys; empty where there is
+// none.
+
+inline std::string machine_text(const std::string& path) {
+    std::string text;
+    if (std::FILE* file = std::fopen(path.c_str(), "re")) {
+        char block[4096];
+        for (std::size_t got; (got = std::fread(block, 1, sizeof block, file)) > 0;)
+            text.append(block, got);
+        (void)std::fclose(file);
+    }
+    return text;
+}
 
 }  // namespace pileus

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// See team_openmp.h. The one file that is compiled with OpenMP.
-#include "platform/team/team_openmp.h"
-
+// See teams.h. The one file that is compiled with OpenMP.
 #include <omp.h>
 #include <sched.h>
 
 #include "platform/team/no_signals.h"
+#include "platform/team/teams.h"
 
 namespace pileus {
 namespace {

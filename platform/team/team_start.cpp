@@ -12,8 +12,6 @@
 #if PILEUS_WITH_OPENMP
 #include <link.h>
 #include <sys/auxv.h>
-
-#include "platform/team/team_openmp.h"
 #endif
 
 namespace pileus {

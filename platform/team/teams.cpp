@@ -11,13 +11,9 @@
 #include <new>
 #include <thread>
 
-#include "platform/team/machine_text.h"
 #include "platform/team/processors.h"
 #include "platform/team/team_own.h"
 #include "platform/threads.h"
-#if PILEUS_WITH_OPENMP
-#include "platform/team/team_openmp.h"
-#endif
 
 namespace pileus {
 namespace {

@@ -3,6 +3,8 @@
 // in: the environment -> out: a TeamKind.
 // docs/performance.md, "Waiting"; docs/program.md, "Threads"
 #pragma once
+#include <cstdint>
+
 #include "platform/team/team.h"
 
 namespace pileus {
@@ -27,5 +29,18 @@ constexpr const char* kTeamVariable = "PILEUS_TEAM";
 /// OpenMP. Where OpenMP would spin the program begins anew, in an environment that says not to,
 /// and this call does not return; where that cannot be done the team is our own.
 TeamChoice start_team(char** words);
+
+// OpenMP's threads, and whether they sleep while they wait.
+
+/// Calls the body for [0, count) in a region of `threads`, at least `count`: libgomp ends threads
+/// that a region does not need, and makes them anew for the next. Ends the process where OpenMP
+/// gets no threads.
+void run_on_openmp(std::uint32_t threads, std::uint32_t count, TeamBody body, void* data);
+
+/// Gives this thread all processors back that it could run on before OpenMP bound it to one.
+void unbind_from_openmp();
+
+/// Whether the runtime can be told not to spin when the program runs already.
+bool openmp_can_be_told();
 
 }  // namespace pileus

@@ -4,7 +4,7 @@
 // docs/program.md, "What is never overwritten"
 #include "src/base/output_check.h"
 
-#include "platform/file_identity.h"
+#include "platform/file.h"
 
 namespace pileus {
 

@@ -5,7 +5,7 @@
 #include "src/run/find_kernels.h"
 
 #include "kernels_cpu/core/profile.h"
-#include "platform/cuda_device.h"
+#include "platform/device.h"
 #include "src/run/device_launch.h"
 
 namespace pileus {

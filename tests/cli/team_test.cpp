@@ -10,7 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "platform/team/machine_text.h"
+#include "platform/team/processors.h"
 #include "tests/cli/run_program.h"
 
 using namespace pileus;

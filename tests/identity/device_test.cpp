@@ -2,9 +2,10 @@
 // Pictures whose kernels run as a device would run them, and by a device where there is one.
 // in: golden scenes -> out: the digests of every stage as the processor's kernels give them.
 // docs/crosscheck.md
+#include "platform/device.h"
+
 #include <cstdio>
 
-#include "platform/cuda_device.h"
 #include "src/run/device_launch.h"
 #include "src/run/find_kernels.h"
 #include "tests/support/device_emulator.h"

@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "kernels_cpu/isa/kernels.h"
-#include "platform/cuda_device.h"
+#include "platform/device.h"
 #include "platform/threads.h"
 #include "src/base/file.h"
 #include "src/io/images/image_file.h"

@@ -84,7 +84,7 @@ Status check_command(int count, char** words) {
 }
 
 /// Ends the program at once where memory is asked for in vain: no line of ours can be made without
-/// memory either, and a file that is not complete has no name yet (platform/new_file.h).
+/// memory either, and a file that is not complete has no name yet (platform/file.h).
 [[noreturn]] void on_no_memory() {
     constexpr char line[] = "pileus: out of memory\n";
     (void)!::write(STDERR_FILENO, line, sizeof line - 1);

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "platform/new_file.h"
+#include "platform/file.h"
 #include "src/base/status.h"
 #include "src/io/images/image_file.h"
 #include "src/plan/report.h"

@@ -8,7 +8,7 @@
 
 #include "lab/views/view_list.h"
 #include "platform/clock.h"
-#include "platform/interrupt.h"
+#include "platform/process.h"
 #include "src/base/file.h"
 #include "src/clouds/render_clouds.h"
 #include "src/methods/registry.h"

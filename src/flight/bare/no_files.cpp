@@ -2,7 +2,7 @@
 // What a flight library has in place of readers and writers of files, of checks of whole scenes,
 // and of worlds made of them. in: the name of a file, a value that is not sound for sure -> out:
 // one line. docs/flight.md, "Packed scenes"
-#include "platform/cuda_device.h"
+#include "platform/device.h"
 #include "src/methods/collectors/billboards/gl_billboards.h"
 #include "src/scene/read_scene.h"
 #include "src/session/run_context.h"

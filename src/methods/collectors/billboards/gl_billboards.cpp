@@ -4,9 +4,8 @@
 // docs/collectors.md, "Display". Blending (1 - A, 1) adds what lies behind to what lies before.
 #include "src/methods/collectors/billboards/gl_billboards.h"
 
-#include "platform/egl.h"
 #include "platform/fp_mode.h"
-#include "platform/osmesa.h"
+#include "platform/gl.h"
 #include "platform/threads.h"
 #include "src/methods/collectors/billboards/billboard_spheres.h"
 #include "src/methods/collectors/billboards/gl_shaders.h"
