@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "src/io/volumes/vdb/nvdb_file.h"
+#include "src/io/volumes/vdb/vdb_file.h"
 #include "tests/foreign/random_grid.h"
 #include "tests/io/temp_folder.h"
 

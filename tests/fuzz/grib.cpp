@@ -5,8 +5,8 @@
 #include <cstring>
 
 #include "src/base/reading_limit.h"
-#include "src/io/netcdf/grib_file.h"
 #include "src/io/netcdf/grib_message.h"
+#include "src/io/netcdf/netcdf_file.h"
 #include "tests/fuzz/target.h"
 
 namespace {

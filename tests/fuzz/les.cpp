@@ -2,7 +2,7 @@
 // Fuzz target: clouds that large-eddy simulations leave as text.
 // in: bytes as a .txt file -> out: a lawful volume, or one line with its place.
 // docs/formats.md
-#include "src/io/volumes/les_volume.h"
+#include "src/io/volumes/volume_file.h"
 #include "tests/fuzz/target.h"
 
 int fuzz::les(const std::uint8_t* data, std::size_t size) {

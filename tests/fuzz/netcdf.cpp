@@ -5,8 +5,7 @@
 #include <cstring>
 
 #include "src/io/netcdf/netcdf_file.h"
-#include "src/io/volumes/netcdf_grid.h"
-#include "src/io/volumes/weather/weather_volume.h"
+#include "src/io/volumes/volume_file.h"
 #include "tests/fuzz/target.h"
 
 int fuzz::netcdf(const std::uint8_t* data, std::size_t size) {

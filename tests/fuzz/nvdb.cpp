@@ -2,7 +2,7 @@
 // Fuzz target: NanoVDB grids.
 // in: bytes as an .nvdb file -> out: a lawful volume and an equal head, or one line with its place.
 // docs/formats.md
-#include "src/io/volumes/vdb/nvdb_file.h"
+#include "src/io/volumes/vdb/vdb_file.h"
 #include "tests/fuzz/target.h"
 
 int fuzz::nvdb(const std::uint8_t* data, std::size_t size) {

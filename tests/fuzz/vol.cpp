@@ -2,7 +2,7 @@
 // Fuzz target: binary density grids.
 // in: bytes as a .vol file -> out: a lawful volume, or one line with its place.
 // docs/formats.md
-#include "src/io/volumes/vol_volume.h"
+#include "src/io/volumes/volume_file.h"
 #include "tests/fuzz/target.h"
 
 int fuzz::vol(const std::uint8_t* data, std::size_t size) {

@@ -5,7 +5,6 @@
 #include <doctest/doctest.h>
 
 #include "src/io/volumes/les_layers.h"
-#include "src/io/volumes/les_volume.h"
 #include "src/io/volumes/volume_file.h"
 #include "tests/io/temp_folder.h"
 

@@ -9,7 +9,7 @@
 #include <cstring>
 #include <string>
 
-#include "src/io/volumes/vdb/nvdb_file.h"
+#include "src/io/volumes/vdb/vdb_file.h"
 #include "src/io/volumes/vdb/vdb_values.h"
 
 namespace pileus {

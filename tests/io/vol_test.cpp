@@ -6,7 +6,6 @@
 
 #include <limits>
 
-#include "src/io/volumes/vol_volume.h"
 #include "src/io/volumes/volume_file.h"
 #include "tests/io/temp_folder.h"
 

@@ -9,9 +9,9 @@
 #include <string>
 
 #include "src/io/volumes/volume.h"
+#include "src/io/volumes/volume_file.h"
 #include "src/io/volumes/weather/weather_grid.h"
-#include "src/io/volumes/weather/weather_volume.h"
-#include "src/io/volumes/weather_map.h"
+#include "src/io/volumes/weather_file.h"
 
 using namespace pileus;
 

@@ -9,8 +9,6 @@
 #include <iterator>
 
 #include "src/base/reading_limit.h"
-#include "src/io/netcdf/grib_check.h"
-#include "src/io/netcdf/grib_file.h"
 #include "src/io/netcdf/grib_message.h"
 #include "src/io/netcdf/netcdf_file.h"
 #include "tests/io/temp_folder.h"

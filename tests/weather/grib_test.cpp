@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdlib>
 
-#include "src/io/netcdf/grib_file.h"
+#include "src/io/netcdf/netcdf_file.h"
 #include "src/io/volumes/volume_file.h"
 #include "tests/io/temp_folder.h"
 #include "tests/weather/weather_case.h"

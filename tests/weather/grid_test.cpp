@@ -4,7 +4,7 @@
 // docs/formats.md, "NetCDF"; docs/testing.md, label weather
 #include <cstring>
 
-#include "src/io/volumes/netcdf_grid.h"
+#include "src/io/volumes/volume_file.h"
 #include "tests/weather/weather_case.h"
 
 using namespace pileus;

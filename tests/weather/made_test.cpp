@@ -4,7 +4,7 @@
 // Python. docs/weather.md, "A made-up forecast"; docs/testing.md, label weather
 #include <glm/geometric.hpp>
 
-#include "src/io/volumes/weather_map.h"
+#include "src/io/volumes/weather_file.h"
 #include "src/scene/read_scene.h"
 #include "src/session/render.h"
 #include "tests/io/temp_folder.h"

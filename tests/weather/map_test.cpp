@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "src/io/volumes/weather_map.h"
+#include "src/io/volumes/weather_file.h"
 #include "tests/weather/weather_case.h"
 
 using namespace pileus;

@@ -9,8 +9,8 @@
 
 #include "src/io/netcdf/netcdf_file.h"
 #include "src/io/volumes/volume.h"
+#include "src/io/volumes/volume_file.h"
 #include "src/io/volumes/weather/weather_grid.h"
-#include "src/io/volumes/weather/weather_volume.h"
 #include "tests/support/netcdf_maker.h"
 
 namespace test {

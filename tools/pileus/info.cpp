@@ -13,7 +13,6 @@
 #include "platform/threads.h"
 #include "src/base/file.h"
 #include "src/io/images/image_file.h"
-#include "src/io/netcdf/grib_file.h"
 #include "src/io/netcdf/netcdf_file.h"
 #include "src/io/text/packed_bytes.h"
 #include "src/io/volumes/vdb/vdb_file.h"

@@ -4,10 +4,10 @@
 // docs/weather.md
 #include <fmt/format.h>
 
-#include "src/io/netcdf/netcdf_packing.h"
+#include "src/io/netcdf/netcdf_values.h"
+#include "src/io/volumes/volume_file.h"
 #include "src/io/volumes/weather/weather_axes.h"
-#include "src/io/volumes/weather/weather_volume.h"
-#include "src/io/volumes/weather_map.h"
+#include "src/io/volumes/weather_file.h"
 #include "tools/pileus/info.h"
 
 namespace pileus {

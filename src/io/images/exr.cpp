@@ -2,7 +2,6 @@
 // OpenEXR in memory; the only file that touches OpenEXR, whose exceptions end here.
 // in: an Image -> out: the bytes of a 32-bit float scanline ZIP file without clock or host; back.
 // OpenEXR file layout and standard attributes; docs/formats.md
-#include "src/io/images/exr_guard.h"
 #include "src/io/images/image_file.h"
 
 #ifdef PILEUS_WITH_OPENEXR

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Walks through the attributes of an OpenEXR file without the library.
-// in: untrusted bytes -> out: see exr_guard.h.
+// in: untrusted bytes -> out: see image_file.h.
 // OpenEXR file layout: magic, version, then name, type, length, value until an empty name.
-#include "src/io/images/exr_guard.h"
 
 #include <algorithm>
 #include <cstring>

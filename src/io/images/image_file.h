@@ -72,4 +72,15 @@ Status encode_pfm(const Image& image, Buffer<char>& bytes);
 Status decode_pfm(const std::string& name, Span<const char> bytes, Image& image,
                   std::uint64_t most_pixels = kMaxImagePixels);
 
+// What looks at the head of an OpenEXR file before the library does, which trusts the sizes in it.
+
+/// Walks through the attributes of all parts. Attributes that end behind the file, deep parts,
+/// sizes below 1: kBadInput; a window, a tile or the rows packed together that need more than
+/// `most_pixels`, or more bytes than a file of this length can mean: kLimit.
+Status check_exr_head(const std::string& name, Span<const char> bytes, std::uint64_t most_pixels);
+
+/// Bytes that a file of `file_bytes` may hold once decoded: real compression stays below 2048 to
+/// one.
+std::uint64_t plausible_exr_bytes(std::uint64_t file_bytes);
+
 }  // namespace pileus

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// See grib_check.h. ecCodes takes counts and bits of these sections at their word.
+// See grib_message.h. ecCodes takes counts and bits of these sections at their word.
 // WMO, Manual on Codes, FM 92 GRIB, templates 5.0 to 5.42; ISO 15444-1 A.5.1; PNG 11.2.2
-#include "src/io/netcdf/grib_check.h"
-
 #include <cstring>
+
+#include "src/io/netcdf/grib_message.h"
 
 namespace pileus {
 namespace {

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // GRIB by ecCodes, which is loaded when a file asks for it.
-// in: a path -> out: see grib_file.h.
+// in: a path -> out: see netcdf_file.h.
 // ecCodes 2.20 and later (ECMWF); WMO, Manual on Codes, FM 92 GRIB
-#include "src/io/netcdf/grib_file.h"
+#include "src/io/netcdf/netcdf_file.h"
 
 #if PILEUS_WITH_ECCODES
 #include <mutex>
 
 #include "src/base/file.h"
 #include "src/base/reading_limit.h"
-#include "src/io/netcdf/civil_days.h"
-#include "src/io/netcdf/grib_check.h"
 #include "src/io/netcdf/grib_fields.h"
 #include "src/io/netcdf/grib_library.h"
+#include "src/io/netcdf/grib_message.h"
+#include "src/scene/calendar.h"
 #endif
 
 namespace pileus {

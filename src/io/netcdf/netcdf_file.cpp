@@ -8,8 +8,6 @@
 
 #include "src/base/buffer.h"
 #include "src/base/file.h"
-#include "src/io/netcdf/grib_file.h"
-#include "src/io/netcdf/netcdf_hdf5.h"
 #include "src/io/netcdf/netcdf_values.h"
 
 namespace pileus {

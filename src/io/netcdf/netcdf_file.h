@@ -148,4 +148,28 @@ Status nc_fault(const std::string& file, const NcVariable& variable, const std::
 /// Whether libnetcdf was built in: "NetCDF-4 yes".
 std::string netcdf_library_text();
 
+// Files on HDF5, by libnetcdf, an optional part; without it: one clear line.
+
+/// Gives a handle to close. Of bytes: they are copied by the library.
+Status open_hdf5(const std::string& path, int& handle);
+Status open_hdf5_bytes(const std::string& name, Span<const char> bytes, int& handle);
+void close_hdf5(int handle);
+
+Status read_hdf5_head(const std::string& name, int handle, NcHead& head);
+Status read_hdf5(const std::string& name, int handle, const NcVariable& variable,
+                 const NcBlock& block, Span<double> to);
+
+// GRIB files as NetCDF: their fields become variables of a classic file in memory. WMO, Manual on
+// Codes, FM 92 GRIB, by ecCodes; docs/weather.md, "Files".
+
+/// "GRIB yes": whether ecCodes was built in.
+std::string grib_library_text();
+
+/// Fields of hybrid levels, pressure levels and the ground on one regular grid of longitudes and
+/// latitudes; all others are passed over. Not built in, no library, no such field, another grid,
+/// levels or times that lack fields: kBadInput; more fields or memory than allowed: kLimit.
+Status read_grib(const std::string& path, Buffer<char>& bytes);
+/// The same from the bytes of a file.
+Status decode_grib(const std::string& name, Span<const char> from, Buffer<char>& bytes);
+
 }  // namespace pileus

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // NetCDF files on HDF5, by libnetcdf, which is loaded when a file asks for it.
-// in: a path or bytes -> out: see netcdf_hdf5.h.
+// in: a path or bytes -> out: see netcdf_file.h.
 // Unidata, "NetCDF C Library"; it runs for one thread at a time.
-#include "src/io/netcdf/netcdf_hdf5.h"
+#include "src/io/netcdf/netcdf_file.h"
 
 #if PILEUS_WITH_NETCDF
 #include <netcdf.h>

@@ -5,7 +5,7 @@
 // docs/particles.md, "Files".
 #include <cstring>
 
-#include "src/io/particles/particle_attributes.h"
+#include "src/io/particles/particle_rows.h"
 #include "src/io/text/byte_cursor.h"
 #include "src/io/text/text_scan.h"
 

@@ -2,7 +2,7 @@
 // Particles from Maya's PDB (32 bits, little-endian) and PDA (text).
 // in: channels, each of all particles; or a line for each -> out: a set.
 // Autodesk Maya, Gifts/readpdb; as Partio reads them (PDB, PDA); docs/particles.md, "Files".
-#include "src/io/particles/particle_attributes.h"
+#include "src/io/particles/particle_rows.h"
 #include "src/io/text/byte_cursor.h"
 #include "src/io/text/text_scan.h"
 

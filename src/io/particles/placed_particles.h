@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The particles of a medium, in metres.
 // in: a file, what the scene says of it -> out: particles whose density is extinction.
-// docs/particles.md, "Data".
+// docs/particles.md, "Data", "Replication".
 #pragma once
 #include <string>
 
 #include "src/io/particles/particle_file.h"
+#include "src/scene/media/particle_settings.h"
 #include "src/scene/scene.h"
 
 namespace pileus {

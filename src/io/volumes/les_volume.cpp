@@ -2,7 +2,6 @@
 // Reads liquid water and droplet size as text, trusting nothing in it.
 // in: head lines and rows `i j k lwc reff` -> out: extinction in 1/m, x fastest.
 // docs/formats.md
-#include "src/io/volumes/les_volume.h"
 
 #include "src/base/file.h"
 #include "src/io/text/text_scan.h"

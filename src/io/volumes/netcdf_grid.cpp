@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // Grids on x, y, z in metres, to NetCDF and back.
-// in: a Volume or an open file -> out: see netcdf_grid.h.
+// in: a Volume or an open file -> out: see volume_file.h.
 // docs/formats.md, "NetCDF"; CF conventions 1.10, section 7.1 (bounds)
-#include "src/io/volumes/netcdf_grid.h"
 
 #include "src/base/file.h"
-#include "src/io/netcdf/netcdf_packing.h"
+#include "src/io/netcdf/netcdf_values.h"
 #include "src/io/netcdf/netcdf_write.h"
 #include "src/io/volumes/volume_file.h"
 #include "src/io/volumes/weather/weather_axes.h"

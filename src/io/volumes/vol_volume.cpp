@@ -2,7 +2,6 @@
 // Reads Mitsuba's grid volumes, trusting nothing in them.
 // in: "VOL", byte 3, whole numbers and floats, little-endian -> out: a Volume in file order.
 // docs/formats.md
-#include "src/io/volumes/vol_volume.h"
 
 #include "src/base/file.h"
 #include "src/io/volumes/volume_file.h"

@@ -8,8 +8,10 @@
 
 #include "src/base/span.h"
 #include "src/base/status.h"
+#include "src/io/netcdf/netcdf_file.h"
 #include "src/io/volumes/volume.h"
 #include "src/scene/number_keys.h"
+#include "src/scene/scene.h"
 
 namespace pileus {
 
@@ -64,5 +66,64 @@ Status check_volume_size(const std::string& where, const std::array<std::int64_t
 
 /// "voxel 3 4 5 (index 1234)".
 std::string voxel_name(const std::array<int, 3>& size, std::uint64_t index);
+
+// Clouds that large-eddy simulations leave as text: liquid water and droplet size.
+
+/// Reads either text form, told apart by the first line that is no comment: commas or none. Values
+/// are extinction in 1/m, 1.5 LWC / r_eff with LWC in g/m3 and r_eff in um (geometric optics,
+/// Q_ext = 2). A stretched grid is laid on equal layers, keeping every column's optical depth. With
+/// one level only, the place is not known. Contents at fault: kBadInput with file:line:column; more
+/// voxels than a text of that length can mean, or than allowed: kLimit. `volume` is unspecified
+/// after a fault.
+Status read_les_volume(const std::string& path, Volume& volume);
+
+/// The same from memory; `name` opens the lines of faults.
+Status decode_les_volume(const std::string& name, Span<const char> text, Volume& volume);
+
+/// Size, place and kind from the head lines; faults of the rows are not looked for.
+Status read_les_head(const std::string& path, VolumeHead& head);
+
+// Binary grids that Mitsuba calls "gridvolume".
+
+/// Reads version 3, float32, one channel: a relative density. The box of the header is taken as
+/// metres. The length must be exact. Anything else: kBadInput; more voxels or memory than allowed:
+/// kLimit. `volume` is unspecified after a fault.
+Status read_vol_volume(const std::string& path, Volume& volume);
+
+/// The same from memory; `name` opens the lines of faults.
+Status decode_vol_volume(const std::string& name, Span<const char> bytes, Volume& volume);
+
+/// Size and box from the header; the values are not looked at.
+Status read_vol_head(const std::string& path, VolumeHead& head);
+
+// Grids on x, y, z in metres, as `pileus convert` writes them to NetCDF; and back, bit for bit.
+
+/// The variable of a file that is such a grid: three dimensions and the name extinction or density.
+/// Null: there is none, or the scene names variables, so that it is weather data.
+const NcVariable* netcdf_grid(const NcHead& head, const WeatherSettings& settings);
+
+/// Cells and box. kBadInput: another order of dimensions, coordinates that are not in metres,
+/// rising and evenly spaced, or keys of weather data; kLimit: too many cells.
+Status netcdf_grid_head(const MediumSettings& medium, const NcFile& file, const NcVariable& grid,
+                        VolumeHead& head);
+
+/// The same with its values, which are finite and not negative: else kBadInput.
+Status read_netcdf_grid(const MediumSettings& medium, const NcFile& file, const NcVariable& grid,
+                        Volume& volume);
+
+/// Writes a volume; faults of write_file, and kLimit: memory.
+Status write_netcdf_volume(const std::string& path, const Volume& volume);
+Status encode_netcdf_volume(const Volume& volume, Buffer<char>& bytes);
+
+// Weather data as a medium: a NetCDF file of cloud water on levels becomes extinction on a grid.
+// docs/weather.md
+
+/// Faults of the data: kBadInput, one line; more cells or memory than allowed: kLimit.
+Status read_weather_volume(const MediumSettings& medium, const std::string& path, Volume& volume);
+Status read_weather_head(const MediumSettings& medium, const std::string& path, VolumeHead& head);
+
+/// The same of an open file.
+Status weather_volume(const MediumSettings& medium, const NcFile& file, Volume& volume);
+Status weather_head(const MediumSettings& medium, const NcFile& file, VolumeHead& head);
 
 }  // namespace pileus

@@ -3,14 +3,9 @@
 // in: one row for each -> out: see src/scene/rows/volume_format.h.
 // docs/formats.md; docs/contributing.md, "Add a file format".
 #include "src/base/file.h"
-#include "src/io/volumes/les_volume.h"
-#include "src/io/volumes/netcdf_grid.h"
 #include "src/io/volumes/particle_volume.h"
-#include "src/io/volumes/vdb/nvdb_file.h"
 #include "src/io/volumes/vdb/vdb_file.h"
-#include "src/io/volumes/vol_volume.h"
 #include "src/io/volumes/volume_file.h"
-#include "src/io/volumes/weather/weather_volume.h"
 #include "src/scene/rows/volume_format.h"
 
 namespace pileus {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Finds the map of weather data and lays places on it.
-// in: attributes of WRF or of a CF grid mapping -> out: see weather_map.h.
+// in: attributes of WRF or of a CF grid mapping -> out: see weather_file.h.
 // docs/weather.md, "Places"; Snyder 1987, chapters 5 (rotation), 7, 15, 21; CF conventions 1.10,
 // appendix F.
-#include "src/io/volumes/weather_map.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +10,7 @@
 
 #include "src/base/angles.h"
 #include "src/base/powers.h"
-#include "src/io/volumes/netcdf_grid.h"
+#include "src/io/volumes/volume_file.h"
 #include "src/io/volumes/weather/weather_levels.h"
 #include "src/io/volumes/weather_file.h"
 #include "src/scene/toml/toml_tree.h"

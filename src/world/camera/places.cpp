@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "src/io/volumes/weather_map.h"
+#include "src/io/volumes/weather_file.h"
 #include "src/scene/frame_fault.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/volume_format.h"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // The walk through a NanoVDB tree, and from a .nvdb file to a Volume.
-// in: bytes or a path -> out: see nvdb_file.h.
+// in: bytes or a path -> out: see vdb_file.h.
 // NanoVDB 32.4 (OpenVDB 10.0.1), nanovdb/NanoVDB.h; docs/formats.md
 #include <algorithm>
 
 #include "src/base/file.h"
-#include "src/io/volumes/vdb/nvdb_file.h"
 #include "src/io/volumes/vdb/nvdb_grid.h"
 #include "src/io/volumes/vdb/vdb_box.h"
+#include "src/io/volumes/vdb/vdb_file.h"
 #include "src/io/volumes/vdb/vdb_grid.h"
 #include "src/io/volumes/vdb/vdb_values.h"
 #include "src/scene/toml/toml_tree.h"

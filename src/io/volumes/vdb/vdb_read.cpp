@@ -1,15 +1,193 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a .vdb file to a Volume: chooses the grid, bounds the box, fills it.
+// From a .vdb file to a Volume: chooses the grid, walks its tree to bound the box, fills it.
 // in: bytes or a path -> out: see vdb_file.h.
-// docs/formats.md
+// Tree: root, nodes of 32^3 and 16^3 entries, leaves of 8^3 voxels. Museth 2013, ACM TOG 32(3);
+// OpenVDB 10.0.1, openvdb/tree; docs/formats.md
 #include "src/base/file.h"
+#include "src/io/volumes/vdb/vdb_box.h"
 #include "src/io/volumes/vdb/vdb_file.h"
-#include "src/io/volumes/vdb/vdb_tree.h"
+#include "src/io/volumes/vdb/vdb_grid.h"
+#include "src/io/volumes/vdb/vdb_values.h"
 #include "src/scene/toml/toml_tree.h"
 
 namespace pileus {
 
 namespace {
+
+using Place = VdbPlace;
+
+constexpr unsigned kLeafVoxels = 512, kLeafMask = 64;
+constexpr std::int64_t kRootSide = 4096;
+
+/// Collects the box of all that is active.
+class Measure {
+public:
+    explicit Measure(VdbBox& box) : box_(box) {}
+
+    Status tile(const ByteCursor& in, const Place& low, std::int64_t side, float value) {
+        box_.add_tile(low, side);
+        return check_vdb_value(in, low, value);
+    }
+    Status leaf(const Place& origin, const unsigned char* mask) {
+        box_.add_leaf(origin, mask);
+        return Status::ok();
+    }
+
+private:
+    VdbBox& box_;
+};
+
+/// Writes tiles and leaves into the dense grid; a second cursor walks along the leaves' values.
+class Fill {
+public:
+    Fill(ByteCursor values, const VdbBox& box, VdbValues& unpack, Volume& volume)
+        : in_(values), box_(box), unpack_(unpack), volume_(volume) {}
+
+    Status tile(const ByteCursor&, const Place& low, std::int64_t side, float value) {
+        box_.fill_tile(low, side, value, volume_);
+        return Status::ok();
+    }
+
+    Status leaf(const Place& origin, const unsigned char* mask) {
+        const unsigned char* again = nullptr;
+        PILEUS_TRY(in_.take(kLeafMask, "mask of a leaf", again));
+        if (std::memcmp(again, mask, kLeafMask) != 0)
+            return in_.fault("mask of a leaf: differs from the tree's, allowed: the same");
+        PILEUS_TRY(unpack_.read(in_, mask, kLeafVoxels));
+        for (unsigned n = 0; n < kLeafVoxels; ++n) {
+            if (!vdb_mask_on(mask, n)) continue;
+            const Place at{origin[0] + (n >> 6), origin[1] + (n >> 3 & 7), origin[2] + (n & 7)};
+            PILEUS_TRY(check_vdb_value(in_, at, unpack_.at(n)));
+            volume_.density.at(box_.index(at)) = unpack_.at(n);
+        }
+        return Status::ok();
+    }
+
+private:
+    ByteCursor in_;
+    const VdbBox& box_;
+    VdbValues& unpack_;
+    Volume& volume_;
+};
+
+/// One kind of walk for both passes, so that what was measured is what is filled.
+template <class Visitor>
+class Walk {
+public:
+    Walk(ByteCursor& in, VdbValues& values, Visitor& visitor)
+        : in_(in), values_(values), visitor_(visitor) {}
+
+    Status root() {
+        std::uint32_t buffers = 0, tiles = 0, children = 0;
+        float background = 0;
+        PILEUS_TRY(in_.u32("buffers of the tree", buffers));
+        if (buffers != 1)
+            return in_.fault("buffers of the tree: " + std::to_string(buffers) + ", allowed: 1");
+        PILEUS_TRY(values_.single(in_, "background", background));
+        if (background != 0.0f)
+            return in_.fault("background: " + std::to_string(background) +
+                             ", allowed: 0 (nothing outside the cloud)");
+        PILEUS_TRY(in_.u32("tiles of the root", tiles));
+        PILEUS_TRY(in_.u32("children of the root", children));
+        for (std::uint32_t i = 0; i < tiles; ++i) PILEUS_TRY(root_tile(i == 0));
+        for (std::uint32_t i = 0; i < children; ++i) {
+            PILEUS_TRY(origin("child of the root", i == 0));
+            PILEUS_TRY((node<5, 7>(last_)));
+        }
+        return Status::ok();
+    }
+
+private:
+    /// Places of the root stand in ascending order, so that none comes twice.
+    Status origin(const char* what, bool first) {
+        Place place;
+        for (std::int64_t& coordinate : place) {
+            std::int32_t value = 0;
+            PILEUS_TRY(in_.i32(what, value));
+            coordinate = value;
+            if (coordinate % kRootSide != 0)
+                return in_.fault(std::string(what) + ": origin " + std::to_string(coordinate) +
+                                 ", allowed: multiples of 4096");
+        }
+        if (!first && !(last_ < place))
+            return in_.fault(std::string(what) + ": out of order or twice, allowed: ascending");
+        last_ = place;
+        return Status::ok();
+    }
+
+    Status root_tile(bool first) {
+        float value = 0;
+        unsigned active = 0;
+        PILEUS_TRY(origin("tile of the root", first));
+        PILEUS_TRY(values_.single(in_, "tile of the root", value));
+        PILEUS_TRY(in_.u8("tile of the root", active));
+        return active != 0 ? visitor_.tile(in_, last_, kRootSide, value) : Status::ok();
+    }
+
+    /// A table of 2^kLog entries along each axis, each a tile or a child of 2^kChild voxels.
+    template <unsigned kLog, unsigned kChild>
+    Status node(const Place& origin) {
+        constexpr unsigned kEntries = 1u << (3 * kLog), kLow = (1u << kLog) - 1;
+        const unsigned char *children = nullptr, *active = nullptr;
+        PILEUS_TRY(in_.take(kEntries / 8, "mask of children", children));
+        PILEUS_TRY(in_.take(kEntries / 8, "mask of tiles", active));
+        PILEUS_TRY(values_.read(in_, active, kEntries));
+        const auto place = [&](unsigned n) {
+            return Place{origin[0] + (std::int64_t(n >> (2 * kLog)) << kChild),
+                         origin[1] + (std::int64_t(n >> kLog & kLow) << kChild),
+                         origin[2] + (std::int64_t(n & kLow) << kChild)};
+        };
+        // Use up the tiles first: the children read into the same memory.
+        for (unsigned n = 0; n < kEntries; ++n) {
+            if (!vdb_mask_on(active, n)) continue;
+            if (vdb_mask_on(children, n))
+                return in_.fault("mask of tiles: a tile stands where a child is, allowed: one");
+            PILEUS_TRY(visitor_.tile(in_, place(n), std::int64_t{1} << kChild, values_.at(n)));
+        }
+        for (unsigned n = 0; n < kEntries; ++n)
+            if (vdb_mask_on(children, n)) PILEUS_TRY(child<kChild>(place(n)));
+        return Status::ok();
+    }
+
+    template <unsigned kChild>
+    Status child(const Place& origin) {
+        if constexpr (kChild == 7) {
+            return node<4, 3>(origin);
+        } else {
+            const unsigned char* mask = nullptr;
+            PILEUS_TRY(in_.take(kLeafMask, "mask of a leaf", mask));
+            return visitor_.leaf(origin, mask);
+        }
+    }
+
+    ByteCursor& in_;
+    VdbValues& values_;
+    Visitor& visitor_;
+    Place last_{};
+};
+
+/// Walks the masks and tiles of a grid that choose_vdb_grid gave.
+Status measure_vdb_tree(ByteCursor& in, const VdbGrid& grid, VdbBox& box) {
+    VdbValues values;
+    PILEUS_TRY(values.prepare(grid));
+    box = VdbBox();
+    Measure measure(box);
+    PILEUS_TRY(in.window(grid.tree_at, grid.end, "tree"));
+    PILEUS_TRY((Walk<Measure>(in, values, measure).root()));
+    box.values_at = in.at();
+    return Status::ok();
+}
+
+/// Writes tiles and voxels into `volume`, whose size is the box's and whose values are 0.
+Status fill_vdb_tree(ByteCursor& in, const VdbGrid& grid, const VdbBox& box, Volume& volume) {
+    VdbValues values, unpack;
+    PILEUS_TRY(values.prepare(grid));
+    PILEUS_TRY(unpack.prepare(grid));
+    PILEUS_TRY(in.window(box.values_at, grid.end, "values of the tree"));
+    Fill fill(in, box, unpack, volume);
+    PILEUS_TRY(in.window(grid.tree_at, grid.end, "tree"));
+    return Walk<Fill>(in, values, fill).root();
+}
 
 /// A grid, where it is, and what both passes need of it.
 struct Found {

@@ -4,7 +4,6 @@
 // docs/weather.md, "Variables"
 #include "src/io/volumes/weather/weather_fields.h"
 
-#include "src/io/volumes/weather/weather_names.h"
 #include "src/scene/toml/toml_tree.h"
 
 namespace pileus {

@@ -3,6 +3,7 @@
 // in: a head and the names that a scene gives -> out: fields: variables that are added, their unit.
 // docs/weather.md, "Variables"; CF standard names; names of ecRad, ECMWF, ICON, COSMO and WRF.
 #pragma once
+#include "src/base/span.h"
 #include "src/io/volumes/weather/weather_axes.h"
 #include "src/io/volumes/weather/weather_units.h"
 
@@ -61,5 +62,21 @@ Status find_water(const NcFile& file, const WeatherSettings& settings, const NcV
 /// unit is missing or of another quantity.
 Status find_fields(const NcFile& file, const WeatherSettings& settings, const WeatherAxes& axes,
                    WeatherFields& fields);
+
+// Names under which files hold cloud water, temperature, pressure and so on: rows of which the
+// first that fits wins.
+
+/// One way to say a role. A name of two parts is a sum: "P+PB".
+struct WeatherName {
+    Role role;
+    const char* name;  ///< of a variable; of WRF ones, where there is PB
+    const char* standard_name;
+    Quantity quantity;
+    Meaning meaning = Meaning::kPlain;
+    double offset = 0;  ///< added
+    bool wrf = false;
+};
+
+Span<const WeatherName> weather_names();
 
 }  // namespace pileus

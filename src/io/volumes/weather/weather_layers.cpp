@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // From fields to layers of cloud.
-// in: a block of rows -> out: see weather_layers.h.
+// in: a block of rows -> out: see weather_grid.h.
 // docs/weather.md, "From water to extinction"; Fu 1996 for D_ge.
-#include "src/io/volumes/weather/weather_layers.h"
-
 #include "src/io/volumes/weather/weather_air.h"
+#include "src/io/volumes/weather/weather_grid.h"
 #include "src/io/volumes/weather/weather_levels.h"
 #include "src/scene/toml/toml_tree.h"
 

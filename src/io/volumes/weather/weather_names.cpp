@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of names.
-// in: nothing -> out: see weather_names.h.
+// in: nothing -> out: see weather_fields.h.
 // docs/weather.md, "Variables"; CF standard names; names of ecRad, ECMWF, ICON, COSMO and WRF.
-#include "src/io/volumes/weather/weather_names.h"
+#include "src/io/volumes/weather/weather_fields.h"
 
 namespace pileus {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "src/base/exponential.h"
-#include "src/io/netcdf/netcdf_packing.h"
+#include "src/io/netcdf/netcdf_values.h"
 #include "src/io/volumes/weather/weather_source.h"
 
 namespace pileus {

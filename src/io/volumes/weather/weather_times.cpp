@@ -4,9 +4,9 @@
 // CF conventions 1.10, section 4.4; Howard Hinnant, "chrono-compatible low-level date algorithms".
 #include <charconv>
 
-#include "src/io/netcdf/civil_days.h"
 #include "src/io/netcdf/netcdf_values.h"
 #include "src/io/volumes/weather/weather_axes.h"
+#include "src/scene/calendar.h"
 
 namespace pileus {
 namespace {

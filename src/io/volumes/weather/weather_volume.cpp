@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Weather data as a volume of extinction.
-// in: an open file -> out: see weather_volume.h.
+// in: an open file -> out: see volume_file.h.
 // docs/weather.md
-#include "src/io/volumes/weather/weather_volume.h"
 
 #include <limits>
 
-#include "src/io/volumes/netcdf_grid.h"
 #include "src/io/volumes/volume.h"
+#include "src/io/volumes/volume_file.h"
 #include "src/io/volumes/weather/weather_grid.h"
 #include "src/io/volumes/weather_file.h"
 
