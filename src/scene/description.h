@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "src/scene/animation.h"
-#include "src/scene/atmosphere_settings.h"
 #include "src/scene/clouds_settings.h"
+#include "src/scene/light_settings.h"
 #include "src/scene/media/medium_settings.h"
 
 namespace pileus {

@@ -4,6 +4,7 @@
 // docs/lights.md.
 #pragma once
 #include <array>
+#include <string>
 
 #include "src/base/vectors.h"
 
@@ -35,5 +36,19 @@ inline bool operator==(const LightSettings& a, const LightSettings& b) {
            a.penumbra_deg == b.penumbra_deg && a.azimuth_deg == b.azimuth_deg &&
            a.elevation_deg == b.elevation_deg && a.irradiance == b.irradiance;
 }
+
+// Clear air around a round earth. docs/atmosphere.md
+
+struct AtmosphereSettings {
+    bool present = false;
+    std::string date;            ///< "2026-06-21"; empty: [sun] says where the sun stands
+    std::string time = "12:00";  ///< of the clock at utc_offset_h
+    double utc_offset_h = 0;     ///< hours that clock is ahead of universal time
+    double latitude_deg = 0, longitude_deg = 0;
+    double turbidity = 2;        ///< of air and haze over that of air; [1, 10]
+    double ground_albedo = 0.2;  ///< of the round earth where there is no [ground]
+    bool refraction = true;      ///< lifts the sun of a date
+    bool sun_disc = true;        ///< the sun itself is seen in the sky
+};
 
 }  // namespace pileus

@@ -10,7 +10,7 @@
 #include "platform/fp_mode.h"
 #include "src/base/file.h"
 #include "src/scene/checks/check_keys.h"
-#include "src/scene/toml/overrides.h"
+#include "src/scene/toml/toml_tree.h"
 
 namespace pileus {
 namespace {

@@ -13,7 +13,7 @@
 #include "src/scene/checks/check_keys.h"
 #include "src/scene/keys/all_keys.h"
 #include "src/scene/read_scene.h"
-#include "src/scene/toml/overrides.h"
+#include "src/scene/toml/toml_tree.h"
 
 namespace {
 

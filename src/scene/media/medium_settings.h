@@ -10,12 +10,52 @@
 #include <vector>
 
 #include "src/base/vectors.h"
-#include "src/scene/media/detail_settings.h"
 #include "src/scene/media/particle_settings.h"
 #include "src/scene/media/sky_settings.h"
-#include "src/scene/media/weather_settings.h"
 
 namespace pileus {
+
+// What a scene says of a file of weather data: which variables, when, and how they become a cloud.
+// docs/weather.md
+
+/// Texts that are empty are left out: then the variable is looked for; "none": it is not used.
+struct WeatherSettings {
+    std::string liquid, ice, cloud_fraction, temperature, pressure, humidity, height;
+    std::string liquid_radius, ice_radius, surface_pressure, surface_geopotential;
+    std::string variable;  ///< any field, shown by medium.transfer; empty: the water above
+    std::string time = "0", member = "0";  ///< a whole number counts from 0; else a name
+    bool in_cloud = false;        ///< fraction = "in_cloud": water is divided by the cloud fraction
+    double liquid_radius_um = 0;  ///< effective; 0: of the file, or else 10
+    double ice_radius_um = 0;     ///< effective; 0: of the file, or else 30
+    double ice_dge_um = 0;        ///< Fu's generalized effective size; 0: the radius counts
+    bool missing_is_fault = false;
+    bool plain_degrees = false;                  ///< geometry = "plain"
+    std::array<double, 2> origin_deg{1e9, 1e9};  ///< longitude, latitude; 1e9: the middle
+    double width_m = 0;                          ///< of a slice or a column, across; 0: a default
+    double vertical_scale = 1;
+};
+
+// Detail beyond a medium's grid: a tile of noise, how strong, and where. docs/detail.md
+
+enum class DetailNoise { kPerlin, kWorley };
+
+struct DetailSettings {
+    double tile_m = 0;  ///< after which the noise repeats; 0: no detail
+    double strength = 0.6;
+    double dense = 0.25;  ///< share of the strength that is left at the largest density
+    DetailNoise noise = DetailNoise::kPerlin;
+    int octaves = 0;  ///< 0: as many as the cells show
+    std::int64_t seed = 0;
+    double age = 0;  ///< lives of the lumps that have passed: a whole one later all are others
+    int cells = 64;  ///< of the tile, along each edge: a power of two
+    int refine = 0;  ///< 0: made while marching; else cells that each cell becomes along an axis
+
+    bool present() const { return tile_m > 0 && strength > 0; }
+    bool is_marched() const { return present() && refine == 0; }
+};
+
+/// Lumps of the first octave along a tile.
+constexpr int kDetailLumps = 4;
 
 class WeatherFile;
 

@@ -2,9 +2,9 @@
 // Splits an override into path and value and puts the value into the tree.
 // in: "medium.0.albedo=0.9" -> out: the node set, or a fault that names the option.
 // TOML 1.0 values; texts may go without quotes, alone or in a list.
-#include "src/scene/toml/overrides.h"
-
 #include <charconv>
+
+#include "src/scene/toml/toml_tree.h"
 
 namespace pileus {
 namespace {

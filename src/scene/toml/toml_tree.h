@@ -10,6 +10,8 @@
 
 namespace pileus {
 
+class FaultList;
+
 /// Where a value was written: in the scene file, or in the override with that index.
 struct Place {
     int override_index = -1;   ///< -1: the scene file
@@ -66,5 +68,10 @@ bool parse_toml(std::string_view text, Node& root, SyntaxFault& fault);
 /// Looks, without recursion, for what the parser cannot take: nesting beyond the limits, and
 /// characters outside ASCII where TOML has none. False and `fault` when found.
 bool is_parsable(std::string_view text, SyntaxFault& fault);
+
+/// Applies `--set key.path=value` options to a scene's tree before it is checked, in order, and
+/// adds what is wrong with them; a later one wins. Tables on the way are made where missing, and so
+/// is the next element of `medium`; any other index must exist.
+void apply_overrides(const std::vector<std::string>& overrides, Node& root, FaultList& faults);
 
 }  // namespace pileus

@@ -4,7 +4,7 @@
 // docs/weather.md, "Dimensions"; CF conventions 1.10, chapter 4.
 #pragma once
 #include "src/io/netcdf/netcdf_file.h"
-#include "src/scene/media/weather_settings.h"
+#include "src/scene/media/medium_settings.h"
 
 namespace pileus {
 
