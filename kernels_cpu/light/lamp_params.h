@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Point, spot and parallel lights as kernels take them.
-// in: src/world/light/lamps.h -> out: plain structs of fixed-width numbers.
+// in: src/world/light/lights.h -> out: plain structs of fixed-width numbers.
 // docs/lights.md. Lengths in metres, box-local.
 #pragma once
 #include <cstdint>

@@ -8,7 +8,7 @@
 #include "lab/views/colours.h"
 #include "lab/views/show_walk.h"
 #include "platform/threads.h"
-#include "src/world/grid/field.h"
+#include "src/world/grid/grid.h"
 
 namespace pileus {
 namespace {

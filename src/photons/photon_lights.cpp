@@ -6,7 +6,7 @@
 #include "src/photons/photon_state.h"
 #include "src/scene/frames.h"
 #include "src/world/camera/view.h"
-#include "src/world/light/lamps.h"
+#include "src/world/light/lights.h"
 #include "src/world/phase/forward_share.h"
 #include "src/world/plan_parts.h"
 

@@ -3,7 +3,7 @@
 // in: media of high contrast in diffuse light -> out: the same fluence in every cell; exact
 // balances. Blanco and Fournier 2003: in a white medium lit evenly from all sides light is even
 // everywhere.
-#include "src/world/majorant/cell_majorants.h"
+#include "src/world/majorant/majorants.h"
 #include "tests/support/trace_harness.h"
 
 using namespace trace_test;

@@ -6,8 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "src/world/grid/field.h"
-#include "src/world/grid/mix_weights.h"
+#include "src/world/grid/grid.h"
 #include "src/world/medium/mix_media.h"
 #include "tests/support/render_harness.h"
 #include "tests/support/sun_depth_harness.h"

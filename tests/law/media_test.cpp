@@ -4,7 +4,7 @@
 // sampling. docs/methods.md 2, "Several media".
 #include "src/base/digest.h"
 #include "src/methods/collectors/prepare/prepare.h"
-#include "src/world/grid/mix_weights.h"
+#include "src/world/grid/grid.h"
 #include "tests/support/media_harness.h"
 
 using namespace trace_test;

@@ -5,7 +5,7 @@
 #include "kernels_cpu/display/march.h"
 #include "kernels_cpu/media/walk.h"
 #include "src/methods/collectors/photons/source_grid.h"
-#include "src/world/grid/field.h"
+#include "src/world/grid/grid.h"
 #include "tests/support/render_harness.h"
 #include "tests/support/trace_harness.h"
 

@@ -4,7 +4,6 @@
 // docs/methods.md 1 and 2 (local majorants).
 #include <doctest/doctest.h>
 
-#include "src/world/majorant/empty_blocks.h"
 #include "src/world/majorant/majorant.h"
 #include "tests/law/prepare_fields.h"
 

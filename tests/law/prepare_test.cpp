@@ -7,7 +7,7 @@
 #include <cstring>
 
 #include "src/methods/collectors/prepare/samples.h"
-#include "src/world/grid/field.h"
+#include "src/world/grid/grid.h"
 #include "tests/law/prepare_fields.h"
 
 using namespace pileus;

@@ -9,7 +9,7 @@
 #include "src/methods/collectors/prepare/place_collectors.h"
 #include "src/methods/collectors/prepare/samples.h"
 #include "src/methods/collectors/prepare/tree.h"
-#include "src/world/grid/field.h"
+#include "src/world/grid/grid.h"
 #include "tests/law/prepare_fields.h"
 
 using namespace pileus;

@@ -4,7 +4,7 @@
 // docs/methods.md 3, "Queues".
 #include "kernels_cpu/core/pack.h"
 #include "kernels_cpu/media/walk.h"
-#include "src/world/majorant/empty_blocks.h"
+#include "src/world/majorant/majorant.h"
 #include "tests/support/trace_harness.h"
 #include "tests/support/widths.h"
 

@@ -8,7 +8,6 @@
 #include <limits>
 
 #include "src/world/medium/mix_media.h"
-#include "src/world/medium/transfer_media.h"
 #include "tests/support/render_harness.h"
 
 using namespace pileus;

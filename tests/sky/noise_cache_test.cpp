@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Noise volumes on disk: read back bit for bit; damaged, foreign or forbidden files only cost time.
 // in: folders -> out: pass or fail.
-#include "src/world/density/noise_cache.h"
-
 #include <doctest/doctest.h>
 
 #include <cstdlib>
@@ -10,6 +8,7 @@
 #include <fstream>
 
 #include "kernels_cpu/isa/kernels.h"
+#include "src/world/density/noise_volume.h"
 
 using namespace pileus;
 namespace fs = std::filesystem;

@@ -8,8 +8,6 @@
 
 #include <cmath>
 
-#include "src/world/atmosphere/angle_of.h"
-
 using namespace pileus;
 
 namespace {

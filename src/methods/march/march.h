@@ -10,7 +10,6 @@
 #include "src/run/context.h"
 #include "src/world/density/sky_field.h"
 #include "src/world/light/lights.h"
-#include "src/world/majorant/density_levels.h"
 #include "src/world/majorant/majorants.h"
 
 namespace pileus {

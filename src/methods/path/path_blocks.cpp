@@ -5,7 +5,6 @@
 #include "src/methods/path/path_blocks.h"
 
 #include "kernels_cpu/media/flight.h"
-#include "src/world/majorant/empty_blocks.h"
 #include "src/world/majorant/majorant.h"
 
 namespace pileus {

@@ -5,7 +5,7 @@
 #pragma once
 #include "src/photons/light_input.h"
 #include "src/picture/nodes/node_grid.h"
-#include "src/world/majorant/cell_majorants.h"
+#include "src/world/majorant/majorants.h"
 
 namespace pileus {
 

@@ -7,7 +7,7 @@
 #include "kernels_cpu/core/profile.h"
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/node_grid.h"
-#include "src/world/light/lamps.h"
+#include "src/world/light/lights.h"
 
 namespace pileus {
 namespace {

@@ -5,7 +5,7 @@
 #include "src/base/random_streams.h"
 #include "src/plan/accumulation.h"
 #include "src/session/flux/flux_tally.h"
-#include "src/world/majorant/cell_majorants.h"
+#include "src/world/majorant/majorants.h"
 #include "src/world/plan_parts.h"
 
 namespace pileus {

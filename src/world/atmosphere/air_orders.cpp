@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// See air_orders.h. Directions are fixed ones about the local vertical and the sun's azimuth; a
+// See air_tables.h. Directions are fixed ones about the local vertical and the sun's azimuth; a
 // pass carries what all of them send through the air and gathers it again as harmonics.
-#include "src/world/atmosphere/air_orders.h"
-
 #include <vector>
 
 #include "kernels_cpu/core/math.h"
 #include "platform/threads.h"
 #include "src/base/angles.h"
+#include "src/world/atmosphere/air_tables.h"
 
 namespace pileus {
 namespace {

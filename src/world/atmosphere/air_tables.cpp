@@ -5,7 +5,6 @@
 
 #include "kernels_cpu/core/math.h"
 #include "platform/threads.h"
-#include "src/world/atmosphere/air_orders.h"
 
 namespace pileus {
 namespace {

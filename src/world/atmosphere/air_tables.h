@@ -53,4 +53,14 @@ double way_to_sphere(double r_km, double cosine, double sphere_km, bool far);
 /// lies near a low observer, and near the ground for a ray that comes down from high up.
 double step_end(double share, bool from_above);
 
+// Light that clear air scatters again and again, by orders.
+
+/// Fills `around` and `ground` of tables that have their sunlight.
+Status add_orders(int threads, AirTables& tables);
+
+/// Where a height and a sun lie in the tables, in [0, 1]: rows close to the ground, columns close
+/// around the horizon, from 21 degrees below it.
+double around_row(double height_km);
+double around_column(double sun_cosine);
+
 }  // namespace pileus

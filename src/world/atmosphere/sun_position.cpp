@@ -4,7 +4,6 @@
 #include "src/world/atmosphere/sun_position.h"
 
 #include "src/base/angles.h"
-#include "src/world/atmosphere/angle_of.h"
 
 namespace pileus {
 namespace {

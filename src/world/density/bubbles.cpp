@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// See bubbles.h. Turrets rise from one base, lean with the wind, carry bubbles that carry buds.
+// See cumulus.h. Turrets rise from one base, lean with the wind, carry bubbles that carry buds.
 // in: a seed -> out: spheres, generation by generation.
 // Cotton, Bryan, van den Heever 2011, "Storm and cloud dynamics", ch. 7.
-#include "src/world/density/bubbles.h"
-
 #include "kernels_cpu/core/math.h"
 #include "kernels_cpu/core/rng.h"
 #include "src/base/random_streams.h"
+#include "src/world/density/cumulus.h"
 
 namespace pileus {
 namespace {

@@ -10,7 +10,6 @@
 #include "platform/threads.h"
 #include "src/base/random_streams.h"
 #include "src/scene/rows/density_row.h"
-#include "src/world/density/bubbles.h"
 
 namespace pileus {
 namespace {

@@ -4,9 +4,12 @@
 // docs/scene.md, "procedural:cumulus".
 #pragma once
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "kernels_cpu/isa/kernels.h"
+#include "kernels_cpu/procedural/cumulus_params.h"
+#include "src/base/buffer.h"
 #include "src/base/status.h"
 #include "src/io/volumes/volume.h"
 
@@ -26,5 +29,24 @@ struct CumulusSettings {
 /// outside 0.001..1000; kLimit when memory runs out.
 Status make_cumulus(const CumulusSettings& settings, const KernelTable& kernels, int threads,
                     Volume& volume);
+
+// The skeleton of a cumulus: spheres upon spheres upon spheres, from turrets down to buds, over the
+// base plane z = 0. Cotton, Bryan, van den Heever 2011, "Storm and cloud dynamics", ch. 7.
+
+struct BubbleList {
+    Buffer<Bubble> bubbles;  ///< kMaxBubbles reserved
+    std::size_t count = 0;
+    float top = 0;  ///< highest point over the base
+
+    /// Drops what no longer fits the reserve.
+    void add(const Bubble& bubble) {
+        if (count < bubbles.size()) bubbles[count++] = bubble;
+    }
+};
+
+/// Grows a cloud as large as fits between x = +-half_x, y = +-half_y and below z = height; spheres
+/// may reach below the base plane, where the caller cuts them. All lengths in one unit, > 0.
+/// Errors: kLimit when memory runs out.
+Status grow_bubbles(std::uint64_t seed, float half_x, float half_y, float height, BubbleList& list);
 
 }  // namespace pileus

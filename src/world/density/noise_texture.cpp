@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// See noise_texture.h. Levels are means of 2 x 2 x 2 texels; all sums are of integers.
+// See noise_volume.h. Levels are means of 2 x 2 x 2 texels; all sums are of integers.
 // in: bytes -> out: words, maxima, variances.
-#include "src/world/density/noise_texture.h"
-
 #include "platform/threads.h"
+#include "src/world/density/noise_volume.h"
 
 namespace pileus {
 namespace {

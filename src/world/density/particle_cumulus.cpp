@@ -9,7 +9,7 @@
 #include "src/base/powers.h"
 #include "src/base/random_streams.h"
 #include "src/io/particles/placed_particles.h"
-#include "src/world/density/bubbles.h"
+#include "src/world/density/cumulus.h"
 #include "src/world/density/particle_recipe.h"
 
 namespace pileus {
@@ -110,28 +110,12 @@ DensityOutline outline_particle_cumulus(const MediumSettings& medium) {
     return outline;
 }
 
-Status lay_particle_cumulus(const MediumSettings& medium, const DensityMaking& with,
-                            Volume& volume) {
-    return lay_recipe(medium, with, make_particle_cumulus, volume);
-}
-
-constexpr DensityRow particle_cumulus_row() {
-    DensityRow row;
-    row.name = "procedural:particle-cumulus";
-    row.takes_seed = true;
-    row.table = "particle_cumulus";
-    row.check = choose_recipe<&ParticleSettings::cumulus>;
-    row.outline = outline_particle_cumulus;
-    row.mean_within = 1.1;
-    row.working = "particles of the cumulus";
-    row.make = lay_particle_cumulus;
-    row.make_particles = make_particle_cumulus;
-    return row;
-}
-
 }  // namespace
 
 extern const DensityRow kParticleCumulusDensity;
-constexpr DensityRow kParticleCumulusDensity = particle_cumulus_row();
+constexpr DensityRow kParticleCumulusDensity =
+    recipe_row<&ParticleSettings::cumulus, make_particle_cumulus>(
+        "procedural:particle-cumulus", "particle_cumulus", "particles of the cumulus",
+        outline_particle_cumulus);
 
 }  // namespace pileus

@@ -47,4 +47,24 @@ DensityOutline outline_recipe(const MediumSettings& medium, double mean);
 Status lay_recipe(const MediumSettings& medium, const DensityMaking& with,
                   Status (*make)(const MediumSettings&, int, ParticleSet&), Volume& volume);
 
+/// The row of a recipe; `Make` makes its particles.
+template <RecipeSettings ParticleSettings::*Recipe,
+          Status (*Make)(const MediumSettings&, int, ParticleSet&)>
+constexpr DensityRow recipe_row(const char* name, const char* table, const char* working,
+                                DensityOutline (*outline)(const MediumSettings&)) {
+    DensityRow row;
+    row.name = name;
+    row.takes_seed = true;
+    row.table = table;
+    row.check = choose_recipe<Recipe>;
+    row.outline = outline;
+    row.mean_within = 1.1;
+    row.working = working;
+    row.make = [](const MediumSettings& medium, const DensityMaking& with, Volume& volume) {
+        return lay_recipe(medium, with, Make, volume);
+    };
+    row.make_particles = Make;
+    return row;
+}
+
 }  // namespace pileus

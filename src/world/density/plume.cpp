@@ -104,27 +104,10 @@ DensityOutline outline_plume(const MediumSettings& medium) {
     return outline_recipe(medium, kMeanDensity);
 }
 
-Status lay_plume(const MediumSettings& medium, const DensityMaking& with, Volume& volume) {
-    return lay_recipe(medium, with, make_plume, volume);
-}
-
-constexpr DensityRow plume_row() {
-    DensityRow row;
-    row.name = "procedural:plume";
-    row.takes_seed = true;
-    row.table = "plume";
-    row.check = choose_recipe<&ParticleSettings::plume>;
-    row.outline = outline_plume;
-    row.mean_within = 1.1;
-    row.working = "particles of the plume";
-    row.make = lay_plume;
-    row.make_particles = make_plume;
-    return row;
-}
-
 }  // namespace
 
 extern const DensityRow kPlumeDensity;
-constexpr DensityRow kPlumeDensity = plume_row();
+constexpr DensityRow kPlumeDensity = recipe_row<&ParticleSettings::plume, make_plume>(
+    "procedural:plume", "plume", "particles of the plume", outline_plume);
 
 }  // namespace pileus

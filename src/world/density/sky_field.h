@@ -6,8 +6,7 @@
 #include "kernels_cpu/isa/kernels.h"
 #include "src/io/volumes/volume.h"
 #include "src/scene/scene.h"
-#include "src/world/density/noise_cache.h"
-#include "src/world/density/noise_texture.h"
+#include "src/world/density/noise_volume.h"
 
 namespace pileus {
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// See field.h.
+// See grid.h.
 // in: densities at voxel centres -> out: density at a point, mass of each voxel.
 // The mean of a clamped linear interpolant over one voxel is [1 6 1]/8 on each axis.
-#include "src/world/grid/field.h"
-
 #include "platform/threads.h"
+#include "src/world/grid/grid.h"
 
 namespace pileus {
 namespace {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// See mix_weights.h.
+// See grid.h.
 // in: two rows of cells along one axis -> out: integrals of hat functions over the target's cells.
 // docs/methods.md 2, "Several media".
-#include "src/world/grid/mix_weights.h"
+#include "src/world/grid/grid.h"
 
 namespace pileus {
 namespace {

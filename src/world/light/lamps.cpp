@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// See lamps.h.
-#include "src/world/light/lamps.h"
-
+// See lights.h.
 #include <cstring>
 #include <glm/geometric.hpp>
 #include <string>
@@ -9,6 +7,7 @@
 #include "kernels_cpu/core/profile.h"
 #include "src/base/angles.h"
 #include "src/base/single.h"
+#include "src/world/light/lights.h"
 
 namespace pileus {
 namespace {

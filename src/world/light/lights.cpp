@@ -7,7 +7,6 @@
 
 #include "src/base/angles.h"
 #include "src/base/random_streams.h"
-#include "src/world/light/lamps.h"
 #include "src/world/solids/camera_depth.h"
 #include "src/world/solids/solids.h"
 

@@ -9,6 +9,7 @@
 
 #include "kernels_cpu/light/lamp_params.h"
 #include "src/plan/plan.h"
+#include "src/scene/scene.h"
 #include "src/world/light/sky_map.h"
 #include "src/world/medium/medium.h"
 
@@ -107,5 +108,17 @@ Light map_light(const SkyMap& map);
 
 /// A beam travelling along `travel` over the box's silhouette.
 Light beam_light(const Medium& medium, const Double3& travel);
+
+// Lights besides sun and sky, as kernels take them. docs/lights.md
+
+/// Lights in box-local metres. Dark ones and those below a ground's altitude are left out: the
+/// ground hides them from all that is above.
+std::vector<LampParams> make_lamps(const std::vector<LightSettings>& lights, const Ground& ground,
+                                   const Medium& medium);
+/// Which were left out, and why.
+void explain_lamps(const std::vector<LightSettings>& lights, const Ground& ground,
+                   const Medium& medium, Plan& plan);
+
+bool same_lamps(const std::vector<LampParams>& a, const std::vector<LampParams>& b);
 
 }  // namespace pileus

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// See cell_majorants.h.
+// See majorants.h.
 // in: densities, cells -> out: marks per cell, raised majorants.
 // docs/photon-grid.md, "Deposits".
-#include "src/world/majorant/cell_majorants.h"
-
 #include <algorithm>
 
 #include "platform/threads.h"
-#include "src/world/majorant/empty_blocks.h"
+#include "src/world/majorant/majorant.h"
+#include "src/world/majorant/majorants.h"
 
 namespace pileus {
 namespace {

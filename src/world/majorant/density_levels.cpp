@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// See density_levels.h.
+// See majorants.h.
 // in: a density grid -> out: its levels.
 // docs/raymarch.md, "Level of detail".
-#include "src/world/majorant/density_levels.h"
-
 #include "platform/threads.h"
+#include "src/world/majorant/majorants.h"
 
 namespace pileus {
 namespace {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// See empty_blocks.h.
+// See majorant.h.
 // in: majorants -> out: distances to the nearest block that holds medium, largest axis counted.
 // The distance is separable: along x, then the larger of that and the way along y, then z.
-#include "src/world/majorant/empty_blocks.h"
-
 #include <cassert>
 #include <initializer_list>
 
 #include "platform/threads.h"
+#include "src/world/majorant/majorant.h"
 
 namespace pileus {
 namespace {

@@ -3,7 +3,11 @@
 // in: densities -> out: the largest density per block of voxels, and the best size of a block.
 // docs/methods.md 1 (majorant over the trilinear footprint); tools/bench/README.md.
 #pragma once
+#include <cstddef>
+#include <cstdint>
+
 #include "src/base/buffer.h"
+#include "src/base/span.h"
 #include "src/base/status.h"
 #include "src/plan/array.h"
 #include "src/world/grid/grid.h"
@@ -71,5 +75,19 @@ constexpr std::uint64_t kMostSingleVoxels = std::uint64_t{1} << 24;
 /// wins, on ties the larger block. kLimit: out of memory.
 Status choose_block(Span<const float> density, const Grid& grid, double extinction_per_m,
                     const TrackingCosts& costs, int threads, BlockChoice& choice);
+
+// How far the emptiness around each empty block reaches, so that walks may leap over it.
+// docs/path.md, "Flight"
+
+/// Free blocks on each side that one leap may pass at most: it bounds the work per block.
+constexpr int kLongestLeap = 31;
+
+/// Blocks along a side at most: those of the largest grid, one voxel each, and a ring around them.
+constexpr int kMostLine = 4096 + 2;
+
+/// Writes -n into every block of count[0] x count[1] x count[2], x fastest, that is not positive:
+/// all blocks within n of it along every axis are not positive either or lie beyond the grid, and n
+/// is as large as that allows, at most kLongestLeap.
+void mark_empty_blocks(Span<float> blocks, const int count[3], int threads);
 
 }  // namespace pileus

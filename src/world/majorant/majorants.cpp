@@ -2,7 +2,7 @@
 // See majorants.h.
 #include "src/world/majorant/majorants.h"
 
-#include "src/world/majorant/empty_blocks.h"
+#include "src/world/majorant/majorant.h"
 
 namespace pileus {
 

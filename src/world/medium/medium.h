@@ -121,7 +121,7 @@ Status outline_medium(const Scene& scene, const MediumSettings& settings, const 
 /// Reads or makes the density and places it. A file that holds extinction becomes densities up to 1
 /// (value over largest value) with sigma = extinction_scale times the largest value. Errors: those
 /// of the readers; kBadInput for a file that does not know its place while `bounds_m` is left out.
-/// Where a transfer function shows the values they stay as they are: see transfer_media.h.
+/// Where a transfer function shows the values they stay as they are: see mix_media.h.
 /// `kernels`: those to put a sky on its grid; null or a device's: the widest of the host. `sky`, if
 /// given, keeps it.
 Status load_medium(const Scene& scene, const MediumSettings& settings, int threads, Medium& out,

@@ -11,7 +11,6 @@
 #include "src/scene/toml/toml_tree.h"
 #include "src/world/medium/detail.h"
 #include "src/world/medium/resample.h"
-#include "src/world/medium/transfer_media.h"
 
 namespace pileus {
 namespace {

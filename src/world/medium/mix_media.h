@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "src/plan/plan.h"
+#include "src/scene/media/transfer.h"
 #include "src/world/medium/medium.h"
 
 namespace pileus {
@@ -45,5 +46,17 @@ Status outline_media(const Scene& scene, const Limits& limits, std::uint64_t thr
 /// Media without extinction are left out, unless none has any. Errors: those of load_medium.
 Status load_media(const Scene& scene, const Limits& limits, int threads, Plan& plan, Medium& out,
                   const KernelTable* kernels = nullptr);
+
+// A field that a transfer function shows, as media: one for each colour. docs/scene.md, "A transfer
+// function": a colour's extinction at a value is the sum over its rows of their extinction times
+// their hat function, so that all colours add up to the linear law.
+
+/// Splits `field`, which is emptied: its values, or none where it is an outline, whose densities
+/// then count as 1. NaN is nothing. A colour that no value shows has density_max 0. kLimit: memory.
+Status split_by_transfer(const std::vector<TransferRow>& rows, Medium& field,
+                         std::vector<Medium>& out);
+
+/// What the plan says of it.
+std::string told_transfer(std::size_t medium, const std::vector<TransferRow>& rows);
 
 }  // namespace pileus

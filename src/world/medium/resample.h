@@ -3,7 +3,7 @@
 // in: media with boxes and voxels of their own -> out: extinctions added up on the target's grid.
 // docs/methods.md 2, "Several media".
 #pragma once
-#include "src/world/grid/mix_weights.h"
+#include "src/world/grid/grid.h"
 #include "src/world/medium/medium.h"
 #include "src/world/medium/mix_media.h"
 

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// See transfer_media.h.
-#include "src/world/medium/transfer_media.h"
-
+// See mix_media.h.
 #include "src/base/single.h"
+#include "src/world/medium/mix_media.h"
 
 namespace pileus {
 namespace {

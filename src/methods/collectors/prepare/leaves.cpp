@@ -8,7 +8,7 @@
 
 #include "platform/threads.h"
 #include "src/base/buffer.h"
-#include "src/world/grid/field.h"
+#include "src/world/grid/grid.h"
 
 namespace pileus {
 namespace {

@@ -7,7 +7,7 @@
 #include "src/methods/collectors/prepare/place_collectors.h"
 #include "src/methods/collectors/prepare/shares.h"
 #include "src/methods/collectors/prepare/tree.h"
-#include "src/world/grid/field.h"
+#include "src/world/grid/grid.h"
 
 namespace pileus {
 namespace {

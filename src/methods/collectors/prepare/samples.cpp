@@ -9,7 +9,7 @@
 #include "kernels_cpu/core/rng.h"
 #include "platform/threads.h"
 #include "src/methods/collectors/prepare/field_stats.h"
-#include "src/world/grid/field.h"
+#include "src/world/grid/grid.h"
 
 namespace pileus {
 namespace {

@@ -5,7 +5,7 @@
 #include "src/methods/collectors/prepare/shares.h"
 
 #include "platform/threads.h"
-#include "src/world/grid/field.h"
+#include "src/world/grid/grid.h"
 
 namespace pileus {
 namespace {
