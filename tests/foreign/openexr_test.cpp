@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "src/io/images/picture.h"
+#include "lab/compare/picture.h"
 #include "tests/io/temp_folder.h"
 
 using namespace pileus;

@@ -3,7 +3,7 @@
 // in: bytes as an .exr file -> out: a lawful picture of at most 4096 pixels, or one line; the same
 // of the layer and the display window that a comparison would take. docs/formats.md,
 // docs/compare.md
-#include "src/io/images/picture.h"
+#include "lab/compare/picture.h"
 #include "tests/fuzz/target.h"
 
 int fuzz::exr(const std::uint8_t* data, std::size_t size) {

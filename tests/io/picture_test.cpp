@@ -2,7 +2,7 @@
 // The picture in a foreign file: which layer, which part of the display, which light.
 // in: channels of many names, windows, PNG files -> out: pass or fail.
 // docs/compare.md, "Foreign files"
-#include "src/io/images/picture.h"
+#include "lab/compare/picture.h"
 
 #include <cmath>
 #include <vector>

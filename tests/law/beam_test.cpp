@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "src/world/phase/mie.h"
+#include "lab/mie/mie.h"
 #include "tests/support/render_harness.h"
 
 namespace beam_test {

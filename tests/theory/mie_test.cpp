@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Lorenz-Mie spheres against published numbers, and the stored tables of clouds against them.
-// in: src/world/phase/mie.h, src/world/phase/mie_data.h -> out: efficiencies, mean cosines,
+// in: lab/mie/mie.h, src/world/phase/mie_data.h -> out: efficiencies, mean cosines,
 // densities. docs/phase.md, "Mie"; Bohren and Huffman 1983, appendix A; Wiscombe 1979, table of
 // test cases.
-#include "src/world/phase/mie.h"
+#include "lab/mie/mie.h"
 
 #include <doctest/doctest.h>
 

@@ -9,9 +9,9 @@
 
 #include "lab/compare/difference.h"
 #include "lab/compare/metrics_json.h"
+#include "lab/compare/picture.h"
 #include "src/base/file.h"
 #include "src/base/output_check.h"
-#include "src/io/images/picture.h"
 #include "src/scene/rows/picture_format.h"
 #include "tools/pileus/block_files.h"
 #include "tools/pileus/command.h"

@@ -6,8 +6,8 @@
 #include <memory>
 #include <optional>
 
+#include "lab/compare/picture.h"
 #include "src/base/file.h"
-#include "src/io/images/picture.h"
 #include "src/scene/rows/picture_format.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/hash_list.h"

@@ -2,7 +2,7 @@
 // Writes the phase functions of water clouds that the program holds.
 // in: nothing -> out: src/world/phase/mie_data.cpp on standard output; a minute or two of one
 // processor. docs/phase.md, "Mie".
-#include "src/world/phase/mie.h"
+#include "lab/mie/mie.h"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "src/io/images/picture.h"
+#include "lab/compare/picture.h"
 #include "src/scene/read_scene.h"
 #include "src/session/render.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Phase functions of water clouds at 0.55 um by Lorenz-Mie theory, computed ahead of the build.
 // in: nothing -> out: radii, angles, densities in a short form.
-// docs/phase.md, "Mie"; tools/tables/mie.cpp writes mie_data.cpp from src/world/phase/mie.h.
+// docs/phase.md, "Mie"; tools/tables/mie.cpp writes mie_data.cpp from lab/mie/mie.h.
 #pragma once
 #include <cstdint>
 

@@ -2,7 +2,7 @@
 // See mie.h. No libm, so that every machine makes the same tables.
 // in: spheres -> out: scattering coefficients a_n, b_n, amplitudes S1, S2, and their sums.
 // docs/phase.md, "Mie"; Bohren and Huffman 1983, 4.4, 4.8 and appendix A.
-#include "src/world/phase/mie.h"
+#include "lab/mie/mie.h"
 
 #include "src/base/angles.h"
 #include "src/base/exponential.h"

@@ -2,7 +2,7 @@
 // Finds the picture among the layers of a foreign file, and its place on the display.
 // in: channels of any name -> out: R G B A and error.R/G/B.
 // docs/compare.md, "Foreign files"
-#include "src/io/images/picture.h"
+#include "lab/compare/picture.h"
 
 #include <algorithm>
 #include <vector>
