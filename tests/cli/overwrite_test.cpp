@@ -2,12 +2,12 @@
 // No command writes over a file that it reads, nor two outputs into one file.
 // in: PILEUS_PROGRAM, files under several names -> out: pass or fail.
 // docs/program.md, "What is never overwritten"
-#include "src/base/output_check.h"
 #include "src/io/images/image_file.h"
-#include "src/io/text/scene_files.h"
 #include "src/scene/read_scene.h"
 #include "tests/cli/run_program.h"
 #include "tests/io/test_image.h"
+#include "tools/study/output_check.h"
+#include "tools/study/scene_files.h"
 
 using namespace pileus;
 using test::holds;

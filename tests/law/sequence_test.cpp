@@ -2,10 +2,10 @@
 // Sequences of density files: an animation's frames each read their own.
 // in: three files of particles -> out: the pictures of each alone; faults.
 // docs/particles.md, "Sequences"; docs/testing.md, label law
-#include "src/io/text/scene_files.h"
 #include "tests/io/temp_folder.h"
 #include "tests/support/particle_harness.h"
 #include "tests/support/render_harness.h"
+#include "tools/study/scene_files.h"
 
 using namespace pileus;
 using namespace render_test;

@@ -11,12 +11,12 @@
 #include "lab/compare/metrics_json.h"
 #include "lab/compare/picture.h"
 #include "src/base/file.h"
-#include "src/base/output_check.h"
 #include "src/scene/rows/picture_format.h"
 #include "tools/pileus/block_files.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
 #include "tools/pileus/output_set.h"
+#include "tools/study/output_check.h"
 
 namespace pileus {
 

@@ -8,13 +8,13 @@
 #include <nlohmann/json.hpp>
 
 #include "src/base/file.h"
-#include "src/base/output_check.h"
 #include "src/io/volumes/volume_file.h"
 #include "src/scene/rows/volume_format.h"
 #include "src/scene/toml/toml_tree.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/info.h"
 #include "tools/pileus/raw_options.h"
+#include "tools/study/output_check.h"
 
 namespace pileus {
 

@@ -9,15 +9,15 @@
 
 #include "platform/clock.h"
 #include "src/base/file.h"
-#include "src/base/output_check.h"
 #include "src/io/images/image_file.h"
-#include "src/io/text/scene_files.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/flux_text.h"
 #include "tools/pileus/option_text.h"
 #include "tools/pileus/output_set.h"
 #include "tools/pileus/progress.h"
 #include "tools/pileus/scene_options.h"
+#include "tools/study/output_check.h"
+#include "tools/study/scene_files.h"
 
 namespace pileus {
 namespace {

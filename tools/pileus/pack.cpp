@@ -7,13 +7,13 @@
 #include <memory>
 
 #include "src/base/file.h"
-#include "src/base/output_check.h"
 #include "src/flight/flight.h"
-#include "src/io/text/scene_files.h"
 #include "src/methods/registry.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
 #include "tools/pileus/scene_options.h"
+#include "tools/study/output_check.h"
+#include "tools/study/scene_files.h"
 
 namespace pileus {
 

@@ -11,12 +11,12 @@
 
 #include "src/base/file.h"
 #include "src/io/images/image_file.h"
-#include "src/io/text/scene_files.h"
 #include "src/methods/registry.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/toml/toml_tree.h"
 #include "tools/pileus/hash_list.h"
 #include "tools/pileus/option_text.h"
+#include "tools/study/scene_files.h"
 
 namespace pileus {
 

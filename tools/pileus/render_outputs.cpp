@@ -9,14 +9,14 @@
 #include <filesystem>
 
 #include "src/base/file.h"
-#include "src/base/output_check.h"
-#include "src/io/text/scene_files.h"
 #include "src/plan/report_json.h"
 #include "src/world/camera/places.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
 #include "tools/pileus/picture_scene.h"
 #include "tools/pileus/version_text.h"
+#include "tools/study/output_check.h"
+#include "tools/study/scene_files.h"
 
 namespace pileus {
 

@@ -6,9 +6,9 @@
 
 #include "src/base/digest.h"
 #include "src/base/file.h"
-#include "src/base/output_check.h"
-#include "src/io/text/scene_files.h"
 #include "src/scene/read_scene.h"
+#include "tools/study/output_check.h"
+#include "tools/study/scene_files.h"
 
 namespace pileus {
 

@@ -3,7 +3,7 @@
 // in: a scene; JSON that nobody has checked -> out: paths.
 // glTF 2.0, section 3.6.1 (buffers)
 #define JSON_NOEXCEPTION 1
-#include "src/io/text/scene_files.h"
+#include "tools/study/scene_files.h"
 
 #include <nlohmann/json.hpp>
 

@@ -2,7 +2,7 @@
 // See output_check.h.
 // in: names of files -> out: clashes.
 // docs/program.md, "What is never overwritten"
-#include "src/base/output_check.h"
+#include "tools/study/output_check.h"
 
 #include "platform/file.h"
 
