@@ -7,8 +7,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "src/base/file.h"
-
 namespace pileus {
 
 namespace {
@@ -283,11 +281,6 @@ std::string plan_json(const Report& report) {
                                  {"first_frame_s", time.first_s},
                                  {"next_frame_s", time.next_s}};
     return text_of(json);
-}
-
-Status write_report(const Report& report, const std::string& path) {
-    const std::string text = report_json(report);
-    return write_file(path, {text.data(), text.size()});
 }
 
 }  // namespace pileus

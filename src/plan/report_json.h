@@ -5,7 +5,6 @@
 #pragma once
 #include <string>
 
-#include "src/base/status.h"
 #include "src/plan/report.h"
 
 namespace pileus {
@@ -16,9 +15,5 @@ std::string report_json(const Report& report);
 
 /// What is known before rendering: `version scene method isa threads seed plan`, as above.
 std::string plan_json(const Report& report);
-
-/// Writes report_json to `path` in one step, missing folders included. Any fault: kIo, and no new
-/// or partial file is left.
-Status write_report(const Report& report, const std::string& path);
 
 }  // namespace pileus
