@@ -14,6 +14,7 @@
 #include "src/scene/keys/all_keys.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/toml/toml_tree.h"
+#include "tests/support/keys_text.h"
 
 namespace {
 

@@ -13,8 +13,8 @@
 #include <string>
 
 #include "src/scene/checks/check_keys.h"
-#include "src/scene/keys/all_keys.h"
 #include "src/scene/read_scene.h"
+#include "tests/support/keys_text.h"
 
 namespace {
 

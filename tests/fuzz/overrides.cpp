@@ -4,9 +4,9 @@
 // lines that name the option or a place of the file. docs/scene.md, section Overrides
 #include <algorithm>
 
-#include "src/scene/keys/all_keys.h"
 #include "src/scene/read_scene.h"
 #include "tests/fuzz/target.h"
+#include "tests/support/keys_text.h"
 
 namespace {
 

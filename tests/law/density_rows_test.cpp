@@ -12,10 +12,10 @@
 #include <string>
 
 #include "src/base/digest.h"
-#include "src/scene/keys/all_keys.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/density_row.h"
 #include "src/world/medium/medium.h"
+#include "tests/support/keys_text.h"
 #include "tests/support/sanitized.h"
 
 #if defined(__GLIBC__)

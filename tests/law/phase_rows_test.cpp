@@ -17,6 +17,7 @@
 #include "src/world/phase/forward_share.h"
 #include "src/world/phase/medium_phase.h"
 #include "tests/io/temp_folder.h"
+#include "tests/support/keys_text.h"
 #include "tests/support/phase_reference.h"
 #include "tests/support/quadrature.h"
 

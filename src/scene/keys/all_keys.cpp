@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // See all_keys.h.
-// in: the rows of each table -> out: all rows; every value of a scene as text.
+// in: the rows of each table -> out: all rows; every value of a scene.
 // docs/scene.md.
 #include "src/scene/keys/all_keys.h"
 
@@ -64,23 +64,6 @@ void for_each_key(const Scene& scene, const KeyVisit& visit) {
         else
             visit(*row, row->path, {scene, no_medium, no_solid, no_light});
     }
-}
-
-std::string dump_scene(const Scene& scene) {
-    std::string text;
-    const auto add = [&](const std::string& path, const Node& value) {
-        text += path + " = " + toml_text(value) + '\n';
-    };
-    // These tables mean something by being there.
-    add("sun", node_of(scene.sun.present));
-    add("sky", node_of(scene.sky.present));
-    add("ground", node_of(scene.ground.present));
-    add("atmosphere", node_of(scene.atmosphere.present));
-    add("animation", node_of(scene.animation.present));
-    for_each_key(scene, [&](const KeyRow& row, const std::string& path, const KeySource& source) {
-        add(path, value_of(row, source));
-    });
-    return text;
 }
 
 }  // namespace pileus

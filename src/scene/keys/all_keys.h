@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // All keys that a scene may hold, table by table, and what is made from them.
-// in: the rows of the files beside this one -> out: lists, dumps, tables for the documentation.
+// in: the rows of the files beside this one -> out: lists.
 // docs/scene.md is made from these rows.
 #pragma once
 #include <functional>
@@ -37,9 +37,6 @@ Span<const KeyRow> output_keys();         // output, animation
 /// medium.phase: the type, then the keys of every phase function, each path once.
 std::vector<const KeyRow*> phase_keys();
 
-/// What a key means, by its row; a key that phase functions share has a word of each.
-std::string meaning_of(const KeyRow& row);
-
 /// A method that a scene may name, and the rows of its table.
 struct MethodKeys {
     const char* name;
@@ -54,12 +51,5 @@ std::vector<const KeyRow*> all_scene_keys();
 /// ("medium.0.albedo") and where its value stands.
 using KeyVisit = std::function<void(const KeyRow&, const std::string& path, const KeySource&)>;
 void for_each_key(const Scene& scene, const KeyVisit& visit);
-
-/// Every value of a scene, a line `path = value` each, as TOML writes it; "nothing" where there is
-/// none. Scenes with equal dumps are equal but for their text, file and directory.
-std::string dump_scene(const Scene& scene);
-
-/// The tables of docs/scene.md as Markdown, one for each section of a scene.
-std::string describe_keys_markdown();
 
 }  // namespace pileus

@@ -76,8 +76,6 @@ void set_value(const KeyRow& row, const KeyTarget& target, const Node& node);
 
 /// What a row allows, in words: "number in [1e-06, 180)", "best, paper".
 std::string allowed_text(const KeyRow& row);
-/// The default as TOML, "required", or empty.
-std::string default_text(const KeyRow& row);
 
 /// Elements of a list parted by '|', and the place of one of them; -1 where it is none.
 std::vector<std::string_view> split_list(const char* list);

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Rows in words: what they allow, their defaults, the tables of docs/scene.md; values of fields.
-// in: rows -> out: texts for messages and documentation, nodes.
+// Rows in words: what they allow; values of fields.
+// in: rows -> out: texts for messages, nodes.
 // docs/scene.md.
-#include "src/scene/checks/check_keys.h"
 #include "src/scene/keys/all_keys.h"
-#include "src/scene/media/transfer.h"
 #include "src/scene/rows/density_row.h"
 
 namespace pileus {
@@ -28,57 +26,6 @@ std::string choices_text(const char* choices) {
         if (!text.empty()) text += ", ";
         text += choice;
     }
-    return text;
-}
-
-/// "camera" of "camera.fov_deg", "medium.N" of "medium.N.density.size"; empty at the top.
-std::string section_of(const KeyRow& row) {
-    const std::string path = row.path;
-    if (row.kind() == KeyKind::kTable) return "other";
-    for (const Span<const KeyRow> keys : {weather_keys(), particle_keys()})
-        for (const KeyRow& of_file : keys)
-            if (path == of_file.path) return "medium.N.density";
-    if (path.compare(0, 13, "medium.N.sky.") == 0) return "medium.N.sky";
-    if (path.compare(0, 16, "medium.N.detail.") == 0) return "medium.N.detail";
-    if (path.compare(0, 9, "medium.N.") == 0) return "medium.N";
-    if (path.compare(0, 8, "solid.N.") == 0) return "solid.N";
-    if (path.compare(0, 8, "light.N.") == 0) return "light.N";
-    const std::size_t dot = path.find('.');
-    return dot == std::string::npos ? "" : path.substr(0, dot);
-}
-
-std::string heading_of(const std::string& section) {
-    if (section.empty()) return "Top level";
-    if (section == "other") return "Tables of other methods";
-    if (section == "solid.N") return "`[[solid]]`";
-    if (section == "light.N") return "`[[light]]`";
-    if (section == "medium.N.sky") return "`[[medium]]`, `sky = { ... }`";
-    if (section == "medium.N.detail") return "`[[medium]]`, `detail = { ... }`";
-    if (section == "medium.N.density") return "`[[medium]]`, `density = { ... }` of weather data";
-    return section == "medium.N" ? "`[[medium]]`" : "`[" + section + "]`";
-}
-
-std::string row_markdown(const KeyRow& row) {
-    const std::string fallback = default_text(row);
-    std::string text = std::string("| `") + row.path + "` | ";
-    text += row.kind() == KeyKind::kLater ? "not in this version" : allowed_text(row);
-    text += std::string(" | ") + row.unit + " | ";
-    text += row.required() || fallback.empty() ? fallback : "`" + fallback + "`";
-    text += " | " + meaning_of(row);
-    if (row.allowed.later != nullptr)
-        text += "; not in this version: " + choices_text(row.allowed.later);
-    return text + " |\n";
-}
-
-/// Long numbers in groups of three digits, one colour for three equal ones.
-std::string short_toml(const KeyRow& row, const Node& node) {
-    const auto& parts = node.children;
-    if (row.kind() == KeyKind::kColor && toml_text(parts[0]) == toml_text(parts[1]) &&
-        toml_text(parts[1]) == toml_text(parts[2]))
-        return toml_text(parts[0]);
-    std::string text = toml_text(node);
-    if (node.kind == NodeKind::kInteger && text.size() > 4)
-        for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, "_");
     return text;
 }
 
@@ -171,31 +118,6 @@ std::string allowed_text(const KeyRow& row) {
             break;
     }
     return "nothing";
-}
-
-std::string default_text(const KeyRow& row) {
-    if (row.fallback != nullptr) return row.fallback;
-    const Node value = default_value(row);
-    FaultList none("", {});
-    // A field begins with what its key does not allow where leaving it out says something else.
-    if (!has_value(value) || !check_value(row, value, "", none)) return "";
-    return short_toml(row, value);
-}
-
-std::string describe_keys_markdown() {
-    std::string text;
-    std::string last = "none";
-    // Begin a table wherever a new section begins; the rows of a section are neighbours.
-    for (const KeyRow* row : all_scene_keys()) {
-        const std::string section = section_of(*row);
-        if (section != last) {
-            text += (text.empty() ? "### " : "\n### ") + heading_of(section) + "\n\n";
-            text += "| key | value | unit | default | meaning |\n|---|---|---|---|---|\n";
-            last = section;
-        }
-        text += row_markdown(*row);
-    }
-    return text;
 }
 
 }  // namespace pileus

@@ -28,20 +28,4 @@ std::vector<const KeyRow*> phase_keys() {
     return rows;
 }
 
-std::string meaning_of(const KeyRow& row) {
-    std::string text = row.help;
-    std::vector<const KeyRow*> said{&row};
-    for (const NamedPhase& type : phase_rows())
-        for (const KeyRow& key : type.row->keys) {
-            if (std::string_view(key.path) != row.path) continue;
-            // Types of one file may have the very same row.
-            bool known = false;
-            for (const KeyRow* other : said) known |= other == &key;
-            if (known) continue;
-            said.push_back(&key);
-            text += std::string("; ") + key.help;
-        }
-    return text;
-}
-
 }  // namespace pileus

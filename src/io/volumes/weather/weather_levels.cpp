@@ -5,7 +5,6 @@
 #include "src/io/volumes/weather/weather_levels.h"
 
 #include <cmath>
-#include <vector>
 
 #include "src/base/powers.h"
 
@@ -47,22 +46,10 @@ double layer_logarithm(double low, double high) {
     return low > high ? logarithm(low / high) : 0;
 }
 
-double layer_pressure(double low, double high) {
-    return layer_pressure(low, high, layer_logarithm(low, high));
-}
-
 double layer_pressure(double low, double high, double logarithm) {
     // Of layers so thin that the quotient is rounding alone the middle is as good.
     if (high > 0 && low - high < 1e-6 * low) return 0.5 * (low + high);
     return (low - high) / logarithm;
-}
-
-void integrate_heights(Span<const double> faces_pa, Span<const double> virtual_kelvin,
-                       double lowest, Span<double> heights) {
-    std::vector<double> logarithms(virtual_kelvin.size);
-    for (std::size_t k = 0; k < logarithms.size(); ++k)
-        logarithms[k] = layer_logarithm(faces_pa.at(k), faces_pa.at(k + 1));
-    sum_heights({logarithms.data(), logarithms.size()}, virtual_kelvin, lowest, heights);
 }
 
 void sum_heights(Span<const double> logarithms, Span<const double> virtual_kelvin, double lowest,

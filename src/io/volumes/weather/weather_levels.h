@@ -32,19 +32,14 @@ void faces_midway(Span<const double> levels, Span<double> faces);
 void faces_in_logarithm(Span<const double> levels, Span<double> faces);
 
 /// Mean pressure of a layer such that its mass is exactly (low - high)/g: (low -
-/// high)/ln(low/high). The uppermost layer may end at 0 Pa; ln 2 stands for its logarithm then, as
-/// in the IFS.
-double layer_pressure(double low, double high);
-/// The same where ln(low/high) is known, as layer_logarithm gives it.
+/// high)/ln(low/high), as layer_logarithm gives it. The uppermost layer may end at 0 Pa; ln 2
+/// stands for its logarithm then, as in the IFS.
 double layer_pressure(double low, double high, double logarithm);
 /// ln(low/high), ln 2 for high = 0; 0 where both are the same.
 double layer_logarithm(double low, double high);
 
-/// Heights of faces from the lowest one on: dz = R_d T_v/g ln(p_low/p_high). `faces` has one more
-/// element than `kelvin`.
-void integrate_heights(Span<const double> faces_pa, Span<const double> virtual_kelvin,
-                       double lowest, Span<double> heights);
-/// The same of the layers' logarithms.
+/// Heights of faces from the lowest one on: dz = R_d T_v/g ln(p_low/p_high), by the layers'
+/// logarithms. `heights` has one more element.
 void sum_heights(Span<const double> logarithms, Span<const double> virtual_kelvin, double lowest,
                  Span<double> heights);
 
