@@ -55,7 +55,7 @@ typedef struct pileus_cloud_detail {
     double error_px;       /**< pixels that parts of a far cloud may be off, 0.001 to 16 [0.5] */
     double near_px;        /**< clouds of that size are marched in every picture [256] */
     uint32_t near_scale;   /**< of those one pixel of so many along x and y, 1, 2, 4 [2] */
-    uint32_t blend_frames; /**< in which a picture of a far cloud gives way to the next [8] */
+    uint32_t blend_frames; /**< over which an impostor of a far cloud cross-fades to the next [8] */
     double sharpness;      /**< texels of a far cloud for a pixel along x and y, 0.25 to 4 [1] */
     uint64_t frame_pixels; /**< of far clouds that one picture may draw anew [60000] */
     double sun_deg;        /**< that the sun may move before clouds are lit anew, to 10 [0.5] */

@@ -24,12 +24,13 @@ struct Cloud {
 
 /// How exact far clouds are. 0: what is in brackets.
 struct CloudDetail {
-    bool off = false;                ///< every cloud is marched whole in every picture
-    double error_px = 0;             ///< that parts of a far cloud may be off, 0.001 to 16 [0.5]
-    double near_px = 0;              ///< clouds of that size are marched in every picture [256]
-    std::uint32_t near_scale = 0;    ///< of those one pixel of so many along x and y: 1, 2, 4 [2]
-    std::uint32_t blend_frames = 0;  ///< in which one picture gives way to the next, to 1000 [8]
-    double sharpness = 0;            ///< texels of a far cloud for a pixel, 0.25 to 4 [1]
+    bool off = false;              ///< every cloud is marched whole in every picture
+    double error_px = 0;           ///< that parts of a far cloud may be off, 0.001 to 16 [0.5]
+    double near_px = 0;            ///< clouds of that size are marched in every picture [256]
+    std::uint32_t near_scale = 0;  ///< of those one pixel of so many along x and y: 1, 2, 4 [2]
+    std::uint32_t blend_frames =
+        0;                 ///< over which one impostor cross-fades to the next, to 1000 [8]
+    double sharpness = 0;  ///< texels of a far cloud for a pixel, 0.25 to 4 [1]
     std::uint64_t frame_pixels = 0;  ///< of far clouds that one picture may draw anew [60000]
     double sun_deg = 0;              ///< that the sun may move before clouds are lit anew [0.5]
 };

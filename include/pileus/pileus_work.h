@@ -47,7 +47,7 @@ PILEUS_API pileus_code pileus_session_govern(const pileus_session* session,
                                              pileus_governor* governor, double frame_s,
                                              pileus_work* work, pileus_error* error);
 
-/** What a frame takes at the most: one unit of light (pileus_session_step) and one picture. It
+/** Maximum cost of a frame: one unit of light (pileus_session_step) and one picture. It
  * depends on the work, the sizes and the kinds of light, not on where the camera is or what it
  * sees. */
 typedef struct pileus_units {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The most that pictures take, in units that depend on settings and sizes alone, not on the view.
 // in: the work of a frame, sizes, media, lights -> out: FrameUnits.
-// docs/realtime.md, "What a frame takes at the most"
+// docs/realtime.md, "Maximum cost of a frame"
 #pragma once
 #include "src/methods/scenery.h"
 #include "src/picture/upsample.h"

@@ -153,7 +153,7 @@ Status shoot_generation(const Context& context, TraceInput in, PhotonState& stat
     in.ended = patient_stop(context);
     const std::size_t number = slot_of(ring.next_generation, ring);
     PhotonSlot& slot = ring.photons.slots[number];
-    // In an animation each generation has a slot of its own: the oldest gives way, exactly.
+    // In an animation each generation has a slot of its own: the oldest is replaced, exactly.
     const bool turns = ring.on && ring.photons.slots.size() == ring.generations && ring.animated;
     std::vector<double> flux;
     for (const Light& l : state.lights.lighting.lights) {

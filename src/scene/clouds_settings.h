@@ -46,7 +46,7 @@ struct CloudDetail {
     double error_px = 0.5;  ///< that a far cloud's picture may be wrong by
     double near_px = 256;   ///< clouds of that size on the picture are marched
     int near_scale = 2;     ///< of those, one pixel of so many along x and y: 1, 2, 4
-    int blend_frames = 8;   ///< over which one picture gives way to the next
+    int blend_frames = 8;   ///< over which one impostor cross-fades to the next
     double sharpness = 1;   ///< texels of a pixel along x and y
     /// Of pictures that a frame makes anew: one, and more up to so many in all.
     std::int64_t frame_pixels = 60000;

@@ -43,7 +43,7 @@ Status read_text(const std::string& path, std::string& text) {
     return Status::ok();
 }
 
-/// The last run of '#' gives way to a number of as many digits or more.
+/// The last run of '#' becomes a number of as many digits or more.
 std::string numbered(std::string file, std::int64_t number) {
     if (!is_sequence(file)) return file;
     const std::size_t last = file.rfind('#');

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What frames take at the most: told before, never exceeded, and fitted to a budget.
 // in: scenes, settings of marches, cameras everywhere -> out: counts of pictures.
-// docs/realtime.md, "What a frame takes at the most"
+// docs/realtime.md, "Maximum cost of a frame"
 #include <filesystem>
 
 #include "src/scene/read_scene.h"

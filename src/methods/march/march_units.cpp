@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The most that a marched picture takes.
 // in: the work of a frame, settings, sizes -> out: pixels, rays, samples.
-// docs/realtime.md, "What a frame takes at the most"
+// docs/realtime.md, "Maximum cost of a frame"
 #include "src/methods/march/march_state.h"
 #include "src/methods/most_units.h"
 #include "src/world/world.h"

@@ -138,7 +138,7 @@ constexpr KeyRow kRows[] = {
      "of those one pixel of so many along x and y is marched: 1, 2 or 4"},
     {"clouds.detail.blend_frames", detail<&CloudDetail::blend_frames>,
      ranged(&CloudDetail::blend_frames), "",
-     "frames in which a picture of a far cloud gives way to the next"},
+     "frames over which an impostor of a far cloud cross-fades to the next"},
     {"clouds.detail.sharpness", detail<&CloudDetail::sharpness>, ranged(&CloudDetail::sharpness),
      "", "texels of a far cloud for a pixel along x and y"},
     {"clouds.detail.frame_pixels", detail<&CloudDetail::frame_pixels>, from_to(1, 0x1p62), "",

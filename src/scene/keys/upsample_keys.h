@@ -18,6 +18,6 @@ constexpr const char* kTemporal =
 
 constexpr const char* kLightRefresh =
     "a sun that moves less than a degree in so many frames has its light on nodes and its "
-    "shadow on the ground made anew by one part of so many each frame; 1: whole for each sun";
+    "shadow on the ground rebuilt by one part of so many each frame; 1: whole for each sun";
 
 }  // namespace pileus::upsample_keys
