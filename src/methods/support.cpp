@@ -35,11 +35,12 @@ constexpr bool in_order() {
 }
 static_assert(in_order(), "rows are in the order of Feature");
 
-constexpr const char* kMethodColumnNames[] = {
-    "collectors", "collectors-billboards", "photon-grid", "path", "raymarch", "optical-depth",
-    "particles",  "particles-billboards",  "clouds"};
-static_assert(sizeof kMethodColumnNames / sizeof kMethodColumnNames[0] == kMethodColumns,
-              "a name for every column");
+constexpr bool columns_in_order() {
+    for (std::size_t i = 0; i < kMethodColumns; ++i)
+        if (kColumnRows[i].column != MethodColumn(i)) return false;
+    return true;
+}
+static_assert(columns_in_order(), "columns are in the order of MethodColumn");
 
 constexpr const char* kLevelNames[] = {"exact", "bounded", "refused", "ignored", "unknown"};
 static_assert(sizeof kLevelNames / sizeof kLevelNames[0] == std::size_t(SupportLevel::kUnknown) + 1,
@@ -52,10 +53,6 @@ static_assert(sizeof kGroupNames / sizeof kGroupNames[0] == std::size_t(FeatureG
               "a name for every group");
 
 }  // namespace
-
-const char* method_column_name(MethodColumn column) {
-    return kMethodColumnNames[std::size_t(column)];
-}
 
 const char* level_name(SupportLevel level) { return kLevelNames[std::size_t(level)]; }
 

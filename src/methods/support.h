@@ -8,6 +8,7 @@
 namespace pileus {
 
 /// A method's display decides which one a scene has. kCloudSkies: `[[clouds]]` and pileus_clouds.
+/// Each has its row in kColumnRows.
 enum class MethodColumn {
     kCollectors,
     kCollectorBillboards,
@@ -22,8 +23,27 @@ enum class MethodColumn {
 };
 constexpr std::size_t kMethodColumns = std::size_t(MethodColumn::kCount);
 
-/// As `pileus methods NAME` takes it.
-const char* method_column_name(MethodColumn column);
+struct ColumnRow {
+    MethodColumn column;
+    const char* name;    ///< as `pileus methods NAME` takes it
+    bool method = true;  ///< the name is one of `method.name`; else: a display of one, skies
+};
+inline constexpr ColumnRow kColumnRows[] = {
+    {MethodColumn::kCollectors, "collectors"},
+    {MethodColumn::kCollectorBillboards, "collectors-billboards", false},
+    {MethodColumn::kPhotonGrid, "photon-grid"},
+    {MethodColumn::kPath, "path"},
+    {MethodColumn::kRaymarch, "raymarch"},
+    {MethodColumn::kOpticalDepth, "optical-depth"},
+    {MethodColumn::kParticles, "particles"},
+    {MethodColumn::kParticleBillboards, "particles-billboards", false},
+    {MethodColumn::kCloudSkies, "clouds", false},
+};
+static_assert(sizeof kColumnRows / sizeof kColumnRows[0] == kMethodColumns, "one for every column");
+
+constexpr const char* method_column_name(MethodColumn column) {
+    return kColumnRows[std::size_t(column)].name;
+}
 
 enum class SupportLevel {
     kExact,    ///< but for noise and rounding

@@ -5,52 +5,22 @@
 namespace pileus {
 namespace {
 
-bool never(const Scene&) { return false; }
-bool has_billboards(const Scene& scene) { return scene.collectors.billboards; }
-bool has_particle_billboards(const Scene& scene) { return scene.particles.billboards; }
-bool has_collector_closure(const Scene& scene) { return scene.collectors.camera_closure; }
-bool has_grid_closure(const Scene& scene) {
-    return scene.photon_grid.closure == GridClosure::kCamera;
-}
-
-struct ColumnsOfMethod {
-    MethodColumn column;  ///< whose name is the method's
-    MethodColumn on_billboards;
-    bool (*billboards)(const Scene&);
-    bool (*camera_closure)(const Scene&);
-};
-constexpr ColumnsOfMethod kColumnsOfMethods[] = {
-    {MethodColumn::kCollectors, MethodColumn::kCollectorBillboards, has_billboards,
-     has_collector_closure},
-    {MethodColumn::kPhotonGrid, MethodColumn::kPhotonGrid, never, has_grid_closure},
-    {MethodColumn::kPath, MethodColumn::kPath, never, never},
-    {MethodColumn::kRaymarch, MethodColumn::kRaymarch, never, never},
-    {MethodColumn::kOpticalDepth, MethodColumn::kOpticalDepth, never, never},
-    {MethodColumn::kParticles, MethodColumn::kParticleBillboards, has_particle_billboards, never},
-};
-
-constexpr bool has_all_columns() {
-    for (int c = 0; c < int(MethodColumn::kCloudSkies); ++c) {
-        bool found = false;
-        for (const ColumnsOfMethod& m : kColumnsOfMethods)
-            found = found || int(m.column) == c || int(m.on_billboards) == c;
-        if (!found) return false;
-    }
-    return true;
-}
-static_assert(has_all_columns(), "a method for every column");
-
-const ColumnsOfMethod& columns_of(const Scene& scene) {
-    for (const ColumnsOfMethod& m : kColumnsOfMethods)
-        if (scene.method == method_column_name(m.column)) return m;
-    return kColumnsOfMethods[0];
+/// Of the method, whatever its display.
+MethodColumn column_of_name(const std::string& method) {
+    for (const ColumnRow& row : kColumnRows)
+        if (row.method && method == row.name) return row.column;
+    return kColumnRows[0].column;
 }
 
 }  // namespace
 
 MethodColumn method_column(const Scene& scene) {
-    const ColumnsOfMethod& m = columns_of(scene);
-    return m.billboards(scene) ? m.on_billboards : m.column;
+    const MethodColumn column = column_of_name(scene.method);
+    if (column == MethodColumn::kCollectors && scene.collectors.billboards)
+        return MethodColumn::kCollectorBillboards;
+    if (column == MethodColumn::kParticles && scene.particles.billboards)
+        return MethodColumn::kParticleBillboards;
+    return column;
 }
 
 const Support* refused(const Scene& scene, Feature feature) {
@@ -58,6 +28,10 @@ const Support* refused(const Scene& scene, Feature feature) {
     return entry.refused() ? &entry : nullptr;
 }
 
-bool has_camera_closure(const Scene& scene) { return columns_of(scene).camera_closure(scene); }
+bool has_camera_closure(const Scene& scene) {
+    const MethodColumn column = column_of_name(scene.method);
+    if (column == MethodColumn::kCollectors) return scene.collectors.camera_closure;
+    return column == MethodColumn::kPhotonGrid && scene.photon_grid.closure == GridClosure::kCamera;
+}
 
 }  // namespace pileus

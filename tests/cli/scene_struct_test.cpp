@@ -9,6 +9,7 @@
 #include <limits>
 #include <string>
 
+#include "src/methods/registry.h"
 #include "src/scene/keys/all_keys.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/density_row.h"
@@ -28,6 +29,14 @@ Scene whole_scene() {
     scene.solids.emplace_back();
     scene.solids[0].file = "a.ply";
     return scene;
+}
+
+/// Of every method of this version.
+std::string method_names() {
+    std::string names;
+    for (const ListedMethod& listed : listed_methods())
+        names += (names.empty() ? "" : ", ") + std::string(listed.row.name);
+    return names;
 }
 
 /// A number just outside the row's range, in the shape of its kind; nothing for other kinds.
@@ -139,8 +148,7 @@ TEST_CASE("structs: laws between keys speak as they do of a file") {
           "scene: medium.0.density.size: missing, nothing, allowed: density = { file = \"...\", "
           "type = \"float32\", size = [nx, ny, nz] }");
     CHECK(fault([](Scene& s) { s.method = "radiosity"; }) ==
-          "scene: method.name: unknown value, \"radiosity\", allowed: collectors, path, raymarch, "
-          "optical-depth, photon-grid, particles");
+          "scene: method.name: unknown value, \"radiosity\", allowed: " + method_names());
     CHECK(fault([](Scene& s) { s.sun.elevation_deg = std::nan(""); }) ==
           "scene: sun.elevation_deg: not finite, nan, allowed: number in [-90, 90]");
     CHECK(fault([](Scene& s) { s.output.files = {"a.jpg"}; }) ==

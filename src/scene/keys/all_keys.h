@@ -37,7 +37,7 @@ Span<const KeyRow> output_keys();         // output, animation
 /// medium.phase: the type, then the keys of every phase function, each path once.
 std::vector<const KeyRow*> phase_keys();
 
-/// A method that a scene may name, and the rows of its table.
+/// A method with keys of its own, and the rows of its table.
 struct MethodKeys {
     const char* name;
     Span<const KeyRow> (*rows)();

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// The methods that a scene may name, each with the keys of its table.
+// The methods that a scene may name: those with keys, each with its table, and those without any.
 // in: checked values <-> out: Scene::method.
 // docs/scene.md.
 #include <array>
 #include <utility>
 
+#include "src/methods/support.h"
 #include "src/scene/keys/all_keys.h"
 
 namespace pileus {
@@ -17,6 +18,16 @@ constexpr MethodKeys kMethods[] = {
 
 /// Methods that the format names and this version has not: their tables are left alone.
 constexpr std::array<const char*, 0> kLater{};
+
+constexpr bool same_method(const char* a, const char* b) {
+    while (*a != 0 && *a == *b) ++a, ++b;
+    return *a == *b;
+}
+constexpr bool has_key_table(const char* name) {
+    for (const MethodKeys& method : kMethods)
+        if (same_method(method.name, name)) return true;
+    return false;
+}
 
 /// Names parted by '|'.
 struct Names {
@@ -31,6 +42,8 @@ struct Names {
 constexpr Names names_now() {
     Names names;
     for (const MethodKeys& method : kMethods) names.add(method.name);
+    for (const ColumnRow& column : kColumnRows)
+        if (column.method && !has_key_table(column.name)) names.add(column.name);
     return names;
 }
 constexpr Names names_later() {
