@@ -3,6 +3,7 @@
 #include "src/methods/check_support.h"
 
 #include "src/scene/method_column.h"
+#include "src/scene/rows/layer_flags.h"
 
 namespace pileus {
 
@@ -29,16 +30,9 @@ Status check_budget_kinds(const Scene& scene, const Budget& budget) {
 }
 
 Status check_layer_kinds(const Scene& scene) {
-    const OutputSettings& output = scene.output;
-    const struct {
-        bool wanted;
-        Feature feature;
-    } kinds[] = {{output.layer_error, Feature::kLayerError},
-                 {output.layer_light, Feature::kLayerLight},
-                 {output.layer_order, Feature::kLayerOrder}};
-    for (const auto& kind : kinds) {
-        const Support* no = refused(scene, kind.feature);
-        if (kind.wanted && no != nullptr)
+    for (const LayerFlag& layer : kLayerFlags) {
+        const Support* no = refused(scene, layer.feature);
+        if (scene.output.*layer.wanted && no != nullptr)
             return Status::bad_input(scene.file + ": output.layers: " + no->text +
                                      ", allowed: " + no->allowed);
     }

@@ -10,7 +10,7 @@ namespace pileus {
 /// kBadInput: a kind of budget that the scene's method does not know.
 Status check_budget_kinds(const Scene& scene, const Budget& budget);
 
-/// kBadInput: a layer of noise or of parts of the light that the scene's method does not have.
+/// kBadInput: a layer that the scene's method does not make.
 Status check_layer_kinds(const Scene& scene);
 
 }  // namespace pileus
