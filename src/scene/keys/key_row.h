@@ -39,6 +39,16 @@ constexpr Allowed positive(double high) { return from_to(kLeastPositive, high); 
 constexpr Allowed one_of(const char* choices, const char* later = nullptr) {
     return {{}, choices, later};
 }
+/// What one_of takes, made of the names of rows: more than there is room for do not compile.
+struct JoinedNames {
+    char text[256] = {};
+    int end = 0;
+
+    constexpr void add(const char* name) {
+        if (end > 0) text[end++] = '|';
+        for (const char* c = name; *c != 0; ++c) text[end++] = *c;
+    }
+};
 
 struct KeyRow;
 

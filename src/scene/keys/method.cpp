@@ -29,29 +29,19 @@ constexpr bool has_key_table(const char* name) {
     return false;
 }
 
-/// Names parted by '|'.
-struct Names {
-    char text[128] = {};
-    int end = 0;
-
-    constexpr void add(const char* name) {
-        if (end > 0) text[end++] = '|';
-        for (const char* c = name; *c != 0; ++c) text[end++] = *c;
-    }
-};
-constexpr Names names_now() {
-    Names names;
+constexpr JoinedNames names_now() {
+    JoinedNames names;
     for (const MethodKeys& method : kMethods) names.add(method.name);
     for (const ColumnRow& column : kColumnRows)
         if (column.method && !has_key_table(column.name)) names.add(column.name);
     return names;
 }
-constexpr Names names_later() {
-    Names names;
+constexpr JoinedNames names_later() {
+    JoinedNames names;
     for (const char* name : kLater) names.add(name);
     return names;
 }
-constexpr Names kNowText = names_now(), kLaterText = names_later();
+constexpr JoinedNames kNowText = names_now(), kLaterText = names_later();
 
 template <std::size_t... kPlaces>
 constexpr std::array<KeyRow, sizeof...(kPlaces)> later_rows(std::index_sequence<kPlaces...>) {

@@ -13,6 +13,15 @@ constexpr KeyField output = field<&Scene::output, Members...>;
 template <auto... Members>
 constexpr KeyField animation = field<&Scene::animation, Members...>;
 
+constexpr JoinedNames layer_names() {
+    JoinedNames names;
+    names.add("radiance");
+    names.add("alpha");
+    for (const LayerFlag& layer : kLayerFlags) names.add(layer.name);
+    return names;
+}
+constexpr JoinedNames kLayerNames = layer_names();
+
 constexpr KeyField kLayers{KeyKind::kTexts,
                            [](const KeySource& s) {
                                std::vector<std::string> names{"radiance", "alpha"};
@@ -127,10 +136,8 @@ constexpr KeyRow kRows[] = {
      ".pfm or .nc"},
     {"output.report", output<&OutputSettings::report>, any(), "",
      "JSON report to write, relative to the scene's folder; empty: none"},
-    {"output.layers", kLayers,
-     one_of("radiance|alpha|depth|error|cloud|optical_depth|transmittance|light|order|reflectance|"
-            "shadow|occlusion"),
-     "", "layers of the picture; radiance and alpha are always there"},
+    {"output.layers", kLayers, one_of(kLayerNames.text), "",
+     "layers of the picture; radiance and alpha are always there"},
     {"animation.frames", animation<&Animation::frames>, from_to(1, 1000000), "",
      "number of pictures"},
     {"animation.camera_orbit_deg", kOrbit, from_to(-36000, 36000), "deg",
