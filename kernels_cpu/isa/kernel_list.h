@@ -2,7 +2,7 @@
 // Every kernel, once. The table, the objects of each instruction set, what a library is built
 // without and the launches of a device are made from these rows.
 // in: PILEUS_RANGE and PILEUS_CALL, which stand undefined at the end -> out: one of them per
-// kernel. docs/architecture.md, "Kernels: written once"; docs/contributing.md, "A kernel"
+// kernel. docs/architecture.md, "Kernels: written once"; docs/contributing.md, "Add a kernel"
 //
 // PILEUS_RANGE(name, Params, Buffers, group, where):
 //     void name(const Params&, const Buffers&, begin, end), both std::uint32_t
