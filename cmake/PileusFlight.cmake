@@ -26,30 +26,10 @@ if(NOT CMAKE_OBJCOPY OR NOT CMAKE_LINKER)
     message(FATAL_ERROR "PILEUS_FLIGHT: needs a linker and objcopy, allowed: GNU binutils")
 endif()
 
-# What reads files, texts and clocks, or shows what no session needs, stays out; src/flight/bare has what
-# stands in its place. The linker drops the rest that no function reaches.
-file(GLOB_RECURSE flight_sources CONFIGURE_DEPENDS "platform/*.cpp" "src/*.cpp")
-foreach(pattern
-        "platform/team/(processors|team_openmp|team_own|team_start|teams)[.]cpp"
-        "platform/(clock|cuda_device|egl|file|file_identity|interrupt|new_file|osmesa|process)[.]cpp"
-        "src/(scene/(keys|checks|toml)|session/flux)/"
-        "src/world/density/(bubbles|cumulus|density_rows|noise_cache|noise_volume|particle_[a-z]*|plume|shapes)[.]cpp"
-        "src/io/(meshes|netcdf|particles|text|volumes)/"
-        "src/io/images/(blocks|exr|exr_guard|image_file|netcdf_picture|pfm|picture|picture_formats|png)[.]cpp"
-        "src/session/(deliver|film|foretell|hand_over|render|stop_rule|verify)[.]cpp"
-        "src/api/c_(clouds|compare|living|world|flight_close)[.]cpp"
-        "src/clouds/"
-        "src/base/(file|output_check|reading_limit|span)[.]cpp"
-        "src/plan/(budget|report_json)[.]cpp"
-        "src/picture/(fading|mix_pictures)[.]cpp"
-        "src/methods/(registry|[a-z_]*/[a-z_]*_(tools|report)|path/film_file|collectors/billboards/gl_billboards)[.]cpp"
-        "src/scene/read_scene[.]cpp"
-        "src/world/(world|sky_picture|camera/places|solids/(depth_file|solid_tree))[.]cpp"
-        "src/flight/measure[.]cpp")
-    list(FILTER flight_sources EXCLUDE REGEX "/${pattern}")
-endforeach()
-
+include(src/flight/files.cmake)
 add_library(pileus_flight_objects OBJECT ${flight_sources} kernels_cpu/isa/dispatch.cpp)
+# Before the headers that they stand for.
+target_include_directories(pileus_flight_objects BEFORE PRIVATE "${PROJECT_SOURCE_DIR}/src/flight/bare")
 target_link_libraries(pileus_flight_objects PRIVATE pileus_flags pileus_headers pileus_nothrow)
 target_compile_definitions(pileus_flight_objects PRIVATE PILEUS_FLIGHT=1 PILEUS_STATIC=1
     PILEUS_VERSION_TEXT="${PROJECT_VERSION}" ${PILEUS_ISA_DEFINITIONS})
@@ -119,6 +99,7 @@ foreach(isa IN LISTS PILEUS_ISA_NAMES)
     endforeach()
     target_compile_options(pileus_flight_${isa} PRIVATE ${flight_options})
     target_compile_definitions(pileus_flight_${isa} PRIVATE PILEUS_FLIGHT=1 ${flight_parts} ${flight_without})
+    target_include_directories(pileus_flight_${isa} BEFORE PRIVATE "${PROJECT_SOURCE_DIR}/src/flight/bare")
     pileus_count_coverage(pileus_flight_${isa})
     target_link_libraries(pileus_flight_${isa} PRIVATE pileus_flags pileus_nothrow)
     set_target_properties(pileus_flight_${isa} PROPERTIES POSITION_INDEPENDENT_CODE OFF

@@ -3,8 +3,8 @@
 // in: density, majorants, lit node grids -> out: planes of pixels.
 // docs/methods.md 3, repair 4, and 4 (closed form per step: S (1 - e^-sigma dt) / sigma).
 #pragma once
+#include "kernels_cpu/core/meshes.h"
 #include "kernels_cpu/core/pixel_block.h"
-#include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/core/sh.h"
 #include "kernels_cpu/display/lit_nodes.h"
 #include "kernels_cpu/display/march_ray.h"
@@ -361,7 +361,7 @@ PILEUS_FN void march_blocks(const MarchParams& k, const MarchBuffers& b, std::ui
     constexpr int across = kMarchAcross<W>;
     for (std::uint32_t y = begin; y < end; y += W / across)
         for (std::int32_t x = 0; x < k.lattice.width; x += across)
-            if (kMeshes && b.visibility != nullptr)
+            if (dimmed_by_meshes(b.visibility))
                 march_pixels<W, true, Constant, Detail>(k, b, x, std::int32_t(y),
                                                         std::int32_t(end));
             else

@@ -4,8 +4,8 @@
 // in: boards, their order in a block of pixels -> out: planes of pixels.
 // Monette and Whitehead 2014, 3.5; docs/particles.md, "Billboards".
 #pragma once
+#include "kernels_cpu/core/meshes.h"
 #include "kernels_cpu/core/pixel_block.h"
-#include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/display/blend_layer.h"
 #include "kernels_cpu/particles/particle_board_params.h"
 #include "kernels_cpu/particles/particle_light.h"
@@ -217,7 +217,7 @@ PILEUS_FN void board_colours(const ParticleMarchParams& k, const ParticleColourB
                     reach, l,
                     s.slope[0] * s.slope[0] + s.slope[1] * s.slope[1] + s.slope[2] * s.slope[2]);
             }
-            set_lane(seen, l, kMeshes && b.seen != nullptr ? b.seen[i] : 1.0f);
+            set_lane(seen, l, dimmed_by_meshes(b.seen) ? b.seen[i] : 1.0f);
             for (int n = 0; n < 3 && b.sky != nullptr; ++n)
                 set_lane(sky[n], l, b.sky[std::uint64_t(n) * b.balls + i]);
         }

@@ -3,7 +3,7 @@
 // in: a tree, lamps -> out: depths from each ball to a lamp; light that balls scatter.
 // Monette and Whitehead 2014, 3.3; docs/particles.md, "Lights".
 #pragma once
-#include "kernels_cpu/core/profile.h"
+#include "kernels_cpu/core/meshes.h"
 #include "kernels_cpu/light/lamp_sphere.h"
 #include "kernels_cpu/particles/particle_light.h"
 #include "kernels_cpu/particles/particle_march.h"
@@ -168,7 +168,7 @@ PILEUS_FN void particle_lamp_light(const ParticleMarchParams& k, const ParticleL
                 for (int order = 0; order < b.orders; ++order)
                     phases[order] = phase_of(order, turn);
             }
-            if (kMeshes && b.seen != nullptr)
+            if (dimmed_by_meshes(b.seen))
                 for (int l = 0; l < W; ++l)
                     set_lane(share, l, lane(share, l) * number(b.seen + at, l));
             T left[3];

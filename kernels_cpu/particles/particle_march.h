@@ -4,8 +4,8 @@
 // in: a tree, depth towards the sun and skylight in every ball -> out: planes of pixels.
 // docs/particles.md, "Display": the optical depth of a bin is exact, that towards the sun a mean.
 #pragma once
+#include "kernels_cpu/core/meshes.h"
 #include "kernels_cpu/core/pixel_block.h"
-#include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/display/pixel_light.h"
 #include "kernels_cpu/particles/particle_walk.h"
 
@@ -151,7 +151,7 @@ PILEUS_FN void add_to_bins(const ParticleMarchParams& k, const ParticleMarchBuff
                          sun.slope[2] * (ball.centre[2] - r.origin.z) - p.along * slope;
         shade = sun.depth - across * ball.per_radius;
     }
-    const float seen = kMeshes && kSees<Kind> && b.seen != nullptr ? b.seen[i] : 1.0f;
+    const float seen = kSees<Kind> && dimmed_by_meshes(b.seen) ? b.seen[i] : 1.0f;
     T start = p.begin;
     const T weight = select(hit, all<T>(ball.depth), T{});
     T before = ball_integral(p.inner, p.begin);
@@ -319,7 +319,7 @@ PILEUS_FN void particle_tile(const ParticleMarchParams& k, const ParticleMarchBu
                 particle_pixels<W, ParticleLit::kTinted>(k, b, tile, x, y);
             else if (k.exact != 0)
                 particle_pixels<W, ParticleLit::kExact>(k, b, tile, x, y);
-            else if (kMeshes && b.seen != nullptr)
+            else if (dimmed_by_meshes(b.seen))
                 particle_pixels<W, ParticleLit::kSeen>(k, b, tile, x, y);
             else
                 particle_pixels<W, ParticleLit::kShade>(k, b, tile, x, y);

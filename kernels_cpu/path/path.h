@@ -4,7 +4,7 @@
 // docs/path.md; null-collision tracking and the look-up as in docs/methods.md 2.
 // Paths and shadow rays are both walks on one grid, so that lanes of either kind share each step.
 #pragma once
-#include "kernels_cpu/core/profile.h"
+#include "kernels_cpu/core/meshes.h"
 #include "kernels_cpu/path/path_start.h"
 
 namespace pileus {
@@ -223,7 +223,7 @@ template <int W>
 PILEUS_FN void trace_paths_guided(const PathParams& k, const PathBuffers& b, std::uint32_t begin,
                                   std::uint32_t end) {
 #ifndef __CUDACC__
-    if ((kMeshes && k.solids.count > 0) || k.camera_depth != nullptr)
+    if (has_meshes(k.solids) || k.camera_depth != nullptr)
         return trace_paths<W, kAmongSolids | kSeekingSun>(k, b, begin, end);
 #endif
     trace_paths<W, kSeekingSun>(k, b, begin, end);
@@ -233,7 +233,7 @@ PILEUS_FN void trace_paths_guided(const PathParams& k, const PathBuffers& b, std
 template <int W>
 PILEUS_FN void trace_paths_lamps(const PathParams& k, const PathBuffers& b, std::uint32_t begin,
                                  std::uint32_t end) {
-    if ((kMeshes && k.solids.count > 0) || k.camera_depth != nullptr)
+    if (has_meshes(k.solids) || k.camera_depth != nullptr)
         trace_paths<W, kAmongSolids | kSeekingSun | kLitByLamps>(k, b, begin, end);
     else
         trace_paths<W, kSeekingSun | kLitByLamps>(k, b, begin, end);

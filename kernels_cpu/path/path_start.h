@@ -3,7 +3,7 @@
 // meet. in: numbers of samples -> out: walkers that stand at medium; light of rays that meet none.
 // docs/path.md, "How it runs": a lane that falls free takes one ray over.
 #pragma once
-#include "kernels_cpu/core/profile.h"
+#include "kernels_cpu/core/meshes.h"
 #include "kernels_cpu/path/path_vertex.h"
 
 namespace pileus {
@@ -153,7 +153,7 @@ PILEUS_FN void aim_at_solids(FreshPaths<W, K>& f, const PathParams& k, M<W> m) {
         f.wall = select(hidden, depth, f.wall);
         limit = min_(limit, depth);
     }
-    if (kMeshes && k.solids.count > 0) {
+    if (has_meshes(k.solids)) {
         const SolidHit<T> hit = hit_solids(k.solids, f.origin, f.flight.d, limit, m);
         f.piece = select(hit.triangle >= 0, hit.triangle, f.piece);
         f.wall = select(hit.triangle >= 0, hit.distance, f.wall);

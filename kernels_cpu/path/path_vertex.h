@@ -3,7 +3,7 @@
 // in: lanes whose flight has ended -> out: lanes due for the next flight, radiance added.
 // docs/path.md: next-event estimation; sky maps by the balance heuristic (Veach 1997, 9.2).
 #pragma once
-#include "kernels_cpu/core/profile.h"
+#include "kernels_cpu/core/meshes.h"
 #include "kernels_cpu/light/lambert.h"
 #include "kernels_cpu/path/path_guide.h"
 #include "kernels_cpu/path/path_lamps.h"
@@ -252,7 +252,7 @@ PILEUS_FN M<W> leave_media(PathLanes<W, NC, K>& s, const PathParams& k, PathTall
         solid = m & (s.piece >= 0);
         end_paths(s, m & (s.piece == kImageWall));
         m = m & (s.piece == kNoWall);
-        if (kMeshes && any(solid)) reflect_at_solid(s, k, tally, solid);
+        if (has_meshes(k.solids) && any(solid)) reflect_at_solid(s, k, tally, solid);
     }
     if (k.ground != 0) {
         const auto metres = [&](T v, int a) { return select(s.outside, v, v * k.grid.cell[a]); };

@@ -6,9 +6,9 @@
 #include "kernels_cpu/core/accumulate.h"
 #include "kernels_cpu/core/fixed.h"
 #include "kernels_cpu/core/pack.h"
-#include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/core/sh.h"
 #include "kernels_cpu/photons/meter_params.h"
+#include "kernels_cpu/photons/meters.h"
 #include "kernels_cpu/photons/trace_start.h"
 
 namespace pileus {
@@ -206,7 +206,7 @@ PILEUS_FN void deposit(const TraceParams& k, const TraceBuffers& b, DepositQueue
     }
     if (!any(m)) return;
 
-    if (kMeters && k.mode == kDepositAbsorbed) {
+    if (is_metered(k)) {
         for (int c = 0; c < NC; ++c) {
             const T lost = absorbed_share<W>(k, b, corner, density, c);
             const I<W> quanta = quantise(value * s.weight[c] * lost, k.scale);

@@ -5,7 +5,8 @@
 // Each lane carries one photon and takes the next when it dies; random numbers belong to
 // (photon, event), so neither lanes nor threads can change a result.
 #pragma once
-#include "kernels_cpu/core/profile.h"
+#include "kernels_cpu/core/meshes.h"
+#include "kernels_cpu/photons/meters.h"
 #include "kernels_cpu/photons/trace_solids.h"
 
 namespace pileus {
@@ -46,8 +47,7 @@ PILEUS_FN void advance(Group<W, NC, S>& g, const TraceParams& k, const TraceBuff
     fetch_ahead<W>(k.grid.density, g.corner);
     if constexpr (Cells) {
         g.voxel = select(g.hits, cell_of(s.p, k), I<W>{});
-    } else if (k.mode == kDepositIncident || k.mode == kDepositCamera ||
-               (kMeters && k.mode == kDepositAbsorbed)) {
+    } else if (k.mode == kDepositIncident || k.mode == kDepositCamera || is_metered(k)) {
         g.voxel = select(g.hits, voxel_of(s.p, k.grid), I<W>{});
         fetch_ahead<W>(b.collector, g.voxel);
     }
@@ -183,7 +183,7 @@ PILEUS_FN void trace_solids(const TraceParams& k, const TraceBuffers& b, std::ui
 template <int W>
 PILEUS_FN void trace_cells(const TraceParams& k, const TraceBuffers& b, std::uint32_t begin,
                            std::uint32_t end) {
-    if (kMeshes && k.solids.count > 0)
+    if (has_meshes(k.solids))
         trace<W, true, true>(k, b, begin, end);
     else
         trace<W, false, true>(k, b, begin, end);

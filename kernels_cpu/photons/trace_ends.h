@@ -5,8 +5,8 @@
 #pragma once
 #include "kernels_cpu/core/accumulate.h"
 #include "kernels_cpu/core/fixed.h"
-#include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/photons/meter.h"
+#include "kernels_cpu/photons/meters.h"
 #include "kernels_cpu/photons/trace_walk.h"
 #include "kernels_cpu/solids/solids.h"
 
@@ -159,7 +159,7 @@ template <int W, int NC, bool S>
 PILEUS_FN void leave_box(Photon<W, NC, S>& s, const TraceParams& k, const TraceBuffers& b, M<W> m,
                          M<W> by_z) {
     TraceTally& tally = *b.tally;
-    if (kMeters && k.mode == kDepositAbsorbed) {
+    if (is_metered(k)) {
         const M<W> up = s.inverse.z > 0.0f;
         meter_exits(s, k, b, m & by_z & up, m & by_z & lnot(up));
     }

@@ -3,7 +3,7 @@
 // in: a field, light, a stretch of a ray -> out: light, transmittance and depth added to a sum.
 // Palenik 2016, 3.1 and chapter 4; docs/raymarch.md, "Integrators".
 #pragma once
-#include "kernels_cpu/core/profile.h"
+#include "kernels_cpu/core/meshes.h"
 #include "kernels_cpu/display/pixel_light.h"
 #include "kernels_cpu/raymarch/raymarch_light.h"
 #include "kernels_cpu/raymarch/raymarch_steps.h"
@@ -55,7 +55,7 @@ PILEUS_FN RaySample<T> take_sample(const RaymarchParams& k, const RaymarchBuffer
         tau =
             sunlight_at(k, b.optical_depth, field, place, s.density, dense, r.turn, counts, light);
     T factor = all<T>(1.0f);
-    if (kMeshes && b.visibility != nullptr) {
+    if (dimmed_by_meshes(b.visibility)) {
         const bool wraps = k.medium.periodic != 0;
         const Vec<T> node = node_position(k.visibility, reduced(k.medium, place));
         // A layer to the horizon goes on beyond its nodes: nothing is known of shadows there.

@@ -4,7 +4,7 @@
 // Woop, Benthin, Wald 2013, "Watertight ray/triangle intersection"; docs/solids.md.
 // Rays of different lanes part ways at once: each walks the tree alone.
 #pragma once
-#include "kernels_cpu/core/profile.h"
+#include "kernels_cpu/core/meshes.h"
 #include "kernels_cpu/core/vec.h"
 #include "kernels_cpu/solids/solids_params.h"
 
@@ -223,17 +223,15 @@ template <class T>
 PILEUS_FN SolidHit<T> hit_solids(const SolidsView& s, const Vec<T>& o, const Vec<T>& d, T limit,
                                  M_of<T> m) {
     SolidHit<T> hit{all<T>(__builtin_inff()), all<I_of<T>>(-1)};
-    if constexpr (kMeshes) {
-        for (std::uint32_t lanes = s.count > 0 ? bits_of(m) : 0u; lanes != 0; lanes &= lanes - 1) {
-            const int i = lowest_bit(lanes);
-            const float from[3] = {lane(o.x, i), lane(o.y, i), lane(o.z, i)};
-            const float along[3] = {lane(d.x, i), lane(d.y, i), lane(d.z, i)};
-            float distance = 0;
-            const std::int32_t found = nearest_solid(s, from, along, lane(limit, i), distance);
-            if (found < 0) continue;
-            set_lane(hit.distance, i, distance);
-            set_lane(hit.triangle, i, found);
-        }
+    for (std::uint32_t lanes = has_meshes(s) ? bits_of(m) : 0u; lanes != 0; lanes &= lanes - 1) {
+        const int i = lowest_bit(lanes);
+        const float from[3] = {lane(o.x, i), lane(o.y, i), lane(o.z, i)};
+        const float along[3] = {lane(d.x, i), lane(d.y, i), lane(d.z, i)};
+        float distance = 0;
+        const std::int32_t found = nearest_solid(s, from, along, lane(limit, i), distance);
+        if (found < 0) continue;
+        set_lane(hit.distance, i, distance);
+        set_lane(hit.triangle, i, found);
     }
     return hit;
 }
@@ -243,13 +241,11 @@ template <class T>
 PILEUS_FN M_of<T> behind_solids(const SolidsView& s, const Vec<T>& o, const Vec<T>& d, T limit,
                                 M_of<T> m) {
     I_of<T> blocked{};
-    if constexpr (kMeshes) {
-        for (std::uint32_t lanes = s.count > 0 ? bits_of(m) : 0u; lanes != 0; lanes &= lanes - 1) {
-            const int i = lowest_bit(lanes);
-            const float from[3] = {lane(o.x, i), lane(o.y, i), lane(o.z, i)};
-            const float along[3] = {lane(d.x, i), lane(d.y, i), lane(d.z, i)};
-            set_lane(blocked, i, solid_between(s, from, along, lane(limit, i)) ? 1 : 0);
-        }
+    for (std::uint32_t lanes = has_meshes(s) ? bits_of(m) : 0u; lanes != 0; lanes &= lanes - 1) {
+        const int i = lowest_bit(lanes);
+        const float from[3] = {lane(o.x, i), lane(o.y, i), lane(o.z, i)};
+        const float along[3] = {lane(d.x, i), lane(d.y, i), lane(d.z, i)};
+        set_lane(blocked, i, solid_between(s, from, along, lane(limit, i)) ? 1 : 0);
     }
     return blocked > 0;
 }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // pileus.h: light, pictures, and what a session tells.
-#include "kernels_cpu/core/profile.h"
 #include "src/api/c_types.h"
+#include "src/flight/flight.h"
 #include "src/plan/report_json.h"
 #include "src/scene/toml/toml_tree.h"
 #include "src/session/warnings.h"
@@ -136,12 +136,8 @@ pileus_code pileus_session_stats(const pileus_session* session, pileus_stats* st
         out.render_s = counted.render_s;
         out.stages_s = counted.stages_s;
         out.shared_bytes = bytes_of_world(session->session->world());
-        const std::uint64_t peak = kPlans ? session->session->plan().memory.peak()
-                                          : session->host->block->use().kept_bytes;
-        // A block does not keep a world that is read in place.
-        const bool apart = !kPlans && session->flight->in_place;
-        const std::uint64_t world = apart ? 0 : out.shared_bytes;
-        out.own_bytes = peak > world ? peak - world : 0;
+        out.own_bytes = own_bytes(*session->session, session->host->block, session->flight.get(),
+                                  out.shared_bytes);
         return give(out, stats, "stats");
     });
 }

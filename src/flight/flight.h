@@ -8,6 +8,8 @@
 
 namespace pileus {
 
+class Block;
+
 /// Unpacks the scene, prepares its method, takes what memory any work and any kind of picture may
 /// need, and traces light for a first picture. The session points into `packed`. `in_place`: arrays
 /// stay where they lie in `scene`. `depth`: leaves room for depth images. Errors: those of
@@ -30,5 +32,10 @@ struct FlightNeed {
 
 /// Opens the scene in a block of its own and draws some frames. Errors: those of sessions.
 Status measure_flight(const std::string& packed, const RenderOptions& options, FlightNeed& need);
+
+/// Bytes beside a world of so many: by the plan, or in a flight library, which has none, by the
+/// block. `block`, `packed`: null where there is no flight.
+std::uint64_t own_bytes(const Session& session, const Block* block, const Packed* packed,
+                        std::uint64_t world_bytes);
 
 }  // namespace pileus

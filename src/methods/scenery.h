@@ -40,6 +40,11 @@ Status open_method(const MethodRow& row, const MadeMethod& made, const Context& 
 /// of memory or of work.
 Status make_plan(const MadeMethod& made, const Context& context, Scenery& scenery, Plan& plan);
 
+/// A world of the scene alone, as far as sizes tell.
+Status outline_own_world(const Scene& scene, WorldUse use, const Context& context,
+                         std::shared_ptr<World>& world);
+/// Of all frames of its film.
+Status check_all_frames(const Scenery& scenery);
 /// Places of media that hosts and files may not give them, of a frame of a scene whose ground is
 /// `rest` where no key moves it.
 Status check_placed_media(const Scenery& scenery, const Ground& rest, int frame);

@@ -4,7 +4,6 @@
 // docs/methods.md 3, each image frame, steps 4 and 5; repairs 3 and 4.
 #include "src/photons/lit_march.h"
 
-#include "kernels_cpu/core/profile.h"
 #include "platform/threads.h"
 #include "src/methods/scenery.h"
 #include "src/picture/background.h"
@@ -12,6 +11,7 @@
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/node_rows.h"
 #include "src/picture/nodes/solid_shadow.h"
+#include "src/run/on_device.h"
 #include "src/world/camera/view.h"
 
 namespace pileus {
@@ -52,7 +52,7 @@ Status make_sun_shadow(const Context& context, const FrameView& view, PhotonStat
     const std::vector<int> due = follow_sun(turn_of(view, state), shadow.slices);
     ShadowBuffers b{shadow.depth.data()};
     std::vector<NodeRange> rows;
-    if (!due.empty() && (!kDevices || context.kernels->device == nullptr)) {
+    if (!due.empty() && !on_device(context.kernels->device)) {
         rows = nodes_in_medium(k.nodes, k.medium);
         b.rows = rows.data();
     }
@@ -61,7 +61,7 @@ Status make_sun_shadow(const Context& context, const FrameView& view, PhotonStat
         for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = sun[a];
         PILEUS_TRY(make_shadow_slice(context, k, b, slice, shadow.light_refresh));
     }
-    if (kMeshes && lighting.solids != nullptr && !shadow.ready)
+    if (lighting.solids != nullptr && !shadow.ready)
         PILEUS_TRY(solid_visibility(context, *lighting.solids, shadow.nodes, lighting.to_sun,
                                     shadow.visibility));
     if (deposit.peak_turn > 0 && shadow.beam.sets == 0)
@@ -157,8 +157,7 @@ private:
 }  // namespace
 
 bool reads_quads(const Context& context, int channels, const NodeGrid& nodes) {
-    return channels == 3 && node_count(nodes) > 1 &&
-           (!kDevices || context.kernels->device == nullptr);
+    return channels == 3 && node_count(nodes) > 1 && !on_device(context.kernels->device);
 }
 
 const float* sun_depths_at(const SunShadow& shadow, const NodeGrid& nodes) {
@@ -211,27 +210,6 @@ LateRows* late_photons(LateRows* late, const FrameView& view, const CameraParams
                         view.frame);
 }
 
-Status check_thinned(const Context& context, const Scene& scene, const char* method,
-                     const PhotonState& state) {
-    const UpsampleSettings& thin = state.picture.thin;
-    PILEUS_TRY(check_upsampling(scene, method, thin));
-    if (thin.every() == 1) return Status::ok();
-    const std::string key =
-        scene.file + ": " + method + (thin.temporal > 0 ? ".temporal: " : ".scale: ");
-    const OutputSettings& output = scene.output;
-    const char* layer = state.error_layer    ? "error"
-                        : output.layer_light ? "light"
-                        : output.layer_order ? "order"
-                                             : nullptr;
-    if (layer != nullptr)
-        return Status::bad_input(key + "the layer \"" + layer +
-                                 "\" has every pixel marched, allowed: none of both, or no such "
-                                 "layer");
-    if (kDevices && context.kernels->device != nullptr)
-        return Status::bad_input(key + "for the host alone, allowed: another --isa, or none");
-    return Status::ok();
-}
-
 void add_picture_rows(const Context& context, const FrameView& view, const PhotonState& state,
                       MemoryTable& table) {
     const auto& size = view.scene.camera.resolution;
@@ -261,9 +239,8 @@ MarchParams lit_march_params(const FrameView& view, const PhotonState& state, co
         for (std::size_t c = 0; c < 3 && state.lights.deposit.first_order == 2; ++c)
             k.sun_source[i][c] = float(light.sun_irradiance[c] * double(optics.albedo[c]));
     }
-    k.beam_sets = (kFilms && lit.first_order_alone) || state.lights.deposit.first_order != 2
-                      ? 0
-                      : state.shadow.beam.sets;
+    k.beam_sets =
+        lit.first_order_alone || state.lights.deposit.first_order != 2 ? 0 : state.shadow.beam.sets;
     for (int c = 0; c < 3; ++c) k.beam_rest[c] = state.shadow.beam.rest[c];
     k.shadow = state.shadow.nodes;
     k.source = source;
@@ -327,7 +304,7 @@ Status add_lit_lamps(const Context& context, const FrameView& view, PhotonState&
 
 Status fill_lit_background(const Context& context, const FrameView& view, PhotonState& state,
                            const LightInput& lit, int batch, Planes& planes) {
-    if (kClouds && state.picture.alone) return show_nothing_behind(planes);
+    if (state.picture.alone) return show_nothing_behind(planes);
     const std::uint64_t pixels = std::uint64_t(lit.camera.width) * std::uint64_t(lit.camera.height);
     PILEUS_TRY(make_ground_shadow(context, view.world.medium, medium_of(view, state),
                                   state.lights.lighting, pixels, turn_of(view, state),
@@ -348,40 +325,6 @@ Status fill_lit_background(const Context& context, const FrameView& view, Photon
     read_ground_shadow(state.picture.ground_shadow, k, b);
     if (planes.late != nullptr) return leave_background(context, k, b, *planes.late);
     return show_background(context, light, k, b);
-}
-
-Status add_ground_noise(const Context& context, const FrameView& view, PhotonState& state,
-                        const LightInput& lit, Planes& planes) {
-    if (lit.batches < 2 || state.lights.ground_map.cells == 0) return Status::ok();
-    // What is the same in every batch has no spread: sky, and the ground's light without the media.
-    Lighting scattered = *lit.lighting;
-    scattered.sky = scattered.ground_diffuse = scattered.ground_sun = {};
-    scattered.sun_irradiance = {};
-    scattered.map = SkyMapView{};
-    LightInput alone = lit;
-    alone.lighting = &scattered;
-    const std::size_t pixels = planes.transmittance.size();
-    Planes part;
-    PILEUS_TRY(allocate(arrays::batch_background(pixels), part.background));
-    for (int b = 1; b <= lit.batches; ++b) {
-        PILEUS_TRY(fill_lit_background(context, view, state, alone, b, part));
-        float* colour = planes.colour.data() + std::size_t(3 * b) * pixels;
-        for (std::size_t i = 0; i < 3 * pixels; ++i)
-            colour[i] += planes.transmittance[i % pixels] * part.background[i];
-    }
-    return Status::ok();
-}
-
-Status show_optical_depth(const Context& context, const FrameView& view, const PhotonState& state,
-                          const LightInput& lit, Planes& planes) {
-    const Lighting& light = *lit.lighting;
-    Planes part;
-    PILEUS_TRY(
-        allocate_planes(lit.camera.width, lit.camera.height, 0, light.opaque(), false, part));
-    PILEUS_TRY(march_medium(context, view.world.medium, state.majorants, light, lit.camera,
-                            {false, true}, part));
-    planes.optical_depth.swap(part.optical_depth);
-    return Status::ok();
 }
 
 }  // namespace pileus

@@ -2,7 +2,6 @@
 // Which lights shoot photons, how many each, and what becomes of them when frames change them.
 // in: a view of a frame -> out: PhotonLights.
 // docs/methods.md 3, each image frame, step 1.
-#include "kernels_cpu/core/profile.h"
 #include "src/photons/photon_state.h"
 #include "src/scene/frames.h"
 #include "src/world/camera/view.h"
@@ -21,7 +20,7 @@ constexpr double kLeastPeak = 0.3;
 SunPlace first_place(const FrameView& view) {
     const Scene& scene = view.scene;
     SunPlace own = place_of(scene.sun);
-    if (kFilms && scene.ground.present && own.elevation_deg <= 0 && moves_sun(scene))
+    if (scene.ground.present && own.elevation_deg <= 0 && moves_sun(scene))
         own.elevation_deg = highest_sun(scene, view.rest->sun);
     return own;
 }

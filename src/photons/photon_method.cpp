@@ -4,7 +4,6 @@
 // docs/collectors.md
 #include "src/photons/photon_method.h"
 
-#include "kernels_cpu/core/profile.h"
 #include "src/methods/most_units.h"
 #include "src/photons/lit_march.h"
 #include "src/photons/photon_report.h"
@@ -60,7 +59,7 @@ Status PhotonMethod::relight(const Context& context, const FrameView& view, bool
 
 Status PhotonMethod::set_view(const Context& context, const FrameView& view,
                               const ViewChange& change) {
-    if (!kFilms || shared_.hosted) return relight(context, view, change.new_sky);
+    if (shared_.hosted) return relight(context, view, change.new_sky);
     follow_lights(view, shared_);
     return Status::ok();
 }
@@ -93,10 +92,10 @@ Status PhotonMethod::render(const Context& context, const FrameView& view, const
                             Planes*& planes) {
     PhotonPicture& picture = shared_.picture;
     picture.frame = view.frame;
-    picture.turn = !kFilms || shared_.hosted ? picture.turn + 1 : view.frame;
+    picture.turn = shared_.hosted ? picture.turn + 1 : view.frame;
     picture.alone = ask.media_only;
-    if (kFilms && !shared_.hosted) settle_ring(shared_);
-    const double orbit_deg = kFilms ? orbit_at(view.scene, view.frame) : 0;
+    if (!shared_.hosted) settle_ring(shared_);
+    const double orbit_deg = orbit_at(view.scene, view.frame);
     const CameraParams camera = make_camera(view.scene.camera, orbit_deg, view.world.medium.low_m);
     planes = &picture.planes;
     picture.planes.clamped = 0;

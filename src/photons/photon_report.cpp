@@ -4,7 +4,6 @@
 // docs/report.md.
 #include "src/photons/photon_report.h"
 
-#include "kernels_cpu/core/profile.h"
 #include "platform/threads.h"
 #include "src/base/digest.h"
 #include "src/world/plan_parts.h"
@@ -46,13 +45,6 @@ EnergyRow energy_row(const std::string& light, const Fates& f) {
     return row;
 }
 
-/// Photons that a fate stands for, in the channel that has most of it.
-std::uint64_t photons_in(const std::int64_t (&fate)[3]) {
-    std::int64_t most = 0;
-    for (const std::int64_t quanta : fate) most = quanta > most ? quanta : most;
-    return std::uint64_t((most + kPhotonQuanta - 1) / kPhotonQuanta);
-}
-
 /// Whole numbers, in the same order whether they are packed or not.
 std::uint64_t digest_of(const PhotonSlot& slot) {
     Digest d;
@@ -86,23 +78,6 @@ std::string photon_digest(const Photons& photons) {
     for (const PhotonSlot& slot : photons.slots)
         d.u64(slot.digested == slot.serial ? slot.digest : digest_of(slot));
     return d.hex();
-}
-
-namespace {
-
-TraceTally tally_of(const PhotonRing& ring) {
-    TraceTally all{};
-    for (const TraceTally& tally : ring.photons.tallies) add_tally(tally, all);
-    return all;
-}
-
-}  // namespace
-
-void count_photons(const PhotonRing& ring, Counts& counters) {
-    const TraceTally all = tally_of(ring);
-    counters.emplace_back("majorant_violations", std::uint64_t(all.majorant_violations));
-    counters.emplace_back("saturated", 0);  // fixed_point_places proves it
-    counters.emplace_back("terminated", photons_in(all.light.terminated));
 }
 
 void report_photons(const PhotonState& state, Report& report) {
@@ -212,32 +187,6 @@ void photon_budget_used(int frame, const PhotonState& state, const Report& repor
     // A film's ring counts on from frame to frame; its length is that of the first one.
     const bool ring = state.ring.animated && state.ring.on;
     used.generations = std::int64_t(report.photons.generations) - (ring ? frame : 0);
-}
-
-void bound_ledgers(double photons, double max_events, Plan& plan) {
-    plan.bounds.resize(1);
-    // A photon may die twice, the second time as the ground's missing light.
-    SumBound ledger[] = {deposit_bound("energy of a fate", 2 * photons, 1, 20),
-                         deposit_bound("path of all photons", 2 * photons, 2147483520.0, 0),
-                         deposit_bound("scatterings", photons * max_events, 1, 0)};
-    for (SumBound& bound : ledger) {
-        bound.allowed = 0x1p63;
-        plan.bounds.push_back(bound);
-    }
-}
-
-Status check_bounds(const Plan& plan, const std::string& file, const char* key) {
-    for (const SumBound& bound : plan.bounds)
-        if (!(bound.worst < bound.allowed))
-            return Status::limit(file + ": " + key + ": the sum \"" + bound.sum +
-                                 "\" could overflow 64 bits; take fewer");
-    return Status::ok();
-}
-
-std::uint64_t photons_of_run(const PhotonState& state, const Context& context) {
-    std::uint64_t generation = 0;
-    for (const Light& light : state.lights.lighting.lights) generation += light.photons;
-    return bytes_of(generation, state.ring.generations + context.frames - 1);
 }
 
 }  // namespace pileus

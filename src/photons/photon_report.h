@@ -13,6 +13,9 @@ void digest_photons(int threads, Photons& photons);
 /// Of the digests of all slots.
 std::string photon_digest(const Photons& photons);
 
+/// Of all lights.
+TraceTally tally_of(const PhotonRing& ring);
+
 void count_photons(const PhotonRing& ring, Counts& counters);
 
 /// Fills generations, energy and events.

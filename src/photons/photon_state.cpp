@@ -4,10 +4,6 @@
 // docs/methods.md 3, "Generations and error".
 #include "src/photons/photon_state.h"
 
-#include <algorithm>
-
-#include "kernels_cpu/core/profile.h"
-
 namespace pileus {
 namespace {
 
@@ -40,7 +36,7 @@ Status shoot_packed(const TraceInput& in, std::size_t number, const std::vector<
                                                ring.sum);
                                 }));
     ring.interrupted = photons.slots[number].generations == 0;
-    if (kStops && ring.interrupted)
+    if (ring.interrupted)
         drop_shot(shot, in.threads, photons, ring.sum);
     else
         end_shot(shot, photons, ring.sum);
@@ -71,11 +67,10 @@ Status sum_ring(const TraceInput& in, PhotonState& state) {
 std::uint64_t photon_slots(const PhotonState& state) {
     const PhotonRing& ring = state.ring;
     if (ring.on && ring.many_frames) return ring.generations;
-    return kFilms && state.error_layer ? batch_count(ring.generations) : 1;
+    return state.error_layer ? batch_count(ring.generations) : 1;
 }
 
 int photon_batches(const PhotonState& state) {
-    if (!kFilms) return 0;
     const PhotonRing& ring = state.ring;
     std::uint64_t slots = photon_slots(state);
     // Tracing that ended early has left slots without a generation.
@@ -136,18 +131,6 @@ void restart_photons(int threads, std::uint64_t first, PhotonState& state) {
     ring.fresh = ring.on;
 }
 
-void settle_ring(PhotonState& state) {
-    PhotonRing& ring = state.ring;
-    std::vector<PhotonSlot>& slots = ring.photons.slots;
-    if (ring.fresh && ring.next_generation - ring.begin < slots.size()) {
-        ring.first = ring.begin;
-        ring.sum.counted.clear();
-        std::rotate(slots.begin(), slots.begin() + std::ptrdiff_t(ring.first % slots.size()),
-                    slots.end());
-    }
-    ring.fresh = false;
-}
-
 Status shoot_generation(const Context& context, TraceInput in, PhotonState& state) {
     PhotonRing& ring = state.ring;
     in.ended = patient_stop(context);
@@ -170,7 +153,7 @@ Status shoot_generation(const Context& context, TraceInput in, PhotonState& stat
             trace_generation(in, ring.next_generation, ring.scratch, slot, ring.photons.tallies));
         ring.interrupted = slot.generations == before;
     }
-    if (!kStops || !ring.interrupted) ++ring.next_generation;
+    if (!ring.interrupted) ++ring.next_generation;
     return Status::ok();
 }
 

@@ -126,6 +126,9 @@ void restart_photons(int threads, std::uint64_t first, PhotonState& state);
 /// first slot, so that no gap lies before it.
 void settle_ring(PhotonState& state);
 
+/// The digest of what a picture is made from, where a report wants it.
+void note_colours(const Context& context, Span<const float> light, PhotonState& state);
+
 /// Shoots one generation into its slot, in a ring in place of the oldest; sets `interrupted` where
 /// the user ended it within.
 Status shoot_generation(const Context& context, TraceInput in, PhotonState& state);

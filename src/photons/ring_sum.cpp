@@ -2,8 +2,8 @@
 // See ring_sum.h.
 #include "src/photons/ring_sum.h"
 
-#include "kernels_cpu/core/profile.h"
 #include "platform/threads.h"
+#include "src/run/on_device.h"
 
 namespace pileus {
 namespace {
@@ -42,7 +42,7 @@ double unit_beside(const Photons& photons, std::size_t light, std::size_t but) {
 
 /// The table that packs; beside a device it is the host's.
 const KernelTable& packing_kernels(const RingWork& work) {
-    return !kDevices || work.kernels->device == nullptr ? *work.kernels : *kernel_table(nullptr);
+    return !on_device(work.kernels->device) ? *work.kernels : *kernel_table(nullptr);
 }
 
 /// A number of the ground in units of 2^coarser, halves away from zero.

@@ -3,11 +3,12 @@
 #include "src/photons/trace.h"
 
 #include "kernels_cpu/core/accumulate.h"
-#include "kernels_cpu/core/profile.h"
+#include "kernels_cpu/core/meshes.h"
 #include "platform/threads.h"
 #include "src/base/random_streams.h"
 #include "src/run/context.h"
 #include "src/run/device_launch.h"
+#include "src/run/on_device.h"
 #include "src/world/majorant/majorant.h"
 #include "src/world/solids/solids.h"
 
@@ -24,7 +25,7 @@ std::uint64_t collector_numbers(const TraceInput& in) {
 
 /// Whether photons add to one set of sums: no other thread does, or all do it atomically.
 bool adds_directly(const TraceInput& in) {
-    return in.threads == 1 || in.shared_sums || (kDevices && in.kernels->device != nullptr);
+    return in.threads == 1 || in.shared_sums || on_device(in.kernels->device);
 }
 
 /// `count` photons of one light that share the high half of their index.
@@ -66,7 +67,7 @@ Status run_on_device(const Launch& launch) {
 
 /// `ended`: not all photons ran, because the input said so.
 Status run_launch(const Launch& launch, int threads, bool& ended) {
-    if (kDevices && launch.in->kernels->device != nullptr) return run_on_device(launch);
+    if (on_device(launch.in->kernels->device)) return run_on_device(launch);
     const std::uint64_t pieces = (launch.count + kChunk - 1) / kChunk;
     if (launch.in->shared_sums && !kSharesSums) threads = 1;
     ended = !run_until(
@@ -111,7 +112,7 @@ void add_fates(const Fates& from, Fates& to) {
 
 TraceKernel trace_kernel(const KernelTable& kernels, const TraceParams& k) {
     if (k.cells[0] > 0) return kernels.trace_cells;
-    return kMeshes && k.solids.count > 0 ? kernels.trace_solids : kernels.trace;
+    return has_meshes(k.solids) ? kernels.trace_solids : kernels.trace;
 }
 
 TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_t generation) {
@@ -158,7 +159,7 @@ TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_
     k.scale = float(std::uint64_t{1} << in.deposit.places);
     k.path_scale = float(path_units(m) / __builtin_sqrt(diagonal));
     k.orthographic = in.deposit.orthographic ? 1 : 0;
-    if (kMeshes && in.lighting->solids != nullptr) k.solids = in.lighting->solids->view();
+    if (in.lighting->solids != nullptr) k.solids = in.lighting->solids->view();
     const Key shift = make_key(in.seed, shift_stream(light.stream), std::uint32_t(generation));
     k.shift[0] = shift.k0;
     k.shift[1] = shift.k1;

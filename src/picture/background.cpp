@@ -2,7 +2,6 @@
 // See background.h.
 #include "src/picture/background.h"
 
-#include "kernels_cpu/core/profile.h"
 #include "src/base/angles.h"
 #include "src/world/solids/camera_depth.h"
 #include "src/world/solids/solids.h"
@@ -122,23 +121,19 @@ Status show_nothing_behind(Planes& planes) {
 
 namespace {
 
-bool has_meshes(const Lighting& light) {
-    return light.solids != nullptr && !light.solids->triangles.empty();
-}
+bool has_meshes(const Lighting& light) { return light.solids != nullptr && !light.solids->empty(); }
 bool has_image(const Lighting& light) {
     return light.depth != nullptr && !light.depth->metres.empty();
 }
 
 }  // namespace
 
-bool has_surfaces(const Lighting& light) {
-    return (kMeshes && has_meshes(light)) || has_image(light);
-}
+bool has_surfaces(const Lighting& light) { return has_meshes(light) || has_image(light); }
 
 Status show_background(const Context& context, const Lighting& light, const BackgroundParams& k,
                        const BackgroundBuffers& b) {
     const std::uint32_t rows = std::uint32_t(k.camera.height);
-    if (!kMeshes || !has_meshes(light)) {
+    if (!has_meshes(light)) {
         PILEUS_TRY(run_rows(context, context.kernels->background_rows, k, b, rows));
     } else {
         SolidRowsParams params{};

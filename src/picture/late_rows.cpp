@@ -2,10 +2,10 @@
 // See late_rows.h.
 #include "src/picture/late_rows.h"
 
-#include "kernels_cpu/core/profile.h"
 #include "platform/threads.h"
 #include "src/io/images/srgb.h"
 #include "src/picture/background.h"
+#include "src/run/on_device.h"
 #include "src/world/medium/medium.h"
 
 namespace pileus {
@@ -49,7 +49,7 @@ void leave_upsampling(const UpsampleParams& k, const UpsampleBuffers& b, LateRow
 
 bool is_late(const PixelTarget& target, const KernelTable& kernels) {
     return target.format == PixelFormat::kRgba8Srgb && target.blend == PixelBlend::kReplace &&
-           kernels.finish_rows != nullptr && (!kDevices || kernels.device == nullptr);
+           kernels.finish_rows != nullptr && !on_device(kernels.device);
 }
 
 Status finish_picture(const Context& context, const Planes& planes, int width, int height,

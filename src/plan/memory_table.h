@@ -9,8 +9,6 @@
 #include <string>
 #include <vector>
 
-#include "kernels_cpu/core/profile.h"
-
 namespace pileus {
 
 /// In the order in which a picture walks through them.
@@ -48,7 +46,7 @@ public:
     /// Adds an array that lives from the start of `first` to the end of `last`. A row without
     /// bytes is kept out: what is not there is not listed.
     void add(const char* item, Stage first, Stage last, std::uint64_t bytes) {
-        if (kPlans && bytes > 0) rows_.push_back({item, first, last, bytes});
+        if (bytes > 0) rows_.push_back({item, first, last, bytes});
     }
     const std::vector<MemoryRow>& rows() const { return rows_; }
     std::uint64_t live(Stage stage) const;

@@ -7,17 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "kernels_cpu/core/profile.h"
 #include "src/base/limits.h"
 #include "src/plan/accumulation.h"
 #include "src/plan/memory_table.h"
+#include "src/plan/plan_lists.h"
 #include "src/plan/work.h"
 
 namespace pileus {
-
-struct LeftOut {
-    std::string what, why;
-};
 
 /// What a picture's sums stay below, whatever the photons do.
 constexpr double kLargestSum = 0x1p62;
@@ -49,9 +45,7 @@ struct ForetoldTime {
     double first_s = 0, next_s = 0;  ///< the first frame with its preparation, each further one
 };
 
-struct Plan {
-    std::vector<std::string> needed;
-    std::vector<LeftOut> left_out;
+struct Plan : PlanLists {
     std::vector<SumBound> bounds;
     BiasNote bias;
     Accumulation accumulation;  ///< no kind: nothing is accumulated in shared places
@@ -65,12 +59,6 @@ struct Plan {
 
     bool runs(Stage stage) const { return (stages_left_out >> unsigned(stage) & 1u) == 0; }
     void skip(Stage stage) { stages_left_out |= 1u << unsigned(stage); }
-    void need(const char* what) {
-        if constexpr (kPlans) needed.emplace_back(what);
-    }
-    void leave_out(const char* what, const char* why) {
-        if constexpr (kPlans) left_out.push_back({what, why});
-    }
 };
 
 /// Binary places of the fixed-point sums: the largest s <= 30 for which one deposit fits 31 bits

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// See context.h.
+// See context.h and stage_clock.h; in no flight, which has no clock.
 #include "src/run/context.h"
 
 #include "platform/clock.h"
@@ -13,15 +13,14 @@ std::function<bool()> patient_stop(const Context& context) {
         [&context, since] { return wall_seconds() - since > kPatienceSeconds && context.stop(); };
 }
 
-void StageClock::start(const Context& context, const char* stage) {
+StageClock::StageClock(const Context& context, const char* stage)
+    : report_(context.report), stage_(stage) {
     context.tell(stage, 0);
-    report_ = context.report;
-    stage_ = stage;
     wall_ = wall_seconds();
     cpu_ = cpu_seconds();
 }
 
-void StageClock::stop() {
+StageClock::~StageClock() {
     const double wall = wall_seconds() - wall_, cpu = cpu_seconds() - cpu_;
     for (StageTime& s : report_->clocks.stages)
         if (s.name == stage_) {

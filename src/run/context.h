@@ -4,10 +4,10 @@
 #pragma once
 #include <functional>
 
-#include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/isa/kernels.h"
 #include "src/base/limits.h"
 #include "src/plan/report.h"
+#include "src/run/stage_clock.h"
 
 namespace pileus {
 
@@ -45,27 +45,6 @@ constexpr double kPatienceSeconds = 1.0;
 /// context.stop(), but only once `kPatienceSeconds` have passed since now.
 std::function<bool()> patient_stop(const Context& context);
 
-/// Adds the time of its scope to the stage of that name.
-class StageClock {
-public:
-    StageClock(const Context& context, const char* stage) {
-        if constexpr (kPlans) start(context, stage);
-    }
-    ~StageClock() {
-        if constexpr (kPlans) stop();
-    }
-    StageClock(const StageClock&) = delete;
-    StageClock& operator=(const StageClock&) = delete;
-
-private:
-    void start(const Context& context, const char* stage);
-    void stop();
-
-    Report* report_ = nullptr;
-    const char* stage_ = nullptr;
-    double wall_ = 0, cpu_ = 0;
-};
-
 /// Rows [0, rows) of a kernel in pieces over the threads, or all of them on the device. Fails where
 /// a device does.
 template <class Kernel, class Params, class Buffers>
@@ -78,6 +57,7 @@ Status run_rows(const Context& context, Kernel kernel, const Params& params, con
 
 #include "platform/threads.h"
 #include "src/run/device_launch.h"
+#include "src/run/on_device.h"
 
 namespace pileus {
 
@@ -102,7 +82,7 @@ template <class Kernel, class Params, class Buffers>
 Status run_rows(const Context& context, Kernel kernel, const Params& params, const Buffers& buffers,
                 std::uint32_t rows) {
     constexpr std::uint32_t kPiece = 4;
-    if (kDevices && context.kernels->device != nullptr)
+    if (on_device(context.kernels->device))
         return launch_on_device(*context.kernels->device, params, buffers, rows);
     parallel_for(context.threads, (rows + kPiece - 1) / kPiece, [&](std::int64_t piece, int) {
         const std::uint32_t begin = std::uint32_t(piece) * kPiece;

@@ -4,9 +4,9 @@
 // docs/program.md; docs/crosscheck.md
 #include "src/run/find_kernels.h"
 
-#include "kernels_cpu/core/profile.h"
 #include "platform/device.h"
 #include "src/run/device_launch.h"
+#include "src/run/on_device.h"
 
 namespace pileus {
 namespace {
@@ -24,28 +24,28 @@ std::string names_here() {
     std::string names, ignored;
     for (int i = 0; const KernelTable* table = kernel_table_at(i); ++i)
         names += (i > 0 ? ", " : "") + std::string(table->name);
-    return kDevices && has_cuda_device(ignored) ? names + ", cuda" : names;
+    return has_cuda_device(ignored) ? names + ", cuda" : names;
 }
 
 }  // namespace
 
 Status find_kernels(const std::string& name, const KernelTable*& kernels) {
-    if (kDevices && name == "cuda") {
-        std::string why;
-        if (!has_cuda_device(why))
-            return Status::bad_input("--isa: \"cuda\": " + why + ", allowed: " + names_here());
+    const bool cuda = name == "cuda";
+    std::string why;
+    if (cuda && has_cuda_device(why)) {
         kernels = kCuda;
         return Status::ok();
     }
-    kernels = kernel_table(name.empty() ? nullptr : name.c_str());
+    kernels = cuda ? nullptr : kernel_table(name.empty() ? nullptr : name.c_str());
     if (kernels != nullptr) return Status::ok();
-    return Status::bad_input("--isa: no such instruction set here, \"" + printable_line(name) +
-                             "\", allowed: " + names_here());
+    if (!cuda) why = "no such instruction set here, \"" + printable_line(name) + "\"";
+    return Status::bad_input("--isa: " + (cuda ? "\"cuda\": " + why : why) +
+                             ", allowed: " + names_here());
 }
 
 Status test_kernels(const KernelTable& kernels) {
     std::uint64_t digest = 0;
-    if (kDevices && kernels.device != nullptr)
+    if (on_device(kernels.device))
         PILEUS_TRY(self_test_on_device(*kernels.device, digest));
     else
         digest = kernels.self_test();

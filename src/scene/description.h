@@ -8,6 +8,7 @@
 
 #include "src/scene/animation.h"
 #include "src/scene/clouds_settings.h"
+#include "src/scene/file_layers.h"
 #include "src/scene/light_settings.h"
 #include "src/scene/media/medium_settings.h"
 
@@ -29,13 +30,10 @@ struct Lens {
     double shutter_s = 0;          ///< how long it is open, the frame's time in the middle
 };
 
-struct OutputSettings {
+struct OutputSettings : FileLayers {
     std::vector<std::string> files;  ///< relative to the scene's folder
     std::string report;
-    bool layer_depth = false, layer_error = false, layer_cloud = false;
-    bool layer_optical_depth = false, layer_transmittance = false;
-    bool layer_light = false, layer_order = false;
-    bool layer_reflectance = false, layer_shadow = false, layer_occlusion = false;
+    bool layer_depth = false, layer_cloud = false;
 };
 
 struct Description {

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 
-#include "kernels_cpu/core/profile.h"
-
 namespace pileus {
 namespace {
 
@@ -27,14 +25,14 @@ void take_at(const Animation& animation, Track track, int frame, Double3& v) {
 }
 
 bool has(const Scene& scene, Track track) {
-    return kFilms && scene.animation.present && has_track(scene.animation, track);
+    return scene.animation.present && has_track(scene.animation, track);
 }
 
 /// The sun of a frame in the scene's coordinates: the media's yaw is their placement's.
 SunPlace unturned_sun(const Scene& scene, const Sun& rest, int frame) {
     const Animation& a = scene.animation;
     SunPlace at = place_of(rest);
-    if (!kFilms || !a.present) return at;
+    if (!a.present) return at;
     if (a.moves_sun) at.elevation_deg = in_range(a, a.sun_elevation_deg, frame);
     at.azimuth_deg = number_at(scene, Track::kAzimuth, frame, at.azimuth_deg);
     at.elevation_deg = number_at(scene, Track::kElevation, frame, at.elevation_deg);
@@ -45,8 +43,7 @@ SunPlace unturned_sun(const Scene& scene, const Sun& rest, int frame) {
 
 SunPlace sun_at(const Scene& scene, const Sun& rest, int frame) {
     SunPlace at = unturned_sun(scene, rest, frame);
-    if (kFilms && scene.animation.present)
-        at.azimuth_deg += number_at(scene, Track::kYaw, frame, 0);
+    if (scene.animation.present) at.azimuth_deg += number_at(scene, Track::kYaw, frame, 0);
     return at;
 }
 
@@ -67,7 +64,7 @@ void place_at_frame(const FrameState& rest, int frame, Scene& scene) {
 
 double orbit_at(const Scene& scene, int frame) {
     const Animation& a = scene.animation;
-    return kFilms && a.present && a.moves_camera ? in_range(a, a.camera_orbit_deg, frame) : 0.0;
+    return a.present && a.moves_camera ? in_range(a, a.camera_orbit_deg, frame) : 0.0;
 }
 
 Camera camera_at(const Animation& animation, const Camera& rest, int frame) {
@@ -79,15 +76,12 @@ Camera camera_at(const Animation& animation, const Camera& rest, int frame) {
 }
 
 double hours_at(const Scene& scene, int frame) {
-    if (!kFilms) return 0;
     const Animation& a = scene.animation;
     const double rest = a.present && a.moves_time ? in_range(a, a.hours, frame) : 0.0;
     return number_at(scene, Track::kHours, frame, rest);
 }
 
-double wind_at(const Scene& scene, int frame) {
-    return kFilms ? number_at(scene, Track::kWind, frame, 0) : 0;
-}
+double wind_at(const Scene& scene, int frame) { return number_at(scene, Track::kWind, frame, 0); }
 
 Placement placement_at(const Scene& scene, int frame) {
     Placement at;
@@ -99,13 +93,12 @@ Placement placement_at(const Scene& scene, int frame) {
 
 bool moves_sun(const Scene& scene) {
     const Animation& a = scene.animation;
-    if (!kFilms) return false;
     return (a.present && a.moves_sun) || has(scene, Track::kAzimuth) ||
            has(scene, Track::kElevation) || has(scene, Track::kYaw);
 }
 bool moves_time(const Scene& scene) {
     const Animation& a = scene.animation;
-    return kFilms && ((a.present && a.moves_time) || has(scene, Track::kHours));
+    return ((a.present && a.moves_time) || has(scene, Track::kHours));
 }
 bool moves_wind(const Scene& scene) { return has(scene, Track::kWind); }
 bool moves_media(const Scene& scene) {

@@ -129,7 +129,7 @@ Status render(const Scene& scene, const RenderOptions& options, const FrameSink&
     if (!worlds && frames.last > frames.first) {
         std::shared_ptr<World> made;
         PILEUS_TRY(make_world(scene, options, made));
-        if (kPlans && options.digests) made->density_digest = density_digest(*made);
+        if (options.digests) made->density_digest = density_digest(*made);
         world = made;
     }
     bool interrupted = false;

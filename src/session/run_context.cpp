@@ -2,11 +2,9 @@
 // See run_context.h.
 #include "src/session/run_context.h"
 
-#include "kernels_cpu/core/profile.h"
 #include "platform/clock.h"
 #include "src/run/find_kernels.h"
 #include "src/scene/read_scene.h"
-#include "src/scene/rows/layer_flags.h"
 
 namespace pileus {
 namespace {
@@ -38,26 +36,8 @@ Status make_context(const Scene& scene, const RenderOptions& options, Context& c
     context.holding = options.holding;
     context.limits = options.limits;
     context.frames = std::uint64_t(options.last_frame) - std::uint64_t(options.first_frame) + 1;
-    if (kPlans) note_head(scene, options, context, report);
+    note_head(scene, options, context, report);
     return Status::ok();
-}
-
-void note_head(const Scene& scene, const RenderOptions& options, const Context& context,
-               Report& report) {
-    report.version = kVersion;
-    report.scene = scene.file;
-    report.method = scene.method;
-    report.seed = scene.seed;
-    report.first_frame = options.first_frame;
-    report.budget = budget_text(options.budget);
-    report.show = options.show;
-    report.overrides = scene.overrides;
-    report.layers = {"radiance", "alpha"};
-    for (const LayerFlag& layer : kLayerFlags)
-        if (scene.output.*layer.wanted) report.layers.push_back(layer.name);
-    report.isa = context.kernels->name;
-    report.team = threads_name();
-    report.threads = report.team == "serial" ? 1 : context.threads;
 }
 
 Status frames_of(const Scene& scene, const RenderOptions& options, Frames& frames) {

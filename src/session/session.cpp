@@ -2,7 +2,6 @@
 // See session.h. Opening and drawing; session_set.cpp takes what a host sets.
 #include "src/session/session.h"
 
-#include "kernels_cpu/core/profile.h"
 #include "platform/clock.h"
 #include "platform/fp_mode.h"
 #include "src/base/digest.h"
@@ -10,7 +9,6 @@
 #include "src/methods/registry.h"
 #include "src/scene/read_scene.h"
 #include "src/session/run_context.h"
-#include "src/session/stop_rule.h"
 #include "src/world/atmosphere/atmosphere.h"
 #include "src/world/camera/view.h"
 #include "src/world/place_scene.h"
@@ -79,26 +77,6 @@ Status make_world(const Scene& scene, const RenderOptions& options,
     return Status::ok();
 }
 
-/// Whether the method is for this session and its world.
-Status Session::check_method(bool hosted, const World* world) const {
-    const std::string method = scene_.file + ": method.name: \"" + scene_.method + "\" ";
-    if (hosted && !options_.show.empty())
-        return Status::bad_input(method + "is for no session, allowed: another");
-    if (world == nullptr) return Status::ok();
-    if (world->media != scene_.media.size())
-        return Status::bad_input(scene_.file + ": medium: " + std::to_string(scene_.media.size()) +
-                                 " media, allowed: " + std::to_string(world->media) +
-                                 ", as the world was made of");
-    if (world->direct_sky && row_.world != WorldUse::kSkyInPlace)
-        return Status::bad_input(method + "needs the sky on a grid, allowed: a world made for it");
-    if (world->shows_particles != (row_.world == WorldUse::kParticles))
-        return Status::bad_input(
-            method +
-            (world->shows_particles ? "needs the particles on a grid" : "needs the particles") +
-            ", allowed: a world made for it");
-    return Status::ok();
-}
-
 Status Session::open(const Scene& scene, const RenderOptions& options, bool exact,
                      std::shared_ptr<const World> world) {
     return open_either(scene, options, true, exact, std::move(world));
@@ -113,7 +91,7 @@ Status Session::open_either(const Scene& scene, const RenderOptions& options, bo
                             bool exact, std::shared_ptr<const World> world) {
     const FpModeGuard guard;
     const PoolGuard lent(*threads_);
-    if (kChecks) PILEUS_TRY(refuse_clouds(scene));
+    PILEUS_TRY(refuse_clouds(scene));
     scene_ = scene;
     PILEUS_TRY(place_scene(scene_));
     scene_.sky.mapped = options.sky != nullptr || !scene_.view_files.sky_map.empty();
@@ -125,19 +103,15 @@ Status Session::open_either(const Scene& scene, const RenderOptions& options, bo
     if (hosted) context_.frames = kLiveFrames;
     context_.digests = !hosted && options.digests;
     PILEUS_TRY(found);
-    if (kChecks) PILEUS_TRY(row_.check(scene_, options.budget));
-    if (kFilms && options.find_view != nullptr && !options.show.empty())
-        PILEUS_TRY(options.find_view(scene_.method, options.show, row_));
-    if (kChecks) PILEUS_TRY(check_method(hosted, world.get()));
+    PILEUS_TRY(check_method(hosted, world.get()));
     made_ = row_.make({scene_, options_.budget, hosted});
     scenery_.scene = &scene_;
     scenery_.rest = hosted ? static_cast<const FrameState*>(&scene_) : &host_;
-    scenery_.keyed = kFilms && !scene_.animation.keys.empty();
+    scenery_.keyed = !scene_.animation.keys.empty();
     move_to(host_.number);
     PILEUS_TRY(
         open_method(row_, made_, context_, exact, options.sky, std::move(world), scenery_, plan_));
-    if (kPlans && exact && context_.digests) made_.report->digest(scenery_.view(0), digests_);
-    if (kPlans) report_.plan = plan_;
+    tell_plan(exact);
     whole_work_ = work_ = made_.method->full_work();
     report_.frame_work = work_;
     report_.clocks.peak_bytes = peak_memory_bytes();
@@ -146,7 +120,7 @@ Status Session::open_either(const Scene& scene, const RenderOptions& options, bo
 
 /// Where keys move the scene.
 void Session::move_to(int frame) {
-    if (kFilms && scenery_.keyed) place_at_frame(host_, frame, scene_);
+    if (scenery_.keyed) place_at_frame(host_, frame, scene_);
 }
 
 /// Where frames differ in what no method moves by itself.
@@ -189,8 +163,7 @@ Status Session::aim() {
     PILEUS_TRY(check_sealed());
     stale_ = anew_ = false;
     stats_.prepared = method.progress().prepared;
-    if (kPlans && stats_.prepared != prepared)
-        PILEUS_TRY(make_plan(made_, context_, scenery_, plan_));
+    if (stats_.prepared != prepared) PILEUS_TRY(make_plan(made_, context_, scenery_, plan_));
     return Status::ok();
 }
 
@@ -201,22 +174,8 @@ Status Session::trace(std::uint64_t units, std::uint64_t& done) {
     PILEUS_TRY(method.accumulate(context_, view(), 0, done));
     if (units == 0) return Status::ok();
     const StageClock clock(context_, light.stage);
-    if (!kStops || !context_.interrupted || !light.in_passes)
-        return method.accumulate(context_, view(), units, done);
-    LightGoal goal;
-    goal.most = light.held + units;
-    const StopRule rule(goal);
-    LightPass last;
-    while (done < units) {
-        const double start = wall_seconds();
-        last.units = rule.next(method.progress(), 0, last);
-        std::uint64_t more = 0;
-        const Status status = method.accumulate(context_, view(), last.units, more);
-        done += more;
-        if (!status || method.progress().interrupted) return status;
-        last.seconds = wall_seconds() - start;
-    }
-    return Status::ok();
+    if (context_.interrupted && light.in_passes) return trace_passes(light.held, units, done);
+    return method.accumulate(context_, view(), units, done);
 }
 
 Status Session::step(std::uint64_t units, std::uint64_t& done) {
@@ -244,7 +203,7 @@ Status Session::render(const FrameTarget& target) {
         return Status::bad_input(
             "frame.depth: a flat detector sees along no single ray, allowed: another projection");
     PILEUS_TRY(aim());
-    if (kClouds && fading_ != nullptr) {
+    if (fading_ != nullptr) {
         bool goes_on = false;
         PILEUS_TRY(fading_->begin(context_, scenery_, shown_, goes_on));
         if (!goes_on) fading_.reset();
@@ -254,19 +213,19 @@ Status Session::render(const FrameTarget& target) {
     // A picture into nothing makes ready what the first one after a hand-over needs.
     const bool nothing = !target.has_colour && target.hash == nullptr;
     const bool rays = !scene_.camera.flux;  // a flat detector has no depths
-    scene_.output.layer_depth = (rays && (target.has_depth || row_.keeps_parts || nothing)) ||
-                                (kClouds && fading_ != nullptr);
+    scene_.output.layer_depth =
+        (rays && (target.has_depth || row_.keeps_parts || nothing)) || fading_ != nullptr;
     report_.counters.clear();
     // A hash and depths are of whole planes.
     const bool late = target.has_colour && !target.has_depth && target.hash == nullptr &&
-                      !(kClouds && fading_ != nullptr) && is_late(target.colour, *context_.kernels);
+                      fading_ == nullptr && is_late(target.colour, *context_.kernels);
     late_.ready = false;
     late_.params.filled = 0;
     RenderAsk ask;
     ask.late = late ? &late_ : nullptr;
     PILEUS_TRY(made_.method->render(context_, view(), ask, planes));
     const Planes* const fresh = planes;
-    if (kClouds && fading_ != nullptr)
+    if (fading_ != nullptr)
         PILEUS_TRY(fading_->mix(context_, scenery_, made_.method->keeps_planes(), planes));
     shown_ = planes;
     shown_camera_ = scene_.camera;

@@ -192,7 +192,11 @@ private:
     Status aim();
     Status check_sealed() const;
     Status check_media(const char* key, const Ground& ground, double moved_m) const;
-    Status check_method(bool hosted, const World* world) const;
+    /// Whether the method is for this scene, this session and its world; finds a view of it.
+    Status check_method(bool hosted, const World* world);
+    void tell_plan(bool exact);
+    /// As trace, where a host may end it.
+    Status trace_passes(std::uint64_t held, std::uint64_t units, std::uint64_t& done);
     Status take_frame(int frame);
     void move_to(int frame);
     Status relight_air();

@@ -5,6 +5,7 @@
 #include "kernels_cpu/core/profile.h"
 #include "platform/fp_mode.h"
 #include "src/methods/support.h"
+#include "src/run/on_device.h"
 #include "src/scene/above_ground.h"
 #include "src/scene/frame_fault.h"
 #include "src/scene/number_keys.h"
@@ -193,7 +194,7 @@ Status Session::set_lights(const std::vector<LightSettings>& lights) {
         return Status::bad_input("light: " + std::to_string(lights.size()) + ", allowed: at most " +
                                  std::to_string(sealed_lights_) +
                                  ", as when the flight was opened");
-    if (kDevices)
+    if (on_device(context_.kernels->device))
         PILEUS_TRY(check_host_lights(context_, lights, scene_.atmosphere.present, world().medium));
     if (const char* key = lights_fault(scene_, host_.ground, lights))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) {
@@ -226,7 +227,7 @@ Status Session::set_placement(const Double3& offset_m, double yaw_deg) {
     const bool moves = offset_m != Double3{} || yaw_deg != 0;
     if (moves && world().media == 0)
         return Status::bad_input("placement: no media to move, allowed: 0");
-    if (kMeshes && moves && world().solids.meshes)
+    if (moves && world().solids.meshes)
         return Status::bad_input("placement: solids stay where they are, allowed: 0");
     if (yaw_deg != 0 && scenery_.environment.sky_map.present())
         return Status::bad_input("placement.yaw_deg: not below a sky map, allowed: 0");
@@ -264,12 +265,6 @@ Status Session::set_depth(const Rows* rows, DepthKind kind) {
 std::shared_ptr<const void> Session::carry_clouds() {
     if (clouds_ == nullptr) clouds_ = std::make_shared<const char>();
     return clouds_;
-}
-
-Status Session::refuse_clouds_sky(const char* what) const {
-    if (!kClouds || clouds_.use_count() < 2) return Status::ok();
-    const Support& no = support(Feature::kSetLights, MethodColumn::kCloudSkies);
-    return refuse(std::string(what) + ": " + no.text, no.allowed);
 }
 
 Status Session::reserve() {

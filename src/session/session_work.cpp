@@ -2,9 +2,9 @@
 // The work of a live session's frames: what a host or the governor chose, checked and taken up.
 // in: FrameWork -> out: limits of the session's method, or what is wrong.
 // docs/realtime.md, "Work and the governor"
-#include "kernels_cpu/core/profile.h"
 #include "platform/fp_mode.h"
 #include "src/picture/upsample.h"
+#include "src/run/on_device.h"
 #include "src/scene/number_keys.h"
 #include "src/scene/read_scene.h"
 #include "src/session/session.h"
@@ -90,8 +90,7 @@ Status Session::set_work(const FrameWork& given) {
         put_work(work, thin);
         PILEUS_TRY(check_upsampling(named, "work", thin));
     }
-    if (kDevices && marched_every(work_) != marched_every(work) &&
-        context_.kernels->device != nullptr)
+    if (marched_every(work_) != marched_every(work) && on_device(context_.kernels->device))
         return refuse("scale", work.scale, "0 on a device");
     // The method is the last to refuse.
     PILEUS_TRY(made_.method->set_limits(work));

@@ -2,7 +2,6 @@
 // See place_scene.h.
 #include "src/world/place_scene.h"
 
-#include "kernels_cpu/core/profile.h"
 #include "src/io/volumes/weather_file.h"
 #include "src/world/atmosphere/atmosphere.h"
 #include "src/world/camera/places.h"
@@ -10,7 +9,7 @@
 namespace pileus {
 
 Status place_scene(Scene& scene) {
-    if (!kFlight) share_weather_files(scene);
+    share_weather_files(scene);
     PILEUS_TRY(place_camera(scene));
     place_sun(scene.atmosphere, scene.hours_later, scene.sun);
     return check_camera_in_air(scene, scene.camera, scene.ground);

@@ -2,7 +2,7 @@
 // See plan_parts.h. Rows without a declaration are bounds of what a reader or writer takes.
 #include "src/world/plan_parts.h"
 
-#include "kernels_cpu/core/profile.h"
+#include "src/run/on_device.h"
 
 namespace pileus {
 namespace {
@@ -92,7 +92,7 @@ WorkInput medium_work(const Medium& medium, double mean_density, double max_even
 
 Status check_host_lights(const Context& context, const std::vector<LightSettings>& lights, bool air,
                          const Medium& medium) {
-    if (!kDevices || context.kernels->device == nullptr) return Status::ok();
+    if (!on_device(context.kernels->device)) return Status::ok();
     const std::string where = std::string("--isa: \"") + context.kernels->name + "\": ";
     if (!lights.empty() || emits(medium))
         return Status::bad_input(where +

@@ -9,8 +9,7 @@ namespace pileus {
 
 std::uint64_t bytes_of_world(const World& world) {
     std::uint64_t bytes = world.medium.volume.density.bytes() + world.medium.parts.bytes() +
-                          phase_bytes(world.medium) + world.solids.nodes.bytes() +
-                          world.solids.triangles.bytes() + world.solids.albedo.bytes() +
+                          phase_bytes(world.medium) + world.solids.bytes() +
                           world.particles.position.bytes() + world.particles.radius.bytes() +
                           world.particles.density.bytes() + world.particles.colour.bytes() +
                           world.particles.emission.bytes() + world.particles.velocity.bytes() +

@@ -3,7 +3,10 @@
 // and of worlds made of them. in: the name of a file, a value that is not sound for sure -> out:
 // one line. docs/flight.md, "Packed scenes"
 #include "platform/device.h"
+#include "src/io/volumes/weather_file.h"
 #include "src/methods/collectors/billboards/gl_billboards.h"
+#include "src/methods/path/path_state.h"
+#include "src/methods/scenery.h"
 #include "src/scene/read_scene.h"
 #include "src/session/run_context.h"
 #include "src/world/camera/places.h"
@@ -19,9 +22,12 @@ Status no_files(const char* what) {
 
 }  // namespace
 
-Status outline_world(const Scene&, WorldUse, const Context&, World&) { return no_files("world"); }
+Status outline_own_world(const Scene&, WorldUse, const Context&, std::shared_ptr<World>&) {
+    return no_files("world");
+}
 Status load_world(const Scene&, const Context&, World&) { return no_files("world"); }
 Status place_camera(Scene&) { return Status::ok(); }
+void share_weather_files(Scene&) {}
 Status check_changed(const char* key, const Scene&, void (*)(const void*, Scene&), const void*) {
     return Status::bad_input(std::string("session: ") + key +
                              ": refused in a flight, allowed: docs/flight.md, \"What may change\"");
@@ -40,6 +46,9 @@ Status read_camera_depth(const Scene& scene, const Context&, CameraDepth&) {
     return scene.view_files.depth.empty() ? Status::ok() : no_files("camera.depth");
 }
 
+Status denoise_film(const Context&, const FrameView&, PathState&) {
+    return no_files("filter.kind");
+}
 Status open_gl_blender(Compositor, GlBlender&) { return no_files("collectors.compositor"); }
 Status blend_by_gl(GlBlender&, const BillboardScene&, const CameraParams&, int, BillboardImage&) {
     return no_files("collectors.compositor");

@@ -2,7 +2,6 @@
 // What a collision in the medium stores for collectors, and the proof that the sums hold it.
 // in: scene, world, lights -> out: choices in CollectorsState.
 // docs/collectors.md; docs/methods.md 3, "Shoot"
-#include "kernels_cpu/core/profile.h"
 #include "src/methods/collectors/collectors_state.h"
 #include "src/world/plan_parts.h"
 

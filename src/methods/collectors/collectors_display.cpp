@@ -4,14 +4,13 @@
 // docs/methods.md 3, each image frame, steps 4 and 5; repairs 3 and 4.
 #include "src/methods/collectors/collectors_display.h"
 
-#include "kernels_cpu/core/profile.h"
-#include "src/base/digest.h"
 #include "src/methods/collectors/billboards/billboard_spheres.h"
 #include "src/methods/collectors/billboards/gl_billboards.h"
 #include "src/methods/collectors/collectors_memory.h"
 #include "src/methods/collectors/photons/source_grid.h"
 #include "src/photons/lit_march.h"
 #include "src/picture/march_view.h"
+#include "src/run/on_device.h"
 
 namespace pileus {
 namespace {
@@ -170,8 +169,7 @@ Status show_marched(const Context& context, const FrameView& view, CollectorsSta
             light.planes = by_channel.data();
         }
     }
-    if (!kFilms || is_whole(state, lit))
-        return march_thinned(context, view, light, k, state, planes);
+    if (is_whole(state, lit)) return march_thinned(context, view, light, k, state, planes);
     return march_lit(context, view, state, light, k, planes.colour.data(), planes);
 }
 
@@ -184,13 +182,13 @@ Status show_harmonics(const Context& context, const FrameView& view, CollectorsS
     const std::size_t pixels = std::size_t(k.camera.width) * std::size_t(k.camera.height);
     HarmonicSource lit;
     Buffer<float> by_node;
-    Digest digest;
     for (int batch = -1; batch < in.batches; ++batch) {
         {
             const StageClock clock(context, "reconstruct");
             PILEUS_TRY(reconstruct_harmonics(in, batch, {}, lit));
         }
-        if (batch < 0 && context.digests) digest.floats(lit.values.span());
+        // The picture's own digest, not those of its parts.
+        if (batch < 0 && is_whole(state, in)) note_colours(context, lit.values.span(), state);
         set_harmonic_sets(in.deposit, lit.sets, lit.colour, k);
         float* target = planes.colour.data() + 3 * std::size_t(batch + 1) * pixels;
         PILEUS_TRY(splat(context, lit.values.span(), lit.sets * lit.numbers, k.source, *in.lighting,
@@ -200,13 +198,10 @@ Status show_harmonics(const Context& context, const FrameView& view, CollectorsS
             by_node));
         gather_by_node(context, k, node_count(k.source), state.source.span(), by_node.span());
         const NodeLight light{by_node.data()};
-        PILEUS_TRY(!kFilms || (batch < 0 && is_whole(state, in))
+        PILEUS_TRY(batch < 0 && is_whole(state, in)
                        ? march_thinned(context, view, light, k, state, planes)
                        : march_lit(context, view, state, light, k, target, planes));
     }
-    // The picture's own digest, not those of its parts.
-    if (kPlans && in.lighting == &state.lights.lighting && context.digests)
-        state.picture.colours = digest.hex();
     return Status::ok();
 }
 
@@ -232,7 +227,7 @@ Status show_billboards(const Context& context, const FrameView& view, const Coll
 Status collectors_display(const Context& context, const FrameView& view, CollectorsState& state,
                           const ReconstructInput& lit, const CollectorColours& colours,
                           int channels, Planes& planes) {
-    if (shows_harmonics(view, state) && (!kFilms || !lit.first_order_alone))
+    if (shows_harmonics(view, state) && !lit.first_order_alone)
         return show_harmonics(context, view, state, lit, planes);
     if (!is_marched(state))
         return show_billboards(context, view, state, lit, colours, channels, planes);
@@ -266,10 +261,10 @@ Status collectors_billboards(const Context& context, const FrameView& view,
     scene.opaque_depth = opaque_depth;
     scene.half_depth = view.scene.wants_depth();
     const Compositor by = state.settings.compositor;
-    if (!kFilms || by == Compositor::kBuiltin)
+    if (by == Compositor::kBuiltin)
         return composite_billboards(
             scene, camera, context.threads, context.kernels->blend_tile, out,
-            kDevices && context.kernels->device != nullptr ? kDeviceTiling : BillboardTiling{},
+            on_device(context.kernels->device) ? kDeviceTiling : BillboardTiling{},
             context.kernels->device);
     GlBlender blender;
     PILEUS_TRY(open_gl_blender(by, blender));
@@ -286,9 +281,8 @@ void collectors_size_display(const FrameView& view, const CollectorsState& state
     sizes.marched = is_marched(state);
     sizes.ground = state.lights.lighting.opaque();
     sizes.depth = view.scene.wants_depth();
-    const std::uint64_t parts =
-        kFilms ? (output.layer_light ? 3u : 0u) + (output.layer_order ? 3u : 0u) : 0u;
-    sizes.extra_planes = parts + (kFilms && output.layer_optical_depth ? 1u : 0u);
+    const std::uint64_t parts = (output.layer_light ? 3u : 0u) + (output.layer_order ? 3u : 0u);
+    sizes.extra_planes = parts + (output.layer_optical_depth ? 1u : 0u);
     sizes.parts = parts > 0;
     if (!sizes.marched) return;
     const NodeGrid nodes = source_grid_of(view, state);

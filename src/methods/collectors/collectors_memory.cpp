@@ -4,7 +4,6 @@
 // docs/report.md, "Memory".
 #include "src/methods/collectors/collectors_memory.h"
 
-#include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/display/blend_params.h"
 #include "src/methods/collectors/billboards/billboard_spheres.h"
 #include "src/methods/collectors/collectors_display.h"
@@ -13,6 +12,7 @@
 #include "src/methods/collectors/prepare/shares.h"
 #include "src/methods/collectors/prepare/tree.h"
 #include "src/photons/lit_march.h"
+#include "src/photons/photon_report.h"
 
 namespace pileus {
 namespace {
@@ -53,13 +53,9 @@ void add_collectors(const CollectorsSizes& s, MemoryTable& t) {
     add_majorant_rows(s.grid, s.tracking_blocks, s.threads, traced, t);
 }
 
-SlotSize slot_of(const CollectorsSizes& s) {
-    return {s.collectors, s.channels, s.coefficients, s.ground_cells};
-}
-
 void add_photons(const CollectorsSizes& s, MemoryTable& t) {
     const Stage traced = last_tracing(s);
-    add_slot_rows(slot_of(s), s.lights, s.slots, s.sums_ring, t);
+    add_slot_rows(collectors_slot(s), s.lights, s.slots, s.sums_ring, t);
     add(t, arrays::photon_tallies(s.threads, traced));
     const auto own = arrays::photon_sums(0, 0, traced);
     t.add(own.name, own.first, own.last, s.private_sums);
@@ -133,13 +129,8 @@ void add_billboards(const CollectorsSizes& s, MemoryTable& t) {
 
 }  // namespace
 
-std::uint64_t bytes_of_sums(const CollectorsSizes& s) {
-    return sum_of_bytes(arrays::photon_slot(slot_of(s), 1).bytes(), 256);
-}
-
 MemoryTable collectors_memory(const CollectorsSizes& sizes) {
     MemoryTable table;
-    if (!kPlans) return table;  // the sums are chosen by what threads may take
     add_density_rows(sizes.grid, sizes.source, sizes.media, sizes.phases, sizes.threads, sizes.sky,
                      table);
     add_samples(sizes, table);
@@ -150,6 +141,26 @@ MemoryTable collectors_memory(const CollectorsSizes& sizes) {
     add_billboards(sizes, table);
     add_image_rows(sizes.width, sizes.height, sizes.layers, table);
     return table;
+}
+
+std::uint64_t collectors_peak(const CollectorsSizes& sizes) {
+    return collectors_memory(sizes).peak();
+}
+
+Status measure_memory(const Context& context, const FrameView& view, const CollectorsState& state,
+                      const CollectorsSizes& measured, Plan& plan) {
+    CollectorsSizes sizes = measured;
+    sizes.private_sums =
+        scratch_bytes(plan.accumulation.bytes, bytes_of_sums(sizes), sizes.sums_ring);
+    plan.memory = collectors_memory(sizes);
+    add_picture_rows(context, view, state, plan.memory);
+    add_solid_rows(view.scene, context.limits, view.world.solids, view.environment.depth,
+                   plan.memory);
+    PILEUS_TRY(check_limit(context.limits, LimitId::kMemory, plan.memory.peak(), view.scene.file));
+    plan.work = estimate_work(medium_work(view.world.medium, view.world.source.mean_density,
+                                          double(state.lights.max_events),
+                                          double(photons_of_run(state, context))));
+    return check_work(plan.work, context.limits, view.scene.file);
 }
 
 }  // namespace pileus

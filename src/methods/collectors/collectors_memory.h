@@ -46,10 +46,21 @@ CollectorsSizes collectors_sizes(const FrameView& view, const CollectorsState& s
 void collectors_size_display(const FrameView& view, const CollectorsState& state,
                              const Context& context, CollectorsSizes& sizes);
 
+inline SlotSize collectors_slot(const CollectorsSizes& s) {
+    return {s.collectors, s.channels, s.coefficients, s.ground_cells};
+}
+
 /// Bytes of one thread's own sums, its distance to the next one's among them.
 std::uint64_t bytes_of_sums(const CollectorsSizes& sizes);
 
 /// The table of all arrays, in the order of the stages.
 MemoryTable collectors_memory(const CollectorsSizes& sizes);
+/// Its peak; 0 in a flight, where threads' own memory alone chooses the sums.
+std::uint64_t collectors_peak(const CollectorsSizes& sizes);
+
+/// The plan's memory and work, where the sums are chosen. kLimit: more than may be; a flight looks
+/// at neither.
+Status measure_memory(const Context& context, const FrameView& view, const CollectorsState& state,
+                      const CollectorsSizes& measured, Plan& plan);
 
 }  // namespace pileus

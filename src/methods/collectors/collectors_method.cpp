@@ -2,31 +2,13 @@
 // See collectors_method.h.
 #include "src/methods/collectors/collectors_method.h"
 
-#include "kernels_cpu/core/profile.h"
-#include "src/methods/check_support.h"
-#include "src/methods/collectors/billboards/gl_billboards.h"
-#include "src/photons/lit_march.h"
-#include "src/world/plan_parts.h"
-
 namespace pileus {
 namespace {
-
-Status check_scene(const Scene& scene, const Budget& budget) {
-    PILEUS_TRY(check_budget_kinds(scene, budget));
-    const CollectorSettings& settings = scene.collectors;
-    if (scene.output.layer_order && scene.sun.present && !settings.first_order_split &&
-        !settings.camera_closure)
-        return Status::bad_input(scene.file +
-                                 ": output.layers: \"order\": method collectors keeps single "
-                                 "scattering apart only with first_order_split, allowed: "
-                                 "collectors.first_order_split = true, or no such layer");
-    return Status::ok();
-}
 
 MadeMethod make(const MethodInputs& inputs) {
     auto method = std::make_unique<CollectorsMethod>(inputs);
     MadeMethod made;
-    if (kPlans) made.report = collectors_report(*method);
+    made.report = collectors_report(*method);
     made.method = std::move(method);
     return made;
 }
@@ -43,35 +25,6 @@ CollectorsMethod::CollectorsMethod(const MethodInputs& inputs, const CollectorSe
     const std::int64_t budget = inputs.budget.photons;
     state_.lights.budget_photons = budget >= 0 ? budget : settings.photons;
     if (settings.camera_closure) state_.camera_cells = settings.cell_voxels;
-}
-
-Status CollectorsMethod::check(const Context& context, const FrameView& view) {
-    const Scene& scene = view.scene;
-    const CollectorSettings& settings = state_.settings;
-    if (kDevices)
-        PILEUS_TRY(
-            check_host_lights(context, scene.lights, scene.atmosphere.present, view.world.medium));
-    if (kChecks) PILEUS_TRY(check_thinned(context, scene, "collectors", state_));
-    if (settings.light_refresh > 1 && kDevices && context.kernels->device != nullptr)
-        return Status::bad_input(scene.file +
-                                 ": collectors.light_refresh: for the host alone, allowed: 1");
-    if (kChecks && settings.thin.every() > 1 && !is_marched(state_))
-        return Status::bad_input(scene.file +
-                                 ": collectors.display: \"billboards\" has no marched pixels, "
-                                 "allowed: march, or collectors.scale = 1 and temporal = 0");
-    if (kFilms && settings.camera_closure) {
-        if (const char* const mover = mover_of_view(scene))
-            return Status::bad_input(scene.file +
-                                     ": collectors.closure: \"camera\" needs a fixed "
-                                     "camera, but " +
-                                     mover + " moves it");
-    }
-    // Tell before any work that the compositor asked for is not here.
-    if (kChecks && settings.compositor != Compositor::kBuiltin) {
-        GlBlender blender;
-        PILEUS_TRY(open_gl_blender(settings.compositor, blender));
-    }
-    return Status::ok();
 }
 
 Status CollectorsMethod::prepare(const Context& context, const FrameView& view) {
@@ -126,8 +79,6 @@ Status CollectorsMethod::compose(const Context& context, const FrameView& view,
     return compose_collectors(camera, context, view, trace_input(context, view), state_, planes);
 }
 
-MethodRow collectors_row() {
-    return {kCollectorsName, WorldUse::kGrid, kept(kChecks, check_scene), make};
-}
+MethodRow collectors_row() { return {kCollectorsName, WorldUse::kGrid, check_collectors, make}; }
 
 }  // namespace pileus

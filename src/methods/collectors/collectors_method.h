@@ -63,6 +63,7 @@ std::unique_ptr<MethodReport> collectors_report(CollectorsMethod& method);
 void note_collectors_limits(const Context& context, const FrameView& view, Plan& plan);
 
 constexpr const char* kCollectorsName = "collectors";
+Status check_collectors(const Scene& scene, const Budget& budget);
 MethodRow collectors_row();
 extern const MethodTools collectors_tools;
 

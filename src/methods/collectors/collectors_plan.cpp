@@ -2,11 +2,11 @@
 // Weighs a run before it is prepared and again after: memory, work, bounds of its sums, limits.
 // in: CollectorsState, outlined or prepared -> out: its plan's figures; kLimit where one is too
 // many. docs/report.md, "Plan"; docs/program.md, "Limits".
-#include "kernels_cpu/core/profile.h"
 #include "src/methods/collectors/collectors_memory.h"
 #include "src/methods/collectors/prepare/tree.h"
 #include "src/photons/lit_march.h"
 #include "src/photons/photon_report.h"
+#include "src/run/on_device.h"
 #include "src/world/majorant/majorant.h"
 
 namespace pileus {
@@ -63,10 +63,13 @@ CollectorsSizes collectors_sizes(const FrameView& view, const CollectorsState& s
     return s;
 }
 
+std::uint64_t bytes_of_sums(const CollectorsSizes& s) {
+    return sum_of_bytes(arrays::photon_slot(collectors_slot(s), 1).bytes(), 256);
+}
+
 Status measure_collectors(const Context& context, const FrameView& view, CollectorsState& state,
                           Plan& plan) {
     const Scene& scene = view.scene;
-    const World& world = view.world;
     const double max_events = double(state.lights.max_events);
     const std::uint64_t photons = photons_of_run(state, context);
     plan.bounds = {collectors_bound(view, state)};
@@ -75,23 +78,13 @@ Status measure_collectors(const Context& context, const FrameView& view, Collect
     PILEUS_TRY(check_bounds(plan, scene.file, "collectors.photons"));
     CollectorsSizes sizes = collectors_sizes(view, state, context);
     plan.exact = !state.outlined_only;
-    plan.accumulation =
-        plan_accumulation(state.settings.accumulation,
-                          {sizes.threads, bytes_of_sums(sizes), collectors_memory(sizes).peak(),
-                           context.limits[LimitId::kMemory], plan.exact});
-    if (kDevices && context.kernels->device != nullptr)
+    plan.accumulation = plan_accumulation(
+        state.settings.accumulation, {sizes.threads, bytes_of_sums(sizes), collectors_peak(sizes),
+                                      context.limits[LimitId::kMemory], plan.exact});
+    if (on_device(context.kernels->device))
         plan.accumulation = {"shared", "all threads of the device add to one set", 0, true};
     state.ring.shared_sums = plan.accumulation.shared;
-    if (!kPlans) return Status::ok();
-    sizes.private_sums =
-        scratch_bytes(plan.accumulation.bytes, bytes_of_sums(sizes), sizes.sums_ring);
-    plan.memory = collectors_memory(sizes);
-    add_picture_rows(context, view, state, plan.memory);
-    add_solid_rows(scene, context.limits, world.solids, view.environment.depth, plan.memory);
-    PILEUS_TRY(check_limit(context.limits, LimitId::kMemory, plan.memory.peak(), scene.file));
-    plan.work = estimate_work(
-        medium_work(world.medium, world.source.mean_density, max_events, double(photons)));
-    return check_work(plan.work, context.limits, scene.file);
+    return measure_memory(context, view, state, sizes, plan);
 }
 
 }  // namespace pileus

@@ -2,8 +2,6 @@
 // The picture of lit collectors: reconstruct, display, parts.
 // in: CollectorsState after shooting, a camera -> out: Planes.
 // docs/methods.md 3, each image frame, steps 4 and 5; repairs 3 and 4.
-#include "kernels_cpu/core/profile.h"
-#include "src/base/digest.h"
 #include "src/methods/collectors/collectors_display.h"
 #include "src/photons/lit_march.h"
 #include "src/picture/air_view.h"
@@ -54,15 +52,13 @@ Status compose_collectors(const CameraParams& camera, const Context& context, co
     PILEUS_TRY(fill_lit_background(context, view, state, in, 0, planes));
     planes.clamped = colours.clamped_negative;
     PILEUS_TRY(collectors_display(context, view, state, in, colours, channels, planes));
-    if (kFilms) PILEUS_TRY(add_ground_noise(context, view, state, in, planes));
-    if (kFilms) PILEUS_TRY(collectors_parts(context, view, state, in, planes));
+    PILEUS_TRY(add_ground_noise(context, view, state, in, planes));
+    PILEUS_TRY(collectors_parts(context, view, state, in, planes));
     PILEUS_TRY(show_air(context, view.scene, view.world.medium, lighting, camera, view.environment,
                         planes));
-    if (!kPlans || !context.digests || shows_harmonics(view, state)) return Status::ok();
+    if (!context.digests || shows_harmonics(view, state)) return Status::ok();
     const StageClock clock(context, "layers");
-    Digest digest;
-    digest.floats(colours.colour.span());
-    state.picture.colours = digest.hex();
+    note_colours(context, colours.colour.span(), state);
     return Status::ok();
 }
 

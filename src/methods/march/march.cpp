@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/core/rng.h"
 #include "kernels_cpu/core/vec.h"
 #include "platform/threads.h"
@@ -309,7 +308,7 @@ Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes&
     };
     const bool whole =
         run_until(context.threads, (rows + kPiece - 1) / kPiece, context.interrupted, march);
-    if (kStops && !whole)
+    if (!whole)
         return {Code::kCheckFailed, "interrupted before the picture was whole; no file written"};
     for (std::size_t row = 0; row < rows; ++row) {
         const std::int64_t* own = counts.data() + row * kRaymarchCounts;

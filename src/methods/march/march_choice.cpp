@@ -2,7 +2,6 @@
 // What a march is made by: settings of two methods, where sunlight comes from, levels of detail.
 // in: scene, budget, sizes of the media -> out: MarchChoice.
 // docs/raymarch.md; docs/optical-depth.md
-#include "kernels_cpu/core/profile.h"
 #include "src/methods/march/march_state.h"
 #include "src/world/camera/view.h"
 #include "src/world/world.h"
@@ -56,11 +55,7 @@ void choose_light(const FrameView& view, MarchChoice& choice) {
     const double marched = lit * (s.light_steps > 0 ? double(s.light_steps) : way);
     const double nodes = double(voxel_count(grid)) * way;
     choice.march_light = marched < nodes;
-    if (!kPlans) return;
-    choice.light_why = "fewer samples of the density, about " +
-                       std::to_string(std::uint64_t(choice.march_light ? marched : nodes)) +
-                       " instead of " +
-                       std::to_string(std::uint64_t(choice.march_light ? nodes : marched));
+    explain_march_light(marched, nodes, choice);
 }
 
 /// What both methods have; of settings, where a time leaves all.

@@ -2,7 +2,6 @@
 // One frame of a march: light on nodes, background, marched pixels, lamps, parts of the light, air.
 // in: a prepared MarchState -> out: its planes.
 // docs/raymarch.md
-#include "kernels_cpu/core/profile.h"
 #include "platform/clock.h"
 #include "src/methods/march/march_budget.h"
 #include "src/methods/march/march_parts.h"
@@ -31,8 +30,7 @@ Status add_lamps(const Context& context, const FrameView& view, MarchState& stat
 /// Parts need the whole background, a trial for a budget of seconds any row's depths.
 LateRows* late_march(const FrameView& view, LateRows* late, const MarchState& state) {
     const OutputSettings& output = view.scene.output;
-    if (kFilms && (output.layer_light || output.layer_order || state.choice.seconds > 0))
-        return nullptr;
+    if (output.layer_light || output.layer_order || state.choice.seconds > 0) return nullptr;
     return late_rows_of(late, view.lighting, view.world.medium, state.choice.settings.thin,
                         state.picture.camera, view.frame);
 }
@@ -44,7 +42,7 @@ Status allocate_picture(const Context& context, const FrameView& view, MarchPict
     Planes& planes = picture.planes;
     PILEUS_TRY(allocate_planes(picture.camera.width, picture.camera.height, 3,
                                view.lighting.opaque(), view.scene.wants_depth(), planes));
-    if (kFilms && view.scene.output.layer_optical_depth)
+    if (view.scene.output.layer_optical_depth)
         PILEUS_TRY(
             allocate(arrays::picture_planes(1, planes.transmittance.size()), planes.optical_depth));
     return Status::ok();
@@ -127,7 +125,7 @@ Status march_frame(const Context& context, const FrameView& view, const RenderAs
     PILEUS_TRY(light_march(context, view, ask.view_slack_deg, state));
     PILEUS_TRY(allocate_picture(context, view, picture));
     picture.planes.late = late_march(view, ask.late, state);
-    if (kClouds && ask.media_only)
+    if (ask.media_only)
         PILEUS_TRY(show_nothing_behind(picture.planes));
     else
         PILEUS_TRY(march_background(context, view, view.lighting, state, picture.planes));
@@ -147,11 +145,11 @@ Status march_frame(const Context& context, const FrameView& view, const RenderAs
                                     march_turn(view, state), nodes));
         in.sky_light = &nodes.view;
     }
-    if (kFilms) PILEUS_TRY(choose_march_work(context, view, start_s, thin, state));
+    PILEUS_TRY(choose_march_work(context, view, start_s, thin, state));
     thin.settings = state.choice.settings.thin;
     PILEUS_TRY(upsample_picture(context, thin, view.frame, picture.upsample, picture.planes));
     PILEUS_TRY(add_lamps(context, view, state));
-    if (kFilms) PILEUS_TRY(march_parts(context, view, in, state));
+    PILEUS_TRY(march_parts(context, view, in, state));
     return show_air(context, view.scene, medium, view.lighting, picture.camera, view.environment,
                     picture.planes);
 }

@@ -4,7 +4,6 @@
 // docs/raymarch.md, "Light"
 #include <algorithm>
 
-#include "kernels_cpu/core/profile.h"
 #include "src/base/angles.h"
 #include "src/methods/march/march_state.h"
 #include "src/picture/march_view.h"
@@ -57,7 +56,7 @@ bool same_way(const Medium& medium, double slack_deg, const CameraParams& a,
     const float* to = flat ? b.forward : b.origin;
     if (a.orthographic != b.orthographic) return false;
     if (std::equal(from, from + 3, to)) return true;
-    if (!kClouds || slack_deg <= 0 || flat) return false;
+    if (slack_deg <= 0 || flat) return false;
     double aa = 0, bb = 0, ab = 0, ball = 0;
     for (int i = 0; i < 3; ++i) {
         const double half = 0.5 * medium.extent_m[i];
@@ -91,7 +90,7 @@ Status light_sky(const Context& context, const FrameView& view, double slack_deg
 /// The shadow of solids, on nodes two voxels apart.
 Status shade_by_solids(const Context& context, const FrameView& view, MarchLight& light) {
     const Medium& medium = view.world.medium;
-    if (!kMeshes || !view.world.solids.meshes || !view.lighting.sunlit || medium.sigma <= 0)
+    if (!view.world.solids.meshes || !view.lighting.sunlit || medium.sigma <= 0)
         return Status::ok();
     float coarse = 0;
     for (float cell : medium.grid.cell_m) coarse = cell > coarse ? cell : coarse;
@@ -119,7 +118,7 @@ SkyView sky_view(const FrameView& view, const MarchState& state) {
 Status light_march(const Context& context, const FrameView& view, double slack_deg,
                    MarchState& state) {
     PILEUS_TRY(light_nodes(context, view, state));
-    if (kMeshes) PILEUS_TRY(shade_by_solids(context, view, state.light));
+    PILEUS_TRY(shade_by_solids(context, view, state.light));
     return light_sky(context, view, slack_deg, state);
 }
 

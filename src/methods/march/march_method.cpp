@@ -2,48 +2,15 @@
 // See march_method.h.
 #include "src/methods/march/march_method.h"
 
-#include "kernels_cpu/core/profile.h"
-#include "src/methods/check_support.h"
-#include "src/methods/march/march_parts.h"
+#include "src/run/on_device.h"
 
 namespace pileus {
 namespace {
 
-Status check_marched(const Scene& scene, const Budget& budget) {
-    PILEUS_TRY(check_budget_kinds(scene, budget));
-    if (scene.camera.flux)
-        return Status::bad_input(scene.file +
-                                 ": camera.projection: \"flux\" sees along no single ray, which "
-                                 "method " +
-                                 scene.method + " marches, allowed: perspective, orthographic");
-    PILEUS_TRY(check_layer_kinds(scene));
-    return kFilms ? check_march_parts(scene) : Status::ok();
-}
-
-Status check_raymarch(const Scene& scene, const Budget& budget) {
-    PILEUS_TRY(check_marched(scene, budget));
-    const RaymarchLightKind light = scene.raymarch.light;
-    if (scene.raymarch.light_cone &&
-        (light == RaymarchLightKind::kBuffer || light == RaymarchLightKind::kBufferExact))
-        return Status::bad_input(scene.file +
-                                 ": raymarch.light: nodes hold straight ways, not those of "
-                                 "light_path = \"cone\", allowed: auto, march");
-    return check_upsampling(scene, "raymarch", scene.raymarch.thin);
-}
-
-Status check_optical_depth(const Scene& scene, const Budget& budget) {
-    PILEUS_TRY(check_marched(scene, budget));
-    if (scene.optical_depth.max_extinction_per_m > 0 && scene.media.size() > 1)
-        return Status::bad_input(scene.file +
-                                 ": optical_depth.max_extinction_per_m: not with several media, "
-                                 "allowed: 0, or a scene with one");
-    return Status::ok();
-}
-
 MadeMethod made_by(MarchChoice choice) {
     auto method = std::make_unique<MarchMethod>(std::move(choice));
     MadeMethod made;
-    if (kPlans) made.report = march_report(*method);
+    made.report = march_report(*method);
     made.method = std::move(method);
     return made;
 }
@@ -59,7 +26,7 @@ MadeMethod make_optical_depth(const MethodInputs& inputs) {
 MarchMethod::MarchMethod(MarchChoice choice) { state_.choice = std::move(choice); }
 
 Status MarchMethod::plan(const Context& context, const FrameView& view, Plan&) {
-    if (kDevices && context.kernels->device != nullptr)
+    if (on_device(context.kernels->device))
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name + "\": method " +
                                  view.scene.method +
                                  " runs on the host alone, allowed: another, or another method");
@@ -118,7 +85,7 @@ Status MarchMethod::render(const Context& context, const FrameView& view, const 
                            Planes*& planes) {
     // A host's pictures are counted, frames of a film have numbers.
     std::int64_t& turn = state_.light.turn;
-    turn = !kFilms || state_.choice.hosted ? turn + 1 : view.frame;
+    turn = state_.choice.hosted ? turn + 1 : view.frame;
     planes = &state_.picture.planes;
     return march_frame(context, view, ask, state_);
 }
@@ -165,12 +132,11 @@ void MarchMethod::count(Counts& counts) const {
 }
 
 MethodRow raymarch_row() {
-    return {"raymarch", WorldUse::kSkyInPlace, kept(kChecks, check_raymarch), make_raymarch};
+    return {"raymarch", WorldUse::kSkyInPlace, check_raymarch, make_raymarch};
 }
 
 MethodRow optical_depth_row() {
-    return {"optical-depth", WorldUse::kGrid, kept(kChecks, check_optical_depth),
-            make_optical_depth};
+    return {"optical-depth", WorldUse::kGrid, check_optical_depth, make_optical_depth};
 }
 
 }  // namespace pileus

@@ -39,6 +39,8 @@ private:
 /// The method outlives it.
 std::unique_ptr<MethodReport> march_report(const MarchMethod& method);
 
+Status check_raymarch(const Scene& scene, const Budget& budget);
+Status check_optical_depth(const Scene& scene, const Budget& budget);
 MethodRow raymarch_row();
 MethodRow optical_depth_row();
 extern const MethodTools raymarch_tools, optical_depth_tools;

@@ -7,8 +7,6 @@
 
 #include <algorithm>
 
-#include "src/scene/method_column.h"
-
 namespace pileus {
 namespace {
 
@@ -176,17 +174,6 @@ std::uint64_t march_part_planes(const FrameView& view, const MarchState& state) 
     const std::uint64_t lights =
         1 + view.lighting.lamps.size() + (march_emits(view, state) ? 1u : 0u);
     return (output.layer_light ? 3 * lights : 0) + (output.layer_order ? 3u : 0u);
-}
-
-Status check_march_parts(const Scene& scene) {
-    const OutputSettings& output = scene.output;
-    const UpsampleSettings& thin = scene.raymarch.thin;
-    const bool thins = refused(scene, Feature::kThinning) == nullptr && thin.every() > 1;
-    if (!thins || !(output.layer_light || output.layer_order)) return Status::ok();
-    return Status::bad_input(scene.file + ": raymarch." +
-                             (thin.temporal > 0 ? "temporal" : "scale") + ": the layer \"" +
-                             (output.layer_light ? "light" : "order") +
-                             "\" has every pixel marched, allowed: none of both, or no such layer");
 }
 
 }  // namespace pileus

@@ -15,9 +15,6 @@ Status march_parts(const Context& context, const FrameView& view, const Raymarch
 std::uint64_t march_part_planes(const FrameView& view, const MarchState& state);
 bool march_emits(const FrameView& view, const MarchState& state);
 
-/// kBadInput: layers that thinned pictures lack.
-Status check_march_parts(const Scene& scene);
-
 /// The launch that adds lamps and emission to the picture, whose nodes are made.
 LampMarchParams march_lamps(const FrameView& view, const MarchState& state);
 

@@ -278,4 +278,11 @@ std::unique_ptr<MethodReport> march_report(const MarchMethod& method) {
     return std::make_unique<MarchReport>(method);
 }
 
+void explain_march_light(double marched, double nodes, MarchChoice& choice) {
+    choice.light_why = "fewer samples of the density, about " +
+                       std::to_string(std::uint64_t(choice.march_light ? marched : nodes)) +
+                       " instead of " +
+                       std::to_string(std::uint64_t(choice.march_light ? nodes : marched));
+}
+
 }  // namespace pileus

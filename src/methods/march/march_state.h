@@ -94,6 +94,9 @@ inline Array<float> lit_density(const Grid& grid) {
 MarchChoice raymarch_choice(const MethodInputs& inputs);
 MarchChoice optical_depth_choice(const MethodInputs& inputs);
 
+/// Why light is marched or not, by samples of the density.
+void explain_march_light(double marched, double nodes, MarchChoice& choice);
+
 /// Chooses where sunlight comes from, and the levels of detail.
 void choose_march(const FrameView& view, MarchChoice& choice);
 

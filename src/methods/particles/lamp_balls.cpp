@@ -2,7 +2,6 @@
 // Light of points, spots and parallel lights at every particle, and the shadow of solids on them.
 // in: an octree, lamps, solids -> out: depths to each lamp; light that balls scatter to the camera.
 // Monette and Whitehead 2014, 3.3 and 3.4; docs/particles.md, "Lights".
-#include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/particles/particle_lamps.h"
 #include "kernels_cpu/solids/solids.h"
 #include "platform/threads.h"
@@ -93,7 +92,7 @@ Status light_by_lamps(const Context& context, const FrameView& view, ParticlesSt
     const std::size_t count = state.tree.balls.size();
     PILEUS_TRY(allocate_once(arrays::particle_lamps(count, lamps.size()), state.lamp_depth));
     PILEUS_TRY(allocate_once(arrays::particle_lamps(count, lamps.size()), state.lamp_reach));
-    if (kMeshes && view.world.solids.meshes)
+    if (view.world.solids.meshes)
         PILEUS_TRY(allocate_once(arrays::particle_lamps(count, lamps.size()), state.lamp_seen));
     const double most = state.settings.most_depth;
     Buffer<float> depths;
@@ -130,7 +129,7 @@ Status light_by_lamps(const Context& context, const FrameView& view, ParticlesSt
             state.lamp_depth[l * count + i] = s.depth;
             state.lamp_reach[l * count + i] = __builtin_sqrtf(square);
         });
-        if (kMeshes && !state.lamp_seen.empty())
+        if (view.world.solids.meshes)
             see_past_solids(context, view, state, lamp, state.lamp_seen.data() + l * count);
     }
     return Status::ok();

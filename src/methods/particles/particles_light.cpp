@@ -2,7 +2,6 @@
 // See particles_state.h. Sunlight and skylight at every particle, and the march of a picture.
 // in: an octree, lights -> out: light per particle; planes of pixels.
 // docs/particles.md, "Light", "Display".
-#include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/display/march_ray.h"
 #include "kernels_cpu/particles/particle_light.h"
 #include "platform/threads.h"
@@ -151,7 +150,7 @@ Status light_particles(const Context& context, const FrameView& view, ParticlesS
         else
             PILEUS_TRY(
                 allocate_once(arrays::particle_shades(state.tree.balls.size()), state.shade));
-        if (kMeshes && view.world.solids.meshes && state.orders > 0) {
+        if (view.world.solids.meshes && state.orders > 0) {
             const StageClock clock(context, "solid shadow");
             PILEUS_TRY(allocate_once(arrays::particle_seen(state.tree.balls.size()), state.seen));
             LampParams sun{};

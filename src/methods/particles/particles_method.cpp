@@ -2,37 +2,16 @@
 // See particles_method.h.
 #include "src/methods/particles/particles_method.h"
 
-#include "kernels_cpu/core/profile.h"
-#include "src/methods/check_support.h"
 #include "src/picture/air_view.h"
 #include "src/picture/background.h"
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/lamp_light.h"
+#include "src/run/on_device.h"
+#include "src/scene/frames.h"
 #include "src/world/camera/view.h"
 
 namespace pileus {
 namespace {
-
-Status check(const Scene& scene, const Budget& budget) {
-    const bool bins = !scene.particles.billboards && budget.steps >= 0;
-    if (bins && (budget.steps == 0 || budget.steps > kMostParticleBins))
-        return Status::bad_input("--budget steps: out of range, " + std::to_string(budget.steps) +
-                                 ", allowed: 1 to " + std::to_string(kMostParticleBins) +
-                                 " for method particles");
-    PILEUS_TRY(check_budget_kinds(scene, budget));
-    if (!shows_particles(scene))
-        return Status::bad_input(scene.file +
-                                 ": medium: method particles shows one medium of particles, " +
-                                 std::to_string(scene.media.size()) +
-                                 " media, allowed: one [[medium]] whose density is a file of "
-                                 "particles (.ply, .csv, .prt, .bgeo, .pdb, .pda) or "
-                                 "procedural:plume, procedural:particle-cumulus");
-    if (scene.media[0].periodic)
-        return Status::bad_input(scene.file +
-                                 ": medium.0.boundary: method particles shows each particle once, "
-                                 "\"periodic\", allowed: left out");
-    return check_layer_kinds(scene);
-}
 
 Status fill_background(const Context& context, const FrameView& view, ParticlesState& state) {
     const StageClock clock(context, "background");
@@ -58,7 +37,7 @@ Status light_ground_by_lamps(const Context& context, const FrameView& view, Part
 MadeMethod make(const MethodInputs& inputs) {
     auto method = std::make_unique<ParticlesMethod>(inputs);
     MadeMethod made;
-    if (kPlans) made.report = particles_report(*method);
+    made.report = particles_report(*method);
     made.method = std::move(method);
     return made;
 }
@@ -71,7 +50,7 @@ ParticlesMethod::ParticlesMethod(const MethodInputs& inputs) {
 }
 
 Status ParticlesMethod::plan(const Context& context, const FrameView& view, Plan&) {
-    if (kDevices && context.kernels->device != nullptr)
+    if (on_device(context.kernels->device))
         return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
                                  "\": method particles runs on the host alone, allowed: another, "
                                  "or another method");
@@ -126,12 +105,12 @@ Status ParticlesMethod::render(const Context& context, const FrameView& view, co
     PILEUS_TRY(light_particles(context, view, state_));
     PILEUS_TRY(allocate_planes(state_.camera.width, state_.camera.height, 3, view.lighting.opaque(),
                                scene.wants_depth(), planes));
-    if (kFilms && scene.output.layer_optical_depth)
+    if (scene.output.layer_optical_depth)
         PILEUS_TRY(
             allocate(arrays::picture_planes(1, planes.transmittance.size()), planes.optical_depth));
     PILEUS_TRY(fill_background(context, view, state_));
     PILEUS_TRY(show_particles(context, view, state_));
-    if (kFilms && scene.output.layer_occlusion) PILEUS_TRY(show_occlusion(context, view, state_));
+    if (scene.output.layer_occlusion) PILEUS_TRY(show_occlusion(context, view, state_));
     PILEUS_TRY(light_ground_by_lamps(context, view, state_));
     return show_air(context, scene, medium, view.lighting, state_.camera, view.environment, planes);
 }
@@ -156,8 +135,6 @@ void ParticlesMethod::count(Counts& counts) const {
     counts.emplace_back("majorant_violations", 0);  // the grid only casts shadows
 }
 
-MethodRow particles_row() {
-    return {"particles", WorldUse::kParticles, kept(kChecks, check), make};
-}
+MethodRow particles_row() { return {"particles", WorldUse::kParticles, check_particles, make}; }
 
 }  // namespace pileus

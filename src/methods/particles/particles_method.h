@@ -35,6 +35,7 @@ private:
 /// The method outlives it.
 std::unique_ptr<MethodReport> particles_report(const ParticlesMethod& method);
 
+Status check_particles(const Scene& scene, const Budget& budget);
 MethodRow particles_row();
 
 }  // namespace pileus

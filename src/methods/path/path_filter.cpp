@@ -2,12 +2,10 @@
 // The filter of a path tracing's picture: what of its light is smooth, and what is left alone.
 // in: planes of the film, guides -> out: the planes' colour with less noise.
 // docs/filter.md
-#include "kernels_cpu/core/profile.h"
 #include "platform/threads.h"
 #include "src/methods/path/path_state.h"
 #include "src/picture/background.h"
 #include "src/picture/filter/filter_error.h"
-#include "src/picture/filter/oidn.h"
 #include "src/picture/filter/regression.h"
 
 namespace pileus {
@@ -184,8 +182,6 @@ Status regress_with_error(const Context& context, PathState& state, const Known&
     return Status::ok();
 }
 
-std::string key_of(const Scene& scene) { return scene.file + ": filter.kind: "; }
-
 }  // namespace
 
 Status path_sky_behind(const Context& context, const FrameView& view, const PathState& state,
@@ -201,35 +197,13 @@ Status path_sky_behind(const Context& context, const FrameView& view, const Path
     return show_background(context, sky, k, {nullptr, out.data(), nullptr});
 }
 
-Status check_path_filter(const Scene& scene) {
-    if (!path_filters(scene.filter)) return Status::ok();
-    const std::string key = key_of(scene);
-    const std::string value = std::string("\"") + path_filter_name(scene.filter) + "\"";
-    if (scene.camera.flux)
-        return Status::bad_input(key +
-                                 "a flat detector (camera.projection \"flux\") sees along no "
-                                 "single ray, " +
-                                 value + ", allowed: none");
-    const OutputSettings& output = scene.output;
-    const bool error = output.layer_error && !path_regresses(scene.filter);
-    const char* layer = error ? "error" : output.layer_light ? "light" : nullptr;
-    if (layer != nullptr)
-        return Status::bad_input(key + "a filtered picture has no layer \"" + layer + "\", " +
-                                 value + ", allowed: none, or other layers");
-    return path_regresses(scene.filter) ? Status::ok() : check_oidn(key);
-}
-
 Status path_filter(const Context& context, const FrameView& view, PathState& state) {
     const StageClock clock(context, "filter");
-    // Other filters are foreign libraries, and not packed.
-    if (!kFilms || path_regresses(state.filter)) {
-        Known known;
-        PILEUS_TRY(find_known(context, view, state, known));
-        return kFilms && view.scene.output.layer_error ? regress_with_error(context, state, known)
-                                                       : regress(context, state, known, -1);
-    }
-    return denoise_by_oidn(key_of(view.scene), state.film.width, state.film.height, context.threads,
-                           state.planes.colour.data());
+    if (!path_regresses(state.filter)) return denoise_film(context, view, state);
+    Known known;
+    PILEUS_TRY(find_known(context, view, state, known));
+    return view.scene.output.layer_error ? regress_with_error(context, state, known)
+                                         : regress(context, state, known, -1);
 }
 
 }  // namespace pileus

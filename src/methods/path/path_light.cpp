@@ -2,7 +2,6 @@
 // The film of one view: alpha, then samples.
 // in: a view, what was prepared -> out: planes behind the film's light, its sums.
 // docs/path.md
-#include "kernels_cpu/core/profile.h"
 #include "src/methods/path/path_state.h"
 #include "src/picture/march_view.h"
 
@@ -74,7 +73,7 @@ Status begin_film(const Context& context, const FrameView& view, PathState& stat
 Status trace_film(const Context& context, const FrameView& view, std::uint64_t samples,
                   PathState& state) {
     PathInput in = film_input(context, view, state);
-    if (kStops) in.ended = patient_stop(context);
+    in.ended = patient_stop(context);
     return trace_paths(in, samples, state.scratch, state.film);
 }
 

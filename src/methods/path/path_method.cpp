@@ -2,24 +2,12 @@
 // See path_method.h. Preparation; path_light.cpp traces, path_show.cpp makes the picture.
 #include "src/methods/path/path_method.h"
 
-#include "kernels_cpu/core/profile.h"
-#include "src/methods/check_support.h"
+#include "src/run/on_device.h"
+#include "src/scene/frames.h"
 #include "src/world/plan_parts.h"
 
 namespace pileus {
 namespace {
-
-Status check(const Scene& scene, const Budget& budget) {
-    PILEUS_TRY(check_budget_kinds(scene, budget));
-    const OutputSettings& output = scene.output;
-    if (scene.camera.flux &&
-        (output.layer_depth || output.layer_optical_depth || output.layer_transmittance))
-        return Status::bad_input(scene.file +
-                                 ": output.layers: a flat detector (camera.projection \"flux\") "
-                                 "sees along no single ray, allowed: radiance, alpha, error, "
-                                 "cloud, light, order");
-    return check_path_filter(scene);
-}
 
 MadeMethod make(const MethodInputs& inputs) {
     MadeMethod made;
@@ -32,7 +20,7 @@ MadeMethod make(const MethodInputs& inputs) {
 PathMethod& make_path(const MethodInputs& inputs, MadeMethod& made) {
     auto method = std::make_unique<PathMethod>(inputs);
     PathMethod& path = *method;
-    if (kPlans) made.report = path_report(path, inputs.budget);
+    made.report = path_report(path, inputs.budget);
     made.method = std::move(method);
     return path;
 }
@@ -44,13 +32,14 @@ PathMethod::PathMethod(const MethodInputs& inputs) {
 }
 
 Status PathMethod::plan(const Context& context, const FrameView& view, Plan&) {
-    if (kDevices)
+    if (on_device(context.kernels->device)) {
         PILEUS_TRY(check_host_lights(context, view.scene.lights, view.scene.atmosphere.present,
                                      view.world.medium));
-    if (kDevices && context.kernels->device != nullptr && path_filters(state_.filter))
-        return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
-                                 "\": filter.kind = \"" + path_filter_name(state_.filter) +
-                                 "\" runs on the host alone, allowed: another, or none");
+        if (path_filters(state_.filter))
+            return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
+                                     "\": filter.kind = \"" + path_filter_name(state_.filter) +
+                                     "\" runs on the host alone, allowed: another, or none");
+    }
     state_.camera = make_camera(view.scene.camera, 0, view.world.medium.low_m);
     return Status::ok();
 }
@@ -86,7 +75,7 @@ Status PathMethod::accumulate(const Context& context, const FrameView& view, std
     state_.interrupted = false;
     if (!state_.begun) PILEUS_TRY(begin(context, view));
     if (units == 0) return Status::ok();
-    state_.interrupted = kStops && context.stop();
+    state_.interrupted = context.stop();
     if (state_.interrupted) return Status::ok();
     const std::uint64_t before = state_.film.samples;
     const Status traced = trace_film(context, view, units, state_);
@@ -138,6 +127,6 @@ void PathMethod::release(Phase phase) {
     state_.film.square = Buffer<double>();
 }
 
-MethodRow path_row() { return {"path", WorldUse::kGrid, kept(kChecks, check), make, true}; }
+MethodRow path_row() { return {"path", WorldUse::kGrid, check_path, make, true}; }
 
 }  // namespace pileus

@@ -54,6 +54,7 @@ std::unique_ptr<MethodReport> path_report(PathMethod& method, const Budget& budg
 /// As the row makes it; `made` owns it.
 PathMethod& make_path(const MethodInputs& inputs, MadeMethod& made);
 
+Status check_path(const Scene& scene, const Budget& budget);
 MethodRow path_row();
 extern const MethodTools path_tools;
 

@@ -2,7 +2,6 @@
 // The picture of a traced film, and its error.
 // in: a film -> out: planes of the light that layers show.
 // docs/formats.md, "Pictures out"
-#include "kernels_cpu/core/profile.h"
 #include "platform/threads.h"
 #include "src/methods/path/path_state.h"
 
@@ -39,11 +38,10 @@ Status fill_planes(const Context& context, const FrameView& view, PathState& sta
     PILEUS_TRY(mean_planes(context, state.film, kPathTotal, p.colour));
     if (output.layer_cloud || output.layer_order)
         PILEUS_TRY(mean_planes(context, state.film, kPathCloud, p.cloud));
-    if (kFilms && output.layer_light) PILEUS_TRY(mean_planes(context, state.film, kPathSun, p.sun));
-    if (kFilms && output.layer_order)
-        PILEUS_TRY(mean_planes(context, state.film, kPathSingle, p.single));
+    if (output.layer_light) PILEUS_TRY(mean_planes(context, state.film, kPathSun, p.sun));
+    if (output.layer_order) PILEUS_TRY(mean_planes(context, state.film, kPathSingle, p.single));
     // One sample has no scatter to tell an error from.
-    if (kFilms && output.layer_error && state.film.samples >= 2 && !path_filters(state.filter))
+    if (output.layer_error && state.film.samples >= 2 && !path_filters(state.filter))
         PILEUS_TRY(error_planes(state.film, p.error));
     return Status::ok();
 }

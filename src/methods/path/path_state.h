@@ -68,10 +68,11 @@ inline bool path_regresses(const FilterSettings& filter) {
 inline const char* path_filter_name(const FilterSettings& filter) {
     return path_regresses(filter) ? "regression" : path_filters(filter) ? "oidn" : "none";
 }
-Status check_path_filter(const Scene& scene);
 
 /// Takes the noise out of the planes' colour. kLimit: out of memory.
 Status path_filter(const Context& context, const FrameView& view, PathState& state);
+/// The filters of foreign libraries.
+Status denoise_film(const Context& context, const FrameView& view, PathState& state);
 
 /// The error of the film over the cloud's pixels, of numbers as the image holds them.
 ErrorSum path_error(const PathState& state);

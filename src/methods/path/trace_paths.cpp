@@ -10,6 +10,7 @@
 #include "src/methods/path/path_blocks.h"
 #include "src/run/context.h"
 #include "src/run/device_launch.h"
+#include "src/run/on_device.h"
 #include "src/world/majorant/majorants.h"
 #include "src/world/solids/camera_depth.h"
 #include "src/world/solids/solids.h"
@@ -66,7 +67,7 @@ void set_light(const PathInput& in, const SkySampler& sampler, PathParams& k) {
         sky_lit = true;
     }
     k.sky_lit = sky_lit ? 1 : 0;
-    if (kMeshes && light.solids != nullptr) {
+    if (light.solids != nullptr) {
         k.solids = light.solids->view();
         if (light.solids->coloured()) k.channels = 3;
     }
@@ -124,7 +125,7 @@ auto kernel_for(const PathInput& in, const PathParams& k) {
 Status run_launch(const PathInput& in, const PathParams& k, std::uint64_t count,
                   const std::function<bool()>& ask, PathScratch& scratch, bool& ended) {
     ended = false;
-    if (kDevices && in.kernels->device != nullptr)
+    if (on_device(in.kernels->device))
         return launch_on_device(*in.kernels->device, k,
                                 {scratch.radiance.data(), scratch.capacity, &scratch.tallies[0]},
                                 std::uint32_t(count));

@@ -2,7 +2,6 @@
 // What a collision in the photon grid stores, how many cells there are, what they are shown by.
 // in: scene, world -> out: choices in PhotonGridState.
 // docs/photon-grid.md.
-#include "kernels_cpu/core/profile.h"
 #include "src/methods/photon_grid/photon_grid_state.h"
 #include "src/photons/scatter.h"
 #include "src/picture/nodes/node_grid.h"
@@ -152,7 +151,7 @@ Status choose_grid_light(const FrameView& view, PhotonGridState& state) {
     const PhotonGridSettings& settings = state.settings;
     const Medium& medium = view.world.medium;
     state.cells = photon_cells(settings, state.lights.budget_photons, medium);
-    if (kChecks && settings.closure == GridClosure::kCamera && medium.count > 1)
+    if (settings.closure == GridClosure::kCamera && medium.count > 1)
         return Status::bad_input(view.scene.file +
                                  ": photon_grid.closure: \"camera\" knows one medium, but the "
                                  "scene has several, allowed: sh, published, mean");

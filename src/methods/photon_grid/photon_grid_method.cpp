@@ -2,59 +2,17 @@
 // See photon_grid_method.h.
 #include "src/methods/photon_grid/photon_grid_method.h"
 
-#include "kernels_cpu/core/profile.h"
-#include "src/methods/check_support.h"
 #include "src/photons/lit_march.h"
+#include "src/scene/frames.h"
 #include "src/world/camera/view.h"
 
 namespace pileus {
 namespace {
 
-Status check_layers(const Scene& scene) {
-    if (scene.output.layer_order && scene.sun.present && !scene.photon_grid.first_order_split)
-        return Status::bad_input(scene.file +
-                                 ": output.layers: \"order\": method photon-grid keeps single "
-                                 "scattering apart only with first_order_split, allowed: "
-                                 "photon_grid.first_order_split = true, or no such layer");
-    return Status::ok();
-}
-
-/// A periodic medium is seen from many sides at once, a moved camera as well.
-Status check_closure(const Scene& scene) {
-    const GridClosure closure = scene.photon_grid.closure;
-    if (closure == GridClosure::kSh) return Status::ok();
-    const std::string where = scene.file + ": photon_grid.closure: ";
-    bool periodic = false;
-    for (const MediumSettings& m : scene.media) periodic |= m.periodic;
-    if (periodic && !scene.camera.orthographic)
-        return Status::bad_input(where +
-                                 "not for periodic media, allowed: sh, or an orthographic camera");
-    const char* mover = mover_of_view(scene);
-    if (closure == GridClosure::kCamera && mover != nullptr)
-        return Status::bad_input(where + "\"camera\" needs a fixed camera, but " + mover +
-                                 " moves it");
-    return Status::ok();
-}
-
-Status check_scene(const Scene& scene, const Budget& budget) {
-    if (budget.error > 0 && !scene.output.layer_error)
-        return Status::bad_input(
-            "--budget error: method photon-grid knows its error by batches of photons, allowed: "
-            "output.layers with \"error\"");
-    if (budget.error > 0 && scene.animation.present)
-        return Status::bad_input(
-            "--budget error: not for an animation by photon-grid, whose frames have the same "
-            "photons, "
-            "allowed: photons=N");
-    PILEUS_TRY(check_budget_kinds(scene, budget));
-    PILEUS_TRY(check_layers(scene));
-    return check_closure(scene);
-}
-
 MadeMethod make(const MethodInputs& inputs) {
     auto method = std::make_unique<PhotonGridMethod>(inputs);
     MadeMethod made;
-    if (kPlans) made.report = photon_grid_report(*method);
+    made.report = photon_grid_report(*method);
     made.method = std::move(method);
     return made;
 }
@@ -69,15 +27,6 @@ PhotonGridMethod::PhotonGridMethod(const MethodInputs& inputs) : PhotonMethod(st
     state_.shadow.light_refresh = state_.settings.light_refresh;
     const std::int64_t budget = inputs.budget.photons;
     state_.lights.budget_photons = budget >= 0 ? budget : state_.settings.photons;
-}
-
-Status PhotonGridMethod::check(const Context& context, const FrameView& view) {
-    if (kDevices && context.kernels->device != nullptr)
-        return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
-                                 "\": method photon-grid runs on the host alone, allowed: another, "
-                                 "or another method");
-    if (!kChecks) return Status::ok();
-    return check_thinned(context, view.scene, "photon_grid", state_);
 }
 
 Status PhotonGridMethod::prepare(const Context& context, const FrameView& view) {
@@ -128,8 +77,6 @@ Status PhotonGridMethod::error(const Context& context, const FrameView& view,
     return Status::ok();
 }
 
-MethodRow photon_grid_row() {
-    return {"photon-grid", WorldUse::kGrid, kept(kChecks, check_scene), make};
-}
+MethodRow photon_grid_row() { return {"photon-grid", WorldUse::kGrid, check_photon_grid, make}; }
 
 }  // namespace pileus

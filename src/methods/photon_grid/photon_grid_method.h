@@ -55,6 +55,7 @@ protected:
 
 std::unique_ptr<MethodReport> photon_grid_report(PhotonGridMethod& method);
 
+Status check_photon_grid(const Scene& scene, const Budget& budget);
 MethodRow photon_grid_row();
 extern const MethodTools photon_grid_tools;
 

@@ -2,8 +2,6 @@
 // The picture of a lit photon grid: light of the cells, march, parts, layers.
 // in: PhotonGridState after shooting, a camera -> out: Planes.
 // docs/photon-grid.md; docs/formats.md, "Pictures out".
-#include "kernels_cpu/core/profile.h"
-#include "src/base/digest.h"
 #include "src/methods/photon_grid/photon_grid_state.h"
 #include "src/photons/lit_march.h"
 #include "src/picture/air_view.h"
@@ -20,15 +18,6 @@ NodeGrid cell_nodes(const FrameView& view, const PhotonGridState& state) {
 }
 
 namespace {
-
-/// The picture's own digest, not those of its parts.
-void note_colours(const Context& context, const GridLightInput& in, Span<const float> light,
-                  PhotonGridState& state) {
-    if (!kPlans || !context.digests || in.lighting != &state.lights.lighting) return;
-    Digest digest;
-    digest.floats(light);
-    state.picture.colours = digest.hex();
-}
 
 /// What cells around the camera scatter in all directions, for the picture and each batch; nothing
 /// where the camera is too far away.
@@ -56,12 +45,13 @@ Status show_towards(const Context& context, const FrameView& view, PhotonGridSta
         const StageClock clock(context, "reconstruct");
         PILEUS_TRY(light_cells(in, light));
     }
-    note_colours(context, in, light.span(), state);
+    // The picture's own digest, not those of its parts.
+    if (in.lighting == &state.lights.lighting) note_colours(context, light.span(), state);
     MarchParams k = lit_march_params(view, state, in, cell_nodes(view, state));
     k.channels = 3 * (1 + in.batches);
     NodeLight lit{light.data()};
     PILEUS_TRY(light_near(context, view, state, in, k, lit));
-    if (!kFilms || in.lighting == &state.lights.lighting)
+    if (in.lighting == &state.lights.lighting)
         return march_thinned(context, view, lit, k, state, planes);
     return march_lit(context, view, state, lit, k, planes.colour.data(), planes);
 }
@@ -79,12 +69,13 @@ Status show_all_ways(const Context& context, const FrameView& view, PhotonGridSt
             PILEUS_TRY(light_cell_harmonics(in, {batch, 0, 1, stored_harmonics(in.deposit)}, all,
                                             sets, light));
         }
-        if (batch < 0) note_colours(context, in, light.span(), state);
+        if (batch < 0 && in.lighting == &state.lights.lighting)
+            note_colours(context, light.span(), state);
         set_harmonic_sets(in.deposit, sets.sets, sets.colour, k);
         float* target =
             planes.colour.data() + 3 * std::size_t(batch + 1) * planes.transmittance.size();
         PILEUS_TRY(
-            !kFilms || (batch < 0 && in.lighting == &state.lights.lighting)
+            batch < 0 && in.lighting == &state.lights.lighting
                 ? march_thinned(context, view, NodeLight{light.data()}, k, state, planes)
                 : march_lit(context, view, state, NodeLight{light.data()}, k, target, planes));
     }
@@ -99,68 +90,18 @@ Status show_first_order(const Context& context, const FrameView& view, PhotonGri
     return march_lit(context, view, state, NodeLight{dark}, k, planes.colour.data(), planes);
 }
 
-Status display(const Context& context, const FrameView& view, PhotonGridState& state,
-               const GridLightInput& in, Planes& planes) {
+}  // namespace
+
+Status display_grid(const Context& context, const FrameView& view, PhotonGridState& state,
+                    const GridLightInput& in, Planes& planes) {
     PILEUS_TRY(make_sun_shadow(context, view, state));
-    if (kFilms && in.first_order_alone)
+    if (in.first_order_alone)
         PILEUS_TRY(show_first_order(context, view, state, in, planes));
     else
         PILEUS_TRY(shows_harmonics(view, state) ? show_all_ways(context, view, state, in, planes)
                                                 : show_towards(context, view, state, in, planes));
     return add_lit_lamps(context, view, state, in, planes);
 }
-
-/// A picture of one part of the light, without batches.
-Status show_part(const Context& context, const FrameView& view, PhotonGridState& state,
-                 const GridLightInput& in, Planes& part) {
-    PILEUS_TRY(
-        allocate_planes(in.camera.width, in.camera.height, 3, in.lighting->opaque(), false, part));
-    PILEUS_TRY(fill_lit_background(context, view, state, in, 0, part));
-    return display(context, view, state, in, part);
-}
-
-Status show_sun(const Context& context, const FrameView& view, PhotonGridState& state,
-                GridLightInput in, Planes& planes) {
-    const Lighting light = sun_alone(*in.lighting);
-    in.lighting = &light;
-    in.batches = 0;
-    Planes part;
-    PILEUS_TRY(show_part(context, view, state, in, part));
-    const std::size_t pixels = part.transmittance.size();
-    for (std::size_t i = 0; i < 3 * pixels; ++i)
-        part.colour[i] += part.transmittance[i % pixels] * part.background[i];
-    planes.sun.swap(part.colour);
-    return Status::ok();
-}
-
-/// Light that the media scattered once, straight from the sun and the lamps.
-Status show_single(const Context& context, const FrameView& view, PhotonGridState& state,
-                   GridLightInput in, Planes& planes) {
-    if (!in.lighting->sunlit && in.lighting->lamps.empty())
-        return allocate(arrays::picture_planes(3, planes.transmittance.size()), planes.single);
-    Lighting light = sun_alone(*in.lighting);
-    light.lamps = in.lighting->lamps;
-    in.lighting = &light;
-    in.batches = 0;
-    in.first_order_alone = true;
-    Planes part;
-    PILEUS_TRY(show_part(context, view, state, in, part));
-    planes.single.swap(part.colour);
-    return Status::ok();
-}
-
-/// What layers of files show besides the picture.
-Status add_layers(const Context& context, const FrameView& view, PhotonGridState& state,
-                  const GridLightInput& in, Planes& planes) {
-    const OutputSettings& output = view.scene.output;
-    PILEUS_TRY(add_ground_noise(context, view, state, in, planes));
-    if (output.layer_optical_depth)
-        PILEUS_TRY(show_optical_depth(context, view, state, in, planes));
-    if (output.layer_light) PILEUS_TRY(show_sun(context, view, state, in, planes));
-    return output.layer_order ? show_single(context, view, state, in, planes) : Status::ok();
-}
-
-}  // namespace
 
 Status compose_photon_grid(const CameraParams& camera, const Context& context,
                            const FrameView& view, const TraceInput& launches,
@@ -177,7 +118,7 @@ Status compose_photon_grid(const CameraParams& camera, const Context& context,
                                    planes));
     }
     PILEUS_TRY(fill_lit_background(context, view, state, in, 0, planes));
-    PILEUS_TRY(display(context, view, state, in, planes));
+    PILEUS_TRY(display_grid(context, view, state, in, planes));
     {
         // Noise may leave less than nothing in a pixel.
         const StageClock clock(context, "layers");
@@ -185,7 +126,7 @@ Status compose_photon_grid(const CameraParams& camera, const Context& context,
         for (std::size_t i = 0; i < 3 * pixels; ++i)
             if (planes.colour[i] < 0) planes.colour[i] = 0, ++planes.clamped;
     }
-    if (kFilms) PILEUS_TRY(add_layers(context, view, state, in, planes));
+    PILEUS_TRY(add_grid_layers(context, view, state, in, planes));
     return show_air(context, view.scene, view.world.medium, state.lights.lighting, camera,
                     view.environment, planes);
 }

@@ -60,9 +60,27 @@ SumBound grid_bound(const FrameView& view, const PhotonGridState& state);
 Status measure_photon_grid(const Context& context, const FrameView& view, PhotonGridState& state,
                            Plan& plan);
 
+SlotSize grid_slot(const PhotonGridState& state);
+/// Bytes of one thread's own sums.
+std::uint64_t bytes_of_grid_thread(const PhotonGridState& state);
+
+/// The most bytes of all arrays but threads' sums; 0 in a flight, where they alone choose the sums.
+std::uint64_t photon_grid_peak(const Context& context, const FrameView& view,
+                               const PhotonGridState& state);
+/// The plan's memory and work, where the sums are chosen. kLimit: more than may be.
+Status measure_grid_memory(const Context& context, const FrameView& view,
+                           const PhotonGridState& state, std::uint64_t photons, Plan& plan);
+
 /// What the light of the cells towards a camera is made from.
 GridLightInput grid_light_input(const CameraParams& camera, const Context& context,
                                 const FrameView& view, const PhotonGridState& state);
+
+/// Shows light of these inputs before a background that is there.
+Status display_grid(const Context& context, const FrameView& view, PhotonGridState& state,
+                    const GridLightInput& in, Planes& planes);
+/// What layers of files show besides the picture.
+Status add_grid_layers(const Context& context, const FrameView& view, PhotonGridState& state,
+                       const GridLightInput& in, Planes& planes);
 
 /// The picture as it is lit now, as planes; `in` of launches.
 Status compose_photon_grid(const CameraParams& camera, const Context& context,

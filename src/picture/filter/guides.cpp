@@ -3,7 +3,6 @@
 #include "src/picture/filter/guides.h"
 
 #include "kernels_cpu/core/math.h"
-#include "kernels_cpu/core/profile.h"
 #include "platform/threads.h"
 #include "src/picture/background.h"
 #include "src/picture/nodes/node_grid.h"
@@ -52,7 +51,7 @@ Status light_nodes(const Context& context, const Medium& medium, const MediumVie
     const ShadowBuffers b{guides.sun_depth.data(), rows.data()};
     PILEUS_TRY(run_rows(context, context.kernels->shadow_rows, k, b,
                         std::uint32_t(k.nodes.size[1] * k.nodes.size[2])));
-    if (kMeshes && lighting.solids != nullptr)
+    if (lighting.solids != nullptr)
         PILEUS_TRY(solid_visibility(context, *lighting.solids, guides.nodes, lighting.to_sun,
                                     guides.visibility));
     pack(context, rows, guides);

@@ -122,7 +122,7 @@ Status add_lamp_light(const Context& context, const Medium& medium, const LampMa
     };
     const bool whole =
         run_until(context.threads, (rows + kPiece - 1) / kPiece, context.interrupted, march);
-    if (kStops && !whole)
+    if (!whole)
         return {Code::kCheckFailed, "interrupted before the picture was whole; no file written"};
     return Status::ok();
 }

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "kernels_cpu/core/profile.h"
 #include "platform/threads.h"
 
 namespace pileus {
@@ -173,7 +172,7 @@ Status make_rows(const Context& context, const RaymarchParams& k, const SkyParam
                                             std::uint32_t(piece * kPiece), std::uint32_t(end));
     };
     const bool whole = run_until(context.threads, pieces, context.interrupted, make);
-    if (kStops && !whole)
+    if (!whole)
         return {Code::kCheckFailed, "interrupted before the picture was whole; no file written"};
     for (const std::int64_t n : read) out.densities += std::uint64_t(n);
     return Status::ok();

@@ -5,10 +5,10 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-#include "kernels_cpu/core/profile.h"
 #include "src/base/angles.h"
 #include "src/base/file.h"
 #include "src/io/meshes/mesh_file.h"
+#include "src/run/on_device.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/toml/toml_tree.h"
 #include "src/world/solids/camera_depth.h"
@@ -87,7 +87,7 @@ Status place_triangles(const SolidSettings& settings, const std::string& name, s
 }
 
 Status refuse_device(const Scene& scene, const Context& context) {
-    if (!kDevices || context.kernels->device == nullptr) return Status::ok();
+    if (!on_device(context.kernels->device)) return Status::ok();
     return Status::bad_input(scene.file + ": solid, camera.depth: not on the device " +
                              context.kernels->name + " in this version, allowed: --isa auto");
 }

@@ -23,6 +23,8 @@ struct Solids {
     std::uint64_t file_bytes = 0;  ///< of all meshes
     float period[2] = {};          ///< metres after which they repeat along x and y; 0: not
 
+    std::uint64_t bytes() const { return nodes.bytes() + triangles.bytes() + albedo.bytes(); }
+    bool empty() const { return triangles.empty(); }
     /// Whether any colour is no grey.
     bool coloured() const {
         for (std::size_t i = 0; i + 2 < albedo.size(); i += 3)

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <string>
 
-#include "kernels_cpu/core/profile.h"
 #include "platform/threads.h"
 #include "src/methods/collectors/billboards/billboard_spheres.h"
 #include "src/run/device_launch.h"
+#include "src/run/on_device.h"
 #include "src/scene/toml/toml_tree.h"
 
 namespace pileus {
@@ -136,14 +136,14 @@ Status composite_billboards(const BillboardScene& scene, const CameraParams& cam
     // Lend each thread its own planes.
     Buffer<float> scratch;
     const std::uint64_t share = blend_scratch_share(params);
-    const std::uint64_t own_planes = kDevices && device != nullptr ? 0 : std::uint64_t(threads);
+    const std::uint64_t own_planes = on_device(device) ? 0 : std::uint64_t(threads);
     PILEUS_TRY(scratch.resize(share * own_planes, "planes of the tiles"));
     PILEUS_TRY(prepare_image(params, scene.half_depth, out));
     const BlendBuffers buffers{
         lists.spheres.data(),      scene.colour,       lists.tile_begin.data(),
         lists.tile_spheres.data(), scene.opaque_depth, out.transmittance.data(),
         out.half_depth.data(),     out.colour.data(),  nullptr};
-    if (kDevices && device != nullptr)
+    if (on_device(device))
         return launch_on_device(*device, params, buffers, lists.spheres.size(),
                                 static_cast<std::uint32_t>(tiles));
     parallel_for(threads, static_cast<std::int64_t>(tiles), [&](std::int64_t piece, int thread) {

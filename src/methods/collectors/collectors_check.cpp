@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// Whether a scene is one that the method draws; in no flight, whose scenes were checked when they
+// were packed. in: a scene, a budget -> out: one line. docs/architecture.md, "Refusals"
+#include "src/methods/check_support.h"
+#include "src/methods/collectors/billboards/gl_billboards.h"
+#include "src/methods/collectors/collectors_method.h"
+#include "src/photons/lit_march.h"
+#include "src/run/on_device.h"
+#include "src/scene/frames.h"
+#include "src/world/plan_parts.h"
+
+namespace pileus {
+
+Status check_collectors(const Scene& scene, const Budget& budget) {
+    PILEUS_TRY(check_budget_kinds(scene, budget));
+    const CollectorSettings& settings = scene.collectors;
+    if (scene.output.layer_order && scene.sun.present && !settings.first_order_split &&
+        !settings.camera_closure)
+        return Status::bad_input(scene.file +
+                                 ": output.layers: \"order\": method collectors keeps single "
+                                 "scattering apart only with first_order_split, allowed: "
+                                 "collectors.first_order_split = true, or no such layer");
+    return Status::ok();
+}
+
+Status CollectorsMethod::check(const Context& context, const FrameView& view) {
+    const Scene& scene = view.scene;
+    const CollectorSettings& settings = state_.settings;
+    PILEUS_TRY(
+        check_host_lights(context, scene.lights, scene.atmosphere.present, view.world.medium));
+    PILEUS_TRY(check_thinned(context, scene, "collectors", state_));
+    if (settings.light_refresh > 1 && on_device(context.kernels->device))
+        return Status::bad_input(scene.file +
+                                 ": collectors.light_refresh: for the host alone, allowed: 1");
+    if (settings.thin.every() > 1 && !is_marched(state_))
+        return Status::bad_input(scene.file +
+                                 ": collectors.display: \"billboards\" has no marched pixels, "
+                                 "allowed: march, or collectors.scale = 1 and temporal = 0");
+    if (settings.camera_closure) {
+        if (const char* const mover = mover_of_view(scene))
+            return Status::bad_input(scene.file +
+                                     ": collectors.closure: \"camera\" needs a fixed "
+                                     "camera, but " +
+                                     mover + " moves it");
+    }
+    // Tell before any work that the compositor asked for is not here.
+    if (settings.compositor != Compositor::kBuiltin) {
+        GlBlender blender;
+        PILEUS_TRY(open_gl_blender(settings.compositor, blender));
+    }
+    return Status::ok();
+}
+
+}  // namespace pileus
