@@ -9,6 +9,7 @@
 #include "lab/views/colours.h"
 #include "lab/views/follow.h"
 #include "lab/views/show_walk.h"
+#include "lab/views/view_list.h"
 #include "tests/law/prepare_fields.h"
 #include "tests/support/render_harness.h"
 
