@@ -16,7 +16,7 @@ flight_files(src/base buffer digest limits printable)
 flight_files(src/flight/bare checks close films machine memory no_files own_bytes registry reports)
 flight_files(src/flight block flight pack)
 flight_files(src/io/images color_channels)
-flight_files(src/methods check_support governor most_units scenery support)
+flight_files(src/methods governor most_units scenery support)
 flight_files(src/methods/collectors/billboards billboard_spheres composite_billboards)
 flight_files(src/methods/collectors
     collectors_bias collectors_choice collectors_display collectors_method collectors_plan collectors_show)
