@@ -25,7 +25,7 @@ Status follow(const Context& context, const FrameView& view, const CollectorsMet
                                  ", " + std::to_string(number) + ", allowed: less than " +
                                  std::to_string(chosen.photons));
     way.light = chosen.name;
-    follow_photon(method.trace_input(context, view), chosen, number, kMostWayPoints, way.points);
+    follow_photon(method.trace_input(context, view), chosen, number, kMaxWayPoints, way.points);
     for (PathPoint& p : way.points)
         for (std::size_t a = 0; a < 3; ++a)
             p.at_m[a] = float(double(p.at_m[a]) + view.world.medium.low_m[a]);

@@ -11,9 +11,9 @@ namespace pileus {
 /// A photon's way. Positions are the world's, in metres.
 struct PhotonWay {
     std::string light;
-    std::vector<PathPoint> points;  ///< at most kMostWayPoints, the last always
+    std::vector<PathPoint> points;  ///< at most kMaxWayPoints, the last always
 };
-constexpr std::size_t kMostWayPoints = 100000;
+constexpr std::size_t kMaxWayPoints = 100000;
 
 /// Follows photon `number` of the first generation of light `light` (0: the first that the plan
 /// names). Errors: kBadInput (scene, files, isa, no such light or photon), kLimit (memory), kIo.

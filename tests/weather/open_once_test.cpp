@@ -31,6 +31,7 @@ TEST_CASE("weather: a file that a session keeps is opened once, whatever is read
     WeatherMap map;
     REQUIRE(read_volume_head(c.medium, path, head));
     Scene scene;
+    scene.camera.orthographic = true;  // its picture tells its place
     scene.media = {c.medium, c.medium};
     share_weather_files(scene);
     CHECK(scene.media[0].weather_file == scene.media[1].weather_file);

@@ -3,6 +3,7 @@
 #include "src/io/volumes/weather_file.h"
 
 #include "src/base/file.h"
+#include "src/scene/read_scene.h"
 #include "src/scene/rows/volume_format.h"
 
 namespace pileus {
@@ -49,11 +50,7 @@ Status WeatherFile::map(const WeatherSettings& settings, const std::string& path
     return map_status_;
 }
 
-void WeatherFile::close(const WeatherSettings& settings) {
-    WeatherMap ignored;
-    if (file_ != nullptr && opened_) (void)map(settings, path_, ignored);
-    file_.reset();
-}
+void WeatherFile::close() { file_.reset(); }
 
 Status open_weather_file(const MediumSettings& medium, const std::string& path, NcFile& own,
                          const NcFile*& file) {
@@ -85,8 +82,15 @@ void share_weather_files(Scene& scene) {
 }
 
 void close_weather_files(const Scene& scene) {
-    for (const MediumSettings& medium : scene.media)
-        if (medium.weather_file != nullptr) medium.weather_file->close(medium.weather);
+    bool mapped = !scene.camera.orthographic;
+    for (const MediumSettings& medium : scene.media) {
+        if (medium.weather_file == nullptr) continue;
+        // That of the first one is asked for when the picture is made; whether there is one, too.
+        WeatherMap map;
+        if (!mapped) (void)read_weather_map(medium, density_path(scene, medium), map);
+        mapped = true;
+        medium.weather_file->close();
+    }
 }
 
 }  // namespace pileus

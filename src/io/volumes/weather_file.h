@@ -49,10 +49,10 @@ public:
     Status size(const std::string& path, std::uint64_t& bytes);
     /// Opens it at the first call, and where the path is another one than before. Errors: NcFile's.
     Status open(const std::string& path, const NcFile*& file);
-    /// The map of the file under these settings; read once.
+    /// The map of the file under the settings of the first medium that shows it; read once.
     Status map(const WeatherSettings& settings, const std::string& path, WeatherMap& map);
-    /// All values have been read: keeps the map alone. Whoever asks again opens it anew.
-    void close(const WeatherSettings& settings);
+    /// All values have been read. Whoever asks again opens it again.
+    void close();
 
 private:
     Status find(const std::string& path);
@@ -74,7 +74,8 @@ Status density_file_bytes(const MediumSettings& medium, const std::string& path,
 
 /// Gives each medium of weather data its file, which media of the same file share; none is opened.
 void share_weather_files(Scene& scene);
-/// After the values of all media have been read.
+/// After the values of all media have been read; the map stays for cameras whose pictures tell
+/// their place.
 void close_weather_files(const Scene& scene);
 
 }  // namespace pileus

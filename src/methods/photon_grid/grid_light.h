@@ -26,10 +26,6 @@ inline Array<float> cell_light(std::uint64_t numbers, std::uint64_t cells) {
 inline Array<float> cell_shares(std::uint64_t cells, std::uint64_t media) {
     return {"shares of the media", bytes_of(media, cells), Stage::kMajorants, Stage::kWrite};
 }
-/// A counter for each slice of cells.
-inline Array<std::uint64_t> slice_counters(std::uint64_t slices) {
-    return {"counters", slices, Stage::kReconstruct, Stage::kReconstruct};
-}
 
 }  // namespace arrays
 
