@@ -92,13 +92,13 @@ const Flight kFlights[] = {
      "[collectors]\nphotons = 100_000\ngenerations = 20\nbands = 3\nsamples = 3_000\n"
      "scale = 4\nlight_refresh = 8\n",
      1,
-     {"8469a4eda8737fea", "0bfb07619eeffdd2", "885ef78e69fbf344", "feabf865555fd540"}},
+     {"b6594dc726c7d62e", "989564d99809c917", "3acefe7a78d21ac7", "8181277e61dbb1da"}},
     {"billboards",
      "[method]\nname = \"collectors\"\n"
      "[collectors]\nphotons = 100_000\ngenerations = 20\nbands = 3\nsamples = 3_000\n"
      "display = \"billboards\"\nlight_refresh = 8\n",
      2,
-     {"97f63ac1c199acc7", "b825c5a96654e9a8", "93a2459fa00c6a8c", "02ccd23507d271af"}},
+     {"e54f03c78137a919", "57ecf905b0384cbf", "19b1b8646a363a24", "165a0ee82750fd48"}},
     {"octaves by temporal reprojection",
      "[method]\nname = \"raymarch\"\n"
      "[raymarch]\nscattering = \"octaves\"\nsteps = 48\ntemporal = 4\nlight_refresh = 8\n",

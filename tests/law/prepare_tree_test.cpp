@@ -136,7 +136,7 @@ TreeOptions finished(const Field& f, float range, float influence_m, double shar
     TreeOptions o;
     o.density_range = range;
     o.influence_m = influence_m;
-    if (share > 0) leaf_limit(f.grid, share, o.max_leaf_voxels);
+    if (share > 0) leaf_limit(f.grid, share, 1e-9, o.max_leaf_voxels);
     return o;
 }
 
@@ -265,9 +265,19 @@ TEST_CASE("law: a limit on leaves halves those with medium and no others") {
     CHECK(prepare_samples(f, {}, o, CollectorOptions{}).leaves.size() == 1);
     int limit[3];
     const Grid g{{30, 40, 1}, {1.0f, 1.0f, 5.0f}};
-    leaf_limit(g, 0.1, limit);
+    // Without an optical depth to speak of the diagonal alone counts.
+    leaf_limit(g, 0.1, 1e-9, limit);
     // The diagonal is sqrt(900 + 1600 + 25) = 50.25 m.
     CHECK((limit[0] == 5 && limit[1] == 5 && limit[2] == 1));
+    // Two optical depths are 4 m: longer than twelfths of 30 m and 40 m.
+    leaf_limit(g, 0.1, 0.5, limit);
+    CHECK((limit[0] == 4 && limit[1] == 4 && limit[2] == 1));
+    // A layer of 600 x 600 x 12 voxels: the diagonal's tenth is 85 m, a twelfth of its height 1 m.
+    const Grid layer{{600, 600, 12}, {1.0f, 1.0f, 1.0f}};
+    leaf_limit(layer, 0.1, 100, limit);
+    CHECK((limit[0] == 50 && limit[1] == 50 && limit[2] == 1));
+    leaf_limit(layer, 0.1, 0.5, limit);
+    CHECK((limit[0] == 50 && limit[1] == 50 && limit[2] == 4));
 }
 
 TEST_CASE("law: centre and radius of both variants, known answers") {

@@ -149,7 +149,8 @@ TEST_CASE("conventions: a slice along a meridian from north to south, an origin 
     c.medium.weather.origin_deg = {135, 50};
     const Status status = c.load();
     REQUIRE_MESSAGE(status, status.message);
-    CHECK(c.volume.size == std::array<int, 3>{1, 3, 1});
+    // 15 optical depths in cells of two.
+    CHECK(c.volume.size == std::array<int, 3>{1, 3, 8});
     const double degree = 40030173.0 / 360;
     CHECK(c.volume.bounds_m[0][1] == doctest::Approx(-0.5 * degree).epsilon(1e-9));
     CHECK(c.volume.bounds_m[1][1] == doctest::Approx(2.5 * degree).epsilon(1e-9));

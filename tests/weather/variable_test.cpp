@@ -93,7 +93,8 @@ TEST_CASE("variable: the heights that are seen make the box") {
     c.medium.transfer = {{0, 0.1, {1, 1, 1}}, {1, 0.01, {1, 1, 1}}};
     c.medium.weather.vertical_scale = 3;
     REQUIRE(c.load());
-    CHECK(c.volume.size[2] == 3);
+    // Ten optical depths a layer, in cells of two.
+    CHECK(c.volume.size[2] == 15);
     CHECK(c.volume.bounds_m[1][2] == doctest::Approx(2400));
     CHECK(c.volume.density[0] == 0.5f);
 }

@@ -20,9 +20,9 @@ double kappa(double grams, double um) { return 1.5 * grams * 1e-3 / (1000 * um *
 
 TEST_CASE("weather: content on heights, cell by cell") {
     WeatherCase c = test::content_case();
+    c.medium.resolution = {2, 1, 3};
     const Status status = c.load();
     REQUIRE_MESSAGE(status, status.message);
-    CHECK(c.volume.size == std::array<int, 3>{2, 1, 3});
     CHECK(c.volume.in_extinction);
     CHECK(c.volume.bounds_m[0][2] == doctest::Approx(500));
     CHECK(c.volume.bounds_m[1][2] == doctest::Approx(800));
@@ -34,11 +34,32 @@ TEST_CASE("weather: content on heights, cell by cell") {
         CHECK(c.volume.density[i] == doctest::Approx(kappa(grams[i], 10)).epsilon(kFloat));
 }
 
+TEST_CASE("weather: layers of the file are cut into cells of two optical depths") {
+    WeatherCase c = test::content_case();
+    REQUIRE(c.load());
+    // 0.4 g/m3 in drops of 10 um: 0.06 per m, 18 optical depths in 300 m.
+    CHECK(c.volume.size == std::array<int, 3>{2, 1, 9});
+    for (std::size_t z = 0; z < 9; ++z) {
+        const double grams[3][2] = {{0.1, 0}, {0.2, 0.4}, {0, 0.3}};
+        for (std::size_t x = 0; x < 2; ++x)
+            CHECK(c.volume.density[2 * z + x] ==
+                  doctest::Approx(kappa(grams[z / 3][x], 10)).epsilon(kFloat));
+    }
+    // Thin layers stay as they are, and no layer has more than sixteen cells.
+    c.medium.weather.liquid_radius_um = 200;
+    REQUIRE(c.load());
+    CHECK(c.volume.size == std::array<int, 3>{2, 1, 3});
+    c.medium.weather.liquid_radius_um = 0.01;
+    REQUIRE(c.load());
+    CHECK(c.volume.size == std::array<int, 3>{2, 1, 48});
+}
+
 TEST_CASE("weather: radii of the scene, width, exaggerated heights keep the optical depth") {
     WeatherCase c = test::content_case();
     c.medium.weather.liquid_radius_um = 5;
     c.medium.weather.width_m = 250;
     c.medium.weather.vertical_scale = 4;
+    c.medium.resolution = {2, 1, 3};
     REQUIRE(c.load());
     CHECK(c.cell_m(1) == doctest::Approx(250));
     CHECK(c.volume.bounds_m[0][2] == doctest::Approx(2000));
@@ -147,6 +168,7 @@ TEST_CASE("weather: packed numbers, missing values, undershoots") {
     lwc.values = {50, -999, 150, 350, -50, 250};
     lwc.numbers = {{"_FillValue", -999}};
     lwc.doubles = {{"scale_factor", 0.001}, {"add_offset", 0.05}};
+    c.medium.resolution = {2, 1, 3};
     const Status status = c.load();
     REQUIRE_MESSAGE(status, status.message);
     CHECK(c.volume.missing == 1);

@@ -20,20 +20,15 @@ constexpr double kPriorScatterings = 8;
 constexpr std::uint64_t kNodeBudget = 1u << 19;      // nodes of the source grid, about
 constexpr std::uint64_t kHarmonicBudget = 1u << 18;  // of one that holds harmonics
 
-/// Spacing of the source nodes: what the budget allows, at least the cells of a cell estimate.
-double source_spacing(const FrameView& view, const CollectorsState& state) {
-    const auto& e = view.world.medium.extent_m;
-    const double smallest = double(smallest_cell(view.world.medium.grid));
-    if (state.camera_cells > 0) return smallest * state.camera_cells;
-    double spacing = 2 * smallest;
-    const double budget = double(shows_harmonics(view, state) ? kHarmonicBudget : kNodeBudget);
-    while (e[0] * e[1] * e[2] > spacing * spacing * spacing * budget) spacing *= 1.25;
-    return spacing;
-}
-
+/// Nodes of the source: as many as the budget allows, at least the cells of a cell estimate.
 NodeGrid source_grid_of(const FrameView& view, const CollectorsState& state) {
-    return make_node_grid(view.world.medium.grid, view.world.medium.extent_m,
-                          source_spacing(view, state));
+    const Medium& medium = view.world.medium;
+    const double smallest = double(smallest_cell(medium.grid));
+    if (state.camera_cells > 0)
+        return make_node_grid(medium.grid, medium.extent_m, smallest * state.camera_cells);
+    const double budget = double(shows_harmonics(view, state) ? kHarmonicBudget : kNodeBudget);
+    return make_layered_grid(medium.grid, medium.extent_m, most_extinction(medium), 2 * smallest,
+                             budget);
 }
 
 /// The prior weighs as much as the medium that eight scatterings happen in on average.
@@ -80,10 +75,11 @@ void choose_near(Span<const Collector> all, const MarchParams& k, Buffer<Collect
                  std::vector<std::uint32_t>& which) {
     for (std::size_t i = 0; i < all.size; ++i) {
         Collector c = all[i];
-        const float radius = ball_radius(c, k.source, kSplatFactor);
+        const SplatMetric metric = splat_metric(k.source);
+        const float ball = ball_radius(c, k.source, kSplatFactor);
         bool reaches = true;
         for (std::size_t a = 0; a < 3; ++a) {
-            const float spacing = 1.0f / k.source.per_metre[a];
+            const float spacing = 1.0f / k.source.per_metre[a], radius = ball / metric.axis[a];
             c.centre[a] -= float(k.near.first[a]) * spacing;
             reaches = reaches && c.centre[a] + radius > 0 &&
                       c.centre[a] - radius < float(k.near.size[a]) * spacing;

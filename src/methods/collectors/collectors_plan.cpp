@@ -28,8 +28,9 @@ void size_prepared(const FrameView& view, const CollectorsState& state, const Co
     if (s.cells)
         s.leaves = block_total(s.grid, state.camera_cells);
     else
-        s.leaves =
-            most > 0 ? most : expected_leaves(s.grid, leaf_share(view.world.medium), s.samples);
+        s.leaves = most > 0 ? most
+                            : expected_leaves(s.grid, leaf_share(view.world.medium),
+                                              most_extinction(view.world.medium), s.samples);
     s.collectors = s.leaves;
     s.tracking_blocks = most_tracking_blocks(s.grid, settings.local_tracking);
 }

@@ -102,6 +102,18 @@ std::uint64_t planned_generations(const PhotonGridState& state) {
     return wanted < most ? wanted : most;
 }
 
+namespace {
+
+/// Light falls within a few optical depths of a face, so an axis has layers of two of them, up to
+/// 12; a thin box needs one. More layers move the mean of a flat deck by less than 3 %.
+double fewest_layers(double depth) {
+    constexpr double kDepthOfLayer = 2, kMost = 12;
+    const double layers = depth / kDepthOfLayer;
+    return layers < 1 ? 1 : layers > kMost ? kMost : layers;
+}
+
+}  // namespace
+
 CellGrid photon_cells(const PhotonGridSettings& settings, std::int64_t photons,
                       const Medium& medium) {
     constexpr double kPhotonsPerCell = 32, kFewest = 4096, kMost = 0x1p19;
@@ -113,17 +125,25 @@ CellGrid photon_cells(const PhotonGridSettings& settings, std::int64_t photons,
     double wanted = double(photons) / kPhotonsPerCell;
     wanted = wanted < kFewest ? kFewest : (wanted > kMost ? kMost : wanted);
     const auto& e = medium.extent_m;
-    double spacing = 0;
-    for (double edge : e) spacing = edge > spacing ? edge : spacing;
-    // Down from the longest edge in steps of 3 %: cubes, or a layer of them where the box is flat.
+    double spacing = 0, fewest[3];
+    for (std::size_t a = 0; a < 3; ++a) {
+        spacing = e[a] > spacing ? e[a] : spacing;
+        fewest[a] = fewest_layers(e[a] * double(medium.sigma) * double(medium.density_max));
+    }
+    // Down from the longest edge in steps of 3 %: cubes, but for layers of a flat box.
+    const auto cells_along = [&](std::size_t a, double edge) {
+        const double cubes = e[a] / edge;
+        return cubes > fewest[a] ? cubes : fewest[a];
+    };
     const auto count = [&](double edge) {
-        double n = 1;
-        for (double length : e) n *= length > edge ? length / edge : 1;
-        return n;
+        return cells_along(0, edge) * cells_along(1, edge) * cells_along(2, edge);
     };
     while (count(spacing * 0.97) <= wanted) spacing *= 0.97;
-    const NodeGrid nodes = make_node_grid(medium.grid, medium.extent_m, spacing);
-    for (int a = 0; a < 3; ++a) cells.size[a] = nodes.size[a];
+    for (std::size_t a = 0; a < 3; ++a) {
+        const double n = cells_along(a, spacing) + 0.5;
+        const int most = medium.grid.size[a];
+        cells.size[a] = n > most ? most : int(n);
+    }
     return cells;
 }
 

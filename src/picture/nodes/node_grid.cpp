@@ -33,6 +33,34 @@ NodeGrid make_node_grid(const Grid& grid, const double (&extent_m)[3], double sp
     return g;
 }
 
+NodeGrid make_layered_grid(const Grid& grid, const double (&extent_m)[3], double extinction_per_m,
+                           double spacing_m, double budget) {
+    constexpr double kDepthOfLayer = 2, kMostLayers = 24;
+    double fewest[3];
+    for (int a = 0; a < 3; ++a) {
+        const double layers = extent_m[a] * extinction_per_m / kDepthOfLayer;
+        // Nodes are two voxels apart at the nearest.
+        const double most = grid.size[a] < 2 * kMostLayers ? 0.5 * grid.size[a] : kMostLayers;
+        fewest[a] = layers < most ? layers : most;
+    }
+    const auto nodes_along = [&](int a, double spacing) {
+        const double cubes = extent_m[a] / spacing;
+        const double nodes = cubes > fewest[a] ? cubes : fewest[a];
+        return nodes < grid.size[a] ? nodes : double(grid.size[a]);
+    };
+    const auto count = [&](double spacing) {
+        return nodes_along(0, spacing) * nodes_along(1, spacing) * nodes_along(2, spacing);
+    };
+    while (count(spacing_m) > budget) spacing_m *= 1.25;
+    NodeGrid g{};
+    for (int a = 0; a < 3; ++a) {
+        const int n = int(nodes_along(a, spacing_m) + 0.5);
+        g.size[a] = n < 1 ? 1 : n;
+        g.per_metre[a] = float(g.size[a] / extent_m[a]);
+    }
+    return g;
+}
+
 NodeGrid make_half_grid(const Grid& grid, const double (&extent_m)[3]) {
     NodeGrid g{};
     for (int a = 0; a < 3; ++a) {

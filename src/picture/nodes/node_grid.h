@@ -11,6 +11,11 @@ namespace pileus {
 /// Nodes at (i + 1/2) * spacing; per axis the spacing is at least `spacing_m` and at least a voxel.
 NodeGrid make_node_grid(const Grid& grid, const double (&extent_m)[3], double spacing_m);
 
+/// The same, but farther apart where there would be more than `budget`; then each axis keeps a node
+/// for two optical depths of `extinction_per_m`, 24 at most, so that a flat box keeps layers.
+NodeGrid make_layered_grid(const Grid& grid, const double (&extent_m)[3], double extinction_per_m,
+                           double spacing_m, double budget);
+
 /// Nodes two voxels apart along each axis, for what changes from voxel to voxel along a way through
 /// them, as depths towards the sun do: where voxels are flat, over less than their longest edge.
 NodeGrid make_half_grid(const Grid& grid, const double (&extent_m)[3]);

@@ -66,10 +66,26 @@ Status allocate(const std::array<int, 3>& resolution, Volume& volume) {
     return Status::ok();
 }
 
+/// Light is kept by cell, so cells of a box are half an optical depth along each axis, up to 64.
+int box_cells(double depth) {
+    constexpr double kDepthOfCell = 0.5;
+    constexpr int kMost = 64;
+    if (!(depth > kDepthOfCell)) return 1;
+    return depth < kMost * kDepthOfCell ? int(std::ceil(depth / kDepthOfCell)) : kMost;
+}
+
+DensityOutline outline_box(const MediumSettings& medium) {
+    DensityOutline outline{{1, 1, 1}, 1, 0, 0};
+    for (std::size_t a = 0; a < 3; ++a)
+        outline.size[a] = box_cells((medium.bounds_m[1][int(a)] - medium.bounds_m[0][int(a)]) *
+                                    medium.extinction_per_m);
+    return outline;
+}
+
 constexpr DensityRow box_row() {
     DensityRow row;
     row.name = "uniform:box";
-    row.outline = [](const MediumSettings&) { return DensityOutline{{1, 1, 1}, 1, 0, 0}; };
+    row.outline = outline_box;
     row.make = [](const MediumSettings&, const DensityMaking& with, Volume& volume) {
         return make_box(with.size, volume);
     };

@@ -12,6 +12,10 @@ namespace {
 constexpr double kSnap = 1e-6;  // of a cell
 constexpr int kMostLayers = 1024;
 
+/// Light is kept by cell, so a thick layer of the file is cut into cells of two optical depths, up
+/// to sixteen to a layer, as long as the grid stays below 2^24 cells.
+constexpr double kDepthOfCell = 2, kMostOfLayer = 16, kMostCells = 0x1p24;
+
 /// Footprint of a column: its edges in metres.
 struct Rectangle {
     double x0, x1, y0, y1;
@@ -62,6 +66,7 @@ void survey_column(const WeatherSource& s, const CloudLayers& layers, std::size_
         survey.any_cloud = true;
         survey.thickness_m += thickness;
         ++survey.cloudy;
+        if (kappa > survey.most_extinction) survey.most_extinction = kappa;
         survey.liquid_kg += layers.liquid.at(column * n + k) * thickness * area;
         survey.ice_kg += layers.ice.at(column * n + k) * thickness * area;
         depth += kappa * thickness;
@@ -120,6 +125,12 @@ Status weather_grid(const WeatherSource& s, const WeatherSurvey& survey,
         const double count = (survey.high_m - survey.low_m) / mean + 0.5;
         layers = count < kMostLayers ? std::int64_t(count) : kMostLayers;
         if (layers < 1) layers = 1;
+        double cut = survey.most_extinction * (survey.high_m - survey.low_m) / kDepthOfCell;
+        const double columns = double(g.nx()) * double(g.ny());
+        for (const double most :
+             {kMostOfLayer * double(layers), kMostCells / columns, double(kMostLayers)})
+            cut = cut < most ? cut : most;
+        if (cut > double(layers)) layers = std::int64_t(cut + 0.5);
     }
     std::array<std::int64_t, 3> size{std::int64_t(g.nx()), std::int64_t(g.ny()), layers};
     if (resolution[0] > 0) size = {resolution[0], resolution[1], resolution[2]};

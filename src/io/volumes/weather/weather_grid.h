@@ -41,6 +41,7 @@ struct WeatherSurvey {
     double liquid_kg = 0, ice_kg = 0;  ///< in all footprints
     double depth_m2 = 0;               ///< optical depth times area
     double most_depth = 0;             ///< of one column
+    double most_extinction = 0;        ///< of one layer, 1/m
 };
 
 /// Equal cells over the footprints.
@@ -59,7 +60,8 @@ Status survey_weather(const WeatherSource& source, WeatherSurvey& survey);
 Status survey_weather(const WeatherSource& source, CloudLayers& layers, WeatherSurvey& survey);
 
 /// The scene's cells, or as many as there are footprints and, along z, as the cloudy layers are
-/// thick on the mean. `where` opens the line of a size beyond the limits.
+/// thick on the mean, thinner where that is more than two optical depths. `where` opens the line
+/// of a size beyond the limits.
 Status weather_grid(const WeatherSource& source, const WeatherSurvey& survey,
                     const std::array<int, 3>& resolution, WeatherGrid& grid);
 

@@ -7,6 +7,7 @@
 
 #include "kernels_cpu/display/lit_nodes.h"
 #include "platform/threads.h"
+#include "src/base/powers.h"
 #include "src/methods/collectors/photons/guided_grid.h"
 #include "src/methods/collectors/photons/node_pyramid.h"
 #include "src/picture/nodes/node_rows.h"
@@ -32,6 +33,7 @@ NodeRange nodes_within(float centre, float radius, float per_metre, int size, bo
 /// How far each ball reaches, and the numbers of those over each slice, rising: those over slice z
 /// begin at first[z].
 struct Balls {
+    SplatMetric metric;
     std::vector<float> radius;
     std::vector<std::uint32_t> first, numbers;
 };
@@ -39,13 +41,15 @@ struct Balls {
 void list_balls(Span<const Collector> collectors, const NodeGrid& g, const SplatOptions& options,
                 Balls& out) {
     out.first.assign(std::size_t(g.size[2]) + 1, 0);
+    out.metric = splat_metric(g);
+    const float up = out.metric.axis[2];
     std::vector<NodeRange> slices;
     slices.reserve(collectors.size);
     out.radius.reserve(collectors.size);
     for (const Collector& k : collectors) {
         const float radius = ball_radius(k, g, options.radius_factor);
         out.radius.push_back(radius);
-        slices.push_back(nodes_within(k.centre[2], radius, g.per_metre[2], g.size[2], false));
+        slices.push_back(nodes_within(k.centre[2], radius / up, g.per_metre[2], g.size[2], false));
         for (int z = slices.back().first; z < slices.back().last; ++z)
             ++out.first[std::size_t(z) + 1];
     }
@@ -80,19 +84,22 @@ void splat_slice(Span<const Collector> collectors, const float* colour, std::siz
         const std::size_t c = balls.numbers[b];
         const Collector& k = collectors[c];
         const float radius = balls.radius[c];
-        const float dz = pz - k.centre[2], inverse = 1.0f / (radius * radius);
+        const auto& m = balls.metric.axis;
+        const float dz = (pz - k.centre[2]) * m[2], inverse = 1.0f / (radius * radius);
         if (dz * dz >= radius * radius) continue;
-        const NodeRange ys = nodes_within(k.centre[1], radius, g.per_metre[1], g.size[1], wraps);
-        const NodeRange xs = nodes_within(k.centre[0], radius, g.per_metre[0], g.size[0], wraps);
+        const NodeRange ys =
+            nodes_within(k.centre[1], radius / m[1], g.per_metre[1], g.size[1], wraps);
+        const NodeRange xs =
+            nodes_within(k.centre[0], radius / m[0], g.per_metre[0], g.size[0], wraps);
         for (int y = ys.first; y < ys.last; ++y) {
-            const float dy = (float(y) + 0.5f) / g.per_metre[1] - k.centre[1];
+            const float dy = ((float(y) + 0.5f) / g.per_metre[1] - k.centre[1]) * m[1];
             const int row_y = wraps ? wrapped(y, g.size[1]) : y;
             const std::size_t row = std::size_t(row_y) + std::size_t(z) * std::size_t(g.size[1]);
             NodeRange& reached = touched[row];
             reached.first = wraps ? 0 : (xs.first < reached.first ? xs.first : reached.first);
             reached.last = wraps ? g.size[0] : (xs.last > reached.last ? xs.last : reached.last);
             for (int x = xs.first; x < xs.last; ++x) {
-                const float dx = (float(x) + 0.5f) / g.per_metre[0] - k.centre[0];
+                const float dx = ((float(x) + 0.5f) / g.per_metre[0] - k.centre[0]) * m[0];
                 const float near = 1.0f - (dx * dx + dy * dy + dz * dz) * inverse;
                 if (near <= 0) continue;
                 const std::size_t column = std::size_t(wraps ? wrapped(x, g.size[0]) : x);
@@ -164,10 +171,31 @@ void settle_slice(const NodeLevel& fine, const NodeLevel* up, const NodeRange* r
 
 }  // namespace
 
+SplatMetric splat_metric(const NodeGrid& g) {
+    float fewest = g.per_metre[0], most = fewest;
+    for (const float n : g.per_metre) {
+        fewest = n < fewest ? n : fewest;
+        most = n > most ? n : most;
+    }
+    SplatMetric metric;
+    if (!(most > 2 * fewest)) return metric;
+    double volume = 1;
+    for (std::size_t a = 0; a < 3; ++a) {
+        metric.axis[a] = g.per_metre[a] / most;
+        volume *= double(metric.axis[a]);
+    }
+    metric.radius = float(cube_root(volume));
+    return metric;
+}
+
 float ball_radius(const Collector& collector, const NodeGrid& g, float factor) {
-    float coarsest = g.per_metre[0];
-    for (float n : g.per_metre) coarsest = n < coarsest ? n : coarsest;
-    return std::max(collector.radius * factor, 1.2f / coarsest);
+    const SplatMetric metric = splat_metric(g);
+    float coarsest = g.per_metre[0] / metric.axis[0];
+    for (std::size_t a = 1; a < 3; ++a) {
+        const float per_metre = g.per_metre[a] / metric.axis[a];
+        coarsest = per_metre < coarsest ? per_metre : coarsest;
+    }
+    return std::max(collector.radius * metric.radius * factor, 1.2f / coarsest);
 }
 
 std::vector<NodeLevel> node_levels(const NodeGrid& g) {

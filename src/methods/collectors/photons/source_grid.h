@@ -49,8 +49,16 @@ struct SplatOptions {
     float least[3] = {};               ///< than this
 };
 
-/// Of the ball that a collector covers among these nodes, m: `factor` times its own radius, at
-/// least 1.2 spacings of the widest axis.
+/// Lengths along each axis are counted times this, so that flat cells count as cubes and a ball
+/// of a flat deck is as flat as its leaves; 1 where nodes are about as far apart along all axes.
+struct SplatMetric {
+    float axis[3] = {1, 1, 1};
+    float radius = 1;  ///< of a ball of the same volume
+};
+SplatMetric splat_metric(const NodeGrid& nodes);
+
+/// Of the ball that a collector covers among these nodes, m by splat_metric(): `factor` times its
+/// own radius, at least 1.2 spacings of the widest axis.
 float ball_radius(const Collector& collector, const NodeGrid& nodes, float factor);
 
 /// Weighted mean per node over the collectors whose ball (radius_factor times the collector's

@@ -37,22 +37,27 @@ void consider(const VoxelBox& box, const SampleBounds& bounds, const Grid& grid,
 
 }  // namespace
 
-void leaf_limit(const Grid& grid, double share, int max_leaf_voxels[3]) {
+void leaf_limit(const Grid& grid, double share, double extinction_per_m, int max_leaf_voxels[3]) {
+    constexpr double kLayers = 12, kDepth = 2;
     double square = 0;
     for (int a = 0; a < 3; ++a) {
         const double edge = double(grid.size[a]) * double(grid.cell_m[a]);
         square += edge * edge;
     }
     for (int a = 0; a < 3; ++a) {
-        const double voxels = std::sqrt(square) * share / double(grid.cell_m[a]);
+        const double layer = double(grid.size[a]) * double(grid.cell_m[a]) / kLayers;
+        const double depth = extinction_per_m > 0 ? kDepth / extinction_per_m : HUGE_VAL;
+        const double longest = std::min(std::sqrt(square) * share, std::max(layer, depth));
+        const double voxels = longest / double(grid.cell_m[a]);
         const double inside = std::min(std::max(voxels, 1.0), double(grid.size[a]));
         max_leaf_voxels[a] = int(inside + 0.5);
     }
 }
 
-std::uint64_t expected_leaves(const Grid& grid, double share, std::uint64_t samples) {
+std::uint64_t expected_leaves(const Grid& grid, double share, double extinction_per_m,
+                              std::uint64_t samples) {
     int longest[3];
-    leaf_limit(grid, share, longest);
+    leaf_limit(grid, share, extinction_per_m, longest);
     std::uint64_t halved = 1;
     for (int a = 0; a < 3; ++a)
         for (double edge = grid.size[a]; edge > longest[a]; edge /= 2) halved *= 2;

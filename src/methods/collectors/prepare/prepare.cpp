@@ -71,6 +71,10 @@ Status prepare_sample_set(const Medium& medium, const CollectorSettings& setting
                                                           options, context.threads, set);
 }
 
+double most_extinction(const Medium& medium) {
+    return double(medium.sigma) * double(medium.density_max);
+}
+
 double leaf_share(const Medium& medium) {
     return medium.detail_m > 0 ? kLeafShare * (medium.detail_m / diagonal_m(medium)) : kLeafShare;
 }
@@ -85,9 +89,11 @@ Status prepare_collectors(const Medium& medium, const CollectorSettings& setting
     TreeOptions tree;
     tree.density_range = float(settings.density_range) * medium.density_max;
     tree.influence_m = float(settings.influence_radius * detail * diagonal_m(medium));
-    if (!settings.paper) leaf_limit(medium.grid, share, tree.max_leaf_voxels);
+    const double per_m = most_extinction(medium);
+    if (!settings.paper) leaf_limit(medium.grid, share, per_m, tree.max_leaf_voxels);
     const std::uint64_t most = context.limits[LimitId::kLeaves];
-    tree.max_leaves = most > 0 ? most : expected_leaves(medium.grid, share, set.samples.size());
+    tree.max_leaves =
+        most > 0 ? most : expected_leaves(medium.grid, share, per_m, set.samples.size());
     if (context.report != nullptr) tree.where = context.report->scene;
     {
         const StageClock clock(context, "tree");

@@ -34,8 +34,10 @@ void add_tree_rows(const Grid& grid, std::uint64_t samples, std::uint64_t leaves
                    MemoryTable& table);
 
 /// Longest leaf allowed on each axis so that no leaf spans more than `share` of the box's diagonal
-/// (docs/methods.md 3 resolves the light inside uniform regions this way). At least one voxel.
-void leaf_limit(const Grid& grid, double share, int max_leaf_voxels[3]);
+/// (docs/methods.md 3 resolves the light inside uniform regions this way), nor, where the box is
+/// flat, more than a twelfth of its edge, unless that is less than two optical depths of
+/// `extinction_per_m`. At least one voxel.
+void leaf_limit(const Grid& grid, double share, double extinction_per_m, int max_leaf_voxels[3]);
 
 /// Recommended share of the diagonal for `leaf_limit`. Halving alone then makes at most 16^3 leaves
 /// of a filled cube, a fifth of the default number of samples, and halves the mean edge of the
@@ -46,7 +48,8 @@ constexpr double kLeafShare = 1.0 / 24;
 /// sample, and eight times what halving down to `share` makes of a filled box; never more than
 /// voxels. Clouds have 0.7 to 1.4 a sample, noise in every voxel a third of this bound
 /// (docs/report.md).
-std::uint64_t expected_leaves(const Grid& grid, double share, std::uint64_t samples);
+std::uint64_t expected_leaves(const Grid& grid, double share, double extinction_per_m,
+                              std::uint64_t samples);
 
 /// Builds the leaves, lo and hi only, in the order of a walk that takes the lower half first.
 /// O(n log n) in the samples. `density_range` is in units of density: the caller multiplies the
