@@ -128,16 +128,28 @@ PILEUS_FN void march_lamps(const LampMarchParams& k, const LampMarchBuffers& b,
                 if (!any(lit)) continue;
                 const T tau = interpolate(b.optical_depth + l * nodes,
                                           corners(node_position(k.nodes, place), k.nodes.size));
+                // Nodes hold one depth: the media here stand for those on the way.
+                T left[3] = {exp_(T{} - tau)};
+                left[1] = left[2] = left[0];
+                for (int c = 0; c < 3 && k.forward != 0; ++c) {
+                    T kept{};
+                    for (int i = 0; i < k.media; ++i) kept = kept + share[i] * k.kept[i][c];
+                    left[c] = exp_(T{} - tau * (1.0f - kept));
+                }
                 const auto add = [&](const LampSight<T>& sight) {
-                    const T light = weight * sight.share * exp_(T{} - tau);
+                    const T light = weight * sight.share * left[0];
                     const T turn = one_minus_cosine(ray.direction, sight.way);
                     T more[kMostOctaves];
                     (void)octave_light(k.octaves, tau, light, weight * sight.share, more);
                     for (int i = 0; i < k.media; ++i) {
                         const T phase = min_(phase_density(k.phase[i], turn), most);
-                        const T scattered = select(lit, light * share[i] * phase, T{});
-                        for (int c = 0; c < 3; ++c)
+                        T scattered = select(lit, light * share[i] * phase, T{});
+                        for (int c = 0; c < 3; ++c) {
+                            if (k.forward != 0)
+                                scattered = select(
+                                    lit, weight * sight.share * left[c] * share[i] * phase, T{});
                             colour[c] = colour[c] + scattered * (k.albedo[i][c] * lamp.light[c]);
+                        }
                         for (int c = 0; c < 3; ++c) {
                             absorb_octaves(k.octaves, k.octave_depths, i, c, tau,
                                            weight * sight.share, more);

@@ -21,6 +21,8 @@ struct LampMarchParams {
     OctaveDepths octave_depths;
     float octave_g[kMostMedia][kMostOctaves];          ///< as RaymarchLight has them
     float octave_source[kMostMedia][kMostOctaves][3];  ///< of a unit of light; from octave 1 on
+    std::int32_t forward;       ///< 1: light scattered forward goes on as if it were not
+    float kept[kMostMedia][3];  ///< and so much of what is scattered does, as RaymarchLight has it
     std::int32_t lamps;
     std::int32_t spheres;  ///< 0: none of them is one
     NodeGrid nodes;        ///< of optical depths to each lamp

@@ -94,6 +94,8 @@ Status render_frames(const Scene& scene, const RunStart& start, const RenderOpti
         if (verifies) PILEUS_TRY(verifier.check(frame, session.context(), image, report));
         count_water(scene, session.world(), report);
         if (options.show.empty()) find_warnings(scene, image, report);
+        if (options.show.empty() && session.row().lights_cells)
+            warn_of_cells(session.world().medium, report);
         report.clocks.frame_wall_s = wall_seconds() - frame_start.wall_s;
         report.clocks.frame_cpu_s = cpu_seconds() - frame_start.cpu_s;
         if (options.holding) options.holding(true);

@@ -7,6 +7,7 @@
 #include "src/io/images/image.h"
 #include "src/plan/report.h"
 #include "src/scene/scene.h"
+#include "src/world/medium/medium.h"
 
 namespace pileus {
 
@@ -25,5 +26,8 @@ std::string accident_line(const Accident& accident, std::uint64_t times);
 /// Sets report.warnings: one line for each accident that happened, and one where a scene has media
 /// that no pixel shows.
 void find_warnings(const Scene& scene, const Image& image, Report& report);
+
+/// Adds a line where cells are so thick that light kept by cell is far off.
+void warn_of_cells(const Medium& medium, Report& report);
 
 }  // namespace pileus

@@ -79,6 +79,10 @@ Status CollectorsMethod::compose(const Context& context, const FrameView& view,
     return compose_collectors(camera, context, view, trace_input(context, view), state_, planes);
 }
 
-MethodRow collectors_row() { return {kCollectorsName, WorldUse::kGrid, check_collectors, make}; }
+MethodRow collectors_row() {
+    MethodRow row{kCollectorsName, WorldUse::kGrid, check_collectors, make};
+    row.lights_cells = true;
+    return row;
+}
 
 }  // namespace pileus

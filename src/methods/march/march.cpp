@@ -69,15 +69,7 @@ void set_light(const RaymarchInput& in, RaymarchParams& k) {
     light.powder = std::int32_t(s.powder);
     light.powder_strength = float(s.powder_strength);
     light.forward = s.forward ? 1 : 0;
-    light.channels = 1;
-    for (int i = 0; s.forward && i < in.medium->count; ++i) {
-        const Optics& optics = in.medium->optics[std::size_t(i)];
-        const double share = kept_of(s, optics);
-        for (std::size_t c = 0; c < 3; ++c) {
-            light.kept[i][c] = float(share * double(optics.albedo[c]));
-            if (light.kept[i][c] != light.kept[i][0]) light.channels = 3;
-        }
-    }
+    light.channels = keep_forward(s, *in.medium, light.kept);
 }
 
 void set_media(const RaymarchInput& in, RaymarchParams& k) {
@@ -197,6 +189,19 @@ OctaveDepths octave_depths(const Octaves& octaves, const Medium& medium) {
 
 Octaves octaves_of(const RaymarchSettings& s) {
     return {s.many ? s.octaves : 1, float(s.octave_extinction), float(s.octave_share)};
+}
+
+int keep_forward(const RaymarchSettings& s, const Medium& medium, float (&kept)[kMostMedia][3]) {
+    int channels = 1;
+    for (int i = 0; s.forward && i < medium.count; ++i) {
+        const Optics& optics = medium.optics[std::size_t(i)];
+        const double share = kept_of(s, optics);
+        for (std::size_t c = 0; c < 3; ++c) {
+            kept[i][c] = float(share * double(optics.albedo[c]));
+            if (kept[i][c] != kept[i][0]) channels = 3;
+        }
+    }
+    return channels;
 }
 
 double mean_kept(const RaymarchSettings& s, const Medium& medium) {

@@ -56,6 +56,11 @@ StepParams raymarch_steps(const RaymarchSettings& settings, const CameraParams& 
 int raymarch_levels(const RaymarchSettings& settings, const CameraParams& camera,
                     const Medium& medium, double reach_m);
 
+/// Share of the light that each medium scatters which goes on as if it were not, by channel.
+/// Returns how many channels differ: 1 or 3.
+int keep_forward(const RaymarchSettings& settings, const Medium& medium,
+                 float (&kept)[kMostMedia][3]);
+
 /// Share of scattered light that forward scattering keeps, over all media and channels.
 double mean_kept(const RaymarchSettings& settings, const Medium& medium);
 

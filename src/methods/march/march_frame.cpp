@@ -82,6 +82,8 @@ LampMarchParams march_lamps(const FrameView& view, const MarchState& state) {
     k.octaves = octaves_of(settings);
     set_octaves(settings, medium, k.albedo, k.octave_g, k.octave_source);
     k.octave_depths = octave_depths(k.octaves, medium);
+    k.forward = settings.forward ? 1 : 0;
+    (void)keep_forward(settings, medium, k.kept);
     for (int i = 0; i < k.media; ++i) {
         float unit = 1;
         if (settings.peak_phase) unit = 1.0f / phase_peak(k.phase[i]);

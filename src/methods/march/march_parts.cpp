@@ -136,6 +136,7 @@ Status show_single(const Context& context, const FrameView& view, const Raymarch
         LampMarchParams k = march_lamps(view, state);
         k.emits = k.ground = 0;
         k.octaves.count = 1;
+        k.forward = 0;
         PILEUS_TRY(
             add_lamp_light(context, marched_medium(view, state), k, state.light.lamps, part, 0));
     }
