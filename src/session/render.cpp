@@ -20,16 +20,20 @@
 namespace pileus {
 namespace {
 
-/// What the files of weather data had that was no water.
+/// What the files of weather data had that was no water, and grids that was no density.
 void count_water(const Scene& scene, const World& world, Report& report) {
-    bool weather = false;
+    bool weather = false, grid = false;
     for (const MediumSettings& medium : scene.media) {
         const VolumeFormat* format = volume_format_named(medium.format);
         weather = weather || (format != nullptr && format->is_weather);
+        grid = grid || (format != nullptr && !format->is_weather && !format->is_particles);
     }
-    if (!weather) return;
-    report.counters.emplace_back("water_missing", world.medium.volume.missing);
-    report.counters.emplace_back("water_negative", world.medium.volume.clamped);
+    if (weather) {
+        report.counters.emplace_back("water_missing", world.medium.volume.missing);
+        report.counters.emplace_back("water_negative", world.medium.volume.clamped);
+    } else if (grid) {
+        report.counters.emplace_back("density_negative", world.medium.volume.clamped);
+    }
 }
 
 Status show_shadow(const Scene& scene, Session& session, int frame, Image& image) {

@@ -19,6 +19,9 @@ const std::string kSparse = kSparseHead + "1,0,1,0.5,10\n0,2,0,0.25,12.5 # a row
 const std::string kDense =
     "# a cloud\n1 2 2\n0.05 0.05 0.4 0.425\n0 0 0 0.0 0.000\n0 0 1 0.3 9\n0 1 0 0 4\n0 1 1 0.6 6\n";
 
+/// Bytes of the head of it.
+const std::size_t kDenseHead = kDense.find("0 0 0 ");
+
 Status decode(const std::string& text, Volume& volume) {
     return decode_les_volume("c.txt", {text.data(), text.size()}, volume);
 }
@@ -48,6 +51,41 @@ TEST_CASE("LES text: sparse rows, absent ones are empty") {
         const float wanted = i == 7 ? 0.075f : i == 4 ? 0.03f : 0.0f;  // 1.5 LWC / r_eff
         CHECK(v.density[i] == wanted);
     }
+}
+
+TEST_CASE("LES text: as pySHDOM, AT3D and SHDOM write it, with a mark of UTF-8 or without") {
+    // Voxels 0 0 0 and 2 1 1 of 3 x 2 x 2, 0.5 g/m3 of 10 um: 0.075 per m.
+    const std::string head = "# a part\n3 2 2\n0.02 0.02 0.61 0.63\n", mark = "\xef\xbb\xbf";
+    const std::string at3d = "# a cloud\n3,2,2 # nx,ny,nz\n0.02,0.02\n0.61,0.63\n";
+    const std::string texts[] = {
+        head + "0 0 0 0.5 10.0\n2 1 1 0.5 10.0\n",
+        head + "0 0 0 0.5 10.0 0.12685\n2 1 1 0.5 10.0 0.09221\n",
+        at3d + "x,y,z,lwc,reff,veff\n0,0,0,0.5,10.0,0.1\n2,1,1,0.5,10.0,0.1\n",
+        at3d + "veff,\"reff\",LWC,z,y,x,name\n,10,0.5,0,0,0,\n0.1,10,0.5,1,1,2,a cloud\n",
+        "2 parameter LWC file\n3 2 2\n0.02 0.02\n0.61 0.63\n290 289\n1 1 1 0.5 10\n3 2 2 0.5 10\n",
+    };
+    for (const std::string& text : texts)
+        for (const std::string& begin : {std::string(), mark}) {
+            Volume v;
+            const Status status = decode(begin + text, v);
+            REQUIRE_MESSAGE(status, status.message);
+            CHECK(v.size == std::array<int, 3>{3, 2, 2});
+            for (std::size_t i = 0; i < 12; ++i)
+                CHECK(v.density[i] == (i == 0 || i == 11 ? 0.075f : 0.0f));
+            CHECK(v.bounds_m[0][2] == doctest::Approx(600).epsilon(1e-12));
+        }
+    const test::TempFolder folder;
+    VolumeHead read;
+    REQUIRE(read_les_head(folder.put("c.txt", mark + texts[3]), read));
+    CHECK(read.detail == "columns not used: veff, name");
+}
+
+TEST_CASE("LES text: water a little below 0 counts as 0") {
+    Volume v;
+    REQUIRE(decode(kSparse + "0,0,0,-1e-9,10\n1,1,1,-1e-9,0\n", v));
+    CHECK(v.clamped == 2);
+    CHECK(v.density[0] == 0.0f);
+    CHECK(v.density[7] == 0.075f);
 }
 
 TEST_CASE("LES text: dense rows, in any order") {
@@ -154,8 +192,10 @@ TEST_CASE("LES text: each fault has its line") {
         {"1,1,3\n1,1\n0,.5,.5000001\ni,j,k,lwc,reff\n", Code::kBadInput,
          "c.txt: levels laid on equal layers of the thinnest: nz: out of range, "},
         {"2,3,2\n1,1\n.4,.5\n", Code::kBadInput, "c.txt:4:1: names of the columns: missing"},
-        {"2,3,2\n1,1\n.4,.5\ni,j,k,reff,lwc\n", Code::kBadInput,
-         "c.txt:4:1: names of the columns: unknown, "},
+        {"2,3,2\n1,1\n.4,.5\ni,j,l,reff,lwc\n", Code::kBadInput,
+         "c.txt:4:1: names of the columns: no k among i,j,l,reff,lwc"},
+        {"2,3,2\n1,1\n.4,.5\nx,y,z,lwc,reff,x\n", Code::kBadInput,
+         "c.txt:4:16: names of the columns: x given twice, allowed: once"},
         {"4096,4096,100\n1,1\n" +
              [] {
                  std::string levels;
@@ -168,7 +208,8 @@ TEST_CASE("LES text: each fault has its line") {
         {s + "2,0,0,1,9\n", Code::kBadInput, "c.txt:6:1: i: out of range, 2, allowed: 0 to 1"},
         {s + "0,3,0,1,9\n", Code::kBadInput, "c.txt:6:3: j: out of range, 3, allowed: 0 to 2"},
         {s + "0,0,-1,1,9\n", Code::kBadInput, "c.txt:6:5: k: out of range, -1, allowed: 0 to 1"},
-        {s + "0,0,0,-1,9\n", Code::kBadInput, "c.txt:6:7: lwc: out of range, -1, allowed: 0 to"},
+        {s + "0,0,0,-1,9\n", Code::kBadInput,
+         "c.txt:6:7: lwc: out of range, -1 g/m3, an extinction of -0.16"},
         {s + "0,0,0,nan,9\n", Code::kBadInput, "c.txt:6:7: lwc: out of range, nan"},
         {s + "0,0,0,1,0\n", Code::kBadInput, "c.txt:6:9: reff: must not be 0, 0, allowed: above"},
         {s + "0,0,0,1,-4\n", Code::kBadInput, "c.txt:6:9: reff: out of range, -4"},
@@ -180,9 +221,14 @@ TEST_CASE("LES text: each fault has its line") {
          "c.txt:8:1: row: given twice, voxel 0 0 0 (index 0), allowed: once"},
         {s + "0 0 0 1 9\n", Code::kBadInput, "c.txt:6:3: j: not parted by a comma, 0"},
         {d + "0 0 0 1 9\n0 0 0 1 9\n", Code::kBadInput, "c.txt:4:1: row: given twice, voxel 0 0 0"},
-        {d + "0 0 0 1.00000 9\n       \n", Code::kBadInput,
-         "c.txt:5:1: row: missing, voxel 0 0 1 (index 1), allowed: a row for every voxel"},
-        {d + "0 0 0 1 9\n", Code::kBadInput, "c.txt:4:1: rows: the text is too short, 10 bytes"},
+        {d + "0 0 0 0 9\n       \n", Code::kBadInput,
+         "c.txt:5:1: rows: the text ends after 1 of 2 voxels, allowed: all of them in turn, or"},
+        {d + "0 0 0 1 9 0.1 2\n", Code::kBadInput, "c.txt:3:15: row: more values than expected"},
+        {d + "0 0 0 1 9 x\n", Code::kBadInput, "c.txt:3:11: veff: not a number, x"},
+        {"2 parameter LWC file\n1 1 2\n.05 .05\n.4 .425\n280\n", Code::kBadInput,
+         "c.txt:5:4: temperature 1: missing"},
+        {"2 parameter LWC file\n1 1 2\n.05 .05\n.4 .425\n280 279\n0 1 1 1 9\n", Code::kBadInput,
+         "c.txt:6:1: i: out of range, 0, allowed: 1 to 1"},
         {d + "0,0,0,1,9\n0,0,1,1,9\n", Code::kBadInput, "c.txt:3:1: i: not a number, 0,0,0,1,9"},
         {"4096 4096 100\n1 1\n", Code::kBadInput, "c.txt:2:4: level 0: missing, the line ends"},
     };
@@ -204,9 +250,12 @@ TEST_CASE("LES text: every truncation and every changed byte ends in a Status") 
             const Status status = decode(good.substr(0, n), volume);
             INFO(n, " of ", good.size(), ": ", status.message);
             CHECK((status || status.code == Code::kBadInput));
-            // Without a count of rows a sparse text may end behind any whole row; a dense one must
-            // be whole, but for its last line's end.
-            if (n <= (sparse ? kSparseHead.size() - 2 : good.size() - 2)) CHECK_FALSE(status);
+            // Without a count of rows a text may end behind any whole row, but where all voxels
+            // come in turn, dry ones too.
+            const bool cut = sparse
+                                 ? n <= kSparseHead.size() - 2
+                                 : n < kDenseHead - 1 || (n > kDenseHead && n <= good.size() - 2);
+            if (cut) CHECK_FALSE(status);
         }
         for (std::size_t n = 0; n < good.size(); ++n)
             for (const char byte : {'\0', ',', ' ', '\n', '#', '9', '-', 'e', '\xff'}) {
@@ -235,7 +284,7 @@ TEST_CASE("LES text: the head alone agrees with the whole, also behind a long co
         CHECK(head.knows_bounds == volume.knows_bounds);
         CHECK(head.bounds_m == volume.bounds_m);
         CHECK(head.in_extinction);
-        CHECK(holds(head.kind, text == kDense ? "dense" : "sparse"));
+        CHECK(holds(head.kind, text == kDense ? "without names" : "with names"));
         CHECK(holds(head.detail, text == stretched ? "3 stretched levels" : ""));
     }
     // Rows at fault are no matter of the head.

@@ -111,9 +111,8 @@ TEST_CASE("NanoVDB: each fault has its line") {
         {g, 7, 1, "a.nvdb: grid \"density\": byte 8: mark of NanoVDB: not there"},
         {g + 16, 0, 4, "version: 0.0"},
         {g + 32, 5, 8, "head of a grid: differs from the file's list"},
-        {g + 392, 0x3ff0000000000000, 8, "map: rotated or sheared"},
-        {g + 384, 0, 8, "scale: out of range, 0.000000"},
-        {g + 384, 0xbff0000000000000, 8, "scale: out of range, -1.000000"},
+        {g + 392, 0x3ff0000000000000, 8, "transform: rotated or sheared"},
+        {g + 384, 0, 8, "scale: out of range, 0,"},
         {g + 528, 0x7ff8000000000000, 8, "translation: out of range, nan"},
         {g + p.tree + 24, 63, 8, "root: at byte 735, allowed: multiples of 32"},
         {g + p.tree + 24, 0, 8, "root: at byte 672"},
@@ -133,9 +132,9 @@ TEST_CASE("NanoVDB: each fault has its line") {
         {g + p.upper_table(), std::uint64_t(-864), 8, "lower node: at byte 0, allowed"},
         {g + p.lower_table(), p.end - 32 - p.lower, 8, "leaf: at byte"},
         {g + p.lower_table(), 0x7fffffffffffffe0, 8, "leaf: at byte"},
-        {g + p.lower_table() + 8 * 512, 0xbf800000, 4, "voxel -4080 0 4096: -1.000000"},
+        {g + p.lower_table() + 8 * 512, 0xbf800000, 4, "voxel -4080 0 4096: -1, allowed"},
         {g + p.leaf + 96 + 4 * 73, 0x7fc00000, 4, "voxel -4095 1 4097: nan, allowed"},
-        {g + p.leaf + 96 + 4 * 511, 0xbf800000, 4, "voxel -4089 7 4103: -1.000000"},
+        {g + p.leaf + 96 + 4 * 511, 0xbf800000, 4, "voxel -4089 7 4103: -1, allowed"},
     };
     const std::string good = plain(kFloat);
     Volume volume;
@@ -152,10 +151,6 @@ TEST_CASE("NanoVDB: each fault has its line") {
     put(wide, g + Places(kFpN).leaf + 15, 5 << 5, 1);
     CHECK(holds(decode(wide, volume).message, "leaf: 2^5 bits a voxel, allowed: 1 to 16"));
     CHECK(holds(decode({good.data(), good.size()}, "x", volume).message, "grid: unknown, \"x\""));
-    std::string empty = good;
-    put(empty, g + p.root + 24, 0, 4);
-    for (const unsigned at : {32, 36, 40}) put(empty, g + p.tree + at, 0, 4);
-    CHECK(holds(decode(empty, volume).message, "no active voxel"));
     std::string vectors = good;
     put(vectors, 48, 6, 4);
     CHECK(holds(decode({vectors.data(), vectors.size()}, kName, volume).message,

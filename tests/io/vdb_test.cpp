@@ -179,8 +179,8 @@ TEST_CASE("OpenVDB: each fault has its line") {
         {grid, 8, 4, "compression: unknown flags, 8"},
         {grid + 8, 0xffffffff, 4, "name of metadata: too long"},
         {grid + 4, 0xffffffff, 4, "metadata: ends too early"},
-        {map + 24, 0, 8, "scale: out of range, 0.000000"},
-        {map + 24, 0xbff0000000000000, 8, "scale: out of range, -1.000000"},
+        {map + 24, 0, 8, "scale: out of range, 0, allowed: 1e-9 to 1e9, either way"},
+        {map + 24, 0x7ff8000000000000, 8, "scale: out of range, nan"},
         {map, 0x7ff8000000000000, 8, "translation: out of range, nan"},
         {tree, 2, 4, "buffers of the tree: 2"},
         {tree + 4, 0x3f800000, 4, "background: 1.000000, allowed: 0"},
@@ -191,7 +191,7 @@ TEST_CASE("OpenVDB: each fault has its line") {
         {top + 2 * 4096, 7, 1, "flag of a node: 7, allowed: 0 to 6"},
         {low + 1024 + 1, 0, 1, "mask of a leaf: differs from the tree's"},
         {good.size() - 4, 0x7fc00000, 4, "voxel 8 8 8: nan, allowed: a finite number >= 0"},
-        {good.size() - 4, 0xbf800000, 4, "voxel 8 8 8: -1.000000"},
+        {good.size() - 4, 0xbf800000, 4, "voxel 8 8 8: -1, allowed"},
     };
     for (const Row& row : rows) {
         std::string bytes = good;
@@ -202,9 +202,7 @@ TEST_CASE("OpenVDB: each fault has its line") {
         CHECK(status.code == Code::kBadInput);
         CHECK(holds(status.message, row.line));
     }
-    Volume volume, empty = make_volume({3, 3, 3}, true);
-    std::fill(empty.density.span().begin(), empty.density.span().end(), 0.0f);
-    CHECK(holds(decode(encoded(empty, true), volume).message, "no active voxel"));
+    Volume volume;
     std::string level = good;
     level.replace(good.find("fog volume"), 10, "level set!");
     put(level, level.find("level set!") - 4, 9, 4);

@@ -212,6 +212,9 @@ Status volume_lines(const std::string& path, const MediumSettings& medium, std::
                   fmt::format("{}, {:.4g} % not zero", range_text(range),
                               100.0 * double(range.finite - range.zero) / double(range.finite)));
     lines += info_line("empty", fmt::format("{} of {} cells", range.zero, volume.density.size()));
+    if (volume.clamped > 0)
+        lines +=
+            info_line("negative", fmt::format("{} a little below 0, counted as 0", volume.clamped));
     if (volume.in_extinction && volume.knows_bounds)
         lines += info_line("optical depth", depth_text(volume));
     return Status::ok();

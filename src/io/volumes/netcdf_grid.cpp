@@ -6,6 +6,7 @@
 #include "src/base/file.h"
 #include "src/io/netcdf/netcdf_values.h"
 #include "src/io/netcdf/netcdf_write.h"
+#include "src/io/volumes/undershoot.h"
 #include "src/io/volumes/volume_file.h"
 #include "src/io/volumes/weather/weather_axes.h"
 #include "src/io/volumes/weather/weather_ground.h"
@@ -161,6 +162,8 @@ Status read_netcdf_grid(const MediumSettings& medium, const NcFile& file, const 
     PILEUS_TRY(volume.density.resize(plane * std::uint64_t(head.size[2]), "density grid"));
     Buffer<double> values;
     PILEUS_TRY(values.resize(plane, "layer of a NetCDF file"));
+    Undershoot undershoot;
+    std::size_t lowest = 0;
     const NcPacking packing(grid);
     NcBlock block = whole_block(file.head(), grid);
     block.count[0] = 1;
@@ -178,13 +181,19 @@ Status read_netcdf_grid(const MediumSettings& medium, const NcFile& file, const 
                 ++volume.missing;
                 value = 0;
             }
-            if (!(value >= 0 && value <= 1e12))
+            if (!(value >= -1e12 && value <= 1e12))
                 return nc_fault(file.name(), grid,
                                 voxel_name(volume.size, at) +
-                                    ": negative, too large or not a number, allowed: 0 to 1e12");
-            volume.density[at] = float(value);
+                                    ": too large or not a number, allowed: 0 to 1e12");
+            float& voxel = volume.density[at];
+            voxel = float(value);
+            if (undershoot.take(voxel)) lowest = at;
         }
     }
+    if (undershoot.is_fault())
+        return nc_fault(file.name(), grid,
+                        voxel_name(volume.size, lowest) + ": negative, " + undershoot.text());
+    undershoot.settle(volume);
     return Status::ok();
 }
 

@@ -4,6 +4,7 @@
 // pbrt-v2 file format: "volumegrid"; docs/formats.md
 #include "src/base/file.h"
 #include "src/io/text/text_scan.h"
+#include "src/io/volumes/undershoot.h"
 #include "src/io/volumes/volume_file.h"
 
 namespace pileus {
@@ -208,17 +209,25 @@ Status Reader::densities(const PbrtGrid& grid, Volume& volume) {
     const std::uint64_t room = volume.density.size();
     for (std::size_t i = 0; i < 3; ++i) volume.size[i] = int(grid.size[i]);
 
-    std::uint64_t count = 0;
+    std::uint64_t count = 0, lowest = 0;
+    std::size_t lowest_at = 0;
+    Undershoot undershoot;
     for (skip(list); list.at < list.end; skip(list), ++count) {
         const std::size_t at = list.at;
         float value = 0;
         PILEUS_TRY(number(list, "float density", value));
-        if (!(value >= 0.0f && value <= 3.402823466e38f))
+        if (!(value - value == 0.0f))
             return fault(at, "float density: " + voxel_name(volume.size, count) + ", " +
                                  token(at, list.end) + ", allowed: a finite number >= 0");
+        if (undershoot.take(value)) lowest = count, lowest_at = at;
         if (count < room) volume.density.at(std::size_t(count)) = value;
     }
     if (count != wanted) return wrong_count(grid, count);
+    if (undershoot.is_fault())
+        return fault(lowest_at, "float density: " + voxel_name(volume.size, lowest) + ", " +
+                                    undershoot.text());
+    volume.missing = volume.clamped = 0;
+    undershoot.settle(volume);
     volume.knows_bounds = grid.has_point[0];
     volume.bounds_m = grid.points;
     return Status::ok();

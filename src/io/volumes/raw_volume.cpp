@@ -3,6 +3,7 @@
 // in: uint8, uint16 or float32 values, x fastest -> out: floats, whole numbers scaled to 0..1.
 // docs/formats.md
 #include "src/base/file.h"
+#include "src/io/volumes/undershoot.h"
 #include "src/io/volumes/volume_file.h"
 
 namespace pileus {
@@ -29,8 +30,19 @@ float decode(const unsigned char* at, RawType type, bool big_endian) {
     return value;
 }
 
-/// True for a finite value >= 0; refuses NaN as well.
-bool usable(float value) { return value >= 0.0f && value <= 3.402823466e38f; }
+/// Not infinite and not NaN.
+bool is_finite(float value) { return value - value == 0.0f; }
+
+/// What was met below 0, and where.
+struct Negative {
+    Undershoot undershoot;
+    std::uint64_t lowest = 0;
+};
+
+Status voxel_fault(const std::string& name, const Volume& volume, std::uint64_t index,
+                   const std::string& text) {
+    return Status::bad_input(name + ": density: " + voxel_name(volume.size, index) + ", " + text);
+}
 
 /// Checks the stated size, and the length against it.
 Status check_length(const std::string& name, RawType type, const std::array<int, 3>& size,
@@ -46,16 +58,25 @@ Status check_length(const std::string& name, RawType type, const std::array<int,
 
 /// Converts `count` values from `from` on, the first of which is voxel `first`.
 Status decode_values(const std::string& name, const unsigned char* from, RawType type,
-                     bool big_endian, std::uint64_t first, std::uint64_t count, Volume& volume) {
+                     bool big_endian, std::uint64_t first, std::uint64_t count, Negative& negative,
+                     Volume& volume) {
     const std::size_t step = bytes_per_value(type);
     for (std::uint64_t i = 0; i < count; ++i) {
-        const float value = decode(from + i * step, type, big_endian);
-        if (!usable(value))
-            return Status::bad_input(name + ": density: " + voxel_name(volume.size, first + i) +
-                                     ", " + std::to_string(value) +
-                                     ", allowed: a finite number >= 0");
+        float value = decode(from + i * step, type, big_endian);
+        if (!is_finite(value))
+            return voxel_fault(name, volume, first + i,
+                               number_text(double(value)) + ", allowed: a finite number >= 0");
+        if (negative.undershoot.take(value)) negative.lowest = first + i;
         volume.density.at(std::size_t(first + i)) = value;
     }
+    return Status::ok();
+}
+
+/// After the last value.
+Status finish(const std::string& name, const Negative& negative, Volume& volume) {
+    if (negative.undershoot.is_fault())
+        return voxel_fault(name, volume, negative.lowest, negative.undershoot.text());
+    negative.undershoot.settle(volume);
     return Status::ok();
 }
 
@@ -65,6 +86,7 @@ Status make_room(const std::string& name, const std::array<int, 3>& size, std::u
     volume.knows_bounds = false;
     volume.bounds_m = {};
     volume.in_extinction = false;
+    volume.missing = volume.clamped = 0;
     return volume.density.resize(count, name.c_str());
 }
 
@@ -76,7 +98,9 @@ Status decode_raw_volume(const std::string& name, Span<const char> bytes, RawTyp
     PILEUS_TRY(check_length(name, type, size, bytes.size, count));
     PILEUS_TRY(make_room(name, size, count, volume));
     const auto* from = reinterpret_cast<const unsigned char*>(bytes.data);
-    return decode_values(name, from, type, big_endian, 0, count, volume);
+    Negative negative;
+    PILEUS_TRY(decode_values(name, from, type, big_endian, 0, count, negative, volume));
+    return finish(name, negative, volume);
 }
 
 Status read_raw_volume(const std::string& path, RawType type, const std::array<int, 3>& size,
@@ -93,16 +117,17 @@ Status read_raw_volume(const std::string& path, RawType type, const std::array<i
     Buffer<unsigned char> piece;
     PILEUS_TRY(piece.resize(kPieceValues * step, path.c_str()));
 
+    Negative negative;
     // Convert piece by piece, so that the file is never held whole beside the grid.
     for (std::uint64_t done = 0; done < count;) {
         const std::uint64_t left = count - done;
         const std::size_t n = std::size_t(left < kPieceValues ? left : kPieceValues);
         const FileResult result = file.read(piece.data(), n * step);
         if (!result) return read_fault(path, result);
-        PILEUS_TRY(decode_values(path, piece.data(), type, big_endian, done, n, volume));
+        PILEUS_TRY(decode_values(path, piece.data(), type, big_endian, done, n, negative, volume));
         done += n;
     }
-    return Status::ok();
+    return finish(path, negative, volume);
 }
 
 Status read_raw_head(const std::string& path, RawType type, const std::array<int, 3>& size,

@@ -132,35 +132,36 @@ Status read_nvdb_grids(ByteCursor& in, std::vector<NvdbGrid>& grids) {
     return Status::ok();
 }
 
-std::string nvdb_grid_list(const std::vector<NvdbGrid>& grids) {
-    std::string list;
-    for (std::size_t i = 0; i < grids.size(); ++i)
-        append_vdb_grid(list, i, grids[i].name, type_name(grids[i].type));
-    return list.empty() ? "none" : list;
+std::vector<VdbName> nvdb_names(const std::vector<NvdbGrid>& grids) {
+    std::vector<VdbName> names;
+    for (const NvdbGrid& grid : grids)
+        names.push_back({grid.name, type_name(grid.type), is_number(grid.type), -1, ""});
+    label_vdb_names(names);
+    return names;
 }
 
 Status choose_nvdb_grid(const ByteCursor& in, const std::vector<NvdbGrid>& grids,
                         const std::string& name, NvdbGrid& chosen) {
-    const bool any = name.empty();
-    const NvdbGrid* level_set = nullptr;
-    for (const NvdbGrid& grid : grids) {
-        if (any ? !is_number(grid.type) : grid.name != name) continue;
-        if (!is_number(grid.type))
-            return in.fault("grid " + quote_text(name) + ": type " + type_name(grid.type) +
+    const std::vector<VdbName> names = nvdb_names(grids);
+    const VdbName* level_set = nullptr;
+    for (const std::size_t i : vdb_choices(names, name)) {
+        if (!names[i].is_number)
+            return in.fault("grid " + quote_text(name) + ": type " + names[i].type +
                             ", allowed: float, double, fp4, fp8, fp16, fpn; in the file: " +
-                            nvdb_grid_list(grids));
-        if (grid.grid_class != kLevelSet) {
-            chosen = grid;
+                            vdb_name_list(names));
+        if (grids[i].grid_class != kLevelSet) {
+            chosen = grids[i];
+            chosen.label = names[i].label;
             return Status::ok();
         }
-        if (level_set == nullptr) level_set = &grid;
+        if (level_set == nullptr) level_set = &names[i];
     }
     if (level_set != nullptr)
-        return in.fault("grid " + quote_text(level_set->name) +
+        return in.fault("grid " + quote_text(level_set->label) +
                         ": a level set holds distances, allowed: a fog volume; in the file: " +
-                        nvdb_grid_list(grids));
-    return in.fault("grid: " + (any ? "none of floats" : "unknown, " + quote_text(name)) +
-                    ", allowed: " + nvdb_grid_list(grids));
+                        vdb_name_list(names));
+    return in.fault("grid: " + (name.empty() ? "none of floats" : "unknown, " + quote_text(name)) +
+                    ", allowed: " + vdb_name_list(names));
 }
 
 Status unpack_nvdb_grid(ByteCursor& in, const NvdbGrid& grid, Buffer<char>& room,
@@ -201,20 +202,16 @@ Status open_nvdb_grid(ByteCursor& in, NvdbGrid& grid) {
     PILEUS_TRY(in.u64("size of a grid", size));
     PILEUS_TRY(in.skip(256, "name of a grid"));
 
-    // Only scale and translation may be there; the single-precision copies are not used.
+    // Columns are the steps of the axes of indices; the single-precision copies are not used.
     PILEUS_TRY(in.skip(88, "map"));
+    std::array<std::array<double, 3>, 3> steps{};
     for (std::size_t row = 0; row < 3; ++row)
-        for (std::size_t column = 0; column < 3; ++column) {
-            double value = 0;
-            PILEUS_TRY(in.f64("map", value));
-            if (row == column)
-                grid.scale[row] = value;
-            else if (value != 0)
-                return in.fault("map: rotated or sheared, allowed: scale and translation");
-        }
+        for (std::size_t column = 0; column < 3; ++column)
+            PILEUS_TRY(in.f64("map", steps[column][row]));
+    PILEUS_TRY(set_vdb_axes(in, steps, grid.transform));
     PILEUS_TRY(in.skip(72, "map"));
-    for (double& coordinate : grid.translation) PILEUS_TRY(in.f64("map", coordinate));
-    PILEUS_TRY(check_vdb_transform(in, grid.scale, grid.translation));
+    for (double& coordinate : grid.transform.translation) PILEUS_TRY(in.f64("map", coordinate));
+    PILEUS_TRY(check_vdb_transform(in, grid.transform));
 
     PILEUS_TRY(in.skip(80, "head of a grid"));
     PILEUS_TRY(in.u32("class of a grid", grid_class));

@@ -9,6 +9,8 @@
 
 #include "src/base/buffer.h"
 #include "src/io/text/byte_cursor.h"
+#include "src/io/volumes/vdb/vdb_names.h"
+#include "src/io/volumes/vdb/vdb_transform.h"
 
 namespace pileus {
 
@@ -22,14 +24,14 @@ struct NvdbLayout {
 
 struct NvdbGrid {
     std::string name;
+    std::string label;  ///< the same, of several with a number; once chosen
     std::uint32_t type = 0, grid_class = 0;
     std::uint64_t at = 0, packed = 0;  ///< in the file: first byte, number of bytes
     std::uint64_t size = 0;            ///< bytes once unpacked
     unsigned compression = 0;          ///< kVdbZip, kVdbBlosc or 0
 
     // Filled by open_nvdb_grid.
-    std::array<double, 3> scale{1, 1, 1};  ///< metres; centre of voxel i at scale*i + translation
-    std::array<double, 3> translation{0, 0, 0};
+    VdbTransform transform;
     NvdbLayout layout;
 };
 
@@ -38,10 +40,10 @@ constexpr std::uint64_t kNvdbTreeAt = 672;  ///< every grid's tree begins here
 /// Reads the heads of all segments of the file.
 Status read_nvdb_grids(ByteCursor& in, std::vector<NvdbGrid>& grids);
 
-/// "\"density\" (float), \"v\" (vec3f)"; or "none".
-std::string nvdb_grid_list(const std::vector<NvdbGrid>& grids);
+/// What the grids are called, with labels.
+std::vector<VdbName> nvdb_names(const std::vector<NvdbGrid>& grids);
 
-/// Chooses by name or, where `name` is empty, the first of numbers that is no level set.
+/// Chooses as vdb_choices does, passing over level sets.
 Status choose_nvdb_grid(const ByteCursor& in, const std::vector<NvdbGrid>& grids,
                         const std::string& name, NvdbGrid& chosen);
 

@@ -65,11 +65,12 @@ private:
     }
     /// The value stands `value` bytes into the part.
     Status tile(const VdbPlace& at, std::int64_t side, Bytes from, std::size_t value) {
-        const float number = number_at(from, value, layout_.value_bytes);
         if (volume_ == nullptr) {
             box_.add_tile(at, side);
-            return check_vdb_value(in_, at, number);
+            return Status::ok();
         }
+        float number = number_at(from, value, layout_.value_bytes);
+        PILEUS_TRY(checks_.take(in_, at, number));
         box_.fill_tile(at, side, number, *volume_);
         return Status::ok();
     }
@@ -85,6 +86,7 @@ private:
     NvdbLayout layout_;
     VdbBox& box_;
     Volume* volume_;
+    VdbChecks checks_;
     std::uint32_t nodes_[3] = {0, 0, 0}, seen_[3] = {0, 0, 0};  // leaves, lower, upper
 };
 
@@ -106,7 +108,7 @@ Status Walk::tree() {
             return in_.fault("nodes of the tree: " + std::to_string(seen_[level]) + " of kind " +
                              kNodes[level] + ", allowed: as it states, " +
                              std::to_string(nodes_[level]));
-    return Status::ok();
+    return volume_ != nullptr ? checks_.finish(*volume_) : Status::ok();
 }
 
 Status Walk::root(std::uint64_t at) {
@@ -195,8 +197,8 @@ Status Walk::leaf(std::uint64_t at, const VdbPlace& origin) {
     for (unsigned n = 0; n < kLeafVoxels; ++n) {
         if (!vdb_mask_on(mask, n)) continue;
         const VdbPlace place{origin[0] + (n >> 6), origin[1] + (n >> 3 & 7), origin[2] + (n & 7)};
-        const float value = voxel(from, bits, n);
-        PILEUS_TRY(check_vdb_value(in_, place, value));
+        float value = voxel(from, bits, n);
+        PILEUS_TRY(checks_.take(in_, place, value));
         volume_->density.at(box_.index(place)) = value;
     }
     return Status::ok();
@@ -231,13 +233,13 @@ Status find_grid(const std::string& name, Span<const char> bytes, const std::str
     PILEUS_TRY(read_nvdb_grids(file, found.grids));
     PILEUS_TRY(choose_nvdb_grid(file, found.grids, grid, found.grid));
     PILEUS_TRY(unpack_nvdb_grid(file, found.grid, found.room, found.bytes));
-    found.where = name + ": grid " + quote_text(found.grid.name);
+    found.where = name + ": grid " + quote_text(found.grid.label);
     ByteCursor in(found.where, found.bytes);
     PILEUS_TRY(open_nvdb_grid(in, found.grid));
     PILEUS_TRY(
         Walk(ByteCursor(found.where, found.bytes), found.grid.layout, found.box, nullptr).tree());
-    return frame_vdb_box(found.where, bytes.size, limits, found.box, found.grid.scale,
-                         found.grid.translation, found.head);
+    return frame_vdb_box(found.where, bytes.size, limits, found.grid.transform, found.box,
+                         found.head);
 }
 
 }  // namespace
@@ -257,9 +259,9 @@ Status decode_nvdb_head(const std::string& name, Span<const char> bytes, const s
     head = found.head;
     head.unpacked_bytes = found.room.size();
     head.kind = "NanoVDB fog volume";
-    head.detail = "grid " + quote_text(found.grid.name) + " of " + nvdb_grid_list(found.grids) +
-                  "; " + vdb_packing_text(found.grid.compression) + "; " +
-                  std::to_string(found.box.active) + " active voxels";
+    head.detail =
+        vdb_detail(found.grid.label, nvdb_names(found.grids),
+                   vdb_packing_text(found.grid.compression), found.grid.transform, found.box);
     return Status::ok();
 }
 

@@ -4,6 +4,8 @@
 // docs/formats.md
 #include "src/io/volumes/vdb/vdb_box.h"
 
+#include <utility>
+
 #include "src/io/volumes/vdb/vdb_values.h"
 #include "src/io/volumes/volume_file.h"
 
@@ -42,32 +44,58 @@ void VdbBox::add_leaf(const VdbPlace& origin, const unsigned char* mask) {
     grow(from, to);
 }
 
+void VdbBox::lay(const VdbTransform& transform) {
+    std::array<std::int64_t, 3> size{}, step{};
+    for (std::size_t a = 0; a < 3; ++a)
+        size[std::size_t(transform.world[a])] = high[a] - low[a] + 1;
+    step = {1, size[0], size[0] * size[1]};
+    first_ = 0;
+    for (std::size_t a = 0; a < 3; ++a) {
+        stride_[a] = step[std::size_t(transform.world[a])];
+        if (transform.scale[a] > 0) continue;
+        first_ += stride_[a] * (high[a] - low[a]);
+        stride_[a] = -stride_[a];
+    }
+}
+
 std::size_t VdbBox::index(const VdbPlace& at) const {
-    const std::int64_t nx = high[0] - low[0] + 1, ny = high[1] - low[1] + 1;
-    return std::size_t(((at[2] - low[2]) * ny + at[1] - low[1]) * nx + at[0] - low[0]);
+    std::int64_t index = first_;
+    for (std::size_t a = 0; a < 3; ++a) index += stride_[a] * (at[a] - low[a]);
+    return std::size_t(index);
 }
 
 void VdbBox::fill_tile(const VdbPlace& at, std::int64_t side, float value, Volume& volume) const {
     for (std::int64_t z = at[2]; z < at[2] + side; ++z)
-        for (std::int64_t y = at[1]; y < at[1] + side; ++y) {
-            const std::size_t row = index({at[0], y, z});
-            for (float& voxel : volume.density.span().part(row, std::size_t(side))) voxel = value;
-        }
+        for (std::int64_t y = at[1]; y < at[1] + side; ++y)
+            for (std::int64_t x = at[0]; x < at[0] + side; ++x)
+                volume.density.at(index({x, y, z})) = value;
 }
 
-Status check_vdb_value(const ByteCursor& in, const VdbPlace& at, float value) {
-    if (value >= 0.0f && value <= 3.402823466e38f) return Status::ok();
+Status VdbChecks::fault(const ByteCursor& in, const VdbPlace& at, const std::string& text) const {
     return in.fault("voxel " + std::to_string(at[0]) + ' ' + std::to_string(at[1]) + ' ' +
-                    std::to_string(at[2]) + ": " + std::to_string(value) +
-                    ", allowed: a finite number >= 0");
+                    std::to_string(at[2]) + ": " + text);
+}
+
+Status VdbChecks::take(const ByteCursor& in, const VdbPlace& at, float& value) {
+    constexpr float kLargest = 3.402823466e38f;
+    if (!(value >= -kLargest && value <= kLargest))
+        return fault(in, at, number_text(double(value)) + ", allowed: a finite number >= 0");
+    if (undershoot_.take(value)) lowest_in_ = in, lowest_at_ = at;
+    return Status::ok();
+}
+
+Status VdbChecks::finish(Volume& volume) const {
+    if (lowest_in_ && undershoot_.is_fault())
+        return fault(*lowest_in_, lowest_at_, undershoot_.text());
+    undershoot_.settle(volume);
+    return Status::ok();
 }
 
 namespace {
 
 /// Bounds the cells by the project's limits and by what so short a file may ask for.
 Status check_size(const std::string& where, std::uint64_t bytes, const VdbLimits& limits,
-                  const VdbBox& box, VolumeHead& head) {
-    if (box.empty()) return Status::bad_input(where + ": no active voxel, allowed: one at least");
+                  const VdbTransform& transform, const VdbBox& box, VolumeHead& head) {
     std::array<std::int64_t, 3> size;
     std::uint64_t cells = 1;
     for (std::size_t a = 0; a < 3; ++a) size[a] = box.high[a] - box.low[a] + 1;
@@ -82,30 +110,44 @@ Status check_size(const std::string& where, std::uint64_t bytes, const VdbLimits
         return Status::limit(where + ": box of the active voxels: too many voxels, " +
                              std::to_string(cells) + ", allowed: at most " + std::to_string(most) +
                              " for a file of " + std::to_string(bytes) + " bytes");
-    for (std::size_t a = 0; a < 3; ++a) head.size[a] = int(size[a]);
+    for (std::size_t a = 0; a < 3; ++a) head.size[std::size_t(transform.world[a])] = int(size[a]);
     return Status::ok();
 }
 
 }  // namespace
 
 Status frame_vdb_box(const std::string& where, std::uint64_t bytes, const VdbLimits& limits,
-                     const VdbBox& box, const std::array<double, 3>& scale,
-                     const std::array<double, 3>& translation, VolumeHead& head) {
-    PILEUS_TRY(check_size(where, bytes, limits, box, head));
+                     const VdbTransform& transform, VdbBox& box, VolumeHead& head) {
+    // A sky without a cloud, as the first frame of a simulation: one voxel of nothing.
+    if (box.empty()) box.low = box.high = {0, 0, 0};
+    PILEUS_TRY(check_size(where, bytes, limits, transform, box, head));
+    box.lay(transform);
 
     // Voxel centres lie where the transform says, so the box's faces half a voxel further out.
     for (std::size_t a = 0; a < 3; ++a) {
-        const double low = scale[a] * (double(box.low[a]) - 0.5) + translation[a];
-        const double high = scale[a] * (double(box.high[a]) + 0.5) + translation[a];
+        const int w = transform.world[a];
+        const double shift = transform.translation[std::size_t(w)], scale = transform.scale[a];
+        double low = scale * (double(box.low[a]) - 0.5) + shift;
+        double high = scale * (double(box.high[a]) + 0.5) + shift;
+        if (scale < 0) std::swap(low, high);
         if (!(low < high && low >= -1e12 && high <= 1e12))
-            return Status::bad_input(where + ": place out of range, " + std::to_string(low) +
-                                     " to " + std::to_string(high) + ", allowed: -1e12 to 1e12");
-        head.bounds_m[0][a] = low;
-        head.bounds_m[1][a] = high;
+            return Status::bad_input(where + ": place out of range, " + number_text(low) + " to " +
+                                     number_text(high) + ", allowed: -1e12 to 1e12");
+        head.bounds_m[0][w] = low;
+        head.bounds_m[1][w] = high;
     }
     head.knows_bounds = true;
     head.in_extinction = false;
     return Status::ok();
+}
+
+std::string vdb_detail(const std::string& label, const std::vector<VdbName>& names,
+                       const std::string& packing, const VdbTransform& transform,
+                       const VdbBox& box) {
+    std::string text = "grid " + quote_text(label) + " of " + vdb_name_list(names) + "; " + packing;
+    if (!transform.is_straight()) text += "; " + transform.axes_text();
+    return text + "; " + std::to_string(box.active) + " active voxels" +
+           (box.active == 0 ? ", clear air" : "");
 }
 
 Status start_vdb_volume(const std::string& name, const VolumeHead& head, Volume& volume) {
@@ -115,6 +157,7 @@ Status start_vdb_volume(const std::string& name, const VolumeHead& head, Volume&
     volume.knows_bounds = head.knows_bounds;
     volume.bounds_m = head.bounds_m;
     volume.in_extinction = head.in_extinction;
+    volume.missing = volume.clamped = 0;
     return Status::ok();
 }
 

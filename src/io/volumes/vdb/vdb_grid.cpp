@@ -4,6 +4,8 @@
 // OpenVDB 10.0.1, openvdb/io/Archive.cc and openvdb/math/Maps.h; docs/formats.md
 #include "src/io/volumes/vdb/vdb_grid.h"
 
+#include <charconv>
+
 #include "src/scene/toml/toml_tree.h"
 
 namespace pileus {
@@ -70,22 +72,22 @@ Status read_vector(ByteCursor& in, const char* what, std::array<double, 3>& valu
     return Status::ok();
 }
 
-/// Four rows of a matrix that multiplies row vectors; only scale and translation may be there.
-Status read_affine(ByteCursor& in, VdbGrid& grid) {
+/// Four rows of a matrix that multiplies row vectors; no perspective.
+Status read_affine(ByteCursor& in, VdbTransform& transform) {
+    std::array<std::array<double, 3>, 3> steps{};
     for (std::size_t row = 0; row < 4; ++row)
         for (std::size_t column = 0; column < 4; ++column) {
             double value = 0;
             PILEUS_TRY(in.f64("transform", value));
-            if (row == column && row < 3)
-                grid.scale[row] = value;
+            if (row < 3 && column < 3)
+                steps[row][column] = value;
             else if (row == 3 && column < 3)
-                grid.translation[column] = value;
+                transform.translation[column] = value;
             else if (value != (row == column ? 1.0 : 0.0))
                 return in.fault(
-                    "transform: rotated, sheared or with perspective, allowed: scale "
-                    "and translation along the axes");
+                    "transform: with perspective, allowed: scale and translation along the axes");
         }
-    return Status::ok();
+    return set_vdb_axes(in, steps, transform);
 }
 
 /// How voxels become places. A scale stands in the file with four derived vectors behind it.
@@ -95,18 +97,18 @@ Status read_transform(ByteCursor& in, VdbGrid& grid) {
     const bool scales = map == "ScaleMap" || map == "UniformScaleMap";
     const bool both = map == "ScaleTranslateMap" || map == "UniformScaleTranslateMap";
     if (both || map == "TranslationMap")
-        PILEUS_TRY(read_vector(in, "translation", grid.translation));
+        PILEUS_TRY(read_vector(in, "translation", grid.transform.translation));
     if (both || scales) {
         std::array<double, 3> derived;
-        PILEUS_TRY(read_vector(in, "scale", grid.scale));
+        PILEUS_TRY(read_vector(in, "scale", grid.transform.scale));
         for (int i = 0; i < 4; ++i) PILEUS_TRY(read_vector(in, "scale", derived));
-    } else if (map == "AffineMap") {
-        PILEUS_TRY(read_affine(in, grid));
+    } else if (map == "AffineMap" || map == "UnitaryMap") {
+        PILEUS_TRY(read_affine(in, grid.transform));
     } else if (map != "TranslationMap") {
         return in.fault("kind of transform: " + quote_text(map) +
                         ", allowed: scale and translation along the axes");
     }
-    return check_vdb_transform(in, grid.scale, grid.translation);
+    return check_vdb_transform(in, grid.transform);
 }
 
 const VdbGrid* find_unique(const std::vector<VdbGrid>& grids, const std::string& name) {
@@ -183,31 +185,20 @@ Status read_vdb_grid(ByteCursor& in, VdbGrid& grid) {
     return Status::ok();
 }
 
-void append_vdb_grid(std::string& list, std::size_t index, const std::string& name,
-                     const std::string& type) {
-    constexpr std::size_t kShown = 16;
-    if (index < kShown) list += (index > 0 ? ", " : "") + quote_text(name) + " (" + type + ")";
-    if (index == kShown) list += ", and others";
-}
-
-std::string vdb_grid_list(const std::vector<VdbGrid>& grids) {
-    std::string list;
-    for (std::size_t i = 0; i < grids.size(); ++i)
-        append_vdb_grid(list, i, grids[i].name, short_type(grids[i]));
-    return list.empty() ? "none" : list;
-}
-
-Status check_vdb_transform(const ByteCursor& in, const std::array<double, 3>& scale,
-                           const std::array<double, 3>& translation) {
-    for (std::size_t a = 0; a < 3; ++a) {
-        if (!(scale[a] >= 1e-9 && scale[a] <= 1e9))
-            return in.fault("scale: out of range, " + std::to_string(scale[a]) +
-                            ", allowed: 1e-9 to 1e9, mirrored axes not");
-        if (!(translation[a] >= -1e12 && translation[a] <= 1e12))
-            return in.fault("translation: out of range, " + std::to_string(translation[a]) +
-                            ", allowed: -1e12 to 1e12");
+/// A stored name may end in a mark and a number that tells grids of one name apart.
+std::vector<VdbName> vdb_names(const std::vector<VdbGrid>& grids) {
+    std::vector<VdbName> names;
+    for (const VdbGrid& grid : grids) {
+        names.push_back({grid.name, short_type(grid), grid.is_number(), -1, ""});
+        const std::size_t mark = grid.unique_name.find(kSuffixMark);
+        if (mark == std::string::npos) continue;
+        const char* from = grid.unique_name.data() + mark + 1;
+        const char* to = grid.unique_name.data() + grid.unique_name.size();
+        std::int64_t number = -1;
+        if (std::from_chars(from, to, number).ptr == to) names.back().number = number;
     }
-    return Status::ok();
+    label_vdb_names(names);
+    return names;
 }
 
 const char* vdb_packing_text(unsigned compression) {
@@ -216,28 +207,29 @@ const char* vdb_packing_text(unsigned compression) {
 
 Status choose_vdb_grid(ByteCursor& in, std::vector<VdbGrid>& grids, const std::string& name,
                        VdbGrid& chosen) {
-    const bool any = name.empty();
-    const VdbGrid* level_set = nullptr;
-    for (VdbGrid& grid : grids) {
-        if (any ? !grid.is_number() : grid.name != name) continue;
+    const std::vector<VdbName> names = vdb_names(grids);
+    const VdbName* level_set = nullptr;
+    for (const std::size_t i : vdb_choices(names, name)) {
+        VdbGrid& grid = grids[i];
         if (!grid.is_number())
             return in.fault("grid " + quote_text(name) + ": type " + quote_text(grid.type) +
                             ", allowed: float or double with nodes 5_4_3; in the file: " +
-                            vdb_grid_list(grids));
+                            vdb_name_list(names));
         PILEUS_TRY(read_vdb_grid(in, grid));
         if (grid.grid_class == "level set") {
-            if (level_set == nullptr) level_set = &grid;
+            if (level_set == nullptr) level_set = &names[i];
             continue;
         }
         chosen = grid;
+        chosen.label = names[i].label;
         return chosen.parent.empty() ? Status::ok() : follow_parent(in, grids, chosen);
     }
     if (level_set != nullptr)
-        return in.fault("grid " + quote_text(level_set->name) +
+        return in.fault("grid " + quote_text(level_set->label) +
                         ": a level set holds distances, allowed: a fog volume; in the file: " +
-                        vdb_grid_list(grids));
-    return in.fault("grid: " + (any ? "none of floats" : "unknown, " + quote_text(name)) +
-                    ", allowed: " + vdb_grid_list(grids));
+                        vdb_name_list(names));
+    return in.fault("grid: " + (name.empty() ? "none of floats" : "unknown, " + quote_text(name)) +
+                    ", allowed: " + vdb_name_list(names));
 }
 
 }  // namespace pileus

@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "src/io/text/byte_cursor.h"
+#include "src/io/volumes/vdb/vdb_names.h"
+#include "src/io/volumes/vdb/vdb_transform.h"
 
 namespace pileus {
 
@@ -18,6 +20,7 @@ constexpr std::uint32_t kVdbOldestVersion = 222, kVdbNewestVersion = 224;
 struct VdbGrid {
     std::string unique_name;  ///< as stored; grids of one name differ behind a separator
     std::string name;         ///< as people know it
+    std::string label;        ///< the same, of several with a number; once chosen
     std::string type;         ///< "Tree_float_5_4_3", without the mark of half floats
     std::string parent;       ///< unique name of the grid whose tree this one shares; or empty
     bool half = false;        ///< voxels are stored as 16-bit floats
@@ -25,8 +28,7 @@ struct VdbGrid {
 
     std::string grid_class;  ///< "fog volume", "level set", ...
     unsigned compression = 0;
-    std::array<double, 3> scale{1, 1, 1};  ///< metres; centre of voxel i at scale*i + translation
-    std::array<double, 3> translation{0, 0, 0};
+    VdbTransform transform;
     std::uint64_t tree_at = 0;
 
     bool is_number() const { return type == "Tree_float_5_4_3" || type == "Tree_double_5_4_3"; }
@@ -39,21 +41,13 @@ Status read_vdb_grids(ByteCursor& in, std::vector<VdbGrid>& grids);
 /// Reads compression, metadata and, for a tree of numbers, the transform of one grid.
 Status read_vdb_grid(ByteCursor& in, VdbGrid& grid);
 
-/// Chooses by name or, where `name` is empty, the first of numbers that is no level set; reads it
-/// by read_vdb_grid, and follows an instance to the tree that it shares.
+/// Chooses as vdb_choices does, passing over level sets; reads the grid by read_vdb_grid, and
+/// follows an instance to the tree that it shares.
 Status choose_vdb_grid(ByteCursor& in, std::vector<VdbGrid>& grids, const std::string& name,
                        VdbGrid& chosen);
 
-/// "\"density\" (float), \"v\" (vec3s)"; or "none".
-std::string vdb_grid_list(const std::vector<VdbGrid>& grids);
-
-/// Adds the entry of grid `index` to such a list; beyond 16 of them only a word.
-void append_vdb_grid(std::string& list, std::size_t index, const std::string& name,
-                     const std::string& type);
-
-/// Refuses a scale or a translation of no use.
-Status check_vdb_transform(const ByteCursor& in, const std::array<double, 3>& scale,
-                           const std::array<double, 3>& translation);
+/// What the grids are called, with labels.
+std::vector<VdbName> vdb_names(const std::vector<VdbGrid>& grids);
 
 /// "blosc", "zip" or "not packed".
 const char* vdb_packing_text(unsigned compression);

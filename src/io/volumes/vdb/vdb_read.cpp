@@ -24,9 +24,9 @@ class Measure {
 public:
     explicit Measure(VdbBox& box) : box_(box) {}
 
-    Status tile(const ByteCursor& in, const Place& low, std::int64_t side, float value) {
+    Status tile(const ByteCursor&, const Place& low, std::int64_t side, float) {
         box_.add_tile(low, side);
-        return check_vdb_value(in, low, value);
+        return Status::ok();
     }
     Status leaf(const Place& origin, const unsigned char* mask) {
         box_.add_leaf(origin, mask);
@@ -43,7 +43,8 @@ public:
     Fill(ByteCursor values, const VdbBox& box, VdbValues& unpack, Volume& volume)
         : in_(values), box_(box), unpack_(unpack), volume_(volume) {}
 
-    Status tile(const ByteCursor&, const Place& low, std::int64_t side, float value) {
+    Status tile(const ByteCursor& in, const Place& low, std::int64_t side, float value) {
+        PILEUS_TRY(checks_.take(in, low, value));
         box_.fill_tile(low, side, value, volume_);
         return Status::ok();
     }
@@ -57,17 +58,20 @@ public:
         for (unsigned n = 0; n < kLeafVoxels; ++n) {
             if (!vdb_mask_on(mask, n)) continue;
             const Place at{origin[0] + (n >> 6), origin[1] + (n >> 3 & 7), origin[2] + (n & 7)};
-            PILEUS_TRY(check_vdb_value(in_, at, unpack_.at(n)));
-            volume_.density.at(box_.index(at)) = unpack_.at(n);
+            float value = unpack_.at(n);
+            PILEUS_TRY(checks_.take(in_, at, value));
+            volume_.density.at(box_.index(at)) = value;
         }
         return Status::ok();
     }
+    Status finish() const { return checks_.finish(volume_); }
 
 private:
     ByteCursor in_;
     const VdbBox& box_;
     VdbValues& unpack_;
     Volume& volume_;
+    VdbChecks checks_;
 };
 
 /// One kind of walk for both passes, so that what was measured is what is filled.
@@ -186,7 +190,8 @@ Status fill_vdb_tree(ByteCursor& in, const VdbGrid& grid, const VdbBox& box, Vol
     PILEUS_TRY(in.window(box.values_at, grid.end, "values of the tree"));
     Fill fill(in, box, unpack, volume);
     PILEUS_TRY(in.window(grid.tree_at, grid.end, "tree"));
-    return Walk<Fill>(in, values, fill).root();
+    PILEUS_TRY((Walk<Fill>(in, values, fill).root()));
+    return fill.finish();
 }
 
 /// A grid, where it is, and what both passes need of it.
@@ -202,8 +207,8 @@ Status find_grid(ByteCursor& in, const std::string& name, Span<const char> bytes
     PILEUS_TRY(read_vdb_grids(in, found.grids));
     PILEUS_TRY(choose_vdb_grid(in, found.grids, grid, found.grid));
     PILEUS_TRY(measure_vdb_tree(in, found.grid, found.box));
-    return frame_vdb_box(name + ": grid " + quote_text(found.grid.name), bytes.size, limits,
-                         found.box, found.grid.scale, found.grid.translation, found.head);
+    return frame_vdb_box(name + ": grid " + quote_text(found.grid.label), bytes.size, limits,
+                         found.grid.transform, found.box, found.head);
 }
 
 std::string compression_text(unsigned flags) {
@@ -229,9 +234,9 @@ Status decode_vdb_head(const std::string& name, Span<const char> bytes, const st
     PILEUS_TRY(find_grid(in, name, bytes, grid, limits, found));
     head = found.head;
     head.kind = "OpenVDB fog volume";
-    head.detail = "grid " + quote_text(found.grid.name) + " of " + vdb_grid_list(found.grids) +
-                  "; " + compression_text(found.grid.compression) + "; " +
-                  std::to_string(found.box.active) + " active voxels";
+    head.detail =
+        vdb_detail(found.grid.label, vdb_names(found.grids),
+                   compression_text(found.grid.compression), found.grid.transform, found.box);
     return Status::ok();
 }
 
