@@ -7,6 +7,8 @@
 #include <charconv>
 #include <cmath>
 
+#include "src/base/text_mark.h"
+
 namespace pileus {
 namespace {
 
@@ -149,7 +151,8 @@ std::string blocks_text(const BlockSums& b) {
     return text;
 }
 
-Status read_blocks(const std::string& name, Span<const char> text, BlockSums& b) {
+Status read_blocks(const std::string& name, Span<const char> bytes, BlockSums& b) {
+    const Span<const char> text = without_mark(bytes);
     Words in{name, text.begin(), text.end()};
     b = {};
     PILEUS_TRY(read_head(in, b));

@@ -8,6 +8,7 @@
 #include <map>
 
 #include "src/base/file.h"
+#include "src/base/text_mark.h"
 #include "src/scene/toml/toml_tree.h"
 #include "tools/pileus/option_text.h"
 
@@ -101,7 +102,8 @@ Status read_hash_list(const std::string& path, std::vector<ListedHash>& list) {
     Buffer<char> bytes;
     PILEUS_TRY(check_file_name(path));
     PILEUS_TRY(read_whole_file(path, kMostBytes, bytes));
-    return parse_hash_list(path, std::string(bytes.data(), bytes.size()), list);
+    const Span<const char> text = without_mark(bytes.span());
+    return parse_hash_list(path, std::string(text.data, text.size), list);
 }
 
 Status parse_hash_list(const std::string& path, const std::string& text,

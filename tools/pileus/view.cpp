@@ -8,6 +8,7 @@
 #include <memory>
 
 #include "src/base/file.h"
+#include "src/base/text_mark.h"
 #include "src/scene/toml/toml_tree.h"
 #include "tools/pileus/command.h"
 #include "tools/view/default_scene.h"
@@ -47,8 +48,8 @@ Status run_view(ViewArguments& arguments) {
     if (!arguments.script.empty()) {
         Buffer<char> bytes;
         PILEUS_TRY(read_whole_file(arguments.script, kMostScriptBytes, bytes));
-        PILEUS_TRY(
-            view::open_script_window({bytes.data(), bytes.size()}, s.width, s.height, window));
+        const Span<const char> text = without_mark(bytes.span());
+        PILEUS_TRY(view::open_script_window({text.data, text.size}, s.width, s.height, window));
     } else {
         PILEUS_TRY(view::open_sdl_window(s.width, s.height, window));
     }

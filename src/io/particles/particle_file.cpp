@@ -4,6 +4,7 @@
 
 #include "src/base/file.h"
 #include "src/base/reading_limit.h"
+#include "src/base/text_mark.h"
 #include "src/io/text/packed_bytes.h"
 #include "src/io/text/text_scan.h"
 
@@ -38,8 +39,8 @@ Status decode_particles(const std::string& name, const std::string& extension,
     }
     for (const ParticleDecoder& row : kDecoders)
         if (std::string(row.extensions).find('|' + extension + '|') != std::string::npos)
-            return row.decode(name, bytes, reading, set);
-    return decode_particle_ply(name, bytes, reading, set);
+            return row.decode(name, without_mark(bytes), reading, set);
+    return decode_particle_ply(name, without_mark(bytes), reading, set);
 }
 
 Status read_particles(const std::string& path, const std::string& extension,

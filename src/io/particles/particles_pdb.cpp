@@ -93,7 +93,7 @@ private:
 class PdaReader : private TextScan {
 public:
     PdaReader(const std::string& file, Span<const char> text)
-        : TextScan(file, text), rest_{0, text.size} {}
+        : TextScan(file, text), rest_{0, text_.size} {}
 
     Status read(const ParticleReading& reading, ParticleSet& set) {
         PILEUS_TRY(head());

@@ -8,6 +8,7 @@
 
 #include "src/base/span.h"
 #include "src/base/status.h"
+#include "src/base/text_mark.h"
 
 namespace pileus {
 
@@ -27,8 +28,9 @@ inline bool is_text_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r');
 class TextScan {
 public:
     /// `file` opens every line of a fault. `separator` ends a number beside white space and '#'.
+    /// A mark of UTF-8 before the text is no part of it: text_ begins behind it.
     TextScan(const std::string& file, Span<const char> text, char separator = ' ')
-        : file_(file), text_(text), separator_(separator) {}
+        : file_(file), text_(without_mark(text)), separator_(separator) {}
 
     /// kBadInput, opened with file:line:column of byte `at`, counted from 1; `what` is made
     /// printable and cut to 300 bytes.
