@@ -9,22 +9,9 @@
 #include "src/base/status.h"
 #include "src/io/images/image.h"
 #include "src/io/images/image_file.h"
+#include "src/io/images/picture_layers.h"
 
 namespace pileus {
-
-/// Keeps R G B (or Y), A and error.R/G/B of one layer, under these names. `layer` is the text
-/// before
-/// ".R"; empty: channels without a layer, else the only layer with colours, else one that is called
-/// as a renderer calls its picture (Combined, beauty, ...). A single channel, or a layer that has
-/// only R, V, L or Y, is Y. `chosen` names the layer taken. None or several: kBadInput with the
-/// names to choose from.
-Status choose_layer(const std::string& name, const std::string& layer, Image& image,
-                    std::string& chosen);
-
-/// Crops or pads all channels with zeros to the display window. Faults: those of check_image_size,
-/// memory.
-Status fit_display_window(const std::string& name, Image& image,
-                          std::uint64_t most_pixels = kMaxImagePixels);
 
 /// Reads a file and does both. `said` says in a few words what was done to it, empty for a picture
 /// of our own. Errors: those of read_image, and the above.

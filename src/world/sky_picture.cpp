@@ -5,6 +5,7 @@
 #include "src/base/file.h"
 #include "src/base/reading_limit.h"
 #include "src/io/images/image_file.h"
+#include "src/io/images/picture_layers.h"
 #include "src/plan/scene_limits.h"
 #include "src/scene/read_scene.h"
 #include "src/world/environment.h"
@@ -12,7 +13,16 @@
 namespace pileus {
 
 Status read_sky_image(const Scene& scene, Image& image) {
-    return read_image(scene_path(scene.directory, scene.view_files.sky_map), image, kMaxSkyTexels);
+    const std::string path = scene_path(scene.directory, scene.view_files.sky_map);
+    PILEUS_TRY(read_image(path, image, kMaxSkyTexels));
+    // A sky is a picture of colours: distances alone are none, whatever else is there.
+    const Channel* rgb[3];
+    std::string layer;
+    if (!color_channels(image, rgb) && image.channels.size() > 1)
+        PILEUS_TRY(choose_layer(path, "", image, layer));
+    if (!image.foreign.empty()) return Status::bad_input(path + ": " + image.foreign);
+    // The sky is the whole display: black where the file has no pixels.
+    return fit_display_window(path, image, kMaxSkyTexels);
 }
 
 Status load_sky_map(const Scene& scene, SkyMap& map) {

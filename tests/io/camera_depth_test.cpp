@@ -28,18 +28,35 @@ TEST_CASE("camera depth: Z, or the only channel; never a guess among several") {
         return take_camera_depth(camera, {}, "d.exr", image, depth);
     };
     CameraDepth depth;
-    for (const char* name : {"Z", "Y", "R", "depth.V"}) {
+    for (const char* name : {"Z", "Y", "R", "depth.V", "A"}) {
         REQUIRE(depth_of({name}, depth));
         CHECK(depth.metres[0] == 1.0f);
     }
     REQUIRE(depth_of({"A", "B", "Z"}, depth));
     CHECK(depth.metres[0] == 3.0f);
-    const std::string allowed = ", allowed: Z, or a single channel of any name";
+    // Under the names of other programs; normals and places have a z of their own.
+    const std::vector<std::vector<const char*>> layers = {
+        {"A", "B", "depth.Z"},
+        {"A", "R", "ViewLayer.Depth.Z"},
+        {"A", "B", "Depth.V"},
+        {"A", "G", "zDepth"},
+        {"R", "Normal.X", "ViewLayer.Depth.Z", "Normal.Y", "Normal.Z"},
+        {"beauty.R", "P.x", "depth.R", "P.y", "P.z"}};
+    for (const auto& names : layers) {
+        const Status status = depth_of(names, depth);
+        REQUIRE_MESSAGE(status, status.message);
+        CHECK(depth.metres[0] == 3.0f);
+    }
+    const std::string allowed =
+        ", allowed: Z, one layer of depth, a single channel of any name, or three that are equal";
     CHECK(depth_of({"A", "B", "G", "R"}, depth).message ==
-          "d.exr: depth: no channel Z among A, B, G, R" + allowed);
-    CHECK(depth_of({"A", "Y"}, depth).code == Code::kBadInput);
-    CHECK(depth_of({"z", "\x1b[31m"}, depth).message ==
-          "d.exr: depth: no channel Z among z, \\x1b[31m" + allowed);
+          "d.exr: depth: colours, R G B differ, allowed: one value a pixel");
+    CHECK(depth_of({"B", "G", "R", "id"}, depth).code == Code::kBadInput);
+    CHECK(depth_of({"left.Depth.Z", "right.Depth.Z"}, depth).message ==
+          "d.exr: depth: several among left.Depth.Z, right.Depth.Z" + allowed);
+    CHECK(depth_of({"N.X", "N.Y", "N.Z"}, depth).code == Code::kBadInput);
+    CHECK(depth_of({"u", "\x1b[31m"}, depth).message ==
+          "d.exr: depth: no channel Z among u, \\x1b[31m" + allowed);
     CHECK(depth_of({}, depth).message == "d.exr: depth: no channel Z among none" + allowed);
 }
 
@@ -68,4 +85,31 @@ TEST_CASE("camera depth: a .pfm is grey") {
     REQUIRE(write_image(depth, path, ToneSettings()));
     CHECK(read_camera_depth(scene, context, read).message ==
           "camera.depth: " + path + ": depth: colours, R G B differ, allowed: one value a pixel");
+}
+
+TEST_CASE("camera depth: three equal channels are one, with alpha or without") {
+    Camera camera;
+    camera.position_m = {0, 0, 0};
+    camera.target_m = {0, 1, 0};
+    camera.resolution = {2, 1};
+    for (const bool alpha : {false, true})
+        for (const char* layer : {"", "depth.", "x.y."}) {
+            Image image;
+            image.width = 2, image.height = 1;
+            for (const char* name : {"B", "G", "R", "A"}) {
+                if (*name == 'A' && !alpha) continue;
+                image.channels.emplace_back();
+                image.channels.back().name = std::string(layer) + name;
+                REQUIRE(image.channels.back().pixels.resize(2, "depth"));
+                image.channels.back().pixels[0] = *name == 'A' ? 1.0f : 7.0f;
+                image.channels.back().pixels[1] = *name == 'A' ? 1.0f : 9.0f;
+            }
+            CameraDepth depth;
+            const Status status = take_camera_depth(camera, {}, "d.exr", image, depth);
+            REQUIRE_MESSAGE(status, status.message);
+            CHECK(depth.metres[0] == 7.0f);
+            CHECK(depth.metres[1] == 9.0f);
+            image.channels[1].pixels[1] = 8;
+            CHECK(take_camera_depth(camera, {}, "d.exr", image, depth).code == Code::kBadInput);
+        }
 }

@@ -95,6 +95,11 @@ TEST_CASE("picture: the display window crops and pads") {
     CHECK(got[5] == from[2]);
     CHECK(got[6] == 0);
     CHECK(got[7] == 0);
+    Image far = test::make_image(3, 2);
+    far.display = {-1, 0, 4, 2};  // of a depth nothing is known beyond the pixels
+    REQUIRE(fit_display_window("f.exr", far, kMaxImagePixels, __builtin_inff()));
+    CHECK(far.find("G")->pixels[0] == __builtin_inff());
+    CHECK(far.find("G")->pixels[1] == from[0]);
     // Windows that do not meet leave an empty picture; vast ones are refused before memory is
     // taken.
     image.display = {1000000000, 0, 2, 2};

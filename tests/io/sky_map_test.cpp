@@ -2,6 +2,8 @@
 // Sky maps from files: what is taken over, and a line for each fault.
 // in: small .pfm and .exr files, some broken -> out: pass or fail.
 // docs/formats.md "Sky maps in".
+#include <array>
+#include <cstring>
 #include <limits>
 
 #include "src/io/images/image_file.h"
@@ -95,3 +97,85 @@ TEST_CASE("sky map file: each fault has its line") {
     CHECK(colourless.code == Code::kBadInput);
     CHECK(holds(colourless.message, "z.exr: "));
 }
+
+#ifdef PILEUS_WITH_OPENEXR
+namespace {
+
+/// The bytes of a file of one block of rows, its data window at x, y of a display of 4 x 4.
+std::string moved(const Image& image, int x, int y) {
+    Buffer<char> bytes;
+    REQUIRE(encode_exr(image, bytes));
+    std::string text(bytes.data(), bytes.size());
+    const auto put = [&](std::size_t at, int value) {
+        for (std::size_t i = 0; i < 4; ++i) text[at + i] = char(unsigned(value) >> (8 * i) & 255);
+    };
+    const auto put_box = [&](const std::string& name, const std::array<int, 4>& box) {
+        const std::string key = name + std::string("\0box2i\0\x10\0\0\0", 11);
+        const std::size_t at = text.find(key);
+        REQUIRE(at != std::string::npos);
+        for (std::size_t i = 0; i < 4; ++i) put(at + key.size() + 4 * i, box[i]);
+    };
+    put_box("dataWindow", {x, y, x + image.width - 1, y + image.height - 1});
+    put_box("displayWindow", {0, 0, 3, 3});
+    // The table of offsets has one, of the block behind it, which begins with its first row.
+    for (std::size_t at = 8; at + 12 < text.size(); ++at) {
+        std::uint64_t offset = 0;
+        std::memcpy(&offset, &text[at], 8);
+        if (offset == at + 8) put(at + 8, y);
+    }
+    return text;
+}
+
+}  // namespace
+
+TEST_CASE("sky map file: the display is the sky, black where the file has no pixels") {
+    const test::TempFolder folder;
+    const auto value = [](int row, int column, int c) { return row * 10 + column + c * 0.5 + 1; };
+    SkyMap map;
+    folder.put("upper.exr", moved(sky_image(4, 2, value), 0, 0));
+    REQUIRE(load(folder, "upper.exr", false, 1, map));
+    CHECK(map.size == std::array<int, 2>{4, 4});
+    for (std::size_t i = 0; i < 16; ++i)
+        CHECK(map.view.radiance[i] == (i < 8 ? float(i / 4 * 10 + i % 4 + 1) : 0.0f));
+    // Origins may be negative, and pixels lie outside of the display.
+    folder.put("off.exr", moved(sky_image(4, 2, value), -1, 3));
+    REQUIRE(load(folder, "off.exr", false, 1, map));
+    for (std::size_t i = 0; i < 16; ++i)
+        CHECK(map.view.radiance[i] == (i >= 12 && i < 15 ? float(i - 12 + 2) : 0.0f));
+}
+
+TEST_CASE("sky map file: layers of other programs, and what says other colours or rows") {
+    const test::TempFolder folder;
+    const auto value = [](int row, int column, int c) { return row * 10 + column + c * 0.5; };
+    SkyMap map;
+    for (const char* layer : {"rgba.", "beauty.", "ViewLayer.Combined."}) {
+        Image image = sky_image(4, 2, value);
+        for (Channel& channel : image.channels) channel.name = layer + channel.name;
+        image.channels.emplace_back();
+        image.channels.back().name = "ViewLayer.Depth.Z";
+        REQUIRE(image.channels.back().pixels.resize(8, "Z"));
+        REQUIRE(write_image(image, folder.path("l.exr"), {}));
+        const Status status = load(folder, "l.exr", false, 1, map);
+        REQUIRE_MESSAGE(status, status.message);
+        CHECK(map.view.radiance[4 + 3] == 13);
+        CHECK(map.view.radiance[8 * 2 + 4 + 3] == 14);
+    }
+    Image depth = sky_image(4, 2, value);
+    depth.channels.resize(1);
+    depth.channels[0].name = "Z";
+    REQUIRE(write_image(depth, folder.path("z.exr"), {}));
+    CHECK(holds(load(folder, "z.exr", false, 1, map).message, "channel R: missing"));
+
+    Buffer<char> bytes;
+    REQUIRE(encode_exr(sky_image(4, 2, value), bytes));
+    std::string text(bytes.data(), bytes.size());
+    const std::string key("chromaticities\0chromaticities\0\x20\0\0\0", 34);
+    const std::size_t at = text.find(key) + key.size();
+    REQUIRE(at != std::string::npos + key.size());
+    const float red = 0.7347f;
+    std::memcpy(&text[at], &red, 4);
+    folder.put("aces.exr", text);
+    CHECK(holds(load(folder, "aces.exr", false, 1, map).message,
+                "aces.exr: chromaticities: red at 0.734700 0.330000, white at"));
+}
+#endif

@@ -126,7 +126,31 @@ void write_stream(const Image& image, MemoryOutput& stream) {
     file.writePixels(image.height);
 }
 
+/// What would make colours or rows something else than what they are taken for.
+std::string foreign_meaning(const Imf::Header& header) {
+    if (Imf::hasEnvmap(header) && Imf::envmap(header) != Imf::ENVMAP_LATLONG)
+        return "envmap: a cube, allowed: latitude and longitude";
+    if (!Imf::hasChromaticities(header)) return "";
+    const Imf::Chromaticities &own = Imf::chromaticities(header), ours = rec709();
+    const Imath::V2f pairs[4][2] = {{own.red, ours.red},
+                                    {own.green, ours.green},
+                                    {own.blue, ours.blue},
+                                    {own.white, ours.white}};
+    // Other programs round to three digits, or have white at 0.3127 0.3291.
+    bool same = true;
+    for (const auto& pair : pairs)
+        for (int a = 0; a < 2; ++a) {
+            const float apart = pair[0][a] - pair[1][a];
+            same = same && apart < 2e-3f && apart > -2e-3f;
+        }
+    if (same) return "";
+    return "chromaticities: red at " + std::to_string(own.red.x) + ' ' + std::to_string(own.red.y) +
+           ", white at " + std::to_string(own.white.x) + ' ' + std::to_string(own.white.y) +
+           ", allowed: those of Rec. 709, or none";
+}
+
 void read_attributes(const Imf::Header& header, Image& image) {
+    image.foreign = foreign_meaning(header);
     if (Imf::hasWorldToCamera(header))
         image.world_to_camera = from_matrix(Imf::worldToCamera(header));
     if (Imf::hasWorldToNDC(header)) image.world_to_ndc = from_matrix(Imf::worldToNDC(header));

@@ -25,6 +25,8 @@ struct DisplayWindow {
 struct Image {
     int width = 0, height = 0;
     DisplayWindow display;  ///< of a file that was read; writers pass it over
+    std::string foreign;    ///< of such a file: an attribute that gives its colours or its rows
+                            ///< another meaning than ours, with what is allowed
     std::vector<Channel> channels;
     std::array<float, 16> world_to_camera{};  ///< row-major, OpenEXR's row-vector convention
     std::array<float, 16> world_to_ndc{};

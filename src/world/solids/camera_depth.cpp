@@ -2,22 +2,98 @@
 // See camera_depth.h.
 #include "src/world/solids/camera_depth.h"
 
+#include <cstring>
+#include <vector>
+
 #include "src/world/camera/view.h"
 #include "src/world/solids/solids.h"
 
 namespace pileus {
 namespace {
 
-/// The plane of distances: Z, or the only one there is. Any other choice would be a guess.
+std::string lower(std::string text) {
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+    return text;
+}
+/// "a.b.Z" is channel Z of layer a.b, whose own name is b.
+std::string layer_of(const std::string& channel) {
+    const std::size_t point = channel.rfind('.');
+    return point == std::string::npos ? "" : channel.substr(0, point);
+}
+std::string last_of(const std::string& name) { return lower(name.substr(name.rfind('.') + 1)); }
+/// As renderers call it: depth.Z, ViewLayer.Depth.Z, Depth.V, zDepth, VRayZDepth.R, Z-depth.
+bool means_depth(const std::string& word) {
+    for (const char* known : {"z", "depth", "zdepth", "z-depth", "z_depth", "vrayzdepth"})
+        if (word == known) return true;
+    return false;
+}
+
+/// The channels of one layer, as they come.
+struct DepthLayer {
+    std::string name;
+    std::vector<const Channel*> channels;  ///< without alpha
+    bool is_vector = false;                ///< has an x: a normal or a place
+
+    /// The channel Z, or one that stands alone, or three that are equal.
+    const Channel* plane(bool& differ) const {
+        if (is_vector) return nullptr;
+        for (const Channel* channel : channels)
+            if (means_depth(last_of(channel->name))) return channel;
+        if (channels.empty()) return nullptr;
+        const Channel& first = *channels[0];
+        if (channels.size() == 1) return &first;
+        if (channels.size() != 3) return nullptr;
+        for (const Channel* channel : channels)
+            differ =
+                differ || channel->pixels.size() != first.pixels.size() ||
+                std::memcmp(channel->pixels.data(), first.pixels.data(), first.pixels.bytes()) != 0;
+        return differ ? nullptr : &first;
+    }
+};
+
+std::vector<DepthLayer> layers_of(const Image& image) {
+    std::vector<DepthLayer> layers;
+    for (const Channel& channel : image.channels) {
+        const std::string name = layer_of(channel.name), last = last_of(channel.name);
+        std::size_t at = 0;
+        while (at < layers.size() && layers[at].name != name) ++at;
+        if (at == layers.size()) layers.push_back({name, {}, false});
+        layers[at].is_vector = layers[at].is_vector || last == "x";
+        if ((last != "a" && last != "alpha") || image.channels.size() == 1)
+            layers[at].channels.push_back(&channel);
+    }
+    return layers;
+}
+
+/// The plane of distances: Z; else the one that is called so; else the only one, or three equal
+/// ones. Any other choice would be a guess.
 Status find_depth(const std::string& name, const Image& image, const Channel*& z) {
+    const std::vector<DepthLayer> layers = layers_of(image);
+    bool differ = false;
+    int called = 0;
     z = image.find("Z");
-    if (z == nullptr && image.channels.size() == 1) z = &image.channels[0];
     if (z != nullptr) return Status::ok();
+    for (const DepthLayer& layer : layers) {
+        bool colours = false;
+        const Channel* plane = layer.plane(colours);
+        if (plane == nullptr) continue;
+        if (!means_depth(last_of(plane->name)) && !means_depth(last_of(layer.name))) continue;
+        z = plane;
+        ++called;
+    }
+    if (called == 1) return Status::ok();
+    z = called == 0 && layers.size() == 1 ? layers[0].plane(differ) : nullptr;
+    if (z != nullptr) return Status::ok();
+    if (differ)
+        return Status::bad_input(name +
+                                 ": depth: colours, R G B differ, allowed: one value a pixel");
     std::string list;
     for (const Channel& channel : image.channels) list += (list.empty() ? "" : ", ") + channel.name;
-    return Status::bad_input(name + ": depth: no channel Z among " +
-                             (list.empty() ? "none" : printable_line(list)) +
-                             ", allowed: Z, or a single channel of any name");
+    return Status::bad_input(name + ": depth: " + (called > 1 ? "several" : "no channel Z") +
+                             " among " + (list.empty() ? "none" : printable_line(list)) +
+                             ", allowed: Z, one layer of depth, a single channel of any name, or "
+                             "three that are equal");
 }
 
 }  // namespace
