@@ -72,13 +72,25 @@ bool has_sequence(const Scene& scene) {
     return false;
 }
 
+namespace {
+
+/// A file may have '#' in its name and be no sequence: it is there as it stands.
+std::string path_of_frame(const Scene& scene, const std::string& file, std::int64_t number) {
+    const std::string plain = scene_path(scene.directory, file);
+    InputFile there;
+    if (!is_sequence(file) || open_file(plain, there)) return plain;
+    return scene_path(scene.directory, numbered(file, number));
+}
+
+}  // namespace
+
 std::string density_path(const Scene& scene, const MediumSettings& medium) {
-    return scene_path(scene.directory, numbered(medium.file, std::int64_t(medium.first_frame) +
-                                                                 scene.sequence_frame));
+    return path_of_frame(scene, medium.file,
+                         std::int64_t(medium.first_frame) + scene.sequence_frame);
 }
 
 std::string depth_path(const Scene& scene) {
-    return scene_path(scene.directory, numbered(scene.view_files.depth, scene.sequence_frame));
+    return path_of_frame(scene, scene.view_files.depth, scene.sequence_frame);
 }
 
 Status read_scene_text(const std::string& text, const std::string& name,

@@ -16,7 +16,7 @@ int fuzz::mesh(const std::uint8_t* data, std::size_t size) {
         return 0;
     }
     fuzz::require(mesh.triangles() > 0 && mesh.triangles() <= kMostTriangles, "as many as allowed");
-    for (float v : mesh.corners.span())
+    for (double v : mesh.corners.span())
         fuzz::require(v >= -pileus::kMostCoordinate && v <= pileus::kMostCoordinate,
                       "corners are finite");
     return 0;

@@ -53,6 +53,30 @@ TEST_CASE("mesh: obj and ply, polygons as fans") {
     for (std::size_t i = 0; i < 18; ++i) CHECK(mesh.corners[i] == expected[i]);
 }
 
+TEST_CASE("mesh: places on a map keep their digits, and a mark of UTF-8 is no part of a text") {
+    const std::string mark = "\xef\xbb\xbf";
+    const std::string obj =
+        "v 500000.25 5400000.5 812.125\nv 500001.5 5400000.5 812.125\nv 500000.25 5400001.75 812\n"
+        "f 1 2 3\n";
+    const std::string ply =
+        "ply\nformat ascii 1.0\nelement vertex 3\nproperty double x\nproperty double y\n"
+        "property double z\nelement face 1\nproperty list uchar int vertex_indices\nend_header\n"
+        "500000.25 5400000.5 812.125\n500001.5 5400000.5 812.125\n500000.25 5400001.75 812\n"
+        "3 0 1 2\n";
+    const double expected[9] = {500000.25, 5400000.5, 812.125,    500001.5, 5400000.5,
+                                812.125,   500000.25, 5400001.75, 812};
+    for (const std::string& begin : {std::string(), mark}) {
+        Mesh mesh;
+        REQUIRE(decode(begin + obj, ".obj", mesh));
+        REQUIRE(mesh.triangles() == 1);
+        for (std::size_t i = 0; i < 9; ++i) CHECK(mesh.corners[i] == expected[i]);
+        REQUIRE(decode(begin + ply, ".ply", mesh));
+        for (std::size_t i = 0; i < 9; ++i) CHECK(mesh.corners[i] == expected[i]);
+    }
+    Mesh mesh;
+    CHECK(decode(mark + "{}", ".gltf", mesh).code == Code::kBadInput);
+}
+
 TEST_CASE("mesh: a ply that states an element twice is refused before anything is read of it") {
     // Room for one vertex by the last count, values for two million by the first.
     std::string text =
@@ -184,7 +208,7 @@ TEST_CASE("mesh: whatever is cut off or overwritten, there is an end and a line"
             changed[n] = char('0' + n % 75);
             const Status status = decode(changed, file.second, mesh);
             if (status)
-                for (float v : mesh.corners.span()) CHECK(v - v == 0.0f);
+                for (double v : mesh.corners.span()) CHECK(v - v == 0.0f);
         }
     }
 }

@@ -171,7 +171,8 @@ TEST_CASE("solids: no ray of a million leaves a closed ball") {
         Float3 to = luck.place(3);
         // Every third at a corner, every third at an edge of the mesh.
         const std::size_t t = std::size_t(luck.next() * float(mesh.corners.size() / 9)) * 9;
-        const float* p = mesh.corners.data() + t;
+        float p[9];
+        for (std::size_t k = 0; k < 9; ++k) p[k] = float(mesh.corners[t + k]);
         const float along_edge = i % 3 == 1 ? 0.0f : luck.next();
         if (i % 3 != 0)
             for (std::size_t k = 0; k < 3; ++k) to[k] = p[k] + (p[3 + k] - p[k]) * along_edge;
@@ -184,6 +185,20 @@ TEST_CASE("solids: no ray of a million leaves a closed ball") {
 }
 
 TEST_CASE("solids: lanes of any width") { PILEUS_EACH_WIDTH(check_width); }
+
+TEST_CASE("solids: a mesh on a map is moved before it is rounded") {
+    // A metre is two steps of a float at 5 400 000; taken off in doubles it stays a metre.
+    TestMesh mesh;
+    mesh.corners = {500000.25, 5400000.125, 0,           500001.25, 5400000.125,
+                    0,         500000.25,   5400000.875, 0};
+    SolidSettings settings;
+    settings.position_m = {-500000, -5400000, 0};
+    const Solids s = make_solids(mesh, settings);
+    REQUIRE(s.triangles.size() == 1);
+    const float expected[3][3] = {{0.25f, 0.125f, 0}, {1.25f, 0.125f, 0}, {0.25f, 0.875f, 0}};
+    for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t a = 0; a < 3; ++a) CHECK(s.triangles[0].corner[i][a] == expected[i][a]);
+}
 
 TEST_CASE("solids: turned about x, then y, then z; y up; scaled; placed") {
     TestMesh mesh;

@@ -12,7 +12,7 @@
 namespace pileus {
 
 struct TestMesh {
-    std::vector<float> corners;
+    std::vector<double> corners;
 
     void add(const Float3& a, const Float3& b, const Float3& c) {
         for (const Float3& p : {a, b, c}) corners.insert(corners.end(), p.begin(), p.end());

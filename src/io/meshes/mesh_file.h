@@ -13,13 +13,14 @@
 namespace pileus {
 
 struct Mesh {
-    Buffer<float> corners;  ///< [triangle][corner][axis], all finite
+    /// [triangle][corner][axis], all finite; in doubles, since places on a map are far from its 0.
+    Buffer<double> corners;
 
     std::uint64_t triangles() const { return corners.size() / 9; }
 };
 
 /// Coordinates of a file stay within this, either way.
-constexpr float kMostCoordinate = 1e12f;
+constexpr double kMostCoordinate = 1e12;
 
 /// Reads all triangles; polygons become fans of them around their first corner. Missing, malformed,
 /// without triangles, or a build that cannot read meshes: kBadInput; over the limits `file` and

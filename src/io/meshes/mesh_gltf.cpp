@@ -2,6 +2,7 @@
 // See mesh_file.h. Reading goes through the library Assimp, which is loaded when a scene has a
 // mesh. in: a scene of its C interface, trusted in nothing -> out: corners. The only file that
 // touches the library; docs/solids.md, "Files".
+#include "src/base/text_mark.h"
 #include "src/io/meshes/mesh_file.h"
 
 #ifdef PILEUS_WITH_ASSIMP
@@ -73,7 +74,7 @@ private:
         return Status::bad_input(name_ + ": mesh: " + text);
     }
     Status add_mesh(const aiMesh& from, const Placement& place, Mesh* mesh);
-    Status add_corner(const aiMesh& from, unsigned index, const Placement& place, float* to) const;
+    Status add_corner(const aiMesh& from, unsigned index, const Placement& place, double* to) const;
 
     const std::string& name_;
     const aiScene& scene_;
@@ -81,7 +82,7 @@ private:
 };
 
 Status Triangles::add_corner(const aiMesh& from, unsigned index, const Placement& place,
-                             float* to) const {
+                             double* to) const {
     if (index >= from.mNumVertices)
         return fault("no such vertex, " + std::to_string(index) + ", allowed: below " +
                      std::to_string(from.mNumVertices));
@@ -90,10 +91,10 @@ Status Triangles::add_corner(const aiMesh& from, unsigned index, const Placement
     for (int r = 0; r < 3; ++r) {
         const double* m = place.m[r];
         const double x = m[0] * at[0] + m[1] * at[1] + m[2] * at[2] + m[3];
-        if (!(x >= -double(kMostCoordinate) && x <= double(kMostCoordinate)))
+        if (!(x >= -kMostCoordinate && x <= kMostCoordinate))
             return fault("vertex " + std::to_string(index) +
                          ": not a number or too far away, allowed: -1e12 to 1e12");
-        to[r] = float(x);
+        to[r] = x;
     }
     return Status::ok();
 }
@@ -108,7 +109,7 @@ Status Triangles::add_mesh(const aiMesh& from, const Placement& place, Mesh* mes
             if (mesh == nullptr) {
                 continue;
             }
-            float* to = mesh->corners.span().part(std::size_t(9 * count_), 9).data;
+            double* to = mesh->corners.span().part(std::size_t(9 * count_), 9).data;
             PILEUS_TRY(add_corner(from, face.mIndices[0], place, to));
             PILEUS_TRY(add_corner(from, face.mIndices[i - 1], place, to + 3));
             PILEUS_TRY(add_corner(from, face.mIndices[i], place, to + 6));
@@ -165,6 +166,10 @@ Status decode_gltf(const std::string& name, bool binary, Span<const char> bytes,
                                  "or a .ply or .obj");
     // The library ends the program over a file without a beginning: look at it first.
     const char* head = binary ? "glTF" : "{";
+    if (!binary && without_mark(bytes).size < bytes.size)
+        return Status::bad_input(name +
+                                 ": mesh: a mark of UTF-8 before the text, allowed: none, as "
+                                 "glTF has it");
     const std::size_t length = binary ? 20 : 2;
     if (bytes.size < length || bytes.size > 0xffffffffu ||
         std::memcmp(bytes.data, head, std::strlen(head)) != 0)

@@ -22,9 +22,9 @@ private:
                is_text_space(text_[line.at + 1]);
     }
     std::uint64_t words(TextRange line) const;
-    Status vertex(TextRange line, Span<float> to) const;
+    Status vertex(TextRange line, Span<double> to) const;
     Status corner(TextRange& line, std::uint64_t vertices, std::uint64_t& index) const;
-    Status face(TextRange line, std::uint64_t vertices, const Buffer<float>& places, Mesh& mesh,
+    Status face(TextRange line, std::uint64_t vertices, const Buffer<double>& places, Mesh& mesh,
                 std::uint64_t& triangles) const;
 };
 
@@ -36,7 +36,7 @@ std::uint64_t Reader::words(TextRange line) const {
     return count;
 }
 
-Status Reader::vertex(TextRange line, Span<float> to) const {
+Status Reader::vertex(TextRange line, Span<double> to) const {
     ++line.at;
     for (std::size_t a = 0; a < 3; ++a) {
         skip(line);
@@ -66,8 +66,8 @@ Status Reader::corner(TextRange& line, std::uint64_t vertices, std::uint64_t& in
     return Status::ok();
 }
 
-Status Reader::face(TextRange line, std::uint64_t vertices, const Buffer<float>& places, Mesh& mesh,
-                    std::uint64_t& triangles) const {
+Status Reader::face(TextRange line, std::uint64_t vertices, const Buffer<double>& places,
+                    Mesh& mesh, std::uint64_t& triangles) const {
     const std::uint64_t corners = words(line);
     std::uint64_t first = 0, last = 0, next = 0;
     ++line.at;
@@ -75,7 +75,7 @@ Status Reader::face(TextRange line, std::uint64_t vertices, const Buffer<float>&
         PILEUS_TRY(corner(line, vertices, next));
         if (i == 0) first = next;
         if (i < 2) continue;
-        float* to = mesh.corners.span().part(std::size_t(9 * triangles++), 9).data;
+        double* to = mesh.corners.span().part(std::size_t(9 * triangles++), 9).data;
         for (std::uint64_t v : {first, last, next})
             for (std::size_t a = 0; a < 3; ++a) *to++ = places.at(std::size_t(3 * v) + a);
     }
@@ -96,7 +96,7 @@ Status Reader::read(std::uint64_t most_triangles, Mesh& mesh) {
         triangles += corners - 2;
     }
     PILEUS_TRY(check_triangles(file_, triangles, most_triangles));
-    Buffer<float> places;
+    Buffer<double> places;
     PILEUS_TRY(places.resize(3 * vertices, "vertices"));
     PILEUS_TRY(mesh.corners.resize(9 * triangles, "mesh"));
     std::uint64_t known = 0, made = 0;

@@ -16,14 +16,14 @@ public:
 
     Status header();
     /// Reads the elements; without `mesh` counts triangles only.
-    Status body(std::uint64_t& triangles, Buffer<float>& places, Mesh* mesh);
+    Status body(std::uint64_t& triangles, Buffer<double>& places, Mesh* mesh);
     std::uint64_t vertices() const { return count_of("vertex"); }
 
 private:
     Status item(const PlyElement& e, std::uint64_t number, std::uint64_t& triangles,
-                Buffer<float>& places, Mesh* mesh);
+                Buffer<double>& places, Mesh* mesh);
     Status list(const PlyProperty& p, bool faces, std::uint64_t& triangles,
-                const Buffer<float>& places, Mesh* mesh);
+                const Buffer<double>& places, Mesh* mesh);
 };
 
 Status Reader::header() {
@@ -34,7 +34,7 @@ Status Reader::header() {
 }
 
 Status Reader::list(const PlyProperty& p, bool faces, std::uint64_t& triangles,
-                    const Buffer<float>& places, Mesh* mesh) {
+                    const Buffer<double>& places, Mesh* mesh) {
     std::uint64_t length = 0, first = 0, last = 0, next = 0;
     PILEUS_TRY(index(p.count, text_.size + 1, kNoIndex, length));
     for (std::uint64_t i = 0; i < length; ++i, last = next) {
@@ -47,7 +47,7 @@ Status Reader::list(const PlyProperty& p, bool faces, std::uint64_t& triangles,
         if (i == 0) first = next;
         if (i < 2) continue;
         if (mesh != nullptr) {
-            float* to = mesh->corners.span().part(std::size_t(9 * triangles), 9).data;
+            double* to = mesh->corners.span().part(std::size_t(9 * triangles), 9).data;
             for (std::uint64_t v : {first, last, next})
                 for (std::size_t a = 0; a < 3; ++a) *to++ = places.at(std::size_t(3 * v) + a);
         }
@@ -57,7 +57,7 @@ Status Reader::list(const PlyProperty& p, bool faces, std::uint64_t& triangles,
 }
 
 Status Reader::item(const PlyElement& e, std::uint64_t number, std::uint64_t& triangles,
-                    Buffer<float>& places, Mesh* mesh) {
+                    Buffer<double>& places, Mesh* mesh) {
     static const char* const axes[3] = {"x", "y", "z"};
     const bool vertex = e.name == "vertex", face = e.name == "face";
     for (const PlyProperty& p : e.properties) {
@@ -71,17 +71,17 @@ Status Reader::item(const PlyElement& e, std::uint64_t number, std::uint64_t& tr
         PILEUS_TRY(value(p.type, v));
         for (std::size_t a = 0; a < 3 && vertex; ++a) {
             if (p.name != axes[a]) continue;
-            if (!(v >= -double(kMostCoordinate) && v <= double(kMostCoordinate)))
+            if (!(v >= -kMostCoordinate && v <= kMostCoordinate))
                 return fault(begin,
                              "vertex: not a number or out of range, allowed: number in "
                              "[-1e12, 1e12]");
-            places.at(std::size_t(3 * number) + a) = float(v);
+            places.at(std::size_t(3 * number) + a) = v;
         }
     }
     return Status::ok();
 }
 
-Status Reader::body(std::uint64_t& triangles, Buffer<float>& places, Mesh* mesh) {
+Status Reader::body(std::uint64_t& triangles, Buffer<double>& places, Mesh* mesh) {
     triangles = 0;
     rewind();
     for (const PlyElement& e : elements()) {
@@ -97,7 +97,7 @@ Status decode_ply(const std::string& name, Span<const char> bytes, std::uint64_t
                   Mesh& mesh) {
     Reader reader(name, bytes);
     PILEUS_TRY(reader.header());
-    Buffer<float> places;
+    Buffer<double> places;
     PILEUS_TRY(places.resize(3 * reader.vertices(), "vertices"));
     std::uint64_t triangles = 0;
     PILEUS_TRY(reader.body(triangles, places, nullptr));

@@ -31,7 +31,10 @@ glm::dmat3 turn_of(const SolidSettings& s) {
     return all * glm::dmat3(1, 0, 0, 0, 0, 1, 0, -1, 0);
 }
 
-Double3 vector_of(const float* p) { return {p[0], p[1], p[2]}; }
+template <class Number>
+Double3 vector_of(const Number* p) {
+    return {double(p[0]), double(p[1]), double(p[2])};
+}
 
 /// Fills the unit normal; false where there is none.
 bool set_normal(SolidTriangle& t) {
@@ -60,7 +63,7 @@ Status read_all(const Scene& scene, const Context& context, std::vector<Mesh>& m
 }  // namespace
 
 Status place_triangles(const SolidSettings& settings, const std::string& name, std::int32_t solid,
-                       const Double3& low_m, Span<const float> corners, std::uint64_t& used,
+                       const Double3& low_m, Span<const double> corners, std::uint64_t& used,
                        Solids& solids) {
     const glm::dmat3 turn = turn_of(settings);
     const Double3 shift = settings.position_m - low_m;

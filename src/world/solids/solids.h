@@ -56,7 +56,7 @@ Status load_solids(const Scene& scene, const Double3& low_m, const Context& cont
 /// Corners of a mesh in metres from `low_m` as triangles of solid number `solid`, those without an
 /// area left out and counted; from triangles[used] on, which there is room for.
 Status place_triangles(const SolidSettings& settings, const std::string& name, std::int32_t solid,
-                       const Double3& low_m, Span<const float> corners, std::uint64_t& used,
+                       const Double3& low_m, Span<const double> corners, std::uint64_t& used,
                        Solids& solids);
 
 /// Sorts the triangles under a tree of boxes. kLimit: out of memory.
