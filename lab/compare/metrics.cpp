@@ -35,6 +35,21 @@ private:
     int row_ = 0;
 };
 
+/// What a pixel that does not count would have to say.
+void look_aside(const PicturePair& pair, std::size_t i, Metrics& m) {
+    if (!pair.finite(i)) {
+        ++m.uncounted_not_finite;
+        return;
+    }
+    for (int c = 0; c < 3; ++c) {
+        const double d = std::fabs(pair.difference(c, i));
+        if (d <= m.uncounted_largest) continue;
+        m.uncounted_largest = d;
+        m.uncounted_x = int(i % std::size_t(pair.width));
+        m.uncounted_y = int(i / std::size_t(pair.width));
+    }
+}
+
 void count_and_mean(const PicturePair& pair, Metrics& m) {
     RowSum sum_a, sum_r;
     each_counted(pair, [&](std::size_t i, int y) {
@@ -45,8 +60,10 @@ void count_and_mean(const PicturePair& pair, Metrics& m) {
         }
     });
     m.pixels = pair.pixels();
-    for (std::size_t i = 0; i < m.pixels; ++i)
+    for (std::size_t i = 0; i < m.pixels; ++i) {
         m.not_finite += pair.in_cloud(i) && !pair.finite(i) ? 1 : 0;
+        if (!pair.in_cloud(i)) look_aside(pair, i, m);
+    }
     const double values = 3.0 * double(m.cloud_pixels);
     m.mean_a = sum_a.value() / values;
     m.mean_reference = sum_r.value() / values;

@@ -42,8 +42,12 @@ struct Metrics {
     double relmse_own_noise = 0;        ///< mean se_a^2/(r^2 + eps); 0 where not known
     double largest = 0;                 ///< max |d|
     int largest_x = 0, largest_y = 0;
-    double percentile_999 = 0;           ///< 99.9 % of all |d| are at most this
-    double relative_percentile_999 = 0;  ///< the same of |d|/sqrt(r^2 + eps)
+    /// Of pixels that are finite, but do not count, since their alpha is too low.
+    double uncounted_largest = 0;
+    int uncounted_x = 0, uncounted_y = 0;
+    std::uint64_t uncounted_not_finite = 0;  ///< pixels beside those that are not finite
+    double percentile_999 = 0;               ///< 99.9 % of all |d| are at most this
+    double relative_percentile_999 = 0;      ///< the same of |d|/sqrt(r^2 + eps)
 
     double bias = 0;  ///< mean d
     /// Of bias, pixels independent of each other, the three channels of a pixel wholly dependent.

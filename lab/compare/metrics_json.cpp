@@ -67,6 +67,20 @@ std::string relmse_lines(const ComparisonText& text, const Metrics& m) {
            line("  trimmed", fmt::format("{:.5g}  (without the largest 0.1 %)", m.relmse_trimmed));
 }
 
+/// Pixels that do not count, where they differ.
+std::string aside_line(const ComparisonText& text, const Metrics& m) {
+    if (!(m.uncounted_largest > 0) && m.uncounted_not_finite == 0) return "";
+    std::string lines;
+    if (m.uncounted_largest > 0)
+        lines = fmt::format("largest {:.5g} at pixel {}, {}", m.uncounted_largest, m.uncounted_x,
+                            m.uncounted_y);
+    if (m.uncounted_not_finite > 0)
+        lines += fmt::format("{}{} not finite", lines.empty() ? "" : ", ", m.uncounted_not_finite);
+    return line("not counted", fmt::format("{}, where alpha is at most {:g}; --all-pixels counts "
+                                           "them",
+                                           lines, text.alpha_least));
+}
+
 std::string bias_line(const Metrics& m) {
     std::string text = fmt::format("{:.5g}", m.bias);
     const double share = m.bias / m.mean_reference;
@@ -102,6 +116,9 @@ std::string metrics_json(const ComparisonText& text, const Metrics& m, const Fli
         {"relmse_trimmed", m.relmse_trimmed},
         {"largest", m.largest},
         {"largest_at", {m.largest_x, m.largest_y}},
+        {"uncounted_largest", m.uncounted_largest},
+        {"uncounted_largest_at", {m.uncounted_x, m.uncounted_y}},
+        {"uncounted_not_finite", m.uncounted_not_finite},
         {"percentile_999", m.percentile_999},
         {"relative_percentile_999", m.relative_percentile_999},
         {"bias", m.bias},
@@ -127,6 +144,7 @@ std::string metrics_lines(const ComparisonText& text, const Metrics& m, const Fl
                                          "{:.5g}",
                                          m.largest, m.largest_x, m.largest_y, m.percentile_999,
                                          m.relative_percentile_999));
+    lines += aside_line(text, m);
     lines += bias_line(m);
     if (m.z_count > 0)
         lines += line("z", fmt::format("{:.2f} % above 2, {:.3f} % above 3, mean square {:.4g} "

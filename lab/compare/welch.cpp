@@ -73,12 +73,19 @@ void take(double z, std::size_t block, int channel, int columns, WelchResult& r)
 }
 
 void test_blocks(const BlockSums& a, const BlockSums& b, WelchResult& r) {
-    const double critical = deviate_of(0.5 * r.significance / double(3 * r.blocks));
     std::vector<double> all, found;
+    const auto idle = [&](std::size_t at) {
+        return cannot_differ(a.passes[at / 3], a.sums[at], b.passes[at / 3], b.sums[at]);
+    };
+    for (std::size_t at = 0; at < 3 * r.blocks; ++at) r.tested += idle(at) ? 0 : 1;
+    if (r.tested == 0) return;
+    const double critical = deviate_of(0.5 * r.significance / double(r.tested));
     for (int c = 0; c < 3; ++c) {
-        double square = 0;
+        double square = 0, count = 0;
         for (std::size_t i = 0; i < r.blocks; ++i) {
             const std::size_t at = 3 * i + std::size_t(c);
+            if (idle(at)) continue;
+            ++count;
             const double z = welch_z(a.passes[i], a.sums[at], b.passes[i], b.sums[at]);
             take(z, i, c, a.columns(), r);
             square += z * z;
@@ -86,8 +93,9 @@ void test_blocks(const BlockSums& a, const BlockSums& b, WelchResult& r) {
             const Mean ma = mean_of(a.passes[i], a.sums[at]), mb = mean_of(b.passes[i], b.sums[at]);
             if (mb.mean != 0) found.push_back(detectable(mb, error_of(ma, mb), critical));
         }
-        r.mean_z_square[c] = square / double(r.blocks);
-        r.chi_square_p[c] = chi_square_tail(r.mean_z_square[c], double(r.blocks));
+        if (!(count > 0)) continue;
+        r.mean_z_square[c] = square / count;
+        r.chi_square_p[c] = chi_square_tail(r.mean_z_square[c], count);
     }
     r.above_2 /= double(all.size());
     r.above_3 /= double(all.size());
@@ -99,6 +107,12 @@ void test_blocks(const BlockSums& a, const BlockSums& b, WelchResult& r) {
 }
 
 }  // namespace
+
+bool cannot_differ(double passes_a, const BlockSum& a, double passes_b, const BlockSum& b) {
+    const Mean x = mean_of(passes_a, a), y = mean_of(passes_b, b);
+    const double unit = rounding(x, y), d = x.mean - y.mean;
+    return x.variance + y.variance <= unit && d * d <= unit;
+}
 
 double two_sided(double z) { return std::erfc(std::fabs(z) * 0.70710678118654752); }
 

@@ -16,7 +16,8 @@ struct WelchPicture {
 };
 
 struct WelchResult {
-    std::size_t blocks = 0;             ///< the whole picture left out
+    std::size_t blocks = 0;  ///< the whole picture left out
+    std::size_t tested = 0;  ///< blocks and channels that could differ; the others are no tests
     double passes_a = 0, passes_b = 0;  ///< least of any block
     double significance = kWelchSignificance;
     WelchPicture picture[3];                                ///< R G B
@@ -24,7 +25,7 @@ struct WelchResult {
     int largest_x = 0, largest_y = 0, largest_channel = 0;  ///< its block, counted from 0
     double smallest_p = 1, adjusted_p = 1;  ///< of blocks; by Holm, all tests together
     std::size_t rejected = 0;               ///< blocks and channels, by Holm
-    double mean_z_square[3] = {1, 1, 1};    ///< 1 where the errors explain all
+    double mean_z_square[3] = {1, 1, 1};    ///< of those tested; 1 where the errors explain all
     double chi_square_p[3] = {1, 1, 1};     ///< that it is so large; assumes blocks independent
     double above_2 = 0, above_3 = 0;        ///< shares of |z|; normal: 0.0455 and 0.0027
     double detectable_block = 0;            ///< median over blocks and channels, relative
@@ -34,6 +35,10 @@ struct WelchResult {
 /// Welch's t of two means as a normal deviate of the same probability (Wallace 1959, within 0.01
 /// from 9 degrees of freedom up). Differences below a millionth of the mean count as rounding.
 double welch_z(double passes_a, const BlockSum& a, double passes_b, const BlockSum& b);
+
+/// Whether no sample of either can show a difference: both have one value in all passes, but for
+/// rounding, and the same one. A test of it would only count among those that find nothing.
+bool cannot_differ(double passes_a, const BlockSum& a, double passes_b, const BlockSum& b);
 
 /// Two-sided probability of a normal deviate.
 double two_sided(double z);

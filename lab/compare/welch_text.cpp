@@ -27,6 +27,11 @@ std::string welch_lines(const std::string& a, const std::string& b, const WelchR
         text += fmt::format("  {:<12} {:>12.6g}  {:>12.6g}  {:>9.3f}  {:>9.3g}  {:>14.3f} %\n",
                             kChannels[c], p.mean_a, p.mean_b, p.z, p.p, 100 * p.detectable);
     }
+    const std::size_t idle = 3 * r.blocks - r.tested;
+    if (idle > 0)
+        text +=
+            fmt::format("{} of {} blocks and channels have one value in both, and are no test\n",
+                        idle, 3 * r.blocks);
     text += "blocks            mean z^2  p (chi-square, if blocks are independent)\n";
     for (int c = 0; c < 3; ++c)
         text += fmt::format("  {:<12} {:>11.3f}  {:.3g}\n", kChannels[c], r.mean_z_square[c],
@@ -58,6 +63,7 @@ std::string welch_json(const std::string& a, const std::string& b, const WelchRe
     const Json json = {{"a", a},
                        {"against", b},
                        {"blocks", r.blocks},
+                       {"tested", r.tested},
                        {"passes", {r.passes_a, r.passes_b}},
                        {"significance", r.significance},
                        {"channels", channels},

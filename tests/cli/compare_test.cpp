@@ -167,6 +167,33 @@ TEST_CASE("compare: limits decide the exit status, one line each") {
     CHECK(folder.run("compare b.pfm b.pfm --max-relmse 0 --max-flip 0").exit_status == 0);
 }
 
+TEST_CASE("compare: a pixel of low alpha is no part of means, and of --max-abs") {
+    ProgramFolder folder;
+    if (!can_write_image("a.exr")) {
+        MESSAGE("skipped: EXR is left out of this build");
+        return;
+    }
+    Image image = test::make_image(12, 9);
+    for (Channel& channel : image.channels)
+        for (float& v : channel.pixels.span()) v = channel.name == "A" ? 0.5f : 0.25f;
+    for (Channel& channel : image.channels)
+        if (channel.name == "A") channel.pixels[5] = 0;
+    REQUIRE(write_image(image, folder.files().path("r.exr"), {}));
+    for (Channel& channel : image.channels)
+        if (channel.name == "G") channel.pixels[5] = 0.75f;
+    REQUIRE(write_image(image, folder.files().path("a.exr"), {}));
+    const Outcome told = folder.run("compare a.exr r.exr --no-flip --max-rmse 0");
+    CHECK_MESSAGE(told.exit_status == 0, told.errors);
+    CHECK(holds(told.output, "not counted    largest 0.5 at pixel 5, 0, where alpha is at most"));
+    const Outcome counted = folder.run("compare a.exr r.exr --no-flip --max-abs 0.4");
+    CHECK(counted.exit_status == 1);
+    CHECK(counted.errors ==
+          "a.exr: largest difference: above --max-abs at pixel 5, 0, 0.5, where alpha is too low "
+          "to count, allowed: at most 0.4\n");
+    CHECK(folder.run("compare a.exr r.exr --no-flip --max-abs 0.5").exit_status == 0);
+    CHECK(folder.run("compare a.exr r.exr --no-flip --all-pixels --max-abs 0.4").exit_status == 1);
+}
+
 TEST_CASE("compare: a pixel that is not finite fails every limit") {
     ProgramFolder folder;
     make_folder(folder);

@@ -66,6 +66,9 @@ TEST_CASE("metrics: four pixels by hand, one of them outside the cloud") {
     CHECK(m.largest == 0.5);
     CHECK(m.largest_x == 0);
     CHECK(m.largest_y == 1);
+    CHECK(m.uncounted_largest == 7);
+    CHECK(m.uncounted_x == 1);
+    CHECK(m.uncounted_y == 1);
     CHECK(m.percentile_999 == 0.5);
     CHECK(std::isnan(m.bias_z));
     CHECK(m.z_count == 0);

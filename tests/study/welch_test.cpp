@@ -117,6 +117,38 @@ TEST_CASE("welch: a bias of one per cent is found, in all or in one block") {
     CHECK(found.largest_y == 1);
 }
 
+TEST_CASE("welch: blocks that cannot differ are no tests") {
+    // Half of the blocks become a background of 0.5 without noise, one of them apart by 1e-9.
+    BlockSums a = drawn(7, 16, 1), b = drawn(8, 16, 1);
+    const WelchResult whole = compared(a, b);
+    CHECK(whole.tested == 120);
+    for (std::size_t i = 20; i < 40; ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            for (BlockSums* blocks : {&a, &b}) {
+                const double v = i == 20 && blocks == &b ? 0.5 + 1e-9 : 0.5;
+                blocks->sums[3 * i + c] = {16 * v, 16 * v * v};
+            }
+    const WelchResult half = compared(a, b);
+    CHECK(half.tested == 60);
+    for (int c = 0; c < 3; ++c) {
+        // 20 squares of mean 1 and variance 2: 4.5 standard errors; with the idle ones it was half.
+        CHECK(std::fabs(half.mean_z_square[c] - 1) < 4.5 * std::sqrt(2.0 / 20));
+    }
+    CHECK_FALSE(half.differ);
+    // Without noise, and apart by more than rounding, they are tests, and differ.
+    for (std::size_t c = 0; c < 3; ++c) b.sums[3 * 30 + c] = {16 * 0.501, 16 * 0.501 * 0.501};
+    const WelchResult apart = compared(a, b);
+    CHECK(apart.tested == 63);
+    CHECK(apart.differ);
+    // Nothing at all to test is no difference.
+    for (std::size_t i = 0; i <= 40; ++i)
+        for (std::size_t c = 0; c < 3; ++c)
+            a.sums[3 * i + c] = b.sums[3 * i + c] = {16 * 0.5, 16 * 0.25};
+    const WelchResult nothing = compared(a, b);
+    CHECK(nothing.tested == 0);
+    CHECK_FALSE(nothing.differ);
+}
+
 TEST_CASE("welch: without noise a millionth passes as rounding, a thousandth does not") {
     BlockSums a = drawn(1, 2, 1);
     for (std::size_t i = 0; i < a.sums.size(); ++i) a.sums[i] = {2, 2};

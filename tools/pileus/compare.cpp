@@ -172,6 +172,21 @@ Status check_limits(const std::string& file, const Settings& settings, const Met
                                limit.figure, limit.option, figures[i], limit.most)},
                   faults);
     }
+    // The largest difference is one pixel's: one that does not count for the means is one, too.
+    const Limit& abs = settings.limits[2];
+    if (*abs.text && metrics.uncounted_largest > abs.most && !(metrics.largest > abs.most))
+        add_fault({Code::kCheckFailed,
+                   fmt::format("{}: {}: above {} at pixel {}, {}, {:.6g}, where alpha is too low "
+                               "to count, allowed: at most {:g}",
+                               file, abs.figure, abs.option, metrics.uncounted_x,
+                               metrics.uncounted_y, metrics.uncounted_largest, abs.most)},
+                  faults);
+    if (*abs.text && metrics.uncounted_not_finite > 0)
+        add_fault({Code::kCheckFailed,
+                   fmt::format("{}: pixels: not finite, {} whose alpha is too low to count, "
+                               "allowed: none under {}",
+                               file, metrics.uncounted_not_finite, abs.option)},
+                  faults);
     if (asked && metrics.not_finite > 0)
         add_fault({Code::kCheckFailed,
                    fmt::format("{}: pixels: not finite, {}, allowed: none in what is compared",

@@ -151,8 +151,11 @@ Status take_picture_scene(const std::string& path, const Image& image,
     const Origin origin{path, {image.origin.begin(), image.origin.end()}};
     out = PictureScene();
     out.file = path;
-    out.hash = read_hash(image.pixel_hash);
-    if (image.scene_text.empty() || out.hash.empty())
+    // The pixels are what counts: they may have been changed since their hash was written down.
+    const std::string written = read_hash(image.pixel_hash);
+    out.hash = pixel_hash(image);
+    out.edited = !written.empty() && written != out.hash;
+    if (image.scene_text.empty() || written.empty())
         return Status::bad_input(origin.where(image.scene_text.empty() ? "scene" : "pixelHash") +
                                  ": missing, allowed: a picture that pileus has rendered");
     Status faults;

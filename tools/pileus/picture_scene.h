@@ -17,7 +17,8 @@ struct PictureScene {
     std::string directory;               ///< where names in the scene start
     std::string version, method, show;   ///< of the run
     std::string commit;                  ///< of the program's sources; empty: not known
-    std::string hash;                    ///< of the pixels, as rendered
+    std::string hash;                    ///< of the pixels in the file
+    bool edited = false;                 ///< they are not those whose hash the file names
     std::vector<std::string> overrides;  ///< --set of the run, and what a time chose
     std::vector<std::string> budgets;    ///< that make it again
     std::string unrepeatable;            ///< why no budget does; empty: one does

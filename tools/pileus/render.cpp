@@ -143,6 +143,8 @@ void expect_picture(RenderArguments& arguments, Outputs& outputs) {
     const std::string of_picture = version_text(picture.version, picture.commit);
     if (of_picture != version_text())
         outputs.remark = "; it is of version " + of_picture + ", this is " + version_text();
+    if (picture.edited)
+        outputs.remark += "; its pixels are not those that it names (pileus.pixelHash)";
     const bool same = !is_changed(arguments.scene) && !arguments.frames && !arguments.show;
     if (!arguments.show && !picture.show.empty()) arguments.show = picture.show;
     if (same && !arguments.expect_hash && !arguments.blocks.file) outputs.hashes = {picture.hash};

@@ -9,7 +9,9 @@
 #include <filesystem>
 
 #include "src/base/file.h"
+#include "src/io/images/image_file.h"
 #include "src/plan/report_json.h"
+#include "src/scene/rows/picture_format.h"
 #include "src/world/camera/places.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
@@ -120,6 +122,26 @@ Status check_frame_hash(const Scene& scene, const Outputs& outputs, int frame,
         outputs.remark);
 }
 
+namespace {
+
+/// Adds one file. `hash` becomes that of its pixels as they are read again: some formats keep less
+/// of them than an .exr does.
+Status add_picture(const Image& image, const std::string& path, const ToneSettings& tone,
+                   OutputSet& set, std::string& hash) {
+    Buffer<char> bytes;
+    PILEUS_TRY(encode_image(image, path, tone, bytes));
+    PILEUS_TRY(set.add(path, bytes.span()));
+    const PictureFormat* format = picture_format_of(path);
+    if (format == nullptr || !is_read(*format) || format->extension == std::string(".exr"))
+        return Status::ok();
+    Image again;
+    PILEUS_TRY(format->decode(path, bytes.span(), again, kMaxImagePixels));
+    hash = pixel_hash(again);
+    return Status::ok();
+}
+
+}  // namespace
+
 Status write_frame(const Outputs& outputs, const Scene& scene, int frame, Image& image,
                    const Report& report) {
     OutputSet set;
@@ -131,9 +153,10 @@ Status write_frame(const Outputs& outputs, const Scene& scene, int frame, Image&
         // Each file says where its scene lies from there.
         const std::string folder = scene_folder_from(scene.directory, path);
         if (!folder.empty()) image.origin.emplace_back("folder", folder);
-        PILEUS_TRY(set.add_image(image, path, outputs.tone));
+        std::string hash = image.pixel_hash;
+        PILEUS_TRY(add_picture(image, path, outputs.tone, set, hash));
         image.origin.resize(told);
-        lines += fmt::format("{} {}\n", image.pixel_hash, path);
+        lines += fmt::format("{} {}\n", hash, path);
     }
     const std::string world = world_text(image);
     for (const std::string& file : outputs.world_files) {
