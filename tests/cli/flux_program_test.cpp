@@ -39,6 +39,28 @@ TEST_CASE("flux: shares as JSON and lines, maps beside them, whatever the camera
     }
 }
 
+TEST_CASE(
+    "flux: without a budget errors are half a per cent, as a budget of the same number says") {
+    const ProgramFolder folder;
+    for (const char* method : {"path", "photons"}) {
+        CAPTURE(method);
+        const std::string run = "flux s.toml --columns 1 --json --method " + std::string(method);
+        const Outcome out = folder.run(run);
+        REQUIRE_MESSAGE(out.exit_status == 0, out.errors);
+        const json flux = json::parse(out.output);
+        for (const char* key : {"reflectance", "transmittance"})
+            CHECK(flux[key]["standard_error"].get<double>() <=
+                  0.00501 * flux[key]["mean"].get<double>());
+        const bool paths = *method == 'p' && method[1] == 'a' && method[2] == 't';
+        const std::uint64_t count = flux[paths ? "samples_per_column" : "photons"];
+        CHECK(count > (paths ? 64 : 1 << 19));
+        const Outcome same = folder.run(
+            run + (paths ? " --budget samples=" : " --budget photons=") + std::to_string(count));
+        REQUIRE_MESSAGE(same.exit_status == 0, same.errors);
+        CHECK(json::parse(same.output)["reflectance"] == flux["reflectance"]);
+    }
+}
+
 TEST_CASE("flux: a scene without a camera is measured") {
     const ProgramFolder folder;
     std::string text = test::small_scene();

@@ -2,6 +2,9 @@
 // See flux.h. Checks, lights, and the choice of the way.
 // in: a scene -> out: what flux_paths.cpp or flux_photons.cpp measure.
 // docs/flux.md
+#include <algorithm>
+#include <cmath>
+
 #include "src/session/flux/flux_run.h"
 #include "src/session/run_context.h"
 #include "src/world/atmosphere/atmosphere.h"
@@ -16,6 +19,8 @@ constexpr double kPi64 = 3.14159265358979323846;
 /// over a row, by which the flux is wrong by less than 10^-6.
 constexpr int kBelowRows = 4096;
 constexpr std::int64_t kUsualPhotons = 1 << 20;
+/// Of fluxes without a budget: standard error over mean.
+constexpr double kFluxAim = 0.005;
 
 /// A sky that is dark above and has the settings' radiance below.
 Status make_sky_below(const FluxSettings& settings, SkyMap& map) {
@@ -122,6 +127,70 @@ Status choose_columns(const FluxSettings& settings, const FluxTask& task, FluxRe
 
 }  // namespace
 
+double flux_excess(const FluxTask& task, const FluxResult& flux) {
+    constexpr double kLeast = 0.02;
+    const bool photons = task.settings.method == FluxMethod::kPhotons;
+    double worst = 0;
+    const auto take = [&](const FluxShare& share, double least) {
+        for (std::size_t c = 0; c < 3; ++c) {
+            if (!(task.level[c] > 0)) continue;
+            const double mean = std::fabs(share.mean[c]);
+            const double allowed = kFluxAim * (mean > least ? mean : least);
+            worst = std::max(worst, share.standard_error[c] / allowed);
+        }
+    };
+    take(flux.reflectance, kLeast);
+    take(flux.transmittance, kLeast);
+    take(flux.absorptance, photons ? kLeast : 1.0);
+    return worst;
+}
+
+namespace {
+
+/// One measurement by so many paths a column, or photons.
+Status measure_once(const FluxTask& task, std::int64_t count, FluxResult& out, Image& maps,
+                    Report& report) {
+    FluxResult fresh;
+    fresh.mu0 = out.mu0;
+    fresh.irradiance = out.irradiance;
+    fresh.columns = out.columns;
+    PILEUS_TRY(make_flux_maps(fresh.columns, maps));
+    if (task.settings.method == FluxMethod::kPhotons) {
+        PILEUS_TRY(flux_by_photons(task, count, fresh, maps, report));
+    } else {
+        fresh.samples = std::uint64_t(count);
+        PILEUS_TRY(flux_by_paths(task, fresh.samples, fresh, maps));
+    }
+    out = std::move(fresh);
+    return Status::ok();
+}
+
+/// Measures by `first`, and where no budget says how many again by as many as the errors ask for.
+/// What is shown is one measurement, that of a budget of the same number.
+Status measure_to_aim(FluxTask& task, std::int64_t first, bool aims, FluxResult& out, Image& maps,
+                      Report& report) {
+    constexpr std::uint64_t kMost = std::uint64_t{1} << 26;  // paths of a detector, or photons
+    constexpr int kRounds = 4;
+    // Errors are known to an eighth by photons: aim a little beyond.
+    constexpr double kBeyond = 1.2;
+    const bool photons = task.settings.method == FluxMethod::kPhotons;
+    const std::uint64_t each =
+        photons ? 1 : std::uint64_t(out.columns[0]) * std::uint64_t(out.columns[1]);
+    const std::int64_t most = std::max(first, std::int64_t(kMost / each));
+    const std::size_t counters = report.counters.size();
+    for (int round = 0;; ++round) {
+        report.counters.resize(counters);
+        task.last = !aims || first >= most || round + 1 == kRounds;
+        PILEUS_TRY(measure_once(task, first, out, maps, report));
+        const double excess = flux_excess(task, out);
+        if (!(excess > 1) || task.last) return Status::ok();
+        const double wanted = double(first) * excess * excess * kBeyond;
+        first = wanted < double(most) ? std::int64_t(wanted) + 1 : most;
+    }
+}
+
+}  // namespace
+
 Status make_flux_maps(const std::array<int, 2>& columns, Image& maps) {
     const std::size_t n = std::size_t(columns[0]) * std::size_t(columns[1]);
     maps = Image{};
@@ -168,15 +237,12 @@ Status measure_flux(const Scene& scene, const RenderOptions& options, const Flux
         out.irradiance[c] = float(light);
         task.level[c] = light * out.mu0;
     }
-    PILEUS_TRY(make_flux_maps(out.columns, maps));
-    if (photons) {
-        report.method = "photons";
-        PILEUS_TRY(flux_by_photons(task, wanted, out, maps, report));
-    } else {
-        out.samples =
-            std::uint64_t(budget.samples > 0 ? budget.samples : own.path.samples_per_pixel);
-        PILEUS_TRY(flux_by_paths(task, out.samples, out, maps));
-    }
+    if (photons) report.method = "photons";
+    const bool aims = photons ? options.budget.photons < 0 : budget.samples <= 0;
+    const std::int64_t first = photons              ? wanted
+                               : budget.samples > 0 ? budget.samples
+                                                    : own.path.samples_per_pixel;
+    PILEUS_TRY(measure_to_aim(task, first, aims, out, maps, report));
     take_clocks(report.clocks);
     return Status::ok();
 }

@@ -160,7 +160,8 @@ Status flux_by_paths(const FluxTask& task, std::uint64_t samples, FluxResult& ou
     for (std::size_t c = 0; c < 3; ++c)
         take_shares(task, sums, mean_of(sums.direct) * task.level[c], absorbs, c, out);
     if (below) turn_upside_down(task, up, out);
-    PILEUS_TRY(read_flux_sensors(task.settings, task.scene, task.scenery, meter, out.sensors));
+    if (task.last || !(flux_excess(task, out) > 1))
+        PILEUS_TRY(read_flux_sensors(task.settings, task.scene, task.scenery, meter, out.sensors));
     out.paths = meter.paths();
     return Status::ok();
 }
