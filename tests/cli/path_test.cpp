@@ -238,6 +238,19 @@ TEST_CASE("path: a filter that is not there, and what no filter does, are one li
         " --set output.layers=[radiance,error]",
         "s.toml: filter.kind: a filtered picture has no layer \"error\", \"oidn\", allowed: none, "
         "or other layers");
+    fault(
+        " --set output.layers=[radiance,cloud]",
+        "s.toml: filter.kind: a filtered picture has no layer \"cloud\", \"oidn\", allowed: none");
+    for (const char* layer : {"light", "order"}) {
+        const Outcome parts = folder.run(
+            "render s.toml -o a.pfm --set method.name=path --set filter.kind=regression --set "
+            "output.layers=[radiance," +
+            std::string(layer) + "]");
+        CHECK(parts.exit_status == 2);
+        CHECK_MESSAGE(holds(parts.errors, "a filtered picture has no layer \"" +
+                                              std::string(layer) + "\", \"regression\""),
+                      parts.errors);
+    }
     fault(" --set camera.projection=flux", "s.toml: filter.kind: a flat detector");
     fault(" --set method.name=raymarch",
           "filter.kind: filters pictures of method path alone, \"oidn\"");

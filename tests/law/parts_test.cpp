@@ -239,3 +239,34 @@ TEST_CASE("parts: optical-depth has light of the sun and no orders, thinned raym
                       .find(std::string("the layer \"") + layer + "\" has every pixel marched") !=
                   std::string::npos);
 }
+
+TEST_CASE("parts: a filtered picture is its layer cloud and what comes straight through") {
+    // An even sky and no ground: the sky's straight light is known.
+    const Texts set = {"method.name=path",       "path.samples_per_pixel=4",
+                       "filter.kind=regression", "sky.radiance=0.25",
+                       "camera.fov_deg=30",      "output.layers=[\"cloud\",\"transmittance\"]"};
+    const Picture filtered = render_one(scene_from(kSmallCumulus, set));
+    Texts plain_set = set;
+    plain_set[2] = "filter.kind=none";
+    const Picture plain = render_one(scene_from(kSmallCumulus, plain_set));
+    const Channel& t = channel(filtered, "T");
+    for (const char* c : {"R", "G", "B"}) {
+        const Channel &all = channel(filtered, c),
+                      &cloud = channel(filtered, std::string("cloud.") + c),
+                      &noisy = channel(plain, std::string("cloud.") + c);
+        double apart = 0, sum = 0, noisy_sum = 0;
+        std::size_t changed = 0;
+        for (std::size_t i = 0; i < t.pixels.size(); ++i) {
+            if (t.pixels[i] == 1.0f) continue;
+            const double straight = double(t.pixels[i]) * 0.25;
+            apart = std::fmax(
+                apart, std::fabs(double(all.pixels[i]) - double(cloud.pixels[i]) - straight));
+            sum += double(cloud.pixels[i]), noisy_sum += double(noisy.pixels[i]);
+            changed += cloud.pixels[i] != noisy.pixels[i] ? 1 : 0;
+        }
+        CHECK(apart <= 1e-6);  // roundings of floats below 1
+        CHECK(changed > 50);
+        // A filter keeps light: within what four paths a pixel say of the mean.
+        CHECK(std::fabs(sum / noisy_sum - 1) < 0.1);
+    }
+}

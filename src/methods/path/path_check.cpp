@@ -20,12 +20,18 @@ Status check_path_filter(const Scene& scene) {
                                  "single ray, " +
                                  value + ", allowed: none");
     const OutputSettings& output = scene.output;
-    const bool error = output.layer_error && !path_regresses(scene.filter);
-    const char* layer = error ? "error" : output.layer_light ? "light" : nullptr;
+    // What the media turned takes the picture's change whole; its parts have no share of their own,
+    // and a library's filter does not tell the media from what is behind.
+    const bool regresses = path_regresses(scene.filter);
+    const char* layer = output.layer_error && !regresses   ? "error"
+                        : output.layer_cloud && !regresses ? "cloud"
+                        : output.layer_light               ? "light"
+                        : output.layer_order               ? "order"
+                                                           : nullptr;
     if (layer != nullptr)
         return Status::bad_input(key + "a filtered picture has no layer \"" + layer + "\", " +
                                  value + ", allowed: none, or other layers");
-    return path_regresses(scene.filter) ? Status::ok() : check_oidn(key);
+    return regresses ? Status::ok() : check_oidn(key);
 }
 
 }  // namespace

@@ -139,8 +139,11 @@ Status regress(const Context& context, PathState& state, const Known& known, int
     for_light(context, state, [&](std::size_t c, std::size_t i) {
         // A fit may end below zero; no light does.
         const std::size_t at = c * pixels + i;
-        const float v = p.colour[at] + (light[at] - before[at]);
-        if (light[at] != before[at]) p.colour[at] = v > 0 ? v : 0;
+        if (light[at] == before[at]) return;
+        const float old = p.colour[at], v = old + (light[at] - before[at]);
+        p.colour[at] = v > 0 ? v : 0;
+        // What is not filtered comes straight through: the media have turned all the rest.
+        if (fold < 0 && !p.cloud.empty()) p.cloud[at] = p.colour[at] - (old - before[at]);
     });
     return Status::ok();
 }

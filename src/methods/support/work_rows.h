@@ -53,7 +53,7 @@ constexpr FeatureRow kWorkRows[] = {
         refused("method optical-depth has no noise", kMarchLayers),
         refused(kOneKind, kParticleLayers), refused(kOneKind, kParticleLayers), kNotOfClouds),
     row(Feature::kLayerCloud, FeatureGroup::kOfLayers, "layer cloud", "output.layers", "", exact(),
-        exact(), exact(), exact("of filtered pictures: unfiltered"), exact(), exact(), exact(),
+        exact(), exact(), exact("of filtered pictures: filtered alike"), exact(), exact(), exact(),
         exact(), exact()),
     row(Feature::kLayerTau, FeatureGroup::kOfLayers, "layers optical_depth, transmittance",
         "output.layers", "", exact(), exact(), exact(), exact(),
