@@ -107,7 +107,8 @@ TEST_CASE("vol: each fault has its line") {
         {with([](Parts& p) { p.box[5] = 2e9f; }), Code::kBadInput, "box: out of range, 2000"},
         {with([&](Parts& p) { p.values[4] = nan; }), Code::kBadInput,
          "v.vol: density: voxel 0 0 2 (index 4), nan, allowed: a finite number >= 0"},
-        {with([](Parts& p) { p.values[1] = -1; }), Code::kBadInput, "voxel 1 0 0 (index 1), -1"},
+        {with([](Parts& p) { p.values[1] = -1, p.values[4] = 1; }), Code::kBadInput,
+         "voxel 1 0 0 (index 1), -1"},
     };
     for (const Row& row : rows) {
         Volume volume;

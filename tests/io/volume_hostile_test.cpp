@@ -99,9 +99,9 @@ TEST_CASE("volume: raw files cut or lengthened by any number of bytes are refuse
 
 TEST_CASE("S64: one wrong number at any place of a raw file is found and named") {
     const test::TempFolder folder;
-    // NaN of both signs and kinds, infinities, the smallest number below zero.
+    // NaN of both signs and kinds, infinities, -1e-8 where all else is 0.
     const char* const wrong[] = {"\x00\x00\xc0\x7f", "\x01\x00\x80\x7f", "\x00\x00\xc0\xff",
-                                 "\x00\x00\x80\x7f", "\x00\x00\x80\xff", "\x01\x00\x00\x80"};
+                                 "\x00\x00\x80\x7f", "\x00\x00\x80\xff", "\x77\xcc\x2b\xb2"};
     for (std::size_t at : {0u, 1u, 13u, 23u})
         for (const char* bytes : wrong) {
             std::string text(4 * 24, '\0');
