@@ -56,8 +56,8 @@ std::string sky_text(int n = 24) {
 struct SkyFolder : ProgramFolder {
     explicit SkyFolder(const std::string& text = sky_text()) { files().put("sky.toml", text); }
 
-    std::string hash(const std::string& options, const std::string& name = "a.pfm") const {
-        const Outcome outcome = run("render sky.toml -q -o a.pfm " + options);
+    std::string hash(const std::string& options, const std::string& name = "a.ppm") const {
+        const Outcome outcome = run("render sky.toml -q -o a.ppm " + options);
         REQUIRE_MESSAGE(outcome.exit_status == 0, outcome.errors);
         const std::size_t at = outcome.output.find(" " + name);
         REQUIRE(at != std::string::npos);

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "src/io/volumes/vdb/vdb_file.h"
 #include "src/io/volumes/volume_file.h"
 #include "src/world/medium/medium.h"
 #include "tests/io/temp_folder.h"
@@ -149,4 +150,23 @@ TEST_CASE("grids: files in extinction end at density 1, and the scale counts onc
     REQUIRE(load_medium(scene, medium, 1, empty));
     CHECK(empty.sigma == 0.0f);
     CHECK(empty.density_max == 0.0f);
+}
+
+TEST_CASE("grids: the report counts what was a little below 0, and an empty .vdb is a clear sky") {
+    const test::TempFolder folder;
+    const std::vector<float> values = {0.5f, -1e-9f, 0.25f, -1e-7f};
+    const std::string raw =
+        "{file=\"" + folder.put("f.raw", float_bytes(values)) + "\",type=\"float32\",size=[2,2,1]}";
+    CHECK(render_file(raw, 0.01).counter("density_negative") == 2);
+
+    Volume empty;
+    empty.size = {2, 2, 2};
+    REQUIRE(empty.density.resize(8, "v"));
+    Buffer<char> bytes;
+    REQUIRE(encode_vdb(empty, false, bytes));
+    const std::string file = folder.put("e.vdb", {bytes.data(), bytes.size()});
+    const render_test::Picture clear = render_file('"' + file + '"', 0.01);
+    CHECK(clear.counter("density_negative") == 0);
+    for (const float v : clear.image.find("A")->pixels.span()) CHECK(v == 0.0f);
+    for (const float v : clear.image.find("G")->pixels.span()) CHECK(v == 1.0f);
 }

@@ -131,7 +131,10 @@ TEST_CASE("grid: each fault is one line that says where and what") {
     has(c, "dimension x: out of order, allowed: z, y, x");
     c = grid_case();
     c.maker.of("extinction").values[3] = -0.1;
-    has(c, "variable extinction: voxel 0 0 1 (index 3): negative, too large or not a number");
+    has(c, "variable extinction: voxel 0 0 1 (index 3): negative, -0.1, allowed: a finite number");
+    c = grid_case();
+    c.maker.of("extinction").values[3] = 2e12;
+    has(c, "variable extinction: voxel 0 0 1 (index 3): too large or not a number");
     c = grid_case();
     c.medium.resolution = {2, 2, 2};
     has(c, "g.nc: resolution: not for a grid of extinction, allowed: left out");

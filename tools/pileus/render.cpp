@@ -228,9 +228,10 @@ Status take_frame(const Scene& scene, const Outputs& outputs, int frame, Image& 
     if (image.pixel_hash.empty()) image.pixel_hash = pixel_hash(image);
     if (report.hash.empty()) report.hash = image.pixel_hash;
     if (report.interrupted) found.ended = interrupted_line(frame, outputs.numbered, report);
-    PILEUS_TRY(write_frame(outputs, scene, frame, image, report));
+    std::vector<std::string> hashes;
+    PILEUS_TRY(write_frame(outputs, scene, frame, image, report, hashes));
     found.doubtful = tell_warnings(report, found.told) || found.doubtful;
-    add_fault(check_frame_hash(scene, outputs, frame, image.pixel_hash), found.hashes);
+    add_fault(check_frame_hash(scene, outputs, frame, hashes), found.hashes);
     return Status::ok();
 }
 
@@ -254,7 +255,7 @@ Status render_all(const Scene& scene, const RenderOptions& options, const Output
     PILEUS_TRY(status);
     // Frames that an interrupted run has not come to are not as they should be, either.
     for (; next <= options.last_frame; ++next)
-        add_fault(check_frame_hash(scene, outputs, next, ""), found.hashes);
+        add_fault(check_frame_hash(scene, outputs, next, {}), found.hashes);
     return Status::ok();
 }
 

@@ -108,17 +108,18 @@ Status add_world_files(const Scene& scene, Outputs& outputs) {
 }
 
 Status check_frame_hash(const Scene& scene, const Outputs& outputs, int frame,
-                        const std::string& hash) {
+                        const std::vector<std::string>& hashes) {
     if (outputs.hashes.empty()) return Status::ok();
     const std::string& expected = outputs.hashes[std::size_t(frame - outputs.first_frame)];
-    if (hash == expected) return Status::ok();
+    for (const std::string& hash : hashes)
+        if (hash == expected) return Status::ok();
     const std::string where =
         outputs.numbered ? fmt::format("{}: frame {}", scene.file, frame) : scene.file;
-    if (hash.empty())
+    if (hashes.empty())
         return Status::check_failed(
             fmt::format("{}: hash: not rendered, expected {}", where, expected));
     return Status::check_failed(
-        fmt::format("{}: hash: differs, expected {}, got {}", where, expected, hash) +
+        fmt::format("{}: hash: differs, expected {}, got {}", where, expected, hashes[0]) +
         outputs.remark);
 }
 
@@ -143,7 +144,7 @@ Status add_picture(const Image& image, const std::string& path, const ToneSettin
 }  // namespace
 
 Status write_frame(const Outputs& outputs, const Scene& scene, int frame, Image& image,
-                   const Report& report) {
+                   const Report& report, std::vector<std::string>& hashes) {
     OutputSet set;
     std::string lines;
     if (*commit_text() != '\0') image.origin.emplace_back("commit", commit_text());
@@ -157,7 +158,9 @@ Status write_frame(const Outputs& outputs, const Scene& scene, int frame, Image&
         PILEUS_TRY(add_picture(image, path, outputs.tone, set, hash));
         image.origin.resize(told);
         lines += fmt::format("{} {}\n", hash, path);
+        hashes.push_back(hash);
     }
+    hashes.push_back(image.pixel_hash);
     const std::string world = world_text(image);
     for (const std::string& file : outputs.world_files) {
         const std::string path = frame_path(file, frame, outputs.numbered);

@@ -40,12 +40,13 @@ Status check_outputs(const Outputs& outputs, const Scene& scene, const RenderOpt
 /// Names a world file for each picture; kBadInput where the pictures are no maps.
 Status add_world_files(const Scene& scene, Outputs& outputs);
 
-/// kCheckFailed: a frame has another hash than it should have; none at all where `hash` is empty.
+/// kCheckFailed: none of a frame's hashes is that which it should have; none: it was not rendered.
 Status check_frame_hash(const Scene& scene, const Outputs& outputs, int frame,
-                        const std::string& hash);
+                        const std::vector<std::string>& hashes);
 
-/// Writes all files of a frame and says so on the standard output.
+/// Writes all files of a frame and says so on the standard output. `hashes`: of the pixels in each
+/// file, as hash prints them, and of the picture itself.
 Status write_frame(const Outputs& outputs, const Scene& scene, int frame, Image& image,
-                   const Report& report);
+                   const Report& report, std::vector<std::string>& hashes);
 
 }  // namespace pileus
