@@ -296,9 +296,9 @@ TEST_CASE("info: grids that know their place and unit") {
     const Outcome les = folder.run("info c.txt");
     CHECK_MESSAGE(les.exit_status == 0, les.errors);
     for (const char* part :
-         {"LES text, sparse rows", "1 x 2 x 2", "100 x 50 x 40 m", "0 0 380 to 100 100 460 m",
-          "extinction in 1/m", "0 to 0.1, mean 0.025, 25 % not zero", "3 of 4 cells",
-          "along z: mean 2, largest 4"})
+         {"LES text, columns with names", "1 x 2 x 2", "100 x 50 x 40 m",
+          "0 0 380 to 100 100 460 m", "extinction in 1/m", "0 to 0.1, mean 0.025, 25 % not zero",
+          "3 of 4 cells", "along z: mean 2, largest 4"})
         CHECK_MESSAGE(holds(les.output, part), part, "\n", les.output);
 
     folder.files().put("p.pbrt",

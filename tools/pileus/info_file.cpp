@@ -162,6 +162,12 @@ Status image_lines(const std::string& path, std::string& lines) {
     PILEUS_TRY(read_image(path, image));
     lines += info_line("picture", path);
     lines += info_line("size", fmt::format("{} x {}", image.width, image.height));
+    const DisplayWindow& shown = image.display;
+    if (shown.width > 0 && (shown.x != 0 || shown.y != 0 || shown.width != image.width ||
+                            shown.height != image.height))
+        lines += info_line("display", fmt::format("{} x {}, from pixel {} {} on", shown.width,
+                                                  shown.height, shown.x, shown.y));
+    if (!image.foreign.empty()) lines += info_line("differs in", printable_line(image.foreign));
     lines += info_line("hash", pixel_hash(image));
     for (const Channel& channel : image.channels)
         lines += info_line("channel", fmt::format("{:<8} {}", channel.name,

@@ -64,8 +64,8 @@ constexpr KeyRow kRows[] = {
      one_of("pbrt|raw|vol|les|openvdb|nanovdb|netcdf|grib|ply|csv|prt|bgeo|pdb|pda"), "",
      "kind of the file; left out: told by the end of its name", kNoNote},
     {"medium.N.grid", medium<&MediumSettings::grid>, any(), "",
-     "name of the grid in an OpenVDB or NanoVDB file; left out: the first of floats that is "
-     "no level set",
+     "name of the grid in an OpenVDB or NanoVDB file, of several of one name with a number, "
+     "`density[1]`; left out: `density`, or else the first of floats that is no level set",
      kNoNote},
     {"medium.N.bounds_m", kBounds, from_to(-1e9, 1e9), "m",
      "lowest and highest corner of the medium's box; may be left out for files that know "

@@ -2,6 +2,8 @@
 // Fluxes by paths: flat detectors on the faces of the media's box.
 // in: FluxTask -> out: shares of the incident flux, maps, sensors.
 // docs/flux.md
+#include <algorithm>
+
 #include "src/session/flux/flux_meter.h"
 #include "src/session/flux/flux_run.h"
 
@@ -10,6 +12,14 @@ namespace {
 
 /// Pixels of a side's detector, where only the mean counts.
 constexpr int kSidePixels = 8;
+
+/// Paths of a side's pixel: of many no more than make as many as the top has in all.
+std::uint64_t side_samples(std::uint64_t samples, const std::array<int, 2>& columns) {
+    constexpr std::uint64_t kFew = 4096;
+    const std::uint64_t alike = samples * std::uint64_t(columns[0]) * std::uint64_t(columns[1]) /
+                                (kSidePixels * kSidePixels);
+    return std::min(samples, std::max(kFew, alike));
+}
 
 /// Light that leaves a face, by column, north at the top: [channel][pixel].
 struct Sheet {
@@ -156,7 +166,11 @@ Status flux_by_paths(const FluxTask& task, std::uint64_t samples, FluxResult& ou
     take_sheet(meter.film(), true, down);
     fill_maps(task, below ? down : up, below ? up : down, sums.direct, maps);
     const bool absorbs = !is_white(meter.medium());
-    if (absorbs) PILEUS_TRY(measure_sides(meter, light, sums));
+    if (absorbs) {
+        meter.set_samples(side_samples(samples, out.columns));
+        PILEUS_TRY(measure_sides(meter, light, sums));
+        meter.set_samples(samples);
+    }
     for (std::size_t c = 0; c < 3; ++c)
         take_shares(task, sums, mean_of(sums.direct) * task.level[c], absorbs, c, out);
     if (below) turn_upside_down(task, up, out);
