@@ -182,6 +182,41 @@ TEST_CASE("animation: media that move with the camera, the ground and the sun ar
     CHECK(hashes_of(shifted) == hashes_of(counter));
 }
 
+TEST_CASE("animation: particles that move past a lamp are lit from where it is now") {
+    const std::string cloud = R"(
+[camera]
+position_m = [0, -4096, 512]
+target_m = [0, 0, 512]
+fov_deg = 30
+resolution = [16, 12]
+[[medium]]
+density = "procedural:particle-cumulus"
+particle_cumulus = { particles = 500 }
+bounds_m = [[-400, -400, 0], [400, 400, 1000]]
+extinction_per_m = 0.01
+[[light]]
+type = "point"
+position_m = [-1024, 0, 512]
+intensity = 1e6
+[method]
+name = "particles"
+[animation]
+frames = 2
+)";
+    const Scene film =
+        scene_from(cloud +
+                   "keys = [{frame = 0, way = \"step\", media_offset_m = [0, 0, 0]}, {frame = 1, "
+                   "media_offset_m = [512, 0, 0]}]\n");
+    const std::vector<std::string> frames = hashes_of(film);
+    CHECK(frames.at(1) == hashes_of(film, 1).at(0));
+    // The same to the bit: all else has moved the other way.
+    Scene counter = scene_from(cloud);
+    counter.camera.position_m[0] -= 512, counter.camera.target_m[0] -= 512;
+    counter.lights[0].position_m[0] -= 512;
+    CHECK(frames[1] == hashes_of(counter, 1).at(0));
+    CHECK(frames[0] == hashes_of(scene_from(cloud), 0).at(0));
+}
+
 TEST_CASE("animation: winds and hours of keys are those of the scene at their values") {
     const std::string sky = R"(
 [camera]

@@ -137,7 +137,10 @@ void choose_orders(const FrameView& view, ParticlesState& state) {
 }
 
 Status light_particles(const Context& context, const FrameView& view, ParticlesState& state) {
-    if (state.lit && state.to_sun == view.lighting.to_sun) return Status::ok();
+    // Keys that move the media move what shines on them.
+    if (state.lit && state.to_sun == view.lighting.to_sun &&
+        same_lamps(state.lamps, view.lighting.lamps))
+        return Status::ok();
     state.lit = false;
     choose_orders(view, state);
     if (state.tree.balls.empty()) return Status::ok();
@@ -172,6 +175,7 @@ Status light_particles(const Context& context, const FrameView& view, ParticlesS
     }
     state.lit = true;
     state.to_sun = view.lighting.to_sun;
+    state.lamps = view.lighting.lamps;
     return Status::ok();
 }
 

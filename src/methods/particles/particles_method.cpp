@@ -79,6 +79,7 @@ Status ParticlesMethod::reserve(const FrameView& view, LateRows&) {
                        light = arrays::particle_around(count);
     PILEUS_TRY(s.lamp_depth.reserve(depths.count, depths.name));
     PILEUS_TRY(s.lamp_reach.reserve(depths.count, depths.name));
+    s.lamps.reserve(lamps);
     return s.around_balls.reserve(light.count, light.name);
 }
 

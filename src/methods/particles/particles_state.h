@@ -38,8 +38,9 @@ struct ParticlesState {
     /// (has_own_light); empty: `sky` alone.
     Buffer<float> around_balls;
     SkyNodes sky_nodes;
-    bool lit = false;  ///< for the sun below
+    bool lit = false;  ///< for the sun and the lamps below
     std::array<float, 3> to_sun{};
+    std::vector<LampParams> lamps;
     CameraParams camera{};
     Planes planes;
 };
