@@ -12,6 +12,8 @@
 
 namespace pileus {
 
+constexpr int kMostThreads = 1024;  ///< of a run, a host, an option
+
 enum class LimitId : std::size_t {
     kText,
     kMedia,

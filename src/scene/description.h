@@ -24,6 +24,12 @@ struct ViewFiles {
     Double3 position_place{}, target_place{};  ///< longitude, latitude in degrees, height in m
 };
 
+/// Longitude and latitude of a place, in degrees.
+inline bool is_on_map(const Double3& place) {
+    return place[0] >= -360 && place[0] <= 360 && place[1] >= -90 && place[1] <= 90;
+}
+constexpr const char* kPlacesOnMap = "longitude -360 to 360, latitude -90 to 90";
+
 struct Lens {
     double aperture_radius_m = 0;  ///< 0: a pinhole
     double focus_distance_m = 0;   ///< along the view; 0: the target's

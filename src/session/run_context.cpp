@@ -7,11 +7,6 @@
 #include "src/scene/read_scene.h"
 
 namespace pileus {
-namespace {
-
-constexpr int kMostThreads = 1024;
-
-}  // namespace
 
 Status refuse_clouds(const Scene& scene) {
     if (!scene.clouds.present()) return Status::ok();

@@ -11,6 +11,7 @@
 #include "lab/compare/metrics_json.h"
 #include "lab/compare/picture.h"
 #include "src/base/file.h"
+#include "src/base/limits.h"
 #include "src/scene/rows/picture_format.h"
 #include "tools/pileus/block_files.h"
 #include "tools/pileus/command.h"
@@ -67,7 +68,7 @@ Status read_flip(const CompareArguments& arguments, FlipOptions& flip) {
             faults);
     if (arguments.threads) {
         std::int64_t threads = 0;
-        add_fault(read_integer("--threads", *arguments.threads, 1, 1024, threads), faults);
+        add_fault(read_integer("--threads", *arguments.threads, 1, kMostThreads, threads), faults);
         flip.threads = int(threads);
     }
     return faults;

@@ -11,8 +11,6 @@
 
 namespace pileus {
 
-constexpr std::int64_t kMostThreads = 1024;  ///< of option --threads
-
 /// A whole number within [low, high], in any form that a scene takes: 5000000, 5_000_000, 5e6; else
 /// kBadInput.
 Status read_integer(const char* option, const std::string& text, std::int64_t low,

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "src/base/limits.h"
 #include "src/run/find_kernels.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/toml/toml_tree.h"

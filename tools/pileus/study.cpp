@@ -13,6 +13,7 @@
 #include "platform/process.h"
 #include "platform/threads.h"
 #include "src/base/file.h"
+#include "src/base/limits.h"
 #include "src/io/images/image_file.h"
 #include "src/run/find_kernels.h"
 #include "src/session/render.h"

@@ -296,10 +296,9 @@ private:
 
 Status WeatherMap::place(const std::string& where, const Double3& p, Double3& metres) const {
     const bool projected = kind > MapKind::kRotated;
-    if (!(p[0] >= -360 && p[0] <= 360 && p[1] >= -90 && p[1] <= 90))
+    if (!is_on_map(p))
         return Status::bad_input(where + ": out of range, " + number_text(p[0]) + ", " +
-                                 number_text(p[1]) +
-                                 ", allowed: longitude -360 to 360, latitude -90 to 90");
+                                 number_text(p[1]) + ", allowed: " + kPlacesOnMap);
     double x = 0, y = 0;
     if (!projected || (p[1] > -89.999 && p[1] < 89.999)) project(*this, p[0], p[1], x, y);
     // The pole of a polar map is its middle; elsewhere it is endless.

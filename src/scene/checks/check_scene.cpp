@@ -31,10 +31,10 @@ void check_places(SceneCheck& check) {
         const ViewFiles& by = check.scene.view_files;
         const Double3& place =
             degrees == "camera.position_deg" ? by.position_place : by.target_place;
-        if (!(place[0] >= -360 && place[0] <= 360 && place[1] >= -90 && place[1] <= 90))
-            check.faults.add(node->at, degrees,
-                             "out of range, " + value_text(*node) +
-                                 ", allowed: longitude -360 to 360, latitude -90 to 90, height");
+        if (!is_on_map(place))
+            check.faults.add(
+                node->at, degrees,
+                "out of range, " + value_text(*node) + ", allowed: " + kPlacesOnMap + ", height");
         else if (!weather)
             check.faults.add(node->at, degrees,
                              "no map to find it on, " + value_text(*node) +
