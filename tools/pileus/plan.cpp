@@ -7,8 +7,8 @@
 #include <memory>
 
 #include "src/plan/report_json.h"
-#include "src/session/foretell.h"
 #include "tools/pileus/command.h"
+#include "tools/pileus/foretell.h"
 #include "tools/pileus/option_text.h"
 #include "tools/pileus/scene_options.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // See foretell.h.
-#include "src/session/foretell.h"
+#include "tools/pileus/foretell.h"
 
 #include <algorithm>
 #include <map>
