@@ -53,9 +53,7 @@ Status follow(const Scene& scene, const RenderOptions& options, int light, std::
     MadeMethod made;
     made.report = view_report(*method);
     made.method = std::move(method);
-    Scenery scenery;
-    scenery.scene = &placed;
-    scenery.rest = &placed;
+    Scenery scenery(placed);
     Plan plan;
     PILEUS_TRY(open_method(row, made, context, true, nullptr, nullptr, scenery, plan));
     return follow(context, scenery.view(0), prepared, light, number, way);

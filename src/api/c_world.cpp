@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // pileus.h: scenes, plans and worlds.
 #include "src/api/c_types.h"
+#include "src/scene/media/host_media.h"
 #include "src/scene/number_keys.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/volume_format.h"
@@ -37,7 +38,7 @@ pileus_code make_scene(const char* const* overrides, std::uint32_t count, pileus
 
 /// `host` must outlive the scene.
 Status take_particles(const pileus_density& density, const std::string& where,
-                      MediumSettings& medium, HostParticles& host) {
+                      const MediumSettings& medium, MediumValues& taken, HostParticles& host) {
     pileus_particles given;
     if (!take(density.particles, given)) return no_struct("particles");
     if (!is_particle_format(medium.format))
@@ -75,21 +76,22 @@ Status take_particles(const pileus_density& density, const std::string& where,
     PILEUS_TRY(stride("colour", host.colour != nullptr, host.colour_stride, 3 * sizeof(float)));
     PILEUS_TRY(
         stride("emission", host.emission != nullptr, host.emission_stride, 3 * sizeof(float)));
-    medium.particles.host = &host;
+    taken.particles = &host;
     return Status::ok();
 }
 
-Status take_density(const pileus_density& given, std::uint32_t at, HostParticles& host,
-                    Scene& scene) {
+Status take_density(const pileus_density& given, std::uint32_t at, const Scene& scene,
+                    HostParticles& host, HostMedia& media) {
     const std::string where = "densities[" + std::to_string(at) + "]: ";
     if (given.medium >= scene.media.size())
         return Status::bad_input(where + "no medium " + std::to_string(given.medium) +
                                  ", allowed: below " + std::to_string(scene.media.size()));
-    MediumSettings& medium = scene.media[given.medium];
-    if (medium.values != nullptr || medium.particles.host != nullptr)
+    const MediumSettings& medium = scene.media[given.medium];
+    MediumValues& taken = media.media[given.medium];
+    if (taken.cells != nullptr || taken.particles != nullptr)
         return Status::bad_input(where + "medium " + std::to_string(given.medium) +
                                  " a second time, allowed: once each");
-    if (given.particles != nullptr) return take_particles(given, where, medium, host);
+    if (given.particles != nullptr) return take_particles(given, where, medium, taken, host);
     std::uint64_t cells = 1;
     for (const std::uint32_t n : given.size) {
         PILEUS_TRY(check_number(where.c_str(), "size", n, range_of(&MediumSettings::raw_size),
@@ -106,8 +108,8 @@ Status take_density(const pileus_density& given, std::uint32_t at, HostParticles
             return Status::bad_input(where + "cell " + std::to_string(i) + ": " +
                                      std::to_string(given.values[i]) +
                                      ", allowed: finite and not negative");
-    medium.values = given.values;
-    for (std::size_t a = 0; a < 3; ++a) medium.resolution[a] = int(given.size[a]);
+    taken.cells = given.values;
+    for (std::size_t a = 0; a < 3; ++a) taken.size[a] = int(given.size[a]);
     return Status::ok();
 }
 
@@ -174,20 +176,24 @@ pileus_code pileus_world_create(const pileus_scene* scene, const pileus_host* ho
         if (world == nullptr) return Status::bad_input("world: null, allowed: where to put it");
         if (density_count > 0 && densities == nullptr)
             return Status::bad_input("densities: null, allowed: as many as density_count says");
-        Scene own = scene->scene;
-        if (density_count > own.media.size())
+        const Scene& described = scene->scene;
+        if (density_count > described.media.size())
             return Status::bad_input("density_count: " + std::to_string(density_count) +
-                                     ", allowed: 0 to " + std::to_string(own.media.size()) +
+                                     ", allowed: 0 to " + std::to_string(described.media.size()) +
                                      ", the scene's media");
         std::vector<HostParticles> hosts(density_count);
+        HostMedia media;
+        media.media.resize(described.media.size());
         for (std::uint32_t i = 0; i < density_count; ++i) {
             pileus_density given;
             if (!take_element(densities, i, given)) return no_element("densities", i);
-            PILEUS_TRY(take_density(given, i, hosts[i], own));
+            PILEUS_TRY(take_density(given, i, described, hosts[i], media));
         }
         const auto held = std::make_shared<HeldWorld>();
         held->host = parts;
-        PILEUS_TRY(make_world(own, options, held->world));
+        RenderOptions own = options;
+        own.media = &media;
+        PILEUS_TRY(make_world(described, own, held->world));
         auto made = std::make_unique<pileus_world>();
         made->host = parts;
         made->world = std::shared_ptr<const World>(held, held->world.get());

@@ -87,6 +87,8 @@ Status Clouds::add_kind(const Scene& scene, std::shared_ptr<const World> world, 
             "kind: photon_grid.closure \"camera\", allowed: another, with light towards all sides");
     CloudKind made;
     made.scene = scene;
+    made.scene.atmosphere = AtmosphereSettings{};
+    made.scene.solids.clear();
     made.world = std::move(world);
     made.low_m = medium.low_m;
     for (int a = 0; a < 3; ++a) made.high_m[a] = made.low_m[a] + medium.extent_m[a];

@@ -35,20 +35,18 @@ Status CloudGroup::open(const CloudKind& kind, std::size_t number, double yaw_de
     yaw_deg_ = yaw_deg;
     middle_ = (kind.low_m + kind.high_m) * 0.5;
     radius_ = 0.5 * glm::length(kind.high_m - kind.low_m);
-    Scene scene = kind.scene;
-    scene.atmosphere = AtmosphereSettings{};
-    scene.sun = light.sun;
-    scene.sun.azimuth_deg = seen_azimuth(light.sun.azimuth_deg, yaw_deg);
-    scene.sky = light.sky;
+    FrameState frame = kind.scene;
+    frame.sun = light.sun;
+    frame.sun.azimuth_deg = seen_azimuth(light.sun.azimuth_deg, yaw_deg);
+    frame.sky = light.sky;
     ground_ = light.ground;
     // The sun's own camera is two radii off.
     const double lowest = middle_.z - 3 * radius_;
     ground_.altitude_m = ground_m < lowest ? ground_m : lowest;
-    scene.ground = ground_;
-    scene.lights.clear();
-    scene.solids.clear();
+    frame.ground = ground_;
+    frame.lights.clear();
     session_ = std::make_unique<Session>();
-    PILEUS_TRY(session_->open(scene, options, true, kind.world));
+    PILEUS_TRY(session_->open(kind.scene, frame, options, kind.world));
     FrameWork work;
     work.scale = 1;
     has_scale_ = bool(session_->set_work(work));

@@ -12,7 +12,7 @@ namespace pileus {
 
 /// A cloud as it was prepared.
 struct CloudKind {
-    Scene scene;
+    Scene scene;  ///< without air and solids, which are the sky's
     std::shared_ptr<const World> world;
     Double3 low_m{}, high_m{};
 };

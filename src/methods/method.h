@@ -27,6 +27,10 @@ struct FrameView {
     int frame = 0;             ///< its number
     /// What the suns of other frames of a film are worked out from.
     const FrameState* rest = nullptr;
+    bool depths = false;  ///< a layer, or a host, shows the distance to the media
+
+    /// Whether the picture needs it: for that, or for the air before the media.
+    bool wants_depth() const { return depths || scene.atmosphere.present; }
 };
 
 struct ViewChange {

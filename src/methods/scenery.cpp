@@ -9,9 +9,10 @@ Status open_method(const MethodRow& row, const MadeMethod& made, const Context& 
                    Plan& plan) {
     const Scene& scene = *scenery.scene;
     std::shared_ptr<World> own;
+    const HostMedia none, &given = scenery.media != nullptr ? *scenery.media : none;
     // A flight brings the world that was packed.
     if (world == nullptr) {
-        PILEUS_TRY(outline_own_world(scene, row.world, context, own));
+        PILEUS_TRY(outline_own_world(scene, row.world, given, context, own));
         world = own;
     }
     scenery.world = std::move(world);
@@ -20,7 +21,7 @@ Status open_method(const MethodRow& row, const MadeMethod& made, const Context& 
     scenery.light(0);
     PILEUS_TRY(make_plan(made, context, scenery, plan));
     if (!exact) return Status::ok();
-    if (own != nullptr) PILEUS_TRY(load_world(scene, context, *own));
+    if (own != nullptr) PILEUS_TRY(load_world(scene, given, context, *own));
     PILEUS_TRY(load_environment(scene, context, scenery.environment));
     // The values may show that there is no medium.
     scenery.light(0);

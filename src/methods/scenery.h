@@ -14,9 +14,21 @@ namespace pileus {
 
 /// What sessions, verification and flux draw with.
 struct Scenery {
+    Scenery() = default;
+    /// A scene that stays as it is.
+    explicit Scenery(const Scene& still) { show(still, still); }
+    /// Of `scene` from now on, whose frame at rest is `rest`; both outlive this.
+    void show(const Scene& shown, const FrameState& at_rest) {
+        scene = &shown;
+        rest = &at_rest;
+        depths = shown.output.layer_depth;
+    }
+
     const Scene* scene = nullptr;      ///< its frame is in the media's coordinates
     const FrameState* rest = nullptr;  ///< of it, but for keys
+    const HostMedia* media = nullptr;  ///< in place of the scene's; null: none
     bool keyed = false;                ///< keys move it; opened at frame 0
+    bool depths = false;               ///< as FrameView's
     std::shared_ptr<const World> world;
     Environment environment;
     Lighting lighting;  ///< of the frame that was lit last
@@ -26,7 +38,9 @@ struct Scenery {
         lighting = light_of(*scene, sun_at(*scene, rest->sun, frame), *world, environment);
     }
     /// A frame as methods see it; points into this.
-    FrameView view(int frame) { return {*scene, *world, environment, lighting, frame, rest}; }
+    FrameView view(int frame) {
+        return {*scene, *world, environment, lighting, frame, rest, depths};
+    }
 };
 
 /// Fills the world and the environment of a scenery that has its scene, then prepares the method;
@@ -41,8 +55,8 @@ Status open_method(const MethodRow& row, const MadeMethod& made, const Context& 
 Status make_plan(const MadeMethod& made, const Context& context, Scenery& scenery, Plan& plan);
 
 /// A world of the scene alone, as far as sizes tell.
-Status outline_own_world(const Scene& scene, WorldUse use, const Context& context,
-                         std::shared_ptr<World>& world);
+Status outline_own_world(const Scene& scene, WorldUse use, const HostMedia& given,
+                         const Context& context, std::shared_ptr<World>& world);
 /// Of all frames of its film.
 Status check_all_frames(const Scenery& scenery);
 /// Places of media that hosts and files may not give them, of a frame of a scene whose ground is

@@ -26,10 +26,10 @@ SunTurn turn_of(const Scene& scene, const FrameState* rest, SunTurn turn) {
 
 }  // namespace
 
-Status outline_own_world(const Scene& scene, WorldUse use, const Context& context,
-                         std::shared_ptr<World>& world) {
+Status outline_own_world(const Scene& scene, WorldUse use, const HostMedia& given,
+                         const Context& context, std::shared_ptr<World>& world) {
     world = std::make_shared<World>();
-    return outline_world(scene, use, context, *world);
+    return outline_world(scene, use, given, context, *world);
 }
 
 /// Of longer films some frames here; each is looked at again before it is drawn. Worlds of a

@@ -217,8 +217,8 @@ void add_picture_rows(const Context& context, const FrameView& view, const Photo
     const UpsampleSettings& thin = state.picture.thin;
     const std::uint64_t pixels = std::uint64_t(size[0]) * std::uint64_t(size[1]);
     add(table, arrays::ground_shadow(most_ground_nodes(view.world.medium, lighting, pixels)));
-    add_upsample_row(thin, size, lighting.opaque(), view.scene.wants_depth() || thin.temporal > 0,
-                     false, context.frames > 1 ? Stage::kWrite : Stage::kDisplay, table);
+    add_upsample_row(thin, size, lighting.opaque(), view.wants_depth() || thin.temporal > 0, false,
+                     context.frames > 1 ? Stage::kWrite : Stage::kDisplay, table);
 }
 
 MarchParams lit_march_params(const FrameView& view, const PhotonState& state, const LightInput& lit,

@@ -147,7 +147,7 @@ void explain_photon_picture(const FrameView& view, const PhotonState& state, Pla
     note_solids(world.solids, view.environment.depth, plan);
     note_upsampling(scene, state.picture.thin, plan);
     if (!state.lights.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
-    if (!scene.wants_depth()) plan.leave_out("depth of the medium", "no depth layer");
+    if (!view.wants_depth()) plan.leave_out("depth of the medium", "no depth layer");
     if (!state.error_layer) plan.leave_out("batches and second moments", "no error layer");
 }
 

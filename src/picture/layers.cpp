@@ -182,8 +182,8 @@ Status reserve_depths(const std::array<int, 2>& resolution, bool solid, Planes& 
     return planes.opaque_depth.reserve(solid ? plane.count : 0, plane.name);
 }
 
-std::uint64_t extra_layers(const OutputSettings& output, bool has_error) {
-    return (output.layer_cloud ? 3u : 0u) + (output.layer_depth ? 1u : 0u) +
+std::uint64_t extra_layers(const OutputSettings& output, bool has_depth, bool has_error) {
+    return (output.layer_cloud ? 3u : 0u) + (has_depth ? 1u : 0u) +
            (output.layer_optical_depth ? 1u : 0u) + (output.layer_transmittance ? 1u : 0u) +
            (output.layer_light ? 6u : 0u) + (output.layer_order ? 6u : 0u) +
            (output.layer_reflectance ? 3u : 0u) + (output.layer_shadow ? 2u : 0u) +
@@ -216,7 +216,8 @@ Status make_layers(const Planes& planes, int width, int height, const OutputSett
     const std::size_t lights =
         planes.sun.empty() ? 0
                            : (planes.lamps.size() + planes.emission.size()) * 3 / planes.sun.size();
-    image.channels.reserve(4 + std::size_t(extra_layers(output, has_error)) + lights);
+    image.channels.reserve(4 + std::size_t(extra_layers(output, output.layer_depth, has_error)) +
+                           lights);
     std::uint64_t broken = 0;
     PILEUS_TRY(add_radiance(planes, image, clamped, broken));
     if (output.layer_cloud) PILEUS_TRY(add_three("cloud.", cloud_light(planes), image));

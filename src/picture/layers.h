@@ -79,7 +79,7 @@ Status allocate_planes(int width, int height, int channels, bool solid, bool dep
 Status reserve_depths(const std::array<int, 2>& resolution, bool solid, Planes& planes);
 
 /// Layers of the image that are asked for, beside the four that are always there.
-std::uint64_t extra_layers(const OutputSettings& output, bool has_error);
+std::uint64_t extra_layers(const OutputSettings& output, bool has_depth, bool has_error);
 
 /// reflectance.R/G/B: pi R/(mu0 E) of an image that begins with R G B; 0 without a sun above the
 /// horizon. kLimit: out of memory.

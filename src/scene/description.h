@@ -53,9 +53,6 @@ struct Description {
     Lens lens;
     OutputSettings output;
     Animation animation;
-
-    /// Whether pictures need the distance to the media: a layer shows it, or the air before them.
-    bool wants_depth() const { return output.layer_depth || atmosphere.present; }
 };
 
 }  // namespace pileus

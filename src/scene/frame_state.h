@@ -61,6 +61,12 @@ struct Placement {
     double yaw_deg = 0;
 };
 
+/// What of a frame its world is made by. Frames of equal keys could share one.
+struct WorldKey {
+    int sequence_frame = 0;  ///< whose files are read, of densities and of depths
+    double wind_s = 0;       ///< that the wind has blown beside the time of each sky
+};
+
 /// All that a host sets and an animation moves; nothing else changes between frames.
 struct FrameState {
     Camera camera;
@@ -71,7 +77,7 @@ struct FrameState {
     Placement placement;
     int number = 0;          ///< a host's: what noise and pixels marched in turn go by
     double hours_later = 0;  ///< after atmosphere.time
-    int sequence_frame = 0;  ///< frame whose density files are read; set by whoever renders it
+    WorldKey world;          ///< set by whoever renders it
 };
 
 bool same_sun(const Sun& a, const Sun& b);

@@ -83,6 +83,8 @@ double hours_at(const Scene& scene, int frame) {
 
 double wind_at(const Scene& scene, int frame) { return number_at(scene, Track::kWind, frame, 0); }
 
+WorldKey world_key_at(const Scene& scene, int frame) { return {frame, wind_at(scene, frame)}; }
+
 Placement placement_at(const Scene& scene, int frame) {
     Placement at;
     if (!scene.animation.present) return at;

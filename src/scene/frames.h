@@ -16,6 +16,8 @@ Camera camera_at(const Animation& animation, const Camera& rest, int frame);
 /// Hours after atmosphere.time; seconds that the wind has blown beside those of each sky.
 double hours_at(const Scene& scene, int frame);
 double wind_at(const Scene& scene, int frame);
+/// Which world it has. Equal keys: the same files and the same wind.
+WorldKey world_key_at(const Scene& scene, int frame);
 
 Placement placement_at(const Scene& scene, int frame);
 

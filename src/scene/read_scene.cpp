@@ -86,11 +86,11 @@ std::string path_of_frame(const Scene& scene, const std::string& file, std::int6
 
 std::string density_path(const Scene& scene, const MediumSettings& medium) {
     return path_of_frame(scene, medium.file,
-                         std::int64_t(medium.first_frame) + scene.sequence_frame);
+                         std::int64_t(medium.first_frame) + scene.world.sequence_frame);
 }
 
 std::string depth_path(const Scene& scene) {
-    return path_of_frame(scene, scene.view_files.depth, scene.sequence_frame);
+    return path_of_frame(scene, scene.view_files.depth, scene.world.sequence_frame);
 }
 
 Status read_scene_text(const std::string& text, const std::string& name,

@@ -56,7 +56,7 @@ std::string scene_path(const std::string& directory, const std::string& file);
 bool is_sequence(const std::string& file);
 bool has_sequence(const Scene& scene);
 /// The path of a medium's file, and of the camera's depth; of a sequence that of
-/// Scene::sequence_frame.
+/// WorldKey::sequence_frame.
 std::string density_path(const Scene& scene, const MediumSettings& medium);
 std::string depth_path(const Scene& scene);
 

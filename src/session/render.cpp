@@ -59,29 +59,30 @@ bool has_moving_sky(const Scene& scene) {
 /// Each frame of a sequence, or of clouds in a wind, is a world of its own.
 bool has_worlds(const Scene& scene) { return has_sequence(scene) || moves_wind(scene); }
 
-/// The scene of one frame, where frames have scenes of their own.
-void set_frame(const Scene& scene, int frame, Scene& own) {
-    own.sequence_frame = frame;
-    for (std::size_t i = 0; i < own.media.size(); ++i)
-        own.media[i].sky.time_s = scene.media[i].sky.time_s + wind_at(scene, frame);
-    if (!has_moving_sky(scene)) return;
+/// What a session is opened with, where frames have sessions of their own.
+FrameState opened_at(const Scene& scene, int frame) {
+    FrameState out = scene;
+    out.world = world_key_at(scene, frame);
+    if (!has_moving_sky(scene)) return out;
     const SunPlace sun = sun_at(scene, scene.sun, frame);
-    own.sun.azimuth_deg = sun.azimuth_deg;
-    own.sun.elevation_deg = sun.elevation_deg;
-    own.hours_later = hours_at(scene, frame);
+    out.sun.azimuth_deg = sun.azimuth_deg;
+    out.sun.elevation_deg = sun.elevation_deg;
+    out.hours_later = hours_at(scene, frame);
+    return out;
 }
 
 /// Frames that share a world, which may be given.
 Status render_frames(const Scene& scene, const RunStart& start, const RenderOptions& options,
                      const Frames& frames, const std::shared_ptr<const World>& world,
                      const FrameSink& sink) {
+    const FrameState opened = opened_at(scene, frames.first);
     Session session;
-    PILEUS_TRY(session.open_film(scene, options, true, world));
+    PILEUS_TRY(session.open_film(scene, opened, options, true, world));
     Report& report = session.report();
     Verifier verifier;
     const bool verifies = options.verify > 0 && options.show.empty();
     if (verifies)
-        PILEUS_TRY(verifier.open(scene, std::uint64_t(options.verify), session.context(),
+        PILEUS_TRY(verifier.open(scene, opened, std::uint64_t(options.verify), session.context(),
                                  session.scenery().world));
     for (int frame = frames.first; frame <= frames.last && !report.interrupted; ++frame) {
         const RunStart frame_start;
@@ -125,12 +126,10 @@ Status render(const Scene& scene, const RenderOptions& options, const FrameSink&
     const RunStart start;
     Frames frames{};
     PILEUS_TRY(frames_of(scene, options, frames));
-    Scene own = scene;
-    own.sequence_frame = frames.first;
     // A sun that moves in air has another sky in each frame.
     const bool worlds = has_worlds(scene);
     if (!frames_stand_alone(scene))
-        return render_frames(own, start, options, frames, nullptr, sink);
+        return render_frames(scene, start, options, frames, nullptr, sink);
     std::shared_ptr<const World> world;
     if (!worlds && frames.last > frames.first) {
         std::shared_ptr<World> made;
@@ -144,9 +143,8 @@ Status render(const Scene& scene, const RenderOptions& options, const FrameSink&
         return sink(frame, image, report);
     };
     for (int frame = frames.first; frame <= frames.last && !interrupted; ++frame) {
-        set_frame(scene, frame, own);
         const Frames one{frame, frame, frames.total};
-        PILEUS_TRY(render_frames(own, start, options, one, world, watched));
+        PILEUS_TRY(render_frames(scene, start, options, one, world, watched));
     }
     return Status::ok();
 }
@@ -157,12 +155,10 @@ Status plan_scene(const Scene& scene, const RenderOptions& options, bool exact, 
     const PoolGuard lent(threads);
     Frames frames{};
     PILEUS_TRY(frames_of(scene, options, frames));
-    Scene own = scene;
-    set_frame(scene, frames.first, own);
     Session session;
     RenderOptions planned = options;
     planned.digests = false;  // a plan tells none
-    PILEUS_TRY(session.open_film(own, planned, exact, nullptr));
+    PILEUS_TRY(session.open_film(scene, opened_at(scene, frames.first), planned, exact, nullptr));
     report = session.report();
     return Status::ok();
 }

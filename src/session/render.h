@@ -16,6 +16,7 @@ namespace pileus {
 /// As the build names it: "major.minor.patch".
 extern const char* const kVersion;
 
+struct HostMedia;
 struct KernelTable;
 struct MethodRow;
 
@@ -28,8 +29,9 @@ struct RenderOptions {
     std::string show;  ///< empty: the picture; else a step of the method (docs/how-it-works.md)
     /// Finds what makes it, by the names of method and view: lab/views/view_list.h.
     Status (*find_view)(const std::string&, const std::string&, MethodRow&) = nullptr;
-    const Image* sky = nullptr;  ///< in place of the sky map's file; null: that
-    bool digests = true;         ///< the report names what each stage made by its bits; takes time
+    const Image* sky = nullptr;        ///< in place of the sky map's file; null: that
+    const HostMedia* media = nullptr;  ///< likewise of the files and recipes of media
+    bool digests = true;  ///< the report names what each stage made by its bits; takes time
     int first_frame = 0, last_frame = 0;  ///< of the animation, inclusive
     Limits limits;                        ///< what the scene may ask for; docs/program.md
     /// Called now and then with a stage's name and the share done of it, 0..1.

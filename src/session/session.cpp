@@ -24,12 +24,9 @@ void make_live(bool parts, Scene& scene) {
     scene.animation = Animation{};
     scene.animation.present = true;
     scene.animation.frames = kLiveFrames;
-    OutputSettings& output = scene.output;
-    output.layer_error = output.layer_light = output.layer_order = false;
-    output.layer_optical_depth = output.layer_transmittance = output.layer_reflectance = false;
-    output.layer_shadow = output.layer_occlusion = false;
-    output.layer_depth = !scene.camera.flux;
-    output.layer_cloud = parts;
+    static_cast<FileLayers&>(scene.output) = FileLayers{};
+    scene.output.layer_depth = !scene.camera.flux;
+    scene.output.layer_cloud = parts;
     scene.view_files.depth.clear();
     // A change is checked on a copy of the scene, and its faults name no line of a file.
     scene.text.clear();
@@ -58,13 +55,14 @@ Status make_world(const Scene& described, const RenderOptions& options,
     PILEUS_TRY(make_context(scene, options, context, report));
     PILEUS_TRY(find_method(scene, row));
     const auto made = std::make_shared<World>();
-    PILEUS_TRY(outline_world(scene, row.world, context, *made));
+    const HostMedia none, &given = options.media != nullptr ? *options.media : none;
+    PILEUS_TRY(outline_world(scene, row.world, given, context, *made));
     // Sessions weigh all they need; here it is the grid, of which each medium has its part.
     const std::uint64_t media = made->direct_sky ? 0 : std::uint64_t(scene.media.size());
     PILEUS_TRY(check_limit(context.limits, LimitId::kMemory,
                            bytes_of(media, voxel_count(made->medium.grid) * sizeof(float)),
                            scene.file));
-    PILEUS_TRY(load_world(scene, context, *made));
+    PILEUS_TRY(load_world(scene, given, context, *made));
     world = made;
     return Status::ok();
 }
@@ -79,20 +77,27 @@ Status make_world(const Scene& scene, const RenderOptions& options,
 
 Status Session::open(const Scene& scene, const RenderOptions& options, bool exact,
                      std::shared_ptr<const World> world) {
-    return open_either(scene, options, true, exact, std::move(world));
+    return open_either(scene, scene, options, true, exact, std::move(world));
 }
 
-Status Session::open_film(const Scene& scene, const RenderOptions& options, bool exact,
-                          std::shared_ptr<const World> world) {
-    return open_either(scene, options, false, exact, std::move(world));
+Status Session::open(const Scene& scene, const FrameState& frame, const RenderOptions& options,
+                     std::shared_ptr<const World> world) {
+    return open_either(scene, frame, options, true, true, std::move(world));
 }
 
-Status Session::open_either(const Scene& scene, const RenderOptions& options, bool hosted,
-                            bool exact, std::shared_ptr<const World> world) {
+Status Session::open_film(const Scene& scene, const FrameState& frame, const RenderOptions& options,
+                          bool exact, std::shared_ptr<const World> world) {
+    return open_either(scene, frame, options, false, exact, std::move(world));
+}
+
+Status Session::open_either(const Scene& scene, const FrameState& frame,
+                            const RenderOptions& options, bool hosted, bool exact,
+                            std::shared_ptr<const World> world) {
     const FpModeGuard guard;
     const PoolGuard lent(*threads_);
     PILEUS_TRY(refuse_clouds(scene));
     scene_ = scene;
+    static_cast<FrameState&>(scene_) = frame;
     PILEUS_TRY(place_scene(scene_));
     scene_.sky.mapped = options.sky != nullptr || !scene_.view_files.sky_map.empty();
     options_ = options;
@@ -105,8 +110,11 @@ Status Session::open_either(const Scene& scene, const RenderOptions& options, bo
     PILEUS_TRY(found);
     PILEUS_TRY(check_method(hosted, world.get()));
     made_ = row_.make({scene_, options_.budget, hosted});
-    scenery_.scene = &scene_;
-    scenery_.rest = hosted ? static_cast<const FrameState*>(&scene_) : &host_;
+    if (hosted)
+        scenery_.show(scene_, scene_);
+    else
+        scenery_.show(scene_, host_);
+    scenery_.media = options.media;
     scenery_.keyed = !scene_.animation.keys.empty();
     move_to(host_.number);
     PILEUS_TRY(
@@ -128,7 +136,7 @@ Status Session::take_frame(int frame) {
     if (scenery_.keyed) PILEUS_TRY(check_placed_media(scenery_, host_.ground, frame));
     move_to(frame);
     if (!is_sequence(scene_.view_files.depth)) return Status::ok();
-    host_.sequence_frame = scene_.sequence_frame = frame;
+    host_.world.sequence_frame = scene_.world.sequence_frame = frame;
     return load_environment(scene_, context_, scenery_.environment);
 }
 
@@ -213,7 +221,7 @@ Status Session::render(const FrameTarget& target) {
     // A picture into nothing makes ready what the first one after a hand-over needs.
     const bool nothing = !target.has_colour && target.hash == nullptr;
     const bool rays = !scene_.camera.flux;  // a flat detector has no depths
-    scene_.output.layer_depth =
+    scenery_.depths =
         (rays && (target.has_depth || row_.keeps_parts || nothing)) || fading_ != nullptr;
     report_.counters.clear();
     // A hash and depths are of whole planes.

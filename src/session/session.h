@@ -76,9 +76,12 @@ public:
     /// `exact` false: as far as sizes tell, for the plan alone. Once only. Errors: as render's.
     Status open(const Scene& scene, const RenderOptions& options, bool exact,
                 std::shared_ptr<const World> world);
-    /// Likewise one that the scene's animation moves.
-    Status open_film(const Scene& scene, const RenderOptions& options, bool exact,
-                     std::shared_ptr<const World> world);
+    /// With another camera, sun, sky and ground than the scene's.
+    Status open(const Scene& scene, const FrameState& frame, const RenderOptions& options,
+                std::shared_ptr<const World> world);
+    /// Likewise one that the scene's animation moves, with the world and the sky of `frame`.
+    Status open_film(const Scene& scene, const FrameState& frame, const RenderOptions& options,
+                     bool exact, std::shared_ptr<const World> world);
 
     Report& report() { return report_; }
     const Report& report() const { return report_; }
@@ -177,8 +180,8 @@ public:
 
 private:
     FrameView view() { return scenery_.view(host_.number); }
-    Status open_either(const Scene& scene, const RenderOptions& options, bool hosted, bool exact,
-                       std::shared_ptr<const World> world);
+    Status open_either(const Scene& scene, const FrameState& frame, const RenderOptions& options,
+                       bool hosted, bool exact, std::shared_ptr<const World> world);
     Status film_frame(const FilmFrame& step, Image& image);
     /// The light of it, until the method's goal is met or the user wants an end.
     Status film_light(const FrameView& view);

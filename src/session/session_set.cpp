@@ -326,7 +326,7 @@ Status Session::draw_alone(double slack_deg, const Planes*& planes) {
     const FpModeGuard guard;
     const PoolGuard lent(*threads_);
     PILEUS_TRY(aim());
-    scene_.output.layer_depth = true;
+    scenery_.depths = true;
     report_.counters.clear();
     RenderAsk ask;
     ask.media_only = true;

@@ -74,8 +74,8 @@ VerifyFigures compare_pixels(const Image& image, const std::vector<std::uint32_t
 
 }  // namespace
 
-Status Verifier::open(const Scene& scene, std::uint64_t pixels, const Context& context,
-                      std::shared_ptr<const World> world) {
+Status Verifier::open(const Scene& scene, const FrameState& frame, std::uint64_t pixels,
+                      const Context& context, std::shared_ptr<const World> world) {
     if (context.kernels->device != nullptr)
         return Status::bad_input("--verify: not on a device, allowed: an --isa of the host");
     if (world->direct_sky)
@@ -85,11 +85,10 @@ Status Verifier::open(const Scene& scene, std::uint64_t pixels, const Context& c
     PILEUS_TRY(refuse_marched_detail(scene, "--verify"));
     pixels_ = pixels;
     scene_ = scene;
+    static_cast<FrameState&>(scene_) = frame;
     PILEUS_TRY(place_scene(scene_));
     rest_ = scene_;
-    scenery_.scene = &scene_;
-    scenery_.rest = &rest_;
-    place(scene.sequence_frame);
+    place(frame.world.sequence_frame);
     const MethodRow row = path_row();
     own_paths_ = scene.method == row.name;
     scene_.method = row.name;
@@ -99,6 +98,7 @@ Status Verifier::open(const Scene& scene, std::uint64_t pixels, const Context& c
         scene_.path = PathSettings{};
         scene_.path.centre = true;
     }
+    scenery_.show(scene_, rest_);
     // Paths know particles on a grid alone, one finer than shadows ask for.
     if (world->shows_particles) world = nullptr;
     // Of a film there is but what is behind its light.
@@ -148,7 +148,7 @@ Status Verifier::check(int frame, const Context& context, const Image& image, Re
     report.verify = {};
     place(frame);
     if (is_sequence(scene_.view_files.depth)) {
-        rest_.sequence_frame = scene_.sequence_frame = frame;
+        rest_.world.sequence_frame = scene_.world.sequence_frame = frame;
         PILEUS_TRY(load_environment(scene_, context, scenery_.environment));
     }
     PILEUS_TRY(set_view(frame, context));

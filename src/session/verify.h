@@ -16,8 +16,8 @@ public:
     Verifier& operator=(const Verifier&) = delete;
 
     /// kBadInput: a device, a sky that is evaluated in place; else as path's plan.
-    Status open(const Scene& scene, std::uint64_t pixels, const Context& context,
-                std::shared_ptr<const World> world);
+    Status open(const Scene& scene, const FrameState& frame, std::uint64_t pixels,
+                const Context& context, std::shared_ptr<const World> world);
 
     /// Traces pixels of a frame and fills the report's figures; none where no pixel shows media, or
     /// where the user ends it.

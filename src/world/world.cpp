@@ -30,29 +30,38 @@ Status empty_medium(const Scene& scene, Medium& medium) {
     return allocate(arrays::density(medium.grid), medium.volume.density);
 }
 
-Status outline_medium_of(const Scene& scene, const Context& context, World& world) {
+Status outline_medium_of(const Scene& scene, const HostMedia& given, const Context& context,
+                         World& world) {
     if (scene.media.empty()) return empty_medium(scene, world.medium);
     if (world.direct_sky) return outline_sky(scene, context.limits, world.medium, world.source);
     return outline_media(scene, context.limits, std::uint64_t(context.threads), world.media_plan,
-                         world.medium, world.source);
+                         world.medium, world.source, given);
 }
 
-Status load_medium_of(const Scene& scene, const Context& context, World& world) {
+Status load_medium_of(const Scene& scene, const HostMedia& given, const Context& context,
+                      World& world) {
     if (scene.media.empty()) return Status::ok();
     const StageClock clock(context, "density");
     world.media_plan = Plan{};
     if (world.direct_sky) return load_sky(scene, context, world.medium, world.layer);
     PILEUS_TRY(load_media(scene, context.limits, context.threads, world.media_plan, world.medium,
-                          context.kernels));
+                          context.kernels, given));
     close_weather_files(scene);
     world.source.mean_density = mean_density(world.medium);
     return Status::ok();
 }
 
+/// The grid of particles that are shown themselves.
+HostMedia for_shadows(const HostMedia& given) {
+    HostMedia out;
+    out.media = {given.of(0)};
+    out.media[0].shadows_only = true;
+    return out;
+}
+
 /// Reads or makes the particles once, for the method and for the grid that casts their shadows.
-Status load_particles_of(const Scene& scene, const Context& context, World& world) {
-    Scene own = scene;
-    MediumSettings& medium = own.media[0];
+Status load_particles_of(const Scene& scene, const HostMedia& given, const Context& context,
+                         World& world) {
     const MediumSettings& settings = scene.media[0];
     const DensityRow* row = density_row(settings.density);
     {
@@ -63,11 +72,12 @@ Status load_particles_of(const Scene& scene, const Context& context, World& worl
             row != nullptr
                 ? row->make_particles(settings, context.threads, world.particles)
                 : read_placed_particles(settings, density_path(scene, settings), world.particles,
+                                        given.of(0).particles,
                                         [&](double share) { context.tell("particles", share); })));
     }
-    medium.particles.shadows_only = true;
-    medium.particles.placed = &world.particles;
-    PILEUS_TRY(load_medium_of(own, context, world));
+    HostMedia read = for_shadows(given);
+    read.media[0].placed = &world.particles;
+    PILEUS_TRY(load_medium_of(scene, read, context, world));
     if (settings.y_up) turn_particles_y_up(world.particles);
     const double scale = row != nullptr ? settings.extinction_per_m : settings.extinction_scale;
     for (float& v : world.particles.density.span()) {
@@ -84,33 +94,34 @@ Status load_particles_of(const Scene& scene, const Context& context, World& worl
 }  // namespace
 
 bool shows_particles(const Scene& scene) {
-    if (scene.media.size() != 1 || scene.media[0].values != nullptr) return false;
+    if (scene.media.size() != 1) return false;
     if (const DensityRow* row = density_row(scene.media[0].density))
         return row->make_particles != nullptr;
     return is_particle_format(scene.media[0].format);
 }
 
-Status outline_world(const Scene& scene, WorldUse use, const Context& context, World& world) {
+Status outline_world(const Scene& scene, WorldUse use, const HostMedia& given,
+                     const Context& context, World& world) {
     PILEUS_TRY(check_scene_limits(scene, context.limits));
     const ReadingLimit readers(context.limits);
     if (context.kernels != nullptr && context.kernels->device != nullptr)
         PILEUS_TRY(refuse_marched_detail(scene, std::string("--isa ") + context.kernels->name));
     PILEUS_TRY(outline_solids(scene, context, world.solids));
     world.media = scene.media.size();
-    world.direct_sky = use == WorldUse::kSkyInPlace && is_direct_sky(scene);
-    world.shows_particles = use == WorldUse::kParticles && shows_particles(scene);
-    if (!world.shows_particles) return outline_medium_of(scene, context, world);
-    Scene own = scene;
-    for (MediumSettings& m : own.media) m.particles.shadows_only = true;
-    return outline_medium_of(own, context, world);
+    const bool cells = given.of(0).cells != nullptr;
+    world.direct_sky = use == WorldUse::kSkyInPlace && !cells && is_direct_sky(scene);
+    world.shows_particles = use == WorldUse::kParticles && !cells && shows_particles(scene);
+    const HostMedia shadows = world.shows_particles ? for_shadows(given) : HostMedia{};
+    return outline_medium_of(scene, world.shows_particles ? shadows : given, context, world);
 }
 
-Status load_world(const Scene& scene, const Context& context, World& world) {
+Status load_world(const Scene& scene, const HostMedia& given, const Context& context,
+                  World& world) {
     const ReadingLimit readers(context.limits);
     if (world.shows_particles)
-        PILEUS_TRY(load_particles_of(scene, context, world));
+        PILEUS_TRY(load_particles_of(scene, given, context, world));
     else
-        PILEUS_TRY(load_medium_of(scene, context, world));
+        PILEUS_TRY(load_medium_of(scene, given, context, world));
     PILEUS_TRY(load_solids(scene, world.medium.low_m, context, world.solids));
     if (!world.medium.grid.periodic) return Status::ok();
     return repeat_solids(scene, world.medium.extent_m, world.solids);

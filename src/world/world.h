@@ -37,12 +37,14 @@ enum class WorldUse { kGrid, kSkyInPlace, kParticles };
 /// Whether its media are one of particles.
 bool shows_particles(const Scene& scene);
 
-/// What the scene's sizes tell, reading no values of media: limits, places, solids.
+/// What the scene's sizes tell, reading no values of media: limits, places, solids. `given`: media
+/// in place of the scene's.
 /// Errors: kLimit: a limit; kBadInput, kIo: a file that is missing or wrong.
-Status outline_world(const Scene& scene, WorldUse use, const Context& context, World& world);
+Status outline_world(const Scene& scene, WorldUse use, const HostMedia& given,
+                     const Context& context, World& world);
 
 /// Reads or makes all values of an outlined world. Errors: those of the readers; kLimit: memory.
-Status load_world(const Scene& scene, const Context& context, World& world);
+Status load_world(const Scene& scene, const HostMedia& given, const Context& context, World& world);
 
 /// Bytes of the arrays that sessions share.
 std::uint64_t bytes_of_world(const World& world);

@@ -89,8 +89,7 @@ struct Run : Scenery {
     Plan plan;
     Status open(const MethodRow& row, const MadeMethod& made, const Scene& of,
                 const Context& context) {
-        scene = &of;
-        rest = &of;
+        show(of, of);
         return open_method(row, made, context, true, nullptr, nullptr, *this, plan);
     }
 };

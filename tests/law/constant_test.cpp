@@ -8,7 +8,7 @@
 
 #include "src/world/grid/grid.h"
 #include "src/world/medium/mix_media.h"
-#include "tests/support/render_harness.h"
+#include "tests/support/host_cells.h"
 #include "tests/support/sun_depth_harness.h"
 
 using namespace pileus;
@@ -115,8 +115,7 @@ TEST_CASE("constant cells: every method's optical depth is the sum over cells") 
             CAPTURE(eye[0]);
             Scene scene = render_test::scene_from(scene_text(eye, ""),
                                                   {std::string("method.name=") + method});
-            scene.media[0].values = cells.data();
-            const render_test::Picture picture = render_test::render_one(scene);
+            const render_test::Picture picture = render_test::render_cells(scene, cells);
             double largest = 0, mean = 0;
             for (int y = 0; y < 16; ++y)
                 for (int x = 0; x < 24; ++x) {
@@ -146,8 +145,7 @@ TEST_CASE("constant cells: two cells in a row let through exp(-tau) of each") {
         Scene scene = render_test::scene_from(
             scene_text({-900, 160, 135}, ""),
             {std::string("method.name=") + method, "medium.0.resolution=[2,1,1]"});
-        scene.media[0].values = cells.data();
-        const render_test::Picture picture = render_test::render_one(scene);
+        const render_test::Picture picture = render_test::render_cells(scene, cells);
         CHECK(double(picture.at("tau", 12, 8)) == doctest::Approx(2.8125).epsilon(2e-6));
         CHECK(double(picture.at("A", 12, 8)) ==
               doctest::Approx(1 - std::exp(-2.8125)).epsilon(2e-6));
@@ -163,8 +161,7 @@ TEST_CASE("constant cells: few steps or many, raymarch's optical depth is exact"
             Scene scene = render_test::scene_from(
                 scene_text(eye, ""),
                 {"method.name=raymarch", steps, spacing, "raymarch.light=march"});
-            scene.media[0].values = cells.data();
-            const render_test::Picture picture = render_test::render_one(scene);
+            const render_test::Picture picture = render_test::render_cells(scene, cells);
             for (int y = 0; y < 16; ++y)
                 for (int x = 0; x < 24; ++x) {
                     Double3 d;
@@ -188,8 +185,7 @@ TEST_CASE("constant cells: paths find the transmittance of the cells") {
             {"method.name=path", "medium.0.albedo=0", "path.samples_per_pixel=4096",
              "path.pixel=centre", std::string("medium.0.boundary=") + boundary, "sun.irradiance=0",
              "output.layers=[\"error\"]"});
-        scene.media[0].values = cells.data();
-        const render_test::Picture picture = render_test::render_one(scene);
+        const render_test::Picture picture = render_test::render_cells(scene, cells);
         double sum = 0, square = 0;
         for (int y = 0; y < 16; ++y)
             for (int x = 0; x < 24; ++x) {
@@ -222,8 +218,7 @@ TEST_CASE("constant cells: a picture is that of a trilinear field of eight times
             {std::string("method.name=") + method, "path.samples_per_pixel=256",
              std::string("medium.0.interpolation=") + interpolation, "output.layers=[\"error\"]"});
         scene.media[0].resolution = size;
-        scene.media[0].values = values.data();
-        const render_test::Picture picture = render_test::render_one(scene);
+        const render_test::Picture picture = render_test::render_cells(scene, values);
         double sum = 0, square = 0;
         for (int y = 0; y < 16; ++y)
             for (int x = 0; x < 24; ++x) {
@@ -316,13 +311,13 @@ TEST_CASE("constant cells: media of one scene agree, and keep what they hold on 
         m.bounds_m = {{{0, 0, 0}, {5, 4, 3}}};
         if (i == 1) m.bounds_m = {{{0.3, -1, 0}, {2.9, 5, 6}}};
         m.resolution = kSize;
-        m.values = cells.data();
         m.extinction_per_m = 0.5;
         m.constant = true;
     }
     Plan plan;
     Medium mixed;
-    REQUIRE(load_media(scene, Limits{}, 2, plan, mixed));
+    REQUIRE(load_media(scene, Limits{}, 2, plan, mixed, nullptr,
+                       render_test::host_cells(scene, cells)));
     CHECK(mixed.grid.constant);
     double sum = 0, held = 0;
     for (const float v : mixed.volume.density.span()) sum += double(v);
@@ -333,7 +328,8 @@ TEST_CASE("constant cells: media of one scene agree, and keep what they hold on 
     scene.media[1].constant = false;
     Medium outline;
     MediumSource source;
-    const Status status = outline_media(scene, Limits{}, 1, plan, outline, source);
+    const Status status = outline_media(scene, Limits{}, 1, plan, outline, source,
+                                        render_test::host_cells(scene, cells));
     CHECK(status.message ==
           "t.toml: medium.1.interpolation: differs, \"linear\", allowed: what medium.0 has");
 }

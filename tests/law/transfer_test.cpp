@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "src/world/medium/mix_media.h"
-#include "tests/support/render_harness.h"
+#include "tests/support/host_cells.h"
 
 using namespace pileus;
 
@@ -26,14 +26,14 @@ Scene field_scene(const std::vector<float>& field, const std::vector<TransferRow
     m.has_bounds = true;
     m.bounds_m = {{{0, 0, 0}, {8, 1, 1}}};
     m.resolution = {int(field.size()), 1, 1};
-    m.values = field.data();
     m.transfer = rows;
     return scene;
 }
 
-Medium loaded(const Scene& scene, Plan& plan) {
+Medium loaded(const Scene& scene, const std::vector<float>& field, Plan& plan) {
     Medium out;
-    const Status status = load_media(scene, Limits{}, 1, plan, out);
+    const Status status =
+        load_media(scene, Limits{}, 1, plan, out, nullptr, render_test::host_cells(scene, field));
     REQUIRE_MESSAGE(status, status.message);
     return out;
 }
@@ -69,7 +69,7 @@ TEST_CASE("transfer: each colour is a medium with its rows' hat functions, which
     const std::vector<float> field{-3, 0, 0.25f, 0.5f, 1, 2, 7, none};
     const std::vector<TransferRow> rows{{0, 0.25, kWhite}, {1, 1, kRed}, {3, 0.5, kWhite}};
     Plan plan;
-    const Medium m = loaded(field_scene(field, rows), plan);
+    const Medium m = loaded(field_scene(field, rows), field, plan);
     REQUIRE(m.count == 2);
     CHECK(m.channels == 3);
     CHECK(m.optics[0].albedo[2] == 1.0f);
@@ -97,14 +97,15 @@ TEST_CASE("transfer: the outline counts what loading may hold") {
     Medium outline;
     MediumSource source;
     Plan plan;
-    REQUIRE(outline_media(scene, Limits{}, 1, plan, outline, source));
+    REQUIRE(outline_media(scene, Limits{}, 1, plan, outline, source,
+                          render_test::host_cells(scene, field)));
     CHECK(outline.count == 2);
     CHECK(outline.sigma == 2.0f);
     CHECK(source.apart_voxels == 8);
     CHECK(source.mean_density < 0);
     // No value shows the first colour: one medium is left.
     Plan after;
-    const Medium m = loaded(scene, after);
+    const Medium m = loaded(scene, field, after);
     CHECK(m.count == 1);
     CHECK(m.optics[0].albedo[1] == 1.0f);
     CHECK(after.left_out.size() == 2);  // the colour, and mixing
@@ -114,11 +115,12 @@ TEST_CASE("transfer: two equal rows are a plain uniform medium, to the bit") {
     const std::vector<float> field{0.1f, 0.7f, 3, -2, 0, 1, 0.9f, 5};
     const std::vector<float> ones(8, 1.0f);
     Plan plan;
-    const Medium shown = loaded(field_scene(field, {{0, 0.03, kRed}, {1, 0.03, kRed}}), plan);
+    const Medium shown =
+        loaded(field_scene(field, {{0, 0.03, kRed}, {1, 0.03, kRed}}), field, plan);
     Scene plain = field_scene(ones, {});
     plain.media[0].extinction_per_m = 0.03;
     plain.media[0].albedo = kRed;
-    const Medium uniform = loaded(plain, plan);
+    const Medium uniform = loaded(plain, ones, plan);
     CHECK(shown.count == 1);
     CHECK(shown.sigma == uniform.sigma);
     CHECK(shown.density_max == uniform.density_max);
@@ -134,7 +136,7 @@ TEST_CASE("transfer: a table of a phase function stays with a colour that is the
     scene.media[0].phase.type = "cloud";
     scene.media[0].phase.numbers["effective_radius_um"] = 10;
     Plan plan;
-    const Medium m = loaded(scene, plan);
+    const Medium m = loaded(scene, field, plan);
     REQUIRE(m.phases.size() == 1);
     CHECK(m.optics[0].phase.table == m.phases[0].table.data());
 }
@@ -155,9 +157,8 @@ TEST_CASE("transfer: every method shows it as thick as it is") {
         "[output]\nlayers = [\"cloud\"]\n";
     for (const char* method : {"collectors", "path", "raymarch", "optical-depth", "photon-grid"}) {
         CAPTURE(method);
-        Scene scene = render_test::scene_from(text, {std::string("method.name=") + method});
-        scene.media[0].values = field.data();
-        const render_test::Picture picture = render_test::render_one(scene);
+        const Scene scene = render_test::scene_from(text, {std::string("method.name=") + method});
+        const render_test::Picture picture = render_test::render_cells(scene, field);
         // A step of a march meets the ends of the box to a few parts in 10^4 of its depth.
         CHECK(picture.at("A", 8, 4) == doctest::Approx(1 - std::exp(-2.0)).epsilon(2e-3));
         CHECK(picture.at("A", 56, 4) == doctest::Approx(1 - std::exp(-0.5)).epsilon(2e-3));

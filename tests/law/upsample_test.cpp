@@ -156,8 +156,8 @@ TEST_CASE("Scales that are none are faults of one line") {
           Overrides{"raymarch.temporal = 3"},
           Overrides{"raymarch.temporal = 2", "raymarch.scale = 2"}}) {
         Session session;
-        const Status status =
-            session.open_film(scene_from(kSmallCumulus, marched(wrong)), {}, false, nullptr);
+        const Scene scene = scene_from(kSmallCumulus, marched(wrong));
+        const Status status = session.open_film(scene, scene, {}, false, nullptr);
         CHECK(status.code == Code::kBadInput);
         CHECK(status.message.find("allowed: ") != std::string::npos);
         CHECK(status.message.find('\n') == std::string::npos);

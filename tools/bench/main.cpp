@@ -72,8 +72,7 @@ std::unique_ptr<ReadyScene> Bench::fresh(benchmark::State& state, const std::str
     auto method = std::make_unique<CollectorsMethod>(inputs);
     opened.report = collectors_report(*method);
     opened.method = std::move(method);
-    made->scenery.scene = &made->scene;
-    made->scenery.rest = &made->scene;
+    made->scenery.show(made->scene, made->scene);
     const Status status = open_method(collectors_row(), opened, made->context, true, nullptr,
                                       nullptr, made->scenery, made->plan);
     made->method.reset(static_cast<CollectorsMethod*>(opened.method.release()));

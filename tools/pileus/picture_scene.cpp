@@ -197,7 +197,7 @@ Status picture_frames(const PictureScene& picture, const Scene& scene, int& firs
 Status check_scene_files(const PictureScene& picture, const Scene& scene) {
     // Of a sequence the picture's frame alone is read.
     Scene at = scene;
-    at.sequence_frame = picture.frame;
+    at.world.sequence_frame = picture.frame;
     std::vector<std::string> files;
     for (MediumSettings& medium : at.media)
         if (is_sequence(medium.file)) {

@@ -45,7 +45,8 @@ void add_files(const Scene& scene, std::vector<std::string>& files) {
     Scene at = scene;
     const int frames = scene.animation.present ? scene.animation.frames : 1;
     const auto each_frame = [&](const auto& path) {
-        for (at.sequence_frame = 0; at.sequence_frame < frames; ++at.sequence_frame)
+        for (at.world.sequence_frame = 0; at.world.sequence_frame < frames;
+             ++at.world.sequence_frame)
             files.push_back(path());
     };
     for (const MediumSettings& medium : scene.media) {

@@ -106,9 +106,7 @@ Status count_kernels(const KernelTable* kernels) {
         Scene scene;
         PILEUS_TRY(read(display, scene));
         auto method = std::make_unique<CollectorsMethod>(MethodInputs{scene, {}, false});
-        Scenery scenery;
-        scenery.scene = &scene;
-        scenery.rest = &scene;
+        Scenery scenery(scene);
         Plan plan;
         Film film;
         PathScratch scratch;

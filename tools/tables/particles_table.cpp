@@ -12,6 +12,7 @@
 #include "kernels_cpu/core/rng.h"
 #include "platform/threads.h"
 #include "src/io/images/image_file.h"
+#include "src/scene/media/host_media.h"
 #include "src/scene/read_scene.h"
 #include "src/session/render.h"
 #include "tools/tables/particle_weights.h"
@@ -87,6 +88,13 @@ struct Cloud {
     }
 };
 
+/// In place of the file of a scene's one medium; `host` outlives it.
+HostMedia in_place_of(const HostParticles& host) {
+    MediumValues own;
+    own.particles = &host;
+    return {{own}};
+}
+
 constexpr std::uint64_t kFlickering = 20'000;
 constexpr int kFlickerFrames = 12;
 
@@ -143,8 +151,9 @@ private:
         Scene scene;
         PILEUS_TRY(read_scene_text(kScene + lights, "table", "", set, scene));
         const HostParticles host = cloud.host();
-        scene.media[0].particles.host = &host;
+        const HostMedia media = in_place_of(host);
         RenderOptions options;
+        options.media = &media;
         options.threads = threads_;
         t = Times{};
         return render(scene, options, [&](int, Image& image, Report& report) {
@@ -279,8 +288,9 @@ private:
             Scene scene;
             PILEUS_TRY(read_scene_text(kScene, "table", "", set, scene));
             const HostParticles host = now.host();
-            scene.media[0].particles.host = &host;
+            const HostMedia media = in_place_of(host);
             RenderOptions options;
+            options.media = &media;
             options.threads = threads_;
             PILEUS_TRY(render(scene, options, [&](int, Image& image, Report&) {
                 const Channel* green = image.find("G");

@@ -22,10 +22,13 @@ Status no_files(const char* what) {
 
 }  // namespace
 
-Status outline_own_world(const Scene&, WorldUse, const Context&, std::shared_ptr<World>&) {
+Status outline_own_world(const Scene&, WorldUse, const HostMedia&, const Context&,
+                         std::shared_ptr<World>&) {
     return no_files("world");
 }
-Status load_world(const Scene&, const Context&, World&) { return no_files("world"); }
+Status load_world(const Scene&, const HostMedia&, const Context&, World&) {
+    return no_files("world");
+}
 Status place_camera(Scene&) { return Status::ok(); }
 void share_weather_files(Scene&) {}
 Status check_changed(const char* key, const Scene&, void (*)(const void*, Scene&), const void*) {

@@ -242,13 +242,14 @@ Status read_host_particles(const HostParticles& host, const ParticleReading& rea
 }
 
 Status read_placed_particles(const MediumSettings& medium, const std::string& path,
-                             ParticleSet& set, const std::function<void(double share)>& progress) {
+                             ParticleSet& set, const HostParticles* host,
+                             const std::function<void(double share)>& progress) {
     const ParticleSettings& s = medium.particles;
     ParticleReading reading;
     reading.progress = progress;
     reading.radius = s.radius_m / s.unit_m;
-    if (s.host != nullptr) {
-        PILEUS_TRY(read_host_particles(*s.host, reading, set));
+    if (host != nullptr) {
+        PILEUS_TRY(read_host_particles(*host, reading, set));
         return place_particles("particles", s, set);
     }
     const std::string extension =

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "src/io/particles/particle_file.h"
-#include "src/scene/media/particle_settings.h"
+#include "src/scene/media/host_media.h"
 #include "src/scene/scene.h"
 
 namespace pileus {
@@ -14,12 +14,12 @@ namespace pileus {
 /// Integral of (1 - r^2)^2 over the ball of radius 1.
 constexpr double kBallMass = 32.0 * 3.14159265358979323846 / 105.0;
 
-/// Reads medium.density. In `set` lengths are metres along the file's own axes, and `density`,
-/// which is never empty, is each particle's extinction at its centre, 1/m: at distance r from it
-/// density (1 - r^2 / radius^2)^2 within the radius, 0 beyond, and those of all particles add up.
-/// Errors: those of read_particles; kBadInput: an extinction that floats cannot hold.
+/// Reads medium.density, or a host's. In `set` lengths are metres along the file's own axes, and
+/// `density`, which is never empty, is each particle's extinction at its centre, 1/m: at distance r
+/// from it density (1 - r^2 / radius^2)^2 within the radius, 0 beyond, and those of all particles
+/// add up. Errors: those of read_particles; kBadInput: an extinction that floats cannot hold.
 Status read_placed_particles(const MediumSettings& medium, const std::string& path,
-                             ParticleSet& set,
+                             ParticleSet& set, const HostParticles* host = nullptr,
                              const std::function<void(double share)>& progress = {});
 
 /// Particles of a host, in its unit; kBadInput names the one that is out of range.

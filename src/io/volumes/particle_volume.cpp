@@ -164,9 +164,10 @@ double mean_radius(const ParticleSet& set) {
     return double(largest) * (double(sum) / 0x1p32 / double(set.count));
 }
 
-std::array<int, 3> cells_of(const MediumSettings& medium, const ParticleSet& set) {
+std::array<int, 3> cells_of(const MediumSettings& medium, const MediumValues& given,
+                            const ParticleSet& set) {
     if (medium.resolution[0] > 0) return medium.resolution;
-    return medium.particles.shadows_only ? particle_cells(set, kShadowCells) : particle_cells(set);
+    return given.shadows_only ? particle_cells(set, kShadowCells) : particle_cells(set);
 }
 
 }  // namespace
@@ -274,19 +275,21 @@ Status particles_of_grid(const std::string& name, const Volume& volume, Particle
 }
 
 Status read_particle_volume(const MediumSettings& medium, const std::string& path, int threads,
-                            Volume& volume) {
-    if (const ParticleSet* placed = medium.particles.placed)
-        return grid_particles(*placed, cells_of(medium, *placed), threads, volume);
+                            const MediumValues& given, Volume& volume) {
+    if (given.placed != nullptr)
+        return grid_particles(*given.placed, cells_of(medium, given, *given.placed), threads,
+                              volume);
     ParticleSet set;
-    PILEUS_TRY(read_placed_particles(medium, path, set));
-    return grid_particles(set, cells_of(medium, set), threads, volume);
+    PILEUS_TRY(read_placed_particles(medium, path, set, given.particles));
+    return grid_particles(set, cells_of(medium, given, set), threads, volume);
 }
 
-Status read_particle_head(const MediumSettings& medium, const std::string& path, VolumeHead& head) {
+Status read_particle_head(const MediumSettings& medium, const std::string& path,
+                          const MediumValues& given, VolumeHead& head) {
     ParticleSet set;
-    PILEUS_TRY(read_placed_particles(medium, path, set));
+    PILEUS_TRY(read_placed_particles(medium, path, set, given.particles));
     head = VolumeHead();
-    head.size = cells_of(medium, set);
+    head.size = cells_of(medium, given, set);
     PILEUS_TRY(check_volume_size(path, {head.size[0], head.size[1], head.size[2]}));
     head.knows_bounds = true;
     head.bounds_m = {set.low, set.high};

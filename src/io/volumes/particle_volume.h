@@ -20,10 +20,12 @@ Status grid_particles(const ParticleSet& set, const std::array<int, 3>& size, in
 /// does: radius 1.5 times the cell's mean edge. kBadInput: a volume that does not know its place.
 Status particles_of_grid(const std::string& name, const Volume& volume, ParticleSet& set);
 
-/// A file, as `medium` says. Errors: those of read_placed_particles; kLimit: cells.
+/// A file, or what stands in its place, as `medium` says. Errors: those of read_placed_particles;
+/// kLimit: cells.
 Status read_particle_volume(const MediumSettings& medium, const std::string& path, int threads,
-                            Volume& volume);
-Status read_particle_head(const MediumSettings& medium, const std::string& path, VolumeHead& head);
+                            const MediumValues& given, Volume& volume);
+Status read_particle_head(const MediumSettings& medium, const std::string& path,
+                          const MediumValues& given, VolumeHead& head);
 Status write_particle_volume(const MediumSettings& medium, const std::string& path,
                              const Volume& volume);
 

@@ -48,7 +48,10 @@ Status write_netcdf(const MediumSettings&, const std::string& path, const Volume
 }
 
 Status read_particles(const MediumSettings& medium, const std::string& path, Volume& volume) {
-    return read_particle_volume(medium, path, 1, volume);
+    return read_particle_volume(medium, path, 1, {}, volume);
+}
+Status particle_head(const MediumSettings& medium, const std::string& path, VolumeHead& head) {
+    return read_particle_head(medium, path, {}, head);
 }
 
 // One row for a format: name, title, extensions; in extinction, several grids, weather, particles,
@@ -70,17 +73,17 @@ constexpr VolumeFormat kFormats[] = {
      read_weather_head, write_netcdf},
     {"grib", "GRIB", ".grib|.grib2|.grb|.grb2", true, false, true, false, false,
      read_weather_volume, read_weather_head, nullptr},
-    {"ply", "PLY particles", ".ply", true, false, false, true, false, read_particles,
-     read_particle_head, write_particle_volume},
+    {"ply", "PLY particles", ".ply", true, false, false, true, false, read_particles, particle_head,
+     write_particle_volume},
     {"csv", "particles as text", ".csv", true, false, false, true, false, read_particles,
-     read_particle_head, nullptr},
-    {"prt", "Krakatoa PRT", ".prt", true, false, false, true, false, read_particles,
-     read_particle_head, nullptr},
-    {"bgeo", "Houdini's classic geometry", ".bgeo|.geo|.bhclassic|.hclassic", true, false, false,
-     true, false, read_particles, read_particle_head, nullptr},
-    {"pdb", "Maya PDB", ".pdb", true, false, false, true, false, read_particles, read_particle_head,
+     particle_head, nullptr},
+    {"prt", "Krakatoa PRT", ".prt", true, false, false, true, false, read_particles, particle_head,
      nullptr},
-    {"pda", "Maya PDA", ".pda", true, false, false, true, false, read_particles, read_particle_head,
+    {"bgeo", "Houdini's classic geometry", ".bgeo|.geo|.bhclassic|.hclassic", true, false, false,
+     true, false, read_particles, particle_head, nullptr},
+    {"pdb", "Maya PDB", ".pdb", true, false, false, true, false, read_particles, particle_head,
+     nullptr},
+    {"pda", "Maya PDA", ".pda", true, false, false, true, false, read_particles, particle_head,
      nullptr},
 };
 

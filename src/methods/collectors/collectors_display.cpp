@@ -255,7 +255,7 @@ Status collectors_billboards(const Context& context, const FrameView& view,
     scene.count = std::uint32_t(n);
     scene.channels = channels;
     scene.opaque_depth = opaque_depth;
-    scene.half_depth = view.scene.wants_depth();
+    scene.half_depth = view.wants_depth();
     const Compositor by = state.settings.compositor;
     if (by == Compositor::kBuiltin)
         return composite_billboards(
@@ -273,10 +273,10 @@ void collectors_size_display(const FrameView& view, const CollectorsState& state
     sizes.width = std::uint64_t(view.scene.camera.resolution[0]);
     sizes.height = std::uint64_t(view.scene.camera.resolution[1]);
     sizes.planes = 3 * (1 + std::uint64_t(photon_batches(state)));
-    sizes.layers = 4 + extra_layers(output, sizes.planes > 3);
+    sizes.layers = 4 + extra_layers(output, view.depths, sizes.planes > 3);
     sizes.marched = is_marched(state);
     sizes.ground = state.lights.lighting.opaque();
-    sizes.depth = view.scene.wants_depth();
+    sizes.depth = view.wants_depth();
     const std::uint64_t parts = (output.layer_light ? 3u : 0u) + (output.layer_order ? 3u : 0u);
     sizes.extra_planes = parts + (output.layer_optical_depth ? 1u : 0u);
     sizes.parts = parts > 0;

@@ -47,7 +47,7 @@ Status compose_collectors(const CameraParams& camera, const Context& context, co
     {
         const StageClock clock(context, "background");
         PILEUS_TRY(allocate_planes(camera.width, camera.height, channels, lighting.opaque(),
-                                   view.scene.wants_depth(), planes));
+                                   view.wants_depth(), planes));
     }
     PILEUS_TRY(fill_lit_background(context, view, state, in, 0, planes));
     planes.clamped = colours.clamped_negative;

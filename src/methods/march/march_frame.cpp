@@ -41,7 +41,7 @@ Status allocate_picture(const Context& context, const FrameView& view, MarchPict
     const StageClock clock(context, "background");
     Planes& planes = picture.planes;
     PILEUS_TRY(allocate_planes(picture.camera.width, picture.camera.height, 3,
-                               view.lighting.opaque(), view.scene.wants_depth(), planes));
+                               view.lighting.opaque(), view.wants_depth(), planes));
     if (view.scene.output.layer_optical_depth)
         PILEUS_TRY(
             allocate(arrays::picture_planes(1, planes.transmittance.size()), planes.optical_depth));

@@ -133,7 +133,7 @@ void note_plan(const FrameView& view, const MarchState& state, Plan& plan) {
     if (view.world.medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
     note_solids(view.world.solids, view.environment.depth, plan);
     if (!view.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
-    if (!scene.wants_depth()) plan.leave_out("depth of the medium", "no depth layer");
+    if (!view.wants_depth()) plan.leave_out("depth of the medium", "no depth layer");
     if (!scene.output.layer_optical_depth)
         plan.leave_out("optical depth", "no optical_depth layer");
     for (const std::string& what : view.world.media_plan.needed) plan.needed.push_back(what);
@@ -195,18 +195,18 @@ void weigh_memory(const Context& context, const FrameView& view, const MarchStat
     if (parts > 0)
         add(t, renamed(arrays::picture_planes(plane_count(3, lighting.opaque(), false), pixels),
                        "planes of a part", Stage::kDisplay, Stage::kDisplay));
-    const std::uint64_t shown = parts + plane_count(3, lighting.opaque(), scene.wants_depth()) +
+    const std::uint64_t shown = parts + plane_count(3, lighting.opaque(), view.wants_depth()) +
                                 (output.layer_optical_depth ? 1u : 0u);
     add(t, arrays::picture_planes(shown, pixels));
     add(t, arrays::ground_shadow(most_ground_nodes(medium, lighting, pixels)));
     if (settings.jitter == RaymarchJitterKind::kBlueNoise) add(t, arrays::blue_noise(last));
-    const bool half = scene.wants_depth() || settings.thin.temporal > 0;
+    const bool half = view.wants_depth() || settings.thin.temporal > 0;
     add_upsample_row(settings.thin, scene.camera.resolution, lighting.opaque(), half,
                      output.layer_optical_depth, last, t);
     add(t, arrays::raymarch_counts(std::uint64_t(scene.camera.resolution[1])));
     add_image_rows(std::uint64_t(scene.camera.resolution[0]),
                    std::uint64_t(scene.camera.resolution[1]),
-                   4 + extra_layers(output, false) + parts - (output.layer_light ? 3u : 0u) -
+                   4 + extra_layers(output, view.depths, false) + parts - (output.layer_light ? 3u : 0u) -
                        (output.layer_order ? 3u : 0u),
                    t);
     add_solid_rows(scene, context.limits, view.world.solids, view.environment.depth, t);

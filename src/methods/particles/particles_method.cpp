@@ -105,7 +105,7 @@ Status ParticlesMethod::render(const Context& context, const FrameView& view, co
     state_.camera = make_camera(scene.camera, orbit_at(scene, view.frame), medium.low_m);
     PILEUS_TRY(light_particles(context, view, state_));
     PILEUS_TRY(allocate_planes(state_.camera.width, state_.camera.height, 3, view.lighting.opaque(),
-                               scene.wants_depth(), planes));
+                               view.wants_depth(), planes));
     if (scene.output.layer_optical_depth)
         PILEUS_TRY(
             allocate(arrays::picture_planes(1, planes.transmittance.size()), planes.optical_depth));

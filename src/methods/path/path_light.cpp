@@ -15,15 +15,15 @@ Status make_alpha(const Context& context, const FrameView& view, PathState& stat
     Buffer<float> colour;
     colour.swap(state.planes.colour);
     const Status room = allocate_planes(state.camera.width, state.camera.height, 0,
-                                        view.lighting.opaque(), scene.wants_depth(), state.planes);
+                                        view.lighting.opaque(), view.wants_depth(), state.planes);
     colour.swap(state.planes.colour);
     if (!room) return room;
     if (state.camera.flux != 0) return Status::ok();  // alpha 1: all pixels are measured
     const Medium& medium = view.world.medium;
     if (path_regresses(state.filter))
         return march_guides(context, medium, state.majorants, view.lighting, state.camera,
-                            scene.wants_depth(), state.planes, state.guides);
-    const MarchWanted wanted{scene.wants_depth(), scene.output.layer_optical_depth};
+                            view.wants_depth(), state.planes, state.guides);
+    const MarchWanted wanted{view.wants_depth(), scene.output.layer_optical_depth};
     return march_medium(context, medium, state.majorants, view.lighting, state.camera, wanted,
                         state.planes);
 }

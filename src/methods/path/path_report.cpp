@@ -81,7 +81,7 @@ void note_parts(const FrameView& view, const PathState& state, bool keeps_state,
     if (view.world.medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
     if (is_white(view.world.medium)) plan.leave_out("absorption", "albedo 1");
     if (!view.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
-    if (!scene.wants_depth()) plan.leave_out("depth of the medium", "no depth layer");
+    if (!view.wants_depth()) plan.leave_out("depth of the medium", "no depth layer");
     if (!output.layer_optical_depth) plan.leave_out("optical depth", "no optical_depth layer");
     if (!output.layer_error) plan.leave_out("standard error per pixel", "no error layer");
     if (state.settings.centre) plan.leave_out("rays spread over pixels", "pixel = \"centre\"");
@@ -150,7 +150,7 @@ void weigh_memory(const Context& context, const FrameView& view, const PathState
     if (keeps_state)
         t.add("state file", Stage::kPaths, Stage::kPaths,
               path_state_bytes(sums.bytes() + squares.bytes()));
-    const std::uint64_t shown = plane_count(0, view.lighting.opaque(), scene.wants_depth()) +
+    const std::uint64_t shown = plane_count(0, view.lighting.opaque(), view.wants_depth()) +
                                 (output.layer_optical_depth ? 1u : 0u);
     add(t, arrays::picture_planes(shown, pixels, Stage::kPaths));
     const std::uint64_t light = 3u + (output.layer_cloud || output.layer_order ? 3u : 0u) +
@@ -171,7 +171,7 @@ void weigh_memory(const Context& context, const FrameView& view, const PathState
     }
     add_image_rows(std::uint64_t(scene.camera.resolution[0]),
                    std::uint64_t(scene.camera.resolution[1]),
-                   4 + extra_layers(output, output.layer_error), t);
+                   4 + extra_layers(output, view.depths, output.layer_error), t);
     add_solid_rows(scene, context.limits, view.world.solids, view.environment.depth, t);
     plan.memory = t;
     plan.exact = !state.outlined_only;

@@ -62,8 +62,7 @@ void add_picture(const FrameView& view, const PhotonGridState& state, const Cont
     const bool reads_quads = (planes == 3 || parts > 0) && !shows_harmonics(view, state) &&
                              state.cells.count() > 1 && !on_device(context.kernels->device);
     add(t, arrays::lit_quads(reads_quads ? state.cells.count() : 0));
-    add(t, arrays::picture_planes(plane_count(planes, solid, view.scene.wants_depth()) + extra,
-                                  pixels));
+    add(t, arrays::picture_planes(plane_count(planes, solid, view.wants_depth()) + extra, pixels));
     if (extra > 0)
         add(t, renamed(arrays::picture_planes(plane_count(parts > 0 ? 3 : 0, solid, false), pixels),
                        "planes of a part", Stage::kDisplay, Stage::kDisplay));
@@ -78,7 +77,8 @@ void add_picture(const FrameView& view, const PhotonGridState& state, const Cont
         add(t, arrays::shadow(sun_shadow_numbers(view), shadows));
     add(t, arrays::beam_tables(beam_sets(view, state), shadows));
     add(t, arrays::lamp_depths(lamp_numbers(view.world.medium, state.lights.lighting)));
-    add_image_rows(Size(size[0]), Size(size[1]), 4 + extra_layers(output, planes > 3), t);
+    add_image_rows(Size(size[0]), Size(size[1]), 4 + extra_layers(output, view.depths, planes > 3),
+                   t);
 }
 
 MemoryTable memory_of(const FrameView& view, const PhotonGridState& state, const Context& context,

@@ -114,8 +114,7 @@ Status compose_photon_grid(const CameraParams& camera, const Context& context,
     {
         const StageClock clock(context, "background");
         PILEUS_TRY(allocate_planes(camera.width, camera.height, 3 * (1 + in.batches),
-                                   state.lights.lighting.opaque(), view.scene.wants_depth(),
-                                   planes));
+                                   state.lights.lighting.opaque(), view.wants_depth(), planes));
     }
     PILEUS_TRY(fill_lit_background(context, view, state, in, 0, planes));
     PILEUS_TRY(display_grid(context, view, state, in, planes));

@@ -103,11 +103,9 @@ struct MediumSettings {
     std::array<Double3, 2> bounds_m{};
     std::array<int, 3> resolution{0, 0, 0};  ///< procedural and uniform shapes; 0: a default
     std::int64_t shape_seed = 0;             ///< another cumulus for each; key `shape_seed`
-    const float* values =
-        nullptr;                  ///< a host's cells, as many as `resolution`; null: the row's own
-    SkySettings sky;              ///< of a procedural sky
-    double extinction_per_m = 0;  ///< at density 1
-    double extinction_scale = 1;  ///< for files that hold extinction; >= 0
+    SkySettings sky;                         ///< of a procedural sky
+    double extinction_per_m = 0;             ///< at density 1
+    double extinction_scale = 1;             ///< for files that hold extinction; >= 0
     Float3 albedo{1, 1, 1};
     Float3 emission{0, 0, 0};  ///< radiance per metre where the density is 1; >= 0
     PhaseSettings phase;

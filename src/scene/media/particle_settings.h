@@ -3,23 +3,9 @@
 // in: keys of medium.density -> out: plain values.
 // docs/particles.md, "Data".
 #pragma once
-#include <cstddef>
 #include <cstdint>
 
 namespace pileus {
-
-struct ParticleSet;
-
-/// Particles in a host's memory; strides in bytes. None of `density`: 1; none of `id`,
-/// `velocity`, `colour` or `emission`: none.
-struct HostParticles {
-    std::uint64_t count = 0;
-    const float *position = nullptr, *radius = nullptr, *density = nullptr;
-    const float *velocity = nullptr, *colour = nullptr, *emission = nullptr;
-    const std::uint64_t* id = nullptr;
-    std::size_t position_stride = 0, radius_stride = 0, density_stride = 0, id_stride = 0;
-    std::size_t velocity_stride = 0, colour_stride = 0, emission_stride = 0;
-};
 
 /// Of particles that a recipe makes.
 struct RecipeSettings {
@@ -39,9 +25,6 @@ struct ParticleSettings {
     double share = 1;               ///< of the particles that are kept, denser in return; (0, 1]
     std::int64_t replicate = 1;     ///< children of each particle that is kept; 1: itself
     double replicate_radius = 0.5;  ///< of each, over the parent's; (0, 1]
-    const HostParticles* host = nullptr;  ///< instead of the file
-    const ParticleSet* placed = nullptr;  ///< what is read already; the grid is for shadows alone
-    bool shadows_only = false;            ///< the same while the medium is outlined
 };
 
 }  // namespace pileus

@@ -33,6 +33,7 @@ struct DensityMaking {
     int threads = 1;                       ///< 0: all; the bits do not depend on it
     const KernelTable* kernels = nullptr;  ///< null or a device's: the widest of the host
     SkyField* field = nullptr;             ///< of a row with a field: if given, keeps it
+    double wind_s = 0;                     ///< for which the frame's wind has blown besides
 };
 
 /// Members that a density does not set say what holds for most.

@@ -214,9 +214,8 @@ Status measure_flux(const Scene& scene, const RenderOptions& options, const Flux
     const std::int64_t wanted = budget.photons >= 0 ? budget.photons : kUsualPhotons;
     if (photons) budget.photons = -1;
     PILEUS_TRY(row.check(own, budget));
-    Scenery scenery;
-    scenery.scene = &own;
-    scenery.rest = &own;
+    Scenery scenery(own);
+    scenery.media = options.media;
     Plan plan;
     MadeMethod made;
     PathMethod& path = make_path({own, budget}, made);

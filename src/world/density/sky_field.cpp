@@ -38,7 +38,7 @@ constexpr TileTurn kPerlinTurn{0.8, 0.6}, kWorleyTurn{12.0 / 13, -5.0 / 13}, kNo
 
 /// Places a noise in the medium's local metres; `weight` is its share of the blend.
 void place_noise(const SkySettings& settings, const SkyNoise& noise, const Double3& low_m,
-                 double weight, const TileTurn& turn, const NoiseTexture& texture,
+                 double weight, const TileTurn& turn, double time_s, const NoiseTexture& texture,
                  NoiseView& view) {
     const double tile = noise.tile_m * settings.scale, share = weight * noise.gain / 255;
     view = texture.view();
@@ -52,7 +52,7 @@ void place_noise(const SkySettings& settings, const SkyNoise& noise, const Doubl
     const double blows[3] = {turn.cosine * wind[0] + turn.sine * wind[1],
                              turn.cosine * wind[1] - turn.sine * wind[0], 0};
     for (std::size_t a = 0; a < 3; ++a) {
-        const double blown = std::fmod(blows[a] * settings.time_s, tile);
+        const double blown = std::fmod(blows[a] * time_s, tile);
         view.offset[a] = float(within_one(low[a] / tile) - within_one(blown / tile));
     }
     for (int l = 0; l <= view.last; ++l) view.lost[l] = float(share * share * texture.lost[l]);
@@ -129,8 +129,8 @@ DensityOutline outline_row(const MediumSettings& medium) {
 }
 
 Status make_row(const MediumSettings& medium, const DensityMaking& with, Volume& volume) {
-    return bake_sky(medium, with.size, host_kernels(with.kernels), with.threads, volume,
-                    with.field);
+    return bake_sky(medium, with.size, host_kernels(with.kernels), with.threads, volume, with.field,
+                    with.wind_s);
 }
 
 /// Whether the box holds whole tiles of both noises: then it may repeat, and tiles lie along its
@@ -164,7 +164,7 @@ constexpr DensityRow sky_row() {
 }  // namespace
 
 Status make_sky(const SkySettings& settings, const Double3& low_m, const KernelTable& kernels,
-                int threads, SkyField& sky, bool turned) {
+                int threads, SkyField& sky, bool turned, double wind_s) {
     const auto load = [&](const SkyNoise& noise, NoiseKind kind, NoiseTexture& texture) -> Status {
         Buffer<std::uint8_t> texels;
         NoiseOrigin origin;
@@ -178,10 +178,11 @@ Status make_sky(const SkySettings& settings, const Double3& low_m, const KernelT
     if (settings.has_worley()) PILEUS_TRY(load(settings.worley, kNoiseWorley, sky.worley));
     SkyParams& p = sky.params;
     place_layer(settings, low_m, p);
+    const double time_s = settings.time_s + wind_s;
     place_noise(settings, settings.perlin, low_m, settings.blend, turned ? kPerlinTurn : kNoTurn,
-                sky.perlin, p.perlin);
+                time_s, sky.perlin, p.perlin);
     place_noise(settings, settings.worley, low_m, 1 - settings.blend,
-                turned ? kWorleyTurn : kNoTurn, sky.worley, p.worley);
+                turned ? kWorleyTurn : kNoTurn, time_s, sky.worley, p.worley);
     PILEUS_TRY(cover(settings, kernels, threads, p));
     sky.threshold_low = double(p.middle) - double(p.half_width);
     sky.threshold_high = double(p.middle) + double(p.half_width);
@@ -210,11 +211,12 @@ std::array<int, 3> default_sky_size(const MediumSettings& settings) {
 }
 
 Status bake_sky(const MediumSettings& settings, const std::array<int, 3>& size,
-                const KernelTable& kernels, int threads, Volume& volume, SkyField* keep) {
+                const KernelTable& kernels, int threads, Volume& volume, SkyField* keep,
+                double wind_s) {
     SkyField own;
     SkyField& sky = keep != nullptr ? *keep : own;
     PILEUS_TRY(make_sky(settings.sky, settings.bounds_m[0], kernels, threads, sky,
-                        !tiles_fill_box(settings)));
+                        !tiles_fill_box(settings), wind_s));
     BakeParams k{};
     k.sky = sky.params;
     volume.size = size;

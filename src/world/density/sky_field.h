@@ -19,10 +19,10 @@ struct SkyField {
 };
 
 /// Reads or makes the noises and finds the thresholds. `low_m` is the origin of box-local metres.
-/// `turned`: tiles are turned about the vertical, each by an angle of its own. kLimit: out of
-/// memory.
+/// `turned`: tiles are turned about the vertical, each by an angle of its own. `wind_s`: beside the
+/// settings' time. kLimit: out of memory.
 Status make_sky(const SkySettings& settings, const Double3& low_m, const KernelTable& kernels,
-                int threads, SkyField& sky, bool turned = false);
+                int threads, SkyField& sky, bool turned = false, double wind_s = 0);
 
 /// Shows the box [0, extent_m] of the sky and nothing beside it, or with null all of the layer.
 void bound_sky(const double* extent_m, SkyField& sky);
@@ -30,7 +30,8 @@ void bound_sky(const double* extent_m, SkyField& sky);
 /// The sky of a medium on a grid of so many cells of its box; cells wider than texels hold filtered
 /// noise. `keep`, if given, becomes the field.
 Status bake_sky(const MediumSettings& settings, const std::array<int, 3>& size,
-                const KernelTable& kernels, int threads, Volume& volume, SkyField* keep = nullptr);
+                const KernelTable& kernels, int threads, Volume& volume, SkyField* keep = nullptr,
+                double wind_s = 0);
 
 /// Cells of such a grid where the scene leaves them out: cubes, 256 along the longest edge.
 std::array<int, 3> default_sky_size(const MediumSettings& settings);

@@ -35,26 +35,27 @@ std::array<int, 3> made_size(const MediumSettings& settings, const DensityOutlin
 }
 
 /// Cells that a host has in memory.
-Status copy_values(const MediumSettings& settings, Volume& volume) {
-    volume.size = settings.resolution;
+Status copy_cells(const MediumValues& given, Volume& volume) {
+    volume.size = given.size;
     std::uint64_t cells = 1;
-    for (const int n : settings.resolution) cells *= std::uint64_t(n);
+    for (const int n : given.size) cells *= std::uint64_t(n);
     PILEUS_TRY(volume.density.resize(cells, "density"));
-    std::memcpy(volume.density.data(), settings.values, std::size_t(cells) * sizeof(float));
+    std::memcpy(volume.density.data(), given.cells, std::size_t(cells) * sizeof(float));
     return Status::ok();
 }
 
 Status load_density(const Scene& scene, const MediumSettings& settings, int threads,
-                    const KernelTable* kernels, SkyField* sky, Volume& volume) {
-    if (settings.values != nullptr) return copy_values(settings, volume);
+                    const KernelTable* kernels, SkyField* sky, const MediumValues& given,
+                    Volume& volume) {
+    if (given.cells != nullptr) return copy_cells(given, volume);
     if (const DensityRow* row = density_row(settings.density)) {
         const std::array<int, 3> size = made_size(settings, row->outline(settings));
-        return row->make(settings, {size, threads, kernels, sky}, volume);
+        return row->make(settings, {size, threads, kernels, sky, scene.world.wind_s}, volume);
     }
     const std::string path = density_path(scene, settings);
     const bool particles = is_particle_format(settings.format);
     PILEUS_TRY(at_key(scene, density_key(scene, settings),
-                      particles ? read_particle_volume(settings, path, threads, volume)
+                      particles ? read_particle_volume(settings, path, threads, given, volume)
                                 : read_volume(settings, path, volume)));
     if (settings.y_up) PILEUS_TRY(permute_y_up(volume));
     return Status::ok();
@@ -151,11 +152,15 @@ void outline_shape(const DensityRow& row, const MediumSettings& settings, Volume
 
 /// Checks the file's length, and the size where the scene states it, before the file's own head.
 Status outline_file(const Scene& scene, const MediumSettings& settings, const Limits& limits,
-                    VolumeHead& head, MediumSource& source) {
+                    const MediumValues& given, VolumeHead& head, MediumSource& source) {
     const std::string path = density_path(scene, settings);
-    if (settings.particles.host != nullptr) {
-        PILEUS_TRY(
-            at_key(scene, density_key(scene, settings), read_volume_head(settings, path, head)));
+    const bool particles = is_particle_format(settings.format);
+    const auto read_head = [&] {
+        return particles ? read_particle_head(settings, path, given, head)
+                         : read_volume_head(settings, path, head);
+    };
+    if (given.particles != nullptr) {
+        PILEUS_TRY(at_key(scene, density_key(scene, settings), read_head()));
         source.reading_bytes = head.unpacked_bytes;
         if (settings.y_up) turn_y_up(head.size, head.bounds_m);
         return Status::ok();
@@ -169,7 +174,7 @@ Status outline_file(const Scene& scene, const MediumSettings& settings, const Li
     // Bare numbers pass through in pieces of 65536; every other form is held whole.
     constexpr std::uint64_t kPieceBytes = 65536 * sizeof(float);
     source.reading_bytes = raw ? kPieceBytes : bytes;
-    PILEUS_TRY(at_key(scene, key, read_volume_head(settings, path, head)));
+    PILEUS_TRY(at_key(scene, key, read_head()));
     if (head.in_pieces) source.reading_bytes = 0;
     source.reading_bytes += head.unpacked_bytes;
     if (settings.y_up) turn_y_up(head.size, head.bounds_m);
@@ -244,13 +249,15 @@ Status check_voxels(const std::string& where, const std::array<int, 3>& size,
 }
 
 Status outline_medium(const Scene& scene, const MediumSettings& settings, const Limits& limits,
-                      Medium& out, MediumSource& source) {
+                      Medium& out, MediumSource& source, const MediumValues& given) {
     VolumeHead head;
     source = MediumSource{};
-    if (const DensityRow* row = density_row(settings.density))
+    if (given.cells != nullptr)
+        head.size = given.size;
+    else if (const DensityRow* row = density_row(settings.density))
         outline_shape(*row, settings, head, source);
     else
-        PILEUS_TRY(outline_file(scene, settings, limits, head, source));
+        PILEUS_TRY(outline_file(scene, settings, limits, given, head, source));
     PILEUS_TRY(check_voxels(scene.file, head.size, limits));
     if (settings.y_up)
         source.turned_voxels =
@@ -265,8 +272,8 @@ Status outline_medium(const Scene& scene, const MediumSettings& settings, const 
 }
 
 Status load_medium(const Scene& scene, const MediumSettings& settings, int threads, Medium& out,
-                   const KernelTable* kernels, SkyField* sky) {
-    PILEUS_TRY(load_density(scene, settings, threads, kernels, sky, out.volume));
+                   const KernelTable* kernels, SkyField* sky, const MediumValues& given) {
+    PILEUS_TRY(load_density(scene, settings, threads, kernels, sky, given, out.volume));
     VolumeHead head;
     head.size = out.volume.size;
     head.knows_bounds = out.volume.knows_bounds;

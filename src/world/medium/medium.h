@@ -9,6 +9,7 @@
 #include "src/base/limits.h"
 #include "src/io/volumes/volume.h"
 #include "src/plan/array.h"
+#include "src/scene/media/host_media.h"
 #include "src/scene/scene.h"
 #include "src/world/grid/grid.h"
 #include "src/world/phase/phase_table.h"
@@ -114,9 +115,9 @@ double mean_density(const Medium& medium);
 
 /// Places the medium and learns its size, reading no values: `out` is as load_medium's, but for the
 /// density, and density_max counts as 1. kLimit: a file or grid over the limits, before any memory
-/// is taken; otherwise as load_medium.
+/// is taken; otherwise as load_medium. `given`: in place of what the scene says.
 Status outline_medium(const Scene& scene, const MediumSettings& settings, const Limits& limits,
-                      Medium& out, MediumSource& source);
+                      Medium& out, MediumSource& source, const MediumValues& given = {});
 
 /// Reads or makes the density and places it. A file that holds extinction becomes densities up to 1
 /// (value over largest value) with sigma = extinction_scale times the largest value. Errors: those
@@ -125,6 +126,7 @@ Status outline_medium(const Scene& scene, const MediumSettings& settings, const 
 /// `kernels`: those to put a sky on its grid; null or a device's: the widest of the host. `sky`, if
 /// given, keeps it.
 Status load_medium(const Scene& scene, const MediumSettings& settings, int threads, Medium& out,
-                   const KernelTable* kernels = nullptr, SkyField* sky = nullptr);
+                   const KernelTable* kernels = nullptr, SkyField* sky = nullptr,
+                   const MediumValues& given = {});
 
 }  // namespace pileus

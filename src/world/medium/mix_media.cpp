@@ -278,14 +278,14 @@ double mixed_mean(const MediaList& list, const std::vector<double>& means, const
 }  // namespace
 
 Status outline_media(const Scene& scene, const Limits& limits, std::uint64_t threads, Plan& plan,
-                     Medium& out, MediumSource& source) {
+                     Medium& out, MediumSource& source, const HostMedia& given) {
     MediaList list;
     std::vector<double> means;
     source = MediumSource{};
     for (std::size_t i = 0; i < scene.media.size(); ++i) {
         Medium medium;
         MediumSource own;
-        PILEUS_TRY(outline_medium(scene, scene.media[i], limits, medium, own));
+        PILEUS_TRY(outline_medium(scene, scene.media[i], limits, medium, own, given.of(i)));
         const auto larger = [](std::uint64_t a, std::uint64_t b) { return a > b ? a : b; };
         source.reading_bytes = larger(source.reading_bytes, own.reading_bytes);
         source.turned_voxels = larger(source.turned_voxels, own.turned_voxels);
@@ -311,12 +311,13 @@ Status outline_media(const Scene& scene, const Limits& limits, std::uint64_t thr
 }
 
 Status load_media(const Scene& scene, const Limits& limits, int threads, Plan& plan, Medium& out,
-                  const KernelTable* kernels) {
+                  const KernelTable* kernels, const HostMedia& given) {
     MediaList list;
     std::uint64_t missing = 0, clamped = 0;
     for (std::size_t i = 0; i < scene.media.size(); ++i) {
         Medium medium;
-        PILEUS_TRY(load_medium(scene, scene.media[i], threads, medium, kernels));
+        PILEUS_TRY(
+            load_medium(scene, scene.media[i], threads, medium, kernels, nullptr, given.of(i)));
         missing += medium.volume.missing;
         clamped += medium.volume.clamped;
         PILEUS_TRY(list.add_all(scene, i, std::move(medium), plan));

@@ -40,12 +40,12 @@ std::vector<bool> resampled_media(const std::vector<MixBox>& boxes, const MixGri
 /// What load_media will give, reading no values; `source` says what it will take meanwhile. Errors:
 /// those of outline_medium.
 Status outline_media(const Scene& scene, const Limits& limits, std::uint64_t threads, Plan& plan,
-                     Medium& out, MediumSource& source);
+                     Medium& out, MediumSource& source, const HostMedia& given = {});
 
 /// Loads every medium of a scene that has some and lays them on one grid; says in `plan` how.
 /// Media without extinction are left out, unless none has any. Errors: those of load_medium.
 Status load_media(const Scene& scene, const Limits& limits, int threads, Plan& plan, Medium& out,
-                  const KernelTable* kernels = nullptr);
+                  const KernelTable* kernels = nullptr, const HostMedia& given = {});
 
 // A field that a transfer function shows, as media: one for each colour. docs/scene.md, "A transfer
 // function": a colour's extinction at a value is the sum over its rows of their extinction times
