@@ -6,6 +6,7 @@
 
 #include "platform/threads.h"
 #include "src/base/digest.h"
+#include "src/picture/finish_frame.h"
 #include "src/world/plan_parts.h"
 
 namespace pileus {
@@ -133,28 +134,30 @@ void explain_photon_lights(const FrameView& view, const PhotonState& state, Plan
     note_emission(world.medium, plan);
 }
 
+void explain_axis(const char* why, const PhotonState& state, Plan& plan) {
+    if (state.lights.deposit.axis_degrees > 0) return;
+    plan.leave_out("degrees about the sun's axis",
+                   why != nullptr ? why : "no phase function has moments there");
+}
+
 void explain_split(bool split, const PhotonState& state, Plan& plan) {
     if (split) return;
     plan.leave_out("first-order split", state.lights.lighting.sunlit ? "switched off" : "no sun");
 }
 
-void explain_photon_picture(const FrameView& view, const PhotonState& state, Plan& plan) {
-    const Scene& scene = view.scene;
+void explain_photon_picture(const FrameView& view, const PhotonState& state, const char* display,
+                            Plan& plan) {
     const World& world = view.world;
+    for (const Light& l : state.lights.lighting.lights)
+        plan.need(("photons from the " + l.name).c_str());
+    plan.need(display);
     if (state.lights.deposit.channels == 1)
         plan.leave_out("coefficients per colour channel", "achromatic medium: one set per light");
     if (is_white(world.medium)) plan.leave_out("absorption", "albedo 1");
     note_solids(world.solids, view.environment.depth, plan);
-    note_upsampling(scene, state.picture.thin, plan);
-    if (!state.lights.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
-    if (!view.wants_depth()) plan.leave_out("depth of the medium", "no depth layer");
+    note_upsampling(view.scene, state.picture.thin, plan);
+    note_depths(state.lights.lighting, view.wants_depth(), plan);
     if (!state.error_layer) plan.leave_out("batches and second moments", "no error layer");
-}
-
-void explain_media(const FrameView& view, Plan& plan) {
-    const Plan& media = view.world.media_plan;
-    for (const std::string& what : media.needed) plan.needed.push_back(what);
-    for (const LeftOut& l : media.left_out) plan.left_out.push_back(l);
 }
 
 LightGoal photon_goal(const PhotonState& state, std::uint64_t most) {
@@ -181,7 +184,20 @@ void digest_photon_sums(const Context& context, PhotonMethod& of, Digests& diges
     digests.emplace_back("photons", photon_digest(sums));
 }
 
-void photon_budget_used(int frame, const PhotonState& state, const Report& report, Budget& used) {
+void PhotonReport::digest_picture(const Context& context, Digests& digests) {
+    digest_photon_sums(context, photons_, digests);
+    const std::string& colours = photons_.photons().picture.colours;
+    if (!colours.empty()) digests.emplace_back("colours", colours);
+}
+
+FinishedParts PhotonReport::finished() const {
+    FinishedParts parts;
+    parts.batches = true;
+    return parts;
+}
+
+void PhotonReport::budget_used(int frame, const Report& report, Budget& used) const {
+    const PhotonState& state = photons_.photons();
     if (report.photons.generations == 0) return;
     used.photons = state.lights.budget_photons;
     // A film's ring counts on from frame to frame; its length is that of the first one.

@@ -23,12 +23,13 @@ void report_photons(const PhotonState& state, Report& report);
 
 /// What of lights is needed and left out.
 void explain_photon_lights(const FrameView& view, const PhotonState& state, Plan& plan);
+/// Degrees about the sun's axis; `why` there are none, null: no phase function has any.
+void explain_axis(const char* why, const PhotonState& state, Plan& plan);
 /// Whether sunlight scattered once is kept apart.
 void explain_split(bool split, const PhotonState& state, Plan& plan);
-/// What shows them, but for the method's own way.
-void explain_photon_picture(const FrameView& view, const PhotonState& state, Plan& plan);
-/// What a loaded world has told.
-void explain_media(const FrameView& view, Plan& plan);
+/// Whose photons are shot, and what shows them by `display`.
+void explain_photon_picture(const FrameView& view, const PhotonState& state, const char* display,
+                            Plan& plan);
 
 /// Generations of a film's frame; `most`: that the sums have room for.
 LightGoal photon_goal(const PhotonState& state, std::uint64_t most);
@@ -36,8 +37,19 @@ LightGoal photon_goal(const PhotonState& state, std::uint64_t most);
 /// Of the sums that a film's picture shows.
 void digest_photon_sums(const Context& context, PhotonMethod& of, Digests& digests);
 
-/// MethodReport::budget_used: generations, of as many photons in all.
-void photon_budget_used(int frame, const PhotonState& state, const Report& report, Budget& used);
+/// What is told alike of all methods of photons. The method outlives it.
+class PhotonReport : public MethodReport {
+public:
+    explicit PhotonReport(PhotonMethod& of) : photons_(of) {}
+
+    void digest_picture(const Context& context, Digests& digests) override;
+    FinishedParts finished() const override;
+    /// Generations, of as many photons in all.
+    void budget_used(int frame, const Report& report, Budget& used) const override;
+
+private:
+    PhotonMethod& photons_;
+};
 
 /// Adds the bounds of the sums that no picture shows but every report does, behind the first one.
 void bound_ledgers(double photons, double max_events, Plan& plan);

@@ -7,6 +7,7 @@
 
 #include "src/plan/plan.h"
 #include "src/run/context.h"
+#include "src/world/light/lights.h"
 #include "src/world/light/sky_map.h"
 #include "src/world/majorant/majorant.h"
 #include "src/world/medium/medium.h"
@@ -46,6 +47,10 @@ Status check_work(const WorkEstimate& work, const Limits& limits, const std::str
 Status check_host_lights(const Context& context, const std::vector<LightSettings>& lights, bool air,
                          const Medium& medium);
 
+/// What laying the media on one grid has told.
+void note_media(const Plan& media, Plan& plan);
+/// Whether a picture has a test of depths, and distances to the media.
+void note_depths(const Lighting& lighting, bool wanted, Plan& plan);
 /// What methods that march emission do with it.
 void note_emission(const Medium& medium, Plan& plan);
 

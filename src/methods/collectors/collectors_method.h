@@ -5,7 +5,7 @@
 #pragma once
 #include "src/methods/collectors/collectors_state.h"
 #include "src/methods/method_tools.h"
-#include "src/photons/photon_method.h"
+#include "src/photons/photon_report.h"
 
 namespace pileus {
 
@@ -41,17 +41,14 @@ private:
 };
 
 /// What people are told of it. The method outlives it.
-class CollectorsReport : public MethodReport {
+class CollectorsReport : public PhotonReport {
 public:
-    explicit CollectorsReport(CollectorsMethod& of) : of_(of) {}
+    explicit CollectorsReport(CollectorsMethod& of) : PhotonReport(of), of_(of) {}
 
     void explain(const Context& context, const FrameView& view, Plan& plan) const override;
     void digest(const FrameView& view, Digests& digests) const override;
     LightGoal goal(const FrameView& view) const override;
-    void digest_picture(const Context& context, Digests& digests) override;
-    FinishedParts finished() const override;
     void report(Report& report) const override;
-    void budget_used(int frame, const Report& report, Budget& used) const override;
     void put_work(const FrameWork& work, MethodTables& tables) const override;
 
 protected:

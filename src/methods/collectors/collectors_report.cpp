@@ -4,8 +4,6 @@
 // docs/report.md.
 #include "src/base/digest.h"
 #include "src/methods/collectors/collectors_method.h"
-#include "src/photons/photon_report.h"
-#include "src/picture/finish_frame.h"
 #include "src/world/plan_parts.h"
 
 namespace pileus {
@@ -41,11 +39,7 @@ std::uint64_t coefficients_of(const CollectorsState& state) {
 void explain_deposit(const FrameView& view, const CollectorsState& state, Plan& plan) {
     if (const char* why = why_no_peak(view, state.settings.peak_deg, state))
         plan.leave_out("the beam's peak", why);
-    if (state.lights.deposit.axis_degrees == 0) {
-        const char* why = why_no_collectors_axis(view, state);
-        plan.leave_out("degrees about the sun's axis",
-                       why != nullptr ? why : "no phase function has moments there");
-    }
+    explain_axis(why_no_collectors_axis(view, state), state, plan);
     explain_split(splits_first_order(state), state, plan);
 }
 
@@ -60,12 +54,9 @@ void CollectorsReport::explain(const Context& context, const FrameView& view, Pl
     plan.need("tree");
     plan.need("collectors");
     plan.need("majorants");
-    for (const Light& l : state.lights.lighting.lights)
-        plan.need(("photons from the " + l.name).c_str());
-    plan.need(is_marched(state) ? "marched display" : "billboards");
-    explain_photon_picture(view, state, plan);
+    explain_photon_picture(view, state, is_marched(state) ? "marched display" : "billboards", plan);
     if (!state.settings.billboards) plan.leave_out("billboards", "display = \"march\"");
-    explain_media(view, plan);
+    note_media(view.world.media_plan, plan);
     plan.skip(Stage::kPaths);
     note_collectors_limits(context, view, plan);
 }
@@ -87,18 +78,6 @@ LightGoal CollectorsReport::goal(const FrameView&) const {
     return photon_goal(of_.state(), of_.state().ring.generations);
 }
 
-void CollectorsReport::digest_picture(const Context& context, Digests& digests) {
-    digest_photon_sums(context, of_, digests);
-    const std::string& colours = of_.state().picture.colours;
-    if (!colours.empty()) digests.emplace_back("colours", colours);
-}
-
-FinishedParts CollectorsReport::finished() const {
-    FinishedParts parts;
-    parts.batches = true;
-    return parts;
-}
-
 void CollectorsReport::report(Report& report) const {
     const CollectorsState& state = of_.state();
     report.prepared.samples = state.prepared.samples;
@@ -106,10 +85,6 @@ void CollectorsReport::report(Report& report) const {
     report.prepared.collectors = state.prepared.collectors.size();
     report_photons(state, report);
     report.executed.emplace_back("coefficients", coefficients_of(state));
-}
-
-void CollectorsReport::budget_used(int frame, const Report& report, Budget& used) const {
-    photon_budget_used(frame, of_.state(), report, used);
 }
 
 void CollectorsReport::put_work(const FrameWork& work, MethodTables& tables) const {

@@ -132,12 +132,10 @@ void note_plan(const FrameView& view, const MarchState& state, Plan& plan) {
     if (!state.choice.look) note_upsampling(scene, settings.thin, plan);
     if (view.world.medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
     note_solids(view.world.solids, view.environment.depth, plan);
-    if (!view.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
-    if (!view.wants_depth()) plan.leave_out("depth of the medium", "no depth layer");
+    note_depths(view.lighting, view.wants_depth(), plan);
     if (!scene.output.layer_optical_depth)
         plan.leave_out("optical depth", "no optical_depth layer");
-    for (const std::string& what : view.world.media_plan.needed) plan.needed.push_back(what);
-    for (const LeftOut& l : view.world.media_plan.left_out) plan.left_out.push_back(l);
+    note_media(view.world.media_plan, plan);
     for (Stage stage : kUnused) plan.skip(stage);
 }
 
@@ -206,8 +204,8 @@ void weigh_memory(const Context& context, const FrameView& view, const MarchStat
     add(t, arrays::raymarch_counts(std::uint64_t(scene.camera.resolution[1])));
     add_image_rows(std::uint64_t(scene.camera.resolution[0]),
                    std::uint64_t(scene.camera.resolution[1]),
-                   4 + extra_layers(output, view.depths, false) + parts - (output.layer_light ? 3u : 0u) -
-                       (output.layer_order ? 3u : 0u),
+                   4 + extra_layers(output, view.depths, false) + parts -
+                       (output.layer_light ? 3u : 0u) - (output.layer_order ? 3u : 0u),
                    t);
     add_solid_rows(scene, context.limits, view.world.solids, view.environment.depth, t);
     if (view.world.solids.meshes && lighting.sunlit)

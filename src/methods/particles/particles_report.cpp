@@ -83,8 +83,7 @@ void note_plan(const FrameView& view, const ParticlesState& state, Plan& plan) {
     else
         plan.leave_out("emission of particles", "medium.emission is 0");
     note_solids(view.world.solids, view.environment.depth, plan);
-    if (!view.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
-    if (!view.wants_depth()) plan.leave_out("depth of the medium", "no depth layer");
+    note_depths(view.lighting, view.wants_depth(), plan);
     if (!scene.output.layer_optical_depth)
         plan.leave_out("optical depth", "no optical_depth layer");
     if (scene.output.layer_occlusion)
@@ -169,7 +168,8 @@ void weigh_memory(const Context& context, const FrameView& view, const Particles
         add(t, arrays::particle_bins(std::uint64_t(context.threads), state.settings.bins));
     if (output.layer_occlusion) add(t, arrays::particle_occlusion(particles, pixels));
     add_image_rows(std::uint64_t(scene.camera.resolution[0]),
-                   std::uint64_t(scene.camera.resolution[1]), 4 + extra_layers(output, view.depths, false), t);
+                   std::uint64_t(scene.camera.resolution[1]),
+                   4 + extra_layers(output, view.depths, false), t);
     add_solid_rows(scene, context.limits, view.world.solids, view.environment.depth, t);
     plan.memory = t;
     plan.exact = !state.outlined_only;

@@ -80,8 +80,7 @@ void note_parts(const FrameView& view, const PathState& state, bool keeps_state,
         plan.leave_out("parts of the light, apart", "no layer cloud, light or order");
     if (view.world.medium.channels == 1) plan.leave_out("albedo per colour channel", "grey media");
     if (is_white(view.world.medium)) plan.leave_out("absorption", "albedo 1");
-    if (!view.lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
-    if (!view.wants_depth()) plan.leave_out("depth of the medium", "no depth layer");
+    note_depths(view.lighting, view.wants_depth(), plan);
     if (!output.layer_optical_depth) plan.leave_out("optical depth", "no optical_depth layer");
     if (!output.layer_error) plan.leave_out("standard error per pixel", "no error layer");
     if (state.settings.centre) plan.leave_out("rays spread over pixels", "pixel = \"centre\"");
@@ -110,8 +109,7 @@ void note_plan(const FrameView& view, const PathState& state, bool keeps_state, 
     note_light(view, state, plan);
     note_solids(view.world.solids, view.environment.depth, plan);
     note_parts(view, state, keeps_state, plan);
-    for (const std::string& what : view.world.media_plan.needed) plan.needed.push_back(what);
-    for (const LeftOut& l : view.world.media_plan.left_out) plan.left_out.push_back(l);
+    note_media(view.world.media_plan, plan);
     for (Stage stage : kNotInPaths) plan.skip(stage);
 }
 

@@ -5,7 +5,7 @@
 #pragma once
 #include "src/methods/method_tools.h"
 #include "src/methods/photon_grid/photon_grid_state.h"
-#include "src/photons/photon_method.h"
+#include "src/photons/photon_report.h"
 
 namespace pileus {
 
@@ -35,18 +35,15 @@ private:
 };
 
 /// What people are told of it. The method outlives it.
-class PhotonGridReport : public MethodReport {
+class PhotonGridReport : public PhotonReport {
 public:
-    explicit PhotonGridReport(PhotonGridMethod& of) : of_(of) {}
+    explicit PhotonGridReport(PhotonGridMethod& of) : PhotonReport(of), of_(of) {}
 
     void explain(const Context& context, const FrameView& view, Plan& plan) const override;
     void digest(const FrameView& view, Digests& digests) const override;
     LightGoal goal(const FrameView& view) const override;
     Status error(const Context& context, const FrameView& view, double& mean_relative) override;
-    void digest_picture(const Context& context, Digests& digests) override;
-    FinishedParts finished() const override;
     void report(Report& report) const override;
-    void budget_used(int frame, const Report& report, Budget& used) const override;
     void put_work(const FrameWork& work, MethodTables& tables) const override;
 
 protected:

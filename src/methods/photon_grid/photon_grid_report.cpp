@@ -3,8 +3,6 @@
 // in: its state, outlined or prepared -> out: a plan, a report.
 // docs/report.md, "Plan"; docs/photon-grid.md
 #include "src/methods/photon_grid/photon_grid_method.h"
-#include "src/photons/photon_report.h"
-#include "src/picture/finish_frame.h"
 #include "src/world/plan_parts.h"
 
 namespace pileus {
@@ -14,15 +12,10 @@ constexpr Stage kUnused[] = {Stage::kPaths, Stage::kSamples, Stage::kTree, Stage
                              Stage::kLeafGrid};
 
 void explain_deposit(const FrameView& view, const PhotonGridState& state, Plan& plan) {
-    const DepositPlan& deposit = state.lights.deposit;
-    if (deposit.axis_degrees == 0) {
-        const char* why = why_no_grid_axis(view, state);
-        plan.leave_out("degrees about the sun's axis",
-                       why != nullptr ? why : "no phase function has moments there");
-    }
+    explain_axis(why_no_grid_axis(view, state), state, plan);
     if (const char* why = why_no_peak(view, state.settings.peak_deg, state))
         plan.leave_out("the beam's peak", why);
-    explain_split(deposit.first_order != 0, state, plan);
+    explain_split(state.lights.deposit.first_order != 0, state, plan);
 }
 
 }  // namespace
@@ -35,11 +28,8 @@ void PhotonGridReport::explain(const Context& context, const FrameView& view, Pl
     plan.bias = {"photon-grid", "cells and the bands left out blur the light of many orders",
                  "docs/photon-grid.md"};
     plan.need("majorants, floored near medium");
-    for (const Light& l : state.lights.lighting.lights)
-        plan.need(("photons from the " + l.name).c_str());
-    plan.need("marched display");
-    explain_photon_picture(view, state, plan);
-    explain_media(view, plan);
+    explain_photon_picture(view, state, "marched display", plan);
+    note_media(view.world.media_plan, plan);
     for (Stage stage : kUnused) plan.skip(stage);
     note_limits(scene, view.world.medium.grid, context.limits,
                 {LimitId::kVoxels, LimitId::kPhotons, LimitId::kPixels, LimitId::kFrames,
@@ -60,18 +50,6 @@ Status PhotonGridReport::error(const Context& context, const FrameView& view,
     return of_.error(context, view, mean_relative);
 }
 
-void PhotonGridReport::digest_picture(const Context& context, Digests& digests) {
-    digest_photon_sums(context, of_, digests);
-    const std::string& colours = of_.state().picture.colours;
-    if (!colours.empty()) digests.emplace_back("colours", colours);
-}
-
-FinishedParts PhotonGridReport::finished() const {
-    FinishedParts parts;
-    parts.batches = true;
-    return parts;
-}
-
 void PhotonGridReport::report(Report& report) const {
     const PhotonGridState& state = of_.state();
     report_photons(state, report);
@@ -82,10 +60,6 @@ void PhotonGridReport::report(Report& report) const {
     report.executed.emplace_back("cells", state.cells.count());
     report.executed.emplace_back("cells_near_medium", state.near.marked);
     report.executed.emplace_back("coefficients", numbers * sums);
-}
-
-void PhotonGridReport::budget_used(int frame, const Report& report, Budget& used) const {
-    photon_budget_used(frame, of_.state(), report, used);
 }
 
 void PhotonGridReport::put_work(const FrameWork& work, MethodTables& tables) const {
