@@ -21,11 +21,13 @@ using Bytes = std::map<std::string, std::uint64_t>;
 TEST_CASE("arrays: the bytes of collectors by their definition, those of scratch, too") {
     CollectorsSizes s;
     s.grid.size[0] = 5, s.grid.size[1] = 7, s.grid.size[2] = 11;
-    s.threads = 3, s.media = 2, s.samples = 100, s.leaves = 40, s.collectors = 30;
-    s.variance = s.rejection = s.paper = true;
-    s.marched = false, s.width = 20, s.height = 10;
-    s.channels = 3, s.coefficients = 16, s.lights = 2, s.slots = 4, s.ground_cells = 9;
-    s.tracking_blocks = 6, s.shadow_nodes = 13;
+    s.threads = 3, s.media = 2, s.prepared.samples = 100, s.prepared.leaves = 40,
+    s.prepared.collectors = 30;
+    s.prepared.variance = s.prepared.rejection = s.prepared.paper = true;
+    s.picture.marched = false, s.picture.width = 20, s.picture.height = 10;
+    s.photons.channels = 3, s.photons.coefficients = 16, s.photons.lights = 2, s.photons.slots = 4,
+    s.photons.ground_cells = 9;
+    s.prepared.tracking_blocks = 6, s.nodes.shadow_nodes = 13;
     const MemoryTable table = collectors_memory(s);
     Bytes planned;
     for (const MemoryRow& row : table.rows()) planned[row.item] += row.bytes;

@@ -270,23 +270,24 @@ Status collectors_billboards(const Context& context, const FrameView& view,
 void collectors_size_display(const FrameView& view, const CollectorsState& state,
                              const Context& context, CollectorsSizes& sizes) {
     const OutputSettings& output = view.scene.output;
-    sizes.width = std::uint64_t(view.scene.camera.resolution[0]);
-    sizes.height = std::uint64_t(view.scene.camera.resolution[1]);
-    sizes.planes = 3 * (1 + std::uint64_t(photon_batches(state)));
-    sizes.layers = 4 + extra_layers(output, view.depths, sizes.planes > 3);
-    sizes.marched = is_marched(state);
-    sizes.ground = state.lights.lighting.opaque();
-    sizes.depth = view.wants_depth();
+    sizes.picture.width = std::uint64_t(view.scene.camera.resolution[0]);
+    sizes.picture.height = std::uint64_t(view.scene.camera.resolution[1]);
+    sizes.picture.planes = 3 * (1 + std::uint64_t(photon_batches(state)));
+    sizes.picture.layers = 4 + extra_layers(output, view.depths, sizes.picture.planes > 3);
+    sizes.picture.marched = is_marched(state);
+    sizes.picture.ground = state.lights.lighting.opaque();
+    sizes.picture.depth = view.wants_depth();
     const std::uint64_t parts = (output.layer_light ? 3u : 0u) + (output.layer_order ? 3u : 0u);
-    sizes.extra_planes = parts + (output.layer_optical_depth ? 1u : 0u);
-    sizes.parts = parts > 0;
-    if (!sizes.marched) return;
+    sizes.picture.extra_planes = parts + (output.layer_optical_depth ? 1u : 0u);
+    sizes.picture.parts = parts > 0;
+    if (!sizes.picture.marched) return;
     const NodeGrid nodes = source_grid_of(view, state);
-    sizes.source_nodes = source_nodes(nodes);
-    sizes.guided_nodes = state.settings.guided_nodes ? node_count(nodes) : 0;
+    sizes.nodes.source_nodes = source_nodes(nodes);
+    sizes.nodes.guided_nodes = state.settings.guided_nodes ? node_count(nodes) : 0;
     // Without scattered light there is one dark node.
-    sizes.planes_by_channel = sizes.planes;
-    sizes.fine_nodes = reads_quads(context, int(sizes.planes), nodes) ? 1 : node_count(nodes);
+    sizes.nodes.planes_by_channel = sizes.picture.planes;
+    sizes.nodes.fine_nodes =
+        reads_quads(context, int(sizes.picture.planes), nodes) ? 1 : node_count(nodes);
     const std::uint64_t numbers =
         std::uint64_t(state.lights.deposit.bands) * std::uint64_t(state.lights.deposit.bands) +
         std::uint64_t(state.lights.deposit.axis_degrees);
@@ -294,19 +295,19 @@ void collectors_size_display(const FrameView& view, const CollectorsState& state
     const std::uint64_t sets =
         std::uint64_t(harmonic_sets(state.lights.deposit.channels, state.lights.lighting));
     if (shows_harmonics(view, state)) {
-        sizes.harmonics = sets * numbers;
-        sizes.numbers_by_node = bytes_of(node_count(nodes), sets * stored);
+        sizes.nodes.harmonics = sets * numbers;
+        sizes.nodes.numbers_by_node = bytes_of(node_count(nodes), sets * stored);
     }
     if (shows_near(view, state)) {
-        sizes.near_nodes = near_nodes_of(context, view, nodes);
-        sizes.near_levels = 2 * sizes.near_nodes + 64;
-        sizes.near_harmonics = sets * numbers;
-        sizes.near_stored = sets * stored;
+        sizes.nodes.near_nodes = near_nodes_of(context, view, nodes);
+        sizes.nodes.near_levels = 2 * sizes.nodes.near_nodes + 64;
+        sizes.nodes.near_harmonics = sets * numbers;
+        sizes.nodes.near_stored = sets * stored;
     }
     if (state.lights.lighting.sunlit && state.lights.deposit.first_order == 2)
-        sizes.shadow_nodes = sun_shadow_numbers(view);
-    sizes.beam_sets = beam_sets(view, state);
-    sizes.lamp_depths = lamp_numbers(view.world.medium, state.lights.lighting);
+        sizes.nodes.shadow_nodes = sun_shadow_numbers(view);
+    sizes.nodes.beam_sets = beam_sets(view, state);
+    sizes.nodes.lamp_depths = lamp_numbers(view.world.medium, state.lights.lighting);
 }
 
 }  // namespace pileus

@@ -17,22 +17,23 @@ void size_prepared(const FrameView& view, const CollectorsState& state, const Co
                    CollectorsSizes& s) {
     const CollectorSettings& settings = state.settings;
     if (!state.outlined_only) {
-        s.leaves = state.prepared.leaves.size();
-        s.collectors = state.prepared.collectors.size();
-        s.samples = state.prepared.samples;
-        s.tracking_blocks = state.majorants.tracking.size();
+        s.prepared.leaves = state.prepared.leaves.size();
+        s.prepared.collectors = state.prepared.collectors.size();
+        s.prepared.samples = state.prepared.samples;
+        s.prepared.tracking_blocks = state.majorants.tracking.size();
         return;
     }
-    s.samples = std::uint64_t(settings.samples);
+    s.prepared.samples = std::uint64_t(settings.samples);
     const std::uint64_t most = context.limits[LimitId::kLeaves];
-    if (s.cells)
-        s.leaves = block_total(s.grid, state.camera_cells);
+    if (s.prepared.cells)
+        s.prepared.leaves = block_total(s.grid, state.camera_cells);
     else
-        s.leaves = most > 0 ? most
-                            : expected_leaves(s.grid, leaf_share(view.world.medium),
-                                              most_extinction(view.world.medium), s.samples);
-    s.collectors = s.leaves;
-    s.tracking_blocks = most_tracking_blocks(s.grid, settings.local_tracking);
+        s.prepared.leaves =
+            most > 0 ? most
+                     : expected_leaves(s.grid, leaf_share(view.world.medium),
+                                       most_extinction(view.world.medium), s.prepared.samples);
+    s.prepared.collectors = s.prepared.leaves;
+    s.prepared.tracking_blocks = most_tracking_blocks(s.grid, settings.local_tracking);
 }
 
 }  // namespace
@@ -45,18 +46,18 @@ CollectorsSizes collectors_sizes(const FrameView& view, const CollectorsState& s
     s.source = view.world.source;
     s.threads = std::uint64_t(context.threads);
     s.media = std::uint64_t(view.world.medium.count);
-    s.cells = state.camera_cells > 0;
-    s.variance = settings.variance_field;
-    s.rejection = settings.rejection_sampler;
-    s.paper = settings.paper;
-    s.channels = std::uint64_t(state.lights.deposit.channels);
-    s.coefficients = std::uint64_t(state.lights.deposit.coefficients);
-    s.lights = state.lights.lighting.lights.size();
+    s.prepared.cells = state.camera_cells > 0;
+    s.prepared.variance = settings.variance_field;
+    s.prepared.rejection = settings.rejection_sampler;
+    s.prepared.paper = settings.paper;
+    s.photons.channels = std::uint64_t(state.lights.deposit.channels);
+    s.photons.coefficients = std::uint64_t(state.lights.deposit.coefficients);
+    s.photons.lights = state.lights.lighting.lights.size();
     s.phases = phase_bytes(view.world.medium);
     s.sky = sky_map_bytes(view.environment.sky_map);
-    s.slots = photon_slots(state);
-    s.sums_ring = sums_ring(state);
-    s.ground_cells =
+    s.photons.slots = photon_slots(state);
+    s.photons.sums_ring = sums_ring(state);
+    s.photons.ground_cells =
         std::uint64_t(state.lights.ground_map.cells) * std::uint64_t(state.lights.ground_map.cells);
     s.shoots_again = context.frames > 1;
     size_prepared(view, state, context, s);
