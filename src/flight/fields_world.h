@@ -10,7 +10,8 @@ namespace pileus {
 
 template <class A>
 void fields(A& a, Volume& v) {
-    all(a, v.size, v.density, v.knows_bounds, v.bounds_m, v.in_extinction, v.missing, v.clamped);
+    all(a, v.size, v.density, v.knows_bounds, v.bounds_m, v.in_extinction, v.missing, v.clamped,
+        v.blank, v.capped);
 }
 template <class A>
 void fields(A& a, Grid& v) {

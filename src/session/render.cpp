@@ -31,6 +31,8 @@ void count_water(const Scene& scene, const World& world, Report& report) {
     if (weather) {
         report.counters.emplace_back("water_missing", world.medium.volume.missing);
         report.counters.emplace_back("water_negative", world.medium.volume.clamped);
+        report.counters.emplace_back("columns_missing", world.medium.volume.blank);
+        report.counters.emplace_back("fractions_capped", world.medium.volume.capped);
     } else if (grid) {
         report.counters.emplace_back("density_negative", world.medium.volume.clamped);
     }

@@ -15,6 +15,9 @@ constexpr Accident kAccidents[] = {
     {"nan_samples", "samples that were no finite number and count as 0"},
     {"samples_given_up", "sample points of collectors that found no place in the medium"},
     {"bound_breaches", "pixels brighter than their light allows, scaled down to it"},
+    {"fractions_capped",
+     "cells of weather data with more water than their cloud fraction tells, at most 10 times as "
+     "dense in cloud"},
     {"rays_cut", "rays given up before their end, so that the medium's far side is missing"},
 };
 

@@ -134,7 +134,7 @@ TEST_CASE("weather: WRF on Mercator has the water of each of its times") {
         NcFile file;
         REQUIRE(file.open(path));
         MediumSettings medium;
-        medium.weather.time = dates[i];
+        medium.weather.time = {true, dates[i], 0};
         WeatherSource s;
         const Status status = open_weather(file, medium.weather, s);
         REQUIRE_MESSAGE(status, status.message);

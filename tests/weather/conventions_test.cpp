@@ -88,19 +88,19 @@ TEST_CASE("conventions: pressure levels in hPa, one of several times by its date
     c.maker.variable("ta", {"time", "plev", "lat", "lon"}, t, "K");
     c.maker.variable("clw", {"time", "plev", "lat", "lon"}, w, "g kg-1");
     c.medium.weather.plain_degrees = true;  // so that cells are footprints
-    c.medium.weather.time = "2005-08-28 18";
+    c.medium.weather.time = {true, "2005-08-28 18", 0};
     const Status status = c.load();
     REQUIRE_MESSAGE(status, status.message);
     CHECK(c.head.detail.find("2005-08-28T18:00:00") != std::string::npos);
     const double path = 2e-4 * (std::sqrt(8e4 * 9e4) - std::sqrt(8e4 * 6e4)) / kG;
     CHECK(c.depth(1, 1) == doctest::Approx(1.5 * path / 0.01).epsilon(1e-6));
     CHECK(c.depth(1, 0) == 0);
-    c.medium.weather.time = "0";
+    c.medium.weather.time = {false, "", 0};
     REQUIRE(c.load());
     CHECK(c.total() == 0);
-    c.medium.weather.time = "2005-08";
+    c.medium.weather.time = {true, "2005-08", 0};
     CHECK(c.fault().find("w.nc: time: several in the file, \"2005-08\"") == 0);
-    c.medium.weather.time = "2006-01";
+    c.medium.weather.time = {true, "2006-01", 0};
     CHECK(
         c.fault().find("w.nc: time: not in the file, \"2006-01\", allowed: 0 to 1 or the beginning "
                        "of one date from 2005-08-28T06:00:00") == 0);
@@ -188,7 +188,7 @@ TEST_CASE("conventions: a rotated pole counts its own degrees, a member is chose
         .texts.emplace_back("standard_name", "grid_latitude");
     c.maker.of("lwc").dimensions = {"member", "z", "y", "x"};
     c.maker.of("lwc").values = {0, 0, 0, 0, 0, 0, 0.1, 0, 0, 0, 0, 0};
-    c.medium.weather.member = "1";
+    c.medium.weather.member = {false, "", 1};
     const Status status = c.load();
     REQUIRE_MESSAGE(status, status.message);
     CHECK(c.cell_m(0) == doctest::Approx(40030173.0 / 360).epsilon(1e-4));

@@ -97,7 +97,7 @@ const FaultRow kRows[] = {
      [](WeatherCase& c) {
          c.maker.dimension("time", 1);
          c.maker.of("lwc").dimensions = {"time", "z", "y", "x"};
-         c.medium.weather.time = "3";
+         c.medium.weather.time = {false, "", 3};
      },
      "w.nc: time: not in the file, 3, allowed: 0 to 0"},
     {"an unlimited dimension without records", test::content_case,

@@ -78,7 +78,7 @@ TEST_CASE("grib: pressure levels: water path is q dp/g; times and places") {
         }
     MediumSettings medium;
     medium.format = "grib";
-    medium.weather.time = "2026-06-21T12";
+    medium.weather.time = {true, "2026-06-21T12", 0};
     WeatherSurvey survey;
     Volume volume;
     const Status status = load(grib.path(), medium, survey, volume);

@@ -38,8 +38,8 @@ TEST_CASE("made forecast: clouds of stated heights on a standard atmosphere") {
     REQUIRE(file.open(path));
     CHECK(file.head().attribute("source")->text.find("made up") == 0);
     MediumSettings medium;
-    medium.weather.time = "2026-06-21T12";
-    medium.weather.member = "1";
+    medium.weather.time = {true, "2026-06-21T12", 0};
+    medium.weather.member = {false, "", 1};
     WeatherSource source;
     const Status status = open_weather(file, medium.weather, source);
     REQUIRE_MESSAGE(status, status.message);
@@ -64,7 +64,7 @@ TEST_CASE("made forecast: clouds of stated heights on a standard atmosphere") {
     CHECK(kelvin[46] == doctest::Approx(216.65).epsilon(1e-3));
     // Another member is another cloud.
     WeatherSurvey other;
-    medium.weather.member = "0";
+    medium.weather.member = {false, "", 0};
     REQUIRE(open_weather(file, medium.weather, source));
     REQUIRE(survey_weather(source, other));
     CHECK(other.depth_m2 != survey.depth_m2);

@@ -60,10 +60,18 @@ Status write_grid(const ConvertArguments& arguments, const Volume& volume) {
     return volume_format_of(arguments.to)->write(form, arguments.to, volume);
 }
 
+/// Bare numbers are told from texts in a scene alone: here a name is tried first, then an index.
+WeatherChoice choice_of(const std::string& text) {
+    WeatherChoice choice;
+    choice.by_name = true;
+    choice.name = text;
+    return choice;
+}
+
 /// What a scene would say of weather data or particles.
 Status read_made_options(const ConvertArguments& arguments, MediumSettings& medium) {
-    if (!arguments.time.empty()) medium.weather.time = arguments.time;
-    if (!arguments.member.empty()) medium.weather.member = arguments.member;
+    if (!arguments.time.empty()) medium.weather.time = choice_of(arguments.time);
+    if (!arguments.member.empty()) medium.weather.member = choice_of(arguments.member);
     for (std::size_t a = 0; a < arguments.resolution.size(); ++a) {
         const int cells = arguments.resolution[a];
         if (cells < 1 || cells > kMaxVolumeSide)

@@ -4,7 +4,7 @@
 // docs/weather.md
 #include <fmt/format.h>
 
-#include "src/io/netcdf/netcdf_values.h"
+#include "src/io/netcdf/netcdf_packing.h"
 #include "src/io/volumes/volume_file.h"
 #include "src/io/volumes/weather/weather_axes.h"
 #include "src/io/volumes/weather_file.h"
@@ -36,15 +36,20 @@ Status range_text(const NcFile& file, const NcVariable& v, std::string& text) {
     Buffer<double> values;
     PILEUS_TRY(values.resize(count, "values of a variable"));
     PILEUS_TRY(file.read(v, block, values.span()));
-    const NcPacking packing(v);
+    // What says nothing is told where the variable is used.
+    NcPacking packing;
+    if (!NcPacking::of(file.name(), v, packing)) {
+        text = ", packed in a way that is not understood";
+        return Status::ok();
+    }
     double least = 0, most = 0;
     std::uint64_t missing = 0, found = 0;
     for (const double number : values.span()) {
-        if (number != number || packing.is_missing(number)) {
+        double value = 0;
+        if (number != number || !packing.take(number, value)) {
             ++missing;
             continue;
         }
-        const double value = packing.scale * number + packing.offset;
         if (found == 0 || value < least) least = value;
         if (found == 0 || value > most) most = value;
         ++found;
@@ -79,9 +84,10 @@ Status weather_lines(const std::string& path, const MediumSettings& medium, std:
     for (const NcVariable& v : head.variables) PILEUS_TRY(variable_line(file, v, lines));
     for (std::size_t d = 0; d < head.dimensions.size(); ++d) {
         std::vector<std::string> dates;
-        if (axis_kind(head, d) != AxisKind::kTime) continue;
-        PILEUS_TRY(weather_times(file, d, dates));
-        std::string text;
+        std::string text, why;
+        if (axis_kind(head, d, medium.weather) != AxisKind::kTime) continue;
+        PILEUS_TRY(weather_times(file, d, dates, why));
+        if (!why.empty()) lines += info_line("times", printable("not understood: " + why));
         for (const std::string& date : dates) text += (text.empty() ? "" : ", ") + date;
         if (!dates.empty()) lines += info_line("times", printable(text, 400, " ..."));
     }

@@ -86,7 +86,11 @@ Status encode_grib_fields(const std::string& name, GribFields& fields, Buffer<ch
         axis("longitude", 4, grid.first_lon, grid.last_lon, grid.nx, {{"units", "degrees_east"}}));
     file.variables.push_back(
         axis("latitude", 3, grid.first_lat, grid.last_lat, grid.ny, {{"units", "degrees_north"}}));
-    NcNewVariable time, level;
+    NcNewVariable time, level, member;
+    member.name = "member";
+    member.dimensions = {1};
+    member.texts = {{"units", "1"}, {"standard_name", "realization"}};
+    for (const long m : members) member.doubles.push_back(double(m));
     time.name = "time";
     time.dimensions = {0};
     time.texts = {{"units", "seconds since 1970-01-01 00:00:00"}};
@@ -96,6 +100,7 @@ Status encode_grib_fields(const std::string& name, GribFields& fields, Buffer<ch
     level.texts = {{"units", fields.hybrid ? "1" : "hPa"}, {"axis", "Z"}};
     for (const long l : levels) level.doubles.push_back(double(l));
     file.variables.push_back(time);
+    file.variables.push_back(member);
     file.variables.push_back(level);
     if (fields.hybrid) PILEUS_TRY(hybrid_faces(name, fields.pv, levels, file));
     // Each variable has its floats apart, in the order of its dimensions, without a gap.

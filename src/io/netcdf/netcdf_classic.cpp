@@ -10,7 +10,7 @@
 namespace pileus {
 namespace {
 
-constexpr std::uint64_t kMostNumbers = 65536;  // of one attribute that are kept
+constexpr std::uint64_t kMostNumbers = 65536;  // of one attribute; of more none is kept
 constexpr std::uint32_t kDimensionList = 10, kVariableList = 11, kAttributeList = 12;
 
 /// Walks through big-endian numbers; every step is checked against the end.
@@ -128,13 +128,13 @@ private:
             if (!checked_multiply(values, nc_bytes(kind), bytes))
                 return fault("length of an attribute: too large, " + std::to_string(values));
             PILEUS_TRY(padded(bytes, "attribute", from));
+            a.type = kind;
             a.is_text = kind == NcType::kChar;
             if (a.is_text) {
                 a.text.assign(reinterpret_cast<const char*>(from), std::size_t(values));
                 while (!a.text.empty() && a.text.back() == '\0') a.text.pop_back();
             } else {
-                const std::uint64_t kept = values < kMostNumbers ? values : kMostNumbers;
-                a.numbers.resize(std::size_t(kept));
+                a.numbers.resize(values <= kMostNumbers ? std::size_t(values) : 0);
                 nc_values(kind, from, {a.numbers.data(), a.numbers.size()});
             }
             to.push_back(std::move(a));

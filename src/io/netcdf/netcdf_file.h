@@ -36,9 +36,10 @@ const char* nc_type_name(NcType type);
 
 struct NcAttribute {
     std::string name;
+    NcType type = NcType::kOther;
     bool is_text = false;
     std::string text;             ///< without the null characters at its end
-    std::vector<double> numbers;  ///< at most kMostNumbers
+    std::vector<double> numbers;  ///< none of a type that is not read, or of more than can be meant
 };
 
 struct NcDimension {

@@ -106,8 +106,10 @@ Status read_attributes(const Library& nc, const std::string& name, int handle, i
         PILEUS_NC(nc.inq_att(handle, variable, text, &type, &length), "attribute");
         NcAttribute a;
         a.name = text;
-        if (length > 65536) continue;
-        if (type == NC_CHAR) {
+        if (length > 65536) {
+            // There all the same: whoever asks for it finds it unreadable.
+        } else if (type == NC_CHAR) {
+            a.type = NcType::kChar;
             a.is_text = true;
             a.text.resize(length);
             if (length > 0) PILEUS_NC(nc.get_att_text(handle, variable, text, &a.text[0]), text);
@@ -116,14 +118,14 @@ Status read_attributes(const Library& nc, const std::string& name, int handle, i
             char* string = nullptr;
             PILEUS_NC(nc.get_att_string(handle, variable, text, &string), text);
             a.is_text = true;
+            a.type = NcType::kChar;
             if (string != nullptr) a.text = string;
             nc.free_string(1, &string);
         } else if (type >= NC_BYTE && type <= NC_UINT64) {
+            a.type = NcType(type);
             a.numbers.resize(length);
             if (length > 0)
                 PILEUS_NC(nc.get_att_double(handle, variable, text, a.numbers.data()), text);
-        } else {
-            continue;
         }
         to.push_back(std::move(a));
     }

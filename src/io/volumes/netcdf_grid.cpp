@@ -4,7 +4,7 @@
 // docs/formats.md, "NetCDF"; CF conventions 1.10, section 7.1 (bounds)
 
 #include "src/base/file.h"
-#include "src/io/netcdf/netcdf_values.h"
+#include "src/io/netcdf/netcdf_packing.h"
 #include "src/io/netcdf/netcdf_write.h"
 #include "src/io/volumes/undershoot.h"
 #include "src/io/volumes/volume_file.h"
@@ -26,6 +26,8 @@ const char* useless_key(const MediumSettings& medium) {
     if (medium.resolution[0] > 0) return "resolution";
     if (w.time != usual.time) return "time";
     if (w.member != usual.member) return "member";
+    if (!w.axes.empty()) return "axes";
+    if (!w.units.empty()) return "units";
     if (w.in_cloud) return "fraction";
     if (w.liquid_radius_um > 0) return "liquid_radius_um";
     if (w.ice_radius_um > 0) return "ice_radius_um";
@@ -46,7 +48,7 @@ Status read_numbers(const NcFile& file, const NcVariable& v, std::uint64_t count
                         "values: " + std::to_string(block.values()) +
                             ", allowed: " + std::to_string(count) + " numbers");
     values.assign(std::size_t(count), 0.0);
-    return file.read(v, block, {values.data(), values.size()});
+    return read_unpacked(file, v, block, {values.data(), values.size()});
 }
 
 /// Faces of the box along one dimension; `found` false where the file has no coordinate.
@@ -122,7 +124,7 @@ Status netcdf_grid_head(const MediumSettings& medium, const NcFile& file, const 
     bool found[3] = {};
     for (std::size_t k = 0; k < 3; ++k) {
         const NcDimension& d = of.dimensions[grid.dimensions[k]];
-        if (axis_kind(of, grid.dimensions[k]) != kOrder[k])
+        if (axis_kind(of, grid.dimensions[k], medium.weather) != kOrder[k])
             return nc_fault(file.name(), grid,
                             "dimension " + d.name + ": out of order, allowed: z, y, x");
         if (d.size > std::uint64_t(kMaxVolumeSide))
@@ -164,7 +166,8 @@ Status read_netcdf_grid(const MediumSettings& medium, const NcFile& file, const 
     PILEUS_TRY(values.resize(plane, "layer of a NetCDF file"));
     Undershoot undershoot;
     std::size_t lowest = 0;
-    const NcPacking packing(grid);
+    NcPacking packing;
+    PILEUS_TRY(NcPacking::of(file.name(), grid, packing));
     NcBlock block = whole_block(file.head(), grid);
     block.count[0] = 1;
     for (std::size_t z = 0; z < std::size_t(head.size[2]); ++z) {
@@ -172,8 +175,8 @@ Status read_netcdf_grid(const MediumSettings& medium, const NcFile& file, const 
         PILEUS_TRY(file.read(grid, block, values.span()));
         for (std::size_t i = 0; i < values.size(); ++i) {
             const std::size_t at = z * std::size_t(plane) + i;
-            double value = packing.scale * values[i] + packing.offset;
-            if (packing.is_missing(values[i])) {
+            double value = 0;
+            if (!packing.take(values[i], value)) {
                 if (medium.weather.missing_is_fault)
                     return nc_fault(file.name(), grid,
                                     voxel_name(volume.size, at) +

@@ -22,6 +22,9 @@ struct Volume {
     bool in_extinction = false;         ///< values are extinction in 1/m, not relative densities
     std::uint64_t missing = 0;          ///< values of the file that are none, taken for no cloud
     std::uint64_t clamped = 0;          ///< values below 0 by a little, taken for 0
+    std::uint64_t blank = 0;  ///< columns of the file without any value, taken for no cloud
+    std::uint64_t capped =
+        0;  ///< cells of the file with more water than their cloud fraction tells
 };
 
 /// What a file says about itself before its values are read.

@@ -10,6 +10,7 @@
 
 #include "src/base/angles.h"
 #include "src/base/powers.h"
+#include "src/io/netcdf/netcdf_packing.h"
 #include "src/io/volumes/volume_file.h"
 #include "src/io/volumes/weather/weather_levels.h"
 #include "src/io/volumes/weather_file.h"
@@ -138,9 +139,10 @@ public:
         map_.origin[1] = g.origin[1];
         map_.squeeze = g.squeeze;
         map_.vertical_scale = source_.settings->vertical_scale;
-        if (g.in_degrees) return degrees();
-        if (head_.attribute("MAP_PROJ") != nullptr) return wrf();
-        return grid_mapping();
+        PILEUS_TRY(g.in_degrees                             ? degrees()
+                   : head_.attribute("MAP_PROJ") != nullptr ? wrf()
+                                                            : grid_mapping());
+        return wrong_.empty() ? Status::ok() : fault(wrong_ + ": not a number, allowed: one");
     }
 
 private:
@@ -148,9 +150,12 @@ private:
         return nc_fault(file_.name(), *source_.water, "map: " + line);
     }
 
+    /// An attribute that is there and says no number is a fault, kept for the end.
     double number(const NcAttribute* a, double fallback, std::size_t i = 0) const {
-        if (a == nullptr || a->numbers.size() <= i) return fallback;
-        const double value = a->numbers[i];
+        if (a == nullptr) return fallback;
+        if (a->numbers.empty()) wrong_ = a->name;
+        // WRF writes 1e20 for what it has not.
+        const double value = a->numbers.size() > i ? a->numbers[i] : 1e20;
         return value > -1e9 && value < 1e9 ? value : fallback;
     }
     double global(const char* name, double fallback) const {
@@ -210,7 +215,7 @@ private:
             block.count[k] = 1;
         }
         if (!found) return Status::ok();
-        PILEUS_TRY(file_.read(*v, block, {&value, 1}));
+        PILEUS_TRY(read_unpacked(file_, *v, block, {&value, 1}));
         return value >= -360 && value <= 360 ? Status::ok()
                                              : nc_fault(file_.name(), *v, "values: no degrees");
     }
@@ -225,6 +230,10 @@ private:
 
     Status wrf() {
         const double kind = global("MAP_PROJ", 0);
+        if (kind != 1 && kind != 2 && kind != 3)
+            return fault(kind == 0 ? "none, an idealized case of WRF, allowed: places in metres"
+                                   : "longitudes and latitudes of WRF that no row or column has, "
+                                     "allowed: places in metres");
         map_.kind = kind == 1 ? MapKind::kConic : kind == 2 ? MapKind::kPolar : MapKind::kMercator;
         map_.radius = 6370000;  // WRF's own
         map_.parallel[0] = global("TRUELAT1", 0);
@@ -290,6 +299,7 @@ private:
     const NcHead& head_;
     const WeatherSource& source_;
     WeatherMap& map_;
+    mutable std::string wrong_;  ///< name of an attribute that says no number
 };
 
 }  // namespace

@@ -10,13 +10,22 @@ namespace {
 template <auto... Members>
 constexpr KeyField weather = field<&MediumSettings::weather, Members...>;
 
-/// A whole number or a text; kept as text.
+/// A whole number or a text.
 template <auto Member>
-constexpr KeyField choice{
-    KeyKind::kIndexOrText, [](const KeySource& s) { return node_of(s.medium.weather.*Member); },
-    [](const KeyTarget& t, const Node& n) {
-        t.medium.weather.*Member = n.is_text() ? n.text : std::to_string(integer_of(n));
-    }};
+constexpr KeyField choice{KeyKind::kIndexOrText,
+                          [](const KeySource& s) {
+                              const WeatherChoice& value = s.medium.weather.*Member;
+                              return value.by_name ? node_of(value.name) : node_of(value.index);
+                          },
+                          [](const KeyTarget& t, const Node& n) {
+                              WeatherChoice& value = t.medium.weather.*Member;
+                              value = WeatherChoice();
+                              value.by_name = n.is_text();
+                              if (n.is_text())
+                                  take(n, value.name);
+                              else
+                                  value.index = integer_of(n);
+                          }};
 
 using W = WeatherSettings;
 
@@ -47,11 +56,18 @@ constexpr KeyRow kRows[] = {
      "variable of the ground's geopotential or height, or `none`: 0", kNoNote},
     {"medium.N.density.variable", weather<&W::variable>, any(), "",
      "variable that `transfer` shows in place of water, in its own unit", kNoNote},
+    {"medium.N.density.axes", weather<&W::axes>, any(), "",
+     "what dimensions are that the file does not tell: `time`, `member`, `level`, `y`, `x` or "
+     "`column`, as `x: ni, y: nj, level: nk`",
+     kNoNote},
+    {"medium.N.density.units", weather<&W::units>, any(), "",
+     "units of variables whose own is missing or wrong, as `ql: kg kg-1, x: km`", kNoNote},
     {"medium.N.density.time", choice<&W::time>, from_to(0, 1e9), "",
-     "which time of a NetCDF file: an index from 0, or a date such as "
-     "`2005-08-28T12` of which one time's date begins"},
+     "which time of a NetCDF file: an index from 0, or as text a date such as "
+     "`2005-08-28T12` with which one time's date begins"},
     {"medium.N.density.member", choice<&W::member>, from_to(0, 1e9), "",
-     "which member of an ensemble: an index from 0, or the member's number or name as text"},
+     "which member of an ensemble: an index from 0, or as text the number or name that the file "
+     "gives it"},
     {"medium.N.density.fraction", weather<&W::in_cloud>, one_of("mean|in_cloud"), "",
      "`mean`: a cell's water fills it, `in_cloud`: is divided by the cloud fraction first"},
     {"medium.N.density.liquid_radius_um", weather<&W::liquid_radius_um>, positive(1e4), "um",

@@ -19,11 +19,25 @@ namespace pileus {
 // docs/weather.md
 
 /// Texts that are empty are left out: then the variable is looked for; "none": it is not used.
+/// One of several times or members of a file: by an index from 0, or else by what the file calls
+/// it.
+struct WeatherChoice {
+    bool by_name = false;
+    std::string name;
+    std::int64_t index = 0;
+    bool operator==(const WeatherChoice& other) const {
+        return by_name == other.by_name && name == other.name && index == other.index;
+    }
+    bool operator!=(const WeatherChoice& other) const { return !(*this == other); }
+};
+
 struct WeatherSettings {
     std::string liquid, ice, cloud_fraction, temperature, pressure, humidity, height;
     std::string liquid_radius, ice_radius, surface_pressure, surface_geopotential;
     std::string variable;  ///< any field, shown by medium.transfer; empty: the water above
-    std::string time = "0", member = "0";  ///< a whole number counts from 0; else a name
+    std::string axes;      ///< "x: ni, y: nj": what dimensions are that the file cannot tell
+    std::string units;  ///< "ql: kg kg-1, x: km": of variables whose own unit is wrong or missing
+    WeatherChoice time, member;
     bool in_cloud = false;        ///< fraction = "in_cloud": water is divided by the cloud fraction
     double liquid_radius_um = 0;  ///< effective; 0: of the file, or else 10
     double ice_radius_um = 0;     ///< effective; 0: of the file, or else 30

@@ -313,19 +313,23 @@ Status outline_media(const Scene& scene, const Limits& limits, std::uint64_t thr
 Status load_media(const Scene& scene, const Limits& limits, int threads, Plan& plan, Medium& out,
                   const KernelTable* kernels, const HostMedia& given) {
     MediaList list;
-    std::uint64_t missing = 0, clamped = 0;
+    std::uint64_t missing = 0, clamped = 0, blank = 0, capped = 0;
     for (std::size_t i = 0; i < scene.media.size(); ++i) {
         Medium medium;
         PILEUS_TRY(
             load_medium(scene, scene.media[i], threads, medium, kernels, nullptr, given.of(i)));
         missing += medium.volume.missing;
         clamped += medium.volume.clamped;
+        blank += medium.volume.blank;
+        capped += medium.volume.capped;
         PILEUS_TRY(list.add_all(scene, i, std::move(medium), plan));
     }
     const MixGrid grid = list.plan_grid(limits, plan);
     PILEUS_TRY(mix_media(list.media, grid, threads, out));
     out.volume.missing = missing;
     out.volume.clamped = clamped;
+    out.volume.blank = blank;
+    out.volume.capped = capped;
     return Status::ok();
 }
 

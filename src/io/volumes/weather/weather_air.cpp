@@ -199,6 +199,34 @@ Status AirColumn::air_column(std::size_t c) {
     return Status::ok();
 }
 
+/// Heights of levels or faces over the file's datum, from below.
+Status AirColumn::heights(std::size_t c, std::vector<double>& to) const {
+    const std::size_t m = to.size();
+    const bool above = s_.hybrid_heights || s_.fields[Role::kHeight].above_ground;
+    double ground = 0;
+    if (above && s_.has(Role::kSurfaceHeight)) ground = of(Role::kSurfaceHeight).at(c);
+    if (missing(ground)) return fault(Role::kSurfaceHeight, c, "missing value");
+    for (std::size_t k = 0; k < m; ++k) {
+        const std::size_t i = s_.top_down ? m - 1 - k : k;
+        to[k] = s_.hybrid_heights ? s_.hybrid_a[i] + s_.hybrid_b[i] * ground
+                                  : of(Role::kHeight).at(c * m + k) + ground;
+    }
+    return Status::ok();
+}
+
+bool AirColumn::lacks_values(std::size_t c) const {
+    for (const Role role : {Role::kTemperature, Role::kPressure, Role::kHeight, Role::kHumidity,
+                            Role::kSurfacePressure, Role::kSurfaceHeight}) {
+        if (!s_.has(role)) continue;
+        const bool surface = role == Role::kSurfacePressure || role == Role::kSurfaceHeight;
+        const std::size_t n = surface ? 1 : n_ + (s_.fields[role].on_faces ? 1 : 0);
+        bool any = false;
+        for (std::size_t k = 0; k < n; ++k) any = any || !missing(of(role).at(c * n + k));
+        if (!any) return true;
+    }
+    return false;
+}
+
 /// Density of air and heights of faces.
 Status AirColumn::place_column(std::size_t c, const Span<double>& faces) {
     if (needs_air_) PILEUS_TRY(air_column(c));
@@ -215,7 +243,9 @@ Status AirColumn::place_column(std::size_t c, const Span<double>& faces) {
         sum_heights({logarithms_.data(), n_}, {virtual_.data(), n_}, lowest, faces);
     } else {
         const std::size_t m = s_.vertical == Vertical::kHeightFaces ? n_ + 1 : n_;
-        const Span<const double> z = of(Role::kHeight).span().part(c * m, m);
+        std::vector<double> own(m, 0.0);
+        PILEUS_TRY(heights(c, own));
+        const Span<const double> z{own.data(), m};
         PILEUS_TRY(monotonic(Role::kHeight, c, z, true));
         if (n_ == 1 && m == 1)
             return fault(Role::kHeight, c, "one level alone, so that its thickness is unknown");

@@ -28,6 +28,8 @@ public:
 
     /// Whether the file has what is needed.
     Status check() const;
+    /// Whether one of the fields of air has no value in a column.
+    bool lacks_values(std::size_t c) const;
     /// Heights of the faces of column `c`; kBadInput for air that is none.
     Status place_column(std::size_t c, const Span<double>& faces);
 
@@ -42,6 +44,7 @@ private:
     Status on_levels(Role role, std::size_t c, std::vector<double>& to);
     Status monotonic(Role role, std::size_t c, Span<const double> values, bool ascends) const;
     Status pressure_faces(std::size_t c);
+    Status heights(std::size_t c, std::vector<double>& to) const;
     Status air_column(std::size_t c);
 
     const FieldBlock& block_;

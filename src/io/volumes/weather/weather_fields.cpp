@@ -4,6 +4,8 @@
 // docs/weather.md, "Variables"
 #include "src/io/volumes/weather/weather_fields.h"
 
+#include "src/io/netcdf/netcdf_packing.h"
+#include "src/io/volumes/weather/weather_hints.h"
 #include "src/scene/toml/toml_tree.h"
 
 namespace pileus {
@@ -86,10 +88,19 @@ Standing standing_of(const NcHead& head, const WeatherAxes& axes, const NcVariab
     return standing;
 }
 
+/// Name and description, in lower case.
+std::string words_of(const NcVariable& v) {
+    std::string text = v.name;
+    for (const char* name : {"long_name", "longname", "description"}) text += ' ' + v.text(name);
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+    return text;
+}
+
 class Search {
 public:
     Search(const NcFile& file, const WeatherSettings& settings)
-        : file_(file), head_(file.head()), settings_(settings), wrf_(head_.find("PB") != nullptr) {}
+        : file_(file), head_(file.head()), settings_(settings), wrf_(is_wrf(head_)) {}
 
     /// The variables of a role; its row where one names them, null for a name of the scene's own.
     Status parts(Role role, const WeatherAxes* axes, std::vector<const NcVariable*>& found,
@@ -107,11 +118,15 @@ public:
                 if (r.role == role && row == nullptr && says(r, *found[0], wanted)) row = &r;
             return Status::ok();
         }
-        for (const WeatherName& r : weather_names())
-            if (r.role == role && (!r.wrf || wrf_) && look(r, axes, found)) {
-                row = &r;
-                return Status::ok();
-            }
+        // Heights of each column tell more than those of a coordinate, which may be numbers alone.
+        for (const bool lines : {false, true}) {
+            if (!lines && role != Role::kHeight) continue;
+            for (const WeatherName& r : weather_names())
+                if (r.role == role && (!r.wrf || wrf_) && look(r, axes, lines, found)) {
+                    row = &r;
+                    return Status::ok();
+                }
+        }
         found.clear();
         return Status::ok();
     }
@@ -122,7 +137,9 @@ public:
         if (!settings_.variable.empty() && is_of_water(role)) return Status::ok();
         PILEUS_TRY(parts(role, &axes, out.parts, row));
         if (!out.there()) return Status::ok();
+        NcPacking packing;
         for (const NcVariable* part : out.parts) {
+            PILEUS_TRY(NcPacking::of(file_.name(), *part, packing));
             const Standing standing = standing_of(head_, axes, *part);
             const bool good = is_surface(role)
                                   ? standing == Standing::kSurface
@@ -137,6 +154,9 @@ public:
         out.quantity = row != nullptr ? row->quantity : default_quantity(role);
         out.meaning = row != nullptr ? row->meaning : M::kPlain;
         if (wrf_) out.gravity = 9.81;
+        if (role == Role::kHeight) out.above_ground = is_above_ground(*out.parts[0]);
+        if (role == Role::kTemperature && says_potential(*out.parts[0]))
+            out.meaning = M::kPotential;
         if (role == Role::kShown) return shown(out);
         PILEUS_TRY(unit(role, out));
         if (row != nullptr) out.unit.offset += row->offset;
@@ -144,6 +164,19 @@ public:
     }
 
 private:
+    /// By what its files have and no others: QCLOUD of one that lacks PB is known, too.
+    static bool is_wrf(const NcHead& head) {
+        bool levels = false;
+        for (const NcDimension& d : head.dimensions) levels = levels || d.name == "bottom_top";
+        return head.find("PB") != nullptr || levels || head.attribute("MAP_PROJ") != nullptr;
+    }
+
+    /// A temperature without a standard name may say what it is in words, as that of UCLALES.
+    static bool says_potential(const NcVariable& v) {
+        return v.find("standard_name") == nullptr &&
+               words_of(v).find("potential temp") != std::string::npos;
+    }
+
     static bool says(const WeatherName& row, const NcVariable& v, const std::string& name) {
         return row.name != nullptr ? name == row.name
                                    : v.text("standard_name") == row.standard_name;
@@ -172,43 +205,51 @@ private:
         return standing == Standing::kLevels || standing == Standing::kFaces;
     }
 
-    bool look(const WeatherName& row, const WeatherAxes* axes,
+    /// `lines`: heights may be those of all columns alike.
+    bool look(const WeatherName& row, const WeatherAxes* axes, bool lines,
               std::vector<const NcVariable*>& found) const {
+        const auto good = [&](const NcVariable& v) {
+            if (!fits(row.role, axes, v)) return false;
+            if (row.role != Role::kHeight || v.dimensions.size() > 1) return true;
+            return lines && !is_level_number(file_, v);
+        };
         found.clear();
         if (row.name != nullptr) {
             if (!find_parts(head_, row.name, found)) return false;
         } else {
             for (const NcVariable& v : head_.variables)
-                if (found.empty() && v.text("standard_name") == row.standard_name &&
-                    fits(row.role, axes, v))
+                if (found.empty() && v.text("standard_name") == row.standard_name && good(v))
                     found.push_back(&v);
             if (found.empty()) return false;
         }
         for (const NcVariable* v : found)
-            if (!fits(row.role, axes, *v)) return false;
+            if (!good(*v)) return false;
         return true;
     }
 
     /// All parts have one unit. Water and heights may come in either of two quantities.
     Status unit(Role role, WeatherField& field) const {
         const NcVariable& v = *field.parts[0];
-        const NcAttribute* units = v.find("units");
-        const std::string text = units != nullptr ? units->text : std::string();
+        std::string text, other;
+        bool units = false, others = false;
+        PILEUS_TRY(read_unit(file_, settings_, v, text, units));
         const bool water = role == Role::kLiquid || role == Role::kIce;
         const bool height = role == Role::kHeight || role == Role::kSurfaceHeight;
         if (field.meaning == M::kLogarithm) return Status::ok();
-        for (const NcVariable* part : field.parts)
-            if (part->text("units") != text)
+        for (const NcVariable* part : field.parts) {
+            PILEUS_TRY(read_unit(file_, settings_, *part, other, others));
+            if (other != text)
                 return nc_fault(file_.name(), *part,
-                                "units: " + quote_text(part->text("units")) +
-                                    ", allowed: as those of " + v.name + ", " + quote_text(text));
+                                "units: " + quote_text(other) + ", allowed: as those of " + v.name +
+                                    ", " + quote_text(text));
+        }
         if (find_unit(text, field.quantity, field.unit)) return Status::ok();
         if (water && find_unit(text, Q::kContent, field.unit)) {
             field.quantity = Q::kContent;
             field.meaning = M::kPlain;
             return Status::ok();
         }
-        if (water && units != nullptr && find_unit(text, Q::kRatio, field.unit)) {
+        if (water && units && find_unit(text, Q::kRatio, field.unit)) {
             field.quantity = Q::kRatio;
             return Status::ok();
         }
@@ -225,11 +266,11 @@ private:
         std::string allowed = unit_names(field.quantity);
         if (water)
             allowed += ", " + unit_names(field.quantity == Q::kRatio ? Q::kContent : Q::kRatio);
-        return nc_fault(file_.name(), v,
-                        (units == nullptr ? std::string("units: missing, nothing")
-                                          : "units: not of " + std::string(role_key(role)) + ", " +
-                                                quote_text(text)) +
-                            ", allowed: " + allowed);
+        return nc_fault(
+            file_.name(), v,
+            (!units ? std::string("units: missing, nothing")
+                    : "units: not of " + std::string(role_key(role)) + ", " + quote_text(text)) +
+                ", allowed: " + allowed + "; or the key units of the density");
     }
 
     std::string variable_list() const {
@@ -252,6 +293,32 @@ std::string WeatherField::name() const {
     std::string text;
     for (const NcVariable* part : parts) text += (text.empty() ? "" : " + ") + part->name;
     return text;
+}
+
+bool is_above_ground(const NcVariable& v) {
+    const std::string standard = v.text("standard_name"), words = words_of(v);
+    if (!standard.empty()) return standard == "height";
+    for (const char* said : {"above ground", "above_ground", "above the ground", "above surface",
+                             "above_surface", "above the surface", "above local surface"})
+        if (words.find(said) != std::string::npos) return true;
+    return false;
+}
+
+bool is_level_number(const NcFile& file, const NcVariable& v) {
+    const std::string words = words_of(v), units = v.text("units");
+    if (words.find("generalized") != std::string::npos) return true;
+    if (v.text("standard_name") == "model_level_number") return true;
+    const bool bare = units.empty() || units == "1" || units == "level" || units == "layer";
+    const std::uint64_t n = whole_block(file.head(), v).values();
+    if (!bare || v.dimensions.size() != 1 || n == 0 || n > 10'000) return false;
+    std::vector<double> values(std::size_t(n), 0.0);
+    if (!read_unpacked(file, v, whole_block(file.head(), v), {values.data(), values.size()}))
+        return false;
+    const bool falls = values.front() > values.back();
+    const double first = falls ? values.back() : values.front();
+    for (std::size_t i = 0; i < values.size(); ++i)
+        if (values[falls ? values.size() - 1 - i : i] != first + double(i)) return false;
+    return first == 0 || first == 1;
 }
 
 const char* role_key(Role role) { return kKeys[std::size_t(role)]; }

@@ -40,7 +40,8 @@ struct WeatherField {
     Meaning meaning = Meaning::kPlain;
     UnitScale unit;
     double gravity = 9.80665;
-    bool on_faces = false;  ///< between levels: one more value than levels
+    bool on_faces = false;      ///< between levels: one more value than levels
+    bool above_ground = false;  ///< heights that count from the ground
     bool there() const { return !parts.empty(); }
     std::string name() const;  ///< "P + PB"
 };
@@ -50,6 +51,12 @@ struct WeatherFields {
     WeatherField& operator[](Role role) { return of[std::size_t(role)]; }
     const WeatherField& operator[](Role role) const { return of[std::size_t(role)]; }
 };
+
+/// Heights that count from the ground: standard_name "height", or words that say so.
+bool is_above_ground(const NcVariable& variable);
+/// Levels that are numbered, not placed: a generalized height, a model level, 1 to n without a
+/// unit.
+bool is_level_number(const NcFile& file, const NcVariable& variable);
 
 /// Key of the scene that names the variable: "liquid".
 const char* role_key(Role role);
@@ -69,7 +76,7 @@ Status find_fields(const NcFile& file, const WeatherSettings& settings, const We
 /// One way to say a role. A name of two parts is a sum: "P+PB".
 struct WeatherName {
     Role role;
-    const char* name;  ///< of a variable; of WRF ones, where there is PB
+    const char* name;  ///< of a variable; of WRF ones, where the file is one of its
     const char* standard_name;
     Quantity quantity;
     Meaning meaning = Meaning::kPlain;

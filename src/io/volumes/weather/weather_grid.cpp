@@ -103,6 +103,8 @@ Status survey_weather(const WeatherSource& s, CloudLayers& layers, WeatherSurvey
     }
     if (survey.counts.values > 0 && survey.counts.missing == survey.counts.values)
         return nc_fault(s.file->name(), *s.water, "all values missing, allowed: some");
+    if (survey.counts.blank == s.axes.nx * s.axes.ny)
+        return nc_fault(s.file->name(), *s.water, "no column has values of it and of its air");
     if (!survey.any_cloud) {
         survey.low_m = lowest;
         survey.high_m = highest;

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "src/base/angles.h"
+#include "src/io/netcdf/netcdf_packing.h"
+#include "src/io/volumes/weather/weather_hints.h"
 #include "src/io/volumes/weather/weather_units.h"
 
 namespace pileus {
@@ -68,43 +70,40 @@ private:
         values.assign(std::size_t(head_.size(v, v.dimensions.size() - 1)), 0.0);
         NcBlock block = whole_block(head_, v);
         for (std::size_t k = 0; k + 1 < block.count.size(); ++k) block.count[k] = 1;
-        PILEUS_TRY(file_.read(v, block, {values.data(), values.size()}));
+        PILEUS_TRY(read_unpacked(file_, v, block, {values.data(), values.size()}));
         for (const double value : values)
             if (!(value > -1e12 && value < 1e12))
                 return nc_fault(file_.name(), v, "values: not finite or missing, allowed: numbers");
         return Status::ok();
     }
 
-    bool is_coordinate(const NcVariable& v, std::size_t dimension, bool along_x) const {
-        if (v.dimensions.size() != 1 || v.dimensions[0] != dimension || v.type == NcType::kChar)
-            return false;
-        const std::string name = v.text("standard_name");
-        return name == (along_x ? "longitude" : "latitude") ||
-               name == (along_x ? "grid_longitude" : "grid_latitude") ||
-               name == (along_x ? "projection_x_coordinate" : "projection_y_coordinate") ||
-               v.name == head_.dimensions[dimension].name;
-    }
-
+    /// The coordinate of a dimension: of those whose unit is known, the one that says most.
     Status axis(std::size_t dimension, bool along_x, std::vector<double>& values, bool& in_degrees,
                 bool& found) const {
         found = false;
         if (dimension == kNoDimension) return Status::ok();
-        for (const NcVariable& v : head_.variables) {
-            if (found || !is_coordinate(v, dimension, along_x)) continue;
+        const NcVariable* own = head_.find(head_.dimensions[dimension].name);
+        for (const NcVariable* v :
+             coordinates_of(head_, dimension, along_x ? AxisKind::kX : AxisKind::kY)) {
             UnitScale unit;
-            const std::string text = v.text("units");
+            std::string text;
+            bool there = false;
+            PILEUS_TRY(read_unit(file_, settings_, *v, text, there));
             in_degrees = find_unit(text, Quantity::kDegrees, unit);
-            if (!in_degrees && !find_unit(text, Quantity::kHeight, unit))
-                return nc_fault(file_.name(), v,
-                                "units: " +
-                                    (v.find("units") == nullptr ? std::string("missing, nothing")
-                                                                : "unknown, \"" + text + '"') +
-                                    ", allowed: degrees, m, km");
-            PILEUS_TRY(read_line(v, values));
+            if (!in_degrees && !find_unit(text, Quantity::kHeight, unit)) continue;
+            PILEUS_TRY(read_line(*v, values));
             for (double& value : values) value *= unit.factor;
             found = true;
+            return Status::ok();
         }
-        return Status::ok();
+        if (own == nullptr || own->dimensions.size() != 1 || head_.attribute("DX") != nullptr)
+            return Status::ok();
+        return nc_fault(
+            file_.name(), *own,
+            "units: " +
+                (own->find("units") == nullptr ? std::string("missing, nothing")
+                                               : "unknown, \"" + own->text("units") + '"') +
+                ", allowed: degrees, m, km; or the key units of the density");
     }
 
     Status edges(const char* which, const std::vector<double>& places, double width,
@@ -268,37 +267,101 @@ private:
         values.clear();
         if (found == nullptr) return Status::ok();
         UnitScale unit;
-        if (!find_unit(found->text("units"), Quantity::kDegrees, unit))
+        std::string text;
+        bool there = false;
+        PILEUS_TRY(read_unit(file_, settings_, *found, text, there));
+        if (!find_unit(text, Quantity::kDegrees, unit))
             return nc_fault(file_.name(), *found,
-                            "units: unknown or missing, \"" + found->text("units") +
+                            "units: unknown or missing, \"" + text +
                                 "\", allowed: " + unit_names(Quantity::kDegrees));
         PILEUS_TRY(read_line(*found, values));
         for (double& value : values) value *= unit.factor;
         return Status::ok();
     }
 
-    double attribute(const char* name) const {
+    /// A global attribute of WRF: one finite number.
+    Status attribute(const char* name, double& value) const {
         const NcAttribute* a = head_.attribute(name);
-        return a != nullptr && !a->numbers.empty() ? a->numbers[0] : 0;
+        if (a == nullptr || a->numbers.size() != 1 || !(a->numbers[0] - a->numbers[0] == 0))
+            return fault(std::string(name) + ": not a number, allowed: one");
+        value = a->numbers[0];
+        return Status::ok();
     }
 
-    /// Equal steps of a conformal projection: metres on the map.
+    /// Equal steps of a conformal projection: metres on the map. An idealized case has no map.
     Status wrf() {
-        const double dx = attribute("DX"), dy = attribute("DY"), map = attribute("MAP_PROJ");
+        double dx = 0, dy = 0, map = 0;
+        PILEUS_TRY(attribute("DX", dx));
+        PILEUS_TRY(attribute("DY", dy));
+        PILEUS_TRY(attribute("MAP_PROJ", map));
+        bool found = false;
+        if (map == 6) PILEUS_TRY(wrf_degrees(found));
+        if (found) return Status::ok();
         if (!(dx > 0 && dx < 1e7 && dy > 0 && dy < 1e7))
             return fault("DX, DY: out of range, allowed: above 0 to 1e7 m");
-        const char* name = map == 1   ? "Lambert conformal"
+        const char* name = map == 0   ? "an idealized case of WRF, metres without a map"
+                           : map == 1 ? "Lambert conformal"
                            : map == 2 ? "polar stereographic"
                            : map == 3 ? "Mercator"
+                           : map == 6 ? "longitude and latitude of WRF, metres at its equator"
                                       : nullptr;
         if (name == nullptr)
             return fault("MAP_PROJ: unknown, " +
                          std::to_string(int(map > -1e6 && map < 1e6 ? map : -1)) +
-                         ", allowed: 1 (Lambert), 2 (polar), 3 (Mercator)");
+                         ", allowed: 0 (idealized), 1 (Lambert), 2 (polar), 3 (Mercator), 6 "
+                         "(longitude and latitude)");
         std::vector<double> x, y;
         for (std::uint64_t i = 0; i < axes_.nx; ++i) x.push_back(double(i) * dx);
         for (std::uint64_t j = 0; j < axes_.ny; ++j) y.push_back(double(j) * dy);
         return metres(x, y, dx, dy, name);
+    }
+
+    /// Along one side of the map: `at` is the place along the other.
+    Status wrf_side(const NcVariable& v, bool along_x, std::uint64_t at,
+                    std::vector<double>& values) const {
+        NcBlock block = whole_block(head_, v);
+        for (std::size_t k = 0; k < block.count.size(); ++k) {
+            const std::size_t d = v.dimensions[k];
+            if (d == (along_x ? axes_.x : axes_.y)) continue;
+            block.start[k] = d == axes_.time                ? axes_.time_index
+                             : d == axes_.x || d == axes_.y ? at
+                                                            : 0;
+            block.count[k] = 1;
+        }
+        values.assign(std::size_t(along_x ? axes_.nx : axes_.ny), 0.0);
+        return read_unpacked(file_, v, block, {values.data(), values.size()});
+    }
+
+    /// Longitudes and latitudes that are those of rows and columns: the pole is not turned.
+    Status wrf_degrees(bool& found) {
+        const NcVariable *lon = head_.find("XLONG"), *lat = head_.find("XLAT");
+        found = false;
+        for (const NcVariable* v : {lon, lat}) {
+            std::size_t sides = 0;
+            if (v == nullptr || v->type == NcType::kChar) return Status::ok();
+            for (const std::size_t d : v->dimensions) sides += d == axes_.x || d == axes_.y;
+            if (sides != 2 || axes_.nx < 2 || axes_.ny < 2) return Status::ok();
+        }
+        std::vector<double> x, y, last_x, last_y, edges;
+        PILEUS_TRY(wrf_side(*lon, true, 0, x));
+        PILEUS_TRY(wrf_side(*lon, true, axes_.ny - 1, last_x));
+        PILEUS_TRY(wrf_side(*lat, false, 0, y));
+        PILEUS_TRY(wrf_side(*lat, false, axes_.nx - 1, last_y));
+        const auto same = [](const std::vector<double>& a, const std::vector<double>& b) {
+            const double step = absolute(a.back() - a.front()) / double(a.size());
+            for (std::size_t i = 0; i < a.size(); ++i)
+                if (!(absolute(a[i] - b[i]) <= kEven * step)) return false;
+            return true;
+        };
+        bool flipped = false;
+        std::vector<double> turned = x;
+        for (std::size_t i = 1; i < x.size(); ++i)
+            while (turned[i] < turned[i - 1] && turned[i] > turned[i - 1] - 400) turned[i] += 360;
+        if (!same(x, last_x) || !same(y, last_y) || !edges_of(turned, 0, edges, flipped) ||
+            !edges_of(y, 0, edges, flipped))
+            return Status::ok();
+        found = true;
+        return degrees(x, y);
     }
 
     const NcFile& file_;
@@ -311,44 +374,6 @@ private:
 };
 
 }  // namespace
-
-double Footprints::low_x() const {
-    double low = row_scale[0] * x_edges.front();
-    for (const double s : row_scale)
-        if (s * x_edges.front() < low) low = s * x_edges.front();
-    return low;
-}
-
-double Footprints::high_x() const {
-    double high = row_scale[0] * x_edges.back();
-    for (const double s : row_scale)
-        if (s * x_edges.back() > high) high = s * x_edges.back();
-    return high;
-}
-
-bool edges_of(std::vector<double> places, double width, std::vector<double>& edges, bool& flipped) {
-    const std::size_t n = places.size();
-    flipped = n > 1 && places[0] > places[n - 1];
-    if (flipped)
-        for (std::size_t i = 0; i < n / 2; ++i) std::swap(places[i], places[n - 1 - i]);
-    edges.assign(n + 1, 0.0);
-    if (n == 1) {
-        edges[0] = places[0] - 0.5 * width;
-        edges[1] = places[0] + 0.5 * width;
-        return width > 0;
-    }
-    const double step = (places[n - 1] - places[0]) / double(n - 1);
-    bool even = step > 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        if (i > 0 && !(places[i] > places[i - 1])) return false;
-        even = even && absolute(places[i] - places[0] - double(i) * step) <= kEven * step;
-    }
-    for (std::size_t i = 1; i < n; ++i) edges[i] = 0.5 * (places[i - 1] + places[i]);
-    edges[0] = 2 * places[0] - edges[1];
-    edges[n] = 2 * places[n - 1] - edges[n - 1];
-    for (std::size_t i = 0; even && i <= n; ++i) edges[i] = places[0] + (double(i) - 0.5) * step;
-    return true;
-}
 
 Status find_footprints(const NcFile& file, const NcVariable& water, const WeatherAxes& axes,
                        const WeatherSettings& settings, Footprints& ground) {

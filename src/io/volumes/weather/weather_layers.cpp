@@ -2,6 +2,8 @@
 // From fields to layers of cloud.
 // in: a block of rows -> out: see weather_grid.h.
 // docs/weather.md, "From water to extinction"; Fu 1996 for D_ge.
+#include <limits>
+
 #include "src/io/volumes/weather/weather_air.h"
 #include "src/io/volumes/weather/weather_grid.h"
 #include "src/io/volumes/weather/weather_levels.h"
@@ -11,10 +13,11 @@ namespace pileus {
 namespace {
 
 constexpr std::uint64_t kBlockValues = std::uint64_t{1} << 19;
-constexpr double kUndershoot = -1e-6;    // kg/kg; below it water is a fault
-constexpr double kMostWater = 0.5;       // kg/kg or kg/m3
-constexpr double kMostShown = 1e30;      // as the values of a transfer function
-constexpr double kLeastFraction = 0.01;  // clouds in less are as dense as in this
+constexpr double kUndershoot = -1e-6;   // kg/kg; below it water is a fault
+constexpr double kMostWater = 0.5;      // kg/kg or kg/m3
+constexpr double kMostShown = 1e30;     // as the values of a transfer function
+constexpr double kLeastFraction = 0.1;  // clouds in less are as dense as in this
+constexpr double kNoFraction = 0.01;    // below it the fraction knows nothing of the water
 constexpr double kLeastExtinction =
     1e-12;  // 1/m; models write traces such as 1e-24 kg/kg everywhere
 constexpr double kLiquidRadius = 10e-6, kIceRadius = 30e-6;
@@ -40,6 +43,10 @@ public:
             PILEUS_TRY(make_room(columns * n_, "water of layers", *water));
         PILEUS_TRY(air_.check());
         for (std::size_t c = 0; c < columns; ++c) {
+            if (is_blank(c)) {
+                PILEUS_TRY(blank_column(c));
+                continue;
+            }
             PILEUS_TRY(air_.place_column(c, layers_.faces_m.span().part(c * (n_ + 1), n_ + 1)));
             PILEUS_TRY(cloud_column(c));
         }
@@ -50,6 +57,34 @@ private:
     const Buffer<double>& of(Role role) const { return fields_.of(role); }
     Status fault(Role role, std::size_t c, const std::string& line) const {
         return fields_.fault(role, c, line);
+    }
+
+    /// A column outside a turned or cut domain: nothing that is shown has a value, or there is no
+    /// water and the air has none.
+    bool is_blank(std::size_t c) const {
+        bool any = false, wet = false;
+        for (const Role role : {Role::kShown, Role::kLiquid, Role::kIce})
+            for (std::size_t k = 0; k < n_ && s_.has(role); ++k) {
+                const double value = of(role).at(c * n_ + k);
+                any = any || !missing(value);
+                wet = wet || (!missing(value) && (role == Role::kShown || value != 0));
+            }
+        return !any || (!wet && air_.lacks_values(c));
+    }
+
+    Status blank_column(std::size_t c) {
+        ++counts_.blank;
+        for (std::size_t k = 0; k <= n_; ++k)
+            layers_.faces_m[c * (n_ + 1) + k] = std::numeric_limits<double>::quiet_NaN();
+        if (s_.has(Role::kShown)) return shown_column(c);
+        double none = 0;
+        for (std::size_t k = 0; k < n_; ++k) {
+            for (const Role role : {Role::kLiquid, Role::kIce})
+                if (s_.has(role)) PILEUS_TRY(content(role, c, k, none));
+            const std::size_t i = c * n_ + k;
+            layers_.extinction[i] = layers_.liquid[i] = layers_.ice[i] = 0;
+        }
+        return Status::ok();
     }
 
     /// Content of one kind of water in kg/m3 of cloud; 0 for what is missing or an undershoot.
@@ -142,7 +177,13 @@ private:
                     return fault(
                         Role::kFraction, c,
                         "level " + level_text(k) + ": " + number_text(f) + ", allowed: 0 to 1");
-                const double share = f < kLeastFraction ? kLeastFraction : f > 1 ? 1 : f;
+                // A fraction too small for the water in it is not of that water: it counts as the
+                // mean, or is ten times as dense at most.
+                const double share = f < kNoFraction      ? 1
+                                     : f < kLeastFraction ? kLeastFraction
+                                     : f > 1              ? 1
+                                                          : f;
+                if (f < kLeastFraction) ++counts_.capped;
                 liquid /= share;
                 ice /= share;
             }

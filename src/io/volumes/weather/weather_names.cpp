@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table of names.
 // in: nothing -> out: see weather_fields.h.
-// docs/weather.md, "Variables"; CF standard names; names of ecRad, ECMWF, ICON, COSMO and WRF.
+// docs/weather.md, "Variables"; CF standard names; names of ecRad, ECMWF, ICON, COSMO, WRF
+// and of DALES, UCLALES, PALM, CM1 and SAM.
 #include "src/io/volumes/weather/weather_fields.h"
 
 namespace pileus {
@@ -16,6 +17,7 @@ constexpr WeatherName kRows[] = {
     {Role::kFraction, "CLDFRA", nullptr, Q::kFraction, M::kPlain, 0, true},
     {Role::kTemperature, "T", nullptr, Q::kTemperature, M::kPotential, 300, true},
     {Role::kPressure, "P+PB", nullptr, Q::kPressure, M::kPlain, 0, true},
+    {Role::kPressure, "P_HYD", nullptr, Q::kPressure, M::kPlain, 0, true},
     {Role::kHeight, "PH+PHB", nullptr, Q::kGeopotential, M::kGeopotential, 0, true},
     {Role::kHumidity, "QVAPOR", nullptr, Q::kRatio, M::kPerDryAir, 0, true},
     {Role::kLiquidRadius, "RE_CLOUD", nullptr, Q::kRadius, M::kPlain, 0, true},
@@ -32,6 +34,9 @@ constexpr WeatherName kRows[] = {
     {Role::kLiquid, "ql", nullptr, Q::kRatio},
     {Role::kLiquid, "lwc", nullptr, Q::kContent},
     {Role::kLiquid, "LWC", nullptr, Q::kContent},
+    {Role::kLiquid, "QC", nullptr, Q::kRatio},
+    {Role::kLiquid, "QN", nullptr, Q::kRatio},
+    {Role::kLiquid, "l", nullptr, Q::kRatio},
     {Role::kIce, nullptr, "mass_fraction_of_cloud_ice_in_air", Q::kRatio},
     {Role::kIce, nullptr, "cloud_ice_mixing_ratio", Q::kRatio, M::kPerDryAir},
     {Role::kIce, nullptr, "mass_concentration_of_cloud_ice_in_air", Q::kContent},
@@ -41,6 +46,7 @@ constexpr WeatherName kRows[] = {
     {Role::kIce, "qi", nullptr, Q::kRatio},
     {Role::kIce, "iwc", nullptr, Q::kContent},
     {Role::kIce, "IWC", nullptr, Q::kContent},
+    {Role::kIce, "QI", nullptr, Q::kRatio},
     {Role::kFraction, nullptr, "cloud_area_fraction_in_atmosphere_layer", Q::kFraction},
     {Role::kFraction, nullptr, "cloud_volume_fraction_in_atmosphere_layer", Q::kFraction},
     {Role::kFraction, "cloud_fraction", nullptr, Q::kFraction},
@@ -55,6 +61,8 @@ constexpr WeatherName kRows[] = {
     {Role::kTemperature, "temp", nullptr, Q::kTemperature},
     {Role::kTemperature, "t", nullptr, Q::kTemperature},
     {Role::kTemperature, "theta", nullptr, Q::kTemperature, M::kPotential},
+    {Role::kTemperature, "TABS", nullptr, Q::kTemperature},
+    {Role::kTemperature, "th", nullptr, Q::kTemperature, M::kPotential},
     {Role::kPressure, nullptr, "air_pressure", Q::kPressure},
     {Role::kPressure, "pressure_hl", nullptr, Q::kPressure},
     {Role::kPressure, "pressure", nullptr, Q::kPressure},
@@ -62,10 +70,13 @@ constexpr WeatherName kRows[] = {
     {Role::kPressure, "pfull", nullptr, Q::kPressure},
     {Role::kPressure, "pres", nullptr, Q::kPressure},
     {Role::kPressure, "p", nullptr, Q::kPressure},
+    {Role::kPressure, "prs", nullptr, Q::kPressure},
     {Role::kHeight, nullptr, "altitude", Q::kHeight},
     {Role::kHeight, nullptr, "height_above_mean_sea_level", Q::kHeight},
     {Role::kHeight, nullptr, "geopotential_height", Q::kHeight},
     {Role::kHeight, nullptr, "geopotential", Q::kGeopotential, M::kGeopotential},
+    {Role::kHeight, nullptr, "height_above_geopotential_datum", Q::kHeight},
+    {Role::kHeight, nullptr, "height_above_reference_ellipsoid", Q::kHeight},
     {Role::kHeight, nullptr, "height", Q::kHeight},
     {Role::kHeight, "height_hl", nullptr, Q::kHeight},
     {Role::kHeight, "height", nullptr, Q::kHeight},
@@ -81,6 +92,7 @@ constexpr WeatherName kRows[] = {
     {Role::kHumidity, "q", nullptr, Q::kRatio},
     {Role::kHumidity, "hus", nullptr, Q::kRatio},
     {Role::kHumidity, "qv", nullptr, Q::kRatio},
+    {Role::kHumidity, "QV", nullptr, Q::kRatio},
     {Role::kLiquidRadius, nullptr, "effective_radius_of_cloud_liquid_water_particles", Q::kRadius},
     {Role::kLiquidRadius, nullptr, "effective_radius_of_cloud_liquid_water_particle", Q::kRadius},
     {Role::kLiquidRadius, "re_liquid", nullptr, Q::kRadius},
@@ -97,6 +109,8 @@ constexpr WeatherName kRows[] = {
     {Role::kSurfaceHeight, "orog", nullptr, Q::kHeight},
     {Role::kSurfaceHeight, "hsurf", nullptr, Q::kHeight},
     {Role::kSurfaceHeight, "topography_c", nullptr, Q::kHeight},
+    {Role::kSurfaceHeight, "HSURF", nullptr, Q::kHeight},
+    {Role::kSurfaceHeight, "PHIS", nullptr, Q::kGeopotential, M::kGeopotential},
 };
 
 }  // namespace

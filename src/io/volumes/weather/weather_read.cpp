@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "src/base/exponential.h"
-#include "src/io/netcdf/netcdf_values.h"
+#include "src/io/netcdf/netcdf_packing.h"
 #include "src/io/volumes/weather/weather_source.h"
 
 namespace pileus {
@@ -102,7 +102,8 @@ Status read_field(const WeatherSource& s, Role role, std::uint64_t first_row, st
                             "dimensions: not those of its columns and levels, allowed: each once");
         PILEUS_TRY(make_room(count, "values of a variable", raw));
         PILEUS_TRY(s.file->read(*part, block, raw.span().part(0, std::size_t(count))));
-        const NcPacking packing(*part);
+        NcPacking packing;
+        PILEUS_TRY(NcPacking::of(s.file->name(), *part, packing));
         const bool first = part == field.parts[0];
         std::size_t to = 0;
         for (std::uint64_t y = 0; y < rows; ++y)
@@ -111,8 +112,8 @@ Status read_field(const WeatherSource& s, Role role, std::uint64_t first_row, st
                     const std::size_t level = s.top_down ? n - 1 - k : k;
                     const double number =
                         raw.at(std::size_t(y) * strides.y + x * strides.x + level * strides.level);
-                    const bool missing = packing.is_missing(number);
-                    const double value = packing.scale * number + packing.offset;
+                    double value = kMissing;
+                    const bool missing = !packing.take(number, value);
                     if (!missing && !(value - value == 0))
                         return not_finite(s, *part, first_row + y, x, level, value);
                     const double known = missing ? kMissing : value;

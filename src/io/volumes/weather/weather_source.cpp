@@ -4,6 +4,9 @@
 // docs/weather.md; CF conventions 1.10, appendix D (hybrid coordinates).
 #include "src/io/volumes/weather/weather_source.h"
 
+#include "src/io/netcdf/netcdf_packing.h"
+#include "src/io/volumes/weather/weather_hints.h"
+
 namespace pileus {
 namespace {
 
@@ -15,7 +18,11 @@ Status read_all(const NcFile& file, const NcVariable& v, std::uint64_t count,
             file.name(), v,
             "values: " + std::to_string(block.values()) + ", allowed: " + std::to_string(count));
     values.assign(std::size_t(count), 0.0);
-    return file.read(v, block, {values.data(), values.size()});
+    PILEUS_TRY(read_unpacked(file, v, block, {values.data(), values.size()}));
+    for (const double value : values)
+        if (!(value > -1e12 && value < 1e12))
+            return nc_fault(file.name(), v, "values: not finite or missing, allowed: numbers");
+    return Status::ok();
 }
 
 /// "a: hyam b: hybm ps: sp" -> the variable of a term; empty where there is none.
@@ -52,6 +59,7 @@ public:
             return direction(Role::kPressure, false);
         }
         PILEUS_TRY(hybrid(found));
+        if (found && s_.hybrid_heights) return Status::ok();
         if (found) return hybrid_direction();
         if (pressure.there()) {
             s_.vertical = Vertical::kPressureLevels;
@@ -66,19 +74,32 @@ public:
     }
 
 private:
-    const NcVariable* level_variable() const {
-        const NcVariable* v = head_.find(head_.dimensions[s_.axes.level].name);
-        const bool along = v != nullptr && v->dimensions.size() == 1 &&
-                           v->dimensions[0] == s_.axes.level && v->type != NcType::kChar;
-        return along ? v : nullptr;
+    /// The levels' own coordinate, or else one along them whose unit tells where they lie.
+    Status level_variable(const NcVariable*& found, std::string& unit) const {
+        UnitScale scale;
+        found = nullptr;
+        for (const NcVariable* v : coordinates_of(head_, s_.axes.level, AxisKind::kLevel)) {
+            std::string text;
+            bool there = false;
+            PILEUS_TRY(read_unit(file_, *s_.settings, *v, text, there));
+            const bool tells = find_unit(text, Quantity::kPressure, scale) ||
+                               find_unit(text, Quantity::kHeight, scale) ||
+                               !v->text("formula_terms").empty();
+            if (!tells && found != nullptr) continue;
+            found = v;
+            unit = text;
+            if (tells) break;
+        }
+        return Status::ok();
     }
 
-    /// The levels' own coordinate, where its unit says what it is and no variable says it better.
+    /// The levels' coordinate, where its unit says what it is and no variable says it better.
     Status coordinate() {
-        const NcVariable* v = level_variable();
+        const NcVariable* v = nullptr;
+        std::string text;
+        PILEUS_TRY(level_variable(v, text));
         if (v == nullptr || !v->text("formula_terms").empty()) return Status::ok();
         UnitScale unit;
-        const std::string text = v->text("units");
         WeatherField& height = s_.fields[Role::kHeight];
         WeatherField& pressure = s_.fields[Role::kPressure];
         if (!pressure.there() && find_unit(text, Quantity::kPressure, unit)) {
@@ -87,12 +108,68 @@ private:
             pressure.unit = unit;
         }
         if (!height.there() && s_.settings->height != "none" &&
-            find_unit(text, Quantity::kHeight, unit)) {
+            find_unit(text, Quantity::kHeight, unit) && !is_level_number(file_, *v)) {
             height.parts = {v};
             height.quantity = Quantity::kHeight;
             height.unit = unit;
+            height.above_ground = is_above_ground(*v);
         }
         return Status::ok();
+    }
+
+    /// Of a term of a formula that is one number.
+    Status number_of(const NcVariable* v, double& value) const {
+        if (v == nullptr || !v->dimensions.empty()) return Status::ok();
+        std::vector<double> one;
+        PILEUS_TRY(read_all(file_, *v, 1, one));
+        value = one[0];
+        UnitScale unit;
+        if (find_unit(v->text("units"), Quantity::kPressure, unit)) value *= unit.factor;
+        return Status::ok();
+    }
+
+    bool is_line(const NcVariable* v) const {
+        return v != nullptr && v->dimensions.size() == 1 && head_.size(*v, 0) == s_.axes.levels;
+    }
+
+    /// CF conventions, appendix D: formulas that are none of pressures a + b ps.
+    Status formula(const NcVariable& level, bool& found) {
+        const std::string terms = level.text("formula_terms"), name = level.text("standard_name");
+        const std::uint64_t n = s_.axes.levels;
+        if (name == "atmosphere_hybrid_height_coordinate") {
+            const NcVariable *a = head_.find(term_of(terms, "a")),
+                             *b = head_.find(term_of(terms, "b"));
+            UnitScale unit;
+            if (!is_line(a) || !is_line(b) || !s_.has(Role::kSurfaceHeight) ||
+                !find_unit(a->text("units"), Quantity::kHeight, unit))
+                return formula_fault(level, "a in m and b of each level, and the ground's height");
+            PILEUS_TRY(read_all(file_, *a, n, s_.hybrid_a));
+            PILEUS_TRY(read_all(file_, *b, n, s_.hybrid_b));
+            for (double& value : s_.hybrid_a) value *= unit.factor;
+            s_.vertical = Vertical::kHeightLevels;
+            s_.hybrid_heights = true;
+            s_.top_down = n > 1 && s_.hybrid_a.front() > s_.hybrid_a.back();
+            found = true;
+        } else if (name == "atmosphere_sigma_coordinate") {
+            const NcVariable* sigma = head_.find(term_of(terms, "sigma"));
+            if (!is_line(sigma) || !s_.has(Role::kSurfacePressure))
+                return formula_fault(level, "sigma of each level and the pressure at the ground");
+            double top = 0;
+            PILEUS_TRY(number_of(head_.find(term_of(terms, "ptop")), top));
+            PILEUS_TRY(read_all(file_, *sigma, n, s_.hybrid_b));
+            for (const double share : s_.hybrid_b) s_.hybrid_a.push_back(top * (1 - share));
+            s_.vertical = Vertical::kPressureLevels;
+            found = true;
+        } else if (name != "atmosphere_hybrid_sigma_pressure_coordinate" && !name.empty()) {
+            return formula_fault(level, "a formula of hybrid pressures, hybrid heights or sigma");
+        }
+        return Status::ok();
+    }
+    Status formula_fault(const NcVariable& level, const char* allowed) const {
+        return nc_fault(file_.name(), level,
+                        "formula_terms: not enough to place the levels of " +
+                            level.text("standard_name") + ", allowed: " + allowed +
+                            ", or heights or pressures as variables");
     }
 
     Status take(const NcVariable* a, const NcVariable* b, double reference, bool faces,
@@ -118,25 +195,20 @@ private:
     /// Coefficients of faces where the file has them, or else of levels.
     Status hybrid(bool& found) {
         double reference = 1;
-        if (const NcVariable* p0 = head_.find("P0"))
-            if (p0->dimensions.empty()) {
-                std::vector<double> value;
-                PILEUS_TRY(read_all(file_, *p0, 1, value));
-                reference = value[0];
-            }
+        PILEUS_TRY(number_of(head_.find("P0"), reference));
         PILEUS_TRY(take(head_.find("hyai"), head_.find("hybi"), reference, true, found));
         if (found) return Status::ok();
         PILEUS_TRY(take(head_.find("ak"), head_.find("bk"), reference, true, found));
         if (found) return Status::ok();
-        const NcVariable* level = level_variable();
+        const NcVariable* level = nullptr;
+        std::string unit;
+        PILEUS_TRY(level_variable(level, unit));
         const std::string terms = level != nullptr ? level->text("formula_terms") : "";
+        // Pressures of levels tell where these lie as well.
+        if (!terms.empty() && !s_.has(Role::kPressure)) PILEUS_TRY(formula(*level, found));
+        if (found) return Status::ok();
         if (!terms.empty()) {
-            const NcVariable* p0 = head_.find(term_of(terms, "p0"));
-            if (p0 != nullptr && p0->dimensions.empty()) {
-                std::vector<double> value;
-                PILEUS_TRY(read_all(file_, *p0, 1, value));
-                reference = value[0];
-            }
+            PILEUS_TRY(number_of(head_.find(term_of(terms, "p0")), reference));
             const std::string ap = term_of(terms, "ap"), a = term_of(terms, "a");
             PILEUS_TRY(take(head_.find(ap.empty() ? a : ap), head_.find(term_of(terms, "b")),
                             ap.empty() ? reference : 1, false, found));
@@ -153,15 +225,20 @@ private:
         return Status::ok();
     }
 
-    /// By the first column.
+    /// By the first column that has values.
     Status direction(Role role, bool ascends) {
-        Buffer<double> first;
+        Buffer<double> row;
         s_.top_down = false;
-        PILEUS_TRY(read_field(s_, role, 0, 1, first));
         const std::size_t n = s_.levels() + (s_.fields[role].on_faces ? 1 : 0);
-        if (n < 2) return Status::ok();
-        const bool upwards = first.at(0) < first.at(n - 1);
-        s_.top_down = upwards != ascends;
+        for (std::uint64_t y = 0; y < s_.axes.ny && n > 1; ++y) {
+            PILEUS_TRY(read_field(s_, role, y, 1, row));
+            for (std::size_t x = 0; x < s_.row_columns(); ++x) {
+                const double low = row.at(x * n), high = row.at(x * n + n - 1);
+                if (low != low || high != high) continue;
+                s_.top_down = (low < high) != ascends;
+                return Status::ok();
+            }
+        }
         return Status::ok();
     }
 
@@ -178,6 +255,7 @@ Status open_weather(const NcFile& file, const WeatherSettings& settings, Weather
     source = WeatherSource();
     source.file = &file;
     source.settings = &settings;
+    PILEUS_TRY(check_hints(file, settings));
     PILEUS_TRY(find_water(file, settings, source.water));
     PILEUS_TRY(find_axes(file, *source.water, settings, source.axes));
     // No column may have more levels than a grid can show, no row more columns.

@@ -19,6 +19,8 @@ struct WeatherCounts {
     std::uint64_t clamped = 0;  ///< negative water within -1e-6 kg/kg, taken for none
     std::uint64_t values = 0;   ///< of what is shown
     std::uint64_t filled = 0;   ///< missing values of air, taken from the next level
+    std::uint64_t blank = 0;    ///< columns without a value, taken for clear
+    std::uint64_t capped = 0;   ///< cells with more water than their cloud fraction tells
 };
 
 struct WeatherSource {
@@ -29,8 +31,10 @@ struct WeatherSource {
     WeatherAxes axes;
     WeatherFields fields;
     Vertical vertical = Vertical::kHeightLevels;
-    /// Of hybrid levels: pressure = a + b * pressure at the ground, from the file's first level on.
+    /// Of hybrid levels: pressure = a + b * pressure at the ground, or height = a + b * that of the
+    /// ground, from the file's first level on.
     std::vector<double> hybrid_a, hybrid_b;
+    bool hybrid_heights = false;
     bool top_down = false;  ///< the file's first level is the highest
     Footprints ground;
 

@@ -21,6 +21,9 @@ enum class Quantity {
     kDegrees,       ///< degrees, of longitude or latitude
 };
 
+/// What DALES calls its ratios, whose values are kg/kg all the same.
+constexpr const char* kDalesUnit = "1e-5kg/kg";
+
 struct UnitScale {
     double factor = 1, offset = 0;  ///< value = factor * number + offset
 };

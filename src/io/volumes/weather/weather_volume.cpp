@@ -23,7 +23,7 @@ const char* vertical_text(const WeatherSource& s) {
         case Vertical::kHeightFaces:
             return "heights of faces";
         case Vertical::kHeightLevels:
-            return "heights of levels";
+            return s.hybrid_heights ? "hybrid heights of levels" : "heights of levels";
         case Vertical::kPressureFaces:
             return s.hybrid_b.empty() ? "pressures of faces" : "hybrid faces";
         case Vertical::kPressureLevels:
@@ -40,10 +40,24 @@ std::string detail_of(const WeatherSource& s, const WeatherSurvey& survey) {
                     s.fields[role].name();
     text += "; " + std::to_string(s.axes.levels) + ' ' + vertical_text(s) +
             (s.top_down ? " from above" : " from below");
+    if (s.has(Role::kHeight) && s.fields[Role::kHeight].above_ground && !s.hybrid_heights)
+        text += s.has(Role::kSurfaceHeight) ? ", above the ground"
+                                            : ", above the ground, which is not known: at 0 m";
+    for (const WeatherField& field : s.fields.of)
+        for (const NcVariable* part : field.parts)
+            if (part->text("units") == kDalesUnit)
+                text += "; " + part->name + " in " + kDalesUnit + " of DALES is in kg/kg";
     if (!s.axes.time_text.empty()) text += "; " + s.axes.time_text;
+    if (!s.axes.member_text.empty()) text += "; member " + s.axes.member_text;
     text += "; " + s.ground.text;
     if (survey.counts.missing > 0)
         text += "; " + std::to_string(survey.counts.missing) + " missing values are no cloud";
+    if (survey.counts.blank > 0)
+        text += "; " + std::to_string(survey.counts.blank) + " columns without a value are clear";
+    if (survey.counts.capped > 0)
+        text += "; " + std::to_string(survey.counts.capped) +
+                " cells have more water than their cloud fraction tells, at most 10 times as dense "
+                "in cloud";
     if (survey.counts.clamped > 0)
         text += "; " + std::to_string(survey.counts.clamped) + " negative values are none";
     return printable_line(text);
@@ -142,6 +156,8 @@ Status weather_volume(const MediumSettings& medium, const NcFile& file, Volume& 
     volume.bounds_m = bounds_of(grid, medium.weather.vertical_scale);
     volume.missing = survey.counts.missing;
     volume.clamped = survey.counts.clamped;
+    volume.blank = survey.counts.blank;
+    volume.capped = survey.counts.capped;
     return fill(source, grid, layers, volume);
 }
 
