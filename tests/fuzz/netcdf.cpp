@@ -18,8 +18,10 @@ int fuzz::netcdf(const std::uint8_t* data, std::size_t size) {
         return 0;
     }
     pileus::MediumSettings medium;
+    medium.weather.in_cloud = size % 2 == 1;
     // A grid has its own cells.
     const bool grid = pileus::netcdf_grid(file.head(), medium.weather) != nullptr;
+    if (grid) medium.weather.in_cloud = false;
     if (!grid) medium.resolution = {4, 3, 5};
     pileus::VolumeHead head;
     pileus::Volume volume;

@@ -211,7 +211,7 @@ private:
         const auto good = [&](const NcVariable& v) {
             if (!fits(row.role, axes, v)) return false;
             if (row.role != Role::kHeight || v.dimensions.size() > 1) return true;
-            return lines && !is_level_number(file_, v);
+            return lines && v.text("formula_terms").empty() && !is_level_number(file_, v);
         };
         found.clear();
         if (row.name != nullptr) {
