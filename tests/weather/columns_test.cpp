@@ -154,6 +154,11 @@ TEST_CASE("columns: hybrid heights and sigma by their formulas") {
     // Levels of the second column: 910, 970, 1030; the layers of 0.4 and 0.3 g/m3 end at 1060.
     CHECK(c.volume.bounds_m[1][2] == doctest::Approx(1060));
     CHECK(c.volume.bounds_m[0][2] == doctest::Approx(500));
+    WeatherCase ratio;
+    ratio.maker = c.maker;
+    ratio.maker.set_units("lwc", "g kg-1");
+    ratio.maker.variable("t", {"z", "y", "x"}, std::vector<double>(6, 280.0), "K");
+    CHECK(ratio.fault().find("w.nc: pressure: no such variable") == 0);
     c.maker.remove("share");
     CHECK(c.fault().find("w.nc: variable z: formula_terms: not enough to place the levels") == 0);
 

@@ -6,6 +6,7 @@
 
 #include "src/io/volumes/volume_file.h"
 #include "src/io/volumes/weather_file.h"
+#include "src/scene/read_scene.h"
 #include "tests/io/temp_folder.h"
 #include "tests/weather/weather_case.h"
 
@@ -52,4 +53,15 @@ TEST_CASE("weather: a file that a session keeps is opened once, whatever is read
     REQUIRE(read_weather_map(scene.media[1], path, map));
     CHECK(map.kind == MapKind::kConic);
     CHECK(!read_volume_head(scene.media[0], path, head));
+}
+
+TEST_CASE("weather: a file whose name holds a # is that file, else a frame of a sequence") {
+    const pileus::test::TempFolder folder;
+    Scene scene;
+    MediumSettings medium;
+    medium.file = folder.path("cloud#1.nc");
+    medium.first_frame = 7;
+    CHECK(density_path(scene, medium) == folder.path("cloud71.nc"));
+    folder.put("cloud#1.nc", "there");
+    CHECK(density_path(scene, medium) == folder.path("cloud#1.nc"));
 }

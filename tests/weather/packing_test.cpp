@@ -146,6 +146,11 @@ TEST_CASE("packing: an attribute that says nothing is a line with its name") {
              v.texts = {{"_Unsigned", "yes"}};
          },
          "_Unsigned: a text, \"yes\", allowed: \"true\" or \"false\""},
+        {"an axis as a number",
+         [](auto& v) {
+             v.numbers = {{"axis", 1}};
+         },
+         "axis: 1, allowed: a text"},
         {"a sign as a number",
          [](auto& v) {
              v.numbers = {{"_Unsigned", 1}};

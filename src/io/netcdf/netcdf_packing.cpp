@@ -74,6 +74,10 @@ public:
 
     Status run() {
         if (v_.type == NcType::kChar || v_.type == NcType::kOther) return Status::ok();
+        std::string text;
+        for (const char* name : {"standard_name", "axis", "positive", "calendar", "formula_terms",
+                                 "grid_mapping", "coordinates", "bounds"})
+            PILEUS_TRY(read_text(file_, v_, name, text));
         PILEUS_TRY(sign());
         PILEUS_TRY(one("scale_factor", to_.scale_));
         PILEUS_TRY(one("add_offset", to_.offset_));

@@ -71,7 +71,8 @@ bool AirColumn::by_pressure() const {
 Status AirColumn::check() const {
     if (!needs_air_) return Status::ok();
     const char* lacks = !s_.has(Role::kTemperature) ? "temperature" : nullptr;
-    if (!s_.has(Role::kPressure) && s_.hybrid_b.empty()) lacks = "pressure";
+    const bool hybrid = !s_.hybrid_b.empty() && !s_.hybrid_heights;
+    if (!s_.has(Role::kPressure) && !hybrid) lacks = "pressure";
     if (lacks == nullptr) return Status::ok();
     return Status::bad_input(s_.file->name() + ": " + lacks +
                              ": no such variable, nothing, allowed: one with a standard_name or "

@@ -69,10 +69,8 @@ constexpr NameRow kUnits[] = {
 };
 
 constexpr NameRow kLetters[] = {
-    {AxisKind::kTime, " t "},
-    {AxisKind::kLevel, " z "},
-    {AxisKind::kY, " y "},
-    {AxisKind::kX, " x "},
+    {AxisKind::kTime, " t "}, {AxisKind::kLevel, " z "},  {AxisKind::kY, " y "},
+    {AxisKind::kX, " x "},    {AxisKind::kMember, " e "},
 };
 
 constexpr NameRow kWords[] = {

@@ -38,11 +38,14 @@ Status read_names(const NcFile& file, const NcVariable& v, std::vector<std::stri
     return Status::ok();
 }
 
-/// Numbers or names of all members; none where the file has no coordinate of them.
-Status member_names(const NcFile& file, std::size_t dimension, std::vector<std::string>& names) {
+/// Numbers or names of all members; none where the file has no coordinate of them, or has one of a
+/// type that is not read.
+Status member_names(const NcFile& file, std::size_t dimension, std::vector<std::string>& names,
+                    bool& unread) {
     const NcHead& head = file.head();
     const std::uint64_t size = head.dimensions[dimension].size;
     names.clear();
+    unread = false;
     if (size > kMostMembers) return Status::ok();
     const auto numbers = coordinates_of(head, dimension, AxisKind::kMember);
     if (!numbers.empty()) {
@@ -60,6 +63,8 @@ Status member_names(const NcFile& file, std::size_t dimension, std::vector<std::
                            axis_by_attributes(v, false) == AxisKind::kMember ||
                            axis_by_name(v.name) == AxisKind::kMember;
         if (rows && tells && names.empty()) PILEUS_TRY(read_names(file, v, names));
+        unread = unread || (tells && v.type == NcType::kOther && v.dimensions.size() == 1 &&
+                            v.dimensions[0] == dimension);
     }
     return Status::ok();
 }
@@ -75,7 +80,8 @@ bool says(const std::string& name, const std::string& wanted) {
 Status choose_member(const NcFile& file, const WeatherChoice& wanted, WeatherAxes& axes) {
     const std::uint64_t size = file.head().dimensions[axes.member].size;
     std::vector<std::string> names;
-    PILEUS_TRY(member_names(file, axes.member, names));
+    bool unread = false;
+    PILEUS_TRY(member_names(file, axes.member, names, unread));
     std::uint64_t index = std::uint64_t(wanted.index), hits = 1;
     double number = -1;
     if (wanted.by_name && !names.empty()) {
@@ -85,6 +91,9 @@ Status choose_member(const NcFile& file, const WeatherChoice& wanted, WeatherAxe
                 index = i;
                 ++hits;
             }
+    } else if (wanted.by_name && unread) {
+        return Status::bad_input(file.name() + ": member: names of a type that is not read, " +
+                                 quote_text(wanted.name) + ", allowed: a whole number, an index");
     } else if (wanted.by_name) {
         // Members without numbers or names count from 0.
         hits = read_number(wanted.name, number) && number >= 0 && number < double(size) &&

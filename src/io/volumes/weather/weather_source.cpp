@@ -48,9 +48,15 @@ public:
         const WeatherField& pressure = s_.fields[Role::kPressure];
         if (height.there()) {
             const NcVariable& v = *height.parts[0];
-            if (v.text("positive") == "down")
-                return nc_fault(file_.name(), v,
-                                "positive: levels upside down, \"down\", allowed: up for heights");
+            std::string positive = v.text("positive");
+            for (char& c : positive)
+                if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+            if (!positive.empty() && positive != "up")
+                return nc_fault(
+                    file_.name(), v,
+                    "positive: " +
+                        std::string(positive == "down" ? "levels upside down" : "not understood") +
+                        ", \"" + v.text("positive") + "\", allowed: up for heights");
             s_.vertical = height.on_faces ? Vertical::kHeightFaces : Vertical::kHeightLevels;
             return direction(Role::kHeight, true);
         }

@@ -46,6 +46,12 @@ constexpr UnitRow kRows[] = {
     {Quantity::kTemperature, "degree_Celsius", 1, 273.15},
     {Quantity::kTemperature, "degrees_Celsius", 1, 273.15},
     {Quantity::kTemperature, "Celsius", 1, 273.15},
+    {Quantity::kTemperature, "degree_C", 1, 273.15},
+    {Quantity::kTemperature, "degrees_C", 1, 273.15},
+    {Quantity::kTemperature,
+     "\xc2\xb0"
+     "C",
+     1, 273.15},
     {Quantity::kTemperature, "Kelvin", 1, 0},
     {Quantity::kTemperature, "degK", 1, 0},
     {Quantity::kPressure, "Pa", 1, 0},
