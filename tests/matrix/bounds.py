@@ -1,0 +1,56 @@
+# SPDX-License-Identifier: Apache-2.0
+"""What the support table promises, as numbers.
+
+in: `pileus methods --json` -> out: for a row and a column its level, and the share of the mean by which
+a picture may be too dark and too bright.
+"""
+import json
+import re
+import subprocess
+
+NUMBER = r"[-+]?\d+(?:\.\d+)?"
+RANGE = re.compile(rf"({NUMBER}) to ({NUMBER}) %")
+ONE = re.compile(rf"({NUMBER}) %")
+FACTOR = re.compile(rf"\bx ({NUMBER})(?: to ({NUMBER}))?")
+
+
+class Table:
+    def __init__(self, program):
+        text = subprocess.run([program, "methods", "--json"], capture_output=True, text=True, check=True).stdout
+        data = json.loads(text)
+        self.columns = data["columns"]
+        self.rows = {row["feature"]: row["by"] for row in data["features"]}
+        self.pairs = data["pairs"]
+
+    def level(self, row, column):
+        return self.rows[row][column]["level"]
+
+    def text(self, row, column):
+        return self.rows[row][column].get("text", "")
+
+    def figure(self, row, column):
+        """(too dark, too bright) as shares of the mean; None where the row has no figure."""
+        if self.level(row, column) == "exact":
+            return 0.0, 0.0
+        text = self.text(row, column)
+        other = re.search(r"\bas ([a-z-]+)", text)
+        if other and other[1] in self.columns and other[1] != column:
+            return self.figure(row, other[1])
+        if text.startswith("as the sun"):
+            return self.figure("sun, a point", column)
+        low, high, found = 0.0, 0.0, False
+        for match in RANGE.finditer(text):
+            first, last = float(match[1]) / 100, float(match[2]) / 100
+            low, high, found = min(low, first, last), max(high, first, last), True
+        for match in FACTOR.finditer(text):
+            for value in filter(None, match.groups()):
+                low, high, found = min(low, float(value) - 1), max(high, float(value) - 1), True
+        for match in ONE.finditer(RANGE.sub("", text)):
+            value = float(match[1]) / 100
+            signed = match[1][0] in "+-"
+            low, high = min(low, value if signed else -value), max(high, value if signed else abs(value))
+            found = True
+        return (low, high) if found else None
+
+    def refusals(self, column):
+        return [entry[column].get("text", "") for entry in self.rows.values() if entry[column]["level"] == "refused"]
