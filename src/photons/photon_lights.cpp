@@ -90,7 +90,6 @@ Status choose_photon_lights(const FrameView& view, std::uint64_t generations, Ph
     PhotonLights& lights = state.lights;
     const World& world = view.world;
     SkyMap& map = view.environment.sky_map;
-    view.environment.ground_under_map = true;
     if (map.present())
         PILEUS_TRY(aim_sky_map(world.medium.extent_m, world.medium.grid.periodic, map));
     state.ring.generations = generations;

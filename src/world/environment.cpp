@@ -23,11 +23,11 @@ InAir in_air(const Scene& scene, const Atmosphere& air) {
 /// Hands what shines to `use`.
 template <class Use>
 auto with_shining(const Scene& scene, const Environment& environment, const Use& use) {
-    const bool solids = !scene.solids.empty(), below = environment.ground_under_map;
+    const bool solids = !scene.solids.empty();
     if (!environment.air.present())
-        return use(Shining{scene.sun, scene.sky, scene.ground, scene.lights, solids, below});
+        return use(Shining{scene.sun, scene.sky, scene.ground, scene.lights, solids});
     const InAir lit = in_air(scene, environment.air);
-    return use(Shining{lit.sun, lit.sky, scene.ground, scene.lights, solids, below});
+    return use(Shining{lit.sun, lit.sky, scene.ground, scene.lights, solids});
 }
 
 }  // namespace

@@ -12,9 +12,6 @@ struct Environment {
     Atmosphere air;  ///< of a scene with [atmosphere], whose sky is the map
     SkyMap sky_map;  ///< of a file, of a host, or of the air
     CameraDepth depth;
-    /// Whether the ground has the light of a sky map: photon methods shoot it; in others it is
-    /// black there, which golden pictures hold on to.
-    bool ground_under_map = false;
 };
 
 /// What sizes tell. A sky map is read at once, as lights, and with them the plan, depend on its

@@ -23,7 +23,8 @@ constexpr int kWithin = 16;  // radiances of a map are means of so many squared 
 /// The lower half of the sphere, where there is ground.
 bool looks_down(int part) { return part < kParts / 2; }
 
-/// Light of each set from a part of the sphere, as shares of its colour over all parts.
+/// Light of each set from a part of the sphere: shares of a whole sphere of its colour, none larger
+/// than the part itself, so that no node has more of it than 1.
 struct Radiances {
     double share[3][kParts] = {};
     double colour[3][3] = {};
@@ -53,12 +54,13 @@ void set_map(const Lighting& light, Radiances& r) {
         }
         for (std::size_t c = 0; c < 3; ++c) {
             const double ground = light.ground_diffuse[c] + light.ground_sun[c];
-            r.share[c][p] = (down ? ground : sum[c]) / kParts;
-            r.colour[c][c] += r.share[c][p];
+            r.share[c][p] = down ? ground : sum[c];
+            r.colour[c][c] = std::max(r.colour[c][c], r.share[c][p]);
         }
     }
     for (int c = 0; c < 3; ++c)
-        for (double& share : r.share[c]) share = r.colour[c][c] > 0 ? share / r.colour[c][c] : 0;
+        for (double& share : r.share[c])
+            share = r.colour[c][c] > 0 ? share / (r.colour[c][c] * kParts) : 0;
 }
 
 /// Means over all media and channels.

@@ -47,7 +47,7 @@ struct SkyViewInput {
     const SkyPhase* phase = nullptr;
     const SkyDirections* middles = nullptr;
     int sets = 0, octaves = 1;
-    const double (*share)[kSkyParts] = nullptr;  ///< of each set from each part; they add up to 1
+    const double (*share)[kSkyParts] = nullptr;  ///< of each set from each part, at most its own
     Span<const float> seen;                      ///< [number][node]
 };
 

@@ -179,7 +179,6 @@ Status flux_by_photons(const FluxTask& task, std::int64_t photons, FluxResult& o
     SkyMap& map = task.scenery.environment.sky_map;
     if (map.present() && !task.settings.from_below) {
         PILEUS_TRY(aim_sky_map(medium.extent_m, medium.grid.periodic, map));
-        task.scenery.environment.ground_under_map = true;
         task.scenery.light(0);
     }
     Lighting lighting = lights_of(task);

@@ -67,7 +67,7 @@ void make_ground(const Shining& shining, const Medium& medium, const SkyMap* map
     out.ground_z = shining.ground.altitude_m - medium.low_m[2];
     out.ground_albedo = shining.ground.albedo;
     Double3 sky = out.sky;
-    if (map != nullptr) sky = shining.ground_under_map ? map->ground_irradiance / kPiD : Double3{};
+    if (map != nullptr) sky = map->ground_irradiance / kPiD;
     out.ground_diffuse = out.ground_albedo * sky;
     out.ground_sun = out.ground_albedo / kPiD * out.sun_irradiance * height;
 }

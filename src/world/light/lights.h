@@ -77,8 +77,7 @@ struct Shining {
     const Sky& sky;
     const Ground& ground;
     const std::vector<LightSettings>& lamps;
-    bool solids = false;           ///< the scene has some
-    bool ground_under_map = true;  ///< a sky map's light falls on the ground
+    bool solids = false;  ///< the scene has some
 };
 
 /// Works out the lights. `place`: of the sun. `map`: null or empty: a constant sky; photons are
