@@ -113,8 +113,14 @@ Status fill_lit_background(const Context& context, const FrameView& view, Photon
 Status add_ground_noise(const Context& context, const FrameView& view, PhotonState& state,
                         const LightInput& lit, Planes& planes);
 
-/// The layer of optical depths.
-Status show_optical_depth(const Context& context, const FrameView& view, const PhotonState& state,
-                          const LightInput& lit, Planes& planes);
+/// Data of whole rays, where layers show them: optical depth, and transmittance to the end where
+/// the picture's own ends before.
+Status show_whole_rays(const Context& context, const FrameView& view, const PhotonState& state,
+                       const LightInput& lit, Planes& planes);
+
+/// Numbers a pixel that stay of them.
+inline std::uint64_t whole_ray_planes(const OutputSettings& output) {
+    return output.layer_optical_depth ? 2 : output.layer_transmittance ? 1 : 0;
+}
 
 }  // namespace pileus

@@ -51,15 +51,24 @@ Status add_ground_noise(const Context& context, const FrameView& view, PhotonSta
     return Status::ok();
 }
 
-Status show_optical_depth(const Context& context, const FrameView& view, const PhotonState& state,
-                          const LightInput& lit, Planes& planes) {
+Status show_whole_rays(const Context& context, const FrameView& view, const PhotonState& state,
+                       const LightInput& lit, Planes& planes) {
+    const OutputSettings& output = view.scene.output;
+    if (whole_ray_planes(output) == 0) return Status::ok();
     const Lighting& light = *lit.lighting;
     Planes part;
     PILEUS_TRY(
         allocate_planes(lit.camera.width, lit.camera.height, 0, light.opaque(), false, part));
     PILEUS_TRY(march_medium(context, view.world.medium, state.majorants, light, lit.camera,
-                            {false, true}, part));
+                            {false, output.layer_optical_depth}, part));
+    // The picture's own as far as it goes, as its alpha has it.
+    constexpr float kEnd = 1e-4f;
+    for (std::size_t i = 0; i < part.transmittance.size(); ++i) {
+        const float own = planes.transmittance[i];
+        if (!(own < kEnd && part.transmittance[i] < own)) part.transmittance[i] = own;
+    }
     planes.optical_depth.swap(part.optical_depth);
+    planes.through.swap(part.transmittance);
     return Status::ok();
 }
 

@@ -72,6 +72,10 @@ const float* cloud_light(const Planes& planes) {
     return planes.cloud.empty() ? planes.colour.data() : planes.cloud.data();
 }
 
+const Buffer<float>& left_of(const Planes& planes) {
+    return planes.through.empty() ? planes.transmittance : planes.through;
+}
+
 bool finite(float v) { return v - v == 0.0f; }
 
 /// Standard error of the mean over the batches of one channel of one pixel.
@@ -117,7 +121,8 @@ Status add_radiance(const Planes& planes, Image& image, std::uint64_t& clamped,
         }
     }
     PILEUS_TRY(add_channel(image, "A", plane));
-    for (std::size_t i = 0; i < pixels; ++i) plane->pixels[i] = 1.0f - planes.transmittance[i];
+    const Buffer<float>& left = planes.whole_alpha ? left_of(planes) : planes.transmittance;
+    for (std::size_t i = 0; i < pixels; ++i) plane->pixels[i] = 1.0f - left[i];
     return Status::ok();
 }
 
@@ -224,7 +229,7 @@ Status make_layers(const Planes& planes, int width, int height, const OutputSett
     if (output.layer_depth) PILEUS_TRY(add_depth(planes, image));
     if (output.layer_optical_depth)
         PILEUS_TRY(add_plane("tau", planes.optical_depth.span(), image));
-    if (output.layer_transmittance) PILEUS_TRY(add_plane("T", planes.transmittance.span(), image));
+    if (output.layer_transmittance) PILEUS_TRY(add_plane("T", left_of(planes).span(), image));
     if (output.layer_light) PILEUS_TRY(add_lights(planes, image));
     if (output.layer_order) {
         const std::size_t pixels = planes.transmittance.size();

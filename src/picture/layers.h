@@ -22,6 +22,9 @@ struct Planes {
     Buffer<float> background;     ///< [3][pixel]; empty: `colour` is the light of whole rays
     Buffer<float> opaque_depth;   ///< [pixel]; infinity for the sky; empty: nothing solid
     Buffer<float> optical_depth;  ///< [pixel]
+    Buffer<float> through;        ///< [pixel], what whole rays leave, as the layer of transmittance
+                                  ///< shows it; empty: `transmittance`, to where colours end
+    bool whole_alpha = false;     ///< alpha shows that, too
     Buffer<float> cloud;          ///< [3][pixel], the media's light; empty: `colour` is that
     Buffer<float> sun;            ///< [3][pixel], of R G B what began at the sun
     Buffer<float> single;         ///< [3][pixel], of the media's light what was scattered once

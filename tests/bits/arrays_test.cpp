@@ -12,6 +12,7 @@
 #include "src/methods/path/path_sky.h"
 #include "src/methods/photon_grid/photon_grid_method.h"
 #include "src/methods/registry.h"
+#include "src/picture/whole_rays.h"
 #include "tests/io/temp_folder.h"
 #include "tests/support/render_harness.h"
 
@@ -112,6 +113,12 @@ std::uint64_t bytes_held(const Planes& p) {
 
 std::uint64_t bytes_held(const PhotonSlot& slot) {
     return slot.sums.bytes() + slot.packed.sets.bytes() + slot.packed.ground.bytes();
+}
+/// Freed with their march, but for one number a pixel.
+std::uint64_t whole_rays_held(const FrameView& view, const RayEnds& ends) {
+    const auto& size = view.scene.camera.resolution;
+    return 4 * std::uint64_t(size[0]) * std::uint64_t(size[1]) *
+           whole_ray_planes(view.scene.output, ends, view.wants_depth());
 }
 /// Up to 256 bytes keep threads' sums apart. A ring is packed from one set of sums at least.
 std::uint64_t sums_bound(const PhotonState& state, const Plan& plan) {
@@ -219,6 +226,8 @@ void check_march(const MethodRow& row, const Fixture& f) {
     held["counts of rows"] = 8 * rows * std::uint64_t(kRaymarchCounts);  // freed with the march
     const bool thin = f.scene.raymarch.thin.scale > 1;
     held["marched pixels"] = bytes_held(state.picture.upsample.few) + (thin ? 8 * rows : 0);
+    held["planes of whole rays"] =
+        whole_rays_held(run.view(0), {state.choice.settings.stop_below, thin});
     check_rows(run.plan.memory, Stage::kDisplay, held);
 }
 
@@ -251,6 +260,8 @@ void check_particles(const Fixture& f) {
     held["skylight on nodes"] = state.sky_nodes.light.bytes();
     held["sky seen from nodes"] = state.sky_nodes.seen.bytes();
     held["picture planes"] = bytes_held(*planes);
+    held["planes of whole rays"] =
+        whole_rays_held(run.view(0), {scene.particles.stop_below, false});
     // Freed with the march, but for one number a pixel.
     if (scene.output.layer_occlusion)
         held["occlusion"] = arrays::particle_occlusion(2, planes->occlusion.size()).bytes();

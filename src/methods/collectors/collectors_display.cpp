@@ -278,7 +278,7 @@ void collectors_size_display(const FrameView& view, const CollectorsState& state
     sizes.picture.ground = state.lights.lighting.opaque();
     sizes.picture.depth = view.wants_depth();
     const std::uint64_t parts = (output.layer_light ? 3u : 0u) + (output.layer_order ? 3u : 0u);
-    sizes.picture.extra_planes = parts + (output.layer_optical_depth ? 1u : 0u);
+    sizes.picture.extra_planes = parts + whole_ray_planes(output);
     sizes.picture.parts = parts > 0;
     if (!sizes.picture.marched) return;
     const NodeGrid nodes = source_grid_of(view, state);

@@ -58,8 +58,7 @@ Status show_single(const Context& context, const FrameView& view, CollectorsStat
 Status collectors_parts(const Context& context, const FrameView& view, CollectorsState& state,
                         const ReconstructInput& lit, Planes& planes) {
     const OutputSettings& output = view.scene.output;
-    if (output.layer_optical_depth)
-        PILEUS_TRY(show_optical_depth(context, view, state, lit, planes));
+    PILEUS_TRY(show_whole_rays(context, view, state, lit, planes));
     if (output.layer_light) PILEUS_TRY(show_sun(context, view, state, lit, planes));
     if (output.layer_order) PILEUS_TRY(show_single(context, view, state, lit, planes));
     return Status::ok();

@@ -3,6 +3,7 @@
 // in: scene, budget, sizes of the media -> out: MarchChoice.
 // docs/raymarch.md; docs/optical-depth.md
 #include "src/methods/march/march_state.h"
+#include "src/picture/whole_rays.h"
 #include "src/world/camera/view.h"
 #include "src/world/world.h"
 
@@ -61,6 +62,7 @@ void choose_light(const FrameView& view, MarchChoice& choice) {
 /// What both methods have; of settings, where a time leaves all.
 void take_inputs(const MethodInputs& inputs, MarchChoice& choice) {
     choice.hosted = inputs.live;
+    if (inputs.live) choice.settings.stop_below = host_stop(choice.settings.stop_below);
     choice.seconds = inputs.budget.seconds;
     choice.whole_steps = choice.settings.steps;
     choice.whole_thin = choice.settings.thin;

@@ -152,8 +152,9 @@ Status march_frame(const Context& context, const FrameView& view, const RenderAs
     PILEUS_TRY(upsample_picture(context, thin, view.frame, picture.upsample, picture.planes));
     PILEUS_TRY(add_lamps(context, view, state));
     PILEUS_TRY(march_parts(context, view, in, state));
-    return show_air(context, view.scene, medium, view.lighting, picture.camera, view.environment,
-                    picture.planes);
+    PILEUS_TRY(show_air(context, view.scene, medium, view.lighting, picture.camera,
+                        view.environment, picture.planes));
+    return state.choice.hosted ? Status::ok() : follow_march(context, view, in, state);
 }
 
 }  // namespace pileus

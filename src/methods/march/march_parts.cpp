@@ -7,6 +7,8 @@
 
 #include <algorithm>
 
+#include "src/picture/whole_rays.h"
+
 namespace pileus {
 namespace {
 
@@ -168,6 +170,30 @@ Status march_parts(const Context& context, const FrameView& view, const Raymarch
         }
     }
     return output.layer_order ? show_single(context, view, in, state, part) : Status::ok();
+}
+
+Status follow_march(const Context& context, const FrameView& view, const RaymarchInput& whole,
+                    MarchState& state) {
+    const RaymarchSettings& settings = state.choice.settings;
+    const RayEnds ends{settings.stop_below, settings.thin.every() > 1};
+    const auto march = [&](Planes& rays) {
+        // The same steps without light.
+        Lighting dark = sun_alone(view.lighting);
+        dark.sunlit = false;
+        dark.sun_irradiance = {};
+        RaymarchSettings own = settings;
+        own.stop_below = 0;
+        own.many = own.forward = false;
+        std::copy_n(kDark, 3, own.ambient.begin());
+        RaymarchInput in = whole;
+        in.lattice = PixelLattice{};
+        in.lighting = &dark;
+        in.settings = &own;
+        in.sky = nullptr;
+        RaymarchTally counted;  // of the picture's own march alone
+        return raymarch_picture(context, in, rays, counted);
+    };
+    return follow_rays(view.scene.output, ends, march, state.picture.planes);
 }
 
 std::uint64_t march_part_planes(const FrameView& view, const MarchState& state) {

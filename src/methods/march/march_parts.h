@@ -11,7 +11,12 @@ namespace pileus {
 Status march_parts(const Context& context, const FrameView& view, const RaymarchInput& whole,
                    MarchState& state);
 
-/// Numbers a pixel of them, and whether media emit, which is a part of its own.
+/// Data of whole rays, where layers show them: after all that looks at where colours end. kLimit:
+/// out of memory.
+Status follow_march(const Context& context, const FrameView& view, const RaymarchInput& whole,
+                    MarchState& state);
+
+/// Numbers a pixel of parts, and whether media emit, which is a part of its own.
 std::uint64_t march_part_planes(const FrameView& view, const MarchState& state);
 bool march_emits(const FrameView& view, const MarchState& state);
 

@@ -7,6 +7,7 @@
 #include "src/methods/march/march_parts.h"
 #include "src/picture/blue_noise.h"
 #include "src/picture/finish_frame.h"
+#include "src/picture/whole_rays.h"
 #include "src/world/medium/sky_medium.h"
 #include "src/world/plan_parts.h"
 #include "src/world/world.h"
@@ -196,6 +197,11 @@ void weigh_memory(const Context& context, const FrameView& view, const MarchStat
     const std::uint64_t shown = parts + plane_count(3, lighting.opaque(), view.wants_depth()) +
                                 (output.layer_optical_depth ? 1u : 0u);
     add(t, arrays::picture_planes(shown, pixels));
+    const std::uint64_t rays = whole_ray_planes(
+        output, {settings.stop_below, settings.thin.every() > 1}, view.wants_depth());
+    if (rays > 0 && !state.choice.hosted)
+        add(t, renamed(arrays::picture_planes(rays, pixels), "planes of whole rays",
+                       Stage::kDisplay, Stage::kLayers));
     add(t, arrays::ground_shadow(most_ground_nodes(medium, lighting, pixels)));
     if (settings.jitter == RaymarchJitterKind::kBlueNoise) add(t, arrays::blue_noise(last));
     const bool half = view.wants_depth() || settings.thin.temporal > 0;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layer `occlusion`: how much of the sky what a pixel shows of the particles does not see.
-// in: an octree -> out: a number for each pixel.
+// Layers of files: `occlusion`, how much of the sky what a pixel shows of the particles does not
+// see; data of whole rays.
+// in: an octree -> out: numbers for each pixel.
 // docs/particles.md, "Occlusion"; Monette and Whitehead 2014, 5.3.
 #include <utility>
 
@@ -8,6 +9,7 @@
 #include "platform/threads.h"
 #include "src/methods/particles/light_places.h"
 #include "src/methods/particles/sun_tiles.h"
+#include "src/picture/whole_rays.h"
 
 namespace pileus {
 namespace {
@@ -66,6 +68,20 @@ Status show_occlusion(const Context& context, const FrameView& view, ParticlesSt
         state.planes.occlusion[i] = hidden > 0 ? (hidden < 1 ? hidden : 1.0f) : 0.0f;
     }
     return Status::ok();
+}
+
+Status follow_particles(const Context& context, const FrameView& view, ParticlesState& state) {
+    const double stop = state.settings.stop_below;
+    if (state.tree.balls.empty()) return Status::ok();
+    const auto march = [&](Planes& rays) {
+        state.settings.stop_below = 0;
+        std::swap(rays, state.planes);
+        const Status drawn = draw_particles(context, view, lit_from_around(view, state), state);
+        std::swap(rays, state.planes);
+        state.settings.stop_below = stop;
+        return drawn;
+    };
+    return follow_rays(view.scene.output, {stop, false}, march, state.planes);
 }
 
 }  // namespace pileus

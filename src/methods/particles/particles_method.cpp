@@ -6,6 +6,7 @@
 #include "src/picture/background.h"
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/lamp_light.h"
+#include "src/picture/whole_rays.h"
 #include "src/run/on_device.h"
 #include "src/scene/frames.h"
 #include "src/world/camera/view.h"
@@ -46,6 +47,8 @@ MadeMethod make(const MethodInputs& inputs) {
 
 ParticlesMethod::ParticlesMethod(const MethodInputs& inputs) {
     state_.settings = inputs.scene.particles;
+    state_.hosted = inputs.live;
+    if (inputs.live) state_.settings.stop_below = host_stop(state_.settings.stop_below);
     if (inputs.budget.steps > 0) state_.settings.bins = int(inputs.budget.steps);
 }
 
@@ -113,7 +116,9 @@ Status ParticlesMethod::render(const Context& context, const FrameView& view, co
     PILEUS_TRY(show_particles(context, view, state_));
     if (scene.output.layer_occlusion) PILEUS_TRY(show_occlusion(context, view, state_));
     PILEUS_TRY(light_ground_by_lamps(context, view, state_));
-    return show_air(context, scene, medium, view.lighting, state_.camera, view.environment, planes);
+    PILEUS_TRY(
+        show_air(context, scene, medium, view.lighting, state_.camera, view.environment, planes));
+    return state_.hosted ? Status::ok() : follow_particles(context, view, state_);
 }
 
 FrameWork ParticlesMethod::full_work() const {

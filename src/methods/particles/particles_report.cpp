@@ -8,6 +8,7 @@
 #include "src/methods/particles/view_tiles.h"
 #include "src/picture/finish_frame.h"
 #include "src/picture/nodes/node_grid.h"
+#include "src/picture/whole_rays.h"
 #include "src/world/plan_parts.h"
 
 namespace pileus {
@@ -159,6 +160,11 @@ void weigh_memory(const Context& context, const FrameView& view, const Particles
     const std::uint64_t shown = plane_count(3, view.lighting.opaque(), view.wants_depth()) +
                                 (output.layer_optical_depth ? 1u : 0u);
     add(t, arrays::picture_planes(shown, pixels));
+    const std::uint64_t rays =
+        whole_ray_planes(output, {state.settings.stop_below, false}, view.wants_depth());
+    if (rays > 0 && !state.hosted)
+        add(t, renamed(arrays::picture_planes(rays, pixels), "planes of whole rays",
+                       Stage::kDisplay, Stage::kLayers));
     add(t, arrays::view_balls(particles));
     t.add("tiles of the picture", Stage::kDisplay, Stage::kDisplay,
           bytes_of(std::uint64_t(context.threads), view_tile_scratch_bytes()));

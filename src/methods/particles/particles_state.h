@@ -23,6 +23,7 @@ struct ParticleOrder {
 struct ParticlesState {
     ParticlesSettings settings;   ///< the scene's, with the bins of the budget
     bool outlined_only = true;    ///< sizes are known, values are not
+    bool hosted = false;          ///< a host's pictures have no layers of files
     std::uint64_t particles = 0;  ///< once they are read; before: 0
     ParticleTree tree;
     Majorants majorants;             ///< of the grid, which ground and solids see
@@ -126,6 +127,10 @@ Status draw_particles(const Context& context, const FrameView& view, const Parti
 
 /// Into state.planes.occlusion, after the picture. kLimit: out of memory.
 Status show_occlusion(const Context& context, const FrameView& view, ParticlesState& state);
+
+/// Data of whole rays, where layers show them: after all that looks at where colours end. kLimit:
+/// out of memory.
+Status follow_particles(const Context& context, const FrameView& view, ParticlesState& state);
 
 /// Into the planes. kLimit: out of memory.
 Status show_particles(const Context& context, const FrameView& view, ParticlesState& state);

@@ -52,7 +52,7 @@ void add_picture(const FrameView& view, const PhotonGridState& state, const Cont
     const Size pixels = Size(size[0]) * Size(size[1]);
     const Size planes = 3 * (1 + Size(photon_batches(state)));
     const Size parts = (output.layer_light ? 3u : 0u) + (output.layer_order ? 3u : 0u);
-    const Size extra = parts + (output.layer_optical_depth ? 1u : 0u);
+    const Size extra = parts + whole_ray_planes(output);
     const Size ground = grid_slot(state).ground_cells;
     const bool solid = state.lights.lighting.opaque();
     add(t, arrays::cell_light(light_numbers(view, state), state.cells.count()));

@@ -53,8 +53,7 @@ Status add_grid_layers(const Context& context, const FrameView& view, PhotonGrid
                        const GridLightInput& in, Planes& planes) {
     const OutputSettings& output = view.scene.output;
     PILEUS_TRY(add_ground_noise(context, view, state, in, planes));
-    if (output.layer_optical_depth)
-        PILEUS_TRY(show_optical_depth(context, view, state, in, planes));
+    PILEUS_TRY(show_whole_rays(context, view, state, in, planes));
     if (output.layer_light) PILEUS_TRY(show_sun(context, view, state, in, planes));
     return output.layer_order ? show_single(context, view, state, in, planes) : Status::ok();
 }

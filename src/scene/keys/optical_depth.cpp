@@ -38,7 +38,7 @@ constexpr KeyRow kRows[] = {
     {"optical_depth.steps", simple<&Settings::steps>, from_to(0, 65536), "",
      "most steps of a ray through the medium, one sample each; 0: each as long as a cell"},
     {"optical_depth.stop_below", simple<&Settings::stop_below>, from_to(0, 1), "",
-     "a ray ends where less of what lies behind is seen"},
+     "light of a ray ends where less of what lies behind is seen"},
 };
 
 }  // namespace

@@ -58,7 +58,7 @@ constexpr KeyRow kRows[] = {
      "of billboards: depth falls with the distance q from the middle, in radii, as (1 - q^2) to "
      "this power; 2.5: what a ray through the particle meets"},
     {"particles.stop_below", particles<&Settings::stop_below>, from_to(0, 1), "",
-     "a ray ends where less of what lies behind is seen"},
+     "light of a ray ends where less of what lies behind is seen"},
 };
 
 }  // namespace

@@ -94,7 +94,7 @@ constexpr KeyRow kRows[] = {
      "radiance of an opaque medium without other light: emission in proportion to the "
      "density; appearance, not physics"},
     {"raymarch.stop_below", raymarch<&RaymarchSettings::stop_below>, from_to(0, 1), "",
-     "a ray ends where less of what lies behind is seen"},
+     "light of a ray ends where less of what lies behind is seen"},
     {"raymarch.scale", raymarch<&RaymarchSettings::thin, &UpsampleSettings::scale>,
      upsample_keys::kScales, "", upsample_keys::kScale},
     {"raymarch.upsample", raymarch<&RaymarchSettings::thin, &UpsampleSettings::upsample>,
