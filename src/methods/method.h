@@ -200,9 +200,8 @@ struct MethodRow {
     /// a flight.
     Status (*check)(const Scene&, const Budget&) = nullptr;
     MadeMethod (*make)(const MethodInputs&) = nullptr;
-    bool keeps_parts = false;   ///< light is traced with depths and the cloud's part, or without
-    bool shows_light = true;    ///< colours are light, which an exposure applies to
-    bool lights_cells = false;  ///< scattered light has one value in a cell of the density
+    bool keeps_parts = false;  ///< light is traced with depths and the cloud's part, or without
+    bool shows_light = true;   ///< colours are light, which an exposure applies to
 };
 
 }  // namespace pileus

@@ -172,7 +172,7 @@ bool relight_photons(const FrameView& view, PhotonState& state) {
     keep_places(lights, next);
     const Lighting& before = lights.lighting;
     if (!same_lights(before, next) || before.constant != next.constant || before.sky != next.sky ||
-        before.ground_diffuse != next.ground_diffuse || before.ground_sun != next.ground_sun)
+        before.ground_radiance() != next.ground_radiance())
         ++state.ring.relights;
     if (next.sunlit != before.sunlit || next.to_sun != before.to_sun) state.shadow.ready = false;
     lights.lighting = next;

@@ -193,6 +193,7 @@ void PhotonReport::digest_picture(const Context& context, Digests& digests) {
 FinishedParts PhotonReport::finished() const {
     FinishedParts parts;
     parts.batches = true;
+    parts.cell_m = photons_.photons().cell_m;
     return parts;
 }
 

@@ -85,6 +85,7 @@ struct PhotonState {
     bool outlined_only = true;  ///< sizes are known, values are not
     bool error_layer = false;   ///< light is kept in batches, to tell its error
     bool sealed = false;        ///< nothing may be laid out anew: docs/flight.md
+    double cell_m = 0;          ///< shortest edge of the cells that hold scattered light; 0: none
     Majorants majorants;
     PhotonLights lights;
     PhotonRing ring;

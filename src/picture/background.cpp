@@ -50,7 +50,7 @@ void set_around(const Lighting& light, SolidRowsParams& k) {
     for (int c = 0; c < 3; ++c) {
         const std::size_t s = std::size_t(c);
         double sum[kAroundTerms] = {};
-        const double below = light.ground_diffuse[s] + light.ground_sun[s];
+        const double below = light.ground_radiance()[c];
         if (light.map.columns > 0) {
             add_map(light.map, c, sum);
         } else {

@@ -19,6 +19,7 @@ struct FinishedParts {
     bool colours = false;  ///< a digest of the planes' colours
     bool batches = false;  ///< the light has parts to tell an error by
     bool media = true;     ///< media are told apart on the grid
+    double cell_m = 0;     ///< shortest edge of the cells that hold scattered light; 0: none do
     int film = 0;          ///< parts of the light that a film tells apart; 0: no film
 };
 

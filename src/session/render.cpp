@@ -5,6 +5,7 @@
 #include "platform/fp_mode.h"
 #include "platform/threads.h"
 #include "src/picture/background.h"
+#include "src/picture/finish_frame.h"
 #include "src/picture/march_view.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/volume_format.h"
@@ -101,8 +102,9 @@ Status render_frames(const Scene& scene, const RunStart& start, const RenderOpti
         if (verifies) PILEUS_TRY(verifier.check(frame, session.context(), image, report));
         count_water(scene, session.world(), report);
         if (options.show.empty()) find_warnings(scene, image, report);
-        if (options.show.empty() && session.row().lights_cells)
-            warn_of_cells(session.world().medium, report);
+        if (options.show.empty())
+            warn_of_cells(session.world().medium, session.method_report().finished().cell_m,
+                          report);
         report.clocks.frame_wall_s = wall_seconds() - frame_start.wall_s;
         report.clocks.frame_cpu_s = cpu_seconds() - frame_start.cpu_s;
         if (options.holding) options.holding(true);

@@ -27,7 +27,8 @@ std::string accident_line(const Accident& accident, std::uint64_t times);
 /// that no pixel shows.
 void find_warnings(const Scene& scene, const Image& image, Report& report);
 
-/// Adds a line where cells are so thick that light kept by cell is far off.
-void warn_of_cells(const Medium& medium, Report& report);
+/// Adds a line where cells of scattered light, `cell_m` along their shortest edge, are so thick
+/// that it is far off.
+void warn_of_cells(const Medium& medium, double cell_m, Report& report);
 
 }  // namespace pileus

@@ -29,8 +29,8 @@ class Refused(Exception):
     pass
 
 
-def run(program, folder, scene, name, arguments=()):
-    """The picture's radiance; Refused with the program's line, AssertionError where it breaks a promise."""
+def run(program, folder, scene, name, arguments=(), warnings=None):
+    """The picture's radiance, and in `warnings` what the program says of it; Refused with the program's line, AssertionError where it breaks a promise."""
     path = os.path.join(folder, name + ".toml")
     with open(path, "w") as file:
         file.write(write_toml(scene))
@@ -40,6 +40,8 @@ def run(program, folder, scene, name, arguments=()):
     done = subprocess.run([program, "render", path, "-o", out, "--threads", "1", "-q", *arguments], capture_output=True,
                           text=True, timeout=600, cwd=folder)
     if done.returncode == 0:
+        if warnings is not None:
+            warnings += [line for line in done.stderr.splitlines() if "warning" in line]
         return read_pfm(out)
     assert done.returncode in (1, 2, 3), f"exit status {done.returncode}: {done.stderr[-300:]}"
     lines = done.stderr.strip().splitlines()
@@ -173,8 +175,10 @@ def region_mean(picture, region, channel):
 def deviations(reference, picture, least=12):
     """(region, channel, share of the mean, its standard error) of each region of at least `least` pixels."""
     found = []
+    brightest = max(region_mean(reference.mean, r, 1) for r in reference.regions.values() if r)
     for name, region in reference.regions.items():
-        if len(region) < least:
+        # What is nearly black is so but for pixels that are cut by an edge.
+        if len(region) < least or region_mean(reference.mean, region, 1) < 0.1 * brightest:
             continue
         for channel in range(3):
             mean = region_mean(reference.mean, region, channel)

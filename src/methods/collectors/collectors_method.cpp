@@ -37,6 +37,7 @@ Status CollectorsMethod::prepare(const Context& context, const FrameView& view) 
         state_.camera_cells > 0
             ? prepare_cells(medium, state_.camera_cells, context, state_.prepared)
             : prepare_collectors(medium, settings, view.scene.seed, context, state_.prepared));
+    state_.cell_m = state_.prepared.cell_m;
     PILEUS_TRY(make_photon_majorants(medium, settings.local_tracking, context, state_.majorants));
     state_.outlined_only = false;
     PILEUS_TRY(measure(context, view, plan));
@@ -79,10 +80,6 @@ Status CollectorsMethod::compose(const Context& context, const FrameView& view,
     return compose_collectors(camera, context, view, trace_input(context, view), state_, planes);
 }
 
-MethodRow collectors_row() {
-    MethodRow row{kCollectorsName, WorldUse::kGrid, check_collectors, make};
-    row.lights_cells = true;
-    return row;
-}
+MethodRow collectors_row() { return {kCollectorsName, WorldUse::kGrid, check_collectors, make}; }
 
 }  // namespace pileus

@@ -127,7 +127,7 @@ Status show_single(const Context& context, const FrameView& view, const Raymarch
     in.settings = &settings;
     if (settings.sky_ambient && view.world.medium.sigma > 0) {
         Lighting groundless = view.lighting;
-        groundless.ground_diffuse = groundless.ground_sun = {};
+        groundless.ground_diffuse = groundless.ground_sun = groundless.ground_lamps = {};
         PILEUS_TRY(make_sky_nodes(context, view.world.medium, state.media.majorants, groundless, 0,
                                   octaves_of(settings), sky_view(view, state),
                                   state.light.single_sky));

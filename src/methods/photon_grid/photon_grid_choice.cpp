@@ -171,6 +171,10 @@ Status choose_grid_light(const FrameView& view, PhotonGridState& state) {
     const PhotonGridSettings& settings = state.settings;
     const Medium& medium = view.world.medium;
     state.cells = photon_cells(settings, state.lights.budget_photons, medium);
+    for (std::size_t a = 0; a < 3; ++a) {
+        const double edge = medium.extent_m[a] / state.cells.size[a];
+        state.cell_m = a == 0 || edge < state.cell_m ? edge : state.cell_m;
+    }
     if (settings.closure == GridClosure::kCamera && medium.count > 1)
         return Status::bad_input(view.scene.file +
                                  ": photon_grid.closure: \"camera\" knows one medium, but the "

@@ -77,10 +77,6 @@ Status PhotonGridMethod::error(const Context& context, const FrameView& view,
     return Status::ok();
 }
 
-MethodRow photon_grid_row() {
-    MethodRow row{"photon-grid", WorldUse::kGrid, check_photon_grid, make};
-    row.lights_cells = true;
-    return row;
-}
+MethodRow photon_grid_row() { return {"photon-grid", WorldUse::kGrid, check_photon_grid, make}; }
 
 }  // namespace pileus

@@ -35,13 +35,15 @@ void set_constant(const Lighting& light, Radiances& r) {
         const bool down = light.ground && looks_down(p);
         r.share[down ? 1 : 0][p] = 1.0 / kParts;
     }
+    const Double3 ground = light.ground_radiance();
     for (std::size_t c = 0; c < 3; ++c) {
         r.colour[0][c] = light.sky[c];
-        r.colour[1][c] = light.ground_diffuse[c] + light.ground_sun[c];
+        r.colour[1][c] = ground[c];
     }
 }
 
 void set_map(const Lighting& light, Radiances& r) {
+    const Double3 ground = light.ground_radiance();
     for (int p = 0; p < kParts; ++p) {
         const bool down = light.ground && looks_down(p);
         double sum[3] = {};
@@ -53,8 +55,7 @@ void set_map(const Lighting& light, Radiances& r) {
             for (int c = 0; c < 3; ++c) sum[c] += double(own[c]) / (kWithin * kWithin);
         }
         for (std::size_t c = 0; c < 3; ++c) {
-            const double ground = light.ground_diffuse[c] + light.ground_sun[c];
-            r.share[c][p] = down ? ground : sum[c];
+            r.share[c][p] = down ? ground[c] : sum[c];
             r.colour[c][c] = std::max(r.colour[c][c], r.share[c][p]);
         }
     }
@@ -213,7 +214,7 @@ NodeGrid sky_node_grid(const Medium& medium) {
 
 int sky_node_sets(const Lighting& light) {
     if (light.map.columns > 0) return 3;
-    const Double3 sum = light.sky + light.ground_diffuse + light.ground_sun;
+    const Double3 sum = light.sky + light.ground_radiance();
     return !(sum.x + sum.y + sum.z > 0) ? 0 : light.ground ? 2 : 1;
 }
 

@@ -197,7 +197,7 @@ Lighting sun_alone(const Lighting& all) {
         if (light.beam) continue;
         light.colour = light.map || light.hemisphere <= 0 ? Double3{} : all.ground_sun;
     }
-    sun.constant = sun.sky = sun.ground_diffuse = {};
+    sun.constant = sun.sky = sun.ground_diffuse = sun.ground_lamps = {};
     sun.map = SkyMapView{};
     sun.lamps.clear();
     return sun;
@@ -232,6 +232,7 @@ Lighting make_lighting(const Shining& shining, const Medium& medium, const SunPl
         if (shining.sky.present && !mapped) out.sky[c] = double(shining.sky.radiance[c]);
     make_ground(shining, medium, mapped ? map : nullptr, place.elevation_deg, out);
     if (!shining.lamps.empty()) out.lamps = make_lamps(shining.lamps, shining.ground, medium);
+    out.ground_lamps = ground_of_lamps(out);
     if (is_dark(medium)) return out;
     if (out.sunlit) {
         const Light sun = beam_light(medium, -towards_deg(place.azimuth_deg, place.elevation_deg));
@@ -244,7 +245,7 @@ Lighting make_lighting(const Shining& shining, const Medium& medium, const SunPl
     // sky's radiance out as a constant, and light the cloud from below by what the ground's
     // radiance differs from it.
     const bool white = is_white(medium);
-    Double3 below = out.ground_diffuse + out.ground_sun + ground_of_lamps(out);
+    Double3 below = out.ground_radiance();
     if (mapped && map->power_m2 > 0) {
         add_light("sky", kSkyStream, {1, 1, 1}, map_light(*map), out);
     } else if (white && any_positive(out.sky) && !shining.solids) {

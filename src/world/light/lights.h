@@ -53,7 +53,9 @@ struct Lighting {
     bool ground = false;
     double ground_z = 0;  ///< m, box-local
     double ground_albedo = 0;
-    Double3 ground_diffuse{}, ground_sun{};  ///< radiance of the unshadowed ground
+    /// Radiance of the unshadowed ground; of lamps that of parallel ones, which light it evenly.
+    Double3 ground_diffuse{}, ground_sun{}, ground_lamps{};
+    Double3 ground_radiance() const { return ground_diffuse + ground_sun + ground_lamps; }
 
     /// Lists are copied where they lie, never moved: a session has room for the most that it may
     /// have, and frames take none.

@@ -16,6 +16,7 @@ struct Prepared {
     Buffer<std::int32_t> collector_of_voxel;  ///< -1 where a leaf holds no medium
     Buffer<float> shares;  ///< [collector][medium] of the extinction; none for one medium
     std::uint64_t samples = 0, rejected = 0;
+    double cell_m = 0;  ///< shortest edge that leaves are halved down to; 0: they are not
 };
 
 /// The field that samples are drawn from, one number per voxel: the gradient's magnitude, or the
