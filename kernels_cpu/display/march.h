@@ -5,10 +5,11 @@
 #pragma once
 #include "kernels_cpu/core/meshes.h"
 #include "kernels_cpu/core/pixel_block.h"
-#include "kernels_cpu/core/sh.h"
+#include "kernels_cpu/display/beam.h"
 #include "kernels_cpu/display/lit_nodes.h"
 #include "kernels_cpu/display/march_ray.h"
 #include "kernels_cpu/display/pixel_light.h"
+#include "kernels_cpu/display/ray_harmonics.h"
 #include "kernels_cpu/media/phase_table.h"
 
 // A march's step is one function among several alike: the compiler would call some of them.
@@ -29,19 +30,9 @@ template <class T>
 struct SunAlongRay {
     T phase[kMostMedia];
     bool lit;
-    T most;         // of any phase function's mean over the pixel, 1/sr
-    I_of<T> angle;  // cell of the beam's tables, and the place in it
-    T within;
+    T most;  // of any phase function's mean over the pixel, 1/sr
+    BeamAngle<T> angle;
 };
-
-/// Where the beam's tables hold a turn by 1 - cos = x, which rounding may lead out of [0, 2].
-template <class T>
-PILEUS_FN void find_angle(T x, SunAlongRay<T>& s) {
-    const T turn = max_(min_(x, all<T>(2.0f)), T{});
-    const T at = even_at_ends(turn) * float(kBeamAngles);
-    s.angle = min_(to_int(at), all<I_of<T>>(kBeamAngles - 1));
-    s.within = at - to_float(s.angle);
-}
 
 template <class T>
 PILEUS_FN SunAlongRay<T> sun_along(const MarchParams& k, const Vec<T>& direction) {
@@ -54,35 +45,17 @@ PILEUS_FN SunAlongRay<T> sun_along(const MarchParams& k, const Vec<T>& direction
         s.phase[i] = min_(phase_density(k.phase[i], turn), s.most);
         for (int c = 0; c < 3; ++c) s.lit |= k.sun_source[i][c] > 0.0f;
     }
-    if (k.beam_sets > 0) find_angle(turn, s);
+    if (k.beam_sets > 0) s.angle = beam_angle(turn);
     return s;
 }
 
-/// Light of the beam where its optical depth is `tau`, scattered within its peak before it leaves
-/// along the ray: the tables between their nodes, times what is left of the beam.
+/// Adds light of the sun's beam where its optical depth is `tau`.
 template <class T>
 PILEUS_FN void add_beam(const MarchParams& k, const MarchBuffers& b, const SunAlongRay<T>& s, T tau,
                         T visible, T (&source)[3]) {
-    const T at = tau / (tau + kBeamDepth) * float(kBeamDepths);
-    const I_of<T> depth = min_(to_int(at), all<I_of<T>>(kBeamDepths - 1));
-    const T f = at - to_float(depth);
-    const I_of<T> node = s.angle * (kBeamDepths + 1) + depth;
-    T light{};
-    for (int c = 0; c < 3; ++c) {
-        if (c < k.beam_sets) {
-            const float* table = b.beam + c * kBeamNumbers;
-            const T near = gather(table, node), far = gather(table, node + 1);
-            const T near_up = gather(table, node + (kBeamDepths + 1)),
-                    far_up = gather(table, node + (kBeamDepths + 2));
-            const T low = near + f * (far - near), high = near_up + f * (far_up - near_up);
-            const T left = exp_(T{} - tau * k.beam_rest[c]);
-            // Of all that was scattered within the peak, which is tau where a float sees no less.
-            const T all_of_it = max_(left - exp_(T{} - tau), min_(tau, all<T>(1e-5f)));
-            light = min_(visible * left * (low + s.within * (high - low)),
-                         visible * s.most * all_of_it);
-        }
-        source[c] = source[c] + light * k.sun_source[0][c];
-    }
+    T light[3];
+    beam_light(b.beam, k.beam_sets, k.beam_rest, s.angle, s.most, tau, visible, light);
+    for (int c = 0; c < 3; ++c) source[c] = source[c] + light[c] * k.sun_source[0][c];
 }
 
 /// The same where the sunlight is `light`: by the share of each medium in the `density` there.
@@ -104,81 +77,6 @@ PILEUS_FN void sun_source_at(const MarchParams& k, const MarchBuffers& b, const 
         });
 }
 
-/// The harmonics of the directions in which a ray's light travels, lane by lane; after the bands'
-/// come the Legendre polynomials of the angle to the sunlight's direction.
-template <int W>
-struct RayHarmonics {
-    float y[W][kMostHarmonics];
-};
-template <int W>
-PILEUS_FN void set_harmonics(const MarchParams& k, const Vec<F<W>>& d, RayHarmonics<W>& h) {
-    F<W> y[kMaxBands * kMaxBands];
-    const Vec<F<W>> to{F<W>{} - d.x, F<W>{} - d.y, F<W>{} - d.z};
-    sh_values(k.bands, to, y);
-    F<W> p[kMaxAxisDegrees];
-    const Vec<F<W>> sun{all<F<W>>(k.sun_travel[0]), all<F<W>>(k.sun_travel[1]),
-                        all<F<W>>(k.sun_travel[2])};
-    axis_values(k.bands, k.degrees, 1.0f - one_minus_cosine(sun, to), p);
-    const int bands = k.bands * k.bands;
-    for (int l = 0; l < W; ++l)
-        for (int i = 0; i < k.harmonics; ++i)
-            h.y[l][i] = i < bands               ? lane(y[i], l)
-                        : i < bands + k.degrees ? lane(p[i - bands], l)
-                                                : 0.0f;
-}
-
-/// part += y times the weighted sum of eight nodes' numbers from `at` on, sixteen side by side.
-PILEUS_FN void add_harmonics(const float* const (&from)[8], const float (&weight)[8], int at,
-                             const float* y, float (&part)[kHarmonicsAbreast]) {
-#if !defined(__CUDACC__)
-    using G = F<kHarmonicsAbreast>;
-    G sum{}, v;
-    for (int j = 0; j < 8; ++j) {
-        __builtin_memcpy(&v, from[j] + at, sizeof v);
-        sum = sum + all<G>(weight[j]) * v;
-    }
-    __builtin_memcpy(&v, y, sizeof v);
-    G before;
-    __builtin_memcpy(&before, part, sizeof before);
-    before = before + v * sum;
-    __builtin_memcpy(part, &before, sizeof before);
-#else
-    for (int i = 0; i < kHarmonicsAbreast; ++i) {
-        float sum = 0;
-        for (int j = 0; j < 8; ++j) sum = sum + weight[j] * from[j][at + i];
-        part[i] = part[i] + y[i] * sum;
-    }
-#endif
-}
-
-/// Light of each set that leaves a place along directions with harmonics `y`. Numbers of one node
-/// lie side by side and are added up sixteen abreast, in an order that no width changes.
-template <class T>
-PILEUS_FN void light_along(const MarchParams& k, const float* source, const Corners<T>& c, int l,
-                           const float* y, float (&out)[3]) {
-    const float fx = lane(c.fx, l), fy = lane(c.fy, l), fz = lane(c.fz, l);
-    const std::int32_t xs[2] = {lane(c.x0, l), lane(c.x1, l)};
-    const std::int32_t ys[2] = {lane(c.y0, l), lane(c.y1, l)};
-    const std::int32_t zs[2] = {lane(c.z0, l), lane(c.z1, l)};
-    const float wx[2] = {1.0f - fx, fx}, wy[2] = {1.0f - fy, fy}, wz[2] = {1.0f - fz, fz};
-    const int numbers = k.sets * k.harmonics;
-    float weight[8];
-    const float* from[8];
-    for (int j = 0; j < 8; ++j) {
-        weight[j] = wx[j & 1] * wy[(j >> 1) & 1] * wz[j >> 2];
-        const std::int64_t node = zs[j >> 2] + ys[(j >> 1) & 1] + xs[j & 1];
-        from[j] = source + node * numbers;
-    }
-    for (int s = 0; s < k.sets; ++s) {
-        float part[kHarmonicsAbreast] = {};
-        for (int i = 0; i < k.harmonics; i += kHarmonicsAbreast)
-            add_harmonics(from, weight, s * k.harmonics + i, y + i, part);
-        for (int half = kHarmonicsAbreast / 2; half > 0; half /= 2)
-            for (int j = 0; j < half; ++j) part[j] = part[j] + part[j + half];
-        out[s] = part[0];
-    }
-}
-
 /// Numbers of the quads at a place.
 template <class T>
 PILEUS_FN void read_quads(const MarchParams& k, const MarchBuffers& b, const Vec<T>& metres,
@@ -198,14 +96,16 @@ struct NearLight {
 };
 template <int W>
 PILEUS_FN void read_near(const MarchParams& k, const MarchBuffers& b, const Ray<F<W>>& ray, F<W> t,
-                         M<W> wanted, const RayHarmonics<W>& h, NearLight<W>& out) {
+                         M<W> wanted, RayHarmonics<W>& h, NearLight<W>& out) {
     using T = F<W>;
     out.share =
         select(wanted, max_(min_(2.0f - t * (2.0f / k.near.reach), all<T>(1.0f)), T{}), T{});
     // Between nodes light varies little: one look, half way to the next, stands for several steps.
     const M<W> due = (out.share > 0.0f) & (t >= out.next);
     if (!any(due)) return;
-    Vec<T> node = node_position(k.source, along(ray, t + 0.5f * k.near.every));
+    const Vec<T> place = along(ray, t + 0.5f * k.near.every);
+    turn_to_place(k, ray.direction, place, due, h);
+    Vec<T> node = node_position(k.source, place);
     out.next = select(due, t + k.near.every, out.next);
     node.x = node.x - float(k.near.first[0]);
     node.y = node.y - float(k.near.first[1]);
@@ -233,7 +133,7 @@ PILEUS_FN void read_near(const MarchParams& k, const MarchBuffers& b, const Ray<
 /// which `quad` holds where there are quads.
 template <int W>
 PILEUS_FN void add_source(const MarchParams& k, const MarchBuffers& b, const Vec<F<W>>& metres,
-                          const RayHarmonics<W>& h, const NearLight<W>& near,
+                          const Vec<F<W>>& way, RayHarmonics<W>& h, const NearLight<W>& near,
                           const F<W> (&direct)[3], const F<W> (&quad)[4], F<W> weight,
                           F<W>* colour) {
     using T = F<W>;
@@ -259,6 +159,7 @@ PILEUS_FN void add_source(const MarchParams& k, const MarchBuffers& b, const Vec
     }
     T source[3];
     for (int i = 0; i < 3; ++i) source[i] = direct[i] + k.constant[i];
+    turn_to_place(k, way, metres, weight > 0.0f, h);
     for (std::uint32_t lanes = bits_of(weight > 0.0f); lanes != 0; lanes &= lanes - 1) {
         const int l = lowest_bit(lanes);
         float light[3] = {};
@@ -333,7 +234,8 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
                 if (k.beam_sets > 0) add_beam(k, b, sun, tau, visible, direct);
             }
             if (b.near != nullptr) read_near(k, b, ray, t, optical > 0.0f, harmonics, around);
-            add_source<W>(k, b, metres, harmonics, around, direct, quad, weight, colour);
+            add_source<W>(k, b, metres, ray.direction, harmonics, around, direct, quad, weight,
+                          colour);
             const T left = transmittance * (1.0f - alpha);
             if (b.half_depth != nullptr) {
                 const auto crosses = (transmittance > 0.5f) & (left <= 0.5f);

@@ -4,6 +4,7 @@
 // docs/methods.md 3, repairs 3 and 4.
 #pragma once
 #include "kernels_cpu/core/camera.h"
+#include "kernels_cpu/light/lamp_params.h"
 #include "kernels_cpu/light/sky_map.h"
 #include "kernels_cpu/media/detail_params.h"
 #include "kernels_cpu/media/optics.h"
@@ -68,7 +69,9 @@ struct ShadowBuffers {
 
 /// Harmonics of a node are stored in groups of so many, the last one filled up with zeros.
 constexpr int kHarmonicsAbreast = 16;
-constexpr int kMostHarmonics = 80;
+constexpr int kMostHarmonics = 96;
+
+static_assert(kMostHarmonics % kHarmonicsAbreast == 0, "whole groups");
 
 /// A beam's light by angle and optical depth: what scatterings within its peak add to what is left
 /// of it. Angles even near both ends, depths as tau / (tau + kBeamDepth).
@@ -88,9 +91,11 @@ struct MarchParams {
     float sun_source[kMostMedia][3];  ///< irradiance times albedo; all zero: no direct sunlight
     float constant[3];  ///< source everywhere in the media: sky by the furnace identity
     NodeGrid shadow, source;
-    std::int32_t channels;   ///< planes of `source` and of `colour`: 3, or 3*(1+batches)
-    std::int32_t bands;      ///< 0; or nodes hold bands*bands harmonics of what goes each way
-    std::int32_t degrees;    ///< and so many more of what is even about the sun's direction
+    std::int32_t channels;  ///< planes of `source` and of `colour`: 3, or 3*(1+batches)
+    std::int32_t bands;     ///< 0; or nodes hold bands*bands harmonics of what goes each way
+    std::int32_t degrees;   ///< and so many more of what is even about each axis
+    std::int32_t axes;
+    LightAxis axis[kMostAxes];
     std::int32_t harmonics;  ///< stored per set and node
     std::int32_t sets;       ///< 1..3 of such harmonics
     float set_colour[3][3];  ///< R G B of each

@@ -20,14 +20,24 @@ struct LampParams {
     std::int32_t places;    ///< on the sphere, where they are not drawn at random
 };
 
+/// Lamps and the sun whose photons' directions are kept by degrees about their own axis, at most.
+constexpr int kMostLampAxes = 4, kMostAxes = 1 + kMostLampAxes;
+
+/// What the light of one source is spread about at a place: the way that it came straight.
+struct LightAxis {
+    std::int32_t placed;  ///< 1: away from `at`, m, box-local; 0: along `at`, unit, everywhere
+    float at[3];
+};
+
 /// How photons leave a lamp. Directions are even over a cone, or as the spot shines; those of a
 /// parallel light begin on the box's faces.
 struct LampEmission {
     LampParams lamp;
-    float below;        ///< share of the lamps' power that comes before this one's, in [0, 1)
-    float axis[3];      ///< of the cone, unit
-    float span;         ///< 1 - cosine of the cone's half angle; 2: all around; 0: a spot
-    float face_cdf[6];  ///< as TraceParams has it; parallel only
+    float below;            ///< share of the lamps' power that comes before this one's, in [0, 1)
+    float axis[3];          ///< of the cone, unit
+    float span;             ///< 1 - cosine of the cone's half angle; 2: all around; 0: a spot
+    float face_cdf[6];      ///< as TraceParams has it; parallel only
+    std::int32_t own_axis;  ///< which of the lamps' axes is its own; -1: it has none
 };
 
 }  // namespace pileus

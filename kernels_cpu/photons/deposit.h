@@ -7,6 +7,7 @@
 #include "kernels_cpu/core/fixed.h"
 #include "kernels_cpu/core/pack.h"
 #include "kernels_cpu/core/sh.h"
+#include "kernels_cpu/light/lamp.h"
 #include "kernels_cpu/photons/meter_params.h"
 #include "kernels_cpu/photons/meters.h"
 #include "kernels_cpu/photons/trace_start.h"
@@ -82,7 +83,16 @@ struct DepositQueue {
     float x[kRoom], y[kRoom], z[kRoom];  // direction of travel
     float share[NC][kRoom];              // weight times acceptance, negative for shadows
     std::int32_t collector[kRoom];
+    float along[kRoom];        // lamps only: cosine to the way straight from the lamp,
+    std::int32_t axis[kRoom];  // and whose axis that is; -1: none
     std::int32_t count;
+};
+
+/// The same of photons of lamps, where degrees are kept about the lamps' axes.
+template <int W>
+struct AlongLamp {
+    F<W> along;
+    I<W> axis;
 };
 
 /// Asks for the sums that a vector of deposits will add to.
@@ -96,17 +106,46 @@ PILEUS_FN void fetch_sums(const TraceParams& k, const TraceBuffers& b,
     }
 }
 
-/// Notes what the lanes of `m`, travelling along `d`, bring to their collectors.
+/// Notes what the lanes of `m`, travelling along `d`, bring to their collectors. `lamps`: null
+/// where no degrees are kept about lamps.
 template <int W, int NC>
 PILEUS_FN void push_deposits(DepositQueue<W, NC>& q, const Vec<F<W>>& d, M<W> m, I<W> collector,
-                             const F<W> (&share)[NC]) {
+                             const F<W> (&share)[NC], const AlongLamp<W>* lamps = nullptr) {
     const std::uint32_t bits = bits_of(m);
     pack(q.x + q.count, d.x, bits);
     pack(q.y + q.count, d.y, bits);
     pack(q.z + q.count, d.z, bits);
     for (int c = 0; c < NC; ++c) pack(q.share[c] + q.count, share[c], bits);
     pack(q.collector + q.count, collector, bits);
+    if (lamps != nullptr) {
+        pack(q.along + q.count, lamps->along, bits);
+        pack(q.axis + q.count, lamps->axis, bits);
+    }
     q.count += count_bits(bits);
+}
+
+PILEUS_FN bool keeps_lamp_axes(const TraceParams& k) {
+    return k.light == kLightLamps && k.axis_degrees > 0;
+}
+
+/// How each lane's photon travels with respect to its lamp's straight light there.
+template <int W, int NC, bool S>
+PILEUS_FN AlongLamp<W> along_lamp(const TraceParams& k, const Photon<W, NC, S>& s) {
+    using T = F<W>;
+    AlongLamp<W> out{T{}, all<I<W>>(-1)};
+    const Vec<T> p{s.p.x * k.grid.cell[0], s.p.y * k.grid.cell[1], s.p.z * k.grid.cell[2]};
+    for (std::int32_t l = 0; l < k.lamp_count; ++l) {
+        const LampEmission& e = k.lamps[l];
+        const std::int32_t axis = k.lamp_axis + e.own_axis;
+        if (e.own_axis < 0 || axis >= k.axes) continue;
+        const M<W> mine = s.texel == l;
+        if (!any(mine)) continue;
+        const LampSight<T> sight = see_lamp(e.lamp, p);
+        const T along = T{} - (s.d.x * sight.way.x + s.d.y * sight.way.y + s.d.z * sight.way.z);
+        out.along = select(mine, min_(max_(along, all<T>(-1.0f)), all<T>(1.0f)), out.along);
+        out.axis = select(mine, all<I<W>>(axis), out.axis);
+    }
+    return out;
 }
 
 /// What is kept of a direction of travel, `Cells`: by a regular grid. Returns how many numbers.
@@ -139,15 +178,21 @@ PILEUS_FN void add_deposits(const TraceParams& k, const TraceBuffers& b,
     const Vec<T> d{load<T>(q.x + at), load<T>(q.y + at), load<T>(q.z + at)};
     T y[kMost];
     const int count = direction_numbers<Cells>(k, d, y);
+    const bool lamps = keeps_lamp_axes(k);
+    if (lamps) axis_values(k.bands, k.axis_degrees, load<T>(q.along + at), y + count);
+    const int numbers = lamps ? count + k.axis_degrees : count;
     const std::int32_t items = q.count - at < W ? q.count - at : W;
     I<W> quanta[kMost];
     for (int c = 0; c < NC; ++c) {
         const T share = load<T>(q.share[c] + at);
-        for (int i = 0; i < count; ++i) quanta[i] = quantise(share * y[i], k.scale);
+        for (int i = 0; i < numbers; ++i) quanta[i] = quantise(share * y[i], k.scale);
         for (std::int32_t i = 0; i < items; ++i) {
             const std::int64_t set = std::int64_t(q.collector[at + i]) * k.channels + c;
             std::int64_t* sums = b.sums + set * k.coefficients;
             add_sums(sums, quanta, i, count, b.shared_sums != 0);
+            if (!lamps || q.axis[at + i] < 0) continue;
+            add_sums(sums + count + q.axis[at + i] * k.axis_degrees, quanta + count, i,
+                     k.axis_degrees, b.shared_sums != 0);
         }
     }
 }
@@ -168,6 +213,7 @@ PILEUS_FN void flush_deposits(const TraceParams& k, const TraceBuffers& b, Depos
         q.x[i] = q.x[at + i], q.y[i] = q.y[at + i], q.z[i] = q.z[at + i];
         for (int c = 0; c < NC; ++c) q.share[c][i] = q.share[c][at + i];
         q.collector[i] = q.collector[at + i];
+        q.along[i] = q.along[at + i], q.axis[i] = q.axis[at + i];
     }
     q.count = left;
 }
@@ -181,6 +227,19 @@ PILEUS_FN Vec<F<W>> way_to_camera(const Photon<W, NC, S>& s, const TraceParams& 
         to = normalized(Vec<T>{to.x - s.p.x * k.grid.cell[0], to.y - s.p.y * k.grid.cell[1],
                                to.z - s.p.z * k.grid.cell[2]});
     return to;
+}
+
+/// push_deposits along s.d, with what is kept about the photon's own lamp.
+template <int W, int NC, bool S>
+PILEUS_FN void push_by_light(const TraceParams& k, DepositQueue<W, NC>& q,
+                             const Photon<W, NC, S>& s, M<W> m, I<W> collector,
+                             const F<W> (&share)[NC]) {
+    if (!keeps_lamp_axes(k)) {
+        push_deposits(q, s.d, m, collector, share);
+        return;
+    }
+    const AlongLamp<W> lamps = along_lamp(k, s);
+    push_deposits(q, s.d, m, collector, share, &lamps);
 }
 
 /// Deposit `share` (0..1) of each lane in `m`, travelling along s.d, into its voxel's collector.
@@ -217,7 +276,7 @@ PILEUS_FN void deposit(const TraceParams& k, const TraceBuffers& b, DepositQueue
     if (k.mode != kDepositCamera) {
         T shares[NC];
         for (int c = 0; c < NC; ++c) shares[c] = value * s.weight[c];
-        push_deposits(q, d, m, collector, shares);
+        push_by_light(k, q, s, m, collector, shares);
         return;
     }
     const Vec<T> to = way_to_camera(s, k);
@@ -253,7 +312,7 @@ PILEUS_FN void deposit_in_cell(const TraceParams& k, const TraceBuffers& b, Depo
     if (k.mode != kDepositCamera) {
         T shares[NC];
         for (int c = 0; c < NC; ++c) shares[c] = value * s.weight[c];
-        push_deposits(q, s.d, m, cell, shares);
+        push_by_light(k, q, s, m, cell, shares);
         return;
     }
     const T p = phase_density(k.optics[0].phase, one_minus_cosine(s.d, way_to_camera(s, k)));

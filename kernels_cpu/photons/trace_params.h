@@ -55,7 +55,9 @@ struct TraceParams {
     std::int32_t bands;        ///< 1..8
     std::int32_t first_order;  ///< beam light not yet scattered: 0 like all, 1 own slot, 2 left out
     float peak_turn;  ///< 1 - cos of turns by less that keep a photon with its beam; 0: none do
-    std::int32_t axis_degrees;  ///< beyond the bands, about a beam's axis
+    std::int32_t axis_degrees;  ///< beyond the bands, about each axis
+    std::int32_t axes;          ///< that have such numbers; a beam's are the first
+    std::int32_t lamp_axis;     ///< number of the first axis of lamps
     std::int32_t coefficients;  ///< numbers per collector and channel
     float scale;                ///< quanta per unit deposit, a power of two
     float path_scale;           ///< quanta per metre of path

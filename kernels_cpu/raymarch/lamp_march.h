@@ -6,6 +6,7 @@
 // needs no finer steps.
 #pragma once
 #include "kernels_cpu/core/pixel_block.h"
+#include "kernels_cpu/display/beam.h"
 #include "kernels_cpu/display/march_ray.h"
 #include "kernels_cpu/display/pixel_light.h"
 #include "kernels_cpu/light/lamp_sphere.h"
@@ -139,6 +140,14 @@ PILEUS_FN void march_lamps(const LampMarchParams& k, const LampMarchBuffers& b,
                 const auto add = [&](const LampSight<T>& sight) {
                     const T light = weight * sight.share * left[0];
                     const T turn = one_minus_cosine(ray.direction, sight.way);
+                    if (k.beam_sets > 0) {
+                        T kept[3];
+                        beam_light(b.beam, k.beam_sets, k.beam_rest, beam_angle(turn), most, tau,
+                                   weight * sight.share, kept);
+                        for (int c = 0; c < 3; ++c)
+                            colour[c] = colour[c] + select(lit, kept[c], T{}) *
+                                                        (k.albedo[0][c] * lamp.light[c]);
+                    }
                     T more[kMostOctaves];
                     (void)octave_light(k.octaves, tau, light, weight * sight.share, more);
                     for (int i = 0; i < k.media; ++i) {

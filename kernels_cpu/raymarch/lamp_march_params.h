@@ -23,6 +23,8 @@ struct LampMarchParams {
     float octave_source[kMostMedia][kMostOctaves][3];  ///< of a unit of light; from octave 1 on
     std::int32_t forward;       ///< 1: light scattered forward goes on as if it were not
     float kept[kMostMedia][3];  ///< and so much of what is scattered does, as RaymarchLight has it
+    std::int32_t beam_sets;  ///< as MarchParams has them, of one medium: what stays in the lamps'
+    float beam_rest[3];      ///< beams
     std::int32_t lamps;
     std::int32_t spheres;  ///< 0: none of them is one
     NodeGrid nodes;        ///< of optical depths to each lamp
@@ -35,6 +37,7 @@ struct LampMarchParams {
 struct LampMarchBuffers {
     const LampParams* lamps;
     float* optical_depth;       ///< [lamp][node]
+    const float* beam;          ///< MarchBuffers::beam
     const float* parts;         ///< [medium - 1][voxel]: densities of media 1, 2 ...
     const float* opaque_depth;  ///< [pixel], m along the ray; null: nothing opaque
     float* colour;              ///< [3][pixel], premultiplied; added to

@@ -23,29 +23,50 @@ bool is_narrow(const Medium& medium) {
 
 }  // namespace
 
+void set_axes(LightInput& in) {
+    for (LightAxis& axis : in.axes) axis = LightAxis{0, {0, 0, -1}};
+    if (in.deposit.lamp_axis > 0)
+        for (std::size_t a = 0; a < 3; ++a) in.axes[0].at[a] = -in.lighting->to_sun[a];
+    for (const LampEmission& e : in.lighting->lamp_emission) {
+        const int number = in.deposit.lamp_axis + e.own_axis;
+        if (e.own_axis < 0 || number >= in.deposit.axes) continue;
+        LightAxis& axis = in.axes[number];
+        axis.placed = e.lamp.parallel == 0 ? 1 : 0;
+        for (int a = 0; a < 3; ++a) axis.at[a] = axis.placed != 0 ? e.lamp.at[a] : -e.lamp.at[a];
+    }
+}
+
+Vec<float> axis_way(const LightAxis& axis, const Vec<float>& place) {
+    if (axis.placed == 0) return {axis.at[0], axis.at[1], axis.at[2]};
+    const Vec<float> v{place.x - axis.at[0], place.y - axis.at[1], place.z - axis.at[2]};
+    // At the lamp itself any way will do.
+    if (!(dot(v, v) > 1e-12f)) return {0, 0, 1};
+    return normalized(v);
+}
+
 void damp_rings(LightInput& in) {
     in.damps = is_narrow(*in.medium);
-    for (int lamps = 0; lamps < 2 && in.damps; ++lamps) {
-        double* factor = in.damping[lamps].factor;
-        for (int l = 0; l < kMaxBands + kMaxAxisDegrees; ++l) factor[l] = 1;
-        const bool rings = lamps == 1 || !(in.deposit.peak_turn > 0);
-        const int degrees = in.deposit.bands + (lamps == 0 ? in.deposit.axis_degrees : 0);
-        for (int l = 1; rings && l < degrees; ++l) {
-            const double x = double(l) / degrees;
-            const double sinc = sincos_deg(180 * x).sine / (3.14159265358979323846 * x);
-            factor[l] = sinc * sinc;
-        }
+    if (!in.damps) return;
+    double* factor = in.damping.factor;
+    for (int l = 0; l < kMaxBands + kMaxAxisDegrees; ++l) factor[l] = 1;
+    const int degrees = in.deposit.bands + in.deposit.axis_degrees;
+    for (int l = 1; !(in.deposit.peak_turn > 0) && l < degrees; ++l) {
+        const double x = double(l) / degrees;
+        const double sinc = sincos_deg(180 * x).sine / (3.14159265358979323846 * x);
+        factor[l] = sinc * sinc;
     }
 }
 
 void damp(const LightInput& in, std::size_t light, double* sums) {
     const Light& shown = in.lighting->lights[light];
     if (!shown.beam && !shown.lamps) return;
-    const double* factor = in.damping[shown.lamps ? 1 : 0].factor;
+    const double* factor = in.damping.factor;
     int i = 0;
     for (int l = 0; l < in.deposit.bands; ++l)
         for (int m = -l; m <= l; ++m, ++i) sums[i] *= factor[l];
-    for (int d = 0; d < in.deposit.axis_degrees; ++d, ++i) sums[i] *= factor[in.deposit.bands + d];
+    for (int axis = 0; axis < in.deposit.axes; ++axis)
+        for (int d = 0; d < in.deposit.axis_degrees; ++d, ++i)
+            sums[i] *= factor[in.deposit.bands + d];
 }
 
 std::size_t filled_slots(const Photons& photons) {

@@ -23,7 +23,8 @@ struct LightInput {
     DepositPlan deposit;
     bool first_order_alone = false;  ///< only sunlight scattered once, where deposits keep it apart
     bool damps = false;              ///< see damp_rings
-    Damping damping[2];              ///< of the beam, of lamps
+    Damping damping;                 ///< of the beam and of lamps
+    LightAxis axes[kMostAxes]{};     ///< see set_axes
     int batches = 0;  ///< also one RGB for each of so many groups of slots, for the error
     int threads = 1;
 };
@@ -52,10 +53,16 @@ Batch batch_of(const LightInput& in, int batch);
 /// What a light's sums in a slot are multiplied by, to be of unit colour.
 double slot_norm(const LightInput& in, const PhotonSlot& slot, std::size_t light);
 
-/// Lights whose narrow peak no table of a beam holds (beam.h), lamps and suns without one, go on as
-/// narrow as they came where phase functions are. Few bands of that ring at all angles, and as no
-/// light is less than none, the rings' positive halves would be light that is not there. So they
-/// are spread: by (sin x / x)^2 of a degree's place among all.
+/// What the degrees of the deposits are about: the sun's present way and lamps where they are now.
+void set_axes(LightInput& in);
+
+/// The way of the straight light that an axis is about, at a place, m, box-local.
+Vec<float> axis_way(const LightAxis& axis, const Vec<float>& place);
+
+/// Lights whose narrow peak no table of a beam holds (beam.h) go on as narrow as they came where
+/// phase functions are. Few bands of that ring at all angles, and as no light is less than none,
+/// the rings' positive halves would be light that is not there. So they are spread: by
+/// (sin x / x)^2 of a degree's place among all.
 void damp_rings(LightInput& in);
 void damp(const LightInput& in, std::size_t light, double* sums);
 

@@ -36,7 +36,21 @@ SunTurn turn_of(const FrameView& view, const PhotonState& state) {
 
 }  // namespace
 
+namespace {
+
+/// What scatterings within the peak leave in the sun's beam and in lamps'.
+Status make_beam_tables(const Context& context, const FrameView& view, PhotonState& state) {
+    const float peak_turn = state.lights.deposit.peak_turn;
+    if (!(peak_turn > 0) || state.shadow.beam.sets > 0) return Status::ok();
+    const StageClock clock(context, "shadow");
+    return make_beam(view.world.medium, peak_turn, context.threads, Stage::kShadow,
+                     state.shadow.beam);
+}
+
+}  // namespace
+
 Status make_sun_shadow(const Context& context, const FrameView& view, PhotonState& state) {
+    PILEUS_TRY(make_beam_tables(context, view, state));
     const Lighting& lighting = state.lights.lighting;
     const DepositPlan& deposit = state.lights.deposit;
     SunShadow& shadow = state.shadow;
@@ -64,9 +78,6 @@ Status make_sun_shadow(const Context& context, const FrameView& view, PhotonStat
     if (lighting.solids != nullptr && !shadow.ready)
         PILEUS_TRY(solid_visibility(context, *lighting.solids, shadow.nodes, lighting.to_sun,
                                     shadow.visibility));
-    if (deposit.peak_turn > 0 && shadow.beam.sets == 0)
-        PILEUS_TRY(make_beam(view.world.medium, deposit.peak_turn, context.threads, Stage::kShadow,
-                             shadow.beam));
     shadow.ready = true;
     return Status::ok();
 }
@@ -258,14 +269,17 @@ std::uint64_t near_nodes_of(const Context& context, const FrameView& view, const
 }
 
 int stored_harmonics(const DepositPlan& deposit) {
-    const int numbers = deposit.bands * deposit.bands + deposit.axis_degrees;
+    const int numbers = deposit.bands * deposit.bands + axis_numbers(deposit);
     return (numbers + kHarmonicsAbreast - 1) / kHarmonicsAbreast * kHarmonicsAbreast;
 }
 
-void set_harmonic_sets(const DepositPlan& deposit, int sets, const float (&colour)[3][3],
+void set_harmonic_sets(const LightInput& lit, int sets, const float (&colour)[3][3],
                        MarchParams& k) {
+    const DepositPlan& deposit = lit.deposit;
     k.bands = deposit.bands;
     k.degrees = deposit.axis_degrees;
+    k.axes = deposit.axes;
+    for (int i = 0; i < kMostAxes; ++i) k.axis[i] = lit.axes[i];
     k.sets = sets;
     k.harmonics = stored_harmonics(deposit);
     for (int s = 0; s < sets; ++s)
@@ -275,7 +289,7 @@ void set_harmonic_sets(const DepositPlan& deposit, int sets, const float (&colou
 void gather_by_node(const Context& context, const MarchParams& k, std::uint64_t nodes,
                     Span<const float> numbers, Span<float> by_node) {
     constexpr std::uint64_t kPiece = 1024;
-    const std::size_t own = std::size_t(k.bands * k.bands + k.degrees);
+    const std::size_t own = std::size_t(k.bands * k.bands + k.degrees * k.axes);
     const std::size_t stored = std::size_t(k.harmonics), sets = std::size_t(k.sets);
     const auto pieces = std::int64_t((nodes + kPiece - 1) / kPiece);
     parallel_for(context.threads, pieces, [&](std::int64_t piece, int) {
@@ -299,7 +313,11 @@ Status add_lit_lamps(const Context& context, const FrameView& view, PhotonState&
     LampMarchParams k = lamp_march_params(medium, state.majorants, *lit.lighting, lit.camera,
                                           state.picture.lamps, kCut);
     k.emits = glows ? 1 : 0;
-    return add_lamp_light(context, medium, k, state.picture.lamps, planes);
+    const Beam& beam = state.shadow.beam;
+    k.beam_sets =
+        lit.first_order_alone || !(lamp_peak_turn(state.lights.deposit) > 0) ? 0 : beam.sets;
+    for (int c = 0; c < 3; ++c) k.beam_rest[c] = beam.rest[c];
+    return add_lamp_light(context, medium, k, state.picture.lamps, planes, 0, beam.tables.data());
 }
 
 Status fill_lit_background(const Context& context, const FrameView& view, PhotonState& state,

@@ -92,7 +92,7 @@ std::uint64_t near_nodes_of(const Context& context, const FrameView& view, const
 int stored_harmonics(const DepositPlan& deposit);
 
 /// Nodes hold so many sets of harmonics of these colours.
-void set_harmonic_sets(const DepositPlan& deposit, int sets, const float (&colour)[3][3],
+void set_harmonic_sets(const LightInput& lit, int sets, const float (&colour)[3][3],
                        MarchParams& k);
 
 /// Numbers of each of `nodes`, [set][harmonic] and one more, become [set][stored harmonic].

@@ -125,12 +125,30 @@ void aim_deposit(const FrameView& view, PhotonState& state) {
 const char* why_no_peak(const FrameView& view, double peak_deg, const PhotonState& state) {
     const Medium& medium = view.world.medium;
     if (!(peak_deg > 0)) return "switched off";
-    if (!state.lights.lighting.sunlit) return "no sun";
-    if (state.lights.deposit.first_order != 2) return "the march does not show the first order";
+    const DepositPlan& deposit = state.lights.deposit;
+    if (!has_axes(state.lights.lighting)) return "no sun";
+    // The first order of lamps is always the march's.
+    if (state.lights.lighting.sunlit ? deposit.first_order != 2 : deposit.mode == kDepositOutgoing)
+        return "the march does not show the first order";
     if (medium.count != 1) return "other than one medium";
     if (forward_share(medium.optics[0].phase, peak_deg) < kLeastPeak)
         return "the phase function has no peak";
     return nullptr;
+}
+
+bool has_axes(const Lighting& lighting) { return lighting.sunlit || !lighting.lamps.empty(); }
+
+void choose_axes(const FrameView& view, PhotonState& state) {
+    const Lighting& lighting = state.lights.lighting;
+    DepositPlan& d = state.lights.deposit;
+    // Lamps that are dark now may shine later on.
+    std::size_t lamps = lighting.lamps.size();
+    if (lamps > 0 && view.scene.lights.size() > lamps) lamps = view.scene.lights.size();
+    if (lamps > std::size_t(kMostLampAxes)) lamps = std::size_t(kMostLampAxes);
+    d.lamp_axis = lighting.sunlit ? 1 : 0;
+    d.axes = d.lamp_axis + int(lamps);
+    if (d.axes == 0) d.axes = 1;
+    while (d.axes > 1 && d.bands * d.bands + axis_numbers(d) > kMostPacked) --d.axes;
 }
 
 void choose_peak(const FrameView& view, double peak_deg, PhotonState& state) {

@@ -140,8 +140,14 @@ Status sums_overflow(const char* key, const FrameView& view, const PhotonState& 
 /// Where deposits of the phase function look: the camera, or back along its parallel rays.
 void aim_deposit(const FrameView& view, PhotonState& state);
 
-/// Decides deposit.peak_turn: a beam of light scattered within so many degrees is kept apart from
-/// the photons' deposits, where the march shows the sun's first order of one medium.
+/// Whether there is light of one direction at a place: the sun's or lamps'.
+bool has_axes(const Lighting& lighting);
+
+/// Decides how many axes deposits know, and which are lamps', once its bands and degrees are known.
+void choose_axes(const FrameView& view, PhotonState& state);
+
+/// Decides deposit.peak_turn: light of the sun and of lamps scattered within so many degrees is
+/// kept apart from the photons' deposits, where the march shows the first order of one medium.
 void choose_peak(const FrameView& view, double peak_deg, PhotonState& state);
 /// Why there is none; null: there is.
 const char* why_no_peak(const FrameView& view, double peak_deg, const PhotonState& state);

@@ -39,7 +39,8 @@ struct Mixture {
     }
 };
 
-constexpr int kMostNumbers = kMaxBands * kMaxBands + kMaxAxisDegrees + 1;
+/// Of one set of sums: bands, degrees about axes, the first order.
+constexpr int kMostNumbers = kMostPacked + 1;
 using Direction = Vec<float>;
 
 /// What multiplies the sums of one place and channel towards `to`: the same for all slots.
@@ -52,8 +53,8 @@ BandWeights band_weights(const DepositPlan& deposit, const Window& window, const
 /// Power per steradian and unit light scattered that way, from all bands.
 double sh_power(int bands, const BandWeights& weights, const double* sums);
 
-/// What multiplies the sums of degrees beyond the bands, of light spread evenly around the beam's
-/// direction `sun`: sum_l (2l+1)/4pi chi_l m_l P_l(cosine), m_l the sum of P_l over the light.
+/// What multiplies the sums of degrees beyond the bands, of light spread evenly around a direction,
+/// `sun`: sum_l (2l+1)/4pi chi_l m_l P_l(cosine), m_l the sum of P_l over the light.
 struct AxisWeights {
     double w[kMaxAxisDegrees];
 };

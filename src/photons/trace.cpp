@@ -154,7 +154,9 @@ TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_
     k.bands = in.deposit.bands;
     k.first_order = in.deposit.first_order;
     k.axis_degrees = in.deposit.axis_degrees;
-    k.peak_turn = light.lamps ? 0 : in.deposit.peak_turn;
+    k.axes = in.deposit.axes;
+    k.lamp_axis = in.deposit.lamp_axis;
+    k.peak_turn = light.lamps ? lamp_peak_turn(in.deposit) : in.deposit.peak_turn;
     k.coefficients = in.deposit.coefficients;
     k.scale = float(std::uint64_t{1} << in.deposit.places);
     k.path_scale = float(path_units(m) / __builtin_sqrt(diagonal));

@@ -18,6 +18,8 @@ struct DepositPlan {
     int bands = 4;
     int first_order = 0;    ///< see TraceParams
     int axis_degrees = 0;   ///< see TraceParams
+    int axes = 1;           ///< see TraceParams
+    int lamp_axis = 0;      ///< see TraceParams
     float peak_turn = 0;    ///< see TraceParams
     int coefficients = 16;  ///< per collector and channel
     int channels = 0;       ///< that photons tell apart, 1 or 3; 0: as many as the medium
@@ -25,6 +27,15 @@ struct DepositPlan {
     float camera[3] = {0, 0, 0};
     bool orthographic = false;
 };
+
+/// Numbers beyond the bands, about all axes.
+inline int axis_numbers(const DepositPlan& deposit) { return deposit.axis_degrees * deposit.axes; }
+
+/// 1 - cos of turns by less that keep light with its lamp: sums of scattered directions know lamps'
+/// light by its order alone.
+inline float lamp_peak_turn(const DepositPlan& deposit) {
+    return deposit.mode == kDepositOutgoing ? 0.0f : deposit.peak_turn;
+}
 
 /// Square cells over the ground around the box in which arriving light is counted.
 struct GroundMap {

@@ -35,9 +35,10 @@ Status plan_deposit(const FrameView& view, CollectorsState& state) {
     d.axis_degrees = why_no_collectors_axis(view, state) != nullptr
                          ? 0
                          : useful_axis_degrees(view.world.medium, c.bands, c.axis_degrees);
+    choose_axes(view, state);
     d.coefficients = d.mode == kDepositCamera
                          ? 1
-                         : d.bands * d.bands + d.axis_degrees + (d.first_order == 1 ? 1 : 0);
+                         : d.bands * d.bands + axis_numbers(d) + (d.first_order == 1 ? 1 : 0);
     d.places = fixed_point_places(most_deposits(state), largest_deposit(view, d));
     return d.places < 0 ? sums_overflow("collectors.photons", view, state) : Status::ok();
 }
@@ -49,7 +50,7 @@ const char* why_no_collectors_axis(const FrameView& view, const CollectorsState&
     if (state.camera_cells > 0) return "closure \"camera\" has all bands";
     if (c.paper) return "variant \"paper\"";
     if (c.lobe_closure) return "closure \"lobe\"";
-    if (!state.lights.lighting.sunlit) return "no sun";
+    if (!has_axes(state.lights.lighting)) return "no sun";
     if (view.world.medium.grid.periodic && shows_harmonics(view, state))
         return "nodes of a periodic medium hold bands alone";
     if (c.window) return "the window damps the higher bands";

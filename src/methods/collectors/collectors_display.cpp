@@ -115,7 +115,7 @@ Status light_near(const Context& context, const FrameView& view, CollectorsState
     Buffer<float> splatted;
     for (int part = 0; part <= lit.batches; ++part) {
         PILEUS_TRY(reconstruct_harmonics(lit, part - 1, {which.data(), which.size()}, harmonics));
-        set_harmonic_sets(lit.deposit, harmonics.sets, harmonics.colour, k);
+        set_harmonic_sets(lit, harmonics.sets, harmonics.colour, k);
         PILEUS_TRY(splat_colours(moved.span(), harmonics.values.span(),
                                  harmonics.sets * harmonics.numbers, nodes, options,
                                  context.threads, splatted));
@@ -185,7 +185,7 @@ Status show_harmonics(const Context& context, const FrameView& view, CollectorsS
         }
         // The picture's own digest, not those of its parts.
         if (batch < 0 && is_whole(state, in)) note_colours(context, lit.values.span(), state);
-        set_harmonic_sets(in.deposit, lit.sets, lit.colour, k);
+        set_harmonic_sets(in, lit.sets, lit.colour, k);
         float* target = planes.colour.data() + 3 * std::size_t(batch + 1) * pixels;
         PILEUS_TRY(splat(context, lit.values.span(), lit.sets * lit.numbers, k.source, *in.lighting,
                          nullptr, view, state));
@@ -223,11 +223,11 @@ Status show_billboards(const Context& context, const FrameView& view, const Coll
 Status collectors_display(const Context& context, const FrameView& view, CollectorsState& state,
                           const ReconstructInput& lit, const CollectorColours& colours,
                           int channels, Planes& planes) {
-    if (shows_harmonics(view, state) && !lit.first_order_alone)
-        return show_harmonics(context, view, state, lit, planes);
     if (!is_marched(state))
         return show_billboards(context, view, state, lit, colours, channels, planes);
-    PILEUS_TRY(show_marched(context, view, state, lit, colours, channels, planes));
+    PILEUS_TRY(shows_harmonics(view, state) && !lit.first_order_alone
+                   ? show_harmonics(context, view, state, lit, planes)
+                   : show_marched(context, view, state, lit, colours, channels, planes));
     return add_lit_lamps(context, view, state, lit, planes);
 }
 
@@ -290,7 +290,7 @@ void collectors_size_display(const FrameView& view, const CollectorsState& state
         reads_quads(context, int(sizes.picture.planes), nodes) ? 1 : node_count(nodes);
     const std::uint64_t numbers =
         std::uint64_t(state.lights.deposit.bands) * std::uint64_t(state.lights.deposit.bands) +
-        std::uint64_t(state.lights.deposit.axis_degrees);
+        std::uint64_t(axis_numbers(state.lights.deposit));
     const std::uint64_t stored = std::uint64_t(stored_harmonics(state.lights.deposit));
     const std::uint64_t sets =
         std::uint64_t(harmonic_sets(state.lights.deposit.channels, state.lights.lighting));

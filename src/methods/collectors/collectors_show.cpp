@@ -23,6 +23,7 @@ ReconstructInput collectors_reconstruct_input(const CameraParams& camera, const 
                  : state.settings.lobe_closure ? Closure::kLobe
                                                : Closure::kSh;
     in.window = state.settings.window;
+    set_axes(in);
     if (in.closure == Closure::kSh && !in.window) damp_rings(in);
     in.batches = photon_batches(state);
     in.constant = !is_marched(state);

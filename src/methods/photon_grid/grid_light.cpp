@@ -38,32 +38,48 @@ CellOptics optics_of(const GridLightInput& in, std::size_t cell) {
     return out;
 }
 
-/// The middle of cell number `i`, and where the camera sees it from.
-Direction cell_to_camera(const GridLightInput& in, std::size_t i) {
-    if (in.camera.orthographic != 0)
-        return {-in.camera.forward[0], -in.camera.forward[1], -in.camera.forward[2]};
+/// The middle of cell number `i`, m, box-local.
+Vec<float> middle_of(const GridLightInput& in, std::size_t i) {
     const std::size_t nx = std::size_t(in.cells.size[0]), ny = std::size_t(in.cells.size[1]);
     const std::size_t at[3] = {i % nx, i / nx % ny, i / (nx * ny)};
-    float way[3];
+    float middle[3];
     for (std::size_t a = 0; a < 3; ++a)
-        way[a] = in.camera.origin[a] -
-                 float((double(at[a]) + 0.5) * in.medium->extent_m[a] / in.cells.size[a]);
-    const Direction d{way[0], way[1], way[2]};
+        middle[a] = float((double(at[a]) + 0.5) * in.medium->extent_m[a] / in.cells.size[a]);
+    return {middle[0], middle[1], middle[2]};
+}
+
+/// Where the camera sees it from.
+Direction cell_to_camera(const GridLightInput& in, const Vec<float>& middle) {
+    if (in.camera.orthographic != 0)
+        return {-in.camera.forward[0], -in.camera.forward[1], -in.camera.forward[2]};
+    const Direction d{in.camera.origin[0] - middle.x, in.camera.origin[1] - middle.y,
+                      in.camera.origin[2] - middle.z};
     // From the middle of the cell there is no such direction: any will do.
     if (!(dot(d, d) > 1e-12f)) return {0, 0, 1};
     return normalized(d);
 }
 
 /// What multiplies each of a light's sums in one cell and channel, closures kSh and kCamera. The
-/// sums about the axis are those of beams alone: they are zero for other lights.
+/// sums about axes are those of beams and lamps alone: they are zero for other lights.
 struct Weights {
     bool made = false;
     Direction sun{};
     double w[kMostNumbers];
 };
 
-void make_weights(const GridLightInput& in, const float* moment, const Direction& to,
-                  const Direction& sun, Weights& out) {
+void make_axis_weights(const GridLightInput& in, const float* moment, const Direction& to,
+                       const Direction& way, double* w) {
+    float p[kMaxAxisDegrees];
+    const int bands = in.deposit.bands, degrees = in.deposit.axis_degrees;
+    axis_values(bands, degrees, 1.0f - one_minus_cosine(way, to), p);
+    for (int j = 0; j < degrees; ++j) {
+        const int l = bands + j;
+        w[j] = double(2 * l + 1) * kPerSphere * double(moment[l]) * double(p[j]);
+    }
+}
+
+void make_weights(const GridLightInput& in, const float* moment, const Vec<float>& middle,
+                  const Direction& to, const Direction& sun, Weights& out) {
     const bool same = sun.x == out.sun.x && sun.y == out.sun.y && sun.z == out.sun.z;
     if (out.made && same) return;
     out.made = true;
@@ -77,14 +93,10 @@ void make_weights(const GridLightInput& in, const float* moment, const Direction
     sh_values(bands, to, y);
     for (int l = 0, i = 0; l < bands; ++l)
         for (int m = -l; m <= l; ++m, ++i) out.w[i] = double(moment[l]) * double(y[i]);
-    if (degrees == 0) return;
-    float p[kMaxAxisDegrees];
-    axis_values(bands, degrees, 1.0f - one_minus_cosine(sun, to), p);
-    for (int j = 0; j < degrees; ++j) {
-        const int l = bands + j;
-        out.w[bands * bands + j] =
-            double(2 * l + 1) * kPerSphere * double(moment[l]) * double(p[j]);
-    }
+    for (int n = 0; n < in.deposit.axes && degrees > 0; ++n)
+        make_axis_weights(in, moment, to,
+                          n < in.deposit.lamp_axis ? sun : axis_way(in.axes[n], middle),
+                          out.w + bands * bands + n * degrees);
 }
 
 /// As published: flux, and the mean cosine g' to the light's axis; every medium with g g'.
@@ -107,6 +119,7 @@ double published_power(const Mixture& mix, const double* sums, const Direction& 
 /// A cell while it is lit.
 struct CellView {
     CellOptics optics;
+    Vec<float> middle;
     Direction to;
     Weights weights[3];
 };
@@ -126,7 +139,7 @@ double cell_power(const GridLightInput& in, CellView& cell, std::size_t channel,
         return published_power(mix, sums, axis, cell.to, most_towards(in, cell.to));
     }
     Weights& w = cell.weights[channel];
-    make_weights(in, cell.optics.moment[channel], cell.to, sun, w);
+    make_weights(in, cell.optics.moment[channel], cell.middle, cell.to, sun, w);
     double power = 0;
     for (int i = 0; i < in.deposit.coefficients; ++i) power += w.w[i] * sums[i];
     return power;
@@ -169,7 +182,8 @@ Status light_cells(const GridLightInput& in, Buffer<float>& out) {
             if (in.marks[i] == kCellEmpty) continue;
             CellView cell;
             cell.optics = in.medium->count == 1 ? all : optics_of(in, i);
-            cell.to = cell_to_camera(in, i);
+            cell.middle = middle_of(in, i);
+            cell.to = cell_to_camera(in, cell.middle);
             for (std::size_t b = 0; b < batches.size(); ++b) {
                 const Row row = cell_row(in, batches[b], i, cell);
                 for (std::size_t c = 0; c < 3; ++c)
@@ -198,8 +212,8 @@ void add_harmonics(const GridLightInput& in, const CellOptics& optics, std::size
         for (int l = 0; l < in.deposit.bands; ++l)
             for (int m = -l; m <= l; ++m, ++i)
                 own[i] += sums[i] * double(optics.moment[channel][l]) * power;
-        for (int d = 0; d < in.deposit.axis_degrees; ++d, ++i) {
-            const int l = in.deposit.bands + d;
+        for (int d = 0; d < axis_numbers(in.deposit); ++d, ++i) {
+            const int l = in.deposit.bands + d % in.deposit.axis_degrees;
             own[i] += sums[i] * double(2 * l + 1) * kPerSphere * double(optics.moment[channel][l]) *
                       power;
         }

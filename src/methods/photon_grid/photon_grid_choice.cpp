@@ -38,7 +38,8 @@ void choose_numbers(const FrameView& view, PhotonGridState& state) {
     d.axis_degrees = why_no_grid_axis(view, state) != nullptr
                          ? 0
                          : useful_axis_degrees(view.world.medium, s.bands, s.axis_degrees);
-    d.coefficients = d.bands * d.bands + d.axis_degrees;
+    choose_axes(view, state);
+    d.coefficients = d.bands * d.bands + axis_numbers(d);
     if (s.closure == GridClosure::kPublished) d.mode = kDepositCosine, d.coefficients = 2;
     if (s.closure == GridClosure::kCamera) d.mode = kDepositCamera, d.coefficients = 1;
     choose_peak(view, s.peak_deg, state);
@@ -75,7 +76,7 @@ double unit_m2(const FrameView& view, const PhotonGridState& state) {
 const char* why_no_grid_axis(const FrameView& view, const PhotonGridState& state) {
     const PhotonGridSettings& s = state.settings;
     if (s.closure != GridClosure::kSh) return "closures other than \"sh\" have none";
-    if (!state.lights.lighting.sunlit) return "no sun";
+    if (!has_axes(state.lights.lighting)) return "no sun";
     if (shows_harmonics(view, state)) return "cells of a periodic medium show bands alone";
     return s.axis_degrees == 0 ? "switched off" : nullptr;
 }
@@ -162,6 +163,7 @@ GridLightInput grid_light_input(const CameraParams& camera, const Context& conte
     in.marks = state.near.marks.span();
     in.shares = state.shares.span();
     in.closure = state.settings.closure;
+    set_axes(in);
     if (in.closure == GridClosure::kSh) damp_rings(in);
     in.unit_m2 = unit_m2(view, state);
     return in;

@@ -32,7 +32,7 @@ Status light_near(const Context& context, const FrameView& view, PhotonGridState
         PILEUS_TRY(
             light_cell_harmonics(in, {part - 1, part, 1 + in.batches, stored_harmonics(in.deposit)},
                                  k.near, sets, state.picture.near_light));
-    set_harmonic_sets(in.deposit, sets.sets, sets.colour, k);
+    set_harmonic_sets(in, sets.sets, sets.colour, k);
     light.near = state.picture.near_light.data();
     return Status::ok();
 }
@@ -71,7 +71,7 @@ Status show_all_ways(const Context& context, const FrameView& view, PhotonGridSt
         }
         if (batch < 0 && in.lighting == &state.lights.lighting)
             note_colours(context, light.span(), state);
-        set_harmonic_sets(in.deposit, sets.sets, sets.colour, k);
+        set_harmonic_sets(in, sets.sets, sets.colour, k);
         float* target =
             planes.colour.data() + 3 * std::size_t(batch + 1) * planes.transmittance.size();
         PILEUS_TRY(

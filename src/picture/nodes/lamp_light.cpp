@@ -101,7 +101,8 @@ LampMarchParams lamp_march_params(const Medium& medium, const Majorants& majoran
 }
 
 Status add_lamp_light(const Context& context, const Medium& medium, const LampMarchParams& k,
-                      const LampNodes& nodes, Planes& planes, std::size_t first) {
+                      const LampNodes& nodes, Planes& planes, std::size_t first,
+                      const float* beam) {
     if (!kLights) return Status::ok();
     const StageClock clock(context, "light of lights");
     LampMarchBuffers b{};
@@ -109,6 +110,7 @@ Status add_lamp_light(const Context& context, const Medium& medium, const LampMa
     // Kernels of one launch fill it, those of the other read it.
     const std::size_t skipped = first * std::size_t(node_count(nodes.grid));
     b.optical_depth = const_cast<float*>(nodes.optical_depth.data()) + skipped;
+    b.beam = beam;
     b.parts = medium.parts.data();
     b.opaque_depth = planes.opaque_depth.data();
     b.colour = planes.colour.data();

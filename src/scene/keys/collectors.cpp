@@ -33,12 +33,12 @@ constexpr KeyRow kRows[] = {
     {"collectors.bands", collectors<&CollectorSettings::bands>, from_to(1, 8), "",
      "bands of spherical harmonics that a collector keeps"},
     {"collectors.axis_degrees", collectors<&CollectorSettings::axis_degrees>, from_to(0, 16), "",
-     "degrees beyond the bands that a collector keeps of the light around the sun's "
-     "direction, up to degree 15; closure `sh` and variant `best` only"},
+     "degrees beyond the bands that a collector keeps of the light around the "
+     "directions of the sun and of four lamps, up to degree 15; closure `sh` and variant `best` "
+     "only"},
     {"collectors.peak_deg", collectors<&CollectorSettings::peak_deg>, from_to(0, 90), "deg",
-     "scatterings of sunlight that turn it by less stay in the sun's beam, which the march shows "
-     "by "
-     "small-angle theory; 0: none do"},
+     "scatterings that turn light of sun and lamps by less stay in its beam, which the march shows "
+     "by small-angle theory; 0: none do"},
     {"collectors.samples", collectors<&CollectorSettings::samples>, from_to(1, 10000000), "",
      "points from which the collectors are grown"},
     {"collectors.tracking", kTracking, one_of("local|global"), "",

@@ -32,12 +32,11 @@ constexpr KeyRow kRows[] = {
     {"photon_grid.bands", grid<&PhotonGridSettings::bands>, from_to(1, 8), "",
      "closure `sh`: bands of spherical harmonics"},
     {"photon_grid.axis_degrees", grid<&PhotonGridSettings::axis_degrees>, from_to(0, 16), "",
-     "closure `sh`: degrees beyond the bands that are kept of the light around the sun's "
-     "direction, up to degree 15"},
+     "closure `sh`: degrees beyond the bands that are kept of the light around the "
+     "directions of the sun and of four lamps, up to degree 15"},
     {"photon_grid.peak_deg", grid<&PhotonGridSettings::peak_deg>, from_to(0, 90), "deg",
-     "scatterings of sunlight that turn it by less stay in the sun's beam, which the march shows "
-     "by "
-     "small-angle theory; 0: none do"},
+     "scatterings that turn light of sun and lamps by less stay in its beam, which the march shows "
+     "by small-angle theory; 0: none do"},
     {"photon_grid.tracking", kTracking, one_of("local|global"), "",
      "majorant of the free flights: one per block of cells, or one for all"},
     {"photon_grid.first_order_split", grid<&PhotonGridSettings::first_order_split>, any(), "",

@@ -121,6 +121,17 @@ Double3 ground_of_lamps(const Lighting& light) {
     return sum;
 }
 
+/// The strongest lamps get axes of their own, in the lamps' order.
+void give_axes(const std::vector<double>& power, std::vector<LampEmission>& lamps) {
+    std::int32_t next = 0;
+    for (std::size_t i = 0; i < power.size(); ++i) {
+        int stronger = 0;
+        for (std::size_t j = 0; j < power.size(); ++j)
+            stronger += power[j] > power[i] || (power[j] == power[i] && j < i) ? 1 : 0;
+        lamps[i].own_axis = stronger < kMostLampAxes ? next++ : -1;
+    }
+}
+
 /// Photons of all lamps.
 Light lamp_light(const Medium& medium, Lighting& out) {
     Light light;
@@ -140,6 +151,7 @@ Light lamp_light(const Medium& medium, Lighting& out) {
         out.lamp_emission[i].below = light.power_m2 > 0 ? float(below / light.power_m2) : 0;
         below += power[i];
     }
+    give_axes(power, out.lamp_emission);
     return light;
 }
 

@@ -96,6 +96,19 @@ double scattered_power(const ReconstructInput& in, const Seen& seen, std::size_t
     return power;
 }
 
+/// Of lamps' light, what the degrees about their own axes hold at a collector.
+double lamp_axes_power(const ReconstructInput& in, const Seen& seen, const Collector& c,
+                       std::size_t channel, const double* sums) {
+    const DepositPlan& d = in.deposit;
+    double power = 0;
+    for (int n = d.lamp_axis; n < d.axes && d.axis_degrees > 0; ++n) {
+        const Direction way = axis_way(in.axes[n], {c.centre[0], c.centre[1], c.centre[2]});
+        power += axis_power(d.axis_degrees, axis_weights(d, seen.mix[channel], way, seen.to),
+                            sums + d.bands * d.bands + n * d.axis_degrees);
+    }
+    return power;
+}
+
 /// Adds one light of one slot, `share` of the whole, to the colours of collectors from `begin` on.
 void add_slot(const ReconstructInput& in, const PhotonSlot& slot, std::size_t light, double share,
               std::size_t begin, std::size_t count, Seen* seen, Row* rows) {
@@ -105,6 +118,7 @@ void add_slot(const ReconstructInput& in, const PhotonSlot& slot, std::size_t li
     const bool albedo_done = in.deposit.mode == kDepositOutgoing ||
                              (in.deposit.mode == kDepositCamera && in.medium->count > 1);
     const bool turns = l.beam && in.closure != Closure::kCamera;
+    const bool by_axes = l.lamps && in.closure != Closure::kCamera && !in.first_order_alone;
     const Direction sun{slot.sun_travel[0], slot.sun_travel[1], slot.sun_travel[2]};
     const double norm = slot_norm(in, slot, light);
     for (std::size_t i = 0; i < count; ++i) {
@@ -114,7 +128,10 @@ void add_slot(const ReconstructInput& in, const PhotonSlot& slot, std::size_t li
             if (ch == 0 || channels == 3) {
                 double sums[kMostNumbers];
                 slot_sums(in, slot, light, (begin + i) * channels + ch, norm, sums);
-                power = scattered_power(in, seen[i], ch, l.beam, sums) * share;
+                power = scattered_power(in, seen[i], ch, l.beam, sums);
+                if (by_axes)
+                    power += lamp_axes_power(in, seen[i], in.collectors[begin + i], ch, sums);
+                power *= share;
                 if (!albedo_done) power *= double(seen[i].mix[ch].albedo);
             }
             rows[i].rgb[ch] += power * l.colour[ch] / seen[i].depth_m2;
@@ -206,9 +223,11 @@ void collector_harmonics(const ReconstructInput& in, const Window& window, std::
                     for (int band = 0; band < bands; ++band)
                         for (int order = -band; order <= band; ++order, ++k)
                             out[int(set) * count + k] += sums[k] * factor[band] * power;
-                    // Only beams have sums about their axis.
-                    for (int d = 0; k < count && in.lighting->lights[l].beam; ++k, ++d)
-                        out[int(set) * count + k] += sums[k] * factor[bands + d] * power;
+                    // Only beams and lamps have sums about axes.
+                    const Light& light = in.lighting->lights[l];
+                    for (int d = 0; k < count && (light.beam || light.lamps); ++k, ++d)
+                        out[int(set) * count + k] +=
+                            sums[k] * factor[bands + d % in.deposit.axis_degrees] * power;
                 }
             }
         }
@@ -221,7 +240,7 @@ Status reconstruct_harmonics(const ReconstructInput& in, int batch, Span<const s
                              HarmonicSource& out) {
     const std::size_t count = which.size > 0 ? which.size : in.collectors.size;
     const Batch shown = batch_of(in, batch);
-    out.numbers = in.deposit.bands * in.deposit.bands + in.deposit.axis_degrees;
+    out.numbers = in.deposit.bands * in.deposit.bands + axis_numbers(in.deposit);
     out.sets = harmonic_sets(sum_channels(*in.medium, in.deposit), *in.lighting);
     for (int s = 0; s < out.sets; ++s)
         for (std::size_t c = 0; c < 3; ++c)
