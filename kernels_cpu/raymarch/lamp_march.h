@@ -92,6 +92,28 @@ PILEUS_FN LampSight<T> lamp_over_step(const LampParams& lamp, const Vec<T>& from
     return sight;
 }
 
+/// Light of a lamp that scatterings within the peak have left in its beam (docs/methods.md 3,
+/// repair 6), per unit, where its optical depth is `tau`. Of light that spreads from a point, turns
+/// near it count for less in the end: the variance of the angle is that of parallel light times (1
+/// + u + u^2) / 3, u the share of the way before the medium.
+template <class T>
+PILEUS_FN void lamp_beam(const LampMarchParams& k, const LampMarchBuffers& b,
+                         const LampParams& lamp, const Vec<T>& place, const LampSight<T>& sight,
+                         T turn, T most, T tau, T weight, T (&out)[3]) {
+    const BeamAngle<T> angle = beam_angle(turn);
+    const T light = weight * sight.share;
+    beam_light(b.beam, k.beam_sets, k.beam_rest, angle, most, tau, light, out);
+    if (lamp.parallel != 0) return;
+    const Segment<T> box = clip_to_medium(k.medium, Ray<T>{place, sight.way});
+    const T u =
+        1.0f - min_(max_(box.leave, T{}) / max_(sight.distance, all<T>(1e-30f)), all<T>(1.0f));
+    const T parallel = 0.5f * (u + u * u);
+    T point[3];
+    beam_light(b.beam + k.beam_sets * kBeamNumbers, k.beam_sets, k.beam_rest, angle, most, tau,
+               light, point);
+    for (int c = 0; c < 3; ++c) out[c] = point[c] + parallel * (out[c] - point[c]);
+}
+
 template <int W, bool Constant>
 PILEUS_FN void march_lamps(const LampMarchParams& k, const LampMarchBuffers& b,
                            const Ray<F<W>>& ray, F<W> enter, F<W> leave, F<W> (&colour)[3]) {
@@ -142,8 +164,7 @@ PILEUS_FN void march_lamps(const LampMarchParams& k, const LampMarchBuffers& b,
                     const T turn = one_minus_cosine(ray.direction, sight.way);
                     if (k.beam_sets > 0) {
                         T kept[3];
-                        beam_light(b.beam, k.beam_sets, k.beam_rest, beam_angle(turn), most, tau,
-                                   weight * sight.share, kept);
+                        lamp_beam(k, b, lamp, place, sight, turn, most, tau, weight, kept);
                         for (int c = 0; c < 3; ++c)
                             colour[c] = colour[c] + select(lit, kept[c], T{}) *
                                                         (k.albedo[0][c] * lamp.light[c]);

@@ -37,7 +37,7 @@ struct LampMarchParams {
 struct LampMarchBuffers {
     const LampParams* lamps;
     float* optical_depth;       ///< [lamp][node]
-    const float* beam;          ///< MarchBuffers::beam
+    const float* beam;          ///< MarchBuffers::beam, and behind it the same from a point
     const float* parts;         ///< [medium - 1][voxel]: densities of media 1, 2 ...
     const float* opaque_depth;  ///< [pixel], m along the ray; null: nothing opaque
     float* colour;              ///< [3][pixel], premultiplied; added to

@@ -111,8 +111,25 @@ Moments moments_of(const PhaseParams& phase, double turn) {
     return Moments(1);
 }
 
-/// (2l+1)/4pi chi_l times the two exponentials' difference: [depth][degree].
-std::vector<double> weights_of(const Moments& m, double albedo) {
+/// Moments of what stays in the beam of a point. Moments fall with the square of small angles times
+/// l (l + 1): they are means over the root of that, up to each degree's, of values between whose
+/// degrees they are linear in its square.
+std::vector<double> point_moments(const Moments& m) {
+    std::vector<double> mean(std::size_t(m.degrees), m.kept[0]);
+    double sum = 0, a = 0;
+    for (std::size_t l = 1; l < mean.size(); ++l) {
+        const double b = __builtin_sqrt(double(l) * double(l + 1));
+        const double slope = (m.kept[l] - m.kept[l - 1]) / (b * b - a * a);
+        sum += (m.kept[l - 1] - slope * a * a) * (b - a) + slope * (b * b * b - a * a * a) / 3;
+        mean[l] = sum / b;
+        a = b;
+    }
+    return mean;
+}
+
+/// (2l+1)/4pi chi_l times the two exponentials' difference: [depth][degree]. `kept`: moments of
+/// what stays in the beam.
+std::vector<double> weights_of(const Moments& m, const std::vector<double>& kept, double albedo) {
     const std::size_t degrees = std::size_t(m.degrees);
     std::vector<double> w((kBeamDepths + 1) * degrees);
     for (int d = 0; d <= kBeamDepths; ++d) {
@@ -122,7 +139,7 @@ std::vector<double> weights_of(const Moments& m, double albedo) {
         for (std::size_t l = 0; l < degrees; ++l)
             w[std::size_t(d) * degrees + l] =
                 (2.0 * double(l) + 1) / (2 * kTwoPi) * m.all[l] *
-                (exponential(-tau * (m.kept[0] - m.kept[l])) - exponential(-tau * m.kept[0]));
+                (exponential(-tau * (kept[0] - kept[l])) - exponential(-tau * kept[0]));
         for (std::size_t l = 0; m.smooth > 0 && l < degrees; ++l)
             w[std::size_t(d) * degrees + l] *= exponential(-m.smooth * double(l) * (double(l) + 1));
     }
@@ -154,21 +171,25 @@ float turn_of_deg(double deg) {
     return float(2 * half * half);
 }
 
-Status make_beam(const Medium& medium, float peak_turn, int threads, Stage first, Beam& out) {
-    const int sets = medium.channels;
-    PILEUS_TRY(allocate_once(arrays::beam_tables(std::uint64_t(sets), first), out.tables));
+Status make_beam(const Medium& medium, float peak_turn, bool points, int threads, Stage first,
+                 Beam& out) {
+    const int sets = medium.channels, kinds = points ? 2 : 1;
+    PILEUS_TRY(allocate_once(arrays::beam_tables(std::uint64_t(kinds * sets), first), out.tables));
     const Optics& optics = medium.optics[0];
     const Moments m = moments_of(optics.phase, double(peak_turn));
+    const std::vector<double> of_point = point_moments(m);
     out.share = m.kept[0];
     for (int s = 0; s < 3; ++s) {
         const double albedo = double(optics.albedo[s]);
         out.rest[s] = float(1 - albedo * out.share);
-        if (s >= sets) continue;
-        const std::vector<double> weights = weights_of(m, albedo);
-        float* table = out.tables.data() + s * kBeamNumbers;
-        parallel_for(threads, kBeamAngles + 1, [&](std::int64_t node, int) {
-            fill_angle(m, weights, int(node), table + node * (kBeamDepths + 1));
-        });
+        for (int kind = 0; kind < kinds && s < sets; ++kind) {
+            const std::vector<double> weights =
+                weights_of(m, kind == 0 ? m.kept : of_point, albedo);
+            float* table = out.tables.data() + (kind * sets + s) * kBeamNumbers;
+            parallel_for(threads, kBeamAngles + 1, [&](std::int64_t node, int) {
+                fill_angle(m, weights, int(node), table + node * (kBeamDepths + 1));
+            });
+        }
     }
     // Of tables that are there.
     out.sets = sets;

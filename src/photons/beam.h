@@ -15,15 +15,18 @@ namespace pileus {
 ///     S(angle, tau) = p e^(-tau) + e^(-tau (1 - w f)) Q(angle, tau),
 ///     Q = sum_l (2l+1)/4pi chi_l (e^(-tau w (f - c_l)) - e^(-tau w f)) P_l(cos angle),
 /// chi_l the moments of p, c_l those of p within the cone, f = c_0.
+/// From a point, light that is turned at the share u of its way comes from u times that angle off
+/// the point in the end: there c_l is the mean of c_ul over u.
 struct Beam {
     double share = 0;      ///< f
     int sets = 0;          ///< one a channel of the medium; 0: there are no tables
     float rest[3] = {};    ///< 1 - w f
-    Buffer<float> tables;  ///< Q: [set][angle][depth]
+    Buffer<float> tables;  ///< Q: [parallel, from a point][set][angle][depth]
 };
 
 namespace arrays {
 
+/// `sets`: those for points included.
 inline Array<float> beam_tables(std::uint64_t sets, Stage first) {
     return {"beam by angle and depth", bytes_of(sets, std::uint64_t(kBeamNumbers)), first,
             Stage::kWrite};
@@ -34,7 +37,9 @@ inline Array<float> beam_tables(std::uint64_t sets, Stage first) {
 /// 1 - cos of an angle in degrees.
 float turn_of_deg(double deg);
 
-/// Tables for the one medium there is, and a cone by its 1 - cos. kLimit: out of memory.
-Status make_beam(const Medium& medium, float peak_turn, int threads, Stage first, Beam& out);
+/// Tables for the one medium there is, and a cone by its 1 - cos; `points`: those of points, too.
+/// kLimit: out of memory.
+Status make_beam(const Medium& medium, float peak_turn, bool points, int threads, Stage first,
+                 Beam& out);
 
 }  // namespace pileus

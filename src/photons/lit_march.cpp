@@ -43,8 +43,8 @@ Status make_beam_tables(const Context& context, const FrameView& view, PhotonSta
     const float peak_turn = state.lights.deposit.peak_turn;
     if (!(peak_turn > 0) || state.shadow.beam.sets > 0) return Status::ok();
     const StageClock clock(context, "shadow");
-    return make_beam(view.world.medium, peak_turn, context.threads, Stage::kShadow,
-                     state.shadow.beam);
+    return make_beam(view.world.medium, peak_turn, beam_of_points(view), context.threads,
+                     Stage::kShadow, state.shadow.beam);
 }
 
 }  // namespace

@@ -167,8 +167,11 @@ Status check_camera_closure(const char* key, const FrameView& view, const Photon
     return Status::ok();
 }
 
+bool beam_of_points(const FrameView& view) { return !view.scene.lights.empty(); }
+
 std::uint64_t beam_sets(const FrameView& view, const PhotonState& state) {
-    return state.lights.deposit.peak_turn > 0 ? std::uint64_t(view.world.medium.channels) : 0;
+    if (!(state.lights.deposit.peak_turn > 0)) return 0;
+    return std::uint64_t(view.world.medium.channels) * (beam_of_points(view) ? 2 : 1);
 }
 
 void follow_lights(const FrameView& view, PhotonState& state) {
