@@ -103,7 +103,7 @@ PILEUS_FN void lamp_beam(const LampMarchParams& k, const LampMarchBuffers& b,
     const BeamAngle<T> angle = beam_angle(turn);
     const T light = weight * sight.share;
     beam_light(b.beam, k.beam_sets, k.beam_rest, angle, most, tau, light, out);
-    if (lamp.parallel != 0) return;
+    if (lamp.parallel != 0 || k.beam_points == 0) return;
     const Segment<T> box = clip_to_medium(k.medium, Ray<T>{place, sight.way});
     const T u =
         1.0f - min_(max_(box.leave, T{}) / max_(sight.distance, all<T>(1e-30f)), all<T>(1.0f));

@@ -23,8 +23,9 @@ struct LampMarchParams {
     float octave_source[kMostMedia][kMostOctaves][3];  ///< of a unit of light; from octave 1 on
     std::int32_t forward;       ///< 1: light scattered forward goes on as if it were not
     float kept[kMostMedia][3];  ///< and so much of what is scattered does, as RaymarchLight has it
-    std::int32_t beam_sets;  ///< as MarchParams has them, of one medium: what stays in the lamps'
-    float beam_rest[3];      ///< beams
+    std::int32_t beam_sets;    ///< as MarchParams has them, of one medium: what stays in the lamps'
+    std::int32_t beam_points;  ///< beams; 1: there are tables of points, too
+    float beam_rest[3];
     std::int32_t lamps;
     std::int32_t spheres;  ///< 0: none of them is one
     NodeGrid nodes;        ///< of optical depths to each lamp

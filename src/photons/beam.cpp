@@ -193,6 +193,7 @@ Status make_beam(const Medium& medium, float peak_turn, bool points, int threads
     }
     // Of tables that are there.
     out.sets = sets;
+    out.points = points;
     return Status::ok();
 }
 

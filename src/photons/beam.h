@@ -20,6 +20,7 @@ namespace pileus {
 struct Beam {
     double share = 0;      ///< f
     int sets = 0;          ///< one a channel of the medium; 0: there are no tables
+    bool points = false;   ///< there are those of points, too
     float rest[3] = {};    ///< 1 - w f
     Buffer<float> tables;  ///< Q: [parallel, from a point][set][angle][depth]
 };

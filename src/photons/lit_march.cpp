@@ -41,10 +41,11 @@ namespace {
 /// What scatterings within the peak leave in the sun's beam and in lamps'.
 Status make_beam_tables(const Context& context, const FrameView& view, PhotonState& state) {
     const float peak_turn = state.lights.deposit.peak_turn;
-    if (!(peak_turn > 0) || state.shadow.beam.sets > 0) return Status::ok();
+    Beam& beam = state.shadow.beam;
+    const bool points = beam_of_points(view, state);
+    if (!(peak_turn > 0) || (beam.sets > 0 && (beam.points || !points))) return Status::ok();
     const StageClock clock(context, "shadow");
-    return make_beam(view.world.medium, peak_turn, beam_of_points(view), context.threads,
-                     Stage::kShadow, state.shadow.beam);
+    return make_beam(view.world.medium, peak_turn, points, context.threads, Stage::kShadow, beam);
 }
 
 }  // namespace
@@ -316,6 +317,7 @@ Status add_lit_lamps(const Context& context, const FrameView& view, PhotonState&
     const Beam& beam = state.shadow.beam;
     k.beam_sets =
         lit.first_order_alone || !(lamp_peak_turn(state.lights.deposit) > 0) ? 0 : beam.sets;
+    k.beam_points = beam.points ? 1 : 0;
     for (int c = 0; c < 3; ++c) k.beam_rest[c] = beam.rest[c];
     return add_lamp_light(context, medium, k, state.picture.lamps, planes, 0, beam.tables.data());
 }

@@ -62,6 +62,16 @@ void keep_places(const PhotonLights& own, Lighting& next) {
     next.lights = lights;
 }
 
+/// The sun's and the lamps'; those of lamps that are dark now, too, which may shine later on.
+int wanted_axes(const FrameView& view, const Lighting& lighting, const DepositPlan& d) {
+    std::size_t lamps = lighting.lamps.size();
+    if (lamps > 0 && view.scene.lights.size() > lamps) lamps = view.scene.lights.size();
+    if (lamps > std::size_t(kMostLampAxes)) lamps = std::size_t(kMostLampAxes);
+    int axes = d.lamp_axis + int(lamps);
+    while (axes > 1 && d.bands * d.bands + d.axis_degrees * axes > kMostPacked) --axes;
+    return axes > 0 ? axes : 1;
+}
+
 /// Whether every light of `next` has a place in the ring, and the ground its map.
 bool has_places(const Medium& medium, const PhotonLights& lights, const Lighting& next) {
     for (const Light& light : next.lights) {
@@ -139,16 +149,9 @@ const char* why_no_peak(const FrameView& view, double peak_deg, const PhotonStat
 bool has_axes(const Lighting& lighting) { return lighting.sunlit || !lighting.lamps.empty(); }
 
 void choose_axes(const FrameView& view, PhotonState& state) {
-    const Lighting& lighting = state.lights.lighting;
     DepositPlan& d = state.lights.deposit;
-    // Lamps that are dark now may shine later on.
-    std::size_t lamps = lighting.lamps.size();
-    if (lamps > 0 && view.scene.lights.size() > lamps) lamps = view.scene.lights.size();
-    if (lamps > std::size_t(kMostLampAxes)) lamps = std::size_t(kMostLampAxes);
-    d.lamp_axis = lighting.sunlit ? 1 : 0;
-    d.axes = d.lamp_axis + int(lamps);
-    if (d.axes == 0) d.axes = 1;
-    while (d.axes > 1 && d.bands * d.bands + axis_numbers(d) > kMostPacked) --d.axes;
+    d.lamp_axis = state.lights.lighting.sunlit ? 1 : 0;
+    d.axes = wanted_axes(view, state.lights.lighting, d);
 }
 
 void choose_peak(const FrameView& view, double peak_deg, PhotonState& state) {
@@ -167,11 +170,13 @@ Status check_camera_closure(const char* key, const FrameView& view, const Photon
     return Status::ok();
 }
 
-bool beam_of_points(const FrameView& view) { return !view.scene.lights.empty(); }
+bool beam_of_points(const FrameView& view, const PhotonState& state) {
+    return !view.scene.lights.empty() || !state.lights.lighting.lamps.empty();
+}
 
 std::uint64_t beam_sets(const FrameView& view, const PhotonState& state) {
     if (!(state.lights.deposit.peak_turn > 0)) return 0;
-    return std::uint64_t(view.world.medium.channels) * (beam_of_points(view) ? 2 : 1);
+    return std::uint64_t(view.world.medium.channels) * (beam_of_points(view, state) ? 2 : 1);
 }
 
 void follow_lights(const FrameView& view, PhotonState& state) {
@@ -189,7 +194,10 @@ void follow_lights(const FrameView& view, PhotonState& state) {
 bool relight_photons(const FrameView& view, PhotonState& state) {
     PhotonLights& lights = state.lights;
     Lighting next = view.lighting;
-    if (!has_places(view.world.medium, lights, next)) return false;
+    const DepositPlan& deposit = lights.deposit;
+    if (!has_places(view.world.medium, lights, next) ||
+        (deposit.axis_degrees > 0 && wanted_axes(view, next, deposit) > deposit.axes))
+        return false;
     keep_places(lights, next);
     const Lighting& before = lights.lighting;
     if (!same_lights(before, next) || before.constant != next.constant || before.sky != next.sky ||

@@ -157,7 +157,7 @@ const char* why_no_peak(const FrameView& view, double peak_deg, const PhotonStat
 Status check_camera_closure(const char* key, const FrameView& view, const PhotonState& state);
 
 /// Whether there are tables of points, too: any light of [[light]] may become one.
-bool beam_of_points(const FrameView& view);
+bool beam_of_points(const FrameView& view, const PhotonState& state);
 /// Tables that the beam will have.
 std::uint64_t beam_sets(const FrameView& view, const PhotonState& state);
 

@@ -74,8 +74,8 @@ TEST_CASE("beam: light from a point is as much, and its angles have a third of t
         for (int i = 0; i <= kBeamAngles; ++i) {
             const double at = double(i) / kBeamAngles, near = at < 0.5 ? at : 1 - at;
             const double turn = at < 0.5 ? 4 * near * near : 2 - 4 * near * near;
-            const double q = double(
-                beam.tables[std::size_t(kind * kBeamNumbers + i * (kBeamDepths + 1) + 1)]);
+            const double q =
+                double(beam.tables[std::size_t(kind * kBeamNumbers + i * (kBeamDepths + 1) + 1)]);
             light += 0.5 * (q + before) * (turn - last);
             sum += 0.5 * (q * turn + before * last) * (turn - last);
             last = turn, before = q;

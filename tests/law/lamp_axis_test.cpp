@@ -151,8 +151,8 @@ TEST_CASE("a parallel light is a second sun by photons, with the camera in its b
     }
 }
 
-TEST_CASE("points beside and in a cloud light it as paths do, by photons") {
-    for (const char* at : {"[0, -1500, 1100]", "[0, -100, 1000]"}) {
+TEST_CASE("points before and in a cloud light it as paths do, by photons") {
+    for (const char* at : {"[0, -2200, 1100]", "[0, -100, 1000]"}) {
         const std::string lamp =
             std::string("[[light]]\ntype = \"point\"\nintensity = 1e6\nposition_m = ") + at + "\n";
         const double path = light_of("path", lamp);
