@@ -119,7 +119,7 @@ void fly_all(const char* folder, int least) {
             CHECK((!scene.solids.empty() || scene.media.front().detail.present()));
             continue;
         }
-        std::size_t block = std::size_t{96} << 20;
+        std::size_t block = std::size_t{128} << 20;
         if (pileus::long_tests()) {
             pileus::FlightNeed need;
             REQUIRE(pileus::measure_flight(bytes, {}, need));
