@@ -44,14 +44,6 @@ void lay_over(Planes& part) {
         part.colour[i] += part.transmittance[i % pixels] * part.background[i];
 }
 
-/// Light of lamps from `first` on, as many as `k` says, or what is emitted, into empty planes.
-Status show_lamps(const Context& context, const FrameView& view, const LampMarchParams& k,
-                  std::size_t first, MarchState& state, Planes& part) {
-    std::fill_n(part.colour.data(), part.colour.size(), 0.0f);
-    std::fill_n(part.background.data(), part.background.size(), 0.0f);
-    return add_lamp_light(context, marched_medium(view, state), k, state.light.lamps, part, first);
-}
-
 /// Skylight on nodes under another light; what nodes see of the sky is kept.
 Status light_nodes_by(const Context& context, const FrameView& view, const Lighting& light,
                       MarchState& state) {
@@ -99,8 +91,26 @@ Status show_emission(const Context& context, const FrameView& view, const Raymar
     return Status::ok();
 }
 
-Status show_each_lamp(const Context& context, const FrameView& view, MarchState& state,
-                      Planes& part) {
+/// What the ground sends up of one lamp's light, scattered by the media.
+Status show_ground_of_lamp(const Context& context, const FrameView& view,
+                           const RaymarchInput& whole, const Double3& radiance, MarchState& state,
+                           Planes& part) {
+    Lighting ground = sun_alone(view.lighting);
+    ground.sunlit = false;
+    ground.sun_irradiance = ground.ground_sun = {};
+    ground.ground_lamps = radiance;
+    RaymarchSettings settings = state.choice.settings;
+    std::copy_n(kDark, 3, settings.ambient.begin());
+    RaymarchInput in = whole;
+    in.lighting = &ground;
+    in.settings = &settings;
+    PILEUS_TRY(light_nodes_by(context, view, ground, state));
+    PILEUS_TRY(show_part(context, view, in, nullptr, state, part));
+    return light_nodes_by(context, view, view.lighting, state);
+}
+
+Status show_each_lamp(const Context& context, const FrameView& view, const RaymarchInput& whole,
+                      MarchState& state, Planes& part) {
     Planes& planes = state.picture.planes;
     const std::size_t count = view.lighting.lamps.size(), pixels = planes.transmittance.size();
     PILEUS_TRY(allocate(arrays::picture_planes(3 * count, pixels), planes.lamps));
@@ -110,7 +120,14 @@ Status show_each_lamp(const Context& context, const FrameView& view, MarchState&
     k.emits = 0;
     k.lamps = 1;
     for (std::size_t i = 0; i < count; ++i) {
-        PILEUS_TRY(show_lamps(context, view, k, i, state, part));
+        const Double3 ground = ground_of_lamp(view.lighting, view.lighting.lamps[i]);
+        const bool lit = ground != Double3{} && whole.sky != nullptr &&
+                         state.choice.settings.sky_ambient && view.world.medium.sigma > 0;
+        std::fill_n(part.colour.data(), part.colour.size(), 0.0f);
+        if (lit) PILEUS_TRY(show_ground_of_lamp(context, view, whole, ground, state, part));
+        std::fill_n(part.background.data(), part.background.size(), 0.0f);
+        PILEUS_TRY(
+            add_lamp_light(context, marched_medium(view, state), k, state.light.lamps, part, i));
         lay_over(part);
         std::copy_n(part.colour.data(), 3 * pixels, planes.lamps.data() + 3 * pixels * i);
     }
@@ -166,7 +183,7 @@ Status march_parts(const Context& context, const FrameView& view, const Raymarch
         PILEUS_TRY(allocate_part(view, state.picture, part));
         if (!view.lighting.lamps.empty()) {
             take_opaque_depth(state.picture.planes, part);
-            PILEUS_TRY(show_each_lamp(context, view, state, part));
+            PILEUS_TRY(show_each_lamp(context, view, in, state, part));
         }
     }
     return output.layer_order ? show_single(context, view, in, state, part) : Status::ok();

@@ -115,9 +115,7 @@ double power_of(const Medium& medium, bool ground, LampEmission& e) {
 /// Radiance that parallel lamps give the unshadowed ground.
 Double3 ground_of_lamps(const Lighting& light) {
     Double3 sum{};
-    for (const LampParams& lamp : light.lamps)
-        for (int c = 0; c < 3 && light.ground && lamp.parallel != 0; ++c)
-            sum[c] += light.ground_albedo / kPiD * double(lamp.light[c]) * double(lamp.at[2]);
+    for (const LampParams& lamp : light.lamps) sum += ground_of_lamp(light, lamp);
     return sum;
 }
 
@@ -213,6 +211,13 @@ Lighting sun_alone(const Lighting& all) {
     sun.map = SkyMapView{};
     sun.lamps.clear();
     return sun;
+}
+
+Double3 ground_of_lamp(const Lighting& light, const LampParams& lamp) {
+    Double3 sum{};
+    for (int c = 0; c < 3 && light.ground && lamp.parallel != 0; ++c)
+        sum[c] = light.ground_albedo / kPiD * double(lamp.light[c]) * double(lamp.at[2]);
+    return sum;
 }
 
 bool same_shine(const Lighting& a, const Lighting& b) {

@@ -120,6 +120,9 @@ std::vector<LampParams> make_lamps(const std::vector<LightSettings>& lights, con
 void explain_lamps(const std::vector<LightSettings>& lights, const Ground& ground,
                    const Medium& medium, Plan& plan);
 
+/// Radiance that a parallel lamp gives the unshadowed ground; 0 of others, and without a ground.
+Double3 ground_of_lamp(const Lighting& light, const LampParams& lamp);
+
 bool same_lamps(const std::vector<LampParams>& a, const std::vector<LampParams>& b);
 
 }  // namespace pileus
