@@ -115,7 +115,8 @@ LAWS = [
     ("move by 1e6 m", PARTICLES, None, move),
     ("lengths x 2, extinction / 2", PARTICLES, None, scale),
     ("two halves of each medium", PARTICLES + ("collectors-billboards",), None, split),
-    ("the sun as [[light]]", PARTICLES + ("collectors-billboards",), None, sun_as_light),
+    # optical-depth is a look: its ambient light is the sun's.
+    ("the sun as [[light]]", PARTICLES + ("collectors-billboards", "optical-depth"), None, sun_as_light),
     ("a box as a file", PARTICLES, box, box_as_file),
     ("a box by default cells", PARTICLES, box, box_by_default),
 ]

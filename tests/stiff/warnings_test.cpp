@@ -71,3 +71,17 @@ TEST_CASE("a medium that no ray meets is a warning in every method") {
         CHECK_FALSE(unseen(render_sound(by_method(method, {}))));
     }
 }
+
+TEST_CASE("cells of scattered light that are too thick are told, with their depth") {
+    Medium medium;
+    medium.sigma = 0.5f;
+    medium.density_max = 2;
+    Report report;
+    warn_of_cells(medium, 8, report);
+    CHECK(report.warnings.empty());
+    warn_of_cells(medium, 0, report);
+    CHECK(report.warnings.empty());
+    warn_of_cells(medium, 27, report);
+    REQUIRE(report.warnings.size() == 1);
+    CHECK(report.warnings[0].find("cells of up to 27 optical depths") != std::string::npos);
+}
