@@ -104,11 +104,6 @@ Status check_host_lights(const Context& context, const std::vector<LightSettings
                              "[atmosphere]");
 }
 
-void note_media(const Plan& media, Plan& plan) {
-    for (const std::string& what : media.needed) plan.needed.push_back(what);
-    for (const LeftOut& l : media.left_out) plan.left_out.push_back(l);
-}
-
 void note_depths(const Lighting& lighting, bool wanted, Plan& plan) {
     if (!lighting.opaque()) plan.leave_out("depth test", "nothing solid: no ground");
     if (!wanted) plan.leave_out("depth of the medium", "no depth layer");

@@ -28,7 +28,7 @@ inline bool is_text_space(char c) { return c == ' ' || (c >= '\t' && c <= '\r');
 class TextScan {
 public:
     /// `file` opens every line of a fault. `separator` ends a number beside white space and '#'.
-    /// A mark of UTF-8 before the text is no part of it: text_ begins behind it.
+    /// A mark of UTF-8 before the text is no part of it: text_ begins behind it, and so do places.
     TextScan(const std::string& file, Span<const char> text, char separator = ' ')
         : file_(file), text_(without_mark(text)), separator_(separator) {}
 
@@ -37,6 +37,13 @@ public:
     Status fault(std::size_t at, const std::string& what) const;
     /// The word at a place, made printable; of more than 40 bytes the first 40.
     std::string token(std::size_t at, std::size_t end) const;
+    /// All of it. Places of the text that was given are others where that began with a mark.
+    TextRange whole() const { return {0, text_.size}; }
+    bool holds(const TextRange& range, char c) const {
+        for (std::size_t at = range.at; at < range.end; ++at)
+            if (text_[at] == c) return true;
+        return false;
+    }
     /// Passes white space and comments, which run from '#' to the end of their line.
     void skip(TextRange& range) const;
     /// Takes the next line that holds more than white space and comment: `line` ends before its

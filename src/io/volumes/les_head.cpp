@@ -170,11 +170,10 @@ namespace {
 
 /// Whether the first line that says something holds a comma.
 bool has_commas(const std::string& name, Span<const char> text) {
-    TextRange rest{0, text.size}, line;
-    if (!TextScan(name, text).next_line(rest, line)) return false;
-    for (std::size_t at = line.at; at < line.end; ++at)
-        if (text[at] == ',') return true;
-    return false;
+    // The scan's own text, which may be shorter by a second mark.
+    const TextScan scan(name, text);
+    TextRange rest = scan.whole(), line;
+    return scan.next_line(rest, line) && scan.holds(line, ',');
 }
 
 }  // namespace
