@@ -95,7 +95,7 @@ struct MarchParams {
     std::int32_t bands;     ///< 0; or nodes hold bands*bands harmonics of what goes each way
     std::int32_t degrees;   ///< and so many more of what is even about each axis
     std::int32_t axes;
-    LightAxis axis[kMostAxes];
+    LightAxis axis[kMaxAxes];
     std::int32_t harmonics;  ///< stored per set and node
     std::int32_t sets;       ///< 1..3 of such harmonics
     float set_colour[3][3];  ///< R G B of each

@@ -21,7 +21,7 @@ struct LampParams {
 };
 
 /// Lamps and the sun whose photons' directions are kept by degrees about their own axis, at most.
-constexpr int kMostLampAxes = 4, kMostAxes = 1 + kMostLampAxes;
+constexpr int kMaxLampAxes = 4, kMaxAxes = 1 + kMaxLampAxes;
 
 /// What the light of one source is spread about at a place: the way that it came straight.
 struct LightAxis {

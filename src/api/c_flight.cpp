@@ -36,8 +36,8 @@ const char* flight_fault(const pileus_flight* flight, pileus_flight& f, pileus_s
     if (!take(flight, f)) return "flight: null or without struct_size, allowed: after PILEUS_INIT";
     if (session == nullptr) return "session: null, allowed: where to put it";
     if (f.block == nullptr) return "flight.block: null, allowed: memory";
-    static_assert(kMostThreads == 1024);
-    if (f.threads > kMostThreads) return "flight.threads: too many, allowed: 0 to 1024";
+    static_assert(kMaxThreads == 1024);
+    if (f.threads > kMaxThreads) return "flight.threads: too many, allowed: 0 to 1024";
     if (f.frame == nullptr) return "flight.frame: null, allowed: what frames will be drawn into";
     if (f.frame->struct_size < sizeof(std::uint32_t))
         return "flight.frame: without struct_size, allowed: after PILEUS_INIT";

@@ -62,9 +62,9 @@ Status take_host(const pileus_host* given, std::shared_ptr<const HostParts>& hos
     const pileus_host& h = parts->given;
     if ((h.allocate == nullptr) != (h.release == nullptr))
         return Status::bad_input("host: allocate and release, one is null, allowed: both or none");
-    if (h.threads > kMostThreads)
+    if (h.threads > kMaxThreads)
         return Status::bad_input("host.threads: " + std::to_string(h.threads) +
-                                 ", allowed: 0 (all) to " + std::to_string(kMostThreads));
+                                 ", allowed: 0 (all) to " + std::to_string(kMaxThreads));
     parts->allocator = {h.allocate, h.release, h.user};
     parts->executor = {h.run, h.user};
     options.threads = int(h.threads);

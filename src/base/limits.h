@@ -12,7 +12,7 @@
 
 namespace pileus {
 
-constexpr int kMostThreads = 1024;  ///< of a run, a host, an option
+constexpr int kMaxThreads = 1024;  ///< of a run, a host, an option
 
 enum class LimitId : std::size_t {
     kText,

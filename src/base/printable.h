@@ -21,4 +21,11 @@ std::string printable_lines(std::string_view text);
 /// `text` as one short line, cut at 300 bytes: for what a message quotes from a file.
 inline std::string printable_line(std::string_view text) { return printable(text, 300); }
 
+/// A to Z in small letters, whatever the locale.
+inline std::string lower_case(std::string text) {
+    for (char& c : text)
+        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
+    return text;
+}
+
 }  // namespace pileus

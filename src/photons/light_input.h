@@ -24,7 +24,7 @@ struct LightInput {
     bool first_order_alone = false;  ///< only sunlight scattered once, where deposits keep it apart
     bool damps = false;              ///< see damp_rings
     Damping damping;                 ///< of the beam and of lamps
-    LightAxis axes[kMostAxes]{};     ///< see set_axes
+    LightAxis axes[kMaxAxes]{};      ///< see set_axes
     int batches = 0;  ///< also one RGB for each of so many groups of slots, for the error
     int threads = 1;
 };

@@ -280,7 +280,7 @@ void set_harmonic_sets(const LightInput& lit, int sets, const float (&colour)[3]
     k.bands = deposit.bands;
     k.degrees = deposit.axis_degrees;
     k.axes = deposit.axes;
-    for (int i = 0; i < kMostAxes; ++i) k.axis[i] = lit.axes[i];
+    for (int i = 0; i < kMaxAxes; ++i) k.axis[i] = lit.axes[i];
     k.sets = sets;
     k.harmonics = stored_harmonics(deposit);
     for (int s = 0; s < sets; ++s)

@@ -66,7 +66,7 @@ void keep_places(const PhotonLights& own, Lighting& next) {
 int wanted_axes(const FrameView& view, const Lighting& lighting, const DepositPlan& d) {
     std::size_t lamps = lighting.lamps.size();
     if (lamps > 0 && view.scene.lights.size() > lamps) lamps = view.scene.lights.size();
-    if (lamps > std::size_t(kMostLampAxes)) lamps = std::size_t(kMostLampAxes);
+    if (lamps > std::size_t(kMaxLampAxes)) lamps = std::size_t(kMaxLampAxes);
     int axes = d.lamp_axis + int(lamps);
     while (axes > 1 && d.bands * d.bands + d.axis_degrees * axes > kMostPacked) --axes;
     return axes > 0 ? axes : 1;

@@ -21,9 +21,9 @@ Status make_context(const Scene& scene, const RenderOptions& options, Context& c
     context.kernels = options.kernels;
     if (context.kernels == nullptr) PILEUS_TRY(find_kernels(options.isa, context.kernels));
     PILEUS_TRY(test_kernels(*context.kernels));
-    if (options.threads < 0 || options.threads > kMostThreads)
+    if (options.threads < 0 || options.threads > kMaxThreads)
         return Status::bad_input("--threads: out of range, " + std::to_string(options.threads) +
-                                 ", allowed: 0 (all) to " + std::to_string(kMostThreads));
+                                 ", allowed: 0 (all) to " + std::to_string(kMaxThreads));
     context.threads = options.threads > 0 ? options.threads : hardware_threads();
     context.report = &report;
     context.progress = options.progress;

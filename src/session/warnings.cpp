@@ -56,7 +56,7 @@ void warn_of_cells(const Medium& medium, double cell_m, Report& report) {
     // A deck of one layer of 27 seen from above is 49 % too dark, of layers of 3.4 4 %. The default
     // cumulus, within 2.5 %, has leaves of up to 4.5, smaller ones at its rims.
     constexpr double kMostDepth = 8;
-    const double depth = double(medium.sigma) * double(medium.density_max) * cell_m;
+    const double depth = max_extinction(medium) * cell_m;
     if (!(depth > kMostDepth)) return;
     char text[32];
     (void)std::snprintf(text, sizeof text, "%.3g", depth);

@@ -20,7 +20,6 @@ class Table:
         data = json.loads(text)
         self.columns = data["columns"]
         self.rows = {row["feature"]: row["by"] for row in data["features"]}
-        self.pairs = data["pairs"]
 
     def level(self, row, column):
         return self.rows[row][column]["level"]
@@ -51,6 +50,3 @@ class Table:
             low, high = min(low, value if signed else -value), max(high, value if signed else abs(value))
             found = True
         return (low, high) if found else None
-
-    def refusals(self, column):
-        return [entry[column].get("text", "") for entry in self.rows.values() if entry[column]["level"] == "refused"]

@@ -8,8 +8,6 @@ import math
 
 from scenes import write_pfm
 
-ALTITUDE_M = 500.0  # of the media's low side, over which lamps and solids are placed
-
 
 def sun_disc(s, r, d):
     s["sun"]["angular_radius_deg"] = r.choice([0.27, 2.0])

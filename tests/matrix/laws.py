@@ -9,8 +9,6 @@ import copy
 import math
 import struct
 
-PHOTONS = ("collectors", "collectors-billboards", "photon-grid")
-MARCHES = ("raymarch", "optical-depth")
 PARTICLES = ("particles", "particles-billboards")
 
 
@@ -108,7 +106,6 @@ def box_by_default(scene, folder):
     return scene, "same"
 
 
-NONE = ()
 LAWS = [
     ("mirror", PARTICLES, None, mirror),
     ("turn by 90 degrees", PARTICLES, None, turn),

@@ -68,7 +68,7 @@ Status read_flip(const CompareArguments& arguments, FlipOptions& flip) {
             faults);
     if (arguments.threads) {
         std::int64_t threads = 0;
-        add_fault(read_integer("--threads", *arguments.threads, 1, kMostThreads, threads), faults);
+        add_fault(read_integer("--threads", *arguments.threads, 1, kMaxThreads, threads), faults);
         flip.threads = int(threads);
     }
     return faults;

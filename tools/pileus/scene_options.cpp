@@ -157,7 +157,7 @@ Status read_scene_options(const SceneArguments& arguments, Scene& scene, RenderO
     Status faults;
     if (arguments.threads) {
         std::int64_t threads = 0;
-        add_fault(read_integer("--threads", *arguments.threads, 1, kMostThreads, threads), faults);
+        add_fault(read_integer("--threads", *arguments.threads, 1, kMaxThreads, threads), faults);
         options.threads = int(threads);
     }
     if (arguments.isa) add_fault(check_isa(*arguments.isa), faults);

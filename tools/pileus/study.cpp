@@ -47,7 +47,7 @@ Status read_options(const StudyArguments& arguments, StudyOptions& options) {
     Status faults;
     std::int64_t threads = 0;
     if (arguments.threads)
-        add_fault(read_integer("--threads", *arguments.threads, 1, kMostThreads, threads), faults);
+        add_fault(read_integer("--threads", *arguments.threads, 1, kMaxThreads, threads), faults);
     if (threads > 0) options.threads = int(threads);
     const KernelTable* kernels = nullptr;
     add_fault(find_kernels(options.isa, kernels), faults);

@@ -6,27 +6,12 @@
 #include <vector>
 
 #include "src/base/reading_limit.h"
+#include "src/io/images/channel_name.h"
 #include "src/io/images/image_file.h"
 
 namespace pileus {
 
 namespace {
-
-std::string lower(std::string text) {
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-    return text;
-}
-
-/// "a.b.R" is channel R of layer a.b.
-std::string layer_of(const std::string& channel) {
-    const std::size_t point = channel.rfind('.');
-    return point == std::string::npos ? "" : channel.substr(0, point);
-}
-std::string last_of(const std::string& name) {
-    const std::size_t point = name.rfind('.');
-    return lower(point == std::string::npos ? name : name.substr(point + 1));
-}
 
 /// Where the channels of one layer lie; -1: it has none.
 struct Layer {

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "src/base/printable.h"
 #include "src/io/netcdf/netcdf_values.h"
 #include "src/scene/toml/toml_tree.h"
 
@@ -47,12 +48,6 @@ double usual_fill(NcType type) {
         default:
             return kNan;
     }
-}
-
-std::string lower(std::string text) {
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-    return text;
 }
 
 /// What an attribute holds, for messages.
@@ -117,7 +112,7 @@ private:
     Status sign() {
         const NcAttribute* a = v_.find("_Unsigned");
         if (a == nullptr) return Status::ok();
-        const std::string text = lower(a->text);
+        const std::string text = lower_case(a->text);
         const bool on = text == "true", off = text == "false";
         if (!a->is_text || (!on && !off)) return fault(*a, contents(*a), "\"true\" or \"false\"");
         if (on && !is_whole(v_.type))

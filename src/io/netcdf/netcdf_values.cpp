@@ -73,4 +73,20 @@ void nc_values(NcType type, const unsigned char* from, Span<double> to) {
     for (double& value : to) value = 0;
 }
 
+Status read_letter_rows(const NcFile& file, const NcVariable& v, std::uint64_t most,
+                        std::vector<std::string>& rows) {
+    const NcBlock block = whole_block(file.head(), v);
+    if (block.values() > most * 64) return Status::ok();
+    std::vector<double> letters(std::size_t(block.values()));
+    PILEUS_TRY(file.read(v, block, {letters.data(), letters.size()}));
+    const std::size_t length = std::size_t(block.count[1]);
+    for (std::size_t i = 0; i < block.count[0]; ++i) {
+        std::string row;
+        for (std::size_t k = 0; k < length; ++k)
+            if (const char c = nc_letter(letters[i * length + k]); c != '\0') row += c;
+        rows.push_back(row);
+    }
+    return Status::ok();
+}
+
 }  // namespace pileus

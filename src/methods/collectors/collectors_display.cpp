@@ -27,7 +27,7 @@ NodeGrid source_grid_of(const FrameView& view, const CollectorsState& state) {
     if (state.camera_cells > 0)
         return make_node_grid(medium.grid, medium.extent_m, smallest * state.camera_cells);
     const double budget = double(shows_harmonics(view, state) ? kHarmonicBudget : kNodeBudget);
-    return make_layered_grid(medium.grid, medium.extent_m, most_extinction(medium), 2 * smallest,
+    return make_layered_grid(medium.grid, medium.extent_m, max_extinction(medium), 2 * smallest,
                              budget);
 }
 

@@ -31,7 +31,7 @@ void size_prepared(const FrameView& view, const CollectorsState& state, const Co
         s.prepared.leaves =
             most > 0 ? most
                      : expected_leaves(s.grid, leaf_share(view.world.medium),
-                                       most_extinction(view.world.medium), s.prepared.samples);
+                                       max_extinction(view.world.medium), s.prepared.samples);
     s.prepared.collectors = s.prepared.leaves;
     s.prepared.tracking_blocks = most_tracking_blocks(s.grid, settings.local_tracking);
 }

@@ -23,7 +23,7 @@ bool caps_extinction(const FrameView& view, const MarchState& state) {
     const double most = state.choice.look ? state.choice.look->max_extinction_per_m : 0;
     if (!(most > 0) || state.media.outlined_only) return most > 0;
     const Medium& medium = view.world.medium;
-    return most < double(medium.sigma) * double(medium.density_max);
+    return most < max_extinction(medium);
 }
 
 bool has_sun_grid(const FrameView& view, const MarchState& state) {

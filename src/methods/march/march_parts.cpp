@@ -55,18 +55,24 @@ Status light_nodes_by(const Context& context, const FrameView& view, const Light
                           state.light.sky);
 }
 
-Status show_sun(const Context& context, const FrameView& view, const RaymarchInput& whole,
-                MarchState& state, Planes& part) {
-    const Lighting sun = sun_alone(view.lighting);
+/// The media's light, without their own, under `light` in place of the picture's, before the
+/// background that it shows, or before none. Nodes hold what it sends up from the ground, and then
+/// all of it again.
+Status show_under(const Context& context, const FrameView& view, const RaymarchInput& whole,
+                  const Lighting& light, bool background, MarchState& state, Planes& part) {
     RaymarchSettings settings = state.choice.settings;
     std::copy_n(kDark, 3, settings.ambient.begin());
     RaymarchInput in = whole;
-    in.lighting = &sun;
+    in.lighting = &light;
     in.settings = &settings;
-    // Nodes hold what the ground sends up of the sun's light, and then all of it again.
-    PILEUS_TRY(light_nodes_by(context, view, sun, state));
-    PILEUS_TRY(show_part(context, view, in, &sun, state, part));
-    PILEUS_TRY(light_nodes_by(context, view, view.lighting, state));
+    PILEUS_TRY(light_nodes_by(context, view, light, state));
+    PILEUS_TRY(show_part(context, view, in, background ? &light : nullptr, state, part));
+    return light_nodes_by(context, view, view.lighting, state);
+}
+
+Status show_sun(const Context& context, const FrameView& view, const RaymarchInput& whole,
+                MarchState& state, Planes& part) {
+    PILEUS_TRY(show_under(context, view, whole, sun_alone(view.lighting), true, state, part));
     lay_over(part);
     state.picture.planes.sun.swap(part.colour);
     return Status::ok();
@@ -99,14 +105,7 @@ Status show_ground_of_lamp(const Context& context, const FrameView& view,
     ground.sunlit = false;
     ground.sun_irradiance = ground.ground_sun = {};
     ground.ground_lamps = radiance;
-    RaymarchSettings settings = state.choice.settings;
-    std::copy_n(kDark, 3, settings.ambient.begin());
-    RaymarchInput in = whole;
-    in.lighting = &ground;
-    in.settings = &settings;
-    PILEUS_TRY(light_nodes_by(context, view, ground, state));
-    PILEUS_TRY(show_part(context, view, in, nullptr, state, part));
-    return light_nodes_by(context, view, view.lighting, state);
+    return show_under(context, view, whole, ground, false, state, part);
 }
 
 Status show_each_lamp(const Context& context, const FrameView& view, const RaymarchInput& whole,

@@ -81,7 +81,7 @@ void set_lamps(const PathInput& in, PathParams& k) {
     const Medium& m = *in.medium;
     k.lamps = in.lighting->lamps.data();
     k.lamp_count = std::int32_t(in.lighting->lamps.size());
-    const double densest = double(m.sigma) * double(m.density_max);
+    const double densest = max_extinction(m);
     k.lamp_near = densest > 1e-9 ? float(kLampNear / densest) : 1e9f;
     for (const LampParams& lamp : in.lighting->lamps)
         if (lamp.radius > 0) k.lamp_spheres = 1;

@@ -2,6 +2,8 @@
 // What a collision in the photon grid stores, how many cells there are, what they are shown by.
 // in: scene, world -> out: choices in PhotonGridState.
 // docs/photon-grid.md.
+#include <algorithm>
+
 #include "src/methods/photon_grid/photon_grid_state.h"
 #include "src/photons/scatter.h"
 #include "src/picture/nodes/node_grid.h"
@@ -103,18 +105,6 @@ std::uint64_t planned_generations(const PhotonGridState& state) {
     return wanted < most ? wanted : most;
 }
 
-namespace {
-
-/// Light falls within a few optical depths of a face, so an axis has layers of two of them, up to
-/// 12; a thin box needs one. More layers move the mean of a flat deck by less than 3 %.
-double fewest_layers(double depth) {
-    constexpr double kDepthOfLayer = 2, kMost = 12;
-    const double layers = depth / kDepthOfLayer;
-    return layers < 1 ? 1 : layers > kMost ? kMost : layers;
-}
-
-}  // namespace
-
 CellGrid photon_cells(const PhotonGridSettings& settings, std::int64_t photons,
                       const Medium& medium) {
     constexpr double kPhotonsPerCell = 32, kFewest = 4096, kMost = 0x1p19;
@@ -129,7 +119,8 @@ CellGrid photon_cells(const PhotonGridSettings& settings, std::int64_t photons,
     double spacing = 0, fewest[3];
     for (std::size_t a = 0; a < 3; ++a) {
         spacing = e[a] > spacing ? e[a] : spacing;
-        fewest[a] = fewest_layers(e[a] * double(medium.sigma) * double(medium.density_max));
+        // More than 12 move the mean of a flat deck by less than 3 %.
+        fewest[a] = std::max(1.0, layers_of_depth(e[a] * max_extinction(medium), 12));
     }
     // Down from the longest edge in steps of 3 %: cubes, but for layers of a flat box.
     const auto cells_along = [&](std::size_t a, double edge) {

@@ -35,13 +35,12 @@ NodeGrid make_node_grid(const Grid& grid, const double (&extent_m)[3], double sp
 
 NodeGrid make_layered_grid(const Grid& grid, const double (&extent_m)[3], double extinction_per_m,
                            double spacing_m, double budget) {
-    constexpr double kDepthOfLayer = 2, kMostLayers = 24;
+    constexpr double kMaxLayers = 24;
     double fewest[3];
     for (int a = 0; a < 3; ++a) {
-        const double layers = extent_m[a] * extinction_per_m / kDepthOfLayer;
         // Nodes are two voxels apart at the nearest.
-        const double most = grid.size[a] < 2 * kMostLayers ? 0.5 * grid.size[a] : kMostLayers;
-        fewest[a] = layers < most ? layers : most;
+        const double most = grid.size[a] < 2 * kMaxLayers ? 0.5 * grid.size[a] : kMaxLayers;
+        fewest[a] = layers_of_depth(extent_m[a] * extinction_per_m, most);
     }
     const auto nodes_along = [&](int a, double spacing) {
         const double cubes = extent_m[a] / spacing;

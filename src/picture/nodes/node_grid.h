@@ -16,6 +16,13 @@ NodeGrid make_node_grid(const Grid& grid, const double (&extent_m)[3], double sp
 NodeGrid make_layered_grid(const Grid& grid, const double (&extent_m)[3], double extinction_per_m,
                            double spacing_m, double budget);
 
+/// Light falls off within a few optical depths of a face, so a flat box keeps layers of two of them
+/// across `depth`, up to `most`: how many, which is below 1 in a thin box.
+inline double layers_of_depth(double depth, double most) {
+    const double layers = 0.5 * depth;
+    return layers < most ? layers : most;
+}
+
 /// Nodes two voxels apart along each axis, for what changes from voxel to voxel along a way through
 /// them, as depths towards the sun do: where voxels are flat, over less than their longest edge.
 NodeGrid make_half_grid(const Grid& grid, const double (&extent_m)[3]);

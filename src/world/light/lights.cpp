@@ -126,7 +126,7 @@ void give_axes(const std::vector<double>& power, std::vector<LampEmission>& lamp
         int stronger = 0;
         for (std::size_t j = 0; j < power.size(); ++j)
             stronger += power[j] > power[i] || (power[j] == power[i] && j < i) ? 1 : 0;
-        lamps[i].own_axis = stronger < kMostLampAxes ? next++ : -1;
+        lamps[i].own_axis = stronger < kMaxLampAxes ? next++ : -1;
     }
 }
 

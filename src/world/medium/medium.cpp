@@ -184,7 +184,7 @@ Status outline_file(const Scene& scene, const MediumSettings& settings, const Li
 }  // namespace
 
 Status hold_extinction(const std::string& where, Medium& medium) {
-    const double per_m = double(medium.sigma) * double(medium.density_max);
+    const double per_m = max_extinction(medium);
     if (!(per_m <= kMostSigma))
         return Status::bad_input(where + ": " + number_text(per_m) +
                                  " per m where it is densest, allowed: at most " +

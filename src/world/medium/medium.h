@@ -69,6 +69,11 @@ Status hold_extinction(const std::string& where, Medium& medium);
 /// Bytes of all tables of phase functions.
 std::uint64_t phase_bytes(const Medium& medium);
 
+/// Where the medium is densest, 1/m; of an outlined one a bound.
+inline double max_extinction(const Medium& medium) {
+    return double(medium.sigma) * double(medium.density_max);
+}
+
 /// Whether no medium absorbs anything.
 bool is_white(const Medium& medium);
 

@@ -5,23 +5,13 @@
 #include <cstring>
 #include <vector>
 
+#include "src/io/images/channel_name.h"
 #include "src/world/camera/view.h"
 #include "src/world/solids/solids.h"
 
 namespace pileus {
 namespace {
 
-std::string lower(std::string text) {
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-    return text;
-}
-/// "a.b.Z" is channel Z of layer a.b, whose own name is b.
-std::string layer_of(const std::string& channel) {
-    const std::size_t point = channel.rfind('.');
-    return point == std::string::npos ? "" : channel.substr(0, point);
-}
-std::string last_of(const std::string& name) { return lower(name.substr(name.rfind('.') + 1)); }
 /// As renderers call it: depth.Z, ViewLayer.Depth.Z, Depth.V, zDepth, VRayZDepth.R, Z-depth.
 bool means_depth(const std::string& word) {
     for (const char* known : {"z", "depth", "zdepth", "z-depth", "z_depth", "vrayzdepth"})

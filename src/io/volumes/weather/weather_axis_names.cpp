@@ -3,6 +3,7 @@
 // in: names, a coordinate -> out: see weather_axes.h.
 // docs/weather.md, "Dimensions"; CF conventions 1.10, chapter 4; names of forecast models, of NCL
 // and THREDDS, and of DALES, UCLALES, PALM, CM1, SAM and MicroHH.
+#include "src/base/printable.h"
 #include "src/io/volumes/weather/weather_axes.h"
 #include "src/io/volumes/weather/weather_units.h"
 
@@ -78,12 +79,6 @@ constexpr NameRow kWords[] = {
     {AxisKind::kY, " y "},       {AxisKind::kX, " x "},           {AxisKind::kColumn, " column "},
 };
 
-std::string lower(std::string text) {
-    for (char& c : text)
-        if (c >= 'A' && c <= 'Z') c = char(c - 'A' + 'a');
-    return text;
-}
-
 template <std::size_t N>
 AxisKind kind_in(const NameRow (&rows)[N], const std::string& name) {
     if (name.empty() || name.find(' ') != std::string::npos) return AxisKind::kUnknown;
@@ -107,7 +102,7 @@ bool along(const NcVariable& v, std::size_t dimension) {
 AxisKind axis_named(const std::string& word) { return kind_in(kWords, word); }
 
 AxisKind axis_by_name(const std::string& name) {
-    std::string text = lower(name);
+    std::string text = lower_case(name);
     const AxisKind whole = kind_in(kNames, text);
     if (whole != AxisKind::kUnknown) return whole;
     for (const NameRow& row : kBeginnings)
@@ -120,10 +115,11 @@ AxisKind axis_by_name(const std::string& name) {
 
 AxisKind axis_by_attributes(const NcVariable& v, bool own) {
     AxisKind kind = kind_in(kStandardNames, v.text("standard_name"));
-    if (kind == AxisKind::kUnknown) kind = kind_in(kLetters, lower(v.text("axis")));
-    if (kind == AxisKind::kUnknown) kind = kind_in(kTypes, lower(v.text("_CoordinateAxisType")));
+    if (kind == AxisKind::kUnknown) kind = kind_in(kLetters, lower_case(v.text("axis")));
+    if (kind == AxisKind::kUnknown)
+        kind = kind_in(kTypes, lower_case(v.text("_CoordinateAxisType")));
     if (kind != AxisKind::kUnknown) return kind;
-    const std::string units = v.text("units"), positive = lower(v.text("positive"));
+    const std::string units = v.text("units"), positive = lower_case(v.text("positive"));
     kind = kind_in(kUnits, units);
     if (kind != AxisKind::kUnknown) return kind;
     if (units.find(" since ") != std::string::npos) return AxisKind::kTime;

@@ -2,6 +2,7 @@
 // Which member of an ensemble a scene means.
 // in: an index, or what the file calls it -> out: the place along the members.
 // docs/weather.md, "Dimensions"
+#include <algorithm>
 #include <charconv>
 
 #include "src/io/netcdf/netcdf_packing.h"
@@ -20,21 +21,11 @@ bool read_number(const std::string& text, double& value) {
     return read.ec == std::errc() && read.ptr == end;
 }
 
-/// Rows of letters, one for each member.
+/// Names of letters, one for each member.
 Status read_names(const NcFile& file, const NcVariable& v, std::vector<std::string>& names) {
-    const NcBlock block = whole_block(file.head(), v);
-    if (block.values() > kMostMembers * 64) return Status::ok();
-    std::vector<double> letters(std::size_t(block.values()));
-    PILEUS_TRY(file.read(v, block, {letters.data(), letters.size()}));
-    const std::size_t length = std::size_t(block.count[1]);
-    for (std::size_t i = 0; i < block.count[0]; ++i) {
-        std::string name;
-        for (std::size_t k = 0; k < length; ++k) {
-            const char c = nc_letter(letters[i * length + k]);
-            if (c != '\0' && c != ' ') name += c;
-        }
-        names.push_back(name);
-    }
+    PILEUS_TRY(read_letter_rows(file, v, kMostMembers, names));
+    for (std::string& name : names)
+        name.erase(std::remove(name.begin(), name.end(), ' '), name.end());
     return Status::ok();
 }
 

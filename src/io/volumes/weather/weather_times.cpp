@@ -152,20 +152,13 @@ bool parse_since(const std::string& units, bool mixed, double& step, double& sta
     return DateReader(units.substr(since + 7)).read(mixed, start);
 }
 
-/// Rows of characters, one for each time.
+/// Dates of letters, one for each time.
 Status read_date_rows(const NcFile& file, const NcVariable& v, std::vector<std::string>& dates) {
-    const NcBlock block = whole_block(file.head(), v);
-    if (block.values() > kMostTimes * 64) return Status::ok();
-    std::vector<double> letters(std::size_t(block.values()));
-    PILEUS_TRY(file.read(v, block, {letters.data(), letters.size()}));
-    const std::size_t length = std::size_t(block.count[1]);
-    for (std::size_t i = 0; i < block.count[0]; ++i) {
-        std::string date;
-        for (std::size_t k = 0; k < length; ++k) {
-            const char c = nc_letter(letters[i * length + k]);
-            if (c != '\0') date += c == '_' || c == ' ' ? 'T' : c;
-        }
-        dates.push_back(printable_line(date));
+    PILEUS_TRY(read_letter_rows(file, v, kMostTimes, dates));
+    for (std::string& date : dates) {
+        for (char& c : date)
+            if (c == '_' || c == ' ') c = 'T';
+        date = printable_line(date);
     }
     return Status::ok();
 }

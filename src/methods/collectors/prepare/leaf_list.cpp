@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "src/base/limits.h"
+#include "src/picture/nodes/node_grid.h"
 
 namespace pileus {
 namespace {
@@ -38,16 +39,15 @@ void consider(const VoxelBox& box, const SampleBounds& bounds, const Grid& grid,
 }  // namespace
 
 void leaf_limit(const Grid& grid, double share, double extinction_per_m, int max_leaf_voxels[3]) {
-    constexpr double kLayers = 12, kDepth = 2;
     double square = 0;
     for (int a = 0; a < 3; ++a) {
         const double edge = double(grid.size[a]) * double(grid.cell_m[a]);
         square += edge * edge;
     }
     for (int a = 0; a < 3; ++a) {
-        const double layer = double(grid.size[a]) * double(grid.cell_m[a]) / kLayers;
-        const double depth = extinction_per_m > 0 ? kDepth / extinction_per_m : HUGE_VAL;
-        const double longest = std::min(std::sqrt(square) * share, std::max(layer, depth));
+        const double edge = double(grid.size[a]) * double(grid.cell_m[a]);
+        const double layers = std::max(1.0, layers_of_depth(edge * extinction_per_m, 12));
+        const double longest = std::min(std::sqrt(square) * share, edge / layers);
         const double voxels = longest / double(grid.cell_m[a]);
         const double inside = std::min(std::max(voxels, 1.0), double(grid.size[a]));
         max_leaf_voxels[a] = int(inside + 0.5);

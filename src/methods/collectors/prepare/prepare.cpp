@@ -71,10 +71,6 @@ Status prepare_sample_set(const Medium& medium, const CollectorSettings& setting
                                                           options, context.threads, set);
 }
 
-double most_extinction(const Medium& medium) {
-    return double(medium.sigma) * double(medium.density_max);
-}
-
 double leaf_share(const Medium& medium) {
     return medium.detail_m > 0 ? kLeafShare * (medium.detail_m / diagonal_m(medium)) : kLeafShare;
 }
@@ -89,7 +85,7 @@ Status prepare_collectors(const Medium& medium, const CollectorSettings& setting
     TreeOptions tree;
     tree.density_range = float(settings.density_range) * medium.density_max;
     tree.influence_m = float(settings.influence_radius * detail * diagonal_m(medium));
-    const double per_m = most_extinction(medium);
+    const double per_m = max_extinction(medium);
     if (!settings.paper) leaf_limit(medium.grid, share, per_m, tree.max_leaf_voxels);
     for (int a = 0; a < 3 && !settings.paper; ++a) {
         const double edge = double(tree.max_leaf_voxels[a]) * double(medium.grid.cell_m[a]);

@@ -32,9 +32,6 @@ Status prepare_sample_set(const Medium& medium, const CollectorSettings& setting
 /// finely as it would be alone.
 double leaf_share(const Medium& medium);
 
-/// 1/m, where the medium is densest; of an outlined one a bound.
-double most_extinction(const Medium& medium);
-
 /// kLimit: out of memory.
 Status prepare_collectors(const Medium& medium, const CollectorSettings& settings,
                           std::int64_t seed, const Context& context, Prepared& out);
