@@ -165,14 +165,18 @@ TEST_CASE("NanoVDB: grids by name, several segments, and what is refused") {
     };
     auto turned = random_grid<vdb::FloatGrid>(draws, false);
     turned->transform().postRotate(0.3, vdb::math::Z_AXIS);
-    refused(turned, "map: rotated or sheared");
+    refused(turned, "transform: rotated or sheared");
     auto mist = vdb::FloatGrid::create(0.5f);
     mist->tree().setValue(vdb::Coord(0, 0, 0), 1.0f);
     refused(mist, "background: 0.5");
     auto negative = vdb::FloatGrid::create();
     negative->tree().setValue(vdb::Coord(-3, 14, 5), -0.25f);
     refused(negative, "voxel -3 14 5: -0.25");
-    refused(vdb::FloatGrid::create(), "no active voxel");
+    // A frame in which nothing is left is a frame of nothing.
+    nanovdb::io::writeGrid(path,
+                           nanovdb::openToNanoVDB(vdb::GridBase::Ptr(vdb::FloatGrid::create())));
+    REQUIRE(read_nvdb_volume(path, "", volume));
+    for (const float value : volume.density.span()) CHECK(value == 0.0f);
 }
 
 TEST_CASE("NanoVDB: the real cloud, voxel by voxel") {
