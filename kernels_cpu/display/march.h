@@ -82,7 +82,7 @@ template <class T>
 PILEUS_FN void read_quads(const MarchParams& k, const MarchBuffers& b, const Vec<T>& metres,
                           M_of<T> wanted, T (&out)[4]) {
     const Corners<T> c =
-        corners(node_position(k.source, metres), k.source.size, k.medium.periodic != 0);
+        node_corners(node_position(k.source, metres), k.source.size, k.medium.periodic != 0);
     interpolate_quads(b.quads, c, bits_of(wanted), out);
 }
 
@@ -110,7 +110,7 @@ PILEUS_FN void read_near(const MarchParams& k, const MarchBuffers& b, const Ray<
     node.x = node.x - float(k.near.first[0]);
     node.y = node.y - float(k.near.first[1]);
     node.z = node.z - float(k.near.first[2]);
-    const Corners<T> c = corners(node, k.near.size, false);
+    const Corners<T> c = node_corners(node, k.near.size, false);
     const std::int64_t numbers =
         std::int64_t(k.near.size[0]) * k.near.size[1] * k.near.size[2] * k.sets * k.harmonics;
     for (std::uint32_t lanes = bits_of(due); lanes != 0; lanes &= lanes - 1) {
@@ -147,7 +147,7 @@ PILEUS_FN void add_source(const MarchParams& k, const MarchBuffers& b, const Vec
         return;
     }
     const Corners<T> c =
-        corners(node_position(k.source, metres), k.source.size, k.medium.periodic != 0);
+        node_corners(node_position(k.source, metres), k.source.size, k.medium.periodic != 0);
     const std::int64_t nodes = std::int64_t(k.source.size[0]) * k.source.size[1] * k.source.size[2];
     if (k.bands == 0 || b.near != nullptr) {
         for (int i = 0; i < k.channels; ++i) {
@@ -169,6 +169,16 @@ PILEUS_FN void add_source(const MarchParams& k, const MarchBuffers& b, const Vec
                 set_lane(source[i], l, lane(source[i], l) + light[s] * k.set_colour[s][i]);
     }
     for (int i = 0; i < 3; ++i) colour[i] = colour[i] + weight * source[i];
+}
+
+/// Pieces that a step is taken in where it is deep: light falls off within one, and its middle does
+/// not stand for it (2 % of sunlight from a face lit as it is seen, in pieces of a quarter). Steps
+/// behind a thick medium, taken several at once, are none.
+template <class T>
+PILEUS_FN T pieces_of(T optical, T stride) {
+    constexpr float kDeepStep = 0.4f, kPieces = 4.0f, kMostPieces = 32.0f;
+    const T wanted = min_(max_(optical * kPieces + 1.0f, all<T>(1.0f)), all<T>(kMostPieces));
+    return select((optical > kDeepStep) & (stride <= 1.0f), to_float(to_int(wanted)), all<T>(1.0f));
 }
 
 /// W pixels, a block from column x and row y on, in rows before `end`.
@@ -207,46 +217,69 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
     Pace<T> pace;
     march_ray<Constant>(
         k.medium, ray, box.enter, leave, pace,
-        [&](M<W> dense, T t, T width, const Vec<T>& p, const Vec<T>& metres) PILEUS_INLINED {
+        [&](M<W> dense, T middle, T whole, const Vec<T>& centre,
+            const Vec<T>& place) PILEUS_INLINED {
             if (!any(dense)) return transmittance < k.cut;
-            const Corners<T> at = density_corners<Constant>(k.medium, p);
+            T t = middle, width = whole;
+            Vec<T> p = centre, metres = place;
+            Corners<T> at = density_corners<Constant>(k.medium, p);
             T density = density_at<Constant>(k.medium, at);
             if constexpr (Detail) density = with_detail(*k.medium.detail, metres, density);
-            const T optical = select(dense, density * k.medium.sigma * width, T{});
+            T optical = select(dense, density * k.medium.sigma * width, T{});
             pace.inside = optical > 0.0f;
-            if (!any(optical > 0.0f)) return transmittance < k.cut;
-            depth = depth + optical;
-            const T alpha = one_minus_exp(optical);
-            const T weight = transmittance * alpha;
-            T direct[3] = {}, quad[4] = {};
-            if (b.quads != nullptr) read_quads(k, b, metres, optical > 0.0f, quad);
-            if (sun.lit) {
-                T tau = quad[3], visible = all<T>(1.0f);
-                if (Veiled || k.together == 0) {
-                    const Vec<T> node = node_position(k.shadow, metres);
-                    const Corners<T> near = corners(node, k.shadow.size, wraps);
-                    if (k.together == 0) tau = interpolate(b.optical_depth, near);
-                    if constexpr (Veiled) visible = interpolate(b.visibility, near);
+            if (!any(pace.inside)) return transmittance < k.cut;
+            const T pieces = pieces_of(optical, pace.stride);
+            const auto deep = pieces > 1.0f;
+            width = whole / pieces;
+            for (T piece{};; piece = piece + 1.0f) {
+                if (any(deep)) {
+                    t = select(deep, middle + ((piece + 0.5f) * width - 0.5f * whole), middle);
+                    metres = reduced(k.medium, along(ray, t));
+                    p = in_voxels(k.medium, metres);
+                    at = density_corners<Constant>(k.medium, p);
+                    density = density_at<Constant>(k.medium, at);
+                    if constexpr (Detail) density = with_detail(*k.medium.detail, metres, density);
+                    optical =
+                        select(dense & (piece < pieces), density * k.medium.sigma * width, T{});
                 }
-                T light = exp_(T{} - tau);
-                if constexpr (Veiled) light = light * visible;
-                sun_source_at<Constant>(k, b, sun, at, density, light, direct);
-                if (k.beam_sets > 0) add_beam(k, b, sun, tau, visible, direct);
-            }
-            if (b.near != nullptr) read_near(k, b, ray, t, optical > 0.0f, harmonics, around);
-            add_source<W>(k, b, metres, ray.direction, harmonics, around, direct, quad, weight,
-                          colour);
-            const T left = transmittance * (1.0f - alpha);
-            if (b.half_depth != nullptr) {
-                const auto crosses = (transmittance > 0.5f) & (left <= 0.5f);
-                if (any(crosses)) {
-                    const T share = log_(transmittance * 2.0f) / max_(optical, all<T>(1e-30f));
-                    half = select(crosses, t + (share - 0.5f) * width, half);
+                depth = depth + optical;
+                const T alpha = one_minus_exp(optical);
+                const T weight = transmittance * alpha;
+                T direct[3] = {}, quad[4] = {};
+                if (b.quads != nullptr) read_quads(k, b, metres, optical > 0.0f, quad);
+                if (sun.lit) {
+                    T tau = quad[3], visible = all<T>(1.0f);
+                    if (Veiled || k.together == 0) {
+                        const Vec<T> node = node_position(k.shadow, metres);
+                        const Corners<T> near = node_corners(node, k.shadow.size, wraps);
+                        if (k.together == 0) tau = interpolate(b.optical_depth, near);
+                        if constexpr (Veiled)
+                            visible =
+                                max_(min_(interpolate(b.visibility, near), all<T>(1.0f)), T{});
+                    }
+                    tau = max_(tau, T{});
+                    T light = exp_(T{} - tau);
+                    if constexpr (Veiled) light = light * visible;
+                    sun_source_at<Constant>(k, b, sun, at, density, light, direct);
+                    if (k.beam_sets > 0) add_beam(k, b, sun, tau, visible, direct);
                 }
+                if (b.near != nullptr) read_near(k, b, ray, t, optical > 0.0f, harmonics, around);
+                add_source<W>(k, b, metres, ray.direction, harmonics, around, direct, quad, weight,
+                              colour);
+                const T left = transmittance * (1.0f - alpha);
+                if (b.half_depth != nullptr) {
+                    const auto crosses = (transmittance > 0.5f) & (left <= 0.5f);
+                    if (any(crosses)) {
+                        const T share = log_(transmittance * 2.0f) / max_(optical, all<T>(1e-30f));
+                        half = select(crosses, t + (share - 0.5f) * width, half);
+                    }
+                }
+                transmittance = left;
+                if (!any(deep & (piece + 1.0f < pieces))) break;
             }
-            transmittance = left;
             for (int i = 0; i < kWiderSteps; ++i)
-                pace.stride = select(left < k.wider[i], all<T>(float(2 << i)), pace.stride);
+                pace.stride =
+                    select(transmittance < k.wider[i], all<T>(float(2 << i)), pace.stride);
             return transmittance < k.cut;
         });
     for_block<W>(k.lattice, x, y, end, [&](int l, std::int64_t pixel) {

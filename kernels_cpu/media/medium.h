@@ -19,7 +19,8 @@ PILEUS_FN T wrap_place(T at, float length) {
     return min_(max_(at - to_float(floor_int(periods)) * length, T{}), all<T>(length));
 }
 
-/// The eight cells around a position and their weights.
+/// The eight cells around a position and their weights, of which those of a line outside a grid's
+/// outermost centres are below 0 and above 1.
 template <class T>
 struct Corners {
     I_of<T> x0, x1, y0, y1, z0, z1;  // z and y already multiplied by their strides
@@ -56,6 +57,29 @@ PILEUS_FN Corners<T> corners(const Vec<T>& p, const std::int32_t* size, bool wra
     const std::int32_t row = size[0], slice = size[0] * size[1];
     c.y0 = c.y0 * row, c.y1 = c.y1 * row;
     c.z0 = c.z0 * slice, c.z1 = c.z1 * slice;
+    return c;
+}
+
+/// The same of nodes whose values go on in a line beyond the outermost centres, up to the faces of
+/// the grid: optical depth and light are not level there, and a sharp face of a medium lies there.
+template <class T>
+PILEUS_FN Corners<T> node_corners(const Vec<T>& p, const std::int32_t* size, bool wraps = false) {
+    using II = I_of<T>;
+    Corners<T> c = corners(p, size, wraps);
+    const std::int32_t row = size[0], slice = size[0] * size[1];
+    const auto split = [](T v, std::int32_t n, std::int32_t stride, II& low, II& high,
+                          T& fraction) {
+        const T at = max_(min_(v - 0.5f, all<T>(float(n) - 0.5f)), all<T>(-0.5f));
+        const II first = min_(max_(floor_int(at), II{}), all<II>(n > 1 ? n - 2 : 0));
+        fraction = at - to_float(first);
+        low = first * stride;
+        high = min_(first + 1, all<II>(n - 1)) * stride;
+    };
+    if (!wraps) {
+        split(p.x, size[0], 1, c.x0, c.x1, c.fx);
+        split(p.y, size[1], row, c.y0, c.y1, c.fy);
+    }
+    split(p.z, size[2], slice, c.z0, c.z1, c.fz);
     return c;
 }
 

@@ -124,10 +124,12 @@ PILEUS_FN void bounce(Photon<W, NC, S>& s, const TraceParams& k, TraceTally& tal
     s.tau = select(hit, free_flight(first.b, first.a), s.tau);
 }
 
-/// Lanes whose straight light the ground has already: that of all but lamps with a place.
+/// Lanes whose straight light the ground has already: that of all but lamps with a place, and
+/// media.
 template <int W, int NC, bool S>
 PILEUS_FN M<W> known_to_ground(const Photon<W, NC, S>& s, const TraceParams& k) {
     M<W> known = s.order == 0;
+    if (k.light == kLightMedia) return known & lnot(known);
     if (k.light != kLightLamps) return known;
     for (std::int32_t l = 0; l < k.lamp_count; ++l)
         if (k.lamps[l].lamp.parallel == 0) known = known & (s.texel != l);
@@ -191,7 +193,9 @@ PILEUS_FN void leave_box(Photon<W, NC, S>& s, const TraceParams& k, const TraceB
         s.alive = s.alive & lnot(out);
     }
     if (any(down)) {
-        if (k.ground_cells[0] > 0) light_ground(s, k, b, down & (s.order > 0));
+        // What lamps send straight is the display's.
+        const M<W> mapped = k.light == kLightMedia ? down : down & (s.order > 0);
+        if (k.ground_cells[0] > 0) light_ground(s, k, b, mapped);
         bounce(s, k, tally, down);
     }
 }

@@ -25,6 +25,7 @@ enum LightKind : std::int32_t {
     kLightDiffuse = 1,
     kLightMap = 2,
     kLightLamps = 3,  ///< what they send straight is in no deposit and in no map of the ground
+    kLightMedia = 4,  ///< what a medium sends out by itself; of the host alone
 };
 
 struct TraceParams {
@@ -39,6 +40,7 @@ struct TraceParams {
     SkyMapView map;             ///< light of a sky map only
     const LampEmission* lamps;  ///< light of lamps only
     std::int32_t lamp_count;
+    const std::uint32_t* emitted_below;  ///< light of a medium only: [voxel], rising, 2^-32 of all
     float face_cdf[6];           ///< flux share of faces -x +x -y +y -z +z, cumulative; last = 1
     Key key;                     ///< made from (seed, stream of the light, photon index high half)
     std::uint32_t first_photon;  ///< low half of the index of the launch's photon 0

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where a photon begins: on the box's silhouette (beam, sky map), its faces (diffuse light), or at
-// a lamp.
+// Where a photon begins: on the box's silhouette (beam, sky map), its faces (diffuse light), at a
+// lamp, or within a medium that shines.
 // in: photon numbers -> out: position (voxels) and direction of travel.
 // docs/methods.md 3 "Shoot"; points from the R2 sequence (Roberts 2018), shifted at random.
 #pragma once
@@ -232,6 +232,57 @@ PILEUS_FN Start<F<W>> start_from_lamps(Photon<W, NC, S>& s, const TraceParams& k
     return start;
 }
 
+/// Offset from the middle of a voxel, voxels, of a place drawn by the voxel's weight in a trilinear
+/// field: a tent over it and its neighbours; beyond the outermost middles the weight is whole.
+PILEUS_FN float offset_in_tent(float u, bool first, bool last, bool constant) {
+    if (constant) return u - 0.5f;
+    // Either half of the tent, or in its stead the even half voxel to the face.
+    if (u < 0.5f) return first ? u - 0.5f : sqrt_(2.0f * u) - 1.0f;
+    return last ? u - 0.5f : 1.0f - sqrt_(2.0f - 2.0f * u);
+}
+
+/// Media: a voxel by its share of what they send out, a place around its middle, any direction.
+template <int W>
+PILEUS_FN Start<F<W>> start_in_medium(const TraceParams& k, U<W> index, M<W> m) {
+    using T = F<W>;
+    const U<W> number = index + k.first_photon, choice = index * kR2[0] + k.shift[0];
+    const Words<U<W>> w = threefry(k.key.k0, k.key.k1, number, U<W>{});
+    const Words<U<W>> more = threefry(k.key.k0, k.key.k1, number, all<U<W>>(kPlaceOnLamp));
+    const T draws[3] = {uniform(w.a), uniform(w.b), uniform(more.a)};
+    const T cosine = 1.0f - 2.0f * uniform(index * kR2[1] + k.shift[1]);
+    const T sine = sqrt_(max_(1.0f - cosine * cosine, T{}));
+    const SinCos<T> phi = sincos_turns(uniform(more.b));
+    Start<T> start{{}, {sine * phi.cosine, sine * phi.sine, cosine}};
+    const std::int32_t* n = k.grid.size;
+    for (std::uint32_t lanes = bits_of(m); lanes != 0; lanes &= lanes - 1) {
+        const int l = lowest_bit(lanes);
+        // The last voxel that begins at or before the draw.
+        const std::uint32_t drawn = lane(choice, l);
+        std::int64_t low = 0, high = std::int64_t(n[0]) * n[1] * n[2];
+        while (high - low > 1) {
+            const std::int64_t middle = low + (high - low) / 2;
+            if (k.emitted_below[middle] <= drawn)
+                low = middle;
+            else
+                high = middle;
+        }
+        const std::int32_t at[3] = {std::int32_t(low % n[0]), std::int32_t(low / n[0] % n[1]),
+                                    std::int32_t(low / n[0] / n[1])};
+        float p[3];
+        for (int a = 0; a < 3; ++a) {
+            const bool open = k.grid.periodic == 0 || a == 2;
+            p[a] = float(at[a]) + 0.5f +
+                   offset_in_tent(lane(draws[a], l), open && at[a] == 0, open && at[a] == n[a] - 1,
+                                  k.grid.constant != 0);
+            if (!open && p[a] < 0.0f) p[a] = p[a] + float(n[a]);
+            if (!open && p[a] > float(n[a])) p[a] = p[a] - float(n[a]);
+            p[a] = min_(max_(p[a], 0.0f), float(n[a]));
+        }
+        set_lane(start.p.x, l, p[0]), set_lane(start.p.y, l, p[1]), set_lane(start.p.z, l, p[2]);
+    }
+    return start;
+}
+
 /// What a photon carries in channel `c` when it begins.
 template <int W, int NC, bool S>
 PILEUS_FN F<W> start_weight(const Photon<W, NC, S>& s, const TraceParams& k, int c) {
@@ -253,7 +304,8 @@ PILEUS_FN M<W> start_photons(Photon<W, NC, S>& s, const TraceParams& k, M<W> m) 
     const T zero{};
     const U<W> number = s.index + k.first_photon;
     M<W> missed = m & lnot(m);
-    const Start<T> start = k.light == kLightMap     ? start_from_map<W>(k, s.index, s.texel, m)
+    const Start<T> start = k.light == kLightMedia   ? start_in_medium<W>(k, s.index, m)
+                           : k.light == kLightMap   ? start_from_map<W>(k, s.index, s.texel, m)
                            : k.light == kLightLamps ? start_from_lamps(s, k, m, missed)
                                                     : start_on_faces<W>(k, s.index);
     set_position(s, k.grid, m, start.p);

@@ -149,8 +149,10 @@ PILEUS_FN void march_lamps(const LampMarchParams& k, const LampMarchBuffers& b,
                 const LampSight<T> whole = lamp_over_step(lamp, from, ray.direction, width, place);
                 const M<W> lit = dense & (whole.share > 0.0f) & (weight > 0.0f);
                 if (!any(lit)) continue;
-                const T tau = interpolate(b.optical_depth + l * nodes,
-                                          corners(node_position(k.nodes, place), k.nodes.size));
+                const T tau =
+                    max_(interpolate(b.optical_depth + l * nodes,
+                                     node_corners(node_position(k.nodes, place), k.nodes.size)),
+                         T{});
                 // Nodes hold one depth: the media here stand for those on the way.
                 T left[3] = {exp_(T{} - tau)};
                 left[1] = left[2] = left[0];

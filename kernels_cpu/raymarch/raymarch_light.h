@@ -124,11 +124,12 @@ PILEUS_FN T skylight_at(const RaymarchParams& k, const float* nodes, const Field
     const RaymarchSky& sky = k.sky;
     const std::int64_t count =
         std::int64_t(sky.nodes.size[0]) * sky.nodes.size[1] * sky.nodes.size[2];
-    const Corners<T> at = corners(node_position(sky.nodes, field_in_box(field, k.medium, place)),
-                                  sky.nodes.size, k.medium.periodic != 0);
+    const Corners<T> at =
+        node_corners(node_position(sky.nodes, field_in_box(field, k.medium, place)), sky.nodes.size,
+                     k.medium.periodic != 0);
     T share{};
     for (std::int32_t s = 0; s < sky.sets; ++s) {
-        const T seen = interpolate(nodes + s * count, at);
+        const T seen = max_(interpolate(nodes + s * count, at), T{});
         share = max_(share, seen);
         for (int c = 0; c < 3; ++c) out[c] = out[c] + seen * sky.colour[s][c];
     }
@@ -169,8 +170,9 @@ PILEUS_FN T sunlight_at(const RaymarchParams& k, const float* optical_depth, con
         depth = field_sunlight(k, field, place, wanted, counts);
     } else {
         const Vec<T> q = reduced(k.medium, place);
-        depth.tau = interpolate(optical_depth, corners(node_position(k.light.nodes, q),
-                                                       k.light.nodes.size, k.medium.periodic != 0));
+        const Corners<T> at = node_corners(node_position(k.light.nodes, q), k.light.nodes.size,
+                                           k.medium.periodic != 0);
+        depth.tau = max_(interpolate(optical_depth, at), T{});
         // Nodes hold one depth: the media here stand for those on the way.
         add_kept(k, field, place, density, depth.tau, depth);
     }

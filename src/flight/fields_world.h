@@ -36,9 +36,13 @@ void fields(A& a, PhaseStore& v) {
     all(a, v.table, v.numbers, v.guides);
 }
 template <class A>
+void fields(A& a, Emitter& v) {
+    all(a, v.medium, v.mass_m3, v.below);
+}
+template <class A>
 void fields(A& a, Medium& v) {
     all(a, v.volume, v.grid, v.low_m, v.extent_m, v.detail_m, v.sigma, v.channels, v.density_max,
-        v.count, v.optics, v.parts, v.phases);
+        v.count, v.optics, v.parts, v.phases, v.emitters);
 }
 template <class A>
 void fields(A& a, NoiseTexture& v) {

@@ -13,7 +13,7 @@ namespace pileus {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x4c465355454c4950ull;  // "PILEUSFL"
-constexpr std::uint64_t kFormat = 5;
+constexpr std::uint64_t kFormat = 6;
 /// Its last bytes are zeros, so that what follows begins at a multiple of kLine.
 constexpr std::size_t kHeadBytes = 2 * kLine, kToldBytes = 8 * 8 + 24, kDigestAt = 24;
 
@@ -125,6 +125,9 @@ bool is_whole(const Medium& m) {
     if (!is_within(m.count, 1, kMostMedia) || !(m.channels == 1 || m.channels == 3)) return false;
     for (const PhaseStore& store : m.phases)
         if (!store.table.empty() && !is_whole(store)) return false;
+    for (const Emitter& e : m.emitters)
+        if (!is_within(e.medium, 0, m.count - 1) || e.below.size() != voxel_count(m.grid))
+            return false;
     return m.parts.size() == std::uint64_t(m.count - 1) * voxel_count(m.grid);
 }
 

@@ -151,21 +151,6 @@ Status march_rows(const Context& context, const FrameView& view, const PhotonSta
     return Status::ok();
 }
 
-/// Nodes around a camera are as many as it is near: a flight has no room of its own for them, and
-/// gives back what a picture took.
-class NearNodesOfPicture {
-public:
-    explicit NearNodesOfPicture(PhotonState& state) : state_(state) {}
-    ~NearNodesOfPicture() {
-        if (state_.sealed) state_.picture.near_light = Buffer<float>();
-    }
-    NearNodesOfPicture(const NearNodesOfPicture&) = delete;
-    NearNodesOfPicture& operator=(const NearNodesOfPicture&) = delete;
-
-private:
-    PhotonState& state_;
-};
-
 }  // namespace
 
 bool reads_quads(const Context& context, int channels, const NodeGrid& nodes) {
@@ -179,7 +164,6 @@ const float* sun_depths_at(const SunShadow& shadow, const NodeGrid& nodes) {
 
 Status march_lit(const Context& context, const FrameView& view, PhotonState& state,
                  const NodeLight& source, const MarchParams& k, float* target, Planes& planes) {
-    const NearNodesOfPicture near(state);
     NodeLight packed = source;
     if (reads_planes(k) && reads_quads(context, k.channels, k.source))
         PILEUS_TRY(pack_nodes(context, k.source, k.medium, state, packed));
@@ -191,7 +175,6 @@ Status march_thinned(const Context& context, const FrameView& view, const NodeLi
     const UpsampleSettings& thin = state.picture.thin;
     if (thin.every() == 1)
         return march_lit(context, view, state, source, k, planes.colour.data(), planes);
-    const NearNodesOfPicture near(state);
     UpsampleMemory& memory = state.picture.upsample;
     planes.optical_depth = Buffer<float>();  // has its own march
     if (memory.camera.width != k.camera.width || memory.camera.height != k.camera.height ||

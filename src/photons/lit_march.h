@@ -52,6 +52,21 @@ struct NodeLight {
     const float* near = nullptr;    ///< MarchBuffers::near
 };
 
+/// Lives as long as a picture is made, however that ends. Nodes around a camera are as many as it
+/// is near: a flight has no room of its own for them, and gives back what a picture took.
+class NearNodesOfPicture {
+public:
+    explicit NearNodesOfPicture(PhotonState& state) : state_(state) {}
+    ~NearNodesOfPicture() {
+        if (state_.sealed) state_.picture.near_light = Buffer<float>();
+    }
+    NearNodesOfPicture(const NearNodesOfPicture&) = delete;
+    NearNodesOfPicture& operator=(const NearNodesOfPicture&) = delete;
+
+private:
+    PhotonState& state_;
+};
+
 /// Whether a march of so many channels reads quads: a device reads grids one by one.
 bool reads_quads(const Context& context, int channels, const NodeGrid& nodes);
 

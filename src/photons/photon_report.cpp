@@ -131,7 +131,7 @@ void explain_photon_lights(const FrameView& view, const PhotonState& state, Plan
                       .c_str());
         if (coloured_lamps(lighting)) tell_colours("[[light]]");
     }
-    note_emission(world.medium, plan);
+    note_emission(world.medium, true, plan);
 }
 
 void explain_axis(const char* why, const PhotonState& state, Plan& plan) {

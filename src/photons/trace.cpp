@@ -133,10 +133,12 @@ TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_
     k.channels = sum_channels(m, in.deposit);
     k.media = m.count;
     for (std::size_t i = 0; i < m.optics.size(); ++i) k.optics[i] = m.optics[i];
-    k.light = light.map     ? kLightMap
-              : light.lamps ? kLightLamps
-              : light.beam  ? kLightBeam
-                            : kLightDiffuse;
+    if (light.emitter >= 0) k.emitted_below = m.emitters[std::size_t(light.emitter)].below.data();
+    k.light = light.emitter >= 0 ? kLightMedia
+              : light.map        ? kLightMap
+              : light.lamps      ? kLightLamps
+              : light.beam       ? kLightBeam
+                                 : kLightDiffuse;
     k.map = in.lighting->map;
     k.lamps = in.lighting->lamp_emission.data();
     k.lamp_count = std::int32_t(in.lighting->lamp_emission.size());

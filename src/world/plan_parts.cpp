@@ -27,6 +27,8 @@ void add_density_rows(const Grid& grid, const MediumSource& source, std::uint64_
                       MemoryTable& t) {
     add(t, arrays::density(grid));
     add(t, arrays::detail_tile(source.tile_cells));
+    if (source.emitters > 0)
+        add(t, arrays::emitted_below(bytes_of(source.emitters, voxel_count(grid))));
     t.add("phase functions", Stage::kDensity, Stage::kWrite, phases);
     t.add("sky map", Stage::kDensity, Stage::kWrite, sky.kept);
     t.add("sky map while it is read", Stage::kDensity, Stage::kDensity, sky.reading);
@@ -109,10 +111,11 @@ void note_depths(const Lighting& lighting, bool wanted, Plan& plan) {
     if (!wanted) plan.leave_out("depth of the medium", "no depth layer");
 }
 
-void note_emission(const Medium& medium, Plan& plan) {
+void note_emission(const Medium& medium, bool photons, Plan& plan) {
     if (!emits(medium)) return plan.leave_out("emission of the media", "no medium has any");
     plan.need("emission of the media, unscattered: marched");
-    plan.leave_out("emission that the media or the ground scatter", "not in this version");
+    if (photons) return plan.need("emission that media and ground scatter: photons");
+    plan.leave_out("emission that the media or the ground scatter", "not by this method");
 }
 
 Status check_work(const WorkEstimate& work, const Limits& limits, const std::string& where) {

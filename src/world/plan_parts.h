@@ -51,8 +51,8 @@ Status check_host_lights(const Context& context, const std::vector<LightSettings
 void note_media(const Plan& media, Plan& plan);
 /// Whether a picture has a test of depths, and distances to the media.
 void note_depths(const Lighting& lighting, bool wanted, Plan& plan);
-/// What methods that march emission do with it.
-void note_emission(const Medium& medium, Plan& plan);
+/// What methods that march emission do with it; `photons`: of what is scattered, too.
+void note_emission(const Medium& medium, bool photons, Plan& plan);
 
 /// What the scene and the plan, which is complete by now, need of these limits.
 void note_limits(const Scene& scene, const Grid& grid, const Limits& limits,

@@ -14,6 +14,7 @@
 #include "src/scene/toml/toml_tree.h"
 #include "src/world/medium/detail.h"
 #include "src/world/medium/mix_media.h"
+#include "src/world/medium/refine.h"
 #include "src/world/medium/sky_medium.h"
 
 namespace pileus {
@@ -30,12 +31,29 @@ Status empty_medium(const Scene& scene, Medium& medium) {
     return allocate(arrays::density(medium.grid), medium.volume.density);
 }
 
+/// Cells as deep as light may be kept in, and where photons begin in them.
+Status refine_cells(const Context& context, World& world) {
+    Medium& medium = world.medium;
+    const std::array<int, 3> factor = finer_cells(medium, context.limits);
+    if (!world.data_cells && factor != std::array<int, 3>{1, 1, 1}) {
+        world.media_plan.need(told_finer_cells(medium, factor).c_str());
+        keep_larger({"density before its finer cells",
+                     bytes_of(4, voxel_count(medium.grid), std::uint64_t(medium.count)), 0},
+                    world.source.making);
+        PILEUS_TRY(refine_medium(factor, context.threads, medium));
+    }
+    PILEUS_TRY(make_emitters(medium));
+    world.source.emitters = medium.emitters.size();
+    return Status::ok();
+}
+
 Status outline_medium_of(const Scene& scene, const HostMedia& given, const Context& context,
                          World& world) {
     if (scene.media.empty()) return empty_medium(scene, world.medium);
     if (world.direct_sky) return outline_sky(scene, context.limits, world.medium, world.source);
-    return outline_media(scene, context.limits, std::uint64_t(context.threads), world.media_plan,
-                         world.medium, world.source, given);
+    PILEUS_TRY(outline_media(scene, context.limits, std::uint64_t(context.threads),
+                             world.media_plan, world.medium, world.source, given));
+    return refine_cells(context, world);
 }
 
 Status load_medium_of(const Scene& scene, const HostMedia& given, const Context& context,
@@ -47,6 +65,7 @@ Status load_medium_of(const Scene& scene, const HostMedia& given, const Context&
     PILEUS_TRY(load_media(scene, context.limits, context.threads, world.media_plan, world.medium,
                           context.kernels, given));
     close_weather_files(scene);
+    PILEUS_TRY(refine_cells(context, world));
     world.source.mean_density = mean_density(world.medium);
     return Status::ok();
 }
@@ -109,6 +128,7 @@ Status outline_world(const Scene& scene, WorldUse use, const HostMedia& given,
     PILEUS_TRY(outline_solids(scene, context, world.solids));
     world.media = scene.media.size();
     const bool cells = given.of(0).cells != nullptr;
+    world.data_cells = use == WorldUse::kDataCells;
     world.direct_sky = use == WorldUse::kSkyInPlace && !cells && is_direct_sky(scene);
     world.shows_particles = use == WorldUse::kParticles && !cells && shows_particles(scene);
     const HostMedia shadows = world.shows_particles ? for_shadows(given) : HostMedia{};

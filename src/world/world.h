@@ -22,17 +22,20 @@ struct World {
     Medium medium;          ///< all media on one grid; a voxel of nothing for a scene without any
     MediumSource source;
     Plan media_plan;          ///< what laying the media on one grid says
+    bool data_cells = false;  ///< deep cells are left as they are
     bool direct_sky = false;  ///< the medium is `layer`, evaluated in place
     SkyField layer;
     Solids solids;
+    bool fine_cells = false;       ///< for light that is kept in them: finer ones than the data's
+    bool deep_cells = false;       ///< the data's are too deep for that
     bool shows_particles = false;  ///< its medium's grid is for shadows alone
     ParticleSet particles;         ///< of such a world: metres as the grid's, extinction in 1/m
     std::string density_digest;    ///< made once for runs that share the world; empty: not yet
 };
 
-/// What a method asks of its world: every medium on a grid, a procedural sky evaluated in place, or
-/// particles themselves.
-enum class WorldUse { kGrid, kSkyInPlace, kParticles };
+/// What a method asks of its world: every medium on a grid, that in the data's own cells however
+/// deep they are, a procedural sky evaluated in place, or particles themselves.
+enum class WorldUse { kGrid, kDataCells, kSkyInPlace, kParticles };
 
 /// Whether its media are one of particles.
 bool shows_particles(const Scene& scene);

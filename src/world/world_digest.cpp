@@ -17,6 +17,7 @@ std::uint64_t bytes_of_world(const World& world) {
     for (const NoiseTexture* noise : {&world.layer.perlin, &world.layer.worley})
         bytes += noise->words.bytes();
     bytes += world.medium.detail.tile.bytes();
+    for (const Emitter& emitter : world.medium.emitters) bytes += emitter.below.bytes();
     return bytes;
 }
 

@@ -145,9 +145,9 @@ TEST_CASE("a damaged packed scene is refused, wherever it is cut or changed") {
 }
 
 TEST_CASE("one bit that is turned over anywhere, or a byte that is missing, is refused in a line") {
-    std::string bytes = packed(scene_of({"method.name=raymarch", "medium.0.density=uniform:box",
-                                         "medium.0.resolution=[2,2,2]",
-                                         "medium.0.phase={type=\"henyey-greenstein\",g=0.5}"}));
+    std::string bytes = packed(scene_of(
+        {"method.name=raymarch", "medium.0.density=uniform:box", "medium.0.resolution=[2,2,2]",
+         "medium.0.extinction_per_m=0.001", "medium.0.phase={type=\"henyey-greenstein\",g=0.5}"}));
     // Small, so that all of it is looked through every time.
     REQUIRE(bytes.size() < 8192);
     std::vector<unsigned char> block(1 << 20), pixels(1 << 20, 0x5a);

@@ -146,7 +146,7 @@ TEST_CASE("a block of any size is refused, or its flight goes on whatever its fr
                 REQUIRE(pileus_session_set_camera(session, &camera, &error) == PILEUS_OK);
                 pileus_code drawn = pileus_session_step(session, 1, nullptr, &error);
                 if (drawn == PILEUS_OK) drawn = pileus_session_render(session, &frame, &error);
-                CHECK((drawn == PILEUS_OK || drawn == PILEUS_LIMIT));
+                CHECK_MESSAGE((drawn == PILEUS_OK || drawn == PILEUS_LIMIT), error.message);
             }
             REQUIRE(pileus_flight_usage(session, &use, &error) == PILEUS_OK);
             CHECK(use.kept + use.lost == 0);

@@ -148,7 +148,9 @@ TEST_CASE("optical-depth: the buffer's own cells") {
     const Keys method = {"method.name=optical-depth", "output.layers=[\"alpha\"]"};
     const std::string plain = picture_of(kSmallCumulus, method).report.hash;
     const Scene scene = scene_from(kSmallCumulus, method);
-    const auto& n = scene.media[0].resolution;
+    auto n = scene.media[0].resolution;
+    // Cells of four optical depths are divided by three.
+    for (int& cells : n) cells *= 3;
     const std::string own =
         "optical_depth.resolution=[" + std::to_string(n[0]) + ", 0, " + std::to_string(n[2]) + "]";
     CHECK(picture_of(kSmallCumulus, {method[0], method[1], own}).report.hash == plain);

@@ -141,6 +141,7 @@ bool is_whole(const CollectorsState& state, const ReconstructInput& lit) {
 Status show_marched(const Context& context, const FrameView& view, CollectorsState& state,
                     const ReconstructInput& lit, const CollectorColours& colours, int channels,
                     Planes& planes) {
+    const NearNodesOfPicture near(state);
     PILEUS_TRY(make_sun_shadow(context, view, state));
     MarchParams k = lit_march_params(view, state, lit, source_grid_of(view, state));
     k.channels = channels;

@@ -28,10 +28,10 @@ void size_prepared(const FrameView& view, const CollectorsState& state, const Co
     if (s.prepared.cells)
         s.prepared.leaves = block_total(s.grid, state.camera_cells);
     else
-        s.prepared.leaves =
-            most > 0 ? most
-                     : expected_leaves(s.grid, leaf_share(view.world.medium),
-                                       max_extinction(view.world.medium), s.prepared.samples);
+        s.prepared.leaves = most > 0 ? most
+                                     : expected_leaves(s.grid, leaf_share(view.world.medium),
+                                                       max_extinction(view.world.medium),
+                                                       settings.photons, s.prepared.samples);
     s.prepared.collectors = s.prepared.leaves;
     s.prepared.tracking_blocks = most_tracking_blocks(s.grid, settings.local_tracking);
 }

@@ -119,7 +119,7 @@ void note_plan(const FrameView& view, const MarchState& state, Plan& plan) {
         plan.need((std::to_string(lamps) + " lights of [[light]], " +
                    (settings.many ? "octaves too" : "scattered once"))
                       .c_str());
-    note_emission(view.world.medium, plan);
+    note_emission(view.world.medium, false, plan);
     if (view.lighting.sunlit && scene.sun.angular_radius_deg > 0)
         plan.leave_out("the sun's disc", "a point to this method: path alone knows it");
     if (state.choice.levels > 0)

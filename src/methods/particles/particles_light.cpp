@@ -22,11 +22,12 @@ void light_by_sky(const Context& context, ParticlesState& state) {
     parallel_each(context.threads, count, [&](std::size_t i) {
         float colour[3] = {};
         const float* p = state.tree.balls[i].centre;
-        const Corners<float> at = corners(node_position(nodes.grid, Vec<float>{p[0], p[1], p[2]}),
-                                          nodes.grid.size, false);
+        const Corners<float> at = node_corners(
+            node_position(nodes.grid, Vec<float>{p[0], p[1], p[2]}), nodes.grid.size, false);
         for (int s = 0; s < nodes.sets; ++s) {
-            const float light =
+            const float between =
                 interpolate(nodes.light.data() + std::uint64_t(s) * node_number, at);
+            const float light = between > 0 ? between : 0;
             for (int c = 0; c < 3; ++c) colour[c] += light * nodes.colour[s][c];
         }
         for (std::size_t c = 0; c < 3; ++c) state.sky[c * count + i] = colour[c];

@@ -40,6 +40,7 @@ Status light_near(const Context& context, const FrameView& view, PhotonGridState
 /// Each cell's light towards the camera.
 Status show_towards(const Context& context, const FrameView& view, PhotonGridState& state,
                     const GridLightInput& in, Planes& planes) {
+    const NearNodesOfPicture near(state);
     Buffer<float> light;
     {
         const StageClock clock(context, "reconstruct");

@@ -72,11 +72,12 @@ constexpr FeatureRow kLightRows[] = {
         bounded("-3.6 to +0.6 % at g <= 0.6"), exact("0.2 %"), bounded("-5.1 to 0 %"), unknown(),
         bounded("-15 %"), unknown(), kNoLampsInClouds),
     row(Feature::kEmission, FeatureGroup::kOfLight, "medium.emission", "medium.N.emission", "",
-        bounded("unscattered: -30 to -67 % at albedo 0.6 to 0.9"),
+        bounded("-3 to +3 % of the mean, on deep cells too"),
         refused("not by collectors as billboards in this version",
                 "collectors.display = \"march\", or another method"),
-        bounded("as collectors"), exact("0.03 %"), bounded("as collectors"),
-        bounded("as collectors"), bounded("unscattered"), unknown(), unknown()),
+        bounded("as collectors"), exact("0.03 %"),
+        bounded("unscattered: -30 to -67 % at albedo 0.6 to 0.9"), bounded("as raymarch"),
+        bounded("unscattered"), unknown(), unknown()),
 };
 
 }  // namespace support_rows

@@ -15,8 +15,11 @@ NodeRange nodes_of_blocks(const NodeGrid& g, const MediumView& m, int axis, int 
     const float per_voxel = m.cell[axis] * g.per_metre[axis];
     const float low = (float(first) * m.block - kAround) * per_voxel - 0.5f;
     const float high = (float(last) * m.block + kAround) * per_voxel - 0.5f;
-    const int size = g.size[axis], from = floor_int(low), to = floor_int(high) + 2;
-    return {from < 0 ? 0 : (from < size ? from : size - 1), to < size ? to : size};
+    // Beyond the outermost nodes a line through two of them is read.
+    const int size = g.size[axis], lowest = size > 1 ? size - 2 : 0;
+    const int from = floor_int(low) < lowest ? floor_int(low) : lowest;
+    const int to = floor_int(high) < 0 ? 2 : floor_int(high) + 2;
+    return {from < 0 ? 0 : from, to < size ? to : size};
 }
 
 }  // namespace

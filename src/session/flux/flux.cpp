@@ -207,7 +207,9 @@ Status measure_flux(const Scene& scene, const RenderOptions& options, const Flux
     const Scene own = scene_to_measure(scene, settings);
     Context context;
     PILEUS_TRY(make_context(own, options, context, report));
-    const MethodRow row = path_row();
+    MethodRow row = path_row();
+    // What is absorbed is told by the data's cells.
+    row.world = WorldUse::kDataCells;
     Budget budget = options.budget;
     PILEUS_TRY(check_settings(settings, own, budget));
     const bool photons = settings.method == FluxMethod::kPhotons;

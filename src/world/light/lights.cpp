@@ -201,6 +201,15 @@ Light map_light(const SkyMap& map) {
     return light;
 }
 
+Light emission_light(const Medium& medium, std::size_t which) {
+    const Emitter& emitter = medium.emitters[which];
+    Light light;
+    light.emitter = int(which);
+    light.face_cdf.fill(1.0f);
+    light.power_m2 = 4 * kPiD * double(medium.sigma) * emitter.mass_m3;
+    return light;
+}
+
 Lighting sun_alone(const Lighting& all) {
     Lighting sun = all;
     for (Light& light : sun.lights) {
@@ -273,6 +282,14 @@ Lighting make_lighting(const Shining& shining, const Medium& medium, const SunPl
     }
     if (out.ground && below != Double3{})
         add_light("ground", kGroundStream, below, diffuse_light(medium, 1), out);
+    for (std::size_t e = 0; e < medium.emitters.size(); ++e) {
+        const int which = medium.emitters[e].medium;
+        const float* emission = medium.optics[std::size_t(which)].emission;
+        const std::string name = "emission of medium " + std::to_string(which);
+        add_light(name.c_str(), kEmissionStream + std::uint32_t(which),
+                  {double(emission[0]), double(emission[1]), double(emission[2])},
+                  emission_light(medium, e), out);
+    }
     return out;
 }
 

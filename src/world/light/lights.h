@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/light/lamp_params.h"
 #include "src/plan/plan.h"
 #include "src/scene/scene.h"
@@ -26,6 +27,7 @@ struct Light {
     bool beam = false;
     bool map = false;
     bool lamps = false;  ///< all of Lighting::lamp_emission, whose powers are shares of power_m2
+    int emitter = -1;    ///< of the medium, whose densities send it out; -1: none
     int hemisphere = 0;  ///< diffuse: 0 all directions, -1 travelling down, +1 travelling up
     std::array<float, 3> travel{0, 0, -1};
     Double3 colour{};
@@ -64,7 +66,7 @@ struct Lighting {
     Lighting& operator=(const Lighting&) = default;
     /// Room for all kinds of lights, and for so many lamps.
     void reserve(std::size_t lamp_count) {
-        lights.reserve(4);
+        lights.reserve(kLights ? 4 + std::size_t(kMostMedia) : 4);
         lamps.reserve(lamp_count);
         lamp_emission.reserve(lamp_count);
     }
@@ -81,6 +83,10 @@ struct Shining {
     const std::vector<LightSettings>& lamps;
     bool solids = false;  ///< the scene has some
 };
+
+/// The light of medium.emitters[which]: its radiance where the medium is thick and scatters
+/// nothing.
+Light emission_light(const Medium& medium, std::size_t which);
 
 /// Works out the lights. `place`: of the sun. `map`: null or empty: a constant sky; photons are
 /// drawn from one that was aimed at the medium's box. `solids`, `depth`: null or without any: none.

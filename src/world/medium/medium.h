@@ -12,6 +12,7 @@
 #include "src/scene/media/host_media.h"
 #include "src/scene/scene.h"
 #include "src/world/grid/grid.h"
+#include "src/world/medium/emitters.h"
 #include "src/world/phase/phase_table.h"
 
 namespace pileus {
@@ -41,6 +42,7 @@ struct Medium {
     MediumDetail detail;
     Buffer<float> parts;             ///< [medium - 1][voxel]; medium 0 is what is left of the sum
     std::vector<PhaseStore> phases;  ///< tables that `optics` points into
+    std::vector<Emitter> emitters;   ///< where photons of media that shine begin; see emitters.h
 };
 
 namespace arrays {
@@ -106,6 +108,7 @@ struct MediumSource {
     std::uint64_t mixing_bytes = 0;   ///< scratch of that
     int tile_cells = 0;               ///< of a tile of detail that is kept; 0: none
     std::vector<DensityWork> making;  ///< of densities that the program makes
+    std::uint64_t emitters = 0;       ///< media that photons begin in
     double mean_density = -1;         ///< over the box; below 0: known only from the values
 };
 

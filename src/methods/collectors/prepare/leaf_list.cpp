@@ -36,6 +36,14 @@ void consider(const VoxelBox& box, const SampleBounds& bounds, const Grid& grid,
     best = {axis, low, face, gap};
 }
 
+/// Leaves of so many voxels that halving makes of all faces of a grid.
+std::uint64_t leaves_of_faces(const Grid& grid, const int (&voxels)[3]) {
+    std::uint64_t n[3] = {1, 1, 1};
+    for (int a = 0; a < 3; ++a)
+        for (double edge = grid.size[a]; edge > voxels[a]; edge /= 2) n[a] *= 2;
+    return 2 * (n[0] * n[1] + n[1] * n[2] + n[2] * n[0]);
+}
+
 }  // namespace
 
 void leaf_limit(const Grid& grid, double share, double extinction_per_m, int max_leaf_voxels[3]) {
@@ -54,14 +62,32 @@ void leaf_limit(const Grid& grid, double share, double extinction_per_m, int max
     }
 }
 
+void face_leaf_limit(const Grid& grid, double extinction_per_m, std::int64_t photons,
+                     const int (&inside)[3], int (&face)[3]) {
+    constexpr double kDepth = 2, kPhotonsPerLeaf = 8, kFewest = 512;
+    const double most = std::max(kFewest, double(photons) / kPhotonsPerLeaf);
+    for (double wider = 1;; wider *= 1.25) {
+        bool same = true;
+        for (int a = 0; a < 3; ++a) {
+            const double depth = kDepth / (extinction_per_m * double(grid.cell_m[a]));
+            const double voxels = wider * std::max(depth, double(inside[a]) / 4);
+            face[a] = voxels < inside[a] ? std::max(int(voxels + 0.5), 1) : inside[a];
+            same &= face[a] == inside[a];
+        }
+        if (same || double(leaves_of_faces(grid, face)) <= most) return;
+    }
+}
+
 std::uint64_t expected_leaves(const Grid& grid, double share, double extinction_per_m,
-                              std::uint64_t samples) {
-    int longest[3];
+                              std::int64_t photons, std::uint64_t samples) {
+    int longest[3], at_face[3];
     leaf_limit(grid, share, extinction_per_m, longest);
+    face_leaf_limit(grid, extinction_per_m, photons, longest, at_face);
     std::uint64_t halved = 1;
     for (int a = 0; a < 3; ++a)
         for (double edge = grid.size[a]; edge > longest[a]; edge /= 2) halved *= 2;
-    return std::min<std::uint64_t>(4 * samples + 8 * halved, voxel_count(grid));
+    const std::uint64_t faces = 2 * leaves_of_faces(grid, at_face);
+    return std::min<std::uint64_t>(4 * samples + 8 * halved + faces, voxel_count(grid));
 }
 
 Status LeafList::append(const VoxelBox& box) {
@@ -101,11 +127,18 @@ bool LeafList::holds_medium(const VoxelBox& box) const {
     return false;
 }
 
+bool LeafList::at_face(const VoxelBox& box) const {
+    for (int a = grid_.periodic ? 2 : 0; a < 3; ++a)
+        if (box.lo[a] == 0 || box.hi[a] == grid_.size[a]) return true;
+    return false;
+}
+
 int LeafList::axis_too_long(const VoxelBox& box) const {
     int axis = -1;
     double worst = 1.0;
+    const bool fine = options_.max_face_voxels[0] > 0 && at_face(box);
     for (int a = 0; a < 3; ++a) {
-        const int limit = options_.max_leaf_voxels[a];
+        const int limit = fine ? options_.max_face_voxels[a] : options_.max_leaf_voxels[a];
         if (limit <= 0) continue;
         const double ratio = double(box.hi[a] - box.lo[a]) / double(limit);
         if (ratio > worst) worst = ratio, axis = a;

@@ -44,6 +44,7 @@ public:
 
 private:
     bool holds_medium(const VoxelBox& box) const;
+    bool at_face(const VoxelBox& box) const;
     int axis_too_long(const VoxelBox& box) const;
     Status append(const VoxelBox& box);
 

@@ -86,14 +86,19 @@ Status prepare_collectors(const Medium& medium, const CollectorSettings& setting
     tree.density_range = float(settings.density_range) * medium.density_max;
     tree.influence_m = float(settings.influence_radius * detail * diagonal_m(medium));
     const double per_m = max_extinction(medium);
-    if (!settings.paper) leaf_limit(medium.grid, share, per_m, tree.max_leaf_voxels);
+    if (!settings.paper) {
+        leaf_limit(medium.grid, share, per_m, tree.max_leaf_voxels);
+        face_leaf_limit(medium.grid, per_m, settings.photons, tree.max_leaf_voxels,
+                        tree.max_face_voxels);
+    }
     for (int a = 0; a < 3 && !settings.paper; ++a) {
         const double edge = double(tree.max_leaf_voxels[a]) * double(medium.grid.cell_m[a]);
         out.cell_m = a == 0 || edge < out.cell_m ? edge : out.cell_m;
     }
     const std::uint64_t most = context.limits[LimitId::kLeaves];
     tree.max_leaves =
-        most > 0 ? most : expected_leaves(medium.grid, share, per_m, set.samples.size());
+        most > 0 ? most
+                 : expected_leaves(medium.grid, share, per_m, settings.photons, set.samples.size());
     if (context.report != nullptr) tree.where = context.report->scene;
     {
         const StageClock clock(context, "tree");
