@@ -57,13 +57,14 @@ PILEUS_FN T shade_at(const ParticleMarchParams& k, const ParticleRay<T>& r, T at
     return particle_depth(k.view, ray, wanted, k.most);
 }
 
-/// How bins find the sun's light: from their balls' depths, by a walk of their own, or from the
-/// balls that solids leave in the light. Of tinted balls they keep the mean colour.
-enum class ParticleLit { kShade, kExact, kSeen, kTinted, kTintedExact };
+/// How bins find the sun's light: from their balls' depths, or by a walk of their own; of all
+/// balls, or by the share that solids leave of it. Of tinted balls they keep the mean colour.
+enum class ParticleLit { kShade, kExact, kSeen, kSeenExact, kTinted, kTintedExact };
 template <ParticleLit Kind>
-constexpr bool kWalks = Kind == ParticleLit::kExact || Kind == ParticleLit::kTintedExact;
+constexpr bool kWalks = Kind == ParticleLit::kExact || Kind == ParticleLit::kSeenExact ||
+                        Kind == ParticleLit::kTintedExact;
 template <ParticleLit Kind>
-constexpr bool kSees = Kind == ParticleLit::kSeen || Kind == ParticleLit::kTinted;
+constexpr bool kSees = Kind != ParticleLit::kShade&& Kind != ParticleLit::kExact;
 template <ParticleLit Kind>
 constexpr bool kTints = Kind == ParticleLit::kTinted || Kind == ParticleLit::kTintedExact;
 template <ParticleLit Kind>
@@ -81,9 +82,9 @@ PILEUS_FN void light_of_bin(const ParticleMarchParams& k, const ParticlePhases<T
     for (int c = 0; c < 3; ++c) light[c] = k.albedo[c] * (own[c + 2] * per_depth);
     T seen = all<T>(1.0f), shade = own[1] * per_depth;
     if constexpr (kSeen) {
-        // Depths of those alone that the sun reaches.
         seen = own[5] * per_depth;
-        shade = own[1] / max_(own[5], all<T>(1e-30f));
+        // Depths of those alone that the sun reaches.
+        if constexpr (!kWalks<Kind>) shade = own[1] / max_(own[5], all<T>(1e-30f));
     }
     shade = max_(shade, T{});
     T tint[3] = {}, left[3] = {};
@@ -317,6 +318,8 @@ PILEUS_FN void particle_tile(const ParticleMarchParams& k, const ParticleMarchBu
                 particle_pixels<W, ParticleLit::kTintedExact>(k, b, tile, x, y);
             else if (b.tint != nullptr)
                 particle_pixels<W, ParticleLit::kTinted>(k, b, tile, x, y);
+            else if (k.exact != 0 && dimmed_by_meshes(b.seen))
+                particle_pixels<W, ParticleLit::kSeenExact>(k, b, tile, x, y);
             else if (k.exact != 0)
                 particle_pixels<W, ParticleLit::kExact>(k, b, tile, x, y);
             else if (dimmed_by_meshes(b.seen))

@@ -345,7 +345,7 @@ TEST_CASE("arrays: what particles hold while they are shown is what the plan say
         "[[medium]]\ndensity = \"p.csv\"\nphase = { type = \"isotropic\" }\n" + text.substr(to);
     const char* const layers = "output.layers = [\"radiance\", \"alpha\", \"depth\"]";
     check_particles({scene.c_str(), "particles", {layers, "particles.bins = 50"}});
-    check_particles({scene.c_str(), "particles", {layers, "particles.light = \"exact\""}});
+    check_particles({scene.c_str(), "particles", {layers, "particles.light = \"linear\""}});
     const std::string lit =
         scene +
         "\n[[light]]\ntype = \"point\"\nposition_m = [0, 0, 2000]\nintensity = 1\n"
@@ -354,7 +354,7 @@ TEST_CASE("arrays: what particles hold while they are shown is what the plan say
     check_particles({scene.c_str(), "particles", {layers, boards}});
     check_particles({lit.c_str(), "particles", {layers, boards}});
     check_particles({lit.c_str(), "particles", {"output.layers = [\"alpha\", \"occlusion\"]"}});
-    check_particles({lit.c_str(), "particles", {layers, "particles.light = \"exact\""}});
+    check_particles({lit.c_str(), "particles", {layers, "particles.light = \"linear\""}});
 }
 
 TEST_CASE("arrays: one declaration gives the plan's row and the buffer, and no product wraps") {

@@ -303,9 +303,9 @@ const Row kRows[] = {
     {"", {"method.name=path"}},
     {"", {"method.name=path", "filter.kind=regression"}},
     {kLamp, {"method.name=path", "path.guide=true"}},
-    {kSpheres, {"method.name=particles"}, 60},
+    {kSpheres, {"method.name=particles"}, 30},
     {kSpheres, {"method.name=particles", "particles.display=billboards"}, 60},
-    {kSpheres, {"method.name=particles", "particles.light=exact"}, 30},
+    {kSpheres, {"method.name=particles", "particles.light=linear"}, 60},
 };
 
 SceneHandle scene_in(const Row& row) {

@@ -309,6 +309,7 @@ inline std::vector<Row> other_rows() {
         {kSpheres, balls({"particles.scattering=octaves", "particles.sky_light=ambient",
                           "particles.light_bias=0.5"})},
         {kSpheres, balls({"particles.light=exact", "particles.most_depth=2"})},
+        {kSpheres, balls({"particles.light=linear"})},
         {kSpheres, balls({"particles.occluders=0.5", "particles.shadow_density=2"})},
         {kSpheres, balls({"particles.sky_light=none", "particles.stop_below=0.5"})},
         {kSpheres, balls({"particles.display=billboards", "particles.falloff=3"})},

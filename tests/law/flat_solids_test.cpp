@@ -48,7 +48,7 @@ TEST_CASE("solids without any area: every method draws as without them") {
     } rows[] = {
         {kBalls, kSun, {"method.name=particles"}, 1e-6},
         {kBalls, kSun, {"method.name=particles", "particles.display=billboards"}, 1e-6},
-        {kBalls, kSun, {"method.name=particles", "particles.light=exact"}, 1e-6},
+        {kBalls, kSun, {"method.name=particles", "particles.light=linear"}, 1e-6},
         {kBalls, kLamps, {"method.name=particles", "particles.solid_shadow=0.5"}, 1e-6},
         {kBall, kSun, {"method.name=raymarch"}, 1e-6},
         {kBall, kSun, {"method.name=optical-depth"}, 1e-6},

@@ -17,7 +17,7 @@ namespace {
 const std::vector<std::vector<std::string>> kDisplays = {
     {"particles.display = \"march\""},
     {"particles.display = \"billboards\""},
-    {"particles.display = \"march\"", "particles.light = \"exact\""},
+    {"particles.display = \"march\"", "particles.light = \"linear\""},
 };
 const char* const kLamp =
     "[[light]]\ntype = \"point\"\nposition_m = [60, 0, 50]\nintensity = 3600\n";

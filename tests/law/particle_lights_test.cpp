@@ -68,6 +68,7 @@ const std::vector<std::vector<std::string>> kDisplays = {
     {"particles.display = \"march\""},
     {"particles.display = \"billboards\""},
     {"particles.display = \"march\"", "particles.light = \"centre\""},
+    {"particles.display = \"march\"", "particles.light = \"linear\""},
 };
 
 }  // namespace

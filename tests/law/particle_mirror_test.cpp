@@ -75,7 +75,8 @@ TEST_CASE("particles: a mirrored cloud has a mirrored picture, whichever light s
          "cone_deg = 60\nintensity = 1e6\n"}};
     for (const int across : {0, 1}) {
         for (const char* light : suns[across])
-            for (const char* kind : {"particles.light=linear", "particles.light=centre"}) {
+            for (const char* kind :
+                 {"particles.light=linear", "particles.light=centre", "particles.light=exact"}) {
                 CAPTURE(light);
                 CAPTURE(kind);
                 CHECK(largest_difference(mirrored(across, light, {kind})) < kRounding);

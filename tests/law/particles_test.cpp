@@ -333,11 +333,11 @@ TEST_CASE("particles: light scattered once is path's, in a ball as large as its 
     for (const float v : path.image.find("error.G")->pixels.span()) square += double(v) * double(v);
     const double sum = sum_of(path.image, "G"), noise = std::sqrt(square) / sum;
     CHECK(noise < 0.005);
-    const Picture exact = field.render({"particles.light = \"exact\""});
+    const Picture exact = field.render({});
     MESSAGE("over path: exact ", sum_of(exact.image, "G") / sum - 1, ", noise ", noise);
     CHECK(std::fabs(sum_of(exact.image, "G") / sum - 1) < 4.5 * noise + 1e-3);
     // A line instead of a curve within each ball: +0.4 % by its own quadrature, beside the noise.
-    const Picture linear = field.render({});
+    const Picture linear = field.render({"particles.light = \"linear\""});
     MESSAGE("over path: linear ", sum_of(linear.image, "G") / sum - 1);
     CHECK(std::fabs(sum_of(linear.image, "G") / sum - 1) < 0.01 + 4.5 * noise);
 }

@@ -154,14 +154,14 @@ Status light_particles(const Context& context, const FrameView& view, ParticlesS
         else
             PILEUS_TRY(
                 allocate_once(arrays::particle_shades(state.tree.balls.size()), state.shade));
-        if (view.world.solids.meshes && state.orders > 0) {
-            const StageClock clock(context, "solid shadow");
-            PILEUS_TRY(allocate_once(arrays::particle_seen(state.tree.balls.size()), state.seen));
-            LampParams sun{};
-            sun.parallel = 1;
-            for (int a = 0; a < 3; ++a) sun.at[a] = view.lighting.to_sun[std::size_t(a)];
-            see_past_solids(context, view, state, sun, state.seen.data());
-        }
+    }
+    if (view.world.solids.meshes && state.orders > 0) {
+        const StageClock clock(context, "solid shadow");
+        PILEUS_TRY(allocate_once(arrays::particle_seen(state.tree.balls.size()), state.seen));
+        LampParams sun{};
+        sun.parallel = 1;
+        for (int a = 0; a < 3; ++a) sun.at[a] = view.lighting.to_sun[std::size_t(a)];
+        see_past_solids(context, view, state, sun, state.seen.data());
     }
     PILEUS_TRY(light_by_lamps(context, view, state));
     if (state.settings.sky_ambient) {

@@ -47,6 +47,7 @@ MadeMethod make(const MethodInputs& inputs) {
 
 ParticlesMethod::ParticlesMethod(const MethodInputs& inputs) {
     state_.settings = inputs.scene.particles;
+    state_.settings.light = light_in_use(state_.settings);
     state_.hosted = inputs.live;
     if (inputs.live) state_.settings.stop_below = host_stop(state_.settings.stop_below);
     if (inputs.budget.steps > 0) state_.settings.bins = int(inputs.budget.steps);

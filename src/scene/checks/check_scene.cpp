@@ -221,7 +221,6 @@ void check_filter(SceneCheck& check) {
 /// A lens and a shutter belong to one display; elsewhere pictures would be sharp unasked.
 void check_lens(SceneCheck& check) {
     const Scene& scene = check.scene;
-    const ParticlesSettings& s = scene.particles;
     const auto refuse = [&](const char* key, const char* why, const char* allowed) {
         const Node* node = check.key(key);
         if (node != nullptr) add_refusal(check, *node, key, why, value_text(*node), allowed);
@@ -233,10 +232,23 @@ void check_lens(SceneCheck& check) {
     } else {
         if (lens && scene.camera.orthographic)
             refuse("camera.aperture_radius_m", "a lens needs perspective", "0");
-        if (s.light == ParticleLight::kExact)
-            refuse("particles.light", "for bins of a march alone",
-                   "linear, centre, or particles.display = \"march\"");
     }
+}
+
+/// What lights places in particles has no walks from bins.
+void check_particle_light(SceneCheck& check) {
+    const ParticlesSettings& s = check.scene.particles;
+    const Node* node = check.key("particles.light");
+    if (node == nullptr || s.light != ParticleLight::kExact || !lights_places(s)) return;
+    const MethodColumn column = method_column(check.scene);
+    if (column != MethodColumn::kParticles && column != MethodColumn::kParticleBillboards) return;
+    if (s.billboards)
+        add_refusal(check, *node, "particles.light", "for bins of a march alone", value_text(*node),
+                    "linear, centre, or particles.display = \"march\"");
+    else
+        add_refusal(check, *node, "particles.light",
+                    "light_bias and occluders are for places in particles", value_text(*node),
+                    "linear, centre, or neither of them");
 }
 
 }  // namespace
@@ -264,6 +276,7 @@ void check_laws(SceneCheck& check) {
     check_directions(check);
     check_filter(check);
     check_lens(check);
+    check_particle_light(check);
     check_solids(check);
     check_lights(check);
     check_clouds(check);

@@ -33,8 +33,9 @@ constexpr KeyRow kRows[] = {
     {"particles.leaf", particles<&Settings::leaf>, from_to(1, 1024), "",
      "most particles in a leaf of the octree; no pixel depends on it but by rounding"},
     {"particles.light", particles<&Settings::light>, one_of("centre|linear|exact"), "",
-     "optical depth towards the sun: one walk from each particle's centre; four from each, linear "
-     "in between; or one from each bin of each ray"},
+     "optical depth towards the sun: at each particle's centre; at four places of each, linear in "
+     "between; or by a walk from each bin of each ray. Left out with billboards, `occluders` or "
+     "`light_bias`: linear"},
     {"particles.most_depth", particles<&Settings::most_depth>, from_to(0, 1e9), "",
      "a walk towards the sun ends where it has met this optical depth; 0: never"},
     {"particles.shadow_density", particles<&Settings::shadow_density>, from_to(0, 1000), "",

@@ -13,20 +13,28 @@ struct ParticlesSettings {
     ParticleScattering scattering = ParticleScattering::kSingle;
     int octaves = 8;  ///< 1..8
     double octave_extinction = 0.45, octave_share = 0.65, octave_anisotropy = 0.75;
-    double cone_deg = 40;     ///< at its apex
-    bool sky_ambient = true;  ///< sky_light = "ambient"
-    int bins = 256;           ///< along a ray, 1..4096
-    int leaf = 16;            ///< most particles in one, 1..1024
-    ParticleLight light = ParticleLight::kLinear;
-    double shadow_density = 1;  ///< factor on extinction towards lights; >= 0
-    double occluders = 1;       ///< share of particles that cast shadows, denser in return; (0, 1]
-    double light_bias = 0;      ///< places that are lit, moved to a parallel light, radii
-    double solid_shadow = 0;    ///< share of light left behind solids; [0, 1]
-    bool billboards = false;    ///< display = "billboards"; else marched
-    double display_scale = 1;   ///< of billboards: on radii, extinction times area kept; > 0
-    double falloff = 2.5;       ///< of billboards: the power of 1 - distance^2; 0..16
-    double most_depth = 0;      ///< towards the sun, where the walk ends; 0: none
+    double cone_deg = 40;                         ///< at its apex
+    bool sky_ambient = true;                      ///< sky_light = "ambient"
+    int bins = 256;                               ///< along a ray, 1..4096
+    int leaf = 16;                                ///< most particles in one, 1..1024
+    ParticleLight light = ParticleLight::kExact;  ///< as written; light_in_use() is what counts
+    double shadow_density = 1;                    ///< factor on extinction towards lights; >= 0
+    double occluders = 1;      ///< share of particles that cast shadows, denser in return; (0, 1]
+    double light_bias = 0;     ///< places that are lit, moved to a parallel light, radii
+    double solid_shadow = 0;   ///< share of light left behind solids; [0, 1]
+    bool billboards = false;   ///< display = "billboards"; else marched
+    double display_scale = 1;  ///< of billboards: on radii, extinction times area kept; > 0
+    double falloff = 2.5;      ///< of billboards: the power of 1 - distance^2; 0..16
+    double most_depth = 0;     ///< towards the sun, where the walk ends; 0: none
     double stop_below = 1e-4;
 };
+
+/// Billboards have no bins to walk from, and these two keys shape light at places in particles.
+inline bool lights_places(const ParticlesSettings& s) {
+    return s.billboards || s.occluders < 1 || s.light_bias != 0;
+}
+inline ParticleLight light_in_use(const ParticlesSettings& s) {
+    return s.light == ParticleLight::kExact && lights_places(s) ? ParticleLight::kLinear : s.light;
+}
 
 }  // namespace pileus
