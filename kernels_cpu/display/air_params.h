@@ -17,9 +17,10 @@ struct AirRowsParams {
     float to_sun[3];
     float haze_g;
     float above[3];  ///< the sun's irradiance above the air, whose shares the tables hold
-    float horizon;   ///< of the sky: cosine to the vertical
-    std::int32_t downs, ups, turns;      ///< rows below and above it, columns of the sky
-    std::int32_t rows, columns, slices;  ///< of the air: directions, distances; odd rows
+    float rayleigh[3], haze[3], ozone[3];  ///< extinction where each is densest, 1/km
+    float horizon;                         ///< of the sky: cosine to the vertical
+    std::int32_t downs, ups, turns;        ///< rows below and above it, columns of the sky
+    std::int32_t rows, columns, slices;    ///< of the air: directions, distances; odd rows
     float height, room;    ///< m, of the camera above the ground, and to the top of the air; >= 0
     float reach;           ///< m, the most that slices reach
     std::int32_t solid;    ///< 1: opaque_depth tells what is solid
@@ -27,8 +28,8 @@ struct AirRowsParams {
 };
 struct AirRowsBuffers {
     const float* sky;            ///< [row][column][kAirTexel], to the end of the air
-    const float* air;            ///< [slice][row][column][kAirTexel], from the camera to a distance
-    const float* left;           ///< [slice][row][4], transmittance to it
+    const float* air;            ///< [slice][row][column][kAirTexel], from the camera to a
+                                 ///< distance: light over the share that the air takes
     const float* transmittance;  ///< [pixel], of the media
     const float* half_depth;     ///< [pixel], m; infinity: not known
     const float* opaque_depth;   ///< [pixel], m

@@ -6,6 +6,7 @@
 #pragma once
 #include "kernels_cpu/core/pixel_block.h"
 #include "kernels_cpu/display/air_params.h"
+#include "kernels_cpu/display/level_air.h"
 #include "kernels_cpu/display/march_ray.h"
 
 namespace pileus {
@@ -13,11 +14,6 @@ inline namespace PILEUS_ISA {
 
 PILEUS_FN F<8> load_eight(const float* from) {
     F<8> v;
-    __builtin_memcpy(&v, from, sizeof v);
-    return v;
-}
-PILEUS_FN F<4> load_four(const float* from) {
-    F<4> v;
     __builtin_memcpy(&v, from, sizeof v);
     return v;
 }
@@ -81,8 +77,28 @@ PILEUS_FN T air_reach(const AirRowsParams& k, T rise) {
     return max_(min_(way, all<T>(k.reach)), all<T>(1.0f));
 }
 
+/// What the air takes of light from a distance, and leaves of it: exact for level air.
+template <class T>
+struct AirDepth {
+    T taken[3], left[3];
+};
+template <class T>
+PILEUS_FN AirDepth<T> air_depth(const AirRowsParams& k, T rise, T metres) {
+    const T way = min_(metres, air_reach(k, rise)) * 1e-3f;
+    const T from = all<T>(k.height * 1e-3f);
+    const LevelAir<T> mean = level_air(from, from + way * rise);
+    AirDepth<T> out;
+    for (int n = 0; n < 3; ++n) {
+        const T depth =
+            way * (k.rayleigh[n] * mean.air + k.haze[n] * mean.haze + k.ozone[n] * mean.ozone);
+        out.taken[n] = one_minus_exp(depth);
+        out.left[n] = exp_(T{} - depth);
+    }
+    return out;
+}
+
 /// Slices lie close at both ends of the reach: at shares 2 q^2, and 1 - 2 (1 - q)^2 from the middle
-/// on, q in even steps; between them light is linear.
+/// on, q in even steps; between them the light over what is taken is linear.
 template <class T>
 PILEUS_FN T slice_share(T q) {
     const T rest = 1.0f - q;
@@ -107,13 +123,10 @@ PILEUS_FN F<8> mix_texels(const float* row, std::int64_t next, float fx, float f
     return top + (low - top) * fy;
 }
 
-/// Light that the air sends, and what it leaves of light behind it, of one pixel.
-struct AirSeen {
-    float light[3], left[3];
-};
+/// Light that the air sends over the share that it takes, of one pixel.
 template <class T>
-PILEUS_FN AirSeen air_seen(const AirRowsParams& k, const AirRowsBuffers& b, const AirWay<T>& way,
-                           const Between<T>& slice, int i) {
+PILEUS_FN void air_seen(const AirRowsParams& k, const AirRowsBuffers& b, const AirWay<T>& way,
+                        const Between<T>& slice, int i, float (&light)[3]) {
     const std::int64_t row = lane(way.row.low, i), column = lane(way.column.low, i);
     const std::int64_t s = lane(slice.low, i);
     const float fx = lane(way.column.part, i), fy = lane(way.row.part, i), fs = lane(slice.part, i);
@@ -121,19 +134,8 @@ PILEUS_FN AirSeen air_seen(const AirRowsParams& k, const AirRowsBuffers& b, cons
     const float* at = b.air + s * sheet + row * next + column * kAirTexel;
     const F<8> near = mix_texels(at, next, fx, fy), far = mix_texels(at + sheet, next, fx, fy);
     const F<8> v = near + (far - near) * fs;
-    const float* left = b.left + (s * k.rows + row) * 4;
-    const std::int64_t beyond = std::int64_t(k.rows) * 4;
-    const F<4> a = load_four(left), c = load_four(left + 4);
-    const F<4> d = load_four(left + beyond), e = load_four(left + beyond + 4);
-    const F<4> first = a + (c - a) * fy, last = d + (e - d) * fy;
-    const F<4> t = first + (last - first) * fs;
     const float phase = lane(way.phase, i);
-    AirSeen out;
-    for (int n = 0; n < 3; ++n) {
-        out.light[n] = (v[n] + phase * v[3 + n]) * k.above[n];
-        out.left[n] = t[n];
-    }
-    return out;
+    for (int n = 0; n < 3; ++n) light[n] = (v[n] + phase * v[3 + n]) * k.above[n];
 }
 
 /// The sky of one pixel.
@@ -168,25 +170,32 @@ PILEUS_FN void air_run(const AirRowsParams& k, const AirRowsBuffers& b, std::int
     const T middle = 0.5f * (box.enter + max_(box.leave, box.enter));
     const T half = take_lanes<T>(b.half_depth + first, real);
     const T metres = min_(select(half < 1e30f, half, middle), opaque);
-    const Between<T> media = slice_at(k, ray.direction.z, max_(metres, T{})),
+    const T to_media = max_(metres, T{});
+    const Between<T> media = slice_at(k, ray.direction.z, to_media),
                      solid = slice_at(k, ray.direction.z, opaque);
+    const AirDepth<T> media_depth = air_depth(k, ray.direction.z, to_media),
+                      solid_depth = air_depth(k, ray.direction.z, opaque);
     for (int i = 0; i < real; ++i) {
         const std::int64_t at = first + i;
         const float share = lane(through, i), hidden = 1.0f - share;
         float* const behind = b.behind + at;
         if (hidden > 0.0f) {
-            const AirSeen air = air_seen(k, b, way, media, i);
+            float air[3];
+            air_seen(k, b, way, media, i, air);
             for (int n = 0; n < 3; ++n) {
                 float& light = b.light[n * pixels + at];
-                light = light * air.left[n] + air.light[n] * hidden;
-                if (b.dimmed != nullptr) b.dimmed[n * pixels + at] = air.left[n];
+                const float left = lane(media_depth.left[n], i);
+                light = light * left + air[n] * lane(media_depth.taken[n], i) * hidden;
+                if (b.dimmed != nullptr) b.dimmed[n * pixels + at] = left;
             }
         }
         const float part = k.through != 0 ? share : 1.0f;
         if (lane(opaque, i) < 1e30f) {
-            const AirSeen air = air_seen(k, b, way, solid, i);
+            float air[3];
+            air_seen(k, b, way, solid, i, air);
             for (int n = 0; n < 3; ++n)
-                behind[n * pixels] = behind[n * pixels] * air.left[n] + part * air.light[n];
+                behind[n * pixels] = behind[n * pixels] * lane(solid_depth.left[n], i) +
+                                     part * (air[n] * lane(solid_depth.taken[n], i));
         } else {
             float sky[3];
             sky_seen(k, b, way, i, sky);
@@ -221,7 +230,7 @@ PILEUS_FN F<kAirRun> line(float begin, float end) {
 }
 PILEUS_FN void store_eight(const F<kAirRun>& v, float* to) { __builtin_memcpy(to, &v, sizeof v); }
 
-/// Four runs: where they are alike, both ends of a run tell what is between.
+/// Four runs: where they are alike, both ends of a run tell the light that is between.
 PILEUS_FN void air_runs(const AirRowsParams& k, const AirRowsBuffers& b, std::int32_t x,
                         std::int32_t y) {
     using T = F<kAirRun>;
@@ -249,13 +258,18 @@ PILEUS_FN void air_runs(const AirRowsParams& k, const AirRowsBuffers& b, std::in
             for (int n = 0; n < 3; ++n)
                 store_eight(line(begin[n], end[n]), b.behind + n * pixels + at);
         } else {
-            const AirSeen begin = air_seen(k, b, way, solid, 2 * run);
-            const AirSeen end = air_seen(k, b, way, solid, 2 * run + 1);
+            float begin[3], end[3];
+            air_seen(k, b, way, solid, 2 * run, begin);
+            air_seen(k, b, way, solid, 2 * run + 1, end);
+            const Ray<T> own =
+                camera_ray(k.camera, to_float(point + (x + run * kAirRun)), all<T>(float(y)));
+            const AirDepth<T> depth =
+                air_depth(k, own.direction.z, load_eight(b.opaque_depth + at));
             for (int n = 0; n < 3; ++n) {
                 float* const behind = b.behind + n * pixels + at;
-                store_eight(load_eight(behind) * line(begin.left[n], end.left[n]) +
-                                line(begin.light[n], end.light[n]),
-                            behind);
+                store_eight(
+                    load_eight(behind) * depth.left[n] + line(begin[n], end[n]) * depth.taken[n],
+                    behind);
             }
         }
     }

@@ -47,6 +47,12 @@ Status run_air(const Context& context, const Scene& scene, const Medium& medium,
         k.to_sun[c] = lighting.to_sun[std::size_t(c)];
         k.above[c] = float(air.above[c]);
     }
+    const Air& clear = air.tables.air;
+    for (int c = 0; c < 3; ++c) {
+        k.rayleigh[c] = clear.rayleigh[c];
+        k.haze[c] = clear.haze_all[c];
+        k.ozone[c] = clear.ozone[c];
+    }
     k.horizon = air.sky.horizon;
     k.downs = kSkyDowns;
     k.ups = kSkyUps;
@@ -62,7 +68,6 @@ Status run_air(const Context& context, const Scene& scene, const Medium& medium,
     k.through = on.through ? 1 : 0;
     const AirRowsBuffers b{air.sky.texels.data(),
                            air.near.data(),
-                           air.left.data(),
                            planes.transmittance.data(),
                            planes.half_depth.data(),
                            planes.opaque_depth.data(),

@@ -2,8 +2,6 @@
 // See air.h.
 #include "src/world/atmosphere/air.h"
 
-#include "kernels_cpu/core/math.h"
-
 namespace pileus {
 namespace {
 
@@ -16,7 +14,6 @@ constexpr double kOzoneDepth[3] = {0.0374, 0.0268, 0.0};        // 300 Dobson un
 constexpr double kHazeDepth[3] = {0.820, 1.011, 1.330};
 constexpr double kRayleighDepth550 = 0.0972;
 constexpr double kHazeAlbedo = 0.93;
-constexpr float kOzoneHeightKm = 25, kOzoneHalfKm = 15;
 
 }  // namespace
 
@@ -32,20 +29,6 @@ Air make_air(double turbidity, double ground_albedo) {
     air.haze_g = 0.72f;
     air.ground = float(ground_albedo);
     return air;
-}
-
-AirAt air_at(const Air& air, float height_km) {
-    const float h = height_km > 0 ? height_km : 0;
-    const float thin = exp_(-h / kAirScaleKm), low = exp_(-h / kHazeScaleKm);
-    const float away = abs_(h - kOzoneHeightKm);
-    const float ozone = away < kOzoneHalfKm ? 1 - away / kOzoneHalfKm : 0;
-    AirAt at;
-    for (int c = 0; c < 3; ++c) {
-        at.rayleigh[c] = air.rayleigh[c] * thin;
-        at.haze[c] = air.haze[c] * low;
-        at.extinction[c] = at.rayleigh[c] + air.haze_all[c] * low + air.ozone[c] * ozone;
-    }
-    return at;
 }
 
 float air_phase(float cosine) { return 0.0596831036594607f * (1 + cosine * cosine); }

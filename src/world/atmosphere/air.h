@@ -3,6 +3,7 @@
 // in: turbidity, the ground's albedo -> out: coefficients of air, haze and ozone.
 // docs/atmosphere.md has the sources; Hillaire 2020 the model.
 #pragma once
+#include "kernels_cpu/display/level_air.h"
 
 namespace pileus {
 
@@ -19,18 +20,8 @@ struct Air {
     float ground;       ///< albedo of the round earth
 };
 
-constexpr float kAirScaleKm = 8.4f, kHazeScaleKm = 1.2f;
-
 /// Turbidity in [1, 10]: optical depth of air and haze over that of air, at 550 nm.
 Air make_air(double turbidity, double ground_albedo);
-
-struct AirAt {
-    float rayleigh[3], haze[3];  ///< scattered, per km
-    float extinction[3];         ///< per km
-};
-
-/// At a height above the ground; below it as on it.
-AirAt air_at(const Air& air, float height_km);
 
 /// Per steradian, of the cosine between the ways of light before and after.
 float air_phase(float cosine);

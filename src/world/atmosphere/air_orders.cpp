@@ -6,6 +6,7 @@
 #include "kernels_cpu/core/math.h"
 #include "platform/threads.h"
 #include "src/base/angles.h"
+#include "src/world/atmosphere/air_column.h"
 #include "src/world/atmosphere/air_tables.h"
 
 namespace pileus {
@@ -60,21 +61,18 @@ Ray make_ray(const Air& air, int row, int zenith) {
     const double ground = way_to_sphere(ray.r, ray.cosine, kEarthRadiusKm, false);
     ray.hits = ground >= 0 && ray.cosine < 0;
     ray.length = ray.hits ? ground : way_to_sphere(ray.r, ray.cosine, kAirTopKm, true);
+    AirWalk walk(ray.r, ray.cosine, 0);
     double before = 0;
     for (int i = 0; i < kSteps; ++i) {
         Step& s = ray.steps[i];
         const double end = ray.length * step_end((i + 1.0) / kSteps, ray.hits);
         s.along = 0.5 * (before + end);
         s.at = __builtin_sqrt(ray.r * ray.r + s.along * s.along + 2 * ray.r * s.along * ray.cosine);
-        const AirAt here = air_at(air, float(s.at - kEarthRadiusKm));
+        const AirPiece piece = piece_of(air, walk.to(end));
         for (int c = 0; c < 3; ++c) {
-            const float lost = here.extinction[c] * float(end - before);
-            const float seen = here.extinction[c] > 1e-12f
-                                   ? ray.left[c] * one_minus_exp(lost) / here.extinction[c]
-                                   : ray.left[c] * float(end - before);
-            s.by_air[c] = seen * here.rayleigh[c];
-            s.by_haze[c] = seen * here.haze[c];
-            ray.left[c] *= exp_(-lost);
+            s.by_air[c] = ray.left[c] * piece.by_air[c];
+            s.by_haze[c] = ray.left[c] * piece.by_haze[c];
+            ray.left[c] *= piece.left[c];
         }
         before = end;
     }

@@ -5,6 +5,7 @@
 #include "kernels_cpu/core/math.h"
 #include "platform/threads.h"
 #include "src/base/angles.h"
+#include "src/world/atmosphere/air_column.h"
 
 namespace pileus {
 namespace {
@@ -39,27 +40,24 @@ AirLight air_light(const AirTables& t, double height_km, double cosine, double s
     float y[kAirTerms];
     const double sides = root((1 - cosine * cosine) * (1 - sun * sun));
     air_harmonics(cosine, sides > 1e-9 ? held((along - cosine * sun) / sides, -1, 1) : 1, y);
+    AirWalk walk(r, cosine, first);
     double before = first;
     for (int i = 0; i < steps; ++i) {
         const double end = first + (last - first) * step_end((i + 1.0) / steps, hits || first > 0);
-        const double s = 0.5 * (before + end), step = end - before;
+        const double s = 0.5 * (before + end);
         before = end;
         const double at = __builtin_sqrt(r * r + s * s + 2 * r * s * cosine);
         const double mu = (r * sun + s * along) / at;
         const float height = float(at - kEarthRadiusKm);
-        const AirAt here = air_at(t.air, height);
+        const AirPiece piece = piece_of(t.air, walk.to(end));
         float sunlight[3], by_air[3], by_haze[3];
         sunlight_at(t, at, mu, sunlight);
         scattered_at(t, height, float(mu), y, by_air, by_haze);
         for (int c = 0; c < 3; ++c) {
-            const float lost = here.extinction[c] * float(step);
-            const float shown = here.extinction[c] > 1e-12f
-                                    ? out.left[c] * one_minus_exp(lost) / here.extinction[c]
-                                    : out.left[c] * float(step);
-            out.smooth[c] += shown * (here.rayleigh[c] * (phase * sunlight[c] + by_air[c]) +
-                                      here.haze[c] * by_haze[c]);
-            out.haze[c] += shown * here.haze[c] * sunlight[c];
-            out.left[c] *= exp_(-lost);
+            out.smooth[c] += out.left[c] * (piece.by_air[c] * (phase * sunlight[c] + by_air[c]) +
+                                            piece.by_haze[c] * by_haze[c]);
+            out.haze[c] += out.left[c] * piece.by_haze[c] * sunlight[c];
+            out.left[c] *= piece.left[c];
         }
     }
     if (!hits) return out;

@@ -3,58 +3,14 @@
 // the orders of scattering.
 #include "src/world/atmosphere/air_tables.h"
 
-#include "kernels_cpu/core/math.h"
-#include "platform/threads.h"
+#include "src/world/atmosphere/air_column.h"
 
 namespace pileus {
 namespace {
 
-constexpr double kShell2 =
-    kAirTopKm * kAirTopKm - kEarthRadiusKm * kEarthRadiusKm;  // horizon to the top, squared
-constexpr int kColumnSteps = 48;
 constexpr double kSunRadius = 0.00465;  // radians
 
 double held(double v, double low, double high) { return v < low ? low : v > high ? high : v; }
-
-/// Along a ray that ends at the top.
-void depth_along(const Air& air, double r, double cosine, double length, float (&depth)[3]) {
-    for (float& d : depth) d = 0;
-    // Steps grow from the lower end, where the air is dense.
-    double before = 0;
-    for (int i = 0; i < kColumnSteps; ++i) {
-        const double end = length * step_end((i + 1.0) / kColumnSteps, false);
-        const double t = 0.5 * (before + end);
-        const double at = __builtin_sqrt(r * r + t * t + 2 * r * t * cosine);
-        const AirAt here = air_at(air, float(at - kEarthRadiusKm));
-        for (int c = 0; c < 3; ++c) depth[c] += here.extinction[c] * float(end - before);
-        before = end;
-    }
-}
-
-/// Row and column of a direction that misses the ground, in [0, 1] (Bruneton & Neyret).
-void place_of(double r, double cosine, double& row, double& column) {
-    const double rho = __builtin_sqrt(held(r * r - kEarthRadiusKm * kEarthRadiusKm, 0, kShell2));
-    const double whole = __builtin_sqrt(kShell2);
-    const double way = way_to_sphere(r, cosine, kAirTopKm, true);
-    const double least = kAirTopKm - r, most = rho + whole;
-    row = rho / whole;
-    column = most > least ? held((way - least) / (most - least), 0, 1) : 0;
-}
-
-void make_light_row(const Air& air, int row, float* out) {
-    const double whole = __builtin_sqrt(kShell2);
-    const double rho = whole * row / (kLightRows - 1);
-    const double r = __builtin_sqrt(rho * rho + kEarthRadiusKm * kEarthRadiusKm);
-    const double least = kAirTopKm - r, most = rho + whole;
-    for (int i = 0; i < kLightColumns; ++i) {
-        const double way = least + (most - least) * i / (kLightColumns - 1);
-        const double cosine =
-            way > 0 ? held((kShell2 - rho * rho - way * way) / (2 * r * way), -1, 1) : 1;
-        float depth[3];
-        depth_along(air, r, cosine, way, depth);
-        for (int c = 0; c < 3; ++c) out[3 * i + c] = exp_(-depth[c]);
-    }
-}
 
 /// Entries of a table [rows][columns][step], four of which lie around a place, and their weights.
 struct Corner {
@@ -99,10 +55,9 @@ void sunlight_at(const AirTables& t, double r, double cosine, float (&share)[3])
         for (float& s : share) s = 0;
         return;
     }
-    double row = 0, column = 0;
-    place_of(held(r, kEarthRadiusKm, kAirTopKm), held(cosine, horizon, 1), row, column);
-    const Corner at = corner(t.light.data(), kLightRows, kLightColumns, 3, row, column);
-    for (int c = 0; c < 3; ++c) share[c] = mixed(at, c) * float(shown);
+    const AirPiece air = piece_of(
+        t.air, column_to_space(held(r, kEarthRadiusKm, kAirTopKm), held(cosine, horizon, 1)));
+    for (int c = 0; c < 3; ++c) share[c] = air.left[c] * float(shown);
 }
 
 void scattered_at(const AirTables& t, float height_km, float sun_cosine,
@@ -134,10 +89,6 @@ void ground_light(const AirTables& t, float sun_cosine, float (&irradiance)[3]) 
 
 Status make_air_tables(const Air& air, int threads, AirTables& tables) {
     tables.air = air;
-    PILEUS_TRY(tables.light.resize(std::size_t{3} * kLightRows * kLightColumns, "air"));
-    parallel_for(threads, kLightRows, [&](std::int64_t row, int) {
-        make_light_row(air, int(row), tables.light.data() + 3 * kLightColumns * row);
-    });
     return add_orders(threads, tables);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // How much sunlight reaches a height, and what light comes there from all around.
 // in: Air -> out: tables over height and the sun's elevation, made once for any sun.
-// Bruneton & Neyret 2008 (their parameters); orders of scattering by discrete directions and
+// Orders of scattering by discrete directions and
 // harmonics, docs/atmosphere.md.
 #pragma once
 #include "src/base/buffer.h"
@@ -10,7 +10,6 @@
 
 namespace pileus {
 
-constexpr int kLightRows = 64, kLightColumns = 256;   ///< height, direction
 constexpr int kAroundRows = 16, kAroundColumns = 32;  ///< height, the sun's elevation
 constexpr int kAirBands = 6;                          ///< degrees 0 to 5
 constexpr int kAirTerms =
@@ -18,20 +17,20 @@ constexpr int kAirTerms =
 
 struct AirTables {
     Air air{};
-    Buffer<float> light;  ///< [row][column][3], share of light from the top of the air
     /// [row][column][term][4]: harmonics of the radiance that comes from all around, for an
     /// irradiance of 1 above the air; about the vertical, azimuth 0 towards the sun.
     Buffer<float> around;
     /// [column][4]: irradiance of the sky on level ground.
     Buffer<float> ground;
-    bool present() const { return !light.empty(); }
+    bool present() const { return !around.empty(); }
 };
 
 /// The same bits for any number of threads. kLimit: out of memory.
 Status make_air_tables(const Air& air, int threads, AirTables& tables);
 
 /// Share of the sun's light at a distance `r_km` from the earth's middle, the sun at this cosine
-/// to the vertical: its disc sets behind the earth.
+/// to the vertical: its disc sets behind the earth. e^-depth with the depth right within 1e-4 of it
+/// (column_to_space).
 void sunlight_at(const AirTables& tables, double r_km, double cosine, float (&share)[3]);
 
 /// The value of every harmonic in a direction: cosine to the vertical, cosine of the azimuth.

@@ -8,6 +8,7 @@
 #include "src/scene/frame_fault.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/toml/toml_tree.h"
+#include "src/world/atmosphere/air_column.h"
 #include "src/world/atmosphere/sun_position.h"
 
 namespace pileus {
@@ -54,24 +55,22 @@ double height_of(int i) {
     return (kAirTopKm - kEarthRadiusKm) * x * x;
 }
 
-/// What air does at every height under one sun, whatever the direction.
+/// Sunlight at every height, whatever the direction.
 struct Heights {
-    AirAt air[kHeights];
     float sunlight[kHeights][3];
     float sun;
 };
 
-/// Along one direction: lost, and sent towards the camera, by height.
+/// Light along one direction by height: what air and haze send of it towards the camera per
+/// scattering, and the sun's for haze.
 struct Sources {
-    float lost[kHeights][3], smooth[kHeights][3], haze[kHeights][3];
+    float by_air[kHeights][3], by_haze[kHeights][3], sun[kHeights][3];
 };
 
 void fill_heights(const Atmosphere& air, Heights& out) {
     out.sun = air.sky.sun;
-    for (int i = 0; i < kHeights; ++i) {
-        out.air[i] = air_at(air.tables.air, float(height_of(i)));
+    for (int i = 0; i < kHeights; ++i)
         sunlight_at(air.tables, kEarthRadiusKm + height_of(i), double(out.sun), out.sunlight[i]);
-    }
 }
 
 void fill_sources(const Atmosphere& air, const Heights& at, double cosine, double east,
@@ -82,16 +81,19 @@ void fill_sources(const Atmosphere& air, const Heights& at, double cosine, doubl
     float y[kAirTerms];
     air_harmonics(cosine, east, y);
     for (int i = 0; i < kHeights; ++i) {
-        const AirAt& here = at.air[i];
-        float by_air[3], by_haze[3];
-        scattered_at(air.tables, float(height_of(i)), at.sun, y, by_air, by_haze);
+        scattered_at(air.tables, float(height_of(i)), at.sun, y, out.by_air[i], out.by_haze[i]);
         for (int c = 0; c < 3; ++c) {
-            out.lost[i][c] = here.extinction[c];
-            out.smooth[i][c] = here.rayleigh[c] * (phase * at.sunlight[i][c] + by_air[c]) +
-                               here.haze[c] * by_haze[c];
-            out.haze[i][c] = here.haze[c] * at.sunlight[i][c];
+            out.by_air[i][c] += phase * at.sunlight[i][c];
+            out.sun[i][c] = at.sunlight[i][c];
         }
     }
+}
+
+/// Of level air between two heights, `way` km long.
+AirPiece level_piece(const Air& air, double from, double to, double way) {
+    const LevelAir<float> mean = level_air(float(from), float(to));
+    return piece_of(air,
+                    {double(mean.air) * way, double(mean.haze) * way, double(mean.ozone) * way});
 }
 
 /// How far the slices of a direction reach, km; air_rows.h has the same.
@@ -106,43 +108,68 @@ double reach_along(double cosine, const Atmosphere& air) {
     return held > 1e-3 ? held : 1e-3;
 }
 
-/// One direction of the air near a camera, slice by slice, from its sources.
+/// Light that pieces send the camera, added up.
+struct Sent {
+    float smooth[3] = {}, haze[3] = {}, left[3] = {1, 1, 1};
+};
+void add_piece(const Air& air, const Sources& sources, double from, double to, double way,
+               Sent& sent) {
+    const double top = kAirTopKm - kEarthRadiusKm, height = 0.5 * (from + to);
+    const double share = height < 0 ? 0 : height < top ? height / top : 1;
+    const double place = root(share) * (kHeights - 1);
+    const int low = place < kHeights - 2 ? int(place) : kHeights - 2;
+    const float f = float(place - low);
+    const AirPiece piece = level_piece(air, from, to, way);
+    for (int c = 0; c < 3; ++c) {
+        const auto at = [&](const float(&v)[kHeights][3]) {
+            return v[low][c] + (v[low + 1][c] - v[low][c]) * f;
+        };
+        sent.smooth[c] += sent.left[c] * (piece.by_air[c] * at(sources.by_air) +
+                                          piece.by_haze[c] * at(sources.by_haze));
+        sent.haze[c] += sent.left[c] * piece.by_haze[c] * at(sources.sun);
+        sent.left[c] *= piece.left[c];
+    }
+}
+
+/// One direction of the air near a camera, slice by slice, from its sources: light over the share
+/// that the air takes of what lies behind, which hardly changes from slice to slice.
 void look_along(const Sources& sources, double cosine, std::size_t row, std::size_t column,
                 Atmosphere& out) {
-    float smooth[3] = {}, haze[3] = {}, left[3] = {1, 1, 1};
+    const Air& air = out.tables.air;
     const double reach = reach_along(cosine, out);
+    // No shorter way is looked at, and the light over the share has a limit.
+    constexpr double kFirstKm = 1e-3;
+    Sent sent;
     double before = 0;
     for (int slice = 0; slice < kAirSlices; ++slice) {
         const double q = double(slice) / (kAirSlices - 1), rest = 1 - q;
-        const double end = reach * (q < 0.5 ? 2 * q * q : 1 - 2 * rest * rest);
+        const double even = reach * (q < 0.5 ? 2 * q * q : 1 - 2 * rest * rest);
+        const double end = even > kFirstKm ? even : kFirstKm;
         // Long ways are parted where the air changes on them.
         const double rise = (end - before) * (cosine < 0 ? -cosine : cosine);
         const int parts = 1 + int(rise / kLongStepKm < 31 ? rise / kLongStepKm : 31);
-        for (int part = 0; part < parts && slice > 0; ++part) {
-            const double step = (end - before) / parts;
-            const double height = out.camera_km + (before + (part + 0.5) * step) * cosine;
-            const double top = kAirTopKm - kEarthRadiusKm;
-            if (height >= top) continue;
-            const double place = root(height / top) * (kHeights - 1);
-            const int low = place < kHeights - 2 ? int(place) : kHeights - 2;
-            const float f = float(place - low);
-            for (int c = 0; c < 3; ++c) {
-                const auto at = [&](const float(&v)[kHeights][3]) {
-                    return v[low][c] + (v[low + 1][c] - v[low][c]) * f;
-                };
-                const float lost = at(sources.lost), depth = lost * float(step);
-                const float seen =
-                    lost > 1e-12f ? left[c] * one_minus_exp(depth) / lost : left[c] * float(step);
-                smooth[c] += seen * at(sources.smooth);
-                haze[c] += seen * at(sources.haze);
-                left[c] *= exp_(-depth);
-            }
+        for (int part = 0; part < parts && end > before; ++part) {
+            const double step = (end - before) / parts, from = before + part * step;
+            add_piece(air, sources, out.camera_km + from * cosine,
+                      out.camera_km + (from + step) * cosine, step, sent);
         }
         before = end;
+        const AirPiece whole = level_piece(air, out.camera_km, out.camera_km + end * cosine, end);
         const std::size_t line = std::size_t(slice) * kAirRows + row;
         float* texel = out.near.data() + 8 * (line * kAirColumns + column);
-        for (int c = 0; c < 3; ++c) texel[c] = smooth[c], texel[3 + c] = haze[c];
-        for (int c = 0; c < 3 && column == 0; ++c) out.left[4 * line + std::size_t(c)] = left[c];
+        for (int c = 0; c < 3; ++c) {
+            const float taken = one_minus_exp(whole.depth[c]);
+            texel[c] = taken > 0 ? sent.smooth[c] / taken : 0;
+            texel[3 + c] = taken > 0 ? sent.haze[c] / taken : 0;
+        }
+    }
+    // Where no air is for long, what lies between is lit as the first that is.
+    for (int slice = kAirSlices - 2; slice >= 0; --slice) {
+        const std::size_t line = std::size_t(slice) * kAirRows + row;
+        float* texel = out.near.data() + 8 * (line * kAirColumns + column);
+        const float* next = texel + 8 * kAirRows * kAirColumns;
+        for (int c = 0; c < 6; ++c)
+            if (texel[c] == 0) texel[c] = next[c];
     }
 }
 
@@ -173,7 +200,6 @@ Status look_from(double height_m, int threads, Atmosphere& air) {
     PILEUS_TRY(make_air_sky(air.tables, height_km, sincos_deg(air.sun_elevation_deg).sine, threads,
                             air.sky));
     PILEUS_TRY(air.near.resize(std::size_t{8} * kAirSlices * kAirRows * kAirColumns, "air"));
-    PILEUS_TRY(air.left.resize(std::size_t{4} * kAirSlices * kAirRows, "air"));
     air.camera_km = height_km;
     air.reach_m = kAirReachM > 20000 * height_km ? kAirReachM : 20000 * height_km;
     Heights heights;

@@ -11,8 +11,8 @@
 namespace pileus {
 
 /// Light that the air sends towards a camera, by direction and distance; what is level stays level
-/// here, as the ground and the media are. Slices at reach * (i / last)^4, the reach kAirReachM or
-/// four heights of the camera.
+/// here, as the ground and the media are. air_rows.h says where slices lie; the reach is kAirReachM
+/// or twenty heights of the camera.
 constexpr int kAirRows = 49, kAirColumns = 17, kAirSlices = 33;
 constexpr double kAirReachM = 300000;
 
@@ -23,8 +23,8 @@ struct Atmosphere {
     double sun_elevation_deg = 0;
     double height_km = 0;  ///< of the media's middle
     AirSky sky;            ///< as the camera of the last picture saw it
-    Buffer<float> near;    ///< [slice][row][column][8], from that camera on
-    Buffer<float> left;    ///< [slice][row][4]
+    /// [slice][row][column][8], from that camera on: light over the share that air takes.
+    Buffer<float> near;
     double camera_km = -1, reach_m = kAirReachM;
 
     bool present() const { return tables.present(); }
