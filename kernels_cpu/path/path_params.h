@@ -7,6 +7,7 @@
 #include "kernels_cpu/core/rng.h"
 #include "kernels_cpu/light/lamp_params.h"
 #include "kernels_cpu/light/sky_sample.h"
+#include "kernels_cpu/light/sun_heights_params.h"
 #include "kernels_cpu/media/optics.h"
 #include "kernels_cpu/media/track_grid.h"
 #include "kernels_cpu/solids/solids_params.h"
@@ -47,9 +48,10 @@ struct PathParams {
     CameraParams camera;
     std::int32_t jitter;  ///< 0: rays through the middles of pixels, 1: spread over them
 
-    std::int32_t sunlit;   ///< 0: no sun
-    float to_sun[3];       ///< unit
-    float sun[3];          ///< irradiance on a plane facing it
+    std::int32_t sunlit;     ///< 0: no sun
+    float to_sun[3];         ///< unit
+    float sun[3];            ///< irradiance on a plane facing it
+    SunHeights sun_heights;  ///< with rows in place of `sun`
     float sun_disc;        ///< 1 - cos of its radius; 0: a point. Read by trace_paths_guided alone
     GuideParams guide;     ///< as sun_disc
     float sky[3];          ///< radiance, where there is no map of it

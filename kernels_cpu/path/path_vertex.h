@@ -5,6 +5,7 @@
 #pragma once
 #include "kernels_cpu/core/meshes.h"
 #include "kernels_cpu/light/lambert.h"
+#include "kernels_cpu/light/sun_heights.h"
 #include "kernels_cpu/path/path_guide.h"
 #include "kernels_cpu/path/path_lamps.h"
 
@@ -279,6 +280,11 @@ PILEUS_FN void gather_light(PathLanes<W, NC, K>& s, const PathParams& k, M<W> m)
     s.lit = s.lit & lnot(m);
     const M<W> sun = m & (s.flight == kFlightSun), map = m & lnot(sun);
     Vec<T> light{all<T>(k.sun[0]), all<T>(k.sun[1]), all<T>(k.sun[2])};
+    if (k.sun_heights.rows != 0 && any(sun)) {
+        const T z = vertex_metres(s, k).z;
+        light = {sun_at(k.sun_heights, z, 0), sun_at(k.sun_heights, z, 1),
+                 sun_at(k.sun_heights, z, 2)};
+    }
     if (any(map)) {
         const Vec<T> sky = map_radiance(k.map, s.d);
         light = {select(map, sky.x, light.x), select(map, sky.y, light.y),

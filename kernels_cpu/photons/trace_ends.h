@@ -216,7 +216,8 @@ PILEUS_FN void settle(Photon<W, NC, S>& s, const TraceParams& k, const TraceBuff
     // The photon's own bounces moved ground_x and ground_y: start where the straight ray ends.
     s.ground_x = select(owing, s.owed_x, s.ground_x);
     s.ground_y = select(owing, s.owed_y, s.ground_y);
-    for (int c = 0; c < NC; ++c) s.weight[c] = select(owing, start_weight(s, k, c), s.weight[c]);
+    for (int c = 0; c < NC; ++c)
+        s.weight[c] = select(owing, start_weight(s, k, c) * (1.0f - k.unowed[c]), s.weight[c]);
     PILEUS_FATE(s, tally, emitted, owing);
     // Shadows of sun and lamps on the ground are drawn sharply by the display.
     const bool sharp = k.light == kLightBeam || k.light == kLightLamps;

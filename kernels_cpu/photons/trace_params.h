@@ -49,6 +49,7 @@ struct TraceParams {
     std::int32_t ground;  ///< 0: none
     float ground_z;       ///< m, box-local, <= 0
     float ground_albedo;
+    float unowed[3];  ///< share of this light that the ground has not, by the air above it
     std::int32_t ground_cells[2];  ///< of the map of light that arrives there; 0: no map
     float ground_origin[2];        ///< m, box-local
     float ground_cells_per_metre[2];

@@ -4,6 +4,7 @@
 // docs/solids.md, "How they are lit"; without solids background_rows (march.h) does this.
 #pragma once
 #include "kernels_cpu/display/march_background.h"
+#include "kernels_cpu/light/sun_heights.h"
 #include "kernels_cpu/solids/solids.h"
 
 namespace pileus {
@@ -80,10 +81,12 @@ PILEUS_FN void surface_light(const SolidRowsParams& k, const BackgroundBuffers& 
     if (k.back.sky_map.columns > 0) sky = map_radiance(k.back.sky_map, ray.direction);
     const T above[3] = {sky.x, sky.y, sky.z};
     for (int c = 0; c < 3; ++c) {
+        const T sun =
+            k.sun_heights.rows != 0 ? sun_at(k.sun_heights, s.place.at.z, c) : all<T>(k.sun[c]);
         const T ground =
             k.back.ground_diffuse[c] + k.back.ground_sun[c] * s.sunlight + scattered[c];
         const T solid =
-            s.place.albedo[c] * (around_light(k.around[c], s.place.normal) + k.sun[c] * s.sunlight);
+            s.place.albedo[c] * (around_light(k.around[c], s.place.normal) + sun * s.sunlight);
         out[c] = select(s.solid, solid, select(s.ground, ground, above[c]));
     }
 }

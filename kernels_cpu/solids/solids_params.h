@@ -4,6 +4,7 @@
 // docs/solids.md. Lengths in metres, box-local.
 #pragma once
 #include "kernels_cpu/display/march_params.h"
+#include "kernels_cpu/light/sun_heights_params.h"
 
 namespace pileus {
 
@@ -51,6 +52,7 @@ struct SolidRowsParams {
     SolidsView solids;
     float around[3][kAroundTerms];  ///< see around_light
     float sun[3];                   ///< irradiance over pi
+    SunHeights sun_heights;         ///< likewise, with rows in place of `sun`
 };
 
 }  // namespace pileus

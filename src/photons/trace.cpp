@@ -2,6 +2,8 @@
 // See trace.h.
 #include "src/photons/trace.h"
 
+#include <algorithm>
+
 #include "kernels_cpu/core/accumulate.h"
 #include "kernels_cpu/core/meshes.h"
 #include "platform/threads.h"
@@ -108,6 +110,19 @@ void add_fates(const Fates& from, Fates& to) {
     for (std::size_t i = 0; i < sizeof(Fates) / sizeof(std::int64_t); ++i) target[i] += source[i];
 }
 
+/// The ground is lit by less of the sun than the media high above it, and misses less of it where
+/// they shadow it. One channel for all has the mean of what they take.
+void set_unowed(const Lighting& light, TraceParams& k) {
+    double all = 0, has = 0;
+    for (int c = 0; c < 3; ++c) {
+        all += light.ground_beam[c];
+        has += light.ground_sun[c];
+        if (light.ground_beam[c] > 0)
+            k.unowed[c] = float(1 - std::min(light.ground_sun[c] / light.ground_beam[c], 1.0));
+    }
+    if (k.channels == 1 && all > 0) k.unowed[0] = float(1 - std::min(has / all, 1.0));
+}
+
 }  // namespace
 
 TraceKernel trace_kernel(const KernelTable& kernels, const TraceParams& k) {
@@ -147,6 +162,7 @@ TraceParams launch_params(const TraceInput& in, const Light& light, std::uint64_
     k.ground = in.lighting->ground ? 1 : 0;
     k.ground_z = float(in.lighting->ground_z);
     k.ground_albedo = float(in.lighting->ground_albedo);
+    if (light.beam) set_unowed(*in.lighting, k);
     for (int a = 0; a < 2; ++a) {
         k.ground_cells[a] = in.ground.cells;
         k.ground_origin[a] = in.ground.origin[a];

@@ -61,6 +61,10 @@ void set_around(const Lighting& light, SolidRowsParams& k) {
         for (int i = 0; i < kAroundTerms; ++i) k.around[c][i] = float(sum[i]);
         k.sun[c] = float(light.sun_irradiance[s] / kPiD);
     }
+    // Parts of the light without the sun have none at any height.
+    if (light.sun_irradiance == Double3{}) return;
+    k.sun_heights = light.sun_heights;
+    for (float& above : k.sun_heights.above) above = float(double(above) / kPiD);
 }
 
 /// Where the image has something nearer, that hides what was found: black, for its owner draws it.

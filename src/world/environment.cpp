@@ -20,14 +20,27 @@ InAir in_air(const Scene& scene, const Atmosphere& air) {
     return out;
 }
 
+/// By height, of media whose lowest level is at `low_m`.
+SunHeights by_height(const Scene& scene, const Atmosphere& air, double low_m) {
+    SunHeights h{};
+    h.depth = air.sun_depth.data();
+    h.rows = kSunRows;
+    h.low = float((scene.ground.present ? scene.ground.altitude_m : 0) - low_m);
+    h.rows_per_metre = float(1 / kSunRowM);
+    for (int c = 0; c < 3; ++c) h.above[c] = float(air.above[c]);
+    return h;
+}
+
 /// Hands what shines to `use`.
 template <class Use>
-auto with_shining(const Scene& scene, const Environment& environment, const Use& use) {
+auto with_shining(const Scene& scene, const World& world, const Environment& environment,
+                  const Use& use) {
     const bool solids = !scene.solids.empty();
     if (!environment.air.present())
-        return use(Shining{scene.sun, scene.sky, scene.ground, scene.lights, solids});
+        return use(Shining{scene.sun, scene.sky, scene.ground, scene.lights, solids, {}});
     const InAir lit = in_air(scene, environment.air);
-    return use(Shining{lit.sun, lit.sky, scene.ground, scene.lights, solids});
+    return use(Shining{lit.sun, lit.sky, scene.ground, scene.lights, solids,
+                       by_height(scene, environment.air, world.medium.low_m[2])});
 }
 
 }  // namespace
@@ -68,7 +81,7 @@ Status relight_air(const AtmosphereSettings& settings, const Sun& sun, const Gro
 
 Lighting light_of(const Scene& scene, const SunPlace& sun, const World& world,
                   const Environment& environment) {
-    return with_shining(scene, environment, [&](const Shining& shining) {
+    return with_shining(scene, world, environment, [&](const Shining& shining) {
         Lighting out = make_lighting(shining, world.medium, sun, &environment.sky_map,
                                      &world.solids, &environment.depth);
         out.air = environment.air.present();
@@ -78,7 +91,7 @@ Lighting light_of(const Scene& scene, const SunPlace& sun, const World& world,
 
 void explain_light(const Scene& scene, const SunPlace& sun, const World& world,
                    const Environment& environment, const Lighting& made, Plan& plan) {
-    with_shining(scene, environment, [&](const Shining& shining) {
+    with_shining(scene, world, environment, [&](const Shining& shining) {
         explain_lighting(shining, world.medium, sun, made, plan);
     });
 }

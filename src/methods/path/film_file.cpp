@@ -97,6 +97,9 @@ void add_light(const Lighting& light, Digest& d) {
         d.f32(float(light.sun_irradiance[c]));
         d.f32(float(light.sky[c]));
     }
+    // In air the sun at the ground tells its light at every height.
+    for (std::size_t c = 0; c < 3 && light.sun_heights.rows > 0; ++c)
+        d.f32(float(sun_at_height(light, light.ground_z)[int(c)]));
     d.f32(float(light.ground_z));
     d.f32(float(light.ground_albedo));
     for (const LampParams& lamp : light.lamps) {

@@ -53,6 +53,7 @@ void set_medium(const PathInput& in, Span<const float> blocks, PathParams& k) {
 void set_light(const PathInput& in, const SkySampler& sampler, PathParams& k) {
     const Lighting& light = *in.lighting;
     k.sunlit = light.sunlit ? 1 : 0;
+    k.sun_heights = light.sun_heights;
     bool sky_lit = false;
     for (std::size_t c = 0; c < 3; ++c) {
         k.to_sun[c] = light.to_sun[c];
@@ -93,6 +94,7 @@ void set_disc(double radius_deg, PathParams& k) {
     const double half = sincos_deg(0.5 * radius_deg).sine;
     k.sun_disc = float(single_or_0(2 * half * half));
     for (float& light : k.sun) light = float(double(light) / (1 - half * half));
+    for (float& light : k.sun_heights.above) light = float(double(light) / (1 - half * half));
 }
 
 PathParams path_params(const PathInput& in, const PathScratch& scratch) {

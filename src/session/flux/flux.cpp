@@ -225,6 +225,7 @@ Status measure_flux(const Scene& scene, const RenderOptions& options, const Flux
     PILEUS_TRY(open_method(row, made, context, true, nullptr, nullptr, scenery, plan));
     if (settings.from_below) PILEUS_TRY(make_sky_below(settings, scenery.environment.sky_map));
     scenery.light(0);
+    set_one_sun(scenery.lighting);
     PILEUS_TRY(path.set_view(context, scenery.view(0), {}));
     PILEUS_TRY(check_flux(own, context, scenery, settings.from_below));
     if (!photons && scenery.lighting.sunlit) PILEUS_TRY(check_needles(own, scenery.world->medium));

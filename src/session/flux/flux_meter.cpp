@@ -200,8 +200,9 @@ Status read_level(const Sensor& sensor, const Scenery& scenery, FluxMeter& meter
     if (!lit.sunlit || !(lit.to_sun[2] > 0)) return Status::ok();
     std::vector<double> share;
     PILEUS_TRY(meter.direct(plane, {1, 1}, share));
+    const Double3 sun = sun_at_height(lit, plane.at_m);
     for (std::size_t c = 0; c < 3; ++c) {
-        out.direct[c] = mean_of(share) * double(lit.to_sun[2]) * lit.sun_irradiance[int(c)];
+        out.direct[c] = mean_of(share) * double(lit.to_sun[2]) * sun[int(c)];
         out.down.mean[c] += out.direct[c];
     }
     return Status::ok();
@@ -221,8 +222,9 @@ Status read_plane(const Sensor& sensor, const Scenery& scenery, FluxMeter& meter
     if (!lit.sunlit || !(slant > 0)) return Status::ok();
     double share = 0;
     PILEUS_TRY(meter.sunlight(sensor.position_m, share));
+    const Double3 sun = sun_at_height(lit, sensor.position_m[2] - scenery.world->medium.low_m[2]);
     for (std::size_t c = 0; c < 3; ++c) {
-        out.direct[c] = share * slant * lit.sun_irradiance[int(c)];
+        out.direct[c] = share * slant * sun[int(c)];
         out.down.mean[c] += out.direct[c];
     }
     return Status::ok();

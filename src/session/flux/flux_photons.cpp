@@ -180,6 +180,7 @@ Status flux_by_photons(const FluxTask& task, std::int64_t photons, FluxResult& o
     if (map.present() && !task.settings.from_below) {
         PILEUS_TRY(aim_sky_map(medium.extent_m, medium.grid.periodic, map));
         task.scenery.light(0);
+        set_one_sun(task.scenery.lighting);
     }
     Lighting lighting = lights_of(task);
     share_photons(std::uint64_t(photons) / kFluxBatches, lighting.lights);

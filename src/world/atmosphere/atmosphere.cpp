@@ -47,6 +47,20 @@ Status paint_map(double azimuth_deg, const Atmosphere& air, int threads, Image& 
     return Status::ok();
 }
 
+/// What the sun's light has met at each height; where it is hidden, as much as leaves nothing.
+Status fill_sun_depth(double sine, Atmosphere& air) {
+    constexpr float kDark = 85, kLeast = 1e-36f;
+    PILEUS_TRY(air.sun_depth.resize(std::size_t{3} * kSunRows, "air"));
+    for (int i = 0; i < kSunRows; ++i) {
+        float share[3];
+        sunlight_at(air.tables, kEarthRadiusKm + 1e-3 * kSunRowM * i, sine, share);
+        for (int c = 0; c < 3; ++c)
+            air.sun_depth[std::size_t(c * kSunRows + i)] =
+                share[c] > kLeast ? -log_(share[c]) : kDark;
+    }
+    return Status::ok();
+}
+
 constexpr int kHeights = 65;
 constexpr double kLongStepKm = 2;
 
@@ -191,6 +205,7 @@ Status light_atmosphere(const AtmosphereSettings& s, const Sun& sun, const Groun
     air.height_km = height_m > 0 ? 1e-3 * height_m : 0;
     air.sunlight = sunlight(air.tables, air.height_km, sincos_deg(air.sun_elevation_deg).sine);
     air.camera_km = -1;
+    PILEUS_TRY(fill_sun_depth(sincos_deg(air.sun_elevation_deg).sine, air));
     return paint_map(sun.azimuth_deg, air, threads, map);
 }
 

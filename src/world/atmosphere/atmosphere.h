@@ -16,13 +16,19 @@ namespace pileus {
 constexpr int kAirRows = 49, kAirColumns = 17, kAirSlices = 33;
 constexpr double kAirReachM = 300000;
 
+/// Rows of the sun's depth by height, and metres from one to the next. Between rows depths are
+/// linear: 2e-4 of the depth by haze.
+constexpr int kSunRows = 1024;
+constexpr double kSunRowM = 50;
+
 struct Atmosphere {
     AirTables tables;
     Double3 above{};                 ///< the sun's irradiance above the air
     std::array<double, 3> sunlight;  ///< share of it that reaches the media
     double sun_elevation_deg = 0;
-    double height_km = 0;  ///< of the media's middle
-    AirSky sky;            ///< as the camera of the last picture saw it
+    double height_km = 0;     ///< of the media's middle
+    Buffer<float> sun_depth;  ///< [channel][kSunRows] towards the sun, from the ground up
+    AirSky sky;               ///< as the camera of the last picture saw it
     /// [slice][row][column][8], from that camera on: light over the share that air takes.
     Buffer<float> near;
     double camera_km = -1, reach_m = kAirReachM;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <glm/geometric.hpp>
 
+#include "kernels_cpu/light/sun_heights.h"
 #include "src/base/angles.h"
 #include "src/base/random_streams.h"
 #include "src/world/solids/camera_depth.h"
@@ -56,6 +57,7 @@ void make_sun(const Shining& shining, const Medium& medium, const SunPlace& plac
     }
     out.sunlit = any_positive(out.sun_irradiance) && hidden_sun(shining, medium, to_sun) == nullptr;
     if (!out.sunlit) out.sun_irradiance = {};
+    if (out.sunlit) out.sun_heights = shining.sun_heights;
 }
 
 /// Radiance of the unshadowed ground: albedo / pi times what falls on it.
@@ -69,7 +71,8 @@ void make_ground(const Shining& shining, const Medium& medium, const SkyMap* map
     Double3 sky = out.sky;
     if (map != nullptr) sky = map->ground_irradiance / kPiD;
     out.ground_diffuse = out.ground_albedo * sky;
-    out.ground_sun = out.ground_albedo / kPiD * out.sun_irradiance * height;
+    out.ground_beam = out.ground_albedo / kPiD * out.sun_irradiance * height;
+    out.ground_sun = out.ground_albedo / kPiD * sun_at_height(out, out.ground_z) * height;
 }
 
 bool is_dark(const Medium& medium) { return medium.sigma <= 0 || medium.density_max <= 0; }
@@ -227,6 +230,20 @@ Double3 ground_of_lamp(const Lighting& light, const LampParams& lamp) {
     for (int c = 0; c < 3 && light.ground && lamp.parallel != 0; ++c)
         sum[c] = light.ground_albedo / kPiD * double(lamp.light[c]) * double(lamp.at[2]);
     return sum;
+}
+
+Double3 sun_at_height(const Lighting& light, double z) {
+    // Parts of the light without the sun have none at any height.
+    const bool one = light.sun_heights.rows == 0 || light.sun_irradiance == Double3{};
+    if (one) return light.sun_irradiance;
+    Double3 sun{};
+    for (int c = 0; c < 3; ++c) sun[c] = double(sun_at(light.sun_heights, float(z), c));
+    return sun;
+}
+
+void set_one_sun(Lighting& light) {
+    light.sun_heights = SunHeights{};
+    light.ground_sun = light.ground_beam;
 }
 
 bool same_shine(const Lighting& a, const Lighting& b) {

@@ -9,6 +9,7 @@
 
 #include "kernels_cpu/core/profile.h"
 #include "kernels_cpu/light/lamp_params.h"
+#include "kernels_cpu/light/sun_heights_params.h"
 #include "src/plan/plan.h"
 #include "src/scene/scene.h"
 #include "src/world/light/sky_map.h"
@@ -48,15 +49,18 @@ struct Lighting {
     Double3 constant{};  ///< source everywhere in the medium (furnace identity)
     bool sunlit = false;
     std::array<float, 3> to_sun{0, 0, 1};
-    Double3 sun_irradiance{};
-    Double3 sky{};     ///< radiance of a constant sky
-    SkyMapView map{};  ///< or a map of it
-    bool air = false;  ///< between the camera and all else
+    Double3 sun_irradiance{};  ///< at the media's middle
+    SunHeights sun_heights{};  ///< at any height; no rows: that
+    Double3 sky{};             ///< radiance of a constant sky
+    SkyMapView map{};          ///< or a map of it
+    bool air = false;          ///< between the camera and all else
     bool ground = false;
     double ground_z = 0;  ///< m, box-local
     double ground_albedo = 0;
     /// Radiance of the unshadowed ground; of lamps that of parallel ones, which light it evenly.
     Double3 ground_diffuse{}, ground_sun{}, ground_lamps{};
+    /// As ground_sun, by the sun as the media have it.
+    Double3 ground_beam{};
     Double3 ground_radiance() const { return ground_diffuse + ground_sun + ground_lamps; }
 
     /// Lists are copied where they lie, never moved: a session has room for the most that it may
@@ -82,6 +86,7 @@ struct Shining {
     const Ground& ground;
     const std::vector<LightSettings>& lamps;
     bool solids = false;  ///< the scene has some
+    SunHeights sun_heights{};
 };
 
 /// The light of medium.emitters[which]: its radiance where the medium is thick and scatters
@@ -100,6 +105,12 @@ void explain_lighting(const Shining& shining, const Medium& medium, const SunPla
 
 /// The same light without sky and lamps: the ground then sends back sunlight alone.
 Lighting sun_alone(const Lighting& all);
+
+/// Irradiance of the sun on a plane that faces it at z, m, box-local; nothing in its way but air.
+Double3 sun_at_height(const Lighting& light, double z);
+
+/// The sun at the media's middle everywhere: no air between them and the ground.
+void set_one_sun(Lighting& light);
 
 /// Whether all that shines is the same but for the sun's direction.
 bool same_shine(const Lighting& a, const Lighting& b);
