@@ -35,6 +35,7 @@ flight_files(src/photons
     scatter trace)
 flight_files(src/picture
     air_view background blue_noise finish_frame late_rows layers march_view pixels sun_disc upsample)
+flight_files(src/picture/errors pixel_errors)
 flight_files(src/picture/filter features filter_error guides regression)
 flight_files(src/picture/nodes
     ground_shadow lamp_light node_grid node_rows sky_light sky_nodes sky_view sun_depth sun_slices sweep_taps)

@@ -94,6 +94,12 @@ void report_photons(const PhotonState& state, Report& report) {
         for (const PhotonSlot& slot : ring.photons.slots)
             out.ring_generations += slot.generations > 0 ? 1 : 0;
     }
+    const int batches = photon_batches(state);
+    report.errors.of = report.errors.known ? "noise of " + std::to_string(batches) +
+                                                 " batches of photons, without bias"
+                       : batches > 1       ? "none: no pixel with A > 0.02"
+                       : state.error_layer ? "none: one generation of photons has no scatter"
+                                           : "none: the layer \"error\" tells it";
     out.energy.clear();
     for (std::size_t l = 0; l < ring.photons.tallies.size(); ++l) {
         const TraceTally& t = ring.photons.tallies[l];

@@ -78,31 +78,31 @@ const Buffer<float>& left_of(const Planes& planes) {
 
 bool finite(float v) { return v - v == 0.0f; }
 
-/// Standard error of the mean over the batches of one channel of one pixel.
-float batch_error(const Planes& p, std::size_t pixels, std::size_t pixel, int channel,
-                  int batches) {
+/// Squared standard error of the mean over the batches of one channel of one pixel.
+double batch_variance(const Planes& planes, std::size_t pixel, int channel) {
+    const std::size_t pixels = planes.transmittance.size();
+    const int batches = planes.batches;
     double mean = 0, square = 0;
     for (int b = 1; b <= batches; ++b)
-        mean += double(p.colour[std::size_t(3 * b + channel) * pixels + pixel]);
+        mean += double(planes.colour[std::size_t(3 * b + channel) * pixels + pixel]);
     mean /= batches;
     for (int b = 1; b <= batches; ++b) {
-        const double d = double(p.colour[std::size_t(3 * b + channel) * pixels + pixel]) - mean;
+        const double d =
+            double(planes.colour[std::size_t(3 * b + channel) * pixels + pixel]) - mean;
         square += d * d;
     }
-    return float(__builtin_sqrt(square / (double(batches) * (batches - 1))));
+    return square / (double(batches) * (batches - 1));
 }
 
 /// Mean of error/radiance and root mean square error over the cloud's pixels, by green.
 void summarise(const Image& image, const Planes& p, Report& report) {
-    const Channel* error = image.find("error.G");
-    if (error == nullptr) return;
-    ErrorSum sum;
-    for (std::size_t i = 0; i < error->pixels.size(); ++i)
-        sum.add(p.transmittance[i], error->pixels[i], image.channels[1].pixels[i]);
+    const ErrorSum sum =
+        sum_errors(groups_of(p, image.width, image.height), image.find("error.G")->pixels.data(),
+                   image.channels[1].pixels.data());
     if (sum.count == 0) return;
     report.errors.known = true;
     report.errors.mean_relative = sum.mean_relative();
-    report.errors.rmse_estimate = __builtin_sqrt(sum.square / sum.count);
+    report.errors.rmse_estimate = sum.rms();
 }
 
 Status add_radiance(const Planes& planes, Image& image, std::uint64_t& clamped,
@@ -138,30 +138,44 @@ Status add_depth(const Planes& planes, Image& image) {
     return Status::ok();
 }
 
-Status add_error(const Planes& planes, int batches, Image& image) {
+Status add_error(const Planes& planes, Image& image) {
     if (!planes.error.empty()) return add_three("error.", planes.error.data(), image);
+    const PixelGroups groups = groups_of(planes, image.width, image.height);
     Channel* plane = nullptr;
     for (int c = 0; c < 3; ++c) {
         PILEUS_TRY(add_channel(image, std::string("error.") + kRgb[c], plane));
-        const std::size_t pixels = plane->pixels.size();
-        for (std::size_t i = 0; i < pixels; ++i)
-            plane->pixels[i] = batch_error(planes, pixels, i, c, batches);
+        const float* light = image.channels[std::size_t(c)].pixels.data();
+        ErrorRows rows(groups, Scatter::kBatches, planes.batches);
+        rows.run(
+            0, image.height, [&](std::size_t i) { return batch_variance(planes, i, c); },
+            [&](std::size_t i) { return light[i]; },
+            [&](std::size_t i, const PixelError& e) { plane->pixels[i] = e.error; });
     }
     return Status::ok();
 }
 
 }  // namespace
 
-ErrorSum batch_error_sum(const Planes& planes) {
-    const int batches = planes.batches;
+PixelGroups groups_of(const Planes& planes, int width, int height) {
+    return {width, height, planes.transmittance.data(),
+            planes.opaque_depth.empty() ? nullptr : planes.opaque_depth.data()};
+}
+
+ErrorSum batch_error_sum(const Planes& planes, int width, int height) {
     ErrorSum sum;
+    if (planes.batches < 2) return sum;
+    const PixelGroups groups = groups_of(planes, width, height);
     const std::size_t pixels = planes.transmittance.size();
-    for (std::size_t i = 0; i < pixels && batches > 1; ++i) {
-        float radiance = planes.colour[pixels + i];
-        if (!planes.background.empty())
-            radiance += planes.transmittance[i] * planes.background[pixels + i];
-        sum.add(planes.transmittance[i], batch_error(planes, pixels, i, 1, batches), radiance);
-    }
+    ErrorRows rows(groups, Scatter::kBatches, planes.batches);
+    rows.run(
+        0, height, [&](std::size_t i) { return batch_variance(planes, i, 1); },
+        [&](std::size_t i) {
+            const float behind = planes.background.empty() ? 0.0f : planes.background[pixels + i];
+            return planes.colour[pixels + i] + planes.transmittance[i] * behind;
+        },
+        [&](std::size_t i, const PixelError& e) {
+            sum.add(planes.transmittance[i], e.error, e.light);
+        });
     return sum;
 }
 
@@ -217,6 +231,7 @@ Status make_layers(const Planes& planes, int width, int height, const OutputSett
     image.width = width;
     image.height = height;
     image.channels.clear();
+    report.errors = {};
     const bool has_error = output.layer_error && (!planes.error.empty() || planes.batches >= 2);
     const std::size_t lights =
         planes.sun.empty() ? 0
@@ -239,7 +254,7 @@ Status make_layers(const Planes& planes, int width, int height, const OutputSett
                 add_rest("multiple.", c, cloud_light(planes) + c * pixels, planes.single, image));
     }
     if (has_error) {
-        PILEUS_TRY(add_error(planes, planes.batches, image));
+        PILEUS_TRY(add_error(planes, image));
         summarise(image, planes, report);
     }
     report.counters.emplace_back("nan", broken);

@@ -5,6 +5,7 @@
 #pragma once
 #include "src/base/buffer.h"
 #include "src/io/images/image.h"
+#include "src/picture/errors/pixel_errors.h"
 #include "src/plan/array.h"
 #include "src/plan/report.h"
 #include "src/scene/scene.h"
@@ -40,23 +41,11 @@ struct Planes {
     int channels() const { return 3 * (1 + batches); }
 };
 
-/// Mean of standard error / radiance over the cloud's pixels, by green.
-struct ErrorSum {
-    double relative = 0, square = 0, count = 0;
-
-    void add(float transmittance, float error, float radiance) {
-        if (1.0f - transmittance <= 0.02f) return;
-        const double e = double(error), r = double(radiance);
-        relative += r > 0 ? e / r : 0;
-        square += e * e;
-        count += 1;
-    }
-    /// 0 where there is no such pixel.
-    double mean_relative() const { return count > 0 ? relative / count : 0; }
-};
+/// How the planes' pixels speak for one another.
+PixelGroups groups_of(const Planes& planes, int width, int height);
 
 /// By the planes' batches.
-ErrorSum batch_error_sum(const Planes& planes);
+ErrorSum batch_error_sum(const Planes& planes, int width, int height);
 
 /// Numbers per pixel that allocate_planes makes room for.
 inline std::uint64_t plane_count(std::uint64_t channels, bool solid, bool depth) {

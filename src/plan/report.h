@@ -106,6 +106,7 @@ struct SweepCheck {
 struct ErrorFigures {
     bool known = false;
     double mean_relative = 0, rmse_estimate = 0;  ///< over pixels with A > 0.02
+    std::string of;                               ///< whose noise they are, or why there are none
 };
 
 /// The picture against paths through some of its pixels; no pixels: none were traced.
@@ -113,6 +114,10 @@ struct VerifyFigures {
     std::uint64_t pixels = 0, samples = 0;
     double bias = 0, standard_error = 0;  ///< shares of the mean by paths
     double relmse = 0;                    ///< the paths' noise taken off
+    bool has_errors = false;              ///< the picture has a layer of them
+    double noise = 0;                     ///< what of `relmse` is noise by that layer
+    double bias_rms = 0;                  ///< root of what is not
+    double within[2] = {};                ///< share of numbers within one error, within two
 };
 
 /// A kind of a sky of many clouds.

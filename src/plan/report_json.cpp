@@ -138,7 +138,8 @@ Json rate_of(std::uint64_t events, double cpu_s) {
 
 Json error_of(const ErrorFigures& errors) {
     return {{"mean_relative", known(errors.known, errors.mean_relative)},
-            {"rmse_estimate", known(errors.known, errors.rmse_estimate)}};
+            {"rmse_estimate", known(errors.known, errors.rmse_estimate)},
+            {"of", errors.of.empty() ? "none: the method has no noise" : errors.of}};
 }
 
 Json verify_of(const VerifyFigures& verify) {
@@ -147,7 +148,11 @@ Json verify_of(const VerifyFigures& verify) {
             {"samples_per_pixel", verify.samples},
             {"bias", verify.bias},
             {"standard_error", verify.standard_error},
-            {"relmse", verify.relmse}};
+            {"relmse", verify.relmse},
+            {"noise", known(verify.has_errors, verify.noise)},
+            {"bias_rms", known(verify.has_errors, verify.bias_rms)},
+            {"within_1_sigma", known(verify.has_errors, verify.within[0])},
+            {"within_2_sigma", known(verify.has_errors, verify.within[1])}};
 }
 
 Json ahead_of(const PathCounts& paths) {

@@ -38,6 +38,30 @@ std::vector<std::uint32_t> choose_pixels(const Image& image, std::uint64_t wante
     return chosen;
 }
 
+/// What the layer of errors has to say of the differences: what of them is noise, and how many it
+/// covers.
+void judge_errors(const Image& image, const std::vector<std::uint32_t>& pixels,
+                  const std::vector<PixelLight>& paths, double least, VerifyFigures& out) {
+    const char* const names[3] = {"R", "G", "B"};
+    const double numbers = 3 * double(pixels.size());
+    for (std::size_t c = 0; c < 3; ++c) {
+        const Channel* plane = image.find(names[c]);
+        const Channel* error = image.find((std::string("error.") + names[c]).c_str());
+        if (error == nullptr) return;
+        for (std::size_t i = 0; i < pixels.size(); ++i) {
+            const double m = paths[i].mean[c], e = double(error->pixels[pixels[i]]);
+            const double d = double(plane->pixels[pixels[i]]) - m;
+            const double square = e * e + paths[i].square_error[c];
+            out.noise += e * e / ((m * m + least) * numbers);
+            out.within[0] += (d * d <= square ? 1 : 0) / numbers;
+            out.within[1] += (d * d <= 4 * square ? 1 : 0) / numbers;
+        }
+    }
+    out.has_errors = true;
+    const double rest = out.relmse - out.noise;
+    out.bias_rms = rest > 0 ? __builtin_sqrt(rest) : 0;
+}
+
 /// Differences of pixels, channels one by one.
 VerifyFigures compare_pixels(const Image& image, const std::vector<std::uint32_t>& pixels,
                              const std::vector<PixelLight>& paths) {
@@ -69,6 +93,7 @@ VerifyFigures compare_pixels(const Image& image, const std::vector<std::uint32_t
             const double m = paths[i].mean[c], d = double(planes[c]->pixels[pixels[i]]) - m;
             out.relmse += (d * d - paths[i].square_error[c]) / ((m * m + least) * 3 * n);
         }
+    judge_errors(image, pixels, paths, least, out);
     return out;
 }
 

@@ -45,6 +45,12 @@ void find_warnings(const Scene& scene, const Image& image, Report& report) {
         for (const Accident& accident : accidents())
             if (counter.second > 0 && counter.first == accident.counter)
                 report.warnings.push_back(accident_line(accident, counter.second));
+    if (scene.output.layer_error && !report.errors.of.empty() && image.find("error.R") == nullptr)
+        report.warnings.push_back(scene.file +
+                                  ": output.layers: the picture has no layer "
+                                  "\"error\", " +
+                                  report.errors.of +
+                                  " (more than one of path.samples_per_pixel or of generations)");
     if (!scene.media.empty() && shows_nothing(image))
         report.warnings.push_back(
             scene.file +

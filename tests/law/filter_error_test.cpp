@@ -34,6 +34,8 @@ extinction_per_m = 0.05
 phase = { type = "henyey-greenstein", g = 0.85 }
 )";
 
+constexpr int kSeeds = 12;
+
 Picture picture(int seed, int samples, const std::vector<std::string>& more = {}) {
     std::vector<std::string> set = {"seed=" + std::to_string(seed),
                                     "path.samples_per_pixel=" + std::to_string(samples)};
@@ -52,7 +54,7 @@ TEST_CASE("filter error: its squares are those of what seeds differ by") {
             std::vector<std::string> more;
             if (grounded) more.push_back(ground);
             std::vector<Picture> all;
-            for (int seed = 1; seed <= 4; ++seed) all.push_back(picture(seed, samples, more));
+            for (int seed = 1; seed <= kSeeds; ++seed) all.push_back(picture(seed, samples, more));
             double told = 0, seen = 0;
             for (int y = 0; y < 64; ++y)
                 for (int x = 0; x < 96; ++x) {
@@ -60,18 +62,17 @@ TEST_CASE("filter error: its squares are those of what seeds differ by") {
                     for (const Picture& p : all) {
                         const double e = double(p.at("error.G", x, y));
                         CHECK(e >= 0);
-                        told += e * e / 4;
-                        mean += double(p.at("G", x, y)) / 4;
+                        told += e * e / kSeeds;
+                        mean += double(p.at("G", x, y)) / kSeeds;
                     }
                     for (const Picture& p : all)
-                        square += std::pow(double(p.at("G", x, y)) - mean, 2) / 3;
+                        square += std::pow(double(p.at("G", x, y)) - mean, 2) / (kSeeds - 1);
                     seen += square;
                 }
             CAPTURE(told / seen);
-            // On nine clouds 0.4 to 1.4: noise of few bright paths is short in most pictures. In
-            // one as small as this the parts are smoothed more than the whole, which counts, too.
-            CHECK(told < 3 * seen);
-            CHECK(told > 0.35 * seen);
+            // Sixteen seeds have 1.0 with one sample, 1.5 with four; in seven scenes 0.5 to 2.
+            CHECK(told < 2.2 * seen);
+            CHECK(told > 0.5 * seen);
         }
 }
 

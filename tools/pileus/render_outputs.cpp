@@ -178,6 +178,12 @@ Status write_frame(const Outputs& outputs, const Scene& scene, int frame, Image&
             "{} pixels\n",
             "verify", 100 * report.verify.bias, 100 * report.verify.standard_error,
             report.verify.relmse, report.verify.pixels);
+    if (report.verify.has_errors)
+        lines += fmt::format(
+            "{:16} noise {:.2g} of it, pixels off by {:.2f} % beside; 1 sigma holds {:.0f} %, 2 "
+            "sigma {:.0f} % of them\n",
+            "", report.verify.noise, 100 * report.verify.bias_rms, 100 * report.verify.within[0],
+            100 * report.verify.within[1]);
     if (outputs.report_printed) lines = report_json(report);
     if (outputs.nothing && image.pixel_hash == outputs.hashes.at(0))
         lines += fmt::format("{} {}\n", image.pixel_hash, scene.file);

@@ -42,7 +42,8 @@ float turned(const PathState& state, std::size_t c, std::size_t i) {
     return float(film_mean(state.film, kPathCloud, int(c), i));
 }
 
-RegressionInput regression_input(const Context& context, const PathState& state, int fold) {
+RegressionInput regression_input(const Context& context, const PathState& state, int fold,
+                                 double* kept) {
     const Planes& p = state.planes;
     RegressionInput in;
     in.width = state.film.width;
@@ -54,6 +55,7 @@ RegressionInput regression_input(const Context& context, const PathState& state,
     in.opaque_depth = p.opaque_depth.data();
     in.radius_pixels = state.filter.radius_pixels;
     in.fold = fold;
+    in.kept = kept;
     return in;
 }
 
@@ -71,9 +73,10 @@ Status light_ground(const Context& context, const FrameView& view, const PathSta
 
 /// What of a picture is known without its samples, made once for all of its filters.
 struct Known {
-    bool plain = false;  ///< a plain ground
-    Buffer<float> sky;   ///< of path_sky_behind
-    Buffer<float> sun;   ///< of light_ground; with a plain ground alone
+    bool plain = false;      ///< a plain ground
+    Buffer<float> sky;       ///< of path_sky_behind
+    Buffer<float> sun;       ///< of light_ground; with a plain ground alone
+    double* kept = nullptr;  ///< RegressionInput::kept
 };
 
 Status find_known(const Context& context, const FrameView& view, const PathState& state,
@@ -98,7 +101,7 @@ Status filter_straight(const Context& context, PathState& state, const Known& kn
         else
             straight[at] = sky.empty() ? 0.0f : p.transmittance[i] * sky[at];
     });
-    RegressionInput in = regression_input(context, state, fold);
+    RegressionInput in = regression_input(context, state, fold, known.kept);
     in.sun_on_ground = known.sun.data();
     PILEUS_TRY(filter_ground(in, straight.data()));
     for_light(context, state, [&](std::size_t c, std::size_t i) {
@@ -132,7 +135,7 @@ Status regress(const Context& context, PathState& state, const Known& known, int
     PILEUS_TRY(take_light(context, state, known, fold, light));
     PILEUS_TRY(allocate(arrays::film_means(light.size(), 1), before));
     std::memcpy(before.data(), light.data(), light.size() * sizeof(float));
-    RegressionInput in = regression_input(context, state, fold);
+    RegressionInput in = regression_input(context, state, fold, known.kept);
     if (known.plain) in.opaque_depth = nullptr;
     PILEUS_TRY(filter_light(in, light.data()));
     const std::size_t pixels = state.film.pixels();
@@ -148,12 +151,52 @@ Status regress(const Context& context, PathState& state, const Known& known, int
     return Status::ok();
 }
 
-/// Four parts of the picture, each filtered by itself, against the whole, of which each is a
-/// quarter: a difference of the two has three times the square of the whole's own error. Parts are
-/// smoothed more than the whole, which counts as error, too.
-Status regress_with_error(const Context& context, PathState& state, const Known& known) {
+/// Whether the filter changes a pixel.
+bool is_filtered(const PathState& state, const Known& known, std::size_t i) {
+    const Planes& p = state.planes;
+    return p.transmittance[i] < 1.0f || (known.plain && is_solid(p, i));
+}
+
+/// The planes' squares as errors, smooth, of which each is noise itself. Dark pixels have less of
+/// it than bright ones around, but not in proportion: the unit is their light and the mean light.
+Status steady_squares(const Context& context, PathState& state, const Known& known) {
     Planes& p = state.planes;
     const std::size_t pixels = state.film.pixels();
+    double sum[3] = {}, count = 0;
+    for (std::size_t i = 0; i < pixels; ++i) {
+        if (!is_filtered(state, known, i)) continue;
+        count += 1;
+        for (std::size_t c = 0; c < 3; ++c) sum[c] += double(p.colour[c * pixels + i]);
+    }
+    const auto unit = [&](std::size_t c, std::size_t i) {
+        return p.colour[c * pixels + i] + float(sum[c] / count);
+    };
+    for_light(context, state, [&](std::size_t c, std::size_t i) {
+        if (!is_filtered(state, known, i)) return;
+        const float u = unit(c, i);
+        p.error[c * pixels + i] *= u > 0 ? 1 / (u * u) : 0;
+    });
+    const PixelGroups groups = groups_of(p, state.film.width, state.film.height);
+    PILEUS_TRY(smooth_error(context.threads, groups, p.error));
+    for_light(context, state, [&](std::size_t c, std::size_t i) {
+        if (is_filtered(state, known, i)) p.error[c * pixels + i] *= unit(c, i);
+    });
+    return Status::ok();
+}
+
+/// A third, and a quarter of that more: how much windows keep of their fits is noise, too, and the
+/// same in all parts. docs/filter.md has what was measured.
+constexpr float kOfFolds = 1.25f / 3.0f;
+
+/// Four parts of the picture, each filtered by itself, against the whole, of which each is a
+/// quarter: a difference of the two has three times the square of the whole's own error. Windows
+/// keep as much of their fits as with all pixels.
+Status regress_with_error(const Context& context, PathState& state, Known& known) {
+    Planes& p = state.planes;
+    const std::size_t pixels = state.film.pixels();
+    Buffer<double> kept;
+    PILEUS_TRY(allocate(arrays::filter_kept(state.film.width, state.film.height), kept));
+    known.kept = kept.data();
     const auto copy = [&](const Buffer<float>& from, Buffer<float>& to) {
         std::memcpy(to.data(), from.data(), from.bytes());
     };
@@ -171,16 +214,17 @@ Status regress_with_error(const Context& context, PathState& state, const Known&
             if (filter_fold(int(i % std::size_t(width)), int(i / std::size_t(width))) != fold)
                 return;
             const float d = p.colour[c * pixels + i] - whole[c * pixels + i];
-            p.error[c * pixels + i] = d * d * (1.0f / 3.0f);
+            p.error[c * pixels + i] =
+                is_filtered(state, known, i) ? d * d * kOfFolds : kNotFiltered;
         });
     }
     copy(whole, p.colour);
-    PILEUS_TRY(smooth_error(context.threads, state.film.width, state.film.height, p.error));
+    PILEUS_TRY(steady_squares(context, state, known));
     // What is not filtered has the error of its samples.
+    for (std::size_t c = 0; c < 3; ++c)
+        film_errors(context.threads, state, int(c), samples.data() + c * pixels, nullptr);
     for_light(context, state, [&](std::size_t c, std::size_t i) {
-        if (p.transmittance[i] < 1.0f || (known.plain && is_solid(p, i))) return;
-        p.error[c * pixels + i] =
-            state.film.samples >= 2 ? float(film_error(state.film, int(c), i)) : 0.0f;
+        if (!is_filtered(state, known, i)) p.error[c * pixels + i] = samples[c * pixels + i];
     });
     return Status::ok();
 }
@@ -200,13 +244,21 @@ Status path_sky_behind(const Context& context, const FrameView& view, const Path
     return show_background(context, sky, k, {nullptr, out.data(), nullptr});
 }
 
+Status path_filter_with_error(const Context& context, const FrameView& view, PathState& state) {
+    const StageClock clock(context, "filter");
+    Known known;
+    PILEUS_TRY(find_known(context, view, state, known));
+    return regress_with_error(context, state, known);
+}
+
 Status path_filter(const Context& context, const FrameView& view, PathState& state) {
+    if (path_regresses(state.filter) && view.scene.output.layer_error)
+        return path_filter_with_error(context, view, state);
     const StageClock clock(context, "filter");
     if (!path_regresses(state.filter)) return denoise_film(context, view, state);
     Known known;
     PILEUS_TRY(find_known(context, view, state, known));
-    return view.scene.output.layer_error ? regress_with_error(context, state, known)
-                                         : regress(context, state, known, -1);
+    return regress(context, state, known, -1);
 }
 
 }  // namespace pileus

@@ -39,6 +39,10 @@ public:
     PathInput input(const Context& context, const FrameView& view) const {
         return path_input(context, view, state_);
     }
+    /// The error of the film filtered by regression, before the frame is shown.
+    Status filtered_error(const Context& context, const FrameView& view, ErrorSum& sum) {
+        return path_filtered_error(context, view, state_, sum);
+    }
     /// Memory for them.
     PathScratch& scratch() { return state_.scratch; }
     Film& film() { return state_.film; }

@@ -118,7 +118,7 @@ std::uint64_t film_pixels(const Scene& scene) {
 }
 
 void weigh_memory(const Context& context, const FrameView& view, const PathState& state,
-                  bool keeps_state, Plan& plan) {
+                  bool keeps_state, bool looks, Plan& plan) {
     const Scene& scene = view.scene;
     const OutputSettings& output = scene.output;
     const Grid& grid = view.world.medium.grid;
@@ -165,7 +165,14 @@ void weigh_memory(const Context& context, const FrameView& view, const PathState
         const auto& size = scene.camera.resolution;
         add(t, arrays::filter_sums(size[0], size[1]));
         if (scene.output.layer_error)
-            add(t, arrays::film_means(6, pixels), arrays::error_tiles(size[0], size[1]));
+            add(t, arrays::film_means(6, pixels), arrays::error_tiles(size[0], size[1]),
+                arrays::filter_kept(size[0], size[1]));
+        if (looks)
+            t.add("filter at looks", Stage::kPaths, Stage::kPaths,
+                  arrays::film_means(27, pixels).bytes() + arrays::filter_features(pixels).bytes() +
+                      arrays::filter_sums(size[0], size[1]).bytes() +
+                      arrays::error_tiles(size[0], size[1]).bytes() +
+                      arrays::filter_kept(size[0], size[1]).bytes());
     }
     add_image_rows(std::uint64_t(scene.camera.resolution[0]),
                    std::uint64_t(scene.camera.resolution[1]),
@@ -221,7 +228,7 @@ public:
     void explain(const Context& context, const FrameView& view, Plan& plan) const override {
         const bool keeps_state = !budget_.state.empty();
         note_plan(view, of_.state(), keeps_state, plan);
-        weigh_memory(context, view, of_.state(), keeps_state, plan);
+        weigh_memory(context, view, of_.state(), keeps_state, goal(view).error > 0, plan);
         estimate_paths(context, view, goal(view), plan);
     }
 
@@ -235,8 +242,14 @@ public:
         return goal_of(of_.state().settings, budget_);
     }
 
-    Status error(const Context&, const FrameView&, double& mean_relative) override {
-        mean_relative = path_error(of_.state()).mean_relative();
+    /// Of a picture filtered by regression what its filter leaves, else that of the samples.
+    Status error(const Context& context, const FrameView& view, double& mean_relative) override {
+        ErrorSum sum;
+        if (path_regresses(of_.state().filter))
+            PILEUS_TRY(of_.filtered_error(context, view, sum));
+        else
+            sum = path_error(context, of_.state());
+        mean_relative = sum.mean_relative();
         return Status::ok();
     }
 
@@ -260,7 +273,7 @@ public:
 
     void digest_picture(const Context& context, Digests& digests) override {
         if (context.digests) digests.emplace_back("film", digest_film(of_.state().film));
-        shown_ = path_error(of_.state());
+        shown_ = path_error(context, of_.state());
     }
 
     FinishedParts finished() const override {
@@ -296,16 +309,32 @@ public:
     void put_work(const FrameWork&, MethodTables&) const override {}
 
 private:
-    /// The report tells the error also where no layer shows it.
+    /// The report tells the error of samples also where no layer shows it.
     void report_error(Report& report) const {
-        if (!shown_) return;
-        // The film's scatter is not what is left of it in a filtered picture.
         const PathState& state = of_.state();
-        report.errors.known =
-            state.film.samples >= 2 && shown_->count > 0 && !path_filters(state.filter);
-        if (!report.errors.known) return;
-        report.errors.mean_relative = shown_->mean_relative();
-        report.errors.rmse_estimate = __builtin_sqrt(shown_->square / shown_->count);
+        const std::string samples =
+            std::to_string(state.film.samples) +
+            (state.film.samples == 1 ? " sample a pixel" : " samples a pixel");
+        if (path_regresses(state.filter)) {
+            report.errors.of =
+                report.errors.known
+                    ? "noise that the filter leaves of " + samples + ", without its bias"
+                    : "none: of a filtered picture the layer \"error\" tells it";
+            return;
+        }
+        if (path_filters(state.filter))
+            report.errors.of = "none: filter.kind \"oidn\" tells none";
+        else if (state.film.samples < 2)
+            report.errors.of = "none: one sample a pixel has no scatter";
+        else if (!shown_ || shown_->count == 0)
+            report.errors.of = "none: no pixel with A > 0.02";
+        else {
+            report.errors.of = "noise of " + samples;
+            if (report.errors.known) return;
+            report.errors.known = true;
+            report.errors.mean_relative = shown_->mean_relative();
+            report.errors.rmse_estimate = shown_->rms();
+        }
     }
 
     PathMethod& of_;

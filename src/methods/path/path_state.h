@@ -71,11 +71,19 @@ inline const char* path_filter_name(const FilterSettings& filter) {
 
 /// Takes the noise out of the planes' colour. kLimit: out of memory.
 Status path_filter(const Context& context, const FrameView& view, PathState& state);
+/// The same by regression, with what is left of the noise in the planes' error.
+Status path_filter_with_error(const Context& context, const FrameView& view, PathState& state);
 /// The filters of foreign libraries.
 Status denoise_film(const Context& context, const FrameView& view, PathState& state);
 
-/// The error of the film over the cloud's pixels, of numbers as the image holds them.
-ErrorSum path_error(const PathState& state);
+/// Standard errors of one channel of the film; `out`, [pixel], and `sum` may be null.
+void film_errors(int threads, const PathState& state, int channel, float* out, ErrorSum* sum);
+/// Their sum over the cloud's pixels.
+ErrorSum path_error(const Context& context, const PathState& state);
+/// Of the film filtered by regression. Leaves the planes' colour filtered, which each picture makes
+/// anew. kLimit: out of memory.
+Status path_filtered_error(const Context& context, const FrameView& view, PathState& state,
+                           ErrorSum& sum);
 
 /// What all films have traced.
 PathTally tally_of(const PathState& state);

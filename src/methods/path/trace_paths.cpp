@@ -316,12 +316,16 @@ double film_mean(const Film& film, int part, int channel, std::size_t pixel) {
     return film.sum[plane * film.pixels() + pixel] / double(samples);
 }
 
-double film_error(const Film& film, int channel, std::size_t pixel) {
+double film_variance(const Film& film, int channel, std::size_t pixel) {
     if (film.samples_of(pixel) < 2 || film.square.empty()) return 0;
     const double n = double(film.samples_of(pixel)), mean = film_mean(film, 0, channel, pixel);
     const double square = film.square[std::size_t(channel) * film.pixels() + pixel];
     const double variance = (square / n - mean * mean) / (n - 1);
-    return variance > 0 ? __builtin_sqrt(variance) : 0;
+    return variance > 0 ? variance : 0;
+}
+
+double film_error(const Film& film, int channel, std::size_t pixel) {
+    return __builtin_sqrt(film_variance(film, channel, pixel));
 }
 
 }  // namespace pileus

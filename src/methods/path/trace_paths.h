@@ -118,8 +118,10 @@ Status trace_pixels(const PathInput& in, const std::vector<std::uint32_t>& pixel
 /// Mean of a part that is kept and a channel of a pixel; 0 without samples.
 double film_mean(const Film& film, int part, int channel, std::size_t pixel);
 
-/// One standard error of the total's mean, from the scatter of its samples; 0 below two samples
+/// Squared standard error of the total's mean, from the scatter of its samples; 0 below two samples
 /// or without squares.
+double film_variance(const Film& film, int channel, std::size_t pixel);
+/// Its root.
 double film_error(const Film& film, int channel, std::size_t pixel);
 
 /// Adds `from` to `to`, field by field.

@@ -73,7 +73,7 @@ Status PhotonGridMethod::error(const Context& context, const FrameView& view,
         make_camera(view.scene.camera, orbit_at(view.scene, view.frame), view.world.medium.low_m);
     Planes planes;
     PILEUS_TRY(compose(context, view, camera, planes));
-    mean_relative = batch_error_sum(planes).mean_relative();
+    mean_relative = batch_error_sum(planes, camera.width, camera.height).mean_relative();
     return Status::ok();
 }
 

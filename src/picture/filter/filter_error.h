@@ -4,6 +4,7 @@
 // docs/filter.md, "The error of a filtered picture"
 #pragma once
 #include "src/base/buffer.h"
+#include "src/picture/errors/pixel_errors.h"
 #include "src/plan/array.h"
 
 namespace pileus {
@@ -15,8 +16,11 @@ Array<double> error_tiles(int width, int height);
 
 }  // namespace arrays
 
-/// `error`, [3][pixel]: each square becomes the root of the mean over its tile of 8 x 8 pixels and
-/// the eight around. kLimit: out of memory.
-Status smooth_error(int threads, int width, int height, Buffer<float>& error);
+/// In place of a square: the pixel is not filtered, and says nothing of those that are.
+constexpr float kNotFiltered = -1;
+
+/// `error`, [3][pixel]: each square becomes the root of the mean over those of its group in its
+/// tile of 8 x 8 pixels and the eight around, 0 where none is filtered. kLimit: out of memory.
+Status smooth_error(int threads, const PixelGroups& groups, Buffer<float>& error);
 
 }  // namespace pileus

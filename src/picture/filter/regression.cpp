@@ -25,6 +25,8 @@ constexpr double kStrict = 1.25;  // noise counts for so much more where windows
 constexpr double kFirstRidge = 1e-4, kRidge = 0.002;  // of a feature's mean square
 constexpr double kFewest = 0.2;             // pixels, like all on average, that say nothing changes
 constexpr int kWidest = 8, kNarrowest = 2;  // half widths of windows, tiles
+constexpr std::size_t kShrinking = 2;       // levels of windows narrower than the widest
+constexpr int kGround = 2;                  // the group of the ground, after two of the media
 
 struct Tiles {
     int across, down;
@@ -59,6 +61,7 @@ struct Work {
     Span<double> scale;              // [tile][kK], squares of the features in the widest windows
     Span<double> kept, kept_around;  // [tile][kKept], of windows, and around them
     double common[kK] = {};
+    double* own_kept = nullptr;  // [level][tile][3], of in.kept
     std::vector<double> norm_x, norm_y;
 
     void share_out(std::size_t pixels) {
@@ -106,7 +109,8 @@ void find_common(Work& w) {
             sum[k] += w.matrix.data[t * kMatrix + std::size_t(at)];
     const std::size_t pixels = std::size_t(w.in.width) * std::size_t(w.in.height);
     for (std::size_t i = 0; i < pixels; ++i) count += w.features.data[i * kStored + kK] > 0 ? 1 : 0;
-    for (int k = 0; k < kK; ++k) w.common[k] = count > 0 ? kFewest * sum[k] / count : 0;
+    const double fewest = w.in.fold < 0 || w.in.kept == nullptr ? kFewest : kFewest / kFolds;
+    for (int k = 0; k < kK; ++k) w.common[k] = count > 0 ? fewest * sum[k] / count : 0;
 }
 
 void sum_right(Work& w, const float* light) {
@@ -265,7 +269,11 @@ void keep_confirmed(Work& w, int h) {
             const double explained = w.kept_around[t * kKept + c];
             const double squares = kStrict * w.kept_around[t * kKept + 3 + c];
             const double noise = squares > 0 ? squares : 0;  // below it by rounding alone
-            const double keep = explained > noise ? 1 - noise / explained : 0;
+            double keep = explained > noise ? 1 - noise / explained : 0;
+            if (w.own_kept != nullptr) {
+                double& whole = w.own_kept[3 * t + c];
+                (w.in.fold < 0 ? whole : keep) = w.in.fold < 0 ? keep : whole;
+            }
             for (std::size_t k = 0; k < kK; ++k) w.coefficients[t * kSide + c * kK + k] *= keep;
         }
 }
@@ -317,6 +325,7 @@ void run_level(Work& w, const float* light, int h, bool shrinks) {
     spread(w, w.right.data, kRight, h, w.wider.data, true);
     solve_windows(w, shrinks);
     if (shrinks) keep_confirmed(w, h);
+    if (shrinks && w.own_kept != nullptr) w.own_kept += 3 * w.tiles.count();
     spread(w, w.coefficients.data, kSide, h, w.wide.data, false);
     std::memcpy(w.coefficients.data, w.wide.data, w.tiles.count() * kSide * sizeof(double));
     add_fit(w);
@@ -330,9 +339,11 @@ Status make_work(const RegressionInput& in, Work& w) {
     return Status::ok();
 }
 
-/// Replaces the light of the pixels that have features.
-void filter_group(Work& w, float* light) {
+/// Replaces the light of the pixels that have features: `number` 0 and 1 of the media, 2 ground.
+void filter_group(Work& w, int number, float* light) {
     const RegressionInput& in = w.in;
+    if (in.kept != nullptr)
+        w.own_kept = in.kept + std::size_t(number) * kShrinking * 3 * w.tiles.count();
     const std::size_t pixels = std::size_t(in.width) * std::size_t(in.height);
     sum_matrix(w);
     find_common(w);
@@ -360,12 +371,18 @@ Array<double> arrays::filter_sums(int width, int height) {
             Stage::kLayers};
 }
 
+Array<double> arrays::filter_kept(int width, int height) {
+    return {"sums of the filter",
+            bytes_of((kGround + 1) * kShrinking * 3, tiles_of(width, height).count()),
+            Stage::kLayers, Stage::kLayers};
+}
+
 Status filter_light(const RegressionInput& in, float* light) {
     Work w(in);
     PILEUS_TRY(make_work(in, w));
     for (int group = 0; group < (in.opaque_depth != nullptr ? 2 : 1); ++group) {
         media_features(in, group == 1, w.features.data);
-        filter_group(w, light);
+        filter_group(w, group, light);
     }
     return Status::ok();
 }
@@ -374,7 +391,7 @@ Status filter_ground(const RegressionInput& in, float* light) {
     Work w(in);
     PILEUS_TRY(make_work(in, w));
     ground_features(in, w.features.data);
-    filter_group(w, light);
+    filter_group(w, kGround, light);
     return Status::ok();
 }
 

@@ -4,15 +4,13 @@
 // docs/filter.md; James and Stein 1961 for the shrinkage.
 #pragma once
 #include "src/base/span.h"
+#include "src/picture/errors/pixel_errors.h"
 #include "src/plan/array.h"
 
 namespace pileus {
 
 /// Numbers of a pixel that its light is a linear function of, within a window.
 constexpr int kFilterFeatures = 7;
-
-/// Distances from here on are no solid thing's.
-constexpr float kNothingSolid = 3e38f;
 
 struct RegressionInput {
     int width = 0, height = 0;
@@ -24,6 +22,9 @@ struct RegressionInput {
     const float* sun_on_ground = nullptr;  ///< [pixel], the share of it that media let through
     int radius_pixels = 0;                 ///< of all windows; 0: several, by the noise
     int fold = -1;  ///< pixels of that corner of each 2 x 2 square alone, 0 to 3; -1: all
+    /// Of filter_kept: what windows keep of their fits. All pixels leave it, parts take it up, so
+    /// that they differ from the whole by noise alone; null: each finds its own.
+    double* kept = nullptr;
 };
 
 /// The corner of its square of 2 x 2 that a pixel is.
@@ -34,6 +35,7 @@ namespace arrays {
 /// Features, sums and coefficients.
 Array<float> filter_features(std::uint64_t pixels);
 Array<double> filter_sums(int width, int height);
+Array<double> filter_kept(int width, int height);
 
 }  // namespace arrays
 
