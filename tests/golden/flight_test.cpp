@@ -92,13 +92,13 @@ const Flight kFlights[] = {
      "[collectors]\nphotons = 100_000\ngenerations = 20\nbands = 3\nsamples = 3_000\n"
      "scale = 4\nlight_refresh = 8\n",
      1,
-     {"b6594dc726c7d62e", "989564d99809c917", "3acefe7a78d21ac7", "8181277e61dbb1da"}},
+     {"cab4fdb76d16ec46", "1dabf0905b904a3f", "a7f799e46351a704", "e545cec0ef959517"}},
     {"billboards",
      "[method]\nname = \"collectors\"\n"
      "[collectors]\nphotons = 100_000\ngenerations = 20\nbands = 3\nsamples = 3_000\n"
      "display = \"billboards\"\nlight_refresh = 8\n",
      2,
-     {"e54f03c78137a919", "57ecf905b0384cbf", "19b1b8646a363a24", "165a0ee82750fd48"}},
+     {"6e74460adad806d9", "ebd0b92404d88fcc", "53cd955a66eb3b09", "04a2c79dbfd80b5d"}},
     {"octaves by temporal reprojection",
      "[method]\nname = \"raymarch\"\n"
      "[raymarch]\nscattering = \"octaves\"\nsteps = 48\ntemporal = 4\nlight_refresh = 8\n",
