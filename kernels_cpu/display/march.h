@@ -176,8 +176,8 @@ PILEUS_FN void add_source(const MarchParams& k, const MarchBuffers& b, const Vec
 /// behind a thick medium, taken several at once, are none.
 template <class T>
 PILEUS_FN T pieces_of(T optical, T stride) {
-    constexpr float kDeepStep = 0.4f, kPieces = 4.0f, kMostPieces = 32.0f;
-    const T wanted = min_(max_(optical * kPieces + 1.0f, all<T>(1.0f)), all<T>(kMostPieces));
+    constexpr float kDeepStep = 0.4f, kPieces = 4.0f, kMaxPieces = 32.0f;
+    const T wanted = min_(max_(optical * kPieces + 1.0f, all<T>(1.0f)), all<T>(kMaxPieces));
     return select((optical > kDeepStep) & (stride <= 1.0f), to_float(to_int(wanted)), all<T>(1.0f));
 }
 
@@ -222,9 +222,14 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
             if (!any(dense)) return transmittance < k.cut;
             T t = middle, width = whole;
             Vec<T> p = centre, metres = place;
-            Corners<T> at = density_corners<Constant>(k.medium, p);
-            T density = density_at<Constant>(k.medium, at);
-            if constexpr (Detail) density = with_detail(*k.medium.detail, metres, density);
+            Corners<T> at;
+            T density;
+            const auto look = [&]() PILEUS_INLINED {
+                at = density_corners<Constant>(k.medium, p);
+                density = density_at<Constant>(k.medium, at);
+                if constexpr (Detail) density = with_detail(*k.medium.detail, metres, density);
+            };
+            look();
             T optical = select(dense, density * k.medium.sigma * width, T{});
             pace.inside = optical > 0.0f;
             if (!any(pace.inside)) return transmittance < k.cut;
@@ -236,9 +241,7 @@ PILEUS_FN void march_pixels(const MarchParams& k, const MarchBuffers& b, std::in
                     t = select(deep, middle + ((piece + 0.5f) * width - 0.5f * whole), middle);
                     metres = reduced(k.medium, along(ray, t));
                     p = in_voxels(k.medium, metres);
-                    at = density_corners<Constant>(k.medium, p);
-                    density = density_at<Constant>(k.medium, at);
-                    if constexpr (Detail) density = with_detail(*k.medium.detail, metres, density);
+                    look();
                     optical =
                         select(dense & (piece < pieces), density * k.medium.sigma * width, T{});
                 }

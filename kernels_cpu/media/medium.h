@@ -27,28 +27,25 @@ struct Corners {
     T fx, fy, fz;
 };
 
-/// `p` in units of cells; cell centres lie at i + 1/2. Beyond the outermost centres the last cell
-/// counts, or along x and y of a grid that `wraps` the first one of the next period.
+/// The two cells around a place along an axis of a grid that goes around, and the place between.
 template <class T>
-PILEUS_FN Corners<T> corners(const Vec<T>& p, const std::int32_t* size, bool wraps = false) {
+PILEUS_FN void split_around(T v, std::int32_t n, I_of<T>& low, I_of<T>& high, T& fraction) {
     using II = I_of<T>;
-    const auto split = [](T v, std::int32_t n, II& low, II& high, T& fraction) {
-        const T c = max_(min_(v - 0.5f, all<T>(float(n - 1))), T{});
-        low = to_int(c);
-        fraction = c - to_float(low);
-        high = min_(low + 1, all<II>(n - 1));
-    };
-    const auto around = [](T v, std::int32_t n, II& low, II& high, T& fraction) {
-        const T c = max_(min_(v - 0.5f, all<T>(float(n))), all<T>(-0.5f));
-        const II whole = floor_int(c);
-        fraction = c - to_float(whole);
-        low = select(whole < 0, all<II>(n - 1), select(whole >= n, II{}, whole));
-        high = select(low + 1 >= n, II{}, low + 1);
-    };
+    const T c = max_(min_(v - 0.5f, all<T>(float(n))), all<T>(-0.5f));
+    const II whole = floor_int(c);
+    fraction = c - to_float(whole);
+    low = select(whole < 0, all<II>(n - 1), select(whole >= n, II{}, whole));
+    high = select(low + 1 >= n, II{}, low + 1);
+}
+
+/// Cells along each axis by `split`, but along x and y of a grid that `wraps`.
+template <class T, class Split>
+PILEUS_FN Corners<T> corners_by(const Vec<T>& p, const std::int32_t* size, bool wraps,
+                                Split split) {
     Corners<T> c;
     if (wraps) {
-        around(p.x, size[0], c.x0, c.x1, c.fx);
-        around(p.y, size[1], c.y0, c.y1, c.fy);
+        split_around(p.x, size[0], c.x0, c.x1, c.fx);
+        split_around(p.y, size[1], c.y0, c.y1, c.fy);
     } else {
         split(p.x, size[0], c.x0, c.x1, c.fx);
         split(p.y, size[1], c.y0, c.y1, c.fy);
@@ -60,27 +57,30 @@ PILEUS_FN Corners<T> corners(const Vec<T>& p, const std::int32_t* size, bool wra
     return c;
 }
 
+/// `p` in units of cells; cell centres lie at i + 1/2. Beyond the outermost centres the last cell
+/// counts, or along x and y of a grid that `wraps` the first one of the next period.
+template <class T>
+PILEUS_FN Corners<T> corners(const Vec<T>& p, const std::int32_t* size, bool wraps = false) {
+    using II = I_of<T>;
+    return corners_by(p, size, wraps, [](T v, std::int32_t n, II& low, II& high, T& fraction) {
+        const T c = max_(min_(v - 0.5f, all<T>(float(n - 1))), T{});
+        low = to_int(c);
+        fraction = c - to_float(low);
+        high = min_(low + 1, all<II>(n - 1));
+    });
+}
+
 /// The same of nodes whose values go on in a line beyond the outermost centres, up to the faces of
 /// the grid: optical depth and light are not level there, and a sharp face of a medium lies there.
 template <class T>
 PILEUS_FN Corners<T> node_corners(const Vec<T>& p, const std::int32_t* size, bool wraps = false) {
     using II = I_of<T>;
-    Corners<T> c = corners(p, size, wraps);
-    const std::int32_t row = size[0], slice = size[0] * size[1];
-    const auto split = [](T v, std::int32_t n, std::int32_t stride, II& low, II& high,
-                          T& fraction) {
+    return corners_by(p, size, wraps, [](T v, std::int32_t n, II& low, II& high, T& fraction) {
         const T at = max_(min_(v - 0.5f, all<T>(float(n) - 0.5f)), all<T>(-0.5f));
-        const II first = min_(max_(floor_int(at), II{}), all<II>(n > 1 ? n - 2 : 0));
-        fraction = at - to_float(first);
-        low = first * stride;
-        high = min_(first + 1, all<II>(n - 1)) * stride;
-    };
-    if (!wraps) {
-        split(p.x, size[0], 1, c.x0, c.x1, c.fx);
-        split(p.y, size[1], row, c.y0, c.y1, c.fy);
-    }
-    split(p.z, size[2], slice, c.z0, c.z1, c.fz);
-    return c;
+        low = min_(max_(floor_int(at), II{}), all<II>(n > 1 ? n - 2 : 0));
+        fraction = at - to_float(low);
+        high = min_(low + 1, all<II>(n - 1));
+    });
 }
 
 /// The cell that holds `p` alone.

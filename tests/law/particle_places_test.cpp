@@ -3,33 +3,12 @@
 // in: made-up particles -> out: pictures against each other, refusals. docs/particles.md, "Light"
 #include <cmath>
 
-#include "tests/io/temp_folder.h"
 #include "tests/support/particle_harness.h"
 #include "tests/support/render_harness.h"
 
 using namespace pileus;
 using namespace render_test;
 using namespace particle_test;
-
-namespace {
-
-/// A scene over a file of particles.
-class Field {
-public:
-    explicit Field(const std::string& rows) {
-        folder_.put("p.csv", "x y z radius density\n" + rows);
-    }
-    Picture render(const std::vector<std::string>& overrides) const {
-        Scene scene = scene_from(kText, overrides);
-        scene.directory = folder_.path("");
-        return render_one(scene);
-    }
-
-private:
-    test::TempFolder folder_;
-};
-
-}  // namespace
 
 TEST_CASE("particles: light is a walk from each bin where nothing else is asked") {
     const Field field("0 0 50 40 0.03\n-20 10 60 25 0.05\n");

@@ -82,22 +82,6 @@ double worst_of(const std::vector<float>& depths, const ParticleTree& tree,
     return worst;
 }
 
-/// A scene over a file of particles.
-class Field {
-public:
-    explicit Field(const std::string& rows) {
-        folder_.put("p.csv", "x y z radius density\n" + rows);
-    }
-    Picture render(const std::vector<std::string>& overrides) const {
-        Scene scene = scene_from(kText, overrides);
-        scene.directory = folder_.path("");
-        return render_one(scene);
-    }
-
-private:
-    test::TempFolder folder_;
-};
-
 double sum_of(const Image& image, const char* channel) {
     double sum = 0;
     for (const float v : image.find(channel)->pixels.span()) sum += double(v);

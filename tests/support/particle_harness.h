@@ -3,6 +3,11 @@
 // in: indices, places -> out: numbers, text. docs/particles.md
 #pragma once
 #include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tests/io/temp_folder.h"
+#include "tests/support/render_harness.h"
 
 namespace particle_test {
 
@@ -40,5 +45,21 @@ name = "particles"
 [output]
 layers = ["radiance", "alpha", "depth", "optical_depth"]
 )";
+
+/// A scene over a file of particles.
+class Field {
+public:
+    explicit Field(const std::string& rows) {
+        folder_.put("p.csv", "x y z radius density\n" + rows);
+    }
+    render_test::Picture render(const std::vector<std::string>& overrides) const {
+        pileus::Scene scene = render_test::scene_from(kText, overrides);
+        scene.directory = folder_.path("");
+        return render_test::render_one(scene);
+    }
+
+private:
+    pileus::test::TempFolder folder_;
+};
 
 }  // namespace particle_test

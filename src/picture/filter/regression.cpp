@@ -272,7 +272,8 @@ void keep_confirmed(Work& w, int h) {
             double keep = explained > noise ? 1 - noise / explained : 0;
             if (w.own_kept != nullptr) {
                 double& whole = w.own_kept[3 * t + c];
-                (w.in.fold < 0 ? whole : keep) = w.in.fold < 0 ? keep : whole;
+                if (w.in.fold >= 0) keep = whole;
+                whole = keep;
             }
             for (std::size_t k = 0; k < kK; ++k) w.coefficients[t * kSide + c * kK + k] *= keep;
         }

@@ -10,6 +10,7 @@
 #include "platform/threads.h"
 #include "src/scene/toml/toml_tree.h"
 #include "src/world/density/noise_volume.h"
+#include "src/world/medium/refine.h"
 
 namespace pileus {
 namespace {
@@ -99,21 +100,12 @@ void fill_slice(const float* from, const Grid& coarse, const DetailView& v, int 
         }
 }
 
-/// Gives a medium a grid of finer cells over the same box.
-void refine_grid(int refine, Medium& medium) {
-    for (std::size_t a = 0; a < 3; ++a) {
-        medium.grid.size[a] *= refine;
-        medium.volume.size[a] = medium.grid.size[a];
-        medium.grid.cell_m[a] = float(medium.extent_m[a] / medium.grid.size[a]);
-    }
-}
-
 /// Puts a finer density with detail in place of the medium's own.
 Status lay_detail(const DetailView& view, int refine, int threads, Medium& medium) {
     const Grid coarse = medium.grid;
     Buffer<float> from;
     from.swap(medium.volume.density);
-    refine_grid(refine, medium);
+    refine_grid({refine, refine, refine}, medium);
     PILEUS_TRY(allocate(arrays::density(medium.grid), medium.volume.density));
     parallel_for(threads, medium.grid.size[2], [&](std::int64_t z, int) {
         fill_slice(from.data(), coarse, view, refine, int(z), medium);
@@ -177,7 +169,7 @@ Status outline_detail(const Scene& scene, const MediumSettings& settings, const 
     source.making.push_back({"noise of detail", noise + arrays::detail_tile(s.cells).bytes(), 0});
     source.making.push_back(
         {"density before its detail", bytes_of(4, voxel_count(medium.grid)), 0});
-    refine_grid(s.refine, medium);
+    refine_grid({s.refine, s.refine, s.refine}, medium);
     return check_voxels(scene.file, medium.volume.size, limits);
 }
 

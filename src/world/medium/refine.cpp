@@ -18,7 +18,7 @@ namespace {
 /// dark by photons, of 1.3 3 to 5, of 0.8 1 to 3 (docs/accuracy.md).
 constexpr double kDepth = 1;
 /// As many as cells of light have photons for; 2 MB of densities.
-constexpr double kMostFine = 0x1p19;
+constexpr double kMaxFineCells = 0x1p19;
 /// A box is flat that is so many times as wide as it is thick.
 constexpr double kFlat = 16;
 
@@ -61,17 +61,17 @@ Status refine_values(const Grid& from, const Grid& to, const std::array<int, 3>&
 std::array<int, 3> finer_cells(const Medium& medium, const Limits& limits) {
     std::array<int, 3> factor{1, 1, 1};
     const double per_m = max_extinction(medium);
-    const double most = std::min(kMostFine, double(limits[LimitId::kVoxels]));
+    const double most = std::min(kMaxFineCells, double(limits[LimitId::kVoxels]));
     if (!(per_m > 0) || double(voxel_count(medium.grid)) * 3 > most) return factor;
     const double thickness = *std::min_element(medium.extent_m, medium.extent_m + 3);
     const auto stays = [&](int a) {
         return medium.extent_m[a] > kFlat * thickness && cell_of(medium, a) > thickness;
     };
+    const int side = int(std::min<std::uint64_t>(limits[LimitId::kSide], kMaxVolumeSide));
     for (double edge = kDepth / per_m;; edge *= 1.25) {
         double cells = 1;
         for (int a = 0; a < 3; ++a) {
             const std::size_t axis = std::size_t(a);
-            const int side = int(std::min<std::uint64_t>(limits[LimitId::kSide], kMaxVolumeSide));
             factor[axis] =
                 stays(a) ? 1 : odd_from(cell_of(medium, a) / edge, side / medium.grid.size[a]);
             cells *= double(factor[axis]) * medium.grid.size[a];
@@ -82,11 +82,7 @@ std::array<int, 3> finer_cells(const Medium& medium, const Limits& limits) {
 
 Status refine_medium(const std::array<int, 3>& factor, int threads, Medium& medium) {
     const Grid from = medium.grid;
-    for (std::size_t a = 0; a < 3; ++a) {
-        medium.grid.size[a] *= factor[a];
-        medium.volume.size[a] = medium.grid.size[a];
-        medium.grid.cell_m[a] = float(medium.extent_m[a] / medium.grid.size[a]);
-    }
+    refine_grid(factor, medium);
     if (medium.volume.density.size() > 0)
         PILEUS_TRY(refine_values(from, medium.grid, factor, threads, arrays::density(medium.grid),
                                  1, medium.volume.density));

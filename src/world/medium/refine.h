@@ -7,6 +7,7 @@
 #include <array>
 
 #include "src/world/medium/medium.h"
+#include "src/world/medium/resample.h"
 
 namespace pileus {
 
@@ -14,6 +15,14 @@ namespace pileus {
 /// than one optical depth, or are as many as a finer grid may have. A cell that is wider than a
 /// flat box is thick stays: light knows no more of it than its height.
 std::array<int, 3> finer_cells(const Medium& medium, const Limits& limits);
+
+/// Gives a medium a grid of so many cells for each of its own; its values stay as they are.
+inline void refine_grid(const std::array<int, 3>& factor, Medium& medium) {
+    std::array<int, 3> size = medium.volume.size;
+    for (std::size_t a = 0; a < 3; ++a) size[a] = medium.grid.size[a] * factor[a];
+    medium.grid = resampled_grid(medium, size);
+    medium.volume.size = size;
+}
 
 /// Gives the medium that grid; densities follow where it has any. Exact: between centres a density
 /// is linear, and of an odd number of cells the middle one keeps the centre. kLimit: memory.

@@ -36,11 +36,17 @@ void consider(const VoxelBox& box, const SampleBounds& bounds, const Grid& grid,
     best = {axis, low, face, gap};
 }
 
+/// Pieces that halving makes of an edge, until none is longer than so many voxels.
+std::uint64_t halved(double edge, int voxels) {
+    std::uint64_t pieces = 1;
+    for (; edge > voxels; edge /= 2) pieces *= 2;
+    return pieces;
+}
+
 /// Leaves of so many voxels that halving makes of all faces of a grid.
 std::uint64_t leaves_of_faces(const Grid& grid, const int (&voxels)[3]) {
-    std::uint64_t n[3] = {1, 1, 1};
-    for (int a = 0; a < 3; ++a)
-        for (double edge = grid.size[a]; edge > voxels[a]; edge /= 2) n[a] *= 2;
+    std::uint64_t n[3];
+    for (int a = 0; a < 3; ++a) n[a] = halved(grid.size[a], voxels[a]);
     return 2 * (n[0] * n[1] + n[1] * n[2] + n[2] * n[0]);
 }
 
@@ -83,11 +89,10 @@ std::uint64_t expected_leaves(const Grid& grid, double share, double extinction_
     int longest[3], at_face[3];
     leaf_limit(grid, share, extinction_per_m, longest);
     face_leaf_limit(grid, extinction_per_m, photons, longest, at_face);
-    std::uint64_t halved = 1;
-    for (int a = 0; a < 3; ++a)
-        for (double edge = grid.size[a]; edge > longest[a]; edge /= 2) halved *= 2;
+    std::uint64_t inside = 1;
+    for (int a = 0; a < 3; ++a) inside *= halved(grid.size[a], longest[a]);
     const std::uint64_t faces = 2 * leaves_of_faces(grid, at_face);
-    return std::min<std::uint64_t>(4 * samples + 8 * halved + faces, voxel_count(grid));
+    return std::min<std::uint64_t>(4 * samples + 8 * inside + faces, voxel_count(grid));
 }
 
 Status LeafList::append(const VoxelBox& box) {
