@@ -86,7 +86,8 @@ TEST_CASE("clouds: depths are where half of the light is gone, in metres of the 
 
 TEST_CASE("clouds: a cloud before the sun darkens another, and the ground below it") {
     // The sun in the south-east at 45 degrees: the second stands towards it.
-    const Overrides by_paths{"method.name=path", "path.samples_per_pixel=64"};
+    const Overrides by_paths{"method.name=path", "path.samples_per_pixel=64",
+                             "medium.0.extinction_per_m=0.0625"};
     CloudySky alone({at(0, 0, 0)}, by_paths), shaded({at(0, 0, 0), at(3000, 0, 3000)}, by_paths);
     for (CloudySky* s : {&alone, &shaded}) s->sky.sun(90, 45);
     const Picture lit = alone.draw(PILEUS_MEDIA), dark = shaded.draw(PILEUS_MEDIA);

@@ -193,7 +193,7 @@ TEST_CASE("pileus.hpp: faults are codes and lines; what stops says how far it ca
     hpp::Host half;
     half.release = [](void*) {};
     CHECK(hpp::World::create(scene, half).code() == hpp::Code::kBadInput);
-    CHECK(take(scene.plan()).cells == glm::uvec3(72, 72, 48));
+    CHECK(take(scene.plan()).cells == glm::uvec3(24, 24, 16));
     CHECK(take(scene.plan()).high_m == glm::dvec3(768, 768, 1536));
 
     hpp::Host host;

@@ -143,7 +143,7 @@ TEST_CASE("misuse: structs of an older and of a newer header") {
 }
 
 TEST_CASE("misuse: a plan, a report, a version") {
-    const SceneHandle scene = scene_of(kSmallCumulus, {});
+    const SceneHandle scene = scene_of(kSmallCumulus, {"medium.0.extinction_per_m=0.0625"});
     Outcome out;
     auto plan = cleared<pileus_plan>();
     REQUIRE(pileus_plan_scene(scene.get(), nullptr, &plan, &out.error) == PILEUS_OK);

@@ -82,9 +82,9 @@ TEST_CASE("path: interrupted twice and resumed, a film has the bits of one that 
 TEST_CASE("path: an error ends where it would have ended without a break") {
     const test::TempFolder folder;
     RenderOptions options;
-    options.budget.error = 0.12;
+    options.budget.error = 0.06;
     const Picture whole = render_one(path_scene("1"), options);
-    CHECK(whole.report.errors.mean_relative <= 0.12);
+    CHECK(whole.report.errors.mean_relative <= 0.06);
     CHECK(whole.report.paths.samples_per_pixel > 16);
     options.budget.state = folder.path("film.state");
     options.interrupted = stop_at(3);

@@ -174,7 +174,8 @@ TEST_CASE("raymarch: nothing solid deep in an opaque cloud leaves a ghost, unles
 }
 
 TEST_CASE("raymarch: rays that end early lose no more than what they would have seen") {
-    Rig rig({"raymarch.ambient=1", "raymarch.sky_light=none", "sun.irradiance=0"});
+    Rig rig({"raymarch.ambient=1", "raymarch.sky_light=none", "sun.irradiance=0",
+             "medium.0.extinction_per_m=0.0625"});
     const Planes early = rig.march();
     rig.scene.raymarch.stop_below = 0;
     const Planes late = rig.march();

@@ -54,7 +54,7 @@ albedo = 0.25
 density = "procedural:cumulus"
 bounds_m = [[-768, -768, 512], [768, 768, 1536]]
 resolution = [24, 24, 16]
-extinction_per_m = 0.0625
+extinction_per_m = 0.0125
 albedo = [0.9, 0.99, 1.0]
 phase = { type = "henyey-greenstein", g = 0.85 }
 [photon_grid]

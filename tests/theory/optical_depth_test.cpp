@@ -145,7 +145,8 @@ TEST_CASE("optical-depth: a largest extinction is that of the medium where it is
 
 TEST_CASE("optical-depth: the buffer's own cells") {
     // As many as the medium has, or none named: the same bits.
-    const Keys method = {"method.name=optical-depth", "output.layers=[\"alpha\"]"};
+    const Keys method = {"method.name=optical-depth", "output.layers=[\"alpha\"]",
+                         "medium.0.extinction_per_m=0.0625"};
     const std::string plain = picture_of(kSmallCumulus, method).report.hash;
     const Scene scene = scene_from(kSmallCumulus, method);
     auto n = scene.media[0].resolution;
@@ -153,8 +154,9 @@ TEST_CASE("optical-depth: the buffer's own cells") {
     for (int& cells : n) cells *= 3;
     const std::string own =
         "optical_depth.resolution=[" + std::to_string(n[0]) + ", 0, " + std::to_string(n[2]) + "]";
-    CHECK(picture_of(kSmallCumulus, {method[0], method[1], own}).report.hash == plain);
-    CHECK(picture_of(kSmallCumulus, {method[0], method[1], "optical_depth.resolution=[1, 1, 1]"})
+    CHECK(picture_of(kSmallCumulus, {method[0], method[1], method[2], own}).report.hash == plain);
+    CHECK(picture_of(kSmallCumulus,
+                     {method[0], method[1], method[2], "optical_depth.resolution=[1, 1, 1]"})
               .report.hash != plain);
     // Light through twice the extinction is light through the same twice as dense.
     const Picture twice = picture_of(kSlab, {"optical_depth.light_scale=0"});
