@@ -24,6 +24,27 @@ void add_around(const double (&w)[3], double power, double (&k)[kAroundTerms]) {
     k[8] += bent * 0.25 * (3 * w[2] * w[2] - 1);
 }
 
+/// Parts of a texel that wide, of four degrees at most: light from a wide one comes from all of it.
+int parts_of(double degrees) {
+    const int whole = int(degrees / 4);
+    return 4 * whole < degrees ? whole + 1 : whole;
+}
+
+/// A ring of a sky map, `high_deg` to `low_deg` from the zenith, with texels of a row.
+void add_ring(const SkyMapView& map, const float* texels, double high_deg, double low_deg,
+              double (&k)[kAroundTerms]) {
+    const SineCosine high = sincos_deg(high_deg), low = sincos_deg(low_deg);
+    const SineCosine middle = sincos_deg(0.5 * (high_deg + low_deg));
+    const int parts = parts_of(360.0 / map.columns), all = map.columns * parts;
+    const double angle = (high.cosine - low.cosine) * 2 * kPiD / double(all);
+    for (int i = 0; i < all; ++i) {
+        const double turns = (i + 0.5) / double(all) + double(map.turn_of_first);
+        const SineCosine north = sincos_deg(360.0 * turns);
+        const double w[3] = {middle.sine * north.sine, middle.sine * north.cosine, middle.cosine};
+        add_around(w, double(texels[i / parts]) * angle, k);
+    }
+}
+
 /// The texels of a sky map, one after the other.
 void add_map(const SkyMapView& map, int channel, double (&k)[kAroundTerms]) {
     const std::size_t plane = map.planes == 1 ? 0 : std::size_t(channel);
@@ -32,16 +53,10 @@ void add_map(const SkyMapView& map, int channel, double (&k)[kAroundTerms]) {
     const double degrees = 360.0 / double(map.rows_per_turn);
     for (int row = 0; row < map.rows; ++row) {
         const double foot = double(map.foot) < row + 1.0 ? double(map.foot) : row + 1.0;
-        const SineCosine high = sincos_deg(row * degrees), low = sincos_deg(foot * degrees);
-        const SineCosine middle = sincos_deg(0.5 * (row + foot) * degrees);
-        const double angle = (high.cosine - low.cosine) * 2 * kPiD / double(columns);
-        for (std::size_t i = 0; i < columns; ++i) {
-            const double turns = (double(i) + 0.5) / double(columns) + double(map.turn_of_first);
-            const SineCosine north = sincos_deg(360.0 * turns);
-            const double w[3] = {middle.sine * north.sine, middle.sine * north.cosine,
-                                 middle.cosine};
-            add_around(w, double(texels[std::size_t(row) * columns + i]) * angle, k);
-        }
+        const int parts = parts_of((foot - row) * degrees);
+        const auto edge = [&](int part) { return (row + (foot - row) * part / parts) * degrees; };
+        for (int part = 0; part < parts; ++part)
+            add_ring(map, texels + std::size_t(row) * columns, edge(part), edge(part + 1), k);
     }
 }
 

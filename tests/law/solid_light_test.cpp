@@ -101,6 +101,38 @@ albedo = 0.5
     CHECK(p.at("R", 2, 2) == doctest::Approx(0.5 * 0.5 * (0.25 + ground)).epsilon(kRounding));
 }
 
+TEST_CASE("solid light: wide texels of a sky map light a wall from all of their width") {
+    const Files files;
+    const std::string map = files.folder.path("sky.pfm");
+    // Its halves shine 0.375 and 0.125, turned so that the wall sees as much of both.
+    for (const auto& size : {std::pair<int, int>{1, 1}, {2, 1}, {4, 2}, {2, 5}, {200, 90}}) {
+        std::vector<float> texels(std::size_t(size.first * size.second), 0.25f);
+        for (std::size_t i = 0; size.first > 1 && i < texels.size(); ++i)
+            texels[i] = i % std::size_t(size.first) < std::size_t(size.first / 2) ? 0.375f : 0.125f;
+        std::string file =
+            "Pf\n" + std::to_string(size.first) + " " + std::to_string(size.second) + "\n-1.0\n";
+        file.append(reinterpret_cast<const char*>(texels.data()), 4 * texels.size());
+        Files::write(map, file);
+        for (const char* method : {"method.name=collectors", "method.name=raymarch"}) {
+            const Picture p = render_one(scene_from(R"(
+[camera]
+position_m = [0, -50, 5]
+target_m = [0, 0, 5]
+projection = "orthographic"
+height_m = 2
+resolution = [4, 4]
+[ground]
+albedo = 0
+[sky]
+map = ")" + map + "\"\n" + solid(files.wall, "albedo = 0.5"),
+                                                    {method, "collectors.photons=100"}));
+            CAPTURE(size.first);
+            // Parts of four degrees: a cosine's second order of half of that.
+            CHECK(p.at("R", 2, 2) == doctest::Approx(0.5 * 0.5 * 0.25).epsilon(4e-4));
+        }
+    }
+}
+
 TEST_CASE("solid light: a layer of medium shades what lies below it") {
     const Files files;
     const std::string medium =
