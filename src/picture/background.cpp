@@ -30,9 +30,9 @@ int parts_of(double degrees) {
     return 4 * whole < degrees ? whole + 1 : whole;
 }
 
-/// A ring of a sky map, `high_deg` to `low_deg` from the zenith, with texels of a row.
-void add_ring(const SkyMapView& map, const float* texels, double high_deg, double low_deg,
-              double (&k)[kAroundTerms]) {
+/// A ring of a sky map, `high_deg` to `low_deg` from the zenith, with the texels of a row.
+void add_ring(const SkyMapView& map, int row, double high_deg, double low_deg,
+              double (&k)[3][kAroundTerms]) {
     const SineCosine high = sincos_deg(high_deg), low = sincos_deg(low_deg);
     const SineCosine middle = sincos_deg(0.5 * (high_deg + low_deg));
     const int parts = parts_of(360.0 / map.columns), all = map.columns * parts;
@@ -41,34 +41,33 @@ void add_ring(const SkyMapView& map, const float* texels, double high_deg, doubl
         const double turns = (i + 0.5) / double(all) + double(map.turn_of_first);
         const SineCosine north = sincos_deg(360.0 * turns);
         const double w[3] = {middle.sine * north.sine, middle.sine * north.cosine, middle.cosine};
-        add_around(w, double(texels[i / parts]) * angle, k);
+        for (int c = 0; c < 3; ++c) {
+            const std::int64_t line = std::int64_t(map.planes == 1 ? 0 : c) * map.rows + row;
+            add_around(w, double(map.radiance[line * map.columns + i / parts]) * angle, k[c]);
+        }
     }
 }
 
 /// The texels of a sky map, one after the other.
-void add_map(const SkyMapView& map, int channel, double (&k)[kAroundTerms]) {
-    const std::size_t plane = map.planes == 1 ? 0 : std::size_t(channel);
-    const std::size_t columns = std::size_t(map.columns);
-    const float* texels = map.radiance + plane * std::size_t(map.rows) * columns;
+void add_map(const SkyMapView& map, double (&k)[3][kAroundTerms]) {
     const double degrees = 360.0 / double(map.rows_per_turn);
     for (int row = 0; row < map.rows; ++row) {
         const double foot = double(map.foot) < row + 1.0 ? double(map.foot) : row + 1.0;
         const int parts = parts_of((foot - row) * degrees);
         const auto edge = [&](int part) { return (row + (foot - row) * part / parts) * degrees; };
-        for (int part = 0; part < parts; ++part)
-            add_ring(map, texels + std::size_t(row) * columns, edge(part), edge(part + 1), k);
+        for (int part = 0; part < parts; ++part) add_ring(map, row, edge(part), edge(part + 1), k);
     }
 }
 
 /// Light around a surface: the sky, and below it the ground as the sun and the sky light it.
 void set_around(const Lighting& light, SolidRowsParams& k) {
+    double sums[3][kAroundTerms] = {};
+    if (light.map.columns > 0) add_map(light.map, sums);
     for (int c = 0; c < 3; ++c) {
         const std::size_t s = std::size_t(c);
-        double sum[kAroundTerms] = {};
+        double(&sum)[kAroundTerms] = sums[c];
         const double below = light.ground_radiance()[c];
-        if (light.map.columns > 0) {
-            add_map(light.map, c, sum);
-        } else {
+        if (light.map.columns == 0) {
             sum[0] = light.ground ? 0.5 * light.sky[s] : light.sky[s];
             sum[3] = light.ground ? 0.5 * light.sky[s] : 0;
         }

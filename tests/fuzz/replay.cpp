@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Runs a fuzz target over stored inputs where libFuzzer is not there, and over changes of them.
-// in: a target's name, files and folders, libFuzzer's -max_total_time, -seed, -max_len and
-// -artifact_prefix -> out: exit 0 and the number of inputs; 2 where there are none.
+// in: a target's name, files and folders, libFuzzer's -runs (0), -max_total_time, -seed, -max_len
+// and -artifact_prefix -> out: exit 0 and the number of inputs; 2 where there are none.
 // docs/testing.md, section Fuzzing
 #include <fcntl.h>
 #include <unistd.h>
@@ -114,13 +114,38 @@ void keep(int file, const std::string& bytes) {
     std::exit(2);
 }
 
-/// The number after `key` in one of the options, or `fallback`.
-std::size_t number_of(const std::vector<std::string>& options, const std::string& key,
-                      std::size_t fallback) {
+/// What stands after `key` in one of the options, or `fallback`.
+std::string value_of(const std::vector<std::string>& options, const std::string& key,
+                     const std::string& fallback) {
     for (const std::string& option : options)
-        if (option.compare(0, key.size(), key) == 0)
-            return std::strtoull(option.c_str() + key.size(), nullptr, 10);
+        if (option.compare(0, key.size(), key) == 0) return option.substr(key.size());
     return fallback;
+}
+
+/// Runs so many changed inputs, and fewer where time ends; their number. Each lies in a file before
+/// it runs, so that one that ends the process is kept.
+std::size_t search(const std::vector<std::string>& stored,
+                   const std::vector<std::string>& options) {
+    const auto number = [&](const char* key, const char* fallback) {
+        return std::strtoull(value_of(options, key, fallback).c_str(), nullptr, 10);
+    };
+    const std::size_t most = number("-runs=", "0");
+    if (most == 0) return 0;
+    const std::chrono::seconds allowed(number("-max_total_time=", "0"));
+    Changes changes(stored, number("-seed=", "1"), number("-max_len=", "4096"));
+    const std::string kept = value_of(options, "-artifact_prefix=", "fuzz-") + "changed";
+    const int file = open(kept.c_str(), O_CREAT | O_RDWR, 0644);
+    const auto start = std::chrono::steady_clock::now();
+    std::size_t runs = 0;
+    for (; runs < most; ++runs) {
+        if (allowed.count() > 0 && std::chrono::steady_clock::now() - start >= allowed) break;
+        const std::string bytes = changes.next();
+        keep(file, bytes);
+        run(bytes);
+    }
+    close(file);
+    fs::remove(kept);
+    return runs;
 }
 
 }  // namespace
@@ -129,13 +154,9 @@ int main(int count, char** words) {
     LLVMFuzzerInitialize(&count, &words);
     std::vector<fs::path> files;
     std::vector<std::string> options;
-    std::string kept = "fuzz-changed-";
-    const std::string prefix = "-artifact_prefix=";
     for (int i = 1; i < count; ++i) {
         const std::string word = words[i];
-        if (word.compare(0, prefix.size(), prefix) == 0) {
-            kept = word.substr(prefix.size());
-        } else if (word[0] == '-') {
+        if (word[0] == '-') {
             options.push_back(word);
         } else if (!fs::is_directory(word)) {
             files.emplace_back(word);
@@ -164,19 +185,6 @@ int main(int count, char** words) {
     }
     std::printf("replayed %zu inputs\n", files.size());
 
-    // A changed input lies in a file before it runs, so that one that ends the process is kept.
-    const std::chrono::seconds allowed(number_of(options, "-max_total_time=", 0));
-    Changes changes(stored, number_of(options, "-seed=", 1), number_of(options, "-max_len=", 4096));
-    kept += "changed";
-    const int file = allowed.count() > 0 ? open(kept.c_str(), O_CREAT | O_RDWR, 0644) : -1;
-    std::size_t runs = files.size();
-    const auto start = std::chrono::steady_clock::now();
-    for (; std::chrono::steady_clock::now() - start < allowed; ++runs) {
-        const std::string bytes = changes.next();
-        keep(file, bytes);
-        run(bytes);
-    }
-    if (allowed.count() > 0) fs::remove(kept);
-    std::printf("stat::number_of_executed_units: %zu\n", runs);
+    std::printf("stat::number_of_executed_units: %zu\n", files.size() + search(stored, options));
     return 0;
 }

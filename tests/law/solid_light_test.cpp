@@ -51,6 +51,18 @@ generations = 4
 )" + rest;
 }
 
+/// Looks north on 2 x 2 m of the wall.
+std::string facing_wall(const std::string& rest) {
+    return R"(
+[camera]
+position_m = [0, -50, 5]
+target_m = [0, 0, 5]
+projection = "orthographic"
+height_m = 2
+resolution = [4, 4]
+)" + rest;
+}
+
 std::string solid(const std::string& file, const char* more) {
     return "[[solid]]\nfile = \"" + file + "\"\n" + more + "\n";
 }
@@ -80,22 +92,11 @@ TEST_CASE("solid light: sun and sky on a level square, and its shadow on the gro
 
 TEST_CASE("solid light: a wall between sky and ground gets half of each") {
     const Files files;
-    const Picture p = render_one(scene_from(R"(
-[camera]
-position_m = [0, -50, 5]
-target_m = [0, 0, 5]
-projection = "orthographic"
-height_m = 2
-resolution = [4, 4]
-[sun]
-azimuth_deg = 0
-elevation_deg = 60
-[sky]
-radiance = 0.25
-[ground]
-albedo = 0.5
-)" + solid(files.wall, "albedo = 0.5"),
-                                            {"collectors.photons=100"}));
+    const Picture p =
+        render_one(scene_from(facing_wall("[sun]\nazimuth_deg = 0\nelevation_deg = 60\n"
+                                          "[sky]\nradiance = 0.25\n[ground]\nalbedo = 0.5\n" +
+                                          solid(files.wall, "albedo = 0.5")),
+                              {"collectors.photons=100"}));
     // The sun stands behind the wall.
     const double ground = 0.5 * (0.25 + 0.86602540378443865 / kHalfTurn);
     CHECK(p.at("R", 2, 2) == doctest::Approx(0.5 * 0.5 * (0.25 + ground)).epsilon(kRounding));
@@ -114,18 +115,10 @@ TEST_CASE("solid light: wide texels of a sky map light a wall from all of their 
         file.append(reinterpret_cast<const char*>(texels.data()), 4 * texels.size());
         Files::write(map, file);
         for (const char* method : {"method.name=collectors", "method.name=raymarch"}) {
-            const Picture p = render_one(scene_from(R"(
-[camera]
-position_m = [0, -50, 5]
-target_m = [0, 0, 5]
-projection = "orthographic"
-height_m = 2
-resolution = [4, 4]
-[ground]
-albedo = 0
-[sky]
-map = ")" + map + "\"\n" + solid(files.wall, "albedo = 0.5"),
-                                                    {method, "collectors.photons=100"}));
+            const Picture p =
+                render_one(scene_from(facing_wall("[ground]\nalbedo = 0\n[sky]\nmap = \"" + map +
+                                                  "\"\n" + solid(files.wall, "albedo = 0.5")),
+                                      {method, "collectors.photons=100"}));
             CAPTURE(size.first);
             // Parts of four degrees: a cosine's second order of half of that.
             CHECK(p.at("R", 2, 2) == doctest::Approx(0.5 * 0.5 * 0.25).epsilon(4e-4));

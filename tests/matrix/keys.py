@@ -9,10 +9,8 @@ import copy
 import json
 import os
 import re
-import subprocess
 
-from runs import with_method
-from scenes import write_toml
+from runs import Refused, run, with_method
 
 # Tables of methods and their tools: other columns leave them as they are, so that one scene serves all.
 OWN = {"collectors": {"collectors"}, "photon_grid": {"photon-grid"}, "path": {"path"}, "raymarch": {"raymarch", "optical-depth"},
@@ -84,9 +82,6 @@ class Stage:
         for table, keys in WORK.items():
             if table in scene or table == scene["method"]["name"].replace("-", "_"):
                 scene.setdefault(table, {}).update(keys)
-        self.path = os.path.join(folder, name + ".toml")
-        with open(self.path, "w") as file:
-            file.write(write_toml(scene))
         self.scene, self.always = scene, []
         self.plain = self.outcome([])
 
@@ -100,23 +95,23 @@ class Stage:
 
     def outcome(self, settings):
         """The picture, the report without times, and the warnings; None where it is refused."""
-        picture, report = (os.path.splitext(self.path)[0] + end for end in (".pfm", ".json"))
-        command = [self.program, "render", self.path, "-o", picture, "--report", report, "--threads", "1", "-q"]
+        report = os.path.join(self.folder, "report.json")
+        arguments, warnings = ["--report", report], []
         for setting in self.always + settings:
-            command += ["--set", setting]
-        done = subprocess.run(command, capture_output=True, text=True, timeout=300, cwd=self.folder)
-        if done.returncode != 0:
+            arguments += ["--set", setting]
+        try:
+            picture = run(self.program, self.folder, self.scene, "keys", arguments, warnings)
+        except Refused:
             return None
-        with open(picture, "rb") as file:
-            pixels = file.read()
         with open(report) as file:
-            told = json.dumps(without_run(json.load(file)), sort_keys=True)
-        warnings = [line for line in done.stderr.splitlines() if "warning" in line]
-        return pixels, told, warnings
+            return picture, without_run(json.load(file)), warnings
 
 
 def applies(key, column):
+    """Whether a key is one of this column's; films have pictures of other names and are not tried."""
     table = key.split(".")[0]
+    if table == "animation":
+        return False
     return table not in OWN or column.replace("-billboards", "") in OWN[table]
 
 
