@@ -100,6 +100,11 @@ public:
     FileResult begin(const char* path);
     /// All of the file's bytes, brought to the disk.
     FileResult write(const void* data, std::size_t bytes);
+    /// The same in parts: bytes from byte `at` on, then all to the disk. Not for devices and pipes,
+    /// which have no places.
+    FileResult write_at(std::uint64_t at, const void* data, std::size_t bytes);
+    FileResult flush();
+    bool has_places() const { return !device_; }
     /// Gives the file its name; the older file of that name steps aside.
     FileResult publish();
     /// Lets the file outlive its owner, and drops the older one.

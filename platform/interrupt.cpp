@@ -46,7 +46,7 @@ void catch_interrupts(const char* last_words, int exit_status) {
     auto& s = interrupt_state;
     s.line_size = strnlen(last_words, kMostWords);
     memcpy(s.line, last_words, s.line_size);
-    s.line[s.line_size++] = '\n';
+    if (s.line_size > 0) s.line[s.line_size++] = '\n';
     s.exit_status = exit_status;
     catch_one(SIGINT);
     catch_one(SIGTERM);

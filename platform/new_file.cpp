@@ -148,10 +148,27 @@ FileResult NewFile::name_hidden() {
 
 FileResult NewFile::write(const void* data, std::size_t bytes) {
     FileResult result = write_all(descriptor_, static_cast<const char*>(data), bytes);
+    return result ? flush() : result;
+}
+
+FileResult NewFile::write_at(std::uint64_t at, const void* data, std::size_t bytes) {
+    const char* from = static_cast<const char*>(data);
+    while (bytes > 0) {
+        const ssize_t done = ::pwrite(descriptor_, from, bytes, off_t(at));
+        if (done < 0 && errno == EINTR) continue;
+        if (done <= 0) return system_fault();
+        from += done;
+        at += std::uint64_t(done);
+        bytes -= std::size_t(done);
+    }
+    return {};
+}
+
+FileResult NewFile::flush() {
     // Bring the bytes to the disk before the name, so that a power cut leaves no half file.
-    if (result && !device_ && ::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP)
-        result = system_fault();
-    return result;
+    if (!device_ && ::fsync(descriptor_) != 0 && errno != EINVAL && errno != ENOTSUP)
+        return system_fault();
+    return {};
 }
 
 FileResult NewFile::publish() {

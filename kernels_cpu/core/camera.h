@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Rays through pixel centres, in metres from the low corner of the medium's box.
-// in: pixel coordinates (global, so that tiles do not matter) -> out: origin and unit direction.
+// in: pixels, of all of a picture or of a window of it -> out: origin and unit direction.
 // Plain pinhole or orthographic; the basis is made once on the host (src/world/camera/view.h).
 #pragma once
 #include "kernels_cpu/core/vec.h"
@@ -16,7 +16,29 @@ struct CameraParams {
     std::int32_t flux =
         0;  ///< 1: a flat detector (orthographic too), rays over its front half space
     float shift_x = 0, shift_y = 0;  ///< of the image plane's middle, right and up, as half_width
+    /// Of a window of a larger picture, which is all that `width` and `height` count: its first
+    /// pixel there, and by how many pixels that picture is larger. The image plane is that of the
+    /// whole.
+    std::int32_t left = 0, top = 0, more_columns = 0, more_rows = 0;
+    /// Of several parts of a picture, this one: of its rows, eight of each `parts` times eight; 1:
+    /// there is one.
+    std::int32_t parts = 1, part = 0;
 };
+
+/// Pixels of the whole picture.
+constexpr std::int32_t whole_width(const CameraParams& c) { return c.width + c.more_columns; }
+constexpr std::int32_t whole_height(const CameraParams& c) { return c.height + c.more_rows; }
+
+/// Rows that stay together where a picture is divided.
+constexpr std::int32_t kPartRows = 8;
+
+/// The whole picture's number of row `y`: a whole number, or several in lanes.
+template <class Row>
+constexpr Row picture_row(const CameraParams& c, Row y) {
+    if (c.parts == 1) return y + c.top;
+    const Row in_band = y & (kPartRows - 1);
+    return ((y - in_band) * c.parts + in_band) + (c.part * kPartRows + c.top);
+}
 
 inline namespace PILEUS_ISA {
 
@@ -25,17 +47,47 @@ struct Ray {
     Vec<T> origin, direction;
 };
 
-/// Ray of pixel (x, y), y = 0 at the top; x and y are whole numbers held in lanes.
+/// Place on the image plane of pixel (x, y) of the whole picture.
 template <class T>
-PILEUS_FN Ray<T> camera_ray(const CameraParams& c, T x, T y) {
-    const T sx = ((x + 0.5f) * (2.0f / float(c.width)) - 1.0f) * c.half_width + c.shift_x;
-    const T sy = (1.0f - (y + 0.5f) * (2.0f / float(c.height))) * c.half_height + c.shift_y;
+struct PlanePlace {
+    T x, y;
+};
+template <class T>
+PILEUS_FN PlanePlace<T> plane_place(const CameraParams& c, T x, T y) {
+    return {((x + 0.5f) * (2.0f / float(whole_width(c))) - 1.0f) * c.half_width + c.shift_x,
+            (1.0f - (y + 0.5f) * (2.0f / float(whole_height(c)))) * c.half_height + c.shift_y};
+}
+
+/// Ray through a place in the whole picture, in pixels; y = 0 at the top, whole numbers in their
+/// middles.
+template <class T>
+PILEUS_FN Ray<T> picture_ray(const CameraParams& c, T x, T y) {
+    const PlanePlace<T> place = plane_place(c, x, y);
+    const T sx = place.x, sy = place.y;
     const Vec<T> offset{c.right[0] * sx + c.up[0] * sy, c.right[1] * sx + c.up[1] * sy,
                         c.right[2] * sx + c.up[2] * sy};
     const Vec<T> o{all<T>(c.origin[0]), all<T>(c.origin[1]), all<T>(c.origin[2])};
     const Vec<T> f{all<T>(c.forward[0]), all<T>(c.forward[1]), all<T>(c.forward[2])};
     if (c.orthographic) return {{o.x + offset.x, o.y + offset.y, o.z + offset.z}, f};
     return {o, normalized(Vec<T>{f.x + offset.x, f.y + offset.y, f.z + offset.z})};
+}
+
+/// Places in the whole picture of pixels (x, y) of the window or part; x and y are whole numbers
+/// held in lanes, so that the sums are exact and a window's rays are the whole picture's.
+template <class T>
+PILEUS_FN T picture_x(const CameraParams& c, T x) {
+    return x + float(c.left);
+}
+template <class T>
+PILEUS_FN T picture_y(const CameraParams& c, T y) {
+    if (c.parts == 1) return y + float(c.top);
+    return to_float(picture_row(c, to_int(y)));
+}
+
+/// Ray of pixel (x, y) of the window or part.
+template <class T>
+PILEUS_FN Ray<T> camera_ray(const CameraParams& c, T x, T y) {
+    return picture_ray(c, picture_x(c, x), picture_y(c, y));
 }
 
 }  // namespace PILEUS_ISA

@@ -12,8 +12,15 @@
 namespace pileus {
 inline namespace PILEUS_ISA {
 
-PILEUS_FN F<8> load_eight(const float* from) {
-    F<8> v;
+/// Numbers of a texel where lanes are one: each of those that are read by itself.
+struct TexelNumbers {
+    float v[6];
+    constexpr float operator[](int n) const { return v[n]; }
+};
+
+template <class T>
+PILEUS_FN T load_lanes(const float* from) {
+    T v;
     __builtin_memcpy(&v, from, sizeof v);
     return v;
 }
@@ -116,11 +123,36 @@ PILEUS_FN Between<T> slice_at(const AirRowsParams& k, T rise, T metres) {
     return b;
 }
 
-PILEUS_FN F<8> mix_texels(const float* row, std::int64_t next, float fx, float fy) {
-    const F<8> a = load_eight(row), b = load_eight(row + kAirTexel);
-    const F<8> c = load_eight(row + next), d = load_eight(row + next + kAirTexel);
-    const F<8> top = a + (b - a) * fx, low = c + (d - c) * fx;
-    return top + (low - top) * fy;
+/// Between four texels: their numbers side by side, or one by one where L, the lanes, is 1.
+template <int L>
+PILEUS_FN auto mix_texels(const float* row, std::int64_t next, float fx, float fy) {
+    if constexpr (L == 1) {
+        TexelNumbers out;
+        for (int n = 0; n < 6; ++n) {
+            const float a = row[n], b = row[kAirTexel + n];
+            const float c = row[next + n], d = row[next + kAirTexel + n];
+            const float top = a + (b - a) * fx, low = c + (d - c) * fx;
+            out.v[n] = top + (low - top) * fy;
+        }
+        return out;
+    } else {
+        static_assert(L == kAirTexel, "numbers of a texel side by side");
+        using T = F<L>;
+        const T a = load_lanes<T>(row), b = load_lanes<T>(row + kAirTexel);
+        const T c = load_lanes<T>(row + next), d = load_lanes<T>(row + next + kAirTexel);
+        const T top = a + (b - a) * fx, low = c + (d - c) * fx;
+        return top + (low - top) * fy;
+    }
+}
+template <int L, class Texel>
+PILEUS_FN Texel between_texels(const Texel& near, const Texel& far, float share) {
+    if constexpr (L == 1) {
+        TexelNumbers out;
+        for (int n = 0; n < 6; ++n) out.v[n] = near[n] + (far[n] - near[n]) * share;
+        return out;
+    } else {
+        return near + (far - near) * share;
+    }
 }
 
 /// Light that the air sends over the share that it takes, of one pixel.
@@ -132,8 +164,9 @@ PILEUS_FN void air_seen(const AirRowsParams& k, const AirRowsBuffers& b, const A
     const float fx = lane(way.column.part, i), fy = lane(way.row.part, i), fs = lane(slice.part, i);
     const std::int64_t next = std::int64_t(k.columns) * kAirTexel, sheet = next * k.rows;
     const float* at = b.air + s * sheet + row * next + column * kAirTexel;
-    const F<8> near = mix_texels(at, next, fx, fy), far = mix_texels(at + sheet, next, fx, fy);
-    const F<8> v = near + (far - near) * fs;
+    constexpr int L = width_of<T>;
+    const auto v = between_texels<L>(mix_texels<L>(at, next, fx, fy),
+                                     mix_texels<L>(at + sheet, next, fx, fy), fs);
     const float phase = lane(way.phase, i);
     for (int n = 0; n < 3; ++n) light[n] = (v[n] + phase * v[3 + n]) * k.above[n];
 }
@@ -145,7 +178,8 @@ PILEUS_FN void sky_seen(const AirRowsParams& k, const AirRowsBuffers& b, const A
     const std::int64_t next = std::int64_t(k.turns) * kAirTexel;
     const float* at = b.sky + lane(way.sky_row.low, i) * next +
                       std::int64_t(lane(way.sky_column.low, i)) * kAirTexel;
-    const F<8> v = mix_texels(at, next, lane(way.sky_column.part, i), lane(way.sky_row.part, i));
+    const auto v =
+        mix_texels<width_of<T>>(at, next, lane(way.sky_column.part, i), lane(way.sky_row.part, i));
     const float phase = lane(way.phase, i);
     for (int n = 0; n < 3; ++n) light[n] = (v[n] + phase * v[3 + n]) * k.above[n];
 }
@@ -153,14 +187,15 @@ PILEUS_FN void sky_seen(const AirRowsParams& k, const AirRowsBuffers& b, const A
 /// Pixels that are looked at together, on every instruction set.
 constexpr int kAirRun = 8;
 
-/// Each pixel of a run for itself.
-PILEUS_FN void air_run(const AirRowsParams& k, const AirRowsBuffers& b, std::int32_t x,
-                       std::int32_t y) {
-    using T = F<kAirRun>;
+/// L pixels, each for itself.
+template <int L>
+PILEUS_FN void air_pixels(const AirRowsParams& k, const AirRowsBuffers& b, std::int32_t x,
+                          std::int32_t y) {
+    using T = F<L>;
     const std::int64_t pixels = std::int64_t(k.camera.width) * k.camera.height;
     const std::int64_t first = std::int64_t(y) * k.camera.width + x;
-    const std::int32_t real = k.camera.width - x < kAirRun ? k.camera.width - x : kAirRun;
-    const Ray<T> ray = camera_ray(k.camera, to_float(iota<I<kAirRun>>() + x), all<T>(float(y)));
+    const std::int32_t real = k.camera.width - x < L ? k.camera.width - x : L;
+    const Ray<T> ray = camera_ray(k.camera, to_float(iota<I<L>>() + x), all<T>(float(y)));
     const AirWay<T> way = air_way<T>(k, ray.direction);
     const T through = take_lanes<T>(b.transmittance + first, real);
     T opaque = all<T>(__builtin_inff());
@@ -204,86 +239,110 @@ PILEUS_FN void air_run(const AirRowsParams& k, const AirRowsBuffers& b, std::int
     }
 }
 
+/// A run of pixels, or what is left of one.
+template <int L>
+PILEUS_FN void air_run(const AirRowsParams& k, const AirRowsBuffers& b, std::int32_t x,
+                       std::int32_t y) {
+    for (std::int32_t i = 0; i < kAirRun && x + i < k.camera.width; i += L)
+        air_pixels<L>(k, b, x + i, y);
+}
+
 /// What a run of pixels without media before it shows.
 enum class AirRun { kMixed, kSky, kSolid };
+template <int L>
 PILEUS_FN AirRun run_kind(const AirRowsParams& k, const AirRowsBuffers& b, std::int64_t first) {
-    using T = F<kAirRun>;
-    const T through = load_eight(b.transmittance + first);
-    if (any(through < 1.0f)) return AirRun::kMixed;
+    using T = F<L>;
+    for (int i = 0; i < kAirRun; i += L)
+        if (any(load_lanes<T>(b.transmittance + first + i) < 1.0f)) return AirRun::kMixed;
     if (k.solid == 0) return AirRun::kSky;
-    const T opaque = load_eight(b.opaque_depth + first);
-    const auto sky = opaque >= 1e30f;
-    if (!any(lnot(sky))) return AirRun::kSky;
-    if (any(sky)) return AirRun::kMixed;
-    float least = lane(opaque, 0), most = least;
+    const float* const opaque = b.opaque_depth + first;
+    bool sky = false, solid = false;
+    for (int i = 0; i < kAirRun; i += L) {
+        const auto far = load_lanes<T>(opaque + i) >= 1e30f;
+        sky = sky || any(far);
+        solid = solid || any(lnot(far));
+    }
+    if (!solid) return AirRun::kSky;
+    if (sky) return AirRun::kMixed;
+    float least = opaque[0], most = least;
     for (int i = 1; i < kAirRun; ++i) {
-        least = min_(least, lane(opaque, i));
-        most = max_(most, lane(opaque, i));
+        least = min_(least, opaque[i]);
+        most = max_(most, opaque[i]);
     }
     return most <= 1.1f * least ? AirRun::kSolid : AirRun::kMixed;
 }
 
-/// Lines between both ends of a run.
-PILEUS_FN F<kAirRun> line(float begin, float end) {
-    const F<kAirRun> part = to_float(iota<I<kAirRun>>()) * (1.0f / float(kAirRun - 1));
+/// L pixels from number i on of a line between both ends of a run.
+template <int L>
+PILEUS_FN F<L> line(int i, float begin, float end) {
+    const F<L> part = to_float(iota<I<L>>() + i) * (1.0f / float(kAirRun - 1));
     return begin + (end - begin) * part;
 }
-PILEUS_FN void store_eight(const F<kAirRun>& v, float* to) { __builtin_memcpy(to, &v, sizeof v); }
 
 /// Four runs: where they are alike, both ends of a run tell the light that is between.
+template <int L>
 PILEUS_FN void air_runs(const AirRowsParams& k, const AirRowsBuffers& b, std::int32_t x,
                         std::int32_t y) {
-    using T = F<kAirRun>;
+    using T = F<L>;
     const std::int64_t pixels = std::int64_t(k.camera.width) * k.camera.height;
     const std::int64_t first = std::int64_t(y) * k.camera.width + x;
-    const I<kAirRun> point = iota<I<kAirRun>>();
-    const I<kAirRun> column = (point >> 1) * kAirRun + (point & 1) * (kAirRun - 1) + x;
-    const Ray<T> ray = camera_ray(k.camera, to_float(column), all<T>(float(y)));
-    const AirWay<T> way = air_way<T>(k, ray.direction);
-    T opaque = all<T>(__builtin_inff());
-    if (k.solid != 0)
-        for (int i = 0; i < kAirRun; ++i)
-            set_lane(opaque, i,
-                     b.opaque_depth[first + (i >> 1) * kAirRun + (i & 1) * (kAirRun - 1)]);
-    const Between<T> solid = slice_at(k, ray.direction.z, opaque);
+    // The ends of all runs, L side by side.
+    AirWay<T> way[kAirRun / L];
+    Between<T> solid[kAirRun / L];
+    for (int g = 0; g < kAirRun / L; ++g) {
+        const I<L> point = iota<I<L>>() + g * L;
+        const I<L> column = (point >> 1) * kAirRun + (point & 1) * (kAirRun - 1) + x;
+        const Ray<T> ray = camera_ray(k.camera, to_float(column), all<T>(float(y)));
+        way[g] = air_way<T>(k, ray.direction);
+        T opaque = all<T>(__builtin_inff());
+        if (k.solid != 0)
+            for (int i = 0; i < L; ++i)
+                set_lane(opaque, i, b.opaque_depth[first + lane(column, i) - x]);
+        solid[g] = slice_at(k, ray.direction.z, opaque);
+    }
     for (int run = 0; run < kAirRun / 2; ++run) {
         const std::int64_t at = first + run * kAirRun;
-        const AirRun kind = run_kind(k, b, at);
+        const AirRun kind = run_kind<L>(k, b, at);
         if (kind == AirRun::kMixed) {
-            air_run(k, b, x + run * kAirRun, y);
-        } else if (kind == AirRun::kSky) {
-            float begin[3], end[3];
-            sky_seen(k, b, way, 2 * run, begin);
-            sky_seen(k, b, way, 2 * run + 1, end);
-            for (int n = 0; n < 3; ++n)
-                store_eight(line(begin[n], end[n]), b.behind + n * pixels + at);
-        } else {
-            float begin[3], end[3];
-            air_seen(k, b, way, solid, 2 * run, begin);
-            air_seen(k, b, way, solid, 2 * run + 1, end);
-            const Ray<T> own =
-                camera_ray(k.camera, to_float(point + (x + run * kAirRun)), all<T>(float(y)));
-            const AirDepth<T> depth =
-                air_depth(k, own.direction.z, load_eight(b.opaque_depth + at));
+            air_run<L>(k, b, x + run * kAirRun, y);
+            continue;
+        }
+        float ends[2][3];
+        for (int e = 0; e < 2; ++e) {
+            const int g = (2 * run + e) / L, i = (2 * run + e) % L;
+            if (kind == AirRun::kSky)
+                sky_seen(k, b, way[g], i, ends[e]);
+            else
+                air_seen(k, b, way[g], solid[g], i, ends[e]);
+        }
+        for (int i = 0; i < kAirRun; i += L) {
+            AirDepth<T> depth;
+            if (kind == AirRun::kSolid) {
+                const I<L> column = iota<I<L>>() + (x + run * kAirRun + i);
+                const Ray<T> own = camera_ray(k.camera, to_float(column), all<T>(float(y)));
+                depth = air_depth(k, own.direction.z, load_lanes<T>(b.opaque_depth + at + i));
+            }
             for (int n = 0; n < 3; ++n) {
-                float* const behind = b.behind + n * pixels + at;
-                store_eight(
-                    load_eight(behind) * depth.left[n] + line(begin[n], end[n]) * depth.taken[n],
-                    behind);
+                float* const behind = b.behind + n * pixels + at + i;
+                T light = line<L>(i, ends[0][n], ends[1][n]);
+                if (kind == AirRun::kSolid)
+                    light = load_lanes<T>(behind) * depth.left[n] + light * depth.taken[n];
+                __builtin_memcpy(behind, &light, sizeof light);
             }
         }
     }
 }
 
-/// Runs are as wide on every instruction set.
+/// Runs are as wide on every instruction set: a run of lanes, or one pixel after the other.
 template <int W>
 PILEUS_FN void air_rows(const AirRowsParams& k, const AirRowsBuffers& b, std::uint32_t begin,
                         std::uint32_t end) {
     constexpr std::int32_t kRuns = kAirRun * kAirRun / 2;
+    constexpr int L = W == 1 ? 1 : kAirRun;
     for (std::uint32_t y = begin; y < end; ++y) {
         std::int32_t x = 0;
-        for (; x + kRuns <= k.camera.width; x += kRuns) air_runs(k, b, x, std::int32_t(y));
-        for (; x < k.camera.width; x += kAirRun) air_run(k, b, x, std::int32_t(y));
+        for (; x + kRuns <= k.camera.width; x += kRuns) air_runs<L>(k, b, x, std::int32_t(y));
+        for (; x < k.camera.width; x += kAirRun) air_run<L>(k, b, x, std::int32_t(y));
     }
 }
 

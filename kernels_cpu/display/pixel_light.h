@@ -21,9 +21,9 @@ constexpr float kWidestPixel = 0.01f;
 template <class T>
 PILEUS_FN T most_density(const CameraParams& c, const Vec<T>& d) {
     if (c.orthographic != 0) return all<T>(kSunDensity);
-    const float middle =
-        min_((2.0f * c.half_width / float(c.width)) * (2.0f * c.half_height / float(c.height)),
-             kWidestPixel);
+    const float middle = min_((2.0f * c.half_width / float(whole_width(c))) *
+                                  (2.0f * c.half_height / float(whole_height(c))),
+                              kWidestPixel);
     const T slant =
         max_(d.x * c.forward[0] + d.y * c.forward[1] + d.z * c.forward[2], all<T>(1e-3f));
     return min_(1.0f / max_(middle * (slant * slant * slant), all<T>(1e-12f)), all<T>(kSunDensity));

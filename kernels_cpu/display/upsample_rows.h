@@ -25,11 +25,11 @@ PILEUS_FN SeenBefore<T> seen_before(const CameraParams& c, const Vec<T>& place) 
     const T depth = c.orthographic != 0 ? all<T>(1.0f) : max_(ahead, all<T>(1e-6f));
     SeenBefore<T> s;
     s.x = (part(c.right) / (depth * c.half_width) - c.shift_x / c.half_width + 1.0f) *
-              (0.5f * float(c.width)) -
-          0.5f;
+              (0.5f * float(whole_width(c))) -
+          (0.5f + float(c.left));
     s.y = (1.0f - part(c.up) / (depth * c.half_height) + c.shift_y / c.half_height) *
-              (0.5f * float(c.height)) -
-          0.5f;
+              (0.5f * float(whole_height(c))) -
+          (0.5f + float(c.top));
     s.distance = c.orthographic != 0 ? ahead : sqrt_(dot(v, v));
     s.seen = (ahead > 0.0f) & (s.x >= 0.0f) & (s.y >= 0.0f) & (s.x <= float(c.width - 1)) &
              (s.y <= float(c.height - 1));

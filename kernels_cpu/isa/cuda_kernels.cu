@@ -2,13 +2,30 @@
 // The kernels as nvcc compiles them: the same sources with one lane, a thread per item.
 // in: the launches' structs, their pointers the device's -> out: the same bits as on the host.
 // docs/crosscheck.md; cmake/PileusCuda.cmake has the flags that keep the bits.
+#include "kernels_cpu/display/air_rows.h"
 #include "kernels_cpu/display/blend.h"
 #include "kernels_cpu/display/march.h"
 #include "kernels_cpu/display/march_background.h"
+#include "kernels_cpu/display/upsample_rows.h"
 #include "kernels_cpu/isa/device_threads.h"
 #include "kernels_cpu/isa/self_test.h"
+#include "kernels_cpu/light/sweep_layer.h"
+#include "kernels_cpu/light/sweep_turned.h"
+#include "kernels_cpu/particles/particle_board.h"
+#include "kernels_cpu/particles/particle_lamps.h"
+#include "kernels_cpu/particles/particle_light.h"
+#include "kernels_cpu/particles/particle_march.h"
 #include "kernels_cpu/path/path.h"
 #include "kernels_cpu/photons/trace.h"
+#include "kernels_cpu/procedural/cumulus.h"
+#include "kernels_cpu/procedural/sky_bake.h"
+#include "kernels_cpu/procedural/sky_noise.h"
+#include "kernels_cpu/raymarch/lamp_march.h"
+#include "kernels_cpu/raymarch/raymarch.h"
+#include "kernels_cpu/raymarch/raymarch_detail.h"
+#include "kernels_cpu/raymarch/raymarch_sky.h"
+#include "kernels_cpu/raymarch/sky_turn.h"
+#include "kernels_cpu/solids/solid_rows.h"
 
 namespace pileus {
 namespace {

@@ -65,5 +65,24 @@ PILEUS_FN void run_item(Kernel kernel, const BlendParams& k, const BlendBuffers&
     kernel(k, own, item, item + 1);
 }
 
+/// Rows of a cumulus: each has lists of its own, the launch's first row the first ones.
+template <class Kernel>
+PILEUS_FN void run_item(Kernel kernel, const CumulusParams& k, const CumulusBuffers& b,
+                        std::uint32_t begin, std::uint32_t item) {
+    CumulusBuffers own = b;
+    own.scratch = b.scratch + std::uint64_t(item - begin) * std::uint64_t(kCumulusScratch);
+    kernel(k, own, item, item + 1);
+}
+
+/// Tiles of particles: each has bins of its own, the launch's first tile the first ones.
+template <class Kernel>
+PILEUS_FN void run_item(Kernel kernel, const ParticleMarchParams& k, const ParticleTileBuffers& b,
+                        std::uint32_t begin, std::uint32_t item) {
+    ParticleTileBuffers own = b;
+    own.march.scratch =
+        b.march.scratch + std::uint64_t(item - begin) * particle_scratch_share(k.bins);
+    kernel(k, own, item, item + 1);
+}
+
 }  // namespace PILEUS_ISA
 }  // namespace pileus

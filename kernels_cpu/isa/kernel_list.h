@@ -19,8 +19,8 @@
 
 // Photons. Which of the three traces: trace_kernel of src/photons/trace.h
 PILEUS_RANGE(trace,                TraceParams,         TraceBuffers,          Photons,      Device)
-PILEUS_RANGE(trace_solids,         TraceParams,         TraceBuffers,          PhotonSolids, Host)
-PILEUS_RANGE(trace_cells,          TraceParams,         TraceBuffers,          Cells,        Host)
+PILEUS_RANGE(trace_solids,         TraceParams,         TraceBuffers,          PhotonSolids, Device)
+PILEUS_RANGE(trace_cells,          TraceParams,         TraceBuffers,          Cells,        Device)
 // Packs sets of sums, and brings the total up to date; adds packed sets to the total.
 PILEUS_CALL(pack_sets, void,
             (const PackParams& k, const PackBuffers& b, std::uint64_t begin, std::uint64_t end),
@@ -34,78 +34,54 @@ PILEUS_RANGE(shadow_rows,          ShadowParams,        ShadowBuffers,         A
 PILEUS_RANGE(march_rows,           MarchParams,         MarchBuffers,          March,        Device)
 PILEUS_RANGE(background_rows,      BackgroundParams,    BackgroundBuffers,     Always,       Device)
 // As background_rows where there are solid meshes; with BackgroundBuffers::shadow their shadow.
-PILEUS_RANGE(solid_rows,           SolidRowsParams,     BackgroundBuffers,     Solids,       Host)
+PILEUS_RANGE(solid_rows,           SolidRowsParams,     BackgroundBuffers,     Solids,       Device)
 PILEUS_RANGE(blend_tile,           BlendParams,         BlendBuffers,          Billboards,   Device)
 // Rows of which a lattice of pixels was marched; the same with what is behind them, as 8 bits.
-PILEUS_RANGE(upsample_rows,        UpsampleParams,      UpsampleBuffers,       Upsampling,   Host)
+PILEUS_RANGE(upsample_rows,        UpsampleParams,      UpsampleBuffers,       Upsampling,   Device)
 PILEUS_RANGE(finish_rows,          FinishParams,        FinishBuffers,         Upsampling,   Host)
 PILEUS_RANGE(pixel_rows,           PixelParams,         PixelBuffers,          Always,       Host)
-PILEUS_RANGE(air_rows,             AirRowsParams,       AirRowsBuffers,        Air,          Host)
+PILEUS_RANGE(air_rows,             AirRowsParams,       AirRowsBuffers,        Air,          Device)
 
 // Paths: samples [begin, end) of the launch, each stored by itself. Among solids or an image of
 // them; guided or towards the sun's disc, with and without solids; with lamps or media that emit.
 PILEUS_RANGE(trace_paths,          PathParams,          PathBuffers,           Path,         Device)
-PILEUS_RANGE(trace_paths_solid,    PathParams,          PathBuffers,           PathSolids,   Host)
+PILEUS_RANGE(trace_paths_solid,    PathParams,          PathBuffers,           PathSolids,   Device)
 PILEUS_RANGE(trace_paths_guided,   PathParams,          PathBuffers,           PathGuided,   Device)
-PILEUS_RANGE(trace_paths_lamps,    PathParams,          PathBuffers,           PathLamps,    Host)
+PILEUS_RANGE(trace_paths_lamps,    PathParams,          PathBuffers,           PathLamps,    Device)
 
 // Marches
-PILEUS_RANGE(raymarch_rows,        RaymarchParams,      RaymarchBuffers,       Raymarch,     Host)
+PILEUS_RANGE(raymarch_rows,        RaymarchParams,      RaymarchBuffers,       Raymarch,     Device)
 // Nodes of skylight as a camera sees it.
-PILEUS_RANGE(turn_sky,             SkyTurnParams,       SkyTurnBuffers,        Sweep,        Host)
-// One block of the sun's optical depth; blocks nearer the sun must be done.
-PILEUS_CALL(sweep_block, void, (const SweepParams& k, const SweepBuffers& b, std::uint32_t block),
-            (k, b, block), Sweep, Host)
+PILEUS_RANGE(turn_sky,             SkyTurnParams,       SkyTurnBuffers,        Sweep,        Device)
+// Blocks of one diagonal of the sun's optical depth; those nearer the sun must be done.
+PILEUS_RANGE(sweep_blocks,         SweepParams,         SweepBuffers,          Sweep,        Device)
 // Rows of one slice of a periodic medium; the slice above it must be done.
-PILEUS_RANGE(sweep_layer_rows,     SweepLayerParams,    SweepBuffers,          Sweep,        Host)
+PILEUS_RANGE(sweep_layer_rows,     SweepLayerParams,    SweepBuffers,          Sweep,        Device)
 // Rows of nodes along x: nodes.size[1] * nodes.size[2] of them for every lamp; rows of pixels.
-PILEUS_RANGE(lamp_depth_rows,      LampMarchParams,     LampMarchBuffers,      Lamps,        Host)
-PILEUS_RANGE(lamp_march_rows,      LampMarchParams,     LampMarchBuffers,      Lamps,        Host)
+PILEUS_RANGE(lamp_depth_rows,      LampMarchParams,     LampMarchBuffers,      Lamps,        Device)
+PILEUS_RANGE(lamp_march_rows,      LampMarchParams,     LampMarchBuffers,      Lamps,        Device)
 // Of one medium whose MediumView::detail is set, without constant cells.
-PILEUS_RANGE(detail_shadow_rows,   ShadowParams,        ShadowBuffers,         Detail,       Host)
-PILEUS_RANGE(detail_march_rows,    MarchParams,         MarchBuffers,          Detail,       Host)
-PILEUS_RANGE(detail_raymarch_rows, RaymarchParams,      RaymarchBuffers,       Detail,       Host)
+PILEUS_RANGE(detail_shadow_rows,   ShadowParams,        ShadowBuffers,         Detail,       Device)
+PILEUS_RANGE(detail_march_rows,    MarchParams,         MarchBuffers,          Detail,       Device)
+PILEUS_RANGE(detail_raymarch_rows, RaymarchParams,      RaymarchBuffers,       Detail,       Device)
 
-// Procedural media: made on the host, whatever draws them
-PILEUS_CALL(noise_rows, void,
-            (const NoiseParams& k, float* values, std::uint32_t begin, std::uint32_t end),
-            (k, values, begin, end), Sky, Host)
-PILEUS_CALL(bake_sky_rows, void,
-            (const BakeParams& k, float* density, std::uint32_t begin, std::uint32_t end),
-            (k, density, begin, end), Sky, Host)
-// Columns in multiples of 16.
-PILEUS_CALL(sky_columns, void,
-            (const ColumnParams& k, float* most, std::uint32_t begin, std::uint32_t end),
-            (k, most, begin, end), Sky, Host)
-// Rows of a raymarched picture of the sky itself.
-PILEUS_CALL(raymarch_sky_rows, void,
-            (const RaymarchParams& k, const SkyParams& sky, const RaymarchBuffers& b,
-             std::uint32_t begin, std::uint32_t end),
-            (k, sky, b, begin, end), Sky, Host)
-// Rows of nodes of sunlight; returns how many densities were read.
-PILEUS_CALL(sky_light_rows, std::int64_t,
-            (const RaymarchParams& k, const SkyParams& sky, const SkyLightView& view,
-             const SkyLightRow* rows, std::int32_t* words, std::uint32_t begin, std::uint32_t end),
-            (k, sky, view, rows, words, begin, end), Sky, Host)
-// Rows of blocks of a cumulus; `scratch` holds three lists of kMaxBubbles numbers.
-PILEUS_CALL(fill_cumulus, void,
-            (const CumulusParams& k, float* density, std::int32_t* scratch, std::uint32_t begin,
-             std::uint32_t end),
-            (k, density, scratch, begin, end), Sky, Host)
+// Rows of a raymarched picture of the sky itself; rows of nodes of sunlight in it.
+PILEUS_RANGE(raymarch_sky_rows,    RaymarchSkyParams,   RaymarchBuffers,       Sky,          Device)
+PILEUS_RANGE(sky_light_rows,       SkyLightParams,      SkyLightBuffers,       Sky,          Device)
+
+// Procedural media: rows of noise and of cells, columns in multiples of 16, rows of blocks.
+PILEUS_RANGE(noise_rows,           NoiseParams,         NoiseBuffers,          Sky,          Device)
+PILEUS_RANGE(bake_sky_rows,        BakeParams,          BakeBuffers,           Sky,          Device)
+PILEUS_RANGE(sky_columns,          ColumnParams,        ColumnBuffers,         Sky,          Device)
+PILEUS_RANGE(fill_cumulus,         CumulusParams,       CumulusBuffers,        Sky,          Device)
 
 // Particles
-PILEUS_RANGE(particle_depths,      ParticleDepthParams, ParticleDepthBuffers,  Particles,    Host)
-PILEUS_CALL(particle_tile, void,
-            (const ParticleMarchParams& k, const ParticleMarchBuffers& b, const ParticleTile& tile),
-            (k, b, tile), Particles, Host)
-PILEUS_CALL(board_tile, void,
-            (const ParticleBoardParams& k, const ParticleBoardBuffers& b, const ParticleTile& tile),
-            (k, b, tile), Particles, Host)
-PILEUS_RANGE(board_colours,        ParticleMarchParams, ParticleColourBuffers, Particles,    Host)
-PILEUS_CALL(particle_lamp_depths, void,
-            (const ParticleLampDepths& k, std::uint32_t begin, std::uint32_t end),
-            (k, begin, end), Particles, Host)
-PILEUS_RANGE(particle_lamp_light,  ParticleMarchParams, ParticleLampLight,     Particles,    Host)
+PILEUS_RANGE(particle_depths,      ParticleDepthParams, ParticleDepthBuffers,  Particles,    Device)
+PILEUS_RANGE(particle_tiles,       ParticleMarchParams, ParticleTileBuffers,   Particles,    Device)
+PILEUS_RANGE(board_tiles,          ParticleBoardParams, ParticleBoardTileBuffers, Particles, Device)
+PILEUS_RANGE(board_colours,        ParticleMarchParams, ParticleColourBuffers, Particles,    Device)
+PILEUS_RANGE(particle_lamp_depths, ParticleLampDepths,  ParticleLampDepthBuffers, Particles, Device)
+PILEUS_RANGE(particle_lamp_light,  ParticleMarchParams, ParticleLampLight,     Particles,    Device)
 
 // Mathematics: FNV-1a 64 of every function on 64 fixed inputs, the same on every machine.
 PILEUS_CALL(self_test, std::uint64_t, (), (), Always, Device)

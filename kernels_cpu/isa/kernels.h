@@ -18,6 +18,7 @@
 #include "kernels_cpu/procedural/sky_params.h"
 #include "kernels_cpu/raymarch/lamp_march_params.h"
 #include "kernels_cpu/raymarch/raymarch_params.h"
+#include "kernels_cpu/raymarch/raymarch_sky_params.h"
 #include "kernels_cpu/raymarch/sky_turn_params.h"
 #include "kernels_cpu/solids/solids_params.h"
 
@@ -66,10 +67,15 @@ struct KernelTable {
 /// The widest table this machine runs; `name` (or null) forces one. Null: no such table here.
 const KernelTable* kernel_table(const char* name);
 
-/// Kernels of what is made on the host whatever draws it: those of `table`, or the host's widest
+/// Kernels of what stays on the host whatever draws: those of `table`, or the host's widest
 /// where that is null or a device's.
 inline const KernelTable& host_kernels(const KernelTable* table) {
     return table != nullptr && table->device == nullptr ? *table : *kernel_table(nullptr);
+}
+
+/// Those of `table`, or the host's widest where that is null.
+inline const KernelTable& kernels_of(const KernelTable* table) {
+    return table != nullptr ? *table : *kernel_table(nullptr);
 }
 
 /// Table number i of those compiled in and runnable here, narrowest first; null past the end.

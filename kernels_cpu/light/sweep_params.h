@@ -28,8 +28,21 @@ struct SweepParams {
     std::int32_t step[3];    ///< +1 or -1: towards the sun
     std::int32_t edge[2];    ///< of a block along y and z, voxels
     std::int32_t blocks[2];  ///< along y and z
+    std::int32_t diagonal;   ///< that a launch makes: its blocks (y, diagonal - y), told by y
     SweepTaps taps[8];
 };
+
+inline std::int32_t diagonals(const SweepParams& k) { return k.blocks[0] + k.blocks[1] - 1; }
+
+/// The y of blocks that lie on k.diagonal, half-open.
+struct SweepRange {
+    std::uint32_t begin, end;
+};
+inline SweepRange diagonal_blocks(const SweepParams& k) {
+    const std::int32_t first = k.diagonal < k.blocks[1] ? 0 : k.diagonal - k.blocks[1] + 1;
+    const std::int32_t last = k.diagonal < k.blocks[0] ? k.diagonal : k.blocks[0] - 1;
+    return {std::uint32_t(first), std::uint32_t(last) + 1};
+}
 
 /// One neighbour of a periodic sweep, which goes along z; its places wrap around.
 struct SweepTap {

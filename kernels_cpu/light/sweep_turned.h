@@ -141,11 +141,15 @@ PILEUS_FN void sweep_block_of_columns(const SweepParams& k, const SweepBuffers& 
 }
 
 template <int W>
-PILEUS_FN void sweep_block(const SweepParams& k, const SweepBuffers& b, std::uint32_t block) {
-    if (k.axis == 0)
-        sweep_block_of_columns<W>(k, b, sweep_block_at(k, block));
-    else
-        sweep_block_of_rows<W>(k, b, sweep_block_at(k, block));
+PILEUS_FN void sweep_blocks(const SweepParams& k, const SweepBuffers& b, std::uint32_t begin,
+                            std::uint32_t end) {
+    for (auto y = std::int32_t(begin); y < std::int32_t(end); ++y) {
+        const auto block = std::uint32_t((k.diagonal - y) * k.blocks[0] + y);
+        if (k.axis == 0)
+            sweep_block_of_columns<W>(k, b, sweep_block_at(k, block));
+        else
+            sweep_block_of_rows<W>(k, b, sweep_block_at(k, block));
+    }
 }
 
 }  // namespace PILEUS_ISA

@@ -141,8 +141,8 @@ PILEUS_FN void board_pixels(const ParticleBoardParams& k, const ParticleBoardBuf
     const T column = to_float(number % kMarchAcross<W> + x),
             row = to_float(number / kMarchAcross<W> + y);
     const std::int64_t pixels = std::int64_t(c.width) * c.height;
-    const T sx = ((column + 0.5f) * (2.0f / float(c.width)) - 1.0f) * c.half_width + c.shift_x;
-    const T sy = (1.0f - (row + 0.5f) * (2.0f / float(c.height))) * c.half_height + c.shift_y;
+    const PlanePlace<T> place = plane_place(c, picture_x(c, column), picture_y(c, row));
+    const T sx = place.x, sy = place.y;
     const bool parallel = c.orthographic != 0;
     BoardPixels<T> v{};
     v.ox = parallel ? sx : T{}, v.oy = parallel ? sy : T{};
@@ -188,6 +188,13 @@ PILEUS_FN void board_tile(const ParticleBoardParams& k, const ParticleBoardBuffe
                 board_pixels<W, true, false>(k, b, tile, x, y);
             else
                 board_pixels<W, true, true>(k, b, tile, x, y);
+}
+
+/// Tiles [begin, end) of b.tiles.
+template <int W>
+PILEUS_FN void board_tiles(const ParticleBoardParams& k, const ParticleBoardTileBuffers& b,
+                           std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i < end; ++i) board_tile<W>(k, b.board, b.tiles[i]);
 }
 
 /// Colours of the boards [begin, end), W balls side by side: the light that each sends towards the

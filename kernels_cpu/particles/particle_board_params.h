@@ -37,6 +37,11 @@ struct ParticleBoardBuffers {
     float* optical_depth;       ///< [pixel]; null: not wanted
 };
 
+struct ParticleBoardTileBuffers {
+    ParticleBoardBuffers board;
+    const ParticleTile* tiles;  ///< of different pixels
+};
+
 /// Colours of boards, one for each ball.
 struct ParticleColourBuffers {
     const ParticleShade* shade;  ///< [ball]

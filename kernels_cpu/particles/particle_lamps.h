@@ -60,8 +60,8 @@ PILEUS_FN F<W> turns_of_balls(const ParticleView& v, std::uint32_t first, std::u
 
 /// Balls [begin, end): walks to the lamp, or to places on it, W side by side.
 template <int W>
-PILEUS_FN void particle_lamp_depths(const ParticleLampDepths& k, std::uint32_t begin,
-                                    std::uint32_t end) {
+PILEUS_FN void particle_lamp_depths(const ParticleLampDepths& k, const ParticleLampDepthBuffers& b,
+                                    std::uint32_t begin, std::uint32_t end) {
     using T = F<W>;
     for (std::uint32_t first = begin; first < end; first += W) {
         const Vec<T> p = lit_places<W>(k, first, end);
@@ -82,7 +82,7 @@ PILEUS_FN void particle_lamp_depths(const ParticleLampDepths& k, std::uint32_t b
             tau = depth_to(see_lamp(k.lamp, p));
         }
         for (int l = 0; l < W; ++l)
-            if (first + std::uint32_t(l) < end) k.depth[first + std::uint32_t(l)] = lane(tau, l);
+            if (first + std::uint32_t(l) < end) b.depth[first + std::uint32_t(l)] = lane(tau, l);
     }
 }
 

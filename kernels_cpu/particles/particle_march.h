@@ -115,7 +115,7 @@ struct ParticleBins {
 
     static constexpr std::int32_t kNumbers =
         std::int32_t(sizeof(T) / sizeof(float)) * kSumsOf<Kind>;
-    float* at(std::int32_t n) const { return sums + std::int64_t(n) * kNumbers; }
+    constexpr float* at(std::int32_t n) const { return sums + std::int64_t(n) * kNumbers; }
 };
 
 /// What W pixels see so far.
@@ -326,6 +326,13 @@ PILEUS_FN void particle_tile(const ParticleMarchParams& k, const ParticleMarchBu
                 particle_pixels<W, ParticleLit::kSeen>(k, b, tile, x, y);
             else
                 particle_pixels<W, ParticleLit::kShade>(k, b, tile, x, y);
+}
+
+/// Tiles [begin, end) of b.tiles.
+template <int W>
+PILEUS_FN void particle_tiles(const ParticleMarchParams& k, const ParticleTileBuffers& b,
+                              std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i < end; ++i) particle_tile<W>(k, b.march, b.tiles[i]);
 }
 
 }  // namespace PILEUS_ISA

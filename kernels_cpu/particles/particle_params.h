@@ -106,10 +106,19 @@ struct ParticleTile {
     std::int32_t count;        ///< of seen; 0: no ball at all
 };
 
+struct ParticleTileBuffers {
+    ParticleMarchBuffers march;
+    const ParticleTile* tiles;
+};
+
 /// Most lanes of a launch.
 constexpr int kMostParticleLanes = 16;
 constexpr std::uint64_t particle_scratch_floats(std::int32_t bins) {
     return std::uint64_t(bins) * kParticleSums * kMostParticleLanes;
+}
+/// Of one thread with one lane.
+constexpr std::uint64_t particle_scratch_share(std::int32_t bins) {
+    return std::uint64_t(bins) * kParticleSums;
 }
 
 /// Depths from balls to a lamp: from one place each, `offset` radii from the centre.
@@ -119,7 +128,9 @@ struct ParticleLampDepths {
     float offset[3];
     std::int32_t turned;  ///< not 0: `offset` is along the axes of light_axes, ball by ball
     float most;           ///< where a walk ends
-    float* depth;         ///< [ball]
+};
+struct ParticleLampDepthBuffers {
+    float* depth;  ///< [ball]
 };
 /// Light of lamps that each ball scatters towards the camera.
 struct ParticleLampLight {

@@ -79,7 +79,8 @@ PILEUS_FN M<W> leap_to_medium(Flight<W>& s, const PathParams& k, PathTally& tall
     return out;
 }
 
-/// Place and direction of the camera's rays through the pixels (x, y) of the lanes of `m`.
+/// Place and direction of the camera's rays through the pixels (x, y) of the whole picture of the
+/// lanes of `m`.
 template <int W, int K>
 PILEUS_FN void aim_camera(FreshPaths<W, K>& f, const PathParams& k, M<W> m, F<W> x, F<W> y) {
     // One draw for the place in the pixel, 16 bits each way, and the first free flight.
@@ -97,7 +98,7 @@ PILEUS_FN void aim_camera(FreshPaths<W, K>& f, const PathParams& k, M<W> m, F<W>
     if (any(tail)) more = threefry(k.key.k0, k.key.k1, f.number, U<W>{} + 1u);
     f.flight.tau = free_flight(word, more.b);
 
-    const Ray<F<W>> ray = camera_ray(k.camera, x, y);
+    const Ray<F<W>> ray = picture_ray(k.camera, x, y);
     Vec<F<W>> d = ray.direction;
     if (k.camera.flux != 0)
         d = flux_direction<W>(k.camera, threefry(k.key.k0, k.key.k1, f.number, U<W>{} + 2u));
@@ -118,7 +119,8 @@ PILEUS_FN void aim_camera(FreshPaths<W, K>& f, const PathParams& k, M<W> m, F<W>
     aim_flight(f.flight, k.grid, m, d);
 }
 
-/// The next samples' pixels, one per lane; returns the lanes that have one.
+/// The next samples' pixels, one per lane, as the whole picture counts them; returns the lanes that
+/// have one.
 template <int W, int K>
 PILEUS_FN M<W> next_samples(FreshPaths<W, K>& f, const PathParams& k, std::uint32_t& next,
                             std::uint32_t end, F<W>& x, F<W>& y) {
@@ -127,10 +129,13 @@ PILEUS_FN M<W> next_samples(FreshPaths<W, K>& f, const PathParams& k, std::uint3
     for (; count < W && next < end; ++count, ++next) {
         const std::uint32_t pixel = k.first_pixel + next / k.per_pixel;
         const std::uint32_t number = k.first_sample + next % k.per_pixel;
-        set_lane(f.number, count, number * k.pixels + pixel);
+        const std::uint32_t column = pixel % width + std::uint32_t(k.camera.left);
+        const auto row = std::uint32_t(picture_row(k.camera, std::int32_t(pixel / width)));
+        const std::uint32_t own = row * std::uint32_t(whole_width(k.camera)) + column;
+        set_lane(f.number, count, number * k.pixels + own);
         set_lane(f.sample, count, next);
-        set_lane(x, count, float(std::int32_t(pixel % width)));
-        set_lane(y, count, float(std::int32_t(pixel / width)));
+        set_lane(x, count, float(std::int32_t(column)));
+        set_lane(y, count, float(std::int32_t(row)));
     }
     return iota<I<W>>() < count;
 }

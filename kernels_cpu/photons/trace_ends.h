@@ -20,12 +20,12 @@ PILEUS_FN void count_fate(const Photon<W, NC, S>& s, std::int64_t (&plain)[3],
     if constexpr (NC == 1) {
         shadow[0] += kPhotonQuanta * count_bits(lanes & dark);
         plain[0] += kPhotonQuanta * count_bits(lanes & ~dark);
-        return;
-    }
-    for (; lanes != 0; lanes &= lanes - 1) {
-        const int i = lowest_bit(lanes);
-        std::int64_t(&bin)[3] = (dark >> i) & 1u ? shadow : plain;
-        for (int c = 0; c < NC; ++c) bin[c] += quantise(lane(s.weight[c], i), 0x1p20f);
+    } else {
+        for (; lanes != 0; lanes &= lanes - 1) {
+            const int i = lowest_bit(lanes);
+            std::int64_t(&bin)[3] = (dark >> i) & 1u ? shadow : plain;
+            for (int c = 0; c < NC; ++c) bin[c] += quantise(lane(s.weight[c], i), 0x1p20f);
+        }
     }
 }
 

@@ -25,7 +25,7 @@ enum LightKind : std::int32_t {
     kLightDiffuse = 1,
     kLightMap = 2,
     kLightLamps = 3,  ///< what they send straight is in no deposit and in no map of the ground
-    kLightMedia = 4,  ///< what a medium sends out by itself; of the host alone
+    kLightMedia = 4,  ///< what a medium sends out by itself
 };
 
 struct TraceParams {

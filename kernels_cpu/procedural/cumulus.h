@@ -211,13 +211,12 @@ PILEUS_FN void fill_cloud_block(const CumulusParams& k, const CloudBlock& b,
             }
 }
 
-/// Fills rows of blocks along x, from [begin, end) of those that k.rows_y go into a layer;
-/// `scratch` holds three lists of kMaxBubbles numbers. Cells clear of the cloud are left as they
-/// are.
+/// Fills rows of blocks along x, from [begin, end) of those that k.rows_y go into a layer. Cells
+/// clear of the cloud are left as they are.
 template <int W>
-PILEUS_FN void fill_cumulus(const CumulusParams& k, float* density, std::int32_t* scratch,
-                            std::uint32_t begin, std::uint32_t end) {
-    std::int32_t *in_row = scratch, *in_block = scratch + kMaxBubbles;
+PILEUS_FN void fill_cumulus(const CumulusParams& k, const CumulusBuffers& b, std::uint32_t begin,
+                            std::uint32_t end) {
+    std::int32_t *in_row = b.scratch, *in_block = b.scratch + kMaxBubbles;
     for (std::uint32_t r = begin; r < end; ++r) {
         // Leave the outermost layer of cells at zero.
         CloudBlock row{};
@@ -236,7 +235,7 @@ PILEUS_FN void fill_cumulus(const CumulusParams& k, float* density, std::int32_t
             place_block(k, block);
             const std::int32_t n = cull_spheres<W>(k, block, in_row, held, in_block);
             if (n > 0)
-                fill_cloud_block<W>(k, block, in_block, n, scratch + 2 * kMaxBubbles, density);
+                fill_cloud_block<W>(k, block, in_block, n, b.scratch + 2 * kMaxBubbles, b.density);
         }
     }
 }

@@ -27,6 +27,12 @@ struct CumulusParams {
     std::int32_t rows_y;  ///< rows of blocks in a layer of them
 };
 
+struct CumulusBuffers {
+    float* density;         ///< [z][y][x]
+    std::int32_t* scratch;  ///< of one thread: kCumulusScratch numbers
+};
+constexpr std::int32_t kCumulusScratch = 3 * kMaxBubbles;
+
 constexpr int kCumulusBlock = 8;  // cells along a block's edge
 
 // Lengths in units of the box's height.

@@ -80,8 +80,8 @@ PILEUS_FN T gradient_noise(T x, T y, T z, std::uint32_t seed) {
 }
 
 /// The 27 cells around a place, the nearest first: its own, then across faces, edges, corners.
-constexpr int kAround[27] = {13, 4,  10, 12, 14, 16, 22, 1, 3, 5,  7,  9,  11, 15,
-                             17, 19, 21, 23, 25, 0,  2,  6, 8, 18, 20, 24, 26};
+PILEUS_NUMBERS int kAround[27] = {13, 4,  10, 12, 14, 16, 22, 1, 3, 5,  7,  9,  11, 15,
+                                  17, 19, 21, 23, 25, 0,  2,  6, 8, 18, 20, 24, 26};
 
 /// Squared distance to the nearest of the points strewn one per cell, in [0, 3].
 /// Exact over the 27 cells around. |x|, |y|, |z| < 2^22.

@@ -11,7 +11,7 @@ inline namespace PILEUS_ISA {
 
 /// Rows [begin, end) of cells, a row along x; values at the middles of cells.
 template <int W>
-PILEUS_FN void bake_sky_rows(const BakeParams& k, float* density, std::uint32_t begin,
+PILEUS_FN void bake_sky_rows(const BakeParams& k, const BakeBuffers& b, std::uint32_t begin,
                              std::uint32_t end) {
     using T = F<W>;
     const std::uint32_t rows = std::uint32_t(k.size[1]);
@@ -22,15 +22,15 @@ PILEUS_FN void bake_sky_rows(const BakeParams& k, float* density, std::uint32_t 
             const T px = (to_float(iota<I<W>>() + x) + 0.5f) * k.cell_m[0];
             const Vec<T> p{px, all<T>(y), all<T>(z)};
             const T value = sky_density(k.sky, p, all<T>(k.width_m));
-            float* to = density + std::size_t(row) * std::size_t(k.size[0]) + std::size_t(x);
+            float* to = b.density + std::size_t(row) * std::size_t(k.size[0]) + std::size_t(x);
             for (int l = 0; l < W && x + l < k.size[0]; ++l) to[l] = lane(value, l);
         }
     }
 }
 
-/// Columns [begin, end), strewn by a hash of their numbers; `most` holds a multiple of 16.
+/// Columns [begin, end), strewn by a hash of their numbers; b.most holds a multiple of 16.
 template <int W>
-PILEUS_FN void sky_columns(const ColumnParams& k, float* most, std::uint32_t begin,
+PILEUS_FN void sky_columns(const ColumnParams& k, const ColumnBuffers& b, std::uint32_t begin,
                            std::uint32_t end) {
     using T = F<W>;
     using UU = U<W>;
@@ -52,7 +52,7 @@ PILEUS_FN void sky_columns(const ColumnParams& k, float* most, std::uint32_t beg
             const T value = sky_noise(k.sky, p, T{}).value - sky_lift(k.sky, all<T>(up));
             largest = max_(largest, value);
         }
-        for (int l = 0; l < W; ++l) most[c + std::uint32_t(l)] = lane(largest, l);
+        for (int l = 0; l < W; ++l) b.most[c + std::uint32_t(l)] = lane(largest, l);
     }
 }
 

@@ -11,7 +11,7 @@ inline namespace PILEUS_ISA {
 
 /// Rows [begin, end), a row along x; row number y + size * z. `size` is a multiple of 16.
 template <int W>
-PILEUS_FN void noise_rows(const NoiseParams& k, float* values, std::uint32_t begin,
+PILEUS_FN void noise_rows(const NoiseParams& k, const NoiseBuffers& b, std::uint32_t begin,
                           std::uint32_t end) {
     using T = F<W>;
     const std::uint32_t size = std::uint32_t(k.size);
@@ -32,7 +32,7 @@ PILEUS_FN void noise_rows(const NoiseParams& k, float* values, std::uint32_t beg
                 sum = sum + one * amplitude;
                 amplitude = amplitude * k.gain;
             }
-            __builtin_memcpy(values + std::size_t(row) * size + std::size_t(x), &sum, sizeof sum);
+            __builtin_memcpy(b.values + std::size_t(row) * size + std::size_t(x), &sum, sizeof sum);
         }
     }
 }

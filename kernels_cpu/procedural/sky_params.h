@@ -16,6 +16,9 @@ struct NoiseParams {
     float gain;            ///< size of an octave over that of the one before
     std::uint32_t seed;
 };
+struct NoiseBuffers {
+    float* values;  ///< [z][y][x]
+};
 enum NoiseKind : std::int32_t { kNoisePerlin, kNoiseWorley };
 
 /// Edge of the blocks whose largest values are kept, in texels of their level.
@@ -97,12 +100,18 @@ struct BakeParams {
     float cell_m[3];
     float width_m;  ///< details below are averaged
 };
+struct BakeBuffers {
+    float* density;  ///< [z][y][x]
+};
 
 /// Largest lowered noise in columns strewn over the layer; from it follows the coverage.
 struct ColumnParams {
     SkyParams sky;
     std::int32_t heights;  ///< samples up each column
     float reach_m;         ///< columns lie in a square of this edge
+};
+struct ColumnBuffers {
+    float* most;  ///< [column]
 };
 
 }  // namespace pileus

@@ -278,9 +278,9 @@ PILEUS_FN void lamp_march_rows(const LampMarchParams& k, const LampMarchBuffers&
                                   (opaque < 3e38f) & (abs_(opaque - way) <= way * 1e-4f);
                 T turn{};
                 for (int l = 0; l < W && k.spheres != 0; ++l)
-                    set_lane(
-                        turn, l,
-                        turn_of_spiral(std::uint32_t(lane(px, l)), std::uint32_t(lane(py, l))));
+                    set_lane(turn, l,
+                             turn_of_spiral(std::uint32_t(lane(px, l) + k.camera.left),
+                                            std::uint32_t(picture_row(k.camera, lane(py, l)))));
                 if (any(ends)) light_ground<W>(k, b, ray, opaque, ends, turn, behind);
             }
             for_block<W>(k.camera, x, y, last, [&](int l, std::int64_t pixel) {

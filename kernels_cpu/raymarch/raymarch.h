@@ -96,11 +96,13 @@ PILEUS_FN F<W> start_before(const RaymarchParams& k, const RaymarchBuffers& b, I
     if (k.step.jitter == kJitterNone) return before;
     T u{};
     if (k.step.jitter == kJitterHash) {
-        const auto pixel = reinterpret<U<W>>(row * k.camera.width + column);
+        const auto pixel = reinterpret<U<W>>(picture_row(k.camera, row) * whole_width(k.camera) +
+                                             (column + k.camera.left));
         u = uniform(threefry(k.step.key[0], k.step.key[1], pixel, U<W>{}).a);
     } else {
-        const I<W> x = (column + std::int32_t(k.step.key[0])) & (kNoiseTile - 1);
-        const I<W> y = (row + std::int32_t(k.step.key[1])) & (kNoiseTile - 1);
+        const I<W> x = (column + (k.camera.left + std::int32_t(k.step.key[0]))) & (kNoiseTile - 1);
+        const I<W> y =
+            (picture_row(k.camera, row) + std::int32_t(k.step.key[1])) & (kNoiseTile - 1);
         u = gather(b.noise, y * kNoiseTile + x);
     }
     const T panel = lattice_place(lattice, all<T>(float(rule_steps(k.rule))));

@@ -6,6 +6,7 @@
 #include "kernels_cpu/procedural/sky_field.h"
 #include "kernels_cpu/procedural/sky_light.h"
 #include "kernels_cpu/raymarch/raymarch.h"
+#include "kernels_cpu/raymarch/raymarch_sky_params.h"
 
 namespace pileus {
 inline namespace PILEUS_ISA {
@@ -78,9 +79,9 @@ PILEUS_FN void field_shares(const SkyMedium&, const Vec<T>&, T, Use use) {
 
 /// Rows of the picture; as raymarch_rows of a grid.
 template <int W>
-PILEUS_FN void raymarch_sky_rows(const RaymarchParams& k, const SkyParams& sky,
-                                 const RaymarchBuffers& b, std::uint32_t begin, std::uint32_t end) {
-    raymarch_blocks<W>(k, b, SkyMedium{&sky, b.sky_light}, begin, end);
+PILEUS_FN void raymarch_sky_rows(const RaymarchSkyParams& k, const RaymarchBuffers& b,
+                                 std::uint32_t begin, std::uint32_t end) {
+    raymarch_blocks<W>(k.march, b, SkyMedium{&k.sky, b.sky_light}, begin, end);
 }
 
 /// A row of nodes: the steps to the sun that no sample marches by itself.
@@ -110,13 +111,13 @@ PILEUS_FN void sky_light_row(const RaymarchParams& k, const SkyParams& sky,
 }
 
 template <int W>
-PILEUS_FN std::int64_t sky_light_rows(const RaymarchParams& k, const SkyParams& sky,
-                                      const SkyLightView& view, const SkyLightRow* rows,
-                                      std::int32_t* words, std::uint32_t begin, std::uint32_t end) {
-    std::int64_t counts[kRaymarchCounts] = {};
-    for (std::uint32_t r = begin; r < end; ++r)
-        sky_light_row<W>(k, sky, view, rows[r], words, counts);
-    return counts[kCountLightSamples];
+PILEUS_FN void sky_light_rows(const SkyLightParams& k, const SkyLightBuffers& b,
+                              std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t r = begin; r < end; ++r) {
+        std::int64_t counts[kRaymarchCounts] = {};
+        sky_light_row<W>(k.march, k.sky, k.view, b.rows[r], b.words, counts);
+        b.read[r] = counts[kCountLightSamples];
+    }
 }
 
 }  // namespace PILEUS_ISA

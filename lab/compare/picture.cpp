@@ -24,6 +24,8 @@ Status read_picture(const std::string& path, const std::string& layer, Image& im
     PILEUS_TRY(choose_layer(path, layer, image, chosen));
     if (!chosen.empty()) said = "layer " + printable_line(chosen);
     if (image.find("Y") != nullptr) said += said.empty() ? "grey" : ", grey";
+    // Of a part of a picture of ours the pixels are compared that it has.
+    if (!image.pixel_hash.empty()) return Status::ok();
     const int width = image.width, height = image.height;
     PILEUS_TRY(fit_display_window(path, image));
     if (image.width != width || image.height != height)

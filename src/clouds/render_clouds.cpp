@@ -6,6 +6,7 @@
 #include "platform/threads.h"
 #include "src/clouds/scene_clouds.h"
 #include "src/picture/finish_frame.h"
+#include "src/plan/crop.h"
 #include "src/session/deliver.h"
 #include "src/session/run_context.h"
 #include "src/session/warnings.h"
@@ -80,7 +81,11 @@ Status draw_image(const Scene& scene, Session& sky, Clouds& clouds, Image& image
 
 }  // namespace
 
-Status render_clouds(const Scene& scene, const RenderOptions& options, const FrameSink& sink) {
+Status render_clouds(const Scene& described, const RenderOptions& options, const FrameSink& sink) {
+    // A picture of all of the view, which is cut.
+    Scene scene = described;
+    const Shown shown = take_window(scene);
+    scene.crop = {};
     const FpModeGuard guard;
     ThreadPool threads;
     const PoolGuard lent(threads);
@@ -92,18 +97,17 @@ Status render_clouds(const Scene& scene, const RenderOptions& options, const Fra
     Report& report = sky.report();
     PILEUS_TRY(open_sky(scene, options, sky));
     const Context& context = sky.context();
-    if (context.kernels->device != nullptr)
-        return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
-                                 "\": clouds are drawn on the host alone, allowed: another");
     note_head(scene, options, context, report);
     PILEUS_TRY(open_scene_clouds(scene, options, sky, clouds, report.clouds));
     report.method = methods_of(report.clouds);
+    explain_crop(described, report.plan);
     const SkyAnimation animation(scene);
     for (int frame = frames.first; frame <= frames.last; ++frame) {
         const RunStart frame_start;
         Image image;
         PILEUS_TRY(animation.set(frame, sky));
         PILEUS_TRY(draw_image(scene, sky, clouds, image, report));
+        PILEUS_TRY(cut_image(sky.camera(), shown, image));
         report.digests.clear();
         take_hash(context, image, report);
         tell_picture(clouds.stats(), report.clouds);

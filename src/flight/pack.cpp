@@ -80,6 +80,8 @@ Status check_packable(const Scene& scene) {
                       "no meshes: the host's depth images stand for what is solid");
     if (!scene.view_files.depth.empty())
         return refuse(scene, "camera.depth", "not packed", "the host's depth images");
+    if (scene.crop[2] > 0)
+        return refuse(scene, "camera.crop", "not packed", "the host's projection of a part");
     PILEUS_TRY(refuse_marched_detail(scene, "a packed scene"));
     if (scene.animation.present)
         return refuse(scene, "animation", "not packed", "left out: the host moves what moves");

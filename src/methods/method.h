@@ -4,6 +4,7 @@
 // docs/architecture.md, "Methods"
 #pragma once
 #include <memory>
+#include <vector>
 
 #include "src/plan/budget.h"
 #include "src/plan/frame_work.h"
@@ -16,7 +17,9 @@ namespace pileus {
 struct FinishedParts;
 struct Image;
 struct LateRows;
+struct PartLight;
 struct Planes;
+class WorkShare;
 
 /// What a frame is made of; all outlive the call.
 struct FrameView {
@@ -162,6 +165,24 @@ public:
         (void)path;
         return Status::ok();
     }
+    /// What several processes have traced becomes whole at the first of them; the others go on with
+    /// their share.
+    virtual Status bring_together(WorkShare& share) {
+        (void)share;
+        return Status::ok();
+    }
+    /// The light of a part of a frame, and that of one into the frame's, after an `accumulate` of
+    /// 0: `lines` are the rows of the picture that are the part's, `counts`: with it the frame has
+    /// all units of its work. Works of other seeds are added. kBadInput: of another work; kLimit:
+    /// out of memory, or too much for the sums.
+    virtual Status take_light(PartLight& light) {
+        (void)light;
+        return Status::ok();
+    }
+    virtual Status add_light(const PartLight& light, const std::vector<int>& lines, bool counts) {
+        (void)light, (void)lines, (void)counts;
+        return Status::ok();
+    }
     /// After `Method::render`, before the planes become an image: digests of what it was made from.
     virtual void digest_picture(const Context&, Digests&) {}
     /// Of a view, in place of `Method::render`: the picture itself. docs/how-it-works.md
@@ -202,6 +223,7 @@ struct MethodRow {
     MadeMethod (*make)(const MethodInputs&) = nullptr;
     bool keeps_parts = false;  ///< light is traced with depths and the cloud's part, or without
     bool shows_light = true;   ///< colours are light, which an exposure applies to
+    Division division = Division::kRows;
 };
 
 }  // namespace pileus

@@ -2,12 +2,10 @@
 // Whether a picture of photons may have fewer marched pixels; in no flight.
 // in: a scene, its state -> out: one line. docs/upsampling.md
 #include "src/photons/lit_march.h"
-#include "src/run/on_device.h"
 
 namespace pileus {
 
-Status check_thinned(const Context& context, const Scene& scene, const char* method,
-                     const PhotonState& state) {
+Status check_thinned(const Scene& scene, const char* method, const PhotonState& state) {
     const UpsampleSettings& thin = state.picture.thin;
     PILEUS_TRY(check_upsampling(scene, method, thin));
     if (thin.every() == 1) return Status::ok();
@@ -22,8 +20,6 @@ Status check_thinned(const Context& context, const Scene& scene, const char* met
         return Status::bad_input(key + "the layer \"" + layer +
                                  "\" has every pixel marched, allowed: none of both, or no such "
                                  "layer");
-    if (on_device(context.kernels->device))
-        return Status::bad_input(key + "for the host alone, allowed: another --isa, or none");
     return Status::ok();
 }
 

@@ -67,7 +67,7 @@ Status make_sun_shadow(const Context& context, const FrameView& view, PhotonStat
     const std::vector<int> due = follow_sun(turn_of(view, state), shadow.slices);
     ShadowBuffers b{shadow.depth.data()};
     std::vector<NodeRange> rows;
-    if (!due.empty() && !on_device(context.kernels->device)) {
+    if (!due.empty()) {
         rows = nodes_in_medium(k.nodes, k.medium);
         b.rows = rows.data();
     }
@@ -308,9 +308,8 @@ Status add_lit_lamps(const Context& context, const FrameView& view, PhotonState&
 Status fill_lit_background(const Context& context, const FrameView& view, PhotonState& state,
                            const LightInput& lit, int batch, Planes& planes) {
     if (state.picture.alone) return show_nothing_behind(planes);
-    const std::uint64_t pixels = std::uint64_t(lit.camera.width) * std::uint64_t(lit.camera.height);
     PILEUS_TRY(make_ground_shadow(context, view.world.medium, medium_of(view, state),
-                                  state.lights.lighting, pixels, turn_of(view, state),
+                                  state.lights.lighting, lit.camera, turn_of(view, state),
                                   state.picture.ground_shadow));
     const StageClock clock(context, "background");
     const Lighting& light = *lit.lighting;

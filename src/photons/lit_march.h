@@ -78,10 +78,9 @@ const float* sun_depths_at(const SunShadow& shadow, const NodeGrid& nodes);
 Status march_thinned(const Context& context, const FrameView& view, const NodeLight& source,
                      const MarchParams& k, PhotonState& state, Planes& planes);
 
-/// Thinned pictures are of the light as a whole: kBadInput names the layer that is not, or the
-/// device. `method` names the keys.
-Status check_thinned(const Context& context, const Scene& scene, const char* method,
-                     const PhotonState& state);
+/// Thinned pictures are of the light as a whole: kBadInput names the layer that is not. `method`
+/// names the keys.
+Status check_thinned(const Scene& scene, const char* method, const PhotonState& state);
 
 /// What the plan counts for the ground's shadow and for a thinned picture.
 void add_picture_rows(const Context& context, const FrameView& view, const PhotonState& state,

@@ -32,6 +32,11 @@ public:
     void count(Counts& counts) const override;
     void release(Phase phase) override;
 
+    /// As MethodReport::bring_together, for a still picture.
+    Status bring_together(WorkShare& share);
+    /// As MethodReport::add_light, for a still picture.
+    Status add_light(const PartLight& light, bool counts);
+
     /// What launches read.
     virtual TraceInput trace_input(const Context& context, const FrameView& view) const = 0;
 

@@ -42,6 +42,9 @@ class PhotonReport : public MethodReport {
 public:
     explicit PhotonReport(PhotonMethod& of) : photons_(of) {}
 
+    Status bring_together(WorkShare& share) override;
+    Status take_light(PartLight& light) override;
+    Status add_light(const PartLight& light, const std::vector<int>& lines, bool counts) override;
     void digest_picture(const Context& context, Digests& digests) override;
     FinishedParts finished() const override;
     /// Generations, of as many photons in all.

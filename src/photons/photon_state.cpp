@@ -4,6 +4,8 @@
 // docs/methods.md 3, "Generations and error".
 #include "src/photons/photon_state.h"
 
+#include "src/run/work_share.h"
+
 namespace pileus {
 namespace {
 
@@ -23,6 +25,18 @@ std::size_t slot_of(std::uint64_t generation, const PhotonRing& ring) {
 }
 
 RingWork ring_work(const TraceInput& in) { return {slot_size(in), in.threads, in.kernels}; }
+
+/// Per light, m^2 per photon.
+std::vector<double> flux_of(const PhotonState& state) {
+    std::vector<double> flux;
+    for (const Light& l : state.lights.lighting.lights)
+        flux.push_back(l.photons > 0 ? l.power_m2 / double(l.photons) : 0);
+    return flux;
+}
+void take_sun(const PhotonState& state, PhotonSlot& slot) {
+    for (const Light& l : state.lights.lighting.lights)
+        if (l.beam) slot.sun_travel = l.travel;
+}
 
 /// A generation in place of what its slot holds.
 Status shoot_packed(const TraceInput& in, std::size_t number, const std::vector<double>& flux,
@@ -104,6 +118,7 @@ TraceInput photon_trace_input(const Context& context, const FrameView& view,
     in.ground = state.lights.ground_map;
     in.shared_sums = state.ring.shared_sums;
     in.packs = sums_ring(state);
+    in.part = context.sharing != nullptr ? context.sharing->part() : context.part;
     return in;
 }
 
@@ -131,6 +146,11 @@ void restart_photons(int threads, std::uint64_t first, PhotonState& state) {
     ring.fresh = ring.on;
 }
 
+void begin_slot(const PhotonState& state, PhotonSlot& slot) {
+    take_sun(state, slot);
+    slot.flux_per_photon_m2 = flux_of(state);
+}
+
 Status shoot_generation(const Context& context, TraceInput in, PhotonState& state) {
     PhotonRing& ring = state.ring;
     in.ended = patient_stop(context);
@@ -138,16 +158,12 @@ Status shoot_generation(const Context& context, TraceInput in, PhotonState& stat
     PhotonSlot& slot = ring.photons.slots[number];
     // In an animation each generation has a slot of its own: the oldest is replaced, exactly.
     const bool turns = ring.on && ring.photons.slots.size() == ring.generations && ring.animated;
-    std::vector<double> flux;
-    for (const Light& l : state.lights.lighting.lights) {
-        flux.push_back(l.photons > 0 ? l.power_m2 / double(l.photons) : 0);
-        if (l.beam) slot.sun_travel = l.travel;
-    }
     if (in.packs) {
-        PILEUS_TRY(shoot_packed(in, number, flux, ring));
+        take_sun(state, slot);
+        PILEUS_TRY(shoot_packed(in, number, flux_of(state), ring));
     } else {
         if (turns && slot.generations > 0) empty_slot(slot, context.threads);
-        slot.flux_per_photon_m2 = flux;
+        begin_slot(state, slot);
         const std::uint64_t before = slot.generations;
         PILEUS_TRY(
             trace_generation(in, ring.next_generation, ring.scratch, slot, ring.photons.tallies));

@@ -130,6 +130,9 @@ void settle_ring(PhotonState& state);
 /// The digest of what a picture is made from, where a report wants it.
 void note_colours(const Context& context, Span<const float> light, PhotonState& state);
 
+/// A slot learns what its photons will stand for.
+void begin_slot(const PhotonState& state, PhotonSlot& slot);
+
 /// Shoots one generation into its slot, in a ring in place of the oldest; sets `interrupted` where
 /// the user ended it within.
 Status shoot_generation(const Context& context, TraceInput in, PhotonState& state);

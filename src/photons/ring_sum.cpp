@@ -3,7 +3,6 @@
 #include "src/photons/ring_sum.h"
 
 #include "platform/threads.h"
-#include "src/run/on_device.h"
 
 namespace pileus {
 namespace {
@@ -41,9 +40,7 @@ double unit_beside(const Photons& photons, std::size_t light, std::size_t but) {
 }
 
 /// The table that packs; beside a device it is the host's.
-const KernelTable& packing_kernels(const RingWork& work) {
-    return !on_device(work.kernels->device) ? *work.kernels : *kernel_table(nullptr);
-}
+const KernelTable& packing_kernels(const RingWork& work) { return host_kernels(work.kernels); }
 
 /// A number of the ground in units of 2^coarser, halves away from zero.
 std::int64_t in_units(std::int64_t v, int coarser) {

@@ -11,6 +11,7 @@
 #include "src/run/context.h"
 #include "src/run/device_launch.h"
 #include "src/run/on_device.h"
+#include "src/run/work_share.h"
 #include "src/world/majorant/majorant.h"
 #include "src/world/solids/solids.h"
 
@@ -247,7 +248,9 @@ Status trace_generation(const TraceInput& in, std::uint64_t generation, TraceScr
         launch.kernel = trace_kernel(*in.kernels, launch.params);
         // Split where the photon index passes a multiple of 2^32: its high half is in the key.
         const std::uint64_t apart = light.apart > 0 ? light.apart : light.photons;
-        std::uint64_t index = generation * apart, left = light.photons;
+        const PartRange own = part_range(light.photons, in.part);
+        std::uint64_t index = generation * apart + own.begin, left = own.end - own.begin;
+        for (int a = 0; a < 2; ++a) launch.params.shift[a] += std::uint32_t(own.begin) * kR2[a];
         std::int64_t photons = 0;
         while (left > 0 && !ended) {
             const std::uint64_t room = (std::uint64_t{1} << 32) - (index & 0xffffffffu);

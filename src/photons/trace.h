@@ -7,6 +7,7 @@
 
 #include "kernels_cpu/isa/kernels.h"
 #include "src/photons/photon_slot.h"
+#include "src/plan/part_light.h"
 #include "src/world/light/lights.h"
 #include "src/world/majorant/majorants.h"
 
@@ -72,6 +73,7 @@ struct TraceInput {
     int threads = 1;
     const KernelTable* kernels = nullptr;
     std::uint32_t max_events = 1u << 20;
+    WorkPart part{};  ///< whose share of each generation's photons is traced
     GroundMap ground{};
     bool shared_sums = false;       ///< all threads add atomically to one set of sums
     bool packs = false;             ///< sums stay in the scratch until the caller has packed them

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "kernels_cpu/core/profile.h"
-#include "platform/threads.h"
 #include "src/picture/march_view.h"
 #include "src/picture/sun_disc.h"
 
@@ -32,10 +31,6 @@ Status run_air(const Context& context, const Scene& scene, const Medium& medium,
                const Lighting& lighting, const CameraParams& camera, Environment& environment,
                const Planes& planes, const AirPlanes& on) {
     const StageClock clock(context, "air");
-    if (context.kernels->air_rows == nullptr)
-        return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
-                                 "\": air is for the host alone, allowed: another, or a scene "
-                                 "without [atmosphere]");
     Atmosphere& air = environment.air;
     const double sea_m = scene.ground.present ? scene.ground.altitude_m : 0;
     PILEUS_TRY(look_from(medium.low_m[2] + double(camera.origin[2]) - sea_m, context.threads, air));
@@ -74,12 +69,7 @@ Status run_air(const Context& context, const Scene& scene, const Medium& medium,
                            on.light,
                            on.behind,
                            on.dimmed};
-    constexpr std::uint32_t kPiece = 8;
-    const std::uint32_t rows = std::uint32_t(camera.height);
-    parallel_for(context.threads, (rows + kPiece - 1) / kPiece, [&](std::int64_t piece, int) {
-        const std::uint32_t begin = std::uint32_t(piece) * kPiece;
-        context.kernels->air_rows(k, b, begin, begin + kPiece < rows ? begin + kPiece : rows);
-    });
+    PILEUS_TRY(run_rows(context, context.kernels->air_rows, k, b, std::uint32_t(camera.height)));
     if (scene.atmosphere.sun_disc) show_sun(scene, camera, k, planes, on, air);
     return Status::ok();
 }

@@ -98,14 +98,10 @@ void hide(const CameraDepth& from, const CameraParams& camera, const BackgroundB
     }
 }
 
-void show_solid_rows(const Context& context, const SolidRowsParams& k, const BackgroundBuffers& b) {
-    const std::uint32_t rows = std::uint32_t(k.back.camera.height);
-    constexpr std::uint32_t kPiece = 4;
-    const auto kernel = context.kernels->solid_rows;
-    parallel_for(context.threads, (rows + kPiece - 1) / kPiece, [&](std::int64_t piece, int) {
-        const std::uint32_t begin = std::uint32_t(piece) * kPiece;
-        kernel(k, b, begin, begin + kPiece < rows ? begin + kPiece : rows);
-    });
+Status show_solid_rows(const Context& context, const SolidRowsParams& k,
+                       const BackgroundBuffers& b) {
+    return run_rows(context, context.kernels->solid_rows, k, b,
+                    std::uint32_t(k.back.camera.height));
 }
 
 }  // namespace
@@ -158,7 +154,7 @@ Status show_background(const Context& context, const Lighting& light, const Back
         params.back = k;
         params.solids = light.solids->view();
         if (b.colour != nullptr) set_around(light, params);
-        show_solid_rows(context, params, b);
+        PILEUS_TRY(show_solid_rows(context, params, b));
     }
     if (has_image(light)) hide(*light.depth, k.camera, b);
     return Status::ok();
@@ -179,7 +175,7 @@ Status add_shadow(const Context& context, const MediumView& medium, const Camera
         BackgroundBuffers b{nullptr, nullptr, depth.data()};
         PILEUS_TRY(show_background(context, light, k.back, b));
         b.shadow = shadow.data();
-        show_solid_rows(context, k, b);
+        PILEUS_TRY(show_solid_rows(context, k, b));
     }
     image.channels.push_back({"shadow", std::move(shadow)});
     return Status::ok();

@@ -14,14 +14,14 @@ constexpr int kMostParts = 64;                        // of a pixel's edge
 constexpr double kMostPixel = 8;                      // radii of the disc
 constexpr double kDiscArea = 3.14159265358979323846;  // of radius 1
 
-/// Whole numbers of pixels that a stretch [low, high] of the picture touches, within its size.
+/// Whole numbers of pixels that a stretch [low, high] of the picture touches, within [first, end).
 struct Stretch {
     int begin, end;
 };
-Stretch touched(double middle, double reach, int size) {
-    const double low = std::min(std::max(middle - reach, -1.0), size + 1.0);
-    const double high = std::min(std::max(middle + reach, -1.0), size + 1.0);
-    return {std::max(int(std::floor(low)), 0), std::min(int(std::floor(high)) + 1, size)};
+Stretch touched(double middle, double reach, int first, int end) {
+    const double low = std::min(std::max(middle - reach, first - 1.0), end + 1.0);
+    const double high = std::min(std::max(middle + reach, first - 1.0), end + 1.0);
+    return {std::max(int(std::floor(low)), first), std::min(int(std::floor(high)) + 1, end)};
 }
 
 }  // namespace
@@ -39,19 +39,19 @@ void add_sun_disc(const CameraParams& c, const SunDisc& disc, Span<const float> 
     if (c.orthographic != 0 || !(ahead > 0.01)) return;
     const double x = right / ahead, y = up / ahead, slant = 1 + x * x + y * y;
     const double reach = 1.5 * slant * r.sine;  // on the image plane, at distance 1
-    const double wide = 0.5 * c.width / double(c.half_width),
-                 high = 0.5 * c.height / double(c.half_height);
-    const Stretch columns =
-        touched((x - double(c.shift_x)) * wide + 0.5 * c.width, reach * wide + 1, c.width);
-    const Stretch rows =
-        touched(0.5 * c.height - (y - double(c.shift_y)) * high, reach * high + 1, c.height);
+    const double half_wide = 0.5 * whole_width(c), half_high = 0.5 * whole_height(c);
+    const double wide = half_wide / double(c.half_width), high = half_high / double(c.half_height);
+    const double middle_x = (x - double(c.shift_x)) * wide + half_wide,
+                 middle_y = half_high - (y - double(c.shift_y)) * high;
+    // As the whole picture counts pixels.
+    const Stretch columns = touched(middle_x, reach * wide + 1, c.left, c.left + c.width);
+    const Stretch rows = touched(middle_y, reach * high + 1, 0, whole_height(c));
     // Parts of a pixel lie within a sixteenth of the radius, or as many as there may be.
     const double pixel = 1 / std::min(wide, high);
     const int parts = int(std::min(std::max(16 * pixel / r.sine, 4.0), double(kMostParts)));
     // What is smaller than parts are is in one pixel: its area over the pixel's.
     const bool point = pixel > kMostPixel * r.sine;
-    const int own_x = int(std::floor((x - double(c.shift_x)) * wide + 0.5 * c.width));
-    const int own_y = int(std::floor(0.5 * c.height - (y - double(c.shift_y)) * high));
+    const double own_x = std::floor(middle_x), own_y = std::floor(middle_y);
     const double point_share =
         double(disc.to_sun[2]) < disc.horizon
             ? 0
@@ -60,17 +60,20 @@ void add_sun_disc(const CameraParams& c, const SunDisc& disc, Span<const float> 
     for (std::size_t n = 0; n < 3; ++n)
         radiance[n] = disc.irradiance[n] / (kDiscArea * r.sine * r.sine);
     const std::size_t pixels = std::size_t(c.width) * std::size_t(c.height);
-    for (int j = rows.begin; j < rows.end; ++j)
+    for (int own = 0; own < c.height; ++own) {
+        const int j = picture_row(c, own);
+        if (j < rows.begin || j >= rows.end) continue;
         for (int i = columns.begin; i < columns.end; ++i) {
-            const std::size_t at = std::size_t(j) * std::size_t(c.width) + std::size_t(i);
+            const std::size_t at =
+                std::size_t(own) * std::size_t(c.width) + std::size_t(i - c.left);
             if (opaque_depth.size > 0 && opaque_depth.data[at] < 1e30f) continue;
             int within = 0;
             for (int v = 0; v < parts && !point; ++v)
                 for (int u = 0; u < parts; ++u) {
-                    const double px = (i + (u + 0.5) / parts - 0.5 * c.width) / wide +
-                                      double(c.shift_x),
-                                 py = (0.5 * c.height - j - (v + 0.5) / parts) / high +
-                                      double(c.shift_y);
+                    const double px =
+                                     (i + (u + 0.5) / parts - half_wide) / wide + double(c.shift_x),
+                                 py =
+                                     (half_high - j - (v + 0.5) / parts) / high + double(c.shift_y);
                     double d[3], along = 0, square = 0;
                     for (int a = 0; a < 3; ++a) {
                         d[a] =
@@ -97,6 +100,7 @@ void add_sun_disc(const CameraParams& c, const SunDisc& disc, Span<const float> 
             for (std::size_t n = 0; n < 3; ++n)
                 behind[n * pixels + at] += float(share * radiance[n]);
         }
+    }
 }
 
 }  // namespace pileus

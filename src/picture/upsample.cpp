@@ -76,7 +76,6 @@ UpsampleBuffers buffers_of(const UpsampleMemory& memory, Planes& planes) {
 
 Status fill_in(const Context& context, const UpsampleInput& in, const PixelLattice& lattice,
                UpsampleMemory& memory, Planes& planes) {
-    constexpr std::uint32_t kPiece = 4;
     const StageClock clock(context, "upsampling");
     const UpsampleParams k = params_of(in, lattice, memory);
     UpsampleBuffers b = buffers_of(memory, planes);
@@ -88,10 +87,7 @@ Status fill_in(const Context& context, const UpsampleInput& in, const PixelLatti
     Buffer<std::int64_t> kept;
     PILEUS_TRY(allocate(recalled_counts(rows), kept));
     b.kept = kept.data();
-    parallel_for(context.threads, (rows + kPiece - 1) / kPiece, [&](std::int64_t piece, int) {
-        const std::uint32_t begin = std::uint32_t(piece) * kPiece;
-        context.kernels->upsample_rows(k, b, begin, begin + kPiece < rows ? begin + kPiece : rows);
-    });
+    PILEUS_TRY(run_rows(context, context.kernels->upsample_rows, k, b, rows));
     for (std::int64_t n : kept.span()) memory.recalled += std::uint64_t(n);
     return Status::ok();
 }

@@ -43,6 +43,7 @@ struct LimitUse {
 struct ForetoldTime {
     double total_s = 0;              ///< of all frames
     double first_s = 0, next_s = 0;  ///< the first frame with its preparation, each further one
+    double divided_s = 0;            ///< of the first what parts and ranks divide among them
 };
 
 struct Plan : PlanLists {

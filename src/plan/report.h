@@ -26,6 +26,7 @@ using Digests = std::vector<std::pair<std::string, std::string>>;
 struct RunHead {
     std::string version, scene, method, isa;
     int threads = 1;
+    int ranks = 1;     ///< of MPI, each with so many threads
     std::string team;  ///< whose threads: platform/threads.h
     std::int64_t seed = 0;
     int first_frame = 0;                 ///< of the animation, where this run began

@@ -225,6 +225,7 @@ void add_head(const RunHead& head, Json& json) {
     json["method"] = head.method;
     json["isa"] = head.isa;
     json["threads"] = head.threads;
+    if (head.ranks > 1) json["ranks"] = head.ranks;
     json["team"] = head.team;
     json["seed"] = head.seed;
     json["overrides"] = head.overrides;

@@ -6,18 +6,23 @@
 
 #include "kernels_cpu/isa/kernels.h"
 #include "src/base/limits.h"
+#include "src/plan/part_light.h"
 #include "src/plan/report.h"
 #include "src/run/stage_clock.h"
 
 namespace pileus {
+
+class WorkShare;
 
 struct Context {
     int threads = 1;
     const KernelTable* kernels = nullptr;
     Report* report = nullptr;
     Limits limits;
-    std::uint64_t frames = 1;  ///< pictures of this run
-    bool digests = true;       ///< of what a picture is made from go to the report
+    std::uint64_t frames = 1;      ///< pictures of this run
+    WorkPart part;                 ///< of each, that this run works on
+    WorkShare* sharing = nullptr;  ///< of fluxes, where several processes measure one
+    bool digests = true;           ///< of what a picture is made from go to the report
     std::function<void(const char* stage, double share)> progress;
     std::function<bool()> interrupted;  ///< whether the user wants an end
     std::function<void(bool)> holding;  ///< told whether an end now would lose light

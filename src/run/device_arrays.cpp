@@ -30,6 +30,15 @@ void* DeviceArrays::allocate(std::uint64_t count, std::uint64_t size) {
     return memory;
 }
 
+void DeviceArrays::clear(void* memory, std::uint64_t bytes) {
+    static constexpr unsigned char zeros[4096] = {};
+    auto* const to = static_cast<unsigned char*>(memory);
+    for (std::uint64_t at = 0; memory != nullptr && status_ && at < bytes; at += sizeof zeros) {
+        const std::uint64_t own = bytes - at < sizeof zeros ? bytes - at : sizeof zeros;
+        if (!device_.upload(to + at, zeros, own)) fail("copy to it");
+    }
+}
+
 void* DeviceArrays::copy(const void* from, std::uint64_t count, std::uint64_t size) {
     if (from == nullptr) return nullptr;
     void* to = allocate(count, size);

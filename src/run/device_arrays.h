@@ -37,6 +37,12 @@ public:
     void scratch(T*& pointer, std::uint64_t count) {
         pointer = static_cast<T*>(allocate(count, sizeof(T)));
     }
+    /// The same, filled with zeros.
+    template <class T>
+    void zeros(T*& pointer, std::uint64_t count) {
+        scratch(pointer, count);
+        clear(pointer, count * sizeof(T));
+    }
     /// A phase function's table, with all that it points to.
     void in(const PhaseTable*& table);
 
@@ -59,6 +65,7 @@ private:
     };
     void fail(const char* what);
     void* allocate(std::uint64_t count, std::uint64_t size);
+    void clear(void* memory, std::uint64_t bytes);
     void* copy(const void* from, std::uint64_t count, std::uint64_t size);
 
     const Device& device_;

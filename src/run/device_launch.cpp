@@ -4,36 +4,18 @@
 // docs/crosscheck.md
 #include "src/run/device_launch.h"
 
+#include "kernels_cpu/core/meshes.h"
 #include "kernels_cpu/isa/device_threads.h"
-#include "src/run/device_arrays.h"
+#include "src/run/device_views.h"
 
 namespace pileus {
 namespace {
 
-using Size = std::uint64_t;
-
-Size product(const std::int32_t (&n)[3]) { return Size(n[0]) * Size(n[1]) * Size(n[2]); }
+using Size = DeviceSize;
 
 /// Blocks that flights of the path tracer cross: a ring of one more around the grid.
 Size product_with_ring(const std::int32_t (&n)[3]) {
     return (Size(n[0]) + 2) * (Size(n[1]) + 2) * (Size(n[2]) + 2);
-}
-
-Size pixels_of(const CameraParams& c) { return Size(c.width) * Size(c.height); }
-
-template <class Grid>
-void add_grid(DeviceArrays& a, Grid& grid) {
-    a.in(grid.density, product(grid.size));
-    a.in(grid.majorant, product(grid.blocks));
-}
-
-void add_sky(DeviceArrays& a, SkyMapView& map) {
-    const Size rows = Size(map.rows), columns = Size(map.columns);
-    a.in(map.radiance, Size(map.planes) * rows * columns);
-    a.in(map.row_cdf, rows);
-    a.in(map.column_cdf, rows * columns);
-    a.in(map.row_bound, 2 * rows);
-    a.in(map.column_bound, 2 * columns);
 }
 
 void add_sampler(DeviceArrays& a, const SkyMapView& map, SkySampler& sampler) {
@@ -43,57 +25,19 @@ void add_sampler(DeviceArrays& a, const SkyMapView& map, SkySampler& sampler) {
     a.in(sampler.column_cdf, rows * columns);
 }
 
+/// As src/methods/path/trace_paths.cpp and src/photons/trace.cpp choose on the host.
+const void* kernel_of(const DeviceKernels& kernels, const PathParams& k) {
+    if (k.lamp_count > 0 || k.emits != 0) return kernels.trace_paths_lamps;
+    if (seeks_sun(k)) return kernels.trace_paths_guided;
+    const bool ends = has_meshes(k.solids) || k.camera_depth != nullptr;
+    return ends ? kernels.trace_paths_solid : kernels.trace_paths;
+}
+const void* kernel_of(const DeviceKernels& kernels, const TraceParams& k) {
+    if (k.cells[0] > 0) return kernels.trace_cells;
+    return has_meshes(k.solids) ? kernels.trace_solids : kernels.trace;
+}
+
 }  // namespace
-
-Status launch_on_device(const DeviceTable& device, const ShadowParams& params,
-                        const ShadowBuffers& buffers, std::uint32_t count) {
-    ShadowParams k = params;
-    ShadowBuffers b = buffers;
-    DeviceArrays a(*device.device);
-    add_grid(a, k.medium);
-    a.both(b.optical_depth, product(k.nodes.size));
-    a.launch(device.kernels->shadow_rows, k, b, 0, count);
-    return a.finish();
-}
-
-Status launch_on_device(const DeviceTable& device, const MarchParams& params,
-                        const MarchBuffers& buffers, std::uint32_t count) {
-    MarchParams k = params;
-    MarchBuffers b = buffers;
-    DeviceArrays a(*device.device);
-    add_grid(a, k.medium);
-    for (int i = 0; i < k.media; ++i) a.in(k.phase[i].table);
-    const Size pixels = pixels_of(k.camera);
-    const Size stored = Size(k.sets) * Size(k.harmonics);
-    const Size numbers = k.bands > 0 && b.near == nullptr ? stored : Size(k.channels);
-    a.in(b.near, Size(k.channels / 3) * stored * product(k.near.size));
-    a.in(b.optical_depth, product(k.shadow.size));
-    a.in(b.source, numbers * product(k.source.size));
-    a.in(b.beam, Size(k.beam_sets) * Size(kBeamNumbers));
-    a.in(b.opaque_depth, pixels);
-    if (k.media > 1) a.in(b.parts, Size(k.media - 1) * product(k.medium.size));
-    a.both(b.transmittance, pixels);
-    a.both(b.half_depth, pixels);
-    a.both(b.colour, Size(k.channels) * pixels);
-    a.both(b.ray_depth, pixels);
-    a.launch(device.kernels->march_rows, k, b, 0, count);
-    return a.finish();
-}
-
-Status launch_on_device(const DeviceTable& device, const BackgroundParams& params,
-                        const BackgroundBuffers& buffers, std::uint32_t count) {
-    BackgroundParams k = params;
-    BackgroundBuffers b = buffers;
-    DeviceArrays a(*device.device);
-    add_grid(a, k.medium);
-    add_sky(a, k.sky_map);
-    a.in(b.map, 3 * product(k.map.size));
-    if (k.shadow.size[0] > 0) a.in(b.ground_depth, product(k.shadow.size));
-    a.both(b.colour, 3 * pixels_of(k.camera));
-    a.both(b.opaque_depth, pixels_of(k.camera));
-    a.launch(device.kernels->background_rows, k, b, 0, count);
-    return a.finish();
-}
 
 Status launch_on_device(const DeviceTable& device, const PathParams& params,
                         const PathBuffers& buffers, std::uint32_t count) {
@@ -103,13 +47,17 @@ Status launch_on_device(const DeviceTable& device, const PathParams& params,
     a.in(k.grid.density, product(k.grid.size));
     a.in(k.grid.majorant, product_with_ring(k.grid.blocks));
     for (int i = 0; i < k.media; ++i) a.in(k.optics[i].phase.table);
-    if (k.media > 1) a.in(k.parts, Size(k.media - 1) * product(k.grid.size));
+    a.in(k.parts, other_media(k.media, product(k.grid.size)));
     add_sky(a, k.map);
     add_sampler(a, k.map, k.sampler);
+    add_heights(a, k.sun_heights);
+    const void* const kernel = kernel_of(*device.kernels, k);
+    add_solids(a, k.solids);
+    a.in(k.camera_depth, pixels_in(k.camera));
+    a.in(k.lamps, Size(k.lamp_count));
     a.both(b.radiance, b.stride * (k.parts_wanted != 0 ? 3 * kPathParts : 3));
     a.both(b.tally, 1);
-    a.launch(seeks_sun(k) ? device.kernels->trace_paths_guided : device.kernels->trace_paths, k, b,
-             0, count);
+    a.launch(kernel, k, b, 0, count);
     return a.finish();
 }
 
@@ -121,19 +69,22 @@ Status launch_on_device(const DeviceTable& device, const TraceParams& params,
     add_grid(a, k.grid);
     for (int i = 0; i < k.media; ++i) a.in(k.optics[i].phase.table);
     add_sky(a, k.map);
-    if (k.mode != kDepositNone) a.in(b.collector, product(k.grid.size));
-    if (k.media > 1) a.in(b.parts, Size(k.media - 1) * product(k.grid.size));
+    a.in(k.lamps, Size(k.lamp_count));
+    a.in(k.emitted_below, product(k.grid.size));
+    const void* const kernel = kernel_of(*device.kernels, k);
+    add_solids(a, k.solids);
+    a.in(b.collector, k.mode != kDepositNone ? product(k.grid.size) : 0);
+    a.in(b.parts, other_media(k.media, product(k.grid.size)));
     const std::ptrdiff_t ground = b.ground - b.sums;
     a.both(b.sums, numbers);
     b.ground = b.sums != nullptr ? b.sums + ground : nullptr;
     a.both(b.tally, 1);
-    a.launch(device.kernels->trace, k, b, 0, count);
+    a.launch(kernel, k, b, 0, count);
     return a.finish();
 }
 
 Status launch_on_device(const DeviceTable& device, const BlendParams& k,
                         const BlendBuffers& buffers, std::uint64_t spheres, std::uint32_t count) {
-    constexpr Size kMostScratch = Size{1} << 26;  // floats
     BlendBuffers b = buffers;
     DeviceArrays a(*device.device);
     const Size pixels = Size(k.width) * Size(k.height), channels = Size(k.channels);
@@ -146,9 +97,7 @@ Status launch_on_device(const DeviceTable& device, const BlendParams& k,
     a.both(b.transmittance, pixels);
     a.both(b.half_depth, pixels);
     a.both(b.colour, channels * pixels);
-    // As many tiles at once as there is scratch for.
-    const Size most = kMostScratch / blend_scratch_share(k);
-    const std::uint32_t step = most < 1 ? 1 : (most < count ? std::uint32_t(most) : count);
+    const std::uint32_t step = items_at_once(count, blend_scratch_share(k));
     a.scratch(b.scratch, step * blend_scratch_share(k));
     for (std::uint32_t begin = 0; begin < count; begin += step)
         a.launch(device.kernels->blend_tile, k, b, begin,

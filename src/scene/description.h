@@ -2,6 +2,7 @@
 // A scene after reading: what no frame changes.
 // in: TOML (docs/scene.md) -> out: this struct, read only once a picture is begun.
 #pragma once
+#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -51,6 +52,8 @@ struct Description {
     std::string method = "collectors";
     ViewFiles view_files;
     Lens lens;
+    std::array<int, 4> crop{};  ///< x0, y0, x1, y1: pixels of the picture that are shown, ends
+                                ///< exclusive; all 0: the whole picture
     OutputSettings output;
     Animation animation;
 };

@@ -8,7 +8,7 @@ namespace pileus {
 bool same_view(const Camera& a, const Camera& b) {
     return a.position_m == b.position_m && a.target_m == b.target_m && a.up == b.up &&
            a.orthographic == b.orthographic && a.fov_deg == b.fov_deg && a.height_m == b.height_m &&
-           a.resolution == b.resolution && a.has_frustum == b.has_frustum &&
+           a.resolution == b.resolution && a.window == b.window && a.has_frustum == b.has_frustum &&
            (!a.has_frustum || a.frustum == b.frustum);
 }
 

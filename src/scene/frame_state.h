@@ -21,6 +21,17 @@ struct Frustum {
     }
 };
 
+/// The part of a larger picture that a camera's `resolution` counts.
+struct PictureWindow {
+    std::array<int, 2> at{0, 0};    ///< its first pixel there
+    std::array<int, 2> more{0, 0};  ///< pixels that the picture has more
+    int parts = 1, part = 0;        ///< rows are those of one of several parts: CameraParams
+
+    bool operator==(const PictureWindow& o) const {
+        return at == o.at && more == o.more && parts == o.parts && part == o.part;
+    }
+};
+
 struct Camera {
     Double3 position_m{0, -3000, 600}, target_m{0, 0, 900}, up{0, 0, 1};
     bool orthographic = false;  ///< parallel rays, or none at all (flux)
@@ -28,6 +39,13 @@ struct Camera {
     double fov_deg = 40;        ///< vertical, perspective only; in (0, 180)
     double height_m = 2000;     ///< orthographic and flux; > 0
     std::array<int, 2> resolution{960, 540};
+    PictureWindow window;  ///< set where camera.crop is: src/plan/crop.h
+    /// Of all of the picture: what is chosen by a number of pixels is chosen by this one, so that
+    /// parts have the bits of the whole.
+    std::uint64_t whole_pixels() const {
+        return std::uint64_t(resolution[0] + window.more[0]) *
+               std::uint64_t(resolution[1] + window.more[1]);
+    }
     bool has_frustum = false;  ///< a session's: instead of fov_deg and height_m
     Frustum frustum;
 };

@@ -46,7 +46,7 @@ inline constexpr std::tuple kNumbers{
     NumberKey{"camera.up", &Camera::up, kAnywhere},
     NumberKey{"camera.fov_deg", &Camera::fov_deg, {kLeastFovDeg, 180, true}},
     NumberKey{"camera.height_m", &Camera::height_m, {kLeastPositive, 1e9}},
-    NumberKey{"camera.resolution", &Camera::resolution, {1, 16384}},
+    NumberKey{"camera.resolution", &Camera::resolution, {1, 32768}},
     NumberKey{"sun.azimuth_deg", &Sun::azimuth_deg, kAllRound},
     NumberKey{"sun.elevation_deg", &Sun::elevation_deg, kUpright},
     NumberKey{"sun.irradiance", &Sun::irradiance, {0, 1e12}},

@@ -6,16 +6,13 @@
 #include "src/session/run_context.h"
 
 namespace pileus {
-namespace {
 
-void finish_report(const RunStart& start, Report& report) {
+void finish_clocks(const RunStart& start, Report& report) {
     report.clocks.total_s = wall_seconds() - start.wall_s;
     report.clocks.cpu_s = cpu_seconds() - start.cpu_s;
     take_clocks(report.clocks);
 }
 
-/// What another run needs, beside the scene's text, to make the same picture. Nothing of the
-/// machine.
 void note_origin(const Report& report, Image& image) {
     const auto add = [&](const std::string& name, const std::string& text) {
         if (!text.empty()) image.origin.emplace_back(name, text);
@@ -46,8 +43,6 @@ void note_origin(const Report& report, Image& image) {
         add("override." + std::to_string(i), report.overrides[i]);
 }
 
-}  // namespace
-
 void take_hash(const Context& context, const Image& image, Report& report) {
     const StageClock clock(context, "hash");
     report.hash = pixel_hash(image);
@@ -60,7 +55,7 @@ Status deliver(const Scene& scene, const RunStart& start, int frame, const Frame
     image.scene_text = scene.text;
     report.frame = frame;
     note_origin(report, image);
-    finish_report(start, report);
+    finish_clocks(start, report);
     return sink(frame, image, report);
 }
 

@@ -6,6 +6,7 @@
 #include "platform/clock.h"
 #include "src/run/context.h"
 #include "src/session/render.h"
+#include "src/session/session.h"
 
 namespace pileus {
 
@@ -14,8 +15,18 @@ struct RunStart {
     double wall_s = wall_seconds(), cpu_s = cpu_seconds();
 };
 
+/// Lights and draws a frame with all of its layers.
+Status draw_frame(const Scene& scene, Session& session, const FilmFrame& step, Image& image);
+
 /// Names the picture by its bits before anything else is written about it.
 void take_hash(const Context& context, const Image& image, Report& report);
+
+/// What it has taken since then.
+void finish_clocks(const RunStart& start, Report& report);
+
+/// What another run needs, beside the scene's text, to make the same picture. Nothing of the
+/// machine.
+void note_origin(const Report& report, Image& image);
 
 /// Completes a frame's picture and report, and hands both over.
 Status deliver(const Scene& scene, const RunStart& start, int frame, const FrameSink& sink,

@@ -5,8 +5,10 @@
 #include <optional>
 
 #include "platform/clock.h"
+#include "platform/fp_mode.h"
 #include "src/base/file.h"
 #include "src/picture/finish_frame.h"
+#include "src/run/work_share.h"
 #include "src/session/session.h"
 #include "src/session/stop_rule.h"
 #include "src/world/camera/view.h"
@@ -52,10 +54,13 @@ Status Session::film_passes(const FrameView& view, const LightGoal& goal, StateF
         double error = 0;
         // A picture that an error is told by has stages of its own.
         if (rule.wants_error(light) && goal.doubles) clock.reset();
-        if (rule.wants_error(light)) PILEUS_TRY(made_.report->error(context_, view, error));
-        if (rule.met(light, error)) break;
+        const bool looks = rule.wants_error(light);
+        if (looks && context_.sharing != nullptr)
+            PILEUS_TRY(made_.report->bring_together(*context_.sharing));
+        if (looks && is_first()) PILEUS_TRY(made_.report->error(context_, view, error));
         const double spent_s = wall_seconds() - start;
-        last.units = rule.next(light, spent_s, last);
+        last.units = rule.met(light, error) ? 0 : rule.next(light, spent_s, last);
+        if (context_.sharing != nullptr) PILEUS_TRY(context_.sharing->decide(last.units));
         if (last.units == 0) break;
         if (!clock) clock.emplace(context_, stage);
         std::uint64_t done = 0;
@@ -64,9 +69,11 @@ Status Session::film_passes(const FrameView& view, const LightGoal& goal, StateF
         light = method.progress();
         if (light.interrupted) break;
         context_.tell(stage, rule.share_done(light, wall_seconds() - start));
-        PILEUS_TRY(file.save_now_and_then());
+        // Of several processes the first keeps what all have, once it is whole.
+        if (context_.sharing == nullptr) PILEUS_TRY(file.save_now_and_then());
     }
-    return Status::ok();
+    return context_.sharing != nullptr ? made_.report->bring_together(*context_.sharing)
+                                       : Status::ok();
 }
 
 Status Session::film_light(const FrameView& view) {
@@ -80,12 +87,16 @@ Status Session::film_light(const FrameView& view) {
     PILEUS_TRY(method.accumulate(context_, view, 0, done));
     PILEUS_TRY(film_passes(view, goal, file));
     const LightUnits light = method.progress();
-    if (light.held > 0) return file.save();
+    if (light.held > 0) return is_first() ? file.save() : Status::ok();
     const bool keeps = !file.path.empty() && light.part;
     if (keeps) PILEUS_TRY(file.save());
     return {Code::kCheckFailed,
             std::string("interrupted before ") + goal.first + "; " +
                 (keeps ? "no picture written, progress kept in " + file.path : "no file written")};
+}
+
+bool Session::is_first() const {
+    return context_.sharing == nullptr || context_.sharing->part().is_first();
 }
 
 /// A film tells of no change: methods see by themselves that the sun has moved.
@@ -130,18 +141,48 @@ Status Session::film_ring(const FilmFrame& step) {
             "interrupted before the frame's ring of generations was whole; no file written"};
 }
 
-Status Session::film_frame(const FilmFrame& step, Image& image) {
+Status Session::light_frame(const FilmFrame& step) {
     Method& method = *made_.method;
     const LightUnits light = method.progress();
-    const FrameView view = scenery_.view(step.frame);
-    if (light.ring > 0) {
-        PILEUS_TRY(film_ring(step));
-    } else {
-        // The same random numbers in each frame, so that noise stays where it is.
-        if (light.one_sum && scene_.animation.present) method.restart(context_, 0);
-        PILEUS_TRY(film_view(step.frame));
-        PILEUS_TRY(film_light(view));
+    if (light.ring > 0) return film_ring(step);
+    // The same random numbers in each frame, so that noise stays where it is.
+    if (light.one_sum && scene_.animation.present) method.restart(context_, 0);
+    PILEUS_TRY(film_view(step.frame));
+    if (!options_.parts) return film_light(scenery_.view(step.frame));
+    std::uint64_t done = 0;
+    PILEUS_TRY(method.accumulate(context_, scenery_.view(step.frame), 0, done));
+    return options_.parts(*made_.report);
+}
+
+Status Session::film_frame(const FilmFrame& step, Image& image) {
+    PILEUS_TRY(light_frame(step));
+    return is_first() ? show_frame(step, image) : Status::ok();
+}
+
+Status Session::render_light(const FilmFrame& step, PartLight& light) {
+    const FpModeGuard guard;
+    const PoolGuard lent(*threads_);
+    PILEUS_TRY(take_frame(step.frame));
+    PILEUS_TRY(light_frame(step));
+    if (made_.method->progress().interrupted)
+        return {Code::kCheckFailed, "interrupted before the part was whole; no file written"};
+    return made_.report->take_light(light);
+}
+
+Status Session::set_window(const Camera& camera) {
+    const bool same =
+        camera.resolution == scene_.camera.resolution && camera.window == scene_.camera.window;
+    for (Camera* own : {&scene_.camera, &host_.camera}) {
+        own->resolution = camera.resolution;
+        own->window = camera.window;
     }
+    if (same || !scenery_.environment.depth.present) return Status::ok();
+    return load_environment(scene_, context_, scenery_.environment);
+}
+
+Status Session::show_frame(const FilmFrame& step, Image& image) {
+    Method& method = *made_.method;
+    const FrameView view = scenery_.view(step.frame);
     method.release(Phase::kTraced);
     if (step.last || method.progress().interrupted) method.release(Phase::kEnded);
     report_.digests = digests_;

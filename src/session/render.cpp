@@ -7,6 +7,7 @@
 #include "src/picture/background.h"
 #include "src/picture/finish_frame.h"
 #include "src/picture/march_view.h"
+#include "src/plan/crop.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/rows/volume_format.h"
 #include "src/session/deliver.h"
@@ -42,10 +43,6 @@ void count_water(const Scene& scene, const World& world, Report& report) {
 Status show_shadow(const Scene& scene, Session& session, int frame, Image& image) {
     const Context& context = session.context();
     const Medium& medium = session.world().medium;
-    if (context.kernels->device != nullptr)
-        return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
-                                 "\": layer shadow is made on the host alone, allowed: another, or "
-                                 "layers without shadow");
     Majorants majorants;
     PILEUS_TRY(make_majorants(medium, false, context, majorants));
     return add_shadow(
@@ -62,26 +59,15 @@ bool has_moving_sky(const Scene& scene) {
 /// Each frame of a sequence, or of clouds in a wind, is a world of its own.
 bool has_worlds(const Scene& scene) { return has_sequence(scene) || moves_wind(scene); }
 
-/// What a session is opened with, where frames have sessions of their own.
-FrameState opened_at(const Scene& scene, int frame) {
-    FrameState out = scene;
-    out.world = world_key_at(scene, frame);
-    if (!has_moving_sky(scene)) return out;
-    const SunPlace sun = sun_at(scene, scene.sun, frame);
-    out.sun.azimuth_deg = sun.azimuth_deg;
-    out.sun.elevation_deg = sun.elevation_deg;
-    out.hours_later = hours_at(scene, frame);
-    return out;
-}
-
 /// Frames that share a world, which may be given.
-Status render_frames(const Scene& scene, const RunStart& start, const RenderOptions& options,
-                     const Frames& frames, const std::shared_ptr<const World>& world,
-                     const FrameSink& sink) {
+Status render_frames(const Scene& scene, const Shown& shown, const RunStart& start,
+                     const RenderOptions& options, const Frames& frames,
+                     const std::shared_ptr<const World>& world, const FrameSink& sink) {
     const FrameState opened = opened_at(scene, frames.first);
     Session session;
     PILEUS_TRY(session.open_film(scene, opened, options, true, world));
     Report& report = session.report();
+    explain_crop(scene, report.plan);
     Verifier verifier;
     const bool verifies = options.verify > 0 && options.show.empty();
     if (verifies)
@@ -90,16 +76,14 @@ Status render_frames(const Scene& scene, const RunStart& start, const RenderOpti
     for (int frame = frames.first; frame <= frames.last && !report.interrupted; ++frame) {
         const RunStart frame_start;
         Image image;
-        PILEUS_TRY(
-            session.render_image({frame, frame == frames.first, frame == frames.last}, image));
-        if (scene.output.layer_reflectance && options.show.empty())
-            PILEUS_TRY(add_reflectance(session.scenery().lighting, image));
-        if (scene.output.layer_shadow && options.show.empty())
-            PILEUS_TRY(show_shadow(scene, session, frame, image));
-        take_hash(session.context(), image, report);
+        PILEUS_TRY(draw_frame(scene, session, {frame, frame == frames.first, frame == frames.last},
+                              image));
+        if (!session.is_first()) continue;
         session.finish_report();
         report.budget_used = budget_used(session.method_report(), options.budget, frame, report);
-        if (verifies) PILEUS_TRY(verifier.check(frame, session.context(), image, report));
+        if (verifies) PILEUS_TRY(verifier.check(frame, session.context(), image, shown, report));
+        PILEUS_TRY(cut_image(session.camera(), shown, image));
+        take_hash(session.context(), image, report);
         count_water(scene, session.world(), report);
         if (options.show.empty()) find_warnings(scene, image, report);
         if (options.show.empty())
@@ -121,9 +105,32 @@ Status render_frames(const Scene& scene, const RunStart& start, const RenderOpti
 
 }  // namespace
 
+FrameState opened_at(const Scene& scene, int frame) {
+    FrameState out = scene;
+    out.world = world_key_at(scene, frame);
+    if (!has_moving_sky(scene)) return out;
+    const SunPlace sun = sun_at(scene, scene.sun, frame);
+    out.sun.azimuth_deg = sun.azimuth_deg;
+    out.sun.elevation_deg = sun.elevation_deg;
+    out.hours_later = hours_at(scene, frame);
+    return out;
+}
+
+Status draw_frame(const Scene& scene, Session& session, const FilmFrame& step, Image& image) {
+    PILEUS_TRY(session.render_image(step, image));
+    if (!session.is_first() || session.shows_view()) return Status::ok();
+    if (scene.output.layer_reflectance)
+        PILEUS_TRY(add_reflectance(session.scenery().lighting, image));
+    return scene.output.layer_shadow ? show_shadow(scene, session, step.frame, image)
+                                     : Status::ok();
+}
+
 bool frames_stand_alone(const Scene& scene) { return has_worlds(scene) || has_moving_sky(scene); }
 
-Status render(const Scene& scene, const RenderOptions& options, const FrameSink& sink) {
+Status render(const Scene& described, const RenderOptions& options, const FrameSink& sink) {
+    PILEUS_TRY(check_crop(described, options.budget, !options.show.empty()));
+    Scene scene = described;
+    const Shown shown = take_window(scene);
     const FpModeGuard guard;
     ThreadPool threads;
     const PoolGuard lent(threads);
@@ -133,7 +140,7 @@ Status render(const Scene& scene, const RenderOptions& options, const FrameSink&
     // A sun that moves in air has another sky in each frame.
     const bool worlds = has_worlds(scene);
     if (!frames_stand_alone(scene))
-        return render_frames(scene, start, options, frames, nullptr, sink);
+        return render_frames(scene, shown, start, options, frames, options.world, sink);
     std::shared_ptr<const World> world;
     if (!worlds && frames.last > frames.first) {
         std::shared_ptr<World> made;
@@ -148,12 +155,16 @@ Status render(const Scene& scene, const RenderOptions& options, const FrameSink&
     };
     for (int frame = frames.first; frame <= frames.last && !interrupted; ++frame) {
         const Frames one{frame, frame, frames.total};
-        PILEUS_TRY(render_frames(scene, start, options, one, world, watched));
+        PILEUS_TRY(render_frames(scene, shown, start, options, one, world, watched));
     }
     return Status::ok();
 }
 
-Status plan_scene(const Scene& scene, const RenderOptions& options, bool exact, Report& report) {
+Status plan_scene(const Scene& described, const RenderOptions& options, bool exact,
+                  Report& report) {
+    PILEUS_TRY(check_crop(described, options.budget, !options.show.empty()));
+    Scene scene = described;
+    (void)take_window(scene);
     const FpModeGuard guard;
     ThreadPool threads;
     const PoolGuard lent(threads);
@@ -164,6 +175,7 @@ Status plan_scene(const Scene& scene, const RenderOptions& options, bool exact, 
     planned.digests = false;  // a plan tells none
     PILEUS_TRY(session.open_film(scene, opened_at(scene, frames.first), planned, exact, nullptr));
     report = session.report();
+    explain_crop(scene, report.plan);
     return Status::ok();
 }
 

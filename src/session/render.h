@@ -4,10 +4,12 @@
 // docs/architecture.md, "How a frame is made".
 #pragma once
 #include <functional>
+#include <memory>
 
 #include "src/base/limits.h"
 #include "src/io/images/image.h"
 #include "src/plan/budget.h"
+#include "src/plan/part_light.h"
 #include "src/plan/report.h"
 #include "src/scene/scene.h"
 
@@ -17,8 +19,11 @@ namespace pileus {
 extern const char* const kVersion;
 
 struct HostMedia;
+class MethodReport;
+class WorkShare;
 struct KernelTable;
 struct MethodRow;
+struct World;
 
 struct RenderOptions {
     int threads = 0;                       ///< 0: all there are
@@ -29,11 +34,16 @@ struct RenderOptions {
     std::string show;  ///< empty: the picture; else a step of the method (docs/how-it-works.md)
     /// Finds what makes it, by the names of method and view: lab/views/view_list.h.
     Status (*find_view)(const std::string&, const std::string&, MethodRow&) = nullptr;
-    const Image* sky = nullptr;        ///< in place of the sky map's file; null: that
-    const HostMedia* media = nullptr;  ///< likewise of the files and recipes of media
+    const Image* sky = nullptr;          ///< in place of the sky map's file; null: that
+    std::shared_ptr<const World> world;  ///< of the scene, where there is one; null: it is made
+    const HostMedia* media = nullptr;    ///< likewise of the files and recipes of media
     bool digests = true;  ///< the report names what each stage made by its bits; takes time
     int first_frame = 0, last_frame = 0;  ///< of the animation, inclusive
-    Limits limits;                        ///< what the scene may ask for; docs/program.md
+    WorkPart part;                        ///< of a frame, that a session of parts works on
+    WorkShare* sharing = nullptr;         ///< of measure_flux
+    /// Where set, a frame's light comes from it and none is traced: MethodReport::add_light.
+    std::function<Status(MethodReport&)> parts;
+    Limits limits;  ///< what the scene may ask for; docs/program.md
     /// Called now and then with a stage's name and the share done of it, 0..1.
     std::function<void(const char* stage, double share)> progress;
     /// Asked now and then whether to end with what there is; the report then says `interrupted`.

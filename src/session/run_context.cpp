@@ -30,6 +30,8 @@ Status make_context(const Scene& scene, const RenderOptions& options, Context& c
     context.interrupted = options.interrupted;
     context.holding = options.holding;
     context.limits = options.limits;
+    context.part = options.part;
+    context.sharing = options.sharing;
     context.frames = std::uint64_t(options.last_frame) - std::uint64_t(options.first_frame) + 1;
     note_head(scene, options, context, report);
     return Status::ok();

@@ -27,6 +27,9 @@ void note_head(const Scene& scene, const RenderOptions& options, const Context& 
 /// kBadInput: frames that the scene does not have.
 Status frames_of(const Scene& scene, const RenderOptions& options, Frames& frames);
 
+/// What the session of a frame is opened with.
+FrameState opened_at(const Scene& scene, int frame);
+
 /// Texts of the budgets that make this frame's picture again, whatever ended it: a clock and an
 /// error have come to whole samples or generations. Empty: the scene's own numbers, or a user who
 /// ended it within a pass, which nothing repeats.

@@ -101,6 +101,9 @@ Status Session::open_either(const Scene& scene, const FrameState& frame,
     PILEUS_TRY(place_scene(scene_));
     scene_.sky.mapped = options.sky != nullptr || !scene_.view_files.sky_map.empty();
     options_ = options;
+    if (hosted && scene_.crop[2] > 0)
+        return at_key(scene_, "camera.crop",
+                      Status::bad_input("of pictures in files alone, allowed: left out"));
     const Status found = find_method(scene_, row_);
     if (hosted) make_live(found && row_.keeps_parts, scene_);
     host_ = scene_;

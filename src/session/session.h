@@ -85,7 +85,11 @@ public:
 
     Report& report() { return report_; }
     const Report& report() const { return report_; }
+    /// Of several processes that light one picture, whether this one shows it.
+    bool is_first() const;
     const MethodRow& row() const { return row_; }
+    /// A step of the method in place of its picture.
+    bool shows_view() const { return !options_.show.empty(); }
     const Scenery& scenery() const { return scenery_; }
     const World& world() const { return *scenery_.world; }
     const Plan& plan() const { return plan_; }
@@ -95,6 +99,10 @@ public:
 
     /// Lights and draws a frame of the animation as an image with the scene's layers.
     Status render_image(const FilmFrame& step, Image& image);
+    /// The next pictures of a film are of this window of the picture; light of photons stays.
+    Status set_window(const Camera& camera);
+    /// The light of a part of a frame, before there is a picture.
+    Status render_light(const FilmFrame& step, PartLight& light);
     /// What the method counted goes to the report, after render_image.
     void finish_report();
 
@@ -183,6 +191,8 @@ private:
     Status open_either(const Scene& scene, const FrameState& frame, const RenderOptions& options,
                        bool hosted, bool exact, std::shared_ptr<const World> world);
     Status film_frame(const FilmFrame& step, Image& image);
+    Status light_frame(const FilmFrame& step);
+    Status show_frame(const FilmFrame& step, Image& image);
     /// The light of it, until the method's goal is met or the user wants an end.
     Status film_light(const FrameView& view);
     Status film_passes(const FrameView& view, const LightGoal& goal, StateFile& file);

@@ -5,7 +5,6 @@
 #include "kernels_cpu/core/profile.h"
 #include "platform/fp_mode.h"
 #include "src/methods/support.h"
-#include "src/run/on_device.h"
 #include "src/scene/above_ground.h"
 #include "src/scene/frame_fault.h"
 #include "src/scene/number_keys.h"
@@ -194,8 +193,6 @@ Status Session::set_lights(const std::vector<LightSettings>& lights) {
         return Status::bad_input("light: " + std::to_string(lights.size()) + ", allowed: at most " +
                                  std::to_string(sealed_lights_) +
                                  ", as when the flight was opened");
-    if (on_device(context_.kernels->device))
-        PILEUS_TRY(check_host_lights(context_, lights, scene_.atmosphere.present, world().medium));
     if (const char* key = lights_fault(scene_, host_.ground, lights))
         PILEUS_TRY(check_changed(key, scene_, [&](Scene& changed) {
             changed.lights = lights;

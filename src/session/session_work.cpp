@@ -4,7 +4,6 @@
 // docs/realtime.md, "Work and the governor"
 #include "platform/fp_mode.h"
 #include "src/picture/upsample.h"
-#include "src/run/on_device.h"
 #include "src/scene/number_keys.h"
 #include "src/scene/read_scene.h"
 #include "src/session/session.h"
@@ -45,13 +44,6 @@ const char* work_fault(const FrameWork& work, const FrameWork& whole) {
     return whole.light_refresh > 0 && !refreshed ? "work.light_refresh" : nullptr;
 }
 
-/// Marched pixels lie so far apart.
-int marched_every(const FrameWork& work) {
-    UpsampleSettings thin;
-    put_work(work, thin);
-    return thin.every();
-}
-
 template <class T>
 T chosen(T given, T whole) {
     return given != 0 ? given : whole;
@@ -90,8 +82,6 @@ Status Session::set_work(const FrameWork& given) {
         put_work(work, thin);
         PILEUS_TRY(check_upsampling(named, "work", thin));
     }
-    if (marched_every(work_) != marched_every(work) && on_device(context_.kernels->device))
-        return refuse("scale", work.scale, "0 on a device");
     // The method is the last to refuse.
     PILEUS_TRY(made_.method->set_limits(work));
     work_ = work;

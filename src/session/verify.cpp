@@ -18,15 +18,18 @@ namespace {
 constexpr std::uint32_t kSamples = 1024;
 constexpr float kLeastAlpha = 0.02f;
 
-/// One of each of `wanted` equal runs of the pixels that show media, row by row; all where they are
-/// no more.
-std::vector<std::uint32_t> choose_pixels(const Image& image, std::uint64_t wanted,
-                                         std::uint64_t seed) {
+/// One of each of `wanted` equal runs of the shown pixels that show media, row by row; all where
+/// they are no more.
+std::vector<std::uint32_t> choose_pixels(const Image& image, const Shown& shown,
+                                         std::uint64_t wanted, std::uint64_t seed) {
     std::vector<std::uint32_t> seen, chosen;
     const Channel* alpha = image.find("A");
     if (alpha == nullptr) return chosen;
-    for (std::size_t i = 0; i < alpha->pixels.size(); ++i)
-        if (alpha->pixels[i] > kLeastAlpha) seen.push_back(std::uint32_t(i));
+    for (std::size_t i = 0; i < alpha->pixels.size(); ++i) {
+        const std::size_t width = std::size_t(image.width);
+        if (alpha->pixels[i] > kLeastAlpha && shown.holds(int(i % width), int(i / width)))
+            seen.push_back(std::uint32_t(i));
+    }
     if (seen.size() <= wanted) return seen;
     const Key key = make_key(seed, kVerifiedStream, 0);
     const std::uint64_t count = seen.size();
@@ -169,7 +172,8 @@ Status Verifier::see_through_air(int frame, const Context& context,
     return Status::ok();
 }
 
-Status Verifier::check(int frame, const Context& context, const Image& image, Report& report) {
+Status Verifier::check(int frame, const Context& context, const Image& image, const Shown& shown,
+                       Report& report) {
     report.verify = {};
     place(frame);
     if (is_sequence(scene_.view_files.depth)) {
@@ -179,7 +183,7 @@ Status Verifier::check(int frame, const Context& context, const Image& image, Re
     PILEUS_TRY(set_view(frame, context));
     PathInput in = path_->input(context, scenery_.view(frame));
     in.ended = context.interrupted;
-    const std::vector<std::uint32_t> pixels = choose_pixels(image, pixels_, in.seed);
+    const std::vector<std::uint32_t> pixels = choose_pixels(image, shown, pixels_, in.seed);
     if (pixels.empty()) return Status::ok();
     const std::uint32_t most = most_pixel_samples(in);
     const std::uint32_t samples = kSamples < most ? kSamples : most < 2 ? 2 : most;

@@ -5,6 +5,7 @@
 #pragma once
 #include "src/methods/path/path_method.h"
 #include "src/methods/scenery.h"
+#include "src/plan/crop.h"
 #include "src/session/render.h"
 
 namespace pileus {
@@ -21,7 +22,8 @@ public:
 
     /// Traces pixels of a frame and fills the report's figures; none where no pixel shows media, or
     /// where the user ends it.
-    Status check(int frame, const Context& context, const Image& image, Report& report);
+    Status check(int frame, const Context& context, const Image& image, const Shown& shown,
+                 Report& report);
 
 private:
     void place(int frame);

@@ -47,7 +47,7 @@ auto with_shining(const Scene& scene, const World& world, const Environment& env
 
 Status outline_environment(const Scene& scene, const Context& context, const World& world,
                            const Image* sky, Environment& environment) {
-    PILEUS_TRY(outline_camera_depth(scene, context, environment.depth));
+    outline_camera_depth(scene, environment.depth);
     if (!kAtmosphere || !scene.atmosphere.present)
         return read_sky_map(scene, context, sky, environment.sky_map);
     const StageClock clock(context, "atmosphere");

@@ -2,8 +2,6 @@
 // See plan_parts.h. Rows without a declaration are bounds of what a reader or writer takes.
 #include "src/world/plan_parts.h"
 
-#include "src/run/on_device.h"
-
 namespace pileus {
 namespace {
 
@@ -90,20 +88,6 @@ WorkInput medium_work(const Medium& medium, double mean_density, double max_even
     in.max_events = max_events;
     in.photons = photons;
     return in;
-}
-
-Status check_host_lights(const Context& context, const std::vector<LightSettings>& lights, bool air,
-                         const Medium& medium) {
-    if (!on_device(context.kernels->device)) return Status::ok();
-    const std::string where = std::string("--isa: \"") + context.kernels->name + "\": ";
-    if (!lights.empty() || emits(medium))
-        return Status::bad_input(where +
-                                 "[[light]] and emission are for the host alone, allowed: "
-                                 "another, or a scene without them");
-    if (!air) return Status::ok();
-    return Status::bad_input(where +
-                             "air is for the host alone, allowed: another, or a scene without "
-                             "[atmosphere]");
 }
 
 void note_depths(const Lighting& lighting, bool wanted, Plan& plan) {

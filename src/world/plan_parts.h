@@ -43,10 +43,6 @@ WorkInput medium_work(const Medium& medium, double mean_density, double max_even
 /// kLimit: more scatterings than the limits allow. `where` opens the line.
 Status check_work(const WorkEstimate& work, const Limits& limits, const std::string& where);
 
-/// kBadInput on a device, whose kernels know neither [[light]] nor media that emit nor air.
-Status check_host_lights(const Context& context, const std::vector<LightSettings>& lights, bool air,
-                         const Medium& medium);
-
 /// What laying the media on one grid has told.
 void note_media(const Plan& media, Plan& plan);
 /// Whether a picture has a test of depths, and distances to the media.

@@ -123,8 +123,6 @@ Status outline_world(const Scene& scene, WorldUse use, const HostMedia& given,
                      const Context& context, World& world) {
     PILEUS_TRY(check_scene_limits(scene, context.limits));
     const ReadingLimit readers(context.limits);
-    if (context.kernels != nullptr && context.kernels->device != nullptr)
-        PILEUS_TRY(refuse_marched_detail(scene, std::string("--isa ") + context.kernels->name));
     PILEUS_TRY(outline_solids(scene, context, world.solids));
     world.media = scene.media.size();
     const bool cells = given.of(0).cells != nullptr;

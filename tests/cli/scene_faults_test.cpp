@@ -88,9 +88,9 @@ TEST_CASE("values out of range") {
         {kCamera + "fov_deg = nan\n", "s.toml:4:11: camera.fov_deg: not finite, nan, ..."},
         {kCamera + "up = [0, inf, 1]\n", "s.toml:4:10: camera.up: not finite, inf, ..."},
         {kCamera + "resolution = [0, 10]\n",
-         "s.toml:4:15: camera.resolution: out of range, 0, allowed: 2 whole numbers in [1, 16384]"},
-        {kCamera + "resolution = [10, 16385]\n",
-         "s.toml:4:19: camera.resolution: out of range, 16385, ..."},
+         "s.toml:4:15: camera.resolution: out of range, 0, allowed: 2 whole numbers in [1, 32768]"},
+        {kCamera + "resolution = [10, 32769]\n",
+         "s.toml:4:19: camera.resolution: out of range, 32769, ..."},
         {kCamera + "[sun]\nirradiance = [1, -1, 1]\n",
          "s.toml:5:18: sun.irradiance: out of range, -1, allowed: number or [r, g, b] in "
          "[0, 1e+12]"},

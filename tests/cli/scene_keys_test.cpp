@@ -75,10 +75,11 @@ std::vector<std::string> candidates(const KeyRow& row) {
     std::vector<std::string> values{"\"a b.c\"", "[\"a.exr\", \"b.pfm\"]", "true", "false"};
     for (const double v : {r.low + 1, r.high / 2 + r.low / 2, r.high}) {
         const std::string n = number_text(v), m = number_text(r.low / 2);
-        values.insert(values.end(),
-                      {n, "[" + n + ", " + m + "]", "[" + n + ", " + m + ", " + n + "]",
-                       "[" + n + ", " + n + "]", "[" + n + ", " + n + ", " + n + "]",
-                       "[[0, 0, 0], [" + n + ", " + n + ", " + n + "]]"});
+        values.insert(
+            values.end(),
+            {n, "[" + n + ", " + m + "]", "[" + n + ", " + m + ", " + n + "]",
+             "[" + n + ", " + n + "]", "[" + n + ", " + n + ", " + n + "]",
+             "[0, 0, " + n + ", " + n + "]", "[[0, 0, 0], [" + n + ", " + n + ", " + n + "]]"});
     }
     return values;
 }

@@ -35,6 +35,8 @@ int numbers_of(KeyKind kind) {
         case KeyKind::kInteger3:
         case KeyKind::kColor:
             return 3;
+        case KeyKind::kInteger4:
+            return 4;
         case KeyKind::kBounds:
             return 6;
         default:

@@ -43,7 +43,7 @@ std::string method_names() {
 Node beyond(const KeyRow& row, bool high) {
     const KeyRange& r = row.allowed.range;
     const bool whole = row.kind() == KeyKind::kInteger || row.kind() == KeyKind::kInteger2 ||
-                       row.kind() == KeyKind::kInteger3;
+                       row.kind() == KeyKind::kInteger3 || row.kind() == KeyKind::kInteger4;
     const double wrong = high ? r.high + std::fmax(1.0, std::fabs(r.high) * 1e-6) : r.low - 2;
     if (whole && std::fabs(wrong) > 2147483647.0) return no_value();
     const Node one = whole ? node_of(std::int64_t(wrong)) : node_of(wrong);
@@ -56,6 +56,9 @@ Node beyond(const KeyRow& row, bool high) {
         case KeyKind::kInteger2:
         case KeyKind::kNumber2:
             list.children = {one, one};
+            return list;
+        case KeyKind::kInteger4:
+            list.children = {one, one, one, one};
             return list;
         case KeyKind::kInteger3:
         case KeyKind::kNumber3:

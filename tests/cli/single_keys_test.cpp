@@ -58,6 +58,8 @@ std::vector<std::string> values_with(KeyKind kind, const std::string& n) {
         case KeyKind::kInteger2:
         case KeyKind::kNumber2:
             return {"[" + n + ", " + n + "]", "[1, " + n + "]"};
+        case KeyKind::kInteger4:
+            return {"[0, 0, " + n + ", " + n + "]", "[0, 0, 1, " + n + "]"};
         case KeyKind::kInteger3:
         case KeyKind::kNumber3:
             return {three(n), "[1, 1, " + n + "]"};

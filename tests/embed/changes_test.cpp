@@ -292,7 +292,7 @@ TEST_CASE("changes: calls without a session, and numbers out of range, have a li
     refused(pileus_session_set_matrices(s, nullptr, view, PILEUS_CLIP_ZERO, 0, 0, e), "view");
     refused(pileus_session_set_matrices(s, view, nullptr, PILEUS_CLIP_ZERO, 0, 0, e), "view");
     refused(pileus_session_set_matrices(s, view, view, PILEUS_CLIP_ZERO, 40000, 1, e),
-            "camera.resolution: 40000, allowed: 1 to 16384");
+            "camera.resolution: 40000, allowed: 1 to 32768");
     refused(pileus_session_size(s, nullptr, &height, e), "width");
     refused(pileus_session_size(s, &width, nullptr, e), "width");
     auto older = work;

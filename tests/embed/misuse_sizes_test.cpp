@@ -143,7 +143,7 @@ TEST_CASE("misuse: numbers of cameras, suns, grounds and places") {
         {"camera.resolution", [](C& c) { c.width = kHuge; }},
         {"camera.resolution", [](C& c) { c.height = kMost; }},
         {"camera.resolution", [](C& c) { c.width = c.height = kHuge; }},
-        {"camera.resolution", [](C& c) { c.width = 16385, c.height = 1; }},
+        {"camera.resolution", [](C& c) { c.width = 32769, c.height = 1; }},
         {"camera.height_m", [](C& c) { c.height_m = -1; }},
         {"camera.near_m", [](C& c) { c.near_m = -1; }},
         {"camera.far_m", [](C& c) { c.far_m = -1; }},

@@ -17,6 +17,7 @@
     ROW(nvdb)                    \
     ROW(overrides)               \
     ROW(packed)                  \
+    ROW(part)                    \
     ROW(particles)               \
     ROW(pbrt)                    \
     ROW(pfm)                     \

@@ -37,8 +37,8 @@ void check_rows() {
     for (std::int32_t kind : {kNoisePerlin, kNoiseWorley}) {
         const NoiseParams p = small(kind);
         std::vector<float> one(32 * 32 * 2), many(one.size());
-        noise_rows<1>(p, one.data(), 0, 64);
-        noise_rows<W>(p, many.data(), 0, 64);
+        noise_rows<1>(p, {one.data()}, 0, 64);
+        noise_rows<W>(p, {many.data()}, 0, 64);
         CHECK(one == many);
     }
 }

@@ -26,6 +26,7 @@ void add_convert(CLI::App& app, Chosen& chosen);
 void add_study(CLI::App& app, Chosen& chosen);
 void add_view(CLI::App& app, Chosen& chosen);
 void add_pack(CLI::App& app, Chosen& chosen);
+void add_merge(CLI::App& app, Chosen& chosen);
 void add_methods(CLI::App& app, Chosen& chosen);
 
 /// The end of a subcommand's help.

@@ -12,6 +12,7 @@
 #include "lab/compare/picture.h"
 #include "src/base/file.h"
 #include "src/base/limits.h"
+#include "src/io/images/picture_layers.h"
 #include "src/scene/rows/picture_format.h"
 #include "tools/pileus/block_files.h"
 #include "tools/pileus/command.h"
@@ -226,6 +227,13 @@ Status read_pictures(const CompareArguments& arguments, const Settings& settings
     PILEUS_TRY(
         read_one(arguments, settings, arguments.reference, other, reference, text.said_reference));
     PILEUS_TRY(check_same_kind(arguments.a, a, arguments.reference, reference));
+    const Image* cut = nullptr;
+    if (arguments.half.empty()) PILEUS_TRY(cut_to_part(a, reference, cut));
+    if (cut != nullptr) {
+        std::string& said = cut == &a ? text.said_a : text.said_reference;
+        said += (said.empty() ? "" : ", ") +
+                fmt::format("{} x {} pixels of it, which the other is", cut->width, cut->height);
+    }
     if (!arguments.half.empty()) {
         Image &first = halves[0], &second = halves[1];
         std::string said;

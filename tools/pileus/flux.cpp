@@ -10,11 +10,17 @@
 #include "platform/clock.h"
 #include "src/base/file.h"
 #include "src/io/images/image_file.h"
+#include "src/session/deliver.h"
+#include "src/session/parts/flux_parts.h"
+#include "src/session/run_context.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/flux_text.h"
 #include "tools/pileus/option_text.h"
 #include "tools/pileus/output_set.h"
+#include "tools/pileus/part_files.h"
 #include "tools/pileus/progress.h"
+#include "tools/pileus/rank_render.h"
+#include "tools/pileus/ranks.h"
 #include "tools/pileus/scene_options.h"
 #include "tools/study/output_check.h"
 #include "tools/study/scene_files.h"
@@ -25,7 +31,8 @@ namespace {
 struct FluxArguments {
     SceneArguments scene;
     std::vector<std::string> columns, cells, below;
-    std::optional<std::string> method, file, absorbed, density, heat_capacity, sensors;
+    std::optional<std::string> method, file, absorbed, density, heat_capacity, sensors, part;
+    std::vector<std::string> merged;
     bool json = false, quiet = false;
 };
 
@@ -104,6 +111,7 @@ std::string head_file(const std::string& volume) { return volume + ".json"; }
 
 Status check_files(const FluxArguments& arguments, const Scene& scene) {
     OutputCheck check;
+    for (const std::string& part : arguments.merged) check.reads(part, "a part");
     check.reads(scene.file, "the scene itself");
     for (const std::string& read : scene_files(scene))
         check.reads(read, "a file that the scene reads");
@@ -119,7 +127,7 @@ Status check_files(const FluxArguments& arguments, const Scene& scene) {
     }
     if (!arguments.file || arguments.file->empty()) return Status::ok();
     PILEUS_TRY(check.writes(*arguments.file));
-    PILEUS_TRY(can_write_image(*arguments.file));
+    if (!arguments.part) PILEUS_TRY(can_write_image(*arguments.file));
     return can_write_file(*arguments.file);
 }
 
@@ -138,6 +146,82 @@ Status add_files(const FluxArguments& arguments, const AirHeating& heating, cons
     return Status::ok();
 }
 
+/// The options that a measurement is of, beside those that a report tells.
+std::string options_text(const FluxArguments& a) {
+    std::string text = "method " + a.method.value_or("") + ", absorbed " +
+                       (a.absorbed ? "yes" : "no") + ", sensors " + a.sensors.value_or("");
+    for (const auto* list : {&a.columns, &a.cells, &a.below}) {
+        text += ',';
+        for (const std::string& word : *list) text += ' ' + word;
+    }
+    return text;
+}
+
+/// What parts of this measurement have in common.
+void note_run(const FluxArguments& arguments, const Scene& scene, const Report& report,
+              Image& told) {
+    Image all;
+    note_origin(report, all);
+    // Known once it is measured.
+    for (const auto& entry : all.origin)
+        if (entry.first != "generations" && entry.first != "samplesPerPixel")
+            told.origin.push_back(entry);
+    told.origin.emplace_back("flux", options_text(arguments));
+    told.scene_text = scene.text;
+}
+
+Status write_flux_part(const FluxArguments& arguments, const Scene& scene, RenderOptions& options,
+                       const FluxSettings& settings) {
+    if (!arguments.merged.empty() || ranks().count > 1)
+        return Status::bad_input("--part: together with --merge or ranks of MPI, allowed: alone");
+    if (!arguments.file || file_extension(*arguments.file) != ".part")
+        return Status::bad_input("--part: writes one file, allowed: -o FILE.part");
+    if (options.budget.samples <= 0 && options.budget.photons < 0)
+        return Status::bad_input(
+            "--part: no part knows how far the others are, allowed: --budget samples=N or "
+            "photons=N");
+    PILEUS_TRY(choose_part(*arguments.part, false, options));
+    KeptShare kept(options.part);
+    options.sharing = &kept;
+    options.part = WorkPart();
+    FluxResult flux;
+    Image maps;
+    Report report;
+    PILEUS_TRY(measure_flux(scene, options, settings, flux, maps, report));
+    Part part;
+    part.division = Division::kFlux;
+    part.part = kept.part();
+    PILEUS_TRY(kept.take(part.light));
+    note_run(arguments, scene, report, part.rows);
+    Buffer<char> bytes;
+    PILEUS_TRY(encode_part(part, bytes));
+    return write_file(*arguments.file, bytes.span());
+}
+
+/// All parts of this measurement, in their order.
+Status read_flux_parts(const FluxArguments& arguments, const Scene& scene,
+                       const RenderOptions& options, std::vector<Part>& parts) {
+    Report report;
+    Context context;
+    PILEUS_TRY(make_context(scene, options, context, report));
+    Part own;
+    own.name = "this measurement";
+    for (const std::string& file : arguments.merged) {
+        Buffer<char> bytes;
+        parts.emplace_back();
+        PILEUS_TRY(check_file_name(file));
+        PILEUS_TRY(read_whole_file(file, kMostPartBytes, bytes));
+        PILEUS_TRY(decode_part(file, bytes.span(), parts.back()));
+    }
+    report.method = parts[0].told("method");
+    note_run(arguments, scene, report, own.rows);
+    own.division = Division::kFlux;
+    own.part = parts[0].part;
+    own.part.index = 0;
+    PILEUS_TRY(check_one_work(parts[0], own));
+    return check_parts(false, parts);
+}
+
 Status run_flux(FluxArguments& arguments) {
     Scene scene;
     RenderOptions options;
@@ -149,8 +233,16 @@ Status run_flux(FluxArguments& arguments) {
          {"camera.position_m=[0,-1,1e6]", "camera.target_m=[0,0,1e6]", "camera.up=[0,0,1]"})
         arguments.scene.sets.insert(arguments.scene.sets.begin(), key);
     PILEUS_TRY(read_scene_options(arguments.scene, scene, options));
-    PILEUS_TRY(check_files(arguments, scene));
-    Progress progress(!arguments.quiet && stderr_is_terminal());
+    PILEUS_TRY(agree(check_files(arguments, scene)));
+    if (arguments.part) return write_flux_part(arguments, scene, options, settings);
+    std::vector<Part> parts;
+    if (!arguments.merged.empty()) PILEUS_TRY(read_flux_parts(arguments, scene, options, parts));
+    ToldShare told(parts);
+    options.sharing = parts.empty() ? rank_share() : &told;
+    if (options.sharing == rank_share() && !arguments.scene.threads)
+        PILEUS_TRY(share_ranks(false, false, options));
+    const bool first = ranks().is_first();
+    Progress progress(first && !arguments.quiet && stderr_is_terminal());
     options.progress = [&progress](const char* stage, double share) {
         progress.tell(stage, share);
     };
@@ -159,12 +251,16 @@ Status run_flux(FluxArguments& arguments) {
     Report report;
     const Status status = measure_flux(scene, options, settings, flux, maps, report);
     progress.clear();
-    PILEUS_TRY(status);
+    PILEUS_TRY(agree(status));
+    if (!parts.empty()) PILEUS_TRY(told.end());
+    if (!first) return agree(Status::ok());
     maps.scene_text = scene.text;
     OutputSet set;
-    PILEUS_TRY(add_files(arguments, heating, flux, maps, set));
-    return set.commit(arguments.json ? flux_json(settings, flux, heating, report)
-                                     : flux_lines(settings, flux, heating));
+    Status written = add_files(arguments, heating, flux, maps, set);
+    if (written)
+        written = set.commit(arguments.json ? flux_json(settings, flux, heating, report)
+                                            : flux_lines(settings, flux, heating));
+    return agree(written);
 }
 
 }  // namespace
@@ -204,6 +300,14 @@ void add_flux(CLI::App& app, Chosen& chosen) {
                      "Instead of all lights: this radiance from the whole lower half space")
         ->expected(1, 3)
         ->type_name("RADIANCE");
+    command
+        ->add_option("--part", arguments->part,
+                     "Measure one of N parts, on this machine or another, into -o FILE.part")
+        ->type_name("I/N");
+    command
+        ->add_option("--merge", arguments->merged,
+                     "What all parts have measured, with the same options")
+        ->type_name("FILE.part");
     command->add_flag("--json", arguments->json, "Print JSON");
     command->add_flag("-q,--quiet", arguments->quiet, "No progress");
     command->callback(

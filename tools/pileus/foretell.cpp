@@ -41,6 +41,9 @@ struct Trial {
 /// With a share 1 / edge^2 of the pixels and photons.
 Status try_small(const Scene& scene, const RenderOptions& options, int edge, Trial& trial) {
     Scene small = scene;
+    if (small.crop[2] > 0)
+        small.camera.resolution = {small.crop[2] - small.crop[0], small.crop[3] - small.crop[1]};
+    small.crop = {};
     for (int& pixels : small.camera.resolution) pixels = std::max(pixels / edge, 1);
     const auto fewer = [edge](std::int64_t& photons) {
         if (photons > 0) photons = std::max(photons / (edge * edge), std::int64_t(1));
@@ -66,10 +69,18 @@ Status try_small(const Scene& scene, const RenderOptions& options, int edge, Tri
     });
 }
 
-double grown(const Seconds& small, const Seconds& large) {
+/// Stages of light and of pixels, which parts of a picture divide.
+bool is_divided(const std::string& stage) {
+    for (const char* name : {"photons", "paths", "march", "blend", "background"})
+        if (stage == name) return true;
+    return false;
+}
+
+double grown(const Seconds& small, const Seconds& large, bool divided_alone) {
     constexpr double kMore = (1 - 1.0 / 16) / (1.0 / 16 - 1.0 / 64);
     double seconds = 0;
     for (const auto& [name, s] : large) {
+        if (divided_alone && !is_divided(name)) continue;
         const auto before = small.find(name);
         seconds += s + kMore * std::max(before == small.end() ? s : s - before->second, 0.0);
     }
@@ -86,8 +97,9 @@ Status foretell_time(const Scene& scene, const RenderOptions& options, ForetoldT
     Trial small, large;
     PILEUS_TRY(try_small(scene, options, 8, small));
     PILEUS_TRY(try_small(scene, options, 4, large));
-    out.first_s = grown(small.first, large.first);
-    out.next_s = grown(small.next, large.next);
+    out.first_s = grown(small.first, large.first, false);
+    out.divided_s = grown(small.first, large.first, true);
+    out.next_s = grown(small.next, large.next, false);
     out.total_s = out.first_s + (options.last_frame - options.first_frame) * out.next_s;
     return Status::ok();
 }

@@ -20,6 +20,7 @@
 #include "src/scene/rows/picture_format.h"
 #include "src/scene/rows/volume_format.h"
 #include "tools/pileus/command.h"
+#include "tools/pileus/ranks.h"
 #include "tools/pileus/raw_options.h"
 #include "tools/pileus/version_text.h"
 
@@ -81,7 +82,8 @@ std::string library_text() {
 std::string program_lines() {
     return info_line("version", version_text()) + info_line("compiler", compiler_text()) +
            info_line("isa", isa_text()) + info_line("threads", threads_text()) +
-           info_line("device", device_text()) + info_line("libraries", library_text()) +
+           info_line("mpi", has_mpi() ? "yes" : "no") + info_line("device", device_text()) +
+           info_line("libraries", library_text()) +
            info_line("volumes", volume_format_extensions()) +
            info_line("pictures", picture_extensions(is_written)) +
            info_line("meshes", mesh_extensions());

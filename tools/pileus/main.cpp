@@ -18,6 +18,7 @@
 #include "platform/threads.h"
 #include "src/scene/toml/toml_tree.h"
 #include "tools/pileus/command.h"
+#include "tools/pileus/ranks.h"
 #include "tools/pileus/version_text.h"
 
 namespace pileus {
@@ -37,7 +38,8 @@ constexpr struct {
 } kCommands[] = {{"render", add_render},   {"plan", add_plan},       {"view", add_view},
                  {"follow", add_follow},   {"flux", add_flux},       {"compare", add_compare},
                  {"study", add_study},     {"hash", add_hash},       {"info", add_info},
-                 {"methods", add_methods}, {"convert", add_convert}, {"pack", add_pack}};
+                 {"methods", add_methods}, {"convert", add_convert}, {"pack", add_pack},
+                 {"merge", add_merge}};
 
 std::string command_names() {
     std::string out;
@@ -124,7 +126,7 @@ int run(int count, char** words, const TeamChoice& team) {
         if (error.get_exit_code() == 0) return app.exit(error);  // --help and --version
         return finish(usage_fault(app, error));
     }
-    return finish(chosen());
+    return end_ranks(finish(chosen()));
 }
 
 }  // namespace

@@ -148,16 +148,23 @@ Status read_picture_scene(const std::string& path, const std::optional<std::stri
 
 Status take_picture_scene(const std::string& path, const Image& image,
                           const std::optional<std::string>& folder, PictureScene& out) {
+    // The pixels are what counts: they may have been changed since their hash was written down.
+    const std::string written = read_hash(image.pixel_hash);
+    if (image.scene_text.empty() || written.empty())
+        return Status::bad_input(path + ": pileus." +
+                                 (image.scene_text.empty() ? "scene" : "pixelHash") +
+                                 ": missing, allowed: a picture that pileus has rendered");
+    PILEUS_TRY(take_run(path, image, folder, out));
+    out.hash = pixel_hash(image);
+    out.edited = written != out.hash;
+    return Status::ok();
+}
+
+Status take_run(const std::string& path, const Image& image,
+                const std::optional<std::string>& folder, PictureScene& out) {
     const Origin origin{path, {image.origin.begin(), image.origin.end()}};
     out = PictureScene();
     out.file = path;
-    // The pixels are what counts: they may have been changed since their hash was written down.
-    const std::string written = read_hash(image.pixel_hash);
-    out.hash = pixel_hash(image);
-    out.edited = !written.empty() && written != out.hash;
-    if (image.scene_text.empty() || written.empty())
-        return Status::bad_input(origin.where(image.scene_text.empty() ? "scene" : "pixelHash") +
-                                 ": missing, allowed: a picture that pileus has rendered");
     Status faults;
     std::int64_t frame = 0, first = 0;
     add_fault(origin.need("version", out.version), faults);

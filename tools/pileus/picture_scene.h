@@ -39,6 +39,10 @@ Status read_picture_scene(const std::string& path, const std::optional<std::stri
 Status take_picture_scene(const std::string& path, const Image& image,
                           const std::optional<std::string>& folder, PictureScene& out);
 
+/// What a file of a run tells beside pixels: its scene_text and its origin.
+Status take_run(const std::string& path, const Image& image,
+                const std::optional<std::string>& folder, PictureScene& out);
+
 /// The frame of the picture, and those before it that its bits depend on. kBadInput: the scene has
 /// no such frame.
 Status picture_frames(const PictureScene& picture, const Scene& scene, int& first, int& last);

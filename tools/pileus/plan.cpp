@@ -6,10 +6,12 @@
 
 #include <memory>
 
+#include "src/methods/registry.h"
 #include "src/plan/report_json.h"
 #include "tools/pileus/command.h"
 #include "tools/pileus/foretell.h"
 #include "tools/pileus/option_text.h"
+#include "tools/pileus/rank_plan.h"
 #include "tools/pileus/scene_options.h"
 
 namespace pileus {
@@ -18,6 +20,7 @@ namespace {
 
 struct PlanArguments {
     SceneArguments scene;
+    std::optional<std::string> ranks, link;
     bool json = false, exact = false, time = false;
 };
 
@@ -100,6 +103,18 @@ std::string plan_lines(const Plan& plan) {
            work_lines(plan) + time_lines(plan.foretold) + limit_lines(plan);
 }
 
+/// In place of the plan: what ranks cost.
+Status tell_ranks(const PlanArguments& arguments, const Scene& scene, const Plan& plan) {
+    std::int64_t most = 0;
+    RankLink link;
+    MethodRow row;
+    PILEUS_TRY(read_integer("--ranks", *arguments.ranks, 1, kMostParts, most));
+    if (arguments.link) PILEUS_TRY(read_link(*arguments.link, link));
+    PILEUS_TRY(find_method(scene, row));
+    const std::vector<RankCost> costs = rank_costs(plan, row.division, link, int(most));
+    return print(arguments.json ? rank_json(costs) : rank_lines(costs, link));
+}
+
 Status run_plan(PlanArguments& arguments) {
     Scene scene;
     RenderOptions options;
@@ -113,11 +128,12 @@ Status run_plan(PlanArguments& arguments) {
         PILEUS_TRY(check_scene_files(*arguments.scene.picture, scene));
     }
     PILEUS_TRY(plan_scene(scene, options, arguments.exact, report));
-    if (arguments.time) {
+    if (arguments.time || arguments.ranks) {
         ForetoldTime time;
         PILEUS_TRY(foretell_time(scene, options, time));
         report.plan.foretold = time;
     }
+    if (arguments.ranks) return tell_ranks(arguments, scene, report.plan);
     return print(arguments.json ? plan_json(report) : plan_lines(report.plan));
 }
 
@@ -135,6 +151,14 @@ void add_plan(CLI::App& app, Chosen& chosen) {
                       "Read the values and prepare everything but the photons: exact bytes");
     command->add_flag("--time", arguments->time,
                       "Render it small twice to say how long it will take");
+    command
+        ->add_option("--ranks", arguments->ranks,
+                     "Instead: what 1, 2, 4, ... to N ranks or parts would hold, send and take")
+        ->type_name("N");
+    command
+        ->add_option("--link", arguments->link,
+                     "Of their network: latency of a message and bandwidth; left out: 2,10")
+        ->type_name("US,GB_PER_S");
     command->callback(
         [arguments, &chosen] { chosen = [arguments] { return run_plan(*arguments); }; });
 }

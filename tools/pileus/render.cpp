@@ -4,11 +4,13 @@
 // docs/program.md
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "lab/views/view_list.h"
 #include "platform/clock.h"
 #include "platform/process.h"
+#include "platform/threads.h"
 #include "src/base/file.h"
 #include "src/clouds/render_clouds.h"
 #include "src/methods/registry.h"
@@ -19,9 +21,13 @@
 #include "tools/pileus/command.h"
 #include "tools/pileus/hash_list.h"
 #include "tools/pileus/option_text.h"
+#include "tools/pileus/part_files.h"
 #include "tools/pileus/progress.h"
+#include "tools/pileus/rank_render.h"
+#include "tools/pileus/ranks.h"
 #include "tools/pileus/render_outputs.h"
 #include "tools/pileus/scene_options.h"
+#include "tools/pileus/tile_files.h"
 #include "tools/pileus/version_text.h"
 
 namespace pileus {
@@ -33,6 +39,7 @@ struct RenderArguments {
     std::vector<std::string> files;
     std::optional<std::string> report, frames, exposure, show, state, state_every, verify;
     std::optional<std::string> expect_hash;
+    PartArguments parts;
     BlockArguments blocks;
     bool quiet = false, strict = false, world_file = false;
 };
@@ -176,10 +183,11 @@ Status check_cloud_options(const RenderArguments& arguments, const Scene& scene)
 }
 
 /// Options win over the scene; faults of all options come before those of the files.
-Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOptions& options,
+Status read_arguments(RenderArguments& arguments, Scene& scene, RenderOptions& options,
                       Outputs& outputs) {
     Status faults = read_view(arguments, options, outputs);
     add_fault(read_state(arguments, options), faults);
+    add_fault(read_tiles(arguments.files, arguments.parts), faults);
     if (arguments.expect_hash)
         add_fault(read_frame_hashes(*arguments.expect_hash, outputs.hashes), faults);
     add_fault(read_block_arguments(arguments.blocks, outputs.blocks), faults);
@@ -187,6 +195,10 @@ Status read_arguments(const RenderArguments& arguments, Scene& scene, RenderOpti
     PILEUS_TRY(faults);
     PILEUS_TRY(check_cloud_options(arguments, scene));
     PILEUS_TRY(choose_frames(arguments, scene, options, outputs));
+    PILEUS_TRY(choose_part(arguments.parts, outputs.numbered, options));
+    if (arguments.parts.tiles && (arguments.world_file || arguments.strict))
+        return Status::bad_input("--tiles: with --world-file or --strict, allowed: without these");
+    if (is_part(options)) return check_part_file(arguments.files, options, scene);
     if (outputs.blocks.file.empty()) return choose_files(arguments, scene, options, outputs);
     // Blocks are all that such a run writes.
     if (!arguments.files.empty() || arguments.report)
@@ -241,8 +253,9 @@ Status render_all(const Scene& scene, const RenderOptions& options, const Output
     const int count = options.last_frame - options.first_frame + 1;
     const double tracing = wall_seconds();
     progress.frames(0, count, 0);
-    int next = outputs.first_frame;
-    const auto draw = scene.clouds.present() ? render_clouds : render;
+    int next = std::max(outputs.first_frame, options.first_frame);
+    const bool by_ranks = ranks().count > 1 && !outputs.numbered;
+    const auto draw = by_ranks ? render_by_ranks : scene.clouds.present() ? render_clouds : render;
     Status status = draw(scene, options, [&](int frame, Image& image, Report& report) -> Status {
         progress.clear();
         if (frame >= outputs.first_frame)
@@ -254,7 +267,7 @@ Status render_all(const Scene& scene, const RenderOptions& options, const Output
     progress.clear();
     PILEUS_TRY(status);
     // Frames that an interrupted run has not come to are not as they should be, either.
-    for (; next <= options.last_frame; ++next)
+    for (; next <= options.last_frame && !(by_ranks && !ranks().is_first()); ++next)
         add_fault(check_frame_hash(scene, outputs, next, {}), found.hashes);
     return Status::ok();
 }
@@ -276,25 +289,41 @@ Status run_render(RenderArguments& arguments) {
     take_scene(arguments);
     PILEUS_TRY(take_picture(arguments.scene));
     expect_picture(arguments, outputs);
-    PILEUS_TRY(read_arguments(arguments, scene, options, outputs));
+    Status read = read_arguments(arguments, scene, options, outputs);
+    if (read && ranks().count > 1 && (arguments.parts.given() || arguments.blocks.file))
+        read = Status::bad_input(
+            "--part, --tiles, --blocks: among ranks of MPI, allowed: one process");
+    if (read) read = share_ranks(bool(arguments.scene.threads), outputs.numbered, options);
+    PILEUS_TRY(agree(read));
 
-    Progress progress(!arguments.quiet && stderr_is_terminal());
+    const bool first = ranks().is_first();
+    Progress progress(first && !arguments.quiet && stderr_is_terminal());
     options.progress = [&progress](const char* stage, double share) {
         progress.tell(stage, share);
     };
-    catch_interrupts("interrupted before there was anything to keep; no file written",
+    catch_interrupts(first ? "interrupted before there was anything to keep; no file written" : "",
                      int(Code::kCheckFailed));
     options.interrupted = interrupt_asked;
     options.holding = hold_interrupts;
+    if (arguments.parts.tile_side > 0) {
+        Status status = render_tiles(scene, options, outputs, arguments.parts.tile_side);
+        progress.clear();
+        return status;
+    }
+    if (is_part(options)) {
+        Status status = write_part(scene, options, arguments.files[0]);
+        progress.clear();
+        return status;
+    }
     if (!outputs.blocks.file.empty()) {
         Status status = render_blocks(scene, options, outputs.blocks);
         progress.clear();
         return status;
     }
     Findings found;
-    PILEUS_TRY(render_all(scene, options, outputs, progress, found));
+    PILEUS_TRY(agree(render_all(scene, options, outputs, progress, found)));
     hold_interrupts(true);
-    if (!arguments.quiet && !outputs.report_printed)
+    if (first && !arguments.quiet && !outputs.report_printed)
         PILEUS_TRY(print(fmt::format("{:16} {:.3f} s\n", "total", wall_seconds() - start)));
     return conclude(found, arguments.strict);
 }
@@ -341,6 +370,7 @@ void add_render(CLI::App& app, Chosen& chosen) {
         ->add_option("--state-every", arguments->state_every,
                      "Seconds between two writings of it; left out: 60")
         ->type_name("S");
+    add_part_options(*command, arguments->parts);
     command
         ->add_option("--blocks", arguments->blocks.file,
                      "Render under several seeds and write sums and squares by blocks of pixels "

@@ -147,6 +147,15 @@ void add_picture_options(CLI::App& command, SceneArguments& arguments) {
                     "says, or its own folder")
         ->type_name("DIR");
     command
+        .add_option_function<std::string>(
+            "--crop",
+            [&arguments](const std::string& pixels) {
+                arguments.sets.push_back("camera.crop=[" + pixels + "]");
+            },
+            "Only these pixels of the picture, with the bits that they have in it: columns x0 to "
+            "x1 - 1, rows y0 to y1 - 1 from the top")
+        ->type_name("X0,Y0,X1,Y1");
+    command
         .add_option("--quality", arguments.quality,
                     "draft: a first look, few samples and filtered; final: nothing filtered or "
                     "thinned out; left out: as the scene says. --set and --budget count more")

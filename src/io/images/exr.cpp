@@ -2,6 +2,7 @@
 // OpenEXR in memory; the only file that touches OpenEXR, whose exceptions end here.
 // in: an Image -> out: the bytes of a 32-bit float scanline ZIP file without clock or host; back.
 // OpenEXR file layout and standard attributes; docs/formats.md
+#include "src/io/images/exr_header.h"
 #include "src/io/images/image_file.h"
 
 #ifdef PILEUS_WITH_OPENEXR
@@ -96,8 +97,23 @@ std::array<float, 16> from_matrix(const Imath::M44f& matrix) {
     return values;
 }
 
+/// The pixels as the data window, in the display window where the picture is a part of one.
+Imf::Header sized_header(const Image& image) {
+    const DisplayWindow& shown = image.display;
+    // What other programs count from far away is counted from here.
+    constexpr std::int64_t kMost = 1 << 24;
+    const auto far = [](std::int64_t v) { return v < -kMost || v > kMost; };
+    if (shown.width == 0 || far(shown.x) || far(shown.y) || far(shown.width) || far(shown.height))
+        return Imf::Header(image.width, image.height);
+    const Imath::V2i first(int(-shown.x), int(-shown.y));
+    return Imf::Header(Imath::Box2i({0, 0}, {int(shown.width) - 1, int(shown.height) - 1}),
+                       Imath::Box2i(first, first + Imath::V2i(image.width - 1, image.height - 1)));
+}
+
+}  // namespace
+
 Imf::Header make_header(const Image& image) {
-    Imf::Header header(image.width, image.height);
+    Imf::Header header = sized_header(image);
     header.compression() = Imf::ZIP_COMPRESSION;
     header.zipCompressionLevel() = 4;
     header.screenWindowWidth() = image.screen_window_width;
@@ -113,13 +129,15 @@ Imf::Header make_header(const Image& image) {
     return header;
 }
 
+namespace {
+
 void write_stream(const Image& image, MemoryOutput& stream) {
     const Imf::Header header = make_header(image);
     Imf::FrameBuffer frame;
     const std::size_t row = std::size_t(image.width) * sizeof(float);
     for (const Channel& channel : image.channels) {
-        char* pixels = reinterpret_cast<char*>(const_cast<float*>(channel.pixels.data()));
-        frame.insert(channel.name, Imf::Slice(Imf::FLOAT, pixels, sizeof(float), row));
+        frame.insert(channel.name, Imf::Slice::Make(Imf::FLOAT, channel.pixels.data(),
+                                                    header.dataWindow(), sizeof(float), row));
     }
     Imf::OutputFile file(stream, header, 0);
     file.setFrameBuffer(frame);

@@ -17,14 +17,14 @@ struct Channel {
     Buffer<float> pixels;  ///< width*height, rows from the top
 };
 
-/// Where a file wants to be shown, counted from the first pixel; width 0: the pixels themselves.
+/// What a picture is a part of, counted from its first pixel; width 0: the pixels themselves.
 struct DisplayWindow {
     std::int64_t x = 0, y = 0, width = 0, height = 0;
 };
 
 struct Image {
     int width = 0, height = 0;
-    DisplayWindow display;  ///< of a file that was read; writers pass it over
+    DisplayWindow display;  ///< .exr files have it alone
     std::string foreign;    ///< of such a file: an attribute that gives its colours or its rows
                             ///< another meaning than ours, with what is allowed
     std::vector<Channel> channels;

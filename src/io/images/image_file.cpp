@@ -110,12 +110,17 @@ Status decode_image(const PictureFormat& format, const std::string& path, Image&
 }
 
 std::string pixel_hash(const Image& image) {
+    Digest digest;
+    add_pixels(image, digest);
+    return digest.hex();
+}
+
+void add_pixels(const Image& image, Digest& digest) {
     const Channel* channels[4] = {image.find("R"), image.find("G"), image.find("B"),
                                   image.find("A")};
     for (int c = 0; c < 3; ++c)
         if (channels[c] == nullptr) channels[c] = image.find("Y");
     const std::size_t pixels = std::size_t(image.width) * std::size_t(image.height);
-    Digest digest;
     constexpr std::size_t kBlock = 256;  // pixels
     float block[4 * kBlock];
     for (std::size_t first = 0; first < pixels; first += kBlock) {
@@ -129,7 +134,6 @@ std::string pixel_hash(const Image& image) {
         }
         digest.floats({block, 4 * count});
     }
-    return digest.hex();
 }
 
 Status tone_map_8bit(const Image& image, const ToneSettings& tone, Buffer<std::uint8_t>& rgb) {

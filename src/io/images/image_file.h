@@ -8,6 +8,7 @@
 
 #include "kernels_cpu/display/tone.h"
 #include "src/base/buffer.h"
+#include "src/base/digest.h"
 #include "src/base/span.h"
 #include "src/base/status.h"
 #include "src/io/images/image.h"
@@ -39,6 +40,8 @@ Status read_image(const std::string& path, Image& image,
 /// 16 hex digits: XXH3 64 over the float32 bits of R G B A of each pixel, rows from the top. A
 /// colour that is not there counts as Y, or 0 without that; A as 1.
 std::string pixel_hash(const Image& image);
+/// The same of a picture that comes in bands of rows, from the top.
+void add_pixels(const Image& band, Digest& digest);
 
 /// Tone-mapped sRGB, 3 bytes a pixel, rows from the top. A single channel Y counts as grey.
 Status tone_map_8bit(const Image& image, const ToneSettings& tone, Buffer<std::uint8_t>& rgb);

@@ -166,4 +166,37 @@ Status fit_display_window(const std::string& name, Image& image, std::uint64_t m
     return Status::ok();
 }
 
+Status cut_pixels(int x0, int y0, int x1, int y1, Image& image) {
+    const std::int64_t width = x1 - x0, height = y1 - y0;
+    for (Channel& channel : image.channels) {
+        Buffer<float> part;
+        PILEUS_TRY(part.resize(std::uint64_t(width) * std::uint64_t(height), "part of a picture"));
+        for (std::int64_t y = 0; y < height; ++y)
+            copy_part(channel.pixels, (y0 + y) * image.width + x0, width, part, y * width);
+        channel.pixels.swap(part);
+    }
+    image.width = int(width);
+    image.height = int(height);
+    return Status::ok();
+}
+
+Status cut_to_part(Image& a, Image& b, const Image*& cut) {
+    cut = nullptr;
+    for (Image* part : {&a, &b}) {
+        Image& whole = part == &a ? b : a;
+        const DisplayWindow& window = part->display;
+        const bool within = window.width == whole.width && window.height == whole.height &&
+                            window.x <= 0 && window.y <= 0 &&
+                            part->width - window.x <= whole.width &&
+                            part->height - window.y <= whole.height;
+        if (!within || (part->width == whole.width && part->height == whole.height)) continue;
+        PILEUS_TRY(cut_pixels(int(-window.x), int(-window.y), int(part->width - window.x),
+                              int(part->height - window.y), whole));
+        whole.display = window;
+        cut = &whole;
+        return Status::ok();
+    }
+    return Status::ok();
+}
+
 }  // namespace pileus

@@ -24,4 +24,11 @@ Status choose_layer(const std::string& name, const std::string& layer, Image& im
 Status fit_display_window(const std::string& name, Image& image,
                           std::uint64_t most_pixels = kMaxImagePixels, float outside = 0);
 
+/// Keeps columns x0 to x1 - 1 and rows y0 to y1 - 1, which lie in the image. kLimit: no memory.
+Status cut_pixels(int x0, int y0, int x1, int y1, Image& image);
+
+/// Where one of two pictures is a part of a picture of the other's size, that part of the other.
+/// `cut`: which one was, null: none.
+Status cut_to_part(Image& a, Image& b, const Image*& cut);
+
 }  // namespace pileus

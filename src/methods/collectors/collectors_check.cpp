@@ -5,7 +5,6 @@
 #include "src/methods/collectors/billboards/gl_billboards.h"
 #include "src/methods/collectors/collectors_method.h"
 #include "src/photons/lit_march.h"
-#include "src/run/on_device.h"
 #include "src/scene/frames.h"
 #include "src/world/plan_parts.h"
 
@@ -23,15 +22,10 @@ Status check_collectors(const Scene& scene, const Budget& budget) {
     return Status::ok();
 }
 
-Status CollectorsMethod::check(const Context& context, const FrameView& view) {
+Status CollectorsMethod::check(const Context&, const FrameView& view) {
     const Scene& scene = view.scene;
     const CollectorSettings& settings = state_.settings;
-    PILEUS_TRY(
-        check_host_lights(context, scene.lights, scene.atmosphere.present, view.world.medium));
-    PILEUS_TRY(check_thinned(context, scene, "collectors", state_));
-    if (settings.light_refresh > 1 && on_device(context.kernels->device))
-        return Status::bad_input(scene.file +
-                                 ": collectors.light_refresh: for the host alone, allowed: 1");
+    PILEUS_TRY(check_thinned(scene, "collectors", state_));
     if (settings.thin.every() > 1 && !is_marched(state_))
         return Status::bad_input(scene.file +
                                  ": collectors.display: \"billboards\" has no marched pixels, "

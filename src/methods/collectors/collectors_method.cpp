@@ -80,6 +80,9 @@ Status CollectorsMethod::compose(const Context& context, const FrameView& view,
     return compose_collectors(camera, context, view, trace_input(context, view), state_, planes);
 }
 
-MethodRow collectors_row() { return {kCollectorsName, WorldUse::kGrid, check_collectors, make}; }
+MethodRow collectors_row() {
+    return {kCollectorsName,   WorldUse::kGrid, check_collectors, make, false, true,
+            Division::kPhotons};
+}
 
 }  // namespace pileus

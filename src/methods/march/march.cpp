@@ -3,6 +3,7 @@
 #include "src/methods/march/march.h"
 
 #include <algorithm>
+#include <optional>
 
 #include "kernels_cpu/core/rng.h"
 #include "kernels_cpu/core/vec.h"
@@ -11,6 +12,8 @@
 #include "src/base/random_streams.h"
 #include "src/base/single.h"
 #include "src/picture/march_view.h"
+#include "src/run/device_launch.h"
+#include "src/run/on_device.h"
 #include "src/world/phase/forward_share.h"
 
 namespace pileus {
@@ -218,7 +221,7 @@ StepParams raymarch_steps(const RaymarchSettings& s, const CameraParams& camera,
     k.most = float(s.steps);
     k.stretch = s.stretch ? 1 : 0;
     k.growth = k.series = 1;
-    k.pixel = 2 * camera.half_height / float(camera.height);
+    k.pixel = 2 * camera.half_height / float(whole_height(camera));
     switch (s.spacing) {
         case RaymarchSpacing::kUniform:
             break;
@@ -301,18 +304,24 @@ Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes&
     b.colour = planes.colour.data();
     b.ray_depth = planes.optical_depth.data();
     b.counts = counts.data();
+    std::optional<RaymarchSkyParams> of_sky;
+    if (in.layer != nullptr) of_sky = RaymarchSkyParams{k, in.layer->params};
     const auto march = [&](std::int64_t piece, int) {
         const std::uint32_t begin = std::uint32_t(piece) * kPiece;
         const std::uint32_t end = begin + kPiece < rows ? begin + kPiece : rows;
         if (in.layer != nullptr)
-            context.kernels->raymarch_sky_rows(k, in.layer->params, b, begin, end);
+            context.kernels->raymarch_sky_rows(*of_sky, b, begin, end);
         else if (k.medium.detail != nullptr)
             context.kernels->detail_raymarch_rows(k, b, begin, end);
         else
             context.kernels->raymarch_rows(k, b, begin, end);
     };
-    const bool whole =
-        run_until(context.threads, (rows + kPiece - 1) / kPiece, context.interrupted, march);
+    const DeviceTable* const device = context.kernels->device;
+    if (on_device(device))
+        PILEUS_TRY(of_sky ? launch_on_device(*device, *of_sky, b, rows)
+                          : launch_on_device(*device, k, b, rows));
+    const bool whole = on_device(device) || run_until(context.threads, (rows + kPiece - 1) / kPiece,
+                                                      context.interrupted, march);
     if (!whole)
         return {Code::kCheckFailed, "interrupted before the picture was whole; no file written"};
     for (std::size_t row = 0; row < rows; ++row) {

@@ -49,8 +49,7 @@ void choose_light(const FrameView& view, MarchChoice& choice) {
         choice.light_why = "light between the nodes of constant cells is not linear";
         return;
     }
-    const auto& size = view.scene.camera.resolution;
-    const double pixels = double(std::uint64_t(size[0]) * std::uint64_t(size[1]));
+    const double pixels = double(view.scene.camera.whole_pixels());
     const double way = 0.5 * cells_across(grid);
     const double lit = double(s.steps < 64 ? s.steps : 64) * pixels;
     const double marched = lit * (s.light_steps > 0 ? double(s.light_steps) : way);

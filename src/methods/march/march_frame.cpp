@@ -102,7 +102,7 @@ Status march_background(const Context& context, const FrameView& view, const Lig
     const Medium& medium = view.world.medium;
     GroundShadow& shadow = state.light.ground_shadow;
     const MediumView read = make_medium_view(medium, state.media.majorants);
-    PILEUS_TRY(make_ground_shadow(context, medium, read, view.lighting, planes.transmittance.size(),
+    PILEUS_TRY(make_ground_shadow(context, medium, read, view.lighting, state.picture.camera,
                                   march_turn(view, state), shadow));
     const StageClock clock(context, "background");
     BackgroundParams k = background_params(read, state.picture.camera, light);

@@ -2,8 +2,6 @@
 // See march_method.h.
 #include "src/methods/march/march_method.h"
 
-#include "src/run/on_device.h"
-
 namespace pileus {
 namespace {
 
@@ -25,11 +23,7 @@ MadeMethod make_optical_depth(const MethodInputs& inputs) {
 
 MarchMethod::MarchMethod(MarchChoice choice) { state_.choice = std::move(choice); }
 
-Status MarchMethod::plan(const Context& context, const FrameView& view, Plan&) {
-    if (on_device(context.kernels->device))
-        return Status::bad_input(std::string("--isa: \"") + context.kernels->name + "\": method " +
-                                 view.scene.method +
-                                 " runs on the host alone, allowed: another, or another method");
+Status MarchMethod::plan(const Context&, const FrameView& view, Plan&) {
     choose_march(view, state_.choice);
     return Status::ok();
 }

@@ -5,6 +5,8 @@
 #include "platform/threads.h"
 #include "src/methods/particles/particles_state.h"
 #include "src/methods/particles/view_tiles.h"
+#include "src/run/device_launch.h"
+#include "src/run/on_device.h"
 
 namespace pileus {
 namespace {
@@ -115,8 +117,12 @@ Status show_boards(const Context& context, const FrameView& view, const Particle
         const std::size_t begin = std::size_t(piece) * kColoursAtOnce;
         const std::size_t end = std::min(begin + kColoursAtOnce, count);
         for (std::size_t i = begin; i < end; ++i) boards[i] = maker.board(i);
+        if (on_device(context.kernels->device)) return;
         context.kernels->board_colours(march, colours, std::uint32_t(begin), std::uint32_t(end));
     });
+    if (on_device(context.kernels->device))
+        PILEUS_TRY(
+            launch_on_device(*context.kernels->device, march, colours, std::uint32_t(count)));
     const Scene& scene = view.scene;
     ParticleBoardParams k{};
     k.camera = state.camera;

@@ -7,22 +7,34 @@
 #include "platform/threads.h"
 #include "src/methods/particles/light_places.h"
 #include "src/methods/particles/sun_tiles.h"
+#include "src/run/device_launch.h"
+#include "src/run/on_device.h"
 
 namespace pileus {
 namespace {
 
 constexpr std::size_t kBallsAtOnce = 256;
 
-/// Calls of a kernel for pieces of all balls.
-template <class Kernel>
-void over_balls(const Context& context, std::size_t count, const char* stage, double from,
-                double part, Kernel kernel) {
+/// What progress is told of.
+struct Progress {
+    const char* stage;
+    double from, share;
+};
+
+/// A kernel for all balls: in pieces, or at once on a device.
+template <class Kernel, class Params, class Buffers>
+Status over_balls(const Context& context, Kernel kernel, const Params& k, const Buffers& b,
+                  std::size_t count, const Progress& told) {
+    if (on_device(context.kernels->device))
+        return launch_on_device(*context.kernels->device, k, b, std::uint32_t(count));
     const std::size_t pieces = (count - 1) / kBallsAtOnce + 1;
     parallel_for(context.threads, std::int64_t(pieces), [&](std::int64_t piece, int thread) {
-        if (thread == 0) context.tell(stage, from + part * double(piece) / double(pieces));
+        if (thread == 0)
+            context.tell(told.stage, told.from + told.share * double(piece) / double(pieces));
         const std::size_t begin = std::size_t(piece) * kBallsAtOnce;
-        kernel(std::uint32_t(begin), std::uint32_t(std::min(begin + kBallsAtOnce, count)));
+        kernel(k, b, std::uint32_t(begin), std::uint32_t(std::min(begin + kBallsAtOnce, count)));
     });
+    return Status::ok();
 }
 
 /// Of place number `n` in a ball.
@@ -109,18 +121,16 @@ Status light_by_lamps(const Context& context, const FrameView& view, ParticlesSt
         k.lamp = lamp;
         k.most = most > 0 ? float(most) : 3e38f;
         for (int n = 0; n < places.count; ++n) {
-            k.depth = depths.data() + std::size_t(n) * count;
+            const ParticleLampDepthBuffers b{depths.data() + std::size_t(n) * count};
             if (lamp.parallel != 0) {
-                PILEUS_TRY(sun_depths(context, tiles, places.offset[n], k.most, k.depth));
+                PILEUS_TRY(sun_depths(context, tiles, places.offset[n], k.most, b.depth));
                 continue;
             }
             for (std::size_t a = 0; a < 3; ++a) k.offset[a] = places.offset[n][a];
             k.turned = places.turned ? 1 : 0;
             const double steps = double(lamps.size()) * places.count;
-            over_balls(context, count, "lights", (double(l) * places.count + n) / steps, 1 / steps,
-                       [&](std::uint32_t begin, std::uint32_t end) {
-                           context.kernels->particle_lamp_depths(k, begin, end);
-                       });
+            PILEUS_TRY(over_balls(context, context.kernels->particle_lamp_depths, k, b, count,
+                                  {"lights", (double(l) * places.count + n) / steps, 1 / steps}));
         }
         parallel_each(context.threads, count, [&](std::size_t i) {
             const ParticleShade s = shade_of(depths.data() + i, count, places);
@@ -142,8 +152,8 @@ bool has_own_light(const FrameView& view, const ParticlesState& state) {
 namespace {
 
 /// Light of the lamps and the sky at each ball, before it is scattered there.
-void gather_lamps(const Context& context, const FrameView& view, const ParticleMarchParams& k,
-                  ParticlesState& state) {
+Status gather_lamps(const Context& context, const FrameView& view, const ParticleMarchParams& k,
+                    ParticlesState& state) {
     const std::vector<LampParams>& lamps = view.lighting.lamps;
     const std::size_t count = state.tree.balls.size();
     ParticleLampLight b{};
@@ -164,10 +174,8 @@ void gather_lamps(const Context& context, const FrameView& view, const ParticleM
     b.tint = state.tree.colour.data();
     b.light = state.around_balls.data();
     b.balls = count;
-    over_balls(context, count, "light of lights", 0, 1,
-               [&](std::uint32_t begin, std::uint32_t end) {
-                   context.kernels->particle_lamp_light(k, b, begin, end);
-               });
+    return over_balls(context, context.kernels->particle_lamp_light, k, b, count,
+                      {"light of lights", 0, 1});
 }
 
 /// What each ball sends on of the light `around` [channel][ball], null: none, and of its own.
@@ -198,7 +206,7 @@ Status light_around(const Context& context, const FrameView& view, const Particl
     }
     const StageClock clock(context, "light of lights");
     PILEUS_TRY(allocate_once(arrays::particle_around(state.tree.balls.size()), state.around_balls));
-    if (lamps) gather_lamps(context, view, k, state);
+    if (lamps) PILEUS_TRY(gather_lamps(context, view, k, state));
     if (own)
         add_own_light(context, view, lamps ? state.around_balls.data() : state.sky.data(), state);
     return Status::ok();

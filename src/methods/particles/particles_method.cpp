@@ -7,7 +7,6 @@
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/lamp_light.h"
 #include "src/picture/whole_rays.h"
-#include "src/run/on_device.h"
 #include "src/scene/frames.h"
 #include "src/world/camera/view.h"
 
@@ -53,11 +52,7 @@ ParticlesMethod::ParticlesMethod(const MethodInputs& inputs) {
     if (inputs.budget.steps > 0) state_.settings.bins = int(inputs.budget.steps);
 }
 
-Status ParticlesMethod::plan(const Context& context, const FrameView& view, Plan&) {
-    if (on_device(context.kernels->device))
-        return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
-                                 "\": method particles runs on the host alone, allowed: another, "
-                                 "or another method");
+Status ParticlesMethod::plan(const Context&, const FrameView& view, Plan&) {
     choose_orders(view, state_);
     return Status::ok();
 }

@@ -9,6 +9,8 @@
 #include "platform/threads.h"
 #include "src/base/fnv1a64.h"
 #include "src/methods/particles/tile_sort.h"
+#include "src/run/device_launch.h"
+#include "src/run/on_device.h"
 
 namespace pileus {
 namespace {
@@ -130,14 +132,15 @@ struct FirstOf {
 class TileWork {
 public:
     TileWork(const Context& context, const SunTiles& tiles, const Offset& offset, float most,
-             Scratch& scratch, std::uint32_t* places, float* depth)
+             Scratch& scratch, std::uint32_t* places, float* depth, Status& status)
         : kernels_(*context.kernels),
           t_(tiles),
           offset_(offset),
           most_(most),
           s_(scratch),
           places_(places),
-          depth_(depth) {}
+          depth_(depth),
+          status_(status) {}
 
     /// `balls` [count] are sorted here; places are numbers of `places`.
     void run(std::uint32_t tile, std::uint32_t* balls, std::size_t count, std::uint64_t begin,
@@ -262,7 +265,11 @@ private:
                 s_.u[i] = at.u, s_.v[i] = at.v, s_.w[i] = at.w;
                 s_.depth[i] = depth_[s_.order[i].ball];
             }
-            kernels_.particle_depths(k, {s_.u, s_.v, s_.w, s_.depth}, 0, count);
+            const ParticleDepthBuffers b{s_.u, s_.v, s_.w, s_.depth};
+            if (!on_device(kernels_.device))
+                kernels_.particle_depths(k, b, 0, count);
+            else if (status_)
+                status_ = launch_on_device(*kernels_.device, k, b, count);
             for (std::uint32_t i = 0; i < count; ++i) depth_[s_.order[i].ball] = s_.depth[i];
         }
     }
@@ -274,6 +281,7 @@ private:
     Scratch& s_;
     std::uint32_t* places_;
     float* depth_;
+    Status& status_;  ///< of a device, whose tiles follow one another
 };
 
 }  // namespace
@@ -368,15 +376,18 @@ Status sun_depths(const Context& context, SunTiles& t, const std::array<float, 3
     Buffer<Scratch> scratch;
     PILEUS_TRY(scratch.resize(std::uint64_t(context.threads), "tiles"));
     for (std::size_t i = 0; i < count; ++i) depth[i] = 0;
-    parallel_for(context.threads, t.count(), [&](std::int64_t tile, int thread) {
+    Status status;
+    const int threads = on_device(context.kernels->device) ? 1 : context.threads;
+    parallel_for(threads, t.count(), [&](std::int64_t tile, int thread) {
         if (thread == 0) context.tell("light", (pass + double(tile) / double(t.count())) / passes);
-        TileWork work(context, t, offset, most, scratch[std::size_t(thread)], places.data(), depth);
+        TileWork work(context, t, offset, most, scratch[std::size_t(thread)], places.data(), depth,
+                      status);
         const std::size_t own = std::size_t(tile);
         if (begin[own] == begin[own + 1]) return;
         work.run(std::uint32_t(tile), t.balls.data() + t.begin[own],
                  std::size_t(t.begin[own + 1] - t.begin[own]), begin[own], begin[own + 1]);
     });
-    return Status::ok();
+    return status;
 }
 
 }  // namespace pileus

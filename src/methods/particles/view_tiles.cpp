@@ -7,6 +7,8 @@
 #include "kernels_cpu/particles/particle_board_params.h"
 #include "platform/threads.h"
 #include "src/methods/particles/tile_sort.h"
+#include "src/run/device_launch.h"
+#include "src/run/on_device.h"
 
 namespace pileus {
 namespace {
@@ -118,7 +120,8 @@ private:
         if (p[2] + r <= 0) return false;
         const double shift[2] = {double(c_.shift_x), double(c_.shift_y)};
         const double half[2] = {double(c_.half_width), double(c_.half_height)};
-        const std::int32_t pixels[2] = {c_.width, c_.height};
+        const std::int32_t pixels[2] = {whole_width(c_), whole_height(c_)};
+        const std::int32_t first[2] = {c_.left, c_.top};
         for (int a = 0; a < 2; ++a) {
             double low = p[a] - r, high = p[a] + r;
             if (c_.orthographic == 0) {
@@ -139,17 +142,29 @@ private:
                 const double turned = pixels[a] - 1 - out.low[a];
                 out.low[a] = pixels[a] - 1 - out.high[a], out.high[a] = turned;
             }
+            out.low[a] -= first[a], out.high[a] -= first[a];
         }
         return true;
     }
+    /// Of a part's rows the first that is not above row `y` of the picture.
+    std::int32_t row_from(std::int32_t y) const {
+        const std::int32_t band = y / kPartRows, turn = band / c_.parts, of = band % c_.parts;
+        if (of == c_.part) return turn * kPartRows + y % kPartRows;
+        return (of < c_.part ? turn : turn + 1) * kPartRows;
+    }
     bool pixels_of(const Outline& o, std::uint32_t number, Cover& out) const {
         out.ball = number;
-        const std::int32_t pixels[2] = {c_.width, c_.height};
+        const std::int32_t rows = c_.parts == 1 ? c_.height : whole_height(c_) - c_.top;
+        const std::int32_t pixels[2] = {c_.width, rows};
         for (int a = 0; a < 2; ++a) {
             const double first = o.low[a] - kPixelSlack, last = o.high[a] + kPixelSlack;
             if (!(last >= 0 && first <= pixels[a] - 1)) return false;
             out.low[a] = first > 0 ? up(first) : 0;
             out.high[a] = last < pixels[a] - 1 ? std::int32_t(last) : pixels[a] - 1;
+            if (a == 1 && c_.parts > 1) {
+                out.low[a] = row_from(out.low[a]);
+                out.high[a] = std::min(row_from(out.high[a] + 1), c_.height) - 1;
+            }
             if (out.low[a] > out.high[a]) return false;
         }
         return true;
@@ -246,23 +261,30 @@ Status march_particles(const Context& context, const ParticleTree& tree,
     const std::uint64_t floats = particle_scratch_floats(k.bins);
     Buffer<float> bins;
     PILEUS_TRY(allocate(arrays::particle_bins(std::uint64_t(context.threads), k.bins), bins));
-    const auto march = context.kernels->particle_tile;
-    parallel_for(context.threads, tiles.count(), [&](std::int64_t piece, int thread) {
+    const auto march = context.kernels->particle_tiles;
+    const DeviceTable* const device = context.kernels->device;
+    ParticleTiles found;  // on a device
+    const int threads = on_device(device) ? 1 : context.threads;
+    parallel_for(threads, tiles.count(), [&](std::int64_t piece, int thread) {
         if (thread == 0) context.tell("march", double(piece) / double(tiles.count()));
-        ParticleMarchBuffers own = buffers;
-        own.scratch = bins.data() + std::uint64_t(thread) * floats;
+        ParticleTileBuffers own{buffers, nullptr};
+        own.march.scratch = bins.data() + std::uint64_t(thread) * floats;
+        const auto draw = [&](const ParticleTile& block) {
+            if (on_device(device)) return found.add(block);
+            own.tiles = &block;
+            march(k, own, 0, 1);
+        };
         ParticleTile tile = tile_at(tiles, c, piece);
         const std::uint64_t first = tiles.begin[std::size_t(piece)];
         const std::uint64_t named = tiles.begin[std::size_t(piece) + 1] - first;
         if (named == 0 || named > kMostSeen) {
             tile.count = named == 0 ? 0 : 1;
-            return march(k, own, tile);
+            return draw(tile);
         }
         draw_blocks(balls, screen, tiles.balls.data() + first, std::uint32_t(named), tile,
-                    scratch[std::size_t(thread)],
-                    [&](const ParticleTile& block) { march(k, own, block); });
+                    scratch[std::size_t(thread)], draw);
     });
-    return Status::ok();
+    return on_device(device) ? launch_on_device(*device, k, buffers, found) : Status::ok();
 }
 
 Status blend_particles(const Context& context, const ParticleTree& tree,
@@ -276,8 +298,15 @@ Status blend_particles(const Context& context, const ParticleTree& tree,
     PILEUS_TRY(sort_things(context, boards, c, screen, tiles));
     Buffer<Scratch> scratch;
     PILEUS_TRY(scratch.resize(std::uint64_t(context.threads), "tiles of the picture"));
-    const auto blend = context.kernels->board_tile;
-    parallel_for(context.threads, tiles.count(), [&](std::int64_t piece, int thread) {
+    const auto blend = context.kernels->board_tiles;
+    const DeviceTable* const device = context.kernels->device;
+    const int threads = on_device(device) ? 1 : context.threads;
+    std::vector<ParticleTiles> found;  // on a device, the nearest boards of each tile first
+    const auto add_round = [&](std::uint64_t round, const ParticleTile& block) {
+        if (found.size() <= round) found.resize(round + 1);
+        found[round].add(block);
+    };
+    parallel_for(threads, tiles.count(), [&](std::int64_t piece, int thread) {
         if (thread == 0) context.tell("blend", double(piece) / double(tiles.count()));
         std::uint32_t* numbers = tiles.balls.data() + tiles.begin[std::size_t(piece)];
         const std::uint64_t named =
@@ -293,9 +322,14 @@ Status blend_particles(const Context& context, const ParticleTree& tree,
         for (std::uint64_t from = 0; from < named; from += kMostSeen)
             draw_blocks(boards, screen, numbers + from,
                         std::uint32_t(std::min<std::uint64_t>(kMostSeen, named - from)), tile,
-                        scratch[std::size_t(thread)],
-                        [&](const ParticleTile& block) { blend(k, buffers, block); });
+                        scratch[std::size_t(thread)], [&](const ParticleTile& block) {
+                            if (on_device(device)) return add_round(from / kMostSeen, block);
+                            blend(k, {buffers, &block}, 0, 1);
+                        });
     });
+    if (!on_device(device)) return Status::ok();
+    for (const ParticleTiles& round : found)
+        PILEUS_TRY(launch_on_device(*device, k, buffers, boards.size, round));
     return Status::ok();
 }
 

@@ -126,7 +126,9 @@ void add_camera(const CameraParams& c, Digest& d) {
     for (const float* axis : {c.origin, c.right, c.up, c.forward}) d.floats({axis, 3});
     d.f32(c.half_width);
     d.f32(c.half_height);
-    for (std::int32_t v : {c.width, c.height, c.orthographic, c.flux}) d.u32(std::uint32_t(v));
+    for (std::int32_t v : {c.width, c.height, c.orthographic, c.flux, c.left, c.top, c.more_columns,
+                           c.more_rows, c.parts, c.part})
+        d.u32(std::uint32_t(v));
 }
 
 /// Word `i` of a file, whose length is a multiple of eight bytes.

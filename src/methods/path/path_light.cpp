@@ -4,6 +4,7 @@
 // docs/path.md
 #include "src/methods/path/path_state.h"
 #include "src/picture/march_view.h"
+#include "src/run/work_share.h"
 
 namespace pileus {
 namespace {
@@ -65,7 +66,7 @@ Status begin_film(const Context& context, const FrameView& view, PathState& stat
     state.tally = tally_of(state);
     state.film.tally = PathTally{};
     PILEUS_TRY(make_film(in, state.film));
-    PILEUS_TRY(make_alpha(context, view, state));
+    if (!context.part.given) PILEUS_TRY(make_alpha(context, view, state));
     state.begun = true;
     return state.scratch.ready ? Status::ok() : prepare_path(in, state.scratch);
 }
@@ -73,7 +74,10 @@ Status begin_film(const Context& context, const FrameView& view, PathState& stat
 Status trace_film(const Context& context, const FrameView& view, std::uint64_t samples,
                   PathState& state) {
     PathInput in = film_input(context, view, state);
-    in.ended = patient_stop(context);
+    if (context.sharing != nullptr)
+        in.part = context.sharing->part();
+    else
+        in.ended = patient_stop(context);
     return trace_paths(in, samples, state.scratch, state.film);
 }
 

@@ -2,7 +2,6 @@
 // See path_method.h. Preparation; path_light.cpp traces, path_show.cpp makes the picture.
 #include "src/methods/path/path_method.h"
 
-#include "src/run/on_device.h"
 #include "src/scene/frames.h"
 #include "src/world/plan_parts.h"
 
@@ -31,15 +30,7 @@ PathMethod::PathMethod(const MethodInputs& inputs) {
     state_.live = inputs.live;
 }
 
-Status PathMethod::plan(const Context& context, const FrameView& view, Plan&) {
-    if (on_device(context.kernels->device)) {
-        PILEUS_TRY(check_host_lights(context, view.scene.lights, view.scene.atmosphere.present,
-                                     view.world.medium));
-        if (path_filters(state_.filter))
-            return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
-                                     "\": filter.kind = \"" + path_filter_name(state_.filter) +
-                                     "\" runs on the host alone, allowed: another, or none");
-    }
+Status PathMethod::plan(const Context&, const FrameView& view, Plan&) {
     state_.camera = make_camera(view.scene.camera, 0, view.world.medium.low_m);
     return Status::ok();
 }
@@ -127,6 +118,8 @@ void PathMethod::release(Phase phase) {
     state_.film.square = Buffer<double>();
 }
 
-MethodRow path_row() { return {"path", WorldUse::kGrid, check_path, make, true}; }
+MethodRow path_row() {
+    return {"path", WorldUse::kGrid, check_path, make, true, true, Division::kPaths};
+}
 
 }  // namespace pileus

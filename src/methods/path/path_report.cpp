@@ -7,6 +7,7 @@
 #include "src/base/digest.h"
 #include "src/base/file.h"
 #include "src/methods/path/film_file.h"
+#include "src/methods/path/film_parts.h"
 #include "src/methods/path/path_blocks.h"
 #include "src/methods/path/path_method.h"
 #include "src/picture/filter/filter_error.h"
@@ -269,6 +270,12 @@ public:
         return Status::bad_input(path + ": state: holds " + std::to_string(samples) +
                                  " samples per pixel, " + std::to_string(most) +
                                  " asked for, allowed: as many or more, or another file");
+    }
+
+    Status bring_together(WorkShare& share) override { return share_film(share, of_.film()); }
+    Status take_light(PartLight& light) override { return take_film(of_.state().film, light); }
+    Status add_light(const PartLight& light, const std::vector<int>& lines, bool counts) override {
+        return add_film(light, lines, counts, of_.film());
     }
 
     void digest_picture(const Context& context, Digests& digests) override {

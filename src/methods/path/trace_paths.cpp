@@ -11,6 +11,7 @@
 #include "src/run/context.h"
 #include "src/run/device_launch.h"
 #include "src/run/on_device.h"
+#include "src/run/work_share.h"
 #include "src/world/majorant/majorants.h"
 #include "src/world/solids/camera_depth.h"
 #include "src/world/solids/solids.h"
@@ -30,13 +31,18 @@ std::uint64_t film_pixels(const PathInput& in) {
     return std::uint64_t(in.camera.width) * std::uint64_t(in.camera.height);
 }
 
+/// By which samples are counted: those of the whole picture, whose samples a window's are.
+std::uint64_t counted_pixels(const PathInput& in) {
+    return std::uint64_t(whole_width(in.camera)) * std::uint64_t(whole_height(in.camera));
+}
+
 std::uint64_t scratch_samples(const PathInput& in) {
     return std::uint64_t(in.threads) * kPiecesPerThread * kPiece;
 }
 
 /// Sample numbers whose product with the pixels fits 32 bits share a key.
 std::uint64_t samples_per_key(const PathInput& in) {
-    const std::uint64_t pixels = film_pixels(in);
+    const std::uint64_t pixels = counted_pixels(in);
     return pixels > 0 ? (std::uint64_t{1} << 32) / pixels : 1;
 }
 
@@ -104,7 +110,7 @@ PathParams path_params(const PathInput& in, const PathScratch& scratch) {
     k.camera = in.camera;
     k.jitter = in.jitter ? 1 : 0;
     k.max_depth = in.max_depth > 0 ? in.max_depth : 0x7fffffff;
-    k.pixels = std::uint32_t(film_pixels(in));
+    k.pixels = std::uint32_t(counted_pixels(in));
     k.parts_wanted = in.parts ? 1 : 0;
     k.light_roulette = in.light_roulette;
     set_lamps(in, k);
@@ -185,20 +191,24 @@ Status trace_run(const PathInput& in, PathParams& k, PathScratch& scratch, Film&
     const std::uint64_t band = scratch.capacity / most;
     // Pixels whose samples take several launches are finished.
     const std::function<bool()> ask = most == count ? in.ended : std::function<bool()>{};
-    while (film.ahead < pixels) {
-        k.first_pixel = std::uint32_t(film.ahead);
-        const std::uint64_t here = smaller(band, pixels - film.ahead);
-        for (std::uint64_t done = 0; done < count; done += most) {
-            k.first_sample = std::uint32_t(number + done);
-            k.per_pixel = std::uint32_t(smaller(most, count - done));
-            bool ended = false;
-            PILEUS_TRY(run_launch(in, k, here * k.per_pixel, ask, scratch, ended));
-            take_tallies(in, !ended, scratch, film);
-            if (ended) return Status::ok();
-            add_samples(in, k, here * k.per_pixel, scratch, film);
+    for (const PartRange& own : owned_runs(pixels, std::uint64_t(film.width), in.part)) {
+        if (film.ahead < own.begin) film.ahead = own.begin;
+        while (film.ahead < own.end) {
+            k.first_pixel = std::uint32_t(film.ahead);
+            const std::uint64_t here = smaller(band, own.end - film.ahead);
+            for (std::uint64_t done = 0; done < count; done += most) {
+                k.first_sample = std::uint32_t(number + done);
+                k.per_pixel = std::uint32_t(smaller(most, count - done));
+                bool ended = false;
+                PILEUS_TRY(run_launch(in, k, here * k.per_pixel, ask, scratch, ended));
+                take_tallies(in, !ended, scratch, film);
+                if (ended) return Status::ok();
+                add_samples(in, k, here * k.per_pixel, scratch, film);
+            }
+            film.ahead += here;
         }
-        film.ahead += here;
     }
+    film.ahead = pixels;
     return Status::ok();
 }
 

@@ -9,6 +9,7 @@
 #include "kernels_cpu/isa/kernels.h"
 #include "src/methods/path/path_guide.h"
 #include "src/methods/path/path_sky.h"
+#include "src/plan/part_light.h"
 #include "src/world/light/lights.h"
 #include "src/world/majorant/majorant.h"
 
@@ -26,6 +27,7 @@ struct PathInput {
     const Lighting* lighting = nullptr;  ///< of it sun, sky, map and ground; of lights none
     Span<const float> majorants;
     int block = 1;
+    WorkPart part{};  ///< whose share of the film's pixels is traced
     CameraParams camera{};
     std::uint64_t seed = 0;
     int threads = 1;

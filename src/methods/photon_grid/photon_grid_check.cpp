@@ -4,7 +4,6 @@
 #include "src/methods/check_support.h"
 #include "src/methods/photon_grid/photon_grid_method.h"
 #include "src/photons/lit_march.h"
-#include "src/run/on_device.h"
 #include "src/scene/frames.h"
 
 namespace pileus {
@@ -53,12 +52,8 @@ Status check_photon_grid(const Scene& scene, const Budget& budget) {
     return check_closure(scene);
 }
 
-Status PhotonGridMethod::check(const Context& context, const FrameView& view) {
-    if (on_device(context.kernels->device))
-        return Status::bad_input(std::string("--isa: \"") + context.kernels->name +
-                                 "\": method photon-grid runs on the host alone, allowed: another, "
-                                 "or another method");
-    return check_thinned(context, view.scene, "photon_grid", state_);
+Status PhotonGridMethod::check(const Context&, const FrameView& view) {
+    return check_thinned(view.scene, "photon_grid", state_);
 }
 
 }  // namespace pileus

@@ -77,6 +77,9 @@ Status PhotonGridMethod::error(const Context& context, const FrameView& view,
     return Status::ok();
 }
 
-MethodRow photon_grid_row() { return {"photon-grid", WorldUse::kGrid, check_photon_grid, make}; }
+MethodRow photon_grid_row() {
+    return {"photon-grid", WorldUse::kGrid,   check_photon_grid, make, false,
+            true,          Division::kPhotons};
+}
 
 }  // namespace pileus

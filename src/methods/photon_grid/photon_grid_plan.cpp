@@ -5,6 +5,7 @@
 #include "src/methods/photon_grid/photon_grid_state.h"
 #include "src/photons/lit_march.h"
 #include "src/photons/photon_report.h"
+#include "src/run/on_device.h"
 #include "src/world/plan_parts.h"
 
 namespace pileus {
@@ -47,6 +48,8 @@ Status measure_photon_grid(const Context& context, const FrameView& view, Photon
         state.settings.accumulation,
         {Size(context.threads), bytes_of_grid_thread(state), photon_grid_peak(context, view, state),
          context.limits[LimitId::kMemory], plan.exact});
+    if (on_device(context.kernels->device))
+        plan.accumulation = {"shared", "all threads of the device add to one set", 0, true};
     state.ring.shared_sums = plan.accumulation.shared;
     return measure_grid_memory(context, view, state, photons, plan);
 }

@@ -36,18 +36,19 @@ std::uint64_t most_ground_nodes(const Medium& medium, const Lighting& lighting,
 }
 
 Status make_ground_shadow(const Context& context, const Medium& medium, const MediumView& view,
-                          const Lighting& lighting, std::uint64_t pixels, const SunTurn& turn,
+                          const Lighting& lighting, const CameraParams& camera, const SunTurn& turn,
                           GroundShadow& out) {
-    const std::uint64_t most = most_ground_nodes(medium, lighting, pixels);
-    // Another size of the picture has memory of its own, which holds nothing yet.
-    if (out.depth.size() != most) out.slices.held.clear();
-    PILEUS_TRY(allocate_once(arrays::ground_shadow(most), out.depth));
+    const std::uint64_t whole =
+        std::uint64_t(whole_width(camera)) * std::uint64_t(whole_height(camera));
+    const std::uint64_t most = most_ground_nodes(medium, lighting, whole);
     NodeGrid nodes{};
+    std::uint64_t count = 0;
     if (most > 0 && lighting.sunlit && medium.sigma > 0 && medium.extent_m[2] > lighting.ground_z) {
         const Reach x = reach_of(medium, lighting.ground_z, lighting.to_sun, 0),
                     y = reach_of(medium, lighting.ground_z, lighting.to_sun, 1);
         if (x.count * y.count <= double(most)) {
             const Reach reach[2] = {x, y};
+            count = std::uint64_t(x.count) * std::uint64_t(y.count);
             nodes.size[2] = 1;
             nodes.per_metre[2] = 1;
             for (std::size_t a = 0; a < 2; ++a) {
@@ -61,6 +62,12 @@ Status make_ground_shadow(const Context& context, const Medium& medium, const Me
             out.origin[2] = float(lighting.ground_z - 0.5);  // the row's middle
         }
     }
+    // Room for any sun; beside a part of a picture, whose size it has not, for this one.
+    const bool part = camera.more_columns > 0 || camera.more_rows > 0;
+    const std::uint64_t room = part ? count : most;
+    // Another size of the picture has memory of its own, which holds nothing yet.
+    if (out.depth.size() != room) out.slices.held.clear();
+    PILEUS_TRY(allocate_once(arrays::ground_shadow(room), out.depth));
     for (int a = 0; a < 2; ++a)
         if (nodes.size[a] != out.nodes.size[a]) out.slices.held.clear();
     if (out.ground_z != lighting.ground_z) out.slices.held.clear();

@@ -32,10 +32,10 @@ inline Array<float> ground_shadow(std::uint64_t nodes) {
 
 }  // namespace arrays
 
-/// Makes what the sun or the ground has moved for. A low sun's shadow, of more nodes than
-/// `most_ground_nodes`, is left to the pixels. kLimit: out of memory.
+/// Makes what the sun or the ground has moved for, for the camera's whole picture. A low sun's
+/// shadow, of more nodes than `most_ground_nodes`, is left to the pixels. kLimit: out of memory.
 Status make_ground_shadow(const Context& context, const Medium& medium, const MediumView& view,
-                          const Lighting& lighting, std::uint64_t pixels, const SunTurn& turn,
+                          const Lighting& lighting, const CameraParams& camera, const SunTurn& turn,
                           GroundShadow& out);
 
 /// The background reads it.

@@ -7,6 +7,8 @@
 #include "kernels_cpu/core/profile.h"
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/node_grid.h"
+#include "src/run/device_launch.h"
+#include "src/run/on_device.h"
 #include "src/world/light/lights.h"
 
 namespace pileus {
@@ -58,6 +60,9 @@ Status make_lamp_nodes(const Context& context, const Medium& medium, const Major
     b.optical_depth = out.optical_depth.data();
     const std::uint64_t rows =
         count * std::uint64_t(out.grid.size[1]) * std::uint64_t(out.grid.size[2]);
+    if (on_device(context.kernels->device))
+        return launch_on_device(*context.kernels->device, k, b, LampRows::kDepths,
+                                std::uint32_t(rows));
     parallel_for(context.threads, std::int64_t(rows), [&](std::int64_t row, int) {
         context.kernels->lamp_depth_rows(k, b, std::uint32_t(row), std::uint32_t(row) + 1);
     });
@@ -117,6 +122,9 @@ Status add_lamp_light(const Context& context, const Medium& medium, const LampMa
     b.background = planes.background.data();
     constexpr std::int64_t kPiece = 4;
     const std::int64_t rows = k.camera.height;
+    if (on_device(context.kernels->device))
+        return launch_on_device(*context.kernels->device, k, b, LampRows::kMarch,
+                                std::uint32_t(rows));
     const auto march = [&](std::int64_t piece, int) {
         const std::int64_t begin = piece * kPiece;
         const std::int64_t end = begin + kPiece < rows ? begin + kPiece : rows;

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "platform/threads.h"
+#include "src/run/device_launch.h"
+#include "src/run/on_device.h"
 
 namespace pileus {
 namespace {
@@ -164,14 +166,19 @@ Status make_rows(const Context& context, const RaymarchParams& k, const SkyParam
                  const std::vector<SkyLightRow>& rows, SkyLight& out) {
     constexpr std::int64_t kPiece = 16;
     const std::int64_t pieces = (std::int64_t(rows.size()) + kPiece - 1) / kPiece;
-    std::vector<std::int64_t> read(std::size_t(pieces), 0);
+    std::vector<std::int64_t> read(rows.size(), 0);
+    const SkyLightParams params{k, sky, out.view};
+    const SkyLightBuffers b{rows.data(), out.words.data(), read.data()};
+    const DeviceTable* const device = context.kernels->device;
+    if (on_device(device))
+        PILEUS_TRY(launch_on_device(*device, params, b, std::uint32_t(rows.size())));
     const auto make = [&](std::int64_t piece, int) {
         const std::int64_t end = std::min(std::int64_t(rows.size()), (piece + 1) * kPiece);
-        read[std::size_t(piece)] =
-            context.kernels->sky_light_rows(k, sky, out.view, rows.data(), out.words.data(),
-                                            std::uint32_t(piece * kPiece), std::uint32_t(end));
+        context.kernels->sky_light_rows(params, b, std::uint32_t(piece * kPiece),
+                                        std::uint32_t(end));
     };
-    const bool whole = run_until(context.threads, pieces, context.interrupted, make);
+    const bool whole =
+        on_device(device) || run_until(context.threads, pieces, context.interrupted, make);
     if (!whole)
         return {Code::kCheckFailed, "interrupted before the picture was whole; no file written"};
     for (const std::int64_t n : read) out.densities += std::uint64_t(n);

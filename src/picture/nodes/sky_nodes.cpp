@@ -11,6 +11,8 @@
 #include "platform/threads.h"
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/node_grid.h"
+#include "src/run/device_launch.h"
+#include "src/run/on_device.h"
 #include "src/world/phase/forward_share.h"
 
 namespace pileus {
@@ -176,6 +178,7 @@ Status see_sky(const Context& context, const Medium& medium, const Majorants& ma
     ShadowParams k{};
     k.medium = make_medium_view(medium, majorants);
     // Coarse nodes see what detail keeps: the mean.
+    k.medium.detail = nullptr;
     k.medium.step = smallest_cell(medium.grid);
     k.nodes = out.grid;
     const float left = float(1 - kept);
@@ -237,13 +240,17 @@ Status make_sky_nodes(const Context& context, const Medium& medium, const Majora
     PILEUS_TRY(see_sky(context, medium, majorants, kept, octaves, view, out));
     const std::size_t count = std::size_t(nodes), slice = count / std::size_t(out.grid.size[2]);
     const SkyDirections middles = sky_directions();
+    const SkyViewInput turned{out.grid, &view,         &out.phase, &middles,
+                              out.sets, octaves.count, r.share,    out.seen.span()};
+    if (view.turned && on_device(context.kernels->device))
+        return launch_on_device(*context.kernels->device, sky_turn_params(turned),
+                                SkyTurnBuffers{out.phase.data(), out.seen.data(), out.light.data()},
+                                std::uint32_t(nodes));
     parallel_for(context.threads, out.grid.size[2], [&](std::int64_t z, int) {
         const std::size_t begin = std::size_t(z) * slice;
         if (view.turned) {
-            turn_sky_nodes({out.grid, &view, &out.phase, &middles, out.sets, octaves.count, r.share,
-                            out.seen.span()},
-                           *context.kernels, std::uint32_t(begin), std::uint32_t(begin + slice),
-                           out.light.data());
+            turn_sky_nodes(turned, *context.kernels, std::uint32_t(begin),
+                           std::uint32_t(begin + slice), out.light.data());
             return;
         }
         for (int s = 0; s < out.sets; ++s) {

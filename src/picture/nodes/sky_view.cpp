@@ -47,24 +47,6 @@ Rings rings_of(const Medium& medium) {
     return r;
 }
 
-SkyTurnParams turn_params(const SkyViewInput& in) {
-    SkyTurnParams k{};
-    k.grid = in.grid;
-    k.camera = in.view->camera;
-    // Within two nodes of the camera rays of all directions pass.
-    for (float per_metre : in.grid.per_metre) {
-        const float spacing = 1 / per_metre;
-        k.reach = 2 * spacing > k.reach ? 2 * spacing : k.reach;
-    }
-    for (std::size_t p = 0; p < kSkyParts; ++p) {
-        for (std::size_t a = 0; a < 3; ++a) k.middles[p][a] = (*in.middles)[p][a];
-        for (int s = 0; s < in.sets; ++s) k.share[s][p] = float(in.share[s][p]);
-    }
-    k.sets = in.sets;
-    k.later = in.octaves > 1 ? 1 : 0;
-    return k;
-}
-
 }  // namespace
 
 std::array<float, 3> sky_direction(int part, double u, double v) {
@@ -101,9 +83,27 @@ SkyPhase sky_phase(const Medium& medium) {
     return phase;
 }
 
+SkyTurnParams sky_turn_params(const SkyViewInput& in) {
+    SkyTurnParams k{};
+    k.grid = in.grid;
+    k.camera = in.view->camera;
+    // Within two nodes of the camera rays of all directions pass.
+    for (float per_metre : in.grid.per_metre) {
+        const float spacing = 1 / per_metre;
+        k.reach = 2 * spacing > k.reach ? 2 * spacing : k.reach;
+    }
+    for (std::size_t p = 0; p < kSkyParts; ++p) {
+        for (std::size_t a = 0; a < 3; ++a) k.middles[p][a] = (*in.middles)[p][a];
+        for (int s = 0; s < in.sets; ++s) k.share[s][p] = float(in.share[s][p]);
+    }
+    k.sets = in.sets;
+    k.later = in.octaves > 1 ? 1 : 0;
+    return k;
+}
+
 void turn_sky_nodes(const SkyViewInput& in, const KernelTable& kernels, std::uint32_t begin,
                     std::uint32_t end, float* light) {
-    kernels.turn_sky(turn_params(in), {in.phase->data(), in.seen.data, light}, begin, end);
+    kernels.turn_sky(sky_turn_params(in), {in.phase->data(), in.seen.data, light}, begin, end);
 }
 
 }  // namespace pileus

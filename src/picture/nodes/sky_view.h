@@ -51,6 +51,9 @@ struct SkyViewInput {
     Span<const float> seen;                      ///< [number][node]
 };
 
+/// What a launch of turn_sky takes.
+SkyTurnParams sky_turn_params(const SkyViewInput& in);
+
 /// Brightness of nodes [begin, end) in each set, [set][node]. `kernels`: a table of the host.
 void turn_sky_nodes(const SkyViewInput& in, const KernelTable& kernels, std::uint32_t begin,
                     std::uint32_t end, float* light);

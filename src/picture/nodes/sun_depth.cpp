@@ -6,35 +6,50 @@
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/node_rows.h"
 #include "src/picture/nodes/sweep_taps.h"
+#include "src/run/device_launch.h"
+#include "src/run/on_device.h"
 
 namespace pileus {
 namespace {
 
 /// Blocks along a diagonal do not know of one another: those of a diagonal run at once.
-void sweep_open(const Context& context, const SweepParams& k, const SweepBuffers& b) {
-    const std::int32_t across = k.blocks[0], up = k.blocks[1];
-    for (std::int32_t diagonal = 0; diagonal < across + up - 1; ++diagonal) {
-        const std::int32_t first = diagonal < up ? 0 : diagonal - up + 1;
-        const std::int32_t last = diagonal < across ? diagonal : across - 1;
-        parallel_for(context.threads, last - first + 1, [&](std::int64_t piece, int) {
-            const std::int32_t y = first + std::int32_t(piece);
-            context.kernels->sweep_block(k, b, std::uint32_t((diagonal - y) * across + y));
+Status sweep_open(const Context& context, SweepParams k, const SweepBuffers& b) {
+    if (on_device(context.kernels->device)) return sweep_on_device(*context.kernels->device, k, b);
+    for (k.diagonal = 0; k.diagonal < diagonals(k); ++k.diagonal) {
+        const SweepRange y = diagonal_blocks(k);
+        parallel_for(context.threads, y.end - y.begin, [&](std::int64_t piece, int) {
+            const std::uint32_t own = y.begin + std::uint32_t(piece);
+            context.kernels->sweep_blocks(k, b, own, own + 1);
         });
     }
+    return Status::ok();
 }
 
 /// One slice after the other, each in pieces of rows.
-void sweep_layers(const Context& context, const Medium& medium, bool upwards,
-                  const std::vector<SweepTap>& inner, const std::vector<SweepTap>& top,
-                  SweepBuffers b) {
-    SweepLayerParams k{};
-    for (int a = 0; a < 3; ++a) k.size[a] = medium.grid.size[a];
-    for (std::int32_t n = 0; n < k.size[2]; ++n) {
+Status sweep_layers(const Context& context, const Medium& medium, bool upwards,
+                    const std::vector<SweepTap>& inner, const std::vector<SweepTap>& top,
+                    SweepBuffers b) {
+    const std::int32_t slices = medium.grid.size[2];
+    const auto layer_at = [&](std::int32_t n) {
         const std::vector<SweepTap>& taps = n == 0 ? top : inner;
+        SweepLayer layer{};
+        SweepLayerParams& k = layer.k;
+        for (int a = 0; a < 3; ++a) k.size[a] = medium.grid.size[a];
         k.plane = upwards ? k.size[2] - 1 - n : n;
         k.above = n == 0 ? k.plane : k.plane + (upwards ? 1 : -1);
         k.taps = std::int32_t(taps.size());
-        b.taps = taps.data();
+        layer.taps = taps.data();
+        return layer;
+    };
+    if (on_device(context.kernels->device)) {
+        std::vector<SweepLayer> layers;
+        for (std::int32_t n = 0; n < slices; ++n) layers.push_back(layer_at(n));
+        return sweep_on_device(*context.kernels->device, {layers.data(), layers.size()}, b);
+    }
+    for (std::int32_t n = 0; n < slices; ++n) {
+        const SweepLayer layer = layer_at(n);
+        const SweepLayerParams& k = layer.k;
+        b.taps = layer.taps;
         const std::int32_t pieces = (k.size[1] + kSweepRows - 1) / kSweepRows;
         parallel_for(context.threads, pieces, [&](std::int64_t piece, int) {
             const std::int32_t begin = std::int32_t(piece) * kSweepRows;
@@ -43,22 +58,21 @@ void sweep_layers(const Context& context, const Medium& medium, bool upwards,
             context.kernels->sweep_layer_rows(k, b, std::uint32_t(begin), std::uint32_t(end));
         });
     }
+    return Status::ok();
 }
 
-/// False where only rays will do.
-bool sweep(const Context& context, const Medium& medium, const std::array<float, 3>& to_sun,
-           float* optical_depth) {
+/// `done`: false where only rays will do.
+Status sweep(const Context& context, const Medium& medium, const std::array<float, 3>& to_sun,
+             float* optical_depth, bool& done) {
     const SweepBuffers b{medium.volume.density.data(), optical_depth, nullptr};
     const double sigma = double(medium.sigma);
-    if (medium.detail.present()) return false;  // slices know grids alone
-    if (!medium.grid.periodic) {
-        sweep_open(context, sweep_params(medium.grid, to_sun, sigma, context.threads), b);
-        return true;
-    }
+    done = !medium.detail.present();  // slices know grids alone
+    if (!done) return Status::ok();
+    if (!medium.grid.periodic)
+        return sweep_open(context, sweep_params(medium.grid, to_sun, sigma, context.threads), b);
     std::vector<SweepTap> inner, top;
-    if (!layer_taps(medium.grid, to_sun, sigma, inner, top)) return false;
-    sweep_layers(context, medium, to_sun[2] > 0, inner, top, b);
-    return true;
+    done = layer_taps(medium.grid, to_sun, sigma, inner, top);
+    return done ? sweep_layers(context, medium, to_sun[2] > 0, inner, top, b) : Status::ok();
 }
 
 Status cast_rays(const Context& context, const Medium& medium, const Majorants& majorants,
@@ -110,8 +124,9 @@ Status make_sun_depth(const Context& context, const Medium& medium, const Majora
     const StageClock clock(context, "shadow");
     out.nodes = sun_depth_nodes(medium);
     PILEUS_TRY(allocate_once(arrays::sun_depth(medium.grid, Stage::kWrite), out.optical_depth));
-    out.swept =
-        kind == SunDepthKind::kSwept && sweep(context, medium, to_sun, out.optical_depth.data());
+    out.swept = false;
+    if (kind == SunDepthKind::kSwept)
+        PILEUS_TRY(sweep(context, medium, to_sun, out.optical_depth.data(), out.swept));
     if (out.swept) return Status::ok();
     return cast_rays(context, medium, majorants, to_sun, out.nodes, out.optical_depth.data());
 }

@@ -5,6 +5,7 @@
 #include "platform/threads.h"
 #include "src/base/angles.h"
 #include "src/picture/march_view.h"
+#include "src/run/on_device.h"
 
 namespace pileus {
 namespace {
@@ -53,6 +54,15 @@ Status make_shadow_slice(const Context& context, const ShadowParams& k, const Sh
     if (slices <= 1) return run_rows(context, kernel, k, b, rows);
     constexpr std::uint32_t kPiece = 4;
     const std::uint32_t every = std::uint32_t(slices), first = std::uint32_t(slice);
+    if (on_device(context.kernels->device)) {
+        // A device takes all rows, of which the others want no node.
+        std::vector<NodeRange> wanted(rows, NodeRange{0, 0});
+        for (std::uint32_t row = first; row < rows; row += every)
+            wanted[row] = b.rows != nullptr ? b.rows[row] : NodeRange{0, k.nodes.size[0]};
+        ShadowBuffers own = b;
+        own.rows = wanted.data();
+        return run_rows(context, kernel, k, own, rows);
+    }
     const std::uint32_t own = first < rows ? (rows - first + every - 1) / every : 0;
     parallel_for(context.threads, (own + kPiece - 1) / kPiece, [&](std::int64_t piece, int) {
         const std::uint32_t begin = std::uint32_t(piece) * kPiece;

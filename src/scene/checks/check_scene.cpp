@@ -42,8 +42,22 @@ void check_places(SceneCheck& check) {
     }
 }
 
+/// Pixels that there are, at least one.
+void check_crop(SceneCheck& check) {
+    const Node* crop = check.valid_key("camera.crop");
+    if (crop == nullptr) return;
+    const std::array<int, 4>& c = check.scene.crop;
+    const std::array<int, 2>& size = check.scene.camera.resolution;
+    if (c[0] < c[2] && c[1] < c[3] && c[2] <= size[0] && c[3] <= size[1]) return;
+    check.faults.add(crop->at, "camera.crop",
+                     "no part of the picture, " + value_text(*crop) +
+                         ", allowed: [x0, y0, x1, y1], x0 < x1 <= " + std::to_string(size[0]) +
+                         ", y0 < y1 <= " + std::to_string(size[1]));
+}
+
 void check_camera(SceneCheck& check) {
     const Camera& camera = check.scene.camera;
+    check_crop(check);
     const Node* projection = check.key("camera.projection");
     if (projection == nullptr || check.valid_key("camera.projection") != nullptr) {
         if (camera.orthographic)

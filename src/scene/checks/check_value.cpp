@@ -115,6 +115,8 @@ bool check_value(const KeyRow& row, const Node& node, const std::string& path, F
             return check.integers(node, 2);
         case KeyKind::kInteger3:
             return check.integers(node, 3);
+        case KeyKind::kInteger4:
+            return check.integers(node, 4);
         case KeyKind::kNumber:
             return check.number(node);
         case KeyKind::kNumber2:

@@ -15,6 +15,7 @@ enum class KeyKind {
     kInteger,
     kInteger2,
     kInteger3,
+    kInteger4,
     kNumber,
     kNumber2,
     kNumber3,
@@ -69,6 +70,8 @@ template <>
 inline constexpr KeyKind kKind<std::array<int, 2>> = KeyKind::kInteger2;
 template <>
 inline constexpr KeyKind kKind<std::array<int, 3>> = KeyKind::kInteger3;
+template <>
+inline constexpr KeyKind kKind<std::array<int, 4>> = KeyKind::kInteger4;
 template <>
 inline constexpr KeyKind kKind<double> = KeyKind::kNumber;
 template <>

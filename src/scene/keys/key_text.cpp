@@ -85,6 +85,8 @@ std::string allowed_text(const KeyRow& row) {
             return "2 whole numbers" + range;
         case KeyKind::kInteger3:
             return "3 whole numbers" + range;
+        case KeyKind::kInteger4:
+            return "4 whole numbers" + range;
         case KeyKind::kNumber:
             return "number" + range;
         case KeyKind::kNumber2:

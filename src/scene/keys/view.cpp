@@ -61,6 +61,11 @@ constexpr KeyRow kRows[] = {
      "height of the picture in space; orthographic and flux only"},
     {"camera.resolution", camera<&Camera::resolution>, ranged(&Camera::resolution), "pixels",
      "width and height of the picture"},
+    {"camera.crop", field<&Scene::crop>, from_to(0, 32768), "pixels",
+     "x0, y0, x1, y1: only these pixels of the picture, ends exclusive, with the bits that they "
+     "have "
+     "in all of it; left out: all",
+     kNoNote},
     {"camera.depth", view_files<&ViewFiles::depth>, any(), "",
      "image of the distance to solid things, .exr (channel Z, or its only one) or grey .pfm, of "
      "the picture's size; what lies behind is left out, and black",

@@ -4,8 +4,10 @@
 // docs/flux.md
 #include "src/session/flux/flux_meter.h"
 
+#include "src/methods/path/film_parts.h"
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/node_grid.h"
+#include "src/run/work_share.h"
 #include "src/scene/toml/toml_tree.h"
 
 namespace pileus {
@@ -29,7 +31,9 @@ Status FluxMeter::trace(const CameraParams& camera, MeteredLight& light) {
     // Each detector has noise of its own.
     in_.seed = path_.state().seed + (std::uint64_t{1} << 40) * made_++;
     PILEUS_TRY(make_film(in_, film_));
+    if (context_.sharing != nullptr) in_.part = context_.sharing->part();
     PILEUS_TRY(trace_paths(in_, samples_, path_.scratch(), film_));
+    if (context_.sharing != nullptr) PILEUS_TRY(share_film(*context_.sharing, film_));
     paths_ += std::uint64_t(film_.tally.paths);
     if (film_.samples < samples_)
         return {Code::kCheckFailed, "interrupted before all was measured; nothing written"};

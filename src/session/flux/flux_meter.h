@@ -34,7 +34,7 @@ public:
           in_(path.input(context, scenery.view(0))),
           samples_(samples) {
         in_.parts = false;
-        in_.ended = context.interrupted;
+        if (context.sharing == nullptr) in_.ended = context.interrupted;
     }
 
     /// Also keeps apart what the media have turned last: call before any light is metered.

@@ -4,6 +4,7 @@
 // docs/flux.md, "By photons"
 #include "src/base/random_streams.h"
 #include "src/plan/accumulation.h"
+#include "src/run/work_share.h"
 #include "src/session/flux/flux_tally.h"
 #include "src/world/majorant/majorants.h"
 #include "src/world/plan_parts.h"
@@ -143,12 +144,20 @@ Status shoot(const FluxTask& task, const TraceInput& in, std::size_t lights, Flu
     tallies.assign(lights, TraceTally{});
     for (int b = 0; b < kFluxBatches; ++b) {
         PILEUS_TRY(trace_generation(in, std::uint64_t(b), scratch, slot, tallies));
+        if (task.context.sharing != nullptr) {
+            PILEUS_TRY(task.context.sharing->sum(slot.sums.span()));
+            PILEUS_TRY(task.context.sharing->sum({&slot.scatterings, 1}));
+        }
         if (slot.generations == 0)
             return {Code::kCheckFailed, "interrupted before all was measured; nothing written"};
         tally.add(slot);
         empty_slot(slot, in.threads);
         task.context.tell("photons", double(b + 1) / kFluxBatches);
     }
+    if (task.context.sharing == nullptr) return Status::ok();
+    for (TraceTally& tally_of_light : tallies)
+        PILEUS_TRY(task.context.sharing->sum({reinterpret_cast<std::int64_t*>(&tally_of_light),
+                                              sizeof(TraceTally) / sizeof(std::int64_t)}));
     return Status::ok();
 }
 
@@ -207,7 +216,10 @@ Status flux_by_photons(const FluxTask& task, std::int64_t photons, FluxResult& o
     in.threads = context.threads;
     in.kernels = context.kernels;
     in.max_events = kMostEvents;
-    in.ended = patient_stop(context);
+    if (context.sharing != nullptr)
+        in.part = context.sharing->part();
+    else
+        in.ended = patient_stop(context);
     PILEUS_TRY(weigh(task, layout, in));
     PILEUS_TRY(check_work(estimate_work(medium_work(medium, task.scenery.world->source.mean_density,
                                                     double(kMostEvents), double(photons))),

@@ -78,9 +78,15 @@ std::vector<std::pair<std::string, std::string>> picture_place(const Scene& scen
     // Right and up of the picture on the map, pixels and the middle of the first one.
     const Double3 up = glm::normalize(Double3{c.up[0], c.up[1], 0});
     const Double3 right{up[1], -up[0], 0};
-    const double size = c.height_m / c.resolution[1];
-    const double half_x = 0.5 * size * c.resolution[0], half_y = 0.5 * c.height_m;
-    const Double3 first = position - (half_x - 0.5 * size) * right + (half_y - 0.5 * size) * up;
+    const int columns = c.resolution[0] + c.window.more[0],
+              rows = c.resolution[1] + c.window.more[1];
+    const std::array<int, 4> whole{0, 0, columns, rows};
+    const std::array<int, 4>& shown = scene.crop[2] > 0 ? scene.crop : whole;
+    const double size = c.height_m / rows;
+    // Edges of what is shown, from the picture's middle to the right and up.
+    const double west = size * (shown[0] - 0.5 * columns), east = size * (shown[2] - 0.5 * columns);
+    const double south = size * (0.5 * rows - shown[3]), north = size * (0.5 * rows - shown[1]);
+    const Double3 first = position + (west + 0.5 * size) * right + (north - 0.5 * size) * up;
     told.emplace_back(
         "world_file",
         // Adding 0 makes -0 plain.
@@ -88,8 +94,8 @@ std::vector<std::pair<std::string, std::string>> picture_place(const Scene& scen
                     -size * up[0] + 0.0, -size * up[1] + 0.0, first[0] + 0.0, first[1] + 0.0));
     if (up[1] == 1)
         told.emplace_back("extent_m",
-                          fmt::format("{} {} {} {}", position[0] - half_x, position[1] - half_y,
-                                      position[0] + half_x, position[1] + half_y));
+                          fmt::format("{} {} {} {}", position[0] + west, position[1] + south,
+                                      position[0] + east, position[1] + north));
     WeatherMap map;
     if (map_of(scene, map)) told.emplace_back("projection", map.projection());
     return told;

@@ -37,10 +37,10 @@ Double3 orbit(const Double3& position_m, const Double3& target_m, double degrees
 
 double ray_slant(const CameraParams& camera, double x, double y) {
     if (camera.orthographic != 0) return 1;
-    const double sx =
-        ((x + 0.5) * 2 / camera.width - 1) * double(camera.half_width) + double(camera.shift_x);
-    const double sy =
-        (1 - (y + 0.5) * 2 / camera.height) * double(camera.half_height) + double(camera.shift_y);
+    const double sx = ((x + 0.5) * 2 / whole_width(camera) - 1) * double(camera.half_width) +
+                      double(camera.shift_x);
+    const double sy = (1 - (y + 0.5) * 2 / whole_height(camera)) * double(camera.half_height) +
+                      double(camera.shift_y);
     return __builtin_sqrt(1 + sx * sx + sy * sy);
 }
 
@@ -57,6 +57,10 @@ CameraParams make_camera(const Camera& camera, double orbit_deg, const Double3& 
     store(up, out.up);
     out.width = camera.resolution[0];
     out.height = camera.resolution[1];
+    const PictureWindow& window = camera.window;
+    out.left = window.at[0], out.top = window.at[1];
+    out.more_columns = window.more[0], out.more_rows = window.more[1];
+    out.parts = window.parts, out.part = window.part;
     out.orthographic = camera.orthographic ? 1 : 0;
     out.flux = camera.flux ? 1 : 0;
     if (camera.has_frustum) {
@@ -69,7 +73,7 @@ CameraParams make_camera(const Camera& camera, double orbit_deg, const Double3& 
     const SineCosine half = sincos_deg(camera.fov_deg * 0.5);
     const double height = camera.orthographic ? camera.height_m * 0.5 : half.sine / half.cosine;
     out.half_height = float(height);
-    out.half_width = float(height * double(out.width) / double(out.height));
+    out.half_width = float(height * double(whole_width(out)) / double(whole_height(out)));
     return out;
 }
 

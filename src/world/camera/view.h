@@ -16,7 +16,8 @@ CameraParams make_camera(const Camera& camera, double orbit_deg, const Double3& 
 /// A place turned about the vertical axis through `target_m`, counter-clockwise seen from above.
 Double3 orbit(const Double3& position_m, const Double3& target_m, double degrees);
 
-/// Metres along the ray of a pixel per metre along the view's axis; x and y from the top left.
+/// Metres along the ray of a pixel per metre along the view's axis; x and y from the top left of
+/// the whole picture.
 double ray_slant(const CameraParams& camera, double x, double y);
 
 /// Fills the image's world_to_camera, world_to_ndc (world metres, row vectors) and

@@ -9,6 +9,8 @@
 #include "kernels_cpu/isa/kernels.h"
 #include "platform/threads.h"
 #include "src/base/random_streams.h"
+#include "src/run/device_launch.h"
+#include "src/run/on_device.h"
 #include "src/scene/rows/density_row.h"
 
 namespace pileus {
@@ -74,7 +76,7 @@ Status make_row(const MediumSettings& medium, const DensityMaking& with, Volume&
     settings.resolution = with.size;
     settings.seed = medium.shape_seed;
     settings.extent_m = medium.bounds_m[1] - medium.bounds_m[0];
-    return make_cumulus(settings, host_kernels(with.kernels), with.threads, volume);
+    return make_cumulus(settings, kernels_of(with.kernels), with.threads, volume);
 }
 
 constexpr DensityRow cumulus_row() {
@@ -103,17 +105,20 @@ Status make_cumulus(const CumulusSettings& asked, const KernelTable& kernels, in
     const std::uint64_t cells =
         std::uint64_t(k.size[0]) * std::uint64_t(k.size[1]) * std::uint64_t(k.size[2]);
     PILEUS_TRY(volume.density.resize(cells, "cumulus"));
-    const int workers = threads > 0 ? threads : hardware_threads();
-    Buffer<std::int32_t> scratch;
-    PILEUS_TRY(scratch.resize(3 * std::uint64_t(workers) * kMaxBubbles, "cumulus scratch"));
     const std::int64_t layers = (k.size[2] - 3) / kCumulusBlock + 1;
-    parallel_for(workers, k.rows_y * layers, [&](std::int64_t piece, int thread) {
-        kernels.fill_cumulus(k, volume.density.data(),
-                             scratch.data() + 3 * std::size_t(thread) * kMaxBubbles,
-                             std::uint32_t(piece), std::uint32_t(piece) + 1);
-    });
     volume.size = settings.resolution;
     volume.knows_bounds = false;
+    if (on_device(kernels.device))
+        return launch_on_device(*kernels.device, k, CumulusBuffers{volume.density.data(), nullptr},
+                                std::uint32_t(k.rows_y * layers));
+    const int workers = threads > 0 ? threads : hardware_threads();
+    Buffer<std::int32_t> scratch;
+    PILEUS_TRY(scratch.resize(std::uint64_t(workers) * kCumulusScratch, "cumulus scratch"));
+    parallel_for(workers, k.rows_y * layers, [&](std::int64_t piece, int thread) {
+        const CumulusBuffers b{volume.density.data(),
+                               scratch.data() + std::size_t(thread) * kCumulusScratch};
+        kernels.fill_cumulus(k, b, std::uint32_t(piece), std::uint32_t(piece) + 1);
+    });
     return Status::ok();
 }
 

@@ -10,6 +10,8 @@
 #include "platform/threads.h"
 #include "src/base/digest.h"
 #include "src/base/file.h"
+#include "src/run/device_launch.h"
+#include "src/run/on_device.h"
 
 namespace pileus {
 
@@ -53,10 +55,14 @@ Status make_noise(const NoiseParams& params, const KernelTable& kernels, int thr
     PILEUS_TRY(texels.resize(count, "noise volume"));
     PILEUS_TRY(values.resize(count, "noise volume, unscaled"));
     const std::int64_t rows = std::int64_t(size * size);
-    parallel_for(threads, rows / params.size, [&](std::int64_t slice, int) {
-        kernels.noise_rows(params, values.data(), std::uint32_t(slice * params.size),
-                           std::uint32_t((slice + 1) * params.size));
-    });
+    const NoiseBuffers b{values.data()};
+    if (on_device(kernels.device))
+        PILEUS_TRY(launch_on_device(*kernels.device, params, b, std::uint32_t(rows)));
+    else
+        parallel_for(threads, rows / params.size, [&](std::int64_t slice, int) {
+            kernels.noise_rows(params, b, std::uint32_t(slice * params.size),
+                               std::uint32_t((slice + 1) * params.size));
+        });
     Sums parts[kPieces];
     const std::size_t piece_texels = std::size_t(count) / kPieces;
     parallel_for(threads, kPieces, [&](std::int64_t i, int) {

@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "platform/threads.h"
+#include "src/run/device_launch.h"
+#include "src/run/on_device.h"
 #include "src/scene/checks/check_keys.h"
 #include "src/scene/rows/density_row.h"
 
@@ -108,11 +110,15 @@ Status cover(const SkySettings& settings, const KernelTable& kernels, int thread
     k.sky = p, k.heights = kHeights;
     k.reach_m = float(kColumnTiles * settings.scale *
                       std::max(settings.perlin.tile_m, settings.worley.tile_m));
+    const ColumnBuffers b{most.data()};
     constexpr int kPiece = 256;
-    parallel_for(threads, kColumns / kPiece, [&](std::int64_t piece, int) {
-        const std::uint32_t begin = std::uint32_t(piece) * kPiece;
-        kernels.sky_columns(k, most.data(), begin, begin + kPiece);
-    });
+    if (on_device(kernels.device))
+        PILEUS_TRY(launch_on_device(*kernels.device, k, b, kColumns));
+    else
+        parallel_for(threads, kColumns / kPiece, [&](std::int64_t piece, int) {
+            const std::uint32_t begin = std::uint32_t(piece) * kPiece;
+            kernels.sky_columns(k, b, begin, begin + kPiece);
+        });
     std::sort(most.data(), most.data() + kColumns);
     const double place = (1 - settings.coverage) * (kColumns - 1);
     const std::size_t below = std::size_t(place);
@@ -129,7 +135,7 @@ DensityOutline outline_row(const MediumSettings& medium) {
 }
 
 Status make_row(const MediumSettings& medium, const DensityMaking& with, Volume& volume) {
-    return bake_sky(medium, with.size, host_kernels(with.kernels), with.threads, volume, with.field,
+    return bake_sky(medium, with.size, kernels_of(with.kernels), with.threads, volume, with.field,
                     with.wind_s);
 }
 
@@ -230,10 +236,14 @@ Status bake_sky(const MediumSettings& settings, const std::array<int, 3>& size,
     PILEUS_TRY(volume.density.resize(cells, "density"));
     const std::int64_t rows = std::int64_t(volume.size[1]) * volume.size[2];
     constexpr std::int64_t kRows = 64;
-    parallel_for(threads, (rows + kRows - 1) / kRows, [&](std::int64_t piece, int) {
-        kernels.bake_sky_rows(k, volume.density.data(), std::uint32_t(piece * kRows),
-                              std::uint32_t(std::min(rows, (piece + 1) * kRows)));
-    });
+    const BakeBuffers b{volume.density.data()};
+    if (on_device(kernels.device))
+        PILEUS_TRY(launch_on_device(*kernels.device, k, b, std::uint32_t(rows)));
+    else
+        parallel_for(threads, (rows + kRows - 1) / kRows, [&](std::int64_t piece, int) {
+            kernels.bake_sky_rows(k, b, std::uint32_t(piece * kRows),
+                                  std::uint32_t(std::min(rows, (piece + 1) * kRows)));
+        });
     volume.knows_bounds = false;
     return Status::ok();
 }

@@ -179,7 +179,7 @@ Status add_detail(const Scene& scene, const MediumSettings& settings, int thread
     if (!s.present()) return Status::ok();
     PILEUS_TRY(check_tiles(scene, settings, medium));
     MediumDetail& detail = medium.detail;
-    PILEUS_TRY(make_detail_tile(s, host_kernels(kernels), threads, detail.tile));
+    PILEUS_TRY(make_detail_tile(s, kernels_of(kernels), threads, detail.tile));
     detail.view = view_of(s, detail.tile, medium);
     // Two steps over each of the smallest lumps.
     detail.step_m = float(s.tile_m / double(kDetailLumps << octaves_of(s)));

@@ -102,30 +102,31 @@ void CameraDepth::put(std::size_t pixel, double value) {
 
 Status take_camera_depth(const Camera& camera, const ViewFiles& files, const std::string& name,
                          const Image& image, CameraDepth& depth) {
-    if (image.width != camera.resolution[0] || image.height != camera.resolution[1])
+    const CameraParams view = make_camera(camera, 0, {});
+    if (image.width != whole_width(view) || image.height != whole_height(view))
         return Status::bad_input(name + ": depth: wrong size, " + std::to_string(image.width) +
                                  " x " + std::to_string(image.height) +
-                                 ", allowed: " + std::to_string(camera.resolution[0]) + " x " +
-                                 std::to_string(camera.resolution[1]) + ", camera.resolution");
+                                 ", allowed: " + std::to_string(whole_width(view)) + " x " +
+                                 std::to_string(whole_height(view)) + ", camera.resolution");
     const Channel* z = nullptr;
     PILEUS_TRY(find_depth(name, image, z));
-    const CameraParams view = make_camera(camera, 0, {});
-    const std::size_t width = std::size_t(image.width);
-    const std::size_t pixels = width * std::size_t(image.height);
+    const std::size_t width = std::size_t(view.width), whole = std::size_t(image.width);
+    const std::size_t pixels = width * std::size_t(view.height);
     PILEUS_TRY(depth.metres.resize(pixels, "camera depth"));
     depth.columns = width;
     for (std::size_t i = 0; i < pixels; ++i) {
-        double metres = double(z->pixels.at(i)) * files.depth_scale;
-        if (files.depth_on_axis) metres *= ray_slant(view, double(i % width), double(i / width));
+        const std::size_t x = i % width + std::size_t(view.left),
+                          y = std::size_t(picture_row(view, int(i / width)));
+        double metres = double(z->pixels.at(y * whole + x)) * files.depth_scale;
+        if (files.depth_on_axis) metres *= ray_slant(view, double(x), double(y));
         depth.put(i, metres);
     }
     return Status::ok();
 }
 
-Status outline_camera_depth(const Scene& scene, const Context& context, CameraDepth& depth) {
+void outline_camera_depth(const Scene& scene, CameraDepth& depth) {
     depth = CameraDepth();
     depth.present = !scene.view_files.depth.empty();
-    return depth.present ? refuse_device(scene, context) : Status::ok();
 }
 
 }  // namespace pileus

@@ -23,7 +23,7 @@ struct CameraDepth {
 };
 
 /// Whether the scene has one. kBadInput: on a device.
-Status outline_camera_depth(const Scene& scene, const Context& context, CameraDepth& depth);
+void outline_camera_depth(const Scene& scene, CameraDepth& depth);
 
 /// Reads the scene's image, if it has one. kBadInput: no such file, no channel Z among several,
 /// colours in a .pfm, another size than the picture's.

@@ -8,7 +8,6 @@
 #include "src/base/angles.h"
 #include "src/base/file.h"
 #include "src/io/meshes/mesh_file.h"
-#include "src/run/on_device.h"
 #include "src/scene/read_scene.h"
 #include "src/scene/toml/toml_tree.h"
 #include "src/world/solids/camera_depth.h"
@@ -89,16 +88,9 @@ Status place_triangles(const SolidSettings& settings, const std::string& name, s
     return Status::ok();
 }
 
-Status refuse_device(const Scene& scene, const Context& context) {
-    if (!on_device(context.kernels->device)) return Status::ok();
-    return Status::bad_input(scene.file + ": solid, camera.depth: not on the device " +
-                             context.kernels->name + " in this version, allowed: --isa auto");
-}
-
 Status outline_solids(const Scene& scene, const Context& context, Solids& solids) {
     solids = Solids();
     solids.meshes = !scene.solids.empty();
-    if (solids.meshes) PILEUS_TRY(refuse_device(scene, context));
     PILEUS_TRY(solids.albedo.resize(3 * scene.solids.size(), "colours of solids"));
     for (std::size_t i = 0; i < solids.albedo.size(); ++i)
         solids.albedo[i] = scene.solids[i / 3].albedo[i % 3];

@@ -42,9 +42,6 @@ struct Solids {
 
 struct CameraDepth;
 
-/// kBadInput where kernels run on a device, which knows no solids.
-Status refuse_device(const Scene& scene, const Context& context);
-
 /// What the scene has, from sizes of files alone. kBadInput: a file that is not there; kLimit.
 Status outline_solids(const Scene& scene, const Context& context, Solids& solids);
 

@@ -20,7 +20,6 @@ struct Solids {
 
 struct CameraDepth;
 
-inline Status refuse_device(const Scene&, const Context&) { return Status::ok(); }
 inline void add_solid_rows(const Scene&, const Limits&, const Solids&, const CameraDepth&,
                            MemoryTable&) {}
 inline void report_solids(const Solids&, const CameraDepth&, Report&) {}

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// Parts of a picture in files: render --part writes them, merge puts them together.
+// in: "2/8", a scene -> out: a file; in: files -> out: the picture. docs/farm.md
+#pragma once
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "src/session/render.h"
+
+namespace pileus {
+
+/// Of one file.
+constexpr std::uint64_t kMostPartBytes = std::uint64_t{1} << 36;
+
+/// As typed.
+struct PartArguments {
+    std::optional<std::string> part, tiles;
+    int tile_side = 0;  ///< of --tiles; 0: without
+
+    bool given() const { return part || tiles; }
+};
+
+/// Adds --part and --tiles to a subcommand.
+void add_part_options(CLI::App& command, PartArguments& arguments);
+
+/// Reads "I/N" of --part, 1 <= I <= N. Of a film it chooses frames, which are rendered whole.
+Status choose_part(const PartArguments& arguments, bool film, RenderOptions& options);
+Status choose_part(const std::string& text, bool film, RenderOptions& options);
+
+/// Whether a part of a picture is asked for.
+inline bool is_part(const RenderOptions& options) { return options.part.given; }
+
+/// One output, whose name ends in .part, and which nothing else is.
+Status check_part_file(const std::vector<std::string>& files, const RenderOptions& options,
+                       const Scene& scene);
+
+Status write_part(const Scene& scene, const RenderOptions& options, const std::string& file);
+
+}  // namespace pileus
