@@ -25,22 +25,22 @@ struct CameraParams {
     std::int32_t parts = 1, part = 0;
 };
 
-/// Pixels of the whole picture.
-constexpr std::int32_t whole_width(const CameraParams& c) { return c.width + c.more_columns; }
-constexpr std::int32_t whole_height(const CameraParams& c) { return c.height + c.more_rows; }
-
 /// Rows that stay together where a picture is divided.
 constexpr std::int32_t kPartRows = 8;
 
+inline namespace PILEUS_ISA {
+
+/// Pixels of the whole picture.
+PILEUS_FN std::int32_t whole_width(const CameraParams& c) { return c.width + c.more_columns; }
+PILEUS_FN std::int32_t whole_height(const CameraParams& c) { return c.height + c.more_rows; }
+
 /// The whole picture's number of row `y`: a whole number, or several in lanes.
 template <class Row>
-constexpr Row picture_row(const CameraParams& c, Row y) {
+PILEUS_FN Row picture_row(const CameraParams& c, Row y) {
     if (c.parts == 1) return y + c.top;
     const Row in_band = y & (kPartRows - 1);
     return ((y - in_band) * c.parts + in_band) + (c.part * kPartRows + c.top);
 }
-
-inline namespace PILEUS_ISA {
 
 template <class T>
 struct Ray {

@@ -92,13 +92,17 @@ void explain_crop(const Scene& scene, Plan& plan) {
                                  " are worked out"});
 }
 
+bool aims_at_error(const Scene& scene, const Budget& budget) {
+    // So many samples, whatever the scene's error.
+    const bool by_scene = method_column(scene) == MethodColumn::kPath &&
+                          scene.path.target_error > 0 && budget.samples < 0;
+    return budget.error > 0 || by_scene;
+}
+
 Status check_crop(const Scene& scene, const Budget& budget, bool is_view) {
     if (scene.crop[2] == 0) return Status::ok();
     if (is_view) return Status::bad_input("--show: together with camera.crop, allowed: without");
-    const bool by_scene =
-        method_column(scene) == MethodColumn::kPath && scene.path.target_error > 0;
-    const bool fixed = budget.samples >= 0 || budget.photons >= 0 || budget.seconds > 0;
-    if (budget.error > 0 || (by_scene && !fixed))
+    if (aims_at_error(scene, budget))
         return at_key(
             scene, "camera.crop",
             Status::bad_input("together with an error to reach, for which its pixels would "

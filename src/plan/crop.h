@@ -37,6 +37,9 @@ void take_rows(const WorkPart& part, Camera& camera);
 /// What the plan says of it, after take_window.
 void explain_crop(const Scene& scene, Plan& plan);
 
+/// Whether light is traced until an error is reached, which no part of a picture knows.
+bool aims_at_error(const Scene& scene, const Budget& budget);
+
 /// kBadInput: what would look at other pixels, or at another number of samples, than all of the
 /// picture does.
 Status check_crop(const Scene& scene, const Budget& budget, bool is_view);

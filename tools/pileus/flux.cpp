@@ -10,7 +10,6 @@
 #include "platform/clock.h"
 #include "src/base/file.h"
 #include "src/io/images/image_file.h"
-#include "src/session/deliver.h"
 #include "src/session/parts/flux_parts.h"
 #include "src/session/run_context.h"
 #include "tools/pileus/command.h"
@@ -160,14 +159,8 @@ std::string options_text(const FluxArguments& a) {
 /// What parts of this measurement have in common.
 void note_run(const FluxArguments& arguments, const Scene& scene, const Report& report,
               Image& told) {
-    Image all;
-    note_origin(report, all);
-    // Known once it is measured.
-    for (const auto& entry : all.origin)
-        if (entry.first != "generations" && entry.first != "samplesPerPixel")
-            told.origin.push_back(entry);
+    note_part(scene, report, told);
     told.origin.emplace_back("flux", options_text(arguments));
-    told.scene_text = scene.text;
 }
 
 Status write_flux_part(const FluxArguments& arguments, const Scene& scene, RenderOptions& options,
@@ -206,13 +199,7 @@ Status read_flux_parts(const FluxArguments& arguments, const Scene& scene,
     PILEUS_TRY(make_context(scene, options, context, report));
     Part own;
     own.name = "this measurement";
-    for (const std::string& file : arguments.merged) {
-        Buffer<char> bytes;
-        parts.emplace_back();
-        PILEUS_TRY(check_file_name(file));
-        PILEUS_TRY(read_whole_file(file, kMostPartBytes, bytes));
-        PILEUS_TRY(decode_part(file, bytes.span(), parts.back()));
-    }
+    PILEUS_TRY(read_part_files(arguments.merged, parts));
     report.method = parts[0].told("method");
     note_run(arguments, scene, report, own.rows);
     own.division = Division::kFlux;

@@ -30,20 +30,6 @@ struct MergeArguments {
     bool mean = false, quiet = false;
 };
 
-Status read_parts(const MergeArguments& arguments, std::vector<Part>& parts) {
-    for (const std::string& file : arguments.parts) {
-        Buffer<char> bytes;
-        PILEUS_TRY(check_file_name(file));
-        PILEUS_TRY(read_whole_file(file, kMostPartBytes, bytes));
-        parts.emplace_back();
-        PILEUS_TRY(decode_part(file, bytes.span(), parts.back()));
-        bytes = Buffer<char>();
-        PILEUS_TRY(fold_photons(parts));
-    }
-    if (parts.empty()) return Status::bad_input("FILE.part: missing, allowed: one or more");
-    return Status::ok();
-}
-
 /// Each says where its scene lies from there; they need not lie in one folder.
 std::string take_folder(Part& part) {
     std::string folder;
@@ -101,7 +87,7 @@ Status choose_outputs(const MergeArguments& arguments, const Scene& scene, Rende
 
 Status run_merge(const MergeArguments& arguments) {
     std::vector<Part> parts;
-    PILEUS_TRY(read_parts(arguments, parts));
+    PILEUS_TRY(read_part_files(arguments.parts, parts));
     std::string folder;
     for (std::size_t p = parts.size(); p-- > 0;) folder = take_folder(parts[p]);
     PILEUS_TRY(check_parts(arguments.mean, parts));

@@ -62,6 +62,21 @@ Status check_part_file(const std::vector<std::string>& files, const RenderOption
     return can_write_file(files[0]);
 }
 
+Status read_part_files(const std::vector<std::string>& files, std::vector<Part>& parts) {
+    constexpr std::uint64_t kLongest = std::uint64_t{1} << 36;
+    for (const std::string& file : files) {
+        Buffer<char> bytes;
+        PILEUS_TRY(check_file_name(file));
+        PILEUS_TRY(read_whole_file(file, kLongest, bytes));
+        parts.emplace_back();
+        PILEUS_TRY(decode_part(file, bytes.span(), parts.back()));
+        bytes = Buffer<char>();
+        PILEUS_TRY(fold_photons(parts));
+    }
+    if (parts.empty()) return Status::bad_input("FILE.part: missing, allowed: one or more");
+    return Status::ok();
+}
+
 Status write_part(const Scene& scene, const RenderOptions& options, const std::string& file) {
     Part part;
     PILEUS_TRY(render_part(scene, options, part));

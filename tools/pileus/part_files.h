@@ -7,12 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "src/session/render.h"
+#include "src/session/parts/parts.h"
 
 namespace pileus {
-
-/// Of one file.
-constexpr std::uint64_t kMostPartBytes = std::uint64_t{1} << 36;
 
 /// As typed.
 struct PartArguments {
@@ -35,6 +32,9 @@ inline bool is_part(const RenderOptions& options) { return options.part.given; }
 /// One output, whose name ends in .part, and which nothing else is.
 Status check_part_file(const std::vector<std::string>& files, const RenderOptions& options,
                        const Scene& scene);
+
+/// All of them, in their order; photons of one work are added up as they come. kBadInput: none.
+Status read_part_files(const std::vector<std::string>& files, std::vector<Part>& parts);
 
 Status write_part(const Scene& scene, const RenderOptions& options, const std::string& file);
 

@@ -6,6 +6,7 @@
 
 #include "platform/threads.h"
 #include "src/methods/registry.h"
+#include "src/plan/crop.h"
 #include "src/session/parts/parts.h"
 #include "tools/pileus/part_files.h"
 #include "tools/pileus/ranks.h"
@@ -61,8 +62,7 @@ Status share_ranks(bool has_threads, bool film, RenderOptions& options) {
 
 /// Whether light is traced until something is reached that all ranks have to know.
 bool looks_on_the_way(const Scene& scene, const RenderOptions& options) {
-    const bool by_scene = scene.path.target_error > 0 && options.budget.samples < 0;
-    return options.budget.error > 0 || options.budget.seconds > 0 || by_scene ||
+    return aims_at_error(scene, options.budget) || options.budget.seconds > 0 ||
            !options.budget.state.empty() || options.verify > 0;
 }
 

@@ -176,19 +176,6 @@ WorkShare* rank_share() {
     static RankShare share;
     return ranks().count > 1 ? &share : nullptr;
 }
-
-Status broadcast(Buffer<char>& bytes) {
-    const Ranks& r = ranks();
-    if (r.count == 1) return Status::ok();
-    std::uint64_t size = bytes.size();
-    MPI_Bcast(&size, 1, MPI_UINT64_T, 0, MPI_COMM_WORLD);
-    const Status room = r.is_first() ? Status::ok() : bytes.resize(size, "what rank 0 has read");
-    PILEUS_TRY(agree(room));
-    in_pieces(size, [&](std::uint64_t at, int count) {
-        MPI_Bcast(bytes.data() + at, count, MPI_CHAR, 0, MPI_COMM_WORLD);
-    });
-    return Status::ok();
-}
 #else
 bool has_mpi() { return false; }
 
@@ -211,7 +198,6 @@ Status gather_to_first(Span<const char> own, std::vector<Buffer<char>>& all) {
 }
 
 WorkShare* rank_share() { return nullptr; }
-Status broadcast(Buffer<char>&) { return Status::ok(); }
 #endif
 
 }  // namespace pileus

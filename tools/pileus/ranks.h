@@ -41,7 +41,4 @@ Status gather_to_first(Span<const char> own, std::vector<Buffer<char>>& all);
 /// The work of a measurement shared among the ranks; null: there is one rank.
 WorkShare* rank_share();
 
-/// What rank 0 has, everywhere.
-Status broadcast(Buffer<char>& bytes);
-
 }  // namespace pileus

@@ -48,11 +48,9 @@ Status render_tiles(const Scene& scene, const RenderOptions& options, const Outp
         const std::string json = report_json(told);
         PILEUS_TRY(write_file(outputs.report, {json.data(), json.size()}));
     }
-    if (outputs.report_printed) return print(report_json(told));
-    if (outputs.hashes.size() == 1 && outputs.hashes[0] != told.hash)
-        return Status::check_failed(fmt::format("{}: hash: differs, expected {}, got {}",
-                                                scene.file, outputs.hashes[0], told.hash));
-    return print(fmt::format("{} {}\n", told.hash, path));
+    PILEUS_TRY(print(outputs.report_printed ? report_json(told)
+                                            : fmt::format("{} {}\n", told.hash, path)));
+    return check_frame_hash(scene, outputs, options.first_frame, {told.hash});
 }
 
 }  // namespace pileus

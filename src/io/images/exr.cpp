@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// OpenEXR in memory; the only file that touches OpenEXR, whose exceptions end here.
+// OpenEXR in memory; with exr_tiles.cpp all that touches OpenEXR, whose exceptions end here.
 // in: an Image -> out: the bytes of a 32-bit float scanline ZIP file without clock or host; back.
 // OpenEXR file layout and standard attributes; docs/formats.md
 #include "src/io/images/exr_header.h"

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::size_t kBallsAtOnce = 256;
 
-/// What progress is told of.
+/// The stage whose progress is reported, the share of it that is done and that is to do.
 struct Progress {
     const char* stage;
     double from, share;

@@ -26,9 +26,7 @@ Status check_work(const Scene& scene, const RenderOptions& options) {
     };
     if (scene.clouds.present())
         return refuse("a sky of [[clouds]] has whole frames", "--frames A-B of a film");
-    if (options.budget.error > 0 || options.budget.seconds > 0 ||
-        (method_column(scene) == MethodColumn::kPath && scene.path.target_error > 0 &&
-         options.budget.samples < 0))
+    if (options.budget.seconds > 0 || aims_at_error(scene, options.budget))
         return refuse("no part knows how far the others are",
                       "a number of samples, photons or steps in place of an error or a time");
     if (!options.budget.state.empty())
@@ -218,6 +216,16 @@ std::string Part::told(const std::string& wanted) const {
     return "";
 }
 
+void note_part(const Scene& scene, const Report& report, Image& told) {
+    Image all;
+    note_origin(report, all);
+    // How much light there is, the light itself says.
+    for (auto& entry : all.origin)
+        if (entry.first != "generations" && entry.first != "samplesPerPixel")
+            told.origin.push_back(std::move(entry));
+    told.scene_text = scene.text;
+}
+
 Status render_part(const Scene& described, const RenderOptions& options, Part& out) {
     const FpModeGuard guard;
     ThreadPool threads;
@@ -253,13 +261,7 @@ Status render_part(const Scene& described, const RenderOptions& options, Part& o
     report.frame = out.frame;
     for (const auto& [name, count] : report.counters)
         out.counters.emplace_back(std::string(name), count);
-    // How many generations there were is in the light.
-    Image told;
-    note_origin(report, told);
-    for (auto& entry : told.origin)
-        if (entry.first != "generations" && entry.first != "samplesPerPixel")
-            out.rows.origin.push_back(std::move(entry));
-    out.rows.scene_text = described.text;
+    note_part(described, report, out.rows);
     return Status::ok();
 }
 

@@ -29,6 +29,9 @@ struct Part {
 /// of a picture can know, such as an error to reach.
 Status render_part(const Scene& scene, const RenderOptions& options, Part& part);
 
+/// What parts of one work have in common: the scene's text and the options of its run.
+void note_part(const Scene& scene, const Report& report, Image& told);
+
 /// A part as bytes, and back from a file that nobody vouches for. kBadInput: damaged, of another
 /// form; kLimit: out of memory.
 Status encode_part(const Part& part, Buffer<char>& bytes);
