@@ -79,11 +79,12 @@ public:
     Status gather(Span<double> values, std::uint64_t width) override {
         meet();
         for (std::uint32_t r = 0; r < part().count; ++r)
-            for (const PartRange& own : owned_runs(values.size, width, {r, part().count, true}))
+            each_owned_run(values.size, width, {r, part().count, true}, [&](const PartRange& own) {
                 in_pieces(own.end - own.begin, [&](std::uint64_t at, int count) {
                     MPI_Bcast(values.data + own.begin + at, count, MPI_DOUBLE, int(r),
                               MPI_COMM_WORLD);
                 });
+            });
         return Status::ok();
     }
     Status decide(std::uint64_t& value) override {

@@ -191,7 +191,9 @@ Status trace_run(const PathInput& in, PathParams& k, PathScratch& scratch, Film&
     const std::uint64_t band = scratch.capacity / most;
     // Pixels whose samples take several launches are finished.
     const std::function<bool()> ask = most == count ? in.ended : std::function<bool()>{};
-    for (const PartRange& own : owned_runs(pixels, std::uint64_t(film.width), in.part)) {
+    const std::uint64_t width = std::uint64_t(film.width);
+    for (PartRange own = owned_run(pixels, width, in.part, film.ahead); own.begin < own.end;
+         own = owned_run(pixels, width, in.part, own.end)) {
         if (film.ahead < own.begin) film.ahead = own.begin;
         while (film.ahead < own.end) {
             k.first_pixel = std::uint32_t(film.ahead);

@@ -20,8 +20,9 @@ Status KeptShare::sum(Span<std::int64_t> values) {
 }
 
 Status KeptShare::gather(Span<double> values, std::uint64_t width) {
-    for (const PartRange& own : owned_runs(values.size, width, part_))
+    each_owned_run(values.size, width, part_, [&](const PartRange& own) {
         rows_.insert(rows_.end(), values.data + own.begin, values.data + own.end);
+    });
     return Status::ok();
 }
 
@@ -52,15 +53,19 @@ Status ToldShare::sum(Span<std::int64_t> values) {
 
 Status ToldShare::gather(Span<double> values, std::uint64_t width) {
     rows_.resize(parts_.size(), 0);
-    for (std::size_t p = 0; p < parts_.size(); ++p)
-        for (const PartRange& own : owned_runs(values.size, width, parts_[p].part)) {
+    for (std::size_t p = 0; p < parts_.size(); ++p) {
+        const auto& rows = parts_[p].light.rows;
+        bool enough = true;
+        each_owned_run(values.size, width, parts_[p].part, [&](const PartRange& own) {
             const std::uint64_t count = own.end - own.begin;
-            if (parts_[p].light.rows.size() < rows_[p] + count) return other(parts_[p]);
-            if (count > 0)
-                std::memcpy(values.data + own.begin, parts_[p].light.rows.data() + rows_[p],
-                            std::size_t(count) * sizeof(double));
+            enough = enough && rows.size() >= rows_[p] + count;
+            if (!enough) return;
+            std::memcpy(values.data + own.begin, rows.data() + rows_[p],
+                        std::size_t(count) * sizeof(double));
             rows_[p] += count;
-        }
+        });
+        if (!enough) return other(parts_[p]);
+    }
     return Status::ok();
 }
 
