@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light that scatterings within a phase function's peak leave in its beam, from tables.
 // in: a turn, what the beam has come through -> out: its light per unit, by channel.
-// docs/methods.md 3, "The beam's peak"; src/photons/beam.h makes the tables.
+// docs/methods.md 3, "The beam's peak"; src/world/light/beam.h makes the tables.
 #pragma once
 #include "kernels_cpu/core/math.h"
 #include "kernels_cpu/display/march_params.h"

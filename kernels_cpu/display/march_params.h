@@ -119,7 +119,7 @@ struct MarchBuffers {
                                 ///< null: not wanted
     float* colour;              ///< [channel][pixel], premultiplied
     float* ray_depth;           ///< [pixel], optical depth along the ray; null: not wanted
-    const float* beam;          ///< [set][angle][depth], 1/sr; src/photons/beam.h
+    const float* beam;          ///< [set][angle][depth], 1/sr; src/world/light/beam.h
     const float* visibility;    ///< shadow nodes, share of the sun that no solid hides; null: all
     /// [node][R, G, B, optical depth to the sun] in place of `source`, and, where the shadow nodes
     /// are the same, of `optical_depth`; null: none. For three channels without bands.

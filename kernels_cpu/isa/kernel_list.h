@@ -51,6 +51,10 @@ PILEUS_RANGE(trace_paths_lamps,    PathParams,          PathBuffers,           P
 
 // Marches
 PILEUS_RANGE(raymarch_rows,        RaymarchParams,      RaymarchBuffers,       Raymarch,     Device)
+// Discrete ordinates: directions, whose nodes are swept; planes of nodes; rows of pixels.
+PILEUS_RANGE(ordinate_directions,  OrdinatesParams,     OrdinatesBuffers,      Raymarch,     Host)
+PILEUS_RANGE(ordinate_moments,     OrdinatesParams,     OrdinatesBuffers,      Raymarch,     Host)
+PILEUS_RANGE(ordinates_rows,       OrdinatesMarchParams, OrdinatesMarchBuffers, Raymarch,   Host)
 // Nodes of skylight as a camera sees it.
 PILEUS_RANGE(turn_sky,             SkyTurnParams,       SkyTurnBuffers,        Sweep,        Device)
 // Blocks of one diagonal of the sun's optical depth; those nearer the sun must be done.

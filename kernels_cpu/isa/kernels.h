@@ -10,6 +10,7 @@
 #include "kernels_cpu/display/pixel_params.h"
 #include "kernels_cpu/display/upsample_params.h"
 #include "kernels_cpu/light/sweep_params.h"
+#include "kernels_cpu/ordinates/ordinates_params.h"
 #include "kernels_cpu/particles/particle_board_params.h"
 #include "kernels_cpu/particles/particle_params.h"
 #include "kernels_cpu/path/path_params.h"

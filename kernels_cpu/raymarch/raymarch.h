@@ -11,10 +11,17 @@
 namespace pileus {
 inline namespace PILEUS_ISA {
 
-/// The whole ray from `low` to `high` metres behind the lattice's start.
-template <class T, class Field>
-PILEUS_FN void march_lattice(const RayMarch<T, Field>& r, const Lattice<T>& lattice, T low, T high,
-                             RaySum<T>& sum) {
+/// What is left to be seen by a ray.
+template <class T>
+PILEUS_FN T left_of(const RaySum<T>& sum) {
+    return sum.transmittance;
+}
+
+/// The whole ray from `low` to `high` metres behind the lattice's start. `March`: a RayMarch, or
+/// what has its field, ways, parameters and functions of panels beside it.
+template <class T, class Field, template <class, class> class March, class Sum>
+PILEUS_FN void march_lattice(const March<T, Field>& r, const Lattice<T>& lattice, T low, T high,
+                             Sum& sum) {
     const bool ends = r.k.rule >= kRuleTrapezoid;
     const float steps = float(rule_steps(r.k.rule));
     T n = to_float(to_int(lattice_step(lattice, low) * (1.0f / steps))) * steps, from = low;
@@ -69,7 +76,7 @@ PILEUS_FN void march_lattice(const RayMarch<T, Field>& r, const Lattice<T>& latt
             cut = cut & lnot(before < n) & (width > 0.0f);
             from = select(cut, to, from);
         }
-        alive = alive & (from < high) & (to < high) & (sum.transmittance >= r.k.cut);
+        alive = alive & (from < high) & (to < high) & (left_of(sum) >= r.k.cut);
         // Whole numbers end at 2^24: a ray that needs more steps is cut short.
         const auto stuck = alive & lnot(before < n) & lnot(cut);
         if (any(stuck)) r.counts[kCountCut] += count_bits(bits_of(stuck));
@@ -122,28 +129,49 @@ PILEUS_FN void store_pixels(const RaymarchParams& k, const RaymarchBuffers& b, s
     });
 }
 
+/// Rays of W pixels, a block from a column and a row on.
+template <int W>
+struct MarchedBlock {
+    I<W> x, y;  ///< pixels of the picture
+    Ray<F<W>> ray;
+    Segment<F<W>> box;
+    F<W> leave;  ///< where the march ends: behind the box, at what is opaque, or at once
+};
+template <int W, class Field>
+PILEUS_FN MarchedBlock<W> marched_block(const RaymarchParams& k, const RaymarchBuffers& b,
+                                        const Field& field, std::int32_t x, std::int32_t y,
+                                        std::int32_t end) {
+    using T = F<W>;
+    const I<W> number = iota<I<W>>();
+    const I<W> column = number % kMarchAcross<W> + x, row = number / kMarchAcross<W> + y;
+    const M<W> real = (column < k.lattice.width) & (row < end);
+    MarchedBlock<W> a;
+    a.x = column * k.lattice.every + k.lattice.first[0];
+    a.y = row * k.lattice.every + k.lattice.first[1];
+    a.ray = camera_ray(k.camera, to_float(a.x), to_float(a.y));
+    a.box = field_clip(field, a.ray);
+    a.leave = a.box.leave;
+    if (b.opaque_depth != nullptr) {
+        T opaque{};
+        for_block<W>(k.lattice, x, y, end, [&](int l, std::int64_t pixel) {
+            set_lane(opaque, l, b.opaque_depth[pixel]);
+        });
+        a.leave = min_(a.leave, opaque);
+    }
+    a.leave = select(real, a.leave, a.box.enter);
+    return a;
+}
+
 /// W marched pixels, a block from column x and row y on, in rows before `end`.
 template <int W, class Field>
 PILEUS_FN void raymarch_pixels(const RaymarchParams& k, const RaymarchBuffers& b,
                                const Field& field, std::int32_t x, std::int32_t y,
                                std::int32_t end) {
     using T = F<W>;
-    const I<W> number = iota<I<W>>();
-    const I<W> column = number % kMarchAcross<W> + x, row = number / kMarchAcross<W> + y;
-    const M<W> real = (column < k.lattice.width) & (row < end);
-    const I<W> pixel_x = column * k.lattice.every + k.lattice.first[0];
-    const I<W> pixel_y = row * k.lattice.every + k.lattice.first[1];
-    const Ray<T> ray = camera_ray(k.camera, to_float(pixel_x), to_float(pixel_y));
-    const Segment<T> box = field_clip(field, ray);
-    T leave = box.leave;
-    if (b.opaque_depth != nullptr) {
-        T opaque{};
-        for_block<W>(k.lattice, x, y, end, [&](int l, std::int64_t pixel) {
-            set_lane(opaque, l, b.opaque_depth[pixel]);
-        });
-        leave = min_(leave, opaque);
-    }
-    leave = select(real, leave, box.enter);
+    const MarchedBlock<W> at = marched_block<W>(k, b, field, x, y, end);
+    const Ray<T>& ray = at.ray;
+    const Segment<T>& box = at.box;
+    const T leave = at.leave;
     RaySum<T> sum{};
     sum.transmittance = all<T>(1.0f);
     sum.half = all<T>(__builtin_inff());
@@ -152,7 +180,7 @@ PILEUS_FN void raymarch_pixels(const RaymarchParams& k, const RaymarchBuffers& b
         const T length = max_((k.step.stretch != 0 ? leave : box.leave) - box.enter, T{});
         const Lattice<T> lattice = make_lattice(k.step, box.enter, length);
         const T before =
-            start_before<W>(k, b, pixel_x, pixel_y, along(ray, box.enter), ray.direction, lattice);
+            start_before<W>(k, b, at.x, at.y, along(ray, box.enter), ray.direction, lattice);
         const T start = box.enter - before;
         const RayMarch<T, Field> r{k,
                                    b,

@@ -23,7 +23,8 @@ flight_files(src/methods/collectors
 flight_files(src/methods/collectors/photons guided_grid reconstruct source_grid)
 flight_files(src/methods/collectors/prepare
     field_stats gradient leaf_list leaves place_collectors prepare samples shares tree variance)
-flight_files(src/methods/march march march_choice march_frame march_light march_media march_method march_units)
+flight_files(src/methods/march
+    march march_choice march_frame march_light march_media march_method march_ordinates march_units)
 flight_files(src/methods/particles board_view lamp_balls particles_light particles_method sun_tiles view_tiles)
 flight_files(src/methods/path
     path_air path_blocks path_filter path_guide path_light path_method path_show path_sky trace_paths)
@@ -31,7 +32,7 @@ flight_files(src/methods/photon_grid
     cell_shares grid_light photon_grid_choice photon_grid_method photon_grid_plan photon_grid_show)
 flight_files(src/methods/support runners)
 flight_files(src/photons
-    beam light_input lit_march photon_lights photon_method photon_counts photon_slot photon_state ring_sum
+    light_input lit_march photon_lights photon_method photon_counts photon_slot photon_state ring_sum
     scatter trace)
 flight_files(src/picture
     air_view background blue_noise finish_frame late_rows layers march_view pixels sun_disc upsample)
@@ -39,6 +40,7 @@ flight_files(src/picture/errors pixel_errors)
 flight_files(src/picture/filter features filter_error guides regression)
 flight_files(src/picture/nodes
     ground_shadow lamp_light node_grid node_rows sky_light sky_nodes sky_view sun_depth sun_slices sweep_taps)
+flight_files(src/picture/ordinates ordinate_directions ordinate_solve ordinates)
 flight_files(src/plan accumulation memory_table plan scene_limits work)
 flight_files(src/run find_kernels)
 flight_files(src/scene calendar frame_state method_column)
@@ -49,7 +51,7 @@ flight_files(src/world/camera matrices view)
 flight_files(src/world/density noise_texture sky_field)
 flight_files(src/world environment place_scene plan_parts world_digest)
 flight_files(src/world/grid field mix_weights)
-flight_files(src/world/light lamps lights sky_map sky_map_tables)
+flight_files(src/world/light beam lamps lights sky_map sky_map_tables)
 flight_files(src/world/majorant cell_majorants density_levels empty_blocks majorant majorants)
 flight_files(src/world/medium detail medium mix_media resample sky_medium transfer_media)
 flight_files(src/world/particles particle_tree)

@@ -45,7 +45,8 @@ Status make_beam_tables(const Context& context, const FrameView& view, PhotonSta
     const bool points = beam_of_points(view, state);
     if (!(peak_turn > 0) || (beam.sets > 0 && (beam.points || !points))) return Status::ok();
     const StageClock clock(context, "shadow");
-    return make_beam(view.world.medium, peak_turn, points, context.threads, Stage::kShadow, beam);
+    return make_beam(view.world.medium, peak_turn, points, BeamTurns::kAll, context.threads,
+                     Stage::kShadow, beam);
 }
 
 }  // namespace

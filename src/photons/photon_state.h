@@ -4,7 +4,6 @@
 // docs/methods.md 3, "Generations and error"; what the sums mean belongs to the method.
 #pragma once
 #include "src/methods/method.h"
-#include "src/photons/beam.h"
 #include "src/photons/ring_sum.h"
 #include "src/photons/trace.h"
 #include "src/picture/layers.h"
@@ -12,6 +11,7 @@
 #include "src/picture/nodes/lamp_light.h"
 #include "src/picture/upsample.h"
 #include "src/plan/plan.h"
+#include "src/world/light/beam.h"
 #include "src/world/world.h"
 
 namespace pileus {

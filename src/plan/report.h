@@ -104,6 +104,14 @@ struct SweepCheck {
     double mean = 0;              ///< the same, ours minus that of rays: above 0 is too bright
 };
 
+/// Light by discrete ordinates; of several colours the worst.
+struct OrdinateFigures {
+    std::uint64_t nodes = 0;  ///< 0: none
+    int iterations = 0;
+    double residual = 0;    ///< change of the mean radiance over its norm, of the last iteration
+    double node_depth = 0;  ///< largest optical depth of a node's shortest edge that counts
+};
+
 struct ErrorFigures {
     bool known = false;
     double mean_relative = 0, rmse_estimate = 0;  ///< over pixels with A > 0.02
@@ -145,6 +153,7 @@ struct Report : RunHead, PictureHead {
     CollectorCounts prepared;
     PathCounts paths;
     SweepCheck sweep;
+    OrdinateFigures ordinates;
     ErrorFigures errors;
     VerifyFigures verify;
     CloudCounts clouds;

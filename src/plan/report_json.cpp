@@ -192,14 +192,20 @@ Json frame_work_of(const PictureHead& head) {
             {"photons", work.photons}, {"light", head.light_rule}};
 }
 
-Json light_of(const SweepCheck& sweep) {
+Json light_of(const SweepCheck& sweep, const OrdinateFigures& ordinates) {
     Json difference;
     if (sweep.nodes > 0)
         difference = {{"nodes", sweep.nodes},
                       {"rms", sweep.rms},
                       {"largest", sweep.largest},
                       {"mean", sweep.mean}};
-    return {{"buffer_difference", difference}};
+    Json solved;
+    if (ordinates.nodes > 0)
+        solved = {{"nodes", ordinates.nodes},
+                  {"iterations", ordinates.iterations},
+                  {"residual", ordinates.residual},
+                  {"node_depth", ordinates.node_depth}};
+    return {{"buffer_difference", difference}, {"ordinates", solved}};
 }
 
 /// A later entry of one name replaces an earlier one.
@@ -269,7 +275,7 @@ std::string report_json(const Report& report) {
     json["energy"] = energy_of(report.photons.energy);
     json["error"] = error_of(report.errors);
     json["verify"] = verify_of(report.verify);
-    json["light"] = light_of(report.sweep);
+    json["light"] = light_of(report.sweep, report.ordinates);
     json["warnings"] = report.warnings;
     json["counters"] = object_of(report.counters);
     json["executed"] = object_of(report.executed);

@@ -2,7 +2,7 @@
 // The sun's light that stays in its beam: its tables, and pictures of peaked phase functions by it.
 // in: phase functions, small scenes -> out: shares of light, biases, the ledger as it was.
 // docs/methods.md 3, repair 6.
-#include "src/photons/beam.h"
+#include "src/world/light/beam.h"
 
 #include <doctest/doctest.h>
 
@@ -49,8 +49,8 @@ TEST_CASE("beam: all of what scatters within the peak is in the tables, for each
             CAPTURE(g);
             CAPTURE(albedo);
             Beam beam;
-            REQUIRE(make_beam(medium_of(hg(float(g)), float(albedo)), turn_of_deg(20), false, 2,
-                              Stage::kShadow, beam));
+            REQUIRE(make_beam(medium_of(hg(float(g)), float(albedo)), turn_of_deg(20), false,
+                              BeamTurns::kAll, 2, Stage::kShadow, beam));
             CHECK(beam.sets == 1);
             CHECK(beam.share > 0.05);
             CHECK(beam.share < 1);
@@ -68,7 +68,8 @@ TEST_CASE("beam: all of what scatters within the peak is in the tables, for each
 
 TEST_CASE("beam: light from a point is as much, and its angles have a third of the variance") {
     Beam beam;
-    REQUIRE(make_beam(medium_of(hg(0.97f), 1e-3f), turn_of_deg(60), true, 2, Stage::kShadow, beam));
+    REQUIRE(make_beam(medium_of(hg(0.97f), 1e-3f), turn_of_deg(60), true, BeamTurns::kAll, 2,
+                      Stage::kShadow, beam));
     const auto turns = [&](int kind) {
         double sum = 0, light = 0, last = 0, before = 0;
         for (int i = 0; i <= kBeamAngles; ++i) {
@@ -94,8 +95,8 @@ TEST_CASE("beam: peaks narrower than its degrees are spread, and light neither m
     for (const double g : {0.99, 0.997, 0.9999, 0.9999999, 1.0}) {
         CAPTURE(g);
         Beam beam;
-        REQUIRE(make_beam(medium_of(hg(float(g)), 0.9f), turn_of_deg(20), false, 2, Stage::kShadow,
-                          beam));
+        REQUIRE(make_beam(medium_of(hg(float(g)), 0.9f), turn_of_deg(20), false, BeamTurns::kAll, 2,
+                          Stage::kShadow, beam));
         CHECK(beam.share <= 1 + 1e-6);
         CHECK(beam.share > 0.95);
         for (const int depth : {1, 4, 16, 28}) {
@@ -120,8 +121,8 @@ TEST_CASE("beam: peaks narrower than its degrees are spread, and light neither m
 TEST_CASE("beam: one scattering within the peak is the phase function spread by its peak") {
     // Of HG with a window of almost all directions: HG of g spread by HG of g is HG of g squared.
     Beam beam;
-    REQUIRE(
-        make_beam(medium_of(hg(0.6f), 1e-3f), turn_of_deg(89.9), false, 1, Stage::kShadow, beam));
+    REQUIRE(make_beam(medium_of(hg(0.6f), 1e-3f), turn_of_deg(89.9), false, BeamTurns::kAll, 1,
+                      Stage::kShadow, beam));
     // Thin: tau w f is 4e-5, so that Q is tau w times the spread function, to 1e-4.
     const int depth = 1;
     const double tau = 4 * (1 / 32.0) / (1 - 1 / 32.0);

@@ -283,6 +283,35 @@ RaymarchParams raymarch_params(const RaymarchInput& in) {
     return k;
 }
 
+OrdinatesMarchParams ordinates_params(const RaymarchInput& in, const RaymarchParams& march) {
+    const OrdinateNodes& nodes = *in.ordinates;
+    const Lighting& light = *in.lighting;
+    OrdinatesMarchParams o{};
+    o.march = march;
+    o.nodes = nodes.grid;
+    o.sets = std::int32_t(nodes.sets.size());
+    o.moments = nodes.moments;
+    for (std::size_t s = 0; s < nodes.sets.size(); ++s) {
+        const OrdinateOptics& optics = nodes.optics[nodes.sets[s].channel];
+        for (std::size_t c = 0; c < 3; ++c) o.colour[s][c] = nodes.sets[s].colour[c];
+        for (int m = 0; m < kOrdinateMoments; ++m)
+            o.scatter[s][m] = optics.albedo * optics.moment[m == 0 ? 0 : m < 4 ? 1 : m < 9 ? 2 : 3];
+    }
+    o.channels = in.medium->channels > 1 ? 3 : 1;
+    o.turn = ordinate_peak();
+    o.sunlit = march.sunlit;
+    o.map = light.map;
+    o.has_ground = light.ground ? 1 : 0;
+    const Double3 ground = light.ground_radiance();
+    for (std::size_t c = 0; c < 3; ++c) {
+        o.rest[c] = nodes.optics[c].rest;
+        o.sun[c] = march.sun_source[0][c];
+        o.sky[c] = float(light.sky[c]);
+        o.ground[c] = float(ground[c]);
+    }
+    return o;
+}
+
 Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes& planes,
                         RaymarchTally& tally) {
     constexpr std::uint32_t kPiece = 4;
@@ -306,17 +335,25 @@ Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes&
     b.counts = counts.data();
     std::optional<RaymarchSkyParams> of_sky;
     if (in.layer != nullptr) of_sky = RaymarchSkyParams{k, in.layer->params};
+    std::optional<OrdinatesMarchParams> of_ordinates;
+    OrdinatesMarchBuffers ordinates{};
+    if (in.ordinates != nullptr) {
+        of_ordinates = ordinates_params(in, k);
+        ordinates = {b, in.ordinates->light.data(), in.ordinates->peak.tables.data()};
+    }
     const auto march = [&](std::int64_t piece, int) {
         const std::uint32_t begin = std::uint32_t(piece) * kPiece;
         const std::uint32_t end = begin + kPiece < rows ? begin + kPiece : rows;
-        if (in.layer != nullptr)
+        if (of_ordinates)
+            context.kernels->ordinates_rows(*of_ordinates, ordinates, begin, end);
+        else if (in.layer != nullptr)
             context.kernels->raymarch_sky_rows(*of_sky, b, begin, end);
         else if (k.medium.detail != nullptr)
             context.kernels->detail_raymarch_rows(k, b, begin, end);
         else
             context.kernels->raymarch_rows(k, b, begin, end);
     };
-    const DeviceTable* const device = context.kernels->device;
+    const DeviceTable* const device = of_ordinates ? nullptr : context.kernels->device;
     if (on_device(device))
         PILEUS_TRY(of_sky ? launch_on_device(*device, *of_sky, b, rows)
                           : launch_on_device(*device, k, b, rows));

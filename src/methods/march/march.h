@@ -7,6 +7,7 @@
 #include "src/picture/layers.h"
 #include "src/picture/nodes/sky_nodes.h"
 #include "src/picture/nodes/sun_depth.h"
+#include "src/picture/ordinates/ordinates.h"
 #include "src/run/context.h"
 #include "src/world/density/sky_field.h"
 #include "src/world/light/lights.h"
@@ -33,6 +34,7 @@ struct RaymarchInput {
     NodeGrid visibility_nodes{};
     const float* visibility = nullptr;  ///< of solid_shadow.h; null: nothing solid
     const SkyNodes* sky = nullptr;
+    const OrdinateNodes* ordinates = nullptr;  ///< in place of octaves and of sky
     const std::vector<DensityLevel>* levels = nullptr;
     const SkyField* layer = nullptr;  ///< a sky marched itself, in place of the grid
     bool march_light = false;
@@ -77,6 +79,9 @@ OctaveDepths octave_depths(const Octaves& octaves, const Medium& medium);
 
 /// Everything that a launch reads, but for the pointers to planes.
 RaymarchParams raymarch_params(const RaymarchInput& in);
+
+/// And of light by discrete ordinates, in.ordinates.
+OrdinatesMarchParams ordinates_params(const RaymarchInput& in, const RaymarchParams& march);
 
 /// Marches into the planes' transmittance, colour and what else they have room for; ends rays at
 /// their opaque depth. kLimit: out of memory.

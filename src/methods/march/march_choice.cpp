@@ -49,6 +49,11 @@ void choose_light(const FrameView& view, MarchChoice& choice) {
         choice.light_why = "light between the nodes of constant cells is not linear";
         return;
     }
+    if (s.ordinates) {
+        choice.march_light = false;
+        choice.light_why = "scattering = \"ordinates\"";
+        return;
+    }
     const double pixels = double(view.scene.camera.whole_pixels());
     const double way = 0.5 * cells_across(grid);
     const double lit = double(s.steps < 64 ? s.steps : 64) * pixels;

@@ -59,7 +59,10 @@ RaymarchInput march_input(const FrameView& view, const MarchState& state) {
     in.nodes = &light.nodes;
     in.visibility_nodes = light.visibility_nodes;
     in.visibility = light.visibility.data();
-    in.sky = &light.sky;
+    if (state.choice.settings.ordinates && !state.light.ordinates.density.empty())
+        in.ordinates = &light.ordinates;
+    else
+        in.sky = &light.sky;
     in.levels = &state.media.coarse;
     in.march_light = state.choice.march_light;
     in.noise = &state.picture.noise;

@@ -72,7 +72,7 @@ Status light_sky(const Context& context, const FrameView& view, double slack_deg
                  MarchState& state) {
     const Medium& medium = view.world.medium;
     const RaymarchSettings& settings = state.choice.settings;
-    if (!settings.sky_ambient || medium.sigma <= 0) return Status::ok();
+    if (!settings.sky_ambient || settings.ordinates || medium.sigma <= 0) return Status::ok();
     MarchLight& light = state.light;
     const CameraParams& camera = state.picture.camera;
     const SkyView sky = sky_view(view, state);
@@ -119,7 +119,8 @@ Status light_march(const Context& context, const FrameView& view, double slack_d
                    MarchState& state) {
     PILEUS_TRY(light_nodes(context, view, state));
     PILEUS_TRY(shade_by_solids(context, view, state.light));
-    return light_sky(context, view, slack_deg, state);
+    PILEUS_TRY(light_sky(context, view, slack_deg, state));
+    return state.choice.settings.ordinates ? light_ordinates(context, view, state) : Status::ok();
 }
 
 }  // namespace pileus

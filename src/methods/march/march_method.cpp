@@ -25,7 +25,7 @@ MarchMethod::MarchMethod(MarchChoice choice) { state_.choice = std::move(choice)
 
 Status MarchMethod::plan(const Context&, const FrameView& view, Plan&) {
     choose_march(view, state_.choice);
-    return Status::ok();
+    return state_.choice.settings.ordinates ? check_ordinates(view, state_.choice) : Status::ok();
 }
 
 Status MarchMethod::prepare(const Context& context, const FrameView& view) {
@@ -33,6 +33,10 @@ Status MarchMethod::prepare(const Context& context, const FrameView& view) {
     PILEUS_TRY(make_majorants(view.world.medium, false, context, media.majorants));
     media.outlined_only = false;
     PILEUS_TRY(cap_medium(view, state_));
+    const RaymarchSettings& settings = state_.choice.settings;
+    if (settings.ordinates && settings.steps > 0 && view.world.medium.sigma > 0)
+        PILEUS_TRY(
+            prepare_ordinates(context, view.world.medium, media.majorants, state_.light.ordinates));
     return make_density_levels(marched_medium(view, state_), state_.choice.levels,
                                media.majorants.skip_block, context, media.coarse);
 }
@@ -47,6 +51,7 @@ Status MarchMethod::reserve(const FrameView& view, LateRows&) {
     light.slices.reserve();
     light.ground_shadow.slices.reserve();
     if (choice.look) return Status::ok();
+    if (!light.ordinates.density.empty()) PILEUS_TRY(reserve_ordinates(light.ordinates));
     // Fewer marched pixels have fewer nodes.
     if (choice.sky_nodes)
         PILEUS_TRY(reserve_sky_light(view.world.layer.params, kMostSkyLightBits, light.sky_light));

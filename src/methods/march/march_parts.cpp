@@ -206,6 +206,7 @@ Status follow_march(const Context& context, const FrameView& view, const Raymarc
         in.lighting = &dark;
         in.settings = &own;
         in.sky = nullptr;
+        in.ordinates = nullptr;
         RaymarchTally counted;  // of the picture's own march alone
         return raymarch_picture(context, in, rays, counted);
     };

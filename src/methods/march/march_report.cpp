@@ -79,12 +79,16 @@ void note_light(const FrameView& view, const MarchChoice& choice, Plan& plan) {
         plan.need("forward scattering: approximation");
     else
         plan.leave_out("forward scattering", sun ? "scattering = \"single\"" : "no sunlight");
-    if (s.many)
+    if (s.ordinates)
+        plan.need("light scattered more than once by discrete ordinates on coarse nodes");
+    else if (s.many)
         plan.need("light scattered more than once as octaves of the first: approximation");
     else
         plan.leave_out("light scattered more than once", "scattering is not \"octaves\"");
     if (!has_sky(view.lighting) && !view.lighting.ground)
         plan.leave_out("skylight in the medium", "no sky, no ground");
+    else if (s.ordinates)
+        plan.need("skylight by discrete ordinates on coarse nodes");
     else if (s.sky_ambient)
         plan.need("skylight from 24 directions on coarse nodes: approximation");
     else
@@ -173,7 +177,16 @@ void weigh_memory(const Context& context, const FrameView& view, const MarchStat
         add(t, arrays::coarse_density(level, last));
         add(t, arrays::coarse_blocks(level, last));
     }
-    if (settings.sky_ambient) {
+    if (settings.ordinates) {
+        // By the most that may count of the extinction.
+        const std::uint64_t nodes = node_count(ordinate_grid(medium, 1));
+        const std::uint64_t sets = std::uint64_t(ordinate_sets(medium, lighting));
+        add(t, arrays::ordinate_solution(nodes, sets));
+        add(t, arrays::ordinate_light(nodes, sets, kOrdinateMoments));
+        add(t, arrays::ordinate_work(nodes));
+        add(t, arrays::beam_tables(std::uint64_t(medium.channels), Stage::kShadow));
+    }
+    if (settings.sky_ambient && !settings.ordinates) {
         const std::uint64_t nodes = node_count(sky_node_grid(medium));
         const int sets = sky_node_sets(lighting);
         const int sky_numbers =
@@ -220,6 +233,16 @@ void weigh_memory(const Context& context, const FrameView& view, const MarchStat
     plan.exact = !state.media.outlined_only;
 }
 
+void tell_ordinates(const OrdinateNodes& nodes, Report& report) {
+    OrdinateFigures& out = report.ordinates;
+    out.nodes = node_count(nodes.grid);
+    out.node_depth = nodes.depth;
+    for (const OrdinateSet& set : nodes.sets) {
+        out.iterations = set.iterations > out.iterations ? set.iterations : out.iterations;
+        out.residual = set.residual > out.residual ? set.residual : out.residual;
+    }
+}
+
 class MarchReport final : public MethodReport {
 public:
     explicit MarchReport(const MarchMethod& of) : of_(of) {}
@@ -253,6 +276,7 @@ public:
         report.executed.emplace_back("sky_light_nodes", sky_light.made);
         report.executed.emplace_back("sky_light_samples", sky_light.densities);
         report.sweep = state.light.nodes_difference;
+        if (state.choice.settings.ordinates) tell_ordinates(state.light.ordinates, report);
     }
 
     /// The steps that a time chose.

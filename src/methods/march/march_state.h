@@ -10,6 +10,7 @@
 #include "src/picture/nodes/ground_shadow.h"
 #include "src/picture/nodes/lamp_light.h"
 #include "src/picture/nodes/sky_light.h"
+#include "src/picture/ordinates/ordinates.h"
 #include "src/picture/upsample.h"
 
 namespace pileus {
@@ -54,6 +55,8 @@ struct MarchLight {
     std::array<float, 3> sky_to_sun{};  ///< the sun that the sky's nodes were made for
     CameraParams sky_camera{};          ///< and the camera
     SkyLight sky_light;
+    OrdinateNodes ordinates;
+    std::uint64_t ordinates_made = 0;  ///< times that they were solved for
     LampNodes lamps;
     GroundShadow ground_shadow;
 };
@@ -116,6 +119,11 @@ const Medium& marched_medium(const FrameView& view, const MarchState& state);
 Status cap_medium(const FrameView& view, MarchState& state);
 /// Makes the medium of the sun's cells once. kLimit: out of memory.
 Status make_lit_medium(const Context& context, const FrameView& view, MarchState& state);
+
+/// Refuses what discrete ordinates do not know, in a line.
+Status check_ordinates(const FrameView& view, const MarchChoice& choice);
+/// Solves for them where the light has changed. kLimit: out of memory.
+Status light_ordinates(const Context& context, const FrameView& view, MarchState& state);
 
 /// Skylight is scattered towards the camera, but to all sides where copies of the medium are seen,
 /// each along ways of its own, and by method optical-depth.

@@ -10,15 +10,16 @@ namespace {
 template <auto... Members>
 constexpr KeyField raymarch = field<&Scene::raymarch, Members...>;
 
-constexpr KeyField kScattering{
-    KeyKind::kChoice,
-    [](const KeySource& s) {
-        return node_of(s.scene.raymarch.many ? 2 : int(s.scene.raymarch.forward));
-    },
-    [](const KeyTarget& t, const Node& n) {
-        t.scene.raymarch.forward = n.integer == 1;
-        t.scene.raymarch.many = n.integer == 2;
-    }};
+constexpr KeyField kScattering{KeyKind::kChoice,
+                               [](const KeySource& s) {
+                                   const RaymarchSettings& r = s.scene.raymarch;
+                                   return node_of(r.ordinates ? 3 : r.many ? 2 : int(r.forward));
+                               },
+                               [](const KeyTarget& t, const Node& n) {
+                                   t.scene.raymarch.forward = n.integer == 1;
+                                   t.scene.raymarch.many = n.integer >= 2;
+                                   t.scene.raymarch.ordinates = n.integer == 3;
+                               }};
 
 constexpr KeyRow kRows[] = {
     {"raymarch.integrator", raymarch<&RaymarchSettings::integrator>,
@@ -40,9 +41,10 @@ constexpr KeyRow kRows[] = {
     {"raymarch.occlusion", raymarch<&RaymarchSettings::stretch>, one_of("cut|stretch"), "",
      "before something solid the last step ends at it, or all steps shrink, which shows "
      "its shape through opaque cloud; the latter only to compare"},
-    {"raymarch.scattering", kScattering, one_of("single|forward|octaves"), "",
+    {"raymarch.scattering", kScattering, one_of("single|forward|octaves|ordinates"), "",
      "sunlight scattered once; or what stays within a cone goes on as sunlight; or many "
-     "scatterings as weaker and weaker copies of the first"},
+     "scatterings as weaker and weaker copies of the first; or the radiance in 32 directions on "
+     "coarse nodes, solved for"},
     {"raymarch.octaves", raymarch<&RaymarchSettings::octaves>, from_to(1, 8), "",
      "scattering `octaves`: number of copies"},
     {"raymarch.octave_extinction", raymarch<&RaymarchSettings::octave_extinction>, from_to(0, 1),

@@ -2,7 +2,7 @@
 // See beam.h.
 // in: a phase function -> out: its moments within a cone and in all, sums of Legendre polynomials.
 // docs/methods.md 3, "The beam's peak".
-#include "src/photons/beam.h"
+#include "src/world/light/beam.h"
 
 #include "platform/threads.h"
 #include "src/base/angles.h"
@@ -171,12 +171,13 @@ float turn_of_deg(double deg) {
     return float(2 * half * half);
 }
 
-Status make_beam(const Medium& medium, float peak_turn, bool points, int threads, Stage first,
-                 Beam& out) {
+Status make_beam(const Medium& medium, float peak_turn, bool points, BeamTurns turns, int threads,
+                 Stage first, Beam& out) {
     const int sets = medium.channels, kinds = points ? 2 : 1;
     PILEUS_TRY(allocate_once(arrays::beam_tables(std::uint64_t(kinds * sets), first), out.tables));
     const Optics& optics = medium.optics[0];
-    const Moments m = moments_of(optics.phase, double(peak_turn));
+    Moments m = moments_of(optics.phase, double(peak_turn));
+    if (turns == BeamTurns::kPeak) m.all = m.kept;
     const std::vector<double> of_point = point_moments(m);
     out.share = m.kept[0];
     for (int s = 0; s < 3; ++s) {

@@ -4,7 +4,6 @@
 // docs/methods.md 3, "The beam's peak": small-angle scattering, Goudsmit and Saunderson (1940).
 #pragma once
 #include "kernels_cpu/display/march_params.h"
-#include "src/photons/trace.h"
 #include "src/world/medium/medium.h"
 
 namespace pileus {
@@ -38,9 +37,13 @@ inline Array<float> beam_tables(std::uint64_t sets, Stage first) {
 /// 1 - cos of an angle in degrees.
 float turn_of_deg(double deg);
 
+/// Which scatterings out of the beam a table has: all, or those within the peak alone, where p is
+/// p within the cone and chi_l = c_l.
+enum class BeamTurns { kAll, kPeak };
+
 /// Tables for the one medium there is, and a cone by its 1 - cos; `points`: those of points, too.
 /// kLimit: out of memory.
-Status make_beam(const Medium& medium, float peak_turn, bool points, int threads, Stage first,
-                 Beam& out);
+Status make_beam(const Medium& medium, float peak_turn, bool points, BeamTurns turns, int threads,
+                 Stage first, Beam& out);
 
 }  // namespace pileus

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the kernels of discrete ordinates need: plain structs and pointers.
+// in: nodes over a medium's box, directions, light at its faces -> out: the layout of a launch.
+// docs/ordinates.md
+#pragma once
+#include "kernels_cpu/light/sky_map.h"
+#include "kernels_cpu/raymarch/raymarch_params.h"
+
+namespace pileus {
+
+constexpr int kOrdinates = 32;        ///< double Gauss in height, 2 + 2, times 8 azimuths
+constexpr int kOrdinateMoments = 16;  ///< spherical harmonics up to degree 3
+constexpr int kOrdinateClasses = 6;   ///< lengths of ways through a node, at most
+
+/// How one direction goes through the nodes: slice by slice along `axis`. Rows of a slice run along
+/// `along`, which is x but for slices along x.
+struct OrdinateSweep {
+    std::int32_t axis, along, across;
+    std::int32_t up;       ///< 1: from the first slice to the last
+    std::int32_t base[2];  ///< nodes back along `along` and `across`, whole part; >= 0 if periodic
+    float weight[2][2];    ///< of the slice before: [across][along]
+    std::int32_t length;   ///< which class of ways
+};
+
+struct OrdinatesParams {
+    std::int32_t size[3];  ///< nodes
+    std::int32_t periodic;
+    OrdinateSweep sweep[kOrdinates];
+    float harmonic[kOrdinates][kOrdinateMoments];  ///< of its direction
+    float weight[kOrdinates];                      ///< solid angle, sr; 4 pi in all
+    float scatter[kOrdinateMoments];  ///< albedo times the phase function's moment, both scaled
+    float beam[kOrdinates];           ///< share of a beam's light scattered there, 1/sr
+    float enters[kOrdinates];         ///< radiance at the faces
+};
+
+struct OrdinatesBuffers {
+    const float* pass;  ///< [class][node]: e^-t of the way through a node
+    const float* mean;  ///< [class][node]: (1 - e^-t) / t
+    const float* beam;  ///< [node]: irradiance of the beam; null: none
+    float* radiance;    ///< [direction][node]: source, then mean radiance of the node
+    float* moments;     ///< [moment][node]
+    float* slices;      ///< of one thread: ordinate_slice_floats
+};
+
+/// Floats of a row of a slice with what lies beyond its ends, and of two slices.
+inline std::int64_t ordinate_row(const OrdinatesParams& k, const OrdinateSweep& s) {
+    const std::int64_t n = k.size[s.along];
+    return k.periodic != 0 ? 2 * n + 1 : n + 2;
+}
+inline std::int64_t ordinate_slice_floats(const OrdinatesParams& k, const OrdinateSweep& s) {
+    return 2 * ordinate_row(k, s) * (k.size[s.across] + 2);
+}
+
+/// What a march reads of them.
+struct OrdinatesMarchParams {
+    RaymarchParams march;
+    NodeGrid nodes;
+    std::int32_t sets;     ///< of light, each of one colour
+    std::int32_t moments;  ///< 1: radiance towards the camera; kOrdinateMoments: by direction
+    float colour[3][3];    ///< R G B of each set
+    float scatter[3][kOrdinateMoments];  ///< of each set; moments = kOrdinateMoments
+    std::int32_t channels;               ///< 1, or 3 where they absorb differently
+    float rest[3];  ///< 1 - albedo times the peak's share: of extinction that counts
+    float turn;     ///< 1 - cos of the peak's width
+    std::int32_t sunlit;
+    float sun[3];     ///< irradiance times albedo
+    float sky[3];     ///< radiance behind the medium
+    SkyMapView map;   ///< or of a map
+    float ground[3];  ///< of rays that go down
+    std::int32_t has_ground;
+};
+struct OrdinatesMarchBuffers {
+    RaymarchBuffers march;
+    const float* light;  ///< [set][moment][node]
+    const float* beam;   ///< tables of beam.h, [channel]
+};
+
+}  // namespace pileus

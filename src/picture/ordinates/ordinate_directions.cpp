@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+// Directions of discrete ordinates, their ways through nodes, and what enters along them.
+// in: nodes, lights -> out: OrdinateSweep, OrdinateSet.
+// docs/ordinates.md, "Directions"
+#include "kernels_cpu/core/math.h"
+#include "kernels_cpu/light/sky_map.h"
+#include "src/base/angles.h"
+#include "src/picture/ordinates/ordinates.h"
+
+namespace pileus {
+namespace {
+
+constexpr double kSphere = 4 * 3.14159265358979323846;
+/// Gauss's two points on [0, 1], of equal weight.
+constexpr double kHeight[2] = {0.21132486540518711775, 0.78867513459481288225};
+constexpr int kAzimuths = 8;
+constexpr int kWithin = 8;  // radiances of a map are means of so many squared
+
+struct Height {
+    bool up;
+    int number;
+};
+Height height_of(int j) {
+    const int h = j / kAzimuths;
+    return {h >= 2, h % 2};
+}
+
+/// Where light of a direction comes from: the map's mean over its part of the sphere.
+std::array<double, 3> seen_in_map(const SkyMapView& map, int j) {
+    const Height h = height_of(j);
+    std::array<double, 3> sum{};
+    for (int i = 0; i < kWithin; ++i)
+        for (int a = 0; a < kWithin; ++a) {
+            const double z = 0.5 * (h.number + (i + 0.5) / kWithin);
+            const double r = __builtin_sqrt(1 - z * z);
+            const SineCosine at =
+                sincos_deg(360.0 / kAzimuths * (j % kAzimuths + (a + 0.5) / kWithin));
+            // Against the way of light.
+            const Vec<float> d{float(-r * at.cosine), float(-r * at.sine), float(h.up ? -z : z)};
+            const Vec<float> seen = map_radiance(map, d);
+            sum[0] += double(seen.x), sum[1] += double(seen.y), sum[2] += double(seen.z);
+        }
+    for (double& s : sum) s /= kWithin * kWithin;
+    return sum;
+}
+
+bool any_light(const Double3& c) { return c.x > 0 || c.y > 0 || c.z > 0; }
+
+}  // namespace
+
+std::array<double, 3> ordinate_direction(int j) {
+    const Height h = height_of(j);
+    const double z = kHeight[h.number], r = __builtin_sqrt(1 - z * z);
+    const SineCosine at = sincos_deg(360.0 / kAzimuths * (j % kAzimuths + 0.5));
+    return {r * at.cosine, r * at.sine, h.up ? z : -z};
+}
+
+double ordinate_weight(int) { return kSphere / kOrdinates; }
+
+void set_ordinate_sweeps(const NodeGrid& grid, bool periodic, double (&length_m)[kOrdinateClasses],
+                         OrdinatesParams& k) {
+    int classes = 0;
+    for (int j = 0; j < kOrdinates; ++j) {
+        const std::array<double, 3> d = ordinate_direction(j);
+        OrdinateSweep& s = k.sweep[j];
+        double step[3];  // nodes that the direction crosses in a metre, along each axis
+        for (std::size_t a = 0; a < 3; ++a)
+            step[a] = (d[a] < 0 ? -d[a] : d[a]) * double(grid.per_metre[a]);
+        s.axis = 2;
+        for (int a = 0; a < 2 && !periodic; ++a)
+            if (step[a] > step[s.axis]) s.axis = a;
+        s.along = s.axis == 0 ? 1 : 0;
+        s.across = s.axis == 2 ? 1 : 2;
+        s.up = d[std::size_t(s.axis)] > 0 ? 1 : 0;
+        double share[2];
+        for (int i = 0; i < 2; ++i) {
+            const int a = i == 0 ? s.along : s.across;
+            double back = step[a] / step[s.axis];
+            if (d[std::size_t(a)] > 0) back = -back;
+            // Copies of a periodic medium are alike.
+            const int n = k.size[a];
+            if (periodic) {
+                back -= double(std::int64_t(back / n)) * n;
+                if (back < 0) back += n;
+            }
+            int whole = int(back + 2) - 2;
+            if (periodic && whole >= n) whole = n - 1;
+            if (!periodic && whole > 0) whole = 0;
+            s.base[i] = whole;
+            share[i] = back - whole;
+        }
+        for (int y = 0; y < 2; ++y)
+            for (int x = 0; x < 2; ++x)
+                s.weight[y][x] =
+                    float((x == 1 ? share[0] : 1 - share[0]) * (y == 1 ? share[1] : 1 - share[1]));
+        const double length = 1 / step[s.axis];
+        s.length = -1;
+        for (int c = 0; c < classes; ++c) {
+            const double off = length_m[c] / length - 1;
+            if (off < 1e-6 && off > -1e-6) s.length = c;
+        }
+        if (s.length >= 0) continue;
+        s.length = classes;
+        length_m[classes++] = length;
+    }
+    for (; classes < kOrdinateClasses; ++classes) length_m[classes] = 0;
+}
+
+int ordinate_sets(const Medium& medium, const Lighting& light) {
+    if (light.map.columns > 0 || medium.channels > 1) return 3;
+    return int(light.sunlit) + int(any_light(light.sky)) +
+           int(light.ground && any_light(light.ground_radiance()));
+}
+
+void set_ordinate_lights(const Medium& medium, const Lighting& light,
+                         std::vector<OrdinateSet>& out) {
+    out.clear();
+    const Double3 ground = light.ground_radiance();
+    const Double3 sun = light.sunlit ? light.sun_irradiance : Double3{};
+    const bool map = light.map.columns > 0;
+    if (map || medium.channels > 1) {
+        std::array<std::array<double, 3>, kOrdinates> enters{};
+        for (int j = 0; j < kOrdinates; ++j) {
+            const bool down = light.ground && height_of(j).up;
+            if (map && !down) enters[std::size_t(j)] = seen_in_map(light.map, j);
+            for (std::size_t c = 0; c < 3 && (down || !map); ++c)
+                enters[std::size_t(j)][c] = down ? ground[c] : light.sky[c];
+        }
+        for (std::size_t c = 0; c < 3; ++c) {
+            OrdinateSet set;
+            set.colour[c] = 1;
+            set.channel = int(c);
+            set.beam = float(sun[c]);
+            for (std::size_t j = 0; j < kOrdinates; ++j) set.enters[j] = float(enters[j][c]);
+            out.push_back(set);
+        }
+        return;
+    }
+    const auto add = [&](const Double3& colour, float beam, float from_sky, float from_below) {
+        OrdinateSet set;
+        for (std::size_t c = 0; c < 3; ++c) set.colour[c] = float(colour[c]);
+        set.beam = beam;
+        for (int j = 0; j < kOrdinates; ++j)
+            set.enters[std::size_t(j)] = height_of(j).up ? from_below : from_sky;
+        out.push_back(set);
+    };
+    if (light.sunlit) add(light.sun_irradiance, 1, 0, 0);
+    if (any_light(light.sky)) add(light.sky, 0, 1, light.ground ? 0 : 1);
+    if (light.ground && any_light(ground)) add(ground, 0, 0, 1);
+}
+
+}  // namespace pileus

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light scattered any number of times, by discrete ordinates on coarse nodes: no noise.
+// in: a medium, sun, sky and ground -> out: its radiance towards a camera on nodes.
+// docs/ordinates.md; Evans 1998 (SHDOM), Wiscombe 1977 (the peak apart).
+#pragma once
+#include <array>
+
+#include "kernels_cpu/ordinates/ordinates_params.h"
+#include "src/picture/nodes/node_grid.h"
+#include "src/plan/array.h"
+#include "src/run/context.h"
+#include "src/world/light/beam.h"
+#include "src/world/light/lights.h"
+#include "src/world/majorant/majorants.h"
+
+namespace pileus {
+
+/// Iterations that are mixed, and moments that are: degrees 0 and 1, which change last.
+constexpr int kMixed = 5;
+constexpr std::size_t kSlow = 4;
+
+/// How a medium scatters once turns within the peak of its phase function no longer count: its
+/// extinction is `rest` of what it was, of a channel.
+struct OrdinateOptics {
+    float rest = 1;
+    float albedo = 1;
+    float moment[4] = {1, 0, 0, 0};  ///< degrees 0..3, such that no light is negative
+};
+
+/// Light of one colour that enters, and its solution.
+struct OrdinateSet {
+    std::array<float, 3> colour{};
+    std::array<float, kOrdinates> enters{};  ///< radiance by direction
+    float beam = 0;                          ///< of the sun's irradiance
+    int channel = 0;                         ///< whose optics
+    int iterations = 0;
+    double residual = 0;  ///< of the mean radiance, the last iteration's change over its norm
+};
+
+struct OrdinateNodes {
+    NodeGrid grid{};
+    Beam peak;  ///< of the sun's light, turned within the peak
+    OrdinateOptics optics[3];
+    double depth = 0;  ///< largest optical depth of a node's shortest edge that counts
+    std::vector<OrdinateSet> sets;
+    int moments = 0;         ///< 1: towards the camera; or all
+    Buffer<float> density;   ///< [node]
+    Buffer<float> samples;   ///< of the density, within nodes
+    Buffer<float> solution;  ///< [set][moment][node]
+    Buffer<float> light;     ///< [set][moment][node], as the march reads it
+};
+
+/// 1 - cos of the width of what counts as the peak of a phase function.
+float ordinate_peak();
+
+/// Nodes over a medium: so near that extinction that counts is below one a node, where their number
+/// allows that.
+NodeGrid ordinate_grid(const Medium& medium, double rest);
+
+namespace arrays {
+
+inline Array<float> ordinate_solution(std::uint64_t nodes, std::uint64_t sets) {
+    return {"ordinates: moments on nodes", bytes_of(sets * kOrdinateMoments, nodes), Stage::kShadow,
+            Stage::kWrite};
+}
+inline Array<float> ordinate_light(std::uint64_t nodes, std::uint64_t sets, int moments) {
+    return {"ordinates: light on nodes", bytes_of(sets * std::uint64_t(moments), nodes),
+            Stage::kShadow, Stage::kWrite};
+}
+/// Radiance by direction, factors of ways, the beam, and what iterations are mixed of.
+inline Array<float> ordinate_work(std::uint64_t nodes) {
+    return {
+        "ordinates: one solution at work",
+        bytes_of(kOrdinates + 2 * kOrdinateClasses + 2 * kSlow + kMixed * (kSlow + 1) + 1, nodes),
+        Stage::kShadow, Stage::kShadow};
+}
+
+}  // namespace arrays
+
+/// Optics of the one medium there is; f: the peak's share.
+OrdinateOptics ordinate_optics(const Optics& optics, int channel, double f);
+
+/// Radiances that enter, by light or, where channels differ, by channel.
+void set_ordinate_lights(const Medium& medium, const Lighting& lighting,
+                         std::vector<OrdinateSet>& out);
+/// Their number.
+int ordinate_sets(const Medium& medium, const Lighting& lighting);
+
+/// Unit vector of the way of light in a direction, and its solid angle.
+std::array<double, 3> ordinate_direction(int j);
+double ordinate_weight(int j);
+
+/// Ways of all directions through nodes of such a size.
+void set_ordinate_sweeps(const NodeGrid& grid, bool periodic, double (&length_m)[kOrdinateClasses],
+                         OrdinatesParams& k);
+
+/// Most sets of light that there are at once.
+constexpr std::size_t kMostOrdinateSets = 3;
+
+/// Nodes and what lies in them, which no light changes. kLimit: out of memory.
+Status prepare_ordinates(const Context& context, const Medium& medium, const Majorants& majorants,
+                         OrdinateNodes& out);
+/// Memory for any lights and cameras, so that frames keep none. kLimit: out of memory.
+Status reserve_ordinates(OrdinateNodes& out);
+
+/// Solves for the lights there are. The nodes are prepared. kLimit: out of memory.
+Status make_ordinates(const Context& context, const Medium& medium, const Majorants& majorants,
+                      const Lighting& lighting, OrdinateNodes& out);
+
+/// Light as the march of a camera reads it. kLimit: out of memory.
+Status turn_ordinates(const Context& context, const Medium& medium, const CameraParams& camera,
+                      OrdinateNodes& nodes);
+
+}  // namespace pileus
