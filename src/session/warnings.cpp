@@ -21,7 +21,8 @@ constexpr Accident kAccidents[] = {
     {"rays_cut", "rays given up before their end, so that the medium's far side is missing"},
 };
 
-/// Whether the picture has an alpha and it is 0 everywhere.
+}  // namespace
+
 bool shows_nothing(const Image& image) {
     const Channel* alpha = image.find("A");
     if (alpha == nullptr) return false;
@@ -30,8 +31,6 @@ bool shows_nothing(const Image& image) {
     return true;
 }
 
-}  // namespace
-
 Span<const Accident> accidents() { return {kAccidents, sizeof kAccidents / sizeof kAccidents[0]}; }
 
 std::string accident_line(const Accident& accident, std::uint64_t times) {
@@ -39,7 +38,7 @@ std::string accident_line(const Accident& accident, std::uint64_t times) {
            accident.meaning;
 }
 
-void find_warnings(const Scene& scene, const Image& image, Report& report) {
+void find_warnings(const Scene& scene, const Image& image, Report& report, bool seen) {
     report.warnings.clear();
     for (const auto& counter : report.counters)
         for (const Accident& accident : accidents())
@@ -51,7 +50,7 @@ void find_warnings(const Scene& scene, const Image& image, Report& report) {
                                   "\"error\", " +
                                   report.errors.of +
                                   " (more than one of path.samples_per_pixel or of generations)");
-    if (!scene.media.empty() && shows_nothing(image))
+    if (!scene.media.empty() && !seen && shows_nothing(image))
         report.warnings.push_back(
             scene.file +
             ": no ray meets the medium, or it is too thin to be seen: does the camera look at its "

@@ -24,8 +24,11 @@ Span<const Accident> accidents();
 std::string accident_line(const Accident& accident, std::uint64_t times);
 
 /// Sets report.warnings: one line for each accident that happened, and one where a scene has media
-/// that no pixel shows.
-void find_warnings(const Scene& scene, const Image& image, Report& report);
+/// that no pixel shows. `seen`: another part of the picture shows them.
+void find_warnings(const Scene& scene, const Image& image, Report& report, bool seen = false);
+
+/// Whether the picture has an alpha and it is 0 everywhere.
+bool shows_nothing(const Image& image);
 
 /// Adds a line where cells of scattered light, `cell_m` along their shortest edge, are so thick
 /// that it is far off.

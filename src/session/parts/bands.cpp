@@ -63,6 +63,7 @@ Status render_bands(const Scene& described, const RenderOptions& options, int ro
     Report& report = session.report();
     std::map<std::string_view, std::uint64_t> counts;
     Digest hash;
+    bool seen = false;
     for (int y = 0; y < height; y += rows) {
         Camera camera = described.camera;
         shown = band_window(described, y, std::min(rows, height - y), camera);
@@ -73,6 +74,7 @@ Status render_bands(const Scene& described, const RenderOptions& options, int ro
         for (const auto& [name, count] : report.counters) counts[name] += count;
         PILEUS_TRY(cut_image(session.camera(), shown, band));
         add_pixels(band, hash);
+        seen = seen || !shows_nothing(band);
         if (session.context().interrupted && session.context().interrupted() && !last)
             return {Code::kCheckFailed,
                     "interrupted before the picture was whole; no file written"};
@@ -85,7 +87,7 @@ Status render_bands(const Scene& described, const RenderOptions& options, int ro
             report.hash = hash.hex();
             report.digests = {{"image", report.hash}};
             report.errors = {};
-            find_warnings(scene, band, report);
+            find_warnings(scene, band, report, seen);
         }
         report.frame = frame;
         note_origin(report, band);
