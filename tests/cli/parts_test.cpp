@@ -180,6 +180,13 @@ TEST_CASE("ranks: the hash of one process, whatever their number") {
             CHECK(hash_of(folder.run(run, ranks(count))) == whole);
         }
     }
+    // One band of eight rows, of which most ranks have none.
+    for (const char* method : {"path --budget samples=2", "raymarch"}) {
+        const std::string run =
+            std::string("render s.toml -q -o w.exr --set camera.resolution=[12,7] ") +
+            "--set method.name=" + method;
+        CHECK(hash_of(folder.run(run, ranks(5))) == hash_of(folder.run(run)));
+    }
     // What all ranks have to know on the way.
     for (const char* more : {"--set method.name=path --budget error=0.2",
                              "--set method.name=path --budget samples=2 --verify 20",
@@ -210,7 +217,10 @@ TEST_CASE("ranks: the hash of one process, whatever their number") {
     CHECK(sorted(folder.run(film, ranks(2)).output) == sorted(folder.run(film).output));
     const std::vector<std::string> before = folder.left();
     for (const char* bad :
-         {"render none.toml -o a.exr", "render s.toml -o a.exr --part 1/2",
+         {"render none.toml -o a.exr",
+          "render s.toml -o a.pfm --set animation.frames=2 --set "
+          "animation.sun_elevation_deg=[20,60]",
+          "render s.toml -o a.exr --part 1/2",
           "render s.toml -o a.exr --set method.name=raymarch --budget seconds=1"}) {
         CAPTURE(bad);
         const Outcome outcome = folder.run(bad, ranks(3) + " -q");
