@@ -178,12 +178,17 @@ void weigh_memory(const Context& context, const FrameView& view, const MarchStat
         add(t, arrays::coarse_blocks(level, last));
     }
     if (settings.ordinates) {
-        // By the most that may count of the extinction.
-        const std::uint64_t nodes = node_count(ordinate_grid(medium, 1));
+        const std::uint64_t nodes = most_ordinate_nodes(medium);
+        const std::uint64_t samples = most_ordinate_samples(medium);
         const std::uint64_t sets = std::uint64_t(ordinate_sets(medium, lighting));
         add(t, arrays::ordinate_solution(nodes, sets));
         add(t, arrays::ordinate_light(nodes, sets, kOrdinateMoments));
         add(t, arrays::ordinate_work(nodes));
+        add(t, arrays::ordinate_densities(samples));
+        add(t, arrays::ordinate_depths(lighting.sunlit ? samples : 0));
+        add(t, arrays::ordinate_nodes(nodes, Stage::kWrite));
+        add(t, renamed(arrays::ordinate_nodes(nodes, Stage::kShadow), "ordinates: numbers at work",
+                       Stage::kShadow, Stage::kShadow));
         add(t, arrays::beam_tables(std::uint64_t(medium.channels), Stage::kShadow));
     }
     if (settings.sky_ambient && !settings.ordinates) {

@@ -17,7 +17,6 @@ namespace pileus {
 namespace {
 
 constexpr double kPeakDeg = 20;
-constexpr double kNodeBudget = 40000;
 constexpr double kFewest = 32;  // nodes along an axis that optical depth may ask for
 constexpr float kLeastRest = 1e-6f;
 
@@ -27,7 +26,8 @@ std::array<int, 3> samples_within(const NodeGrid& grid, const Medium& medium) {
     for (int a = 0; a < 3; ++a) {
         const double voxels = 1 / (double(grid.per_metre[a]) * double(medium.grid.cell_m[a]));
         const int needed = int(0.5 * voxels + 0.999);
-        out[std::size_t(a)] = voxels <= 1.01 ? 1 : std::min(std::max(needed, 2), 8);
+        out[std::size_t(a)] =
+            voxels <= 1.01 ? 1 : std::min(std::max(needed, 2), kMostOrdinateSamples);
     }
     return out;
 }
@@ -60,8 +60,8 @@ Status sample_density(const Context& context, const Medium& medium, const Majora
                       OrdinateNodes& out) {
     const std::array<int, 3> within = samples_within(out.grid, medium);
     const NodeGrid fine = sample_grid(out.grid, within);
-    PILEUS_TRY(out.samples.resize(node_count(fine), "ordinates: density within nodes"));
-    PILEUS_TRY(out.density.resize(node_count(out.grid), "ordinates: density of nodes"));
+    PILEUS_TRY(allocate(arrays::ordinate_densities(node_count(fine)), out.samples));
+    PILEUS_TRY(allocate(arrays::ordinate_nodes(node_count(out.grid), Stage::kWrite), out.density));
     MediumView view = make_medium_view(medium, majorants);
     view.detail = nullptr;
     const std::size_t nx = std::size_t(fine.size[0]), ny = std::size_t(fine.size[1]);
@@ -84,7 +84,7 @@ Status sample_density(const Context& context, const Medium& medium, const Majora
 /// Optical depths towards the sun from all samples.
 Status sample_sun(const Context& context, const Medium& medium, const Majorants& majorants,
                   const Lighting& lighting, const NodeGrid& fine, Buffer<float>& depths) {
-    PILEUS_TRY(depths.resize(node_count(fine), "ordinates: sunlight within nodes"));
+    PILEUS_TRY(allocate(arrays::ordinate_depths(node_count(fine)), depths));
     ShadowParams k{};
     k.medium = make_medium_view(medium, majorants);
     k.medium.detail = nullptr;
@@ -193,14 +193,32 @@ NodeGrid ordinate_grid(const Medium& medium, double rest) {
         return std::min(std::max(medium.extent_m[a] / spacing, fewest[a]), most[a]);
     };
     // The fewest are within the budget, so this ends.
-    static_assert(kFewest * kFewest * kFewest <= kNodeBudget, "the fewest nodes are too many");
-    while (along(0) * along(1) * along(2) > kNodeBudget) spacing *= 1.0625;
+    static_assert(kFewest * kFewest * kFewest <= kMostOrdinateNodes,
+                  "the fewest nodes are too many");
+    while (along(0) * along(1) * along(2) > kMostOrdinateNodes) spacing *= 1.0625;
     NodeGrid g{};
     for (int a = 0; a < 3; ++a) {
         g.size[a] = std::max(1, int(along(a)));
         g.per_metre[a] = float(g.size[a] / medium.extent_m[a]);
     }
     return g;
+}
+
+NodeGrid ordinate_samples(const NodeGrid& grid, const Medium& medium) {
+    return sample_grid(grid, samples_within(grid, medium));
+}
+
+std::uint64_t most_ordinate_nodes(const Medium& medium) {
+    const NodeGrid all = ordinate_grid(medium, 1), none = ordinate_grid(medium, 0);
+    for (int a = 0; a < 3; ++a)
+        if (all.size[a] != none.size[a]) return std::uint64_t(kMostOrdinateNodes);
+    return node_count(all);
+}
+
+std::uint64_t most_ordinate_samples(const Medium& medium) {
+    const std::uint64_t all = node_count(ordinate_samples(ordinate_grid(medium, 1), medium));
+    const std::uint64_t none = node_count(ordinate_samples(ordinate_grid(medium, 0), medium));
+    return all > none ? all : none;
 }
 
 OrdinateOptics ordinate_optics(const Optics& optics, int channel, double f) {
@@ -262,8 +280,8 @@ Status make_ordinates(const Context& context, const Medium& medium, const Majora
     for (const OrdinateSet& set : out.sets) shines |= set.beam > 0;
     if (shines) {
         PILEUS_TRY(sample_sun(context, medium, majorants, lighting,
-                              sample_grid(out.grid, samples_within(out.grid, medium)), depths));
-        PILEUS_TRY(beam.resize(nodes, "ordinates: sunlight on nodes"));
+                              ordinate_samples(out.grid, medium), depths));
+        PILEUS_TRY(allocate(arrays::ordinate_nodes(nodes, Stage::kShadow), beam));
     }
     OrdinateSolver solver;
     for (std::size_t s = 0; s < out.sets.size(); ++s) {
@@ -286,7 +304,7 @@ Status turn_ordinates(const Context& context, const Medium& medium, const Camera
     PILEUS_TRY(hold(arrays::ordinate_light(nodes, out.sets.size(), out.moments), out.light));
     const bool periodic = medium.grid.periodic;
     Buffer<float> own;
-    if (turned) PILEUS_TRY(own.resize(nodes, "ordinates: light on nodes"));
+    if (turned) PILEUS_TRY(allocate(arrays::ordinate_nodes(nodes, Stage::kShadow), own));
     const std::size_t nx = std::size_t(out.grid.size[0]), ny = std::size_t(out.grid.size[1]);
     for (std::size_t s = 0; s < out.sets.size(); ++s) {
         const float* from = out.solution.data() + s * nodes * kOrdinateMoments;

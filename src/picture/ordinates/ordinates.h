@@ -53,9 +53,20 @@ struct OrdinateNodes {
 /// 1 - cos of the width of what counts as the peak of a phase function.
 float ordinate_peak();
 
+/// Most nodes that there are, and most samples of the density within one, along each axis.
+constexpr double kMostOrdinateNodes = 40000;
+constexpr int kMostOrdinateSamples = 4;
+
 /// Nodes over a medium: so near that extinction that counts is below one a node, where their number
 /// allows that.
 NodeGrid ordinate_grid(const Medium& medium, double rest);
+
+/// Samples of the density within nodes, so near that they see every voxel where few enough do.
+NodeGrid ordinate_samples(const NodeGrid& grid, const Medium& medium);
+
+/// No fewer nodes than any phase function brings, and samples within them.
+std::uint64_t most_ordinate_nodes(const Medium& medium);
+std::uint64_t most_ordinate_samples(const Medium& medium);
 
 namespace arrays {
 
@@ -66,6 +77,17 @@ inline Array<float> ordinate_solution(std::uint64_t nodes, std::uint64_t sets) {
 inline Array<float> ordinate_light(std::uint64_t nodes, std::uint64_t sets, int moments) {
     return {"ordinates: light on nodes", bytes_of(sets * std::uint64_t(moments), nodes),
             Stage::kShadow, Stage::kWrite};
+}
+/// Densities, which stay, or depths towards the sun.
+inline Array<float> ordinate_densities(std::uint64_t samples) {
+    return {"ordinates: density within nodes", samples, Stage::kShadow, Stage::kWrite};
+}
+inline Array<float> ordinate_depths(std::uint64_t samples) {
+    return {"ordinates: sunlight within nodes", samples, Stage::kShadow, Stage::kShadow};
+}
+/// Of whole nodes: densities, which stay, or the beam, or light before it is spread.
+inline Array<float> ordinate_nodes(std::uint64_t nodes, Stage last) {
+    return {"ordinates: numbers of nodes", nodes, Stage::kShadow, last};
 }
 /// Radiance by direction, factors of ways, the beam, and what iterations are mixed of.
 inline Array<float> ordinate_work(std::uint64_t nodes) {
