@@ -171,21 +171,18 @@ PILEUS_FN void ordinates_pixels(const OrdinatesMarchParams& o, const OrdinatesMa
     for (int c = 0; c < 3; ++c) sum.thin[c] = all<T>(1.0f);
     if (k.step.most > 0 && any(at.box.enter < at.leave)) {
         const Vec<T> d = at.ray.direction;
-        const T length = max_((k.step.stretch != 0 ? at.leave : at.box.leave) - at.box.enter, T{});
-        const Lattice<T> lattice = make_lattice(k.step, at.box.enter, length);
-        const T before = start_before<W>(k, b, at.x, at.y, along(at.ray, at.box.enter), d, lattice);
-        const T start = at.box.enter - before;
+        const MarchStart<T> from = march_start<W>(k, b, at);
         const OrdinatesMarch<T, Field> r{o,
                                          n,
                                          k,
                                          b,
                                          field,
-                                         along(at.ray, start),
+                                         along(at.ray, from.start),
                                          d,
-                                         start,
+                                         from.start,
                                          b.counts + std::int64_t(y) * kRaymarchCounts,
                                          ordinates_ray(o, d)};
-        march_lattice(r, lattice, before, at.leave - start, sum);
+        march_lattice(r, from.lattice, from.before, at.leave - from.start, sum);
         add_behind(o, d, sum);
     }
     store_pixels<W>(k, b, x, y, end, sum.ray);

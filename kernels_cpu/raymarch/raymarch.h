@@ -162,6 +162,27 @@ PILEUS_FN MarchedBlock<W> marched_block(const RaymarchParams& k, const RaymarchB
     return a;
 }
 
+/// Where a ray's march begins: its lattice, m from the camera to the lattice's start, and from
+/// there to the medium.
+template <class T>
+struct MarchStart {
+    Lattice<T> lattice;
+    T start, before;
+};
+template <int W>
+PILEUS_FN MarchStart<F<W>> march_start(const RaymarchParams& k, const RaymarchBuffers& b,
+                                       const MarchedBlock<W>& at) {
+    using T = F<W>;
+    MarchStart<T> s;
+    // The lattice knows nothing of what stands behind, unless it should (4.1).
+    const T length = max_((k.step.stretch != 0 ? at.leave : at.box.leave) - at.box.enter, T{});
+    s.lattice = make_lattice(k.step, at.box.enter, length);
+    s.before =
+        start_before<W>(k, b, at.x, at.y, along(at.ray, at.box.enter), at.ray.direction, s.lattice);
+    s.start = at.box.enter - s.before;
+    return s;
+}
+
 /// W marched pixels, a block from column x and row y on, in rows before `end`.
 template <int W, class Field>
 PILEUS_FN void raymarch_pixels(const RaymarchParams& k, const RaymarchBuffers& b,
@@ -169,28 +190,16 @@ PILEUS_FN void raymarch_pixels(const RaymarchParams& k, const RaymarchBuffers& b
                                std::int32_t end) {
     using T = F<W>;
     const MarchedBlock<W> at = marched_block<W>(k, b, field, x, y, end);
-    const Ray<T>& ray = at.ray;
-    const Segment<T>& box = at.box;
-    const T leave = at.leave;
     RaySum<T> sum{};
     sum.transmittance = all<T>(1.0f);
     sum.half = all<T>(__builtin_inff());
-    if (k.step.most > 0 && any(box.enter < leave)) {
-        // The lattice knows nothing of what stands behind, unless it should (4.1).
-        const T length = max_((k.step.stretch != 0 ? leave : box.leave) - box.enter, T{});
-        const Lattice<T> lattice = make_lattice(k.step, box.enter, length);
-        const T before =
-            start_before<W>(k, b, at.x, at.y, along(ray, box.enter), ray.direction, lattice);
-        const T start = box.enter - before;
-        const RayMarch<T, Field> r{k,
-                                   b,
-                                   field,
-                                   along(ray, start),
-                                   ray.direction,
-                                   start,
-                                   ray_light(k, ray.direction),
-                                   b.counts + std::int64_t(y) * kRaymarchCounts};
-        march_lattice(r, lattice, before, leave - start, sum);
+    if (k.step.most > 0 && any(at.box.enter < at.leave)) {
+        const Vec<T>& d = at.ray.direction;
+        const MarchStart<T> from = march_start<W>(k, b, at);
+        const RayMarch<T, Field> r{
+            k, b,          field,           along(at.ray, from.start),
+            d, from.start, ray_light(k, d), b.counts + std::int64_t(y) * kRaymarchCounts};
+        march_lattice(r, from.lattice, from.before, at.leave - from.start, sum);
         // The light without phase functions is a mean of what is at most 1 (chapter 4.2).
         const auto breach = sum.share > 1.0001f;
         r.counts[kCountBreaches] += count_bits(bits_of(breach));

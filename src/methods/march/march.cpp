@@ -294,8 +294,7 @@ OrdinatesMarchParams ordinates_params(const RaymarchInput& in, const RaymarchPar
     for (std::size_t s = 0; s < nodes.sets.size(); ++s) {
         const OrdinateOptics& optics = nodes.optics[nodes.sets[s].channel];
         for (std::size_t c = 0; c < 3; ++c) o.colour[s][c] = nodes.sets[s].colour[c];
-        for (int m = 0; m < kOrdinateMoments; ++m)
-            o.scatter[s][m] = optics.albedo * optics.moment[m == 0 ? 0 : m < 4 ? 1 : m < 9 ? 2 : 3];
+        for (int m = 0; m < kOrdinateMoments; ++m) o.scatter[s][m] = ordinate_scatter(optics, m);
     }
     o.channels = in.medium->channels > 1 ? 3 : 1;
     o.turn = ordinate_peak();

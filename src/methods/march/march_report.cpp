@@ -178,8 +178,8 @@ void weigh_memory(const Context& context, const FrameView& view, const MarchStat
         add(t, arrays::coarse_blocks(level, last));
     }
     if (settings.ordinates) {
-        const std::uint64_t nodes = most_ordinate_nodes(medium);
-        const std::uint64_t samples = most_ordinate_samples(medium);
+        const std::uint64_t nodes = max_ordinate_nodes(medium);
+        const std::uint64_t samples = max_ordinate_samples(medium);
         const std::uint64_t sets = std::uint64_t(ordinate_sets(medium, lighting));
         add(t, arrays::ordinate_solution(nodes, sets));
         add(t, arrays::ordinate_light(nodes, sets, kOrdinateMoments));

@@ -11,17 +11,17 @@
 namespace pileus {
 namespace {
 
-constexpr int kMostIterations = 64;
+constexpr int kMaxIterations = 64;
 constexpr double kEnough = 2e-4;  // change of the mean radiance over its norm
 
 /// Places in the shared memory.
 struct Work {
     float *radiance, *pass, *mean;
-    float* last;             ///< [kSlow]: what the iteration began with
-    float* before;           ///< [kSlow]: the iteration before's result
-    float* steps[kMixed];    ///< [kSlow]: differences of results
-    float* last_change;      ///< of the mean radiance
-    float* changes[kMixed];  ///< differences of changes
+    float* last;                       ///< [kSlowMoments]: what the iteration began with
+    float* before;                     ///< [kSlowMoments]: the iteration before's result
+    float* steps[kMixedIterations];    ///< [kSlowMoments]: differences of results
+    float* last_change;                ///< of the mean radiance
+    float* changes[kMixedIterations];  ///< differences of changes
 };
 
 Work share_work(float* from, std::size_t nodes) {
@@ -34,9 +34,9 @@ Work share_work(float* from, std::size_t nodes) {
     w.radiance = take(kOrdinates);
     w.pass = take(kOrdinateClasses);
     w.mean = take(kOrdinateClasses);
-    w.last = take(kSlow);
-    w.before = take(kSlow);
-    for (float*& step : w.steps) step = take(kSlow);
+    w.last = take(kSlowMoments);
+    w.before = take(kSlowMoments);
+    for (float*& step : w.steps) step = take(kSlowMoments);
     w.last_change = take(1);
     for (float*& change : w.changes) change = take(1);
     return w;
@@ -63,8 +63,7 @@ OrdinatesParams params_of(const OrdinateNodes& nodes, bool periodic, const Ordin
     for (int a = 0; a < 3; ++a) k.size[a] = nodes.grid.size[a];
     k.periodic = periodic ? 1 : 0;
     set_ordinate_sweeps(nodes.grid, periodic, length_m, k);
-    for (int m = 0; m < kOrdinateMoments; ++m)
-        k.scatter[m] = optics.albedo * optics.moment[m == 0 ? 0 : m < 4 ? 1 : m < 9 ? 2 : 3];
+    for (int m = 0; m < kOrdinateMoments; ++m) k.scatter[m] = ordinate_scatter(optics, m);
     float sun[kOrdinateMoments];
     float sum = 0;
     sh_eval<4>(-lighting.to_sun[0], -lighting.to_sun[1], -lighting.to_sun[2], sun);
@@ -84,8 +83,8 @@ OrdinatesParams params_of(const OrdinateNodes& nodes, bool periodic, const Ordin
     return k;
 }
 
-Status iterate(const Context& context, const OrdinatesParams& k, const OrdinatesBuffers& b,
-               std::int64_t slice_floats) {
+void iterate(const Context& context, const OrdinatesParams& k, const OrdinatesBuffers& b,
+             std::int64_t slice_floats) {
     parallel_for(context.threads, kOrdinates, [&](std::int64_t j, int thread) {
         OrdinatesBuffers own = b;
         own.slices = b.slices + slice_floats * thread;
@@ -94,11 +93,11 @@ Status iterate(const Context& context, const OrdinatesParams& k, const Ordinates
     parallel_for(context.threads, k.size[2], [&](std::int64_t z, int) {
         context.kernels->ordinate_moments(k, b, std::uint32_t(z), std::uint32_t(z) + 1);
     });
-    return Status::ok();
 }
 
 /// Solves the least squares of a few unknowns, by Cholesky's way; false: they are not independent.
-bool least_squares(int n, double (&a)[kMixed][kMixed], double (&x)[kMixed]) {
+bool least_squares(int n, double (&a)[kMixedIterations][kMixedIterations],
+                   double (&x)[kMixedIterations]) {
     for (int i = 0; i < n; ++i) a[i][i] *= 1 + 1e-10;
     for (int i = 0; i < n; ++i) {
         for (int j = 0; j <= i; ++j) {
@@ -134,14 +133,15 @@ void mix(int turn, std::size_t nodes, const Work& w, float* moments) {
     // The change of this iteration, where `last` was its beginning.
     for (std::size_t i = 0; i < nodes; ++i) w.last[i] = moments[i] - w.last[i];
     float* const change = w.last;
-    const int slot = (turn - 1) % kMixed, held = std::min(turn, kMixed);
+    const int slot = (turn - 1) % kMixedIterations, held = std::min(turn, kMixedIterations);
     if (turn > 0) {
         for (std::size_t i = 0; i < nodes; ++i) w.changes[slot][i] = change[i] - w.last_change[i];
-        for (std::size_t i = 0; i < kSlow * nodes; ++i) w.steps[slot][i] = moments[i] - w.before[i];
+        for (std::size_t i = 0; i < kSlowMoments * nodes; ++i)
+            w.steps[slot][i] = moments[i] - w.before[i];
     }
-    std::copy_n(moments, kSlow * nodes, w.before);
+    std::copy_n(moments, kSlowMoments * nodes, w.before);
     std::copy_n(change, nodes, w.last_change);
-    double a[kMixed][kMixed] = {}, x[kMixed] = {};
+    double a[kMixedIterations][kMixedIterations] = {}, x[kMixedIterations] = {};
     for (int i = 0; i < held; ++i) {
         for (int j = 0; j <= i; ++j) a[i][j] = dot(w.changes[i], w.changes[j], nodes);
         x[i] = dot(w.changes[i], change, nodes);
@@ -149,7 +149,7 @@ void mix(int turn, std::size_t nodes, const Work& w, float* moments) {
     if (held == 0 || !least_squares(held, a, x)) return;
     for (int j = 0; j < held; ++j) {
         const float share = float(x[j]);
-        for (std::size_t i = 0; i < kSlow * nodes; ++i) moments[i] -= share * w.steps[j][i];
+        for (std::size_t i = 0; i < kSlowMoments * nodes; ++i) moments[i] -= share * w.steps[j][i];
     }
 }
 
@@ -169,19 +169,20 @@ Status solve_ordinates(const Context& context, const Medium& medium, const Ordin
         slice_floats = std::max(slice_floats, ordinate_slice_floats(k, s));
     PILEUS_TRY(solver.slices.resize(std::uint64_t(slice_floats) * std::uint64_t(context.threads),
                                     "ordinates: slices"));
-    set_ways(context, medium, nodes, optics.rest, length_m, w);
+    if (solver.channel != set.channel) set_ways(context, medium, nodes, optics.rest, length_m, w);
+    solver.channel = set.channel;
     const OrdinatesBuffers b{w.pass, w.mean, beam, w.radiance, moments, solver.slices.data()};
     std::fill_n(moments, count * kOrdinateMoments, 0.0f);
-    for (set.iterations = 0; set.iterations < kMostIterations;) {
-        std::copy_n(moments, kSlow * count, w.last);
-        PILEUS_TRY(iterate(context, k, b, slice_floats));
+    for (set.iterations = 0; set.iterations < kMaxIterations;) {
+        std::copy_n(moments, kSlowMoments * count, w.last);
+        iterate(context, k, b, slice_floats);
         double change = 0, norm = 0;
         for (std::size_t i = 0; i < count; ++i) {
             const double now = double(moments[i]), off = now - double(w.last[i]);
             change += off * off, norm += now * now;
         }
         set.residual = norm > 0 ? __builtin_sqrt(change / norm) : 0;
-        if (++set.iterations == kMostIterations || set.residual < kEnough) break;
+        if (++set.iterations == kMaxIterations || set.residual < kEnough) break;
         mix(set.iterations - 1, count, w, moments);
     }
     return Status::ok();

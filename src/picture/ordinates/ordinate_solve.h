@@ -11,6 +11,7 @@ namespace pileus {
 struct OrdinateSolver {
     Buffer<float> work;
     Buffer<float> slices;
+    int channel = -1;  ///< whose ways through nodes the work holds
 };
 
 /// `beam`: of an irradiance of 1; null: none. `moments`: [moment][node], out. kLimit: out of

@@ -27,7 +27,7 @@ std::array<int, 3> samples_within(const NodeGrid& grid, const Medium& medium) {
         const double voxels = 1 / (double(grid.per_metre[a]) * double(medium.grid.cell_m[a]));
         const int needed = int(0.5 * voxels + 0.999);
         out[std::size_t(a)] =
-            voxels <= 1.01 ? 1 : std::min(std::max(needed, 2), kMostOrdinateSamples);
+            voxels <= 1.01 ? 1 : std::min(std::max(needed, 2), kMaxOrdinateSamples);
     }
     return out;
 }
@@ -193,9 +193,9 @@ NodeGrid ordinate_grid(const Medium& medium, double rest) {
         return std::min(std::max(medium.extent_m[a] / spacing, fewest[a]), most[a]);
     };
     // The fewest are within the budget, so this ends.
-    static_assert(kFewest * kFewest * kFewest <= kMostOrdinateNodes,
+    static_assert(kFewest * kFewest * kFewest <= kMaxOrdinateNodes,
                   "the fewest nodes are too many");
-    while (along(0) * along(1) * along(2) > kMostOrdinateNodes) spacing *= 1.0625;
+    while (along(0) * along(1) * along(2) > kMaxOrdinateNodes) spacing *= 1.0625;
     NodeGrid g{};
     for (int a = 0; a < 3; ++a) {
         g.size[a] = std::max(1, int(along(a)));
@@ -208,14 +208,14 @@ NodeGrid ordinate_samples(const NodeGrid& grid, const Medium& medium) {
     return sample_grid(grid, samples_within(grid, medium));
 }
 
-std::uint64_t most_ordinate_nodes(const Medium& medium) {
+std::uint64_t max_ordinate_nodes(const Medium& medium) {
     const NodeGrid all = ordinate_grid(medium, 1), none = ordinate_grid(medium, 0);
     for (int a = 0; a < 3; ++a)
-        if (all.size[a] != none.size[a]) return std::uint64_t(kMostOrdinateNodes);
+        if (all.size[a] != none.size[a]) return std::uint64_t(kMaxOrdinateNodes);
     return node_count(all);
 }
 
-std::uint64_t most_ordinate_samples(const Medium& medium) {
+std::uint64_t max_ordinate_samples(const Medium& medium) {
     const std::uint64_t all = node_count(ordinate_samples(ordinate_grid(medium, 1), medium));
     const std::uint64_t none = node_count(ordinate_samples(ordinate_grid(medium, 0), medium));
     return all > none ? all : none;
@@ -264,9 +264,9 @@ Status prepare_ordinates(const Context& context, const Medium& medium, const Maj
 
 Status reserve_ordinates(OrdinateNodes& out) {
     const std::uint64_t nodes = node_count(out.grid);
-    out.sets.reserve(kMostOrdinateSets);
-    PILEUS_TRY(hold(arrays::ordinate_solution(nodes, kMostOrdinateSets), out.solution));
-    return hold(arrays::ordinate_light(nodes, kMostOrdinateSets, kOrdinateMoments), out.light);
+    out.sets.reserve(kMaxOrdinateSets);
+    PILEUS_TRY(hold(arrays::ordinate_solution(nodes, kMaxOrdinateSets), out.solution));
+    return hold(arrays::ordinate_light(nodes, kMaxOrdinateSets, kOrdinateMoments), out.light);
 }
 
 Status make_ordinates(const Context& context, const Medium& medium, const Majorants& majorants,
@@ -329,10 +329,9 @@ Status turn_ordinates(const Context& context, const Medium& medium, const Camera
             const float unit = 1 / __builtin_sqrtf(std::max(square, 1e-20f));
             float harmonic[kOrdinateMoments], sum = 0;
             sh_eval<4>(d[0] * unit, d[1] * unit, d[2] * unit, harmonic);
-            for (std::size_t m = 0; m < kOrdinateMoments; ++m) {
-                const int l = m == 0 ? 0 : m < 4 ? 1 : m < 9 ? 2 : 3;
-                sum += from[m * nodes + i] * harmonic[m] * optics.moment[l] * optics.albedo;
-            }
+            for (std::size_t m = 0; m < kOrdinateMoments; ++m)
+                sum += from[m * nodes + i] * harmonic[m] * optics.moment[ordinate_degree(int(m))] *
+                       optics.albedo;
             own[i] = std::max(sum, 0.0f);
         });
         parallel_each(context.threads, nodes, [&](std::size_t i) {

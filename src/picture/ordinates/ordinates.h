@@ -16,8 +16,8 @@
 namespace pileus {
 
 /// Iterations that are mixed, and moments that are: degrees 0 and 1, which change last.
-constexpr int kMixed = 5;
-constexpr std::size_t kSlow = 4;
+constexpr int kMixedIterations = 5;
+constexpr std::size_t kSlowMoments = 4;
 
 /// How a medium scatters once turns within the peak of its phase function no longer count: its
 /// extinction is `rest` of what it was, of a channel.
@@ -26,6 +26,16 @@ struct OrdinateOptics {
     float albedo = 1;
     float moment[4] = {1, 0, 0, 0};  ///< degrees 0..3, such that no light is negative
 };
+
+/// Degree of a moment.
+constexpr int ordinate_degree(int moment) {
+    return moment == 0 ? 0 : moment < 4 ? 1 : moment < 9 ? 2 : 3;
+}
+
+/// Share of a moment that is scattered.
+inline float ordinate_scatter(const OrdinateOptics& optics, int moment) {
+    return optics.albedo * optics.moment[ordinate_degree(moment)];
+}
 
 /// Light of one colour that enters, and its solution.
 struct OrdinateSet {
@@ -54,8 +64,8 @@ struct OrdinateNodes {
 float ordinate_peak();
 
 /// Most nodes that there are, and most samples of the density within one, along each axis.
-constexpr double kMostOrdinateNodes = 40000;
-constexpr int kMostOrdinateSamples = 4;
+constexpr double kMaxOrdinateNodes = 40000;
+constexpr int kMaxOrdinateSamples = 4;
 
 /// Nodes over a medium: so near that extinction that counts is below one a node, where their number
 /// allows that.
@@ -65,8 +75,8 @@ NodeGrid ordinate_grid(const Medium& medium, double rest);
 NodeGrid ordinate_samples(const NodeGrid& grid, const Medium& medium);
 
 /// No fewer nodes than any phase function brings, and samples within them.
-std::uint64_t most_ordinate_nodes(const Medium& medium);
-std::uint64_t most_ordinate_samples(const Medium& medium);
+std::uint64_t max_ordinate_nodes(const Medium& medium);
+std::uint64_t max_ordinate_samples(const Medium& medium);
 
 namespace arrays {
 
@@ -91,10 +101,11 @@ inline Array<float> ordinate_nodes(std::uint64_t nodes, Stage last) {
 }
 /// Radiance by direction, factors of ways, the beam, and what iterations are mixed of.
 inline Array<float> ordinate_work(std::uint64_t nodes) {
-    return {
-        "ordinates: one solution at work",
-        bytes_of(kOrdinates + 2 * kOrdinateClasses + 2 * kSlow + kMixed * (kSlow + 1) + 1, nodes),
-        Stage::kShadow, Stage::kShadow};
+    return {"ordinates: one solution at work",
+            bytes_of(kOrdinates + 2 * kOrdinateClasses + 2 * kSlowMoments +
+                         kMixedIterations * (kSlowMoments + 1) + 1,
+                     nodes),
+            Stage::kShadow, Stage::kShadow};
 }
 
 }  // namespace arrays
@@ -117,7 +128,7 @@ void set_ordinate_sweeps(const NodeGrid& grid, bool periodic, double (&length_m)
                          OrdinatesParams& k);
 
 /// Most sets of light that there are at once.
-constexpr std::size_t kMostOrdinateSets = 3;
+constexpr std::size_t kMaxOrdinateSets = 3;
 
 /// Nodes and what lies in them, which no light changes. kLimit: out of memory.
 Status prepare_ordinates(const Context& context, const Medium& medium, const Majorants& majorants,
