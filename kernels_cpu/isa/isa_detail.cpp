@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // Marches through media with detail; those without pay nothing for it. docs/detail.md
-#include "kernels_cpu/raymarch/raymarch_detail.h"
+#include "kernels_cpu/ordinates/ordinates_detail.h"
 #define PILEUS_GROUP_Detail 1
 #include "kernels_cpu/isa/kernel_group.h"

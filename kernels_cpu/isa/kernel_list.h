@@ -51,7 +51,8 @@ PILEUS_RANGE(trace_paths_lamps,    PathParams,          PathBuffers,           P
 
 // Marches
 PILEUS_RANGE(raymarch_rows,        RaymarchParams,      RaymarchBuffers,       Raymarch,     Device)
-// Discrete ordinates: directions, whose nodes are swept; planes of nodes; rows of pixels.
+// Discrete ordinates: nodes; directions, which are swept; nodes; rows of pixels.
+PILEUS_RANGE(ordinate_sources,     OrdinatesParams,     OrdinatesBuffers,      Raymarch,     Host)
 PILEUS_RANGE(ordinate_directions,  OrdinatesParams,     OrdinatesBuffers,      Raymarch,     Host)
 PILEUS_RANGE(ordinate_moments,     OrdinatesParams,     OrdinatesBuffers,      Raymarch,     Host)
 PILEUS_RANGE(ordinates_rows,       OrdinatesMarchParams, OrdinatesMarchBuffers, Raymarch,   Host)
@@ -68,6 +69,7 @@ PILEUS_RANGE(lamp_march_rows,      LampMarchParams,     LampMarchBuffers,      L
 PILEUS_RANGE(detail_shadow_rows,   ShadowParams,        ShadowBuffers,         Detail,       Device)
 PILEUS_RANGE(detail_march_rows,    MarchParams,         MarchBuffers,          Detail,       Device)
 PILEUS_RANGE(detail_raymarch_rows, RaymarchParams,      RaymarchBuffers,       Detail,       Device)
+PILEUS_RANGE(detail_ordinates_rows, OrdinatesMarchParams, OrdinatesMarchBuffers, Detail,     Host)
 
 // Rows of a raymarched picture of the sky itself; rows of nodes of sunlight in it.
 PILEUS_RANGE(raymarch_sky_rows,    RaymarchSkyParams,   RaymarchBuffers,       Sky,          Device)

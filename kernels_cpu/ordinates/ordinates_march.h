@@ -16,7 +16,8 @@ inline namespace PILEUS_ISA {
 /// What does not change along a ray.
 template <class T>
 struct OrdinatesRay {
-    T turn, apart, peak, most;  ///< of the sun: 1 - cos; phase function without and within its peak
+    T turn, most;                           ///< of the sun: 1 - cos; bound on a phase function
+    T apart[kMostMedia], peak[kMostMedia];  ///< phase function without and within its peak
     BeamAngle<T> angle;
     T harmonic[kOrdinateMoments];  ///< of the way to the camera
 };
@@ -27,9 +28,12 @@ PILEUS_FN OrdinatesRay<T> ordinates_ray(const OrdinatesMarchParams& o, const Vec
     const Vec<T> to_sun{all<T>(k.to_sun[0]), all<T>(k.to_sun[1]), all<T>(k.to_sun[2])};
     r.turn = one_minus_cosine(to_sun, d);
     r.most = most_density(k.camera, d);
-    const T phase = min_(phase_density(k.phase[0], r.turn), r.most);
-    r.peak = phase * exp_(T{} - min_(r.turn * (1.0f / o.turn), all<T>(80.0f)));
-    r.apart = phase - r.peak;
+    const T within = exp_(T{} - min_(r.turn * (1.0f / o.turn), all<T>(80.0f)));
+    for (int i = 0; i < kMostMedia && i < k.media; ++i) {
+        const T phase = min_(phase_density(k.phase[i], r.turn), r.most);
+        r.peak[i] = phase * within;
+        r.apart[i] = phase - r.peak[i];
+    }
     r.angle = beam_angle(r.turn);
     // Light travels against the ray.
     if (o.moments > 1) sh_eval<4>(T{} - d.x, T{} - d.y, T{} - d.z, r.harmonic);
@@ -62,27 +66,72 @@ PILEUS_FN T left_of(const OrdinatesSum<T>& sum) {
     return max_(sum.thin[0], max_(sum.thin[1], sum.thin[2]));
 }
 
-/// Light that comes from all around, scattered towards the camera.
+/// What media scatter towards the camera at a place, each by its share: per unit of optical depth,
+/// by channel.
+template <class T>
+struct OrdinatesSource {
+    T rest[3];    ///< of the optical depth: what counts
+    T around[3];  ///< light from all around; times `rest`, as the next
+    T apart[3];   ///< sunlight, of what is left of it, without the peak of the phase function
+    T peak[3];    ///< and within it
+    T sun[3];     ///< and times the albedo alone
+};
+
+/// Light from all around, of one set, that a medium scatters towards the camera.
+template <class T>
+PILEUS_FN T ordinates_seen(const OrdinatesMarchParams& o, const float* light, std::int64_t nodes,
+                           const Corners<T>& at, const T (&degree)[4], std::int32_t s, int i) {
+    T seen{};
+    if (o.moments == 1) return max_(interpolate(light + i * nodes, at), T{});
+    for (int l = 0; l < 4; ++l) seen = seen + degree[l] * o.scatter[s][i][l];
+    return max_(seen, T{});
+}
+
 template <class T, class Field>
-PILEUS_FN void gather_ordinates(const OrdinatesMarch<T, Field>& r, const Vec<T>& place,
-                                T (&out)[3]) {
+PILEUS_FN OrdinatesSource<T> ordinates_source(const OrdinatesMarch<T, Field>& r,
+                                              const Corners<T>& at, const Vec<T>& place,
+                                              T density) {
     const OrdinatesMarchParams& o = r.o;
     const std::int64_t nodes = std::int64_t(o.nodes.size[0]) * o.nodes.size[1] * o.nodes.size[2];
-    const Corners<T> at =
-        node_corners(node_position(o.nodes, field_in_box(r.field, r.k.medium, place)), o.nodes.size,
-                     r.k.medium.periodic != 0);
-    for (std::int32_t s = 0; s < o.sets; ++s) {
-        const float* light = r.n.light + s * o.moments * nodes;
-        T seen{};
-        if (o.moments == 1) {
-            seen = interpolate(light, at);
-        } else {
-            for (int m = 0; m < kOrdinateMoments; ++m)
-                seen =
-                    seen + interpolate(light + m * nodes, at) * r.own.harmonic[m] * o.scatter[s][m];
+    const std::int64_t set = nodes * (o.moments == 1 ? r.k.media : o.moments);
+    T degree[kMaxOrdinateSets][4] = {};
+    for (std::int32_t s = 0; s < o.sets && o.moments > 1; ++s)
+        for (int m = 0; m < kOrdinateMoments; ++m)
+            degree[s][ordinate_degree(m)] =
+                degree[s][ordinate_degree(m)] +
+                interpolate(r.n.light + s * set + m * nodes, at) * r.own.harmonic[m];
+    OrdinatesSource<T> out{};
+    field_shares(r.field, place, density, [&](int i, T share) {
+        T rest[3];
+        for (int c = 0; c < 3; ++c) {
+            rest[c] = share * o.rest[i][c];
+            out.rest[c] = out.rest[c] + rest[c];
+            out.apart[c] = out.apart[c] + share * r.own.apart[i] * o.sun[i][c];
+            out.peak[c] = out.peak[c] + share * r.own.peak[i] * o.sun[i][c];
+            out.sun[c] = out.sun[c] + share * o.sun[i][c];
         }
-        seen = max_(seen, T{});
-        for (int c = 0; c < 3; ++c) out[c] = out[c] + seen * o.colour[s][c];
+        for (std::int32_t s = 0; s < o.sets; ++s) {
+            const T seen = ordinates_seen(o, r.n.light + s * set, nodes, at, degree[s], s, i);
+            for (int c = 0; c < 3; ++c)
+                out.around[c] = out.around[c] + rest[c] * seen * o.colour[s][c];
+        }
+    });
+    return out;
+}
+
+/// Of the optical depth to the sun, what counts: by the media on the way.
+template <class T, class Field>
+PILEUS_FN void ordinates_sunward(const OrdinatesMarch<T, Field>& r, const Corners<T>& at,
+                                 T (&rest)[3]) {
+    const OrdinatesMarchParams& o = r.o;
+    if (r.n.sunward == nullptr) {
+        for (int c = 0; c < 3; ++c) rest[c] = all<T>(o.rest[0][c]);
+        return;
+    }
+    const std::int64_t nodes = std::int64_t(o.nodes.size[0]) * o.nodes.size[1] * o.nodes.size[2];
+    for (int i = 0; i < r.k.media; ++i) {
+        const T part = interpolate(r.n.sunward + i * nodes, at);
+        for (int c = 0; c < 3; ++c) rest[c] = rest[c] + part * o.rest[i][c];
     }
 }
 
@@ -90,6 +139,7 @@ PILEUS_FN void gather_ordinates(const OrdinatesMarch<T, Field>& r, const Vec<T>&
 template <class T, class Field>
 PILEUS_FN void add_single(const OrdinatesMarch<T, Field>& r, T from, T to, M_of<T> dense,
                           OrdinatesSum<T>& sum) {
+    const OrdinatesMarchParams& o = r.o;
     const T width = to - from, look = from + 0.5f * width;
     const Vec<T> p{r.origin.x + r.direction.x * look, r.origin.y + r.direction.y * look,
                    r.origin.z + r.direction.z * look};
@@ -99,21 +149,23 @@ PILEUS_FN void add_single(const OrdinatesMarch<T, Field>& r, T from, T to, M_of<
     const T optical = density * (r.k.medium.sigma * width);
     const auto lit = optical > 0.0f;
     if (!any(lit)) return;
-    T around[3] = {}, straight[3] = {}, kept[3] = {};
-    gather_ordinates(r, p, around);
-    if (r.o.sunlit != 0) {
-        T unused[3] = {};
+    const Corners<T> at = node_corners(node_position(o.nodes, field_in_box(r.field, r.k.medium, p)),
+                                       o.nodes.size, r.k.medium.periodic != 0);
+    const OrdinatesSource<T> source = ordinates_source(r, at, p, density);
+    T straight[3] = {}, kept[3] = {};
+    if (o.sunlit != 0) {
+        T unused[3] = {}, rest[3] = {}, beam[3] = {};
         const T tau = sunlight_at(r.k, r.b.optical_depth, r.field, p, density, lit, r.own.turn,
                                   r.counts, unused);
-        T beam[3] = {};
-        beam_light(r.n.beam, r.o.channels, r.o.rest, r.own.angle, r.own.most, tau, all<T>(1.0f),
+        beam_light(r.n.beam, o.channels, o.beam_rest, r.own.angle, r.own.most, tau, all<T>(1.0f),
                    beam);
-        const T whole = exp_(T{} - tau) * r.own.peak;
+        ordinates_sunward(r, at, rest);
+        const T seen = sun_seen(r.k, r.b, p), whole = seen * exp_(T{} - tau);
         T left{};
         for (int c = 0; c < 3; ++c) {
-            if (c < r.o.channels) left = exp_(T{} - tau * r.o.rest[c]) * r.own.apart;
-            straight[c] = left * (r.o.sun[c] / max_(all<T>(r.o.rest[c]), all<T>(1e-6f)));
-            kept[c] = (whole + beam[c]) * r.o.sun[c];
+            if (c < o.channels) left = seen * exp_(T{} - tau * rest[c]);
+            straight[c] = left * source.apart[c];
+            kept[c] = whole * source.peak[c] + seen * beam[c] * source.sun[c];
         }
     }
     const T before = sum.ray.transmittance;
@@ -121,15 +173,15 @@ PILEUS_FN void add_single(const OrdinatesMarch<T, Field>& r, T from, T to, M_of<
     const T own = before * one_minus_exp(optical);
     T thin_own{};
     for (int c = 0; c < 3; ++c) {
-        if (c < r.o.channels) {
-            const T thin = optical * r.o.rest[c];
-            thin_own = sum.thin[c] * one_minus_exp(thin);
+        if (c < o.channels) {
+            const T rest = max_(source.rest[c], all<T>(1e-6f)), thin = optical * rest;
+            thin_own = sum.thin[c] * one_minus_exp(thin) / rest;
             sum.thin[c] = sum.thin[c] * exp_(T{} - thin);
         } else {
             sum.thin[c] = sum.thin[0];
         }
         sum.ray.colour[c] =
-            sum.ray.colour[c] + own * kept[c] + thin_own * (around[c] + straight[c]);
+            sum.ray.colour[c] + own * kept[c] + thin_own * (source.around[c] + straight[c]);
     }
 }
 template <class T, class Field>
@@ -141,8 +193,11 @@ PILEUS_FN RaySample<T> sample_at(const OrdinatesMarch<T, Field>&, T, T, M_of<T>)
 }
 
 /// Light of what lies behind that turned within the peak alone, and so goes on as it came.
-template <class T>
-PILEUS_FN void add_behind(const OrdinatesMarchParams& o, const Vec<T>& d, OrdinatesSum<T>& sum) {
+template <int W>
+PILEUS_FN void add_behind(const OrdinatesMarchParams& o, const OrdinatesMarchBuffers& n,
+                          const MarchedBlock<W>& at, OrdinatesSum<F<W>>& sum) {
+    using T = F<W>;
+    const Vec<T>& d = at.ray.direction;
     T sky[3];
     for (int c = 0; c < 3; ++c) sky[c] = all<T>(o.sky[c]);
     if (o.map.columns > 0) {
@@ -150,8 +205,14 @@ PILEUS_FN void add_behind(const OrdinatesMarchParams& o, const Vec<T>& d, Ordina
         sky[0] = seen.x, sky[1] = seen.y, sky[2] = seen.z;
     }
     const auto down = d.z < 0.0f;
+    const std::int64_t pixels = std::int64_t(o.march.camera.width) * o.march.camera.height;
+    const auto pixel = at.y * o.march.camera.width + at.x;
     for (int c = 0; c < 3; ++c) {
-        const T behind = o.has_ground != 0 ? select(down, all<T>(o.ground[c]), sky[c]) : sky[c];
+        T behind = o.has_ground != 0 ? select(down, all<T>(o.ground[c]), sky[c]) : sky[c];
+        if (n.surfaces != nullptr && any(at.solid))
+            behind = select(at.solid,
+                            gather(n.surfaces + c * pixels, select(at.solid, pixel, pixel - pixel)),
+                            behind);
         sum.ray.colour[c] =
             sum.ray.colour[c] + max_(sum.thin[c] - sum.ray.transmittance, T{}) * behind;
     }
@@ -183,7 +244,7 @@ PILEUS_FN void ordinates_pixels(const OrdinatesMarchParams& o, const OrdinatesMa
                                          b.counts + std::int64_t(y) * kRaymarchCounts,
                                          ordinates_ray(o, d)};
         march_lattice(r, from.lattice, from.before, at.leave - from.start, sum);
-        add_behind(o, d, sum);
+        add_behind<W>(o, n, at, sum);
     }
     store_pixels<W>(k, b, x, y, end, sum.ray);
 }

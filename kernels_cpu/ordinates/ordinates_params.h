@@ -10,7 +10,13 @@ namespace pileus {
 
 constexpr int kOrdinates = 32;        ///< double Gauss in height, 2 + 2, times 8 azimuths
 constexpr int kOrdinateMoments = 16;  ///< spherical harmonics up to degree 3
+constexpr int kMaxOrdinateSets = 6;   ///< of light: sun, sky, ground, and three of lamps
 constexpr int kOrdinateClasses = 6;   ///< lengths of ways through a node, at most
+
+/// Degree of a moment.
+constexpr int ordinate_degree(int moment) {
+    return moment == 0 ? 0 : moment < 4 ? 1 : moment < 9 ? 2 : 3;
+}
 
 /// How one direction goes through the nodes: slice by slice along `axis`. Rows of a slice run along
 /// `along`, which is x but for slices along x.
@@ -24,22 +30,28 @@ struct OrdinateSweep {
 
 struct OrdinatesParams {
     std::int32_t size[3];  ///< nodes
+    std::int32_t filled;   ///< of them, those that hold medium
     std::int32_t periodic;
     OrdinateSweep sweep[kOrdinates];
     float harmonic[kOrdinates][kOrdinateMoments];  ///< of its direction
     float weight[kOrdinates];                      ///< solid angle, sr; 4 pi in all
-    float scatter[kOrdinateMoments];  ///< albedo times the phase function's moment, both scaled
-    float beam[kOrdinates];           ///< share of a beam's light scattered there, 1/sr
-    float enters[kOrdinates];         ///< radiance at the faces
+    std::int32_t media;                            ///< 1..kMostMedia
+    float scatter[kMostMedia][4];        ///< albedo times the phase function's moments, both scaled
+    float beam[kMostMedia][kOrdinates];  ///< share of a beam's light scattered there, 1/sr
+    float enters[kOrdinates];            ///< radiance at the faces
 };
 
 struct OrdinatesBuffers {
-    const float* pass;  ///< [class][node]: e^-t of the way through a node
-    const float* mean;  ///< [class][node]: (1 - e^-t) / t
-    const float* beam;  ///< [node]: irradiance of the beam; null: none
-    float* radiance;    ///< [direction][node]: source, then mean radiance of the node
-    float* moments;     ///< [moment][node]
-    float* slices;      ///< of one thread: ordinate_slice_floats
+    const std::int32_t* place;    ///< [filled]: of nodes, x fastest, then y
+    const std::int32_t* place_x;  ///< [filled]: where slices are along x: y fastest, then z
+    const float* pass;            ///< [class][place]: e^-t of the way through a node
+    const float* mean;            ///< [class][place]: (1 - e^-t) / t; 0: the node is empty
+    const float* beam;            ///< [filled]: irradiance of the beam; null: none
+    const float* fixed;           ///< [direction][filled]: source of lamps and media; null: none
+    const float* part;            ///< [medium][filled]: of extinction that counts; null: one medium
+    float* radiance;  ///< [direction][place]: source, then mean radiance; 0 in empty nodes
+    float* moments;   ///< [moment][filled]
+    float* slices;    ///< of one thread: ordinate_slice_floats
 };
 
 /// Floats of a row of a slice with what lies beyond its ends, and of two slices.
@@ -57,22 +69,26 @@ struct OrdinatesMarchParams {
     NodeGrid nodes;
     std::int32_t sets;     ///< of light, each of one colour
     std::int32_t moments;  ///< 1: radiance towards the camera; kOrdinateMoments: by direction
-    float colour[3][3];    ///< R G B of each set
-    float scatter[3][kOrdinateMoments];  ///< of each set; moments = kOrdinateMoments
-    std::int32_t channels;               ///< 1, or 3 where they absorb differently
-    float rest[3];  ///< 1 - albedo times the peak's share: of extinction that counts
-    float turn;     ///< 1 - cos of the peak's width
+    float colour[kMaxOrdinateSets][3];  ///< R G B of each set
+    float scatter[kMaxOrdinateSets][kMostMedia]
+                 [4];           ///< of each set, by degree; moments = kOrdinateMoments
+    std::int32_t channels;      ///< 1, or 3 where they absorb differently
+    float rest[kMostMedia][3];  ///< 1 - albedo times the peak's share: of extinction that counts
+    float beam_rest[3];         ///< of what the beam's tables are of
+    float turn;                 ///< 1 - cos of the peak's width
     std::int32_t sunlit;
-    float sun[3];     ///< irradiance times albedo
-    float sky[3];     ///< radiance behind the medium
-    SkyMapView map;   ///< or of a map
-    float ground[3];  ///< of rays that go down
+    float sun[kMostMedia][3];  ///< irradiance times albedo
+    float sky[3];              ///< radiance behind the medium
+    SkyMapView map;            ///< or of a map
+    float ground[3];           ///< of rays that go down
     std::int32_t has_ground;
 };
 struct OrdinatesMarchBuffers {
     RaymarchBuffers march;
-    const float* light;  ///< [set][moment][node]
-    const float* beam;   ///< tables of beam.h, [channel]
+    const float* light;     ///< [set][moment][node], or towards the camera [set][medium][node]
+    const float* beam;      ///< tables of beam.h, [channel]
+    const float* surfaces;  ///< [3][pixel] of the whole picture: of what is solid; null: nothing is
+    const float* sunward;  ///< [medium][node]: of the optical depth to the sun; null: of one medium
 };
 
 }  // namespace pileus

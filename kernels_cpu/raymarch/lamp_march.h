@@ -114,6 +114,53 @@ PILEUS_FN void lamp_beam(const LampMarchParams& k, const LampMarchBuffers& b,
     for (int c = 0; c < 3; ++c) out[c] = point[c] + parallel * (out[c] - point[c]);
 }
 
+/// A ray whose light is apart from what turns within the peak of a phase function.
+template <class T>
+struct ThinRay {
+    T left[3] = {all<T>(1.0f), all<T>(1.0f), all<T>(1.0f)};
+    T rest[3], own[3];  ///< of a step: share of extinction that counts; what it shows, over that
+};
+template <class T>
+PILEUS_FN void thin_step(const LampMarchParams& k, const T (&share)[kMostMedia], T optical,
+                         ThinRay<T>& thin) {
+    for (int c = 0; c < 3; ++c) {
+        T rest{};
+        for (int i = 0; i < k.media; ++i) rest = rest + share[i] * k.rest[i][c];
+        thin.rest[c] = max_(rest, all<T>(1e-6f));
+        const T depth = optical * thin.rest[c];
+        thin.own[c] = thin.left[c] * one_minus_exp(depth) / thin.rest[c];
+        thin.left[c] = thin.left[c] * exp_(T{} - depth);
+    }
+}
+template <class T>
+PILEUS_FN T left_of(const LampMarchParams& k, T seen, const ThinRay<T>& thin) {
+    return k.ordinates != 0 ? max_(thin.left[0], max_(thin.left[1], thin.left[2])) : seen;
+}
+
+/// A lamp's light scattered once by more than the peak, and by it alone (docs/ordinates.md, "The
+/// march"). Nodes hold one depth: the media here stand for those on the way.
+template <class T>
+PILEUS_FN void add_apart(const LampMarchParams& k, const LampMarchBuffers& b,
+                         const LampParams& lamp, const Vec<T>& place, const LampSight<T>& sight,
+                         const Vec<T>& d, T most, T tau, T weight, M_of<T> lit,
+                         const T (&share)[kMostMedia], const ThinRay<T>& thin, T (&colour)[3]) {
+    const T turn = one_minus_cosine(d, sight.way);
+    const T within = exp_(T{} - min_(turn * (1.0f / k.peak_turn), all<T>(80.0f)));
+    const T whole = weight * sight.share * exp_(T{} - tau);
+    T kept[3], apart[3];
+    lamp_beam(k, b, lamp, place, sight, turn, most, tau, weight, kept);
+    for (int c = 0; c < 3; ++c)
+        apart[c] = thin.own[c] * sight.share * exp_(T{} - tau * thin.rest[c]);
+    for (int i = 0; i < k.media; ++i) {
+        const T phase = min_(phase_density(k.phase[i], turn), most), peak = phase * within;
+        for (int c = 0; c < 3; ++c) {
+            const T light = apart[c] * (phase - peak) + whole * peak + kept[c];
+            colour[c] =
+                colour[c] + select(lit, light * share[i], T{}) * (k.albedo[i][c] * lamp.light[c]);
+        }
+    }
+}
+
 template <int W, bool Constant>
 PILEUS_FN void march_lamps(const LampMarchParams& k, const LampMarchBuffers& b,
                            const Ray<F<W>>& ray, F<W> enter, F<W> leave, F<W> (&colour)[3]) {
@@ -123,10 +170,11 @@ PILEUS_FN void march_lamps(const LampMarchParams& k, const LampMarchBuffers& b,
     const std::int64_t voxels = std::int64_t(m.size[0]) * m.size[1] * m.size[2];
     const T most = most_density(k.camera, ray.direction);
     T seen = all<T>(1.0f);
+    ThinRay<T> thin;
     Pace<T> pace;
     march_ray<Constant>(
         m, ray, enter, leave, pace, [&](M<W> dense, T t, T width, const Vec<T>& p, const Vec<T>&) {
-            if (!any(dense)) return seen < k.cut;
+            if (!any(dense)) return left_of(k, seen, thin) < k.cut;
             const Corners<T> at = density_corners<Constant>(m, p);
             const T density = read_density<Constant>(m.density, at);
             const T optical = select(dense, density * (m.sigma * width), T{});
@@ -138,11 +186,13 @@ PILEUS_FN void march_lamps(const LampMarchParams& k, const LampMarchBuffers& b,
                 b.parts, voxels, k.media, density,
                 [&](const float* grid) { return read_density<Constant>(grid, at); },
                 [&](int i, T s) { share[i] = s; });
+            if (k.ordinates != 0) thin_step(k, share, optical, thin);
             // With one emission along it, what leaves a step is exact.
             if (k.emits != 0)
                 for (int i = 0; i < k.media; ++i)
                     for (int c = 0; c < 3; ++c)
-                        colour[c] = colour[c] + weight * share[i] * k.emission[i][c];
+                        colour[c] = colour[c] + (k.ordinates != 0 ? thin.own[c] : weight) *
+                                                    share[i] * k.emission[i][c];
             for (std::int32_t l = 0; l < k.lamps; ++l) {
                 const LampParams& lamp = b.lamps[l];
                 Vec<T> place;
@@ -162,6 +212,11 @@ PILEUS_FN void march_lamps(const LampMarchParams& k, const LampMarchBuffers& b,
                     left[c] = exp_(T{} - tau * (1.0f - kept));
                 }
                 const auto add = [&](const LampSight<T>& sight) {
+                    if (k.ordinates != 0) {
+                        add_apart(k, b, lamp, place, sight, ray.direction, most, tau, weight, lit,
+                                  share, thin, colour);
+                        return;
+                    }
                     const T light = weight * sight.share * left[0];
                     const T turn = one_minus_cosine(ray.direction, sight.way);
                     if (k.beam_sets > 0) {
@@ -208,7 +263,7 @@ PILEUS_FN void march_lamps(const LampMarchParams& k, const LampMarchBuffers& b,
                 for (std::int32_t i = 0; i < lamp.places; ++i) add(lamp_place(lamp, cone, i, T{}));
             }
             seen = seen * exp_(T{} - optical);
-            return seen < k.cut;
+            return left_of(k, seen, thin) < k.cut;
         });
 }
 

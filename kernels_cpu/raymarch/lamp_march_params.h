@@ -26,6 +26,11 @@ struct LampMarchParams {
     std::int32_t beam_sets;    ///< as MarchParams has them, of one medium: what stays in the lamps'
     std::int32_t beam_points;  ///< beams; 1: there are tables of points, too
     float beam_rest[3];
+    /// Light scattered more than once comes from discrete ordinates: channels of what is left where
+    /// turns within the peak of a phase function do not count, 1 or 3; 0: it does not.
+    std::int32_t ordinates;
+    float rest[kMostMedia][3];  ///< as OrdinatesMarchParams has it
+    float peak_turn;            ///< 1 - cos of the peak's width
     std::int32_t lamps;
     std::int32_t spheres;  ///< 0: none of them is one
     NodeGrid nodes;        ///< of optical depths to each lamp

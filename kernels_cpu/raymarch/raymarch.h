@@ -136,6 +136,7 @@ struct MarchedBlock {
     Ray<F<W>> ray;
     Segment<F<W>> box;
     F<W> leave;  ///< where the march ends: behind the box, at what is opaque, or at once
+    M<W> solid;  ///< whether something opaque is in the pixel at all
 };
 template <int W, class Field>
 PILEUS_FN MarchedBlock<W> marched_block(const RaymarchParams& k, const RaymarchBuffers& b,
@@ -151,12 +152,14 @@ PILEUS_FN MarchedBlock<W> marched_block(const RaymarchParams& k, const RaymarchB
     a.ray = camera_ray(k.camera, to_float(a.x), to_float(a.y));
     a.box = field_clip(field, a.ray);
     a.leave = a.box.leave;
+    a.solid = column < 0;
     if (b.opaque_depth != nullptr) {
         T opaque{};
         for_block<W>(k.lattice, x, y, end, [&](int l, std::int64_t pixel) {
             set_lane(opaque, l, b.opaque_depth[pixel]);
         });
         a.leave = min_(a.leave, opaque);
+        a.solid = real & (opaque < __builtin_inff());
     }
     a.leave = select(real, a.leave, a.box.enter);
     return a;

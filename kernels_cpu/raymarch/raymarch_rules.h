@@ -32,6 +32,20 @@ PILEUS_FN RayLight<T> ray_light(const RaymarchParams& k, const Vec<T>& d) {
     return r;
 }
 
+/// What solids leave of the sun at a place.
+template <class T>
+PILEUS_FN T sun_seen(const RaymarchParams& k, const RaymarchBuffers& b, const Vec<T>& place) {
+    const T all_of_it = all<T>(1.0f);
+    if (!dimmed_by_meshes(b.visibility)) return all_of_it;
+    const bool wraps = k.medium.periodic != 0;
+    const Vec<T> node = node_position(k.visibility, reduced(k.medium, place));
+    // A layer to the horizon goes on beyond its nodes: nothing is known of shadows there.
+    const std::int32_t* n = k.visibility.size;
+    const auto known =
+        (node.x >= 0.0f) & (node.x <= float(n[0])) & (node.y >= 0.0f) & (node.y <= float(n[1]));
+    return select(known, interpolate(b.visibility, corners(node, n, wraps)), all_of_it);
+}
+
 /// One sample: density, and the radiance that a full mean free path of it would show.
 template <class T>
 struct RaySample {
@@ -54,17 +68,9 @@ PILEUS_FN RaySample<T> take_sample(const RaymarchParams& k, const RaymarchBuffer
     if (k.sunlit != 0)
         tau =
             sunlight_at(k, b.optical_depth, field, place, s.density, dense, r.turn, counts, light);
-    T factor = all<T>(1.0f);
-    if (dimmed_by_meshes(b.visibility)) {
-        const bool wraps = k.medium.periodic != 0;
-        const Vec<T> node = node_position(k.visibility, reduced(k.medium, place));
-        // A layer to the horizon goes on beyond its nodes: nothing is known of shadows there.
-        const std::int32_t* n = k.visibility.size;
-        const auto known =
-            (node.x >= 0.0f) & (node.x <= float(n[0])) & (node.y >= 0.0f) & (node.y <= float(n[1]));
-        factor = select(known, interpolate(b.visibility, corners(node, n, wraps)), factor);
+    T factor = sun_seen(k, b, place);
+    if (dimmed_by_meshes(b.visibility))
         for (int c = 0; c < k.light.channels; ++c) light[c] = light[c] * factor;
-    }
     const bool octaves = k.sunlit != 0 && k.light.octaves.count > 1;
     T brightest = max_(light[0], max_(light[1], light[2]));
     if (octaves) {

@@ -109,10 +109,11 @@ void fields(A& a, FilterSettings& v) {
 template <class A>
 void fields(A& a, RaymarchSettings& v) {
     all(a, v.integrator, v.steps, v.spacing, v.first_step_m, v.growth, v.stretch, v.forward, v.many,
-        v.ordinates, v.octaves, v.octave_extinction, v.octave_share, v.octave_anisotropy,
-        v.cone_deg, v.forward_share, v.light, v.light_steps, v.light_first_step_m, v.light_growth,
-        v.sky_ambient, v.detail, v.light_cone, v.jitter, v.jitter_share, v.grid_lock_m, v.powder,
-        v.powder_strength, v.ambient, v.stop_below, v.thin, v.light_refresh, v.peak_phase);
+        v.automatic, v.ordinates, v.octaves, v.octave_extinction, v.octave_share,
+        v.octave_anisotropy, v.cone_deg, v.forward_share, v.light, v.light_steps,
+        v.light_first_step_m, v.light_growth, v.sky_ambient, v.detail, v.light_cone, v.jitter,
+        v.jitter_share, v.grid_lock_m, v.powder, v.powder_strength, v.ambient, v.stop_below, v.thin,
+        v.light_refresh, v.peak_phase);
 }
 template <class A>
 void fields(A& a, OpticalDepthSettings& v) {

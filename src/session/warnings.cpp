@@ -21,6 +21,20 @@ constexpr Accident kAccidents[] = {
     {"rays_cut", "rays given up before their end, so that the medium's far side is missing"},
 };
 
+/// Weather data of nodes 14 optical depths thick are 10 % too dark, slabs of nodes of 1.5 6 %.
+void warn_of_nodes(Report& report) {
+    constexpr double kMaxNodeDepth = 4;
+    const OrdinateFigures& o = report.ordinates;
+    if (o.nodes == 0 || !(o.node_depth > kMaxNodeDepth)) return;
+    char text[32];
+    (void)std::snprintf(text, sizeof text, "%.3g", o.node_depth);
+    report.warnings.push_back("light.ordinates: scattered light is solved for on nodes of up to " +
+                              std::string(text) +
+                              " optical depths: it may be darker by a tenth and more "
+                              "(docs/ordinates.md, \"Bounds\"; method "
+                              "path has no nodes)");
+}
+
 }  // namespace
 
 bool shows_nothing(const Image& image) {
@@ -50,6 +64,7 @@ void find_warnings(const Scene& scene, const Image& image, Report& report, bool 
                                   "\"error\", " +
                                   report.errors.of +
                                   " (more than one of path.samples_per_pixel or of generations)");
+    warn_of_nodes(report);
     if (!scene.media.empty() && !seen && shows_nothing(image))
         report.warnings.push_back(
             scene.file +

@@ -87,7 +87,7 @@ TEST_CASE("clouds: wrong use has a line and changes nothing") {
 
 TEST_CASE("clouds: turns that take more memory than is allowed are refused before they are made") {
     auto host = cleared<pileus_host>();
-    host.memory_limit = std::uint64_t{64} << 20;
+    host.memory_limit = std::uint64_t{192} << 20;
     std::vector<pileus_cloud> places;
     for (int i = 0; i < 300; ++i) places.push_back(at(4000.0 * i, 0, 0, i));
     CloudySky sky({at(0, 0, 0)}, {}, false, &host);

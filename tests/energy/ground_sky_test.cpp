@@ -146,10 +146,12 @@ TEST_CASE("a white cloud over a white ground is 1 under a map of ones as under a
             seen[mapped ? 1 : 0] = mean_of(p);
         }
         for (std::size_t c = 0; c < 3; ++c) {
-            // Octaves hold the furnace to some per cent (docs/raymarch.md, "Skylight"); particles
-            // by default keep less.
-            if (method == "raymarch") CHECK(seen[1][c] == doctest::Approx(1).epsilon(0.1));
-            CHECK(seen[1][c] == doctest::Approx(seen[0][c]).epsilon(1e-4));
+            // Particles by default keep less.
+            if (method == "raymarch") CHECK(seen[1][c] == doctest::Approx(1).epsilon(0.005));
+            // Discrete ordinates solve for sky and ground apart or, with a map, together, and end
+            // where a change is below 2e-4 (docs/ordinates.md, "Iterations").
+            const double allowed = method == "raymarch" ? 2e-3 : 1e-4;
+            CHECK(seen[1][c] == doctest::Approx(seen[0][c]).epsilon(allowed));
         }
     }
 }

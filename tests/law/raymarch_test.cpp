@@ -267,6 +267,7 @@ TEST_CASE("raymarch: a white cloud amid white surroundings cannot be told from t
         CAPTURE(extinction);
         const Scene scene =
             scene_from(kSmallCumulus, {"method.name = \"raymarch\"", "sun.irradiance = [0, 0, 0]",
+                                       "raymarch.scattering = \"octaves\"",
                                        "sky.radiance = [1, 1, 1]", "ground.albedo = 1",
                                        "medium.0.albedo = 1", "raymarch.sky_light = \"ambient\"",
                                        std::string("medium.0.extinction_per_m = ") + extinction,

@@ -140,6 +140,79 @@ TEST_CASE("a cloud is as bright as by paths, from each side of the sun and withi
     CHECK(within < 1.08);
 }
 
+/// A cloud and, to the east, smoke that overlaps it.
+constexpr const char* kCloudAndSmoke = R"(
+seed = 3
+[camera]
+position_m = [0, -3000, 1500]
+target_m = [0, 0, 400]
+fov_deg = 24
+resolution = [32, 18]
+[sun]
+azimuth_deg = 65
+elevation_deg = 45
+[sky]
+radiance = [0.05, 0.06, 0.08]
+[[medium]]
+density = "uniform:sphere"
+bounds_m = [[-500, -250, 100], [100, 250, 700]]
+resolution = [32, 32, 32]
+extinction_per_m = 0.03
+phase = { type = "henyey-greenstein", g = 0.85 }
+[[medium]]
+density = "uniform:sphere"
+bounds_m = [[-50, -250, 100], [550, 250, 700]]
+resolution = [32, 32, 32]
+extinction_per_m = 0.02
+albedo = 0.6
+phase = { type = "henyey-greenstein", g = 0.5 }
+[method]
+name = "raymarch"
+[raymarch]
+scattering = "ordinates"
+[path]
+target_error = 0
+samples_per_pixel = 1024
+[output]
+layers = ["cloud"]
+)";
+
+TEST_CASE("several media are as bright as by paths, each with its phase function and albedo") {
+    for (const char* azimuth : {"0", "65", "250"})
+        for (const char* albedo : {"0.6", "[0.9,0.7,0.4]"}) {
+            CAPTURE(azimuth);
+            CAPTURE(albedo);
+            const double ratio =
+                over_path(kCloudAndSmoke, {std::string("sun.azimuth_deg=") + azimuth,
+                                           std::string("medium.1.albedo=") + albedo});
+            CHECK(ratio > 0.95);
+            CHECK(ratio < 1.05);
+        }
+    // From within: all moments are read.
+    const double within = over_path(
+        kCloudAndSmoke, {"camera.position_m=[-200,-100,400]", "camera.target_m=[200,0,450]"});
+    CHECK(within > 0.92);
+    CHECK(within < 1.08);
+}
+
+TEST_CASE("one medium in two halves is that medium") {
+    // The same density twice, each of half the extinction, in boxes and voxels that are alike.
+    const auto scene = [](const char* extinction) { return std::string(kSlab) + extinction; };
+    constexpr const char* kHalf = R"(
+[[medium]]
+density = "uniform:box"
+bounds_m = [[-400, -400, 0], [400, 400, 800]]
+resolution = [2, 2, 16]
+extinction_per_m = 0.01
+phase = { type = "henyey-greenstein", g = 0.85 }
+boundary = "periodic"
+)";
+    const double one = mean_of(scene_from(kSlab, {"medium.0.extinction_per_m=0.02"}));
+    const std::string two = scene(kHalf);
+    const double both = mean_of(scene_from(two.c_str(), {"medium.0.extinction_per_m=0.01"}));
+    CHECK(both / one == doctest::Approx(1).epsilon(1e-4));
+}
+
 TEST_CASE("directions and moments: the sphere is filled, and rotations leave degrees alone") {
     double area = 0, sum[3] = {}, square[3][3] = {};
     for (int j = 0; j < kOrdinates; ++j) {
@@ -182,10 +255,11 @@ TEST_CASE("what is taken out of a phase function leaves the light it turns as it
         }
 }
 
-TEST_CASE("what ordinates do not know is refused in a line") {
-    const char* const sets[] = {"raymarch.powder=\"powder\"", "raymarch.integrator=\"simpson\"",
-                                "output.layers=[\"light\"]", "raymarch.light_path=\"cone\"",
-                                "raymarch.phase=\"peak\""};
+TEST_CASE("what ordinates do not know is refused in a line, and auto takes octaves there") {
+    const char* const sets[] = {"raymarch.powder=\"powder\"",   "raymarch.integrator=\"simpson\"",
+                                "raymarch.light_path=\"cone\"", "raymarch.phase=\"peak\"",
+                                "raymarch.sky_light=\"none\"",  "raymarch.ambient=0.1"};
+    const auto hash = [](const Scene& scene) { return render_one(scene).report.hash; };
     for (const char* set : sets) {
         CAPTURE(set);
         const Scene scene = scene_from(kSlab, {set});
@@ -193,5 +267,11 @@ TEST_CASE("what ordinates do not know is refused in a line") {
         REQUIRE_FALSE(status);
         CHECK(status.message.find("ordinates") != std::string::npos);
         CHECK(status.message.find("allowed: ") != std::string::npos);
+        CHECK(hash(scene_from(kSlab, {set, "raymarch.scattering=\"auto\""})) ==
+              hash(scene_from(kSlab, {set, "raymarch.scattering=\"octaves\""})));
     }
+    CHECK(hash(scene_from(kSlab, {"raymarch.scattering=\"auto\""})) == hash(scene_from(kSlab, {})));
+    // Keys that only octaves have are not without effect.
+    CHECK(hash(scene_from(kSlab, {"raymarch.scattering=\"auto\"", "raymarch.octaves=3"})) ==
+          hash(scene_from(kSlab, {"raymarch.scattering=\"octaves\"", "raymarch.octaves=3"})));
 }

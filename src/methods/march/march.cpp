@@ -292,9 +292,10 @@ OrdinatesMarchParams ordinates_params(const RaymarchInput& in, const RaymarchPar
     o.sets = std::int32_t(nodes.sets.size());
     o.moments = nodes.moments;
     for (std::size_t s = 0; s < nodes.sets.size(); ++s) {
-        const OrdinateOptics& optics = nodes.optics[nodes.sets[s].channel];
         for (std::size_t c = 0; c < 3; ++c) o.colour[s][c] = nodes.sets[s].colour[c];
-        for (int m = 0; m < kOrdinateMoments; ++m) o.scatter[s][m] = ordinate_scatter(optics, m);
+        for (int i = 0; i < nodes.media; ++i)
+            for (int l = 0; l < 4; ++l)
+                o.scatter[s][i][l] = ordinate_scatter(nodes.optics[i][nodes.sets[s].channel], l);
     }
     o.channels = in.medium->channels > 1 ? 3 : 1;
     o.turn = ordinate_peak();
@@ -303,8 +304,11 @@ OrdinatesMarchParams ordinates_params(const RaymarchInput& in, const RaymarchPar
     o.has_ground = light.ground ? 1 : 0;
     const Double3 ground = light.ground_radiance();
     for (std::size_t c = 0; c < 3; ++c) {
-        o.rest[c] = nodes.optics[c].rest;
-        o.sun[c] = march.sun_source[0][c];
+        for (int i = 0; i < nodes.media; ++i) {
+            o.rest[i][c] = nodes.optics[i][c].rest;
+            o.sun[i][c] = march.sun_source[i][c];
+        }
+        o.beam_rest[c] = nodes.peak.rest[c];
         o.sky[c] = float(light.sky[c]);
         o.ground[c] = float(ground[c]);
     }
@@ -338,12 +342,15 @@ Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes&
     OrdinatesMarchBuffers ordinates{};
     if (in.ordinates != nullptr) {
         of_ordinates = ordinates_params(in, k);
-        ordinates = {b, in.ordinates->light.data(), in.ordinates->peak.tables.data()};
+        ordinates = {b, in.ordinates->light.data(), in.ordinates->peak.tables.data(), in.surfaces,
+                     in.ordinates->sunward.data()};
     }
     const auto march = [&](std::int64_t piece, int) {
         const std::uint32_t begin = std::uint32_t(piece) * kPiece;
         const std::uint32_t end = begin + kPiece < rows ? begin + kPiece : rows;
-        if (of_ordinates)
+        if (of_ordinates && k.medium.detail != nullptr)
+            context.kernels->detail_ordinates_rows(*of_ordinates, ordinates, begin, end);
+        else if (of_ordinates)
             context.kernels->ordinates_rows(*of_ordinates, ordinates, begin, end);
         else if (in.layer != nullptr)
             context.kernels->raymarch_sky_rows(*of_sky, b, begin, end);

@@ -35,6 +35,8 @@ struct RaymarchInput {
     const float* visibility = nullptr;  ///< of solid_shadow.h; null: nothing solid
     const SkyNodes* sky = nullptr;
     const OrdinateNodes* ordinates = nullptr;  ///< in place of octaves and of sky
+    /// [3][pixel] of the whole picture: light of solids, of such scenes and with ordinates alone.
+    const float* surfaces = nullptr;
     const std::vector<DensityLevel>* levels = nullptr;
     const SkyField* layer = nullptr;  ///< a sky marched itself, in place of the grid
     bool march_light = false;

@@ -88,7 +88,7 @@ MarchChoice optical_depth_choice(const MethodInputs& inputs) {
     const bool unseen = inputs.budget.steps == 0;
     if (inputs.budget.steps >= 0) look.steps = int(inputs.budget.steps);
     RaymarchSettings& s = out.settings;
-    s.many = false;
+    s.many = s.automatic = false;
     s.spacing = look.steps > 0 || unseen ? RaymarchSpacing::kUniform : RaymarchSpacing::kVoxel;
     s.steps = look.steps > 0 || unseen ? look.steps : 1;
     s.light = look.exact ? RaymarchLightKind::kBufferExact : RaymarchLightKind::kBuffer;

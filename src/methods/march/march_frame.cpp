@@ -24,7 +24,8 @@ Status add_lamps(const Context& context, const FrameView& view, MarchState& stat
         return Status::ok();
     LampNodes& lamps = state.light.lamps;
     PILEUS_TRY(make_lamp_nodes(context, medium, state.media.majorants, view.lighting, lamps));
-    return add_lamp_light(context, medium, march_lamps(view, state), lamps, state.picture.planes);
+    return add_lamp_light(context, medium, march_lamps(view, state), lamps, state.picture.planes, 0,
+                          lamp_tables(state));
 }
 
 /// Parts need the whole background, a trial for a budget of seconds any row's depths.
@@ -63,6 +64,7 @@ RaymarchInput march_input(const FrameView& view, const MarchState& state) {
         in.ordinates = &light.ordinates;
     else
         in.sky = &light.sky;
+    if (has_surfaces(view.lighting)) in.surfaces = state.picture.planes.background.data();
     in.levels = &state.media.coarse;
     in.march_light = state.choice.march_light;
     in.noise = &state.picture.noise;
@@ -74,6 +76,10 @@ RaymarchInput march_input(const FrameView& view, const MarchState& state) {
 }
 
 }  // namespace
+
+const float* lamp_tables(const MarchState& state) {
+    return state.light.ordinates.peak.tables.data();
+}
 
 LampMarchParams march_lamps(const FrameView& view, const MarchState& state) {
     const Medium& medium = marched_medium(view, state);
@@ -87,6 +93,17 @@ LampMarchParams march_lamps(const FrameView& view, const MarchState& state) {
     k.octave_depths = octave_depths(k.octaves, medium);
     k.forward = settings.forward ? 1 : 0;
     (void)keep_forward(settings, medium, k.kept);
+    const OrdinateNodes& nodes = state.light.ordinates;
+    if (settings.ordinates && !nodes.density.empty()) {
+        k.ordinates = medium.channels;
+        k.peak_turn = ordinate_peak();
+        k.beam_sets = nodes.peak.sets;
+        k.beam_points = nodes.peak.points ? 1 : 0;
+        for (int c = 0; c < 3; ++c) {
+            k.beam_rest[c] = nodes.peak.rest[c];
+            for (int i = 0; i < k.media; ++i) k.rest[i][c] = nodes.optics[i][c].rest;
+        }
+    }
     for (int i = 0; i < k.media; ++i) {
         float unit = 1;
         if (settings.peak_phase) unit = 1.0f / phase_peak(k.phase[i]);

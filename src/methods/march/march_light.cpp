@@ -47,26 +47,6 @@ Status light_nodes(const Context& context, const FrameView& view, MarchState& st
     return Status::ok();
 }
 
-/// Whether nodes are seen from the same place, or along the same direction; or, from outside,
-/// nearly so as seen from the middle of the box.
-bool same_way(const Medium& medium, double slack_deg, const CameraParams& a,
-              const CameraParams& b) {
-    const bool flat = a.orthographic != 0;
-    const float* from = flat ? a.forward : a.origin;
-    const float* to = flat ? b.forward : b.origin;
-    if (a.orthographic != b.orthographic) return false;
-    if (std::equal(from, from + 3, to)) return true;
-    if (slack_deg <= 0 || flat) return false;
-    double aa = 0, bb = 0, ab = 0, ball = 0;
-    for (int i = 0; i < 3; ++i) {
-        const double half = 0.5 * medium.extent_m[i];
-        const double x = double(from[i]) - half, y = double(to[i]) - half;
-        aa += x * x, bb += y * y, ab += x * y, ball += half * half;
-    }
-    const double least = sincos_deg(slack_deg).cosine;
-    return aa > 2 * ball && bb > 2 * ball && ab > 0 && ab * ab > least * least * aa * bb;
-}
-
 /// Light of sky and ground changes with the sun, and with the camera where that is known.
 Status light_sky(const Context& context, const FrameView& view, double slack_deg,
                  MarchState& state) {
@@ -101,6 +81,24 @@ Status shade_by_solids(const Context& context, const FrameView& view, MarchLight
 
 }  // namespace
 
+bool same_way(const Medium& medium, double slack_deg, const CameraParams& a,
+              const CameraParams& b) {
+    const bool flat = a.orthographic != 0;
+    const float* from = flat ? a.forward : a.origin;
+    const float* to = flat ? b.forward : b.origin;
+    if (a.orthographic != b.orthographic) return false;
+    if (std::equal(from, from + 3, to)) return true;
+    if (slack_deg <= 0 || flat) return false;
+    double aa = 0, bb = 0, ab = 0, ball = 0;
+    for (int i = 0; i < 3; ++i) {
+        const double half = 0.5 * medium.extent_m[i];
+        const double x = double(from[i]) - half, y = double(to[i]) - half;
+        aa += x * x, bb += y * y, ab += x * y, ball += half * half;
+    }
+    const double least = sincos_deg(slack_deg).cosine;
+    return aa > 2 * ball && bb > 2 * ball && ab > 0 && ab * ab > least * least * aa * bb;
+}
+
 SunTurn march_turn(const FrameView& view, const MarchState& state) {
     return turn_of_sun(view, state.choice.settings.light_refresh, state.light.turn);
 }
@@ -120,7 +118,11 @@ Status light_march(const Context& context, const FrameView& view, double slack_d
     PILEUS_TRY(light_nodes(context, view, state));
     PILEUS_TRY(shade_by_solids(context, view, state.light));
     PILEUS_TRY(light_sky(context, view, slack_deg, state));
-    return state.choice.settings.ordinates ? light_ordinates(context, view, state) : Status::ok();
+    if (!state.choice.settings.ordinates) return Status::ok();
+    if (!view.lighting.lamps.empty() && view.world.medium.sigma > 0)
+        PILEUS_TRY(make_lamp_nodes(context, view.world.medium, state.media.majorants, view.lighting,
+                                   state.light.lamps));
+    return light_ordinates(context, view, slack_deg, state);
 }
 
 }  // namespace pileus

@@ -24,8 +24,9 @@ MadeMethod make_optical_depth(const MethodInputs& inputs) {
 MarchMethod::MarchMethod(MarchChoice choice) { state_.choice = std::move(choice); }
 
 Status MarchMethod::plan(const Context&, const FrameView& view, Plan&) {
+    PILEUS_TRY(choose_scattering(view, state_.choice));
     choose_march(view, state_.choice);
-    return state_.choice.settings.ordinates ? check_ordinates(view, state_.choice) : Status::ok();
+    return Status::ok();
 }
 
 Status MarchMethod::prepare(const Context& context, const FrameView& view) {
@@ -34,9 +35,11 @@ Status MarchMethod::prepare(const Context& context, const FrameView& view) {
     media.outlined_only = false;
     PILEUS_TRY(cap_medium(view, state_));
     const RaymarchSettings& settings = state_.choice.settings;
+    state_.light.sky_made = false;
+    const bool points = kLights && (state_.choice.hosted || !view.scene.lights.empty());
     if (settings.ordinates && settings.steps > 0 && view.world.medium.sigma > 0)
-        PILEUS_TRY(
-            prepare_ordinates(context, view.world.medium, media.majorants, state_.light.ordinates));
+        PILEUS_TRY(prepare_ordinates(context, view.world.medium, media.majorants, points,
+                                     state_.light.ordinates));
     return make_density_levels(marched_medium(view, state_), state_.choice.levels,
                                media.majorants.skip_block, context, media.coarse);
 }

@@ -2,57 +2,129 @@
 // Light by discrete ordinates for a marched picture, and what of scenes it does not know.
 // in: a view whose camera is in state.picture -> out: MarchLight::ordinates.
 // docs/ordinates.md
+#include <algorithm>
+
 #include "src/methods/march/march_state.h"
 #include "src/world/world.h"
 
 namespace pileus {
 
-Status check_ordinates(const FrameView& view, const MarchChoice& choice) {
-    const RaymarchSettings& s = choice.settings;
+namespace {
+
+/// What of a scene discrete ordinates do not know; null: they know it all.
+const char* beyond_ordinates(const FrameView& view, const RaymarchSettings& s) {
     const World& world = view.world;
-    const OutputSettings& output = view.scene.output;
-    const char* what = nullptr;
-    if (world.medium.count > 1)
-        what = "several media";
-    else if (world.direct_sky)
-        what = "a sky without a grid (medium.N.resolution)";
-    else if (world.medium.detail.present())
-        what = "detail";
-    else if (world.solids.meshes || view.environment.depth.present)
-        what = "solids";
-    else if (output.layer_light || output.layer_order)
-        what = "layers of parts of the light";
-    else if (s.powder != RaymarchPowderKind::kNone)
-        what = "powder";
-    else if (s.light_cone)
-        what = "light_path = \"cone\"";
-    else if (s.integrator != RaymarchIntegrator::kClosed)
-        what = "an integrator but \"closed\"";
-    else if (s.peak_phase)
-        what = "phase = \"peak\"";
-    else if (s.ambient[0] > 0 || s.ambient[1] > 0 || s.ambient[2] > 0)
-        what = "ambient";
-    if (what == nullptr) return Status::ok();
+    if (world.direct_sky) return "a sky without a grid (medium.N.resolution)";
+    if (s.powder != RaymarchPowderKind::kNone) return "powder";
+    if (s.light_cone) return "light_path = \"cone\"";
+    if (s.integrator != RaymarchIntegrator::kClosed) return "an integrator but \"closed\"";
+    if (s.peak_phase) return "phase = \"peak\"";
+    if (!s.sky_ambient) return "sky_light = \"none\"";
+    if (s.ambient[0] > 0 || s.ambient[1] > 0 || s.ambient[2] > 0) return "ambient";
+    return nullptr;
+}
+
+/// Whether the scene says how octaves should be.
+bool has_own_octaves(const RaymarchSettings& s) {
+    const RaymarchSettings plain;
+    return s.octaves != plain.octaves || s.octave_extinction != plain.octave_extinction ||
+           s.octave_share != plain.octave_share || s.octave_anisotropy != plain.octave_anisotropy;
+}
+
+}  // namespace
+
+Status choose_scattering(const FrameView& view, MarchChoice& choice) {
+    RaymarchSettings& s = choice.settings;
+    choice.beyond_ordinates = nullptr;
+    if (!s.automatic && !s.ordinates) return Status::ok();
+    const char* beyond = beyond_ordinates(view, s);
+    if (s.automatic) {
+        if (beyond == nullptr && has_own_octaves(s)) beyond = "keys of octaves";
+        choice.beyond_ordinates = beyond;
+        s.ordinates = beyond == nullptr;
+        return Status::ok();
+    }
+    if (beyond == nullptr) return Status::ok();
     return Status::bad_input(view.scene.file +
-                             ": raymarch.scattering: \"ordinates\" goes with no " + what +
-                             " so far, allowed: single, forward, octaves, or a scene "
+                             ": raymarch.scattering: \"ordinates\" goes with no " + beyond +
+                             " so far, allowed: auto, single, forward, octaves, or a scene "
                              "without");
 }
 
-Status light_ordinates(const Context& context, const FrameView& view, MarchState& state) {
+namespace {
+
+/// Between voxels that are thicker than this the optical depth to the sun is not linear: what it is
+/// at the places that are lit is then found by rays.
+constexpr double kThickVoxel = 1;
+
+/// Iterations of a picture whose light follows.
+constexpr int kFollowed = 3;
+
+const SunDepth* sun_of_nodes(const Medium& medium, const MarchState& state) {
+    double edge = 0;
+    for (float cell : medium.grid.cell_m) edge = std::max(edge, double(cell));
+    const bool thin = max_extinction(medium) * edge < kThickVoxel;
+    return thin && !state.choice.march_light ? &state.light.nodes : nullptr;
+}
+
+OrdinateAsk ask_of(const Medium& medium, const OwnLight& own, const MarchState& state) {
+    OrdinateAsk ask;
+    ask.sun = sun_of_nodes(medium, state);
+    ask.lamps = &state.light.lamps;
+    ask.first_lamp = own.first_lamp;
+    ask.lamp_count = own.lamps;
+    ask.emission = own.emission;
+    return ask;
+}
+
+}  // namespace
+
+OwnLight own_light_of(const FrameView& view) {
+    return {0, view.lighting.lamps.size(), emits(view.world.medium)};
+}
+
+Status solve_ordinates_for(const Context& context, const FrameView& view, const Lighting& light,
+                           const OwnLight& own, MarchState& state) {
+    OrdinateNodes& nodes = state.light.ordinates;
+    if (nodes.density.empty()) return Status::ok();
+    const Medium& medium = view.world.medium;
+    const OrdinateAsk ask = ask_of(medium, own, state);
+    PILEUS_TRY(make_ordinates(context, medium, state.media.majorants, light, ask, nodes));
+    return turn_ordinates(context, medium, state.picture.camera, nodes);
+}
+
+Status light_ordinates(const Context& context, const FrameView& view, double slack_deg,
+                       MarchState& state) {
     const Medium& medium = view.world.medium;
     MarchLight& light = state.light;
     if (light.ordinates.density.empty()) return Status::ok();
+    const CameraParams& camera = state.picture.camera;
+    const MarchChoice& choice = state.choice;
+    OrdinateAsk ask = ask_of(medium, own_light_of(view), state);
     // set_view tells of other lights than the sun's direction.
-    if (!light.sky_made || light.sky_to_sun != view.lighting.to_sun) {
-        light.sky_made = false;
-        PILEUS_TRY(
-            make_ordinates(context, medium, state.media.majorants, view.lighting, light.ordinates));
-        light.sky_to_sun = view.lighting.to_sun;
-        light.sky_made = true;
-        ++light.ordinates_made;
+    bool solve = !light.sky_made || light.sky_to_sun != view.lighting.to_sun;
+    // A host that lets light take several pictures has iterations go on from the last solution.
+    // Where its sun has stood still for as many, light is what it is without.
+    const int refresh = choice.hosted ? choice.settings.light_refresh : 1;
+    if (solve) {
+        light.ordinates_followed = refresh > 1 && !light.ordinates.sets.empty();
+        light.ordinates_still = 0;
+    } else if (light.ordinates_followed) {
+        light.ordinates_followed = ++light.ordinates_still < refresh - 1;
+        solve = !light.ordinates_followed || unsolved(light.ordinates);
     }
-    return turn_ordinates(context, medium, state.picture.camera, light.ordinates);
+    if (light.ordinates_followed) ask.iterations = kFollowed;
+    const bool seen = !solve && same_way(medium, slack_deg, light.sky_camera, camera);
+    if (seen) return Status::ok();
+    light.sky_made = false;
+    if (solve)
+        PILEUS_TRY(make_ordinates(context, medium, state.media.majorants, view.lighting, ask,
+                                  light.ordinates));
+    PILEUS_TRY(turn_ordinates(context, medium, camera, light.ordinates));
+    light.sky_to_sun = view.lighting.to_sun;
+    light.sky_camera = camera;
+    light.sky_made = true;
+    return Status::ok();
 }
 
 }  // namespace pileus

@@ -44,35 +44,43 @@ void lay_over(Planes& part) {
         part.colour[i] += part.transmittance[i % pixels] * part.background[i];
 }
 
-/// Skylight on nodes under another light; what nodes see of the sky is kept.
+/// Light on nodes under another light; what nodes see of the sky is kept.
 Status light_nodes_by(const Context& context, const FrameView& view, const Lighting& light,
-                      MarchState& state) {
+                      const OwnLight& own, MarchState& state) {
     const Medium& medium = view.world.medium;
     const RaymarchSettings& settings = state.choice.settings;
+    if (settings.ordinates) return solve_ordinates_for(context, view, light, own, state);
     if (!settings.sky_ambient || medium.sigma <= 0) return Status::ok();
     return make_sky_nodes(context, medium, state.media.majorants, light,
                           mean_kept(settings, medium), octaves_of(settings), sky_view(view, state),
                           state.light.sky);
 }
 
+Status light_nodes_by_ordinates(const Context& context, const FrameView& view,
+                                const Lighting& light, const OwnLight& own, MarchState& state) {
+    if (!state.choice.settings.ordinates) return Status::ok();
+    return solve_ordinates_for(context, view, light, own, state);
+}
+
 /// The media's light, without their own, under `light` in place of the picture's, before the
 /// background that it shows, or before none. Nodes hold what it sends up from the ground, and then
 /// all of it again.
 Status show_under(const Context& context, const FrameView& view, const RaymarchInput& whole,
-                  const Lighting& light, bool background, MarchState& state, Planes& part) {
+                  const Lighting& light, const OwnLight& own, bool background, MarchState& state,
+                  Planes& part) {
     RaymarchSettings settings = state.choice.settings;
     std::copy_n(kDark, 3, settings.ambient.begin());
     RaymarchInput in = whole;
     in.lighting = &light;
     in.settings = &settings;
-    PILEUS_TRY(light_nodes_by(context, view, light, state));
+    PILEUS_TRY(light_nodes_by(context, view, light, own, state));
     PILEUS_TRY(show_part(context, view, in, background ? &light : nullptr, state, part));
-    return light_nodes_by(context, view, view.lighting, state);
+    return light_nodes_by(context, view, view.lighting, own_light_of(view), state);
 }
 
 Status show_sun(const Context& context, const FrameView& view, const RaymarchInput& whole,
                 MarchState& state, Planes& part) {
-    PILEUS_TRY(show_under(context, view, whole, sun_alone(view.lighting), true, state, part));
+    PILEUS_TRY(show_under(context, view, whole, sun_alone(view.lighting), {}, true, state, part));
     lay_over(part);
     state.picture.planes.sun.swap(part.colour);
     return Status::ok();
@@ -82,30 +90,33 @@ Status show_emission(const Context& context, const FrameView& view, const Raymar
                      MarchState& state, Planes& part) {
     Lighting dark = sun_alone(view.lighting);
     dark.sunlit = false;
-    dark.sun_irradiance = {};
+    dark.sun_irradiance = dark.ground_diffuse = dark.ground_sun = dark.ground_lamps = {};
     RaymarchInput in = whole;
     in.lighting = &dark;
     in.sky = nullptr;
+    PILEUS_TRY(light_nodes_by_ordinates(context, view, dark, {0, 0, true}, state));
     PILEUS_TRY(show_part(context, view, in, nullptr, state, part));
+    PILEUS_TRY(light_nodes_by_ordinates(context, view, view.lighting, own_light_of(view), state));
     if (march_emits(view, state) && state.choice.settings.steps > 0) {
         LampMarchParams k = march_lamps(view, state);
         k.lamps = k.ground = 0;
-        PILEUS_TRY(
-            add_lamp_light(context, marched_medium(view, state), k, state.light.lamps, part, 0));
+        PILEUS_TRY(add_lamp_light(context, marched_medium(view, state), k, state.light.lamps, part,
+                                  0, lamp_tables(state)));
     }
     state.picture.planes.emission.swap(part.colour);
     return Status::ok();
 }
 
-/// What the ground sends up of one lamp's light, scattered by the media.
+/// What the ground sends up of one lamp's light, scattered by the media; with ordinates what these
+/// scatter more than once of the lamp's own, too.
 Status show_ground_of_lamp(const Context& context, const FrameView& view,
-                           const RaymarchInput& whole, const Double3& radiance, MarchState& state,
-                           Planes& part) {
+                           const RaymarchInput& whole, std::size_t lamp, const Double3& radiance,
+                           MarchState& state, Planes& part) {
     Lighting ground = sun_alone(view.lighting);
     ground.sunlit = false;
     ground.sun_irradiance = ground.ground_sun = {};
     ground.ground_lamps = radiance;
-    return show_under(context, view, whole, ground, false, state, part);
+    return show_under(context, view, whole, ground, {lamp, 1, false}, false, state, part);
 }
 
 Status show_each_lamp(const Context& context, const FrameView& view, const RaymarchInput& whole,
@@ -120,13 +131,14 @@ Status show_each_lamp(const Context& context, const FrameView& view, const Rayma
     k.lamps = 1;
     for (std::size_t i = 0; i < count; ++i) {
         const Double3 ground = ground_of_lamp(view.lighting, view.lighting.lamps[i]);
-        const bool lit = ground != Double3{} && whole.sky != nullptr &&
+        const bool nodes = whole.sky != nullptr || whole.ordinates != nullptr;
+        const bool lit = (ground != Double3{} || whole.ordinates != nullptr) && nodes &&
                          state.choice.settings.sky_ambient && view.world.medium.sigma > 0;
         std::fill_n(part.colour.data(), part.colour.size(), 0.0f);
-        if (lit) PILEUS_TRY(show_ground_of_lamp(context, view, whole, ground, state, part));
+        if (lit) PILEUS_TRY(show_ground_of_lamp(context, view, whole, i, ground, state, part));
         std::fill_n(part.background.data(), part.background.size(), 0.0f);
-        PILEUS_TRY(
-            add_lamp_light(context, marched_medium(view, state), k, state.light.lamps, part, i));
+        PILEUS_TRY(add_lamp_light(context, marched_medium(view, state), k, state.light.lamps, part,
+                                  i, lamp_tables(state)));
         lay_over(part);
         std::copy_n(part.colour.data(), 3 * pixels, planes.lamps.data() + 3 * pixels * i);
     }
@@ -137,10 +149,11 @@ Status show_each_lamp(const Context& context, const FrameView& view, const Rayma
 Status show_single(const Context& context, const FrameView& view, const RaymarchInput& whole,
                    MarchState& state, Planes& part) {
     RaymarchSettings settings = state.choice.settings;
-    settings.many = settings.forward = false;
+    settings.many = settings.forward = settings.automatic = false;
     std::copy_n(kDark, 3, settings.ambient.begin());
     RaymarchInput in = whole;
     in.settings = &settings;
+    in.ordinates = nullptr;
     if (settings.sky_ambient && view.world.medium.sigma > 0) {
         Lighting groundless = view.lighting;
         groundless.ground_diffuse = groundless.ground_sun = groundless.ground_lamps = {};
@@ -154,6 +167,7 @@ Status show_single(const Context& context, const FrameView& view, const Raymarch
         LampMarchParams k = march_lamps(view, state);
         k.emits = k.ground = 0;
         k.octaves.count = 1;
+        k.ordinates = k.beam_sets = 0;
         k.forward = 0;
         PILEUS_TRY(
             add_lamp_light(context, marched_medium(view, state), k, state.light.lamps, part, 0));
@@ -199,7 +213,7 @@ Status follow_march(const Context& context, const FrameView& view, const Raymarc
         dark.sun_irradiance = {};
         RaymarchSettings own = settings;
         own.stop_below = 0;
-        own.many = own.forward = false;
+        own.many = own.forward = own.automatic = false;
         std::copy_n(kDark, 3, own.ambient.begin());
         RaymarchInput in = whole;
         in.lattice = PixelLattice{};

@@ -8,6 +8,7 @@
 #include "src/picture/blue_noise.h"
 #include "src/picture/finish_frame.h"
 #include "src/picture/whole_rays.h"
+#include "src/world/camera/view.h"
 #include "src/world/medium/sky_medium.h"
 #include "src/world/plan_parts.h"
 #include "src/world/world.h"
@@ -85,6 +86,8 @@ void note_light(const FrameView& view, const MarchChoice& choice, Plan& plan) {
         plan.need("light scattered more than once as octaves of the first: approximation");
     else
         plan.leave_out("light scattered more than once", "scattering is not \"octaves\"");
+    if (choice.beyond_ordinates != nullptr)
+        plan.leave_out("discrete ordinates", choice.beyond_ordinates);
     if (!has_sky(view.lighting) && !view.lighting.ground)
         plan.leave_out("skylight in the medium", "no sky, no ground");
     else if (s.ordinates)
@@ -101,6 +104,9 @@ void note_plan(const FrameView& view, const MarchState& state, Plan& plan) {
     if (state.choice.look)
         plan.bias = {"optical-depth", "a look: light scattered more than once is only hinted at",
                      "docs/optical-depth.md"};
+    else if (settings.ordinates)
+        plan.bias = {"raymarch", "light scattered more than once in 32 directions on coarse nodes",
+                     "docs/ordinates.md"};
     else
         plan.bias = {"raymarch", "light scattered more than once is missing or approximate",
                      "docs/raymarch.md"};
@@ -144,6 +150,42 @@ void note_plan(const FrameView& view, const MarchState& state, Plan& plan) {
     for (Stage stage : kUnused) plan.skip(stage);
 }
 
+/// Of nodes that are not made yet, the most that any phase function brings.
+void add_ordinate_rows(const FrameView& view, const MarchState& state, MemoryTable& t) {
+    const Medium& medium = view.world.medium;
+    const OrdinateNodes& made = state.light.ordinates;
+    const bool known = !made.density.empty();
+    const std::uint64_t nodes = known ? made.density.size() : max_ordinate_nodes(medium);
+    const std::uint64_t filled = known ? made.filled.size() : nodes;
+    const std::uint64_t samples = known ? made.samples.size() : max_ordinate_samples(medium);
+    const std::uint64_t sets = std::uint64_t(ordinate_sets(medium, view.lighting));
+    const bool moves = state.choice.hosted || view.scene.animation.frames > 1;
+    const CameraParams camera =
+        make_camera(view.scene.camera, orbit_at(view.scene, view.frame), medium.low_m);
+    const int numbers =
+        known && !moves ? ordinate_numbers(medium, camera, made.grid) : kOrdinateMoments;
+    add(t, arrays::ordinate_solution(filled, sets));
+    add(t, arrays::ordinate_light(nodes, sets, numbers));
+    add(t, arrays::ordinate_work(nodes));
+    add(t, arrays::ordinate_parts(nodes, medium.count));
+    add(t, renamed(arrays::ordinate_parts(nodes, medium.count), "ordinates: parts of the sun",
+                   Stage::kShadow, Stage::kWrite));
+    add(t, arrays::ordinate_part_work(filled, medium.count));
+    add(t, arrays::ordinate_densities(samples));
+    add(t, arrays::ordinate_depths(view.lighting.sunlit ? samples : 0));
+    add(t, arrays::ordinate_nodes(nodes, Stage::kWrite));
+    add(t, renamed(arrays::ordinate_nodes(nodes, Stage::kShadow), "ordinates: numbers at work",
+                   Stage::kShadow, Stage::kShadow));
+    add(t, arrays::ordinate_places(filled, Stage::kWrite));
+    add(t, renamed(arrays::ordinate_places(filled, Stage::kShadow), "ordinates: places at work",
+                   Stage::kShadow, Stage::kShadow));
+    add(t, arrays::ordinate_seen(view.world.solids.meshes ? nodes : 0));
+    const bool own = !view.lighting.lamps.empty() || emits(medium);
+    add(t, arrays::ordinate_own(filled, own));
+    const bool points = state.choice.hosted || !view.scene.lights.empty();
+    add(t, arrays::beam_tables(std::uint64_t(medium.channels) * (points ? 2 : 1), Stage::kShadow));
+}
+
 void weigh_memory(const Context& context, const FrameView& view, const MarchState& state,
                   Plan& plan) {
     const Scene& scene = view.scene;
@@ -177,20 +219,7 @@ void weigh_memory(const Context& context, const FrameView& view, const MarchStat
         add(t, arrays::coarse_density(level, last));
         add(t, arrays::coarse_blocks(level, last));
     }
-    if (settings.ordinates) {
-        const std::uint64_t nodes = max_ordinate_nodes(medium);
-        const std::uint64_t samples = max_ordinate_samples(medium);
-        const std::uint64_t sets = std::uint64_t(ordinate_sets(medium, lighting));
-        add(t, arrays::ordinate_solution(nodes, sets));
-        add(t, arrays::ordinate_light(nodes, sets, kOrdinateMoments));
-        add(t, arrays::ordinate_work(nodes));
-        add(t, arrays::ordinate_densities(samples));
-        add(t, arrays::ordinate_depths(lighting.sunlit ? samples : 0));
-        add(t, arrays::ordinate_nodes(nodes, Stage::kWrite));
-        add(t, renamed(arrays::ordinate_nodes(nodes, Stage::kShadow), "ordinates: numbers at work",
-                       Stage::kShadow, Stage::kShadow));
-        add(t, arrays::beam_tables(std::uint64_t(medium.channels), Stage::kShadow));
-    }
+    if (settings.ordinates) add_ordinate_rows(view, state, t);
     if (settings.sky_ambient && !settings.ordinates) {
         const std::uint64_t nodes = node_count(sky_node_grid(medium));
         const int sets = sky_node_sets(lighting);

@@ -27,7 +27,8 @@ struct MarchChoice {
     bool march_light = false;     ///< else sunlight comes from nodes
     bool sky_nodes = false;       ///< those of a sky in place; march_light is set, too
     std::string light_why;        ///< and why that is
-    int levels = 0;               ///< of detail
+    const char* beyond_ordinates = nullptr;  ///< what keeps scattering = "auto" from them; null
+    int levels = 0;                          ///< of detail
 };
 
 /// What no frame changes.
@@ -56,7 +57,8 @@ struct MarchLight {
     CameraParams sky_camera{};          ///< and the camera
     SkyLight sky_light;
     OrdinateNodes ordinates;
-    std::uint64_t ordinates_made = 0;  ///< times that they were solved for
+    int ordinates_still = 0;          ///< pictures since the sun has moved
+    bool ordinates_followed = false;  ///< they went on from those of another sun
     LampNodes lamps;
     GroundShadow ground_shadow;
 };
@@ -120,10 +122,26 @@ Status cap_medium(const FrameView& view, MarchState& state);
 /// Makes the medium of the sun's cells once. kLimit: out of memory.
 Status make_lit_medium(const Context& context, const FrameView& view, MarchState& state);
 
-/// Refuses what discrete ordinates do not know, in a line.
-Status check_ordinates(const FrameView& view, const MarchChoice& choice);
+/// Chooses discrete ordinates or octaves where the scene leaves that open; refuses what ordinates
+/// do not know where it asks for them, in a line.
+Status choose_scattering(const FrameView& view, MarchChoice& choice);
 /// Solves for them where the light has changed. kLimit: out of memory.
-Status light_ordinates(const Context& context, const FrameView& view, MarchState& state);
+Status light_ordinates(const Context& context, const FrameView& view, double slack_deg,
+                       MarchState& state);
+/// Light that begins in the box: of these lamps, of media that shine.
+struct OwnLight {
+    std::size_t first_lamp = 0, lamps = 0;
+    bool emission = false;
+};
+OwnLight own_light_of(const FrameView& view);
+/// Solves for another light than the view's, whole, and turns it to the picture's camera.
+Status solve_ordinates_for(const Context& context, const FrameView& view, const Lighting& light,
+                           const OwnLight& own, MarchState& state);
+/// Tables of the beam within the peak of a phase function, for add_lamp_light; null: none.
+const float* lamp_tables(const MarchState& state);
+/// Whether nodes are seen from the same place, or along the same direction; or, from outside,
+/// nearly so as seen from the middle of the box.
+bool same_way(const Medium& medium, double slack_deg, const CameraParams& a, const CameraParams& b);
 
 /// Skylight is scattered towards the camera, but to all sides where copies of the medium are seen,
 /// each along ways of its own, and by method optical-depth.

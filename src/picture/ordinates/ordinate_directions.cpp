@@ -57,7 +57,7 @@ std::array<double, 3> ordinate_direction(int j) {
 
 double ordinate_weight(int) { return kSphere / kOrdinates; }
 
-void set_ordinate_sweeps(const NodeGrid& grid, bool periodic, double (&length_m)[kOrdinateClasses],
+void set_ordinate_sweeps(const NodeGrid& grid, bool periodic, OrdinateWay (&way)[kOrdinateClasses],
                          OrdinatesParams& k) {
     int classes = 0;
     for (int j = 0; j < kOrdinates; ++j) {
@@ -96,23 +96,61 @@ void set_ordinate_sweeps(const NodeGrid& grid, bool periodic, double (&length_m)
         const double length = 1 / step[s.axis];
         s.length = -1;
         for (int c = 0; c < classes; ++c) {
-            const double off = length_m[c] / length - 1;
-            if (off < 1e-6 && off > -1e-6) s.length = c;
+            const double off = way[c].length_m / length - 1;
+            if (off < 1e-6 && off > -1e-6 && way[c].along_x == (s.axis == 0)) s.length = c;
         }
         if (s.length >= 0) continue;
         s.length = classes;
-        length_m[classes++] = length;
+        way[classes++] = {length, s.axis == 0};
     }
-    for (; classes < kOrdinateClasses; ++classes) length_m[classes] = 0;
+    for (; classes < kOrdinateClasses; ++classes) way[classes] = {};
 }
 
 int ordinate_sets(const Medium& medium, const Lighting& light) {
     if (light.map.columns > 0 || medium.channels > 1) return 3;
     return int(light.sunlit) + int(any_light(light.sky)) +
-           int(light.ground && any_light(light.ground_radiance()));
+           int(light.ground && any_light(light.ground_radiance())) +
+           (!light.lamps.empty() || emits(medium) ? 3 : 0);
 }
 
-void set_ordinate_lights(const Medium& medium, const Lighting& light,
+namespace {
+
+/// Whether all lamps have one colour; theirs, so that its largest part is 1.
+bool one_colour(const OrdinateAsk& ask, Double3& colour) {
+    for (std::size_t i = 0; i < ask.lamp_count; ++i) {
+        const LampParams& lamp = ask.lamps->lamps[ask.first_lamp + i];
+        if (!(lamp.strength > 0)) continue;
+        for (std::size_t c = 0; c < 3; ++c) {
+            const double part = double(lamp.light[c]) / double(lamp.strength);
+            if (i > 0 && (part > colour[c] + 1e-6 || part < colour[c] - 1e-6)) return false;
+            colour[c] = part;
+        }
+    }
+    return !ask.emission;
+}
+
+/// Light that begins at lamps and in media.
+void add_own_lights(const OrdinateAsk& ask, std::vector<OrdinateSet>& out) {
+    if (ask.lamp_count == 0 && !ask.emission) return;
+    Double3 colour{};
+    OrdinateSet set;
+    if (one_colour(ask, colour)) {
+        for (std::size_t c = 0; c < 3; ++c) set.colour[c] = float(colour[c]);
+        set.own = kLampStrength;
+        out.push_back(set);
+        return;
+    }
+    for (int c = 0; c < 3; ++c) {
+        set.colour = {};
+        set.colour[std::size_t(c)] = 1;
+        set.own = 1 + c;
+        out.push_back(set);
+    }
+}
+
+}  // namespace
+
+void set_ordinate_lights(const Medium& medium, const Lighting& light, const OrdinateAsk& ask,
                          std::vector<OrdinateSet>& out) {
     out.clear();
     const Double3 ground = light.ground_radiance();
@@ -131,6 +169,7 @@ void set_ordinate_lights(const Medium& medium, const Lighting& light,
             set.colour[c] = 1;
             set.channel = int(c);
             set.beam = float(sun[c]);
+            if (ask.lamp_count > 0 || ask.emission) set.own = 1 + int(c);
             for (std::size_t j = 0; j < kOrdinates; ++j) set.enters[j] = float(enters[j][c]);
             out.push_back(set);
         }
@@ -147,6 +186,7 @@ void set_ordinate_lights(const Medium& medium, const Lighting& light,
     if (light.sunlit) add(light.sun_irradiance, 1, 0, 0);
     if (any_light(light.sky)) add(light.sky, 0, 1, light.ground ? 0 : 1);
     if (light.ground && any_light(ground)) add(ground, 0, 0, 1);
+    add_own_lights(ask, out);
 }
 
 }  // namespace pileus

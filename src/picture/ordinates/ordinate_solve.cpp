@@ -7,12 +7,12 @@
 
 #include "kernels_cpu/core/sh.h"
 #include "platform/threads.h"
+#include "src/picture/ordinates/ordinate_medium.h"
 
 namespace pileus {
 namespace {
 
 constexpr int kMaxIterations = 64;
-constexpr double kEnough = 2e-4;  // change of the mean radiance over its norm
 
 /// Places in the shared memory.
 struct Work {
@@ -43,55 +43,105 @@ Work share_work(float* from, std::size_t nodes) {
 }
 
 /// Of the way through a node: what passes, and the mean of what is on the way.
-void set_ways(const Context& context, const Medium& medium, const OrdinateNodes& nodes, float rest,
-              const double (&length_m)[kOrdinateClasses], const Work& w) {
+void set_ways(const Context& context, const Medium& medium, const OrdinateNodes& nodes, int channel,
+              const OrdinateWay (&way)[kOrdinateClasses], const std::int32_t* place_x,
+              const Work& w) {
     const std::size_t count = nodes.density.size();
-    for (std::size_t c = 0; c < kOrdinateClasses && length_m[c] > 0; ++c) {
-        const float per_density = rest * medium.sigma * float(length_m[c]);
-        parallel_each(context.threads, count, [&](std::size_t i) {
-            const float t = nodes.density[i] * per_density;
-            w.pass[c * count + i] = exp_(-t);
-            w.mean[c * count + i] = t > 1e-6f ? one_minus_exp(t) / t : 1.0f;
+    for (std::size_t c = 0; c < kOrdinateClasses && way[c].length_m > 0; ++c) {
+        const float per_density = medium.sigma * float(way[c].length_m);
+        std::fill_n(w.pass + c * count, count, 1.0f);
+        std::fill_n(w.mean + c * count, count, 0.0f);
+        parallel_each(context.threads, nodes.filled.size(), [&](std::size_t n) {
+            const auto i = std::size_t(nodes.filled[n]);
+            const float rest = ordinate_rest(nodes, nodes.parts, channel, i);
+            const float t = nodes.density[i] * (rest * per_density);
+            const std::size_t at = c * count + (way[c].along_x ? std::size_t(place_x[n]) : i);
+            w.pass[at] = exp_(-t);
+            w.mean[at] = t > 1e-6f ? one_minus_exp(t) / t : 1.0f;
         });
     }
 }
 
-OrdinatesParams params_of(const OrdinateNodes& nodes, bool periodic, const OrdinateOptics& optics,
-                          const Lighting& lighting, const OrdinateSet& set,
-                          double (&length_m)[kOrdinateClasses]) {
+/// Places of nodes where slices are along x: y fastest, then z.
+void set_places(const OrdinateNodes& nodes, Buffer<std::int32_t>& place_x) {
+    const std::int32_t* n = nodes.grid.size;
+    for (std::size_t i = 0; i < nodes.filled.size(); ++i) {
+        const std::int32_t at = nodes.filled[i];
+        const std::int32_t x = at % n[0], y = at / n[0] % n[1], z = at / (n[0] * n[1]);
+        place_x[i] = (x * n[2] + z) * n[1] + y;
+    }
+}
+
+/// Parts of media of the extinction that counts.
+Status set_parts(const Context& context, const OrdinateNodes& nodes, int channel,
+                 Buffer<float>& parts) {
+    if (nodes.media == 1) return Status::ok();
+    const std::size_t count = nodes.density.size(), filled = nodes.filled.size();
+    PILEUS_TRY(allocate_once(arrays::ordinate_part_work(filled, nodes.media), parts));
+    parallel_each(context.threads, filled, [&](std::size_t n) {
+        const auto i = std::size_t(nodes.filled[n]);
+        const float rest = std::max(ordinate_rest(nodes, nodes.parts, channel, i), 1e-6f);
+        for (std::size_t m = 0; m < std::size_t(nodes.media); ++m)
+            parts[m * filled + n] =
+                nodes.parts[m * count + i] * nodes.optics[m][channel].rest / rest;
+    });
+    return Status::ok();
+}
+
+/// What a medium scatters into each direction: of the beam, and of moments.
+void set_scatter(const OrdinateOptics& optics, const float (&sun)[kOrdinateMoments], float beam,
+                 int medium, OrdinatesParams& k) {
+    for (int l = 0; l < 4; ++l) k.scatter[medium][l] = ordinate_scatter(optics, l);
+    float sum = 0;
+    for (int j = 0; j < kOrdinates; ++j) {
+        float share = 0;
+        for (int m = 0; m < kOrdinateMoments; ++m)
+            share += k.scatter[medium][ordinate_degree(m)] * k.harmonic[j][m] * sun[m];
+        k.beam[medium][j] = std::max(share, 0.0f);
+        sum += k.beam[medium][j] * k.weight[j];
+    }
+    // What is scattered is all of it, where parts of the phase function were negative, too.
+    for (float& share : k.beam[medium]) share *= sum > 0 ? beam * optics.albedo / sum : 0.0f;
+}
+
+OrdinatesParams params_of(const OrdinateNodes& nodes, bool periodic, const Lighting& lighting,
+                          const OrdinateSet& set, OrdinateWay (&way)[kOrdinateClasses]) {
     OrdinatesParams k{};
+    k.filled = std::int32_t(nodes.filled.size());
     for (int a = 0; a < 3; ++a) k.size[a] = nodes.grid.size[a];
     k.periodic = periodic ? 1 : 0;
-    set_ordinate_sweeps(nodes.grid, periodic, length_m, k);
-    for (int m = 0; m < kOrdinateMoments; ++m) k.scatter[m] = ordinate_scatter(optics, m);
+    set_ordinate_sweeps(nodes.grid, periodic, way, k);
     float sun[kOrdinateMoments];
-    float sum = 0;
     sh_eval<4>(-lighting.to_sun[0], -lighting.to_sun[1], -lighting.to_sun[2], sun);
     for (int j = 0; j < kOrdinates; ++j) {
         const std::array<double, 3> d = ordinate_direction(j);
         sh_eval<4>(float(d[0]), float(d[1]), float(d[2]), k.harmonic[j]);
         k.weight[j] = float(ordinate_weight(j));
         k.enters[j] = set.enters[std::size_t(j)];
-        float share = 0;
-        for (int m = 0; m < kOrdinateMoments; ++m)
-            share += k.scatter[m] * k.harmonic[j][m] * sun[m];
-        k.beam[j] = std::max(share, 0.0f);
-        sum += k.beam[j] * k.weight[j];
     }
-    // What is scattered is all of it, where parts of the phase function were negative, too.
-    for (float& share : k.beam) share *= sum > 0 ? set.beam * optics.albedo / sum : 0.0f;
+    k.media = nodes.media;
+    for (int i = 0; i < k.media; ++i)
+        set_scatter(nodes.optics[i][set.channel], sun, set.beam, i, k);
     return k;
 }
 
 void iterate(const Context& context, const OrdinatesParams& k, const OrdinatesBuffers& b,
              std::int64_t slice_floats) {
+    constexpr std::int64_t kPiece = 512;
+    const std::int64_t pieces = (k.filled + kPiece - 1) / kPiece;
+    const auto last = [&](std::int64_t p) {
+        return std::uint32_t(std::min(std::int64_t(k.filled), (p + 1) * kPiece));
+    };
+    parallel_for(context.threads, pieces, [&](std::int64_t p, int) {
+        context.kernels->ordinate_sources(k, b, std::uint32_t(p * kPiece), last(p));
+    });
     parallel_for(context.threads, kOrdinates, [&](std::int64_t j, int thread) {
         OrdinatesBuffers own = b;
         own.slices = b.slices + slice_floats * thread;
         context.kernels->ordinate_directions(k, own, std::uint32_t(j), std::uint32_t(j) + 1);
     });
-    parallel_for(context.threads, k.size[2], [&](std::int64_t z, int) {
-        context.kernels->ordinate_moments(k, b, std::uint32_t(z), std::uint32_t(z) + 1);
+    parallel_for(context.threads, pieces, [&](std::int64_t p, int) {
+        context.kernels->ordinate_moments(k, b, std::uint32_t(p * kPiece), last(p));
     });
 }
 
@@ -156,24 +206,43 @@ void mix(int turn, std::size_t nodes, const Work& w, float* moments) {
 }  // namespace
 
 Status solve_ordinates(const Context& context, const Medium& medium, const OrdinateNodes& nodes,
-                       const OrdinateOptics& optics, const Lighting& lighting, const float* beam,
+                       const Lighting& lighting, const OrdinateSources& from, int iterations,
                        OrdinateSolver& solver, OrdinateSet& set, float* moments) {
-    const std::size_t count = std::size_t(node_count(nodes.grid));
-    PILEUS_TRY(allocate_once(arrays::ordinate_work(count), solver.work));
-    const Work w = share_work(solver.work.data(), count);
-    double length_m[kOrdinateClasses] = {};
-    const OrdinatesParams k =
-        params_of(nodes, medium.grid.periodic, optics, lighting, set, length_m);
+    const std::size_t count = nodes.filled.size(), all = nodes.density.size();
+    PILEUS_TRY(allocate_once(arrays::ordinate_work(all), solver.work));
+    PILEUS_TRY(allocate_once(arrays::ordinate_places(count, Stage::kShadow), solver.place_x));
+    const Work w = share_work(solver.work.data(), all);
+    OrdinateWay way[kOrdinateClasses] = {};
+    const OrdinatesParams k = params_of(nodes, medium.grid.periodic, lighting, set, way);
     std::int64_t slice_floats = 0;
     for (const OrdinateSweep& s : k.sweep)
         slice_floats = std::max(slice_floats, ordinate_slice_floats(k, s));
     PILEUS_TRY(solver.slices.resize(std::uint64_t(slice_floats) * std::uint64_t(context.threads),
                                     "ordinates: slices"));
-    if (solver.channel != set.channel) set_ways(context, medium, nodes, optics.rest, length_m, w);
+    if (solver.channel != set.channel) {
+        if (solver.channel < 0) {
+            std::fill_n(w.radiance, all * kOrdinates, 0.0f);
+            set_places(nodes, solver.place_x);
+        }
+        set_ways(context, medium, nodes, set.channel, way, solver.place_x.data(), w);
+        PILEUS_TRY(set_parts(context, nodes, set.channel, solver.parts));
+    }
     solver.channel = set.channel;
-    const OrdinatesBuffers b{w.pass, w.mean, beam, w.radiance, moments, solver.slices.data()};
-    std::fill_n(moments, count * kOrdinateMoments, 0.0f);
-    for (set.iterations = 0; set.iterations < kMaxIterations;) {
+    OrdinatesBuffers b{};
+    b.place = nodes.filled.data(), b.place_x = solver.place_x.data();
+    b.pass = w.pass, b.mean = w.mean, b.beam = from.beam, b.fixed = from.fixed,
+    b.part = solver.parts.data();
+    b.radiance = w.radiance, b.moments = moments, b.slices = solver.slices.data();
+    const bool begins = iterations == 0 || !set.solved;
+    if (begins) {
+        // Where nothing is absorbed, much of what is within is as bright as what enters.
+        float mean = 0;
+        for (int j = 0; j < kOrdinates; ++j) mean += k.weight[j] * k.harmonic[j][0] * k.enters[j];
+        std::fill_n(moments, count, mean);
+        std::fill_n(moments + count, count * (kOrdinateMoments - 1), 0.0f);
+    }
+    const int most = begins ? kMaxIterations : std::min(iterations, kMaxIterations);
+    for (set.iterations = 0; set.iterations < most;) {
         std::copy_n(moments, kSlowMoments * count, w.last);
         iterate(context, k, b, slice_floats);
         double change = 0, norm = 0;
@@ -182,9 +251,10 @@ Status solve_ordinates(const Context& context, const Medium& medium, const Ordin
             change += off * off, norm += now * now;
         }
         set.residual = norm > 0 ? __builtin_sqrt(change / norm) : 0;
-        if (++set.iterations == kMaxIterations || set.residual < kEnough) break;
+        if (++set.iterations == most || set.residual < kSolvedChange) break;
         mix(set.iterations - 1, count, w, moments);
     }
+    set.solved = true;
     return Status::ok();
 }
 

@@ -6,7 +6,9 @@
 #include <array>
 
 #include "kernels_cpu/ordinates/ordinates_params.h"
+#include "src/picture/nodes/lamp_light.h"
 #include "src/picture/nodes/node_grid.h"
+#include "src/picture/nodes/sun_depth.h"
 #include "src/plan/array.h"
 #include "src/run/context.h"
 #include "src/world/light/beam.h"
@@ -27,14 +29,9 @@ struct OrdinateOptics {
     float moment[4] = {1, 0, 0, 0};  ///< degrees 0..3, such that no light is negative
 };
 
-/// Degree of a moment.
-constexpr int ordinate_degree(int moment) {
-    return moment == 0 ? 0 : moment < 4 ? 1 : moment < 9 ? 2 : 3;
-}
-
 /// Share of a moment that is scattered.
-inline float ordinate_scatter(const OrdinateOptics& optics, int moment) {
-    return optics.albedo * optics.moment[ordinate_degree(moment)];
+inline float ordinate_scatter(const OrdinateOptics& optics, int degree) {
+    return optics.albedo * optics.moment[degree];
 }
 
 /// Light of one colour that enters, and its solution.
@@ -43,6 +40,10 @@ struct OrdinateSet {
     std::array<float, kOrdinates> enters{};  ///< radiance by direction
     float beam = 0;                          ///< of the sun's irradiance
     int channel = 0;                         ///< whose optics
+    /// Light of lamps and of the media: 0: none, 1 + c: of channel c, kLampStrength: by strength.
+    int own = 0;
+    bool solved = false;  ///< there is a solution for it, or for one before
+    bool same = false;    ///< that is for light like this
     int iterations = 0;
     double residual = 0;  ///< of the mean radiance, the last iteration's change over its norm
 };
@@ -50,13 +51,18 @@ struct OrdinateSet {
 struct OrdinateNodes {
     NodeGrid grid{};
     Beam peak;  ///< of the sun's light, turned within the peak
-    OrdinateOptics optics[3];
+    int media = 1;
+    OrdinateOptics optics[kMostMedia][3];
     double depth = 0;  ///< largest optical depth of a node's shortest edge that counts
     std::vector<OrdinateSet> sets;
-    int moments = 0;         ///< 1: towards the camera; or all
-    Buffer<float> density;   ///< [node]
-    Buffer<float> samples;   ///< of the density, within nodes
-    Buffer<float> solution;  ///< [set][moment][node]
+    int moments = 0;              ///< 1: towards the camera; or all
+    Buffer<float> density;        ///< [node]
+    Buffer<std::int32_t> filled;  ///< nodes that hold medium; others have no light of their own
+    Buffer<float> samples;        ///< of the density, within nodes
+    Buffer<float> parts;          ///< [medium][node]: of the density; of several media alone
+    Buffer<float> seen;      ///< [node]: of the sun, what solids leave; of scenes with solids alone
+    Buffer<float> sunward;   ///< [medium][node]: of the optical depth to the sun; likewise
+    Buffer<float> solution;  ///< [set][moment][filled]
     Buffer<float> light;     ///< [set][moment][node], as the march reads it
 };
 
@@ -84,6 +90,7 @@ inline Array<float> ordinate_solution(std::uint64_t nodes, std::uint64_t sets) {
     return {"ordinates: moments on nodes", bytes_of(sets * kOrdinateMoments, nodes), Stage::kShadow,
             Stage::kWrite};
 }
+/// Towards the camera each medium has its own.
 inline Array<float> ordinate_light(std::uint64_t nodes, std::uint64_t sets, int moments) {
     return {"ordinates: light on nodes", bytes_of(sets * std::uint64_t(moments), nodes),
             Stage::kShadow, Stage::kWrite};
@@ -99,6 +106,29 @@ inline Array<float> ordinate_depths(std::uint64_t samples) {
 inline Array<float> ordinate_nodes(std::uint64_t nodes, Stage last) {
     return {"ordinates: numbers of nodes", nodes, Stage::kShadow, last};
 }
+/// Of the sun, what solids leave.
+inline Array<float> ordinate_seen(std::uint64_t nodes) {
+    return {"ordinates: shadow of solids", nodes, Stage::kShadow, Stage::kWrite};
+}
+/// Which nodes hold medium; or where they are in slices along x.
+inline Array<std::int32_t> ordinate_places(std::uint64_t nodes, Stage last) {
+    return {"ordinates: places of nodes", nodes, Stage::kShadow, last};
+}
+/// Parts of the density, and of the depth towards the sun, by medium.
+inline Array<float> ordinate_parts(std::uint64_t nodes, int media) {
+    return {"ordinates: parts of the media", media > 1 ? bytes_of(std::uint64_t(media), nodes) : 0,
+            Stage::kShadow, Stage::kWrite};
+}
+/// Parts of the extinction that counts.
+inline Array<float> ordinate_part_work(std::uint64_t nodes, int media) {
+    return renamed(ordinate_parts(nodes, media), "ordinates: parts at work", Stage::kShadow,
+                   Stage::kShadow);
+}
+/// What lamps and media send from nodes, by direction.
+inline Array<float> ordinate_own(std::uint64_t nodes, bool any) {
+    return {"ordinates: light of lamps", any ? bytes_of(kOrdinates, nodes) : 0, Stage::kShadow,
+            Stage::kShadow};
+}
 /// Radiance by direction, factors of ways, the beam, and what iterations are mixed of.
 inline Array<float> ordinate_work(std::uint64_t nodes) {
     return {"ordinates: one solution at work",
@@ -110,35 +140,60 @@ inline Array<float> ordinate_work(std::uint64_t nodes) {
 
 }  // namespace arrays
 
-/// Optics of the one medium there is; f: the peak's share.
+/// Optics of a medium; f: the peak's share.
 OrdinateOptics ordinate_optics(const Optics& optics, int channel, double f);
 
+/// Of lamps whose light has one colour.
+constexpr int kLampStrength = 4;
+
+/// How a solution is found. Light that enters as before and has no beam keeps its own.
+struct OrdinateAsk {
+    const SunDepth* sun = nullptr;  ///< depths towards it, read between voxels; null: rays
+    int iterations = 0;  ///< > 0: so many at most, from the last solution on; 0: all, from none
+    const LampNodes* lamps = nullptr;  ///< of these so many shine; null: none
+    std::size_t first_lamp = 0, lamp_count = 0;
+    bool emission = false;  ///< media shine
+};
+
 /// Radiances that enter, by light or, where channels differ, by channel.
-void set_ordinate_lights(const Medium& medium, const Lighting& lighting,
+void set_ordinate_lights(const Medium& medium, const Lighting& lighting, const OrdinateAsk& ask,
                          std::vector<OrdinateSet>& out);
-/// Their number.
+/// Their number, at most.
 int ordinate_sets(const Medium& medium, const Lighting& lighting);
 
 /// Unit vector of the way of light in a direction, and its solid angle.
 std::array<double, 3> ordinate_direction(int j);
 double ordinate_weight(int j);
 
+/// Ways through nodes that are alike, and in slices along x or not.
+struct OrdinateWay {
+    double length_m = 0;
+    bool along_x = false;
+};
+
 /// Ways of all directions through nodes of such a size.
-void set_ordinate_sweeps(const NodeGrid& grid, bool periodic, double (&length_m)[kOrdinateClasses],
+void set_ordinate_sweeps(const NodeGrid& grid, bool periodic, OrdinateWay (&way)[kOrdinateClasses],
                          OrdinatesParams& k);
 
-/// Most sets of light that there are at once.
-constexpr std::size_t kMaxOrdinateSets = 3;
-
-/// Nodes and what lies in them, which no light changes. kLimit: out of memory.
+/// Nodes and what lies in them, which no light changes. `points`: the beam has tables for lamps
+/// that have a place, too. kLimit: out of memory.
 Status prepare_ordinates(const Context& context, const Medium& medium, const Majorants& majorants,
-                         OrdinateNodes& out);
+                         bool points, OrdinateNodes& out);
 /// Memory for any lights and cameras, so that frames keep none. kLimit: out of memory.
 Status reserve_ordinates(OrdinateNodes& out);
 
+/// Change of the mean radiance over its norm by an iteration that is the last.
+constexpr double kSolvedChange = 2e-4;
+
+/// Whether some solution has not come to its end.
+bool unsolved(const OrdinateNodes& nodes);
+
 /// Solves for the lights there are. The nodes are prepared. kLimit: out of memory.
 Status make_ordinates(const Context& context, const Medium& medium, const Majorants& majorants,
-                      const Lighting& lighting, OrdinateNodes& out);
+                      const Lighting& lighting, const OrdinateAsk& ask, OrdinateNodes& out);
+
+/// Numbers of a node that a march of a camera reads: one a medium towards it, or all moments.
+int ordinate_numbers(const Medium& medium, const CameraParams& camera, const NodeGrid& grid);
 
 /// Light as the march of a camera reads it. kLimit: out of memory.
 Status turn_ordinates(const Context& context, const Medium& medium, const CameraParams& camera,

@@ -10,16 +10,20 @@ namespace {
 template <auto... Members>
 constexpr KeyField raymarch = field<&Scene::raymarch, Members...>;
 
-constexpr KeyField kScattering{KeyKind::kChoice,
-                               [](const KeySource& s) {
-                                   const RaymarchSettings& r = s.scene.raymarch;
-                                   return node_of(r.ordinates ? 3 : r.many ? 2 : int(r.forward));
-                               },
-                               [](const KeyTarget& t, const Node& n) {
-                                   t.scene.raymarch.forward = n.integer == 1;
-                                   t.scene.raymarch.many = n.integer >= 2;
-                                   t.scene.raymarch.ordinates = n.integer == 3;
-                               }};
+constexpr KeyField kScattering{
+    KeyKind::kChoice,
+    [](const KeySource& s) {
+        const RaymarchSettings& r = s.scene.raymarch;
+        if (r.automatic) return node_of(0);
+        return node_of(r.ordinates ? 4 : r.many ? 3 : 1 + int(r.forward));
+    },
+    [](const KeyTarget& t, const Node& n) {
+        RaymarchSettings& r = t.scene.raymarch;
+        r.automatic = n.integer == 0;
+        r.forward = n.integer == 2;
+        r.many = n.integer == 0 || n.integer >= 3;
+        r.ordinates = n.integer == 4;
+    }};
 
 constexpr KeyRow kRows[] = {
     {"raymarch.integrator", raymarch<&RaymarchSettings::integrator>,
@@ -41,8 +45,9 @@ constexpr KeyRow kRows[] = {
     {"raymarch.occlusion", raymarch<&RaymarchSettings::stretch>, one_of("cut|stretch"), "",
      "before something solid the last step ends at it, or all steps shrink, which shows "
      "its shape through opaque cloud; the latter only to compare"},
-    {"raymarch.scattering", kScattering, one_of("single|forward|octaves|ordinates"), "",
-     "sunlight scattered once; or what stays within a cone goes on as sunlight; or many "
+    {"raymarch.scattering", kScattering, one_of("auto|single|forward|octaves|ordinates"), "",
+     "`auto`: ordinates where they know all of the scene, or octaves; sunlight scattered once; or "
+     "what stays within a cone goes on as sunlight; or many "
      "scatterings as weaker and weaker copies of the first; or the radiance in 32 directions on "
      "coarse nodes, solved for"},
     {"raymarch.octaves", raymarch<&RaymarchSettings::octaves>, from_to(1, 8), "",

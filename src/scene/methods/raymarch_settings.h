@@ -23,7 +23,8 @@ struct RaymarchSettings {
     double growth = 1.01;     ///< geometric: of one step over the one before
     bool stretch = false;     ///< occlusion = "stretch"
     bool forward = false;     ///< scattering = "forward"
-    bool many = true;         ///< scattering = "octaves" or "ordinates"
+    bool many = true;         ///< scattering = "auto", "octaves" or "ordinates"
+    bool automatic = true;    ///< scattering = "auto"
     bool ordinates = false;   ///< scattering = "ordinates"; lamps have octaves
     int octaves = 8;          ///< 1..8
     double octave_extinction = 0.45, octave_share = 0.65, octave_anisotropy = 0.75;

@@ -152,6 +152,46 @@ double turn_of_node(int node) {
     return at < 0.5 ? 4 * near * near : 2 - 4 * near * near;
 }
 
+/// Parts of several media of all extinction there is.
+std::array<double, kMostMedia> parts_of(const Medium& medium) {
+    std::array<double, kMostMedia> part{};
+    const std::size_t voxels = std::size_t(voxel_count(medium.grid));
+    double all = 0, first = 1;
+    for (std::size_t v = 0; v < voxels; ++v) all += double(medium.volume.density[v]);
+    for (int i = 1; i < medium.count && all > 0; ++i) {
+        const float* from = medium.parts.data() + std::size_t(i - 1) * voxels;
+        for (std::size_t v = 0; v < voxels; ++v) part[std::size_t(i)] += double(from[v]);
+        part[std::size_t(i)] /= all;
+        first -= part[std::size_t(i)];
+    }
+    part[0] = first > 0 ? first : 0;
+    return part;
+}
+
+/// Of several media, each as often as its part of the extinction and its albedo: moments by
+/// `albedo` times those of one phase function.
+Moments mean_moments(const std::vector<Moments>& of, const Medium& medium,
+                     const std::array<double, kMostMedia>& part, std::size_t channel,
+                     double& albedo) {
+    std::size_t count = 0;
+    for (const Moments& m : of) count = m.all.size() > count ? m.all.size() : count;
+    Moments out{int(count)};
+    albedo = 0;
+    for (std::size_t i = 0; i < of.size(); ++i) {
+        const double w = part[i] * double(medium.optics[i].albedo[channel]);
+        albedo += w;
+        out.degrees = of[i].degrees > out.degrees ? of[i].degrees : out.degrees;
+        out.smooth = of[i].smooth > out.smooth ? of[i].smooth : out.smooth;
+        for (std::size_t l = 0; l < of[i].all.size(); ++l) {
+            out.all[l] += w * of[i].all[l];
+            out.kept[l] += w * of[i].kept[l];
+        }
+    }
+    for (std::size_t l = 0; l < count && albedo > 0; ++l)
+        out.all[l] /= albedo, out.kept[l] /= albedo;
+    return out;
+}
+
 void fill_angle(const Moments& m, const std::vector<double>& weights, int node, float* out) {
     double values[kMostDegrees];
     legendre(1 - turn_of_node(node), m.degrees,
@@ -175,18 +215,26 @@ Status make_beam(const Medium& medium, float peak_turn, bool points, BeamTurns t
                  Stage first, Beam& out) {
     const int sets = medium.channels, kinds = points ? 2 : 1;
     PILEUS_TRY(allocate_once(arrays::beam_tables(std::uint64_t(kinds * sets), first), out.tables));
-    const Optics& optics = medium.optics[0];
-    Moments m = moments_of(optics.phase, double(peak_turn));
-    if (turns == BeamTurns::kPeak) m.all = m.kept;
-    const std::vector<double> of_point = point_moments(m);
-    out.share = m.kept[0];
-    for (int s = 0; s < 3; ++s) {
-        const double albedo = double(optics.albedo[s]);
-        out.rest[s] = float(1 - albedo * out.share);
-        for (int kind = 0; kind < kinds && s < sets; ++kind) {
+    const int media = turns == BeamTurns::kPeak ? medium.count : 1;
+    std::vector<Moments> of;
+    for (int i = 0; i < media; ++i) {
+        of.push_back(moments_of(medium.optics[std::size_t(i)].phase, double(peak_turn)));
+        if (turns == BeamTurns::kPeak) of.back().all = of.back().kept;
+        out.shares[i] = of.back().kept[0];
+    }
+    out.share = out.shares[0];
+    Moments m = of[0];
+    std::array<double, kMostMedia> part{};
+    if (media > 1) part = parts_of(medium);
+    for (std::size_t s = 0; s < 3; ++s) {
+        double albedo = double(medium.optics[0].albedo[s]);
+        if (media > 1) m = mean_moments(of, medium, part, medium.channels > 1 ? s : 0, albedo);
+        const std::vector<double> of_point = point_moments(m);
+        out.rest[s] = float(1 - albedo * m.kept[0]);
+        for (int kind = 0; kind < kinds && int(s) < sets; ++kind) {
             const std::vector<double> weights =
                 weights_of(m, kind == 0 ? m.kept : of_point, albedo);
-            float* table = out.tables.data() + (kind * sets + s) * kBeamNumbers;
+            float* table = out.tables.data() + (kind * sets + int(s)) * kBeamNumbers;
             parallel_for(threads, kBeamAngles + 1, [&](std::int64_t node, int) {
                 fill_angle(m, weights, int(node), table + node * (kBeamDepths + 1));
             });

@@ -17,11 +17,12 @@ namespace pileus {
 /// From a point, light that is turned at the share u of its way comes from u times that angle off
 /// the point in the end: there c_l is the mean of c_ul over u.
 struct Beam {
-    double share = 0;      ///< f
-    int sets = 0;          ///< one a channel of the medium; 0: there are no tables
-    bool points = false;   ///< there are those of points, too
-    float rest[3] = {};    ///< 1 - w f
-    Buffer<float> tables;  ///< Q: [parallel, from a point][set][angle][depth]
+    double shares[kMostMedia] = {};  ///< f of each medium
+    double share = 0;                ///< of the first
+    int sets = 0;                    ///< one a channel of the medium; 0: there are no tables
+    bool points = false;             ///< there are those of points, too
+    float rest[3] = {};              ///< 1 - w f
+    Buffer<float> tables;            ///< Q: [parallel, from a point][set][angle][depth]
 };
 
 namespace arrays {
@@ -41,8 +42,8 @@ float turn_of_deg(double deg);
 /// p within the cone and chi_l = c_l.
 enum class BeamTurns { kAll, kPeak };
 
-/// Tables for the one medium there is, and a cone by its 1 - cos; `points`: those of points, too.
-/// kLimit: out of memory.
+/// Tables of the first medium, or where `kPeak` is asked of several of their mean by extinction
+/// over the grid, and a cone by its 1 - cos; `points`: those of points, too. kLimit: out of memory.
 Status make_beam(const Medium& medium, float peak_turn, bool points, BeamTurns turns, int threads,
                  Stage first, Beam& out);
 

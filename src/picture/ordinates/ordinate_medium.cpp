@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// See ordinate_medium.h.
+#include "src/picture/ordinates/ordinate_medium.h"
+
+#include <algorithm>
+
+#include "kernels_cpu/media/detail.h"
+#include "kernels_cpu/raymarch/raymarch_field.h"
+#include "platform/threads.h"
+#include "src/picture/march_view.h"
+#include "src/picture/nodes/solid_shadow.h"
+#include "src/run/device_launch.h"
+
+namespace pileus {
+namespace {
+
+/// Samples along each axis, so that they see every voxel.
+std::array<int, 3> samples_within(const NodeGrid& grid, const Medium& medium) {
+    std::array<int, 3> out{};
+    for (int a = 0; a < 3; ++a) {
+        const double voxels = 1 / (double(grid.per_metre[a]) * double(medium.grid.cell_m[a]));
+        const int needed = int(0.5 * voxels + 0.999);
+        out[std::size_t(a)] =
+            voxels <= 1.01 ? 1 : std::min(std::max(needed, 2), kMaxOrdinateSamples);
+    }
+    return out;
+}
+
+float density_at(const MediumView& view, const Vec<float>& p) {
+    if (view.constant != 0) return grid_density<true>(view, p);
+    const float density = grid_density<false>(view, p);
+    return view.detail != nullptr ? with_detail(*view.detail, p, density) : density;
+}
+
+/// The grid of one of several media, from the second on.
+const float* part_grid(const Medium& medium, int i) {
+    return medium.parts.data() + std::size_t(i - 1) * std::size_t(voxel_count(medium.grid));
+}
+
+/// Parts of media 1, 2 ... are there, of a whole: makes them shares, and the first's what is left.
+/// Where nothing is, they are those of `empty`, or the first medium's alone.
+void share_out(int media, const float* empty, std::size_t count, std::size_t node, float whole,
+               float* parts) {
+    float left = 1;
+    for (int i = 1; i < media; ++i) {
+        float& part = parts[std::size_t(i) * count + node];
+        if (!(whole > 0))
+            part = empty != nullptr ? empty[std::size_t(i) * count + node] : 0;
+        else
+            part = std::max(std::min(part / whole, left), 0.0f);
+        left -= part;
+    }
+    parts[node] = left;
+}
+
+Status sample_parts(const Context& context, const Medium& medium, const Majorants& majorants,
+                    const NodeSamples& samples, OrdinateNodes& out) {
+    if (out.media == 1) return Status::ok();
+    const std::size_t count = out.density.size();
+    PILEUS_TRY(allocate(arrays::ordinate_parts(count, out.media), out.parts));
+    PILEUS_TRY(allocate(arrays::ordinate_parts(count, out.media), out.sunward));
+    const MediumView view = make_medium_view(medium, majorants);
+    parallel_each(context.threads, count, [&](std::size_t node) {
+        for (int i = 1; i < out.media; ++i) {
+            MediumView own = view;
+            own.density = part_grid(medium, i);
+            float sum = 0;
+            each_sample(out.grid, samples, node,
+                        [&](std::size_t s) { sum += density_at(own, sample_place(samples, s)); });
+            out.parts[std::size_t(i) * count + node] = sum * samples.share;
+        }
+        share_out(out.media, nullptr, count, node, out.density[node], out.parts.data());
+    });
+    return Status::ok();
+}
+
+/// Which media the depths towards the sun are of.
+Status part_sun(const Context& context, const ShadowParams& of_all, const Medium& medium,
+                OrdinateNodes& nodes) {
+    if (nodes.media == 1) return Status::ok();
+    const std::size_t count = nodes.density.size();
+    ShadowParams k = of_all;
+    k.nodes = nodes.grid;
+    const auto rows = std::uint32_t(nodes.grid.size[1] * nodes.grid.size[2]);
+    for (int i = 0; i < nodes.media; ++i) {
+        k.medium.density = i == 0 ? of_all.medium.density : part_grid(medium, i);
+        PILEUS_TRY(run_rows(context, context.kernels->shadow_rows, k,
+                            ShadowBuffers{nodes.sunward.data() + std::size_t(i) * count}, rows));
+    }
+    parallel_each(context.threads, count, [&](std::size_t node) {
+        share_out(nodes.media, nodes.parts.data(), count, node, nodes.sunward[node],
+                  nodes.sunward.data());
+    });
+    return Status::ok();
+}
+
+}  // namespace
+
+NodeSamples node_samples(const NodeGrid& grid, const Medium& medium) {
+    NodeSamples out;
+    out.within = samples_within(grid, medium);
+    out.fine = grid;
+    for (std::size_t a = 0; a < 3; ++a) {
+        out.fine.size[a] *= out.within[a];
+        out.fine.per_metre[a] *= float(out.within[a]);
+    }
+    out.share = 1.0f / float(out.within[0] * out.within[1] * out.within[2]);
+    return out;
+}
+
+float mean_in_sample(const NodeSamples& samples, const float (&way)[3], float per_metre,
+                     float depth) {
+    // At most the way through the middle of the sample's part.
+    float most = 0;
+    for (std::size_t a = 0; a < 3; ++a)
+        most = std::max(most, (way[a] < 0 ? -way[a] : way[a]) * samples.fine.per_metre[a]);
+    const float half = 0.5f * per_metre / most;
+    if (!(half > 0.01f)) return 1;
+    // sinh(x) / x, of which e^-tau at the middle is the mean; not beyond the near face.
+    const float x = std::min(half, std::min(20.0f, std::max(depth, 0.01f)));
+    return 0.5f * (exp_(x) - exp_(-x)) / x;
+}
+
+NodeGrid ordinate_samples(const NodeGrid& grid, const Medium& medium) {
+    return node_samples(grid, medium).fine;
+}
+
+Status sample_ordinates(const Context& context, const Medium& medium, const Majorants& majorants,
+                        OrdinateNodes& out) {
+    const NodeSamples samples = node_samples(out.grid, medium);
+    PILEUS_TRY(allocate(arrays::ordinate_densities(node_count(samples.fine)), out.samples));
+    PILEUS_TRY(allocate(arrays::ordinate_nodes(node_count(out.grid), Stage::kWrite), out.density));
+    const MediumView view = make_medium_view(medium, majorants);
+    parallel_each(context.threads, out.samples.size(), [&](std::size_t i) {
+        out.samples[i] = density_at(view, sample_place(samples, i));
+    });
+    parallel_each(context.threads, out.density.size(), [&](std::size_t i) {
+        float sum = 0;
+        each_sample(out.grid, samples, i, [&](std::size_t s) { sum += out.samples[s]; });
+        out.density[i] = sum * samples.share;
+    });
+    std::uint64_t filled = 0;
+    for (const float density : out.density.span()) filled += density > 0 ? 1 : 0;
+    PILEUS_TRY(allocate(arrays::ordinate_places(filled, Stage::kWrite), out.filled));
+    filled = 0;
+    for (std::size_t i = 0; i < out.density.size(); ++i)
+        if (out.density[i] > 0) out.filled[filled++] = std::int32_t(i);
+    return sample_parts(context, medium, majorants, samples, out);
+}
+
+Status sample_sun(const Context& context, const Medium& medium, const Majorants& majorants,
+                  const Lighting& lighting, const SunDepth* sun, OrdinateNodes& nodes,
+                  Buffer<float>& depths) {
+    const NodeSamples samples = node_samples(nodes.grid, medium);
+    PILEUS_TRY(allocate(arrays::ordinate_depths(node_count(samples.fine)), depths));
+    ShadowParams k{};
+    k.medium = make_medium_view(medium, majorants);
+    k.nodes = samples.fine;
+    for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = lighting.to_sun[a];
+    if (sun != nullptr)
+        parallel_each(context.threads, depths.size(), [&](std::size_t i) {
+            const Vec<float> node = node_position(sun->nodes, sample_place(samples, i));
+            depths[i] = interpolate(sun->optical_depth.data(),
+                                    node_corners(node, sun->nodes.size, k.medium.periodic != 0));
+        });
+    else
+        PILEUS_TRY(run_rows(context, shadow_kernel(*context.kernels, k.medium), k,
+                            ShadowBuffers{depths.data()},
+                            std::uint32_t(k.nodes.size[1] * k.nodes.size[2])));
+    if (lighting.solids != nullptr)
+        PILEUS_TRY(
+            solid_visibility(context, *lighting.solids, nodes.grid, lighting.to_sun, nodes.seen));
+    return part_sun(context, k, medium, nodes);
+}
+
+void light_nodes(const Context& context, const Medium& medium, const OrdinateNodes& nodes,
+                 const Lighting& lighting, int channel, const Buffer<float>& depths, float* beam) {
+    const NodeSamples samples = node_samples(nodes.grid, medium);
+    const float to_sun[3] = {lighting.to_sun[0], lighting.to_sun[1], lighting.to_sun[2]};
+    parallel_each(context.threads, nodes.filled.size(), [&](std::size_t filled) {
+        const auto i = std::size_t(nodes.filled[filled]);
+        const float rest = ordinate_rest(nodes, nodes.parts, channel, i);
+        const float way_rest = ordinate_rest(nodes, nodes.sunward, channel, i);
+        float light = 0, mass = 0;
+        each_sample(nodes.grid, samples, i, [&](std::size_t s) {
+            const float density = nodes.samples[s], depth = way_rest * depths[s];
+            const float spread =
+                mean_in_sample(samples, to_sun, rest * medium.sigma * density, depth);
+            light += density * std::min(exp_(-depth) * spread, 1.0f);
+            mass += density;
+        });
+        beam[filled] = light / mass * (nodes.seen.empty() ? 1.0f : nodes.seen[i]);
+    });
+}
+
+}  // namespace pileus
