@@ -8,7 +8,7 @@
 #include "kernels_cpu/display/march_background.h"
 #include "kernels_cpu/display/upsample_rows.h"
 #include "kernels_cpu/isa/device_threads.h"
-#include "kernels_cpu/isa/self_test.h"
+#include "kernels_cpu/media/self_test.h"
 #include "kernels_cpu/light/sweep_layer.h"
 #include "kernels_cpu/light/sweep_turned.h"
 #include "kernels_cpu/particles/particle_board.h"

@@ -5,7 +5,7 @@
 #include "kernels_cpu/display/march_background.h"
 #include "kernels_cpu/display/march_ray.h"
 #include "kernels_cpu/display/pixel_rows.h"
-#include "kernels_cpu/isa/self_test.h"
+#include "kernels_cpu/media/self_test.h"
 #define PILEUS_GROUP_Always 1
 #include "kernels_cpu/isa/kernel_group.h"
 

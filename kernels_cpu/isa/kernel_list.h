@@ -48,6 +48,8 @@ PILEUS_RANGE(trace_paths,          PathParams,          PathBuffers,           P
 PILEUS_RANGE(trace_paths_solid,    PathParams,          PathBuffers,           PathSolids,   Device)
 PILEUS_RANGE(trace_paths_guided,   PathParams,          PathBuffers,           PathGuided,   Device)
 PILEUS_RANGE(trace_paths_lamps,    PathParams,          PathBuffers,           PathLamps,    Device)
+// With PathParams::importance, of one medium under sun and sky.
+PILEUS_RANGE(trace_paths_importance, PathParams,        PathBuffers,           PathImportance, Host)
 
 // Marches
 PILEUS_RANGE(raymarch_rows,        RaymarchParams,      RaymarchBuffers,       Raymarch,     Device)

@@ -100,10 +100,9 @@ PILEUS_FN void advance_paths(PathGroup<W, NC, K>& g, const PathParams& k, const 
 
 /// Shadow rays of the lanes of `rays` lose the share `density` / bound of their light, and end by
 /// luck once little is left; `luck` is 0, 1/256 ... 255/256.
-template <int W, int NC, int K>
-PILEUS_FN void dim_rays(PathGroup<W, NC, K>& g, M<W> rays, F<W> density, F<W> luck) {
+template <int W, class Lanes>
+PILEUS_FN void dim_rays(Lanes& s, M<W> rays, F<W> density, F<W> luck) {
     using T = F<W>;
-    PathLanes<W, NC, K>& s = g.s;
     // Carry the rounding: a million collisions in thin air would add theirs up.
     const T share = min_(density / s.bound, all<T>(1.0f));
     const T lost = s.carry - (s.seen + s.carry) * share;
@@ -142,7 +141,7 @@ PILEUS_FN void collide_paths(PathGroup<W, NC, K>& g, const PathParams& k, const 
     }
     s.tau = select(g.hits, free_flight((g.w.a & 0xffffff00u) | (more.b & 0xffu), more.b), s.tau);
     s.event = select(g.hits, s.event + 2u, s.event);
-    if (any(rays)) dim_rays(g, rays, density, luck);
+    if (any(rays)) dim_rays<W>(s, rays, density, luck);
     if constexpr (kLamps<K>) {
         if (k.emits != 0) gather_emission(s, k, path, g.corner, density);
     }

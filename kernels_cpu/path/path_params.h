@@ -10,6 +10,7 @@
 #include "kernels_cpu/light/sun_heights_params.h"
 #include "kernels_cpu/media/optics.h"
 #include "kernels_cpu/media/track_grid.h"
+#include "kernels_cpu/path/importance_params.h"
 #include "kernels_cpu/solids/solids_params.h"
 
 namespace pileus {
@@ -79,6 +80,8 @@ struct PathParams {
     std::int32_t lamp_spheres;  ///< 0: none of them is a sphere
     float lamp_near;     ///< m: nearer to a lamp, light is found between vertices, else at them
     std::int32_t emits;  ///< 0: no medium shines by itself
+
+    const ImportanceParams* importance;  ///< read by trace_paths_importance alone; null: none
 };
 
 /// Sums of integers, so that threads and chunks can be added in any order.
@@ -90,6 +93,8 @@ struct PathTally {
     std::int64_t terminated;  ///< paths given up after max_events draws, flights that would not end
     std::int64_t nan;         ///< samples that were no finite number, stored as 0
     std::int64_t majorant_violations;
+    std::int64_t splits;   ///< copies of particles besides the first
+    std::int64_t unsplit;  ///< vertices where too many waited already
 };
 
 /// Whether paths need trace_paths_guided.

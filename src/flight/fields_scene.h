@@ -100,7 +100,7 @@ void fields(A& a, PhotonGridSettings& v) {
 template <class A>
 void fields(A& a, PathSettings& v) {
     all(a, v.samples_per_pixel, v.max_depth, v.centre, v.target_error, v.max_samples_per_pixel,
-        v.guide);
+        v.guide, v.importance);
 }
 template <class A>
 void fields(A& a, FilterSettings& v) {

@@ -191,10 +191,10 @@ TEST_CASE("path: a state that does not fit is refused, and left as it is") {
     damaged[good.size() / 2] = char(damaged[good.size() / 2] ^ 1);
     refused(damaged, "", "its digest does not fit");
     std::string later = good;
-    later[8] = 4;
-    refused(later, "", "written in form 4, this version reads 3");
-    later[8] = 2;  // up to 0.8.0
-    refused(later, "", "written in form 2, this version reads 3");
+    later[8] = 5;
+    refused(later, "", "written in form 5, this version reads 4");
+    later[8] = 3;  // up to 0.10.0
+    refused(later, "", "written in form 3, this version reads 4");
     folder.files().put("x.state", good);
     CHECK(hash_of(folder, "--budget samples=8 --state x.state") ==
           hash_of(folder, "--budget samples=8"));

@@ -116,7 +116,8 @@ void fly_all(const char* folder, int least) {
         const pileus::Status packed = pileus::pack_scene(scene, *world, bytes);
         if (!packed) {
             CHECK_MESSAGE(packed.message.find(", allowed: ") != std::string::npos, packed.message);
-            CHECK((!scene.solids.empty() || scene.media.front().detail.present()));
+            CHECK((!scene.solids.empty() || scene.media.front().detail.present() ||
+                   scene.path.importance));
             continue;
         }
         // Lights of photons have sums of their own, of media that shine, too.

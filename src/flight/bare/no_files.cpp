@@ -52,6 +52,10 @@ Status read_camera_depth(const Scene& scene, const Context&, CameraDepth&) {
 Status denoise_film(const Context&, const FrameView&, PathState&) {
     return no_files("filter.kind");
 }
+Status check_importance(const FrameView&) { return no_files("path.importance"); }
+Status make_importance(const Context&, const FrameView&, const Majorants&, PathImportance&) {
+    return no_files("path.importance");
+}
 Status open_gl_blender(Compositor, GlBlender&) { return no_files("collectors.compositor"); }
 Status blend_by_gl(GlBlender&, const BillboardScene&, const CameraParams&, int, BillboardImage&) {
     return no_files("collectors.compositor");

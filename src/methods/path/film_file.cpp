@@ -11,7 +11,7 @@ namespace pileus {
 namespace {
 
 constexpr std::uint64_t kMagic = 0x4d4c494653554c50;  // "PLUSFILM"
-constexpr std::uint64_t kFormat = 3;
+constexpr std::uint64_t kFormat = 4;
 // Magic, format, digest, width, height, parts, samples, pixels ahead and by how many samples.
 constexpr std::size_t kHeadWords = 9;
 constexpr std::size_t kTallyWords = sizeof(PathTally) / sizeof(std::int64_t);
@@ -215,6 +215,7 @@ std::uint64_t path_state_digest(const PathInput& in, const std::string& version)
     d.u32(in.max_events);
     d.u32(in.guide ? 1 : 0);
     d.f32(float(in.sun_radius_deg));
+    d.u32(in.importance != nullptr ? 1 : 0);
     return d.value();
 }
 

@@ -32,11 +32,13 @@ PathMethod::PathMethod(const MethodInputs& inputs) {
 
 Status PathMethod::plan(const Context&, const FrameView& view, Plan&) {
     state_.camera = make_camera(view.scene.camera, 0, view.world.medium.low_m);
-    return Status::ok();
+    return state_.settings.importance ? check_importance(view) : Status::ok();
 }
 
 Status PathMethod::prepare(const Context& context, const FrameView& view) {
     PILEUS_TRY(make_majorants(view.world.medium, true, context, state_.majorants, kPathCosts));
+    state_.importance.made = false;
+    state_.importance.nodes = OrdinateNodes{};
     state_.outlined_only = false;
     return Status::ok();
 }

@@ -41,7 +41,9 @@ void note_sun(const FrameView& view, const PathState& state, Plan& plan) {
         plan.need("the sun's disc");
     else
         plan.leave_out("the sun's disc", "sun.angular_radius_deg = 0");
-    if (!state.settings.guide)
+    if (state.settings.importance)
+        plan.leave_out("branches towards the sun", "path.importance = true");
+    else if (!state.settings.guide)
         plan.leave_out("branches towards the sun", "path.guide = false");
     else if (fit_guide(view.world.medium).on == 0)
         plan.leave_out("branches towards the sun", "no peaked phase function");
@@ -106,12 +108,16 @@ void note_plan(const FrameView& view, const PathState& state, bool keeps_state, 
         plan.leave_out("alpha", "a flat detector: 1 everywhere");
     else
         plan.need("alpha, marched through pixel centres");
-    plan.need("paths");
+    if (state.settings.importance)
+        plan.need("paths that discrete ordinates split and end");
+    else
+        plan.need("paths");
     note_light(view, state, plan);
     note_solids(view.world.solids, view.environment.depth, plan);
     note_parts(view, state, keeps_state, plan);
     note_media(view.world.media_plan, plan);
-    for (Stage stage : kNotInPaths) plan.skip(stage);
+    for (Stage stage : kNotInPaths)
+        if (stage != Stage::kShadow || !state.settings.importance) plan.skip(stage);
 }
 
 std::uint64_t film_pixels(const Scene& scene) {
@@ -146,6 +152,7 @@ void weigh_memory(const Context& context, const FrameView& view, const PathState
     const int finest = voxel_count(grid) <= kMostSingleVoxels ? 1 : 2;
     add(t, arrays::path_blocks(grid, state.outlined_only ? finest : state.majorants.block));
     add(t, arrays::path_samples(in));
+    if (state.settings.importance) add_importance_rows(view, t);
     if (keeps_state)
         t.add("state file", Stage::kPaths, Stage::kPaths,
               path_state_bytes(sums.bytes() + squares.bytes()));
@@ -306,6 +313,10 @@ public:
         report.paths.earlier_scatterings = std::uint64_t(earlier_.scatterings);
         report.executed.emplace_back("ground_bounces", std::uint64_t(all.bounces));
         report.executed.emplace_back("shadow_rays", std::uint64_t(all.shadow_rays));
+        if (!state.settings.importance) return;
+        report.executed.emplace_back("splits", std::uint64_t(all.splits));
+        report.executed.emplace_back("unsplit", std::uint64_t(all.unsplit));
+        if (state.importance.made) tell_ordinates(state.importance.nodes, report);
     }
 
     /// Whole passes; a film that ran on within one has more of some pixels.
@@ -316,6 +327,16 @@ public:
     void put_work(const FrameWork&, MethodTables&) const override {}
 
 private:
+    static void tell_ordinates(const OrdinateNodes& nodes, Report& report) {
+        OrdinateFigures& out = report.ordinates;
+        out.nodes = node_count(nodes.grid);
+        out.node_depth = nodes.depth;
+        for (const OrdinateSet& set : nodes.sets) {
+            out.iterations = set.iterations > out.iterations ? set.iterations : out.iterations;
+            out.residual = set.residual > out.residual ? set.residual : out.residual;
+        }
+    }
+
     /// The report tells the error of samples also where no layer shows it.
     void report_error(Report& report) const {
         const PathState& state = of_.state();

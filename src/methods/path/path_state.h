@@ -4,6 +4,7 @@
 // docs/path.md
 #pragma once
 #include "src/methods/method.h"
+#include "src/methods/path/path_importance.h"
 #include "src/methods/path/trace_paths.h"
 #include "src/picture/filter/guides.h"
 #include "src/picture/layers.h"
@@ -27,7 +28,8 @@ struct PathState {
     Film film;
     bool begun = false;  ///< the film is that of the view
     PathScratch scratch;
-    PathTally tally{};  ///< of all films before this one
+    PathImportance importance;  ///< with settings.importance alone
+    PathTally tally{};          ///< of all films before this one
     bool interrupted = false;
 };
 

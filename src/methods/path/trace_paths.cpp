@@ -114,6 +114,7 @@ PathParams path_params(const PathInput& in, const PathScratch& scratch) {
     k.parts_wanted = in.parts ? 1 : 0;
     k.light_roulette = in.light_roulette;
     set_lamps(in, k);
+    k.importance = in.importance;
     if (k.sunlit == 0) return k;
     if (in.guide) k.guide = scratch.guide;
     if (in.sun_radius_deg > 0) set_disc(in.sun_radius_deg, k);
@@ -122,6 +123,7 @@ PathParams path_params(const PathInput& in, const PathScratch& scratch) {
 
 /// The kernel of the table that these paths need.
 auto kernel_for(const PathInput& in, const PathParams& k) {
+    if (k.importance != nullptr) return host_kernels(in.kernels).trace_paths_importance;
     if (kLights && (k.lamp_count > 0 || k.emits != 0)) return in.kernels->trace_paths_lamps;
     if (seeks_sun(k)) return in.kernels->trace_paths_guided;
     const bool ends = in.lighting->solids != nullptr || in.lighting->depth != nullptr;
@@ -133,7 +135,7 @@ auto kernel_for(const PathInput& in, const PathParams& k) {
 Status run_launch(const PathInput& in, const PathParams& k, std::uint64_t count,
                   const std::function<bool()>& ask, PathScratch& scratch, bool& ended) {
     ended = false;
-    if (on_device(in.kernels->device))
+    if (on_device(in.kernels->device) && k.importance == nullptr)
         return launch_on_device(*in.kernels->device, k,
                                 {scratch.radiance.data(), scratch.capacity, &scratch.tallies[0]},
                                 std::uint32_t(count));

@@ -39,8 +39,10 @@ struct PathInput {
     std::uint32_t max_events = 1u << 24;  ///< draws per path before it is given up
     /// Shadow rays that bring less than this share of their light, 1/sr, play roulette; 0: all fly.
     float light_roulette = kLightRoulette;
-    bool guide = true;              ///< branches towards the sun where a phase function is peaked
-    double sun_radius_deg = 0;      ///< of the sun's disc, [0, 10]; 0: a point
+    bool guide = true;          ///< branches towards the sun where a phase function is peaked
+    double sun_radius_deg = 0;  ///< of the sun's disc, [0, 10]; 0: a point
+    /// Expected light that particles are split by; null: paths go one by one.
+    const ImportanceParams* importance = nullptr;
     std::function<bool()> ended{};  ///< asked between pieces of work whether to end there
 };
 

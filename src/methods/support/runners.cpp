@@ -52,6 +52,8 @@ constexpr RunnerRow kRunnerRows[] = {
     runner_row("photon-grid, raymarch, optical-depth, particles", refused(), exact(), exact(),
                refused()),
     runner_row("filter", refused(), exact("regression; oidn is refused"), exact(), refused()),
+    runner_row("path.importance", exact("on the host"), refused("when it is packed"), exact(),
+               exact("paths one by one")),
     runner_row("[[light]], emission", refused(),
                exact("refused by a library that is built without"), exact(), refused()),
     runner_row("[[solid]]", refused(), refused("when it is packed"), exact(), refused()),

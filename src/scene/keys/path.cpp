@@ -22,6 +22,9 @@ constexpr KeyRow kRows[] = {
      "the other methods send theirs"},
     {"path.guide", path<&PathSettings::guide>, any(), "",
      "seeks the sun's light by branches near its direction where a phase function is peaked"},
+    {"path.importance", path<&PathSettings::importance>, any(), "",
+     "splits paths where discrete ordinates expect much light and ends them where they expect "
+     "little; without bias, for one medium of Henyey-Greenstein's phase function and one albedo"},
     {"path.target_error", path<&PathSettings::target_error>, from_to(0, 1), "",
      "ends where the standard error over the radiance, its mean over the cloud's "
      "pixels, is no more than this; 0: after samples_per_pixel"},

@@ -12,7 +12,8 @@ struct PathSettings {
     bool centre = false;      ///< pixel = "centre": rays through the middles of pixels only
     double target_error = 0;  ///< mean relative standard error to reach; 0: none
     std::int64_t max_samples_per_pixel = 65536;  ///< where an error or a time decides
-    bool guide = true;  ///< a peaked phase function's light is also sought from near the sun
+    bool guide = true;        ///< a peaked phase function's light is also sought from near the sun
+    bool importance = false;  ///< light by discrete ordinates says where particles are split
 };
 
 enum class FilterKind { kNone, kRegression, kOidn };

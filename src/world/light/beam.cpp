@@ -211,6 +211,11 @@ float turn_of_deg(double deg) {
     return float(2 * half * half);
 }
 
+std::vector<double> peak_moments(const PhaseParams& phase, float peak_turn) {
+    const Moments m = moments_of(phase, double(peak_turn));
+    return std::vector<double>(m.kept.begin(), m.kept.begin() + m.degrees);
+}
+
 Status make_beam(const Medium& medium, float peak_turn, bool points, BeamTurns turns, int threads,
                  Stage first, Beam& out) {
     const int sets = medium.channels, kinds = points ? 2 : 1;

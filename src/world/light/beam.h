@@ -38,6 +38,10 @@ inline Array<float> beam_tables(std::uint64_t sets, Stage first) {
 /// 1 - cos of an angle in degrees.
 float turn_of_deg(double deg);
 
+/// Legendre moments c_l of a phase function within its peak, w p of width `peak_turn` (1 - cos), as
+/// many as count.
+std::vector<double> peak_moments(const PhaseParams& phase, float peak_turn);
+
 /// Which scatterings out of the beam a table has: all, or those within the peak alone, where p is
 /// p within the cone and chi_l = c_l.
 enum class BeamTurns { kAll, kPeak };
