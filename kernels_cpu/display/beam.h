@@ -10,6 +10,12 @@
 namespace pileus {
 inline namespace PILEUS_ISA {
 
+/// Share of a phase function that is its peak, of a width by 1 - cos.
+template <class T>
+PILEUS_FN T share_in_peak(T turn, float width) {
+    return exp_(T{} - min_(turn * (1.0f / width), all<T>(80.0f)));
+}
+
 /// Where the tables hold a turn: a cell, and the place in it.
 template <class T>
 struct BeamAngle {

@@ -28,7 +28,7 @@ PILEUS_FN OrdinatesRay<T> ordinates_ray(const OrdinatesMarchParams& o, const Vec
     const Vec<T> to_sun{all<T>(k.to_sun[0]), all<T>(k.to_sun[1]), all<T>(k.to_sun[2])};
     r.turn = one_minus_cosine(to_sun, d);
     r.most = most_density(k.camera, d);
-    const T within = exp_(T{} - min_(r.turn * (1.0f / o.turn), all<T>(80.0f)));
+    const T within = share_in_peak(r.turn, o.turn);
     for (int i = 0; i < kMostMedia && i < k.media; ++i) {
         const T phase = min_(phase_density(k.phase[i], r.turn), r.most);
         r.peak[i] = phase * within;

@@ -264,34 +264,6 @@ PILEUS_FN void serve(ImportanceGroup<W>& g, FreshPaths<W, 0>& fresh, const PathP
     refill_samples(s, fresh, k, b, ~bits_of(s.alive) & kFull, next, end);
 }
 
-/// Move every flight to its next tentative collision, or some borders on towards it.
-template <int W>
-PILEUS_FN void advance(ImportanceGroup<W>& g, const PathParams& k, const PathBuffers& b) {
-    ImportanceLanes<W>& s = g.s;
-    const M<W> path = s.flight == kFlightPath;
-    M<W> flying = s.alive & lnot(waiting(s));
-    g.hits = flying & lnot(flying);
-    for (int hop = 0; hop < kHopsPerTurn && any(flying); ++hop) {
-        const Step<W> m = step_flight(s, k.grid, flying);
-        g.hits = g.hits | m.hits;
-        b.tally->crossings += count_bits(bits_of(m.hops));
-        if (any(m.lost)) b.tally->terminated += count_bits(bits_of(m.lost));
-        s.out = s.out | (m.out & path);
-        s.lit = s.lit | (m.out & lnot(path));
-        flying = m.hops & lnot(m.out);
-    }
-    if (!any(g.hits)) return;
-    b.tally->tentative += count_bits(bits_of(g.hits));
-    b.tally->shadow_tentative += count_bits(bits_of(g.hits & lnot(path)));
-    // One look-up stands for eight: acceptance and transmittance are linear in density.
-    g.w = threefry(k.key.k0, k.key.k1, s.number, s.event);
-    const Vec<F<W>> p = place_of(s);
-    s.p = {select(g.hits, p.x, s.p.x), select(g.hits, p.y, s.p.y), select(g.hits, p.z, s.p.z)};
-    g.corner = select(g.hits, corner_voxel(s.p, g.w.b, k.grid), I<W>{});
-    for (std::uint32_t lanes = bits_of(g.hits); lanes != 0; lanes &= lanes - 1)
-        prefetch_(k.grid.density + lane(g.corner, lowest_bit(lanes)));
-}
-
 /// Tentative collisions, as collide_paths has them for one medium: particles meet it or pass,
 /// shadow rays lose a share of their light.
 template <int W>
@@ -352,7 +324,7 @@ PILEUS_FN void trace_paths_importance(const PathParams& k, const PathBuffers& b,
             if (vertices || W - flying - due >= kEnds<W>)
                 serve(g, fresh, k, b, vertices, next, end);
             busy |= any(g.s.alive);
-            advance(g, k, b);
+            advance_paths<W>(g, k, b);
         }
         for (ImportanceGroup<W>& g : groups)
             if (any(g.hits)) collide(g, k, b);

@@ -4,6 +4,7 @@
 // docs/importance.md, "Light that is expected"
 #pragma once
 #include "kernels_cpu/core/sh.h"
+#include "kernels_cpu/display/beam.h"
 #include "kernels_cpu/media/optics.h"
 #include "kernels_cpu/media/phase_table.h"
 #include "kernels_cpu/path/importance_params.h"
@@ -192,7 +193,7 @@ PILEUS_FN Expected<T> expected_light(const PathParams& p, const ImportanceParams
         out.phase = phase_density(p.optics[0].phase, turn);
         out.straight = exp_(T{} - tau);
         out.sun_around = smooth + lobe_light(there, k.turned_g, turn);
-        const T peak = out.phase * exp_(T{} - min_(turn * (1.0f / k.peak_turn), all<T>(80.0f)));
+        const T peak = out.phase * share_in_peak(turn, k.peak_turn);
         const T left = exp_(T{} - tau * k.rest);
         const T beam = peak_light(k, turn, tau) * left;
         out.sun = max_(smooth, T{}) + (out.phase - peak) * left + peak * out.straight + beam;

@@ -159,44 +159,14 @@ PILEUS_FN void store_samples(const ImportanceLanes<W>& s, const PathParams& k, c
                       lanes);
 }
 
-/// Hand the waiting ray `from` over to lane `to`.
-template <int W>
-PILEUS_FN void hand_over(ImportanceLanes<W>& s, int to, const FreshPaths<W, 0>& f, int from) {
-    const auto move = [&](auto& a, const auto& b) { set_lane(a, to, lane(b, from)); };
-    const auto move3 = [&](auto& a, const auto& b) {
-        move(a.x, b.x), move(a.y, b.y), move(a.z, b.z);
-    };
-    const Flight<W>& w = f.flight;
-    move3(s.from, w.from), move3(s.speed, w.speed), move3(s.d, w.d);
-    move3(s.plane, w.plane), move3(s.gap, w.gap), move3(s.vertex, f.origin);
-    move(s.t, w.t), move(s.exit, w.exit), move(s.cut, w.cut);
-    move(s.tau, w.tau);
-    move(s.bound, w.bound), move(s.lift, w.lift), move(s.block, w.block);
-    move(s.wraps, w.wraps);
-    move(s.number, f.number), move(s.sample, f.sample);
-}
-
-/// Give the lanes of `idle` the next samples, whose rays fly already.
+/// Give the lanes of `idle` the next samples.
 template <int W>
 PILEUS_FN void refill_samples(ImportanceLanes<W>& s, FreshPaths<W, 0>& f, const PathParams& k,
                               const PathBuffers& b, std::uint32_t idle, std::uint32_t& next,
                               std::uint32_t end) {
     using T = F<W>;
-    const I<W> lanes = iota<I<W>>();
-    M<W> fresh = s.alive & lnot(s.alive), out = fresh;
-    while (idle != 0) {
-        if (f.ready == 0) {
-            if (next >= end) break;
-            fill_fresh<W>(f, k, b, next, end);
-            continue;
-        }
-        const int to = lowest_bit(idle), from = lowest_bit(f.ready);
-        hand_over(s, to, f, from);
-        const M<W> here = lanes == to;
-        fresh = fresh | here;
-        if ((bits_of(f.out) >> from) & 1u) out = out | here;
-        idle &= idle - 1, f.ready &= f.ready - 1;
-    }
+    const Refilled<W> given = hand_over_next(s, f, k, b, idle, next, end);
+    const M<W>& fresh = given.fresh;
     if (!any(fresh)) return;
     s.event = select(fresh, U<W>{} + f.event, s.event);
     s.weight = select(fresh, all<T>(1.0f), s.weight);
@@ -212,7 +182,7 @@ PILEUS_FN void refill_samples(ImportanceLanes<W>& s, FreshPaths<W, 0>& f, const 
     s.alive = s.alive | fresh;
     s.outside = s.outside | fresh;
     s.cloud = s.cloud & lnot(fresh);
-    s.out = s.out | out;
+    s.out = s.out | given.out;
 }
 
 }  // namespace PILEUS_ISA

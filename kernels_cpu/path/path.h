@@ -71,9 +71,9 @@ PILEUS_FN void serve(PathLanes<W, NC, K>& s, FreshPaths<W, K>& fresh, const Path
 constexpr int kHopsPerTurn = 2;
 
 /// Move every flight to its next tentative collision, or some borders on towards it.
-template <int W, int NC, int K>
-PILEUS_FN void advance_paths(PathGroup<W, NC, K>& g, const PathParams& k, const PathBuffers& b) {
-    PathLanes<W, NC, K>& s = g.s;
+template <int W, class Group>
+PILEUS_FN void advance_paths(Group& g, const PathParams& k, const PathBuffers& b) {
+    auto& s = g.s;
     const M<W> path = s.flight == kFlightPath;
     M<W> flying = s.alive & lnot(waiting(s));
     g.hits = flying & lnot(flying);
@@ -194,7 +194,7 @@ PILEUS_FN void trace_path_lanes(const PathParams& k, const PathBuffers& b, std::
         for (PathGroup<W, NC, K>& g : groups) {
             if (worth_serving(g.s)) serve(g.s, fresh, k, b, next, end);
             busy |= any(g.s.alive);
-            advance_paths(g, k, b);
+            advance_paths<W>(g, k, b);
         }
         for (PathGroup<W, NC, K>& g : groups)
             if (any(g.hits)) collide_paths(g, k, b);

@@ -193,8 +193,8 @@ PILEUS_FN void fill_fresh(FreshPaths<W, K>& f, const PathParams& k, const PathBu
 }
 
 /// Hand the waiting ray `from` over to lane `to`.
-template <int W, int NC, int K>
-PILEUS_FN void hand_over(PathLanes<W, NC, K>& s, int to, const FreshPaths<W, K>& f, int from) {
+template <class Lanes, int W, int K>
+PILEUS_FN void hand_over(Lanes& s, int to, const FreshPaths<W, K>& f, int from) {
     const auto move = [&](auto& a, const auto& b) { set_lane(a, to, lane(b, from)); };
     const auto move3 = [&](auto& a, const auto& b) {
         move(a.x, b.x), move(a.y, b.y), move(a.z, b.z);
@@ -210,11 +210,16 @@ PILEUS_FN void hand_over(PathLanes<W, NC, K>& s, int to, const FreshPaths<W, K>&
     if constexpr (kSolid<K>) move(s.wall, f.wall), move(s.piece, f.piece);
 }
 
-/// Give the lanes of `idle` the next samples, whose rays fly already.
-template <int W, int NC, int K>
-PILEUS_FN void refill_paths(PathLanes<W, NC, K>& s, FreshPaths<W, K>& f, const PathParams& k,
-                            const PathBuffers& b, std::uint32_t idle, std::uint32_t& next,
-                            std::uint32_t end) {
+/// Lanes that have been given the next samples.
+template <int W>
+struct Refilled {
+    M<W> fresh, out;  ///< all of them; and those whose rays met nothing
+};
+/// Hand the rays of the next samples over to the lanes of `idle`; they fly already.
+template <int W, class Lanes, int K>
+PILEUS_FN Refilled<W> hand_over_next(Lanes& s, FreshPaths<W, K>& f, const PathParams& k,
+                                     const PathBuffers& b, std::uint32_t idle, std::uint32_t& next,
+                                     std::uint32_t end) {
     const I<W> lanes = iota<I<W>>();
     M<W> fresh = s.alive & lnot(s.alive), out = fresh;
     while (idle != 0) {
@@ -230,6 +235,16 @@ PILEUS_FN void refill_paths(PathLanes<W, NC, K>& s, FreshPaths<W, K>& f, const P
         if ((bits_of(f.out) >> from) & 1u) out = out | here;
         idle &= idle - 1, f.ready &= f.ready - 1;
     }
+    return {fresh, out};
+}
+
+/// Give the lanes of `idle` the next samples.
+template <int W, int NC, int K>
+PILEUS_FN void refill_paths(PathLanes<W, NC, K>& s, FreshPaths<W, K>& f, const PathParams& k,
+                            const PathBuffers& b, std::uint32_t idle, std::uint32_t& next,
+                            std::uint32_t end) {
+    const Refilled<W> given = hand_over_next(s, f, k, b, idle, next, end);
+    const M<W>& fresh = given.fresh;
     if (!any(fresh)) return;
     s.event = select(fresh, U<W>{} + f.event, s.event);
     if constexpr (kGuided<K>) choose_sun(s, k, fresh);
@@ -242,7 +257,7 @@ PILEUS_FN void refill_paths(PathLanes<W, NC, K>& s, FreshPaths<W, K>& f, const P
     s.outside = s.outside | fresh;
     s.cloud = s.cloud & lnot(fresh);
     if constexpr (kLamps<K>) s.near_done = s.near_done & lnot(fresh);
-    s.out = s.out | out;
+    s.out = s.out | given.out;
 }
 
 }  // namespace PILEUS_ISA

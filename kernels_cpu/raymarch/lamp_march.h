@@ -145,7 +145,7 @@ PILEUS_FN void add_apart(const LampMarchParams& k, const LampMarchBuffers& b,
                          const Vec<T>& d, T most, T tau, T weight, M_of<T> lit,
                          const T (&share)[kMostMedia], const ThinRay<T>& thin, T (&colour)[3]) {
     const T turn = one_minus_cosine(d, sight.way);
-    const T within = exp_(T{} - min_(turn * (1.0f / k.peak_turn), all<T>(80.0f)));
+    const T within = share_in_peak(turn, k.peak_turn);
     const T whole = weight * sight.share * exp_(T{} - tau);
     T kept[3], apart[3];
     lamp_beam(k, b, lamp, place, sight, turn, most, tau, weight, kept);

@@ -197,7 +197,6 @@ TEST_CASE("several media are as bright as by paths, each with its phase function
 
 TEST_CASE("one medium in two halves is that medium") {
     // The same density twice, each of half the extinction, in boxes and voxels that are alike.
-    const auto scene = [](const char* extinction) { return std::string(kSlab) + extinction; };
     constexpr const char* kHalf = R"(
 [[medium]]
 density = "uniform:box"
@@ -208,7 +207,7 @@ phase = { type = "henyey-greenstein", g = 0.85 }
 boundary = "periodic"
 )";
     const double one = mean_of(scene_from(kSlab, {"medium.0.extinction_per_m=0.02"}));
-    const std::string two = scene(kHalf);
+    const std::string two = std::string(kSlab) + kHalf;
     const double both = mean_of(scene_from(two.c_str(), {"medium.0.extinction_per_m=0.01"}));
     CHECK(both / one == doctest::Approx(1).epsilon(1e-4));
 }

@@ -36,10 +36,9 @@ Status MarchMethod::prepare(const Context& context, const FrameView& view) {
     PILEUS_TRY(cap_medium(view, state_));
     const RaymarchSettings& settings = state_.choice.settings;
     state_.light.sky_made = false;
-    const bool points = kLights && (state_.choice.hosted || !view.scene.lights.empty());
     if (settings.ordinates && settings.steps > 0 && view.world.medium.sigma > 0)
-        PILEUS_TRY(prepare_ordinates(context, view.world.medium, media.majorants, points,
-                                     state_.light.ordinates));
+        PILEUS_TRY(prepare_ordinates(context, view.world.medium, media.majorants,
+                                     may_have_lamps(view, state_.choice), state_.light.ordinates));
     return make_density_levels(marched_medium(view, state_), state_.choice.levels,
                                media.majorants.skip_block, context, media.coarse);
 }

@@ -79,6 +79,10 @@ OrdinateAsk ask_of(const Medium& medium, const OwnLight& own, const MarchState& 
 
 }  // namespace
 
+bool may_have_lamps(const FrameView& view, const MarchChoice& choice) {
+    return kLights && (choice.hosted || !view.scene.lights.empty());
+}
+
 OwnLight own_light_of(const FrameView& view) {
     return {0, view.lighting.lamps.size(), emits(view.world.medium)};
 }

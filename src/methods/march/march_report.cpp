@@ -7,6 +7,7 @@
 #include "src/methods/march/march_parts.h"
 #include "src/picture/blue_noise.h"
 #include "src/picture/finish_frame.h"
+#include "src/picture/ordinates/ordinate_plan.h"
 #include "src/picture/whole_rays.h"
 #include "src/world/camera/view.h"
 #include "src/world/medium/sky_medium.h"
@@ -150,40 +151,21 @@ void note_plan(const FrameView& view, const MarchState& state, Plan& plan) {
     for (Stage stage : kUnused) plan.skip(stage);
 }
 
-/// Of nodes that are not made yet, the most that any phase function brings.
-void add_ordinate_rows(const FrameView& view, const MarchState& state, MemoryTable& t) {
+void add_march_ordinates(const FrameView& view, const MarchState& state, MemoryTable& t) {
     const Medium& medium = view.world.medium;
     const OrdinateNodes& made = state.light.ordinates;
-    const bool known = !made.density.empty();
-    const std::uint64_t nodes = known ? made.density.size() : max_ordinate_nodes(medium);
-    const std::uint64_t filled = known ? made.filled.size() : nodes;
-    const std::uint64_t samples = known ? made.samples.size() : max_ordinate_samples(medium);
-    const std::uint64_t sets = std::uint64_t(ordinate_sets(medium, view.lighting));
+    OrdinateSizes sizes = ordinate_sizes(medium, made);
+    sizes.sets = std::uint64_t(ordinate_sets(medium, view.lighting));
     const bool moves = state.choice.hosted || view.scene.animation.frames > 1;
     const CameraParams camera =
         make_camera(view.scene.camera, orbit_at(view.scene, view.frame), medium.low_m);
-    const int numbers =
-        known && !moves ? ordinate_numbers(medium, camera, made.grid) : kOrdinateMoments;
-    add(t, arrays::ordinate_solution(filled, sets));
-    add(t, arrays::ordinate_light(nodes, sets, numbers));
-    add(t, arrays::ordinate_work(nodes));
-    add(t, arrays::ordinate_parts(nodes, medium.count));
-    add(t, renamed(arrays::ordinate_parts(nodes, medium.count), "ordinates: parts of the sun",
-                   Stage::kShadow, Stage::kWrite));
-    add(t, arrays::ordinate_part_work(filled, medium.count));
-    add(t, arrays::ordinate_densities(samples));
-    add(t, arrays::ordinate_depths(view.lighting.sunlit ? samples : 0));
-    add(t, arrays::ordinate_nodes(nodes, Stage::kWrite));
-    add(t, renamed(arrays::ordinate_nodes(nodes, Stage::kShadow), "ordinates: numbers at work",
-                   Stage::kShadow, Stage::kShadow));
-    add(t, arrays::ordinate_places(filled, Stage::kWrite));
-    add(t, renamed(arrays::ordinate_places(filled, Stage::kShadow), "ordinates: places at work",
-                   Stage::kShadow, Stage::kShadow));
-    add(t, arrays::ordinate_seen(view.world.solids.meshes ? nodes : 0));
-    const bool own = !view.lighting.lamps.empty() || emits(medium);
-    add(t, arrays::ordinate_own(filled, own));
-    const bool points = state.choice.hosted || !view.scene.lights.empty();
-    add(t, arrays::beam_tables(std::uint64_t(medium.channels) * (points ? 2 : 1), Stage::kShadow));
+    if (!made.density.empty() && !moves)
+        sizes.numbers = ordinate_numbers(medium, camera, made.grid);
+    sizes.sunlit = view.lighting.sunlit;
+    sizes.own = !view.lighting.lamps.empty() || emits(medium);
+    sizes.points = may_have_lamps(view, state.choice);
+    sizes.solids = view.world.solids.meshes;
+    add_ordinate_rows(sizes, t);
 }
 
 void weigh_memory(const Context& context, const FrameView& view, const MarchState& state,
@@ -219,7 +201,7 @@ void weigh_memory(const Context& context, const FrameView& view, const MarchStat
         add(t, arrays::coarse_density(level, last));
         add(t, arrays::coarse_blocks(level, last));
     }
-    if (settings.ordinates) add_ordinate_rows(view, state, t);
+    if (settings.ordinates) add_march_ordinates(view, state, t);
     if (settings.sky_ambient && !settings.ordinates) {
         const std::uint64_t nodes = node_count(sky_node_grid(medium));
         const int sets = sky_node_sets(lighting);

@@ -134,6 +134,8 @@ struct OwnLight {
     bool emission = false;
 };
 OwnLight own_light_of(const FrameView& view);
+/// Whether lamps shine, or a host may set some.
+bool may_have_lamps(const FrameView& view, const MarchChoice& choice);
 /// Solves for another light than the view's, whole, and turns it to the picture's camera.
 Status solve_ordinates_for(const Context& context, const FrameView& view, const Lighting& light,
                            const OwnLight& own, MarchState& state);

@@ -8,7 +8,7 @@
 #include "kernels_cpu/media/phase.h"
 #include "platform/threads.h"
 #include "src/base/exponential.h"
-#include "src/picture/march_view.h"
+#include "src/base/legendre.h"
 
 namespace pileus {
 namespace {
@@ -41,28 +41,19 @@ std::uint32_t half_of(float value) {
     return (bits + 0x8000u) >> 16;
 }
 
-/// Optical depths towards the sun.
-Status make_depths(const Context& context, const Medium& medium, const Majorants& majorants,
-                   const Lighting& lighting, PathImportance& out) {
-    ShadowParams k{};
-    k.medium = make_medium_view(medium, majorants);
-    k.medium.step = smallest_cell(medium.grid);
-    k.nodes = ordinate_samples(out.nodes.grid, medium);
-    for (std::size_t a = 0; a < 3; ++a) k.to_sun[a] = lighting.to_sun[a];
-    const std::uint64_t nodes = node_count(k.nodes);
-    Buffer<float> depths;
-    PILEUS_TRY(allocate(arrays::ordinate_depths(nodes), depths));
-    PILEUS_TRY(allocate_once(arrays::importance_depths(nodes), out.sun_depth));
-    PILEUS_TRY(run_rows(context, context.kernels->shadow_rows, k, ShadowBuffers{depths.data()},
-                        std::uint32_t(k.nodes.size[1] * k.nodes.size[2])));
-    const std::size_t row = std::size_t(k.nodes.size[0]);
+/// Optical depths towards the sun as paths read them: two neighbours to a word.
+Status pack_depths(const Context& context, const Medium& medium, const Buffer<float>& depths,
+                   PathImportance& out) {
+    const NodeGrid grid = ordinate_samples(out.nodes.grid, medium);
+    PILEUS_TRY(allocate_once(arrays::importance_depths(node_count(grid)), out.sun_depth));
+    const std::size_t row = std::size_t(grid.size[0]);
     const bool wraps = medium.grid.periodic;
-    parallel_each(context.threads, std::size_t(nodes), [&](std::size_t i) {
+    parallel_each(context.threads, depths.size(), [&](std::size_t i) {
         const bool last = i % row + 1 == row;
         const std::size_t next = !last ? i + 1 : wraps ? i + 1 - row : i;
         out.sun_depth[i] = std::int32_t((half_of(depths[i]) << 16) | half_of(depths[next]));
     });
-    out.params.depth_nodes = k.nodes;
+    out.params.depth_nodes = grid;
     out.params.sun_depth = out.sun_depth.data();
     return Status::ok();
 }
@@ -135,22 +126,14 @@ void fit_lobes(const PhaseParams& phase, double albedo, float peak_turn,
     const std::size_t degrees = moments.size();
     std::vector<double> values(std::size_t(kAngles + 1) * degrees), area(kAngles + 1);
     std::vector<double> lobe(std::size_t(kAngles + 1) * kImportanceLobes);
-    const auto turn_at = [](int i) {
-        const double at = double(i) / kAngles, near = at < 0.5 ? at : 1 - at;
-        return at < 0.5 ? 4 * near * near : 2 - 4 * near * near;
-    };
+    const auto turn_at = [](int i) { return turn_at_share(double(i) / kAngles); };
     for (int i = 0; i <= kAngles; ++i) {
-        const double x = turn_at(i), cosine = 1 - x;
+        const double x = turn_at(i);
         area[std::size_t(i)] =
             0.5 * (turn_at(std::min(i + 1, kAngles)) - turn_at(std::max(i - 1, 0)));
-        double before = 1, current = cosine;
-        for (std::size_t l = 0; l < degrees; ++l) {
-            const double n = double(l);
-            values[std::size_t(i) * degrees + l] = (2 * n + 1) / kFourPi * before;
-            const double above = ((2 * n + 3) * cosine * current - (n + 1) * before) / (n + 2);
-            before = current;
-            current = above;
-        }
+        legendre(1 - x, int(degrees), [&](std::size_t l, double value) {
+            values[std::size_t(i) * degrees + l] = (2 * double(l) + 1) / kFourPi * value;
+        });
         for (int n = 0; n < kImportanceLobes; ++n)
             lobe[std::size_t(i * kImportanceLobes + n)] = double(hg_density(g[n], float(x)));
     }
@@ -206,7 +189,10 @@ Status make_importance(const Context& asked, const FrameView& view, const Majora
 
     Lighting units;
     set_units(light, k.sets > 1, light.ground && light.ground_albedo > 0, units);
-    PILEUS_TRY(make_ordinates(context, medium, majorants, units, OrdinateAsk{}, out.nodes));
+    Buffer<float> depths;
+    OrdinateAsk ask;
+    ask.depths = &depths;
+    PILEUS_TRY(make_ordinates(context, medium, majorants, units, ask, out.nodes));
     // All moments on all nodes, as a camera within the medium has them.
     CameraParams within{};
     for (int a = 0; a < 3; ++a) within.origin[a] = float(0.5 * medium.extent_m[a]);
@@ -221,8 +207,7 @@ Status make_importance(const Context& asked, const FrameView& view, const Majora
     k.sun_depth = nullptr;
     k.sun_share = 0;
     if (light.sunlit && sun > 0) {
-        const StageClock clock(context, "shadow");
-        PILEUS_TRY(make_depths(context, medium, majorants, light, out));
+        PILEUS_TRY(pack_depths(context, medium, depths, out));
         PILEUS_TRY(allocate_once(arrays::importance_lobes(), out.lobes));
         fit_lobes(medium.optics[0].phase, double(k.albedo), k.peak_turn, k.lobe_g,
                   out.lobes.data());

@@ -3,6 +3,7 @@
 // in: a view -> out: one line; rows of the plan. docs/importance.md, "Bounds"
 #include "kernels_cpu/media/phase.h"
 #include "src/methods/path/path_importance.h"
+#include "src/picture/ordinates/ordinate_plan.h"
 
 namespace pileus {
 
@@ -40,22 +41,11 @@ Status check_importance(const FrameView& view) {
 
 void add_importance_rows(const FrameView& view, MemoryTable& table) {
     const Medium& medium = view.world.medium;
-    const std::uint64_t nodes = max_ordinate_nodes(medium);
-    const std::uint64_t samples = max_ordinate_samples(medium);
-    add(table, arrays::ordinate_solution(nodes, kMaxOrdinateSets));
-    add(table, arrays::ordinate_light(nodes, kMaxOrdinateSets, kOrdinateMoments));
-    add(table, arrays::ordinate_work(nodes));
-    add(table, arrays::ordinate_densities(samples));
-    add(table, arrays::ordinate_depths(samples));
-    add(table, arrays::ordinate_nodes(nodes, Stage::kWrite));
-    add(table, renamed(arrays::ordinate_nodes(nodes, Stage::kShadow), "ordinates: numbers at work",
-                       Stage::kShadow, Stage::kShadow));
-    add(table, arrays::ordinate_places(nodes, Stage::kWrite));
-    add(table, renamed(arrays::ordinate_places(nodes, Stage::kShadow), "ordinates: places at work",
-                       Stage::kShadow, Stage::kShadow));
-    add(table, arrays::beam_tables(1, Stage::kShadow));
-    add(table, arrays::importance_moments(nodes));
-    add(table, arrays::importance_depths(samples));
+    OrdinateSizes sizes = ordinate_sizes(medium, {});
+    sizes.sets = 3;  // sun, sky and ground
+    add_ordinate_rows(sizes, table);
+    add(table, arrays::importance_moments(sizes.nodes));
+    add(table, arrays::importance_depths(sizes.samples));
     add(table, arrays::importance_lobes());
 }
 

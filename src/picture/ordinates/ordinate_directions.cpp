@@ -3,6 +3,7 @@
 // in: nodes, lights -> out: OrdinateSweep, OrdinateSet.
 // docs/ordinates.md, "Directions"
 #include "kernels_cpu/core/math.h"
+#include "kernels_cpu/core/sh.h"
 #include "kernels_cpu/light/sky_map.h"
 #include "src/base/angles.h"
 #include "src/picture/ordinates/ordinates.h"
@@ -56,6 +57,27 @@ std::array<double, 3> ordinate_direction(int j) {
 }
 
 double ordinate_weight(int) { return kSphere / kOrdinates; }
+
+void set_ordinate_harmonics(float (&out)[kOrdinates][kOrdinateMoments]) {
+    for (int j = 0; j < kOrdinates; ++j) {
+        const std::array<double, 3> d = ordinate_direction(j);
+        sh_eval<4>(float(d[0]), float(d[1]), float(d[2]), out[j]);
+    }
+}
+
+void scatter_moments(const float (&moments)[kOrdinateMoments], const float (&kept)[4],
+                     const float (&harmonic)[kOrdinates][kOrdinateMoments], float whole,
+                     float (&out)[kOrdinates]) {
+    float sum = 0;
+    for (int j = 0; j < kOrdinates; ++j) {
+        float value = 0;
+        for (int m = 0; m < kOrdinateMoments; ++m)
+            value += kept[ordinate_degree(m)] * harmonic[j][m] * moments[m];
+        out[j] = value > 0 ? value : 0;
+        sum += out[j] * float(ordinate_weight(j));
+    }
+    for (float& value : out) value *= sum > 0 ? whole / sum : 0.0f;
+}
 
 void set_ordinate_sweeps(const NodeGrid& grid, bool periodic, OrdinateWay (&way)[kOrdinateClasses],
                          OrdinatesParams& k) {

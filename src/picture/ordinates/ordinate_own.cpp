@@ -54,22 +54,6 @@ void add_lamp(const OrdinateNodes& nodes, const NodeSamples& samples, const Lamp
     for (int m = 0; m < kOrdinateMoments && mass > 0; ++m) moments[m] += sum[m] / mass;
 }
 
-/// What moments of light become that is scattered into each direction, all of it, none below 0.
-void scatter_moments(const float (&moments)[kOrdinateMoments], const float (&kept)[4],
-                     const float (&harmonic)[kOrdinates][kOrdinateMoments],
-                     float (&out)[kOrdinates]) {
-    float sum = 0;
-    for (int j = 0; j < kOrdinates; ++j) {
-        float value = 0;
-        for (int m = 0; m < kOrdinateMoments; ++m)
-            value += kept[ordinate_degree(m)] * harmonic[j][m] * moments[m];
-        out[j] = std::max(value, 0.0f);
-        sum += out[j] * float(ordinate_weight(j));
-    }
-    const float whole = kept[0] * moments[0] / harmonic[0][0];
-    for (float& value : out) value *= sum > 0 ? whole / sum : 0.0f;
-}
-
 }  // namespace
 
 Status own_light(const Context& context, const Medium& medium, const OrdinateNodes& nodes,
@@ -80,10 +64,7 @@ Status own_light(const Context& context, const Medium& medium, const OrdinateNod
     const std::size_t filled = nodes.filled.size(), count = nodes.density.size();
     PILEUS_TRY(allocate_once(arrays::ordinate_own(filled, true), work));
     float harmonic[kOrdinates][kOrdinateMoments];
-    for (int j = 0; j < kOrdinates; ++j) {
-        const std::array<double, 3> d = ordinate_direction(j);
-        sh_eval<4>(float(d[0]), float(d[1]), float(d[2]), harmonic[j]);
-    }
+    set_ordinate_harmonics(harmonic);
     const NodeSamples samples = node_samples(nodes.grid, medium);
     const auto channel = std::size_t(set.own == kLampStrength ? 0 : set.own - 1);
     parallel_each(context.threads, filled, [&](std::size_t n) {
@@ -104,7 +85,7 @@ Status own_light(const Context& context, const Medium& medium, const OrdinateNod
             if (ask.emission)
                 emitted += part * medium.optics[m].emission[channel] / std::max(rest, 1e-6f);
         }
-        scatter_moments(moments, kept, harmonic, out);
+        scatter_moments(moments, kept, harmonic, kept[0] * moments[0] / harmonic[0][0], out);
         for (std::size_t j = 0; j < kOrdinates; ++j) work[j * filled + n] = out[j] + emitted;
     });
     fixed = work.data();

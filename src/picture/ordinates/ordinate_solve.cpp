@@ -88,22 +88,6 @@ Status set_parts(const Context& context, const OrdinateNodes& nodes, int channel
     return Status::ok();
 }
 
-/// What a medium scatters into each direction: of the beam, and of moments.
-void set_scatter(const OrdinateOptics& optics, const float (&sun)[kOrdinateMoments], float beam,
-                 int medium, OrdinatesParams& k) {
-    for (int l = 0; l < 4; ++l) k.scatter[medium][l] = ordinate_scatter(optics, l);
-    float sum = 0;
-    for (int j = 0; j < kOrdinates; ++j) {
-        float share = 0;
-        for (int m = 0; m < kOrdinateMoments; ++m)
-            share += k.scatter[medium][ordinate_degree(m)] * k.harmonic[j][m] * sun[m];
-        k.beam[medium][j] = std::max(share, 0.0f);
-        sum += k.beam[medium][j] * k.weight[j];
-    }
-    // What is scattered is all of it, where parts of the phase function were negative, too.
-    for (float& share : k.beam[medium]) share *= sum > 0 ? beam * optics.albedo / sum : 0.0f;
-}
-
 OrdinatesParams params_of(const OrdinateNodes& nodes, bool periodic, const Lighting& lighting,
                           const OrdinateSet& set, OrdinateWay (&way)[kOrdinateClasses]) {
     OrdinatesParams k{};
@@ -113,15 +97,17 @@ OrdinatesParams params_of(const OrdinateNodes& nodes, bool periodic, const Light
     set_ordinate_sweeps(nodes.grid, periodic, way, k);
     float sun[kOrdinateMoments];
     sh_eval<4>(-lighting.to_sun[0], -lighting.to_sun[1], -lighting.to_sun[2], sun);
+    set_ordinate_harmonics(k.harmonic);
     for (int j = 0; j < kOrdinates; ++j) {
-        const std::array<double, 3> d = ordinate_direction(j);
-        sh_eval<4>(float(d[0]), float(d[1]), float(d[2]), k.harmonic[j]);
         k.weight[j] = float(ordinate_weight(j));
         k.enters[j] = set.enters[std::size_t(j)];
     }
     k.media = nodes.media;
-    for (int i = 0; i < k.media; ++i)
-        set_scatter(nodes.optics[i][set.channel], sun, set.beam, i, k);
+    for (int i = 0; i < k.media; ++i) {
+        const OrdinateOptics& optics = nodes.optics[i][set.channel];
+        for (int l = 0; l < 4; ++l) k.scatter[i][l] = ordinate_scatter(optics, l);
+        scatter_moments(sun, k.scatter[i], k.harmonic, set.beam * optics.albedo, k.beam[i]);
+    }
     return k;
 }
 

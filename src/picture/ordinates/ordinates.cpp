@@ -166,10 +166,10 @@ Status prepare_ordinates(const Context& context, const Medium& medium, const Maj
 }
 
 Status reserve_ordinates(OrdinateNodes& out) {
-    const std::uint64_t nodes = node_count(out.grid);
     out.sets.reserve(kMaxOrdinateSets);
-    PILEUS_TRY(hold(arrays::ordinate_solution(nodes, kMaxOrdinateSets), out.solution));
-    return hold(arrays::ordinate_light(nodes, kMaxOrdinateSets, kOrdinateMoments), out.light);
+    PILEUS_TRY(hold(arrays::ordinate_solution(out.filled.size(), kMaxOrdinateSets), out.solution));
+    return hold(arrays::ordinate_light(node_count(out.grid), kMaxOrdinateSets, kOrdinateMoments),
+                out.light);
 }
 
 bool unsolved(const OrdinateNodes& nodes) {
@@ -191,7 +191,8 @@ Status make_ordinates(const Context& context, const Medium& medium, const Majora
     } else if (held == out.sets.size()) {
         for (std::size_t s = 0; s < held; ++s) keep_solution(before[s], out.sets[s]);
     }
-    Buffer<float> depths, beam, own;
+    Buffer<float> unkept, beam, own;
+    Buffer<float>& depths = ask.depths != nullptr ? *ask.depths : unkept;
     bool shines = false;
     for (const OrdinateSet& set : out.sets) shines |= set.beam > 0;
     if (shines) {

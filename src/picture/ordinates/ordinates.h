@@ -153,6 +153,8 @@ struct OrdinateAsk {
     const LampNodes* lamps = nullptr;  ///< of these so many shine; null: none
     std::size_t first_lamp = 0, lamp_count = 0;
     bool emission = false;  ///< media shine
+    Buffer<float>* depths =
+        nullptr;  ///< out: optical depths to the sun from samples; null: unwanted
 };
 
 /// Radiances that enter, by light or, where channels differ, by channel.
@@ -164,6 +166,14 @@ int ordinate_sets(const Medium& medium, const Lighting& lighting);
 /// Unit vector of the way of light in a direction, and its solid angle.
 std::array<double, 3> ordinate_direction(int j);
 double ordinate_weight(int j);
+
+/// Spherical harmonics of all directions.
+void set_ordinate_harmonics(float (&out)[kOrdinates][kOrdinateMoments]);
+/// What moments of light become that is scattered into each direction, by shares of degrees:
+/// `whole` in all, though parts of a phase function of so few degrees are negative; none below 0.
+void scatter_moments(const float (&moments)[kOrdinateMoments], const float (&kept)[4],
+                     const float (&harmonic)[kOrdinates][kOrdinateMoments], float whole,
+                     float (&out)[kOrdinates]);
 
 /// Ways through nodes that are alike, and in slices along x or not.
 struct OrdinateWay {

@@ -7,6 +7,7 @@
 #include "platform/threads.h"
 #include "src/base/angles.h"
 #include "src/base/exponential.h"
+#include "src/base/legendre.h"
 #include "src/world/phase/forward_share.h"
 
 namespace pileus {
@@ -45,19 +46,6 @@ struct Moments {
         return false;
     }
 };
-
-/// Hands out P_l(cosine) for l = 0 ... degrees - 1, by Bonnet's recurrence.
-template <class Use>
-void legendre(double cosine, int degrees, const Use& use) {
-    double before = 1, current = cosine;
-    for (int l = 0; l < degrees; ++l) {
-        use(std::size_t(l), before);
-        const double n = l;
-        const double above = ((2 * n + 3) * cosine * current - (n + 1) * before) / (n + 2);
-        before = current;
-        current = above;
-    }
-}
 
 /// Adds the integrals of 2 pi p P_l over 1 - cos in [begin, end], by Simpson's rule with at least
 /// twelve places in a period of the highest degree.
@@ -147,10 +135,7 @@ std::vector<double> weights_of(const Moments& m, const std::vector<double>& kept
 }
 
 /// 1 - cos of a node of the tables, as find_angle of the march has them.
-double turn_of_node(int node) {
-    const double at = double(node) / kBeamAngles, near = at < 0.5 ? at : 1 - at;
-    return at < 0.5 ? 4 * near * near : 2 - 4 * near * near;
-}
+double turn_of_node(int node) { return turn_at_share(double(node) / kBeamAngles); }
 
 /// Parts of several media of all extinction there is.
 std::array<double, kMostMedia> parts_of(const Medium& medium) {
@@ -227,18 +212,16 @@ Status make_beam(const Medium& medium, float peak_turn, bool points, BeamTurns t
         if (turns == BeamTurns::kPeak) of.back().all = of.back().kept;
         out.shares[i] = of.back().kept[0];
     }
-    out.share = out.shares[0];
     Moments m = of[0];
     std::array<double, kMostMedia> part{};
     if (media > 1) part = parts_of(medium);
     for (std::size_t s = 0; s < 3; ++s) {
         double albedo = double(medium.optics[0].albedo[s]);
         if (media > 1) m = mean_moments(of, medium, part, medium.channels > 1 ? s : 0, albedo);
-        const std::vector<double> of_point = point_moments(m);
         out.rest[s] = float(1 - albedo * m.kept[0]);
         for (int kind = 0; kind < kinds && int(s) < sets; ++kind) {
             const std::vector<double> weights =
-                weights_of(m, kind == 0 ? m.kept : of_point, albedo);
+                weights_of(m, kind == 0 ? m.kept : point_moments(m), albedo);
             float* table = out.tables.data() + (kind * sets + int(s)) * kBeamNumbers;
             parallel_for(threads, kBeamAngles + 1, [&](std::int64_t node, int) {
                 fill_angle(m, weights, int(node), table + node * (kBeamDepths + 1));

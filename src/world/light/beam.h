@@ -18,7 +18,6 @@ namespace pileus {
 /// the point in the end: there c_l is the mean of c_ul over u.
 struct Beam {
     double shares[kMostMedia] = {};  ///< f of each medium
-    double share = 0;                ///< of the first
     int sets = 0;                    ///< one a channel of the medium; 0: there are no tables
     bool points = false;             ///< there are those of points, too
     float rest[3] = {};              ///< 1 - w f

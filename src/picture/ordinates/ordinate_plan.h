@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// Memory of discrete ordinates, as plans list it.
+// in: a medium, nodes over it or what is known before -> out: rows of the plan.
+// docs/report.md, "Plan"
+#pragma once
+#include "src/picture/ordinates/ordinates.h"
+#include "src/plan/memory_table.h"
+
+namespace pileus {
+
+struct OrdinateSizes {
+    std::uint64_t nodes = 0, filled = 0, samples = 0;
+    std::uint64_t sets = 0;          ///< of light
+    int numbers = kOrdinateMoments;  ///< of a node that is read
+    int media = 1, channels = 1;
+    bool sunlit = true;
+    bool own = false;     ///< light of lamps and of media
+    bool points = false;  ///< tables for lamps that have a place
+    bool solids = false;
+};
+
+/// Those of nodes, or where there are none yet the most that any phase function brings.
+OrdinateSizes ordinate_sizes(const Medium& medium, const OrdinateNodes& made);
+
+void add_ordinate_rows(const OrdinateSizes& sizes, MemoryTable& table);
+
+}  // namespace pileus
