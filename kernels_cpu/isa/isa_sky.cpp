@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Procedural densities.
+#include "kernels_cpu/ordinates/ordinates_sky.h"
 #include "kernels_cpu/procedural/cumulus.h"
 #include "kernels_cpu/procedural/sky_bake.h"
 #include "kernels_cpu/procedural/sky_noise.h"

@@ -76,12 +76,20 @@ PILEUS_RANGE(detail_ordinates_rows, OrdinatesMarchParams, OrdinatesMarchBuffers,
 // Rows of a raymarched picture of the sky itself; rows of nodes of sunlight in it.
 PILEUS_RANGE(raymarch_sky_rows,    RaymarchSkyParams,   RaymarchBuffers,       Sky,          Device)
 PILEUS_RANGE(sky_light_rows,       SkyLightParams,      SkyLightBuffers,       Sky,          Device)
+// Discrete ordinates of it: rows of pixels, of samples within nodes, of nodes towards the camera.
+PILEUS_RANGE(ordinates_sky_rows,   OrdinatesSkyParams,  OrdinatesMarchBuffers, Sky,          Host)
+PILEUS_RANGE(sky_sample_rows,      SkySampleParams,     SkySampleBuffers,      Sky,          Host)
+PILEUS_RANGE(sky_turn_rows,        SkyNodeTurnParams,   SkyNodeTurnBuffers,    Sky,          Host)
 
 // Procedural media: rows of noise and of cells, columns in multiples of 16, rows of blocks.
 PILEUS_RANGE(noise_rows,           NoiseParams,         NoiseBuffers,          Sky,          Device)
 PILEUS_RANGE(bake_sky_rows,        BakeParams,          BakeBuffers,           Sky,          Device)
 PILEUS_RANGE(sky_columns,          ColumnParams,        ColumnBuffers,         Sky,          Device)
 PILEUS_RANGE(fill_cumulus,         CumulusParams,       CumulusBuffers,        Sky,          Device)
+// Rows of blocks of a cloud by its type.
+PILEUS_RANGE(fill_cloud,           CloudParams,         CloudBuffers,          Detail,       Host)
+// Rows of columns along x of a layer: size[1] of them.
+PILEUS_RANGE(fill_cloud_layer,     CloudLayerParams,    CloudLayerBuffers,     Detail,       Host)
 
 // Particles
 PILEUS_RANGE(particle_depths,      ParticleDepthParams, ParticleDepthBuffers,  Particles,    Device)

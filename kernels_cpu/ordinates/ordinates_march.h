@@ -36,7 +36,7 @@ PILEUS_FN OrdinatesRay<T> ordinates_ray(const OrdinatesMarchParams& o, const Vec
     }
     r.angle = beam_angle(r.turn);
     // Light travels against the ray.
-    if (o.moments > 1) sh_eval<4>(T{} - d.x, T{} - d.y, T{} - d.z, r.harmonic);
+    if (o.moments > 0) sh_eval<4>(T{} - d.x, T{} - d.y, T{} - d.z, r.harmonic);
     return r;
 }
 
@@ -77,29 +77,79 @@ struct OrdinatesSource {
     T sun[3];     ///< and times the albedo alone
 };
 
-/// Light from all around, of one set, that a medium scatters towards the camera.
-template <class T>
-PILEUS_FN T ordinates_seen(const OrdinatesMarchParams& o, const float* light, std::int64_t nodes,
-                           const Corners<T>& at, const T (&degree)[4], std::int32_t s, int i) {
-    T seen{};
-    if (o.moments == 1) return max_(interpolate(light + i * nodes, at), T{});
-    for (int l = 0; l < 4; ++l) seen = seen + degree[l] * o.scatter[s][i][l];
-    return max_(seen, T{});
+/// The nodes around a place; a field that is no grid has a function of its own.
+template <class T, class Field>
+PILEUS_FN Corners<T> ordinate_corners(const Field& field, const OrdinatesMarchParams& o,
+                                      const Vec<T>& place) {
+    const MediumView& m = o.march.medium;
+    return node_corners(node_position(o.nodes, field_in_box(field, m, place)), o.nodes.size,
+                        m.periodic != 0);
 }
 
-template <class T, class Field>
-PILEUS_FN OrdinatesSource<T> ordinates_source(const OrdinatesMarch<T, Field>& r,
-                                              const Corners<T>& at, const Vec<T>& place,
-                                              T density) {
+/// Numbers of a level or of the one grid, and of all levels.
+PILEUS_FN std::int64_t ordinate_level(const OrdinatesMarchParams& o) {
+    return std::int64_t(o.nodes.size[0]) * o.nodes.size[1] * o.nodes.size[2];
+}
+PILEUS_FN std::int64_t ordinate_numbers(const OrdinatesMarchParams& o) {
+    return ordinate_level(o) * (o.levels.count > 1 ? o.levels.count : 1);
+}
+
+/// The same nodes where moments are.
+template <class T>
+PILEUS_FN const Corners<T>& moment_corners(const Corners<T>& at) {
+    return at;
+}
+
+/// How far moments count at a place: nodes around it see the camera in directions of their own,
+/// which are one direction where the camera is far.
+template <class T>
+struct NearCamera {
+    T share;
+    bool some, all;  ///< of the lanes
+};
+template <class T>
+PILEUS_FN T in_finest(const Corners<T>&, T share) {
+    return share;
+}
+template <class T, class Field, class At>
+PILEUS_FN NearCamera<T> near_camera(const OrdinatesMarch<T, Field>& r, const Vec<T>& p,
+                                    const At& at) {
+    if (r.o.moments == 0) return {T{}, false, false};
+    if (!(r.o.per_near > 0.0f)) return {all<T>(1.0f), true, true};
+    const float* c = r.k.camera.origin;
+    const T x = p.x - c[0], y = p.y - c[1], z = p.z - c[2];
+    const T off = sqrt_(x * x + y * y + z * z) * r.o.per_near;
+    const T share = in_finest(at, max_(min_(2.0f - off, all<T>(1.0f)), T{}));
+    return {share, any(share > 0.0f), !any(share < 1.0f)};
+}
+
+/// Light from all around, of one set, that a medium scatters towards the camera.
+template <class T, class At>
+PILEUS_FN T ordinates_seen(const OrdinatesMarchParams& o, const float* light, const At& at,
+                           const NearCamera<T>& near, const T (&degree)[4], std::int32_t s, int i) {
+    T far{}, own{};
+    if (!near.all) far = max_(interpolate(light, at), T{});
+    if (!near.some) return far;
+    for (int l = 0; l < 4; ++l) own = own + degree[l] * o.scatter[s][i][l];
+    own = max_(own, T{});
+    const T mixed = far + (own - far) * near.share;
+    return select(near.share >= 1.0f, own, select(near.share > 0.0f, mixed, far));
+}
+
+template <class T, class Field, class At>
+PILEUS_FN OrdinatesSource<T> ordinates_source(const OrdinatesMarch<T, Field>& r, const At& at,
+                                              const Vec<T>& place, T density) {
     const OrdinatesMarchParams& o = r.o;
-    const std::int64_t nodes = std::int64_t(o.nodes.size[0]) * o.nodes.size[1] * o.nodes.size[2];
-    const std::int64_t set = nodes * (o.moments == 1 ? r.k.media : o.moments);
+    const std::int64_t nodes = ordinate_numbers(o);
+    const std::int64_t level = ordinate_level(o);
+    const NearCamera<T> near = near_camera(r, place, at);
     T degree[kMaxOrdinateSets][4] = {};
-    for (std::int32_t s = 0; s < o.sets && o.moments > 1; ++s)
+    for (std::int32_t s = 0; s < o.sets && near.some; ++s)
         for (int m = 0; m < kOrdinateMoments; ++m)
             degree[s][ordinate_degree(m)] =
                 degree[s][ordinate_degree(m)] +
-                interpolate(r.n.light + s * set + m * nodes, at) * r.own.harmonic[m];
+                interpolate(r.n.moments + (s * kOrdinateMoments + m) * level, moment_corners(at)) *
+                    r.own.harmonic[m];
     OrdinatesSource<T> out{};
     field_shares(r.field, place, density, [&](int i, T share) {
         T rest[3];
@@ -111,7 +161,8 @@ PILEUS_FN OrdinatesSource<T> ordinates_source(const OrdinatesMarch<T, Field>& r,
             out.sun[c] = out.sun[c] + share * o.sun[i][c];
         }
         for (std::int32_t s = 0; s < o.sets; ++s) {
-            const T seen = ordinates_seen(o, r.n.light + s * set, nodes, at, degree[s], s, i);
+            const T seen = ordinates_seen(o, r.n.light + (s * r.k.media + i) * nodes, at, near,
+                                          degree[s], s, i);
             for (int c = 0; c < 3; ++c)
                 out.around[c] = out.around[c] + rest[c] * seen * o.colour[s][c];
         }
@@ -120,15 +171,14 @@ PILEUS_FN OrdinatesSource<T> ordinates_source(const OrdinatesMarch<T, Field>& r,
 }
 
 /// Of the optical depth to the sun, what counts: by the media on the way.
-template <class T, class Field>
-PILEUS_FN void ordinates_sunward(const OrdinatesMarch<T, Field>& r, const Corners<T>& at,
-                                 T (&rest)[3]) {
+template <class T, class Field, class At>
+PILEUS_FN void ordinates_sunward(const OrdinatesMarch<T, Field>& r, const At& at, T (&rest)[3]) {
     const OrdinatesMarchParams& o = r.o;
     if (r.n.sunward == nullptr) {
         for (int c = 0; c < 3; ++c) rest[c] = all<T>(o.rest[0][c]);
         return;
     }
-    const std::int64_t nodes = std::int64_t(o.nodes.size[0]) * o.nodes.size[1] * o.nodes.size[2];
+    const std::int64_t nodes = ordinate_numbers(o);
     for (int i = 0; i < r.k.media; ++i) {
         const T part = interpolate(r.n.sunward + i * nodes, at);
         for (int c = 0; c < 3; ++c) rest[c] = rest[c] + part * o.rest[i][c];
@@ -149,8 +199,7 @@ PILEUS_FN void add_single(const OrdinatesMarch<T, Field>& r, T from, T to, M_of<
     const T optical = density * (r.k.medium.sigma * width);
     const auto lit = optical > 0.0f;
     if (!any(lit)) return;
-    const Corners<T> at = node_corners(node_position(o.nodes, field_in_box(r.field, r.k.medium, p)),
-                                       o.nodes.size, r.k.medium.periodic != 0);
+    const auto at = ordinate_corners(r.field, o, p);
     const OrdinatesSource<T> source = ordinates_source(r, at, p, density);
     T straight[3] = {}, kept[3] = {};
     if (o.sunlit != 0) {

@@ -63,16 +63,30 @@ inline std::int64_t ordinate_slice_floats(const OrdinatesParams& k, const Ordina
     return 2 * ordinate_row(k, s) * (k.size[s.across] + 2);
 }
 
+constexpr int kMaxOrdinateLevels = 8;
+
+/// Nodes of a sky in place: levels around the camera, each over twice the width of the one before
+/// it; all have as many nodes. Heights are shares of the layer's.
+struct OrdinateLevelsView {
+    std::int32_t count;                      ///< 0: nodes of one grid over the medium's box
+    std::int32_t wraps;                      ///< 1: the last level repeats along x and y
+    float low[kMaxOrdinateLevels][2];        ///< corner, m, box-local
+    float per_metre[kMaxOrdinateLevels][2];  ///< nodes
+    float middle[kMaxOrdinateLevels][2];     ///< of the square that is read of a level, m
+    float per_reach[kMaxOrdinateLevels][2];  ///< one over half its width, 1/m
+};
+
 /// What a march reads of them.
 struct OrdinatesMarchParams {
     RaymarchParams march;
     NodeGrid nodes;
+    OrdinateLevelsView levels;
     std::int32_t sets;     ///< of light, each of one colour
-    std::int32_t moments;  ///< 1: radiance towards the camera; kOrdinateMoments: by direction
-    float colour[kMaxOrdinateSets][3];  ///< R G B of each set
-    float scatter[kMaxOrdinateSets][kMostMedia]
-                 [4];           ///< of each set, by degree; moments = kOrdinateMoments
-    std::int32_t channels;      ///< 1, or 3 where they absorb differently
+    std::int32_t moments;  ///< kOrdinateMoments: there are such, read near the camera; 0: none
+    float per_near;        ///< of half the distance to where they count no more, 1/m; 0: no end
+    float colour[kMaxOrdinateSets][3];               ///< R G B of each set
+    float scatter[kMaxOrdinateSets][kMostMedia][4];  ///< of each set, by degree; with moments alone
+    std::int32_t channels;                           ///< 1, or 3 where they absorb differently
     float rest[kMostMedia][3];  ///< 1 - albedo times the peak's share: of extinction that counts
     float beam_rest[3];         ///< of what the beam's tables are of
     float turn;                 ///< 1 - cos of the peak's width
@@ -85,7 +99,8 @@ struct OrdinatesMarchParams {
 };
 struct OrdinatesMarchBuffers {
     RaymarchBuffers march;
-    const float* light;     ///< [set][moment][node], or towards the camera [set][medium][node]
+    const float* light;     ///< [set][medium][node]: scattered towards the camera
+    const float* moments;   ///< [set][moment][node], of the finest level; null: none
     const float* beam;      ///< tables of beam.h, [channel]
     const float* surfaces;  ///< [3][pixel] of the whole picture: of what is solid; null: nothing is
     const float* sunward;  ///< [medium][node]: of the optical depth to the sun; null: of one medium

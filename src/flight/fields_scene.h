@@ -73,10 +73,16 @@ void fields(A& a, SkySettings& v) {
         v.evaluate);
 }
 template <class A>
+void fields(A& a, CloudSettings& v) {
+    all(a, v.type, v.seed, v.height_m, v.radius_m, v.base_m, v.position_m, v.turrets, v.tall,
+        v.slimness, v.dilution, v.age, v.outline, v.shear, v.wind_deg, v.anvil, v.cell_m, v.cover,
+        v.erosion);
+}
+template <class A>
 void fields(A& a, MediumSettings& v) {
     all(a, v.density, v.file, v.first_frame, v.format, v.grid, v.raw_type, v.raw_size,
         v.raw_big_endian, v.particles, v.has_bounds, v.bounds_m, v.resolution, v.shape_seed, v.sky,
-        v.extinction_per_m, v.extinction_scale, v.albedo, v.emission, v.phase, v.periodic,
+        v.cloud, v.extinction_per_m, v.extinction_scale, v.albedo, v.emission, v.phase, v.periodic,
         v.constant, v.transfer, v.y_up);
 }
 template <class A>

@@ -40,7 +40,8 @@ flight_files(src/picture/errors pixel_errors)
 flight_files(src/picture/filter features filter_error guides regression)
 flight_files(src/picture/nodes
     ground_shadow lamp_light node_grid node_rows sky_light sky_nodes sky_view sun_depth sun_slices sweep_taps)
-flight_files(src/picture/ordinates ordinate_directions ordinate_medium ordinate_own ordinate_solve ordinates)
+flight_files(src/picture/ordinates ordinate_directions ordinate_half ordinate_medium ordinate_own ordinate_ring
+    ordinate_solve ordinates sky_level sky_ordinates sky_turn)
 flight_files(src/plan accumulation memory_table plan scene_limits work)
 flight_files(src/run find_kernels)
 flight_files(src/scene calendar frame_state method_column)

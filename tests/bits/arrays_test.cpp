@@ -13,6 +13,7 @@
 #include "src/methods/photon_grid/photon_grid_method.h"
 #include "src/methods/registry.h"
 #include "src/picture/whole_rays.h"
+#include "tests/bits/ordinate_bytes.h"
 #include "tests/io/temp_folder.h"
 #include "tests/support/render_harness.h"
 
@@ -221,16 +222,7 @@ void check_march(const MethodRow& row, const Fixture& f) {
     held["marched pixels"] = bytes_held(state.picture.upsample.few) + (thin ? 8 * rows : 0);
     held["planes of whole rays"] =
         whole_rays_held(run.view(0), {state.choice.settings.stop_below, thin});
-    const OrdinateNodes& ordinates = state.light.ordinates;
-    held["ordinates: moments on nodes"] = ordinates.solution.bytes();
-    held["ordinates: light on nodes"] = ordinates.light.bytes();
-    held["ordinates: density within nodes"] = ordinates.samples.bytes();
-    held["ordinates: numbers of nodes"] = ordinates.density.bytes();
-    held["ordinates: places of nodes"] = ordinates.filled.bytes();
-    held["ordinates: parts of the media"] = ordinates.parts.bytes();
-    held["ordinates: parts of the sun"] = ordinates.sunward.bytes();
-    held["ordinates: shadow of solids"] = ordinates.seen.bytes();
-    held["beam by angle and depth"] = ordinates.peak.tables.bytes();
+    add_ordinates(state.light.ordinates, held);
     check_rows(run.plan.memory, Stage::kDisplay, held);
 }
 

@@ -3,6 +3,7 @@
 // in: a small cloud, suns -> out: pictures against those of a session that begins there.
 // docs/ordinates.md, "Time"
 #include <cmath>
+#include <cstdlib>
 
 #include "tests/embed/host_harness.h"
 
@@ -78,4 +79,63 @@ TEST_CASE("following light: after a jump of the sun it is there within eight pic
     // And then stays as it is.
     for (int i = 0; i < 16; ++i) last = picture(host, 250, 60);
     CHECK(picture(host, 250, 60) == last);
+}
+
+namespace {
+
+constexpr const char* kSmallSky = R"(
+[camera]
+position_m = [0, 0, 200]
+target_m = [300, 3000, 1400]
+resolution = [64, 36]
+[sun]
+azimuth_deg = 60
+elevation_deg = 30
+[sky]
+radiance = [0.1, 0.2, 0.4]
+[method]
+name = "raymarch"
+[raymarch]
+scattering = "ordinates"
+steps = 128
+light_steps = 4
+light_first_step_m = 60
+light_growth = 2
+[[medium]]
+density = "procedural:sky"
+resolution = [16, 16, 4]
+extinction_per_m = 0.02
+phase = { type = "henyey-greenstein", g = 0.5 }
+sky = { size = 32, perlin_m = 4096, worley_m = 1500, coverage = 0.5, base_m = 1000, top_m = 2000 }
+)";
+
+std::vector<float> sky_picture(Hosted& host, double x, double elevation) {
+    const double from[3] = {x, 0, 200}, to[3] = {x + 300, 3000, 1400};
+    host.aim(from, to, 50, kWidth, kHeight);
+    host.sun(60, elevation);
+    std::vector<float> pixels(std::size_t(4) * kWidth * kHeight);
+    auto frame = cleared<pileus_frame>();
+    frame.colour = pixels.data();
+    frame.format = PILEUS_RGBA32F;
+    host.check(pileus_session_render(host.session.get(), &frame, &host.out.error));
+    return pixels;
+}
+
+}  // namespace
+
+TEST_CASE("following light: levels of a sky follow sun and camera") {
+    unsetenv("HOME"), unsetenv("PILEUS_CACHE_DIR"), unsetenv("XDG_CACHE_HOME");
+    Hosted host(kSmallSky, {"raymarch.light_refresh=3"});
+    REQUIRE_MESSAGE(host.code == PILEUS_OK, host.out.line());
+    double x = 0, elevation = 30;
+    (void)sky_picture(host, x, elevation);
+    for (int i = 0; i < 6; ++i) (void)sky_picture(host, x += 130, elevation += 0.1);
+    Hosted there(kSmallSky, {"raymarch.light_refresh=3"});
+    REQUIRE_MESSAGE(there.code == PILEUS_OK, there.out.line());
+    const std::vector<float> fresh = sky_picture(there, x, elevation);
+    // A picture makes one light of one level.
+    CHECK(difference(sky_picture(host, x, elevation), fresh) < 0.02);
+    // Six levels of two lights move, and then see the sun where it stands.
+    for (int i = 0; i < 40; ++i) (void)sky_picture(host, x, elevation);
+    CHECK(sky_picture(host, x, elevation) == fresh);
 }

@@ -289,8 +289,10 @@ OrdinatesMarchParams ordinates_params(const RaymarchInput& in, const RaymarchPar
     OrdinatesMarchParams o{};
     o.march = march;
     o.nodes = nodes.grid;
+    if (in.sky_levels != nullptr) o.levels = *in.sky_levels;
     o.sets = std::int32_t(nodes.sets.size());
-    o.moments = nodes.moments;
+    o.moments = nodes.has_moments ? kOrdinateMoments : 0;
+    o.per_near = nodes.per_near;
     for (std::size_t s = 0; s < nodes.sets.size(); ++s) {
         for (std::size_t c = 0; c < 3; ++c) o.colour[s][c] = nodes.sets[s].colour[c];
         for (int i = 0; i < nodes.media; ++i)
@@ -339,16 +341,22 @@ Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes&
     std::optional<RaymarchSkyParams> of_sky;
     if (in.layer != nullptr) of_sky = RaymarchSkyParams{k, in.layer->params};
     std::optional<OrdinatesMarchParams> of_ordinates;
+    std::optional<OrdinatesSkyParams> of_sky_ordinates;
     OrdinatesMarchBuffers ordinates{};
     if (in.ordinates != nullptr) {
         of_ordinates = ordinates_params(in, k);
-        ordinates = {b, in.ordinates->light.data(), in.ordinates->peak.tables.data(), in.surfaces,
-                     in.ordinates->sunward.data()};
+        if (in.layer != nullptr)
+            of_sky_ordinates = OrdinatesSkyParams{*of_ordinates, in.layer->params};
+        const OrdinateNodes& nodes = *in.ordinates;
+        ordinates = {b,           nodes.light.data(),  nodes.near.data(), nodes.peak.tables.data(),
+                     in.surfaces, nodes.sunward.data()};
     }
     const auto march = [&](std::int64_t piece, int) {
         const std::uint32_t begin = std::uint32_t(piece) * kPiece;
         const std::uint32_t end = begin + kPiece < rows ? begin + kPiece : rows;
-        if (of_ordinates && k.medium.detail != nullptr)
+        if (of_sky_ordinates)
+            context.kernels->ordinates_sky_rows(*of_sky_ordinates, ordinates, begin, end);
+        else if (of_ordinates && k.medium.detail != nullptr)
             context.kernels->detail_ordinates_rows(*of_ordinates, ordinates, begin, end);
         else if (of_ordinates)
             context.kernels->ordinates_rows(*of_ordinates, ordinates, begin, end);

@@ -34,7 +34,8 @@ struct RaymarchInput {
     NodeGrid visibility_nodes{};
     const float* visibility = nullptr;  ///< of solid_shadow.h; null: nothing solid
     const SkyNodes* sky = nullptr;
-    const OrdinateNodes* ordinates = nullptr;  ///< in place of octaves and of sky
+    const OrdinateNodes* ordinates = nullptr;        ///< in place of octaves and of sky
+    const OrdinateLevelsView* sky_levels = nullptr;  ///< of `ordinates` of a layer
     /// [3][pixel] of the whole picture: light of solids, of such scenes and with ordinates alone.
     const float* surfaces = nullptr;
     const std::vector<DensityLevel>* levels = nullptr;

@@ -60,7 +60,10 @@ RaymarchInput march_input(const FrameView& view, const MarchState& state) {
     in.nodes = &light.nodes;
     in.visibility_nodes = light.visibility_nodes;
     in.visibility = light.visibility.data();
-    if (state.choice.settings.ordinates && !state.light.ordinates.density.empty())
+    if (state.choice.settings.ordinates && !light.sky_ordinates.levels.empty()) {
+        in.ordinates = &light.sky_ordinates.front;
+        in.sky_levels = &light.sky_ordinates.view;
+    } else if (state.choice.settings.ordinates && !light.ordinates.density.empty())
         in.ordinates = &light.ordinates;
     else
         in.sky = &light.sky;

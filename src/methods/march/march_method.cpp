@@ -36,7 +36,11 @@ Status MarchMethod::prepare(const Context& context, const FrameView& view) {
     PILEUS_TRY(cap_medium(view, state_));
     const RaymarchSettings& settings = state_.choice.settings;
     state_.light.sky_made = false;
-    if (settings.ordinates && settings.steps > 0 && view.world.medium.sigma > 0)
+    const bool nodes = settings.ordinates && settings.steps > 0 && view.world.medium.sigma > 0;
+    if (nodes && view.world.direct_sky)
+        PILEUS_TRY(prepare_sky_ordinates(context, view.world.medium, view.world.layer.params,
+                                         state_.choice.hosted, state_.light.sky_ordinates));
+    else if (nodes)
         PILEUS_TRY(prepare_ordinates(context, view.world.medium, media.majorants,
                                      may_have_lamps(view, state_.choice), state_.light.ordinates));
     return make_density_levels(marched_medium(view, state_), state_.choice.levels,
@@ -54,6 +58,7 @@ Status MarchMethod::reserve(const FrameView& view, LateRows&) {
     light.ground_shadow.slices.reserve();
     if (choice.look) return Status::ok();
     if (!light.ordinates.density.empty()) PILEUS_TRY(reserve_ordinates(light.ordinates));
+    if (!light.sky_ordinates.levels.empty()) PILEUS_TRY(reserve_sky_ordinates(light.sky_ordinates));
     // Fewer marched pixels have fewer nodes.
     if (choice.sky_nodes)
         PILEUS_TRY(reserve_sky_light(view.world.layer.params, kMostSkyLightBits, light.sky_light));

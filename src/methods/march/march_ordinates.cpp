@@ -12,9 +12,7 @@ namespace pileus {
 namespace {
 
 /// What of a scene discrete ordinates do not know; null: they know it all.
-const char* beyond_ordinates(const FrameView& view, const RaymarchSettings& s) {
-    const World& world = view.world;
-    if (world.direct_sky) return "a sky without a grid (medium.N.resolution)";
+const char* beyond_ordinates(const RaymarchSettings& s) {
     if (s.powder != RaymarchPowderKind::kNone) return "powder";
     if (s.light_cone) return "light_path = \"cone\"";
     if (s.integrator != RaymarchIntegrator::kClosed) return "an integrator but \"closed\"";
@@ -37,7 +35,7 @@ Status choose_scattering(const FrameView& view, MarchChoice& choice) {
     RaymarchSettings& s = choice.settings;
     choice.beyond_ordinates = nullptr;
     if (!s.automatic && !s.ordinates) return Status::ok();
-    const char* beyond = beyond_ordinates(view, s);
+    const char* beyond = beyond_ordinates(s);
     if (s.automatic) {
         if (beyond == nullptr && has_own_octaves(s)) beyond = "keys of octaves";
         choice.beyond_ordinates = beyond;
@@ -77,6 +75,28 @@ OrdinateAsk ask_of(const Medium& medium, const OwnLight& own, const MarchState& 
     return ask;
 }
 
+/// Of a sky in place, lit by `lighting`.
+Status light_sky_levels(const Context& context, const FrameView& view, const Lighting& lighting,
+                        int pictures, MarchState& state) {
+    const Medium& medium = marched_medium(view, state);
+    RaymarchInput in;
+    in.medium = &medium;
+    in.majorants = &state.media.majorants;
+    in.lighting = &lighting;
+    in.settings = &state.choice.settings;
+    in.march_light = true;
+    in.layer = &view.world.layer;
+    in.camera = state.picture.camera;
+    const RaymarchParams march = raymarch_params(in);
+    SkyOrdinateAsk ask;
+    ask.march = &march;
+    ask.sky = &view.world.layer.params;
+    ask.camera = state.picture.camera;
+    ask.pictures = pictures;
+    return follow_sky_ordinates(context, medium, state.media.majorants, lighting, ask,
+                                state.light.sky_ordinates);
+}
+
 }  // namespace
 
 bool may_have_lamps(const FrameView& view, const MarchChoice& choice) {
@@ -89,6 +109,8 @@ OwnLight own_light_of(const FrameView& view) {
 
 Status solve_ordinates_for(const Context& context, const FrameView& view, const Lighting& light,
                            const OwnLight& own, MarchState& state) {
+    if (!state.light.sky_ordinates.levels.empty())
+        return light_sky_levels(context, view, light, 1, state);
     OrdinateNodes& nodes = state.light.ordinates;
     if (nodes.density.empty()) return Status::ok();
     const Medium& medium = view.world.medium;
@@ -101,15 +123,16 @@ Status light_ordinates(const Context& context, const FrameView& view, double sla
                        MarchState& state) {
     const Medium& medium = view.world.medium;
     MarchLight& light = state.light;
+    // A host that lets light take several pictures has iterations go on from the last solution.
+    // Where its sun has stood still for as many, light is what it is without.
+    const int refresh = state.choice.hosted ? state.choice.settings.light_refresh : 1;
+    if (!light.sky_ordinates.levels.empty())
+        return light_sky_levels(context, view, view.lighting, refresh, state);
     if (light.ordinates.density.empty()) return Status::ok();
     const CameraParams& camera = state.picture.camera;
-    const MarchChoice& choice = state.choice;
     OrdinateAsk ask = ask_of(medium, own_light_of(view), state);
     // set_view tells of other lights than the sun's direction.
     bool solve = !light.sky_made || light.sky_to_sun != view.lighting.to_sun;
-    // A host that lets light take several pictures has iterations go on from the last solution.
-    // Where its sun has stood still for as many, light is what it is without.
-    const int refresh = choice.hosted ? choice.settings.light_refresh : 1;
     if (solve) {
         light.ordinates_followed = refresh > 1 && !light.ordinates.sets.empty();
         light.ordinates_still = 0;

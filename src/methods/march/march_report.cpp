@@ -151,20 +151,38 @@ void note_plan(const FrameView& view, const MarchState& state, Plan& plan) {
     for (Stage stage : kUnused) plan.skip(stage);
 }
 
+/// Of a sky in place; those of any extinction where its values are not known yet.
+SkyOrdinateSizes level_sizes(const FrameView& view, bool outlined) {
+    const World& world = view.world;
+    if (!outlined) return sky_ordinate_sizes(world.layer.params, max_extinction(world.medium));
+    const SkySettings& settings = view.scene.media[0].sky;
+    SkyParams sky{};
+    sky.low_m = float(settings.base_m);
+    sky.height_m = float(settings.top_m - settings.base_m);
+    sky.boxed = view.scene.media[0].has_bounds ? 1 : 0;
+    for (int a = 0; a < 3; ++a) sky.extent_m[a] = float(world.medium.extent_m[a]);
+    return sky_ordinate_sizes(sky, 1e30);
+}
+
 void add_march_ordinates(const FrameView& view, const MarchState& state, MemoryTable& t) {
     const Medium& medium = view.world.medium;
     const OrdinateNodes& made = state.light.ordinates;
-    OrdinateSizes sizes = ordinate_sizes(medium, made);
+    const bool levels = view.world.direct_sky;
+    OrdinateSizes sizes =
+        levels ? sky_level_sizes(medium, level_sizes(view, state.media.outlined_only))
+               : ordinate_sizes(medium, made);
     sizes.sets = std::uint64_t(ordinate_sets(medium, view.lighting));
+    if (levels) sizes.sets = std::min(sizes.sets, kMaxSkySets);
+    // Hosts have a spare level.
+    if (levels && state.choice.hosted && sizes.levels > 1) ++sizes.levels;
     const bool moves = state.choice.hosted || view.scene.animation.frames > 1;
     const CameraParams camera =
         make_camera(view.scene.camera, orbit_at(view.scene, view.frame), medium.low_m);
-    if (!made.density.empty() && !moves)
-        sizes.numbers = ordinate_numbers(medium, camera, made.grid);
+    if (!made.density.empty() && !moves) sizes.moments = sees_moments(medium, camera, made.grid);
     sizes.sunlit = view.lighting.sunlit;
-    sizes.own = !view.lighting.lamps.empty() || emits(medium);
-    sizes.points = may_have_lamps(view, state.choice);
-    sizes.solids = view.world.solids.meshes;
+    sizes.own = !levels && (!view.lighting.lamps.empty() || emits(medium));
+    sizes.points = !levels && may_have_lamps(view, state.choice);
+    sizes.solids = !levels && view.world.solids.meshes;
     add_ordinate_rows(sizes, t);
 }
 
@@ -251,8 +269,8 @@ void weigh_memory(const Context& context, const FrameView& view, const MarchStat
 
 void tell_ordinates(const OrdinateNodes& nodes, Report& report) {
     OrdinateFigures& out = report.ordinates;
-    out.nodes = node_count(nodes.grid);
-    out.node_depth = nodes.depth;
+    out.nodes += nodes.density.size();
+    out.node_depth = std::max(out.node_depth, nodes.depth);
     for (const OrdinateSet& set : nodes.sets) {
         out.iterations = set.iterations > out.iterations ? set.iterations : out.iterations;
         out.residual = set.residual > out.residual ? set.residual : out.residual;
@@ -292,7 +310,10 @@ public:
         report.executed.emplace_back("sky_light_nodes", sky_light.made);
         report.executed.emplace_back("sky_light_samples", sky_light.densities);
         report.sweep = state.light.nodes_difference;
-        if (state.choice.settings.ordinates) tell_ordinates(state.light.ordinates, report);
+        const std::vector<SkyLevel>& levels = state.light.sky_ordinates.levels;
+        if (!state.choice.settings.ordinates) return;
+        if (levels.empty()) tell_ordinates(state.light.ordinates, report);
+        for (const SkyLevel& level : levels) tell_ordinates(level.nodes, report);
     }
 
     /// The steps that a time chose.

@@ -11,6 +11,7 @@
 #include "src/picture/nodes/lamp_light.h"
 #include "src/picture/nodes/sky_light.h"
 #include "src/picture/ordinates/ordinates.h"
+#include "src/picture/ordinates/sky_ordinates.h"
 #include "src/picture/upsample.h"
 
 namespace pileus {
@@ -59,6 +60,7 @@ struct MarchLight {
     OrdinateNodes ordinates;
     int ordinates_still = 0;          ///< pictures since the sun has moved
     bool ordinates_followed = false;  ///< they went on from those of another sun
+    SkyOrdinates sky_ordinates;       ///< of a sky in place, instead
     LampNodes lamps;
     GroundShadow ground_shadow;
 };

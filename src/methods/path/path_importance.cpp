@@ -69,7 +69,7 @@ double gather_moments(const Context& context, const Lighting& light, PathImporta
     const float below = light.ground ? float(light.ground_albedo) : 0.0f;
     const float lit_by_sun =
         light.sunlit ? below * std::max(light.to_sun[2], 0.0f) * (4 * kInvFourPi) : 0.0f;
-    const float* const from = out.nodes.light.data();
+    const float* const from = out.nodes.near.data();
     const auto moment = [&](std::size_t set, int m, std::size_t node) {
         return from[(set * kImportanceMoments + std::size_t(m)) * nodes + node];
     };

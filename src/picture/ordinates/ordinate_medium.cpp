@@ -14,18 +14,6 @@
 namespace pileus {
 namespace {
 
-/// Samples along each axis, so that they see every voxel.
-std::array<int, 3> samples_within(const NodeGrid& grid, const Medium& medium) {
-    std::array<int, 3> out{};
-    for (int a = 0; a < 3; ++a) {
-        const double voxels = 1 / (double(grid.per_metre[a]) * double(medium.grid.cell_m[a]));
-        const int needed = int(0.5 * voxels + 0.999);
-        out[std::size_t(a)] =
-            voxels <= 1.01 ? 1 : std::min(std::max(needed, 2), kMaxOrdinateSamples);
-    }
-    return out;
-}
-
 float density_at(const MediumView& view, const Vec<float>& p) {
     if (view.constant != 0) return grid_density<true>(view, p);
     const float density = grid_density<false>(view, p);
@@ -96,9 +84,20 @@ Status part_sun(const Context& context, const ShadowParams& of_all, const Medium
 
 }  // namespace
 
-NodeSamples node_samples(const NodeGrid& grid, const Medium& medium) {
+std::array<int, 3> samples_within(const NodeGrid& grid, const Medium& medium) {
+    std::array<int, 3> out{};
+    for (int a = 0; a < 3; ++a) {
+        const double voxels = 1 / (double(grid.per_metre[a]) * double(medium.grid.cell_m[a]));
+        const int needed = int(0.5 * voxels + 0.999);
+        out[std::size_t(a)] =
+            voxels <= 1.01 ? 1 : std::min(std::max(needed, 2), kMaxOrdinateSamples);
+    }
+    return out;
+}
+
+NodeSamples node_samples(const NodeGrid& grid, const std::array<int, 3>& within) {
     NodeSamples out;
-    out.within = samples_within(grid, medium);
+    out.within = within;
     out.fine = grid;
     for (std::size_t a = 0; a < 3; ++a) {
         out.fine.size[a] *= out.within[a];
@@ -121,24 +120,39 @@ float mean_in_sample(const NodeSamples& samples, const float (&way)[3], float pe
     return 0.5f * (exp_(x) - exp_(-x)) / x;
 }
 
+float most_in_sample(const NodeSamples& samples, const float (&way)[3], float per_metre) {
+    // Volume over what is seen of the part by the light: its mean way through.
+    float across = 0;
+    for (std::size_t a = 0; a < 3; ++a)
+        across += (way[a] < 0 ? -way[a] : way[a]) * samples.fine.per_metre[a];
+    const float depth = per_metre / across;
+    return depth > 1e-3f ? one_minus_exp(depth) / depth : 1.0f;
+}
+
 NodeGrid ordinate_samples(const NodeGrid& grid, const Medium& medium) {
-    return node_samples(grid, medium).fine;
+    return node_samples(grid, samples_within(grid, medium)).fine;
+}
+
+void average_samples(const Context& context, OrdinateNodes& nodes) {
+    const NodeSamples samples = node_samples(nodes.grid, nodes.within);
+    parallel_each(context.threads, nodes.density.size(), [&](std::size_t i) {
+        float sum = 0;
+        each_sample(nodes.grid, samples, i, [&](std::size_t s) { sum += nodes.samples[s]; });
+        nodes.density[i] = sum * samples.share;
+    });
 }
 
 Status sample_ordinates(const Context& context, const Medium& medium, const Majorants& majorants,
                         OrdinateNodes& out) {
-    const NodeSamples samples = node_samples(out.grid, medium);
+    out.within = samples_within(out.grid, medium);
+    const NodeSamples samples = node_samples(out.grid, out.within);
     PILEUS_TRY(allocate(arrays::ordinate_densities(node_count(samples.fine)), out.samples));
     PILEUS_TRY(allocate(arrays::ordinate_nodes(node_count(out.grid), Stage::kWrite), out.density));
     const MediumView view = make_medium_view(medium, majorants);
     parallel_each(context.threads, out.samples.size(), [&](std::size_t i) {
         out.samples[i] = density_at(view, sample_place(samples, i));
     });
-    parallel_each(context.threads, out.density.size(), [&](std::size_t i) {
-        float sum = 0;
-        each_sample(out.grid, samples, i, [&](std::size_t s) { sum += out.samples[s]; });
-        out.density[i] = sum * samples.share;
-    });
+    average_samples(context, out);
     std::uint64_t filled = 0;
     for (const float density : out.density.span()) filled += density > 0 ? 1 : 0;
     PILEUS_TRY(allocate(arrays::ordinate_places(filled, Stage::kWrite), out.filled));
@@ -151,7 +165,7 @@ Status sample_ordinates(const Context& context, const Medium& medium, const Majo
 Status sample_sun(const Context& context, const Medium& medium, const Majorants& majorants,
                   const Lighting& lighting, const SunDepth* sun, OrdinateNodes& nodes,
                   Buffer<float>& depths) {
-    const NodeSamples samples = node_samples(nodes.grid, medium);
+    const NodeSamples samples = node_samples(nodes.grid, nodes.within);
     PILEUS_TRY(allocate(arrays::ordinate_depths(node_count(samples.fine)), depths));
     ShadowParams k{};
     k.medium = make_medium_view(medium, majorants);
@@ -175,7 +189,7 @@ Status sample_sun(const Context& context, const Medium& medium, const Majorants&
 
 void light_nodes(const Context& context, const Medium& medium, const OrdinateNodes& nodes,
                  const Lighting& lighting, int channel, const Buffer<float>& depths, float* beam) {
-    const NodeSamples samples = node_samples(nodes.grid, medium);
+    const NodeSamples samples = node_samples(nodes.grid, nodes.within);
     const float to_sun[3] = {lighting.to_sun[0], lighting.to_sun[1], lighting.to_sun[2]};
     parallel_each(context.threads, nodes.filled.size(), [&](std::size_t filled) {
         const auto i = std::size_t(nodes.filled[filled]);
@@ -184,11 +198,13 @@ void light_nodes(const Context& context, const Medium& medium, const OrdinateNod
         float light = 0, mass = 0;
         each_sample(nodes.grid, samples, i, [&](std::size_t s) {
             const float density = nodes.samples[s], depth = way_rest * depths[s];
-            const float spread =
-                mean_in_sample(samples, to_sun, rest * medium.sigma * density, depth);
-            light += density * std::min(exp_(-depth) * spread, 1.0f);
+            const float per_metre = rest * medium.sigma * density;
+            const float spread = mean_in_sample(samples, to_sun, per_metre, depth);
+            light += density *
+                     std::min(exp_(-depth) * spread, most_in_sample(samples, to_sun, per_metre));
             mass += density;
         });
+        if (!(mass > 0)) light = 0, mass = 1;
         beam[filled] = light / mass * (nodes.seen.empty() ? 1.0f : nodes.seen[i]);
     });
 }

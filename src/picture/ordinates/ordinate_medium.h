@@ -9,7 +9,7 @@
 namespace pileus {
 
 /// Share of the extinction that counts in a channel, where media have these parts: [medium][node].
-inline float ordinate_rest(const OrdinateNodes& nodes, const Buffer<float>& parts, int channel,
+inline float ordinate_rest(const OrdinateCells& nodes, const Buffer<float>& parts, int channel,
                            std::size_t node) {
     if (nodes.media == 1) return nodes.optics[0][channel].rest;
     const std::size_t count = nodes.density.size();
@@ -25,7 +25,9 @@ struct NodeSamples {
     NodeGrid fine{};              ///< of all of them
     float share = 1;              ///< one over their number in a node
 };
-NodeSamples node_samples(const NodeGrid& grid, const Medium& medium);
+NodeSamples node_samples(const NodeGrid& grid, const std::array<int, 3>& within);
+/// So many that they see every voxel, up to a number.
+std::array<int, 3> samples_within(const NodeGrid& grid, const Medium& medium);
 
 /// Calls use(index of a sample) for those within a node.
 template <class Use>
@@ -55,6 +57,12 @@ inline Vec<float> sample_place(const NodeSamples& samples, std::size_t i) {
 /// along a unit vector, by what counts of the extinction per metre and of the depth to the light.
 float mean_in_sample(const NodeSamples& samples, const float (&way)[3], float per_metre,
                      float depth);
+
+/// The largest mean of e^-tau over it: more light than enters does not end there.
+float most_in_sample(const NodeSamples& samples, const float (&way)[3], float per_metre);
+
+/// Densities of nodes, which are means of their samples'.
+void average_samples(const Context& context, OrdinateNodes& nodes);
 
 /// Densities of nodes and samples within them, and parts of media. kLimit: out of memory.
 Status sample_ordinates(const Context& context, const Medium& medium, const Majorants& majorants,

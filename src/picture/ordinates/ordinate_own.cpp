@@ -45,10 +45,12 @@ void add_lamp(const OrdinateNodes& nodes, const NodeSamples& samples, const Lamp
         if (lamp.parallel == 0 && sight.distance < least)
             share *= sight.distance * sight.distance / (least * least);
         const float way[3] = {sight.way.x, sight.way.y, sight.way.z};
-        const float spread = mean_in_sample(samples, way, rest * sigma * density, depth);
+        const float per_metre = rest * sigma * density;
+        const float kept = std::min(exp_(-depth) * mean_in_sample(samples, way, per_metre, depth),
+                                    most_in_sample(samples, way, per_metre));
         float harmonic[kOrdinateMoments];
         sh_eval<4>(-way[0], -way[1], -way[2], harmonic);
-        const float lit = density * share * light * std::min(exp_(-depth) * spread, 1.0f);
+        const float lit = density * share * light * kept;
         for (int m = 0; m < kOrdinateMoments; ++m) sum[m] += lit * harmonic[m];
     });
     for (int m = 0; m < kOrdinateMoments && mass > 0; ++m) moments[m] += sum[m] / mass;
@@ -65,7 +67,7 @@ Status own_light(const Context& context, const Medium& medium, const OrdinateNod
     PILEUS_TRY(allocate_once(arrays::ordinate_own(filled, true), work));
     float harmonic[kOrdinates][kOrdinateMoments];
     set_ordinate_harmonics(harmonic);
-    const NodeSamples samples = node_samples(nodes.grid, medium);
+    const NodeSamples samples = node_samples(nodes.grid, nodes.within);
     const auto channel = std::size_t(set.own == kLampStrength ? 0 : set.own - 1);
     parallel_each(context.threads, filled, [&](std::size_t n) {
         const auto i = std::size_t(nodes.filled[n]);

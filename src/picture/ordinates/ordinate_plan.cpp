@@ -2,6 +2,10 @@
 // See ordinate_plan.h.
 #include "src/picture/ordinates/ordinate_plan.h"
 
+#include <algorithm>
+
+#include "src/picture/ordinates/ordinate_solve.h"
+
 namespace pileus {
 
 OrdinateSizes ordinate_sizes(const Medium& medium, const OrdinateNodes& made) {
@@ -10,29 +14,70 @@ OrdinateSizes ordinate_sizes(const Medium& medium, const OrdinateNodes& made) {
     out.nodes = known ? made.density.size() : max_ordinate_nodes(medium);
     out.filled = known ? made.filled.size() : out.nodes;
     out.samples = known ? made.samples.size() : max_ordinate_samples(medium);
+    out.larger = known ? made.half.nodes.density.size() : out.nodes / 2 + 1;
+    out.larger_filled = known ? made.half.nodes.filled.size() : out.larger;
     out.media = medium.count;
     out.channels = medium.channels;
     return out;
 }
 
+OrdinateSizes sky_level_sizes(const Medium& medium, const SkyOrdinateSizes& sky) {
+    OrdinateSizes out;
+    out.levels = std::uint64_t(sky.levels);
+    out.nodes = out.filled = sky.nodes();
+    out.larger = 1;
+    for (const int n : sky.size) out.larger *= std::uint64_t((n + 1) / 2);
+    out.larger_filled = out.larger;
+    out.samples = sky_ordinate_samples(sky);
+    NodeGrid grid{};
+    std::copy_n(sky.size, 3, grid.size);
+    if (sky.levels > 1) out.ring = ring_count(grid);
+    out.channels = medium.channels;
+    return out;
+}
+
+namespace {
+
+void add_larger_rows(const OrdinateSizes& s, MemoryTable& t) {
+    const Array<float> solution = arrays::ordinate_solution(s.larger_filled, s.sets);
+    add(t, renamed(several(2 * s.levels, solution), "ordinates: moments on larger nodes",
+                   solution.first, solution.last));
+    const std::uint64_t numbers = 2 * s.larger + 2 * s.filled + s.larger_filled;
+    add(t, renamed(several(s.levels, arrays::ordinate_nodes(numbers, Stage::kWrite)),
+                   "ordinates: larger nodes", Stage::kShadow, Stage::kWrite));
+    add(t, renamed(arrays::ordinate_parts(s.larger, s.media), "ordinates: parts in larger nodes",
+                   Stage::kShadow, Stage::kWrite));
+    add(t, renamed(arrays::ordinate_work(s.larger), "ordinates: larger nodes at work",
+                   Stage::kShadow, Stage::kShadow));
+    add(t, renamed(arrays::ordinate_nodes(3 * s.larger_filled, Stage::kShadow),
+                   "ordinates: numbers of these", Stage::kShadow, Stage::kShadow));
+    add(t, renamed(arrays::ordinate_own(s.larger_filled, s.own), "ordinates: lamps of these",
+                   Stage::kShadow, Stage::kShadow));
+}
+
+}  // namespace
+
 void add_ordinate_rows(const OrdinateSizes& s, MemoryTable& t) {
-    add(t, arrays::ordinate_solution(s.filled, s.sets));
-    add(t, arrays::ordinate_light(s.nodes, s.sets, s.numbers));
+    add(t, several(s.levels, arrays::ordinate_solution(s.filled, s.sets)));
+    add(t, several(s.levels, arrays::ordinate_light(s.nodes, s.sets, s.media)));
+    add(t, arrays::ordinate_near(s.nodes, s.sets, s.moments));
     add(t, arrays::ordinate_work(s.nodes));
     add(t, arrays::ordinate_parts(s.nodes, s.media));
     add(t, renamed(arrays::ordinate_parts(s.nodes, s.media), "ordinates: parts of the sun",
                    Stage::kShadow, Stage::kWrite));
     add(t, arrays::ordinate_part_work(s.filled, s.media));
-    add(t, arrays::ordinate_densities(s.samples));
+    add(t, several(s.levels, arrays::ordinate_densities(s.samples)));
     add(t, arrays::ordinate_depths(s.sunlit ? s.samples : 0));
-    add(t, arrays::ordinate_nodes(s.nodes, Stage::kWrite));
+    add(t, several(s.levels, arrays::ordinate_nodes(s.nodes, Stage::kWrite)));
     add(t, renamed(arrays::ordinate_nodes(s.nodes, Stage::kShadow), "ordinates: numbers at work",
                    Stage::kShadow, Stage::kShadow));
-    add(t, arrays::ordinate_places(s.filled, Stage::kWrite));
+    add(t, several(s.levels, arrays::ordinate_places(s.filled, Stage::kWrite)));
     add(t, renamed(arrays::ordinate_places(s.filled, Stage::kShadow), "ordinates: places at work",
                    Stage::kShadow, Stage::kShadow));
     add(t, arrays::ordinate_seen(s.solids ? s.nodes : 0));
     add(t, arrays::ordinate_own(s.filled, s.own));
+    add(t, several(2, arrays::ordinate_ring(s.ring)));
+    add_larger_rows(s, t);
     add(t, arrays::beam_tables(std::uint64_t(s.channels) * (s.points ? 2 : 1), Stage::kShadow));
 }
 

@@ -3,15 +3,18 @@
 // in: a medium, nodes over it or what is known before -> out: rows of the plan.
 // docs/report.md, "Plan"
 #pragma once
-#include "src/picture/ordinates/ordinates.h"
+#include "src/picture/ordinates/sky_ordinates.h"
 #include "src/plan/memory_table.h"
 
 namespace pileus {
 
 struct OrdinateSizes {
     std::uint64_t nodes = 0, filled = 0, samples = 0;
-    std::uint64_t sets = 0;          ///< of light
-    int numbers = kOrdinateMoments;  ///< of a node that is read
+    std::uint64_t larger = 0, larger_filled = 0;  ///< of nodes of twice the size
+    std::uint64_t levels = 1;                     ///< of a sky in place, each with so many nodes
+    std::uint64_t ring = 0;                       ///< nodes around one
+    std::uint64_t sets = 0;                       ///< of light
+    bool moments = true;                          ///< nodes are read near the camera
     int media = 1, channels = 1;
     bool sunlit = true;
     bool own = false;     ///< light of lamps and of media
@@ -21,6 +24,9 @@ struct OrdinateSizes {
 
 /// Those of nodes, or where there are none yet the most that any phase function brings.
 OrdinateSizes ordinate_sizes(const Medium& medium, const OrdinateNodes& made);
+
+/// Those of a sky in place.
+OrdinateSizes sky_level_sizes(const Medium& medium, const SkyOrdinateSizes& sky);
 
 void add_ordinate_rows(const OrdinateSizes& sizes, MemoryTable& table);
 

@@ -13,6 +13,7 @@ namespace pileus {
 namespace {
 
 constexpr int kMaxIterations = 64;
+constexpr double kFarther = 2;  // than the least change so far: mixing begins anew
 
 /// Places in the shared memory.
 struct Work {
@@ -42,8 +43,28 @@ Work share_work(float* from, std::size_t nodes) {
     return w;
 }
 
+/// A node's place where slices are along x.
+std::size_t place_along_x(const NodeGrid& grid, std::size_t node) {
+    const std::size_t nx = std::size_t(grid.size[0]), ny = std::size_t(grid.size[1]);
+    const std::size_t x = node % nx, y = node / nx % ny, z = node / (nx * ny);
+    return (x * std::size_t(grid.size[2]) + z) * ny + y;
+}
+
+/// A ring's nodes send on what enters there, and nothing else.
+void set_ring(const OrdinateCells& nodes, const OrdinatesParams& k, const float* ring,
+              const Work& w) {
+    const std::size_t count = nodes.density.size(), of_ring = std::size_t(ring_count(nodes.grid));
+    for (std::size_t j = 0; j < kOrdinates; ++j) {
+        float* to = w.radiance + j * count;
+        const bool along_x = k.sweep[j].axis == 0;
+        each_of_ring(nodes.grid, [&](std::size_t r, std::size_t i) {
+            to[along_x ? place_along_x(nodes.grid, i) : i] = ring[j * of_ring + r];
+        });
+    }
+}
+
 /// Of the way through a node: what passes, and the mean of what is on the way.
-void set_ways(const Context& context, const Medium& medium, const OrdinateNodes& nodes, int channel,
+void set_ways(const Context& context, const Medium& medium, const OrdinateCells& nodes, int channel,
               const OrdinateWay (&way)[kOrdinateClasses], const std::int32_t* place_x,
               const Work& w) {
     const std::size_t count = nodes.density.size();
@@ -59,21 +80,23 @@ void set_ways(const Context& context, const Medium& medium, const OrdinateNodes&
             w.pass[at] = exp_(-t);
             w.mean[at] = t > 1e-6f ? one_minus_exp(t) / t : 1.0f;
         });
+        if (nodes.ring)
+            each_of_ring(nodes.grid, [&](std::size_t, std::size_t i) {
+                const std::size_t at =
+                    c * count + (way[c].along_x ? place_along_x(nodes.grid, i) : i);
+                w.pass[at] = 0;
+            });
     }
 }
 
 /// Places of nodes where slices are along x: y fastest, then z.
-void set_places(const OrdinateNodes& nodes, Buffer<std::int32_t>& place_x) {
-    const std::int32_t* n = nodes.grid.size;
-    for (std::size_t i = 0; i < nodes.filled.size(); ++i) {
-        const std::int32_t at = nodes.filled[i];
-        const std::int32_t x = at % n[0], y = at / n[0] % n[1], z = at / (n[0] * n[1]);
-        place_x[i] = (x * n[2] + z) * n[1] + y;
-    }
+void set_places(const OrdinateCells& nodes, Buffer<std::int32_t>& place_x) {
+    for (std::size_t i = 0; i < nodes.filled.size(); ++i)
+        place_x[i] = std::int32_t(place_along_x(nodes.grid, std::size_t(nodes.filled[i])));
 }
 
 /// Parts of media of the extinction that counts.
-Status set_parts(const Context& context, const OrdinateNodes& nodes, int channel,
+Status set_parts(const Context& context, const OrdinateCells& nodes, int channel,
                  Buffer<float>& parts) {
     if (nodes.media == 1) return Status::ok();
     const std::size_t count = nodes.density.size(), filled = nodes.filled.size();
@@ -88,7 +111,7 @@ Status set_parts(const Context& context, const OrdinateNodes& nodes, int channel
     return Status::ok();
 }
 
-OrdinatesParams params_of(const OrdinateNodes& nodes, bool periodic, const Lighting& lighting,
+OrdinatesParams params_of(const OrdinateCells& nodes, bool periodic, const Lighting& lighting,
                           const OrdinateSet& set, OrdinateWay (&way)[kOrdinateClasses]) {
     OrdinatesParams k{};
     k.filled = std::int32_t(nodes.filled.size());
@@ -191,7 +214,7 @@ void mix(int turn, std::size_t nodes, const Work& w, float* moments) {
 
 }  // namespace
 
-Status solve_ordinates(const Context& context, const Medium& medium, const OrdinateNodes& nodes,
+Status solve_ordinates(const Context& context, const Medium& medium, const OrdinateCells& nodes,
                        const Lighting& lighting, const OrdinateSources& from, int iterations,
                        OrdinateSolver& solver, OrdinateSet& set, float* moments) {
     const std::size_t count = nodes.filled.size(), all = nodes.density.size();
@@ -199,7 +222,7 @@ Status solve_ordinates(const Context& context, const Medium& medium, const Ordin
     PILEUS_TRY(allocate_once(arrays::ordinate_places(count, Stage::kShadow), solver.place_x));
     const Work w = share_work(solver.work.data(), all);
     OrdinateWay way[kOrdinateClasses] = {};
-    const OrdinatesParams k = params_of(nodes, medium.grid.periodic, lighting, set, way);
+    const OrdinatesParams k = params_of(nodes, nodes.periodic, lighting, set, way);
     std::int64_t slice_floats = 0;
     for (const OrdinateSweep& s : k.sweep)
         slice_floats = std::max(slice_floats, ordinate_slice_floats(k, s));
@@ -219,8 +242,9 @@ Status solve_ordinates(const Context& context, const Medium& medium, const Ordin
     b.pass = w.pass, b.mean = w.mean, b.beam = from.beam, b.fixed = from.fixed,
     b.part = solver.parts.data();
     b.radiance = w.radiance, b.moments = moments, b.slices = solver.slices.data();
+    if (from.ring != nullptr) set_ring(nodes, k, from.ring, w);
     const bool begins = iterations == 0 || !set.solved;
-    if (begins) {
+    if (begins && !from.started) {
         // Where nothing is absorbed, much of what is within is as bright as what enters.
         float mean = 0;
         for (int j = 0; j < kOrdinates; ++j) mean += k.weight[j] * k.harmonic[j][0] * k.enters[j];
@@ -228,6 +252,8 @@ Status solve_ordinates(const Context& context, const Medium& medium, const Ordin
         std::fill_n(moments + count, count * (kOrdinateMoments - 1), 0.0f);
     }
     const int most = begins ? kMaxIterations : std::min(iterations, kMaxIterations);
+    double least = 0;
+    int first = 0;  // of the iterations that are mixed
     for (set.iterations = 0; set.iterations < most;) {
         std::copy_n(moments, kSlowMoments * count, w.last);
         iterate(context, k, b, slice_floats);
@@ -238,7 +264,11 @@ Status solve_ordinates(const Context& context, const Medium& medium, const Ordin
         }
         set.residual = norm > 0 ? __builtin_sqrt(change / norm) : 0;
         if (++set.iterations == most || set.residual < kSolvedChange) break;
-        mix(set.iterations - 1, count, w, moments);
+        // A mixed start may lead away: what came before counts no more then.
+        if (set.iterations - 1 > first && set.residual > kFarther * least)
+            first = set.iterations - 1;
+        if (set.iterations - 1 == first || set.residual < least) least = set.residual;
+        mix(set.iterations - 1 - first, count, w, moments);
     }
     set.solved = true;
     return Status::ok();

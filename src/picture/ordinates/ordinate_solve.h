@@ -20,11 +20,33 @@ struct OrdinateSolver {
 struct OrdinateSources {
     const float* beam = nullptr;   ///< [filled]: of the sun, of an irradiance of 1
     const float* fixed = nullptr;  ///< [direction][filled]
+    const float* ring = nullptr;   ///< [direction][node of the ring]: what enters there
+    bool started = false;          ///< the moments are a start
 };
+
+/// Nodes of a ring: calls use(number in the ring, node).
+template <class Use>
+void each_of_ring(const NodeGrid& grid, const Use& use) {
+    const int nx = grid.size[0], ny = grid.size[1];
+    std::size_t number = 0;
+    for (int z = 0; z < grid.size[2]; ++z)
+        for (int y = 0; y < ny; ++y) {
+            const bool end = y == 0 || y == ny - 1;
+            for (int x = 0; x < nx; x += end || nx == 1 ? 1 : nx - 1)
+                use(number++,
+                    (std::size_t(z) * std::size_t(ny) + std::size_t(y)) * std::size_t(nx) +
+                        std::size_t(x));
+        }
+}
+inline std::uint64_t ring_count(const NodeGrid& grid) {
+    std::uint64_t count = 0;
+    each_of_ring(grid, [&](std::size_t, std::size_t) { ++count; });
+    return count;
+}
 
 /// `iterations`: at most, from set.solved on; 0: all, from none. `moments`: [moment][filled].
 /// kLimit: out of memory.
-Status solve_ordinates(const Context& context, const Medium& medium, const OrdinateNodes& nodes,
+Status solve_ordinates(const Context& context, const Medium& medium, const OrdinateCells& nodes,
                        const Lighting& lighting, const OrdinateSources& from, int iterations,
                        OrdinateSolver& solver, OrdinateSet& set, float* moments);
 

@@ -8,8 +8,10 @@
 #include "kernels_cpu/core/sh.h"
 #include "platform/threads.h"
 #include "src/base/angles.h"
+#include "src/picture/ordinates/ordinate_half.h"
 #include "src/picture/ordinates/ordinate_medium.h"
 #include "src/picture/ordinates/ordinate_own.h"
+#include "src/picture/ordinates/ordinate_ring.h"
 #include "src/picture/ordinates/ordinate_solve.h"
 
 namespace pileus {
@@ -52,11 +54,6 @@ void fill_empty(const OrdinateNodes& nodes, bool periodic, const float* from, fl
     if (mass > 0) to[node] = light / mass;
 }
 
-/// Memory that is large enough is kept.
-Status hold(const Array<float>& array, Buffer<float>& buffer) {
-    return buffer.size() >= array.count ? Status::ok() : allocate(array, buffer);
-}
-
 /// What is known of a light by the solution that is there for one before it.
 void keep_solution(const OrdinateSet& before, OrdinateSet& set) {
     if (before.channel != set.channel || !before.solved) return;
@@ -72,7 +69,8 @@ bool seen_from_outside(const Medium& medium, const CameraParams& camera, const N
     if (camera.orthographic != 0) return true;
     if (medium.grid.periodic) return false;
     for (std::size_t a = 0; a < 3; ++a) {
-        const double margin = 2 / double(grid.per_metre[a]), at = double(camera.origin[a]);
+        const double margin = 2 * kNearNodes / double(grid.per_metre[a]),
+                     at = double(camera.origin[a]);
         if (at < -margin || at > medium.extent_m[a] + margin) return true;
     }
     return false;
@@ -140,13 +138,15 @@ OrdinateOptics ordinate_optics(const Optics& optics, int channel, double f) {
     return out;
 }
 
-Status prepare_ordinates(const Context& context, const Medium& medium, const Majorants& majorants,
-                         bool points, OrdinateNodes& out) {
-    const StageClock clock(context, "ordinates");
+namespace {
+
+/// `rest`: the largest.
+Status set_optics(const Context& context, const Medium& medium, bool points, OrdinateNodes& out,
+                  double& rest) {
     PILEUS_TRY(make_beam(medium, ordinate_peak(), points, BeamTurns::kPeak, context.threads,
                          Stage::kShadow, out.peak));
     out.media = medium.count;
-    double rest = 0;
+    rest = 0;
     for (int i = 0; i < out.media; ++i)
         for (int c = 0; c < 3; ++c) {
             out.optics[i][c] = ordinate_optics(medium.optics[std::size_t(i)],
@@ -154,22 +154,48 @@ Status prepare_ordinates(const Context& context, const Medium& medium, const Maj
             rest = std::max(rest, double(out.optics[i][c].rest));
         }
     out.sets.clear();
+    return Status::ok();
+}
+
+}  // namespace
+
+Status prepare_optics(const Context& context, const Medium& medium, bool points,
+                      OrdinateNodes& out) {
+    const StageClock clock(context, "ordinates");
+    double rest = 0;
+    return set_optics(context, medium, points, out, rest);
+}
+
+Status prepare_ordinates(const Context& context, const Medium& medium, const Majorants& majorants,
+                         bool points, OrdinateNodes& out) {
+    const StageClock clock(context, "ordinates");
+    double rest = 0;
+    PILEUS_TRY(set_optics(context, medium, points, out, rest));
     out.grid = ordinate_grid(medium, rest);
+    out.periodic = medium.grid.periodic;
     PILEUS_TRY(sample_ordinates(context, medium, majorants, out));
+    out.depth = node_depth(medium, out);
+    PILEUS_TRY(make_half(out));
+    weigh_half(out);
+    return Status::ok();
+}
+
+double node_depth(const Medium& medium, const OrdinateNodes& out) {
     float thickest = 0, edge = 1 / out.grid.per_metre[0];
     for (std::size_t i = 0; i < out.density.size(); ++i)
         for (int c = 0; c < medium.channels; ++c)
             thickest = std::max(thickest, out.density[i] * ordinate_rest(out, out.parts, c, i));
     for (float per_metre : out.grid.per_metre) edge = std::min(edge, 1 / per_metre);
-    out.depth = double(medium.sigma) * double(thickest) * double(edge);
-    return Status::ok();
+    return double(medium.sigma) * double(thickest) * double(edge);
 }
 
 Status reserve_ordinates(OrdinateNodes& out) {
     out.sets.reserve(kMaxOrdinateSets);
     PILEUS_TRY(hold(arrays::ordinate_solution(out.filled.size(), kMaxOrdinateSets), out.solution));
-    return hold(arrays::ordinate_light(node_count(out.grid), kMaxOrdinateSets, kOrdinateMoments),
-                out.light);
+    PILEUS_TRY(reserve_half(kMaxOrdinateSets, out));
+    PILEUS_TRY(
+        hold(arrays::ordinate_light(node_count(out.grid), kMaxOrdinateSets, out.media), out.light));
+    return hold(arrays::ordinate_near(node_count(out.grid), kMaxOrdinateSets, true), out.near);
 }
 
 bool unsolved(const OrdinateNodes& nodes) {
@@ -191,25 +217,39 @@ Status make_ordinates(const Context& context, const Medium& medium, const Majora
     } else if (held == out.sets.size()) {
         for (std::size_t s = 0; s < held; ++s) keep_solution(before[s], out.sets[s]);
     }
-    Buffer<float> unkept, beam, own;
+    PILEUS_TRY(reserve_half(out.sets.size(), out));
+    Buffer<float> unkept, beam, own, ring;
     Buffer<float>& depths = ask.depths != nullptr ? *ask.depths : unkept;
     bool shines = false;
     for (const OrdinateSet& set : out.sets) shines |= set.beam > 0;
     if (shines) {
-        PILEUS_TRY(sample_sun(context, medium, majorants, lighting, ask.sun, out, depths));
+        if (!ask.sampled)
+            PILEUS_TRY(sample_sun(context, medium, majorants, lighting, ask.sun, out, depths));
         PILEUS_TRY(allocate(arrays::ordinate_nodes(nodes, Stage::kShadow), beam));
     }
-    OrdinateSolver solver;
+    OrdinateSolver solver, larger;
     for (std::size_t s = 0; s < out.sets.size(); ++s) {
         OrdinateSet& set = out.sets[s];
+        if (ask.only >= 0 && std::size_t(ask.only) != s) continue;
         if (set.same && set.residual < kSolvedChange) continue;
         if (set.beam > 0)
             light_nodes(context, medium, out, lighting, set.channel, depths, beam.data());
         OrdinateSources from;
         if (set.beam > 0) from.beam = beam.data();
         PILEUS_TRY(own_light(context, medium, out, ask, set, own, from.fixed));
+        if (out.ring) PILEUS_TRY(light_ring(context, ask.coarser, s, out, ring, from));
+        float* const moments = out.solution.data() + s * nodes * kOrdinateMoments;
+        if (from.started || ask.iterations == 0 || !set.solved) {
+            PILEUS_TRY(solve_half(context, medium, out, lighting, ask, from, s, larger));
+            if (!from.started) start_from_half(context, out, s, moments);
+            from.started = true;
+        } else {
+            take_correction(context, out, s, moments);
+            PILEUS_TRY(solve_half(context, medium, out, lighting, ask, from, s, larger));
+        }
         PILEUS_TRY(solve_ordinates(context, medium, out, lighting, from, ask.iterations, solver,
-                                   set, out.solution.data() + s * nodes * kOrdinateMoments));
+                                   set, moments));
+        add_correction(context, out, s, moments);
     }
     return Status::ok();
 }
@@ -256,31 +296,41 @@ void place_moment(const OrdinateNodes& nodes, const float* from, float* to) {
 
 }  // namespace
 
-int ordinate_numbers(const Medium& medium, const CameraParams& camera, const NodeGrid& grid) {
-    return seen_from_outside(medium, camera, grid) ? medium.count : kOrdinateMoments;
+bool sees_moments(const Medium& medium, const CameraParams& camera, const NodeGrid& grid) {
+    return !seen_from_outside(medium, camera, grid);
+}
+
+float ordinate_per_near(const NodeGrid& grid) {
+    float least = grid.per_metre[0];
+    for (float per_metre : grid.per_metre) least = std::min(least, per_metre);
+    return least / float(kNearNodes);
 }
 
 Status turn_ordinates(const Context& context, const Medium& medium, const CameraParams& camera,
                       OrdinateNodes& out) {
-    const bool turned = seen_from_outside(medium, camera, out.grid);
-    out.moments = turned ? 1 : kOrdinateMoments;
-    const std::size_t nodes = std::size_t(node_count(out.grid));
-    const auto arrays = std::size_t(ordinate_numbers(medium, camera, out.grid));
-    PILEUS_TRY(hold(arrays::ordinate_light(nodes, out.sets.size(), int(arrays)), out.light));
-    const bool periodic = medium.grid.periodic;
+    out.has_moments = sees_moments(medium, camera, out.grid);
+    // Copies of a medium are seen in directions of their own, however far they are.
+    const bool periodic = medium.grid.periodic, copies = periodic && camera.orthographic == 0;
+    out.per_near = copies ? 0.0f : ordinate_per_near(out.grid);
+    const std::size_t nodes = std::size_t(node_count(out.grid)), sets = out.sets.size();
+    const auto media = std::size_t(medium.count);
+    if (!copies) PILEUS_TRY(hold(arrays::ordinate_light(nodes, sets, medium.count), out.light));
+    if (out.has_moments) PILEUS_TRY(hold(arrays::ordinate_near(nodes, sets, true), out.near));
     Buffer<float> own;
     PILEUS_TRY(allocate(arrays::ordinate_nodes(nodes, Stage::kShadow), own));
     const std::size_t filled = out.filled.size();
-    for (std::size_t s = 0; s < out.sets.size(); ++s) {
+    for (std::size_t s = 0; s < sets; ++s) {
         const float* from = out.solution.data() + s * filled * kOrdinateMoments;
-        float* to = out.light.data() + s * nodes * arrays;
-        for (std::size_t n = 0; n < arrays; ++n) {
-            if (turned)
-                turn_solution(context, out, camera, from, out.optics[n][out.sets[s].channel],
-                              own.data());
-            else
-                place_moment(out, from + n * filled, own.data());
-            spread_light(context, out, periodic, own.data(), to + n * nodes);
+        for (std::size_t i = 0; i < media && !copies; ++i) {
+            turn_solution(context, out, camera, from, out.optics[i][out.sets[s].channel],
+                          own.data());
+            spread_light(context, out, periodic, own.data(),
+                         out.light.data() + (s * media + i) * nodes);
+        }
+        for (std::size_t m = 0; m < kOrdinateMoments && out.has_moments; ++m) {
+            place_moment(out, from + m * filled, own.data());
+            spread_light(context, out, periodic, own.data(),
+                         out.near.data() + (s * kOrdinateMoments + m) * nodes);
         }
     }
     return Status::ok();

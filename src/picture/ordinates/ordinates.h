@@ -48,22 +48,43 @@ struct OrdinateSet {
     double residual = 0;  ///< of the mean radiance, the last iteration's change over its norm
 };
 
-struct OrdinateNodes {
+/// Nodes as a solution is found on them.
+struct OrdinateCells {
     NodeGrid grid{};
-    Beam peak;  ///< of the sun's light, turned within the peak
+    bool periodic = false;  ///< what lies in the nodes repeats along x and y
+    /// Of a level of a sky: the outermost nodes along x and y hold what enters it, and all others
+    /// count as filled.
+    bool ring = false;
     int media = 1;
     OrdinateOptics optics[kMostMedia][3];
-    double depth = 0;  ///< largest optical depth of a node's shortest edge that counts
-    std::vector<OrdinateSet> sets;
-    int moments = 0;              ///< 1: towards the camera; or all
     Buffer<float> density;        ///< [node]
     Buffer<std::int32_t> filled;  ///< nodes that hold medium; others have no light of their own
-    Buffer<float> samples;        ///< of the density, within nodes
     Buffer<float> parts;          ///< [medium][node]: of the density; of several media alone
-    Buffer<float> seen;      ///< [node]: of the sun, what solids leave; of scenes with solids alone
-    Buffer<float> sunward;   ///< [medium][node]: of the optical depth to the sun; likewise
-    Buffer<float> solution;  ///< [set][moment][filled]
-    Buffer<float> light;     ///< [set][moment][node], as the march reads it
+    Buffer<float> solution;       ///< [set][moment][filled]
+};
+
+/// Nodes of twice the size, and which of them others lie in.
+struct OrdinateHalf {
+    OrdinateCells nodes;
+    Buffer<std::int32_t> number;  ///< [larger node]: among those that count as filled; -1: none
+    Buffer<std::int32_t> parent;  ///< [filled]: such a number
+    Buffer<float> share;          ///< [filled]: of the parent's density
+    Buffer<float> correction;     ///< [set][moment][larger filled]: what solutions are short of
+};
+
+struct OrdinateNodes : OrdinateCells {
+    std::array<int, 3> within{1, 1, 1};  ///< samples of a node, along each axis
+    Beam peak;                           ///< of the sun's light, turned within the peak
+    double depth = 0;                    ///< node_depth()
+    std::vector<OrdinateSet> sets;
+    bool has_moments = false;  ///< the camera is among the nodes, or copies of them are seen
+    float per_near = 0;        ///< OrdinatesMarchParams::per_near
+    Buffer<float> samples;     ///< of the density, within nodes
+    Buffer<float> seen;     ///< [node]: of the sun, what solids leave; of scenes with solids alone
+    Buffer<float> sunward;  ///< [medium][node]: of the optical depth to the sun; of several media
+    OrdinateHalf half;
+    Buffer<float> light;  ///< [set][medium][node], as the march reads it
+    Buffer<float> near;   ///< [set][moment][node], likewise, with has_moments alone
 };
 
 /// 1 - cos of the width of what counts as the peak of a phase function.
@@ -90,9 +111,13 @@ inline Array<float> ordinate_solution(std::uint64_t nodes, std::uint64_t sets) {
     return {"ordinates: moments on nodes", bytes_of(sets * kOrdinateMoments, nodes), Stage::kShadow,
             Stage::kWrite};
 }
-/// Towards the camera each medium has its own.
-inline Array<float> ordinate_light(std::uint64_t nodes, std::uint64_t sets, int moments) {
-    return {"ordinates: light on nodes", bytes_of(sets * std::uint64_t(moments), nodes),
+/// Towards the camera; each medium has its own.
+inline Array<float> ordinate_light(std::uint64_t nodes, std::uint64_t sets, int media) {
+    return {"ordinates: light on nodes", bytes_of(sets * std::uint64_t(media), nodes),
+            Stage::kShadow, Stage::kWrite};
+}
+inline Array<float> ordinate_near(std::uint64_t nodes, std::uint64_t sets, bool any) {
+    return {"ordinates: light near the camera", any ? bytes_of(sets * kOrdinateMoments, nodes) : 0,
             Stage::kShadow, Stage::kWrite};
 }
 /// Densities, which stay, or depths towards the sun.
@@ -138,13 +163,31 @@ inline Array<float> ordinate_work(std::uint64_t nodes) {
             Stage::kShadow, Stage::kShadow};
 }
 
+/// What enters a ring, by direction, and which nodes it is.
+inline Array<float> ordinate_ring(std::uint64_t nodes) {
+    return {"ordinates: light of a ring", bytes_of(kOrdinates, nodes), Stage::kShadow,
+            Stage::kShadow};
+}
+
 }  // namespace arrays
+
+/// Memory that is large enough is kept.
+inline Status hold(const Array<float>& array, Buffer<float>& buffer) {
+    return buffer.size() >= array.count ? Status::ok() : allocate(array, buffer);
+}
 
 /// Optics of a medium; f: the peak's share.
 OrdinateOptics ordinate_optics(const Optics& optics, int channel, double f);
 
 /// Of lamps whose light has one colour.
 constexpr int kLampStrength = 4;
+
+/// Nodes around, twice as wide along x and y and as many upwards, whose light enters at a ring.
+struct OrdinateCoarser {
+    const OrdinateCells* nodes = nullptr;
+    const OrdinateCells* larger = nullptr;  ///< their own larger ones
+    double first[2] = {}, step[2] = {};  ///< of the finer ones: middle of the first, in its nodes
+};
 
 /// How a solution is found. Light that enters as before and has no beam keeps its own.
 struct OrdinateAsk {
@@ -153,8 +196,11 @@ struct OrdinateAsk {
     const LampNodes* lamps = nullptr;  ///< of these so many shine; null: none
     std::size_t first_lamp = 0, lamp_count = 0;
     bool emission = false;  ///< media shine
-    Buffer<float>* depths =
-        nullptr;  ///< out: optical depths to the sun from samples; null: unwanted
+    /// Out: optical depths to the sun from samples; null: unwanted.
+    Buffer<float>* depths = nullptr;
+    bool sampled = false;     ///< these are there already
+    int only = -1;            ///< set that is solved for; -1: all
+    OrdinateCoarser coarser;  ///< of a ring
 };
 
 /// Radiances that enter, by light or, where channels differ, by channel.
@@ -189,11 +235,20 @@ void set_ordinate_sweeps(const NodeGrid& grid, bool periodic, OrdinateWay (&way)
 /// that have a place, too. kLimit: out of memory.
 Status prepare_ordinates(const Context& context, const Medium& medium, const Majorants& majorants,
                          bool points, OrdinateNodes& out);
+/// Optics and tables of the beam alone.
+Status prepare_optics(const Context& context, const Medium& medium, bool points,
+                      OrdinateNodes& out);
+/// Largest optical depth of a node's shortest edge that counts.
+double node_depth(const Medium& medium, const OrdinateNodes& nodes);
 /// Memory for any lights and cameras, so that frames keep none. kLimit: out of memory.
 Status reserve_ordinates(OrdinateNodes& out);
 
 /// Change of the mean radiance over its norm by an iteration that is the last.
 constexpr double kSolvedChange = 2e-4;
+
+/// OrdinatesMarchParams::per_near of nodes with such edges, beyond which the camera is outside.
+constexpr double kNearNodes = 2;
+float ordinate_per_near(const NodeGrid& grid);
 
 /// Whether some solution has not come to its end.
 bool unsolved(const OrdinateNodes& nodes);
@@ -203,7 +258,7 @@ Status make_ordinates(const Context& context, const Medium& medium, const Majora
                       const Lighting& lighting, const OrdinateAsk& ask, OrdinateNodes& out);
 
 /// Numbers of a node that a march of a camera reads: one a medium towards it, or all moments.
-int ordinate_numbers(const Medium& medium, const CameraParams& camera, const NodeGrid& grid);
+bool sees_moments(const Medium& medium, const CameraParams& camera, const NodeGrid& grid);
 
 /// Light as the march of a camera reads it. kLimit: out of memory.
 Status turn_ordinates(const Context& context, const Medium& medium, const CameraParams& camera,

@@ -36,6 +36,7 @@ std::vector<const KeyRow*> all_scene_keys() {
     add(weather_keys());
     add(particle_keys());
     add(sky_keys());
+    add(cloud_keys());
     add(recipe_keys());
     add(clouds_keys());
     add(method_keys());

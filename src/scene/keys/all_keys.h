@@ -21,6 +21,7 @@ const KeyRow& transfer_key();             // medium.transfer
 Span<const KeyRow> medium_last_keys();    // medium, behind it
 Span<const KeyRow> detail_keys();         // medium.detail
 Span<const KeyRow> sky_keys();            // medium.sky
+Span<const KeyRow> cloud_keys();          // medium.cloud
 Span<const KeyRow> recipe_keys();         // medium.plume, medium.particle_cumulus
 Span<const KeyRow> clouds_keys();         // clouds
 Span<const KeyRow> method_keys();         // method

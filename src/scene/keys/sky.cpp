@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Keys of procedural skies.
-// in: checked values <-> out: fields of SkySettings.
-// docs/skies.md; Palenik 2016, section 5.1 "Shader parameters".
+// Keys of procedural skies and of one procedural cloud by its type.
+// in: checked values <-> out: fields of SkySettings and CloudSettings.
+// docs/skies.md; docs/generators.md; Palenik 2016, section 5.1 "Shader parameters".
 #include "src/scene/keys/all_keys.h"
+#include "src/scene/media/cloud_types.h"
 
 namespace pileus {
 namespace {
@@ -80,8 +81,63 @@ constexpr KeyRow kRows[] = {
      "`raymarch` alone; `auto`: direct where that can be"},
 };
 
+template <auto Member>
+constexpr KeyField cloud = field<&MediumSettings::cloud, Member>;
+
+using C = CloudSettings;
+
+constexpr KeyRow kCloudRows[] = {
+    {"medium.N.cloud.type", cloud<&C::type>, one_of(kCloudTypes), "",
+     "type of cloud: sets what is left out of this table, and extinction and phase function where "
+     "these are left out (docs/generators.md)"},
+    {"medium.N.cloud.seed", cloud<&C::seed>, from_to(0, 0x1p32 - 1), "",
+     "another cloud for each number"},
+    {"medium.N.cloud.height_m", cloud<&C::height_m>, from_to(1, 1e5), "m",
+     "height of the tallest top over the base; left out: by the type's proportion to `radius_m`, "
+     "or as large as `bounds_m` allows, or the type's",
+     kNoNote},
+    {"medium.N.cloud.radius_m", cloud<&C::radius_m>, from_to(1, 1e5), "m",
+     "half the width of the foot; left out: by the type's proportion to `height_m`", kNoNote},
+    {"medium.N.cloud.base_m", cloud<&C::base_m>, from_to(-1e6, 1e6), "m",
+     "altitude of the flat base, the condensation level; left out: the type's, or just above the "
+     "floor of `bounds_m`",
+     kNoNote},
+    {"medium.N.cloud.position_m", cloud<&C::position_m>, from_to(-1e9, 1e9), "m",
+     "x and y of the middle of the foot; left out: 0, 0, or so that the cloud stands in the middle "
+     "of `bounds_m`",
+     kNoNote},
+    {"medium.N.cloud.turrets", cloud<&C::turrets>, from_to(1, 40), "", "towers of rising air",
+     kNoNote},
+    {"medium.N.cloud.tall", cloud<&C::tall>, from_to(1, 40), "",
+     "turrets of nearly the full height; others are lower", kNoNote},
+    {"medium.N.cloud.slimness", cloud<&C::slimness>, from_to(0.08, 1), "",
+     "radius of a turret over its height", kNoNote},
+    {"medium.N.cloud.dilution", cloud<&C::dilution>, from_to(0, 2), "",
+     "share of dry air that is mixed in at the edge, well above the base; it falls towards the "
+     "core",
+     kNoNote},
+    {"medium.N.cloud.age", cloud<&C::age>, from_to(0, 1), "lives",
+     "0: growing and crisp, 1: soft, thin and falling apart", kNoNote},
+    {"medium.N.cloud.outline", cloud<&C::outline>, from_to(0, 2), "",
+     "bends of the outline seen from above, over `radius_m`", kNoNote},
+    {"medium.N.cloud.shear", cloud<&C::shear>, from_to(0, 10), "",
+     "drift of the tallest top with the wind over its height", kNoNote},
+    {"medium.N.cloud.wind_deg", cloud<&C::wind_deg>, from_to(-360, 360), "deg",
+     "direction of that drift, from east towards north"},
+    {"medium.N.cloud.anvil", cloud<&C::anvil>, from_to(0, 3), "",
+     "radius of an anvil of ice over `height_m`; 0: none", kNoNote},
+    {"medium.N.cloud.cell_m", cloud<&C::cell_m>, from_to(1, 1e6), "m",
+     "width of a layer's cells, or of a streak's head; the box holds a whole number", kNoNote},
+    {"medium.N.cloud.cover", cloud<&C::cover>, from_to(0, 1), "",
+     "share of the ground under cloud, of fields and layers", kNoNote},
+    {"medium.N.cloud.erosion", cloud<&C::erosion>, from_to(0, 0.5), "",
+     "share of its size that each octave of lumps takes off the surface: 0.2 is crisp, 0.13 keeps "
+     "the mean"},
+};
+
 }  // namespace
 
 Span<const KeyRow> sky_keys() { return {kRows, sizeof kRows / sizeof kRows[0]}; }
+Span<const KeyRow> cloud_keys() { return {kCloudRows, sizeof kCloudRows / sizeof kCloudRows[0]}; }
 
 }  // namespace pileus

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "src/base/vectors.h"
+#include "src/scene/media/cloud_settings.h"
 #include "src/scene/media/particle_settings.h"
 #include "src/scene/media/sky_settings.h"
 
@@ -118,6 +119,7 @@ struct MediumSettings {
     std::array<int, 3> resolution{0, 0, 0};  ///< procedural and uniform shapes; 0: a default
     std::int64_t shape_seed = 0;             ///< another cumulus for each; key `shape_seed`
     SkySettings sky;                         ///< of a procedural sky
+    CloudSettings cloud;                     ///< of a procedural cloud
     double extinction_per_m = 0;             ///< at density 1
     double extinction_scale = 1;             ///< for files that hold extinction; >= 0
     Float3 albedo{1, 1, 1};

@@ -2,40 +2,11 @@
 // See cumulus.h. Turrets rise from one base, lean with the wind, carry bubbles that carry buds.
 // in: a seed -> out: spheres, generation by generation.
 // Cotton, Bryan, van den Heever 2011, "Storm and cloud dynamics", ch. 7.
-#include "kernels_cpu/core/math.h"
-#include "kernels_cpu/core/rng.h"
-#include "src/base/random_streams.h"
 #include "src/world/density/cumulus.h"
+#include "src/world/density/draws.h"
 
 namespace pileus {
 namespace {
-
-/// Draws numbers one after the other from a counter.
-class Draws {
-public:
-    explicit Draws(std::uint64_t seed) : key_(make_key(seed, kBubbleStream, 0)) {}
-    /// Uniform in [low, high).
-    float between(float low, float high) {
-        const std::uint32_t word = threefry<std::uint32_t>(key_.k0, key_.k1, count_++, 0).a;
-        return low + (high - low) * uniform(word);
-    }
-
-private:
-    Key key_;
-    std::uint32_t count_ = 0;
-};
-
-struct Direction {
-    float x, y, z;
-};
-
-/// Uniform over the part of the sphere above height `lowest`.
-Direction draw_direction(Draws& draws, float lowest) {
-    const float z = draws.between(lowest, 1.0f);
-    const auto turn = sincos_turns(draws.between(0.0f, 1.0f));
-    const float s = sqrt_(max_(1.0f - z * z, 0.0f));
-    return {s * turn.cosine, s * turn.sine, z};
-}
 
 /// How far a point lies under the surface of the first `count` spheres; negative outside.
 float depth_within(const BubbleList& list, std::size_t count, const Bubble& at) {
@@ -182,7 +153,7 @@ Status grow_bubbles(std::uint64_t seed, float half_x, float half_y, float height
                     BubbleList& list) {
     PILEUS_TRY(list.bubbles.resize(kMaxBubbles, "cumulus bubbles"));
     list.count = 0;
-    Draws draws(seed);
+    Draws draws(seed, kBubbleStream);
     // Spread the feet with the box, so that an elongated box holds an elongated cloud.
     const float mean = 0.5f * (half_x + half_y);
     grow_turrets(draws, draw_plan(draws, half_x / mean, half_y / mean), list);

@@ -8,6 +8,7 @@
 #define PILEUS_DENSITIES(ROW) \
     ROW(kCumulusDensity)      \
     ROW(kSkyDensity)          \
+    ROW(kCloudDensity)        \
     ROW(kBoxDensity)          \
     ROW(kSphereDensity)       \
     ROW(kEllipsoidDensity)    \

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the kernel of procedural clouds needs: plain structs and pointers. All lengths in metres,
+// from the middle of the cloud's foot on its condensation level.
+// in: a grid, the balls of a cloud -> out: the layout of a launch.
+// docs/generators.md
+#pragma once
+#include <cstdint>
+
+namespace pileus {
+
+/// A ball of rising air. `vigour` in [0, 1]: how fresh it is, crisp where it is 1.
+struct CloudBall {
+    float x, y, z, r;
+    float vigour;
+    float join, unjoin;  ///< width over which it blends with others, and 1/(4 join)
+    float spare;
+};
+constexpr int kCloudBallFloats = 8;
+static_assert(sizeof(CloudBall) == 4 * kCloudBallFloats, "balls are read as rows of floats");
+
+constexpr std::int32_t kMaxCloudBalls = 4096;  // clouds take 200 to 2500
+
+struct CloudParams {
+    const CloudBall* balls;
+    std::int32_t count;
+    std::int32_t size[3];           ///< cells of the grid
+    std::int32_t begin[3], end[3];  ///< cells to fill
+    std::int32_t rows_y;            ///< rows of blocks in a layer of them
+    float cell[3];                  ///< edge lengths of a cell
+    float corner[3];                ///< centre of cell 0
+    float voxel;                    ///< longest edge
+    std::uint32_t seed;
+    std::int32_t all_balls;    ///< 1: no list is shortened, for tests
+    float height;              ///< of the tallest top
+    float bend, bend_per_m;    ///< largest bend of an octave of 1, and 1 over its cell
+    float plan, plan_per_m;    ///< the same of the outline seen from above
+    float join, vigour_reach;  ///< largest `join`; reach of a ball's vigour
+    float lump;                ///< cell of the first octave
+    std::int32_t octaves;
+    float erosion;        ///< share of a cell that each octave takes off
+    float age, dilution;  ///< 0 to 1; 0 and more
+    float soft, crisp;    ///< widths of a calm edge and of a fresh one
+    float per_full;       ///< 1 over the height at which the density is 1
+    float saturation;     ///< 1/m: height counts as z/(1 + z saturation), as water rains out
+    // A spreading top of ice: flat above, thinning to a rim, drawn out downwind; radius 0: none.
+    float anvil_radius, anvil_top, anvil_depth;
+    float anvil_x, anvil_y;  ///< its middle
+    float wind_x, wind_y;    ///< unit vector
+};
+
+struct CloudBuffers {
+    float* density;         ///< [z][y][x]; what is there already stays where it is more
+    std::int32_t* scratch;  ///< of one thread: kCloudScratch numbers
+};
+constexpr std::int32_t kCloudScratch = 2 * kMaxCloudBalls;
+
+constexpr int kCloudBlock = 8;  // cells along a block's edge
+
+/// Layers, which are periodic over their box along x and y.
+enum CloudLayerForm : std::int32_t {
+    kLayerClosed,   ///< cells with rising air in their middle
+    kLayerOpen,     ///< rising air along the walls of cells
+    kLayerSheet,    ///< an even sheet
+    kLayerStreaks,  ///< ice that falls out of heads and is drawn out by shear
+};
+
+struct CloudLayerParams {
+    std::int32_t form;  ///< CloudLayerForm
+    std::int32_t map;   ///< 1: fill the map of rising air, 0: the densities by it
+    std::int32_t size[3];
+    float cell[3];
+    float lowest;    ///< height of the lowest cells' middles over the base
+    float width[2];  ///< edges of the box along x and y
+    std::uint32_t seed;
+    float height;    ///< thickness of the layer
+    float length;    ///< of a cell, or of a streak's head
+    float gap;       ///< rising air at clouds' rims
+    float grounded;  ///< 1: no base, cloud down to the floor
+    float lump;      ///< cell of the first octave
+    std::int32_t octaves;
+    float erosion, act;
+    float edge;      ///< width of the edge
+    float shear;     ///< drift over height fallen
+    float per_full;  ///< 1 over the height at which the density is 1; 0: all of it
+};
+
+struct CloudLayerBuffers {
+    float* density;  ///< [z][y][x]
+    float* map;      ///< [y][x]
+};
+
+}  // namespace pileus

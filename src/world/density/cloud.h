@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// A procedural cloud of a type: balls of rising air over a condensation level, lumps upon them.
+// in: CloudSettings, a box -> out: balls, where they stand; relative densities, the same bits
+// everywhere. docs/generators.md
+#pragma once
+#include <cstddef>
+
+#include "kernels_cpu/isa/kernels.h"
+#include "src/base/buffer.h"
+#include "src/base/status.h"
+#include "src/io/volumes/volume.h"
+#include "src/scene/scene.h"
+
+namespace pileus {
+
+struct SceneCheck;
+
+/// The balls of a cloud, in units of its height from the middle of its foot, and what it takes up
+/// with bends and lumps: lowest and highest corner.
+struct CloudHeap {
+    Buffer<CloudBall> balls;  ///< kMaxCloudBalls reserved
+    std::size_t count = 0;
+    std::array<Double3, 2> extent{};
+};
+
+/// Grows the balls of resolved settings. kLimit: out of memory.
+Status grow_cloud(const CloudSettings& settings, CloudHeap& heap);
+
+/// The anvil of resolved settings, in units of the cloud's height; the unit vector of the wind.
+struct AnvilPlace {
+    float x, y, top, depth;
+    float wind_x, wind_y;
+};
+AnvilPlace anvil_place(const CloudSettings& settings);
+
+/// Where a cloud stands.
+struct CloudPlace {
+    CloudSettings cloud;  ///< resolved; its height as the box allows it
+    Double3 foot_m{};     ///< world place of the foot's middle on the condensation level
+    std::array<Double3, 2> bounds_m{};
+    double full_m = 0;  ///< height of the cloud that the extinction is for; one for all of a field
+    double allowed_m = 0;  ///< largest height that fits the medium's box; below that of `cloud`: it
+                           ///< was asked for and does not fit
+};
+
+/// Whether the height that was asked for is allowed.
+bool fits(const CloudPlace& place);
+
+/// Places a medium's cloud in the medium's box, or a box around it; of one heap grows its balls.
+/// kLimit: out of memory.
+Status place_cloud(const MediumSettings& medium, CloudHeap& heap, CloudPlace& place);
+
+/// Laws between the keys of a cloud; fills in what its type brings.
+void check_cloud(SceneCheck& check, std::size_t medium);
+
+/// What making a cloud takes.
+struct CloudMaking {
+    std::array<int, 3> size{};  ///< cells of the box
+    const KernelTable& kernels;
+    int threads = 0;         ///< 0: all
+    bool all_balls = false;  ///< no list of balls is shortened, for tests
+};
+
+/// Fills `volume` with the box: densities in [0, 1], zero in the lowest and highest layer of cells,
+/// and but for layers in all outermost ones. kBadInput: a cloud that does not fit; kLimit: out of
+/// memory.
+Status make_cloud(const MediumSettings& medium, const CloudMaking& with, Volume& volume);
+
+/// The same of one kind, into `volume`, which has its cells. Heaps lie upon one another.
+Status make_heap(const CloudPlace& place, const CloudHeap& heap, const CloudMaking& with,
+                 Volume& volume);
+Status make_field(const CloudPlace& place, const CloudMaking& with, Volume& volume);
+Status make_layer(const CloudPlace& place, const CloudMaking& with, Volume& volume);
+
+/// Cells where the scene leaves them out: cubes, so many along the longest edge of the box, and 24
+/// and more along its height. Of one heap 256, with an anvil or of a
+/// field 384, of a layer 448.
+std::array<int, 3> default_cloud_size(const MediumSettings& medium);
+
+}  // namespace pileus

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// Bytes that nodes of discrete ordinates hold, by the rows of a plan.
+// in: nodes -> out: sizes by name.
+#pragma once
+#include <map>
+#include <string>
+
+#include "src/picture/ordinates/ordinates.h"
+
+namespace pileus {
+
+inline void add_ordinates(const OrdinateNodes& ordinates,
+                          std::map<std::string, std::uint64_t>& held) {
+    held["ordinates: moments on nodes"] = ordinates.solution.bytes();
+    held["ordinates: light on nodes"] = ordinates.light.bytes();
+    held["ordinates: light near the camera"] = ordinates.near.bytes();
+    held["ordinates: density within nodes"] = ordinates.samples.bytes();
+    held["ordinates: numbers of nodes"] = ordinates.density.bytes();
+    {
+        const OrdinateHalf& half = ordinates.half;
+        const OrdinateCells& larger = half.nodes;
+        held["ordinates: moments on larger nodes"] =
+            larger.solution.bytes() + half.correction.bytes();
+        held["ordinates: larger nodes"] = larger.density.bytes() + larger.filled.bytes() +
+                                          half.number.bytes() + half.parent.bytes() +
+                                          half.share.bytes();
+        held["ordinates: parts in larger nodes"] = larger.parts.bytes();
+    }
+    held["ordinates: places of nodes"] = ordinates.filled.bytes();
+    held["ordinates: parts of the media"] = ordinates.parts.bytes();
+    held["ordinates: parts of the sun"] = ordinates.sunward.bytes();
+    held["ordinates: shadow of solids"] = ordinates.seen.bytes();
+    held["beam by angle and depth"] = ordinates.peak.tables.bytes();
+}
+
+}  // namespace pileus
