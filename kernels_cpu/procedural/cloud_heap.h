@@ -5,6 +5,7 @@
 // balls that holds those which count. docs/generators.md; Cotton, Bryan, van den Heever 2011,
 // ch. 7.
 #pragma once
+#include "kernels_cpu/procedural/balls.h"
 #include "kernels_cpu/procedural/cloud_anvil.h"
 
 namespace pileus {
@@ -67,19 +68,12 @@ PILEUS_FN void bend_node(const CloudParams& k, const Vec<T>& p, Vec<T>& bend, T&
 template <class T>
 PILEUS_FN T vigour_at(const CloudParams& k, const Vec<T>& q, const std::int32_t* near,
                       std::int32_t count) {
-    T least = all<T>(1e9f);
-    for (std::int32_t i = 0; i < count; ++i) {
-        const CloudBall& b = k.balls[near[i]];
-        const T x = q.x - b.x, y = q.y - b.y, z = q.z - b.z;
-        least = min_(least, sqrt_(x * x + y * y + z * z) - b.r);
-    }
+    const T least = nearest_ball(q, k.balls, near, count);
     T sum{}, weights{};
     const float per_reach = 1.0f / k.vigour_reach;
     for (std::int32_t i = 0; i < count; ++i) {
         const CloudBall& b = k.balls[near[i]];
-        const T x = q.x - b.x, y = q.y - b.y, z = q.z - b.z;
-        const T e = sqrt_(x * x + y * y + z * z) - b.r;
-        const T w = max_(1.0f - (e - least) * per_reach, T{});
+        const T w = max_(1.0f - (ball_distance(q, b) - least) * per_reach, T{});
         sum = sum + w * w * b.vigour, weights = weights + w * w;
     }
     return sum / max_(weights, all<T>(1e-6f));
@@ -139,22 +133,29 @@ PILEUS_FN void enclose_nodes(const CloudParams& k, const CloudNodeSet& nodes, co
     part.radius = sqrt_(square) + 1e-4f * k.height;
 }
 
+/// Lanes of a block's nodes, from number `first` on.
+template <int W>
+PILEUS_FN Vec<F<W>> node_places(const CloudParams& k, const CloudPart& block, int first) {
+    float place[3][W];
+    for (int l = 0; l < W; ++l) {
+        const int i = min_(first + l, 26), at[3] = {i % 3, i / 3 % 3, i / 9};
+        for (int a = 0; a < 3; ++a)
+            place[a][l] = k.corner[a] + float(block.begin[a] + at[a] * kCloudStride) * k.cell[a];
+    }
+    Vec<F<W>> p;
+    __builtin_memcpy(&p.x, place[0], sizeof p.x);
+    __builtin_memcpy(&p.y, place[1], sizeof p.y);
+    __builtin_memcpy(&p.z, place[2], sizeof p.z);
+    return p;
+}
+
 /// Places and bends of a block's nodes.
 template <int W>
 PILEUS_FN void bend_nodes(const CloudParams& k, const CloudPart& block, CloudNodeSet& nodes) {
     using T = F<W>;
     for (int g = 0; g < kCloudNodes; g += W) {
-        float place[3][W];
-        for (int l = 0; l < W; ++l) {
-            const int i = min_(g + l, 26), at[3] = {i % 3, i / 3 % 3, i / 9};
-            for (int a = 0; a < 3; ++a)
-                place[a][l] =
-                    k.corner[a] + float(block.begin[a] + at[a] * kCloudStride) * k.cell[a];
-        }
-        Vec<T> p, bend;
-        __builtin_memcpy(&p.x, place[0], sizeof p.x);
-        __builtin_memcpy(&p.y, place[1], sizeof p.y);
-        __builtin_memcpy(&p.z, place[2], sizeof p.z);
+        const Vec<T> p = node_places<W>(k, block, g);
+        Vec<T> bend;
         T plan_x, plan_y;
         bend_node(k, p, bend, plan_x, plan_y);
         const T bent[3] = {p.x + bend.x + plan_x, p.y + bend.y + plan_y, p.z + bend.z};
@@ -173,20 +174,11 @@ PILEUS_FN void liven_nodes(const CloudParams& k, const CloudPart& block, const s
     const float per_height = 1.0f / k.height;
     const T one = all<T>(1.0f);
     for (int g = 0; g < kCloudNodes; g += W) {
-        Vec<T> q, p;
+        Vec<T> q;
         __builtin_memcpy(&q.x, &nodes.bent[0][g], sizeof(T));
         __builtin_memcpy(&q.y, &nodes.bent[1][g], sizeof(T));
         __builtin_memcpy(&q.z, &nodes.bent[2][g], sizeof(T));
-        float place[3][W];
-        for (int l = 0; l < W; ++l) {
-            const int i = min_(g + l, 26), at[3] = {i % 3, i / 3 % 3, i / 9};
-            for (int a = 0; a < 3; ++a)
-                place[a][l] =
-                    k.corner[a] + float(block.begin[a] + at[a] * kCloudStride) * k.cell[a];
-        }
-        __builtin_memcpy(&p.x, place[0], sizeof p.x);
-        __builtin_memcpy(&p.y, place[1], sizeof p.y);
-        __builtin_memcpy(&p.z, place[2], sizeof p.z);
+        const Vec<T> p = node_places<W>(k, block, g);
         const float wide = per_height * (1 / 0.3f);
         const T slow = gradient_noise<T>(p.x * wide, p.y * wide, p.z * wide, k.seed + 40u);
         const T vigour = vigour_at(k, q, near, count);

@@ -3,7 +3,7 @@
 // in: a grid, spheres -> out: densities in [0, 1], the same bits at every width.
 // Rise of liquid water: Rogers and Yau 1989, "A short course in cloud physics", ch. 3.
 #pragma once
-#include "kernels_cpu/core/vec.h"
+#include "kernels_cpu/procedural/balls.h"
 #include "kernels_cpu/procedural/cumulus_params.h"
 #include "kernels_cpu/procedural/noise.h"
 
@@ -43,25 +43,12 @@ PILEUS_FN T cloud_billows(const CumulusParams& k, const Vec<T>& p) {
     return sum;
 }
 
-/// Signed distance to the spheres named by `near`, negative inside.
-template <class T>
-PILEUS_FN T cloud_distance(const CumulusParams& k, const Vec<T>& p, const std::int32_t* near,
-                           std::int32_t count) {
-    T d = all<T>(1e9f);
-    for (std::int32_t i = 0; i < count; ++i) {
-        const Bubble& b = k.bubbles[near[i]];
-        const T x = p.x - b.x, y = p.y - b.y, z = p.z - b.z;
-        d = min_(d, sqrt_(x * x + y * y + z * z) - b.r);
-    }
-    return d;
-}
-
 /// Density at points whose height above the base is p.z, and which are bent to `q`. What whole
 /// groups of lanes leave out would give each of them the same number.
 template <class T>
 PILEUS_FN T cloud_density(const CumulusParams& k, const Vec<T>& p, const Vec<T>& q,
                           const std::int32_t* near, std::int32_t count) {
-    const T smooth_d = cloud_distance(k, q, near, count);
+    const T smooth_d = nearest_ball(q, k.bubbles, near, count);
     if (!any(smooth_d < kCumulusPushOut + k.shell)) return T{};
     // Calm the billows towards the base, where the cloud is young and ragged instead of firm.
     const T calm = 0.55f + 0.45f * smooth_ramp<T>(p.z * 8.0f);

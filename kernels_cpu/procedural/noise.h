@@ -60,23 +60,30 @@ PILEUS_FN T corner_slope(U_of<T> h, T x, T y, T z) {
     return gx * x + gy * y + gz * z;
 }
 
-/// Gradient noise, mean 0, typically within 0.5; |value| < 1.5, as the weighted offsets to the
-/// corners sum to at most 1/2 per axis. |x|, |y|, |z| < 2^22.
-template <class T>
-PILEUS_FN T gradient_noise(T x, T y, T z, std::uint32_t seed) {
-    const auto ix = floor_int(x), iy = floor_int(y), iz = floor_int(z);
-    const T fx = x - to_float(ix), fy = y - to_float(iy), fz = z - to_float(iz);
-    const auto place = lattice_place(ix, iy, iz);
+/// Gradient noise at a share of a cell whose corners are hashed by hash(x, y, z), each 0 or 1.
+template <class T, class Hash>
+PILEUS_FN T blend_slopes(T fx, T fy, T fz, Hash hash) {
     const T u = fade(fx), v = fade(fy), w = fade(fz);
     T sum{};
     for (int c = 0; c < 8; ++c) {
         const int cx = c & 1, cy = (c >> 1) & 1, cz = c >> 2;
-        const auto h = lattice_hash(place, cx, cy, cz, seed);
+        const auto h = hash(cx, cy, cz);
         const T slope = corner_slope<T>(h, fx - float(cx), fy - float(cy), fz - float(cz));
         const T share = (cx ? u : 1.0f - u) * (cy ? v : 1.0f - v) * (cz ? w : 1.0f - w);
         sum = sum + share * slope;
     }
     return sum;
+}
+
+/// Gradient noise, mean 0, typically within 0.5; |value| < 1.5, as the weighted offsets to the
+/// corners sum to at most 1/2 per axis. |x|, |y|, |z| < 2^22.
+template <class T>
+PILEUS_FN T gradient_noise(T x, T y, T z, std::uint32_t seed) {
+    const auto ix = floor_int(x), iy = floor_int(y), iz = floor_int(z);
+    const auto place = lattice_place(ix, iy, iz);
+    return blend_slopes(
+        x - to_float(ix), y - to_float(iy), z - to_float(iz),
+        [&](int cx, int cy, int cz) { return lattice_hash(place, cx, cy, cz, seed); });
 }
 
 /// The 27 cells around a place, the nearest first: its own, then across faces, edges, corners.

@@ -45,18 +45,10 @@ PILEUS_FN UU corner_hash(const LatticeCorners<UU>& c, int x, int y, int z, std::
 template <class T>
 PILEUS_FN T periodic_noise(T x, T y, T z, const LatticePeriods& periods, std::uint32_t seed) {
     const auto ix = floor_int(x), iy = floor_int(y), iz = floor_int(z);
-    const T fx = x - to_float(ix), fy = y - to_float(iy), fz = z - to_float(iz);
     const LatticeCorners<U_of<T>> place = lattice_corners(ix, iy, iz, periods);
-    const T u = fade(fx), v = fade(fy), w = fade(fz);
-    T sum{};
-    for (int c = 0; c < 8; ++c) {
-        const int cx = c & 1, cy = (c >> 1) & 1, cz = c >> 2;
-        const auto h = corner_hash(place, cx, cy, cz, seed);
-        const T slope = corner_slope<T>(h, fx - float(cx), fy - float(cy), fz - float(cz));
-        const T share = (cx ? u : 1.0f - u) * (cy ? v : 1.0f - v) * (cz ? w : 1.0f - w);
-        sum = sum + share * slope;
-    }
-    return sum;
+    return blend_slopes(
+        x - to_float(ix), y - to_float(iy), z - to_float(iz),
+        [&](int cx, int cy, int cz) { return corner_hash(place, cx, cy, cz, seed); });
 }
 
 /// Distance to the second nearest less that to the nearest of points strewn one per cell in a

@@ -50,8 +50,12 @@ constexpr double kPatienceSeconds = 1.0;
 /// context.stop(), but only once `kPatienceSeconds` have passed since now.
 std::function<bool()> patient_stop(const Context& context);
 
-/// Rows [0, rows) of a kernel in pieces over the threads, or all of them on the device. Fails where
-/// a device does.
+/// Rows [0, rows) of a kernel in pieces over the threads.
+template <class Kernel, class Params, class Buffers>
+void run_host_rows(const Context& context, Kernel kernel, const Params& params,
+                   const Buffers& buffers, std::uint32_t rows);
+
+/// The same, or all of them on the device. Fails where a device does.
 template <class Kernel, class Params, class Buffers>
 Status run_rows(const Context& context, Kernel kernel, const Params& params, const Buffers& buffers,
                 std::uint32_t rows);
@@ -84,15 +88,21 @@ bool run_until(int threads, std::int64_t pieces, const std::function<bool()>& en
 }
 
 template <class Kernel, class Params, class Buffers>
-Status run_rows(const Context& context, Kernel kernel, const Params& params, const Buffers& buffers,
-                std::uint32_t rows) {
+void run_host_rows(const Context& context, Kernel kernel, const Params& params,
+                   const Buffers& buffers, std::uint32_t rows) {
     constexpr std::uint32_t kPiece = 4;
-    if (on_device(context.kernels->device))
-        return launch_on_device(*context.kernels->device, params, buffers, rows);
     parallel_for(context.threads, (rows + kPiece - 1) / kPiece, [&](std::int64_t piece, int) {
         const std::uint32_t begin = std::uint32_t(piece) * kPiece;
         kernel(params, buffers, begin, begin + kPiece < rows ? begin + kPiece : rows);
     });
+}
+
+template <class Kernel, class Params, class Buffers>
+Status run_rows(const Context& context, Kernel kernel, const Params& params, const Buffers& buffers,
+                std::uint32_t rows) {
+    if (on_device(context.kernels->device))
+        return launch_on_device(*context.kernels->device, params, buffers, rows);
+    run_host_rows(context, kernel, params, buffers, rows);
     return Status::ok();
 }
 

@@ -20,10 +20,10 @@ Overrides with(const char* refresh) {
             std::string("raymarch.light_refresh=") + refresh};
 }
 
-/// Radiance of a picture, and the largest difference to another over the mean.
-std::vector<float> picture(Hosted& host, double azimuth, double elevation) {
-    const double from[3] = {16, -4000, 256}, to[3] = {0, 0, 1024};
-    host.aim(from, to, 30, kWidth, kHeight);
+/// What a camera sees of a host's scene under a sun.
+std::vector<float> picture(Hosted& host, const double (&from)[3], const double (&to)[3],
+                           double fov_deg, double azimuth, double elevation) {
+    host.aim(from, to, fov_deg, kWidth, kHeight);
     host.sun(azimuth, elevation);
     std::vector<float> pixels(std::size_t(4) * kWidth * kHeight);
     auto frame = cleared<pileus_frame>();
@@ -33,6 +33,11 @@ std::vector<float> picture(Hosted& host, double azimuth, double elevation) {
     return pixels;
 }
 
+std::vector<float> picture(Hosted& host, double azimuth, double elevation) {
+    return picture(host, {16, -4000, 256}, {0, 0, 1024}, 30, azimuth, elevation);
+}
+
+/// The sum of differences to another over that of its own.
 double difference(const std::vector<float>& a, const std::vector<float>& b) {
     double off = 0, all = 0;
     for (std::size_t i = 0; i < a.size(); ++i)
@@ -110,15 +115,7 @@ sky = { size = 32, perlin_m = 4096, worley_m = 1500, coverage = 0.5, base_m = 10
 )";
 
 std::vector<float> sky_picture(Hosted& host, double x, double elevation) {
-    const double from[3] = {x, 0, 200}, to[3] = {x + 300, 3000, 1400};
-    host.aim(from, to, 50, kWidth, kHeight);
-    host.sun(60, elevation);
-    std::vector<float> pixels(std::size_t(4) * kWidth * kHeight);
-    auto frame = cleared<pileus_frame>();
-    frame.colour = pixels.data();
-    frame.format = PILEUS_RGBA32F;
-    host.check(pileus_session_render(host.session.get(), &frame, &host.out.error));
-    return pixels;
+    return picture(host, {x, 0, 200}, {x + 300, 3000, 1400}, 50, 60, elevation);
 }
 
 }  // namespace

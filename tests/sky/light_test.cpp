@@ -32,20 +32,11 @@ sky = { size = 32, perlin_m = 4096, worley_m = 1500, coverage = 0.5, base_m = 10
 )";
 }
 
-std::vector<float> pixels(const Picture& p) {
-    std::vector<float> values;
-    for (int row = 0; row < 36; ++row)
-        for (int column = 0; column < 64; ++column)
-            for (const char* channel : {"R", "G", "B", "A"})
-                values.push_back(p.at(channel, column, row));
-    return values;
-}
-
 }  // namespace
 
 TEST_CASE("nodes give nearly the light of every sample's own march") {
-    const auto fast = pixels(render_one(scene_from(scene_text(0))));
-    const auto whole = pixels(render_one(scene_from(scene_text(0), {"raymarch.light=march"})));
+    const auto fast = pixels_of(render_one(scene_from(scene_text(0))));
+    const auto whole = pixels_of(render_one(scene_from(scene_text(0), {"raymarch.light=march"})));
     double square = 0, all = 0, mean = 0, off = 0;
     for (std::size_t i = 0; i < fast.size(); ++i) {
         const double a = double(fast[i]), b = double(whole[i]);
@@ -69,6 +60,6 @@ TEST_CASE("a frame has the bits of a run that begins with it, whatever was seen 
         for (const int threads : {1, 3}) {
             all.threads = threads;
             const Scene scene = scene_from(text, {refresh});
-            CHECK(pixels(render_one(scene, all)) == pixels(render_one(scene, last)));
+            CHECK(pixels_of(render_one(scene, all)) == pixels_of(render_one(scene, last)));
         }
 }

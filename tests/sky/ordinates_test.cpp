@@ -42,10 +42,7 @@ constexpr const char* kBox =
 
 double mean_of(const Scene& scene, const char* channel) {
     const Picture p = render_one(scene);
-    double sum = 0;
-    for (int y = 0; y < p.image.height; ++y)
-        for (int x = 0; x < p.image.width; ++x) sum += double(p.at(channel, x, y));
-    return sum / (p.image.width * p.image.height);
+    return sum_of(p, channel).value / (p.image.width * p.image.height);
 }
 
 std::string broken_sky(const char* camera, const char* more) {
@@ -66,15 +63,6 @@ extinction_per_m = 0.03
 phase = { type = "henyey-greenstein", g = 0.8 }
 sky = { size = 32, perlin_m = 4096, worley_m = 1500, coverage = 0.5, base_m = 1000, top_m = 2000, planet_radius_m = 6.371e6 }
 )" + more;
-}
-
-std::vector<float> pixels(const Picture& p) {
-    std::vector<float> values;
-    for (int row = 0; row < p.image.height; ++row)
-        for (int column = 0; column < p.image.width; ++column)
-            for (const char* channel : {"R", "G", "B", "A"})
-                values.push_back(p.at(channel, column, row));
-    return values;
 }
 
 }  // namespace
@@ -129,7 +117,7 @@ TEST_CASE("sky ordinates: a frame has the bits of a run that begins with it") {
     for (const int threads : {1, 3}) {
         all.threads = threads;
         const Scene scene = scene_from(text);
-        CHECK(pixels(render_one(scene, all)) == pixels(render_one(scene, last)));
+        CHECK(pixels_of(render_one(scene, all)) == pixels_of(render_one(scene, last)));
     }
 }
 
@@ -161,7 +149,7 @@ TEST_CASE("sky ordinates: corners") {
             broken_sky(below, "[sky]\nradiance = [0.1, 0.2, 0.4]\n[sun]\n"), {sun, set}));
         // A sun of irradiance 1 over an albedo of 1 brings less than 1/pi on the mean; ten times
         // that within a narrow lobe.
-        for (const float v : pixels(p)) {
+        for (const float v : pixels_of(p)) {
             CHECK(v >= 0);
             CHECK(v < 3);
         }

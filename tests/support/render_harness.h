@@ -89,6 +89,16 @@ inline Picture render_one(const Scene& scene, const RenderOptions& options = {})
     return picture;
 }
 
+/// R, G, B and A of every pixel, row by row.
+inline std::vector<float> pixels_of(const Picture& p) {
+    std::vector<float> values;
+    for (int row = 0; row < p.image.height; ++row)
+        for (int column = 0; column < p.image.width; ++column)
+            for (const char* channel : {"R", "G", "B", "A"})
+                values.push_back(p.at(channel, column, row));
+    return values;
+}
+
 /// Sum of a channel over all pixels, and its standard error where the picture has one.
 struct PixelSum {
     double value = 0, error = 0;

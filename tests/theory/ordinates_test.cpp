@@ -45,10 +45,7 @@ layers = ["cloud"]
 
 double mean_of(const Scene& scene, const char* channel = "cloud.R") {
     const Picture p = render_one(scene);
-    double sum = 0;
-    for (int y = 0; y < p.image.height; ++y)
-        for (int x = 0; x < p.image.width; ++x) sum += double(p.at(channel, x, y));
-    return sum / (p.image.width * p.image.height);
+    return sum_of(p, channel).value / (p.image.width * p.image.height);
 }
 
 /// The picture's mean over the path tracer's.

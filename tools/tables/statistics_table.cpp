@@ -67,23 +67,20 @@ int main(int count, char** words) {
     fmt::print(
         "| | grid | D 0.3 | D 1 | D 3 | perimeter-area D (patches) | spectrum | cover | mean "
         "depth | extinction over adiabatic at 0.1, 0.35, 0.65, 0.9 of the height | s |\n");
-    for (const char* type : {"cumulus-humilis", "cumulus-mediocris", "cumulus-congestus"})
-        for (int seed = 1; seed <= 4; ++seed)
+    const auto print_seeds = [&](const char* type, int seeds) {
+        for (int seed = 1; seed <= seeds; ++seed)
             print_row(
                 fmt::format("{}, seed {}", type, seed),
                 fmt::format("density = \"procedural:cloud\"\ncloud = {{ type = \"{}\", seed = "
                             "{} }}\n",
                             type, seed),
                 set);
+    };
+    for (const char* type : {"cumulus-humilis", "cumulus-mediocris", "cumulus-congestus"})
+        print_seeds(type, 4);
     for (const char* type : {"cumulonimbus", "cumulus-field", "stratocumulus", "stratocumulus-open",
                              "altocumulus", "stratus", "fog", "cirrus"})
-        for (int seed = 1; seed <= 2; ++seed)
-            print_row(
-                fmt::format("{}, seed {}", type, seed),
-                fmt::format("density = \"procedural:cloud\"\ncloud = {{ type = \"{}\", seed = "
-                            "{} }}\n",
-                            type, seed),
-                set);
+        print_seeds(type, 2);
     print_row("cumulus-field, 18 km",
               "density = \"procedural:cloud\"\ncloud = { type = \"cumulus-field\" }\nbounds_m = "
               "[[-9000, -9000, 800], [9000, 9000, 2000]]\nresolution = [1200, 1200, 60]\n",

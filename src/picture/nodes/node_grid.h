@@ -3,6 +3,8 @@
 // in: the medium's grid, a spacing -> out: how many nodes along each axis, and where.
 // docs/methods.md 3, repair 4.
 #pragma once
+#include <array>
+
 #include "kernels_cpu/display/march_params.h"
 #include "src/world/grid/grid.h"
 
@@ -36,6 +38,18 @@ std::uint64_t most_near_nodes(const NodeGrid& g);
 
 inline std::uint64_t node_count(const NearNodes& n) {
     return std::uint64_t(n.size[0]) * std::uint64_t(n.size[1]) * std::uint64_t(n.size[2]);
+}
+
+/// A node's place along x, y and z by its number, x fastest, then y; and the number by the place.
+using NodePlace = std::array<int, 3>;
+inline NodePlace node_place(const NodeGrid& g, std::size_t node) {
+    const std::size_t nx = std::size_t(g.size[0]), ny = std::size_t(g.size[1]);
+    return {int(node % nx), int(node / nx % ny), int(node / (nx * ny))};
+}
+inline std::size_t node_number(const NodeGrid& g, const NodePlace& p) {
+    return (std::size_t(p[2]) * std::size_t(g.size[1]) + std::size_t(p[1])) *
+               std::size_t(g.size[0]) +
+           std::size_t(p[0]);
 }
 
 inline std::uint64_t node_count(const NodeGrid& g) {

@@ -10,23 +10,11 @@
 namespace pileus {
 namespace {
 
-using Place = std::array<int, 3>;
-
-Place place_of(const NodeGrid& grid, std::size_t node) {
-    const std::size_t nx = std::size_t(grid.size[0]), ny = std::size_t(grid.size[1]);
-    return {int(node % nx), int(node / nx % ny), int(node / (nx * ny))};
-}
-std::size_t node_at(const NodeGrid& grid, const Place& p) {
-    return (std::size_t(p[2]) * std::size_t(grid.size[1]) + std::size_t(p[1])) *
-               std::size_t(grid.size[0]) +
-           std::size_t(p[0]);
-}
-
 /// The larger node that a node lies in.
 std::size_t parent_node(const NodeGrid& grid, const NodeGrid& larger, std::size_t node) {
-    Place p = place_of(grid, node);
+    NodePlace p = node_place(grid, node);
     for (int& at : p) at /= 2;
-    return node_at(larger, p);
+    return node_number(larger, p);
 }
 
 /// Means over the children of each larger node, by density.
@@ -46,7 +34,7 @@ struct Around {
 Around nodes_around(const OrdinateNodes& nodes, std::size_t node) {
     const OrdinateHalf& half = nodes.half;
     const NodeGrid& larger = half.nodes.grid;
-    const Place at = place_of(nodes.grid, node);
+    const NodePlace at = node_place(nodes.grid, node);
     int two[3][2];
     float share[3];
     for (std::size_t a = 0; a < 3; ++a) {
@@ -67,7 +55,8 @@ Around nodes_around(const OrdinateNodes& nodes, std::size_t node) {
         const float weight = (x == 1 ? share[0] : 1 - share[0]) *
                              (y == 1 ? share[1] : 1 - share[1]) *
                              (z == 1 ? share[2] : 1 - share[2]);
-        const std::int32_t number = half.number[node_at(larger, {two[0][x], two[1][y], two[2][z]})];
+        const std::int32_t number =
+            half.number[node_number(larger, {two[0][x], two[1][y], two[2][z]})];
         if (number < 0 || !(weight > 0)) continue;
         out.number[out.count] = std::size_t(number);
         out.weight[out.count++] = weight;
@@ -136,20 +125,23 @@ void weigh_half(OrdinateNodes& nodes) {
     const std::size_t all = larger.density.size(), count = nodes.density.size();
     float children = 1;
     for (const int n : nodes.grid.size) children *= n > 1 ? 2.0f : 1.0f;
+    // Calls use(number, node, larger node) for those in one that counts as filled.
+    const auto each_child = [&](const auto& use) {
+        for (std::size_t n = 0; n < nodes.filled.size(); ++n)
+            if (half.parent[n] >= 0)
+                use(n, std::size_t(nodes.filled[n]),
+                    std::size_t(larger.filled[std::size_t(half.parent[n])]));
+    };
     std::fill_n(larger.density.data(), all, 0.0f);
-    for (std::size_t n = 0; n < nodes.filled.size(); ++n) {
-        const auto i = std::size_t(nodes.filled[n]);
-        larger.density[parent_node(nodes.grid, larger.grid, i)] += nodes.density[i];
-    }
     std::fill_n(larger.parts.data(), larger.parts.size(), 0.0f);
-    for (std::size_t n = 0; n < nodes.filled.size(); ++n) {
-        const auto i = std::size_t(nodes.filled[n]);
-        const std::size_t p = parent_node(nodes.grid, larger.grid, i);
+    each_child(
+        [&](std::size_t, std::size_t i, std::size_t p) { larger.density[p] += nodes.density[i]; });
+    each_child([&](std::size_t n, std::size_t i, std::size_t p) {
         const float whole = larger.density[p];
         half.share[n] = whole > 0 ? nodes.density[i] / whole : 1 / children;
         for (std::size_t m = 0; m < std::size_t(nodes.media) && nodes.media > 1; ++m)
             larger.parts[m * all + p] += half.share[n] * nodes.parts[m * count + i];
-    }
+    });
     for (float& density : larger.density.span()) density /= children;
 }
 
@@ -211,9 +203,9 @@ void add_correction(const Context& context, OrdinateNodes& nodes, std::size_t s,
         gather_children(nodes, moments + std::size_t(m) * filled, to + std::size_t(m) * larger);
     });
     parallel_each(context.threads, larger, [&](std::size_t p) {
-        const float most = kMaxCorrection * to[p];
+        const float limit = kMaxCorrection * to[p];
         const float off = kOrderShare * (to[p] - from[p]), size = off < 0 ? -off : off;
-        const float kept = kOrderShare * (size > most ? most / size : 1.0f);
+        const float kept = kOrderShare * (size > limit ? limit / size : 1.0f);
         for (std::size_t i = p; i < kOrdinateMoments * larger; i += larger)
             to[i] = kept * (to[i] - from[i]);
     });

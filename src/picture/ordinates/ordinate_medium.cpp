@@ -107,6 +107,9 @@ NodeSamples node_samples(const NodeGrid& grid, const std::array<int, 3>& within)
     return out;
 }
 
+namespace {
+
+/// The mean over what it is at the middle.
 float mean_in_sample(const NodeSamples& samples, const float (&way)[3], float per_metre,
                      float depth) {
     // At most the way through the middle of the sample's part.
@@ -120,13 +123,22 @@ float mean_in_sample(const NodeSamples& samples, const float (&way)[3], float pe
     return 0.5f * (exp_(x) - exp_(-x)) / x;
 }
 
-float most_in_sample(const NodeSamples& samples, const float (&way)[3], float per_metre) {
+/// The largest mean: more light than enters does not end there.
+float max_in_sample(const NodeSamples& samples, const float (&way)[3], float per_metre) {
     // Volume over what is seen of the part by the light: its mean way through.
     float across = 0;
     for (std::size_t a = 0; a < 3; ++a)
         across += (way[a] < 0 ? -way[a] : way[a]) * samples.fine.per_metre[a];
     const float depth = per_metre / across;
     return depth > 1e-3f ? one_minus_exp(depth) / depth : 1.0f;
+}
+
+}  // namespace
+
+float light_in_sample(const NodeSamples& samples, const float (&way)[3], float per_metre,
+                      float depth) {
+    return std::min(exp_(-depth) * mean_in_sample(samples, way, per_metre, depth),
+                    max_in_sample(samples, way, per_metre));
 }
 
 NodeGrid ordinate_samples(const NodeGrid& grid, const Medium& medium) {
@@ -198,14 +210,11 @@ void light_nodes(const Context& context, const Medium& medium, const OrdinateNod
         float light = 0, mass = 0;
         each_sample(nodes.grid, samples, i, [&](std::size_t s) {
             const float density = nodes.samples[s], depth = way_rest * depths[s];
-            const float per_metre = rest * medium.sigma * density;
-            const float spread = mean_in_sample(samples, to_sun, per_metre, depth);
-            light += density *
-                     std::min(exp_(-depth) * spread, most_in_sample(samples, to_sun, per_metre));
+            light +=
+                density * light_in_sample(samples, to_sun, rest * medium.sigma * density, depth);
             mass += density;
         });
-        if (!(mass > 0)) light = 0, mass = 1;
-        beam[filled] = light / mass * (nodes.seen.empty() ? 1.0f : nodes.seen[i]);
+        beam[filled] = mass > 0 ? light / mass * (nodes.seen.empty() ? 1.0f : nodes.seen[i]) : 0.0f;
     });
 }
 

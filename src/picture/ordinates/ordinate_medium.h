@@ -53,13 +53,10 @@ inline Vec<float> sample_place(const NodeSamples& samples, std::size_t i) {
             (float(i / (nx * ny)) + 0.5f) / fine.per_metre[2]};
 }
 
-/// Mean of e^-tau over a sample's part of the node over that at its middle, of light that travels
-/// along a unit vector, by what counts of the extinction per metre and of the depth to the light.
-float mean_in_sample(const NodeSamples& samples, const float (&way)[3], float per_metre,
-                     float depth);
-
-/// The largest mean of e^-tau over it: more light than enters does not end there.
-float most_in_sample(const NodeSamples& samples, const float (&way)[3], float per_metre);
+/// Mean of e^-tau over a sample's part of the node, of light that travels along a unit vector, by
+/// what counts of the extinction per metre and of the depth from its middle to the light.
+float light_in_sample(const NodeSamples& samples, const float (&way)[3], float per_metre,
+                      float depth);
 
 /// Densities of nodes, which are means of their samples'.
 void average_samples(const Context& context, OrdinateNodes& nodes);

@@ -45,9 +45,7 @@ void add_lamp(const OrdinateNodes& nodes, const NodeSamples& samples, const Lamp
         if (lamp.parallel == 0 && sight.distance < least)
             share *= sight.distance * sight.distance / (least * least);
         const float way[3] = {sight.way.x, sight.way.y, sight.way.z};
-        const float per_metre = rest * sigma * density;
-        const float kept = std::min(exp_(-depth) * mean_in_sample(samples, way, per_metre, depth),
-                                    most_in_sample(samples, way, per_metre));
+        const float kept = light_in_sample(samples, way, rest * sigma * density, depth);
         float harmonic[kOrdinateMoments];
         sh_eval<4>(-way[0], -way[1], -way[2], harmonic);
         const float lit = density * share * light * kept;

@@ -34,10 +34,10 @@ public:
           filled_(from.nodes->filled.size()),
           moments_(from.nodes->solution.data() + s * filled_ * kOrdinateMoments) {}
 
-    void read(int x, int y, int z, float (&out)[kOrdinateMoments]) const {
-        const Between u = between(from_.first[0] + from_.step[0] * x, ring_, nx_);
-        const Between v = between(from_.first[1] + from_.step[1] * y, ring_, ny_);
-        const std::size_t slice = std::size_t(z) * std::size_t(ny_);
+    void read(const NodePlace& p, float (&out)[kOrdinateMoments]) const {
+        const Between u = between(from_.first[0] + from_.step[0] * p[0], ring_, nx_);
+        const Between v = between(from_.first[1] + from_.step[1] * p[1], ring_, ny_);
+        const std::size_t slice = std::size_t(p[2]) * std::size_t(ny_);
         const float* low = moments_ + (slice + v.low) * std::size_t(nx_);
         const float* high = moments_ + (slice + v.high) * std::size_t(nx_);
         for (int m = 0; m < kOrdinateMoments; ++m, low += filled_, high += filled_) {
@@ -61,9 +61,8 @@ Status light_ring(const Context& context, const OrdinateCoarser& coarser, std::s
     const std::size_t of_ring = std::size_t(ring_count(nodes.grid)), filled = nodes.filled.size();
     PILEUS_TRY(allocate_once(arrays::ordinate_ring(of_ring), ring));
     const CoarserLight light(coarser, s);
-    const auto nx = std::size_t(nodes.grid.size[0]), ny = std::size_t(nodes.grid.size[1]);
     const auto read = [&](std::size_t i, float(&out)[kOrdinateMoments]) {
-        light.read(int(i % nx), int(i / nx % ny), int(i / (nx * ny)), out);
+        light.read(node_place(nodes.grid, i), out);
     };
     float harmonic[kOrdinates][kOrdinateMoments];
     set_ordinate_harmonics(harmonic);

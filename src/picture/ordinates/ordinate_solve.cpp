@@ -45,9 +45,10 @@ Work share_work(float* from, std::size_t nodes) {
 
 /// A node's place where slices are along x.
 std::size_t place_along_x(const NodeGrid& grid, std::size_t node) {
-    const std::size_t nx = std::size_t(grid.size[0]), ny = std::size_t(grid.size[1]);
-    const std::size_t x = node % nx, y = node / nx % ny, z = node / (nx * ny);
-    return (x * std::size_t(grid.size[2]) + z) * ny + y;
+    const NodePlace p = node_place(grid, node);
+    return (std::size_t(p[0]) * std::size_t(grid.size[2]) + std::size_t(p[2])) *
+               std::size_t(grid.size[1]) +
+           std::size_t(p[1]);
 }
 
 /// A ring's nodes send on what enters there, and nothing else.

@@ -33,9 +33,7 @@ void each_of_ring(const NodeGrid& grid, const Use& use) {
         for (int y = 0; y < ny; ++y) {
             const bool end = y == 0 || y == ny - 1;
             for (int x = 0; x < nx; x += end || nx == 1 ? 1 : nx - 1)
-                use(number++,
-                    (std::size_t(z) * std::size_t(ny) + std::size_t(y)) * std::size_t(nx) +
-                        std::size_t(x));
+                use(number++, node_number(grid, {x, y, z}));
         }
 }
 inline std::uint64_t ring_count(const NodeGrid& grid) {

@@ -29,24 +29,20 @@ void fill_empty(const OrdinateNodes& nodes, bool periodic, const float* from, fl
         return;
     }
     to[node] = 0;
-    const int n[3] = {nodes.grid.size[0], nodes.grid.size[1], nodes.grid.size[2]};
-    const int at[3] = {int(node % std::size_t(n[0])), int(node / std::size_t(n[0])) % n[1],
-                       int(node / (std::size_t(n[0]) * std::size_t(n[1])))};
+    const std::int32_t* n = nodes.grid.size;
+    const NodePlace at = node_place(nodes.grid, node);
     float light = 0, mass = 0;
     for (int z = -1; z <= 1; ++z)
         for (int y = -1; y <= 1; ++y)
             for (int x = -1; x <= 1; ++x) {
-                int p[3] = {at[0] + x, at[1] + y, at[2] + z};
+                NodePlace p{at[0] + x, at[1] + y, at[2] + z};
                 bool outside = p[2] < 0 || p[2] >= n[2];
-                for (int a = 0; a < 2; ++a) {
+                for (std::size_t a = 0; a < 2; ++a) {
                     if (periodic) p[a] = (p[a] + n[a]) % n[a];
                     outside |= p[a] < 0 || p[a] >= n[a];
                 }
                 if (outside) continue;
-                const std::size_t other =
-                    (std::size_t(p[2]) * std::size_t(n[1]) + std::size_t(p[1])) *
-                        std::size_t(n[0]) +
-                    std::size_t(p[0]);
+                const std::size_t other = node_number(nodes.grid, p);
                 if (!(nodes.density[other] > 0)) continue;
                 light += nodes.density[other] * from[other];
                 mass += nodes.density[other];
@@ -211,6 +207,7 @@ Status make_ordinates(const Context& context, const Medium& medium, const Majora
     const std::size_t held = out.sets.size();
     std::copy(out.sets.begin(), out.sets.end(), before.begin());
     set_ordinate_lights(medium, lighting, ask, out.sets);
+    out.near_made = false;
     const std::uint64_t nodes = out.filled.size();
     if (out.solution.size() < nodes * kOrdinateMoments * out.sets.size()) {
         PILEUS_TRY(allocate(arrays::ordinate_solution(nodes, out.sets.size()), out.solution));
@@ -266,11 +263,10 @@ void spread_light(const Context& context, const OrdinateNodes& nodes, bool perio
 /// What a medium scatters of a solution towards the camera, from each node that holds some.
 void turn_solution(const Context& context, const OrdinateNodes& nodes, const CameraParams& camera,
                    const float* from, const OrdinateOptics& optics, float* to) {
-    const std::size_t nx = std::size_t(nodes.grid.size[0]), ny = std::size_t(nodes.grid.size[1]);
     const std::size_t filled = nodes.filled.size();
     parallel_each(context.threads, filled, [&](std::size_t n) {
         const auto i = std::size_t(nodes.filled[n]);
-        const std::size_t at[3] = {i % nx, i / nx % ny, i / (nx * ny)};
+        const NodePlace at = node_place(nodes.grid, i);
         float d[3], square = 0;
         for (std::size_t a = 0; a < 3; ++a) {
             d[a] = camera.orthographic != 0
@@ -315,7 +311,9 @@ Status turn_ordinates(const Context& context, const Medium& medium, const Camera
     const std::size_t nodes = std::size_t(node_count(out.grid)), sets = out.sets.size();
     const auto media = std::size_t(medium.count);
     if (!copies) PILEUS_TRY(hold(arrays::ordinate_light(nodes, sets, medium.count), out.light));
-    if (out.has_moments) PILEUS_TRY(hold(arrays::ordinate_near(nodes, sets, true), out.near));
+    // Moments are the same for all cameras.
+    const bool moments = out.has_moments && !out.near_made;
+    if (moments) PILEUS_TRY(hold(arrays::ordinate_near(nodes, sets, true), out.near));
     Buffer<float> own;
     PILEUS_TRY(allocate(arrays::ordinate_nodes(nodes, Stage::kShadow), own));
     const std::size_t filled = out.filled.size();
@@ -327,12 +325,13 @@ Status turn_ordinates(const Context& context, const Medium& medium, const Camera
             spread_light(context, out, periodic, own.data(),
                          out.light.data() + (s * media + i) * nodes);
         }
-        for (std::size_t m = 0; m < kOrdinateMoments && out.has_moments; ++m) {
+        for (std::size_t m = 0; m < kOrdinateMoments && moments; ++m) {
             place_moment(out, from + m * filled, own.data());
             spread_light(context, out, periodic, own.data(),
                          out.near.data() + (s * kOrdinateMoments + m) * nodes);
         }
     }
+    out.near_made |= moments;
     return Status::ok();
 }
 

@@ -83,8 +83,9 @@ struct OrdinateNodes : OrdinateCells {
     Buffer<float> seen;     ///< [node]: of the sun, what solids leave; of scenes with solids alone
     Buffer<float> sunward;  ///< [medium][node]: of the optical depth to the sun; of several media
     OrdinateHalf half;
-    Buffer<float> light;  ///< [set][medium][node], as the march reads it
-    Buffer<float> near;   ///< [set][moment][node], likewise, with has_moments alone
+    Buffer<float> light;     ///< [set][medium][node], as the march reads it
+    Buffer<float> near;      ///< [set][moment][node], likewise, with has_moments alone
+    bool near_made = false;  ///< of the solutions as they are
 };
 
 /// 1 - cos of the width of what counts as the peak of a phase function.

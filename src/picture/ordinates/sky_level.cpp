@@ -10,8 +10,6 @@
 namespace pileus {
 namespace {
 
-constexpr int kMovedNodes = 4;  // that a level moves by
-
 SkySampleParams sample_params(const SkyOrdinateAsk& ask, const SkyLevel& level) {
     SkySampleParams k{};
     k.march = *ask.march;
@@ -58,12 +56,11 @@ void place_level(const Context& context, const Medium& medium, const SkyOrdinate
                  const std::array<double, 2>& low, SkyLevel& level) {
     const StageClock clock(context, "ordinates");
     level.low = low;
-    level.placed = true;
     level.solved = false;
     level.nodes.sets.clear();
     SkySampleParams k = sample_params(ask, level);
-    rows_of(context, context.kernels->sky_sample_rows, k,
-            SkySampleBuffers{level.nodes.samples.data(), nullptr}, rows_in(k.places));
+    run_host_rows(context, context.kernels->sky_sample_rows, k,
+                  SkySampleBuffers{level.nodes.samples.data(), nullptr}, rows_in(k.places));
     average_samples(context, level.nodes);
     weigh_half(level.nodes);
     level.nodes.depth = node_depth(medium, level.nodes);
@@ -71,18 +68,20 @@ void place_level(const Context& context, const Medium& medium, const SkyOrdinate
 
 Status solve_level(const Context& context, const Medium& medium, const Majorants& majorants,
                    const Lighting& lighting, const SkyOrdinateAsk& ask, const SkyLevel* coarser,
-                   int only, Buffer<float>& depths, SkyLevel& level) {
+                   const std::vector<OrdinateSet>& lights, int only, Buffer<float>& depths,
+                   SkyLevel& level) {
     OrdinateAsk own;
     own.depths = &depths;
     own.sampled = true;
     own.only = only;
-    if (lighting.sunlit) {
+    if (lighting.sunlit && (only < 0 || lights[std::size_t(only)].beam > 0)) {
         const StageClock clock(context, "ordinates");
         SkySampleParams k = sample_params(ask, level);
         k.sunward = 1;
         PILEUS_TRY(allocate(arrays::ordinate_depths(level.nodes.samples.size()), depths));
-        rows_of(context, context.kernels->sky_sample_rows, k,
-                SkySampleBuffers{level.nodes.samples.data(), depths.data()}, rows_in(k.places));
+        run_host_rows(context, context.kernels->sky_sample_rows, k,
+                      SkySampleBuffers{level.nodes.samples.data(), depths.data()},
+                      rows_in(k.places));
     }
     if (coarser != nullptr) {
         own.coarser.nodes = &coarser->nodes;

@@ -3,23 +3,11 @@
 // in: a level, the coarser one -> out: moments on its nodes; light towards the camera.
 // docs/ordinates.md, "Skies"
 #pragma once
-#include <algorithm>
-
-#include "platform/threads.h"
 #include "src/picture/ordinates/sky_ordinates.h"
 
 namespace pileus {
 
-/// Calls rows of a kernel over the threads.
-template <class Kernel, class Params, class Buffers>
-void rows_of(const Context& context, Kernel kernel, const Params& k, const Buffers& b,
-             std::uint32_t rows) {
-    constexpr std::uint32_t kPiece = 4;
-    parallel_for(context.threads, (rows + kPiece - 1) / kPiece, [&](std::int64_t piece, int) {
-        const std::uint32_t begin = std::uint32_t(piece) * kPiece;
-        kernel(k, b, begin, std::min(begin + kPiece, rows));
-    });
-}
+constexpr int kMovedNodes = 4;  ///< that a level moves by
 
 SkyPlaces node_places(const SkyLevel& level);
 
@@ -31,11 +19,12 @@ std::array<double, 2> low_of(const SkyOrdinates& of, std::size_t l, const SkyPar
 void place_level(const Context& context, const Medium& medium, const SkyOrdinateAsk& ask,
                  const std::array<double, 2>& low, SkyLevel& level);
 
-/// Solves set `only`, or with -1 all, by the coarser level; null: it is the coarsest. kLimit: out
-/// of memory.
+/// Solves set `only` of the picture's lights, or with -1 all, by the coarser level; null: it is the
+/// coarsest. kLimit: out of memory.
 Status solve_level(const Context& context, const Medium& medium, const Majorants& majorants,
                    const Lighting& lighting, const SkyOrdinateAsk& ask, const SkyLevel* coarser,
-                   int only, Buffer<float>& depths, SkyLevel& level);
+                   const std::vector<OrdinateSet>& lights, int only, Buffer<float>& depths,
+                   SkyLevel& level);
 
 /// What the march reads of levels, and light on their nodes towards the camera. kLimit: out of
 /// memory.

@@ -13,7 +13,7 @@ namespace pileus {
 namespace {
 
 constexpr double kSkyReach = 40000;  // m that the coarsest level reaches at least
-constexpr int kMostAcross = 44, kMostHeights = 20, kFewestHeights = 16;
+constexpr int kMaxAcross = 44, kMaxHeights = 20, kMinHeights = 16;
 constexpr double kDepthOfHeight = 1.5;  // of a node, before the peak counts apart
 
 /// Light falls off with height: of flat nodes most is seen there.
@@ -82,8 +82,7 @@ Need need_of(const SkyOrdinates& of, std::size_t l, const Lighting& lighting,
              const SkyOrdinateAsk& ask) {
     const SkyLevel& level = of.levels[l];
     const SkyLevel* coarser = coarser_of(of, l);
-    if (!level.placed || level.low != low_of(of, l, *ask.sky, ask.camera) ||
-        !holds_lights(level, of.lights) ||
+    if (level.low != low_of(of, l, *ask.sky, ask.camera) || !holds_lights(level, of.lights) ||
         (coarser != nullptr && level.moves_from != coarser->moves))
         return Need::kAll;
     if (level.to_sun != lighting.to_sun || (coarser != nullptr && level.made_from != coarser->made))
@@ -98,20 +97,19 @@ SkyOrdinateSizes sky_ordinate_sizes(const SkyParams& sky, double extinction_per_
     const double height = double(sky.height_m);
     if (!(height > 0)) return out;
     const double by_depth = extinction_per_m > 0 ? kDepthOfHeight / extinction_per_m : height;
-    const double tall =
-        std::max(height / kMostHeights, std::min(height / kFewestHeights, by_depth));
-    out.size[2] = std::max(1, std::min(kMostHeights, int(height / tall + 0.5)));
+    const double tall = std::max(height / kMaxHeights, std::min(height / kMinHeights, by_depth));
+    out.size[2] = std::max(1, std::min(kMaxHeights, int(height / tall + 0.5)));
     out.wraps = sky.boxed == 0;
-    for (int a = 0; a < 2; ++a) out.size[a] = kMostAcross, out.step[a] = tall;
+    for (int a = 0; a < 2; ++a) out.size[a] = kMaxAcross, out.step[a] = tall;
     if (out.wraps) {
-        for (double reach = 0.5 * kMostAcross * tall; reach < kSkyReach; reach *= 2)
+        for (double reach = 0.5 * kMaxAcross * tall; reach < kSkyReach; reach *= 2)
             if (out.levels < kMaxOrdinateLevels) ++out.levels;
         return out;
     }
     double widest = 0;
     for (int a = 0; a < 2; ++a) {
         out.size[a] = std::max(
-            1, std::min(kMostAcross, int(std::ceil(double(sky.extent_m[a]) / tall - 1e-3))));
+            1, std::min(kMaxAcross, int(std::ceil(double(sky.extent_m[a]) / tall - 1e-3))));
         out.step[a] = double(sky.extent_m[a]) / out.size[a];
         widest = std::max(widest, out.step[a]);
     }
@@ -121,9 +119,9 @@ SkyOrdinateSizes sky_ordinate_sizes(const SkyParams& sky, double extinction_per_
 }
 
 std::uint64_t sky_ordinate_samples(const SkyOrdinateSizes& sizes) {
-    std::uint64_t most = sizes.nodes();
-    for (const int n : kSkyWithin) most *= std::uint64_t(n);
-    return most;
+    std::uint64_t samples = sizes.nodes();
+    for (const int n : kSkyWithin) samples *= std::uint64_t(n);
+    return samples;
 }
 
 Status prepare_sky_ordinates(const Context& context, const Medium& medium, const SkyParams& sky,
@@ -242,7 +240,7 @@ private:
 
     Status solve(std::size_t l, int only, SkyLevel& level) {
         return solve_level(context_, medium_, majorants_, lighting_, ask_, coarser_of(out_, l),
-                           only, out_.depths, level);
+                           out_.lights, only, out_.depths, level);
     }
 
     const Context& context_;

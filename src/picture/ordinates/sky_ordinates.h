@@ -22,7 +22,7 @@ struct SkyOrdinateSizes {
 };
 /// `extinction_per_m`: the largest.
 SkyOrdinateSizes sky_ordinate_sizes(const SkyParams& sky, double extinction_per_m);
-/// Samples of all nodes of a level, the most.
+/// Samples of all nodes of a level.
 std::uint64_t sky_ordinate_samples(const SkyOrdinateSizes& sizes);
 
 /// Sets of light that a sky has at most: its lamps and its emission have none.
@@ -32,7 +32,7 @@ struct SkyLevel {
     OrdinateNodes nodes;
     std::array<double, 2> low{};  ///< m, box-local
     double step[2] = {};
-    bool placed = false, solved = false;
+    bool solved = false;
     std::uint64_t moves = 0, made = 0;            ///< places and solutions so far
     std::uint64_t moves_from = 0, made_from = 0;  ///< of the coarser one, when this was solved
     std::array<float, 3> to_sun{};                ///< then

@@ -1,26 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // See sky_level.h. Levels as the march reads them.
-#include <cmath>
+#include <algorithm>
 
+#include "kernels_cpu/procedural/sky_layer.h"
+#include "platform/threads.h"
 #include "src/picture/ordinates/sky_level.h"
 
 namespace pileus {
 namespace {
 
-constexpr int kBeside = 4;  // nodes of a level that are not read: two that it lags by
+// Nodes of a level that are not read: a ring, what is mixed with it, and those that it lags by.
+constexpr int kRing = 2, kBeside = kRing + kMovedNodes / 2;
 
 /// Whether each node is seen along one direction by all rays that read it.
 bool seen_from_outside(const SkyParams& sky, const CameraParams& camera,
                        const SkyOrdinateSizes& sizes) {
     if (camera.orthographic != 0) return true;
-    const double k = double(sky.curvature_per_m);
-    double at[3], square = 0;
-    for (std::size_t a = 0; a < 3; ++a) {
-        at[a] = double(camera.origin[a]) + double(sky.shift_m[a]);
-        square += at[a] * at[a];
-    }
-    const double u = at[2] + 0.5 * k * square;
-    const double height = 2 * u / (1 + std::sqrt(std::max(0.0, 1 + 2 * k * u)));
+    const float* at = camera.origin;
+    const double height = double(altitude(sky, sky_world(sky, Vec<float>{at[0], at[1], at[2]})));
     const double edge =
         std::max({sizes.step[0], sizes.step[1], double(sky.height_m) / sizes.size[2]});
     const double margin = 2 * kNearNodes * edge;
@@ -28,15 +25,12 @@ bool seen_from_outside(const SkyParams& sky, const CameraParams& camera,
            height > double(sky.low_m) + double(sky.height_m) + margin;
 }
 
-const float* moments_of(const SkyLevel& level, std::size_t set) {
-    return level.nodes.solution.data() + set * level.nodes.filled.size() * kOrdinateMoments;
-}
-
 void turn_level(const Context& context, const SkyOrdinateAsk& ask, std::size_t l, std::size_t set,
                 SkyOrdinates& out) {
     const SkyLevel& level = out.levels[l];
     const std::size_t nodes = std::size_t(out.sizes.nodes()), levels = out.levels.size();
-    const float* from = moments_of(level, set);
+    const float* from =
+        level.nodes.solution.data() + set * level.nodes.filled.size() * kOrdinateMoments;
     SkyNodeTurnParams k{};
     k.sky = *ask.sky;
     k.places = node_places(level);
@@ -45,9 +39,9 @@ void turn_level(const Context& context, const SkyOrdinateAsk& ask, std::size_t l
     std::copy_n(k.orthographic != 0 ? ask.camera.forward : ask.camera.origin, 3, k.camera);
     const OrdinateOptics& optics = level.nodes.optics[0][level.nodes.sets[set].channel];
     for (int i = 0; i < 4; ++i) k.scatter[i] = ordinate_scatter(optics, i);
-    rows_of(context, context.kernels->sky_turn_rows, k,
-            SkyNodeTurnBuffers{from, out.front.light.data() + (set * levels + l) * nodes},
-            std::uint32_t((out.sizes.size[1] - 2 * k.ring) * out.sizes.size[2]));
+    run_host_rows(context, context.kernels->sky_turn_rows, k,
+                  SkyNodeTurnBuffers{from, out.front.light.data() + (set * levels + l) * nodes},
+                  std::uint32_t((out.sizes.size[1] - 2 * k.ring) * out.sizes.size[2]));
 }
 
 /// Moments of the finest level, for places near the camera.
@@ -75,8 +69,8 @@ void set_levels_view(const SkyOrdinateAsk& ask, SkyOrdinates& out) {
             const SkyLevel& level = out.levels[l];
             const double n = out.sizes.size[a], step = level.step[a];
             const double reach = std::max(1.0, 0.5 * n - kBeside) * step;
-            const double first = level.low[a] + reach + 2 * step;
-            const double last = level.low[a] + n * step - reach - 2 * step;
+            const double first = level.low[a] + reach + kRing * step;
+            const double last = level.low[a] + n * step - reach - kRing * step;
             v.low[l][a] = float(level.low[a]);
             v.per_metre[l][a] = float(1 / step);
             v.middle[l][a] = float(std::max(first, std::min(double(ask.camera.origin[a]), last)));
@@ -100,7 +94,7 @@ Status turn_levels(const Context& context, const SkyOrdinateAsk& ask, SkyOrdinat
     if (front.has_moments == held && made == out.turned && seen) return Status::ok();
     const std::uint64_t nodes = out.sizes.nodes(), sets = front.sets.size();
     PILEUS_TRY(hold(arrays::ordinate_light(nodes * out.levels.size(), sets, 1), front.light));
-    if (front.has_moments) {
+    if (front.has_moments && (made != out.turned || !held)) {
         PILEUS_TRY(hold(arrays::ordinate_near(nodes, sets, true), front.near));
         place_moments(context, out);
     }
