@@ -2,6 +2,8 @@
 // See march_view.h.
 #include "src/picture/march_view.h"
 
+#include <limits>
+
 #include "src/picture/background.h"
 #include "src/world/majorant/majorant.h"
 
@@ -57,6 +59,8 @@ Status march_medium(const Context& context, const Medium& medium, const Majorant
     k.camera = camera;
     k.lattice = whole_lattice(camera);
     for (int a = 0; a < 3; ++a) k.source.size[a] = k.shadow.size[a] = 1;
+    // No picture shows less; whoever asks for the depth gets all of it.
+    if (!wanted.optical_depth) k.cut = std::numeric_limits<float>::min();
     MarchBuffers b{};
     b.opaque_depth = planes.opaque_depth.data();
     b.transmittance = planes.transmittance.data();

@@ -43,10 +43,10 @@ std::uint64_t ordinary(const pileus::Scene& scene) {
 }
 
 /// Opens the packed scene in a block and draws it, then frames from other places.
-void fly(const pileus::Scene& scene, const std::string& bytes, std::size_t block_bytes) {
+void fly(const pileus::Scene& scene, const std::string& bytes, std::vector<unsigned char>& block) {
     std::uint64_t hash = 0;
     const std::uint64_t expected = ordinary(scene);
-    std::vector<unsigned char> block(block_bytes), pixels(4 * kSide * kSide);
+    std::vector<unsigned char> pixels(4 * kSide * kSide);
     pileus_error error;
     PILEUS_INIT(error);
     pileus_frame frame;
@@ -97,6 +97,9 @@ void fly(const pileus::Scene& scene, const std::string& bytes, std::size_t block
 /// line.
 void fly_all(const char* folder, int least) {
     int flown = 0;
+    // Lights of photons have sums of their own, of media that shine, too. One flight finds what
+    // another has left there.
+    std::vector<unsigned char> block(std::size_t{512} << 20);
     for (const std::string& file : scenes_of(folder)) {
         INFO(file);
         pileus::Scene scene;
@@ -120,12 +123,10 @@ void fly_all(const char* folder, int least) {
                    scene.path.importance));
             continue;
         }
-        // Lights of photons have sums of their own, of media that shine, too.
-        std::size_t block = std::size_t{512} << 20;
         if (pileus::long_tests()) {
             pileus::FlightNeed need;
             REQUIRE(pileus::measure_flight(bytes, {}, need));
-            block = std::size_t(need.block);
+            block = std::vector<unsigned char>(std::size_t(need.block));
         }
         fly(scene, bytes, block);
         ++flown;
