@@ -53,6 +53,13 @@ PILEUS_FN T shadow_on_ground(const BackgroundParams& k, const BackgroundBuffers&
     return interpolate_flat(b.ground_depth, corners(p, k.shadow.size, false), k.shadow.size[0]);
 }
 
+/// Shares of sunlight that come through an optical depth to surfaces, by channel.
+template <class T>
+PILEUS_FN void sun_through(const BackgroundParams& k, T tau, T (&out)[3]) {
+    for (int c = 0; c < 3; ++c)
+        out[c] = c > 0 && k.sun_rest[c] == k.sun_rest[0] ? out[0] : exp_(T{} - tau * k.sun_rest[c]);
+}
+
 /// What W pixels show behind the media, and how far it is; infinity for the sky.
 template <class T>
 struct Behind {
@@ -71,7 +78,7 @@ PILEUS_FN Behind<F<W>> background_lanes(const BackgroundParams& k, const Backgro
     const Ray<T> ray = camera_ray(k.camera, to_float(column), all<T>(float(y)));
     Behind<T> out{};
     out.depth = all<T>(__builtin_inff());
-    T sunlight{};
+    T sunlight[3] = {};
     M<W> ground = column < 0;
     if (k.ground != 0) {
         const T height = ray.origin.z - k.ground_z;
@@ -81,7 +88,7 @@ PILEUS_FN Behind<F<W>> background_lanes(const BackgroundParams& k, const Backgro
             const Ray<T> up{along(ray, select(ground, out.depth, T{})), to_sun};
             const T tau = k.shadow.size[0] > 0 ? shadow_on_ground(k, b, up.origin)
                                                : optical_depth(k.medium, up, ground);
-            sunlight = exp_(T{} - tau);
+            sun_through(k, tau, sunlight);
         }
     }
     if (!coloured) return out;
@@ -92,7 +99,7 @@ PILEUS_FN Behind<F<W>> background_lanes(const BackgroundParams& k, const Backgro
     if (k.sky_map.columns > 0) sky = map_radiance(k.sky_map, ray.direction);
     const T above[3] = {sky.x, sky.y, sky.z};
     for (int c = 0; c < 3; ++c) {
-        const T below = k.ground_diffuse[c] + k.ground_sun[c] * sunlight + scattered[c];
+        const T below = k.ground_diffuse[c] + k.ground_sun[c] * sunlight[c] + scattered[c];
         out.colour[c] = select(ground, below, above[c]);
     }
     return out;

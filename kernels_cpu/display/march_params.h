@@ -136,6 +136,7 @@ struct BackgroundParams {
     float ground_z;           ///< m, box-local
     float ground_diffuse[3];  ///< radiance under the sky alone
     float ground_sun[3];      ///< radiance added by the unshadowed sun
+    float sun_rest[3];        ///< of the extinction, what keeps sunlight from surfaces
     NodeGrid map;             ///< of light scattered onto the ground; size 0: none
     float map_origin[2];      ///< m, box-local
     float to_sun[3];

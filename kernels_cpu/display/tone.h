@@ -9,20 +9,11 @@
 
 namespace pileus {
 
-/// How bright a picture becomes. `stops` doubles or halves; `automatic` measures the picture first.
-struct ToneSettings {
-    bool automatic = false;
-    float stops = 0;
-};
-
 inline namespace PILEUS_ISA {
 
 /// Sunlight of irradiance 1 on white paper is radiance 1/pi: this gain places it at code 224, a
 /// sunlit cloud of 0.5 at 236 and a blue sky of 0.05 0.07 0.11 in the middle tones.
 constexpr float kDaylightGain = 3.5f;
-
-/// Number of bins of the brightness histogram: 128 per octave of the positive floats.
-constexpr std::uint32_t kToneBins = 1u << 15;
 
 /// Linear value at which the code k+1 begins: the smallest float not below the inverse sRGB curve
 /// at (k + 1/2)/255, evaluated in extended precision. So code = round(255 encode(v)), half up.
@@ -132,34 +123,6 @@ PILEUS_FN Rgb<T> tone_curve(Rgb<T> radiance, float gain) {
     return {filmic_curve(max_(r + share * (y - r), dark)),
             filmic_curve(max_(g + share * (y - g), dark)),
             filmic_curve(max_(b + share * (y - b), dark))};
-}
-
-/// Counts a pixel's luminance in its bin; pixels without positive finite luminance are left out.
-PILEUS_FN void tone_count(Rgb<float> radiance, std::uint32_t* bins) {
-    const float y = luminance(radiance);
-    if (y > 0.0f && y <= 3.402823466e38f) ++bins[reinterpret<std::uint32_t>(y) >> 16];
-}
-
-/// Lower edge of the bin under which `share` of all counted pixels lie; 0 without any pixel.
-PILEUS_FN float tone_percentile(const std::uint32_t* bins, std::uint32_t percent) {
-    std::uint64_t total = 0, below = 0;
-    for (std::uint32_t i = 0; i < kToneBins; ++i) total += bins[i];
-    for (std::uint32_t i = 0; i < kToneBins; ++i) {
-        below += bins[i];
-        if (below * 100 > total * percent) return reinterpret<float>(i << 16);
-    }
-    return 0.0f;
-}
-
-/// Gain that brings the 99th percentile of luminance near white (1.25 before the curve: code 236),
-/// then the median into [0.04, 0.8] (codes 60 to 225) by at most two stops either way.
-PILEUS_FN float automatic_gain(const std::uint32_t* bins) {
-    const float white = tone_percentile(bins, 99), middle = tone_percentile(bins, 50);
-    if (!(white > 0.0f)) return kDaylightGain;
-    const float gain = 1.25f / max_(white, 1e-30f);
-    if (middle * gain < 0.04f) return min_(0.04f / max_(middle, 1e-30f), gain * 4.0f);
-    if (middle * gain > 0.8f) return max_(0.8f / middle, gain * 0.25f);
-    return gain;
 }
 
 }  // namespace PILEUS_ISA

@@ -4,5 +4,6 @@
 #include "kernels_cpu/ordinates/ordinates_detail.h"
 #include "kernels_cpu/procedural/cloud_heap.h"
 #include "kernels_cpu/procedural/cloud_layer.h"
+#include "kernels_cpu/procedural/cloud_lens.h"
 #define PILEUS_GROUP_Detail 1
 #include "kernels_cpu/isa/kernel_group.h"

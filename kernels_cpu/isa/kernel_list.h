@@ -90,6 +90,8 @@ PILEUS_RANGE(fill_cumulus,         CumulusParams,       CumulusBuffers,        S
 PILEUS_RANGE(fill_cloud,           CloudParams,         CloudBuffers,          Detail,       Host)
 // Rows of columns along x of a layer: size[1] of them.
 PILEUS_RANGE(fill_cloud_layer,     CloudLayerParams,    CloudLayerBuffers,     Detail,       Host)
+// Rows along x of a lens: size[1] size[2] of them.
+PILEUS_RANGE(fill_cloud_lens,      CloudLensParams,     CloudLensBuffers,      Detail,       Host)
 
 // Particles
 PILEUS_RANGE(particle_depths,      ParticleDepthParams, ParticleDepthBuffers,  Particles,    Device)

@@ -241,6 +241,16 @@ PILEUS_FN RaySample<T> sample_at(const OrdinatesMarch<T, Field>&, T, T, M_of<T>)
     return RaySample<T>{};
 }
 
+/// Of what turns within the peak, the share from above the horizon.
+template <class T>
+PILEUS_FN T share_above(const OrdinatesMarchParams& o, T sine) {
+    const T at = min_(abs_(sine) * o.per_horizon, all<T>(float(kHorizon - 1)));
+    const auto low = to_int(min_(at, all<T>(float(kHorizon - 2))));
+    const T first = gather(o.horizon, low), next = gather(o.horizon + 1, low);
+    const T share = first + (next - first) * (at - to_float(low));
+    return select(sine < 0.0f, 1.0f - share, share);
+}
+
 /// Light of what lies behind that turned within the peak alone, and so goes on as it came.
 template <int W>
 PILEUS_FN void add_behind(const OrdinatesMarchParams& o, const OrdinatesMarchBuffers& n,
@@ -250,14 +260,21 @@ PILEUS_FN void add_behind(const OrdinatesMarchParams& o, const OrdinatesMarchBuf
     T sky[3];
     for (int c = 0; c < 3; ++c) sky[c] = all<T>(o.sky[c]);
     if (o.map.columns > 0) {
-        const Vec<T> seen = map_radiance(o.map, d);
+        // Below the horizon what the map has just above it.
+        Vec<T> from = d;
+        if (o.has_ground != 0) {
+            from.z = max_(d.z, T{});
+            const T unit = 1.0f / sqrt_(max_(dot(from, from), all<T>(1e-20f)));
+            from = Vec<T>{from.x * unit, from.y * unit, from.z * unit};
+        }
+        const Vec<T> seen = map_radiance(o.map, from);
         sky[0] = seen.x, sky[1] = seen.y, sky[2] = seen.z;
     }
-    const auto down = d.z < 0.0f;
+    const T above = o.has_ground != 0 ? share_above(o, d.z) : all<T>(1.0f);
     const std::int64_t pixels = std::int64_t(o.march.camera.width) * o.march.camera.height;
     const auto pixel = at.y * o.march.camera.width + at.x;
     for (int c = 0; c < 3; ++c) {
-        T behind = o.has_ground != 0 ? select(down, all<T>(o.ground[c]), sky[c]) : sky[c];
+        T behind = o.ground[c] + (sky[c] - o.ground[c]) * above;
         if (n.surfaces != nullptr && any(at.solid))
             behind = select(at.solid,
                             gather(n.surfaces + c * pixels, select(at.solid, pixel, pixel - pixel)),

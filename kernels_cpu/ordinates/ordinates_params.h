@@ -10,7 +10,7 @@ namespace pileus {
 
 constexpr int kOrdinates = 32;        ///< double Gauss in height, 2 + 2, times 8 azimuths
 constexpr int kOrdinateMoments = 16;  ///< spherical harmonics up to degree 3
-constexpr int kMaxOrdinateSets = 6;   ///< of light: sun, sky, ground, and three of lamps
+constexpr int kMaxOrdinateSets = 9;   ///< of light: three by channel, six of the ground
 constexpr int kOrdinateClasses = 6;   ///< lengths of ways through a node, at most
 
 /// Degree of a moment.
@@ -39,6 +39,7 @@ struct OrdinatesParams {
     float scatter[kMostMedia][4];        ///< albedo times the phase function's moments, both scaled
     float beam[kMostMedia][kOrdinates];  ///< share of a beam's light scattered there, 1/sr
     float enters[kOrdinates];            ///< radiance at the faces
+    float below[kOrdinates];             ///< of light that goes up, at the lower one
 };
 
 struct OrdinatesBuffers {
@@ -63,6 +64,7 @@ inline std::int64_t ordinate_slice_floats(const OrdinatesParams& k, const Ordina
     return 2 * ordinate_row(k, s) * (k.size[s.across] + 2);
 }
 
+constexpr int kHorizon = 17;
 constexpr int kMaxOrdinateLevels = 8;
 
 /// Nodes of a sky in place: levels around the camera, each over twice the width of the one before
@@ -96,6 +98,10 @@ struct OrdinatesMarchParams {
     SkyMapView map;            ///< or of a map
     float ground[3];           ///< of rays that go down
     std::int32_t has_ground;
+    /// Share of what turns within the peak that comes from above the horizon, by the sine of the
+    /// ray's height, from 0 to that of the peak's width.
+    float horizon[kHorizon];
+    float per_horizon;  ///< entries of it in a sine of 1
 };
 struct OrdinatesMarchBuffers {
     RaymarchBuffers march;

@@ -111,7 +111,14 @@ PILEUS_FN void ordinate_sweep(const OrdinatesParams& k, const OrdinatesBuffers& 
     // Rows begin one node early where the grid ends, so that all four neighbours are there.
     const std::int64_t first = wraps ? 0 : 1;
     for (std::int64_t i = 0; i < 2 * slice; ++i) b.slices[i] = k.enters[j];
+    const bool other_below = k.below[j] != k.enters[j];
+    // Of slices upwards the first one's neighbours are below, of others the first row's.
+    const std::int64_t below = s.axis == 2 ? slice : row;
+    for (std::int64_t i = 0; i < below && other_below; ++i)
+        b.slices[i] = b.slices[s.axis == 2 ? i : slice + i] = k.below[j];
     for (std::int32_t turn = 0; turn < slices; ++turn) {
+        for (std::int64_t i = 0; i < slice && other_below && s.axis == 2 && turn == 1; ++i)
+            b.slices[i] = k.enters[j];
         const float* before = b.slices + (turn & 1) * slice;
         float* out = b.slices + (1 - (turn & 1)) * slice;
         const std::int64_t plane = between * (s.up != 0 ? turn : slices - 1 - turn);

@@ -11,7 +11,7 @@ inline namespace PILEUS_ISA {
 
 // In heights of the cloud.
 constexpr float kAnvilJoin = 0.05f;   // width over which it joins the tower
-constexpr float kAnvilEdge = 0.03f;   // of its rim
+constexpr float kAnvilEdge = 0.02f;   // of its rim
 constexpr float kAnvilReach = 1.75f;  // in radii: how far fibres reach downwind
 
 /// Whether cells at distance `radius` of a centre can lie in the anvil or its edge.
@@ -59,8 +59,9 @@ PILEUS_FN AnvilShare<T> join_anvil(const CloudParams& k, const Vec<T>& p, CloudS
     s.normal.y = select(nearer, T{}, s.normal.y);
     s.normal.z = select(nearer, select(over > under, one, all<T>(-1.0f)), s.normal.z);
     s.distance = blend_min(s.distance, d, all<T>(join), all<T>(0.25f / join));
-    // Smooth above, with lumps that hang below.
-    act = act + ice * (select(over > under, all<T>(0.12f), all<T>(0.42f)) - act);
+    // Smooth above and at the rim, with lumps that hang below.
+    const T hung = 0.6f * max_(1.0f - 0.8f * rim, T{});
+    act = act + ice * (select(over > under, all<T>(0.12f), hung) - act);
     return {ice, rim};
 }
 

@@ -20,9 +20,10 @@ enum CloudNodeField {
     kNodeBendZ,
     kNodePlanX,
     kNodePlanY,
-    kNodeAct,   ///< how lively the surface is, 0 to 1
-    kNodeDry,   ///< share of dry air at the edge
-    kNodeWave,  ///< lift of the condensation level
+    kNodeAct,    ///< how lively the surface is, 0 to 1
+    kNodeDry,    ///< share of dry air at the edge
+    kNodeTaken,  ///< air taken in on the way up over the mean
+    kNodeWave,   ///< lift of the condensation level
     kNodeFields
 };
 
@@ -188,6 +189,10 @@ PILEUS_FN void liven_nodes(const CloudParams& k, const CloudPart& block, const s
                       (0.72f + 0.28f * fresh);
         const T dry =
             max_(min_((k.dilution + 0.4f * k.age) * (1.5f - act + slow * 0.6f), one), T{});
+        // Fresh turrets take in less air than old ones; eddies mix it unevenly.
+        const float eddy = per_height * (1 / 0.15f);
+        const T mixed = gradient_noise<T>(p.x * eddy, p.y * eddy, p.z * eddy, k.seed + 43u);
+        const T taken = max_(1.35f - 0.7f * fresh + 0.8f * mixed, all<T>(0.2f));
         const float coarse = per_height * (1 / 0.22f), fine = per_height * (1 / 0.08f);
         const T wave =
             (0.012f * k.height) *
@@ -195,6 +200,7 @@ PILEUS_FN void liven_nodes(const CloudParams& k, const CloudPart& block, const s
              gradient_noise<T>(p.x * fine, p.y * fine, p.z * (fine * 0.3f), k.seed + 42u));
         __builtin_memcpy(&nodes.value[kNodeAct][g], &act, sizeof act);
         __builtin_memcpy(&nodes.value[kNodeDry][g], &dry, sizeof dry);
+        __builtin_memcpy(&nodes.value[kNodeTaken][g], &taken, sizeof taken);
         __builtin_memcpy(&nodes.value[kNodeWave][g], &wave, sizeof wave);
     }
 }
@@ -243,16 +249,36 @@ PILEUS_FN T two_thirds_power(T x) {
     return half * eighth * sqrt_(sqrt_(eighth));
 }
 
+/// Height in metres by which saturated air must rise for the water that as much outside air
+/// evaporates: 0.66 g/m^3, of air of 85 % relative humidity at 15 degrees Celsius.
+constexpr float kDeficitRise = 300.0f;
+/// Height over which deficits grow from none at the condensation level, where all air is moist.
+constexpr float kDeficitFoot = 80.0f;
+/// Air taken in over the mean, at the edge and in the core.
+constexpr float kTakenEdge = 1.2f, kTakenCore = 0.5f;
+
+/// Water over adiabatic water of a parcel that has risen by z and has taken in the share
+/// `taken` = (1/m) z of outside air on its way: of dq/dz = rise - taken/z (q + deficit).
+/// (1 - e^-x)/x is 1/(1 + x/2 + x^2/12) to the second order.
+template <class T>
+PILEUS_FN T entraining_plume(T z, T rate) {
+    const T x = rate * z;
+    const T deficit = rate * (kDeficitRise * z / (z + kDeficitFoot));
+    return max_(1.0f - deficit, T{}) / (1.0f + x * (0.5f + x * (1.0f / 12.0f)));
+}
+
 /// Extinction over that of the full height, of points whose surface is known. `core`: distance to
 /// the surface before any lumps.
 template <class T>
-PILEUS_FN T heap_density(const CloudParams& k, T level, T core, T d, T act, T dry) {
+PILEUS_FN T heap_density(const CloudParams& k, T level, T core, T d, T act, T dry, T taken) {
     const T zc = max_(level, T{});
     const T width = k.soft + (k.crisp - k.soft) * smooth_ramp<T>(1.3f * act - 0.2f);
-    // Dry air needs height to come in, and does not reach the core.
+    // Dry air needs height to come in, and reaches the core less.
     const T inward = smooth_ramp<T>(core * (-1.0f / (0.22f * k.height)));
     const T dilution = zc / (zc + 150.0f) * dry * (1.0f - inward);
-    const T chi = (1.0f - dilution) * smooth_ramp<T>(0.5f - d / width);
+    const T rate = k.entrainment * taken * (kTakenEdge - (kTakenEdge - kTakenCore) * inward);
+    const T plume = entraining_plume<T>(zc, rate);
+    const T chi = (1.0f - dilution) * plume * smooth_ramp<T>(0.5f - d / width);
     // The mixing line: what dry air takes evaporates, before the mixture is halved.
     const T left = chi - (1.0f - chi) * 0.07f * zc / (zc + 60.0f);
     const T rise = zc / (1.0f + zc * k.saturation);
@@ -292,7 +318,8 @@ PILEUS_FN void fill_heap_part(const CloudParams& k, const CloudPart& part,
         const T core = s.distance;
         add_octaves(s, k.lump, k.octaves, act, k.erosion, 0.16f * k.age, width, k.seed);
         if (!any(s.distance < width)) continue;
-        T value = heap_density(k, level, core, s.distance, act, at_share(field[kNodeDry], x, y, z));
+        T value = heap_density(k, level, core, s.distance, act, at_share(field[kNodeDry], x, y, z),
+                               at_share(field[kNodeTaken], x, y, z));
         if (iced) value = value + share.ice * (anvil_density(k, s.distance, share.rim) - value);
         for (int l = 0; l < W; ++l) {
             const int c = g + l;

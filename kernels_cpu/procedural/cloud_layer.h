@@ -45,9 +45,14 @@ PILEUS_FN T rising_air(const CloudLayerParams& k, T x, T y) {
     const T zero{}, one = all<T>(1.0f);
     const float wide = 3.2f * k.length;
     const T slow = layer_octaves<T>(k, x, y, zero, wide, 1.0f, 2, 0.5f, k.seed + 50u);
-    if (k.form == kLayerSheet)
+    if (k.form == kLayerSheet) {
+        // A gain of 2^(-1/3) makes a spectrum of -5/3, as eddies do.
+        int count = 1;
+        for (float size = 0.5f * k.length; size > 2.0f * k.cell[0] && count < 8; size *= 0.5f)
+            ++count;
         return 0.5f + 0.5f * slow +
-               0.6f * layer_octaves<T>(k, x, y, zero, k.length, 1.0f, 3, 0.55f, k.seed + 60u);
+               0.4f * layer_octaves<T>(k, x, y, zero, k.length, 1.0f, count, 0.79f, k.seed + 60u);
+    }
     if (k.form == kLayerStreaks)
         return 0.5f +
                0.7f * layer_octaves<T>(k, x, y, zero, k.length * 4.0f, 0.4f, 3, 0.5f, k.seed + 60u);

@@ -39,6 +39,7 @@ struct CloudParams {
     std::int32_t octaves;
     float erosion;        ///< share of a cell that each octave takes off
     float age, dilution;  ///< 0 to 1; 0 and more
+    float entrainment;    ///< 1/m: share of outside air that a rising parcel takes in
     float soft, crisp;    ///< widths of a calm edge and of a fresh one
     float per_full;       ///< 1 over the height at which the density is 1
     float saturation;     ///< 1/m: height counts as z/(1 + z saturation), as water rains out
@@ -87,6 +88,33 @@ struct CloudLayerParams {
 struct CloudLayerBuffers {
     float* density;  ///< [z][y][x]
     float* map;      ///< [y][x]
+};
+
+/// A moist layer that a standing wave lifts over its condensation level: a lens around its rim.
+struct CloudPlate {
+    float rim;            ///< height of the rim over the base
+    float over, under;    ///< thickness over and under the rim, in the middle
+    float x, y;           ///< its middle, along the wind and across
+    float along, across;  ///< radii; downwind `lee` times the former
+};
+constexpr int kMaxCloudPlates = 12;
+
+struct CloudLensParams {
+    CloudPlate plates[kMaxCloudPlates];
+    std::int32_t count;
+    std::int32_t size[3];
+    float cell[3];
+    float corner[3];  ///< centre of cell 0
+    float wind_x, wind_y;
+    std::uint32_t seed;
+    float lee;                   ///< how much longer lenses are downwind
+    float outline, per_outline;  ///< bends of the rim over its radius; 1 over their length
+    float striae, per_stria;     ///< the same of thin layers, by height
+    float edge;                  ///< width of the edge
+};
+
+struct CloudLensBuffers {
+    float* density;  ///< [z][y][x]
 };
 
 }  // namespace pileus

@@ -25,19 +25,16 @@ template <class T>
 struct LitSurface {
     M_of<T> solid, ground;
     T depth;  // metres along the ray; infinity for the sky
-    T sunlight;
+    T sunlight[3];
     SolidPlace<T> place;  // of solids
 };
 
-/// Share of the sun's light at the lanes of `m`: nothing behind solids, less behind media.
+/// Optical depth towards the sun at the lanes of `m`, of which those behind solids are left out.
 template <class T>
-PILEUS_FN T sunlight_at(const SolidRowsParams& k, const Vec<T>& at, const Vec<T>& to_sun,
-                        M_of<T> m) {
-    if (!any(m)) return T{};
-    m = m & lnot(behind_solids(k.solids, at, to_sun, all<T>(3e38f), m));
-    if (!any(m)) return T{};
-    const Ray<T> up{at, to_sun};
-    return select(m, exp_(T{} - optical_depth(k.back.medium, up, m)), T{});
+PILEUS_FN T depth_to_sun(const SolidRowsParams& k, const Vec<T>& at, const Vec<T>& to_sun,
+                         M_of<T>& m) {
+    if (any(m)) m = m & lnot(behind_solids(k.solids, at, to_sun, all<T>(3e38f), m));
+    return any(m) ? optical_depth(k.back.medium, Ray<T>{at, to_sun}, m) : T{};
 }
 
 template <class T>
@@ -65,8 +62,14 @@ PILEUS_FN LitSurface<T> find_surface(const SolidRowsParams& k, const Ray<T>& ray
     const Vec<T> flat = along(ray, select(s.ground, s.depth, T{}));
     const Vec<T> at{select(s.solid, s.place.at.x, flat.x), select(s.solid, s.place.at.y, flat.y),
                     select(s.solid, s.place.at.z, flat.z)};
-    const T sun = sunlight_at(k, at, to_sun, s.ground | (s.solid & (cosine > 0.0f)));
-    s.sunlight = select(s.solid, sun * max_(cosine, T{}), sun);
+    M_of<T> lit_there = s.ground | (s.solid & (cosine > 0.0f));
+    const T tau = depth_to_sun(k, at, to_sun, lit_there);
+    T through[3];
+    sun_through(k.back, tau, through);
+    for (int c = 0; c < 3; ++c) {
+        const T sun = select(lit_there, through[c], T{});
+        s.sunlight[c] = select(s.solid, sun * max_(cosine, T{}), sun);
+    }
     return s;
 }
 
@@ -84,9 +87,9 @@ PILEUS_FN void surface_light(const SolidRowsParams& k, const BackgroundBuffers& 
         const T sun =
             k.sun_heights.rows != 0 ? sun_at(k.sun_heights, s.place.at.z, c) : all<T>(k.sun[c]);
         const T ground =
-            k.back.ground_diffuse[c] + k.back.ground_sun[c] * s.sunlight + scattered[c];
+            k.back.ground_diffuse[c] + k.back.ground_sun[c] * s.sunlight[c] + scattered[c];
         const T solid =
-            s.place.albedo[c] * (around_light(k.around[c], s.place.normal) + sun * s.sunlight);
+            s.place.albedo[c] * (around_light(k.around[c], s.place.normal) + sun * s.sunlight[c]);
         out[c] = select(s.solid, solid, select(s.ground, ground, above[c]));
     }
 }
@@ -111,7 +114,9 @@ PILEUS_FN void shadow_of_rows(const SolidRowsParams& k, const BackgroundBuffers&
             const M<W> met = depth < 3e38f;
             const Ray<T> ray = camera_ray(camera, to_float(column), all<T>(float(y)));
             const Vec<T> at = along(ray, select(met, depth * kBefore, T{}));
-            const T dark = select(met, 1.0f - sunlight_at(k, at, to_sun, met), T{});
+            M<W> lit = met;
+            const T tau = depth_to_sun(k, at, to_sun, lit);
+            const T dark = select(met, 1.0f - select(lit, exp_(T{} - tau), T{}), T{});
             for (int l = 0; l < W && x + l < camera.width; ++l)
                 b.shadow[row + x + l] = lane(dark, l);
         }

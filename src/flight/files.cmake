@@ -25,7 +25,7 @@ flight_files(src/methods/collectors/prepare
     field_stats gradient leaf_list leaves place_collectors prepare samples shares tree variance)
 flight_files(src/methods/march
     march march_choice march_frame march_light march_media march_method march_ordinates march_units)
-flight_files(src/methods/particles board_view lamp_balls particles_light particles_method sun_tiles view_tiles)
+flight_files(src/methods/particles board_view lamp_balls particles_light particles_method particles_ordinates sun_tiles view_tiles)
 flight_files(src/methods/path
     path_air path_blocks path_filter path_guide path_light path_method path_show path_sky trace_paths)
 flight_files(src/methods/photon_grid
@@ -40,8 +40,8 @@ flight_files(src/picture/errors pixel_errors)
 flight_files(src/picture/filter features filter_error guides regression)
 flight_files(src/picture/nodes
     ground_shadow lamp_light node_grid node_rows sky_light sky_nodes sky_view sun_depth sun_slices sweep_taps)
-flight_files(src/picture/ordinates ordinate_directions ordinate_half ordinate_medium ordinate_own ordinate_ring
-    ordinate_solve ordinates sky_level sky_ordinates sky_turn)
+flight_files(src/picture/ordinates ordinate_directions ordinate_ground ordinate_half ordinate_medium ordinate_optics ordinate_own ordinate_ring
+    ordinate_solve ordinate_turn ordinates sky_level sky_ordinates sky_turn)
 flight_files(src/plan accumulation memory_table plan scene_limits work)
 flight_files(src/run find_kernels)
 flight_files(src/scene calendar frame_state method_column)

@@ -118,6 +118,7 @@ BackgroundParams background_params(const MediumView& medium, const CameraParams&
         k.ground_diffuse[c] = float(light.ground_diffuse[c]);
         k.ground_sun[c] = float(light.ground_sun[c]);
         k.to_sun[c] = light.to_sun[c];
+        k.sun_rest[c] = 1;
     }
     // The sky before air is the air's own (air_view.h).
     if (light.air)
@@ -133,9 +134,10 @@ Status show_nothing_behind(Planes& planes) {
     return Status::ok();
 }
 
+bool has_meshes(const Lighting& light) { return light.solids != nullptr && !light.solids->empty(); }
+
 namespace {
 
-bool has_meshes(const Lighting& light) { return light.solids != nullptr && !light.solids->empty(); }
 bool has_image(const Lighting& light) {
     return light.depth != nullptr && !light.depth->metres.empty();
 }

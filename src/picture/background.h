@@ -14,6 +14,7 @@ BackgroundParams background_params(const MediumView& medium, const CameraParams&
                                    const Lighting& light);
 
 /// Whether meshes, or an image of what stands there, may end rays.
+bool has_meshes(const Lighting& light);
 bool has_surfaces(const Lighting& light);
 
 /// Runs background_rows, or its like with solids, and lays the camera's depth image over the

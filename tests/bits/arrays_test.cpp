@@ -337,7 +337,8 @@ TEST_CASE("arrays: what particles hold while they are shown is what the plan say
     const std::size_t from = text.find("[[medium]]"), to = text.find("[photon_grid]");
     const std::string scene =
         text.substr(0, from) +
-        "[[medium]]\ndensity = \"p.csv\"\nphase = { type = \"isotropic\" }\n" + text.substr(to);
+        "[[medium]]\ndensity = \"p.csv\"\nphase = { type = \"isotropic\" }\n" + text.substr(to) +
+        "\n[particles]\nscattering = \"single\"\n";
     const char* const layers = "output.layers = [\"radiance\", \"alpha\", \"depth\"]";
     check_particles({scene.c_str(), "particles", {layers, "particles.bins = 50"}});
     check_particles({scene.c_str(), "particles", {layers, "particles.light = \"linear\""}});

@@ -26,6 +26,9 @@ inline void add_ordinates(const OrdinateNodes& ordinates,
                                           half.share.bytes();
         held["ordinates: parts in larger nodes"] = larger.parts.bytes();
     }
+    held["ordinates: light on the ground"] = ordinates.ground.light.bytes() +
+                                             ordinates.ground.radiance.bytes() +
+                                             ordinates.ground.into.bytes();
     held["ordinates: places of nodes"] = ordinates.filled.bytes();
     held["ordinates: parts of the media"] = ordinates.parts.bytes();
     held["ordinates: parts of the sun"] = ordinates.sunward.bytes();

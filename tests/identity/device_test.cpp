@@ -87,7 +87,8 @@ Scene golden_scene(const std::string& name, const std::vector<std::string>& over
 /// The same on any device: whatever a scene needs of each kernel.
 void compare_with(const KernelTable* device) {
     const std::vector<std::string> few = {"collectors.photons=8000", "path.samples_per_pixel=3"};
-    std::vector<const char*> names = {"cumulus_billboards", "path_sky_map", "periodic"};
+    std::vector<const char*> names = {"cumulus_billboards", "path_sky_map", "periodic",
+                                      "ordinates_cumulus", "ordinates_sky"};
     if (long_tests())
         for (const char* name : {"box_ground", "cumulus_paper", "sky_map", "sphere_chromatic",
                                  "two_media_billboards", "cumulus_lobe", "path_cumulus"})

@@ -18,6 +18,7 @@ std::vector<std::string> seen_from_above(const std::string& sun_deg) {
             "camera.target_m = [0, 300, 0]",
             "sun.elevation_deg = " + sun_deg,
             "sky.radiance = [0, 0, 0]",
+            "raymarch.scattering = \"single\"",
             "output.layers = [\"radiance\", \"alpha\", \"shadow\"]"};
 }
 

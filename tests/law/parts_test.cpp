@@ -210,8 +210,9 @@ void check_parts(const char* scattering, const char* ambient, double off_allowed
 
 TEST_CASE("parts: a raymarch tells lamps and emission apart, and all add up") {
     check_parts("raymarch.scattering=octaves", "raymarch.ambient=0.02", 1e-6);
-    // Light is solved for together or apart, and ends where a change is below 2e-4.
-    check_parts("raymarch.scattering=ordinates", "raymarch.ambient=0", 1e-3);
+    // Light is solved for together or apart, each of up to seven solutions ends where a change is
+    // below 2e-4, and no sum of bands is shown below zero.
+    check_parts("raymarch.scattering=ordinates", "raymarch.ambient=0", 2e-3);
 }
 
 TEST_CASE("parts: the first order of a raymarch is its picture by single scattering") {

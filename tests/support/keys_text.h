@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes and rows of keys as texts: dumps to compare, defaults, the tables of docs/scene.md.
+// Scenes and rows of keys as texts: dumps to compare, the tables of docs/scene.md.
 // in: a scene; the rows -> out: lines of TOML, Markdown.
 // docs/scene.md
 #pragma once
 #include "src/scene/checks/check_keys.h"
+#include "src/scene/checks/key_words.h"
 #include "src/scene/keys/all_keys.h"
-#include "src/scene/rows/phase_row.h"
 
 namespace pileus {
 
@@ -25,45 +25,6 @@ inline std::string dump_scene(const Scene& scene) {
     for_each_key(scene, [&](const KeyRow& row, const std::string& path, const KeySource& source) {
         add(path, value_of(row, source));
     });
-    return text;
-}
-
-/// Long numbers in groups of three digits, one colour for three equal ones.
-inline std::string short_toml(const KeyRow& row, const Node& node) {
-    const auto& parts = node.children;
-    if (row.kind() == KeyKind::kColor && toml_text(parts[0]) == toml_text(parts[1]) &&
-        toml_text(parts[1]) == toml_text(parts[2]))
-        return toml_text(parts[0]);
-    std::string text = toml_text(node);
-    if (node.kind == NodeKind::kInteger && text.size() > 4)
-        for (std::size_t at = text.size(); at > 3; at -= 3) text.insert(at - 3, "_");
-    return text;
-}
-
-/// The default as TOML, "required", or empty.
-inline std::string default_text(const KeyRow& row) {
-    if (row.fallback != nullptr) return row.fallback;
-    const Node value = default_value(row);
-    FaultList none("", {});
-    // A field begins with what its key does not allow where leaving it out says something else.
-    if (!has_value(value) || !check_value(row, value, "", none)) return "";
-    return short_toml(row, value);
-}
-
-/// What a key means, by its row; a key that phase functions share has a word of each.
-inline std::string meaning_of(const KeyRow& row) {
-    std::string text = row.help;
-    std::vector<const KeyRow*> said{&row};
-    for (const NamedPhase& type : phase_rows())
-        for (const KeyRow& key : type.row->keys) {
-            if (std::string_view(key.path) != row.path) continue;
-            // Types of one file may have the very same row.
-            bool known = false;
-            for (const KeyRow* other : said) known |= other == &key;
-            if (known) continue;
-            said.push_back(&key);
-            text += std::string("; ") + key.help;
-        }
     return text;
 }
 

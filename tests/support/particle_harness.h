@@ -42,6 +42,8 @@ phase = { type = "henyey-greenstein", g = 0.5 }
 albedo = 0.9
 [method]
 name = "particles"
+[particles]
+scattering = "single"
 [output]
 layers = ["radiance", "alpha", "depth", "optical_depth"]
 )";

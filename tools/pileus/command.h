@@ -28,6 +28,7 @@ void add_view(CLI::App& app, Chosen& chosen);
 void add_pack(CLI::App& app, Chosen& chosen);
 void add_merge(CLI::App& app, Chosen& chosen);
 void add_methods(CLI::App& app, Chosen& chosen);
+void add_new(CLI::App& app, Chosen& chosen);
 
 /// The end of a subcommand's help.
 inline std::string help_example(const std::string& line) { return "Example:\n  " + line; }

@@ -18,6 +18,7 @@
 #include "tools/pileus/command.h"
 #include "tools/pileus/option_text.h"
 #include "tools/pileus/output_set.h"
+#include "tools/pileus/tone_options.h"
 #include "tools/study/output_check.h"
 
 namespace pileus {
@@ -27,7 +28,8 @@ namespace {
 /// As typed.
 struct CompareArguments {
     std::string a, reference, half, layer;
-    std::optional<std::string> reference_layer, alpha, range, threads, tone, density, exposure;
+    std::optional<std::string> reference_layer, alpha, range, threads, tone, density;
+    ToneArguments shown;
     std::optional<std::string> difference, z_map, flip;
     std::optional<std::string> max_relmse, max_rmse, max_abs, max_bias, max_flip;
     std::optional<std::string> significance;
@@ -81,8 +83,11 @@ Status read_settings(const CompareArguments& arguments, Settings& settings) {
         add_fault(
             read_number("--alpha-least", *arguments.alpha, 0, 1, settings.metrics.alpha_least),
             faults);
-    if (arguments.exposure)
-        add_fault(read_exposure("--exposure", *arguments.exposure, settings.exposure), faults);
+    add_fault(read_tone(arguments.shown, settings.exposure), faults);
+    if (!arguments.shown.exposure && arguments.shown.given() != nullptr)
+        add_fault(Status::bad_input(std::string(arguments.shown.given()) +
+                                    ": without --exposure, allowed: together with it"),
+                  faults);
     if (arguments.all) settings.metrics.alpha_least = -1;
     if (arguments.range)
         add_fault(read_number("--range", *arguments.range, 1e-30, 1e30, settings.range), faults);
@@ -202,8 +207,8 @@ Status read_one(const CompareArguments& arguments, const Settings& settings,
                 const std::string& file, const std::string& layer, Image& image,
                 std::string& said) {
     PILEUS_TRY(read_picture(file, layer, image, said));
-    if (!arguments.exposure || image.display_colours) return Status::ok();
-    said += (said.empty() ? "" : ", ") + ("shown at exposure " + *arguments.exposure);
+    if (!arguments.shown.exposure || image.display_colours) return Status::ok();
+    said += (said.empty() ? "" : ", ") + ("shown at " + tone_text(arguments.shown));
     return develop_image(settings.exposure, image);
 }
 
@@ -320,11 +325,9 @@ void add_choices(CLI::App& command, CompareArguments& arguments) {
         .add_option("--reference-layer", arguments.reference_layer,
                     "Layer of the reference; left out: that of --layer")
         ->type_name("NAME");
-    command
-        .add_option("--exposure", arguments.exposure,
-                    "Compare pictures of radiance as a display shows them: stops, or auto; left "
-                    "out: as they are, and never with a .png")
-        ->type_name("STOPS|auto");
+    add_tone_options(command, arguments.shown,
+                     "Compare pictures of radiance as a display shows them: stops, or auto; left "
+                     "out: as they are, and never with a .png");
     command
         .add_option("--alpha-least", arguments.alpha,
                     "Pixels count whose alpha in the reference is above this; left out: 0.02")

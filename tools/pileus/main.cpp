@@ -39,7 +39,7 @@ constexpr struct {
                  {"follow", add_follow},   {"flux", add_flux},       {"compare", add_compare},
                  {"study", add_study},     {"hash", add_hash},       {"info", add_info},
                  {"methods", add_methods}, {"convert", add_convert}, {"pack", add_pack},
-                 {"merge", add_merge}};
+                 {"merge", add_merge},     {"new", add_new}};
 
 std::string command_names() {
     std::string out;

@@ -19,6 +19,7 @@
 #include "tools/pileus/progress.h"
 #include "tools/pileus/render_outputs.h"
 #include "tools/pileus/scene_options.h"
+#include "tools/pileus/tone_options.h"
 #include "tools/study/output_check.h"
 
 namespace pileus {
@@ -26,7 +27,8 @@ namespace {
 
 struct MergeArguments {
     std::vector<std::string> parts, files;
-    std::optional<std::string> report, exposure, folder, threads, expect_hash;
+    ToneArguments tone;
+    std::optional<std::string> report, folder, threads, expect_hash;
     bool mean = false, quiet = false;
 };
 
@@ -67,8 +69,9 @@ Status read_told(const MergeArguments& arguments, const Part& part, const std::s
 Status choose_outputs(const MergeArguments& arguments, const Scene& scene, RenderOptions& options,
                       Outputs& outputs) {
     Status faults;
-    if (arguments.exposure)
-        add_fault(read_exposure("--exposure", *arguments.exposure, outputs.tone), faults);
+    add_fault(read_tone(arguments.tone, outputs.tone), faults);
+    outputs.says_exposure = outputs.tone.automatic && !arguments.quiet;
+    add_fault(check_tone_files(arguments.tone, arguments.files), faults);
     if (arguments.expect_hash)
         add_fault(read_frame_hashes(*arguments.expect_hash, outputs.hashes), faults);
     outputs.files = arguments.files;
@@ -137,10 +140,8 @@ void add_merge(CLI::App& app, Chosen& chosen) {
         ->type_name("DIR");
     command->add_flag("--mean", arguments->mean,
                       "Take parts of several seeds: the mean of their pictures, with its error");
-    command
-        ->add_option("--exposure", arguments->exposure,
-                     "Brightness of .png and .ppm in stops, or auto; left out: 0")
-        ->type_name("STOPS|auto");
+    add_tone_options(*command, arguments->tone,
+                     "Brightness of .png and .ppm in stops, or auto; left out: 0");
     command
         ->add_option("--expect-hash", arguments->expect_hash,
                      "Exit status 1 where the picture has another pixel hash")

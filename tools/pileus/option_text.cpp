@@ -73,17 +73,6 @@ Status read_number(const char* option, const std::string& text, double low, doub
                                          quote_text(text), low, high));
 }
 
-Status read_exposure(const char* option, const std::string& text, ToneSettings& tone) {
-    constexpr double kMostStops = 64;
-    tone.automatic = text == "auto";
-    if (tone.automatic) return Status::ok();
-    double stops = 0;
-    Status status = read_number(option, text, -kMostStops, kMostStops, stops);
-    if (!status) status.message += ", or auto";
-    tone.stops = float(stops);
-    return status;
-}
-
 Status read_frames(const std::string& text, int frames, int& first, int& last) {
     const std::size_t dash = text.find('-');
     int a = -1, b = -1;

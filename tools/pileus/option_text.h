@@ -7,7 +7,6 @@
 #include <string>
 
 #include "src/base/status.h"
-#include "src/io/images/image_file.h"
 
 namespace pileus {
 
@@ -19,9 +18,6 @@ Status read_integer(const char* option, const std::string& text, std::int64_t lo
 /// A finite number within [low, high], in the same forms; else kBadInput.
 Status read_number(const char* option, const std::string& text, double low, double high,
                    double& value);
-
-/// Stops within [-64, 64], or "auto"; else kBadInput. `option` opens the line.
-Status read_exposure(const char* option, const std::string& text, ToneSettings& tone);
 
 /// "A-B" or "A", whole numbers with 0 <= A <= B < frames; else kBadInput.
 Status read_frames(const std::string& text, int frames, int& first, int& last);

@@ -28,6 +28,7 @@
 #include "tools/pileus/render_outputs.h"
 #include "tools/pileus/scene_options.h"
 #include "tools/pileus/tile_files.h"
+#include "tools/pileus/tone_options.h"
 #include "tools/pileus/version_text.h"
 
 namespace pileus {
@@ -37,15 +38,13 @@ namespace {
 struct RenderArguments {
     SceneArguments scene;
     std::vector<std::string> files;
-    std::optional<std::string> report, frames, exposure, show, state, state_every, verify;
+    ToneArguments tone;
+    std::optional<std::string> report, frames, show, state, state_every, verify;
     std::optional<std::string> expect_hash;
     PartArguments parts;
     BlockArguments blocks;
     bool quiet = false, strict = false, world_file = false;
 };
-
-/// Pixels of --verify: a thousand paths each.
-constexpr std::int64_t kMostVerified = 1000000;
 
 Status read_state(const RenderArguments& arguments, RenderOptions& options) {
     constexpr double kMostSeconds = 1e9;
@@ -72,19 +71,17 @@ void take_scene(RenderArguments& arguments) {
 
 /// What is to be seen, and how bright.
 Status read_view(const RenderArguments& arguments, RenderOptions& options, Outputs& outputs) {
+    constexpr std::int64_t kMostVerified = 1000000;  // pixels, a thousand paths each
     Status faults;
     if (arguments.show) {
         MethodRow view;
         add_fault(find_view("", *arguments.show, view), faults);
-        if (arguments.exposure && !view.shows_light)
-            add_fault(Status::bad_input("--exposure: a view's colours are no light, allowed: leave "
-                                        "it out, or --show illumination"),
-                      faults);
+        if (!view.shows_light) add_fault(refuse_tone(arguments.tone), faults);
         options.show = *arguments.show;
         options.find_view = find_view;
     }
-    if (arguments.exposure)
-        add_fault(read_exposure("--exposure", *arguments.exposure, outputs.tone), faults);
+    add_fault(read_tone(arguments.tone, outputs.tone), faults);
+    outputs.says_exposure = outputs.tone.automatic && !arguments.quiet;
     if (arguments.verify)
         add_fault(read_integer("--verify", *arguments.verify, 1, kMostVerified, options.verify),
                   faults);
@@ -138,6 +135,7 @@ Status choose_files(const RenderArguments& arguments, const Scene& scene, Render
         return Status::bad_input(scene.file +
                                  ": output.files: no output, allowed: -o FILE, --report FILE or "
                                  "output.files in the scene");
+    PILEUS_TRY(check_tone_files(arguments.tone, outputs.files));
     if (arguments.world_file) PILEUS_TRY(add_world_files(scene, outputs));
     return check_outputs(outputs, scene, options);
 }
@@ -198,6 +196,8 @@ Status read_arguments(RenderArguments& arguments, Scene& scene, RenderOptions& o
     PILEUS_TRY(choose_part(arguments.parts, outputs.numbered, options));
     if (arguments.parts.tiles && (arguments.world_file || arguments.strict))
         return Status::bad_input("--tiles: with --world-file or --strict, allowed: without these");
+    if (is_part(options) || !outputs.blocks.file.empty())
+        PILEUS_TRY(check_tone_files(arguments.tone, arguments.files));
     if (is_part(options)) return check_part_file(arguments.files, options, scene);
     if (outputs.blocks.file.empty()) return choose_files(arguments, scene, options, outputs);
     // Blocks are all that such a run writes.
@@ -349,10 +349,8 @@ void add_render(CLI::App& app, Chosen& chosen) {
     command
         ->add_option("--frames", arguments->frames, "Frames of an animation, from 0; left out: all")
         ->type_name("A-B");
-    command
-        ->add_option("--exposure", arguments->exposure,
-                     "Brightness of .png and .ppm in stops, or auto; left out: 0")
-        ->type_name("STOPS|auto");
+    add_tone_options(*command, arguments->tone,
+                     "Brightness of .png and .ppm in stops, or auto; left out: 0");
     command
         ->add_option("--show", arguments->show,
                      "A step of the method instead of its picture: " + view_names())

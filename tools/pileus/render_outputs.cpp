@@ -187,7 +187,13 @@ Status write_frame(const Outputs& outputs, const Scene& scene, int frame, Image&
     if (outputs.report_printed) lines = report_json(report);
     if (outputs.nothing && image.pixel_hash == outputs.hashes.at(0))
         lines += fmt::format("{} {}\n", image.pixel_hash, scene.file);
-    return set.commit(lines);
+    PILEUS_TRY(set.commit(lines));
+    if (!outputs.says_exposure || image.display_colours) return Status::ok();
+    double stops = 0;
+    PILEUS_TRY(measured_stops(image, outputs.tone, stops));
+    const std::string name = frame_path(outputs.files.at(0), frame, outputs.numbered);
+    std::fprintf(stderr, "%s\n", fmt::format("exposure {}: {:+.2f} stops", name, stops).c_str());
+    return Status::ok();
 }
 
 }  // namespace pileus

@@ -19,6 +19,7 @@ struct Outputs {
     std::string report;
     bool report_printed = false;  ///< --report -: on the standard output, and nothing else there
     ToneSettings tone;
+    bool says_exposure = false;  ///< a line for each frame on the standard error, measured stops
     BlockSettings blocks;
     std::vector<std::string> hashes;  ///< that the written frames should have; none, or one each
     std::string remark;               ///< behind the line of one that has another

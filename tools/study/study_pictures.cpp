@@ -4,8 +4,6 @@
 // docs/study.md, "Output"
 #include <fmt/format.h>
 
-#include <cmath>
-
 #include "lab/compare/difference.h"
 #include "lab/compare/flip.h"
 #include "lab/compare/metrics.h"
@@ -27,14 +25,12 @@ Status picture_uri(const Image& image, const ToneSettings& tone, std::string& ur
 
 /// The exposure that suits the reference, as fixed stops for all pictures beside it.
 Status measured_tone(const Image& image, ToneSettings& tone) {
-    const Channel* planes[3];
-    Buffer<std::uint32_t> bins;
-    PILEUS_TRY(color_channels(image, planes));
-    PILEUS_TRY(bins.resize(kToneBins, "brightness histogram"));
-    for (std::size_t i = 0; i < planes[0]->pixels.size(); ++i)
-        tone_count({planes[0]->pixels[i], planes[1]->pixels[i], planes[2]->pixels[i]}, bins.data());
+    double stops = 0;
+    tone = ToneSettings();
+    tone.automatic = true;
+    PILEUS_TRY(measured_stops(image, tone, stops));
     tone.automatic = false;
-    tone.stops = float(std::log2(double(automatic_gain(bins.data())) / double(kDaylightGain)));
+    tone.stops = float(stops);
     return Status::ok();
 }
 

@@ -79,7 +79,8 @@ int main(int count, char** words) {
     for (const char* type : {"cumulus-humilis", "cumulus-mediocris", "cumulus-congestus"})
         print_seeds(type, 4);
     for (const char* type : {"cumulonimbus", "cumulus-field", "stratocumulus", "stratocumulus-open",
-                             "altocumulus", "stratus", "fog", "cirrus"})
+                             "altocumulus", "altocumulus-lenticularis", "stratus", "nimbostratus",
+                             "fog", "cirrus", "cirrus-uncinus", "cirrostratus"})
         print_seeds(type, 2);
     print_row("cumulus-field, 18 km",
               "density = \"procedural:cloud\"\ncloud = { type = \"cumulus-field\" }\nbounds_m = "

@@ -6,7 +6,6 @@
 
 #include "src/base/digest.h"
 #include "src/base/file.h"
-#include "src/io/images/srgb.h"
 #include "src/scene/rows/picture_format.h"
 
 namespace pileus {
@@ -134,41 +133,6 @@ void add_pixels(const Image& image, Digest& digest) {
         }
         digest.floats({block, 4 * count});
     }
-}
-
-Status tone_map_8bit(const Image& image, const ToneSettings& tone, Buffer<std::uint8_t>& rgb) {
-    const Channel* planes[3];
-    PILEUS_TRY(color_channels(image, planes));
-    const std::size_t pixels = planes[0]->pixels.size();
-    PILEUS_TRY(rgb.resize(std::uint64_t(pixels) * 3, "8-bit picture"));
-    const float* r = planes[0]->pixels.data();
-    const float* g = planes[1]->pixels.data();
-    const float* b = planes[2]->pixels.data();
-
-    const SrgbCodes code;
-    if (image.display_colours) {
-        for (std::size_t i = 0; i < pixels; ++i) {
-            rgb[3 * i] = code(r[i]);
-            rgb[3 * i + 1] = code(g[i]);
-            rgb[3 * i + 2] = code(b[i]);
-        }
-        return Status::ok();
-    }
-    // Measure the whole picture first if asked to; stops then count from what was found.
-    float gain = exposure_gain(tone.stops);
-    if (tone.automatic) {
-        Buffer<std::uint32_t> bins;
-        PILEUS_TRY(bins.resize(kToneBins, "brightness histogram"));
-        for (std::size_t i = 0; i < pixels; ++i) tone_count({r[i], g[i], b[i]}, bins.data());
-        gain = automatic_gain(bins.data()) * (gain / kDaylightGain);
-    }
-    for (std::size_t i = 0; i < pixels; ++i) {
-        const Rgb<float> c = tone_curve(Rgb<float>{r[i], g[i], b[i]}, gain);
-        rgb[3 * i] = code(c.r);
-        rgb[3 * i + 1] = code(c.g);
-        rgb[3 * i + 2] = code(c.b);
-    }
-    return Status::ok();
 }
 
 }  // namespace pileus

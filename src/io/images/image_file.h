@@ -6,11 +6,11 @@
 #include <cstdint>
 #include <string>
 
-#include "kernels_cpu/display/tone.h"
 #include "src/base/buffer.h"
 #include "src/base/digest.h"
 #include "src/base/span.h"
 #include "src/base/status.h"
+#include "src/io/images/develop/develop.h"
 #include "src/io/images/image.h"
 
 namespace pileus {
@@ -42,9 +42,6 @@ Status read_image(const std::string& path, Image& image,
 std::string pixel_hash(const Image& image);
 /// The same of a picture that comes in bands of rows, from the top.
 void add_pixels(const Image& band, Digest& digest);
-
-/// Tone-mapped sRGB, 3 bytes a pixel, rows from the top. A single channel Y counts as grey.
-Status tone_map_8bit(const Image& image, const ToneSettings& tone, Buffer<std::uint8_t>& rgb);
 
 /// Checks size and channels (names not empty and all different, planes of the right length).
 Status check_image(const Image& image);

@@ -290,21 +290,25 @@ OrdinatesMarchParams ordinates_params(const RaymarchInput& in, const RaymarchPar
     o.march = march;
     o.nodes = nodes.grid;
     if (in.sky_levels != nullptr) o.levels = *in.sky_levels;
-    o.sets = std::int32_t(nodes.sets.size());
+    o.sets = std::int32_t(nodes.shown.size());
     o.moments = nodes.has_moments ? kOrdinateMoments : 0;
     o.per_near = nodes.per_near;
-    for (std::size_t s = 0; s < nodes.sets.size(); ++s) {
-        for (std::size_t c = 0; c < 3; ++c) o.colour[s][c] = nodes.sets[s].colour[c];
+    for (std::size_t s = 0; s < nodes.shown.size(); ++s) {
+        const OrdinateShown& shown = nodes.shown[s];
+        for (std::size_t c = 0; c < 3; ++c) o.colour[s][c] = shown.colour[c];
         for (int i = 0; i < nodes.media; ++i)
             for (int l = 0; l < 4; ++l)
-                o.scatter[s][i][l] = ordinate_scatter(nodes.optics[i][nodes.sets[s].channel], l);
+                o.scatter[s][i][l] = ordinate_scatter(nodes.optics[i][shown.channel], l);
     }
     o.channels = in.medium->channels > 1 ? 3 : 1;
     o.turn = ordinate_peak();
     o.sunlit = march.sunlit;
     o.map = light.map;
     o.has_ground = light.ground ? 1 : 0;
-    const Double3 ground = light.ground_radiance();
+    std::copy_n(nodes.horizon, kHorizon, o.horizon);
+    o.per_horizon = float((kHorizon - 1) / sincos_deg(kOrdinatePeakDeg).sine);
+    const bool told = nodes.ground.map.size[0] > 0;
+    const Double3 ground = told ? nodes.ground.sends : light.ground_radiance();
     for (std::size_t c = 0; c < 3; ++c) {
         for (int i = 0; i < nodes.media; ++i) {
             o.rest[i][c] = nodes.optics[i][c].rest;
@@ -355,11 +359,13 @@ Status raymarch_picture(const Context& context, const RaymarchInput& in, Planes&
         const std::uint32_t begin = std::uint32_t(piece) * kPiece;
         const std::uint32_t end = begin + kPiece < rows ? begin + kPiece : rows;
         if (of_sky_ordinates)
-            context.kernels->ordinates_sky_rows(*of_sky_ordinates, ordinates, begin, end);
+            host_kernels(context.kernels)
+                .ordinates_sky_rows(*of_sky_ordinates, ordinates, begin, end);
         else if (of_ordinates && k.medium.detail != nullptr)
-            context.kernels->detail_ordinates_rows(*of_ordinates, ordinates, begin, end);
+            host_kernels(context.kernels)
+                .detail_ordinates_rows(*of_ordinates, ordinates, begin, end);
         else if (of_ordinates)
-            context.kernels->ordinates_rows(*of_ordinates, ordinates, begin, end);
+            host_kernels(context.kernels).ordinates_rows(*of_ordinates, ordinates, begin, end);
         else if (in.layer != nullptr)
             context.kernels->raymarch_sky_rows(*of_sky, b, begin, end);
         else if (k.medium.detail != nullptr)

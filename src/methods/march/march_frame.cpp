@@ -10,6 +10,7 @@
 #include "src/picture/blue_noise.h"
 #include "src/picture/late_rows.h"
 #include "src/picture/march_view.h"
+#include "src/picture/ordinates/ordinate_ground.h"
 #include "src/world/camera/view.h"
 #include "src/world/world.h"
 
@@ -67,7 +68,8 @@ RaymarchInput march_input(const FrameView& view, const MarchState& state) {
         in.ordinates = &light.ordinates;
     else
         in.sky = &light.sky;
-    if (has_surfaces(view.lighting)) in.surfaces = state.picture.planes.background.data();
+    // What a depth image shows is black, and hides what its neighbours see.
+    if (has_meshes(view.lighting)) in.surfaces = state.picture.planes.background.data();
     in.levels = &state.media.coarse;
     in.march_light = state.choice.march_light;
     in.noise = &state.picture.noise;
@@ -131,6 +133,7 @@ Status march_background(const Context& context, const FrameView& view, const Lig
     BackgroundParams k = background_params(read, state.picture.camera, light);
     BackgroundBuffers b{nullptr, planes.background.data(), planes.opaque_depth.data()};
     read_ground_shadow(shadow, k, b);
+    if (state.choice.settings.ordinates) read_ground_light(state.light.ordinates, k, b);
     if (planes.late != nullptr) return leave_background(context, k, b, *planes.late);
     return show_background(context, light, k, b);
 }

@@ -72,6 +72,7 @@ OrdinateAsk ask_of(const Medium& medium, const OwnLight& own, const MarchState& 
     ask.first_lamp = own.first_lamp;
     ask.lamp_count = own.lamps;
     ask.emission = own.emission;
+    ask.ground = true;
     return ask;
 }
 
@@ -116,7 +117,7 @@ Status solve_ordinates_for(const Context& context, const FrameView& view, const 
     const Medium& medium = view.world.medium;
     const OrdinateAsk ask = ask_of(medium, own, state);
     PILEUS_TRY(make_ordinates(context, medium, state.media.majorants, light, ask, nodes));
-    return turn_ordinates(context, medium, state.picture.camera, nodes);
+    return turn_ordinates(context, medium, state.picture.camera, true, nodes);
 }
 
 Status light_ordinates(const Context& context, const FrameView& view, double slack_deg,
@@ -147,7 +148,7 @@ Status light_ordinates(const Context& context, const FrameView& view, double sla
     if (solve)
         PILEUS_TRY(make_ordinates(context, medium, state.media.majorants, view.lighting, ask,
                                   light.ordinates));
-    PILEUS_TRY(turn_ordinates(context, medium, camera, light.ordinates));
+    PILEUS_TRY(turn_ordinates(context, medium, camera, true, light.ordinates));
     light.sky_to_sun = view.lighting.to_sun;
     light.sky_camera = camera;
     light.sky_made = true;

@@ -95,7 +95,9 @@ Status show_emission(const Context& context, const FrameView& view, const Raymar
     in.lighting = &dark;
     in.sky = nullptr;
     PILEUS_TRY(light_nodes_by_ordinates(context, view, dark, {0, 0, true}, state));
-    PILEUS_TRY(show_part(context, view, in, nullptr, state, part));
+    const bool lights_ground = whole.ordinates != nullptr;
+    PILEUS_TRY(show_part(context, view, in, lights_ground ? &dark : nullptr, state, part));
+    if (lights_ground) lay_over(part);
     PILEUS_TRY(light_nodes_by_ordinates(context, view, view.lighting, own_light_of(view), state));
     if (march_emits(view, state) && state.choice.settings.steps > 0) {
         LampMarchParams k = march_lamps(view, state);
@@ -116,7 +118,8 @@ Status show_ground_of_lamp(const Context& context, const FrameView& view,
     ground.sunlit = false;
     ground.sun_irradiance = ground.ground_sun = {};
     ground.ground_lamps = radiance;
-    return show_under(context, view, whole, ground, {lamp, 1, false}, false, state, part);
+    return show_under(context, view, whole, ground, {lamp, 1, false}, whole.ordinates != nullptr,
+                      state, part);
 }
 
 Status show_each_lamp(const Context& context, const FrameView& view, const RaymarchInput& whole,
@@ -136,7 +139,9 @@ Status show_each_lamp(const Context& context, const FrameView& view, const Rayma
                          state.choice.settings.sky_ambient && view.world.medium.sigma > 0;
         std::fill_n(part.colour.data(), part.colour.size(), 0.0f);
         if (lit) PILEUS_TRY(show_ground_of_lamp(context, view, whole, i, ground, state, part));
-        std::fill_n(part.background.data(), part.background.size(), 0.0f);
+        // The medium's light on the ground is there already.
+        if (!lit || whole.ordinates == nullptr)
+            std::fill_n(part.background.data(), part.background.size(), 0.0f);
         PILEUS_TRY(add_lamp_light(context, marched_medium(view, state), k, state.light.lamps, part,
                                   i, lamp_tables(state)));
         lay_over(part);

@@ -7,6 +7,7 @@
 #include "src/methods/march/march_parts.h"
 #include "src/picture/blue_noise.h"
 #include "src/picture/finish_frame.h"
+#include "src/picture/ordinates/ordinate_ground.h"
 #include "src/picture/ordinates/ordinate_plan.h"
 #include "src/picture/whole_rays.h"
 #include "src/world/camera/view.h"
@@ -171,7 +172,7 @@ void add_march_ordinates(const FrameView& view, const MarchState& state, MemoryT
     OrdinateSizes sizes =
         levels ? sky_level_sizes(medium, level_sizes(view, state.media.outlined_only))
                : ordinate_sizes(medium, made);
-    sizes.sets = std::uint64_t(ordinate_sets(medium, view.lighting));
+    sizes.sets = std::uint64_t(ordinate_sets(medium, view.lighting, !levels));
     if (levels) sizes.sets = std::min(sizes.sets, kMaxSkySets);
     // Hosts have a spare level.
     if (levels && state.choice.hosted && sizes.levels > 1) ++sizes.levels;
@@ -183,6 +184,8 @@ void add_march_ordinates(const FrameView& view, const MarchState& state, MemoryT
     sizes.own = !levels && (!view.lighting.lamps.empty() || emits(medium));
     sizes.points = !levels && may_have_lamps(view, state.choice);
     sizes.solids = !levels && view.world.solids.meshes;
+    sizes.together = !levels;
+    if (!levels && view.lighting.ground) sizes.ground = most_ground_cells(medium);
     add_ordinate_rows(sizes, t);
 }
 
@@ -265,16 +268,6 @@ void weigh_memory(const Context& context, const FrameView& view, const MarchStat
         t.add("shadow of solids", Stage::kShadow, last, bytes_of(kFloat, voxel_count(grid)));
     plan.memory = t;
     plan.exact = !state.media.outlined_only;
-}
-
-void tell_ordinates(const OrdinateNodes& nodes, Report& report) {
-    OrdinateFigures& out = report.ordinates;
-    out.nodes += nodes.density.size();
-    out.node_depth = std::max(out.node_depth, nodes.depth);
-    for (const OrdinateSet& set : nodes.sets) {
-        out.iterations = set.iterations > out.iterations ? set.iterations : out.iterations;
-        out.residual = set.residual > out.residual ? set.residual : out.residual;
-    }
 }
 
 class MarchReport final : public MethodReport {

@@ -24,6 +24,10 @@ Status check_particles(const Scene& scene, const Budget& budget) {
         return Status::bad_input(scene.file +
                                  ": medium.0.boundary: method particles shows each particle once, "
                                  "\"periodic\", allowed: left out");
+    if (scene.particles.scattering == ParticleScattering::kByNodes && !scene.particles.sky_ambient)
+        return Status::bad_input(scene.file +
+                                 ": particles.sky_light: goes with no scattering = \"ordinates\", "
+                                 "\"none\", allowed: ambient, or another scattering");
     return check_layer_kinds(scene);
 }
 

@@ -126,6 +126,8 @@ void choose_orders(const FrameView& view, ParticlesState& state) {
     if (s.scattering == ParticleScattering::kSimilarity)
         state.order[0].extinction = float(1 - albedo * double(mean_cosine));
     // A denser shadow is one of more extinction on the way of the light alone.
+    // The first order of the sun loses what turns out of the peak of the phase function.
+    if (by_ordinates(state)) state.order[0].extinction = state.ordinates.optics[0][0].rest;
     state.order[0].extinction *= float(s.shadow_density);
     state.light_orders = s.scattering == ParticleScattering::kOctaves ? s.octaves : 1;
     state.orders = view.lighting.sunlit ? state.light_orders : 0;
@@ -164,7 +166,9 @@ Status light_particles(const Context& context, const FrameView& view, ParticlesS
         see_past_solids(context, view, state, sun, state.seen.data());
     }
     PILEUS_TRY(light_by_lamps(context, view, state));
-    if (state.settings.sky_ambient) {
+    if (by_ordinates(state)) {
+        PILEUS_TRY(solve_particles(context, view, state));
+    } else if (state.settings.sky_ambient) {
         state.sky_nodes.seen.truncate(0);  // the medium may be another frame's
         PILEUS_TRY(make_sky_nodes(context, view.world.medium, state.majorants, view.lighting, 0,
                                   octaves_of(state), SkyView{}, state.sky_nodes));
@@ -221,6 +225,7 @@ Status show_particles(const Context& context, const FrameView& view, ParticlesSt
         for (float& d : planes.half_depth.span()) d = __builtin_inff();
         return Status::ok();
     }
+    if (by_ordinates(state)) PILEUS_TRY(light_by_ordinates(context, view, state));
     const ParticleMarchParams k = march_params(view, state);
     PILEUS_TRY(light_around(context, view, k, state));
     return draw_particles(context, view, k, state);

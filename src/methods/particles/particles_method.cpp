@@ -6,6 +6,7 @@
 #include "src/picture/background.h"
 #include "src/picture/march_view.h"
 #include "src/picture/nodes/lamp_light.h"
+#include "src/picture/ordinates/ordinate_ground.h"
 #include "src/picture/whole_rays.h"
 #include "src/scene/frames.h"
 #include "src/world/camera/view.h"
@@ -15,10 +16,10 @@ namespace {
 
 Status fill_background(const Context& context, const FrameView& view, ParticlesState& state) {
     const StageClock clock(context, "background");
-    const BackgroundParams k = background_params(
-        make_medium_view(view.world.medium, state.majorants), state.camera, view.lighting);
-    const BackgroundBuffers b{nullptr, state.planes.background.data(),
-                              state.planes.opaque_depth.data()};
+    BackgroundParams k = background_params(make_medium_view(view.world.medium, state.majorants),
+                                           state.camera, view.lighting);
+    BackgroundBuffers b{nullptr, state.planes.background.data(), state.planes.opaque_depth.data()};
+    if (by_ordinates(state)) read_ground_light(state.ordinates, k, b);
     return show_background(context, view.lighting, k, b);
 }
 
@@ -47,6 +48,7 @@ MadeMethod make(const MethodInputs& inputs) {
 ParticlesMethod::ParticlesMethod(const MethodInputs& inputs) {
     state_.settings = inputs.scene.particles;
     state_.settings.light = light_in_use(state_.settings);
+    state_.settings.scattering = scattering_in_use(state_.settings);
     state_.hosted = inputs.live;
     if (inputs.live) state_.settings.stop_below = host_stop(state_.settings.stop_below);
     if (inputs.budget.steps > 0) state_.settings.bins = int(inputs.budget.steps);
@@ -60,6 +62,10 @@ Status ParticlesMethod::plan(const Context&, const FrameView& view, Plan&) {
 Status ParticlesMethod::prepare(const Context& context, const FrameView& view) {
     const Medium& medium = view.world.medium;
     PILEUS_TRY(make_majorants(medium, false, context, state_.majorants));
+    if (state_.settings.scattering == ParticleScattering::kByNodes && medium.sigma > 0)
+        PILEUS_TRY(prepare_ordinates(context, medium, state_.majorants,
+                                     state_.hosted || !view.scene.lights.empty(),
+                                     state_.ordinates));
     const StageClock clock(context, "octree");
     PILEUS_TRY(make_particle_tree(view.world.particles, medium.low_m, state_.settings.leaf,
                                   context.threads, state_.tree));
@@ -72,6 +78,7 @@ Status ParticlesMethod::reserve(const FrameView& view, LateRows&) {
     ParticlesState& s = state_;
     PILEUS_TRY(reserve_depths(view.scene.camera.resolution,
                               view.lighting.opaque() || view.environment.depth.present, s.planes));
+    if (by_ordinates(s)) PILEUS_TRY(reserve_ordinates(s.ordinates));
     const std::size_t lamps = view.scene.lights.size(), count = s.tree.balls.size();
     if (lamps == 0) return Status::ok();
     const Array<float> depths = arrays::particle_lamps(count, lamps),

@@ -8,6 +8,8 @@
 #include "src/methods/particles/view_tiles.h"
 #include "src/picture/finish_frame.h"
 #include "src/picture/nodes/node_grid.h"
+#include "src/picture/ordinates/ordinate_ground.h"
+#include "src/picture/ordinates/ordinate_plan.h"
 #include "src/picture/whole_rays.h"
 #include "src/world/plan_parts.h"
 
@@ -23,6 +25,7 @@ std::uint64_t pixels_of(const Scene& scene) {
 
 const char* scattering_text(ParticleScattering kind) {
     switch (kind) {
+        case ParticleScattering::kAuto:
         case ParticleScattering::kSingle:
             break;
         case ParticleScattering::kEffective:
@@ -31,6 +34,8 @@ const char* scattering_text(ParticleScattering kind) {
             return "forward scattering as less extinction, by the mean cosine: approximation";
         case ParticleScattering::kOctaves:
             return "light scattered more than once as octaves of the first: approximation";
+        case ParticleScattering::kByNodes:
+            return "light scattered any number of times, by discrete ordinates on nodes";
     }
     return nullptr;
 }
@@ -50,6 +55,8 @@ const char* light_text(ParticleLight kind) {
 /// Of `linear` as docs/particles.md, "Light", has measured it.
 std::string bias_text(const ParticlesSettings& s) {
     std::string text = "light scattered more than once is missing or approximate";
+    if (s.scattering == ParticleScattering::kByNodes)
+        text = "light scattered more than once is of coarse nodes";
     if (s.light == ParticleLight::kLinear && !s.billboards)
         text +=
             "; single pixels by light = \"linear\": 2 % where a particle is 0.1 deep, 7 % at "
@@ -79,7 +86,9 @@ void note_plan(const FrameView& view, const ParticlesState& state, Plan& plan) {
         plan.need(text);
     else
         plan.leave_out("light scattered more than once", "scattering = \"single\"");
-    if (sky_node_sets(view.lighting) == 0)
+    if (s.scattering == ParticleScattering::kByNodes)
+        plan.leave_out("skylight from 24 directions", "scattering = \"ordinates\"");
+    else if (sky_node_sets(view.lighting) == 0)
         plan.leave_out("skylight in the particles", "no sky, no ground");
     else if (s.sky_ambient)
         plan.need("skylight from 24 directions on coarse nodes: approximation");
@@ -166,7 +175,19 @@ void weigh_memory(const Context& context, const FrameView& view, const Particles
     }
     if (lamps > 0 || state.outlined_only || has_own_light(view, state))
         add(t, arrays::particle_around(particles));
-    if (state.settings.sky_ambient) {
+    if (state.settings.scattering == ParticleScattering::kByNodes) {
+        const Medium& medium = view.world.medium;
+        OrdinateSizes sizes = ordinate_sizes(medium, state.ordinates);
+        sizes.sets = std::uint64_t(ordinate_sets(medium, view.lighting, true));
+        sizes.together = true;
+        sizes.moments = false;
+        sizes.sunlit = view.lighting.sunlit;
+        sizes.own = lamps > 0 || emits(medium);
+        sizes.points = state.hosted || !scene.lights.empty();
+        if (view.lighting.ground) sizes.ground = most_ground_cells(medium);
+        add_ordinate_rows(sizes, t);
+        add(t, arrays::particle_sky(particles));
+    } else if (state.settings.sky_ambient) {
         const std::uint64_t nodes = node_count(sky_node_grid(view.world.medium));
         const int sets = sky_node_sets(view.lighting);
         add(t, arrays::sky_light(nodes, sets, Stage::kWrite));
@@ -224,6 +245,7 @@ public:
         report.executed.emplace_back("particles", state.particles);
         report.executed.emplace_back("octree_nodes", std::uint64_t(state.tree.count()));
         report.executed.emplace_back("octree_leaves", state.tree.leaves);
+        if (by_ordinates(state)) tell_ordinates(state.ordinates, report);
     }
 
     void digest(const FrameView& view, Digests& digests) const override {

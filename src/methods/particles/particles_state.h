@@ -9,6 +9,7 @@
 #include "src/methods/method.h"
 #include "src/picture/layers.h"
 #include "src/picture/nodes/sky_nodes.h"
+#include "src/picture/ordinates/ordinates.h"
 #include "src/world/majorant/majorants.h"
 #include "src/world/particles/particle_tree.h"
 
@@ -39,7 +40,8 @@ struct ParticlesState {
     /// (has_own_light); empty: `sky` alone.
     Buffer<float> around_balls;
     SkyNodes sky_nodes;
-    bool lit = false;  ///< for the sun and the lamps below
+    OrdinateNodes ordinates;  ///< of scattering = "ordinates", in place of the sky's nodes
+    bool lit = false;         ///< for the sun and the lamps below
     std::array<float, 3> to_sun{};
     std::vector<LampParams> lamps;
     CameraParams camera{};
@@ -109,6 +111,13 @@ void choose_orders(const FrameView& view, ParticlesState& state);
 /// Light at every particle, for the sun of the view; kept while that stays. kLimit: out
 /// of memory.
 Status light_particles(const Context& context, const FrameView& view, ParticlesState& state);
+
+/// Solves for the light of the view; the nodes are prepared. kLimit: out of memory.
+Status solve_particles(const Context& context, const FrameView& view, ParticlesState& state);
+/// What solutions send from each ball towards the camera, into `sky`. kLimit: out of memory.
+Status light_by_ordinates(const Context& context, const FrameView& view, ParticlesState& state);
+/// Whether light is solved for so.
+inline bool by_ordinates(const ParticlesState& state) { return !state.ordinates.density.empty(); }
 
 /// Whether particles move while the shutter is open.
 bool moves(const FrameView& view, const ParticlesState& state);

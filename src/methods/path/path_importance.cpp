@@ -196,7 +196,7 @@ Status make_importance(const Context& asked, const FrameView& view, const Majora
     // All moments on all nodes, as a camera within the medium has them.
     CameraParams within{};
     for (int a = 0; a < 3; ++a) within.origin[a] = float(0.5 * medium.extent_m[a]);
-    PILEUS_TRY(turn_ordinates(context, medium, within, out.nodes));
+    PILEUS_TRY(turn_ordinates(context, medium, within, false, out.nodes));
     PILEUS_TRY(allocate_once(arrays::importance_moments(node_count(out.nodes.grid)), out.moments));
     const double mean_light = gather_moments(context, light, out);
     k.nodes = out.nodes.grid;

@@ -14,6 +14,7 @@
 #include "src/picture/filter/oidn.h"
 #include "src/picture/filter/regression.h"
 #include "src/picture/finish_frame.h"
+#include "src/picture/ordinates/ordinate_plan.h"
 #include "src/scene/frames.h"
 #include "src/world/plan_parts.h"
 
@@ -327,16 +328,6 @@ public:
     void put_work(const FrameWork&, MethodTables&) const override {}
 
 private:
-    static void tell_ordinates(const OrdinateNodes& nodes, Report& report) {
-        OrdinateFigures& out = report.ordinates;
-        out.nodes = node_count(nodes.grid);
-        out.node_depth = nodes.depth;
-        for (const OrdinateSet& set : nodes.sets) {
-            out.iterations = set.iterations > out.iterations ? set.iterations : out.iterations;
-            out.residual = set.residual > out.residual ? set.residual : out.residual;
-        }
-    }
-
     /// The report tells the error of samples also where no layer shows it.
     void report_error(Report& report) const {
         const PathState& state = of_.state();

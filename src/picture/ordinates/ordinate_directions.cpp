@@ -28,17 +28,14 @@ Height height_of(int j) {
 
 /// Where light of a direction comes from: the map's mean over its part of the sphere.
 std::array<double, 3> seen_in_map(const SkyMapView& map, int j) {
-    const Height h = height_of(j);
     std::array<double, 3> sum{};
     for (int i = 0; i < kWithin; ++i)
         for (int a = 0; a < kWithin; ++a) {
-            const double z = 0.5 * (h.number + (i + 0.5) / kWithin);
-            const double r = __builtin_sqrt(1 - z * z);
-            const SineCosine at =
-                sincos_deg(360.0 / kAzimuths * (j % kAzimuths + (a + 0.5) / kWithin));
+            const std::array<double, 3> way =
+                ordinate_part(j, (i + 0.5) / kWithin, (a + 0.5) / kWithin);
             // Against the way of light.
-            const Vec<float> d{float(-r * at.cosine), float(-r * at.sine), float(h.up ? -z : z)};
-            const Vec<float> seen = map_radiance(map, d);
+            const Vec<float> seen =
+                map_radiance(map, Vec<float>{float(-way[0]), float(-way[1]), float(-way[2])});
             sum[0] += double(seen.x), sum[1] += double(seen.y), sum[2] += double(seen.z);
         }
     for (double& s : sum) s /= kWithin * kWithin;
@@ -57,6 +54,15 @@ std::array<double, 3> ordinate_direction(int j) {
 }
 
 double ordinate_weight(int) { return kSphere / kOrdinates; }
+
+bool goes_up(int j) { return height_of(j).up; }
+
+std::array<double, 3> ordinate_part(int j, double height, double azimuth) {
+    const Height h = height_of(j);
+    const double z = 0.5 * (h.number + height), r = __builtin_sqrt(1 - z * z);
+    const SineCosine at = sincos_deg(360.0 / kAzimuths * (j % kAzimuths + azimuth));
+    return {r * at.cosine, r * at.sine, h.up ? z : -z};
+}
 
 void set_ordinate_harmonics(float (&out)[kOrdinates][kOrdinateMoments]) {
     for (int j = 0; j < kOrdinates; ++j) {
@@ -128,10 +134,21 @@ void set_ordinate_sweeps(const NodeGrid& grid, bool periodic, OrdinateWay (&way)
     for (; classes < kOrdinateClasses; ++classes) way[classes] = {};
 }
 
-int ordinate_sets(const Medium& medium, const Lighting& light) {
-    if (light.map.columns > 0 || medium.channels > 1) return 3;
+namespace {
+
+/// Whether the ground has sets of its own: where light on it is wanted, its radiance is told by
+/// theirs.
+bool ground_apart(const Lighting& light, bool ground) {
+    return ground && light.ground && light.ground_albedo > 0;
+}
+
+}  // namespace
+
+int ordinate_sets(const Medium& medium, const Lighting& light, bool ground) {
+    const bool apart = ground_apart(light, ground);
+    if (light.map.columns > 0 || medium.channels > 1) return 3 + (apart ? 2 * medium.channels : 0);
     return int(light.sunlit) + int(any_light(light.sky)) +
-           int(light.ground && any_light(light.ground_radiance())) +
+           (apart ? 2 : int(light.ground && any_light(light.ground_radiance()))) +
            (!light.lamps.empty() || emits(medium) ? 3 : 0);
 }
 
@@ -177,14 +194,28 @@ void set_ordinate_lights(const Medium& medium, const Lighting& light, const Ordi
     out.clear();
     const Double3 ground = light.ground_radiance();
     const Double3 sun = light.sunlit ? light.sun_irradiance : Double3{};
-    const bool map = light.map.columns > 0;
+    const bool map = light.map.columns > 0, apart = ground_apart(light, ask.ground);
+    const auto add_ground = [&](int channel, OrdinateFaces faces) {
+        OrdinateSet set;
+        for (std::size_t c = 0; c < 3; ++c)
+            if (medium.channels == 1 || int(c) == channel) set.colour[c] = float(ground[c]);
+        for (int j = 0; j < kOrdinates; ++j) set.enters[std::size_t(j)] = goes_up(j) ? 1 : 0;
+        set.channel = channel;
+        set.faces = faces;
+        set.ground = true;
+        out.push_back(set);
+    };
+    const auto add_grounds = [&](int channel) {
+        add_ground(channel, OrdinateFaces::kLower);
+        add_ground(channel, OrdinateFaces::kSides);
+    };
     if (map || medium.channels > 1) {
         std::array<std::array<double, 3>, kOrdinates> enters{};
         for (int j = 0; j < kOrdinates; ++j) {
-            const bool down = light.ground && height_of(j).up;
+            const bool down = light.ground && goes_up(j);
             if (map && !down) enters[std::size_t(j)] = seen_in_map(light.map, j);
             for (std::size_t c = 0; c < 3 && (down || !map); ++c)
-                enters[std::size_t(j)][c] = down ? ground[c] : light.sky[c];
+                enters[std::size_t(j)][c] = !down ? light.sky[c] : apart ? 0 : ground[c];
         }
         for (std::size_t c = 0; c < 3; ++c) {
             OrdinateSet set;
@@ -195,6 +226,7 @@ void set_ordinate_lights(const Medium& medium, const Lighting& light, const Ordi
             for (std::size_t j = 0; j < kOrdinates; ++j) set.enters[j] = float(enters[j][c]);
             out.push_back(set);
         }
+        for (int c = 0; c < medium.channels && apart; ++c) add_grounds(c);
         return;
     }
     const auto add = [&](const Double3& colour, float beam, float from_sky, float from_below) {
@@ -202,12 +234,15 @@ void set_ordinate_lights(const Medium& medium, const Lighting& light, const Ordi
         for (std::size_t c = 0; c < 3; ++c) set.colour[c] = float(colour[c]);
         set.beam = beam;
         for (int j = 0; j < kOrdinates; ++j)
-            set.enters[std::size_t(j)] = height_of(j).up ? from_below : from_sky;
+            set.enters[std::size_t(j)] = goes_up(j) ? from_below : from_sky;
         out.push_back(set);
     };
     if (light.sunlit) add(light.sun_irradiance, 1, 0, 0);
     if (any_light(light.sky)) add(light.sky, 0, 1, light.ground ? 0 : 1);
-    if (light.ground && any_light(ground)) add(ground, 0, 0, 1);
+    if (apart)
+        add_grounds(0);
+    else if (light.ground && any_light(ground))
+        add_ground(0, OrdinateFaces::kAll);
     add_own_lights(ask, out);
 }
 

@@ -59,8 +59,10 @@ void add_larger_rows(const OrdinateSizes& s, MemoryTable& t) {
 
 void add_ordinate_rows(const OrdinateSizes& s, MemoryTable& t) {
     add(t, several(s.levels, arrays::ordinate_solution(s.filled, s.sets)));
-    add(t, several(s.levels, arrays::ordinate_light(s.nodes, s.sets, s.media)));
-    add(t, arrays::ordinate_near(s.nodes, s.sets, s.moments));
+    const std::uint64_t shown = s.together ? std::min(s.sets, std::uint64_t(kMaxShown)) : s.sets;
+    add(t, several(s.levels, arrays::ordinate_light(s.nodes, shown, s.media)));
+    add(t, arrays::ordinate_near(s.nodes, shown, s.moments));
+    add(t, arrays::ordinate_together(s.filled, s.together && s.sets > 1));
     add(t, arrays::ordinate_work(s.nodes));
     add(t, arrays::ordinate_parts(s.nodes, s.media));
     add(t, renamed(arrays::ordinate_parts(s.nodes, s.media), "ordinates: parts of the sun",
@@ -77,8 +79,20 @@ void add_ordinate_rows(const OrdinateSizes& s, MemoryTable& t) {
     add(t, arrays::ordinate_seen(s.solids ? s.nodes : 0));
     add(t, arrays::ordinate_own(s.filled, s.own));
     add(t, several(2, arrays::ordinate_ring(s.ring)));
+    add(t, arrays::ordinate_ground(s.ground, s.ground > 0 ? s.sets + 5 : 0));
+    add(t, arrays::ordinate_ground_sun(s.ground));
     add_larger_rows(s, t);
     add(t, arrays::beam_tables(std::uint64_t(s.channels) * (s.points ? 2 : 1), Stage::kShadow));
+}
+
+void tell_ordinates(const OrdinateNodes& nodes, Report& report) {
+    OrdinateFigures& out = report.ordinates;
+    out.nodes += nodes.density.size();
+    out.node_depth = std::max(out.node_depth, nodes.depth);
+    for (const OrdinateSet& set : nodes.sets) {
+        out.iterations = set.iterations > out.iterations ? set.iterations : out.iterations;
+        out.residual = set.residual > out.residual ? set.residual : out.residual;
+    }
 }
 
 }  // namespace pileus

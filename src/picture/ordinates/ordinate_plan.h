@@ -5,6 +5,7 @@
 #pragma once
 #include "src/picture/ordinates/sky_ordinates.h"
 #include "src/plan/memory_table.h"
+#include "src/plan/report.h"
 
 namespace pileus {
 
@@ -20,6 +21,8 @@ struct OrdinateSizes {
     bool own = false;     ///< light of lamps and of media
     bool points = false;  ///< tables for lamps that have a place
     bool solids = false;
+    bool together = false;     ///< sets are shown together
+    std::uint64_t ground = 0;  ///< cells of the map of light on it
 };
 
 /// Those of nodes, or where there are none yet the most that any phase function brings.
@@ -29,5 +32,8 @@ OrdinateSizes ordinate_sizes(const Medium& medium, const OrdinateNodes& made);
 OrdinateSizes sky_level_sizes(const Medium& medium, const SkyOrdinateSizes& sky);
 
 void add_ordinate_rows(const OrdinateSizes& sizes, MemoryTable& table);
+
+/// Adds nodes to the report, with the iterations and the last change of the worst solution.
+void tell_ordinates(const OrdinateNodes& nodes, Report& report);
 
 }  // namespace pileus

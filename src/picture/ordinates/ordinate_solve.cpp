@@ -43,12 +43,8 @@ Work share_work(float* from, std::size_t nodes) {
     return w;
 }
 
-/// A node's place where slices are along x.
 std::size_t place_along_x(const NodeGrid& grid, std::size_t node) {
-    const NodePlace p = node_place(grid, node);
-    return (std::size_t(p[0]) * std::size_t(grid.size[2]) + std::size_t(p[2])) *
-               std::size_t(grid.size[1]) +
-           std::size_t(p[1]);
+    return place_along_x(grid, node_place(grid, node));
 }
 
 /// A ring's nodes send on what enters there, and nothing else.
@@ -124,7 +120,9 @@ OrdinatesParams params_of(const OrdinateCells& nodes, bool periodic, const Light
     set_ordinate_harmonics(k.harmonic);
     for (int j = 0; j < kOrdinates; ++j) {
         k.weight[j] = float(ordinate_weight(j));
-        k.enters[j] = set.enters[std::size_t(j)];
+        const float enters = set.enters[std::size_t(j)];
+        k.enters[j] = goes_up(j) && set.faces == OrdinateFaces::kLower ? 0 : enters;
+        k.below[j] = goes_up(j) && set.faces == OrdinateFaces::kSides ? 0 : enters;
     }
     k.media = nodes.media;
     for (int i = 0; i < k.media; ++i) {
@@ -135,23 +133,40 @@ OrdinatesParams params_of(const OrdinateCells& nodes, bool periodic, const Light
     return k;
 }
 
-void iterate(const Context& context, const OrdinatesParams& k, const OrdinatesBuffers& b,
-             std::int64_t slice_floats) {
-    constexpr std::int64_t kPiece = 512;
-    const std::int64_t pieces = (k.filled + kPiece - 1) / kPiece;
-    const auto last = [&](std::int64_t p) {
-        return std::uint32_t(std::min(std::int64_t(k.filled), (p + 1) * kPiece));
-    };
-    parallel_for(context.threads, pieces, [&](std::int64_t p, int) {
-        context.kernels->ordinate_sources(k, b, std::uint32_t(p * kPiece), last(p));
+/// One solution at work.
+struct AtWork {
+    OrdinatesParams k;
+    OrdinatesBuffers b;
+    Work work;
+    OrdinateWay way[kOrdinateClasses];
+    std::int64_t slice_floats;
+};
+
+constexpr std::int64_t kPiece = 512;
+std::int64_t pieces_of(const OrdinatesParams& k) { return (k.filled + kPiece - 1) / kPiece; }
+std::uint32_t end_of(const OrdinatesParams& k, std::int64_t piece) {
+    return std::uint32_t(std::min(std::int64_t(k.filled), (piece + 1) * kPiece));
+}
+
+/// Sources from moments, and those of so many directions through all nodes.
+void sweep(const Context& context, const AtWork& a) {
+    parallel_for(context.threads, pieces_of(a.k), [&](std::int64_t p, int) {
+        host_kernels(context.kernels)
+            .ordinate_sources(a.k, a.b, std::uint32_t(p * kPiece), end_of(a.k, p));
     });
     parallel_for(context.threads, kOrdinates, [&](std::int64_t j, int thread) {
-        OrdinatesBuffers own = b;
-        own.slices = b.slices + slice_floats * thread;
-        context.kernels->ordinate_directions(k, own, std::uint32_t(j), std::uint32_t(j) + 1);
+        OrdinatesBuffers own = a.b;
+        own.slices = a.b.slices + a.slice_floats * thread;
+        host_kernels(context.kernels)
+            .ordinate_directions(a.k, own, std::uint32_t(j), std::uint32_t(j) + 1);
     });
-    parallel_for(context.threads, pieces, [&](std::int64_t p, int) {
-        context.kernels->ordinate_moments(k, b, std::uint32_t(p * kPiece), last(p));
+}
+
+void iterate(const Context& context, const AtWork& a) {
+    sweep(context, a);
+    parallel_for(context.threads, pieces_of(a.k), [&](std::int64_t p, int) {
+        host_kernels(context.kernels)
+            .ordinate_moments(a.k, a.b, std::uint32_t(p * kPiece), end_of(a.k, p));
     });
 }
 
@@ -213,42 +228,71 @@ void mix(int turn, std::size_t nodes, const Work& w, float* moments) {
     }
 }
 
+Status set_work(const Context& context, const Medium& medium, const OrdinateCells& nodes,
+                const Lighting& lighting, const OrdinateSources& from, OrdinateSolver& solver,
+                const OrdinateSet& set, float* moments, AtWork& a) {
+    const std::size_t count = nodes.filled.size(), all = nodes.density.size();
+    PILEUS_TRY(allocate_once(arrays::ordinate_work(all), solver.work));
+    PILEUS_TRY(allocate_once(arrays::ordinate_places(count, Stage::kShadow), solver.place_x));
+    const Work w = a.work = share_work(solver.work.data(), all);
+    a.k = params_of(nodes, nodes.periodic, lighting, set, a.way);
+    a.slice_floats = 0;
+    for (const OrdinateSweep& s : a.k.sweep)
+        a.slice_floats = std::max(a.slice_floats, ordinate_slice_floats(a.k, s));
+    PILEUS_TRY(solver.slices.resize(std::uint64_t(a.slice_floats) * std::uint64_t(context.threads),
+                                    "ordinates: slices"));
+    if (solver.channel < 0) set_places(nodes, solver.place_x);
+    // Empty nodes have no source.
+    if (solver.channel < 0 || solver.left) std::fill_n(w.radiance, all * kOrdinates, 0.0f);
+    solver.left = false;
+    if (solver.channel != set.channel) {
+        set_ways(context, medium, nodes, set.channel, a.way, solver.place_x.data(), w);
+        PILEUS_TRY(set_parts(context, nodes, set.channel, solver.parts));
+    }
+    solver.channel = set.channel;
+    a.b = OrdinatesBuffers{};
+    a.b.place = nodes.filled.data(), a.b.place_x = solver.place_x.data();
+    a.b.pass = w.pass, a.b.mean = w.mean, a.b.beam = from.beam, a.b.fixed = from.fixed,
+    a.b.part = solver.parts.data();
+    a.b.radiance = w.radiance, a.b.moments = moments, a.b.slices = solver.slices.data();
+    if (from.ring != nullptr) set_ring(nodes, a.k, from.ring, w);
+    return Status::ok();
+}
+
 }  // namespace
+
+Status leave_nodes(const Context& context, const Medium& medium, const OrdinateCells& nodes,
+                   const Lighting& lighting, const OrdinateSources& from, OrdinateSolver& solver,
+                   const OrdinateSet& set, float* moments, OrdinateLeaving& out) {
+    AtWork a{};
+    PILEUS_TRY(set_work(context, medium, nodes, lighting, from, solver, set, moments, a));
+    // What leaves a node takes the place of the mean on the way through it.
+    a.b.mean = a.b.pass;
+    sweep(context, a);
+    solver.left = true;
+    out.radiance = a.b.radiance;
+    for (std::size_t j = 0; j < kOrdinates; ++j) {
+        const OrdinateSweep& s = a.k.sweep[j];
+        out.length_m[j] = float(a.way[s.length].length_m);
+        out.along_x[j] = s.axis == 0;
+    }
+    return Status::ok();
+}
 
 Status solve_ordinates(const Context& context, const Medium& medium, const OrdinateCells& nodes,
                        const Lighting& lighting, const OrdinateSources& from, int iterations,
                        OrdinateSolver& solver, OrdinateSet& set, float* moments) {
-    const std::size_t count = nodes.filled.size(), all = nodes.density.size();
-    PILEUS_TRY(allocate_once(arrays::ordinate_work(all), solver.work));
-    PILEUS_TRY(allocate_once(arrays::ordinate_places(count, Stage::kShadow), solver.place_x));
-    const Work w = share_work(solver.work.data(), all);
-    OrdinateWay way[kOrdinateClasses] = {};
-    const OrdinatesParams k = params_of(nodes, nodes.periodic, lighting, set, way);
-    std::int64_t slice_floats = 0;
-    for (const OrdinateSweep& s : k.sweep)
-        slice_floats = std::max(slice_floats, ordinate_slice_floats(k, s));
-    PILEUS_TRY(solver.slices.resize(std::uint64_t(slice_floats) * std::uint64_t(context.threads),
-                                    "ordinates: slices"));
-    if (solver.channel != set.channel) {
-        if (solver.channel < 0) {
-            std::fill_n(w.radiance, all * kOrdinates, 0.0f);
-            set_places(nodes, solver.place_x);
-        }
-        set_ways(context, medium, nodes, set.channel, way, solver.place_x.data(), w);
-        PILEUS_TRY(set_parts(context, nodes, set.channel, solver.parts));
-    }
-    solver.channel = set.channel;
-    OrdinatesBuffers b{};
-    b.place = nodes.filled.data(), b.place_x = solver.place_x.data();
-    b.pass = w.pass, b.mean = w.mean, b.beam = from.beam, b.fixed = from.fixed,
-    b.part = solver.parts.data();
-    b.radiance = w.radiance, b.moments = moments, b.slices = solver.slices.data();
-    if (from.ring != nullptr) set_ring(nodes, k, from.ring, w);
+    AtWork a{};
+    PILEUS_TRY(set_work(context, medium, nodes, lighting, from, solver, set, moments, a));
+    const Work& w = a.work;
+    const OrdinatesParams& k = a.k;
+    const std::size_t count = nodes.filled.size();
     const bool begins = iterations == 0 || !set.solved;
     if (begins && !from.started) {
         // Where nothing is absorbed, much of what is within is as bright as what enters.
         float mean = 0;
-        for (int j = 0; j < kOrdinates; ++j) mean += k.weight[j] * k.harmonic[j][0] * k.enters[j];
+        for (int j = 0; j < kOrdinates; ++j)
+            mean += k.weight[j] * k.harmonic[j][0] * 0.5f * (k.enters[j] + k.below[j]);
         std::fill_n(moments, count, mean);
         std::fill_n(moments + count, count * (kOrdinateMoments - 1), 0.0f);
     }
@@ -257,7 +301,7 @@ Status solve_ordinates(const Context& context, const Medium& medium, const Ordin
     int first = 0;  // of the iterations that are mixed
     for (set.iterations = 0; set.iterations < most;) {
         std::copy_n(moments, kSlowMoments * count, w.last);
-        iterate(context, k, b, slice_floats);
+        iterate(context, a);
         double change = 0, norm = 0;
         for (std::size_t i = 0; i < count; ++i) {
             const double now = double(moments[i]), off = now - double(w.last[i]);

@@ -14,6 +14,7 @@ struct OrdinateSolver {
     Buffer<float> slices;
     Buffer<std::int32_t> place_x;  ///< of nodes that hold medium, where slices are along x
     int channel = -1;              ///< whose ways through nodes the work holds
+    bool left = false;             ///< the work holds what leaves nodes, of empty ones, too
 };
 
 /// Light that begins in nodes; null: none.
@@ -47,5 +48,24 @@ inline std::uint64_t ring_count(const NodeGrid& grid) {
 Status solve_ordinates(const Context& context, const Medium& medium, const OrdinateCells& nodes,
                        const Lighting& lighting, const OrdinateSources& from, int iterations,
                        OrdinateSolver& solver, OrdinateSet& set, float* moments);
+
+/// Radiance that leaves nodes downwards, at the end of the way through each.
+struct OrdinateLeaving {
+    const float* radiance = nullptr;  ///< [direction][place], in the solver's memory
+    float length_m[kOrdinates]{};     ///< of the way
+    bool along_x[kOrdinates]{};       ///< places are those of slices along x
+};
+
+/// A node's place where slices are along x: y fastest, then z.
+inline std::size_t place_along_x(const NodeGrid& grid, const NodePlace& p) {
+    return (std::size_t(p[0]) * std::size_t(grid.size[2]) + std::size_t(p[2])) *
+               std::size_t(grid.size[1]) +
+           std::size_t(p[1]);
+}
+
+/// Of a solution by these moments. kLimit: out of memory.
+Status leave_nodes(const Context& context, const Medium& medium, const OrdinateCells& nodes,
+                   const Lighting& lighting, const OrdinateSources& from, OrdinateSolver& solver,
+                   const OrdinateSet& set, float* moments, OrdinateLeaving& out);
 
 }  // namespace pileus

@@ -34,6 +34,9 @@ inline float ordinate_scatter(const OrdinateOptics& optics, int degree) {
     return optics.albedo * optics.moment[degree];
 }
 
+/// Faces at which light enters that goes up.
+enum class OrdinateFaces { kAll, kLower, kSides };
+
 /// Light of one colour that enters, and its solution.
 struct OrdinateSet {
     std::array<float, 3> colour{};
@@ -44,9 +47,20 @@ struct OrdinateSet {
     int own = 0;
     bool solved = false;  ///< there is a solution for it, or for one before
     bool same = false;    ///< that is for light like this
+    OrdinateFaces faces = OrdinateFaces::kAll;
+    bool ground = false;  ///< of what the ground sends up, of radiance 1; `colour` is its radiance
     int iterations = 0;
     double residual = 0;  ///< of the mean radiance, the last iteration's change over its norm
 };
+
+/// One set, or all of a channel, as a march reads them.
+struct OrdinateShown {
+    std::array<float, 3> colour{};
+    int channel = 0;  ///< whose optics
+    int set = -1;     ///< -1: all sets of the channel, each by its colour there
+};
+/// Most that are shown, where sets may be shown together.
+constexpr std::size_t kMaxShown = 3;
 
 /// Nodes as a solution is found on them.
 struct OrdinateCells {
@@ -72,23 +86,43 @@ struct OrdinateHalf {
     Buffer<float> correction;     ///< [set][moment][larger filled]: what solutions are short of
 };
 
+/// Light on the ground beside what reaches it without the medium, and what it sends up.
+struct OrdinateGround {
+    NodeGrid map{};          ///< cells; size 0: no ground
+    float origin[2]{};       ///< m, box-local
+    double z = 0;            ///< m, box-local
+    bool whole = false;      ///< one period: it has no rim
+    Buffer<float> light;     ///< [set][cell]: irradiance over pi by a set of colour 1; may be < 0
+    Buffer<float> radiance;  ///< [3][cell]: of the ground
+    Buffer<float> into;      ///< [2][cell]: share of what it sends up that enters the box: from
+                             ///< below, from beside
+    std::array<bool, kMaxOrdinateSets> known{};      ///< there is light of the set
+    std::array<double, kMaxOrdinateSets> mean[2]{};  ///< of it, by what enters from each
+    Double3 sends{};                                 ///< mean radiance
+    float sun_rest[3] = {1, 1, 1};                   ///< BackgroundParams::sun_rest
+};
+
 struct OrdinateNodes : OrdinateCells {
     std::array<int, 3> within{1, 1, 1};  ///< samples of a node, along each axis
     Beam peak;                           ///< of the sun's light, turned within the peak
+    float horizon[kHorizon] = {};        ///< OrdinatesMarchParams::horizon
     double depth = 0;                    ///< node_depth()
     std::vector<OrdinateSet> sets;
+    std::vector<OrdinateShown> shown;  ///< as `light` and `near` hold them
     bool has_moments = false;  ///< the camera is among the nodes, or copies of them are seen
     float per_near = 0;        ///< OrdinatesMarchParams::per_near
     Buffer<float> samples;     ///< of the density, within nodes
     Buffer<float> seen;     ///< [node]: of the sun, what solids leave; of scenes with solids alone
     Buffer<float> sunward;  ///< [medium][node]: of the optical depth to the sun; of several media
     OrdinateHalf half;
-    Buffer<float> light;     ///< [set][medium][node], as the march reads it
-    Buffer<float> near;      ///< [set][moment][node], likewise, with has_moments alone
+    Buffer<float> light;     ///< [shown][medium][node], as the march reads it
+    Buffer<float> near;      ///< [shown][moment][node], likewise, with has_moments alone
     bool near_made = false;  ///< of the solutions as they are
+    OrdinateGround ground;
 };
 
-/// 1 - cos of the width of what counts as the peak of a phase function.
+/// Width of what counts as the peak of a phase function, and 1 - cos of it.
+constexpr double kOrdinatePeakDeg = 20;
 float ordinate_peak();
 
 /// Most nodes that there are, and most samples of the density within one, along each axis.
@@ -155,6 +189,19 @@ inline Array<float> ordinate_own(std::uint64_t nodes, bool any) {
     return {"ordinates: light of lamps", any ? bytes_of(kOrdinates, nodes) : 0, Stage::kShadow,
             Stage::kShadow};
 }
+/// Of sets that are shown together.
+inline Array<float> ordinate_together(std::uint64_t nodes, bool any) {
+    return {"ordinates: moments together", any ? bytes_of(kOrdinateMoments, nodes) : 0,
+            Stage::kShadow, Stage::kShadow};
+}
+/// By a set, or by a channel.
+inline Array<float> ordinate_ground(std::uint64_t cells, std::uint64_t sets) {
+    return {"ordinates: light on the ground", bytes_of(sets, cells), Stage::kShadow, Stage::kWrite};
+}
+/// Of the sun, on every second cell.
+inline Array<float> ordinate_ground_sun(std::uint64_t cells) {
+    return {"ordinates: sunlight on the ground", cells, Stage::kShadow, Stage::kShadow};
+}
 /// Radiance by direction, factors of ways, the beam, and what iterations are mixed of.
 inline Array<float> ordinate_work(std::uint64_t nodes) {
     return {"ordinates: one solution at work",
@@ -197,6 +244,8 @@ struct OrdinateAsk {
     const LampNodes* lamps = nullptr;  ///< of these so many shine; null: none
     std::size_t first_lamp = 0, lamp_count = 0;
     bool emission = false;  ///< media shine
+    bool ground =
+        false;  ///< light on the ground is wanted; it then sends up its mean below the medium
     /// Out: optical depths to the sun from samples; null: unwanted.
     Buffer<float>* depths = nullptr;
     bool sampled = false;     ///< these are there already
@@ -207,12 +256,15 @@ struct OrdinateAsk {
 /// Radiances that enter, by light or, where channels differ, by channel.
 void set_ordinate_lights(const Medium& medium, const Lighting& lighting, const OrdinateAsk& ask,
                          std::vector<OrdinateSet>& out);
-/// Their number, at most.
-int ordinate_sets(const Medium& medium, const Lighting& lighting);
+/// Their number, at most; `ground`: OrdinateAsk::ground.
+int ordinate_sets(const Medium& medium, const Lighting& lighting, bool ground);
 
 /// Unit vector of the way of light in a direction, and its solid angle.
 std::array<double, 3> ordinate_direction(int j);
 double ordinate_weight(int j);
+bool goes_up(int j);
+/// Such a way within a direction's part of the sphere, at shares of its height and its azimuth.
+std::array<double, 3> ordinate_part(int j, double height, double azimuth);
 
 /// Spherical harmonics of all directions.
 void set_ordinate_harmonics(float (&out)[kOrdinates][kOrdinateMoments]);
@@ -261,8 +313,17 @@ Status make_ordinates(const Context& context, const Medium& medium, const Majora
 /// Numbers of a node that a march of a camera reads: one a medium towards it, or all moments.
 bool sees_moments(const Medium& medium, const CameraParams& camera, const NodeGrid& grid);
 
-/// Light as the march of a camera reads it. kLimit: out of memory.
+/// Every set by itself.
+void show_each(OrdinateNodes& nodes);
+
+/// What one medium's whole phase function, without its albedo, scatters of all light but the first
+/// of the sun and lamps towards a camera, by [shown][node]. kLimit: out of memory.
+Status turn_light(const Context& context, const Medium& medium, const CameraParams& camera,
+                  OrdinateNodes& nodes, Buffer<float>& light);
+
+/// Light as the march of a camera reads it; `together`: no more than kMaxShown. kLimit: out of
+/// memory.
 Status turn_ordinates(const Context& context, const Medium& medium, const CameraParams& camera,
-                      OrdinateNodes& nodes);
+                      bool together, OrdinateNodes& nodes);
 
 }  // namespace pileus

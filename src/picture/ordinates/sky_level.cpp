@@ -59,7 +59,7 @@ void place_level(const Context& context, const Medium& medium, const SkyOrdinate
     level.solved = false;
     level.nodes.sets.clear();
     SkySampleParams k = sample_params(ask, level);
-    run_host_rows(context, context.kernels->sky_sample_rows, k,
+    run_host_rows(context, host_kernels(context.kernels).sky_sample_rows, k,
                   SkySampleBuffers{level.nodes.samples.data(), nullptr}, rows_in(k.places));
     average_samples(context, level.nodes);
     weigh_half(level.nodes);
@@ -79,7 +79,7 @@ Status solve_level(const Context& context, const Medium& medium, const Majorants
         SkySampleParams k = sample_params(ask, level);
         k.sunward = 1;
         PILEUS_TRY(allocate(arrays::ordinate_depths(level.nodes.samples.size()), depths));
-        run_host_rows(context, context.kernels->sky_sample_rows, k,
+        run_host_rows(context, host_kernels(context.kernels).sky_sample_rows, k,
                       SkySampleBuffers{level.nodes.samples.data(), depths.data()},
                       rows_in(k.places));
     }

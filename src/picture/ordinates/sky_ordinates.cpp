@@ -145,6 +145,7 @@ Status reserve_sky_ordinates(SkyOrdinates& out) {
     std::uint64_t samples = 0;
     out.lights.reserve(kMaxOrdinateSets);
     out.front.sets.reserve(kMaxOrdinateSets);
+    out.front.shown.reserve(kMaxOrdinateSets);
     const auto reserve = [&](SkyLevel& level) {
         level.nodes.sets.reserve(kMaxOrdinateSets);
         PILEUS_TRY(hold(arrays::ordinate_solution(level.nodes.filled.size(), kMaxSkySets),
@@ -263,6 +264,7 @@ Status follow_sky_ordinates(const Context& context, const Medium& medium,
     PILEUS_TRY(whole ? following.finish() : following.go_on());
     // Colours are the picture's; of the sun at 1 or the sky there is one solution for all.
     out.front.sets.assign(out.lights.begin(), out.lights.end());
+    show_each(out.front);
     set_levels_view(ask, out);
     return turn_levels(context, ask, out);
 }

@@ -39,7 +39,7 @@ void turn_level(const Context& context, const SkyOrdinateAsk& ask, std::size_t l
     std::copy_n(k.orthographic != 0 ? ask.camera.forward : ask.camera.origin, 3, k.camera);
     const OrdinateOptics& optics = level.nodes.optics[0][level.nodes.sets[set].channel];
     for (int i = 0; i < 4; ++i) k.scatter[i] = ordinate_scatter(optics, i);
-    run_host_rows(context, context.kernels->sky_turn_rows, k,
+    run_host_rows(context, host_kernels(context.kernels).sky_turn_rows, k,
                   SkyNodeTurnBuffers{from, out.front.light.data() + (set * levels + l) * nodes},
                   std::uint32_t((out.sizes.size[1] - 2 * k.ring) * out.sizes.size[2]));
 }

@@ -13,9 +13,11 @@ using Settings = ParticlesSettings;
 
 constexpr KeyRow kRows[] = {
     {"particles.scattering", particles<&Settings::scattering>,
-     one_of("single|effective|similarity|octaves"), "",
-     "the sun's light scattered once; the same with less extinction towards the sun, for what the "
-     "phase function keeps within a cone, or by its mean cosine; or octaves of it"},
+     one_of("auto|single|effective|similarity|octaves|ordinates"), "",
+     "`auto`: ordinates, or single where sky_light = `none`; the sun's light scattered once; the "
+     "same with less extinction towards the sun, for what the phase function keeps within a cone, "
+     "or by its mean cosine; octaves of it; or all light, scattered any number of times, by "
+     "discrete ordinates on the grid's nodes"},
     {"particles.octaves", particles<&Settings::octaves>, from_to(1, 8), "",
      "how many, the first included"},
     {"particles.octave_extinction", particles<&Settings::octave_extinction>, from_to(0, 1), "",

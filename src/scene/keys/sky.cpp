@@ -116,6 +116,10 @@ constexpr KeyRow kCloudRows[] = {
      "share of dry air that is mixed in at the edge, well above the base; it falls towards the "
      "core",
      kNoNote},
+    {"medium.N.cloud.entrainment_per_km", cloud<&C::entrainment_per_km>, from_to(0, 20), "1/km",
+     "share of outside air that a rising parcel takes in per kilometre, half of it in the core; 0: "
+     "adiabatic water but for `dilution`; left out: the type's, as 1 over `height_m`, at most 3",
+     kNoNote},
     {"medium.N.cloud.age", cloud<&C::age>, from_to(0, 1), "lives",
      "0: growing and crisp, 1: soft, thin and falling apart", kNoNote},
     {"medium.N.cloud.outline", cloud<&C::outline>, from_to(0, 2), "",
@@ -126,6 +130,8 @@ constexpr KeyRow kCloudRows[] = {
      "direction of that drift, from east towards north"},
     {"medium.N.cloud.anvil", cloud<&C::anvil>, from_to(0, 3), "",
      "radius of an anvil of ice over `height_m`; 0: none", kNoNote},
+    {"medium.N.cloud.plates", cloud<&C::plates>, from_to(1, 12), "",
+     "lenses upon one another, of lenticularis", kNoNote},
     {"medium.N.cloud.cell_m", cloud<&C::cell_m>, from_to(1, 1e6), "m",
      "width of a layer's cells, or of a streak's head; the box holds a whole number", kNoNote},
     {"medium.N.cloud.cover", cloud<&C::cover>, from_to(0, 1), "",

@@ -24,14 +24,16 @@ struct CloudSettings {
     std::int64_t tall = kCountOfType;                    ///< of nearly the full height
     double slimness = kOfType;                           ///< radius of a turret over its height
     double dilution = kOfType;                           ///< dry air mixed in at the edge, share
-    double age = kOfType;                                ///< 0: growing, 1: fallen apart
-    double outline = kOfType;  ///< bends of the outline in plan over radius_m
-    double shear = kOfType;    ///< drift of the top over its height
-    double wind_deg = 0;       ///< where the top drifts to, from east towards north
-    double anvil = kOfType;    ///< radius of an anvil over the height; 0: none
-    double cell_m = kOfType;   ///< width of a layer's cells
-    double cover = kOfType;    ///< share of the ground under cloud, of fields and layers
-    double erosion = 0.2;      ///< share of its cell that an octave takes off
+    double entrainment_per_km = kOfType;  ///< air taken in on the way up, share per km
+    double age = kOfType;                 ///< 0: growing, 1: fallen apart
+    double outline = kOfType;             ///< bends of the outline in plan over radius_m
+    double shear = kOfType;               ///< drift of the top over its height
+    double wind_deg = 0;                  ///< where the top drifts to, from east towards north
+    double anvil = kOfType;               ///< radius of an anvil over the height; 0: none
+    std::int64_t plates = kCountOfType;   ///< stacked lenses
+    double cell_m = kOfType;              ///< width of a layer's cells
+    double cover = kOfType;               ///< share of the ground under cloud, of fields and layers
+    double erosion = 0.2;                 ///< share of its cell that an octave takes off
 
     bool has_place() const { return position_m[0] != kOfType; }
 };

@@ -12,21 +12,30 @@ namespace pileus {
 namespace {
 
 using F = CloudForm;
-// name, form, height, radius, base, turrets, tall, slimness, dilution, age, outline, shear, anvil,
-// cell, cover, extinction, effective radius
+// name, form, height, radius, base, turrets, tall, slimness, dilution, entrainment, age, outline,
+// shear, anvil, cell, cover, extinction, effective radius
 constexpr CloudType kTypes[] = {
-    {"cumulus-humilis", F::kHeap, 280, 330, 900, 12, 3, 0.26, 0.6, 0.1, 0.5, 0.15, 0, 0, 0, 0, 0},
-    {"cumulus-mediocris", F::kHeap, 650, 600, 900, 16, 5, 0.26, 0.6, 0.1, 0.45, 0.18, 0, 0, 0, 0,
+    {"cumulus-humilis", F::kHeap, 280, 330, 900, 12, 3, 0.26, 0.25, 1.2, 0.1, 0.5, 0.15, 0, 0, 0, 0,
      0},
-    {"cumulus-congestus", F::kHeap, 1300, 700, 900, 12, 4, 0.24, 0.5, 0, 0.35, 0.12, 0, 0, 0, 0, 0},
-    {"cumulonimbus", F::kHeap, 10200, 5200, 900, 22, 3, 0.19, 0.5, 0, 0.4, 0.3, 0.9, 0, 0, 0.1, 12},
-    {"cumulus-field", F::kField, 950, 600, 900, 9, 2, 0.3, 0.5, 0.15, 1.2, 0.15, 0, 0, 0.25, 0, 0},
-    {"stratocumulus", F::kClosed, 330, 0, 700, 1, 1, 1, 0, 0, 0, 0, 0, 1100, 0.85, 0, 0},
-    {"stratocumulus-open", F::kOpen, 450, 0, 700, 1, 1, 1, 0, 0, 0, 0, 0, 4500, 0.45, 0, 0},
-    {"altocumulus", F::kClosed, 170, 0, 3500, 1, 1, 1, 0, 0, 0, 0, 0, 420, 0.6, 0.03, 8},
-    {"stratus", F::kSheet, 300, 0, 300, 1, 1, 1, 0, 0, 0, 0, 0, 1600, 0.97, 0.05, 7.33},
-    {"fog", F::kGround, 90, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 700, 0.95, 0.02, 10.7},
-    {"cirrus", F::kStreaks, 1500, 0, 8000, 1, 1, 1, 0, 0, 0, 2.8, 0, 900, 0.4, 0.004, -1},
+    {"cumulus-mediocris", F::kHeap, 650, 600, 900, 16, 5, 0.26, 0.25, 1.5, 0.1, 0.45, 0.18, 0, 0, 0,
+     0, 0},
+    {"cumulus-congestus", F::kHeap, 1300, 700, 900, 12, 4, 0.24, 0.25, 1.2, 0, 0.35, 0.12, 0, 0, 0,
+     0, 0},
+    {"cumulonimbus", F::kHeap, 10200, 5200, 900, 22, 3, 0.19, 0.3, 0.15, 0, 0.4, 0.3, 0.9, 0, 0,
+     0.1, 12},
+    {"cumulus-field", F::kField, 950, 600, 900, 9, 2, 0.3, 0.25, 1.5, 0.15, 1.2, 0.15, 0, 0, 0.25,
+     0, 0},
+    {"stratocumulus", F::kClosed, 330, 0, 700, 1, 1, 1, 0, 0, 0, 0, 0, 0, 1100, 0.85, 0, 0},
+    {"stratocumulus-open", F::kOpen, 450, 0, 700, 1, 1, 1, 0, 0, 0, 0, 0, 0, 4500, 0.45, 0, 0},
+    {"altocumulus", F::kClosed, 170, 0, 3500, 1, 1, 1, 0, 0, 0, 0, 0, 0, 420, 0.6, 0.03, 8},
+    {"altocumulus-lenticularis", F::kLens, 1100, 3500, 4200, 5, 1, 1, 0, 0, 0, 0.15, 0.4, 0, 0, 0,
+     0.03, 6},
+    {"stratus", F::kSheet, 300, 0, 300, 1, 1, 1, 0, 0, 0, 0, 0, 0, 1600, 0.97, 0.05, 7.33},
+    {"nimbostratus", F::kSheet, 2800, 0, 500, 1, 1, 1, 0, 0, 0, 0, 0, 0, 6000, 1, 0.04, 10},
+    {"fog", F::kGround, 90, 0, 0, 1, 1, 1, 0, 0, 0, 0, 0, 0, 700, 0.95, 0.02, 10.7},
+    {"cirrus", F::kStreaks, 1500, 0, 8000, 1, 1, 1, 0, 0, 0, 0, 2.8, 0, 900, 0.4, 0.004, -1},
+    {"cirrus-uncinus", F::kStreaks, 1800, 0, 8000, 1, 1, 1, 0, 0, 0, 0, 4, 0, 500, 0.15, 0.006, -1},
+    {"cirrostratus", F::kSheet, 900, 0, 7500, 1, 1, 1, 0, 0, 0, 0, 0, 0, 4000, 1, 0.0015, -1},
 };
 
 double or_else(double value, double of_type) { return value == kOfType ? of_type : value; }
@@ -50,9 +59,11 @@ CloudSettings resolved_cloud(const CloudSettings& settings) {
     if (!wide) out.radius_m = out.height_m * (type.radius_m / type.height_m);
     out.base_m = or_else(settings.base_m, type.base_m);
     if (settings.turrets == kCountOfType) out.turrets = type.turrets;
+    if (settings.plates == kCountOfType) out.plates = type.turrets;
     if (settings.tall == kCountOfType) out.tall = type.tall;
     out.slimness = or_else(settings.slimness, type.slimness);
     out.dilution = or_else(settings.dilution, type.dilution);
+    out.entrainment_per_km = cloud_entrainment_per_km(settings, out.height_m);
     out.age = or_else(settings.age, type.age);
     out.outline = or_else(settings.outline, type.outline);
     out.shear = or_else(settings.shear, type.shear);
@@ -60,6 +71,12 @@ CloudSettings resolved_cloud(const CloudSettings& settings) {
     out.cell_m = or_else(settings.cell_m, type.cell_m);
     out.cover = or_else(settings.cover, type.cover);
     return out;
+}
+
+double cloud_entrainment_per_km(const CloudSettings& settings, double height_m) {
+    const CloudType& type = cloud_type(settings.type);
+    return or_else(settings.entrainment_per_km,
+                   std::min(3.0, type.entrainment_per_km * (type.height_m / height_m)));
 }
 
 double full_height_m(double height_m) { return 1.15 * height_m; }

@@ -9,11 +9,13 @@ namespace pileus {
 /// Names of the types, parted by '|'.
 constexpr const char* kCloudTypes =
     "cumulus-humilis|cumulus-mediocris|cumulus-congestus|cumulonimbus|cumulus-field|stratocumulus|"
-    "stratocumulus-open|altocumulus|stratus|fog|cirrus";
+    "stratocumulus-open|altocumulus|altocumulus-lenticularis|stratus|nimbostratus|fog|cirrus|"
+    "cirrus-uncinus|cirrostratus";
 
 /// What makes a type.
 enum class CloudForm {
     kHeap,    ///< one heap of rising air
+    kLens,    ///< smooth lenses upon one another
     kField,   ///< many of them
     kClosed,  ///< layers: CloudLayerForm
     kOpen,
@@ -27,8 +29,8 @@ struct CloudType {
     const char* name;
     CloudForm form;
     double height_m, radius_m, base_m;
-    int turrets, tall;
-    double slimness, dilution, age, outline, shear;
+    int turrets, tall;  ///< of lenses: plates
+    double slimness, dilution, entrainment_per_km, age, outline, shear;
     double anvil, cell_m, cover;
     double extinction_per_m;     ///< 0: that of adiabatic water
     double effective_radius_um;  ///< 0: that of adiabatic water; below: ice
@@ -40,6 +42,9 @@ const CloudType& cloud_type(const std::string& name);
 /// The settings with nothing left out but the place; sizes keep the type's proportions where one
 /// of them is given.
 CloudSettings resolved_cloud(const CloudSettings& settings);
+
+/// Air that a cloud of this height takes in, 1/km: what is asked, or the type's, falling with size.
+double cloud_entrainment_per_km(const CloudSettings& settings, double height_m);
 
 /// Height over the condensation level at which the density is 1, m.
 double full_height_m(double height_m);

@@ -6,11 +6,12 @@
 namespace pileus {
 
 enum class ParticleLight { kCentre, kLinear, kExact };
-enum class ParticleScattering { kSingle, kEffective, kSimilarity, kOctaves };
+enum class ParticleScattering { kAuto, kSingle, kEffective, kSimilarity, kOctaves, kByNodes };
 
 /// Method particles; src/scene/keys/particles.cpp says what each means.
 struct ParticlesSettings {
-    ParticleScattering scattering = ParticleScattering::kSingle;
+    /// As written; scattering_in_use() is what counts.
+    ParticleScattering scattering = ParticleScattering::kAuto;
     int octaves = 8;  ///< 1..8
     double octave_extinction = 0.45, octave_share = 0.65, octave_anisotropy = 0.75;
     double cone_deg = 40;                         ///< at its apex
@@ -32,6 +33,10 @@ struct ParticlesSettings {
 /// Billboards have no bins to walk from, and these two keys shape light at places in particles.
 inline bool lights_places(const ParticlesSettings& s) {
     return s.billboards || s.occluders < 1 || s.light_bias != 0;
+}
+inline ParticleScattering scattering_in_use(const ParticlesSettings& s) {
+    if (s.scattering != ParticleScattering::kAuto) return s.scattering;
+    return s.sky_ambient ? ParticleScattering::kByNodes : ParticleScattering::kSingle;
 }
 inline ParticleLight light_in_use(const ParticlesSettings& s) {
     return s.light == ParticleLight::kExact && lights_places(s) ? ParticleLight::kLinear : s.light;

@@ -24,6 +24,8 @@ double mean_of(CloudForm form) {
             return 0.4;
         case CloudForm::kStreaks:
             return 0.01;
+        case CloudForm::kLens:
+            return 0.03;
         case CloudForm::kHeap:
             break;
     }
@@ -35,7 +37,8 @@ DensityOutline outline_row(const MediumSettings& medium) {
     const std::array<int, 3>& cells = medium.resolution[0] > 0 ? medium.resolution : size;
     const CloudForm form = cloud_type(medium.cloud.type).form;
     // Of a layer its map of rising air, twice; of a field its clouds.
-    const bool heaped = form == CloudForm::kHeap || form == CloudForm::kField;
+    const bool heaped =
+        form == CloudForm::kHeap || form == CloudForm::kField || form == CloudForm::kLens;
     const std::uint64_t map =
         heaped ? 262144 : std::uint64_t(cells[0]) * std::uint64_t(cells[1]) * 2 * sizeof(float);
     return {size, mean_of(form), 2 * kMaxCloudBalls * sizeof(CloudBall) + map,
@@ -71,6 +74,8 @@ Status make_cloud(const MediumSettings& medium, const CloudMaking& with, Volume&
         return Status::bad_input("cloud.height_m: " + std::to_string(place.cloud.height_m) +
                                  " does not fit bounds_m, allowed: at most " +
                                  std::to_string(place.allowed_m));
+    // The box may have changed the height.
+    place.cloud.entrainment_per_km = cloud_entrainment_per_km(medium.cloud, place.cloud.height_m);
     std::uint64_t cells = 1;
     for (const int side : with.size) cells *= std::uint64_t(side);
     PILEUS_TRY(volume.density.resize(cells, "density of a cloud"));
@@ -78,6 +83,7 @@ Status make_cloud(const MediumSettings& medium, const CloudMaking& with, Volume&
     volume.knows_bounds = false;
     const CloudForm form = cloud_type(place.cloud.type).form;
     return form == CloudForm::kHeap    ? make_heap(place, heap, with, volume)
+           : form == CloudForm::kLens  ? make_lens(place, with, volume)
            : form == CloudForm::kField ? make_field(place, with, volume)
                                        : make_layer(place, with, volume);
 }

@@ -33,6 +33,9 @@ struct AnvilPlace {
 };
 AnvilPlace anvil_place(const CloudSettings& settings);
 
+/// What a lens takes up, in units of its height: lowest and highest corner.
+std::array<Double3, 2> lens_extent(const CloudSettings& settings);
+
 /// Where a cloud stands.
 struct CloudPlace {
     CloudSettings cloud;  ///< resolved; its height as the box allows it
@@ -70,10 +73,11 @@ Status make_cloud(const MediumSettings& medium, const CloudMaking& with, Volume&
 Status make_heap(const CloudPlace& place, const CloudHeap& heap, const CloudMaking& with,
                  Volume& volume);
 Status make_field(const CloudPlace& place, const CloudMaking& with, Volume& volume);
+Status make_lens(const CloudPlace& place, const CloudMaking& with, Volume& volume);
 Status make_layer(const CloudPlace& place, const CloudMaking& with, Volume& volume);
 
 /// Cells where the scene leaves them out: cubes, so many along the longest edge of the box, and 24
-/// and more along its height. Of one heap 256, with an anvil or of a
+/// and more along its height, of a lens 96. Of one heap 256, of a lens 320, with an anvil or of a
 /// field 384, of a layer 448.
 std::array<int, 3> default_cloud_size(const MediumSettings& medium);
 

@@ -54,10 +54,11 @@ CloudParams params_of(const CloudPlace& place, const CloudHeap& heap,
     k.plan_per_m = float(1 / (0.7 * cloud.radius_m));
     for (std::size_t i = 0; i < heap.count; ++i) k.join = std::max(k.join, balls[i].join);
     k.vigour_reach = 0.03f * h;
-    k.lump = (cloud.anvil > 0 ? 0.07f : 0.12f) * h;
+    k.lump = (cloud.anvil > 0 ? 0.11f : 0.16f) * h;
     for (float s = k.lump; s > 1.8f * k.voxel && k.octaves < 16; s *= 0.5f) ++k.octaves;
     k.erosion = float(cloud.erosion);
     k.age = float(cloud.age), k.dilution = float(cloud.dilution);
+    k.entrainment = float(0.001 * cloud.entrainment_per_km);
     // Of a cloud of usual size 30 and 6 m, but not finer than the grid.
     k.soft = std::max(std::min(30.0f, 0.05f * h), 1.4f * k.voxel);
     k.crisp = std::max(std::min(6.0f, 0.01f * h), 1.4f * k.voxel);

@@ -14,8 +14,10 @@ namespace pileus {
 namespace {
 
 /// What layers do not have.
-constexpr const char* kHeapKeys[] = {"radius_m", "turrets", "tall",     "slimness", "dilution",
-                                     "age",      "outline", "wind_deg", "anvil"};
+constexpr const char* kHeapKeys[] = {"radius_m", "outline", "wind_deg"};
+/// What lenses do not have either.
+constexpr const char* kTurretKeys[] = {
+    "turrets", "tall", "slimness", "dilution", "entrainment_per_km", "age", "anvil"};
 
 // Of layers and fields: how far the box reaches over the base and under it, in heights.
 constexpr double kLayerOver = 1.2, kLayerUnder = 0.08;
@@ -138,9 +140,17 @@ void check_cloud(SceneCheck& check, std::size_t index) {
         fault("cell_m", "for layers only, allowed: left out");
     for (const char* key : kHeapKeys)
         if (type.cell_m > 0 && check.valid_key(path + "cloud." + key) != nullptr)
+            fault(key, "for heaps, fields and lenses only, allowed: left out");
+    const bool lens = type.form == CloudForm::kLens;
+    for (const char* key : kTurretKeys)
+        if ((type.cell_m > 0 || lens) && check.valid_key(path + "cloud." + key) != nullptr)
             fault(key, "for heaps and fields only, allowed: left out");
+    if (!lens && check.valid_key(path + "cloud.plates") != nullptr)
+        fault("plates", "for lenticularis only, allowed: left out");
+    if ((lens || streaks) && check.valid_key(path + "cloud.erosion") != nullptr)
+        fault("erosion", "for clouds with lumps only, allowed: left out");
     if (type.cell_m > 0 && !streaks && check.valid_key(path + "cloud.shear") != nullptr)
-        fault("shear", "for heaps, fields and cirrus only, allowed: left out");
+        fault("shear", "for heaps, fields, lenses and cirrus only, allowed: left out");
     if (type.cell_m > 0 && boxed && check.valid_key(path + "cloud.position_m") != nullptr)
         fault("position_m", "conflicts with bounds_m, which a layer fills, allowed: left out");
     if (!boxed) {
@@ -169,13 +179,16 @@ Status place_cloud(const MediumSettings& medium, CloudHeap& heap, CloudPlace& pl
     place.cloud = resolved_cloud(medium.cloud);
     const CloudForm form = cloud_type(medium.cloud.type).form;
     if (medium.has_bounds) place.bounds_m = medium.bounds_m;
-    if (form != CloudForm::kHeap) {
+    if (form != CloudForm::kHeap && form != CloudForm::kLens) {
         if (!medium.has_bounds) box_layer(medium, form, place);
         fit_layer(medium, form, place);
         place.full_m = place.cloud.height_m;
         return Status::ok();
     }
-    PILEUS_TRY(grow_cloud(place.cloud, heap));
+    if (form == CloudForm::kLens)
+        heap.extent = lens_extent(place.cloud);
+    else
+        PILEUS_TRY(grow_cloud(place.cloud, heap));
     if (medium.has_bounds) {
         fit_heap(medium, heap, place);
         place.full_m = place.cloud.height_m;
@@ -192,13 +205,16 @@ Status place_cloud(const MediumSettings& medium, CloudHeap& heap, CloudPlace& pl
 std::array<int, 3> default_cloud_size(const MediumSettings& medium) {
     const CloudForm form = cloud_type(medium.cloud.type).form;
     const bool wide = cloud_type(medium.cloud.type).anvil > 0;
-    const double cells = form == CloudForm::kHeap && !wide   ? 256
+    const bool lens = form == CloudForm::kLens;
+    const double cells = lens                                ? 320
+                         : form == CloudForm::kHeap && !wide ? 256
                          : wide || form == CloudForm::kField ? 384
                                                              : 448;
     const auto& box = medium.bounds_m;
     double longest = 0;
     for (int a = 0; a < 3; ++a) longest = std::max(longest, box[1][a] - box[0][a]);
-    std::array<int, 3> size{3, 3, 24};
+    // Lenses are flat, and their rims thin.
+    std::array<int, 3> size{3, 3, lens ? 96 : 24};
     for (int a = 0; a < 3 && longest > 0; ++a)
         size[std::size_t(a)] = std::max(
             size[std::size_t(a)], int(std::ceil(cells * (box[1][a] - box[0][a]) / longest - 1e-9)));
